@@ -1,0 +1,20 @@
+#include "simulator/common/fingerprint.h"
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <cstdio>
+
+namespace faultsim {
+
+std::string fingerprint(const void* bytes, std::size_t n_bytes) {
+  const XXH128_hash_t hash = XXH3_128bits(bytes, n_bytes);
+  char text[33];
+  std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(hash.high64),
+                static_cast<unsigned long long>(hash.low64));
+  return text;
+}
+
+std::string fingerprint(std::string_view bytes) { return fingerprint(bytes.data(), bytes.size()); }
+
+}  // namespace faultsim

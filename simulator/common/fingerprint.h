@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace faultsim {
+
+/// Bumped by hand when a change may alter a result; part of every identity (design section 8).
+inline constexpr int kNumericsVersion = 1;
+
+/// The 128-bit XXH3 hash of the bytes as 32 hexadecimal digits. Not cryptographic: it tells inputs
+/// of one user apart and finds damaged files; it does not defend against forgery.
+std::string fingerprint(std::string_view bytes);
+std::string fingerprint(const void* bytes, std::size_t n_bytes);
+
+}  // namespace faultsim

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace faultsim {
+
+/// The physical dimensions that occur in scenes, campaign specs and expressions.
+enum class Dimension {
+  number,       ///< no unit allowed
+  length,       ///< m
+  area,         ///< m2
+  pressure,     ///< Pa (stress, modulus, cohesion, traction)
+  pressure_gradient,  ///< Pa/m
+  density,      ///< kg/m3
+  angle,        ///< rad
+  time,         ///< s (a "year" is 365.25 d here, not udunits' tropical year)
+  viscosity,    ///< Pa s
+  moment,       ///< N m
+  potency,      ///< m3
+};
+
+/// The SI unit of a dimension as udunits writes it: "m", "Pa", "rad", "" for number.
+const char* si_unit(Dimension dimension);
+/// A usual unit to suggest in messages: "deg" for angle, "bar" for pressure, ...
+const char* usual_unit(Dimension dimension);
+
+/// The outcome of reading one quantity; on failure value is NaN and what/cure say why.
+struct ParsedQuantity {
+  double value;      ///< SI.
+  bool ok = false;
+  std::string what;  ///< "\"25\" has no unit"
+  std::string cure;  ///< "did you mean \"25 deg\"?"
+};
+
+/// Reads "200 bar", "11 GPa", "30 deg", "-1e-3 m" (decimal number, blank, udunits unit).
+///
+/// The number's decimal text times the unit factor is formed in long double and rounded once, so
+/// that "200 bar" and "20 MPa" are the same bits. Units with an offset (degC) are refused.
+/// A bare number is right only for Dimension::number. Overflow and NaN are refused.
+ParsedQuantity parse_quantity(std::string_view text, Dimension dimension);
+
+/// value (SI) in the given unit, for printing: from_si(2e7, Dimension::pressure, "bar") = 200.
+double from_si(double value, Dimension dimension, const std::string& unit);
+
+}  // namespace faultsim

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "simulator/common/monitor.h"
+#include "simulator/elasticity/elasticity.h"
+#include "simulator/linalg/cholesky.h"
+#include "simulator/output/fault_operator.h"
+
+namespace faultsim {
+
+/// One unit load of a family: exactly one of the three kinds.
+struct LoadCase {
+  std::string name;                    ///< "pressure:0", "boundary:2".
+  int region = -1;                     ///< ≥ 0: b Δp = 1 Pa in this pressure region.
+  std::vector<MeshSide> stress_sides;  ///< non-empty: stress change Δσ on these sides.
+  Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
+  bool displacement = false;           ///< the prescribed displacements of this load's index.
+};
+
+/// All that defines a family's linear bulk.
+struct BulkProblem {
+  Mesh mesh;
+  std::vector<ElasticMaterial> materials;
+  std::vector<DisplacementCondition> conditions;
+  std::vector<LoadCase> loads;
+  std::vector<std::pair<std::string, Eigen::Vector3d>> observation_points;
+  bool b_bar = true;
+  bool half_domain = false;
+};
+
+struct BuildOptions {
+  int blas_threads = 1;  ///< a policy value, never a function of the machine (design section 9).
+};
+
+/// The factorised bulk of one family: kept while displacement fields are still wanted.
+class CondensedBulk {
+ public:
+  /// Orders jump unknowns last, factorises K (blocks that faults cut loose get D > 0 on their jumps,
+  /// taken off H again), checks H. Throws InputError naming a floating block that nothing holds.
+  CondensedBulk(const BulkProblem& problem, const BuildOptions& options, Monitor& monitor);
+  ~CondensedBulk();
+  /// H = K_gg − K_gr K_rr⁻¹ K_rg, L_k = A⁻¹(f_g − K_gr K_rr⁻¹ f_r), observation rows; fingerprint left
+  /// empty. One right-hand side at a time, so that the bits do not depend on what else is asked.
+  FaultOperator condense();
+  /// Displacement of all mesh nodes for given load factors and jumps: 3 x n_nodes, m.
+  Eigen::Matrix3Xd displacement(const std::vector<double>& load_factors, const Eigen::VectorXd& jump);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace faultsim

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "simulator/mesh/mesh.h"
+
+namespace faultsim {
+
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, long>;  // 64-bit: cholmod_l_*
+
+struct ElasticMaterial {
+  double youngs_modulus;  ///< Pa.
+  double poisson_ratio;
+};
+
+/// Displacement prescribed on a side: components, and u(x) = translation + gradient x (per unit factor).
+struct DisplacementCondition {
+  MeshSide side;
+  std::array<bool, 3> components;
+  Eigen::Vector3d translation;
+  Eigen::Matrix3d gradient;
+  int load;  ///< index of the load this value belongs to; -1 = zero for ever (roller, fixed).
+};
+
+/// The linear map from unknowns to nodal displacements, u = P x + Σ_k c_k d_k (D6):
+/// x = (r, g): r all independent displacements (ū on duplicated nodes), g the jumps in the local
+/// frame, *last*; u± = ū ± ½ R g. Ties, plane strain and prescribed displacements are in P and d.
+class DofMap {
+ public:
+  /// Rules (design section 2): a jump component along a direction that is fixed on both sides is
+  /// removed; a node where a fixed direction is not one of (n, strike, dip), or is n, is locked.
+  /// If nothing is prescribed at all, 6 dofs are pinned at three nodes (reactions must vanish).
+  DofMap(const Mesh& mesh, const std::vector<DisplacementCondition>& conditions, int n_loads);
+
+  struct Term {
+    int unknown;
+    double coefficient;
+  };
+  /// Terms of displacement component c of mesh node i.
+  std::pair<const Term*, const Term*> terms(int node, int component) const;
+  /// Prescribed part of that component for load k (0 unless the node is on such a side), m.
+  double prescribed(int load, int node, int component) const;
+  bool has_prescribed(int load) const;
+
+  int n_unknowns() const;  ///< n_r + n_g
+  int n_bulk() const;      ///< n_r: unknowns 0 … n_r−1
+  int n_jump() const;      ///< n_g: unknowns n_r … n_r+n_g−1
+  /// Jump unknown (0-based within g) of component c (n, strike, dip) of node k of fault f; −1 = removed.
+  int jump_dof(int fault, int node, int component) const;
+  const std::vector<Eigen::Vector3d>& locked_positions() const;
+  bool pinned() const;  ///< 6 dofs were pinned.
+  /// Unknowns grouped by mesh node for ordering: bulk unknown → group; n_groups.
+  const std::vector<int>& bulk_group() const;
+  int n_groups() const;
+
+ private:
+  std::vector<int> begin_;
+  std::vector<Term> terms_;
+  std::vector<int> jump_begin_;           // per fault, offset into jump_
+  std::vector<std::array<int, 3>> jump_;
+  std::vector<Eigen::Vector3d> locked_;
+  std::vector<std::vector<std::pair<int, double>>> prescribed_;  // per load: (3 node + component, m)
+  std::vector<int> bulk_group_;
+  int n_bulk_ = 0, n_jump_ = 0, n_groups_ = 0;
+  bool pinned_ = false;
+};
+
+/// K = Pᵀ K_full P (n x n, lower triangle, sorted columns): Q1 hexahedra, 2x2x2 Gauss points,
+/// B-bar (mean dilatation) when b_bar. Deterministic summation order.
+SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
+                                const DofMap& dofs, bool b_bar);
+
+/// f = Pᵀ ∫ div v: b Δp = 1 Pa in the region, times the cells' volume fractions.
+Eigen::VectorXd pressure_load(const Mesh& mesh, const DofMap& dofs, int region, bool b_bar);
+/// f = Pᵀ ∫_side v·(Δσ n), total over the sides given.
+Eigen::VectorXd stress_load(const Mesh& mesh, const DofMap& dofs, const std::vector<MeshSide>& sides,
+                            const Eigen::Matrix3d& stress);
+/// f = −Pᵀ K_full d_k.
+Eigen::VectorXd displacement_load(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
+                                  const DofMap& dofs, int load, bool b_bar);
+
+/// Nodal displacements u = P x + Σ c_k d_k, 3 x n_nodes.
+Eigen::Matrix3Xd nodal_displacement(const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& x,
+                                    const std::vector<double>& load_factors);
+
+}  // namespace faultsim

@@ -1,0 +1,1 @@
+#include "simulator/fault/friction_law.h"

@@ -1,0 +1,1 @@
+#include "simulator/linalg/cholesky.h"

@@ -1,0 +1,1 @@
+#include "simulator/loading/run_case.h"

@@ -1,0 +1,1 @@
+#include "simulator/mesh/mesh_spec.h"

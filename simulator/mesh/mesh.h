@@ -1,0 +1,84 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace faultsim {
+
+/// Side of the body a boundary face lies on; same order as scene's Side: x- x+ y- y+ z- z+.
+enum class MeshSide { x_min, x_max, y_min, y_max, z_min, z_max };
+
+/// A face of a cell on the boundary of the body.
+struct BoundaryFace {
+  int cell;
+  std::array<int, 4> nodes;  ///< counter-clockwise seen from outside.
+  MeshSide side;
+};
+
+/// A duplicated node of a fault: two mesh nodes at one place.
+///
+/// n points from the minus to the plus side; (n, strike, dip) is right-handed: dip = n × strike.
+/// Strike is horizontal, dip points down where the fault is not horizontal. For a horizontal
+/// fault n = +z, strike = the patch's strike direction.
+struct FaultNode {
+  int minus_node;  ///< mesh node on the minus side (the side that n leaves).
+  int plus_node;
+  Eigen::Vector3d normal;
+  Eigen::Vector3d strike;
+  Eigen::Vector3d dip;
+  double area;  ///< A_k, m2: a quarter of each fault face around it that lies in the patch; in
+                ///< plane strain per metre of strike.
+};
+
+/// A quadrilateral of a fault.
+struct FaultFace {
+  std::array<int, 4> grid;   ///< indices into FaultSurface::grid_position of its corners, cyclic.
+  std::array<int, 4> nodes;  ///< indices into FaultSurface::nodes; -1 where not split.
+  int minus_cell;
+  int plus_cell;
+  double area;               ///< m2 (plane strain: per metre of strike).
+};
+
+/// A fault as a structured grid of points: n_columns along strike times n_rows down dip.
+/// Point (column, row) is at column * n_rows + row; rows go down dip (for a horizontal fault along
+/// its dip direction). Points outside an elliptic patch have used = false.
+struct FaultSurface {
+  std::string name;
+  int n_columns = 0;
+  int n_rows = 0;
+  std::vector<Eigen::Vector3d> grid_position;
+  std::vector<int> grid_node;   ///< index into nodes, -1 where the point is not split.
+  std::vector<char> grid_used;  ///< 1 if the point is a corner of one of the faces.
+  std::vector<double> column_width;  ///< m along strike that a column stands for (plane strain: 1).
+  std::vector<FaultNode> nodes;      ///< one per *independent* duplicated node (ties merged).
+  std::vector<FaultFace> faces;
+};
+
+/// Conforming hexahedra with duplicated nodes on the faults.
+struct Mesh {
+  std::vector<Eigen::Vector3d> nodes;      ///< m; n_nodes, both copies of a duplicated node.
+  std::vector<std::array<int, 8>> cells;   ///< VTK hexahedron order.
+  std::vector<int> material;               ///< per cell, index given by the spec.
+  std::vector<int> region;                 ///< per cell, pressure region or -1.
+  std::vector<double> region_fraction;     ///< per cell, share of its volume in the region, [0, 1].
+  std::vector<BoundaryFace> boundary;
+  std::vector<int> tied_to;                ///< per node: the node whose displacement it shares (itself
+                                           ///< when independent). Never a chain.
+  std::vector<FaultSurface> faults;
+  bool plane_strain = false;  ///< front and back tied, u_y = 0; thickness is then...
+  double thickness = 1;       ///< ... the extent in y of the single cell row, m.
+};
+
+/// Quality of the worst cells; `refusal` is empty when the mesh may be used.
+struct MeshQuality {
+  double min_scaled_jacobian = 1;  ///< over cells, at the corners, in (0, 1] for valid cells.
+  double max_aspect = 1;           ///< longest over shortest edge.
+  Eigen::Vector3d worst_position = Eigen::Vector3d::Zero();
+  std::string refusal;             ///< what is wrong, where, and the cure.
+};
+
+MeshQuality check_quality(const Mesh& mesh);
+
+}  // namespace faultsim

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "simulator/common/errors.h"
+#include "simulator/mesh/mesh.h"
+
+namespace faultsim {
+
+/// Cell sizes of a generated mesh, m.
+struct CellSizes {
+  double strike;
+  double dip;
+  double normal;
+  double growth;
+  double fine_margin = 0;
+  double largest = 0;  ///< 0 = no cap.
+};
+
+/// The conceptual field (design section 7) in numbers; materials are indices.
+struct FieldMeshSpec {
+  double width, length, depth;            ///< m.
+  std::vector<double> layer_tops;         ///< depths, m, ascending, first 0.
+  std::vector<int> layer_materials;
+  int reservoir_layer;                    ///< index into layer_tops.
+  int sideburden_material;
+  struct Block {
+    double from, to, offset;              ///< m.
+  };
+  std::vector<Block> blocks;              ///< contiguous; region index = block index.
+  double block_length, fault_length, fault_overshoot, pivot_depth;  ///< m.
+  std::vector<std::string> fault_names;   ///< blocks + 1.
+  std::vector<double> fault_dips;         ///< rad from vertical, > 0 dips east.
+  CellSizes sizes;
+  bool half_domain;                       ///< only y ≥ 0 (the symmetry plane is y_min).
+  bool plane_strain;                      ///< one cell in y at mid length, ties, thickness 1 m.
+};
+
+/// A box with fault patches and regions.
+struct BoxMeshSpec {
+  std::array<double, 3> from, to;         ///< m.
+  std::vector<double> layer_tops_z;       ///< z of each layer's top, descending; empty = one material.
+  std::vector<int> layer_materials;       ///< at least one.
+  struct Patch {
+    std::string name;
+    std::array<double, 3> center;
+    double strike, dip_from_vertical;     ///< rad, as scene's PatchGeometry.
+    double length, width;                 ///< m.
+    bool ellipse;
+  };
+  std::vector<Patch> patches;
+  struct Region {
+    bool disc;
+    std::array<double, 3> from, to;       ///< box
+    std::array<double, 3> center;         ///< disc
+    double radius, thickness;
+  };
+  std::vector<Region> regions;
+  std::array<bool, 3> tied = {false, false, false};  ///< opposite faces in x, y, z tied.
+  CellSizes sizes;
+  bool plane_strain;
+};
+
+/// Where the grid lines go, before any mapping: the sizes of the problem without the mesh.
+struct GridLines {
+  std::vector<double> x, y, z;  ///< m, strictly increasing; z up.
+};
+
+/// Grid lines of a spec; cheap, used by `plan`. Problems (impossible geometry) are appended, with
+/// pointers into the scene document ("/geometry/blocks/1/offset").
+GridLines grid_lines(const FieldMeshSpec& spec, std::vector<Problem>& problems);
+GridLines grid_lines(const BoxMeshSpec& spec, std::vector<Problem>& problems);
+
+/// Makes the mesh. Throws InputError when geometry is impossible or a cell is bad.
+Mesh make_mesh(const FieldMeshSpec& spec);
+Mesh make_mesh(const BoxMeshSpec& spec);
+
+/// Points a...b with spacing `fine` inside [fine_from, fine_to] (stretched to fit) and growing by at
+/// most `growth` per cell outside, never above `largest` (0 = no cap); always contains `must`.
+std::vector<double> graded_line(double a, double b, double fine_from, double fine_to, double fine,
+                                double growth, double largest, const std::vector<double>& must);
+
+}  // namespace faultsim

@@ -1,0 +1,1 @@
+#include "simulator/output/fault_operator.h"

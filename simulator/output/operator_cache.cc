@@ -1,0 +1,1 @@
+#include "simulator/output/operator_cache.h"

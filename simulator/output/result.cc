@@ -1,0 +1,1 @@
+#include "simulator/output/result.h"

@@ -1,0 +1,1 @@
+#include "simulator/output/write_result.h"

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "simulator/mesh/mesh_spec.h"
+#include "simulator/scene/scene.h"
+
+namespace faultsim {
+
+/// One decision about what is modelled (design section 6).
+struct Reduction {
+  std::string name;      ///< "half_domain", "plane_strain", "creep_off", ...
+  bool applied = false;
+  std::string reason;    ///< why it may, or may not, be used.
+  std::string bound;     ///< what it can change in the answer: "exact by symmetry".
+  std::string switch_;   ///< how to force it: "/numerics/half_domain".
+};
+
+/// What will be modelled and what it costs: a pure function of the scene alone.
+struct Plan {
+  bool half_domain = false;
+  bool plane_strain = false;
+  std::vector<Reduction> reductions;
+  long n_cells = 0;
+  long n_unknowns = 0;    ///< bulk and jump, estimated from the grid lines.
+  long n_jump = 0;
+  double operator_seconds = 0;  ///< predicted, on one core of the calibration machine.
+  double memory_bytes = 0;      ///< predicted peak while the operator is built.
+  int n_steps = 0;
+  std::string family;     ///< fingerprint of what defines the linear bulk (without BLAS).
+};
+
+/// Makes the plan. Geometry problems are appended with pointers into the scene document.
+Plan make_plan(const Scene& scene, std::vector<Problem>& problems);
+
+/// The scene's mesh in numbers, as the plan reduces it. @pre geometry_kind agrees.
+FieldMeshSpec field_mesh_spec(const Scene& scene, const Plan& plan);
+BoxMeshSpec box_mesh_spec(const Scene& scene, const Plan& plan);
+
+/// Name of the operator file: fingerprint of family, observation points, numerics version and BLAS.
+std::string operator_fingerprint(const Scene& scene, const Plan& plan, const std::string& blas);
+
+nlohmann::json plan_to_json(const Plan& plan);
+std::string plan_to_text(const Plan& plan);  ///< for the screen, with reasons.
+
+}  // namespace faultsim

@@ -1,0 +1,1 @@
+#include "simulator/scene/json_document.h"

@@ -1,0 +1,1 @@
+#include "simulator/scene/read_scene.h"

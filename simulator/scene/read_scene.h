@@ -1,0 +1,54 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "simulator/common/units.h"
+#include "simulator/scene/json_document.h"
+#include "simulator/scene/scene.h"
+
+namespace faultsim {
+
+/// The schema of scenes, embedded from schemas/scene.schema.json.
+const nlohmann::json& scene_schema();
+
+/// Turns a document into a checked Scene: schema, units, defaults, tier, meaning (names that must
+/// exist, ranges, geometry, p < 0 with depth and step). Relative CSV paths are taken from the
+/// folder of document.source. Throws InputError with *all* problems.
+Scene read_scene(const JsonDocument& document);
+
+/// The same without throwing: problems are appended; the scene is meaningful only if none were.
+Scene read_scene(const JsonDocument& document, std::vector<Problem>& problems);
+
+/// The canonical text of the *resolved physical and numerical* scene: every default filled in, SI,
+/// keys sorted, 1 = 1.0, -0 = 0, shortest round-trip numbers. Without title and outputs. A field
+/// added later appears only when it differs from the value that reproduces the old behaviour.
+std::string canonical_scene(const Scene& scene);
+
+/// Identity of a case: fingerprint of canonical_scene and kNumericsVersion (design section 8).
+std::string case_identity(const Scene& scene);
+
+/// One row of `faultsim parameters`.
+struct ParameterInfo {
+  std::string pointer;   ///< JSON Pointer into the scene's document.
+  std::string alias;     ///< short name for campaigns: "friction_angle"; may be empty.
+  Dimension dimension;
+  std::string value;     ///< as given in this scene, or the default.
+  std::string default_value;
+  std::string range;     ///< "[0 deg, 80 deg]".
+  bool new_family;       ///< changing it costs a new operator.
+  std::string description;
+};
+
+/// All numbers of this scene that can be varied, in document order.
+std::vector<ParameterInfo> parameters(const JsonDocument& document);
+
+/// The pointer of an alias in this document ("offset" -> "/geometry/blocks/1/offset"), or the text
+/// itself when it starts with '/'. Throws InputError with near misses.
+std::string resolve_parameter(const JsonDocument& document, const std::string& alias_or_pointer);
+
+/// A commented starter scene (valid JSON) for `faultsim init`: kind "field" or "box".
+std::string starter_scene(const std::string& kind);
+
+}  // namespace faultsim

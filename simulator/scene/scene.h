@@ -1,0 +1,247 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The scene as plain structs: everything in SI, x east across the faults, y along strike, z up
+/// (z = 0 is the surface of a `field`; depth = -z), tension positive, pressures positive.
+/// Made from JSON by read_scene.h, which has checked all of it. Units, ranges, defaults and the
+/// JSON spelling of each field are in schemas/scene.schema.json.
+namespace faultsim {
+
+struct Material {
+  std::string name;
+  double density = 0;          ///< kg/m3, bulk.
+  double youngs_modulus = 0;   ///< Pa.
+  double poisson_ratio = 0;    ///< in [0, 0.4999].
+  double biot = 1;             ///< Biot coefficient b in [0, 1].
+  std::optional<double> viscosity;  ///< Pa s, Maxwell, ε̇_v = s/(2μ); none = elastic.
+};
+
+/// A horizontal layer by its top; it reaches to the next layer's top or the base of the model.
+struct Layer {
+  std::string name;
+  std::string material;
+  double top_depth = 0;  ///< m, at zero offset.
+};
+
+/// One compartment of a field: x in [from, to], the reservoir shifted down by `offset`.
+struct Block {
+  std::string name;      ///< also the name of its pressure region.
+  double from = 0;       ///< m.
+  double to = 0;         ///< m.
+  double offset = 0;     ///< m, > 0 is down.
+};
+
+/// The conceptual Dutch field of design section 7: layers, a row of contiguous reservoir blocks, a
+/// fault at every block boundary (n_blocks + 1 faults, from west to east, see Scene::faults).
+struct FieldGeometry {
+  double width = 0;            ///< m, extent in x, centred on 0.
+  double length = 0;           ///< m, extent in y, centred on 0.
+  double depth = 0;            ///< m, base of the model.
+  std::vector<Layer> layers;   ///< from the surface down.
+  std::string reservoir_layer; ///< the layer that the blocks shift and that is depleted.
+  std::string sideburden;      ///< material beside the blocks at reservoir level.
+  std::vector<Block> blocks;   ///< west to east, contiguous.
+  double block_length = 0;     ///< m, blocks cover |y| <= block_length/2.
+  double fault_length = 0;     ///< m, faults cover |y| <= fault_length/2.
+  double fault_overshoot = 0;  ///< m above the shallowest and below the deepest reservoir edge touched.
+  double pivot_depth = 0;      ///< m, where a dipping fault keeps its x.
+};
+
+enum class PatchShape { rectangle, ellipse };
+
+/// Where a fault patch of a `box` lies. A node splits iff strictly inside the patch; a patch that
+/// cuts the whole body is made larger than the body.
+struct PatchGeometry {
+  std::array<double, 3> center = {0, 0, 0};  ///< m.
+  double strike = 0;             ///< rad from north (+y) clockwise towards east (+x): 0 = along y.
+  double dip_from_vertical = 0;  ///< rad; 0 vertical, > 0 dips to the right of strike (east for
+                                 ///< strike 0), pi/2 = horizontal.
+  double length = 0;             ///< m along strike (full length).
+  double width = 0;              ///< m down dip (full width).
+  PatchShape shape = PatchShape::rectangle;
+};
+
+/// The six faces of a box: x- x+ y- y+ z- z+.
+enum class Side { x_min, x_max, y_min, y_max, z_min, z_max };
+
+enum class BoundaryKind {
+  free,          ///< no traction change.
+  roller,        ///< no displacement normal to the face.
+  fixed,         ///< no displacement.
+  displacement,  ///< u = factor(t) (translation + gradient x) for the components listed.
+  stress,        ///< traction change factor(t) Δσ n.
+  tied,          ///< with the opposite face: same displacement (periodic).
+};
+
+/// A piecewise-linear function of time, constant outside. Empty = 1 at all times.
+struct TimeTable {
+  std::vector<double> time;    ///< s, strictly increasing.
+  std::vector<double> factor;  ///< dimensionless.
+};
+
+struct BoundaryCondition {
+  std::vector<Side> sides;
+  BoundaryKind kind = BoundaryKind::roller;
+  std::array<bool, 3> components = {true, true, true};    ///< of `displacement`: which of x, y, z.
+  std::array<double, 3> translation = {0, 0, 0};          ///< m.
+  std::array<double, 9> gradient = {0, 0, 0, 0, 0, 0, 0, 0, 0};  ///< row-major ∂u_i/∂x_j.
+  std::array<double, 9> stress = {0, 0, 0, 0, 0, 0, 0, 0, 0};    ///< Pa, Δσ, symmetric, row-major.
+  TimeTable table;
+};
+
+enum class RegionShape { box, disc };
+
+/// A pressure region of a `box` body: cells take the volume fraction that lies inside.
+struct PressureRegion {
+  std::string name;
+  RegionShape shape = RegionShape::box;
+  std::array<double, 3> from = {0, 0, 0};    ///< box: corner; on a sheared mesh x and y are taken
+  std::array<double, 3> to = {0, 0, 0};      ///< in the unsheared grid, so a region ends on the fault.
+  std::array<double, 3> center = {0, 0, 0};  ///< disc: centre of a vertical cylinder
+  double radius = 0;                         ///< disc, m.
+  double thickness = 0;                      ///< disc, m.
+};
+
+struct BoxGeometry {
+  std::array<double, 3> from = {0, 0, 0};  ///< m, lower corner.
+  std::array<double, 3> to = {0, 0, 0};    ///< m, upper corner.
+  std::string material;                    ///< fills the box unless layers are given.
+  std::vector<Layer> layers;               ///< top_depth is -z of the top; may be empty.
+  std::vector<PatchGeometry> patches;      ///< one per Scene::faults, same order.
+  std::vector<BoundaryCondition> boundary; ///< faces not mentioned: free.
+  std::vector<PressureRegion> regions;
+};
+
+enum class GeometryKind { field, box };
+enum class Switch { automatic, on, off };
+
+/// Cell sizes. A `tier` fills them; explicit values win.
+struct MeshSizes {
+  double strike = 0;      ///< m, along y at the faults (box: y).
+  double dip = 0;         ///< m, down dip at reservoir level (box: z in the fine window).
+  double normal = 0;      ///< m, first cell beside a fault.
+  double growth = 1.3;    ///< largest ratio of neighbouring cell sizes away from the faults.
+  double fine_margin = 0; ///< m, box: how far beyond patches and regions the fine size is kept.
+  double largest = 0;     ///< m, cap of graded cells; 0 = none.
+};
+
+enum class InitialStressKind { column, profile };
+
+/// Initial stress and pressure, functions of depth only (design section 2).
+/// column: σ_v and p0 from the reference column of the field (zero offset).
+/// profile: σ_v(z) = vertical + vertical_gradient (−z), p0 likewise; or a uniform full tensor.
+struct InitialState {
+  InitialStressKind kind = InitialStressKind::column;
+  double ratio_across = 1;   ///< M1: σ'_x / σ'_v.
+  double ratio_along = 1;    ///< M2: σ'_y / σ'_v.
+  double initial_biot = 1;   ///< α_0 in σ_h = M(σ_v + α_0 p0) − α_0 p0.
+  double gravity = 9.81;     ///< m/s2.
+  double water_density = 1000;          ///< kg/m3, hydrostatic p0 (column).
+  double overpressure = 0;              ///< Pa, in the depth range of the reservoir at zero offset.
+  double vertical_stress = 0;           ///< Pa at z = 0, negative in compression (profile).
+  double vertical_stress_gradient = 0;  ///< Pa per m of depth, negative (profile).
+  double pressure = 0;                  ///< Pa at z = 0 (profile).
+  double pressure_gradient = 0;         ///< Pa per m of depth (profile).
+  std::optional<std::array<double, 9>> tensor;  ///< Pa, uniform total σ0; replaces the profile's stress.
+};
+
+enum class FrictionLaw {
+  angle,        ///< φ(s) = φ_s + (φ_d − φ_s) min(s/d_c, 1)           (D4)
+  coefficient,  ///< tan φ weakens linearly instead.
+};
+enum class SlipMeasure { current, cumulated };
+
+struct Friction {
+  FrictionLaw law = FrictionLaw::angle;
+  double cohesion = 0;                 ///< Pa.
+  double static_friction_angle = 0;    ///< rad; JSON may give friction_coefficient instead.
+  double dynamic_friction_angle = 0;   ///< rad; equal to the static one = no weakening.
+  double slip_weakening_distance = 0;  ///< m; > 0 where the angles differ.
+  SlipMeasure slip_measure = SlipMeasure::current;
+  bool cohesion_after_opening = false;
+};
+
+enum class FaultPressureRule { mean, min, max, minus, plus, fraction, prescribed, none };
+
+struct FaultPressure {
+  FaultPressureRule rule = FaultPressureRule::mean;
+  double fraction = 0.5;                ///< rule fraction: Δp_min + f (Δp_max − Δp_min).
+  double prescribed = 0;                ///< Pa, change; times table.
+  TimeTable table;                      ///< rule prescribed.
+  std::optional<std::array<double, 2>> depth_window;  ///< m; prescribed: top, bottom. None = where
+                                                      ///< either side is reservoir.
+};
+
+struct Fault {
+  std::string name;
+  double dip_from_vertical = 0;  ///< rad (field); > 0 dips east. Box: see PatchGeometry.
+  double fault_biot = 1;         ///< α_f.
+  Friction friction;
+  FaultPressure pressure;
+};
+
+/// One named stage of the loading; steps are equal in time unless times are given.
+struct Stage {
+  std::string name;
+  double duration = 0;   ///< s.
+  int n_steps = 1;
+};
+
+/// Pressure change history of one compartment or region: piecewise linear in time from 0 at t = 0.
+struct PressureHistory {
+  std::string region;
+  std::vector<double> time;             ///< s, strictly increasing, first > 0 or = 0.
+  std::vector<double> pressure_change;  ///< Pa, Δp.
+  double scale = 1;                     ///< multiplies Δp.
+  double lag = 0;                       ///< s, ≥ 0: Δp(t) = scale · history(t − lag).
+};
+
+struct ObservationPoint {
+  std::string name;
+  std::array<double, 3> position = {0, 0, 0};  ///< m; the nearest node is used and reported.
+};
+
+/// What to write. Never part of a case's identity.
+struct OutputRequest {
+  bool fault_fields = true;    ///< per load step, HDF5 + XDMF.
+  bool volume_fields = false;  ///< displacement at the end of each stage.
+  std::vector<ObservationPoint> observation_points;
+};
+
+/// Knobs of the numerics that are part of a case's identity.
+struct Numerics {
+  double slip_tolerance = 1e-4;       ///< m, of `activated`.
+  double activation_length = 40;      ///< m, of `activated` and χ̄.
+  double traction_tolerance = 1e-8;   ///< relative to the local traction level.
+  int max_newton_iterations = 30;
+  int max_active_set_passes = 100;
+  int max_step_cuts = 6;
+  bool b_bar = true;
+  Switch half_domain = Switch::automatic;   ///< field: symmetry about y = 0.
+  Switch plane_strain = Switch::off;        ///< one cell in y, front and back tied, u_y = 0.
+};
+
+struct Scene {
+  std::string title;
+  std::string tier = "custom";
+  std::vector<Material> materials;
+  GeometryKind geometry_kind = GeometryKind::field;
+  FieldGeometry field;   ///< used when geometry_kind == field.
+  BoxGeometry box;       ///< used when geometry_kind == box.
+  MeshSizes mesh;
+  std::vector<Fault> faults;
+  InitialState initial;
+  std::vector<Stage> stages;
+  std::vector<PressureHistory> pressure;
+  Numerics numerics;
+  OutputRequest output;
+};
+
+/// The material of that name. @pre it exists.
+const Material& material_named(const Scene& scene, const std::string& name);
+
+}  // namespace faultsim
