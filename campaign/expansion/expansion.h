@@ -1,0 +1,79 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "campaign/spec/spec.h"
+#include "simulator/plan/plan.h"
+
+namespace faultsweep {
+
+/// The largest number of cases that one campaign may have before exclusions.
+inline constexpr long kMaximumCases = 1'000'000;
+
+/// The value of one parameter in one case.
+struct ParameterValue {
+  std::string name;          ///< as in the spec.
+  std::string text;          ///< as given: "100 m", "0.5", "mean".
+  std::optional<double> si;  ///< SI; nothing for words.
+  faultsim::Dimension dimension = faultsim::Dimension::number;
+};
+
+/// One case: small, because there may be 10^6. Its parameter vector and its scene are made on
+/// demand by the functions below.
+struct Case {
+  int index = 0;               ///< from 0, in design order, without gaps.
+  int group = 0;               ///< into CampaignSpec::groups.
+  int family = 0;              ///< into Expansion::families.
+  std::string identity;        ///< faultsim::case_identity of its scene.
+  std::vector<int> choices;    ///< per parameter of the group; -1 = the base value.
+  std::vector<double> derived; ///< SI, per CampaignSpec::derived.
+};
+
+/// The cases that share a linear bulk, hence an operator.
+struct Family {
+  std::string fingerprint;     ///< faultsim::Plan::family.
+  faultsim::Plan plan;         ///< of its first case: sizes and predicted cost.
+  std::vector<int> cases;      ///< indices into Expansion::cases, ascending.
+};
+
+/// Cases left out by one `exclude` expression. A case counts for the first that is true.
+struct ExcludedCases {
+  std::string reason;          ///< the expression's text.
+  long n_cases = 0;
+};
+
+/// A spec's cases, in design order. Pure: the same spec gives the same expansion.
+struct Expansion {
+  CampaignSpec spec;
+  std::vector<Case> cases;
+  std::vector<Family> families;          ///< in order of first use.
+  std::vector<ExcludedCases> excluded;   ///< per CampaignSpec::exclude.
+  long n_designed = 0;                   ///< cases before exclusion and merging.
+  long n_merged = 0;                     ///< cases dropped as the same as an earlier one.
+  std::vector<std::string> notes;        ///< what the user should know: merged cases, ...
+};
+
+/// Expands a spec. Throws InputError with all problems: too many cases (said from their number,
+/// before any is made), values that the scene does not accept (each once, however many cases use
+/// it), cases that are invalid only as a combination (the first few, and how many there are).
+Expansion expand(CampaignSpec spec);
+
+/// The parameter vector of a case: the group's parameters in order, then the derived ones.
+std::vector<ParameterValue> parameters_of(const Expansion& expansion, const Case& one);
+
+/// The case's differences from its group's scene: {"/json/pointer": value, ...}.
+nlohmann::json changes_of(const Expansion& expansion, const Case& one);
+
+/// The case's scene document: its group's scene with the changes put in. Relative paths in it
+/// start from CampaignSpec::scene_source.
+nlohmann::json scene_of(const Expansion& expansion, const Case& one);
+
+/// Fingerprint of a group's scene document, for the store's "base hash + parameter vector".
+std::string base_fingerprint(const Expansion& expansion, int group);
+
+/// The same from what a store keeps: the base scene's text and the text of changes_of.
+nlohmann::json scene_from_changes(const std::string& base, const std::string& changes);
+
+}  // namespace faultsweep

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "simulator/common/errors.h"
+#include "simulator/common/units.h"
+
+/// The one expression grammar of faultsweep: `rank --where`, exclusions, derived parameters, scores.
+///
+///   or         := and ("or" and)*
+///   and        := not ("and" not)*
+///   not        := "not" not | comparison
+///   comparison := sum (("<" | "<=" | ">" | ">=" | "=" | "==" | "!=") sum)?
+///   sum        := product (("+" | "-") product)*
+///   product    := unary (("*" | "/") unary)*
+///   unary      := "-" unary | power
+///   power      := primary ("^" unary)?
+///   primary    := number unit? | "quoted" | name | function "(" or ("," or)* ")" | "(" or ")"
+///               | "true" | "false"
+///
+/// A number may carry a unit: `30 deg`, `200 bar`, `2.5e3 kg/m3`; a unit that is not one word plus
+/// "/" and words stands in quotes: `"1 Pa s"`. Quoted text that is not a number with a unit is a
+/// string. Names are letters, digits, "_" and dots. Functions: min max abs sqrt log10 exp tan.
+namespace faultsweep {
+
+/// Exponents of length, mass, time and angle. Angle is a dimension of its own, so that degrees do
+/// not pass for numbers; tan takes an angle and gives a number.
+struct Units {
+  std::array<int, 4> exponents = {0, 0, 0, 0};
+  bool operator==(const Units&) const = default;
+};
+/// Of pressure: {-1, 1, -2, 0}.
+Units units_of(faultsim::Dimension dimension);
+/// "pressure", "length", "a plain number", "m2 s-1".
+std::string describe(const Units& units);
+
+enum class Kind { number, boolean, text };
+/// The type of a (sub)expression.
+struct Type {
+  Kind kind = Kind::number;
+  Units units = {};             ///< kind number only.
+  bool operator==(const Type&) const = default;
+};
+Type number_type(faultsim::Dimension dimension);
+
+/// A value: missing, number (SI), boolean or text. Missing makes what it meets missing, and a
+/// condition that is missing counts as false, as in SQL.
+using Value = std::variant<std::monostate, double, bool, std::string>;
+
+/// What a name stands for.
+struct Symbol {
+  std::string sql;   ///< column expression, trusted; empty where SQL is not wanted.
+  Type type;
+};
+using Symbols = std::map<std::string, Symbol>;
+
+/// The grammar was not met, or the types do not fit. what() carries the line, a caret and the cure.
+class ExpressionError : public faultsim::InputError {
+ public:
+  /// @param position  byte offset of the trouble in text.
+  ExpressionError(const std::string& text, std::size_t position, const std::string& what,
+                  const std::string& cure);
+  std::size_t position() const { return position_; }
+  /// "what; cure" plus the two lines with text and caret.
+  const std::string& message() const { return message_; }
+
+ private:
+  std::size_t position_;
+  std::string message_;
+};
+
+/// SQL text with `?` for each value; no part of the user's text is in it.
+struct SqlFragment {
+  std::string text;
+  std::vector<Value> parameters;
+};
+
+struct Node;
+
+/// A parsed and type-checked expression. Cheap to copy, immutable.
+class Expression {
+ public:
+  /// Parses and checks. Throws ExpressionError: syntax, unknown names (with the nearest), types,
+  /// dimensions ("offset is a length, 15 deg an angle").
+  static Expression parse(const std::string& text, const Symbols& symbols);
+
+  const std::string& text() const { return text_; }
+  Type type() const;
+  /// The names it uses, each once, in order of appearance.
+  const std::vector<std::string>& names() const { return names_; }
+  /// Its value; lookup gives the value of a name (SI), called with an index into names().
+  Value evaluate(const std::function<Value(std::size_t)>& lookup) const;
+  /// Evaluates a condition: missing = false. @pre type() is boolean.
+  bool holds(const std::function<Value(std::size_t)>& lookup) const;
+  /// As SQL over Symbol::sql of the symbols given to parse.
+  SqlFragment sql() const;
+
+ private:
+  std::string text_;
+  std::vector<std::string> names_;
+  std::vector<std::string> columns_;   ///< Symbol::sql per name.
+  std::shared_ptr<const Node> root_;
+};
+
+/// The candidate nearest to word, if near enough to be meant: at most a third of its letters wrong.
+std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& candidates);
+
+}  // namespace faultsweep

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "campaign/expression/expression.h"
+#include "simulator/common/units.h"
+#include "simulator/scene/json_document.h"
+
+/// A campaign's specification: what to vary, checked and resolved against its base scene. The JSON
+/// spelling is in schemas/campaign.schema.json, the meaning of each key in its descriptions.
+namespace faultsweep {
+
+/// One value put into the scene document.
+struct Change {
+  std::string pointer;   ///< JSON Pointer into the scene.
+  nlohmann::json value;
+};
+
+/// One value of a parameter and what it does to the scene.
+struct Choice {
+  std::string text;           ///< as given: "100 m", "0.5", "mean".
+  std::optional<double> si;   ///< SI; nothing for words.
+  std::string pointer;        ///< into the spec, for messages.
+  std::vector<Change> changes;
+};
+
+/// Something that varies between cases.
+struct Parameter {
+  std::string name;           ///< alias, JSON Pointer or a name of the spec's own.
+  std::string pointer;        ///< into the spec.
+  std::vector<std::string> targets;   ///< scene pointers that its choices may change.
+  faultsim::Dimension dimension = faultsim::Dimension::number;  ///< of Choice::si.
+  bool is_text = false;       ///< its choices are words, without si.
+  Choice base;                ///< the value where a design leaves the parameter alone; no changes.
+  std::vector<Choice> choices;
+};
+
+enum class DesignKind {
+  grid,           ///< every combination; the last parameter varies fastest.
+  list,           ///< the rows as given.
+  zip,            ///< the i-th choice of every parameter together.
+  one_at_a_time,  ///< the base case, then each choice of each parameter alone.
+};
+
+/// One design on one scene. A spec without groups has a single group named "".
+struct Group {
+  std::string name;
+  std::string pointer;        ///< of its design in the spec.
+  nlohmann::json scene;       ///< the base with all `set` applied.
+  DesignKind kind = DesignKind::grid;
+  std::vector<Parameter> parameters;      ///< in document order.
+  std::vector<std::vector<int>> rows;     ///< list: choice per parameter, -1 = its base value.
+};
+
+/// `exclude`: cases for which the expression is true are left out.
+struct Exclusion {
+  std::string text;
+  std::string pointer;
+  Expression expression;
+};
+
+/// `derived`: a scene parameter computed from others.
+struct Derived {
+  std::string name;
+  std::string pointer;         ///< into the spec.
+  std::string scene_pointer;   ///< what it sets.
+  std::string text;
+  faultsim::Dimension dimension = faultsim::Dimension::number;
+  Expression expression;
+};
+
+/// A name that expressions of the spec may use.
+struct SpecIdentifier {
+  std::string name;
+  std::string scene_pointer;   ///< "" for a parameter with a name of its own.
+  Type type;
+};
+
+enum class FailureAction {
+  proceed,   ///< "continue": note it and go on.
+  abort,     ///< stop the campaign.
+  retry,     ///< again, up to Policy::retries times.
+};
+
+struct Policy {
+  FailureAction on_failure = FailureAction::proceed;
+  int retries = 1;
+  std::optional<double> time_limit;     ///< s per case.
+  std::optional<double> memory_limit;   ///< bytes per simulator process.
+};
+
+enum class KeepFields { none, stages, all };
+
+struct CampaignSpec {
+  std::string name;          ///< [A-Za-z0-9._-]+
+  std::string title;
+  std::string source;        ///< file name, for messages.
+  std::string given;         ///< the text as given.
+  std::string scene_source;  ///< what relative paths in the scene start from (JsonDocument::source).
+  std::vector<Group> groups;
+  std::vector<Exclusion> exclude;
+  std::vector<Derived> derived;              ///< ordered so that each uses only earlier ones.
+  std::vector<SpecIdentifier> identifiers;   ///< what exclude and derived may name.
+  Policy policy;
+  std::string rank_by = "activated_area";    ///< an expression over metrics.h.
+  KeepFields keep_fields = KeepFields::none;
+  faultsim::JsonDocument document;           ///< the spec, for pointers and lines.
+
+  /// The second of the three copies (design section 8): JSON text in which every alias is a
+  /// pointer, every range its values, and every group carries its scene.
+  std::string resolved() const;
+};
+
+/// Reads a spec and its base scene. Throws InputError with *all* problems of the spec; problems of
+/// the base scene are reported under /base.
+CampaignSpec read_campaign(const std::string& path);
+
+/// The same from text; a relative `base` is looked for beside `source`.
+CampaignSpec parse_campaign(const std::string& text, const std::string& source);
+
+/// The schema of specs, embedded from schemas/campaign.schema.json.
+const nlohmann::json& campaign_schema();
+
+/// Puts value at pointer; missing objects on the way are made. False if the pointer runs into
+/// something that is neither an object nor an existing array element.
+bool put_value(nlohmann::json& document, const std::string& pointer, const nlohmann::json& value);
+
+}  // namespace faultsweep
