@@ -1,1 +1,38 @@
 #include "simulator/output/result.h"
+
+#include <cmath>
+
+#include "simulator/common/errors.h"
+
+namespace faultsim {
+namespace {
+
+constexpr std::array kOutcomes = {Outcome::failed, Outcome::converged, Outcome::unconverged,
+                                  Outcome::unstable, Outcome::interrupted};
+
+}  // namespace
+
+const char* to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::failed: return "failed";
+    case Outcome::converged: return "converged";
+    case Outcome::unconverged: return "unconverged";
+    case Outcome::unstable: return "unstable";
+    case Outcome::interrupted: return "interrupted";
+  }
+  throw_internal("outcome is an enumerator", concat(static_cast<int>(outcome)), __FILE__, __LINE__);
+}
+
+Outcome outcome_from_string(const std::string& text) {
+  for (const Outcome outcome : kOutcomes) {
+    if (text == to_string(outcome)) return outcome;
+  }
+  throw StorageError(concat("unknown outcome \"", text, "\""));
+}
+
+std::optional<double> moment_magnitude(double moment) {
+  if (!(moment > 0) || !std::isfinite(moment)) return std::nullopt;
+  return (2.0 / 3.0) * (std::log10(moment) - 9.1);
+}
+
+}  // namespace faultsim
