@@ -1,1 +1,237 @@
 #include "simulator/linalg/cholesky.h"
+
+#include <cholmod.h>
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+
+#include "simulator/common/errors.h"
+#include "simulator/common/stopwatch.h"
+#include "simulator/linalg/ordering.h"
+
+namespace faultsim {
+namespace {
+
+using Index = SuiteSparse_long;
+static_assert(sizeof(Index) == sizeof(long), "Eigen's and CHOLMOD's indices must agree");
+
+// A pivot this small against the diagonal it came from is taken for rounding: the matrix is
+// singular (a regular one needs a condition number of 1e12 to get here).
+constexpr double kSingularPivot = 1e-12;
+
+/// A view of an Eigen matrix as CHOLMOD sees it (lower triangle).
+cholmod_sparse view_of(const TrailingCholesky::SparseMatrix& k) {
+  // CHOLMOD's structure has no const, but none of the functions used here writes to its input.
+  cholmod_sparse a{};
+  a.nrow = static_cast<std::size_t>(k.rows());
+  a.ncol = static_cast<std::size_t>(k.cols());
+  a.nzmax = static_cast<std::size_t>(k.nonZeros());
+  a.p = const_cast<long*>(k.outerIndexPtr());
+  a.i = const_cast<long*>(k.innerIndexPtr());
+  a.x = const_cast<double*>(k.valuePtr());
+  a.stype = -1;
+  a.itype = CHOLMOD_LONG;
+  a.xtype = CHOLMOD_REAL;
+  a.dtype = CHOLMOD_DOUBLE;
+  a.sorted = 1;
+  a.packed = 1;
+  return a;
+}
+
+}  // namespace
+
+struct TrailingCholesky::Impl {
+  CholmodCommon common;
+  cholmod_factor* factor = nullptr;
+  cholmod_dense* workspace = nullptr;
+  Index n = 0;
+  Index n_bulk = 0;
+  std::vector<Index> order;  // order[i] = unknown at place i of the factor
+  int failed = -1;
+  FactorStatistics statistics;
+
+  ~Impl() {
+    if (workspace != nullptr) cholmod_l_free_dense(&workspace, common.get());
+    if (factor != nullptr) cholmod_l_free_factor(&factor, common.get());
+  }
+
+  void check(const char* doing) {
+    const int status = common.get()->status;
+    if (status == CHOLMOD_OUT_OF_MEMORY || status == CHOLMOD_TOO_LARGE) {
+      throw ResourceError(concat("not enough memory for ", doing, " of ", n, " unknowns (",
+                                 common.get()->lnz * sizeof(double) / 1e9,
+                                 " GB for the factor alone)"));
+    }
+    FAULTSIM_DEMAND(status >= CHOLMOD_OK, "CHOLMOD status ", status, " in ", doing);
+  }
+
+  void analyse(cholmod_sparse* a) {
+    cholmod_common* c = common.get();
+    c->nmethods = 1;
+    c->method[0].ordering = CHOLMOD_GIVEN;
+    c->postorder = 0;  // `order` is postordered already, with the trailing unknowns left in place
+    c->supernodal = CHOLMOD_SUPERNODAL;
+    factor = cholmod_l_analyze_p(a, order.data(), nullptr, 0, c);
+    check("the analysis");
+    const Index* used = static_cast<const Index*>(factor->Perm);
+    FAULTSIM_DEMAND(std::equal(order.begin(), order.end(), used), "CHOLMOD changed the order");
+    statistics.flops = c->fl;
+  }
+
+  void factorise(cholmod_sparse* a) {
+    cholmod_common* c = common.get();
+    c->quick_return_if_not_posdef = 1;
+    cholmod_l_factorize(a, factor, c);
+    check("the factorisation");
+    statistics.bytes = static_cast<double>(factor->xsize) * sizeof(double) +
+                       static_cast<double>(factor->ssize) * sizeof(Index);
+    if (static_cast<Index>(factor->minor) < n) {
+      failed = static_cast<int>(order[factor->minor]);
+      return;
+    }
+    FAULTSIM_DEMAND(factor->is_super && factor->is_ll, "not a supernodal LLᵀ factor");
+    workspace = cholmod_l_allocate_dense(1, factor->maxesize, 1, CHOLMOD_REAL, c);
+    check("the workspace");
+  }
+
+  /// Calls visit(column, rows, values, count) for each column of L in [from, n) : its rows from the
+  /// diagonal down.
+  template <typename Visit>
+  void for_each_column(Index from, const Visit& visit) const {
+    const Index* super = static_cast<const Index*>(factor->super);
+    const Index* row_begin = static_cast<const Index*>(factor->pi);
+    const Index* value_begin = static_cast<const Index*>(factor->px);
+    const Index* rows = static_cast<const Index*>(factor->s);
+    const double* values = static_cast<const double*>(factor->x);
+    for (Index s = 0; s < static_cast<Index>(factor->nsuper); ++s) {
+      const Index n_rows = row_begin[s + 1] - row_begin[s];
+      for (Index column = std::max(super[s], from); column < super[s + 1]; ++column) {
+        const Index skip = column - super[s];
+        visit(column, rows + row_begin[s] + skip, values + value_begin[s] + skip * n_rows + skip,
+              n_rows - skip);
+      }
+    }
+  }
+
+  void find_singular_pivot(const SparseMatrix& k) {
+    for_each_column(0, [&](Index column, const Index*, const double* values, Index) {
+      const Index unknown = order[static_cast<std::size_t>(column)];
+      const double diagonal = k.valuePtr()[k.outerIndexPtr()[unknown]];
+      if (failed < 0 && !(values[0] * values[0] > kSingularPivot * diagonal)) {
+        failed = static_cast<int>(unknown);
+      }
+    });
+  }
+
+  /// x ← L⁻¹ x or L⁻ᵀ x, in the order of the factor.
+  void substitute(Eigen::VectorXd& x, bool transposed) {
+    cholmod_dense dense{};
+    dense.nrow = dense.d = dense.nzmax = static_cast<std::size_t>(n);
+    dense.ncol = 1;
+    dense.x = x.data();
+    dense.xtype = CHOLMOD_REAL;
+    dense.dtype = CHOLMOD_DOUBLE;
+    const int done = transposed ? cholmod_l_super_ltsolve(factor, &dense, workspace, common.get())
+                                : cholmod_l_super_lsolve(factor, &dense, workspace, common.get());
+    FAULTSIM_DEMAND(done == 1 && failed < 0, "substitution failed");
+  }
+
+  Eigen::VectorXd unpermuted(const Eigen::VectorXd& x) const {
+    Eigen::VectorXd result(n);
+    for (Index i = 0; i < n; ++i) result[order[static_cast<std::size_t>(i)]] = x[i];
+    return result;
+  }
+};
+
+TrailingCholesky::TrailingCholesky(const SparseMatrix& k, int n_last, const std::vector<int>& group,
+                                   int n_groups)
+    : impl_(std::make_unique<Impl>()) {
+  FAULTSIM_DEMAND(k.rows() == k.cols() && k.rows() >= 1 && k.isCompressed(), k.rows(), k.cols());
+  FAULTSIM_DEMAND(static_cast<long>(group.size()) + n_last == k.rows(), group.size(), n_last);
+  Impl& self = *impl_;
+  self.n = k.rows();
+  self.n_bulk = self.n - n_last;
+  for (Index j = 0; j < self.n; ++j) {
+    const long first = k.outerIndexPtr()[j];
+    FAULTSIM_DEMAND(first < k.outerIndexPtr()[j + 1] && k.innerIndexPtr()[first] == j,
+                    "no diagonal in column ", j);
+  }
+  cholmod_sparse a = view_of(k);
+  Stopwatch analysis;
+  self.order = trailing_order(a, self.n_bulk, group, n_groups, self.common);
+  self.check("the ordering");
+  self.analyse(&a);
+  self.statistics.analyse_seconds = analysis.seconds();
+  Stopwatch factorisation;
+  self.factorise(&a);
+  self.statistics.factor_seconds = factorisation.seconds();
+  if (self.failed < 0) self.find_singular_pivot(k);
+}
+
+TrailingCholesky::~TrailingCholesky() = default;
+
+int TrailingCholesky::failed_column() const { return impl_->failed; }
+
+const FactorStatistics& TrailingCholesky::statistics() const { return impl_->statistics; }
+
+Eigen::MatrixXd TrailingCholesky::trailing_factor() const {
+  FAULTSIM_DEMAND(impl_->failed < 0, "no factor");
+  const Index n_bulk = impl_->n_bulk;
+  Eigen::MatrixXd l = Eigen::MatrixXd::Zero(impl_->n - n_bulk, impl_->n - n_bulk);
+  impl_->for_each_column(n_bulk,
+                         [&](Index column, const Index* rows, const double* values, Index count) {
+                           for (Index i = 0; i < count; ++i)
+                             l(rows[i] - n_bulk, column - n_bulk) = values[i];
+                         });
+  return l;
+}
+
+Eigen::VectorXd TrailingCholesky::forward(const Eigen::VectorXd& f) {
+  FAULTSIM_DEMAND(f.size() == impl_->n && impl_->failed < 0, f.size(), " of ", impl_->n);
+  Eigen::VectorXd y(impl_->n);
+  for (Index i = 0; i < impl_->n; ++i) y[i] = f[impl_->order[static_cast<std::size_t>(i)]];
+  impl_->substitute(y, false);
+  return y;
+}
+
+Eigen::VectorXd TrailingCholesky::condensed(const Eigen::VectorXd& y) const {
+  FAULTSIM_DEMAND(y.size() == impl_->n && impl_->failed < 0, y.size(), " of ", impl_->n);
+  const Index n_bulk = impl_->n_bulk;
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(impl_->n - n_bulk);
+  impl_->for_each_column(n_bulk,
+                         [&](Index column, const Index* rows, const double* values, Index count) {
+                           for (Index i = 0; i < count; ++i)
+                             result[rows[i] - n_bulk] += values[i] * y[column];
+                         });
+  return result;
+}
+
+Eigen::VectorXd TrailingCholesky::condense(const Eigen::VectorXd& f) {
+  return condensed(forward(f));
+}
+
+Eigen::VectorXd TrailingCholesky::expand(const Eigen::VectorXd& f, const Eigen::VectorXd& g) {
+  const Index n_bulk = impl_->n_bulk;
+  FAULTSIM_DEMAND(g.size() == impl_->n - n_bulk, g.size(), " of ", impl_->n - n_bulk);
+  Eigen::VectorXd y = forward(f);
+  // The backward substitution yields g in the tail when it starts from L_ggᵀ g there.
+  impl_->for_each_column(n_bulk,
+                         [&](Index column, const Index* rows, const double* values, Index count) {
+                           double sum = 0;
+                           for (Index i = 0; i < count; ++i) sum += values[i] * g[rows[i] - n_bulk];
+                           y[column] = sum;
+                         });
+  impl_->substitute(y, true);
+  Eigen::VectorXd x = impl_->unpermuted(y);
+  x.tail(g.size()) = g;  // the same up to rounding; now the same
+  return x;
+}
+
+Eigen::VectorXd TrailingCholesky::solve(const Eigen::VectorXd& f) {
+  Eigen::VectorXd y = forward(f);
+  impl_->substitute(y, true);
+  return impl_->unpermuted(y);
+}
+
+}  // namespace faultsim

@@ -3,20 +3,15 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <memory>
-#include <string>
 #include <vector>
+
+#include "simulator/linalg/blas.h"
 
 namespace faultsim {
 
-/// Name, kernel and threads of the BLAS in use: "OpenBLAS 0.3.21 SkylakeX, 1 thread".
-std::string blas_description();
-/// Empty if libblas is OpenBLAS; otherwise a loud sentence on how to get it.
-std::string blas_complaint();
-void set_blas_threads(int n_threads);
-
 struct FactorStatistics {
-  double bytes = 0;         ///< of the numerical factor.
-  double flops = 0;         ///< of the factorisation.
+  double bytes = 0;  ///< of the numerical factor.
+  double flops = 0;  ///< of the factorisation.
   double analyse_seconds = 0;
   double factor_seconds = 0;
 };
@@ -29,22 +24,31 @@ class TrailingCholesky {
  public:
   using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, long>;
 
-  /// @param k        lower triangle, n x n; kept only during the call.
+  /// @param k        lower triangle, n x n, n ≥ 1, compressed; kept only during the call.
   /// @param n_last   the last n_last unknowns stay last, in their order.
-  /// @param group    unknown r → group (node) for the ordering, size n − n_last; groups are ordered
-  ///                 by METIS and their unknowns kept together. n_groups groups.
+  /// @param group    unknown r → group (node) in [0, n_groups) for the ordering, size n − n_last;
+  ///                 groups are ordered by METIS, as graph without the last unknowns (small graphs
+  ///                 by AMD).
+  /// Throws ResourceError when memory is short. A matrix that is not positive definite does not
+  /// throw: see failed_column().
   TrailingCholesky(const SparseMatrix& k, int n_last, const std::vector<int>& group, int n_groups);
   ~TrailingCholesky();
   TrailingCholesky(const TrailingCholesky&) = delete;
   TrailingCholesky& operator=(const TrailingCholesky&) = delete;
 
-  /// Index of the unknown at which the matrix was found not positive definite; −1 if it is.
+  /// Index of the unknown at which the matrix was found not positive definite, or singular to
+  /// working precision; −1 if it is positive definite. Nothing below may be called unless −1.
   int failed_column() const;
   const FactorStatistics& statistics() const;
 
   /// L_gg (n_last x n_last, lower triangular, dense).
   Eigen::MatrixXd trailing_factor() const;
-  /// The condensed load f_g − K_gr K_rr⁻¹ f_r (n_last): one forward substitution.
+  /// y = L⁻¹ P f, in the order of the factor (the last n_last are the tail). For two loads a and b
+  /// a_rᵀ K_rr⁻¹ b_r is the product of the first n − n_last entries of their y.
+  Eigen::VectorXd forward(const Eigen::VectorXd& f);
+  /// L_gg times the tail of y: the condensed load of forward(f).
+  Eigen::VectorXd condensed(const Eigen::VectorXd& y) const;
+  /// The condensed load f_g − K_gr K_rr⁻¹ f_r (n_last) = condensed(forward(f)).
   Eigen::VectorXd condense(const Eigen::VectorXd& f);
   /// r = K_rr⁻¹ (f_r − K_rg g), returned as (r, g), size n.
   Eigen::VectorXd expand(const Eigen::VectorXd& f, const Eigen::VectorXd& g);

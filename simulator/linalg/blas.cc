@@ -1,0 +1,60 @@
+#include "simulator/linalg/blas.h"
+
+#include <cblas.h>
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+
+#include "simulator/common/errors.h"
+
+namespace faultsim {
+
+std::string blas_description() {
+  std::istringstream config(openblas_get_config());  // "OpenBLAS 0.3.21 NO_LAPACKE ..."
+  std::string name, version;
+  config >> name >> version;
+  const int n_threads = openblas_get_num_threads();
+  return concat(name, " ", version, " ", openblas_get_corename(), ", ", n_threads,
+                n_threads == 1 ? " thread" : " threads");
+}
+
+std::string blas_complaint() {
+  // CHOLMOD asks for dgemm_ by name, so the one that the process finds first is what it gets.
+  void* dgemm = dlsym(RTLD_DEFAULT, "dgemm_");
+  Dl_info info;
+  if (dgemm == nullptr || dladdr(dgemm, &info) == 0) {
+    return "no BLAS (dgemm_) found in this process; install libopenblas0-pthread";
+  }
+  const std::string file = info.dli_fname;
+  char* real = realpath(file.c_str(), nullptr);
+  const std::string path = real == nullptr ? file : std::string(real);
+  free(real);
+  if (path.find("openblas") != std::string::npos) return "";
+  return concat("the linear algebra in use is ", path,
+                ", not OpenBLAS: expect runs that are ten times slower and other last digits; "
+                "run: sudo update-alternatives --config libblas.so.3-x86_64-linux-gnu");
+}
+
+void set_blas_threads(int n_threads) {
+  FAULTSIM_DEMAND(n_threads >= 1, n_threads);
+  openblas_set_num_threads(n_threads);
+}
+
+Eigen::MatrixXd lower_times_transpose(const Eigen::MatrixXd& lower) {
+  FAULTSIM_DEMAND(lower.rows() == lower.cols(), lower.rows(), " x ", lower.cols());
+  constexpr int kBlock = 128;  // wide enough for dgemm's speed, narrow enough to skip most zeros
+  const int n = static_cast<int>(lower.rows());
+  Eigen::MatrixXd product(n, n);
+  for (int j = 0; j < n; j += kBlock) {
+    const int width = std::min(kBlock, n - j);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, n - j, width, j + width, 1.0,
+                lower.data() + j, n, lower.data() + j, n, 0.0,
+                product.data() + j + static_cast<std::ptrdiff_t>(j) * n, n);
+  }
+  product.triangularView<Eigen::StrictlyUpper>() = product.transpose();
+  return product;
+}
+
+}  // namespace faultsim
