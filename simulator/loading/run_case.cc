@@ -1,1 +1,304 @@
 #include "simulator/loading/run_case.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulator/common/fingerprint.h"
+#include "simulator/common/interrupt.h"
+#include "simulator/common/stopwatch.h"
+#include "simulator/contact/contact.h"
+#include "simulator/loading/history.h"
+#include "simulator/loading/initial_traction.h"
+#include "simulator/loading/metrics.h"
+#include "simulator/loading/stage_summary.h"
+#include "simulator/scene/read_scene.h"
+
+namespace faultsim {
+namespace {
+
+ContactLaws contact_laws(const Scene& scene, const FaultGeometry& geometry) {
+  ContactLaws laws;
+  for (std::size_t f = 0; f < geometry.faults.size(); ++f) {
+    const Friction& friction = scene.faults[f].friction;
+    CoulombLaw law;
+    law.weakening = friction.law == FrictionLaw::angle ? WeakeningLaw::angle : WeakeningLaw::coefficient;
+    law.cohesion = friction.cohesion;
+    law.static_friction_angle = friction.static_friction_angle;
+    law.dynamic_friction_angle = friction.dynamic_friction_angle;
+    if (friction.slip_weakening_distance > 0) law.slip_weakening_distance = friction.slip_weakening_distance;
+    const auto n = static_cast<std::size_t>(geometry.faults[f].n_nodes);
+    laws.node.insert(laws.node.end(), n, law);
+    laws.cumulated.insert(laws.cumulated.end(), n, friction.slip_measure == SlipMeasure::cumulated);
+    laws.keep_cohesion.insert(laws.keep_cohesion.end(), n, friction.cohesion_after_opening);
+  }
+  return laws;
+}
+
+ContactOptions contact_options(const Numerics& numerics) {
+  return {numerics.traction_tolerance, numerics.max_newton_iterations, numerics.max_active_set_passes,
+          numerics.max_step_cuts};
+}
+
+void add_counts(SolveCounts& sum, const SolveCounts& part) {
+  sum.newton_iterations += part.newton_iterations;
+  sum.active_set_passes += part.active_set_passes;
+  sum.sub_steps += part.sub_steps;
+  sum.wasted_newton_iterations += part.wasted_newton_iterations;
+}
+
+/// The loads of one step: what the faults would carry if they stayed closed.
+struct StepLoads {
+  std::vector<double> pressure_change;   // per region, Pa
+  std::vector<double> factors;           // per operator load
+  Eigen::VectorXd locked;                // t_L, n_dofs, Pa
+  Eigen::VectorXd fault_pressure_change; // n_nodes, Pa
+};
+
+/// One case on its way through the load steps.
+class CaseRun {
+ public:
+  CaseRun(const Scene& scene, const FaultOperator& op, const StepObserver& observer)
+      : scene_(scene),
+        op_(op),
+        observer_(observer),
+        laws_(contact_laws(scene, op.geometry)),
+        load_factors_(scene, op),
+        initial_(initial_traction(scene, op.geometry)),
+        meter_(op, laws_, scene.numerics.slip_tolerance, scene.numerics.activation_length),
+        solver_(op, laws_, contact_options(scene.numerics)),
+        state_(initial_state(op)),
+        whole_("", 0, nullptr, true, op.geometry.plane_strain) {}
+
+  CaseResult run(Monitor& monitor);
+
+ private:
+  StepLoads loads_at(const LoadStep& step) const;
+  void check_fault_pressure(const LoadStep& step, const StepLoads& loads) const;
+  bool advance(const LoadStep& step, const Eigen::VectorXd& before, const StepLoads& loads);
+  void record(const LoadStep& step, const StepLoads& loads, const Eigen::VectorXd& jump_before,
+              StepResult& result);
+  FaultFields fields(const StepLoads& loads) const;
+  void note_weakening(const StepResult& step);
+  void warn();
+
+  const Scene& scene_;
+  const FaultOperator& op_;
+  const StepObserver& observer_;
+  ContactLaws laws_;
+  LoadFactors load_factors_;
+  InitialTraction initial_;
+  FaultMeter meter_;
+  ContactSolver solver_;
+  ContactState state_;
+  NodalState nodal_;
+  CaseResult result_;
+  StageSummary whole_;
+  std::optional<StageSummary> stage_;
+};
+
+StepLoads CaseRun::loads_at(const LoadStep& step) const {
+  StepLoads loads;
+  loads.pressure_change = pressure_changes(scene_, step.time);
+  loads.factors = load_factors_.at(step.time, loads.pressure_change);
+  loads.locked = initial_.traction;
+  for (std::size_t k = 0; k < loads.factors.size(); ++k) {
+    if (loads.factors[k] != 0) loads.locked += loads.factors[k] * op_.locked.col(static_cast<Eigen::Index>(k));
+  }
+  loads.fault_pressure_change = fault_pressure_change(
+      scene_, op_.geometry, load_factors_.region_of_load(), step.time, loads.pressure_change);
+  for (std::size_t f = 0; f < op_.geometry.faults.size(); ++f) {
+    const OperatorFault& fault = op_.geometry.faults[f];
+    for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
+      loads.locked[op_.geometry.nodes[static_cast<std::size_t>(k)].dof[0]] +=
+          scene_.faults[f].fault_biot * loads.fault_pressure_change[k];
+    }
+  }
+  return loads;
+}
+
+void CaseRun::check_fault_pressure(const LoadStep& step, const StepLoads& loads) const {
+  const double slack = 1.0;  // Pa
+  for (std::size_t f = 0; f < op_.geometry.faults.size(); ++f) {
+    if (scene_.faults[f].pressure.rule != FaultPressureRule::prescribed) continue;
+    const OperatorFault& fault = op_.geometry.faults[f];
+    for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
+      const double p = initial_.pressure[k] + loads.fault_pressure_change[k];
+      if (p >= -slack) continue;
+      throw InputError("scene",
+                       {{concat("/faults/", f, "/fault_pressure"), 0,
+                         concat("the prescribed fault pressure of ", fault.name, " falls to ", p / 1e5,
+                                " bar at depth ", -op_.geometry.nodes[static_cast<std::size_t>(k)].position.z(),
+                                " m in load step ", step.step),
+                         "prescribe a smaller drop or a narrower depth window"}});
+    }
+  }
+}
+
+FaultFields CaseRun::fields(const StepLoads& loads) const {
+  const auto n = static_cast<Eigen::Index>(op_.geometry.nodes.size());
+  FaultFields f;
+  f.traction = f.jump = Eigen::Matrix3Xd::Zero(3, n);
+  f.state.resize(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const auto& dof = op_.geometry.nodes[static_cast<std::size_t>(k)].dof;
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      const int d = dof[static_cast<std::size_t>(c)];
+      if (d < 0) continue;
+      f.traction(c, k) = state_.traction[d];
+      f.jump(c, k) = state_.jump[d];
+    }
+    f.state[k] = static_cast<int>(state_.state[static_cast<std::size_t>(k)]);
+  }
+  f.critical_index = nodal_.critical_index;
+  f.static_critical_index = nodal_.static_critical_index;
+  f.fault_pressure_change = loads.fault_pressure_change;
+  return f;
+}
+
+/// Cell edges against the nucleation length where it slips (design section 4).
+void CaseRun::note_weakening(const StepResult& step) {
+  if (step.n_slip == 0) return;
+  for (std::size_t k = 0; k < op_.geometry.nodes.size(); ++k) {
+    const CoulombLaw& law = laws_.node[k];
+    if (state_.state[k] != FaultState::slip || law.dynamic_friction_angle >= law.static_friction_angle) continue;
+    const OperatorNode& node = op_.geometry.nodes[k];
+    const double normal = std::min(state_.traction[node.dof[0]], 0.0);
+    const double rate = -limit_shear_traction(law, normal, 0).d_slip;
+    const double g = node.effective_shear_modulus;
+    const double down_dip = node.edge_dip / nucleation_length(g / (1 - node.poisson_ratio), rate);
+    const double along = op_.geometry.plane_strain ? 0 : node.edge_strike / nucleation_length(g, rate);
+    result_.max_nucleation_ratio = std::max({result_.max_nucleation_ratio, down_dip, along});
+  }
+}
+
+void CaseRun::record(const LoadStep& step, const StepLoads& loads, const Eigen::VectorXd& jump_before,
+                     StepResult& result) {
+  meter_.evaluate(state_, nodal_);
+  result.faults = meter_.measure(nodal_, state_, jump_before);
+  for (const FaultState s : state_.state) {
+    result.n_stick += s == FaultState::stick;
+    result.n_slip += s == FaultState::slip;
+    result.n_open += s == FaultState::open;
+  }
+  const Eigen::Map<const Eigen::VectorXd> factors(loads.factors.data(),
+                                                  static_cast<Eigen::Index>(loads.factors.size()));
+  if (!op_.observations.empty()) {
+    const Eigen::VectorXd u = op_.observed_load * factors + op_.observed_jump * state_.jump;
+    result.observed.assign(u.begin(), u.end());
+  }
+  note_weakening(result);
+  whole_.add(result, meter_, state_, result_.fault_names);
+  if (step.step > 0) {
+    if (!stage_) {
+      stage_.emplace(step.stage, step.step, &jump_before, false, op_.geometry.plane_strain);
+    }
+    stage_->add(result, meter_, state_, result_.fault_names);
+  }
+  if (observer_) observer_(result, fields(loads));
+}
+
+bool CaseRun::advance(const LoadStep& step, const Eigen::VectorXd& before, const StepLoads& loads) {
+  const Stopwatch watch;
+  StepResult result;
+  result.step = step.step;
+  result.stage = step.stage;
+  result.time = step.time;
+  result.pressure_change = loads.pressure_change;
+  const Eigen::VectorXd jump_before = state_.jump;
+  const ContactReport report = solver_.solve_step(before, loads.locked, state_);
+  result.outcome = report.outcome;
+  result.reason = report.reason;
+  result.counts = report.counts;
+  add_counts(result_.counts, report.counts);
+  const bool good = report.outcome == Outcome::converged;
+  if (good) {
+    record(step, loads, jump_before, result);
+  } else {
+    result_.outcome = report.outcome;
+    result_.reason = concat("load step ", step.step, " (", step.stage, "): ", report.reason);
+    result_.failed_step = step.step;
+  }
+  result.seconds = watch.seconds();
+  result_.steps.push_back(std::move(result));
+  return good;
+}
+
+void CaseRun::warn() {
+  auto& warnings = result_.warnings;
+  if (!op_.geometry.locked_positions.empty()) {
+    const Eigen::Vector3d& p = op_.geometry.locked_positions.front();
+    warnings.push_back(concat(op_.geometry.locked_positions.size(),
+                              " fault nodes are held closed by a boundary, the first at (", p.x(), ", ",
+                              p.y(), ", ", p.z(), ") m"));
+  }
+  if (!result_.steps.empty() && result_.steps.front().n_slip + result_.steps.front().n_open > 0) {
+    warnings.push_back(concat("the initial stress is beyond the strength of ",
+                              result_.steps.front().n_slip + result_.steps.front().n_open,
+                              " fault nodes; they were equilibrated in step 0"));
+  }
+  result_.weakening_resolved = result_.max_nucleation_ratio <= 1.0 / 3.0;
+  if (!result_.weakening_resolved) {
+    warnings.push_back(concat("slip weakening is not resolved: cells are ", result_.max_nucleation_ratio,
+                              " times the nucleation length, 1/3 is needed"));
+  }
+  bool opened = false;
+  for (const StepResult& step : result_.steps) opened = opened || step.n_open > 0;
+  for (const Fault& fault : scene_.faults) {
+    if (!opened || fault.fault_biot == 1) continue;
+    warnings.push_back("a fault opened although fault_biot < 1: an open fault then carries only the share "
+                       "fault_biot of its fluid pressure");
+    break;
+  }
+}
+
+CaseResult CaseRun::run(Monitor& monitor) {
+  const Stopwatch watch;
+  result_.title = scene_.title;
+  result_.identity = case_identity(scene_);
+  result_.operator_fingerprint = op_.fingerprint;
+  result_.numerics_version = kNumericsVersion;
+  result_.plane_strain = op_.geometry.plane_strain;
+  for (const PressureHistory& history : scene_.pressure) result_.region_names.push_back(history.region);
+  for (const OperatorFault& fault : op_.geometry.faults) result_.fault_names.push_back(fault.name);
+  for (const ObservationRow& row : op_.observations) result_.observation_names.push_back(row.name);
+
+  const std::vector<LoadStep> steps = load_steps(scene_);
+  std::vector<StepLoads> loads;
+  for (const LoadStep& step : steps) {
+    loads.push_back(loads_at(step));
+    check_fault_pressure(step, loads.back());
+  }
+  result_.outcome = Outcome::converged;
+  const Eigen::VectorXd unloaded = Eigen::VectorXd::Zero(op_.geometry.n_dofs);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (interrupted()) {
+      result_.outcome = Outcome::interrupted;
+      result_.reason = concat("stopped before load step ", steps[i].step);
+      break;
+    }
+    if (stage_ && steps[i].stage != steps[i - 1].stage) {
+      result_.stages.push_back(stage_->finish());
+      stage_.reset();
+    }
+    if (!advance(steps[i], i == 0 ? unloaded : loads[i - 1].locked, loads[i])) break;
+    monitor.progress(static_cast<double>(i + 1) / static_cast<double>(steps.size()), steps[i].stage);
+  }
+  if (stage_) result_.stages.push_back(stage_->finish());
+  result_.whole = whole_.finish();
+  if (!result_.whole.activated) {
+    const std::span<const StepResult> all(result_.steps);
+    result_.pressure_margin = pressure_margin(all.first(all.size() - (result_.failed_step ? 1 : 0)));
+  }
+  warn();
+  result_.seconds = watch.seconds();
+  return std::move(result_);
+}
+
+}  // namespace
+
+CaseResult run_case(const Scene& scene, const FaultOperator& op, Monitor& monitor,
+                    const StepObserver& observer) {
+  return CaseRun(scene, op, observer).run(monitor);
+}
+
+}  // namespace faultsim

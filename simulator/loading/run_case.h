@@ -39,7 +39,7 @@ using StepObserver = std::function<void(const StepResult&, const FaultFields&)>;
 
 /// Runs one case on its operator: initial state, load steps, contact, metrics. Deterministic: the same
 /// scene and operator give the same bits whatever ran before. Never throws for non-convergence.
-CaseResult run_case(const Scene& scene, const Plan& plan, const FaultOperator& op, Monitor& monitor,
+CaseResult run_case(const Scene& scene, const FaultOperator& op, Monitor& monitor,
                     const StepObserver& observer = {});
 
 }  // namespace faultsim

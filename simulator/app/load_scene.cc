@@ -1,0 +1,31 @@
+#include "simulator/app/load_scene.h"
+
+namespace faultsim {
+
+LoadedScene load_scene(JsonDocument document) {
+  LoadedScene loaded{std::move(document), {}, {}};
+  std::vector<Problem> problems;
+  loaded.scene = read_scene(loaded.document, problems);
+  if (problems.empty()) loaded.plan = make_plan(loaded.scene, problems);
+  for (Problem& problem : problems) {
+    if (problem.line == 0) problem.line = loaded.document.line_of(problem.pointer);
+  }
+  if (!problems.empty()) throw InputError(loaded.document.source, problems);
+  return loaded;
+}
+
+LoadedScene load_scene(const SceneArguments& arguments) {
+  JsonDocument document = read_json_file(arguments.file);
+  if (!arguments.tier.empty()) set_value(document, "/tier", arguments.tier);
+  for (const std::string& change : arguments.set) {
+    const std::size_t equals = change.find('=');
+    if (equals == std::string::npos) {
+      throw InputError("--set", {{"", 0, "\"" + change + "\" has no \"=\"",
+                                  "write --set /json/pointer=value or --set alias=value"}});
+    }
+    set_value(document, resolve_parameter(document, change.substr(0, equals)), change.substr(equals + 1));
+  }
+  return load_scene(std::move(document));
+}
+
+}  // namespace faultsim

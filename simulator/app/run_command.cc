@@ -1,0 +1,126 @@
+#include <cstdlib>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "simulator/app/commands.h"
+#include "simulator/app/load_scene.h"
+#include "simulator/app/screen.h"
+#include "simulator/common/interrupt.h"
+#include "simulator/linalg/cholesky.h"
+#include "simulator/loading/history.h"
+#include "simulator/loading/run_case.h"
+#include "simulator/output/write_result.h"
+
+namespace faultsim {
+namespace {
+
+std::filesystem::path user_cache() {
+  if (const char* xdg = std::getenv("XDG_CACHE_HOME")) return std::filesystem::path(xdg) / "faultsim";
+  if (const char* home = std::getenv("HOME")) return std::filesystem::path(home) / ".cache" / "faultsim";
+  return {};
+}
+
+ExitCode exit_code_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::converged: return ExitCode::done;
+    case Outcome::unconverged:
+    case Outcome::unstable: return ExitCode::no_convergence;
+    case Outcome::interrupted: return ExitCode::interrupted;
+    case Outcome::failed: return ExitCode::bug;
+  }
+  return ExitCode::bug;
+}
+
+/// Displacement of the whole mesh at the end of each stage, computed from the factor kept.
+class VolumeRecorder {
+ public:
+  VolumeRecorder(const Scene& scene, const PreparedOperator& prepared)
+      : factors_(scene, *prepared.op), op_(*prepared.op), bulk_(*prepared.bulk), steps_(load_steps(scene)) {}
+  void add(const StepResult& step, const FaultFields& fields) {
+    const auto i = static_cast<std::size_t>(step.step);
+    if (i + 1 < steps_.size() && steps_[i + 1].stage == steps_[i].stage) return;
+    Eigen::VectorXd jump(op_.geometry.n_dofs);
+    for (std::size_t k = 0; k < op_.geometry.nodes.size(); ++k) {
+      for (Eigen::Index c = 0; c < 3; ++c) {
+        const int dof = op_.geometry.nodes[k].dof[static_cast<std::size_t>(c)];
+        if (dof >= 0) jump[dof] = fields.jump(c, static_cast<Eigen::Index>(k));
+      }
+    }
+    snapshots_.push_back({step.stage, step.time, bulk_.displacement(factors_.at(step.time, step.pressure_change), jump)});
+  }
+  const std::vector<VolumeSnapshot>& snapshots() const { return snapshots_; }
+
+ private:
+  LoadFactors factors_;
+  const FaultOperator& op_;
+  CondensedBulk& bulk_;
+  std::vector<LoadStep> steps_;
+  std::vector<VolumeSnapshot> snapshots_;
+};
+
+void write_volume_fields(const std::filesystem::path& folder, const LoadedScene& loaded,
+                         const VolumeRecorder& recorder) {
+  const Mesh mesh = bulk_problem(loaded.scene, loaded.plan).mesh;
+  Eigen::Matrix3Xd nodes(3, static_cast<Eigen::Index>(mesh.nodes.size()));
+  for (Eigen::Index i = 0; i < nodes.cols(); ++i) nodes.col(i) = mesh.nodes[static_cast<std::size_t>(i)];
+  write_volume(folder, nodes, mesh.cells, mesh.material, recorder.snapshots());
+}
+
+}  // namespace
+
+ExitCode run_command(const RunArguments& arguments) {
+  catch_interrupts();
+  const LoadedScene loaded = load_scene(arguments.scene);
+  const Scene& scene = loaded.scene;
+  const bool json = arguments.scene.json;
+  if (const std::string complaint = blas_complaint(); !complaint.empty()) std::cerr << complaint << "\n";
+  const std::filesystem::path folder =
+      arguments.output.empty() ? std::filesystem::path(arguments.scene.file).stem().string() + "-result"
+                               : arguments.output;
+  write_text(folder / "plan.json", plan_to_json(loaded.plan).dump(2) + "\n");
+  write_text(folder / "scene.json", loaded.document.value.dump(2) + "\n");
+
+  ScreenMonitor monitor(json);
+  if (!json) std::cerr << plan_to_text(loaded.plan);
+  CachePolicy cache;
+  if (!arguments.no_cache) cache.folder = arguments.cache.empty() ? user_cache() : arguments.cache;
+  const PreparedOperator prepared =
+      prepare_operator(scene, loaded.plan, cache, scene.output.volume_fields, monitor);
+  if (!prepared.remark.empty()) monitor.note(prepared.remark);
+  monitor.clear();
+  if (!json) {
+    std::cerr << (prepared.from_cache ? "operator: from the cache" : concat("operator: built in ", prepared.op->build_seconds, " s"))
+              << ", " << prepared.op->geometry.nodes.size() << " fault node pairs\n";
+  }
+  throw_if_interrupted("building the operator");
+
+  std::optional<FieldWriter> writer;
+  if (scene.output.fault_fields) writer.emplace(folder, prepared.op->geometry);
+  std::optional<VolumeRecorder> volume;
+  if (prepared.bulk) volume.emplace(scene, prepared);
+  CaseResult names;
+  for (const PressureHistory& history : scene.pressure) names.region_names.push_back(history.region);
+  for (const Fault& fault : scene.faults) names.fault_names.push_back(fault.name);
+  names.plane_strain = loaded.plan.plane_strain;
+  if (!json) std::cout << step_table_header(names);
+  SilentMonitor silent;
+  const CaseResult result = run_case(scene, *prepared.op, silent, [&](const StepResult& step, const FaultFields& fields) {
+    if (!json) std::cout << step_table_row(step) << std::flush;
+    if (writer) writer->add_step(step, fields);
+    if (volume) volume->add(step, fields);
+  });
+  if (writer) writer->finish();
+  if (volume) write_volume_fields(folder, loaded, *volume);
+  const std::string text = result_to_json(result).dump(2) + "\n";
+  write_text(folder / "result.json", text);
+  if (json) {
+    std::cout << text;
+  } else {
+    if (result.failed_step) std::cout << step_table_row(result.steps.back());
+    std::cout << case_summary(result);
+    std::cerr << "results in " << folder.string() << "/ (result.json, faults.xmf for ParaView)\n";
+  }
+  return exit_code_of(result.outcome);
+}
+
+}  // namespace faultsim

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+#include "simulator/common/monitor.h"
+#include "simulator/common/stopwatch.h"
+#include "simulator/output/result.h"
+
+namespace faultsim {
+
+/// Progress on stderr: one line that is redrawn on a terminal, a plain line per stage of work elsewhere.
+class ScreenMonitor final : public Monitor {
+ public:
+  explicit ScreenMonitor(bool quiet);
+  ~ScreenMonitor() override;
+  void progress(double fraction, const std::string& what) override;
+  void note(const std::string& text) override;
+  /// Ends the redrawn line, so that a table can go on below it.
+  void clear();
+
+ private:
+  bool quiet_;
+  bool terminal_;
+  std::string last_;
+  Stopwatch watch_;
+};
+
+/// The table per load step that `faultsim run` prints.
+std::string step_table_header(const CaseResult& names);
+std::string step_table_row(const StepResult& step);
+/// The closing lines: outcome, activation, stages, warnings.
+std::string case_summary(const CaseResult& result);
+
+}  // namespace faultsim

@@ -1,0 +1,165 @@
+#include "simulator/loading/history.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+
+#include "simulator/common/errors.h"
+
+namespace faultsim {
+namespace {
+
+/// Piecewise linear through (x, y), constant beyond the last point; before the first: `before`.
+double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at,
+                   double before) {
+  if (at < x.front()) return before;
+  if (at >= x.back()) return y.back();
+  const auto next = std::upper_bound(x.begin(), x.end(), at) - x.begin();
+  const auto i = static_cast<std::size_t>(next);
+  const double share = (at - x[i - 1]) / (x[i] - x[i - 1]);
+  return y[i - 1] + share * (y[i] - y[i - 1]);
+}
+
+double history_value(const PressureHistory& history, double time) {
+  if (history.time.empty() || time <= 0) return 0;
+  if (time < history.time.front()) {  // the history starts from 0 at t = 0
+    return history.pressure_change.front() * time / history.time.front();
+  }
+  return interpolate(history.time, history.pressure_change, time, 0);
+}
+
+double by_rule(const FaultPressure& law, double minus, double plus) {
+  switch (law.rule) {
+    case FaultPressureRule::mean: return 0.5 * (minus + plus);
+    case FaultPressureRule::min: return std::min(minus, plus);
+    case FaultPressureRule::max: return std::max(minus, plus);
+    case FaultPressureRule::minus: return minus;
+    case FaultPressureRule::plus: return plus;
+    case FaultPressureRule::fraction: {
+      const double low = std::min(minus, plus);
+      return low + law.fraction * (std::max(minus, plus) - low);
+    }
+    case FaultPressureRule::prescribed:
+    case FaultPressureRule::none: return 0;
+  }
+  throw_internal("known fault pressure rule", "", __FILE__, __LINE__);
+}
+
+bool in_window(const FaultPressure& law, const OperatorNode& node, const PressurePair& pair) {
+  if (!law.depth_window) {
+    return pair.minus_fraction > 0 || pair.plus_fraction > 0;
+  }
+  const double depth = -node.position.z();
+  return depth >= (*law.depth_window)[0] && depth <= (*law.depth_window)[1];
+}
+
+double prescribed_now(const Scene& scene, const FaultPressure& law, double time) {
+  if (!law.table.time.empty()) return law.prescribed * table_value(law.table, time);
+  const double ramp = scene.stages.empty() ? 0 : scene.stages.front().duration;
+  return law.prescribed * (ramp > 0 ? std::clamp(time / ramp, 0.0, 1.0) : 1.0);
+}
+
+}  // namespace
+
+std::vector<LoadStep> load_steps(const Scene& scene) {
+  std::vector<LoadStep> steps{{0, "initial", 0}};
+  double start = 0;
+  for (const Stage& stage : scene.stages) {
+    for (int i = 1; i <= stage.n_steps; ++i) {
+      steps.push_back({static_cast<int>(steps.size()), stage.name,
+                       start + stage.duration * i / stage.n_steps});
+    }
+    start += stage.duration;
+  }
+  return steps;
+}
+
+std::vector<double> pressure_changes(const Scene& scene, double time) {
+  std::vector<double> changes;
+  changes.reserve(scene.pressure.size());
+  for (const PressureHistory& history : scene.pressure) {
+    changes.push_back(history.scale * history_value(history, time - history.lag));
+  }
+  return changes;
+}
+
+double table_value(const TimeTable& table, double time) {
+  if (table.time.empty()) return 1;
+  return interpolate(table.time, table.factor, time, table.factor.front());
+}
+
+std::string load_name(const PressureLoad& load) {
+  return concat("pressure:", load.region, ":", load.material);
+}
+
+std::string boundary_load_name(int boundary_index) { return concat("boundary:", boundary_index); }
+
+LoadFactors::LoadFactors(const Scene& scene, const FaultOperator& op) : scene_(scene) {
+  for (const std::string& name : op.load_names) {
+    const std::size_t colon = name.find(':');
+    FAULTSIM_DEMAND(colon != std::string::npos, "load ", name);
+    const std::string kind = name.substr(0, colon);
+    char* end = nullptr;
+    const auto index = static_cast<int>(std::strtol(name.c_str() + colon + 1, &end, 10));
+    if (kind == "pressure") {
+      FAULTSIM_DEMAND(*end == ':', "load ", name);
+      const auto material = static_cast<std::size_t>(std::strtol(end + 1, nullptr, 10));
+      FAULTSIM_DEMAND(material < scene.materials.size() &&
+                          static_cast<std::size_t>(index) < scene.pressure.size(),
+                      "load ", name);
+      biot_.push_back(scene.materials[material].biot);
+      region_of_load_.push_back(index);
+      boundary_of_load_.push_back(-1);
+    } else {
+      FAULTSIM_DEMAND(kind == "boundary" &&
+                          static_cast<std::size_t>(index) < scene.box.boundary.size(),
+                      "load ", name);
+      biot_.push_back(0);
+      region_of_load_.push_back(-1);
+      boundary_of_load_.push_back(index);
+    }
+  }
+}
+
+std::vector<double> LoadFactors::at(double time, const std::vector<double>& pressure_change) const {
+  std::vector<double> factors(biot_.size());
+  for (std::size_t k = 0; k < factors.size(); ++k) {
+    factors[k] = boundary_of_load_[k] >= 0
+                     ? table_value(scene_.box.boundary[static_cast<std::size_t>(boundary_of_load_[k])].table, time)
+                     : biot_[k] * pressure_change[static_cast<std::size_t>(region_of_load_[k])];
+  }
+  return factors;
+}
+
+Eigen::VectorXd fault_pressure_change(const Scene& scene, const FaultGeometry& geometry,
+                                      const std::vector<int>& region_of_load, double time,
+                                      const std::vector<double>& pressure_change) {
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(geometry.nodes.size()));
+  const auto cell_change = [&](int load, double fraction) {
+    if (load < 0) return 0.0;
+    const int region = region_of_load[static_cast<std::size_t>(load)];
+    return fraction * pressure_change[static_cast<std::size_t>(region)];
+  };
+  for (std::size_t f = 0; f < geometry.faults.size(); ++f) {
+    const FaultPressure& law = scene.faults[f].pressure;
+    if (law.rule == FaultPressureRule::none) continue;
+    const bool prescribed = law.rule == FaultPressureRule::prescribed;
+    const double given = prescribed ? prescribed_now(scene, law, time) : 0;
+    const OperatorFault& fault = geometry.faults[f];
+    for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
+      const OperatorNode& node = geometry.nodes[static_cast<std::size_t>(k)];
+      double sum = 0;
+      for (const PressurePair& pair : node.pressure) {
+        const double value = prescribed
+                                 ? (in_window(law, node, pair) ? given : 0.0)
+                                 : by_rule(law, cell_change(pair.minus_region, pair.minus_fraction),
+                                           cell_change(pair.plus_region, pair.plus_fraction));
+        sum += pair.weight * value;
+      }
+      change[k] = sum;
+    }
+  }
+  return change;
+}
+
+}  // namespace faultsim

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "simulator/output/fault_operator.h"
+#include "simulator/scene/scene.h"
+
+namespace faultsim {
+
+/// One load step to be solved; step 0 is the initial equilibrium at t = 0.
+struct LoadStep {
+  int step = 0;
+  std::string stage;
+  double time = 0;  ///< s.
+};
+
+/// Step 0, then every step of every stage at its end time.
+std::vector<LoadStep> load_steps(const Scene& scene);
+
+/// Δp of each region at time t, Pa: scale · history(t − lag), 0 before the history starts.
+std::vector<double> pressure_changes(const Scene& scene, double time);
+
+/// Value of a table at time t: piecewise linear, constant outside; 1 if the table is empty.
+double table_value(const TimeTable& table, double time);
+
+/// Where a pressure load of the operator comes from: "pressure:REGION:MATERIAL". Regions that cover
+/// materials with different Biot coefficients have several loads.
+struct PressureLoad {
+  int region;
+  int material;
+};
+std::string load_name(const PressureLoad& load);
+std::string boundary_load_name(int boundary_index);
+
+/// The factors c_k of the operator's loads at a time: b Δp for pressure loads, the table's value for
+/// boundary loads. Names that the scene does not know are our bug (InternalError).
+class LoadFactors {
+ public:
+  LoadFactors(const Scene& scene, const FaultOperator& op);
+  /// @param pressure_change  per region, Pa.
+  std::vector<double> at(double time, const std::vector<double>& pressure_change) const;
+  /// Region of each pressure load, so that PressurePair indices can be turned into regions.
+  const std::vector<int>& region_of_load() const { return region_of_load_; }
+
+ private:
+  const Scene& scene_;
+  std::vector<double> biot_;          // per load; 0 for boundary loads
+  std::vector<int> region_of_load_;   // −1 for boundary loads
+  std::vector<int> boundary_of_load_; // −1 for pressure loads
+};
+
+/// Δp_f of every fault node at a time, Pa (n_nodes): per pair of neighbouring cells by the fault's
+/// rule, then the area-weighted mean (design section 2). A prescribed change without a table is
+/// reached linearly over the first stage and held.
+Eigen::VectorXd fault_pressure_change(const Scene& scene, const FaultGeometry& geometry,
+                                      const std::vector<int>& region_of_load, double time,
+                                      const std::vector<double>& pressure_change);
+
+}  // namespace faultsim

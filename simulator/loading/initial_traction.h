@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "simulator/output/fault_operator.h"
+#include "simulator/scene/scene.h"
+
+namespace faultsim {
+
+/// Initial effective traction on the faults and the initial pressure there.
+struct InitialTraction {
+  Eigen::VectorXd traction;  ///< t'_0 = σ0 n + α_f p0 n, n_dofs, Pa.
+  Eigen::VectorXd pressure;  ///< p0, n_nodes, Pa.
+};
+
+/// Throws InputError when a removed traction component (half domain, plane strain, rollers) is not
+/// zero: the reduction would then hide a load.
+InitialTraction initial_traction(const Scene& scene, const FaultGeometry& geometry);
+
+}  // namespace faultsim
