@@ -75,8 +75,9 @@ ExitCode run_command(const RunArguments& arguments) {
   const bool json = arguments.scene.json;
   if (const std::string complaint = blas_complaint(); !complaint.empty()) std::cerr << complaint << "\n";
   const std::filesystem::path folder =
-      arguments.output.empty() ? std::filesystem::path(arguments.scene.file).stem().string() + "-result"
-                               : arguments.output;
+      arguments.output.empty()
+          ? std::filesystem::path(std::filesystem::path(arguments.scene.file).stem().string() + "-result")
+          : arguments.output;
   write_text(folder / "plan.json", plan_to_json(loaded.plan).dump(2) + "\n");
   write_text(folder / "scene.json", loaded.document.value.dump(2) + "\n");
 
