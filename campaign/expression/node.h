@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "campaign/expression/expression.h"
+
+/// Inside of the module: the syntax tree and the steps from text to a checked tree.
+namespace faultsweep {
+
+enum class Operation {
+  literal,
+  name,
+  negate,
+  add,
+  subtract,
+  multiply,
+  divide,
+  power,
+  less,
+  less_equal,
+  greater,
+  greater_equal,
+  equal,
+  not_equal,
+  logical_and,
+  logical_or,
+  logical_not,
+  minimum,
+  maximum,
+  absolute,
+  square_root,
+  log10,
+  exponential,
+  tangent,
+};
+
+struct Node {
+  Operation operation = Operation::literal;
+  std::size_t position = 0;   ///< byte offset in the text of what to point at.
+  std::size_t end = 0;        ///< one past the last byte of a literal or name.
+  Type type;                  ///< set by the parser for literals, by check for the rest.
+  Value literal;
+  std::string quoted;         ///< literal in quotes: what stood between them.
+  bool is_quoted = false;
+  std::size_t name = 0;       ///< into the names.
+  std::vector<std::unique_ptr<Node>> children;
+};
+
+struct ParsedText {
+  std::unique_ptr<Node> root;
+  std::vector<std::string> names;   ///< each once, in order of appearance.
+};
+
+/// Text to tree. Throws ExpressionError on syntax only; known_names serve suggestions.
+ParsedText parse_expression(const std::string& text, const std::vector<std::string>& known_names);
+
+/// Fills in every Node::type. Throws ExpressionError. name_types: per name of the tree.
+void check_types(Node& root, const std::string& text, const std::vector<std::string>& names,
+                 const std::vector<Type>& name_types);
+
+}  // namespace faultsweep

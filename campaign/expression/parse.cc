@@ -1,0 +1,428 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+#include "campaign/expression/node.h"
+
+namespace faultsweep {
+namespace {
+
+using faultsim::Dimension;
+
+constexpr std::size_t kMaximumLength = 10'000;
+constexpr int kMaximumDepth = 200;
+
+constexpr std::array kDimensions = {
+    Dimension::length,    Dimension::area,     Dimension::pressure,
+    Dimension::pressure_gradient, Dimension::density, Dimension::angle,
+    Dimension::time,      Dimension::viscosity, Dimension::moment,
+    Dimension::potency};
+
+const std::array<std::pair<const char*, Operation>, 7> kFunctions = {{
+    {"min", Operation::minimum},
+    {"max", Operation::maximum},
+    {"abs", Operation::absolute},
+    {"sqrt", Operation::square_root},
+    {"log10", Operation::log10},
+    {"exp", Operation::exponential},
+    {"tan", Operation::tangent},
+}};
+
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+bool is_keyword(std::string_view word) {
+  return word == "and" || word == "or" || word == "not" || word == "true" || word == "false";
+}
+
+/// A number with its unit in SI, or nothing when the unit is unknown.
+struct Quantity {
+  double value = 0;
+  Type type;
+};
+std::optional<Quantity> read_quantity(const std::string& text) {
+  for (const Dimension dimension : kDimensions) {
+    const auto parsed = faultsim::parse_quantity(text, dimension);
+    if (parsed.ok) return Quantity{parsed.value, number_type(dimension)};
+  }
+  return std::nullopt;
+}
+
+class Parser {
+ public:
+  Parser(const std::string& text, const std::vector<std::string>& known)
+      : text_(text), known_(known) {}
+
+  ParsedText parse() {
+    if (text_.size() > kMaximumLength) fail(0, "the expression is too long", "split it");
+    skip_blanks();
+    if (at_end()) fail(0, "the expression is empty", "write a condition such as offset > 100 m");
+    auto root = parse_or();
+    if (!at_end()) fail_unexpected();
+    return {std::move(root), std::move(names_)};
+  }
+
+ private:
+  using NodePointer = std::unique_ptr<Node>;
+
+  [[noreturn]] void fail(std::size_t position, const std::string& what,
+                         const std::string& cure) const {
+    throw ExpressionError(text_, position, what, cure);
+  }
+  [[noreturn]] void fail_unexpected() const {
+    if (at_end()) fail(position_, "the expression ends too early", "a value is missing here");
+    const char c = text_[position_];
+    if (text_.compare(position_, 2, "&&") == 0) fail(position_, "\"&&\" is unknown", "write and");
+    if (text_.compare(position_, 2, "||") == 0) fail(position_, "\"||\" is unknown", "write or");
+    if (c == '!') fail(position_, "\"!\" is unknown", "write not");
+    if (c == ')') fail(position_, "\")\" closes nothing", "remove it or add \"(\" before");
+    if (is_letter(c) || is_digit(c) || c == '"' || c == '\'') {
+      fail(position_, "an operator is missing before this",
+           "write for example and, or, <, >, =, +, - or *");
+    }
+    fail(position_, "unexpected character", "remove it");
+  }
+
+  bool at_end() const { return position_ >= text_.size(); }
+  void skip_blanks() {
+    while (!at_end() && std::isspace(static_cast<unsigned char>(text_[position_])) != 0) {
+      ++position_;
+    }
+  }
+  bool accept(std::string_view symbol) {
+    if (text_.compare(position_, symbol.size(), symbol) != 0) return false;
+    position_ += symbol.size();
+    skip_blanks();
+    return true;
+  }
+  std::string_view peek_word() const {
+    std::size_t end = position_;
+    if (at_end() || !is_letter(text_[end])) return {};
+    while (end < text_.size() && (is_letter(text_[end]) || is_digit(text_[end]) ||
+                                  (text_[end] == '.' && end + 1 < text_.size() &&
+                                   is_letter(text_[end + 1])))) {
+      ++end;
+    }
+    return std::string_view(text_).substr(position_, end - position_);
+  }
+  bool accept_word(std::string_view word) {
+    if (peek_word() != word) return false;
+    position_ += word.size();
+    skip_blanks();
+    return true;
+  }
+
+  static NodePointer make(Operation operation, std::size_t position, NodePointer left,
+                          NodePointer right = nullptr) {
+    auto node = std::make_unique<Node>();
+    node->operation = operation;
+    node->position = position;
+    node->end = position + 1;
+    node->children.push_back(std::move(left));
+    if (right) node->children.push_back(std::move(right));
+    return node;
+  }
+
+  /// Counts the nesting, so that "((((…" ends in a message and not in a stack overflow.
+  class Depth {
+   public:
+    explicit Depth(Parser& parser) : parser_(parser) {
+      if (++parser_.depth_ > kMaximumDepth) {
+        parser_.fail(parser_.position_, "the expression is nested too deeply", "simplify it");
+      }
+    }
+    ~Depth() { --parser_.depth_; }
+    Depth(const Depth&) = delete;
+    Depth& operator=(const Depth&) = delete;
+
+   private:
+    Parser& parser_;
+  };
+
+  NodePointer parse_or() {
+    const Depth depth(*this);
+    auto left = parse_and();
+    for (std::size_t start = position_; accept_word("or"); start = position_) {
+      left = make(Operation::logical_or, start, std::move(left), parse_and());
+    }
+    return left;
+  }
+  NodePointer parse_and() {
+    auto left = parse_not();
+    for (std::size_t start = position_; accept_word("and"); start = position_) {
+      left = make(Operation::logical_and, start, std::move(left), parse_not());
+    }
+    return left;
+  }
+  NodePointer parse_not() {
+    const Depth depth(*this);
+    const std::size_t start = position_;
+    if (accept_word("not")) return make(Operation::logical_not, start, parse_not());
+    return parse_comparison();
+  }
+
+  std::optional<Operation> accept_comparison() {
+    static const std::array<std::pair<const char*, Operation>, 8> symbols = {{
+        {"<=", Operation::less_equal},
+        {">=", Operation::greater_equal},
+        {"!=", Operation::not_equal},
+        {"<>", Operation::not_equal},
+        {"==", Operation::equal},
+        {"<", Operation::less},
+        {">", Operation::greater},
+        {"=", Operation::equal},
+    }};
+    for (const auto& [symbol, operation] : symbols) {
+      if (accept(symbol)) return operation;
+    }
+    return std::nullopt;
+  }
+  NodePointer parse_comparison() {
+    auto left = parse_sum();
+    const std::size_t start = position_;
+    const auto operation = accept_comparison();
+    if (!operation) return left;
+    auto node = make(*operation, start, std::move(left), parse_sum());
+    const std::size_t second = position_;
+    if (accept_comparison()) {
+      fail(second, "comparisons cannot be chained", "write a < b and b < c");
+    }
+    return node;
+  }
+  NodePointer parse_sum() {
+    auto left = parse_product();
+    while (true) {
+      const std::size_t start = position_;
+      if (accept("+")) {
+        left = make(Operation::add, start, std::move(left), parse_product());
+      } else if (accept("-")) {
+        left = make(Operation::subtract, start, std::move(left), parse_product());
+      } else {
+        return left;
+      }
+    }
+  }
+  NodePointer parse_product() {
+    auto left = parse_unary();
+    while (true) {
+      const std::size_t start = position_;
+      if (text_.compare(position_, 2, "**") == 0) {
+        fail(start, "\"**\" is unknown", "write ^ for a power");
+      }
+      if (accept("*")) {
+        left = make(Operation::multiply, start, std::move(left), parse_unary());
+      } else if (accept("/")) {
+        left = make(Operation::divide, start, std::move(left), parse_unary());
+      } else {
+        return left;
+      }
+    }
+  }
+  NodePointer parse_unary() {
+    const Depth depth(*this);
+    const std::size_t start = position_;
+    if (accept("-")) return make(Operation::negate, start, parse_unary());
+    return parse_power();
+  }
+  NodePointer parse_power() {
+    auto base = parse_primary();
+    const std::size_t start = position_;
+    if (!accept("^")) return base;
+    return make(Operation::power, start, std::move(base), parse_unary());
+  }
+
+  NodePointer parse_primary() {
+    if (at_end()) fail_unexpected();
+    const char c = text_[position_];
+    if (c == '(') return parse_parentheses();
+    if (c == '"' || c == '\'') return parse_quoted();
+    if (is_digit(c) || (c == '.' && position_ + 1 < text_.size() && is_digit(text_[position_ + 1])))
+      return parse_number();
+    if (is_letter(c)) return parse_word();
+    fail_unexpected();
+  }
+  NodePointer parse_parentheses() {
+    const std::size_t start = position_;
+    accept("(");
+    auto inside = parse_or();
+    if (!accept(")")) {
+      if (!at_end()) fail_unexpected();
+      fail(start, "this \"(\" is not closed", "add \")\"");
+    }
+    return inside;
+  }
+
+  NodePointer make_literal(std::size_t start, Value value, Type type) {
+    auto node = std::make_unique<Node>();
+    node->position = start;
+    node->end = position_;
+    node->literal = std::move(value);
+    node->type = type;
+    skip_blanks();
+    return node;
+  }
+
+  NodePointer parse_quoted() {
+    const std::size_t start = position_;
+    const std::size_t close = text_.find(text_[start], start + 1);
+    if (close == std::string::npos) fail(start, "this quote is not closed", "add the closing quote");
+    const std::string inside = text_.substr(start + 1, close - start - 1);
+    position_ = close + 1;
+    const bool may_be_number = !inside.empty() && (is_digit(inside[0]) || inside[0] == '-' ||
+                                                   inside[0] == '+' || inside[0] == '.');
+    const auto quantity = may_be_number ? read_quantity(inside) : std::nullopt;
+    auto node = quantity ? make_literal(start, quantity->value, quantity->type)
+                         : make_literal(start, inside, Type{Kind::text, {}});
+    node->quoted = inside;
+    node->is_quoted = true;
+    return node;
+  }
+
+  /// End of the digits of a number that starts here: 12, 1.5, .5, 1e-3.
+  std::size_t end_of_digits() const {
+    std::size_t end = position_;
+    const auto skip = [&] {
+      while (end < text_.size() && is_digit(text_[end])) ++end;
+    };
+    skip();
+    if (end < text_.size() && text_[end] == '.') {
+      ++end;
+      skip();
+    }
+    if (end < text_.size() && (text_[end] == 'e' || text_[end] == 'E')) {
+      std::size_t exponent = end + 1;
+      if (exponent < text_.size() && (text_[exponent] == '+' || text_[exponent] == '-')) ++exponent;
+      if (exponent < text_.size() && is_digit(text_[exponent])) {
+        end = exponent;
+        skip();
+      }
+    }
+    return end;
+  }
+
+  /// End of a unit at begin: words with optional exponents joined by "/", without blanks.
+  std::size_t end_of_unit(std::size_t begin, bool with_slash) const {
+    std::size_t end = begin;
+    while (end < text_.size() && is_letter(text_[end])) ++end;
+    while (end < text_.size() && is_digit(text_[end])) ++end;
+    if (with_slash && end > begin && end + 1 < text_.size() && text_[end] == '/' &&
+        is_letter(text_[end + 1])) {
+      return end_of_unit(end + 1, true);
+    }
+    return end;
+  }
+
+  NodePointer parse_number() {
+    const std::size_t start = position_;
+    const std::string digits = text_.substr(start, end_of_digits() - start);
+    position_ += digits.size();
+    skip_blanks();
+    const std::string_view word = peek_word();
+    if (word.empty() || is_keyword(word)) {
+      const auto parsed = faultsim::parse_quantity(digits, Dimension::number);
+      if (!parsed.ok) fail(start, parsed.what, parsed.cure);
+      auto node = make_literal(start, parsed.value, Type{});
+      node->end = start + digits.size();
+      return node;
+    }
+    for (const bool with_slash : {true, false}) {
+      const std::size_t end = end_of_unit(position_, with_slash);
+      const auto quantity =
+          read_quantity(digits + " " + text_.substr(position_, end - position_));
+      if (!quantity) continue;
+      position_ = end;
+      return make_literal(start, quantity->value, quantity->type);
+    }
+    const std::string unit = text_.substr(position_, end_of_unit(position_, true) - position_);
+    const bool is_name = std::find(known_.begin(), known_.end(), word) != known_.end();
+    fail(position_, "unknown unit \"" + unit + "\"",
+         is_name ? "write " + digits + " * " + std::string(word)
+                 : "known are for example m, km, m2, bar, MPa, GPa, deg, year");
+  }
+
+  NodePointer parse_word() {
+    const std::size_t start = position_;
+    const std::string word(peek_word());
+    if (word == "true" || word == "false") {
+      position_ += word.size();
+      return make_literal(start, word == "true", Type{Kind::boolean, {}});
+    }
+    if (is_keyword(word)) fail(start, "a value is missing before \"" + word + "\"", "add it");
+    position_ += word.size();
+    skip_blanks();
+    if (!at_end() && text_[position_] == '(') return parse_function(start, word);
+    auto node = std::make_unique<Node>();
+    node->operation = Operation::name;
+    node->position = start;
+    node->end = start + word.size();
+    const auto found = std::find(names_.begin(), names_.end(), word);
+    node->name = static_cast<std::size_t>(found - names_.begin());
+    if (found == names_.end()) {
+      require_known(start, word);
+      names_.push_back(word);
+    }
+    return node;
+  }
+  void require_known(std::size_t start, const std::string& word) const {
+    if (std::find(known_.begin(), known_.end(), word) != known_.end()) return;
+    std::string cure;
+    if (const auto near = nearest(word, known_)) {
+      cure = "did you mean " + *near + "?";
+    } else {
+      cure = known_.empty() ? "no names are known here" : "known are";
+      for (std::size_t i = 0; i < std::min<std::size_t>(known_.size(), 12); ++i) {
+        cure += (i == 0 ? " " : ", ") + known_[i];
+      }
+      if (known_.size() > 12) cure += ", ...";
+    }
+    fail(start, "unknown name \"" + word + "\"", cure);
+  }
+
+  NodePointer parse_function(std::size_t start, const std::string& word) {
+    const auto found = std::find_if(kFunctions.begin(), kFunctions.end(),
+                                    [&](const auto& function) { return word == function.first; });
+    if (found == kFunctions.end()) {
+      std::vector<std::string> functions;
+      for (const auto& function : kFunctions) functions.emplace_back(function.first);
+      const auto near = nearest(word, functions);
+      fail(start, "unknown function \"" + word + "\"",
+           near ? "did you mean " + *near + "?" : "known are min max abs sqrt log10 exp tan");
+    }
+    const std::size_t open = position_;
+    accept("(");
+    auto node = std::make_unique<Node>();
+    node->operation = found->second;
+    node->position = start;
+    node->end = start + word.size();
+    do {
+      node->children.push_back(parse_or());
+    } while (accept(","));
+    if (!accept(")")) {
+      if (!at_end()) fail_unexpected();
+      fail(open, "this \"(\" is not closed", "add \")\"");
+    }
+    const bool many =
+        found->second == Operation::minimum || found->second == Operation::maximum;
+    if (many ? node->children.size() < 2 : node->children.size() != 1) {
+      fail(start, word + " takes " + (many ? "two or more values" : "one value") + ", not " +
+                      std::to_string(node->children.size()),
+           many ? "write " + word + "(a, b)" : "write " + word + "(a)");
+    }
+    return node;
+  }
+
+  const std::string& text_;
+  const std::vector<std::string>& known_;
+  std::size_t position_ = 0;
+  int depth_ = 0;
+  std::vector<std::string> names_;
+};
+
+}  // namespace
+
+ParsedText parse_expression(const std::string& text, const std::vector<std::string>& known_names) {
+  return Parser(text, known_names).parse();
+}
+
+}  // namespace faultsweep
