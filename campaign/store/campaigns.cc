@@ -1,0 +1,286 @@
+#include <ctime>
+
+#include "campaign/store/clock.h"
+#include "campaign/store/sqlite.h"
+#include "campaign/store/store.h"
+#include "simulator/common/fingerprint.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+using faultsim::StorageError;
+
+const char* to_string(FailureAction action) {
+  switch (action) {
+    case FailureAction::abort:
+      return "abort";
+    case FailureAction::retry:
+      return "retry";
+    case FailureAction::proceed:
+      return "continue";
+  }
+  FAULTSIM_DEMAND(false, static_cast<int>(action));
+  return "";
+}
+
+FailureAction failure_action_from_string(const std::string& text) {
+  for (const auto action : {FailureAction::abort, FailureAction::retry, FailureAction::proceed}) {
+    if (text == to_string(action)) return action;
+  }
+  throw StorageError(concat("unknown failure policy '", text, "' in the store"));
+}
+
+namespace {
+
+/// Covers what the expanded copy is made of: base scenes and parameter vectors, in order.
+std::string expanded_hash(const Submission& submission) {
+  std::string text;
+  for (const BaseScene& scene : submission.scenes) {
+    text += faultsim::fingerprint(scene.source + '\n' + scene.document) + '\n';
+  }
+  text += submission.parameters + '\n';
+  for (const CaseRecord& one : submission.cases) {
+    text += concat(one.scene, ' ', one.identity, ' ', one.parameter_values, '\n');
+  }
+  return faultsim::fingerprint(text);
+}
+
+/// The campaign that is this submission, or a name that is free.
+struct Place {
+  std::optional<std::int64_t> campaign;
+  std::string name;
+};
+
+Place find_place(Connection& db, const Submission& submission, const std::string& resolved_hash,
+                 const std::string& expanded) {
+  constexpr int kMostRevisions = 100000;  // names NAME-2, NAME-3, ...: far beyond use
+  Statement& query = db.prepared(
+      "SELECT id, spec_resolved_hash, spec_expanded_hash FROM campaigns WHERE name = ?");
+  for (int revision = 1; revision < kMostRevisions; ++revision) {
+    const std::string name =
+        revision == 1 ? submission.name : concat(submission.name, '-', revision);
+    if (!query.bind(name).step()) return {std::nullopt, name};
+    if (query.text(1) == resolved_hash && query.text(2) == expanded)
+      return {query.integer(0), name};
+  }
+  throw StorageError(concat("too many campaigns are called ", submission.name));
+}
+
+std::vector<std::int64_t> add_families(Connection& db, const Submission& submission) {
+  std::vector<std::int64_t> ids;
+  for (const FamilyRecord& family : submission.families) {
+    db.prepared(
+          "INSERT INTO families (fingerprint, predicted_unknowns, predicted_jump_unknowns,"
+          " predicted_operator_s, predicted_memory_bytes) VALUES (?, ?, ?, ?, ?)"
+          " ON CONFLICT (fingerprint) DO NOTHING")
+        .bind(family.fingerprint, family.unknowns, family.jump_unknowns, family.operator_seconds,
+              family.memory_bytes)
+        .run();
+    Statement& query = db.prepared("SELECT id FROM families WHERE fingerprint = ?");
+    query.bind(family.fingerprint).step();
+    ids.push_back(query.integer(0));
+    query.reset();
+  }
+  return ids;
+}
+
+constexpr const char* kInfoColumns =
+    "SELECT id, name, submitted_at, state, source, parameters, rank_by, n_excluded, n_merged,"
+    " on_failure, retries, case_time_limit_s, case_memory_limit_bytes FROM campaigns ";
+
+CampaignInfo read_info(const Statement& row) {
+  CampaignInfo info;
+  info.id = row.integer(0);
+  info.name = row.text(1);
+  info.submitted_at = row.real(2);
+  info.cancelled = row.text(3) == "cancelled";
+  info.source = row.text(4);
+  info.parameters = row.text(5);
+  info.rank_by = row.text(6);
+  info.n_excluded = row.integer(7);
+  info.n_merged = row.integer(8);
+  info.policy.on_failure = failure_action_from_string(row.text(9));
+  info.policy.retries = static_cast<int>(row.integer(10));
+  info.policy.time_limit = row.optional_real(11);
+  info.policy.memory_limit = row.optional_real(12);
+  return info;
+}
+
+void count_cases(Connection& db, CampaignInfo& info) {
+  Statement& query = db.prepared(
+      "SELECT count(*), total(c.state = 'done'), total(c.state = 'failed'),"
+      " total(c.state = 'waiting'), total(r.outcome = 'converged')"
+      " FROM campaign_cases cc JOIN cases c ON c.id = cc.case_id LEFT JOIN runs r ON r.id = "
+      "c.run_id"
+      " WHERE cc.campaign_id = ?");
+  query.bind(info.id).step();
+  info.n_cases = query.integer(0);
+  info.n_done = query.integer(1);
+  info.n_failed = query.integer(2);
+  info.n_waiting = query.integer(3);
+  info.n_converged = query.integer(4);
+  query.reset();
+}
+
+}  // namespace
+
+std::int64_t Store::add_scene(const BaseScene& scene) {
+  Connection& db = *connection_;
+  const std::string hash = faultsim::fingerprint(scene.source + '\n' + scene.document);
+  db.prepared("INSERT INTO scenes (hash, source, document) VALUES (?, ?, ?) ON CONFLICT DO NOTHING")
+      .bind(hash, scene.source, scene.document)
+      .run();
+  Statement& query = db.prepared("SELECT id FROM scenes WHERE hash = ?");
+  query.bind(hash).step();
+  const std::int64_t id = query.integer(0);
+  query.reset();
+  return id;
+}
+
+void Store::add_cases(std::int64_t campaign, const Submission& submission) {
+  Connection& db = *connection_;
+  std::vector<std::int64_t> scenes;
+  for (const BaseScene& scene : submission.scenes) scenes.push_back(add_scene(scene));
+  const std::vector<std::int64_t> families = add_families(db, submission);
+  Statement& insert = db.prepared(
+      "INSERT INTO cases (identity, family_id, scene_id, changes) VALUES (?, ?, ?, ?)"
+      " ON CONFLICT (identity) DO NOTHING");
+  Statement& find = db.prepared("SELECT id FROM cases WHERE identity = ?");
+  Statement& link = db.prepared(
+      "INSERT INTO campaign_cases (campaign_id, position, case_id, parameter_values,"
+      " parameter_labels) VALUES (?, ?, ?, ?, ?)");
+  long position = 0;
+  for (const CaseRecord& one : submission.cases) {
+    insert
+        .bind(one.identity, families.at(static_cast<std::size_t>(one.family)),
+              scenes.at(static_cast<std::size_t>(one.scene)), one.changes)
+        .run();
+    std::int64_t id = db.last_insert_id();
+    if (db.changes() == 0) {
+      find.bind(one.identity).step();
+      id = find.integer(0);
+      find.reset();
+    }
+    link.bind(campaign, ++position, id, one.parameter_values, one.parameter_labels).run();
+  }
+}
+
+SubmitOutcome Store::submit(const Submission& submission) {
+  FAULTSIM_DEMAND(!submission.cases.empty() && !submission.scenes.empty(), submission.name);
+  Connection& db = *connection_;
+  const std::string resolved_hash = faultsim::fingerprint(submission.spec_resolved);
+  const std::string expanded = expanded_hash(submission);
+  SubmitOutcome outcome;
+  Transaction transaction(db);
+  const Place place = find_place(db, submission, resolved_hash, expanded);
+  outcome.name = place.name;
+  outcome.existed = place.campaign.has_value();
+  if (outcome.existed) {
+    outcome.campaign = *place.campaign;
+    db.prepared("UPDATE campaigns SET state = 'open', submitted_at = ? WHERE id = ?")
+        .bind(seconds_since_1970(), outcome.campaign)
+        .run();
+  } else {
+    db.prepared(
+          "INSERT INTO campaigns (name, submitted_at, source, spec_given, spec_given_hash,"
+          " spec_resolved, spec_resolved_hash, spec_expanded_hash, parameters, rank_by, n_excluded,"
+          " n_merged, on_failure, retries, case_time_limit_s, case_memory_limit_bytes)"
+          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+        .bind(place.name, seconds_since_1970(), submission.source, submission.spec_given,
+              faultsim::fingerprint(submission.spec_given), submission.spec_resolved, resolved_hash,
+              expanded, submission.parameters, submission.rank_by, submission.n_excluded,
+              submission.n_merged, to_string(submission.policy.on_failure),
+              submission.policy.retries, submission.policy.time_limit,
+              submission.policy.memory_limit
+                  ? std::optional(static_cast<std::int64_t>(*submission.policy.memory_limit))
+                  : std::nullopt)
+        .run();
+    outcome.campaign = db.last_insert_id();
+    add_cases(outcome.campaign, submission);
+  }
+  Statement& cached = db.prepared(
+      "SELECT count(*) FROM campaign_cases cc JOIN cases c ON c.id = cc.case_id"
+      " WHERE cc.campaign_id = ? AND c.state = 'done'");
+  cached.bind(outcome.campaign).step();
+  outcome.n_cached = cached.integer(0);
+  cached.reset();
+  transaction.commit();
+  return outcome;
+}
+
+long Store::count_cached(const std::vector<std::string>& identities) const {
+  Statement& query =
+      connection_->prepared("SELECT 1 FROM cases WHERE identity = ? AND state = 'done'");
+  long count = 0;
+  for (const std::string& identity : identities) count += query.bind(identity).step() ? 1 : 0;
+  query.reset();
+  return count;
+}
+
+std::vector<CampaignInfo> Store::campaigns() const {
+  std::vector<CampaignInfo> all;
+  Statement query(*connection_, concat(kInfoColumns, "ORDER BY submitted_at, id").c_str());
+  while (query.step()) all.push_back(read_info(query));
+  return all;
+}
+
+CampaignInfo Store::campaign(const std::string& name) const {
+  std::vector<CampaignInfo> all = campaigns();
+  if (all.empty()) {
+    throw StorageError(concat("the store ", folder_.string(),
+                              " has no campaign yet; `faultsweep submit SPEC.json` adds one"));
+  }
+  for (CampaignInfo& info : all) {
+    if (info.name == name || (name.empty() && &info == &all.back())) {
+      count_cases(*connection_, info);
+      return info;
+    }
+  }
+  std::string names;
+  for (const CampaignInfo& info : all) names += (names.empty() ? "" : ", ") + info.name;
+  throw faultsim::InputError("--campaign", {{"", 0, concat("there is no campaign '", name, "'"),
+                                             concat("there are: ", names)}});
+}
+
+void Store::cancel(std::int64_t campaign, bool cancelled) {
+  Transaction transaction(*connection_);
+  connection_->prepared("UPDATE campaigns SET state = ? WHERE id = ?")
+      .bind(cancelled ? "cancelled" : "open", campaign)
+      .run();
+  record_event(campaign, cancelled ? "cancelled" : "reopened", "by the user");
+  transaction.commit();
+}
+
+long Store::retry(std::int64_t campaign, bool unconverged_too, std::optional<long> position) {
+  Transaction transaction(*connection_);
+  Statement& update = connection_->prepared(
+      "UPDATE cases SET state = 'waiting' WHERE id IN"
+      " (SELECT c.id FROM campaign_cases cc JOIN cases c ON c.id = cc.case_id"
+      "  LEFT JOIN case_metrics m ON m.case_id = c.id"
+      "  WHERE cc.campaign_id = ?1 AND (?3 IS NULL OR cc.position = ?3)"
+      "  AND (c.state = 'failed' OR (?2 AND c.state = 'done' AND m.outcome <> 'converged')))");
+  update.bind(campaign, unconverged_too, position).run();
+  const long count = connection_->changes();
+  if (count > 0) record_event(campaign, "retry", concat(count, " cases wait again"));
+  transaction.commit();
+  return count;
+}
+
+BaseScene Store::base_scene(std::int64_t scene) const {
+  Statement& query = connection_->prepared("SELECT source, document FROM scenes WHERE id = ?");
+  FAULTSIM_DEMAND(query.bind(scene).step(), scene);
+  BaseScene base{query.text(0), query.text(1)};
+  query.reset();
+  return base;
+}
+
+Store::SpecCopies Store::spec_copies(std::int64_t campaign) const {
+  Statement& query = connection_->prepared(
+      "SELECT spec_given, spec_resolved, spec_expanded_hash FROM campaigns WHERE id = ?");
+  FAULTSIM_DEMAND(query.bind(campaign).step(), campaign);
+  SpecCopies copies{query.text(0), query.text(1), query.text(2)};
+  query.reset();
+  return copies;
+}
+
+}  // namespace faultsweep

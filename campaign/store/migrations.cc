@@ -1,0 +1,73 @@
+#include "campaign/store/migrations.h"
+
+#include <ctime>
+
+#include "campaign/store/sqlite.h"
+#include "store_sql.h"
+
+namespace faultsweep {
+namespace {
+
+using faultsim::concat;
+using faultsim::StorageError;
+
+/// Reads version and application; throws when the file is not ours to touch.
+int usable_version(Connection& connection, int newest) {
+  Statement application(connection, "PRAGMA application_id");
+  application.step();
+  Statement user(connection, "PRAGMA user_version");
+  user.step();
+  const int version = static_cast<int>(user.integer(0));
+  const auto id = application.integer(0);
+  if (id != kStoreApplicationId && (id != 0 || version != 0)) {
+    throw StorageError(concat("the database is not a faultsweep store (application id ", id,
+                              "); choose another --store"));
+  }
+  if (version > newest) {
+    throw StorageError(concat("the store has schema version ", version,
+                              ", this faultsweep knows up to ", newest,
+                              "; use the newer faultsweep, nothing was changed"));
+  }
+  return version;
+}
+
+}  // namespace
+
+const std::vector<Migration>& store_migrations() {
+  static const std::vector<Migration> migrations = {
+      {1, "created", faultsim::embedded::store_sql},
+  };
+  return migrations;
+}
+
+void migrate(Connection& connection, const std::vector<Migration>& migrations) {
+  const int newest = migrations.back().version;
+  if (usable_version(connection, newest) == newest) return;
+  for (const Migration& migration : migrations) {
+    Transaction transaction(connection);
+    // Read again: another process may have migrated while we waited for the lock.
+    const int version = usable_version(connection, newest);
+    if (migration.version <= version) continue;
+    FAULTSIM_DEMAND(migration.version == version + 1, migration.version, " after ", version);
+    if (version == 0)
+      connection.execute(concat("PRAGMA application_id = ", kStoreApplicationId).c_str());
+    connection.execute(std::string(migration.sql).c_str());
+    connection.execute(concat("PRAGMA user_version = ", migration.version).c_str());
+    Statement(connection, "INSERT INTO migrations (version, name, applied_at) VALUES (?, ?, ?)")
+        .bind(migration.version, migration.name, static_cast<double>(std::time(nullptr)))
+        .run();
+    transaction.commit();
+  }
+}
+
+void check_version(Connection& connection, const std::vector<Migration>& migrations) {
+  const int newest = migrations.back().version;
+  const int version = usable_version(connection, newest);
+  if (version < newest) {
+    throw StorageError(concat("the store has schema version ", version, ", this faultsweep reads ",
+                              newest,
+                              "; any writing command (faultsweep run, submit) migrates it"));
+  }
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,102 @@
+#include <unistd.h>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+
+#include "campaign/store/clock.h"
+#include "campaign/store/sqlite.h"
+#include "campaign/store/store.h"
+
+namespace faultsweep {
+namespace {
+
+using faultsim::concat;
+using faultsim::StorageError;
+
+constexpr double kSilentSeconds = 60;  // 60 heartbeats of 1 s missed
+
+std::string host_name() {
+  char name[256] = {};
+  gethostname(name, sizeof name - 1);
+  return name;
+}
+
+/// Start time of a process in clock ticks since boot (field 22 of stat); 0 when there is none.
+std::int64_t process_started(std::int64_t pid) {
+  std::ifstream file(concat("/proc/", pid, "/stat"));
+  std::string text((std::istreambuf_iterator<char>(file)), {});
+  const std::size_t end_of_name = text.rfind(')');
+  if (end_of_name == std::string::npos) return 0;
+  std::istringstream fields(text.substr(end_of_name + 1));
+  std::string field;
+  constexpr int kFieldsAfterName = 20;  // state is field 3, the start time field 22
+  for (int k = 0; k < kFieldsAfterName; ++k) {
+    if (!(fields >> field)) return 0;
+    if (k == 0 && (field == "Z" || field == "X")) return 0;  // dead, only not yet reaped
+  }
+  return std::stoll(field);
+}
+
+bool is_alive(const std::string& host, std::int64_t pid, std::int64_t started, double heartbeat) {
+  if (host == host_name()) return process_started(pid) == started;
+  return seconds_since_1970() - heartbeat < kSilentSeconds;
+}
+
+}  // namespace
+
+void Store::claim_ownership(std::int64_t campaign, int n_workers) {
+  Transaction transaction(*connection_);
+  Statement& query =
+      connection_->prepared("SELECT host, pid, pid_started, heartbeat_at FROM owner WHERE id = 1");
+  if (query.bind().step()) {
+    const std::string host = query.text(0);
+    const std::int64_t pid = query.integer(1);
+    const bool alive = is_alive(host, pid, query.integer(2), query.real(3));
+    query.reset();
+    if (alive) {
+      throw StorageError(concat("the store ", folder_.string(), " is managed by process ", pid,
+                                " on ", host, "; wait for it, stop it, or use another --store"));
+    }
+    record_event(campaign, "takeover",
+                 concat("the manager with process id ", pid, " on ", host, " died; taken over"));
+  }
+  query.reset();
+  connection_
+      ->prepared(
+          "INSERT OR REPLACE INTO owner (id, host, pid, pid_started, heartbeat_at, campaign_id,"
+          " n_workers, progress) VALUES (1, ?, ?, ?, ?, ?, ?, '{}')")
+      .bind(host_name(), getpid(), process_started(getpid()), seconds_since_1970(), campaign,
+            n_workers)
+      .run();
+  transaction.commit();
+}
+
+void Store::heartbeat(const std::string& progress) {
+  connection_->prepared("UPDATE owner SET heartbeat_at = ?, progress = ? WHERE id = 1")
+      .bind(seconds_since_1970(), progress)
+      .run();
+}
+
+void Store::release_ownership() {
+  connection_->prepared("DELETE FROM owner WHERE id = 1 AND pid = ? AND host = ?")
+      .bind(getpid(), host_name())
+      .run();
+}
+
+std::optional<OwnerInfo> Store::owner() const {
+  Statement& query = connection_->prepared(
+      "SELECT host, pid, pid_started, heartbeat_at, coalesce(campaign_id, 0), n_workers, progress"
+      " FROM owner WHERE id = 1");
+  if (!query.bind().step()) return std::nullopt;
+  OwnerInfo info{query.text(0),
+                 query.integer(1),
+                 query.real(3),
+                 query.integer(4),
+                 static_cast<int>(query.integer(5)),
+                 query.text(6),
+                 is_alive(query.text(0), query.integer(1), query.integer(2), query.real(3))};
+  query.reset();
+  return info;
+}
+
+}  // namespace faultsweep

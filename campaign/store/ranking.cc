@@ -1,0 +1,133 @@
+#include <map>
+
+#include "campaign/store/read_stage.h"
+#include "campaign/store/sqlite.h"
+#include "campaign/store/store.h"
+
+namespace faultsweep {
+namespace {
+
+/// Metrics of spec/metrics.h (fields of StageMetrics and CaseResult) -> columns.
+const std::map<std::string, const char*>& metric_columns() {
+  static const std::map<std::string, const char*> columns = {
+      {"outcome", "m.outcome"},
+      {"rank_class", "s.rank_class"},
+      {"activated", "s.activated"},
+      {"activation_step", "s.activation_step"},
+      {"activation_pressure", "s.activation_pressure_pa"},
+      {"activated_fault", "f.name"},
+      {"chi_bar", "s.chi_bar"},
+      {"chi_max", "s.chi_max"},
+      {"area_chi_080", "s.area_chi_080_m2"},
+      {"thickness_chi_080", "s.thickness_chi_080_m"},
+      {"activated_area", "s.activated_area_m2"},
+      {"slipping_area", "s.slipping_area_m2"},
+      {"open_area", "s.open_area_m2"},
+      {"max_slip", "s.max_slip_m"},
+      {"potency", "s.potency_m3"},
+      {"moment", "s.moment_nm"},
+      {"magnitude", "s.magnitude_mw"},
+      {"pressure_margin", "m.pressure_margin_pa"},
+      {"failed_step", "m.failed_step"},
+      {"plane_strain", "m.plane_strain"},
+      {"weakening_resolved", "m.weakening_resolved"},
+      {"max_nucleation_ratio", "m.max_nucleation_ratio"},
+      {"newton_iterations", "m.newton_iterations"},
+      {"active_set_passes", "m.active_set_passes"},
+      {"sub_steps", "m.sub_steps"},
+      {"wasted_newton_iterations", "m.wasted_newton_iterations"},
+      {"seconds", "(SELECT wall_s FROM runs WHERE id = m.run_id)"},
+  };
+  return columns;
+}
+
+/// The default order is the index stage_metrics_default_order: the text must match it.
+constexpr const char* kDefaultOrder =
+    "s.rank_class, s.activated_area_m2 DESC, s.moment_nm DESC,"
+    " coalesce(s.pressure_margin_pa, 9e99), s.chi_bar DESC, s.case_id";
+
+void bind_values(Statement& statement, int& position, const std::vector<Value>& values) {
+  for (const Value& value : values) {
+    ++position;
+    if (const auto* number = std::get_if<double>(&value)) {
+      statement.bind_at(position, *number);
+    } else if (const auto* flag = std::get_if<bool>(&value)) {
+      statement.bind_at(position, *flag ? 1 : 0);
+    } else if (const auto* text = std::get_if<std::string>(&value)) {
+      statement.bind_at(position, *text);
+    } else {
+      statement.bind_at(position, std::optional<double>());
+    }
+  }
+}
+
+}  // namespace
+
+std::string metric_sql(const std::string& metric) {
+  const auto found = metric_columns().find(metric);
+  FAULTSIM_DEMAND(found != metric_columns().end(), metric);
+  return found->second;
+}
+
+std::string parameter_sql(int index) {
+  return faultsim::concat("json_extract(cc.parameter_values, '$[", index, "]')");
+}
+
+std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery& query) const {
+  const bool by_default = query.by.text.empty();
+  const std::string score = by_default ? std::string("NULL") : "(" + query.by.text + ")";
+  std::string sql = faultsim::concat(
+      "SELECT s.case_id, cc.position, cc.parameter_values, cc.parameter_labels, s.rank_class,"
+      " m.outcome, m.weakening_resolved, m.pressure_margin_pa, s.activated, s.activation_step,"
+      " s.activation_pressure_pa, coalesce(f.name, ''), s.chi_bar, s.chi_max, s.area_chi_080_m2,"
+      " s.thickness_chi_080_m, s.activated_area_m2, s.slipping_area_m2, s.open_area_m2, "
+      "s.max_slip_m,"
+      " s.potency_m3, s.moment_nm, s.magnitude_mw, s.first_step, s.last_step, ",
+      score, " AS score FROM stage_metrics s",
+      // CROSS JOIN fixes the order of the loops: along the index, so that LIMIT stops early.
+      " CROSS JOIN campaign_cases cc ON cc.case_id = s.case_id AND cc.campaign_id = ?"
+      " CROSS JOIN case_metrics m ON m.case_id = s.case_id"
+      " LEFT JOIN names f ON f.id = s.activated_fault_id"
+      " WHERE s.stage_id = (SELECT id FROM names WHERE name = ?)");
+  if (!query.where.text.empty()) sql += " AND coalesce((" + query.where.text + "), 0)";
+  sql += by_default ? faultsim::concat(" ORDER BY ", kDefaultOrder)
+                    : faultsim::concat(" ORDER BY s.rank_class, score IS NULL, score",
+                                       query.ascending ? "" : " DESC", ", cc.position");
+  if (query.limit > 0) sql += faultsim::concat(" LIMIT ", query.limit);
+  Statement rows(*connection_, sql.c_str());
+  int position = 0;
+  bind_values(rows, position, query.by.parameters);
+  rows.bind_at(++position, campaign);
+  rows.bind_at(++position, query.stage);
+  bind_values(rows, position, query.where.parameters);
+  std::vector<RankedCase> ranked;
+  while (rows.step()) {
+    RankedCase row;
+    row.id = rows.integer(0);
+    row.position = rows.integer(1);
+    row.parameter_values = rows.text(2);
+    row.parameter_labels = rows.text(3);
+    row.rank_class = static_cast<int>(rows.integer(4));
+    row.outcome = rows.text(5);
+    row.weakening_resolved = rows.integer(6) != 0;
+    row.pressure_margin = rows.optional_real(7);
+    row.metrics = read_stage_metrics(rows, 8);
+    row.metrics.stage = query.stage;
+    row.score = rows.optional_real(25);
+    ranked.push_back(std::move(row));
+  }
+  return ranked;
+}
+
+std::vector<std::string> Store::stages(std::int64_t campaign) const {
+  std::vector<std::string> names;
+  Statement& query = connection_->prepared(
+      "SELECT n.name FROM names n WHERE EXISTS (SELECT 1 FROM campaign_cases cc JOIN stage_metrics "
+      "s"
+      " ON s.stage_id = n.id AND s.case_id = cc.case_id WHERE cc.campaign_id = ?) ORDER BY n.id");
+  query.bind(campaign);
+  while (query.step()) names.push_back(query.text(0));
+  return names;
+}
+
+}  // namespace faultsweep

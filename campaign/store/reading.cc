@@ -1,0 +1,297 @@
+#include <algorithm>
+#include <charconv>
+
+#include "campaign/store/read_stage.h"
+#include "campaign/store/sqlite.h"
+#include "campaign/store/store.h"
+
+namespace faultsweep {
+
+using faultsim::CaseResult;
+using faultsim::concat;
+
+faultsim::StageMetrics read_stage_metrics(const Statement& row, int first) {
+  faultsim::StageMetrics m;
+  m.activated = row.integer(first) != 0;
+  if (const auto step = row.optional_integer(first + 1))
+    m.activation_step = static_cast<int>(*step);
+  m.activation_pressure = row.optional_real(first + 2);
+  m.activated_fault = row.text(first + 3);
+  m.chi_bar = row.real(first + 4);
+  m.chi_max = row.real(first + 5);
+  m.area_chi_080 = row.real(first + 6);
+  m.thickness_chi_080 = row.real(first + 7);
+  m.activated_area = row.real(first + 8);
+  m.slipping_area = row.real(first + 9);
+  m.open_area = row.real(first + 10);
+  m.max_slip = row.real(first + 11);
+  m.potency = row.real(first + 12);
+  m.moment = row.real(first + 13);
+  m.magnitude = row.optional_real(first + 14);
+  m.first_step = static_cast<int>(row.integer(first + 15));
+  m.last_step = static_cast<int>(row.integer(first + 16));
+  return m;
+}
+
+namespace {
+
+std::vector<double> numbers_of(const std::string& json_array) {
+  std::vector<double> numbers;
+  const char* at = json_array.data();
+  const char* end = at + json_array.size();
+  while (at < end) {
+    double number = 0;
+    const auto [next, error] = std::from_chars(at, end, number);
+    if (error == std::errc()) {
+      numbers.push_back(number);
+      at = next;
+    } else {
+      ++at;
+    }
+  }
+  return numbers;
+}
+
+faultsim::FaultMetrics read_fault_metrics(const Statement& row) {
+  faultsim::FaultMetrics m;
+  m.chi_bar = row.real(3);
+  m.chi_max = row.real(4);
+  m.chi_static_max = row.real(5);
+  m.area_chi_080 = row.real(6);
+  m.thickness_chi_080_max = row.real(7);
+  m.thickness_chi_080_mean = row.real(8);
+  m.slipping_area = row.real(9);
+  m.open_area = row.real(10);
+  m.activated_area = row.real(11);
+  m.activated_length = row.real(12);
+  m.activated = row.integer(13) != 0;
+  m.max_slip = row.real(14);
+  m.mean_slip = row.real(15);
+  m.potency = row.real(16);
+  m.moment = row.real(17);
+  m.moment_step = row.real(18);
+  return m;
+}
+
+std::vector<StoredRun> read_runs(Connection& db, std::int64_t case_id) {
+  std::vector<StoredRun> runs;
+  Statement& query = db.prepared(
+      "SELECT id, attempt, ended_at, wall_s, status, coalesce(outcome, ''), reason, log_tail,"
+      " coalesce(operator, ''), host, rank, signal, exit_code FROM runs WHERE case_id = ?"
+      " ORDER BY attempt");
+  query.bind(case_id);
+  while (query.step()) {
+    StoredRun run;
+    run.id = query.integer(0);
+    run.attempt = static_cast<int>(query.integer(1));
+    run.ended_at = query.real(2);
+    run.wall_seconds = query.real(3);
+    run.status = query.text(4);
+    run.outcome = query.text(5);
+    run.reason = query.text(6);
+    run.log_tail = query.text(7);
+    run.operator_fingerprint = query.text(8);
+    run.host = query.text(9);
+    run.rank = static_cast<int>(query.integer(10));
+    run.signal = query.optional_integer(11);
+    run.exit_code = query.optional_integer(12);
+    runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
+void read_steps(Connection& db, std::int64_t case_id, CaseResult& result) {
+  Statement& steps = db.prepared(
+      "SELECT l.step, n.name, l.time_s, l.pressure_change_pa, l.outcome, l.reason, l.n_stick,"
+      " l.n_slip, l.n_open, l.newton_iterations, l.active_set_passes FROM load_steps l"
+      " JOIN names n ON n.id = l.stage_id WHERE l.case_id = ? ORDER BY l.step");
+  steps.bind(case_id);
+  while (steps.step()) {
+    faultsim::StepResult step;
+    step.step = static_cast<int>(steps.integer(0));
+    step.stage = steps.text(1);
+    step.time = steps.real(2);
+    step.pressure_change = numbers_of(steps.text(3));
+    step.outcome = faultsim::outcome_from_string(steps.text(4));
+    step.reason = steps.text(5);
+    step.n_stick = static_cast<int>(steps.integer(6));
+    step.n_slip = static_cast<int>(steps.integer(7));
+    step.n_open = static_cast<int>(steps.integer(8));
+    step.counts.newton_iterations = static_cast<int>(steps.integer(9));
+    step.counts.active_set_passes = static_cast<int>(steps.integer(10));
+    result.steps.push_back(std::move(step));
+  }
+  Statement& faults = db.prepared(
+      "SELECT h.fault, h.step, n.name, chi_bar, chi_max, chi_static_max, area_chi_080_m2,"
+      " thickness_chi_080_max_m, thickness_chi_080_mean_m, slipping_area_m2, open_area_m2,"
+      " activated_area_m2, activated_length_m, activated, max_slip_m, mean_slip_m, potency_m3,"
+      " moment_nm, moment_step_nm FROM chi_history h JOIN names n ON n.id = h.fault_id"
+      " WHERE h.case_id = ? ORDER BY h.fault, h.step");
+  faults.bind(case_id);
+  while (faults.step()) {
+    const auto fault = static_cast<std::size_t>(faults.integer(0));
+    if (result.fault_names.size() <= fault) result.fault_names.push_back(faults.text(2));
+    for (faultsim::StepResult& step : result.steps) {
+      if (step.step == faults.integer(1)) step.faults.push_back(read_fault_metrics(faults));
+    }
+  }
+}
+
+void read_stages(Connection& db, std::int64_t case_id, CaseResult& result) {
+  Statement& query = db.prepared(
+      "SELECT n.name, s.activated, s.activation_step, s.activation_pressure_pa, coalesce(f.name, "
+      "''),"
+      " s.chi_bar, s.chi_max, s.area_chi_080_m2, s.thickness_chi_080_m, s.activated_area_m2,"
+      " s.slipping_area_m2, s.open_area_m2, s.max_slip_m, s.potency_m3, s.moment_nm, "
+      "s.magnitude_mw,"
+      " s.first_step, s.last_step FROM names n JOIN stage_metrics s ON s.stage_id = n.id"
+      " LEFT JOIN names f ON f.id = s.activated_fault_id WHERE s.case_id = ? ORDER BY "
+      "s.first_step");
+  query.bind(case_id);
+  while (query.step()) {
+    faultsim::StageMetrics stage = read_stage_metrics(query, 1);
+    stage.stage = query.text(0);
+    if (stage.stage.empty()) {
+      result.whole = std::move(stage);
+    } else {
+      result.stages.push_back(std::move(stage));
+    }
+  }
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    lines.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
+}
+
+bool read_case_metrics(Connection& db, std::int64_t case_id, CaseResult& result) {
+  Statement& query = db.prepared(
+      "SELECT m.outcome, m.reason, m.failed_step, m.plane_strain, m.weakening_resolved,"
+      " m.max_nucleation_ratio, m.pressure_margin_pa, m.newton_iterations, m.active_set_passes,"
+      " m.sub_steps, m.wasted_newton_iterations, m.warnings, coalesce(r.operator, ''),"
+      " coalesce(r.numerics_version, 0), r.wall_s FROM case_metrics m JOIN runs r ON r.id = "
+      "m.run_id"
+      " WHERE m.case_id = ?");
+  if (!query.bind(case_id).step()) return false;
+  result.outcome = faultsim::outcome_from_string(query.text(0));
+  result.reason = query.text(1);
+  if (const auto step = query.optional_integer(2)) result.failed_step = static_cast<int>(*step);
+  result.plane_strain = query.integer(3) != 0;
+  result.weakening_resolved = query.integer(4) != 0;
+  result.max_nucleation_ratio = query.optional_real(5).value_or(0);
+  if (const auto margin = query.optional_real(6)) result.pressure_margin = *margin;
+  result.counts = {static_cast<int>(query.integer(7)), static_cast<int>(query.integer(8)),
+                   static_cast<int>(query.integer(9)), static_cast<int>(query.integer(10))};
+  result.warnings = lines_of(query.text(11));
+  result.operator_fingerprint = query.text(12);
+  result.numerics_version = static_cast<int>(query.integer(13));
+  result.seconds = query.real(14);
+  query.reset();
+  return true;
+}
+
+/// The row of the case named by its position or the beginning of its identity.
+StoredCase find_case(Connection& db, std::int64_t campaign, const std::string& name) {
+  long position = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), position);
+  const bool is_number = error == std::errc() && end == name.data() + name.size();
+  constexpr std::size_t kShortestPrefix = 6;
+  Statement& query = db.prepared(
+      "SELECT c.id, cc.position, c.identity, f.fingerprint, c.state, c.changes,"
+      " cc.parameter_values, cc.parameter_labels, c.scene_id FROM campaign_cases cc"
+      " JOIN cases c ON c.id = cc.case_id JOIN families f ON f.id = c.family_id"
+      " WHERE cc.campaign_id = ?1"
+      " AND (cc.position = ?2 OR (?2 IS NULL AND substr(c.identity, 1, length(?3)) = ?3))");
+  std::optional<long> number;
+  if (is_number) number = position;
+  query.bind(campaign, number, name);
+  if ((!is_number && name.size() < kShortestPrefix) || !query.step()) {
+    throw faultsim::InputError("CASE", {{"", 0, concat("the campaign has no case '", name, "'"),
+                                         concat("give its number from 1, or at least ",
+                                                kShortestPrefix, " digits of its identity")}});
+  }
+  StoredCase found;
+  found.id = query.integer(0);
+  found.position = query.integer(1);
+  found.identity = query.text(2);
+  found.family = query.text(3);
+  found.state = query.text(4);
+  found.changes = query.text(5);
+  found.parameter_values = query.text(6);
+  found.parameter_labels = query.text(7);
+  found.scene = query.integer(8);
+  query.reset();
+  return found;
+}
+
+}  // namespace
+
+StoredCase Store::stored_case(std::int64_t campaign, const std::string& name) const {
+  Connection& db = *connection_;
+  StoredCase found = find_case(db, campaign, name);
+  found.runs = read_runs(db, found.id);
+  found.result.identity = found.identity;
+  found.has_result = read_case_metrics(db, found.id, found.result);
+  if (found.has_result) {
+    read_steps(db, found.id, found.result);
+    read_stages(db, found.id, found.result);
+  }
+  return found;
+}
+
+std::vector<FailureCount> Store::failure_counts(std::int64_t campaign) const {
+  std::vector<FailureCount> counts;
+  Statement& query = connection_->prepared(
+      "SELECT r.status, CASE WHEN r.outcome IS NULL THEN r.reason ELSE r.outcome END AS why, "
+      "count(*)"
+      " FROM campaign_cases cc JOIN cases c ON c.id = cc.case_id JOIN runs r ON r.id = c.run_id"
+      " WHERE cc.campaign_id = ? AND (r.status <> 'completed' OR r.outcome <> 'converged')"
+      " AND c.state <> 'waiting' GROUP BY 1, 2 ORDER BY 3 DESC, 1, 2 LIMIT 20");
+  query.bind(campaign);
+  while (query.step())
+    counts.push_back({query.text(0), query.text(1), static_cast<long>(query.integer(2))});
+  return counts;
+}
+
+std::vector<EventRecord> Store::events(std::int64_t campaign, int limit) const {
+  std::vector<EventRecord> all;
+  Statement& query = connection_->prepared(
+      "SELECT at, kind, text FROM events WHERE campaign_id = ? ORDER BY id DESC LIMIT ?");
+  query.bind(campaign, limit);
+  while (query.step()) all.push_back({query.real(0), query.text(1), query.text(2)});
+  return all;
+}
+
+std::vector<Store::FamilyProgress> Store::family_progress(std::int64_t campaign) const {
+  std::vector<FamilyProgress> all;
+  Statement& query = connection_->prepared(
+      "SELECT f.fingerprint, coalesce(f.operator, ''), count(*), total(c.state = 'done'),"
+      " total(c.state = 'failed'), o.build_s FROM campaign_cases cc JOIN cases c ON c.id = "
+      "cc.case_id"
+      " JOIN families f ON f.id = c.family_id LEFT JOIN operators o ON o.fingerprint = f.operator"
+      " WHERE cc.campaign_id = ? GROUP BY f.id ORDER BY f.id");
+  query.bind(campaign);
+  while (query.step()) {
+    all.push_back({query.text(0), query.text(1), static_cast<long>(query.integer(2)),
+                   static_cast<long>(query.integer(3)), static_cast<long>(query.integer(4)),
+                   query.optional_real(5)});
+  }
+  return all;
+}
+
+std::vector<std::string> Store::campaigns_with(std::int64_t case_id) const {
+  std::vector<std::string> names;
+  Statement& query = connection_->prepared(
+      "SELECT k.name FROM campaign_cases cc JOIN campaigns k ON k.id = cc.campaign_id"
+      " WHERE cc.case_id = ? ORDER BY k.id");
+  query.bind(case_id);
+  while (query.step()) names.push_back(query.text(0));
+  return names;
+}
+
+}  // namespace faultsweep

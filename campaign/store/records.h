@@ -1,0 +1,195 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "campaign/spec/spec.h"
+#include "simulator/output/result.h"
+
+/// What goes into the store and comes out of it, as plain structs. SI; times of day in seconds
+/// since 1970. JSON is text here: the store does not look into it.
+namespace faultsweep {
+
+const char* to_string(FailureAction action);  ///< "abort", "retry", "continue".
+FailureAction failure_action_from_string(const std::string& text);
+
+/// A family as submitted.
+struct FamilyRecord {
+  std::string fingerprint;
+  long unknowns = 0;
+  long jump_unknowns = 0;
+  double operator_seconds = 0;  ///< predicted.
+  double memory_bytes = 0;      ///< predicted peak.
+};
+
+/// A base scene that cases are changes of.
+struct BaseScene {
+  std::string source;    ///< file that relative paths in the document start from.
+  std::string document;  ///< JSON text.
+};
+
+/// A case as submitted.
+struct CaseRecord {
+  std::string identity;
+  int family = 0;       ///< index in Submission::families.
+  int scene = 0;        ///< index in Submission::scenes.
+  std::string changes;  ///< JSON object: pointer -> value, applied to the base scene.
+  std::string
+      parameter_values;  ///< JSON array: SI numbers, words, null; see Submission::parameters.
+  std::string parameter_labels;  ///< JSON array of the same as text, with the units given.
+};
+
+/// A campaign as submitted: the three copies of the spec and what became of it.
+struct Submission {
+  std::string name;
+  std::string source;         ///< file name.
+  std::string spec_given;     ///< text as given.
+  std::string spec_resolved;  ///< canonical text with all defaults.
+  std::string parameters;     ///< JSON array of {"name", "dimension"}.
+  std::string rank_by;        ///< expression over the metrics.
+  long n_excluded = 0;
+  long n_merged = 0;
+  Policy policy;
+  std::vector<BaseScene> scenes;
+  std::vector<FamilyRecord> families;
+  std::vector<CaseRecord> cases;  ///< in the order of the expansion.
+};
+
+struct SubmitOutcome {
+  std::int64_t campaign = 0;
+  std::string name;      ///< "sweep-2" where a different campaign has the name.
+  bool existed = false;  ///< the very same campaign is there already: nothing was added.
+  long n_cached = 0;     ///< cases with a result from earlier.
+};
+
+/// A campaign in short.
+struct CampaignInfo {
+  std::int64_t id = 0;
+  std::string name;
+  double submitted_at = 0;
+  bool cancelled = false;
+  std::string source;
+  std::string parameters;  ///< JSON array of {"name", "dimension"}.
+  std::string rank_by;
+  long n_excluded = 0, n_merged = 0;
+  Policy policy;
+  long n_cases = 0, n_done = 0, n_failed = 0, n_waiting = 0;
+  long n_converged = 0;  ///< of done.
+};
+
+/// A family with cases that still wait.
+struct WaitingFamily {
+  std::int64_t family = 0;
+  FamilyRecord predicted;
+  std::string operator_fingerprint;        ///< "" = not known yet.
+  std::optional<double> seconds_per_case;  ///< mean of what this family's cases took.
+  std::vector<std::int64_t> cases;         ///< ids, by position.
+};
+
+/// What is needed to run a case.
+struct CaseInput {
+  std::int64_t id = 0;
+  std::int64_t scene = 0;
+  long position = 0;  ///< in the campaign asked for.
+  std::string changes;
+};
+
+/// How a run ended; only `completed` has a result.
+enum class RunStatus {
+  completed,  ///< a result, whatever its outcome.
+  refused,    ///< the simulator says that the scene is wrong.
+  crashed,    ///< the process was killed by a signal or ended by itself.
+  hung,       ///< over the time limit; killed.
+  garbled,    ///< the process wrote something that is no reply.
+  memory,     ///< over the memory limit, or killed for want of memory.
+  world,      ///< the simulator reports disk or file trouble.
+  bug,        ///< the simulator reports an internal error.
+};
+const char* to_string(RunStatus status);
+
+/// One attempt at a case, as the manager commits it.
+struct RunRecord {
+  std::int64_t case_id = 0;
+  RunStatus status = RunStatus::crashed;
+  std::string reason;  ///< "" when converged.
+  std::optional<int> signal;
+  std::optional<int> exit_code;
+  std::string log_tail;
+  std::string host;
+  int rank = 0;
+  double wall_seconds = 0;
+  bool final = true;                           ///< false: the case waits for another attempt.
+  std::optional<faultsim::CaseResult> result;  ///< iff completed.
+};
+
+/// An operator as the simulator reports it.
+struct OperatorRecord {
+  std::string fingerprint;
+  bool from_cache = false;
+  double seconds = 0;
+  std::int64_t unknowns = 0, jump_unknowns = 0, bytes = 0, peak_bytes = 0;
+};
+
+/// Who manages the store.
+struct OwnerInfo {
+  std::string host;
+  std::int64_t pid = 0;
+  double heartbeat_at = 0;
+  std::int64_t campaign = 0;
+  int n_workers = 0;
+  std::string progress;  ///< JSON.
+  bool alive = false;
+};
+
+struct EventRecord {
+  double at = 0;
+  std::string kind;
+  std::string text;
+};
+
+/// One run of a case as stored.
+struct StoredRun {
+  std::int64_t id = 0;
+  int attempt = 0;
+  double ended_at = 0, wall_seconds = 0;
+  std::string status, outcome, reason, log_tail, operator_fingerprint, host;
+  int rank = 0;
+  std::optional<std::int64_t> signal, exit_code;
+};
+
+/// A case of a campaign with all that is stored about it.
+struct StoredCase {
+  std::int64_t id = 0;
+  long position = 0;
+  std::string identity, family, state, changes, parameter_values, parameter_labels;
+  std::int64_t scene = 0;
+  std::vector<StoredRun> runs;
+  bool has_result = false;
+  faultsim::CaseResult
+      result;  ///< without observations and fields; identity, steps, stages, whole.
+};
+
+/// One row of a ranking: a case and its metrics of one stage ("" = whole history).
+struct RankedCase {
+  std::int64_t id = 0;
+  long position = 0;
+  std::string parameter_values;  ///< JSON array.
+  std::string parameter_labels;  ///< JSON array.
+  std::optional<double> score;   ///< what it was ranked by; none in the default order.
+  int rank_class = 0;            ///< 0 complete, 1 unstable, 2 ended early otherwise.
+  std::string outcome;
+  bool weakening_resolved = true;
+  std::optional<double> pressure_margin;  ///< Pa.
+  faultsim::StageMetrics metrics;
+};
+
+/// Counts of what went wrong, for status.
+struct FailureCount {
+  std::string status;
+  std::string reason;
+  long count = 0;
+};
+
+}  // namespace faultsweep

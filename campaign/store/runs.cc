@@ -1,0 +1,273 @@
+#include <cmath>
+
+#include "campaign/store/clock.h"
+#include "campaign/store/name_cache.h"
+#include "campaign/store/sqlite.h"
+#include "campaign/store/store.h"
+
+namespace faultsweep {
+
+using faultsim::CaseResult;
+using faultsim::concat;
+using faultsim::Outcome;
+using faultsim::StageMetrics;
+
+const char* to_string(RunStatus status) {
+  switch (status) {
+    case RunStatus::completed:
+      return "completed";
+    case RunStatus::refused:
+      return "refused";
+    case RunStatus::crashed:
+      return "crashed";
+    case RunStatus::hung:
+      return "hung";
+    case RunStatus::garbled:
+      return "garbled";
+    case RunStatus::memory:
+      return "memory";
+    case RunStatus::world:
+      return "world";
+    case RunStatus::bug:
+      return "bug";
+  }
+  FAULTSIM_DEMAND(false, static_cast<int>(status));
+  return "";
+}
+
+namespace {
+
+int rank_class(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::converged:
+      return 0;
+    case Outcome::unstable:
+      return 1;
+    case Outcome::failed:
+    case Outcome::unconverged:
+    case Outcome::interrupted:
+      return 2;
+  }
+  FAULTSIM_DEMAND(false, static_cast<int>(outcome));
+  return 2;
+}
+
+std::optional<double> finite(double value) {
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+std::string join(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
+  return text;
+}
+
+std::string json_array(const std::vector<double>& values) {
+  std::string text = "[";
+  for (const double value : values) text += (text.size() > 1 ? "," : "") + concat(value);
+  return text + "]";
+}
+
+}  // namespace
+
+std::vector<WaitingFamily> Store::waiting_families(std::int64_t campaign) const {
+  std::vector<WaitingFamily> families;
+  Statement& query = connection_->prepared(
+      "SELECT f.id, f.fingerprint, f.predicted_unknowns, f.predicted_jump_unknowns,"
+      " f.predicted_operator_s, f.predicted_memory_bytes, coalesce(f.operator, ''), c.id"
+      " FROM campaign_cases cc JOIN cases c ON c.id = cc.case_id JOIN families f ON f.id = "
+      "c.family_id"
+      " WHERE cc.campaign_id = ? AND c.state = 'waiting' ORDER BY f.id, cc.position");
+  query.bind(campaign);
+  while (query.step()) {
+    if (families.empty() || families.back().family != query.integer(0)) {
+      WaitingFamily family;
+      family.family = query.integer(0);
+      family.predicted = {query.text(1), static_cast<long>(query.integer(2)),
+                          static_cast<long>(query.integer(3)), query.real(4), query.real(5)};
+      family.operator_fingerprint = query.text(6);
+      families.push_back(std::move(family));
+    }
+    families.back().cases.push_back(query.integer(7));
+  }
+  Statement& cost = connection_->prepared(
+      "SELECT avg(r.wall_s) FROM cases c JOIN runs r ON r.id = c.run_id"
+      " WHERE c.family_id = ? AND r.status = 'completed'");
+  for (WaitingFamily& family : families) {
+    if (cost.bind(family.family).step()) family.seconds_per_case = cost.optional_real(0);
+  }
+  cost.reset();
+  return families;
+}
+
+CaseInput Store::case_input(std::int64_t campaign, std::int64_t case_id) const {
+  Statement& query = connection_->prepared(
+      "SELECT c.scene_id, cc.position, c.changes FROM cases c JOIN campaign_cases cc"
+      " ON cc.case_id = c.id AND cc.campaign_id = ?2 WHERE c.id = ?1");
+  FAULTSIM_DEMAND(query.bind(case_id, campaign).step(), case_id);
+  CaseInput input{case_id, query.integer(0), static_cast<long>(query.integer(1)), query.text(2)};
+  query.reset();
+  return input;
+}
+
+void Store::record_runs(std::int64_t campaign, const std::vector<RunRecord>& runs) {
+  if (runs.empty()) return;
+  names_->begin();
+  try {
+    Transaction transaction(*connection_);
+    const double now = seconds_since_1970();
+    for (const RunRecord& run : runs) record_run(campaign, run, now);
+    transaction.commit();
+  } catch (...) {
+    names_->roll_back();
+    throw;
+  }
+}
+
+void Store::record_run(std::int64_t campaign, const RunRecord& run, double now) {
+  FAULTSIM_DEMAND((run.status == RunStatus::completed) == run.result.has_value(), run.case_id);
+  Connection& db = *connection_;
+  Statement& state = db.prepared(
+      "SELECT state, (SELECT coalesce(max(attempt), 0) FROM runs WHERE case_id = c.id)"
+      " FROM cases c WHERE id = ?");
+  FAULTSIM_DEMAND(state.bind(run.case_id).step(), run.case_id);
+  const bool waiting = state.text(0) == "waiting";
+  const std::int64_t attempt = state.integer(1) + 1;
+  state.reset();
+  if (!waiting) return;
+  const CaseResult* result = run.result ? &*run.result : nullptr;
+  using Text = std::optional<std::string>;
+  db.prepared(
+        "INSERT INTO runs (case_id, campaign_id, attempt, ended_at, wall_s, host, rank, status,"
+        " outcome, reason, signal, exit_code, log_tail, operator, numerics_version)"
+        " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+      .bind(run.case_id, campaign, attempt, now, run.wall_seconds, run.host, run.rank,
+            to_string(run.status), result ? Text(faultsim::to_string(result->outcome)) : Text(),
+            run.reason, run.signal, run.exit_code, run.log_tail,
+            result ? Text(result->operator_fingerprint) : Text(),
+            result ? std::optional(result->numerics_version) : std::nullopt)
+      .run();
+  const std::int64_t run_id = db.last_insert_id();
+  if (result != nullptr) {
+    forget_result(run.case_id);
+    record_result(run.case_id, run_id, *result);
+    record_histories(run.case_id, *result);
+  }
+  if (!run.final) return;
+  db.prepared("UPDATE cases SET state = ?, run_id = ? WHERE id = ?")
+      .bind(result != nullptr ? "done" : "failed", run_id, run.case_id)
+      .run();
+}
+
+void Store::forget_result(std::int64_t case_id) {
+  Connection& db = *connection_;
+  Statement& query = db.prepared("SELECT 1 FROM case_metrics WHERE case_id = ?");
+  const bool stored = query.bind(case_id).step();
+  query.reset();
+  if (!stored) return;
+  db.prepared("DELETE FROM chi_history WHERE case_id = ?").bind(case_id).run();
+  db.prepared("DELETE FROM load_steps WHERE case_id = ?").bind(case_id).run();
+  db.prepared("DELETE FROM stage_metrics WHERE stage_id IN (SELECT id FROM names) AND case_id = ?")
+      .bind(case_id)
+      .run();
+  db.prepared("DELETE FROM case_metrics WHERE case_id = ?").bind(case_id).run();
+}
+
+void Store::record_result(std::int64_t case_id, std::int64_t run_id, const CaseResult& result) {
+  connection_
+      ->prepared(
+          "INSERT INTO case_metrics (case_id, run_id, outcome, reason, n_steps, failed_step,"
+          " plane_strain, weakening_resolved, max_nucleation_ratio, pressure_margin_pa,"
+          " newton_iterations, active_set_passes, sub_steps, wasted_newton_iterations, warnings)"
+          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+      .bind(case_id, run_id, faultsim::to_string(result.outcome), result.reason,
+            result.steps.size(), result.failed_step, result.plane_strain, result.weakening_resolved,
+            finite(result.max_nucleation_ratio), finite(result.pressure_margin),
+            result.counts.newton_iterations, result.counts.active_set_passes,
+            result.counts.sub_steps, result.counts.wasted_newton_iterations, join(result.warnings))
+      .run();
+  record_stage(case_id, result.whole, result);
+  for (const StageMetrics& stage : result.stages) record_stage(case_id, stage, result);
+}
+
+void Store::record_stage(std::int64_t case_id, const StageMetrics& stage,
+                         const CaseResult& result) {
+  const std::int64_t stage_id = name_id(stage.stage);
+  std::optional<std::int64_t> fault;
+  if (!stage.activated_fault.empty()) fault = name_id(stage.activated_fault);
+  connection_
+      ->prepared(
+          "INSERT INTO stage_metrics (stage_id, case_id, rank_class, activated, activation_step,"
+          " activation_pressure_pa, activated_fault_id, chi_bar, chi_max, area_chi_080_m2,"
+          " thickness_chi_080_m, activated_area_m2, slipping_area_m2, open_area_m2, max_slip_m,"
+          " potency_m3, moment_nm, magnitude_mw, pressure_margin_pa, first_step, last_step)"
+          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+      .bind(stage_id, case_id, rank_class(result.outcome), stage.activated, stage.activation_step,
+            stage.activation_pressure, fault, stage.chi_bar, stage.chi_max, stage.area_chi_080,
+            stage.thickness_chi_080, stage.activated_area, stage.slipping_area, stage.open_area,
+            stage.max_slip, stage.potency, stage.moment, stage.magnitude,
+            finite(result.pressure_margin), stage.first_step, stage.last_step)
+      .run();
+}
+
+void Store::record_histories(std::int64_t case_id, const CaseResult& result) {
+  Statement& add_step = connection_->prepared(
+      "INSERT INTO load_steps (case_id, step, stage_id, time_s, pressure_change_pa, outcome, "
+      "reason,"
+      " n_stick, n_slip, n_open, newton_iterations, active_set_passes)"
+      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  Statement& add_fault = connection_->prepared(
+      "INSERT INTO chi_history (case_id, fault, step, fault_id, chi_bar, chi_max, chi_static_max,"
+      " area_chi_080_m2, thickness_chi_080_max_m, thickness_chi_080_mean_m, slipping_area_m2,"
+      " open_area_m2, activated_area_m2, activated_length_m, activated, max_slip_m, mean_slip_m,"
+      " potency_m3, moment_nm, moment_step_nm)"
+      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  for (const faultsim::StepResult& step : result.steps) {
+    add_step
+        .bind(case_id, step.step, name_id(step.stage), step.time, json_array(step.pressure_change),
+              faultsim::to_string(step.outcome), step.reason, step.n_stick, step.n_slip,
+              step.n_open, step.counts.newton_iterations, step.counts.active_set_passes)
+        .run();
+    // A step that did not converge has no metrics.
+    if (step.outcome != Outcome::converged) continue;
+    for (std::size_t k = 0; k < step.faults.size(); ++k) {
+      const faultsim::FaultMetrics& m = step.faults[k];
+      FAULTSIM_DEMAND(k < result.fault_names.size(), k);
+      add_fault
+          .bind(case_id, k, step.step, name_id(result.fault_names[k]), m.chi_bar, m.chi_max,
+                m.chi_static_max, m.area_chi_080, m.thickness_chi_080_max, m.thickness_chi_080_mean,
+                m.slipping_area, m.open_area, m.activated_area, m.activated_length, m.activated,
+                m.max_slip, m.mean_slip, m.potency, m.moment, m.moment_step)
+          .run();
+    }
+  }
+}
+
+void Store::record_operator(std::int64_t family, const OperatorRecord& record) {
+  Transaction transaction(*connection_);
+  using Seconds = std::optional<double>;
+  connection_
+      ->prepared(
+          "INSERT INTO operators (fingerprint, unknowns, jump_unknowns, bytes, peak_bytes, build_s,"
+          " times_built, times_found, last_used_at) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)"
+          " ON CONFLICT (fingerprint) DO UPDATE SET unknowns = ?2, jump_unknowns = ?3, bytes = ?4,"
+          " peak_bytes = max(peak_bytes, ?5), build_s = coalesce(?6, build_s),"
+          " times_built = times_built + ?7, times_found = times_found + ?8, last_used_at = ?9")
+      .bind(record.fingerprint, record.unknowns, record.jump_unknowns, record.bytes,
+            record.peak_bytes, record.from_cache ? Seconds() : Seconds(record.seconds),
+            record.from_cache ? 0 : 1, record.from_cache ? 1 : 0, seconds_since_1970())
+      .run();
+  connection_->prepared("UPDATE families SET operator = ? WHERE id = ?")
+      .bind(record.fingerprint, family)
+      .run();
+  transaction.commit();
+}
+
+void Store::record_event(std::optional<std::int64_t> campaign, const std::string& kind,
+                         const std::string& text) {
+  connection_->prepared("INSERT INTO events (at, campaign_id, kind, text) VALUES (?, ?, ?, ?)")
+      .bind(seconds_since_1970(), campaign, kind, text)
+      .run();
+}
+
+}  // namespace faultsweep

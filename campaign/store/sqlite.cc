@@ -1,0 +1,239 @@
+#include "campaign/store/sqlite.h"
+
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <cmath>
+
+namespace faultsweep {
+namespace {
+
+using faultsim::concat;
+using faultsim::StorageError;
+
+constexpr int kBusyTimeoutMs = 10000;  // a commit takes milliseconds; 10 s means somebody hangs
+
+[[noreturn]] void fail(sqlite3* handle, const std::filesystem::path& path, const char* doing) {
+  const int code = handle != nullptr ? sqlite3_extended_errcode(handle) : SQLITE_NOMEM;
+  const std::string text = concat("the store ", path.string(), " failed while ", doing, ": ",
+                                  handle != nullptr ? sqlite3_errmsg(handle) : "out of memory",
+                                  " (SQLite code ", code, ")");
+  switch (code & 0xff) {
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      throw StoreBusy(
+          concat(text, "; another process has been writing for ", kBusyTimeoutMs / 1000, " s"));
+    case SQLITE_FULL:
+      throw StorageError(concat(text, "; free some space and run again, what is stored is intact"));
+    case SQLITE_READONLY:
+    case SQLITE_CANTOPEN:
+    case SQLITE_PERM:
+      throw StorageError(
+          concat(text, "; check the folder's permissions or choose another --store"));
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+      throw StorageError(
+          concat(text, "; restore a backup (faultsweep cache backup) or move the file"));
+    default:
+      throw StorageError(text);
+  }
+}
+
+std::string uri_path(const std::filesystem::path& path) {
+  std::string text;
+  for (const char c : std::filesystem::absolute(path).string()) {
+    if (c == '?' || c == '#' || c == '%') {
+      char escaped[4];
+      std::snprintf(escaped, sizeof escaped, "%%%02X", static_cast<unsigned char>(c));
+      text += escaped;
+    } else {
+      text += c;
+    }
+  }
+  return "file:" + text;
+}
+
+}  // namespace
+
+Connection::Connection(const std::filesystem::path& path, Mode mode) : path_(path) {
+  std::string uri = uri_path(path);
+  if (mode == Mode::read_only) {
+    uri += "?mode=ro";
+    // A reader of a WAL database needs to write the -shm file beside it.
+    if (access(path.parent_path().c_str(), W_OK) != 0 &&
+        !std::filesystem::exists(path.string() + "-wal")) {
+      uri += "&immutable=1";
+    }
+  }
+  const int flags =
+      SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX |
+      (mode == Mode::read_only ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  if (sqlite3_open_v2(uri.c_str(), &handle_, flags, nullptr) != SQLITE_OK) {
+    sqlite3* broken = handle_;
+    handle_ = nullptr;
+    try {
+      fail(broken, path_, "opening");
+    } catch (...) {
+      sqlite3_close_v2(broken);
+      throw;
+    }
+  }
+  try {
+    sqlite3_busy_timeout(handle_, kBusyTimeoutMs);
+    execute(
+        "PRAGMA foreign_keys = ON; PRAGMA trusted_schema = OFF; PRAGMA cache_size = -65536;"
+        "PRAGMA mmap_size = 268435456; PRAGMA temp_store = MEMORY");
+    if (mode == Mode::read_write) {
+      execute("PRAGMA wal_autocheckpoint = 0");
+      sqlite3_db_config(handle_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+    }
+  } catch (...) {
+    sqlite3_close_v2(handle_);
+    throw;
+  }
+}
+
+Connection::~Connection() {
+  statements_.clear();
+  sqlite3_close_v2(handle_);
+}
+
+void Connection::execute(const char* sql) {
+  if (sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail(handle_, path_, sql);
+}
+
+Statement& Connection::prepared(const char* sql) {
+  std::unique_ptr<Statement>& statement = statements_[sql];
+  if (!statement) statement = std::make_unique<Statement>(*this, sql);
+  statement->reset();
+  return *statement;
+}
+
+std::int64_t Connection::last_insert_id() const { return sqlite3_last_insert_rowid(handle_); }
+int Connection::changes() const { return sqlite3_changes(handle_); }
+
+void Connection::checkpoint() {
+  for (auto& [sql, statement] : statements_) statement->reset();
+  // Busy readers only make it incomplete, which is no failure.
+  sqlite3_wal_checkpoint_v2(handle_, nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
+}
+
+void Connection::backup_to(const std::filesystem::path& target) {
+  if (std::filesystem::exists(target)) {
+    throw StorageError(
+        concat("the backup ", target.string(), " exists already; choose another name"));
+  }
+  const std::string temporary = target.string() + ".tmp";
+  std::filesystem::remove(temporary);
+  sqlite3* copy = nullptr;
+  if (sqlite3_open(temporary.c_str(), &copy) != SQLITE_OK) {
+    sqlite3_close_v2(copy);
+    throw StorageError(concat("cannot write the backup ", temporary));
+  }
+  sqlite3_backup* backup = sqlite3_backup_init(copy, "main", handle_, "main");
+  int code = SQLITE_ERROR;
+  if (backup != nullptr) {
+    code = sqlite3_backup_step(backup, -1);
+    sqlite3_backup_finish(backup);
+  }
+  sqlite3_close_v2(copy);
+  if (code != SQLITE_DONE) {
+    std::filesystem::remove(temporary);
+    throw StorageError(
+        concat("the backup to ", target.string(), " failed: ", sqlite3_errstr(code)));
+  }
+  std::filesystem::rename(temporary, target);
+}
+
+Statement::Statement(Connection& connection, const char* sql) : connection_(connection) {
+  if (sqlite3_prepare_v3(connection.handle_, sql, -1, SQLITE_PREPARE_PERSISTENT, &statement_,
+                         nullptr) != SQLITE_OK) {
+    fail(connection.handle_, connection.path_, sql);
+  }
+}
+
+Statement::~Statement() { sqlite3_finalize(statement_); }
+
+bool Statement::step() {
+  const int code = sqlite3_step(statement_);
+  if (code == SQLITE_ROW) return true;
+  if (code == SQLITE_DONE) return false;
+  try {
+    fail(connection_.handle_, connection_.path_, sqlite3_sql(statement_));
+  } catch (...) {
+    sqlite3_reset(statement_);
+    throw;
+  }
+}
+
+void Statement::run() {
+  while (step()) {
+  }
+  reset();
+}
+
+void Statement::reset() { sqlite3_reset(statement_); }
+
+void Statement::bind_integer(int position, std::int64_t value) {
+  FAULTSIM_DEMAND(sqlite3_bind_int64(statement_, position, value) == SQLITE_OK, position);
+}
+void Statement::bind_real(int position, double value) {
+  // SQLite would store NaN as NULL without a word.
+  FAULTSIM_DEMAND(std::isfinite(value), sqlite3_sql(statement_), " parameter ", position, " = ",
+                  value);
+  FAULTSIM_DEMAND(sqlite3_bind_double(statement_, position, value) == SQLITE_OK, position);
+}
+void Statement::bind_text(int position, std::string_view value) {
+  const char* data = value.data() != nullptr ? value.data() : "";
+  FAULTSIM_DEMAND(sqlite3_bind_text64(statement_, position, data, value.size(), SQLITE_STATIC,
+                                      SQLITE_UTF8) == SQLITE_OK,
+                  position);
+}
+void Statement::bind_null(int position) {
+  FAULTSIM_DEMAND(sqlite3_bind_null(statement_, position) == SQLITE_OK, position);
+}
+
+std::int64_t Statement::integer(int column) const {
+  return sqlite3_column_int64(statement_, column);
+}
+double Statement::real(int column) const { return sqlite3_column_double(statement_, column); }
+
+std::string Statement::text(int column) const {
+  const auto* data = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
+  return data == nullptr
+             ? std::string()
+             : std::string(data,
+                           static_cast<std::size_t>(sqlite3_column_bytes(statement_, column)));
+}
+
+std::optional<std::int64_t> Statement::optional_integer(int column) const {
+  if (sqlite3_column_type(statement_, column) == SQLITE_NULL) return std::nullopt;
+  return integer(column);
+}
+std::optional<double> Statement::optional_real(int column) const {
+  if (sqlite3_column_type(statement_, column) == SQLITE_NULL) return std::nullopt;
+  return real(column);
+}
+std::optional<std::string> Statement::optional_text(int column) const {
+  if (sqlite3_column_type(statement_, column) == SQLITE_NULL) return std::nullopt;
+  return text(column);
+}
+
+Transaction::Transaction(Connection& connection) : connection_(connection) {
+  connection_.execute("BEGIN IMMEDIATE");
+}
+
+Transaction::~Transaction() {
+  if (!open_) return;
+  try {
+    connection_.execute("ROLLBACK");
+  } catch (...) {  // SQLite has rolled back by itself (disk full): nothing left to do
+  }
+}
+
+void Transaction::commit() {
+  connection_.execute("COMMIT");
+  open_ = false;
+}
+
+}  // namespace faultsweep

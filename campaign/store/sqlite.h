@@ -1,0 +1,135 @@
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "simulator/common/errors.h"
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+/// SQLite as three RAII types. Only campaign/store/*.cc may use them: no SQL anywhere else.
+namespace faultsweep {
+
+/// Another process kept the database locked for the whole waiting time; the only storage error that
+/// may go away by itself. Exit code 4 like its base.
+class StoreBusy : public faultsim::StorageError {
+  using StorageError::StorageError;
+};
+
+class Statement;
+
+/// An open database. Not copyable, not movable: statements point at it.
+class Connection {
+ public:
+  enum class Mode {
+    read_only,   ///< mode=ro; immutable where the folder cannot be written (no -shm file possible).
+    read_write,  ///< never checkpoints: see `checkpoints`.
+    owner,       ///< the manager: the only one that checkpoints (WAL-reset bug of SQLite < 3.51.3).
+  };
+  /// Opens (creates, unless read_only) the file. Foreign keys are on; a locked database is waited
+  /// for 10 s at most. Throws StorageError.
+  Connection(const std::filesystem::path& path, Mode mode);
+  ~Connection();
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  /// Runs one or more statements without parameters or results.
+  void execute(const char* sql);
+  /// A prepared statement, kept for the life of the connection and reset; sql must be a literal.
+  Statement& prepared(const char* sql);
+  std::int64_t last_insert_id() const;
+  int changes() const;
+  /// Moves the whole WAL into the database file. No effect under another journal mode.
+  void checkpoint();
+  /// Copies the database, consistent while it is being written, to a new file.
+  void backup_to(const std::filesystem::path& target);
+
+ private:
+  friend class Statement;
+  sqlite3* handle_ = nullptr;
+  std::filesystem::path path_;
+  std::map<const char*, std::unique_ptr<Statement>> statements_;
+};
+
+/// A prepared statement. bind(...) resets it and binds all parameters in order; step() is true
+/// while there is a row; columns are read by position from 0.
+class Statement {
+ public:
+  Statement(Connection& connection, const char* sql);
+  ~Statement();
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  /// Text is not copied: it must live until the statement was stepped or bound again.
+  template <typename... Values>
+  Statement& bind(const Values&... values) {
+    reset();
+    int position = 0;
+    (bind_one(++position, values), ...);
+    return *this;
+  }
+  /// Binds one parameter, from 1, of a statement that was reset.
+  template <typename Value>
+  void bind_at(int position, const Value& value) {
+    bind_one(position, value);
+  }
+  bool step();
+  /// Runs to the end; for statements without rows.
+  void run();
+  void reset();
+
+  std::int64_t integer(int column) const;
+  double real(int column) const;
+  std::string text(int column) const;
+  std::optional<std::int64_t> optional_integer(int column) const;
+  std::optional<double> optional_real(int column) const;  ///< NULL reads as none.
+  std::optional<std::string> optional_text(int column) const;
+
+ private:
+  template <std::integral Value>
+  void bind_one(int position, Value value) {
+    bind_integer(position, static_cast<std::int64_t>(value));
+  }
+  void bind_one(int position, double value) { bind_real(position, value); }
+  void bind_one(int position, std::string_view value) { bind_text(position, value); }
+  void bind_one(int position, const std::string& value) { bind_text(position, value); }
+  void bind_one(int position, const char* value) { bind_text(position, value); }
+  template <typename Value>
+  void bind_one(int position, const std::optional<Value>& value) {
+    if (value) {
+      bind_one(position, *value);
+    } else {
+      bind_null(position);
+    }
+  }
+  void bind_integer(int position, std::int64_t value);
+  void bind_real(int position, double value);  ///< NaN and infinity are refused: InternalError.
+  void bind_text(int position, std::string_view value);
+  void bind_null(int position);
+
+  Connection& connection_;
+  sqlite3_stmt* statement_ = nullptr;
+};
+
+/// BEGIN IMMEDIATE ... COMMIT; rolled back unless committed.
+class Transaction {
+ public:
+  explicit Transaction(Connection& connection);
+  ~Transaction();
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  void commit();
+
+ private:
+  Connection& connection_;
+  bool open_ = true;
+};
+
+}  // namespace faultsweep

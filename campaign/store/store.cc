@@ -1,0 +1,145 @@
+#include "campaign/store/store.h"
+
+#include <sys/vfs.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+
+#include "campaign/store/migrations.h"
+#include "campaign/store/name_cache.h"
+#include "campaign/store/sqlite.h"
+
+namespace faultsweep {
+namespace {
+
+using faultsim::concat;
+using faultsim::StorageError;
+
+constexpr const char* kFileName = "campaign.sqlite";
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder)) {
+    throw StorageError(concat("cannot make the store folder ", folder.string(), ": ",
+                              error ? error.message() : "it is not a folder",
+                              "; choose another --store"));
+  }
+  if (access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw StorageError(concat("cannot write in the store folder ", folder.string(), ": ",
+                              std::strerror(errno), "; choose another --store"));
+  }
+}
+
+bool on_network(const std::filesystem::path& folder) {
+  struct statfs info = {};
+  if (statfs(folder.c_str(), &info) != 0) return false;
+  return is_network_file_system(static_cast<long>(info.f_type));
+}
+
+}  // namespace
+
+bool is_network_file_system(long f_type) {
+  // NFS, SMB, CIFS, SMB2, AFS, Lustre, GPFS, Ceph, BeeGFS, OCFS2, PanFS, 9P, FUSE (sshfs and its
+  // kin; a local FUSE file system is treated alike: slower, but right).
+  constexpr std::array<unsigned long, 13> kNetwork = {
+      0x6969,     0x517B,     0xFF534D42, 0xFE534D42, 0x5346414F, 0x0BD00BD0, 0x47504653,
+      0x00C36400, 0x19830326, 0x7461636F, 0xAAD7AAEA, 0x01021997, 0x65735546};
+  for (const unsigned long type : kNetwork) {
+    if (static_cast<std::uint32_t>(f_type) == type) return true;
+  }
+  return false;
+}
+
+Store::Store(std::filesystem::path folder, std::unique_ptr<Connection> connection,
+             std::string remark)
+    : folder_(std::move(folder)),
+      connection_(std::move(connection)),
+      remark_(std::move(remark)),
+      names_(std::make_unique<NameCache>()) {}
+Store::Store(Store&&) noexcept = default;
+Store::~Store() = default;
+
+namespace {
+
+std::unique_ptr<Connection> open_for_writing(const std::filesystem::path& folder,
+                                             Connection::Mode mode, bool assume_network,
+                                             std::string& remark) {
+  make_folder(folder);
+  auto connection = std::make_unique<Connection>(folder / kFileName, mode);
+  if (assume_network || on_network(folder)) {
+    connection->execute("PRAGMA journal_mode = DELETE; PRAGMA synchronous = FULL");
+    remark =
+        concat("the store ", folder.string(),
+               " is on a network file system: slower, and only safe with one host at a time; a "
+               "local disk is better");
+  } else {
+    connection->execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL");
+  }
+  migrate(*connection, store_migrations());
+  return connection;
+}
+
+}  // namespace
+
+Store Store::open_writer(const std::filesystem::path& folder, Options options) {
+  std::string remark;
+  auto connection =
+      open_for_writing(folder, Connection::Mode::read_write, options.assume_network, remark);
+  return Store(folder, std::move(connection), std::move(remark));
+}
+
+Store Store::open_owner(const std::filesystem::path& folder) {
+  std::string remark;
+  auto connection = open_for_writing(folder, Connection::Mode::owner, false, remark);
+  return Store(folder, std::move(connection), std::move(remark));
+}
+
+Store Store::open_reader(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / kFileName;
+  if (!std::filesystem::exists(file)) {
+    throw StorageError(concat("there is no store at ", folder.string(),
+                              "; make one with `faultsweep submit SPEC.json` or name another with "
+                              "--store"));
+  }
+  auto connection = std::make_unique<Connection>(file, Connection::Mode::read_only);
+  check_version(*connection, store_migrations());
+  return Store(folder, std::move(connection), "");
+}
+
+void Store::checkpoint() { connection_->checkpoint(); }
+
+void Store::backup_to(const std::filesystem::path& target) const { connection_->backup_to(target); }
+
+std::vector<std::string> Store::integrity_problems() const {
+  std::vector<std::string> problems;
+  Statement integrity(*connection_, "PRAGMA integrity_check");
+  while (integrity.step()) {
+    if (integrity.text(0) != "ok") problems.push_back(integrity.text(0));
+  }
+  Statement keys(*connection_, "PRAGMA foreign_key_check");
+  while (keys.step()) {
+    problems.push_back(concat("row ", keys.integer(1), " of ", keys.text(0),
+                              " refers to a missing row of ", keys.text(2)));
+  }
+  return problems;
+}
+
+std::int64_t Store::name_id(const std::string& name) {
+  const auto known = names_->ids.find(name);
+  if (known != names_->ids.end()) return known->second;
+  Connection& db = *connection_;
+  db.prepared("INSERT INTO names (name) VALUES (?) ON CONFLICT DO NOTHING").bind(name).run();
+  Statement& query = db.prepared("SELECT id FROM names WHERE name = ?").bind(name);
+  query.step();
+  const std::int64_t id = query.integer(0);
+  query.reset();
+  names_->fresh.push_back(name);
+  names_->ids.emplace(name, id);
+  return id;
+}
+
+}  // namespace faultsweep

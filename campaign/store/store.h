@@ -1,0 +1,142 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "campaign/expression/expression.h"
+#include "campaign/store/records.h"
+
+namespace faultsweep {
+
+class Connection;
+
+/// The SQL of a metric of spec/metrics.h (or "outcome", "rank_class") for Symbol::sql of
+/// expressions given to Store::ranking. @pre the metric is in metric_catalogue().
+std::string metric_sql(const std::string& metric);
+/// The same for the index-th of a campaign's parameters.
+std::string parameter_sql(int index);
+
+/// True if STATFS's f_type is a network file system, where WAL must not be used.
+bool is_network_file_system(long f_type);
+
+/// The database of campaigns, campaign.sqlite in the store's folder. One named function per query.
+///
+/// Every function throws StorageError (exit 4) when the disk or the file fails; what was committed
+/// before is intact. Who writes: the manager (open_owner) for as long as it lives; submit, cancel
+/// and retry (open_writer) in one short transaction; readers never.
+class Store {
+ public:
+  struct Options {
+    bool assume_network = false;  ///< treat the folder as on a network file system (tests).
+  };
+  /// Opens for a short write; creates folder and file where missing. Migrates an older file and
+  /// refuses a newer one. On a network file system: no WAL, and remark() says so.
+  static Store open_writer(const std::filesystem::path& folder, Options options);
+  static Store open_writer(const std::filesystem::path& folder) { return open_writer(folder, {}); }
+  /// The same for the manager, the only one that checkpoints.
+  static Store open_owner(const std::filesystem::path& folder);
+  /// Opens for reading. A missing store is an InputError-free StorageError naming `faultsweep
+  /// submit`.
+  static Store open_reader(const std::filesystem::path& folder);
+  Store(Store&&) noexcept;
+  Store& operator=(Store&&) = delete;
+  ~Store();
+
+  const std::string& remark() const { return remark_; }
+  const std::filesystem::path& folder() const { return folder_; }
+
+  // Campaigns -------------------------------------------------------------------------------------
+  /// Adds a campaign, its families and the cases that are new, in one transaction. The same
+  /// expanded spec under the same name is recognised; another one gets a number behind its name.
+  SubmitOutcome submit(const Submission& submission);
+  /// How many of these identities have a result already.
+  long count_cached(const std::vector<std::string>& identities) const;
+  std::vector<CampaignInfo> campaigns() const;  ///< newest last, without counts of cases.
+  /// By name; "" = the newest. Throws StorageError listing the names there are.
+  CampaignInfo campaign(const std::string& name) const;
+  void cancel(std::int64_t campaign, bool cancelled);
+  /// Failed cases (and, if asked, done ones that are not converged) wait again; returns how many.
+  /// Done results are replaced when the new run ends, not before.
+  long retry(std::int64_t campaign, bool unconverged_too, std::optional<long> position);
+  BaseScene base_scene(std::int64_t scene) const;
+  struct SpecCopies {
+    std::string given, resolved, expanded_hash;
+  };
+  SpecCopies spec_copies(std::int64_t campaign) const;
+
+  // Running ---------------------------------------------------------------------------------------
+  /// Families of the campaign with cases that wait, with these cases.
+  std::vector<WaitingFamily> waiting_families(std::int64_t campaign) const;
+  CaseInput case_input(std::int64_t campaign, std::int64_t case_id) const;
+  /// Commits attempts, in one transaction each group: the run, and with a result also metrics,
+  /// stage metrics, histories. A case that is not waiting any more keeps what it has: no second
+  /// success.
+  void record_runs(std::int64_t campaign, const std::vector<RunRecord>& runs);
+  void record_operator(std::int64_t family, const OperatorRecord& record);
+  void record_event(std::optional<std::int64_t> campaign, const std::string& kind,
+                    const std::string& text);
+
+  // The one manager -------------------------------------------------------------------------------
+  /// Makes this process the owner. A dead owner (process gone, or, on another host, silent for
+  /// 60 s) is taken over, noted as an event; a living one is a StorageError that names it.
+  void claim_ownership(std::int64_t campaign, int n_workers);
+  void heartbeat(const std::string& progress);
+  void release_ownership();
+  std::optional<OwnerInfo> owner() const;
+  void checkpoint();
+
+  // Reading ---------------------------------------------------------------------------------------
+  /// A case of the campaign by position from 1, or by (the beginning of) its identity.
+  StoredCase stored_case(std::int64_t campaign, const std::string& name) const;
+  /// What to list and how to order it.
+  struct RankingQuery {
+    std::string stage;       ///< "" = the whole history.
+    SqlFragment by;          ///< number, largest first; empty = default order.
+    bool ascending = false;  ///< smallest first instead.
+    SqlFragment where;       ///< condition; empty = all.
+    long limit = 0;          ///< 0 = all.
+  };
+  /// Cases of the campaign with metrics of the stage; rank classes stay apart, complete histories
+  /// first. Default order: activated area, M0, then inactive cases by pressure margin, χ̄.
+  std::vector<RankedCase> ranking(std::int64_t campaign, const RankingQuery& query) const;
+  std::vector<std::string> stages(std::int64_t campaign) const;  ///< names that have metrics.
+  std::vector<FailureCount> failure_counts(std::int64_t campaign) const;
+  std::vector<EventRecord> events(std::int64_t campaign, int limit) const;  ///< newest first.
+  struct FamilyProgress {
+    std::string fingerprint, operator_fingerprint;
+    long n_cases = 0, n_done = 0, n_failed = 0;
+    std::optional<double> build_seconds;
+  };
+  std::vector<FamilyProgress> family_progress(std::int64_t campaign) const;
+  /// Other campaigns that have this case.
+  std::vector<std::string> campaigns_with(std::int64_t case_id) const;
+
+  // Care ------------------------------------------------------------------------------------------
+  void backup_to(const std::filesystem::path& target) const;
+  /// Problems that PRAGMA integrity_check and foreign_key_check find; empty = sound.
+  std::vector<std::string> integrity_problems() const;
+
+ private:
+  Store(std::filesystem::path folder, std::unique_ptr<Connection> connection, std::string remark);
+  void record_run(std::int64_t campaign, const RunRecord& run, double now);
+  void record_result(std::int64_t case_id, std::int64_t run_id, const faultsim::CaseResult& result);
+  void record_histories(std::int64_t case_id, const faultsim::CaseResult& result);
+  void record_stage(std::int64_t case_id, const faultsim::StageMetrics& stage,
+                    const faultsim::CaseResult& result);
+  void forget_result(std::int64_t case_id);
+  std::int64_t name_id(const std::string& name);
+  std::int64_t add_scene(const BaseScene& scene);
+  void add_cases(std::int64_t campaign, const Submission& submission);
+  void read_result(std::int64_t case_id, faultsim::CaseResult& result) const;
+
+  std::filesystem::path folder_;
+  std::unique_ptr<Connection> connection_;
+  std::string remark_;
+  struct NameCache;
+  std::unique_ptr<NameCache> names_;
+};
+
+}  // namespace faultsweep

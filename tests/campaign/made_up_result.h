@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "simulator/common/fingerprint.h"
+#include "simulator/output/result.h"
+
+namespace faultsweep::testing {
+
+/// A result with the shape of a real one (2 faults, 3 stages, n_steps steps after the initial one),
+/// whose numbers are a function of `strength` alone: the larger, the more is activated.
+inline faultsim::CaseResult made_up_result(double strength, int n_steps = 12) {
+  using faultsim::Outcome;
+  const char* stages[] = {"primary_production", "cushion_gas_injection", "gas_storage"};
+  faultsim::CaseResult result;
+  result.title = "made up";
+  result.identity = faultsim::fingerprint(std::to_string(strength));
+  result.operator_fingerprint = faultsim::fingerprint("operator");
+  result.numerics_version = faultsim::kNumericsVersion;
+  result.outcome = Outcome::converged;
+  result.region_names = {"west", "east"};
+  result.fault_names = {"F1", "F2"};
+  result.plane_strain = false;
+  const double most = std::max(0.0, strength - 0.5);
+  if (most <= 0) result.pressure_margin = 1e6 * (1 - strength);
+  for (int k = 0; k <= n_steps; ++k) {
+    faultsim::StepResult step;
+    const double load = static_cast<double>(k) / n_steps;
+    step.step = k;
+    step.stage = k == 0 ? "initial" : stages[(k - 1) * 3 / n_steps];
+    step.time = 3.15576e7 * k;
+    step.pressure_change = {-2e7 * load, -1e7 * load};
+    step.outcome = Outcome::converged;
+    step.n_stick = 100;
+    for (int f = 0; f < 2; ++f) {
+      faultsim::FaultMetrics m;
+      m.chi_bar = std::min(1.0, strength * load / (f + 1));
+      m.chi_max = std::min(1.0, 1.1 * m.chi_bar);
+      m.activated_area = 1e5 * most * load / (f + 1);
+      m.max_slip = 0.01 * most * load;
+      m.moment = 1e15 * most * load;
+      m.activated = most * load > 0;
+      step.faults.push_back(m);
+    }
+    result.steps.push_back(step);
+  }
+  faultsim::StageMetrics whole;
+  whole.first_step = 0;
+  whole.last_step = n_steps;
+  whole.activated = most > 0;
+  if (whole.activated) {
+    whole.activation_step = 1;
+    whole.activation_pressure = -1e6;
+    whole.activated_fault = "F1";
+    whole.magnitude = faultsim::moment_magnitude(1e15 * most);
+  }
+  whole.chi_bar = std::min(1.0, strength);
+  whole.chi_max = std::min(1.0, 1.1 * strength);
+  whole.activated_area = 1.5e5 * most;
+  whole.max_slip = 0.01 * most;
+  whole.moment = 1e15 * most;
+  result.whole = whole;
+  for (int s = 0; s < 3; ++s) {
+    faultsim::StageMetrics stage = whole;
+    stage.stage = stages[s];
+    stage.first_step = s * n_steps / 3 + 1;
+    stage.last_step = (s + 1) * n_steps / 3;
+    stage.moment = whole.moment * (s + 1) / 6;
+    result.stages.push_back(stage);
+  }
+  return result;
+}
+
+}  // namespace faultsweep::testing

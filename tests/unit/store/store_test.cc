@@ -1,0 +1,369 @@
+#include "campaign/store/store.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "campaign/spec/metrics.h"
+#include "campaign/store/migrations.h"
+#include "campaign/store/sqlite.h"
+#include "tests/campaign/made_up_result.h"
+
+namespace faultsweep {
+namespace {
+
+using faultsim::StorageError;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::made_up_result;
+
+class StoreTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = ::testing::TempDir() + "store_XXXXXX";
+    folder_ = mkdtemp(name.data());
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path folder_;
+};
+
+/// n cases in two families, strengths i/n.
+Submission submission(int n, const std::string& name = "sweep") {
+  Submission s;
+  s.name = name;
+  s.source = "sweep.json";
+  s.spec_given = "{}";
+  s.spec_resolved = "{}";
+  s.parameters = R"([{"name": "strength", "dimension": "number"}])";
+  s.rank_by = "activated_area";
+  s.scenes = {{"scene.json", R"({"title": "base"})"}};
+  s.families = {{"family-a", 1000, 100, 2.5, 1e8}, {"family-b", 500, 50, 1.0, 1e7}};
+  for (int i = 0; i < n; ++i) {
+    const std::string number = std::to_string(i);
+    s.cases.push_back({"identity-" + number, i % 2, 0, R"({"/title": "case )" + number + "\"}",
+                       "[" + number + "]", "[\"" + number + " m\"]"});
+  }
+  return s;
+}
+
+RunRecord completed(std::int64_t case_id, double strength) {
+  RunRecord run;
+  run.case_id = case_id;
+  run.status = RunStatus::completed;
+  run.host = "here";
+  run.rank = 1;
+  run.wall_seconds = 0.5;
+  run.result = made_up_result(strength);
+  return run;
+}
+
+RunRecord crashed(std::int64_t case_id, bool final) {
+  RunRecord run;
+  run.case_id = case_id;
+  run.status = RunStatus::crashed;
+  run.reason = "killed by SIGSEGV";
+  run.signal = 11;
+  run.log_tail = "last words";
+  run.final = final;
+  return run;
+}
+
+std::vector<std::int64_t> waiting(const Store& store, std::int64_t campaign) {
+  std::vector<std::int64_t> ids;
+  for (const WaitingFamily& family : store.waiting_families(campaign)) {
+    ids.insert(ids.end(), family.cases.begin(), family.cases.end());
+  }
+  return ids;
+}
+
+TEST_F(StoreTest, KeepsTheThreeCopiesOfTheSpec) {
+  Store store = Store::open_writer(folder_);
+  Submission s = submission(4);
+  s.spec_given = "{ \"as\": \"given\" }";
+  s.spec_resolved = "{\"resolved\":1}";
+  const SubmitOutcome outcome = store.submit(s);
+  const Store::SpecCopies copies = store.spec_copies(outcome.campaign);
+  EXPECT_EQ(copies.given, s.spec_given);
+  EXPECT_EQ(copies.resolved, s.spec_resolved);
+  EXPECT_EQ(copies.expanded_hash.size(), 32u);
+}
+
+TEST_F(StoreTest, RecognisesTheSameSpecAndNumbersAnother) {
+  Store store = Store::open_writer(folder_);
+  const SubmitOutcome first = store.submit(submission(4));
+  const SubmitOutcome again = store.submit(submission(4));
+  EXPECT_TRUE(again.existed);
+  EXPECT_EQ(again.campaign, first.campaign);
+  const SubmitOutcome longer = store.submit(submission(6));
+  EXPECT_FALSE(longer.existed);
+  EXPECT_EQ(longer.name, "sweep-2");
+  EXPECT_EQ(store.campaign("").name, "sweep-2");
+  EXPECT_EQ(store.campaign("sweep").n_cases, 4);
+}
+
+TEST_F(StoreTest, SharesCasesBetweenCampaigns) {
+  Store store = Store::open_owner(folder_);
+  const std::int64_t first = store.submit(submission(4)).campaign;
+  const auto ids = waiting(store, first);
+  store.record_runs(first, {completed(ids[0], 0.7), completed(ids[1], 0.2)});
+  const SubmitOutcome second = store.submit(submission(6, "other"));
+  EXPECT_EQ(second.n_cached, 2);
+  EXPECT_EQ(store.count_cached({"identity-0", "identity-5", "unknown"}), 1);
+  EXPECT_EQ(waiting(store, second.campaign).size(), 4u);
+  EXPECT_THAT(store.campaigns_with(ids[0]), ElementsAre("sweep", "other"));
+}
+
+TEST_F(StoreTest, GivesBackWhatARunStored) {
+  Store store = Store::open_owner(folder_);
+  const std::int64_t campaign = store.submit(submission(2)).campaign;
+  const auto ids = waiting(store, campaign);
+  RunRecord run = completed(ids[0], 0.8);
+  run.result->warnings = {"one", "two"};
+  store.record_runs(campaign, {run});
+  const StoredCase stored = store.stored_case(campaign, "1");
+  ASSERT_TRUE(stored.has_result);
+  EXPECT_EQ(stored.state, "done");
+  EXPECT_EQ(stored.parameter_labels, "[\"0 m\"]");
+  const faultsim::CaseResult& wanted = *run.result;
+  ASSERT_EQ(stored.result.steps.size(), wanted.steps.size());
+  EXPECT_EQ(stored.result.steps[7].stage, wanted.steps[7].stage);
+  EXPECT_EQ(stored.result.steps[7].pressure_change, wanted.steps[7].pressure_change);
+  EXPECT_EQ(stored.result.steps[7].faults[1].chi_bar, wanted.steps[7].faults[1].chi_bar);
+  EXPECT_EQ(stored.result.fault_names, wanted.fault_names);
+  ASSERT_EQ(stored.result.stages.size(), 3u);
+  EXPECT_EQ(stored.result.stages[2].moment, wanted.stages[2].moment);
+  EXPECT_EQ(stored.result.whole.activated_fault, "F1");
+  EXPECT_EQ(stored.result.warnings, wanted.warnings);
+  EXPECT_EQ(store.stored_case(campaign, "identity-0").position, 1);
+  EXPECT_THROW(store.stored_case(campaign, "3"), faultsim::InputError);
+}
+
+TEST_F(StoreTest, NeverStoresASecondSuccess) {
+  Store store = Store::open_owner(folder_);
+  const std::int64_t campaign = store.submit(submission(2)).campaign;
+  const auto ids = waiting(store, campaign);
+  store.record_runs(campaign, {completed(ids[0], 0.8)});
+  store.record_runs(campaign, {completed(ids[0], 0.1)});
+  const StoredCase stored = store.stored_case(campaign, "1");
+  EXPECT_EQ(stored.runs.size(), 1u);
+  EXPECT_EQ(stored.result.whole.chi_bar, 0.8);
+}
+
+TEST_F(StoreTest, KeepsEachAttemptAndWaitsUntilTheFinalOne) {
+  Store store = Store::open_owner(folder_);
+  const std::int64_t campaign = store.submit(submission(2)).campaign;
+  const auto ids = waiting(store, campaign);
+  store.record_runs(campaign, {crashed(ids[0], false)});
+  EXPECT_EQ(store.campaign("").n_waiting, 2);
+  store.record_runs(campaign, {crashed(ids[0], true)});
+  const CampaignInfo info = store.campaign("");
+  EXPECT_EQ(info.n_failed, 1);
+  EXPECT_EQ(info.n_waiting, 1);
+  const StoredCase stored = store.stored_case(campaign, "1");
+  ASSERT_EQ(stored.runs.size(), 2u);
+  EXPECT_EQ(stored.runs[1].attempt, 2);
+  EXPECT_EQ(stored.runs[1].signal, 11);
+  EXPECT_EQ(stored.runs[1].log_tail, "last words");
+  const auto failures = store.failure_counts(campaign);
+  ASSERT_EQ(failures.size(), 1u);
+  EXPECT_EQ(failures[0].reason, "killed by SIGSEGV");
+  EXPECT_EQ(store.retry(campaign, false, std::nullopt), 1);
+  EXPECT_EQ(store.campaign("").n_waiting, 2);
+}
+
+TEST_F(StoreTest, ReplacesAnUnconvergedResultWhenItsRetryEnds) {
+  Store store = Store::open_owner(folder_);
+  const std::int64_t campaign = store.submit(submission(1)).campaign;
+  const auto ids = waiting(store, campaign);
+  RunRecord run = completed(ids[0], 0.3);
+  run.result->outcome = faultsim::Outcome::unconverged;
+  run.result->steps.back().outcome = faultsim::Outcome::unconverged;
+  store.record_runs(campaign, {run});
+  EXPECT_EQ(store.retry(campaign, false, std::nullopt), 0);
+  EXPECT_EQ(store.retry(campaign, true, std::nullopt), 1);
+  EXPECT_TRUE(store.stored_case(campaign, "1").has_result);
+  store.record_runs(campaign, {completed(ids[0], 0.9)});
+  const StoredCase stored = store.stored_case(campaign, "1");
+  EXPECT_EQ(stored.result.whole.chi_bar, 0.9);
+  EXPECT_EQ(stored.runs.size(), 2u);
+  EXPECT_THAT(store.integrity_problems(), IsEmpty());
+}
+
+TEST_F(StoreTest, RanksByAreaMomentMarginAndKeepsUnstableApart) {
+  Store store = Store::open_owner(folder_);
+  const std::int64_t campaign = store.submit(submission(6)).campaign;
+  const double strengths[] = {0.2, 0.9, 0.4, 0.6, 0.95, 0.3};
+  for (const auto id : waiting(store, campaign)) {
+    RunRecord run = completed(id, strengths[id - 1]);
+    if (id == 5) run.result->outcome = faultsim::Outcome::unstable;
+    store.record_runs(campaign, {run});
+  }
+  std::vector<long> order;
+  for (const RankedCase& row : store.ranking(campaign, {})) order.push_back(row.position);
+  EXPECT_THAT(order, ElementsAre(2, 4, 3, 6, 1, 5));  // 5 is unstable
+  Store::RankingQuery query;
+  query.by = {metric_sql("chi_bar"), {}};
+  query.ascending = true;
+  query.limit = 2;
+  query.where = {metric_sql("chi_bar") + " > ?", {Value(0.25)}};
+  order.clear();
+  for (const RankedCase& row : store.ranking(campaign, query)) order.push_back(row.position);
+  EXPECT_THAT(order, ElementsAre(6, 3));
+  query = {};
+  query.stage = "gas_storage";
+  query.where = {parameter_sql(0) + " = ?", {Value(1.0)}};
+  const auto rows = store.ranking(campaign, query);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].position, 2);
+  EXPECT_DOUBLE_EQ(rows[0].metrics.moment, 1e15 * 0.4 * 0.5);
+}
+
+TEST_F(StoreTest, AllViewsWork) {
+  Store store = Store::open_owner(folder_);
+  const std::int64_t campaign = store.submit(submission(2)).campaign;
+  const auto ids = waiting(store, campaign);
+  store.record_runs(campaign, {completed(ids[0], 0.8), crashed(ids[1], true)});
+  Connection connection(folder_ / "campaign.sqlite", Connection::Mode::read_only);
+  const auto count = [&](const char* sql) {
+    Statement query(connection, sql);
+    query.step();
+    return query.integer(0);
+  };
+  EXPECT_EQ(count("SELECT count(*) FROM ranking"), 1);
+  EXPECT_EQ(count("SELECT count(*) FROM stage_ranking"), 4);
+  EXPECT_EQ(count("SELECT count(*) FROM chi_history_wide"), 26);
+  EXPECT_EQ(count("SELECT count(*) FROM failures"), 1);
+  EXPECT_EQ(count("SELECT done FROM campaign_progress"), 1);
+}
+
+TEST_F(StoreTest, LivingManagerKeepsOthersOutAndADeadOneIsTakenOver) {
+  Store store = Store::open_owner(folder_);
+  const std::int64_t campaign = store.submit(submission(1)).campaign;
+  const pid_t child = fork();
+  if (child == 0) {
+    {
+      Store theirs = Store::open_owner(folder_);
+      theirs.claim_ownership(campaign, 2);
+    }
+    pause();
+    _exit(0);
+  }
+  for (int k = 0; k < 500 && !store.owner(); ++k) usleep(10000);
+  try {
+    store.claim_ownership(campaign, 2);
+    ADD_FAILURE() << "two managers";
+  } catch (const StorageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("is managed by process " + std::to_string(child)));
+  }
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  EXPECT_FALSE(store.owner()->alive);
+  store.claim_ownership(campaign, 2);
+  EXPECT_TRUE(store.owner()->alive);
+  EXPECT_EQ(store.events(campaign, 5).at(0).kind, "takeover");
+  store.release_ownership();
+  EXPECT_FALSE(store.owner());
+}
+
+TEST_F(StoreTest, RefusesANewerSchemaAndForeignFiles) {
+  { Store::open_writer(folder_); }
+  {
+    Connection connection(folder_ / "campaign.sqlite", Connection::Mode::owner);
+    connection.execute("PRAGMA user_version = 99");
+  }
+  EXPECT_THROW(Store::open_writer(folder_), StorageError);
+  EXPECT_THROW(Store::open_reader(folder_), StorageError);
+  {
+    Connection connection(folder_ / "campaign.sqlite", Connection::Mode::owner);
+    connection.execute("PRAGMA application_id = 7");
+  }
+  EXPECT_THROW(Store::open_writer(folder_), StorageError);
+}
+
+TEST_F(StoreTest, MigratesStepByStepAndNotesEach) {
+  Connection connection(folder_ / "other.sqlite", Connection::Mode::owner);
+  std::vector<Migration> migrations = store_migrations();
+  migrate(connection, migrations);
+  migrations.push_back({2, "2026-01-01 colour", "ALTER TABLE cases ADD COLUMN colour TEXT"});
+  migrate(connection, migrations);
+  migrate(connection, migrations);
+  Statement query(connection, "SELECT max(version), count(*) FROM migrations");
+  query.step();
+  EXPECT_EQ(query.integer(0), 2);
+  EXPECT_EQ(query.integer(1), 2);
+  Statement uses(connection, "SELECT colour FROM cases");
+  migrations.push_back({3, "broken", "CREATE TABLE half (a); SELECT nonsense"});
+  EXPECT_THROW(migrate(connection, migrations), StorageError);
+  Statement version(connection, "PRAGMA user_version");
+  version.step();
+  EXPECT_EQ(version.integer(0), 2);
+  Statement half(connection, "SELECT count(*) FROM sqlite_master WHERE name = 'half'");
+  half.step();
+  EXPECT_EQ(half.integer(0), 0);
+}
+
+TEST_F(StoreTest, DropsWalOnANetworkFileSystem) {
+  Store store = Store::open_writer(folder_, {.assume_network = true});
+  EXPECT_THAT(store.remark(), HasSubstr("network file system"));
+  store.submit(submission(2));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "campaign.sqlite-wal"));
+  EXPECT_TRUE(is_network_file_system(0x6969));
+  EXPECT_TRUE(is_network_file_system(0x0BD00BD0));
+  EXPECT_FALSE(is_network_file_system(0xEF53));      // ext4
+  EXPECT_FALSE(is_network_file_system(0x01021994));  // tmpfs
+}
+
+TEST_F(StoreTest, RollsBackWhatIsNotCommitted) {
+  Store store = Store::open_owner(folder_);
+  const std::int64_t campaign = store.submit(submission(3)).campaign;
+  const auto ids = waiting(store, campaign);
+  RunRecord bad = completed(ids[1], 0.7);
+  bad.result->steps[1].faults[0].chi_bar = std::nan("");
+  EXPECT_THROW(store.record_runs(campaign, {completed(ids[0], 0.7), bad}), faultsim::InternalError);
+  EXPECT_EQ(store.campaign("").n_waiting, 3);
+  store.record_runs(campaign, {completed(ids[0], 0.7), completed(ids[1], 0.7)});
+  EXPECT_EQ(store.campaign("").n_done, 2);
+  EXPECT_THAT(store.integrity_problems(), IsEmpty());
+}
+
+TEST_F(StoreTest, BackupIsAWholeStore) {
+  Store store = Store::open_owner(folder_);
+  const std::int64_t campaign = store.submit(submission(3)).campaign;
+  const auto ids = waiting(store, campaign);
+  store.record_runs(campaign, {completed(ids[0], 0.7)});
+  std::filesystem::create_directory(folder_ / "copy");
+  store.backup_to(folder_ / "copy" / "campaign.sqlite");
+  Store copy = Store::open_reader(folder_ / "copy");
+  EXPECT_EQ(copy.campaign("").n_done, 1);
+  EXPECT_THROW(store.backup_to(folder_ / "copy" / "campaign.sqlite"), StorageError);
+}
+
+TEST_F(StoreTest, SaysWhatIsMissing) {
+  EXPECT_THROW(Store::open_reader(folder_ / "nowhere"), StorageError);
+  std::ofstream(folder_ / "file") << "x";
+  EXPECT_THROW(Store::open_writer(folder_ / "file" / "store"), StorageError);
+  Store store = Store::open_writer(folder_);
+  EXPECT_THROW(store.campaign(""), StorageError);
+  store.submit(submission(1));
+  EXPECT_THROW(store.campaign("sweeep"), faultsim::InputError);
+}
+
+TEST_F(StoreTest, CountsOperatorsBuiltAndFound) {
+  Store store = Store::open_owner(folder_);
+  const std::int64_t campaign = store.submit(submission(2)).campaign;
+  const std::int64_t family = store.waiting_families(campaign)[0].family;
+  store.record_operator(family, {"op", false, 12.5, 1000, 100, 80000, 1 << 20});
+  store.record_operator(family, {"op", true, 0.1, 1000, 100, 80000, 1 << 19});
+  const auto families = store.family_progress(campaign);
+  ASSERT_EQ(families.size(), 2u);
+  EXPECT_EQ(families[0].operator_fingerprint, "op");
+  EXPECT_EQ(families[0].build_seconds, 12.5);
+  EXPECT_EQ(store.waiting_families(campaign)[0].operator_fingerprint, "op");
+}
+
+}  // namespace
+}  // namespace faultsweep
