@@ -1,0 +1,289 @@
+#include "simulator/contact/contact_newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faultsim {
+
+ContactNewton::ContactNewton(ContactProblem& problem, const ContactOptions& options)
+    : problem_(problem), options_(options) {}
+
+SlipPoint ContactNewton::slip_point(const SubStep& sub_step, const Eigen::VectorXd& traction,
+                                    const Eigen::VectorXd& increment, int k) const {
+  const auto i = static_cast<std::size_t>(k);
+  const ContactNode& node = problem_.nodes[i];
+  SlipPoint point;
+  point.normal_traction = traction[node.dof[0]];
+  point.shear_traction = shear_part(node, traction);
+  point.slip_increment = shear_part(node, increment);
+  if (node.weakens) {
+    point.slip_before = shear_part(node, sub_step.start->jump);
+    point.path_before = sub_step.start->slip_path[k];
+  }
+  // A node at rest needs no r, and its column of H stays unread.
+  if (point.slip_increment[0] != 0 || point.slip_increment[1] != 0 ||
+      sub_step.state[i] == FaultState::slip) {
+    point.stiffness = problem_.stiffness(node, 1);
+    if (node.n_dofs > 2) point.stiffness = std::max(point.stiffness, problem_.stiffness(node, 2));
+  }
+  point.cohesive = sub_step.cohesive[i] != 0;
+  return point;
+}
+
+/// Sets each node's state from the augmented tractions. Hysteresis: leaving stick needs a violation
+/// beyond the tolerance, going back none.
+bool ContactNewton::classify(SubStep& sub_step) {
+  bool changed = false;
+  for (int k = 0; k < problem_.n_nodes(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const ContactNode& node = problem_.nodes[i];
+    const double tolerance = sub_step.tolerance[k];
+    const double gap = sub_step.start->jump[node.dof[0]] + sub_step.increment[node.dof[0]];
+    double normal = sub_step.traction[node.dof[0]];
+    if (gap != 0) normal += problem_.stiffness(node, 0) * gap;
+    FaultState state = FaultState::stick;
+    const bool is_open = sub_step.state[i] == FaultState::open;
+    if (normal > (is_open ? 0 : tolerance)) {
+      state = FaultState::open;
+    } else if (node.n_dofs > 1) {
+      const double excess =
+          slip_excess(problem_, k, slip_point(sub_step, sub_step.traction, sub_step.increment, k));
+      const bool slips = sub_step.state[i] == FaultState::slip;
+      if (excess > (slips ? 0 : tolerance)) state = FaultState::slip;
+    }
+    if (state == FaultState::open) was_open_[i] = 1;
+    changed = changed || state != sub_step.state[i];
+    sub_step.state[i] = state;
+  }
+  return changed;
+}
+
+/// Σ (F_k / tolerance_k)² of the natural residual F: t'_N − min(0, t'_N + r g_N) and
+/// t'_T − projection of t'_T + r Δg_T on the disc of radius τ_L (t'_T itself when open).
+double ContactNewton::natural_residual(const SubStep& sub_step, const Eigen::VectorXd& traction,
+                                       const Eigen::VectorXd& increment, double& worst) const {
+  double sum = 0;
+  worst = 0;
+  for (int k = 0; k < problem_.n_nodes(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const ContactNode& node = problem_.nodes[i];
+    const double gap = sub_step.start->jump[node.dof[0]] + increment[node.dof[0]];
+    const double normal = traction[node.dof[0]];
+    const double augmented = gap != 0 ? normal + problem_.stiffness(node, 0) * gap : normal;
+    double square = normal - std::min(0.0, augmented);
+    square *= square;
+    if (augmented > (sub_step.state[i] == FaultState::open ? 0 : sub_step.tolerance[k])) {
+      square += shear_part(node, traction).squaredNorm();
+    } else if (node.n_dofs > 1) {
+      const SlipPoint point = slip_point(sub_step, traction, increment, k);
+      const double excess = slip_excess(problem_, k, point);
+      const Eigen::Vector2d y = point.shear_traction + point.stiffness * point.slip_increment;
+      const double norm = y.norm();
+      Eigen::Vector2d shear = point.shear_traction - y;
+      if (excess > 0) shear += excess / norm * y;
+      square += shear.squaredNorm();
+    }
+    square /= sub_step.tolerance[k] * sub_step.tolerance[k];
+    sum += square;
+    worst = std::max(worst, square);
+    if (!std::isfinite(square)) worst = std::numeric_limits<double>::infinity();
+  }
+  worst = std::sqrt(worst);
+  return sum;
+}
+
+/// direction_ := what eliminated components must still move: to Δg_T = 0 and g_N = 0.
+void ContactNewton::prescribe(const SubStep& sub_step) {
+  direction_.setZero(problem_.n_dofs());
+  for (int k = 0; k < problem_.n_nodes(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const ContactNode& node = problem_.nodes[i];
+    if (sub_step.state[i] == FaultState::open) continue;
+    const int normal = node.dof[0];
+    direction_[normal] = -(sub_step.start->jump[normal] + sub_step.increment[normal]);
+    if (sub_step.state[i] == FaultState::slip) continue;
+    for (std::size_t c = 1; c < static_cast<std::size_t>(node.n_dofs); ++c) {
+      direction_[node.dof[c]] = -sub_step.increment[node.dof[c]];
+    }
+  }
+}
+
+void ContactNewton::collect_node(const SubStep& sub_step, int k) {
+  const auto i = static_cast<std::size_t>(k);
+  const ContactNode& node = problem_.nodes[i];
+  const auto n = static_cast<std::size_t>(node.n_dofs);
+  std::array<double, 3> response{};
+  for (std::size_t c = 0; c < n; ++c) response[c] = response_[node.dof[c]];
+  if (sub_step.state[i] == FaultState::open) {
+    for (std::size_t c = 0; c < n; ++c) {
+      Unknown unknown{k, static_cast<int>(c), node.dof[c], {0, 0, 0}, {0, 0}};
+      unknown.weight[c] = -node.inverse_area[c];
+      right_[static_cast<Eigen::Index>(unknowns_.size())] =
+          -sub_step.traction[node.dof[c]] - response[c];
+      unknowns_.push_back(unknown);
+    }
+    return;
+  }
+  const SlipResidual r =
+      slip_residual(problem_, k, slip_point(sub_step, sub_step.traction, sub_step.increment, k));
+  for (std::size_t c = 1; c < n; ++c) {
+    const auto row = static_cast<Eigen::Index>(c - 1);
+    const std::array<double, 3> d_traction = {r.d_normal[row], r.d_shear(row, 0),
+                                              r.d_shear(row, 1)};
+    Unknown unknown{
+        k, static_cast<int>(c), node.dof[c], {0, 0, 0}, {r.d_slip(row, 0), r.d_slip(row, 1)}};
+    double right = -r.value[row];
+    for (std::size_t a = 0; a < n; ++a) {
+      unknown.weight[a] = -d_traction[a] * node.inverse_area[a];
+      right -= d_traction[a] * response[a];
+    }
+    right_[static_cast<Eigen::Index>(unknowns_.size())] = right;
+    unknowns_.push_back(unknown);
+  }
+}
+
+/// Linearises the equations of the moving nodes about the current iterate.
+void ContactNewton::collect(const SubStep& sub_step) {
+  response_.setZero(problem_.n_dofs());
+  problem_.subtract_product(direction_, response_);
+  right_.resize(problem_.n_dofs());
+  unknowns_.clear();
+  for (int k = 0; k < problem_.n_nodes(); ++k) {
+    if (sub_step.state[static_cast<std::size_t>(k)] != FaultState::stick) collect_node(sub_step, k);
+  }
+}
+
+/// Assembles the tangent over the unknowns and adds their part to direction_.
+bool ContactNewton::solve_linear() {
+  const auto n = static_cast<Eigen::Index>(unknowns_.size());
+  if (n == 0) return true;
+  if (tangent_.rows() < n) tangent_.resize(problem_.n_dofs(), problem_.n_dofs());
+  auto tangent = tangent_.topLeftCorner(n, n);
+  for (Eigen::Index v = 0; v < n; ++v) {
+    const Unknown& column = unknowns_[static_cast<std::size_t>(v)];
+    const double* h = problem_.op.h.col(column.dof).data();
+    for (Eigen::Index u = 0; u < n; ++u) {
+      const Unknown& row = unknowns_[static_cast<std::size_t>(u)];
+      const ContactNode& node = problem_.nodes[static_cast<std::size_t>(row.node)];
+      double sum = row.weight[0] * h[node.dof[0]];
+      if (node.n_dofs > 1) sum += row.weight[1] * h[node.dof[1]];
+      if (node.n_dofs > 2) sum += row.weight[2] * h[node.dof[2]];
+      if (row.node == column.node && column.component > 0) {
+        sum += row.own[static_cast<std::size_t>(column.component - 1)];
+      }
+      tangent(u, v) = sum;
+    }
+  }
+  const Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>> lu(tangent);
+  const Eigen::VectorXd solution = lu.solve(right_.head(n));
+  if (!solution.allFinite()) return false;
+  for (Eigen::Index u = 0; u < n; ++u) {
+    direction_[unknowns_[static_cast<std::size_t>(u)].dof] = solution[u];
+  }
+  return true;
+}
+
+/// Goes along direction_; tractions are linear in the step length, so trying lengths is cheap.
+void ContactNewton::advance(SubStep& sub_step, bool damped) {
+  response_.setZero(problem_.n_dofs());
+  problem_.subtract_product(direction_, response_);
+  double length = 1;
+  if (damped) {
+    double best = std::numeric_limits<double>::infinity();
+    double worst = 0;
+    for (const double candidate : {1.0, 0.5, 0.25, 0.125, 0.0625}) {
+      trial_increment_ = sub_step.increment + candidate * direction_;
+      trial_traction_ = sub_step.traction + candidate * response_;
+      const double merit = natural_residual(sub_step, trial_traction_, trial_increment_, worst);
+      if (merit < best) {
+        best = merit;
+        length = candidate;
+      }
+    }
+  }
+  sub_step.increment += length * direction_;
+  sub_step.traction += length * response_;
+}
+
+/// Rounds noise to rest, computes the tractions afresh and checks the residual again.
+bool ContactNewton::finish(SubStep& sub_step) {
+  for (int k = 0; k < problem_.n_nodes(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const ContactNode& node = problem_.nodes[i];
+    if (sub_step.state[i] == FaultState::open) continue;
+    sub_step.increment[node.dof[0]] = -sub_step.start->jump[node.dof[0]];
+    const Eigen::Vector2d slip = shear_part(node, sub_step.increment);
+    if (slip[0] == 0 && slip[1] == 0) {
+      sub_step.state[i] = FaultState::stick;
+      continue;
+    }
+    const double noise = 0.01 * sub_step.tolerance[k] / problem_.stiffness(node, 1);
+    if (sub_step.state[i] == FaultState::stick || slip.norm() < noise) {
+      for (std::size_t c = 1; c < static_cast<std::size_t>(node.n_dofs); ++c) {
+        sub_step.increment[node.dof[c]] = 0;
+      }
+      sub_step.state[i] = FaultState::stick;
+    }
+  }
+  sub_step.traction = sub_step.trial;
+  problem_.subtract_product(sub_step.increment, sub_step.traction);
+  double worst = 0;
+  natural_residual(sub_step, sub_step.traction, sub_step.increment, worst);
+  return worst <= 1.5;  // the tolerance with a margin for what was rounded to rest
+}
+
+bool ContactNewton::seen_before(const SubStep& sub_step) {
+  std::uint64_t hash = 1469598103934665603ULL;  // FNV-1a
+  for (const FaultState state : sub_step.state) {
+    hash = (hash ^ static_cast<std::uint64_t>(state)) * 1099511628211ULL;
+  }
+  if (std::find(seen_.begin(), seen_.end(), hash) != seen_.end()) return true;
+  seen_.push_back(hash);
+  return false;
+}
+
+/// A node that keeps opening and closing has failed in tension: it closes again without cohesion.
+void ContactNewton::lose_cohesion(SubStep& sub_step) {
+  for (std::size_t i = 0; i < was_open_.size(); ++i) {
+    if (was_open_[i] && !problem_.laws.keep_cohesion[i]) sub_step.cohesive[i] = 0;
+  }
+}
+
+NewtonReport ContactNewton::solve(SubStep& sub_step) {
+  NewtonReport report;
+  seen_.clear();
+  was_open_.assign(static_cast<std::size_t>(problem_.n_nodes()), 0);
+  bool damped = false;
+  int same_set = 0;
+  classify(sub_step);
+  seen_before(sub_step);
+  report.passes = 1;
+  const int bound = options_.max_active_set_passes + options_.max_newton_iterations;
+  while (report.iterations < bound) {
+    prescribe(sub_step);
+    collect(sub_step);
+    if (!solve_linear()) return report;
+    advance(sub_step, damped);
+    ++report.iterations;
+    const bool changed = classify(sub_step);
+    same_set = changed ? 0 : same_set + 1;
+    if (changed) {
+      if (++report.passes > options_.max_active_set_passes) return report;
+      if (seen_before(sub_step)) {
+        damped = true;
+        lose_cohesion(sub_step);
+      }
+      continue;
+    }
+    double worst = 0;
+    natural_residual(sub_step, sub_step.traction, sub_step.increment, worst);
+    if (worst <= 1 && finish(sub_step)) {
+      report.converged = true;
+      return report;
+    }
+    if (same_set > options_.max_newton_iterations) return report;
+  }
+  return report;
+}
+
+}  // namespace faultsim

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/LU>
+#include <cstdint>
+#include <vector>
+
+#include "simulator/contact/contact_problem.h"
+#include "simulator/contact/slip_residual.h"
+
+namespace faultsim {
+
+struct NewtonReport {
+  bool converged = false;
+  int iterations = 0;  ///< linear solves.
+  int passes = 0;      ///< active sets tried.
+};
+
+/// Semismooth Newton with an active set that is revised at each iteration: unknowns are Δg_T of
+/// slipping nodes and all of Δg of open ones; stick nodes are eliminated. The tangent is the
+/// consistent one of slip_residual.h. A set seen before switches to a line search on the natural
+/// residual, which lets only a share of the nodes change state.
+class ContactNewton {
+ public:
+  ContactNewton(ContactProblem& problem, const ContactOptions& options);
+  /// Starts from sub_step.increment and state; leaves its best iterate there in any case.
+  NewtonReport solve(SubStep& sub_step);
+
+ private:
+  struct Unknown {
+    int node, component, dof;
+    std::array<double, 3> weight;  ///< −∂R/∂t' A⁻¹ per dof of the node.
+    std::array<double, 2> own;     ///< ∂R/∂Δg_T of the node's own slip.
+  };
+  bool classify(SubStep& sub_step);
+  SlipPoint slip_point(const SubStep& sub_step, const Eigen::VectorXd& traction,
+                       const Eigen::VectorXd& increment, int node) const;
+  double natural_residual(const SubStep& sub_step, const Eigen::VectorXd& traction,
+                          const Eigen::VectorXd& increment, double& worst) const;
+  void prescribe(const SubStep& sub_step);
+  void collect(const SubStep& sub_step);
+  void collect_node(const SubStep& sub_step, int node);
+  bool solve_linear();
+  void advance(SubStep& sub_step, bool damped);
+  bool finish(SubStep& sub_step);
+  bool seen_before(const SubStep& sub_step);
+  void lose_cohesion(SubStep& sub_step);
+
+  ContactProblem& problem_;
+  const ContactOptions& options_;
+  std::vector<double> shear_stiffness_;
+  std::vector<Unknown> unknowns_;
+  std::vector<std::uint64_t> seen_;
+  std::vector<char> was_open_;
+  Eigen::VectorXd direction_, response_, right_, trial_increment_, trial_traction_;
+  Eigen::MatrixXd tangent_;
+};
+
+}  // namespace faultsim

@@ -1,0 +1,147 @@
+#include "simulator/contact/scalar_slip.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faultsim {
+
+ScalarSlip::ScalarSlip(ContactProblem& problem, const ContactOptions& options)
+    : problem_(problem), options_(options) {
+  wanted_.assign(static_cast<std::size_t>(problem.n_nodes()), 0);
+  placed_ = wanted_;
+}
+
+/// Lets every stick node beyond its limit slip along its traction. @returns whether there was one.
+bool ScalarSlip::add_violators(const SubStep& sub_step, bool& opens) {
+  bool any = false;
+  for (std::size_t i = 0; i < wanted_.size(); ++i) {
+    const ContactNode& node = problem_.nodes[i];
+    const double tolerance = sub_step.tolerance[static_cast<Eigen::Index>(i)];
+    const double normal = sub_step.traction[node.dof[0]];
+    opens = opens || normal > tolerance;
+    if (wanted_[i] != 0 || node.n_dofs < 2) continue;
+    const double shear = sub_step.traction[node.dof[1]];
+    const double cohesion = sub_step.cohesive[i] ? problem_.laws.node[i].cohesion : 0;
+    if (std::abs(shear) - (cohesion - std::min(normal, 0.0) * node.friction) <= tolerance) continue;
+    wanted_[i] = shear > 0 ? 1 : -1;
+    any = true;
+  }
+  return any;
+}
+
+/// Brings the factor to the wanted set: cuts it back to what still holds, appends the rest.
+void ScalarSlip::synchronise() {
+  std::size_t keep = 0;
+  while (keep < order_.size() && wanted_[static_cast<std::size_t>(order_[keep])] == signs_[keep]) {
+    ++keep;
+  }
+  for (std::size_t i = keep; i < order_.size(); ++i) {
+    placed_[static_cast<std::size_t>(order_[i])] = 0;
+  }
+  order_.resize(keep);
+  signs_.resize(keep);
+  lu_.truncate(static_cast<int>(keep));
+}
+
+/// Appends a node's row and column, both read from its own columns of H by symmetry.
+bool ScalarSlip::append(int k) {
+  const auto i = static_cast<std::size_t>(k);
+  const ContactNode& node = problem_.nodes[i];
+  const double* shear = problem_.op.h.col(node.dof[1]).data();
+  const double* normal = problem_.op.h.col(node.dof[0]).data();
+  const auto coupling = [](const ContactNode& at, int sign) {
+    return sign * at.friction * at.inverse_area[0] / at.inverse_area[1];
+  };
+  const double own = coupling(node, wanted_[i]);
+  double* row = lu_.row();
+  double* column = lu_.column();
+  for (std::size_t j = 0; j < order_.size(); ++j) {
+    const ContactNode& other = problem_.nodes[static_cast<std::size_t>(order_[j])];
+    const double tangential = shear[other.dof[1]];
+    row[j] = tangential + own * normal[other.dof[1]];
+    column[j] = tangential + coupling(other, signs_[j]) * shear[other.dof[0]];
+  }
+  // Pivots far below the diagonal would be a loss of digits, so they end the fast road.
+  const double diagonal = shear[node.dof[1]] + own * normal[node.dof[1]];
+  constexpr double kSmallestPivot = 1e-8;
+  if (!(lu_.append(diagonal) > kSmallestPivot * shear[node.dof[1]])) return false;
+  order_.push_back(k);
+  signs_.push_back(wanted_[i]);
+  placed_[i] = 1;
+  return true;
+}
+
+bool ScalarSlip::solve_set(const SubStep& sub_step) {
+  synchronise();
+  for (std::size_t i = 0; i < wanted_.size(); ++i) {
+    if (wanted_[i] != 0 && !placed_[i] && !append(static_cast<int>(i))) return false;
+  }
+  slip_.resize(order_.size());
+  for (std::size_t j = 0; j < order_.size(); ++j) {
+    const auto i = static_cast<std::size_t>(order_[j]);
+    const ContactNode& node = problem_.nodes[i];
+    const double cohesion = sub_step.cohesive[i] ? problem_.laws.node[i].cohesion : 0;
+    const double excess = signs_[j] * sub_step.trial[node.dof[1]] - cohesion +
+                          node.friction * sub_step.trial[node.dof[0]];
+    slip_[j] = signs_[j] * excess / node.inverse_area[1];
+  }
+  lu_.solve(slip_.data());
+  return true;
+}
+
+bool ScalarSlip::release_wrong_way() {
+  bool any = false;
+  for (std::size_t j = 0; j < order_.size(); ++j) {
+    if (signs_[j] * slip_[j] > 0) continue;
+    wanted_[static_cast<std::size_t>(order_[j])] = 0;
+    any = true;
+  }
+  return any;
+}
+
+bool ScalarSlip::seen_before() {
+  std::uint64_t hash = 1469598103934665603ULL;  // FNV-1a
+  for (const signed char sign : wanted_) {
+    hash = (hash ^ static_cast<std::uint64_t>(sign + 1)) * 1099511628211ULL;
+  }
+  if (std::find(seen_.begin(), seen_.end(), hash) != seen_.end()) return true;
+  seen_.push_back(hash);
+  return false;
+}
+
+NewtonReport ScalarSlip::solve(SubStep& sub_step) {
+  NewtonReport report;
+  seen_.clear();
+  std::fill(wanted_.begin(), wanted_.end(), 0);
+  bool opens = false;
+  bool changed = add_violators(sub_step, opens);
+  while (!opens && report.passes < options_.max_active_set_passes) {
+    if (!changed) {
+      report.converged = true;
+      break;
+    }
+    if (seen_before()) break;
+    ++report.passes;
+    if (!solve_set(sub_step)) {
+      // What was appended so far is a valid factor; it stays.
+      break;
+    }
+    ++report.iterations;
+    // A set that already fails in its own rows is revised before all rows are looked at.
+    if (release_wrong_way()) continue;
+    sub_step.increment.setZero();
+    for (std::size_t j = 0; j < order_.size(); ++j) {
+      const auto i = static_cast<std::size_t>(order_[j]);
+      sub_step.increment[problem_.nodes[i].dof[1]] = slip_[j];
+    }
+    sub_step.traction = sub_step.trial;
+    problem_.subtract_product(sub_step.increment, sub_step.traction);
+    changed = add_violators(sub_step, opens);
+  }
+  for (std::size_t i = 0; i < wanted_.size(); ++i) {
+    sub_step.state[i] = wanted_[i] != 0 ? FaultState::slip : FaultState::stick;
+  }
+  return report;
+}
+
+}  // namespace faultsim

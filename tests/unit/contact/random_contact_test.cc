@@ -1,0 +1,134 @@
+// Random problems with dense H: all of stick, slip and open must come out in equilibrium.
+#include <gtest/gtest.h>
+
+#include <Eigen/QR>
+
+#include <random>
+
+#include "tests/unit/contact/contact_fixture.h"
+
+namespace faultsim {
+namespace {
+
+struct RandomProblem {
+  FaultOperator op;
+  ContactLaws laws;
+  std::vector<Eigen::VectorXd> locked;
+};
+
+/// Tractions of order 1e7 Pa, stiffness 1e8 Pa/m. kind 0: smooth kernel; 1: random dense coupling.
+RandomProblem random_problem(unsigned seed, int n_shear) {
+  std::mt19937 engine(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const int n = 2 + static_cast<int>(engine() % 59);
+  Eigen::VectorXd area(n);
+  for (double& a : area) a = 1.5 + uniform(engine);
+  RandomProblem problem{make_operator(n, n_shear, area), {}, {}};
+  const int dofs = problem.op.geometry.n_dofs;
+  Eigen::MatrixXd h(dofs, dofs);
+  if (seed % 2 == 0) {
+    Eigen::MatrixXd b(dofs, dofs);
+    for (double& v : b.reshaped()) v = uniform(engine);
+    h = b * b.transpose() / dofs + 0.3 * Eigen::MatrixXd::Identity(dofs, dofs);
+  } else {
+    h = half_space_matrix(problem.op, 1, 0.2);
+    for (int i = 0; i < dofs; ++i) h(i, i) *= 1.05 + 0.1 * uniform(engine);
+  }
+  set_h(problem.op, 1e8 * h);
+  problem.laws = same_law(problem.op, {});
+  for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k) {
+    CoulombLaw& law = problem.laws.node[k];
+    law.static_friction_angle = law.dynamic_friction_angle =
+        engine() % 8 == 0 ? 0 : 0.4 + 0.25 * uniform(engine);
+    law.cohesion = engine() % 3 == 0 ? 1e6 * (1 + uniform(engine)) : 0;
+    problem.laws.keep_cohesion[k] = 0;
+  }
+  Eigen::VectorXd start(dofs), change(dofs);
+  const double tension = seed % 3 == 0 ? 1.6 : 0.7;
+  const int stride = 1 + n_shear;
+  for (int i = 0; i < dofs; ++i) {
+    start[i] = i % stride == 0 ? -1e7 : 2e6 * uniform(engine);
+    change[i] = (i % stride == 0 ? tension : 1.0) * 1e7 * uniform(engine);
+  }
+  for (const double factor : {0.0, 0.3, 0.7, 1.0, 1.3, 0.6, -0.2, -0.8, 0.0, 1.0}) {
+    Eigen::VectorXd locked = start + factor * change;
+    // Turn the load a little, so that slip directions change from step to step.
+    for (int i = 0; i < dofs; ++i) {
+      if (i % stride != 0) locked[i] += 1e6 * factor * factor * uniform(engine);
+    }
+    problem.locked.push_back(locked);
+  }
+  return problem;
+}
+
+struct Totals {
+  int n_open = 0, n_slip = 0, n_stick = 0, n_cut = 0, n_failed = 0, iterations = 0,
+      n_closed_again = 0;
+};
+
+void run(const RandomProblem& problem, Totals& totals, unsigned seed) {
+  ContactSolver solver(problem.op, problem.laws, {});
+  ContactState state = initial_state(problem.op);
+  Eigen::VectorXd before = Eigen::VectorXd::Zero(problem.op.geometry.n_dofs);
+  for (std::size_t step = 0; step < problem.locked.size(); ++step) {
+    const ContactState start = state;
+    const ContactReport report = solver.solve_step(before, problem.locked[step], state);
+    if (report.outcome != Outcome::converged) {
+      ++totals.n_failed;
+      ADD_FAILURE() << "seed " << seed << " step " << step << ": " << report.reason;
+      return;
+    }
+    const ContactViolation v =
+        contact_violation(problem.op, problem.laws, problem.locked[step], start, state);
+    const double tolerance = 2;  // Pa, of 1e7
+    EXPECT_LT(v.tension, tolerance) << seed << ' ' << step;
+    EXPECT_LT(v.penetration, 1e-8) << seed << ' ' << step;
+    EXPECT_LT(v.over_limit, tolerance) << seed << ' ' << step;
+    EXPECT_LT(v.open_traction, tolerance) << seed << ' ' << step;
+    EXPECT_LT(v.equilibrium, 1e-4) << seed << ' ' << step;
+    if (report.counts.sub_steps == 1) {
+      EXPECT_LT(v.slip_below_limit, tolerance) << seed << ' ' << step;
+      EXPECT_LT(v.misaligned, tolerance) << seed << ' ' << step;
+      const Eigen::VectorXd work = state.traction.cwiseProduct(state.jump - start.jump);
+      for (const OperatorNode& node : problem.op.geometry.nodes) {
+        double dissipated = 0;
+        for (const int c : {1, 2}) {
+          if (node.dof[static_cast<std::size_t>(c)] >= 0) {
+            dissipated += work[node.dof[static_cast<std::size_t>(c)]];
+          }
+        }
+        EXPECT_GE(dissipated, -1e-2) << seed << ' ' << step;
+      }
+    }
+    for (std::size_t k = 0; k < state.state.size(); ++k) {
+      totals.n_open += state.state[k] == FaultState::open;
+      totals.n_slip += state.state[k] == FaultState::slip;
+      totals.n_stick += state.state[k] == FaultState::stick;
+      totals.n_closed_again +=
+          state.state[k] != FaultState::open && start.state[k] == FaultState::open;
+    }
+    totals.n_cut += report.counts.sub_steps > 1;
+    totals.iterations += report.counts.newton_iterations;
+    before = problem.locked[step];
+  }
+}
+
+void run_all(int n_shear) {
+  Totals totals;
+  constexpr unsigned kSeeds = 300;
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) run(random_problem(seed, n_shear), totals, seed);
+  EXPECT_EQ(totals.n_failed, 0);
+  EXPECT_GT(totals.n_open, 1000);
+  EXPECT_GT(totals.n_slip, 10000);
+  EXPECT_GT(totals.n_stick, 1000);
+  EXPECT_GT(totals.n_closed_again, 100);
+  std::printf("open %d slip %d stick %d closed again %d cut %d failed %d iterations %d\n",
+              totals.n_open, totals.n_slip, totals.n_stick, totals.n_closed_again, totals.n_cut,
+              totals.n_failed, totals.iterations);
+}
+
+TEST(RandomContact, ConvergesInThreeDimensions) { run_all(2); }
+TEST(RandomContact, ConvergesInPlaneStrain) { run_all(1); }
+
+}  // namespace
+}  // namespace faultsim
