@@ -69,9 +69,11 @@ SceneRun SceneRunner::run(const std::string& file, const Settings& settings, boo
   std::shared_ptr<const FaultOperator>& op = operators_[name];
   if (!op) op = prepare_operator(run.scene, plan, CachePolicy{}, false, monitor_).op;
   run.op = op;
-  run.result = run_case(run.scene, plan, *op, monitor_,
-                        [&](const StepResult&, const FaultFields& fields) { run.fields.push_back(fields); });
-  if (run.result.outcome == Outcome::interrupted) throw Interrupted("stopped while running " + file);
+  run.result =
+      run_case(run.scene, *op, monitor_,
+               [&](const StepResult&, const FaultFields& fields) { run.fields.push_back(fields); });
+  if (run.result.outcome == Outcome::interrupted)
+    throw Interrupted("stopped while running " + file);
   if (must_converge && run.result.outcome != Outcome::converged) {
     throw Error(concat(file, " ended ", to_string(run.result.outcome), ": ", run.result.reason));
   }

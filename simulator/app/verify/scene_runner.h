@@ -33,15 +33,15 @@ struct SceneRun {
   Eigen::Vector3d observed_position(const std::string& name) const;
 };
 
-/// Runs the scenes of docs/examples/verification, which are embedded, through read_scene, make_plan,
-/// prepare_operator and run_case: the code of `faultsim run`. Operators are kept by their
-/// fingerprint, so that members of a family are cheap.
+/// Runs the scenes of docs/examples/verification, which are embedded, through read_scene,
+/// make_plan, prepare_operator and run_case: the code of `faultsim run`. Operators are kept by
+/// their fingerprint, so that members of a family are cheap.
 class SceneRunner {
  public:
   explicit SceneRunner(Monitor& monitor) : monitor_(monitor) {}
 
-  /// @param file  "v1_patch_test.json". Throws InputError when the scene is wrong, and Error when the
-  /// case does not end `converged` and that was not allowed.
+  /// @param file  "v1_patch_test.json". Throws InputError when the scene is wrong, and Error when
+  /// the case does not end `converged` and that was not allowed.
   SceneRun run(const std::string& file, const Settings& settings = {}, bool must_converge = true);
 
  private:

@@ -15,7 +15,8 @@ namespace faultsim {
 const std::vector<VerifyCase>& verify_cases() {
   static const std::vector<VerifyCase> cases = [] {
     std::vector<VerifyCase> all;
-    for (auto part : {patch_cases(), depletion_cases(), displaced_cases(), crack_cases(), slider_cases()})
+    for (auto part :
+         {patch_cases(), depletion_cases(), displaced_cases(), crack_cases(), slider_cases()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();
@@ -86,10 +87,11 @@ void print_list(const std::vector<const VerifyCase*>& cases, bool json) {
   nlohmann::json list = nlohmann::json::array();
   for (const VerifyCase* c : cases) {
     if (json) {
-      list.push_back({{"name", c->name}, {"title", c->title}, {"scenes", c->scenes}, {"slow", c->slow}});
+      list.push_back(
+          {{"name", c->name}, {"title", c->title}, {"scenes", c->scenes}, {"slow", c->slow}});
     } else {
-      std::cout << c->name << std::string(c->name.size() < 24 ? 24 - c->name.size() : 1, ' ') << c->title
-                << (c->slow ? "  (slow)" : "") << "\n";
+      std::cout << c->name << std::string(c->name.size() < 24 ? 24 - c->name.size() : 1, ' ')
+                << c->title << (c->slow ? "  (slow)" : "") << "\n";
     }
   }
   if (json) std::cout << list.dump(2) << "\n";
@@ -109,19 +111,24 @@ ExitCode verify_command(const std::vector<std::string>& names, bool list, bool j
   nlohmann::json reports = nlohmann::json::array();
   std::size_t passed = 0, compared = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    std::cerr << "[" << i + 1 << "/" << cases.size() << "] " << cases[i]->name << " ..." << std::flush;
+    std::cerr << "[" << i + 1 << "/" << cases.size() << "] " << cases[i]->name << " ..."
+              << std::flush;
     const Stopwatch watch;
     const VerifyReport report = run_verify_case(*cases[i], monitor);
     std::cerr << (report.passed() ? " pass, " : " MISS, ") << watch.seconds() << " s\n";
     passed += report.passed() ? 1 : 0;
     compared += report.rows.size();
     if (json) reports.push_back(report_to_json(report));
-    if (!json) std::cout << (markdown ? report_to_markdown(report) : report_to_text(report) + "\n") << std::flush;
+    if (!json)
+      std::cout << (markdown ? report_to_markdown(report) : report_to_text(report) + "\n")
+                << std::flush;
   }
   const bool good = passed == cases.size() && compared > 0;
-  const std::string summary = concat(passed, " of ", cases.size(), " cases passed, ", compared, " comparisons");
+  const std::string summary =
+      concat(passed, " of ", cases.size(), " cases passed, ", compared, " comparisons");
   if (json) {
-    std::cout << nlohmann::json{{"cases", reports}, {"passed", good}, {"summary", summary}}.dump(2) << "\n";
+    std::cout << nlohmann::json{{"cases", reports}, {"passed", good}, {"summary", summary}}.dump(2)
+              << "\n";
   } else if (!markdown) {
     std::cout << summary << (compared == 0 ? ": nothing was compared" : "") << "\n";
   }

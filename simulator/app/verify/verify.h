@@ -10,7 +10,8 @@ namespace faultsim {
 /// The `faultsim verify` command: runs verification problems and compares with their closed forms.
 /// Tables go to stdout, progress to stderr.
 ///
-/// @param names     problems ("V1") or cases ("V1-dip65"), any case; empty = all. An unknown name is an
+/// @param names     problems ("V1") or cases ("V1-dip65"), any case; empty = all. An unknown name
+/// is an
 ///                  InputError.
 /// @param list      only prints names and titles.
 /// @param json      prints one JSON document instead of tables.

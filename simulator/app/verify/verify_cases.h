@@ -11,7 +11,7 @@ namespace faultsim {
 
 /// A verification problem: its scenes with their variations, and what is compared with what.
 struct VerifyCase {
-  std::string name;                 ///< "V1-dip65"; the part before '-' is the problem.
+  std::string name;  ///< "V1-dip65"; the part before '-' is the problem.
   std::string title;
   std::vector<std::string> scenes;  ///< files of docs/examples/verification that it runs.
   bool slow = false;                ///< takes more than about 20 s.
@@ -22,13 +22,14 @@ struct VerifyCase {
 const std::vector<VerifyCase>& verify_cases();
 
 /// Cases of one subject each, see the .cc of that name.
-std::vector<VerifyCase> patch_cases();       // V1
-std::vector<VerifyCase> depletion_cases();   // V2, V3
-std::vector<VerifyCase> displaced_cases();   // V4, V5
-std::vector<VerifyCase> crack_cases();       // V6
-std::vector<VerifyCase> slider_cases();      // V7
+std::vector<VerifyCase> patch_cases();      // V1
+std::vector<VerifyCase> depletion_cases();  // V2, V3
+std::vector<VerifyCase> displaced_cases();  // V4, V5
+std::vector<VerifyCase> crack_cases();      // V6
+std::vector<VerifyCase> slider_cases();     // V7
 
-/// Runs one case. What goes wrong in it becomes VerifyReport::failure; only Interrupted (and bugs) leave.
+/// Runs one case. What goes wrong in it becomes VerifyReport::failure; only Interrupted (and bugs)
+/// leave.
 VerifyReport run_verify_case(const VerifyCase& verify_case, Monitor& monitor);
 
 }  // namespace faultsim

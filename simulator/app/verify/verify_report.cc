@@ -83,7 +83,8 @@ std::string report_to_text(const VerifyReport& report) {
   const auto table = table_of(report);
   std::vector<std::size_t> widths(table.front().size(), 0);
   for (const auto& row : table) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], columns_of(row[i]));
+    for (std::size_t i = 0; i < row.size(); ++i)
+      widths[i] = std::max(widths[i], columns_of(row[i]));
   }
   std::string text = report.name + "  " + report.title + "\n";
   for (const auto& row : table) {
@@ -132,8 +133,9 @@ nlohmann::json report_to_json(const VerifyReport& report) {
                     {"unit", row.unit},
                     {"pass", row.pass}});
   }
-  return {{"name", report.name},       {"title", report.title},     {"scenes", report.scenes},
-          {"rows", rows},              {"remarks", report.remarks}, {"failure", report.failure},
+  return {{"name", report.name},       {"title", report.title},
+          {"scenes", report.scenes},   {"rows", rows},
+          {"remarks", report.remarks}, {"failure", report.failure},
           {"passed", report.passed()}};
 }
 

@@ -11,27 +11,27 @@ struct VerifyRow {
   std::string quantity;  ///< "t_N at dip 65°".
   double expected;       ///< in `unit`.
   double computed;       ///< in `unit`.
-  double error;          ///< |computed − expected| / scale; the scale is |expected| unless the text says.
-  double tolerance;      ///< the largest error that passes.
+  double error;  ///< |computed − expected| / scale; the scale is |expected| unless the text says.
+  double tolerance;  ///< the largest error that passes.
   std::string unit;
   bool pass;
 };
 
 /// What a verification case found.
 struct VerifyReport {
-  std::string name;   ///< "V1-dip65".
+  std::string name;  ///< "V1-dip65".
   std::string title;
   std::vector<std::string> scenes;  ///< files of docs/examples/verification.
   std::vector<VerifyRow> rows;
   std::vector<std::string> remarks;  ///< sizes, times are not among them: the text is reproducible.
-  std::string failure;  ///< why the case could not be evaluated; empty if it was.
+  std::string failure;               ///< why the case could not be evaluated; empty if it was.
 
   /// |computed − expected| ≤ tolerance · scale; a NaN never passes.
-  void compare(const std::string& quantity, const std::string& unit, double expected, double computed,
-               double tolerance, double scale);
+  void compare(const std::string& quantity, const std::string& unit, double expected,
+               double computed, double tolerance, double scale);
   /// The same with scale = |expected| (1 where expected = 0).
-  void compare(const std::string& quantity, const std::string& unit, double expected, double computed,
-               double tolerance);
+  void compare(const std::string& quantity, const std::string& unit, double expected,
+               double computed, double tolerance);
   /// An error already measured: expected 0, the error must be ≤ tolerance.
   void bound(const std::string& quantity, const std::string& unit, double error, double tolerance);
   /// computed ≥ least, as for orders of convergence; the error is the shortfall.

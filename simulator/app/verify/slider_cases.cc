@@ -1,0 +1,296 @@
+// V7: friction by hand: spring and slider as scenes, and two tiny problems with known solutions.
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "simulator/app/verify/friction_solutions.h"
+#include "simulator/app/verify/verify_cases.h"
+#include "simulator/common/errors.h"
+#include "simulator/contact/contact.h"
+#include "simulator/fault/friction_law.h"
+
+namespace faultsim {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kTolerance = 1e-8;
+const char kScene[] = "v7_slider.json";
+
+/// Settings that drive the top by u_1, u_2, … in one load step each, in the direction at `azimuth`
+/// (rad from x to y).
+Settings driven_by(const std::vector<double>& u, double azimuth = 0) {
+  std::string times = "\"0 year\"", factors = "0";
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    times += concat(",\"", i + 1, " year\"");
+    factors += concat(",", u[i]);
+  }
+  return {{"/geometry/boundary/1/table", "{\"time\":[" + times + "],\"factor\":[" + factors + "]}"},
+          {"/geometry/boundary/1/translation",
+           concat("[\"", std::cos(azimuth), " m\",\"", std::sin(azimuth), " m\",\"0 m\"]")},
+          {"/stages/0/duration", concat(u.size(), " year")},
+          {"/stages/0/steps", concat(u.size())}};
+}
+
+Settings with_friction(Settings settings, const std::string& friction) {
+  settings.push_back({"/friction", friction});
+  return settings;
+}
+
+/// The slider that a scene describes: N from the initial stress, k = G/2H.
+Slider slider_of(const Scene& scene) {
+  const Material& rock = scene.materials.front();
+  const double height = (scene.box.to[2] - scene.box.from[2]) / 2;
+  const Friction& friction = scene.faults.front().friction;
+  return {rock.youngs_modulus / (2 * (1 + rock.poisson_ratio)) / (2 * height),
+          -scene.initial.tensor.value()[8],
+          friction.static_friction_angle,
+          friction.dynamic_friction_angle,
+          friction.slip_weakening_distance > 0 ? friction.slip_weakening_distance : 1,
+          friction.law == FrictionLaw::angle};
+}
+
+/// Global slip (upper relative to lower block) and shear traction at a step.
+Eigen::Vector3d in_plane(const SceneRun& run, const Eigen::Matrix3Xd& field) {
+  const OperatorNode& node = run.geometry().nodes.front();
+  const double sign = node.normal.z() > 0 ? 1 : -1;
+  return sign * (field(1, 0) * node.strike + field(2, 0) * node.dip);
+}
+
+void compare_path(const SceneRun& run, const std::vector<double>& u, VerifyReport& report) {
+  const Slider slider = slider_of(run.scene);
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    const double expected = slider_slip(slider, u[i]);
+    const FaultFields& fields = run.fields.at(i + 1);
+    report.compare(concat("slip at u = ", u[i]), "m", expected, in_plane(run, fields.jump).x(),
+                   kTolerance, 1);
+    const double shear = slider.stiffness * (u[i] - expected);
+    report.compare(concat("τ at u = ", u[i]), "MPa", shear / 1e6,
+                   in_plane(run, fields.traction).x() / 1e6, kTolerance);
+  }
+}
+
+const char kAngleLaw[] =
+    R"({"law":"angle","friction_angle":"30 deg","dynamic_friction_angle":"10 deg","slip_weakening_distance":"1.6 m"})";
+
+VerifyCase linear_case() {
+  return {"V7-linear",
+          "spring and slider, the coefficient weakens, stable",
+          {kScene},
+          false,
+          [](SceneRunner& runner, VerifyReport& report) {
+            const std::vector<double> u = {1.2, 1.3, 1.4, 1.5, 1.6, 1.8};
+            compare_path(runner.run(kScene, driven_by(u)), u, report);
+          }};
+}
+
+VerifyCase angle_case() {
+  return {"V7-angle",
+          "spring and slider, the angle weakens, stable",
+          {kScene},
+          false,
+          [](SceneRunner& runner, VerifyReport& report) {
+            const std::vector<double> u = {1.154, 1.2, 1.5, 1.7, 1.9, 2.1};
+            compare_path(runner.run(kScene, with_friction(driven_by(u), kAngleLaw)), u, report);
+            const SceneRun bracket =
+                runner.run(kScene, with_friction(driven_by({1.15470053, 1.15470055}), kAngleLaw));
+            report.holds("sticks at u = 1.15470053",
+                         in_plane(bracket, bracket.fields[1].jump).norm() == 0);
+            report.holds("slips at u = 1.15470055",
+                         in_plane(bracket, bracket.fields[2].jump).norm() > 0);
+          }};
+}
+
+/// Adds that a run ends `unstable` at exactly this step, with no slip before.
+void expect_instability(const SceneRun& run, int step, const std::string& what,
+                        VerifyReport& report) {
+  report.holds(what + ": outcome unstable", run.result.outcome == Outcome::unstable);
+  report.compare(what + ": step of the instability", "", step, run.result.failed_step.value_or(-1),
+                 0);
+  const auto last = static_cast<std::size_t>(step - 1);
+  const bool there = run.fields.size() == last + 1;
+  report.holds(what + ": history kept up to the step before", there);
+  if (there)
+    report.bound(what + ": slip before", "m", in_plane(run, run.fields[last].jump).norm(), 1e-12);
+}
+
+VerifyCase unstable_case() {
+  return {"V7-unstable",
+          "spring and slider, weakening faster than the spring: an instability",
+          {kScene},
+          false,
+          [](SceneRunner& runner, VerifyReport& report) {
+            Settings settings = driven_by({0.4, 0.8, 1.1, 1.199, 1.21, 1.3});
+            settings.push_back({"/friction/slip_weakening_distance", "0.2 m"});
+            expect_instability(runner.run(kScene, settings, false), 5, "d_c 0.2 m", report);
+          }};
+}
+
+VerifyCase critical_case() {
+  return {"V7-critical",
+          "the slip-weakening distance at which the slider loses its stability",
+          {kScene},
+          false,
+          [](SceneRunner& runner, VerifyReport& report) {
+            Settings settings = with_friction(driven_by({1.1, 1.1548, 1.156}), kAngleLaw);
+            const SceneRun stable = runner.run(kScene, settings);
+            const Slider slider = slider_of(stable.scene);
+            const double h_over_a = stable.op->h(1, 1) / stable.op->dof_area[1];
+            report.compare("H/A of the slider = k", "MPa/m", slider.stiffness / 1e6, h_over_a / 1e6,
+                           kTolerance);
+            const double critical = slider_critical_distance(slider);
+            for (const double factor : {1.01, 0.99}) {
+              settings.push_back(
+                  {"/friction/slip_weakening_distance", concat(critical * factor, " m")});
+              const SceneRun run = runner.run(kScene, settings, false);
+              const Outcome expected = factor > 1 ? Outcome::converged : Outcome::unstable;
+              report.holds(concat("d_c ", factor, " times critical: ", to_string(expected)),
+                           run.result.outcome == expected);
+            }
+            // The eigenvalue H/A − W of the patch changes sign there.
+            CoulombLaw law{WeakeningLaw::angle, 0, slider.static_friction_angle,
+                           slider.dynamic_friction_angle, critical};
+            const double rate = -limit_shear_traction(law, -slider.normal_stress, 0).d_slip;
+            report.compare("H/A − W at the critical distance", "MPa/m", 0, (h_over_a - rate) / 1e6,
+                           1e-6);
+          }};
+}
+
+VerifyCase reversal_case() {
+  return {"V7-reversal",
+          "spring and slider, load reversed twice, constant friction",
+          {kScene},
+          false,
+          [](SceneRunner& runner, VerifyReport& report) {
+            const std::vector<double> u = {1.1, 1.2, 2, 1, -0.39, -0.4, -1, -2, 0, 0.4, 2};
+            const SceneRun run = runner.run(
+                kScene,
+                with_friction(driven_by(u), R"({"law":"coefficient","friction_coefficient":0.6})"));
+            const Slider slider = slider_of(run.scene);
+            const SliderPath path = slider_path(slider, u);
+            double dissipated = 0, before = 0;
+            for (std::size_t i = 0; i < u.size(); ++i) {
+              const double slip = in_plane(run, run.fields.at(i + 1).jump).x();
+              const double shear = in_plane(run, run.fields.at(i + 1).traction).x();
+              report.compare(concat("slip at u = ", u[i], " (step ", i + 1, ")"), "m", path.slip[i],
+                             slip, kTolerance, 1);
+              if (i > 2) dissipated += shear * (slip - before);
+              before = slip;
+            }
+            report.compare("dissipated in the cycle from u = 2 to −2 and back", "MJ/m²", 38.4,
+                           dissipated / 1e6, kTolerance);
+          }};
+}
+
+VerifyCase oblique_case() {
+  return {"V7-oblique",
+          "spring and slider, load oblique in the fault plane",
+          {kScene},
+          false,
+          [](SceneRunner& runner, VerifyReport& report) {
+            for (const double degrees : {30.0, 90.0, 200.0}) {
+              const SceneRun run = runner.run(kScene, driven_by({1.3, 1.5}, degrees * kDegree));
+              const Eigen::Vector3d slip = in_plane(run, run.fields.back().jump);
+              const std::string place = concat("load at ", degrees, "°: ");
+              report.compare(place + "|slip|", "m", slider_slip(slider_of(run.scene), 1.5),
+                             slip.norm(), kTolerance);
+              const Eigen::Vector3d direction(std::cos(degrees * kDegree),
+                                              std::sin(degrees * kDegree), 0);
+              report.bound(place + "slip across the load's direction", "m",
+                           (slip - slip.dot(direction) * direction).norm(), kTolerance);
+            }
+          }};
+}
+
+/// A contact problem u = W r + q as a fault operator: H = W⁻¹, A = 1, locked traction W⁻¹ q, r =
+/// −t'. Stresses are scaled to 10 MPa, the level that the solver is made for.
+struct TinyProblem {
+  static constexpr double scale = 1e7;  ///< Pa per unit of r
+  Eigen::MatrixXd w;
+  Eigen::VectorXd q;
+  double mu;
+
+  /// r of the solution by ContactSolver.
+  Eigen::VectorXd solve() const {
+    const Eigen::Index n = q.size();
+    FaultOperator op;
+    op.geometry.n_dofs = static_cast<int>(n);
+    for (int first = 0; first < n; first += 3) {
+      OperatorNode node;
+      node.position = Eigen::Vector3d(first, 0, 0);
+      node.normal = Eigen::Vector3d::UnitX();
+      node.strike = -Eigen::Vector3d::UnitY();
+      node.dip = -Eigen::Vector3d::UnitZ();
+      node.area = 1;
+      node.dof = {first, first + 1, first + 2};
+      op.geometry.nodes.push_back(node);
+    }
+    op.dof_area = Eigen::VectorXd::Ones(n);
+    const Eigen::MatrixXd inverse = w.inverse();
+    own_h(op, scale * inverse);
+    const CoulombLaw law{WeakeningLaw::angle, 0, std::atan(mu), std::atan(mu), 1};
+    const auto n_nodes = op.geometry.nodes.size();
+    const ContactLaws laws{std::vector<CoulombLaw>(n_nodes, law), std::vector<char>(n_nodes, 0),
+                           std::vector<char>(n_nodes, 0)};
+    ContactOptions options;
+    options.traction_tolerance = 1e-13;
+    ContactSolver solver(op, laws, options);
+    ContactState state = initial_state(op);
+    const ContactReport report =
+        solver.solve_step(Eigen::VectorXd::Zero(n), scale * (inverse * q), state);
+    if (report.outcome != Outcome::converged) throw Error("contact solve: " + report.reason);
+    return -state.traction / scale;
+  }
+};
+
+VerifyCase tiny_case() {
+  return {
+      "V7-tiny",
+      "tiny contact problems u = W r + q of contact-mechanics libraries",
+      {},
+      false,
+      [](SceneRunner&, VerifyReport& report) {
+        TinyProblem one;
+        one.w.resize(3, 3);
+        one.w << 15, -1, -2, -1, 14, 1, -2, 1, 16;
+        one.q.resize(3);
+        one.q << -1, 2, 3;
+        one.mu = 0.1;
+        const Eigen::VectorXd r = one.solve();
+        report.compare("one contact: |r|", "", 0.0660233441967, r.norm(), 1e-10);
+        report.compare("one contact: |u|", "", 3.35274260167, (one.w * r + one.q).norm(), 1e-10);
+        report.compare("one contact: r_n", "", 0.0656956828977, r[0], 1e-10);
+        report.bound("one contact: cone residual", "", cone_residual(one.w, one.q, one.mu, r),
+                     1e-10);
+        TinyProblem three{Eigen::MatrixXd::Identity(9, 9), Eigen::VectorXd(9), 0.1};
+        three.q << -1, 1, 3, -1, 1, 3, -1, 1, 3;
+        const Eigen::VectorXd s = three.solve();
+        for (Eigen::Index k = 0; k < 9; k += 3)
+          report.compare(concat("three contacts: r_n of contact ", k / 3 + 1), "", 1, s[k], 1e-10);
+        report.compare("three contacts: |u|", "", 5.30402049429, (three.w * s + three.q).norm(),
+                       1e-10);
+        report.bound("three contacts: cone residual", "",
+                     cone_residual(three.w, three.q, three.mu, s), 1e-10);
+      }};
+}
+
+VerifyCase nucleation_case() {
+  return {"V7-nucleation",
+          "nucleation length of Uenishi and Rice",
+          {},
+          false,
+          [](SceneRunner&, VerifyReport& report) {
+            const double rate = 36e6 * 0.32 / 0.02;
+            report.compare("h_n, mode II", "m", 15.370773,
+                           nucleation_length(6500e6 / (1 - 0.15), rate), 1e-7);
+          }};
+}
+
+}  // namespace
+
+std::vector<VerifyCase> slider_cases() {
+  return {linear_case(),   angle_case(),   unstable_case(), critical_case(),
+          reversal_case(), oblique_case(), tiny_case(),     nucleation_case()};
+}
+
+}  // namespace faultsim
