@@ -1,1 +1,346 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "simulator/mesh/grading.h"
 #include "simulator/mesh/mesh_spec.h"
+#include "simulator/mesh/shear.h"
+#include "simulator/mesh/structured_grid.h"
+
+namespace faultsim {
+namespace {
+
+constexpr double kMaxDip = 0.7854;     // 45 degrees, rounded up
+constexpr double kEdgeTolerance = 1e-5;  // m; ten times the distance below which lines are merged
+constexpr double kLeastRest = 0.1;     // of a cell; a thinner rest is spread over its neighbours
+constexpr int kEdgeCells = 2;          // cells of exactly sizes.dip on each side of a reservoir edge
+constexpr double kShearMargin = 2;     // cells beyond a fault's tips that are still sheared with it
+
+struct DepthRange {
+  double top, bottom;  // m, top < bottom
+};
+
+double reservoir_top(const FieldMeshSpec& spec) {
+  return spec.layer_tops[static_cast<size_t>(spec.reservoir_layer)];
+}
+double reservoir_base(const FieldMeshSpec& spec) {
+  const size_t below = static_cast<size_t>(spec.reservoir_layer) + 1;
+  return below < spec.layer_tops.size() ? spec.layer_tops[below] : spec.depth;
+}
+DepthRange reservoir_of(const FieldMeshSpec& spec, const FieldMeshSpec::Block& block) {
+  return {reservoir_top(spec) + block.offset, reservoir_base(spec) + block.offset};
+}
+
+/// x at the pivot depth of fault i.
+double fault_x(const FieldMeshSpec& spec, size_t i) {
+  return i < spec.blocks.size() ? spec.blocks[i].from : spec.blocks.back().to;
+}
+
+/// From overshoot above the shallowest to overshoot below the deepest reservoir edge that the fault
+/// touches: one block for the outer faults, two for the others.
+DepthRange fault_range(const FieldMeshSpec& spec, size_t i) {
+  DepthRange range = {std::numeric_limits<double>::infinity(), 0};
+  for (size_t b = i == 0 ? 0 : i - 1; b <= i && b < spec.blocks.size(); ++b) {
+    const DepthRange reservoir = reservoir_of(spec, spec.blocks[b]);
+    range.top = std::min(range.top, reservoir.top - spec.fault_overshoot);
+    range.bottom = std::max(range.bottom, reservoir.bottom + spec.fault_overshoot);
+  }
+  return range;
+}
+
+DepthRange all_faults_range(const FieldMeshSpec& spec) {
+  DepthRange all = fault_range(spec, 0);
+  for (size_t i = 1; i <= spec.blocks.size(); ++i) {
+    const DepthRange range = fault_range(spec, i);
+    all = {std::min(all.top, range.top), std::max(all.bottom, range.bottom)};
+  }
+  return all;
+}
+
+bool along_strike_is_grid(const FieldMeshSpec& spec) { return !spec.plane_strain; }
+
+void check_sizes(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
+  const auto positive = [&](double value, const char* pointer) {
+    if (!(value > 0) || !std::isfinite(value))
+      problems.push_back({pointer, 0, concat(value, " m is not a size"), "give a positive length"});
+  };
+  positive(spec.width, "/geometry/width");
+  if (along_strike_is_grid(spec)) {
+    positive(spec.length, "/geometry/length");
+    positive(spec.block_length, "/geometry/block_length");
+    positive(spec.fault_length, "/geometry/fault_length");
+    positive(spec.sizes.strike, "/mesh/strike");
+  }
+  positive(spec.depth, "/geometry/depth");
+  positive(spec.sizes.dip, "/mesh/dip");
+  positive(spec.sizes.normal, "/mesh/normal");
+  if (!(spec.sizes.growth >= 1))
+    problems.push_back({"/mesh/growth", 0, concat(spec.sizes.growth, " is below 1"), "use 1.3, say"});
+  if (!(spec.fault_overshoot >= 0))
+    problems.push_back({"/geometry/fault_overshoot", 0, "is negative", "use 0 or more"});
+  const double most = 1e6;  // lines per axis
+  if (problems.empty() && (spec.depth / spec.sizes.dip > most || spec.width / spec.sizes.normal > most ||
+                           (along_strike_is_grid(spec) && spec.length / spec.sizes.strike > most)))
+    problems.push_back({"/mesh", 0, "cells are a millionth of the model", "use larger cells"});
+}
+
+void check_layers(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
+  const std::vector<double>& tops = spec.layer_tops;
+  FAULTSIM_DEMAND(tops.size() == spec.layer_materials.size() && !tops.empty() &&
+                      spec.reservoir_layer >= 0 &&
+                      static_cast<size_t>(spec.reservoir_layer) < tops.size(),
+                  tops.size(), " ", spec.reservoir_layer);
+  for (size_t i = 0; i < tops.size(); ++i) {
+    const std::string pointer = concat("/geometry/layers/", i, "/top_depth");
+    if (i == 0 && tops[i] != 0)
+      problems.push_back({pointer, 0, "the first layer does not start at the surface", "use \"0 m\""});
+    if (i > 0 && !(tops[i] > tops[i - 1]))
+      problems.push_back({pointer, 0, "is not below the layer above", "order layers by depth"});
+    if (!(tops[i] < spec.depth))
+      problems.push_back({pointer, 0, "is below the base of the model",
+                          concat("use less than ", spec.depth, " m or a deeper model")});
+  }
+}
+
+void check_blocks(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
+  if (spec.blocks.empty()) {
+    problems.push_back({"/geometry/blocks", 0, "has no block", "give at least one"});
+    return;
+  }
+  FAULTSIM_DEMAND(spec.fault_names.size() == spec.blocks.size() + 1 &&
+                      spec.fault_dips.size() == spec.blocks.size() + 1,
+                  spec.fault_names.size(), " ", spec.fault_dips.size());
+  for (size_t i = 0; i < spec.blocks.size(); ++i) {
+    const FieldMeshSpec::Block& block = spec.blocks[i];
+    const std::string pointer = concat("/geometry/blocks/", i);
+    if (!(block.to - block.from > 2 * kEdgeTolerance))
+      problems.push_back({pointer + "/to", 0, "is not east of `from`", "give a block some width"});
+    if (i > 0 && std::abs(block.from - spec.blocks[i - 1].to) > kEdgeTolerance)
+      problems.push_back({pointer + "/from", 0, concat(block.from, " m is not where the block west of it ends, ",
+                                                       spec.blocks[i - 1].to, " m"),
+                          "blocks are contiguous from west to east"});
+  }
+  if (!(spec.blocks.front().from > -0.5 * spec.width) || !(spec.blocks.back().to < 0.5 * spec.width))
+    problems.push_back({"/geometry/width", 0, "the blocks reach the sides of the model",
+                        "make the model wider than its blocks"});
+}
+
+void check_faults(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
+  for (size_t i = 0; i < spec.blocks.size(); ++i) {
+    const std::string pointer = concat("/geometry/blocks/", i, "/offset");
+    const DepthRange range = reservoir_of(spec, spec.blocks[i]);
+    if (!(range.top - spec.fault_overshoot > 0))
+      problems.push_back({pointer, 0, "puts the top of a fault at or above the surface",
+                          "use a larger offset or a smaller fault_overshoot"});
+    if (!(range.bottom + spec.fault_overshoot < spec.depth))
+      problems.push_back({pointer, 0, concat("puts the foot of a fault at ",
+                                             range.bottom + spec.fault_overshoot,
+                                             " m, at or below the base of the model"),
+                          "use a smaller offset or fault_overshoot, or a deeper model"});
+  }
+  for (size_t i = 0; i < spec.fault_dips.size(); ++i)
+    if (!(std::abs(spec.fault_dips[i]) <= kMaxDip))
+      problems.push_back({concat("/faults/", i, "/dip_from_vertical"), 0, "is more than 45 deg",
+                          "use a steeper fault"});
+}
+
+/// Grid lines x bent onto the faults: x_i + (depth − pivot) tan(dip), straight beyond the tips.
+Shear field_shear(const FieldMeshSpec& spec) {
+  std::vector<BentPlane> planes;
+  for (size_t i = 0; i <= spec.blocks.size(); ++i) {
+    const DepthRange range = fault_range(spec, i);
+    const double margin = kShearMargin * spec.sizes.dip;
+    BentPlane plane;
+    plane.ref = fault_x(spec, i);
+    plane.slope = {0, -std::tan(spec.fault_dips[i])};
+    plane.pivot = {0, -spec.pivot_depth};
+    plane.low = {0, -range.bottom - margin};
+    plane.high = {0, -range.top + margin};
+    planes.push_back(plane);
+  }
+  return Shear(-0.5 * spec.width, 0.5 * spec.width, std::move(planes));
+}
+
+void check_shear(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
+  const int gap = field_shear(spec).first_squeezed_gap({0, 0}, {-spec.depth, 0});
+  if (gap < 0) return;
+  const size_t fault = std::min(static_cast<size_t>(gap), spec.blocks.size());
+  const bool side = gap == 0 || static_cast<size_t>(gap) > spec.blocks.size();
+  const std::string other = side ? "the side of the model"
+                                 : concat("fault \"", spec.fault_names[fault - 1], "\"");
+  problems.push_back({concat("/faults/", fault, "/dip_from_vertical"), 0,
+                      concat("brings fault \"", spec.fault_names[fault], "\" to or too near ", other),
+                      "use a smaller dip, or move them apart"});
+}
+
+std::vector<double> field_x(const FieldMeshSpec& spec) {
+  LineBuilder builder(-0.5 * spec.width, 0.5 * spec.width, spec.sizes.growth, spec.sizes.largest);
+  for (size_t i = 0; i <= spec.blocks.size(); ++i)
+    builder.add_line(fault_x(spec, i), spec.sizes.normal);
+  return builder.build();
+}
+
+std::vector<double> field_y(const FieldMeshSpec& spec) {
+  if (spec.plane_strain) return {0, 1};
+  const double half = 0.5 * spec.length;
+  LineBuilder builder(spec.half_domain ? 0 : -half, half, spec.sizes.growth, spec.sizes.largest);
+  // A line at y = 0 in the full domain too, so that the half domain is half of its grid.
+  for (const double y : {-0.5 * spec.block_length, 0.0, 0.5 * spec.block_length}) builder.add_line(y);
+  builder.add_window(-0.5 * spec.fault_length, 0.5 * spec.fault_length, spec.sizes.strike);
+  return builder.build();
+}
+
+/// Depths that must be grid lines (z, ascending): layer tops, reservoir edges, tips of faults.
+std::vector<double> must_lines(const FieldMeshSpec& spec) {
+  std::vector<double> z = {-spec.depth, 0};
+  for (const double top : spec.layer_tops) z.push_back(-top);
+  for (const FieldMeshSpec::Block& block : spec.blocks) {
+    const DepthRange range = reservoir_of(spec, block);
+    z.insert(z.end(), {-range.top, -range.bottom});
+  }
+  for (size_t i = 0; i <= spec.blocks.size(); ++i) {
+    const DepthRange range = fault_range(spec, i);
+    z.insert(z.end(), {-range.top, -range.bottom});
+  }
+  std::sort(z.begin(), z.end());
+  const auto same = [](double a, double b) { return b - a < 1e-6; };
+  z.erase(std::unique(z.begin(), z.end(), same), z.end());
+  return z;
+}
+
+bool is_reservoir_edge(const FieldMeshSpec& spec, double z) {
+  return std::any_of(spec.blocks.begin(), spec.blocks.end(), [&](const FieldMeshSpec::Block& block) {
+    const DepthRange range = reservoir_of(spec, block);
+    return std::abs(z + range.top) < kEdgeTolerance || std::abs(z + range.bottom) < kEdgeTolerance;
+  });
+}
+
+/// Compartment corners carry logarithmic stress peaks, so cells there are sizes.dip high in all
+/// members of an offset sweep: kEdgeCells of exactly that height on both sides of each reservoir
+/// edge. Where two lines leave no room for that, or would leave a rest thinner than kLeastRest of
+/// a cell, the gap between them is divided evenly. The rest of the faults' range has cells of about
+/// sizes.dip, divided evenly from line to line; beyond it cells grow.
+std::vector<double> field_z(const FieldMeshSpec& spec) {
+  LineBuilder builder(-spec.depth, 0, spec.sizes.growth, spec.sizes.largest);
+  const double dip = spec.sizes.dip, edge_height = kEdgeCells * dip;
+  const std::vector<double> z = must_lines(spec);
+  for (size_t i = 0; i + 1 < z.size(); ++i) {
+    builder.add_line(z[i]);
+    const bool low = is_reservoir_edge(spec, z[i]), high = is_reservoir_edge(spec, z[i + 1]);
+    const double rest = z[i + 1] - z[i] - edge_height * (low + high);
+    const bool fits = std::abs(rest) < kEdgeTolerance || rest >= kLeastRest * dip;
+    if (!fits) continue;
+    if (low) builder.add_window(z[i], z[i] + edge_height, dip);
+    if (high) builder.add_window(z[i + 1] - edge_height, z[i + 1], dip);
+  }
+  const DepthRange all = all_faults_range(spec);
+  builder.add_window(-all.bottom, -all.top, dip);
+  return builder.build();
+}
+
+/// Material and region of a reference place.
+struct CellKind {
+  int material;
+  int region;
+};
+
+CellKind kind_at(const FieldMeshSpec& spec, double x, double y, double depth) {
+  const std::vector<double>& tops = spec.layer_tops;
+  const size_t layer =
+      static_cast<size_t>(std::upper_bound(tops.begin() + 1, tops.end(), depth) - tops.begin() - 1);
+  const auto block = std::find_if(spec.blocks.begin(), spec.blocks.end(), [&](const auto& one) {
+    return x > one.from && x < one.to;
+  });
+  const size_t reservoir = static_cast<size_t>(spec.reservoir_layer);
+  const bool beside = block == spec.blocks.end() ||
+                      (along_strike_is_grid(spec) && std::abs(y) > 0.5 * spec.block_length);
+  if (beside) return {layer == reservoir ? spec.sideburden_material : spec.layer_materials[layer], -1};
+  const DepthRange range = reservoir_of(spec, *block);
+  if (depth > range.top && depth < range.bottom)
+    return {spec.layer_materials[reservoir], static_cast<int>(block - spec.blocks.begin())};
+  // What the block left behind: the layer above follows it down, the layer below follows it up.
+  if (depth < range.top && depth > reservoir_top(spec)) return {spec.layer_materials[reservoir - 1], -1};
+  if (depth > range.bottom && depth < reservoir_base(spec))
+    return {spec.layer_materials[reservoir + 1], -1};
+  return {spec.layer_materials[layer], -1};
+}
+
+void fill_cells(const FieldMeshSpec& spec, StructuredGrid& grid) {
+  const auto middle = [&](size_t axis, size_t n) {
+    return 0.5 * (grid.lines[axis][n] + grid.lines[axis][n + 1]);
+  };
+  for (size_t k = 0; k + 1 < grid.n_lines(2); ++k)
+    for (size_t j = 0; j + 1 < grid.n_lines(1); ++j)
+      for (size_t i = 0; i + 1 < grid.n_lines(0); ++i) {
+        const CellKind kind = kind_at(spec, middle(0, i), middle(1, j), -middle(2, k));
+        grid.material.push_back(kind.material);
+        grid.region.push_back(kind.region);
+        grid.region_fraction.push_back(kind.region >= 0 ? 1 : 0);
+      }
+}
+
+void place_points(const FieldMeshSpec& spec, StructuredGrid& grid) {
+  const Shear shear = field_shear(spec);
+  grid.position.resize(grid.n_points());
+  std::vector<double> shifts;
+  for (size_t k = 0; k < grid.n_lines(2); ++k) {
+    shear.shifts(grid.lines[0], 0, grid.lines[2][k], shifts);
+    for (size_t j = 0; j < grid.n_lines(1); ++j)
+      for (size_t i = 0; i < grid.n_lines(0); ++i)
+        grid.position[grid.point({i, j, k})] = {grid.lines[0][i] + shifts[i], grid.lines[1][j],
+                                                grid.lines[2][k]};
+  }
+}
+
+GridFault field_fault(const FieldMeshSpec& spec, const StructuredGrid& grid, size_t i) {
+  GridFault fault;
+  fault.name = spec.fault_names[i];
+  const double dip = spec.fault_dips[i];
+  fault.normal = {std::cos(dip), 0, std::sin(dip)};
+  fault.dip = {std::sin(dip), 0, -std::cos(dip)};
+  fault.strike = {0, -1, 0};  // dip = n × strike
+  const std::vector<double>& x = grid.lines[0];
+  fault.plane = static_cast<size_t>(
+      std::lower_bound(x.begin(), x.end(), fault_x(spec, i) - kEdgeTolerance) - x.begin());
+  const DepthRange range = fault_range(spec, i);
+  for (const double y : grid.lines[1])
+    for (const double z : grid.lines[2]) {
+      const bool in_length = spec.plane_strain || std::abs(y) < 0.5 * spec.fault_length - kEdgeTolerance;
+      const bool in_depth = -z > range.top + kEdgeTolerance && -z < range.bottom - kEdgeTolerance;
+      fault.split.push_back(in_length && in_depth ? 1 : 0);
+    }
+  return fault;
+}
+
+}  // namespace
+
+GridLines grid_lines(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
+  std::vector<Problem> found;
+  check_sizes(spec, found);
+  check_layers(spec, found);
+  check_blocks(spec, found);
+  if (found.empty()) check_faults(spec, found);
+  if (found.empty()) check_shear(spec, found);
+  problems.insert(problems.end(), found.begin(), found.end());
+  if (!found.empty()) return {};
+  return {field_x(spec), field_y(spec), field_z(spec)};
+}
+
+Mesh make_mesh(const FieldMeshSpec& spec) {
+  std::vector<Problem> problems;
+  GridLines lines = grid_lines(spec, problems);
+  if (!problems.empty()) throw InputError("scene", problems);
+  StructuredGrid grid;
+  grid.lines = {std::move(lines.x), std::move(lines.y), std::move(lines.z)};
+  grid.plane_strain = spec.plane_strain;
+  check_grid_size(grid.lines);
+  place_points(spec, grid);
+  fill_cells(spec, grid);
+  for (size_t i = 0; i <= spec.blocks.size(); ++i) grid.faults.push_back(field_fault(spec, grid, i));
+  Mesh mesh = cut_faults(std::move(grid));
+  refuse_bad_cells(mesh);
+  return mesh;
+}
+
+}  // namespace faultsim

@@ -1,0 +1,209 @@
+#include "simulator/mesh/grading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "simulator/common/errors.h"
+#include "simulator/mesh/mesh_spec.h"
+
+namespace faultsim {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kStretch = 0.1;         // share of a cell that may be spread over the others
+constexpr double kRatioTolerance = 1e-9; // rounding of a length divided by a size
+constexpr int kMaxSmoothing = 40;        // passes that smooth sizes across lines that must be there
+
+int even_count(double length, double size) {
+  return std::max(1, static_cast<int>(std::ceil(length / size - kStretch)));
+}
+
+/// s_k = min(first r^k, last r^(n−1−k), largest) for k = 0 … n−1.
+std::vector<double> two_sided(int n, double ratio, double first, double last, double largest) {
+  std::vector<double> sizes(static_cast<size_t>(n), largest);
+  double up = first;
+  for (int k = 0; k < n; ++k, up *= ratio) {
+    double& size = sizes[static_cast<size_t>(k)];
+    size = std::min(size, up);
+    if (up >= largest) break;
+  }
+  double down = last;
+  for (int k = n - 1; k >= 0; --k, down *= ratio) {
+    double& size = sizes[static_cast<size_t>(k)];
+    size = std::min(size, down);
+    if (down >= largest) break;
+  }
+  return sizes;
+}
+
+double sum(const std::vector<double>& sizes) {
+  return std::accumulate(sizes.begin(), sizes.end(), 0.0);
+}
+
+std::vector<double> scaled_to(std::vector<double> sizes, double length) {
+  const double scale = length / sum(sizes);
+  for (double& size : sizes) size *= scale;
+  return sizes;
+}
+
+/// Fewest cells whose two-sided growth reaches the length.
+int fewest_cells(double length, double first, double last, double growth, double largest) {
+  const auto reaches = [&](int n) {
+    return sum(two_sided(n, growth, first, last, largest)) >= length * (1 - kRatioTolerance);
+  };
+  int high = 1;
+  while (!reaches(high)) high *= 2;
+  int low = high / 2;  // does not reach (0 for high = 1)
+  while (high - low > 1) {
+    const int middle = low + (high - low) / 2;
+    (reaches(middle) ? high : low) = middle;
+  }
+  return high;
+}
+
+}  // namespace
+
+std::vector<double> graded_sizes(double length, double first_size, double last_size, double growth,
+                                 double largest) {
+  FAULTSIM_DEMAND(length > 0 && first_size > 0 && last_size > 0 && largest > 0 && growth >= 1, length,
+                  " ", first_size, " ", last_size, " ", largest, " ", growth);
+  const double start = std::min({first_size, last_size, largest});
+  if (start >= length) return {length};
+  const int n = fewest_cells(length, first_size, last_size, growth, largest);
+  const auto at = [&](int count, double ratio) {
+    return two_sided(count, ratio, first_size, last_size, largest);
+  };
+  if (sum(at(n, 1)) >= length) {
+    // Even n cells of the smallest size are too many: prefer one cell less, slightly stretched.
+    if (n > 1 && length <= (1 + kStretch / (n - 1)) * sum(at(n - 1, growth)))
+      return scaled_to(at(n - 1, growth), length);
+    return std::vector<double>(static_cast<size_t>(n), length / n);
+  }
+  double low = 1, high = growth;
+  for (int k = 0; k < 60; ++k) {  // 60 halvings: a double's 53 bits and some
+    const double middle = 0.5 * (low + high);
+    (sum(at(n, middle)) < length ? low : high) = middle;
+  }
+  return scaled_to(at(n, high), length);
+}
+
+LineBuilder::LineBuilder(double from, double to, double growth, double largest)
+    : from_(from), to_(to), growth_(growth), largest_(largest > 0 ? largest : kInfinity) {
+  FAULTSIM_DEMAND(from < to && growth >= 1, from, " ", to, " ", growth);
+}
+
+double LineBuilder::tolerance() const { return std::min(1e-6, 1e-9 * (to_ - from_)); }
+
+void LineBuilder::add_line(double x) { add_line(x, kInfinity); }
+
+void LineBuilder::add_line(double x, double size) {
+  if (x > from_ + tolerance() && x < to_ - tolerance()) lines_.push_back({x, size});
+}
+
+void LineBuilder::add_window(double window_from, double window_to, double size) {
+  window_from = std::max(window_from, from_);
+  window_to = std::min(window_to, to_);
+  if (!(window_to - window_from > tolerance())) return;
+  windows_.push_back({window_from, window_to, size});
+  add_line(window_from);
+  add_line(window_to);
+}
+
+std::vector<LineBuilder::Line> LineBuilder::merged_lines() const {
+  std::vector<Line> sorted = lines_;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Line& a, const Line& b) { return a.x < b.x; });
+  std::vector<Line> merged = {{from_, kInfinity}};
+  for (const Line& line : sorted) {
+    if (line.x - merged.back().x < tolerance() && merged.size() > 1)
+      merged.back().size = std::min(merged.back().size, line.size);
+    else
+      merged.push_back(line);
+  }
+  merged.push_back({to_, kInfinity});
+  return merged;
+}
+
+double LineBuilder::window_size(double piece_from, double piece_to) const {
+  const double middle = 0.5 * (piece_from + piece_to);
+  double size = kInfinity;
+  for (const Window& window : windows_)
+    if (middle > window.from && middle < window.to) size = std::min(size, window.size);
+  return size;
+}
+
+std::vector<double> LineBuilder::build() const {
+  const std::vector<Line> lines = merged_lines();
+  const size_t n_pieces = lines.size() - 1;
+  std::vector<std::vector<double>> cells(n_pieces);
+  std::vector<char> even(n_pieces, 0);
+  std::vector<double> size(lines.size(), largest_);
+  const auto length = [&](size_t piece) { return lines[piece + 1].x - lines[piece].x; };
+
+  for (size_t i = 0; i < lines.size(); ++i) size[i] = std::min(largest_, lines[i].size);
+  const auto lower = [&](size_t line, double bound) {  // sizes asked for are not lowered
+    if (std::isinf(lines[line].size)) size[line] = std::min(size[line], bound);
+  };
+  for (size_t piece = 0; piece < n_pieces; ++piece) {
+    const double window = window_size(lines[piece].x, lines[piece + 1].x);
+    double bound = length(piece);
+    if (std::isfinite(window)) {
+      const int n = even_count(length(piece), window);
+      even[piece] = 1;
+      bound = length(piece) / n;
+      cells[piece].assign(static_cast<size_t>(n), bound);
+    }
+    lower(piece, bound);
+    lower(piece + 1, bound);
+  }
+  // Last of the cells that grow from `start` over a distance: (start + (growth − 1) distance)/growth.
+  const auto grown = [&](double start, double distance) {
+    return (start + (growth_ - 1) * distance) / growth_;
+  };
+  for (int pass = 0; pass < kMaxSmoothing; ++pass) {
+    for (size_t piece = 0; piece < n_pieces; ++piece)
+      if (!even[piece]) lower(piece + 1, std::max(grown(size[piece], length(piece)), 0.0));
+    for (size_t piece = n_pieces; piece-- > 0;)
+      if (!even[piece]) lower(piece, std::max(grown(size[piece + 1], length(piece)), 0.0));
+    for (size_t piece = 0; piece < n_pieces; ++piece)
+      if (!even[piece])
+        cells[piece] = graded_sizes(length(piece), piece == 0 ? kInfinity : size[piece],
+                                    piece + 1 == n_pieces ? kInfinity : size[piece + 1], growth_,
+                                    largest_);
+    bool smooth = true;
+    for (size_t line = 1; line < n_pieces; ++line) {
+      const double before = cells[line - 1].back(), after = cells[line].front();
+      const double small = std::min(before, after);
+      if (std::max(before, after) <= growth_ * small * (1 + kRatioTolerance)) continue;
+      if (std::isfinite(lines[line].size) || small >= size[line]) continue;
+      size[line] = small;
+      smooth = false;
+    }
+    if (smooth) break;
+  }
+
+  std::vector<double> result;
+  for (size_t piece = 0; piece < n_pieces; ++piece) {
+    const size_t n = cells[piece].size();
+    double x = lines[piece].x;
+    for (size_t k = 0; k < n; ++k) {
+      result.push_back(even[piece] ? lines[piece].x + length(piece) * static_cast<double>(k) /
+                                                           static_cast<double>(n)
+                                   : x);
+      x += cells[piece][k];
+    }
+  }
+  result.push_back(to_);
+  return result;
+}
+
+std::vector<double> graded_line(double a, double b, double fine_from, double fine_to, double fine,
+                                double growth, double largest, const std::vector<double>& must) {
+  LineBuilder builder(a, b, growth, largest);
+  for (const double x : must) builder.add_line(x);
+  builder.add_window(fine_from, fine_to, fine);
+  return builder.build();
+}
+
+}  // namespace faultsim
