@@ -1,1 +1,239 @@
 #include "simulator/condensation/condensation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "simulator/common/errors.h"
+#include "simulator/common/interrupt.h"
+#include "simulator/common/stopwatch.h"
+#include "simulator/condensation/fault_geometry.h"
+#include "simulator/condensation/loose_pieces.h"
+#include "simulator/linalg/blas.h"
+
+namespace faultsim {
+namespace {
+
+Eigen::VectorXd load_vector(const BulkProblem& problem, const DofMap& dofs, int index) {
+  const LoadCase& load = problem.loads[static_cast<std::size_t>(index)];
+  const int n_kinds = (load.region >= 0) + !load.stress_sides.empty() + load.displacement;
+  FAULTSIM_DEMAND(n_kinds == 1, "load ", load.name, " is of ", n_kinds, " kinds");
+  if (load.region >= 0) return pressure_load(problem.mesh, dofs, load.region, problem.b_bar);
+  if (load.displacement) {
+    return displacement_load(problem.mesh, problem.materials, dofs, index, problem.b_bar);
+  }
+  return stress_load(problem.mesh, dofs, load.stress_sides, load.stress);
+}
+
+/// Remarks when a stress load leaves a net force or moment on a body that is only pinned: the pins
+/// would have to carry it.
+void check_balance(const BulkProblem& problem, const LoadCase& load, Monitor& monitor) {
+  constexpr double kBalanced = 1e-6;  // of the sum of the absolute nodal forces
+  const Eigen::Matrix3Xd forces = nodal_stress_forces(problem.mesh, load.stress_sides, load.stress);
+  Eigen::Vector3d low = problem.mesh.nodes.front(), high = low;
+  for (const Eigen::Vector3d& x : problem.mesh.nodes) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
+  for (Eigen::Index i = 0; i < forces.cols(); ++i) {
+    const Eigen::Vector3d arm = problem.mesh.nodes[static_cast<std::size_t>(i)] - (low + high) / 2;
+    force += forces.col(i);
+    moment += arm.cross(Eigen::Vector3d(forces.col(i)));
+  }
+  if (problem.mesh.plane_strain) {  // u_y = 0 carries the rest
+    force.y() = 0;
+    moment.x() = moment.z() = 0;
+  }
+  const double total = forces.colwise().norm().sum();
+  const double size = (high - low).norm();
+  if (force.norm() <= kBalanced * total && moment.norm() <= kBalanced * total * size) return;
+  monitor.note(concat("load ", load.name, " alone is not in balance (net force ", force.norm(),
+                      " N, moment ", moment.norm(),
+                      " N m per unit): no displacement is prescribed, so the loads must balance "
+                      "together, or three pinned points carry the difference"));
+}
+
+int nearest_node(const Mesh& mesh, const Eigen::Vector3d& point) {
+  int best = 0;
+  double best_distance = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+    const double distance = (mesh.nodes[i] - point).squaredNorm();
+    if (distance < best_distance) {
+      best = static_cast<int>(i);
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
+void check_problem(const BulkProblem& problem) {
+  const Mesh& mesh = problem.mesh;
+  FAULTSIM_DEMAND(!mesh.cells.empty(), "empty mesh");
+  FAULTSIM_DEMAND(mesh.material.size() == mesh.cells.size() &&
+                      mesh.region.size() == mesh.cells.size() &&
+                      mesh.region_fraction.size() == mesh.cells.size(),
+                  "per-cell data of ", mesh.cells.size(), " cells is incomplete");
+  for (const ElasticMaterial& material : problem.materials) {
+    const double nu = material.poisson_ratio;
+    FAULTSIM_DEMAND(material.youngs_modulus > 0 && nu > -1 && nu < 0.5, "E ",
+                    material.youngs_modulus, " Pa, nu ", nu);
+  }
+}
+
+}  // namespace
+
+struct CondensedBulk::Impl {
+  Impl(const BulkProblem& bulk_problem, const BuildOptions& build_options)
+      : problem(bulk_problem),
+        options(build_options),
+        dofs(problem.mesh, problem.conditions, static_cast<int>(problem.loads.size())),
+        geometry(fault_geometry(problem.mesh, problem.materials, dofs, problem.half_domain)) {}
+
+  void factorise(Monitor& monitor);
+  void make_loads(Monitor& monitor);
+  Eigen::MatrixXd condensed_matrix() const;
+  void set_locked(FaultOperator& op);
+  void observe(FaultOperator& op);
+
+  BulkProblem problem;
+  BuildOptions options;
+  DofMap dofs;
+  FaultGeometry geometry;
+  Eigen::VectorXd springs;  // D
+  std::unique_ptr<TrailingCholesky> factor;
+  std::vector<Eigen::VectorXd> loads;
+  std::vector<Eigen::VectorXd> forward_loads;  // L⁻¹ P f_k, made when first wanted
+  double seconds = 0;
+};
+
+void CondensedBulk::Impl::factorise(Monitor& monitor) {
+  springs = loose_piece_springs(problem, dofs, geometry);
+  monitor.progress(0.02, concat("assembling ", dofs.n_unknowns(), " unknowns"));
+  SparseMatrix k = assemble_stiffness(problem.mesh, problem.materials, dofs, problem.b_bar);
+  for (int g = 0; g < dofs.n_jump(); ++g) {
+    k.valuePtr()[k.outerIndexPtr()[dofs.n_bulk() + g]] += springs[g];  // the diagonal comes first
+  }
+  throw_if_interrupted("condensing the bulk");
+  monitor.progress(0.1, concat("factorising ", dofs.n_unknowns(), " unknowns"));
+  factor = std::make_unique<TrailingCholesky>(k, dofs.n_jump(), dofs.bulk_group(), dofs.n_groups());
+  if (factor->failed_column() >= 0) throw_not_held(problem, dofs, factor->failed_column());
+  throw_if_interrupted("condensing the bulk");
+}
+
+void CondensedBulk::Impl::make_loads(Monitor& monitor) {
+  for (std::size_t k = 0; k < problem.loads.size(); ++k) {
+    loads.push_back(load_vector(problem, dofs, static_cast<int>(k)));
+    if (dofs.pinned() && !problem.loads[k].stress_sides.empty()) {
+      check_balance(problem, problem.loads[k], monitor);
+    }
+  }
+}
+
+Eigen::MatrixXd CondensedBulk::Impl::condensed_matrix() const {
+  Eigen::MatrixXd h = lower_times_transpose(factor->trailing_factor());
+  h.diagonal() -= springs;
+  for (Eigen::Index i = 0; i < h.cols(); ++i) {
+    // Zero up to rounding only where a block that nothing else holds moves as a whole.
+    const double least = springs[i] > 0 ? -1e-9 * springs[i] : 0;
+    FAULTSIM_DEMAND(h(i, i) > least && h.col(i).allFinite(), "column ", i, " of H, diagonal ",
+                    h(i, i));
+  }
+  return h;
+}
+
+void CondensedBulk::Impl::set_locked(FaultOperator& op) {
+  op.dof_area.resize(geometry.n_dofs);
+  for (const OperatorNode& node : geometry.nodes) {
+    for (int dof : node.dof) {
+      if (dof >= 0) op.dof_area[dof] = node.area;
+    }
+  }
+  op.locked.resize(geometry.n_dofs, static_cast<Eigen::Index>(loads.size()));
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    throw_if_interrupted("condensing the loads");
+    if (forward_loads.size() == k) forward_loads.push_back(factor->forward(loads[k]));
+    op.load_names.push_back(problem.loads[k].name);
+    op.locked.col(static_cast<Eigen::Index>(k)) =
+        factor->condensed(forward_loads[k]).cwiseQuotient(op.dof_area);
+  }
+  FAULTSIM_DEMAND(op.locked.allFinite(), "locked tractions are not finite");
+}
+
+/// One adjoint back-solve per component: with q the row of P, u = q·x gives V = q_g − K_gr K_rr⁻¹
+/// q_r and U_k = q_r·K_rr⁻¹ f_k,r + the prescribed part.
+void CondensedBulk::Impl::observe(FaultOperator& op) {
+  const Eigen::Index n_rows = 3 * static_cast<Eigen::Index>(problem.observation_points.size());
+  op.observed_load.setZero(n_rows, static_cast<Eigen::Index>(loads.size()));
+  op.observed_jump.setZero(n_rows, geometry.n_dofs);
+  Eigen::Index row = 0;
+  for (const auto& [name, point] : problem.observation_points) {
+    const int node = nearest_node(problem.mesh, point);
+    for (int c = 0; c < 3; ++c, ++row) {
+      throw_if_interrupted("condensing the observation points");
+      op.observations.push_back(
+          {concat(name, ".", "xyz"[c]), problem.mesh.nodes[static_cast<std::size_t>(node)]});
+      for (std::size_t k = 0; k < loads.size(); ++k) {
+        op.observed_load(row, static_cast<Eigen::Index>(k)) =
+            dofs.prescribed(static_cast<int>(k), node, c);
+      }
+      const auto [first, last] = dofs.terms(node, c);
+      if (first == last) continue;  // prescribed or held for good
+      Eigen::VectorXd q = Eigen::VectorXd::Zero(dofs.n_unknowns());
+      for (const DofMap::Term* term = first; term != last; ++term) {
+        q[term->unknown] += term->coefficient;
+      }
+      const Eigen::VectorXd y = factor->forward(q);
+      op.observed_jump.row(row) = factor->condensed(y).transpose();
+      for (std::size_t k = 0; k < loads.size(); ++k) {
+        op.observed_load(row, static_cast<Eigen::Index>(k)) +=
+            y.head(dofs.n_bulk()).dot(forward_loads[k].head(dofs.n_bulk()));
+      }
+    }
+  }
+}
+
+CondensedBulk::CondensedBulk(const BulkProblem& problem, const BuildOptions& options,
+                             Monitor& monitor) {
+  check_problem(problem);
+  Stopwatch stopwatch;
+  set_blas_threads(options.blas_threads);
+  impl_ = std::make_unique<Impl>(problem, options);
+  impl_->factorise(monitor);
+  impl_->make_loads(monitor);
+  impl_->seconds = stopwatch.seconds();
+  monitor.progress(0.9, "factorised");
+}
+
+CondensedBulk::~CondensedBulk() = default;
+
+FaultOperator CondensedBulk::condense() {
+  Impl& self = *impl_;
+  Stopwatch stopwatch;
+  set_blas_threads(self.options.blas_threads);
+  FaultOperator op;
+  op.geometry = self.geometry;
+  own_h(op, self.condensed_matrix());
+  self.set_locked(op);
+  self.observe(op);
+  op.n_unknowns = self.dofs.n_unknowns();
+  op.factor_bytes = self.factor->statistics().bytes;
+  op.blas = blas_description();
+  op.build_seconds = self.seconds + stopwatch.seconds();
+  return op;
+}
+
+Eigen::Matrix3Xd CondensedBulk::displacement(const std::vector<double>& load_factors,
+                                             const Eigen::VectorXd& jump) {
+  Impl& self = *impl_;
+  FAULTSIM_DEMAND(load_factors.size() == self.loads.size(), load_factors.size(), " factors for ",
+                  self.loads.size(), " loads");
+  set_blas_threads(self.options.blas_threads);
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(self.dofs.n_unknowns());
+  for (std::size_t k = 0; k < self.loads.size(); ++k) f += load_factors[k] * self.loads[k];
+  return nodal_displacement(self.problem.mesh, self.dofs, self.factor->expand(f, jump),
+                            load_factors);
+}
+
+}  // namespace faultsim

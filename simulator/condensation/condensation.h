@@ -18,7 +18,7 @@ struct LoadCase {
   int region = -1;                     ///< ≥ 0: b Δp = 1 Pa in this pressure region.
   std::vector<MeshSide> stress_sides;  ///< non-empty: stress change Δσ on these sides.
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
-  bool displacement = false;           ///< the prescribed displacements of this load's index.
+  bool displacement = false;  ///< the prescribed displacements of this load's index.
 };
 
 /// All that defines a family's linear bulk.
@@ -39,15 +39,18 @@ struct BuildOptions {
 /// The factorised bulk of one family: kept while displacement fields are still wanted.
 class CondensedBulk {
  public:
-  /// Orders jump unknowns last, factorises K (blocks that faults cut loose get D > 0 on their jumps,
-  /// taken off H again), checks H. Throws InputError naming a floating block that nothing holds.
+  /// Orders jump unknowns last, factorises K (blocks that faults cut loose get D > 0 on their
+  /// jumps, taken off H again), checks H. Throws InputError naming a floating block that nothing
+  /// holds.
   CondensedBulk(const BulkProblem& problem, const BuildOptions& options, Monitor& monitor);
   ~CondensedBulk();
-  /// H = K_gg − K_gr K_rr⁻¹ K_rg, L_k = A⁻¹(f_g − K_gr K_rr⁻¹ f_r), observation rows; fingerprint left
-  /// empty. One right-hand side at a time, so that the bits do not depend on what else is asked.
+  /// H = K_gg − K_gr K_rr⁻¹ K_rg, L_k = A⁻¹(f_g − K_gr K_rr⁻¹ f_r), observation rows; fingerprint
+  /// left empty. One right-hand side at a time, so that the bits do not depend on what else is
+  /// asked.
   FaultOperator condense();
   /// Displacement of all mesh nodes for given load factors and jumps: 3 x n_nodes, m.
-  Eigen::Matrix3Xd displacement(const std::vector<double>& load_factors, const Eigen::VectorXd& jump);
+  Eigen::Matrix3Xd displacement(const std::vector<double>& load_factors,
+                                const Eigen::VectorXd& jump);
 
  private:
   struct Impl;

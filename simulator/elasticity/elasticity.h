@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <array>
-#include <functional>
+#include <utility>
 #include <vector>
 
 #include "simulator/mesh/mesh.h"
@@ -17,7 +17,8 @@ struct ElasticMaterial {
   double poisson_ratio;
 };
 
-/// Displacement prescribed on a side: components, and u(x) = translation + gradient x (per unit factor).
+/// Displacement prescribed on a side: components, and u(x) = translation + gradient x (per unit
+/// factor).
 struct DisplacementCondition {
   MeshSide side;
   std::array<bool, 3> components;
@@ -26,14 +27,20 @@ struct DisplacementCondition {
   int load;  ///< index of the load this value belongs to; -1 = zero for ever (roller, fixed).
 };
 
+/// Young's modulus and Poisson's ratio as shear modulus, Pa.
+double shear_modulus(const ElasticMaterial& material);
+
 /// The linear map from unknowns to nodal displacements, u = P x + Σ_k c_k d_k (D6):
 /// x = (r, g): r all independent displacements (ū on duplicated nodes), g the jumps in the local
 /// frame, *last*; u± = ū ± ½ R g. Ties, plane strain and prescribed displacements are in P and d.
 class DofMap {
  public:
   /// Rules (design section 2): a jump component along a direction that is fixed on both sides is
-  /// removed; a node where a fixed direction is not one of (n, strike, dip), or is n, is locked.
-  /// If nothing is prescribed at all, 6 dofs are pinned at three nodes (reactions must vanish).
+  /// removed; a node where a fixed direction is not one of (n, strike, dip), or is n, is locked,
+  /// and so is one that is fixed on one side only. Where sides share an edge, the condition listed
+  /// first gives the value of a component. If no component is prescribed at all, the rigid motions
+  /// of the body (6; fewer with ties or in plane strain) are pinned at three nodes off the faults:
+  /// reactions there must vanish.
   DofMap(const Mesh& mesh, const std::vector<DisplacementCondition>& conditions, int n_loads);
 
   struct Term {
@@ -49,10 +56,11 @@ class DofMap {
   int n_unknowns() const;  ///< n_r + n_g
   int n_bulk() const;      ///< n_r: unknowns 0 … n_r−1
   int n_jump() const;      ///< n_g: unknowns n_r … n_r+n_g−1
-  /// Jump unknown (0-based within g) of component c (n, strike, dip) of node k of fault f; −1 = removed.
+  /// Jump unknown (0-based within g) of component c (n, strike, dip) of node k of fault f; −1 =
+  /// removed.
   int jump_dof(int fault, int node, int component) const;
   const std::vector<Eigen::Vector3d>& locked_positions() const;
-  bool pinned() const;  ///< 6 dofs were pinned.
+  bool pinned() const;  ///< the rigid motions of the body were pinned.
   /// Unknowns grouped by mesh node for ordering: bulk unknown → group; n_groups.
   const std::vector<int>& bulk_group() const;
   int n_groups() const;
@@ -60,25 +68,33 @@ class DofMap {
  private:
   std::vector<int> begin_;
   std::vector<Term> terms_;
-  std::vector<int> jump_begin_;           // per fault, offset into jump_
+  std::vector<int> jump_begin_;  // per fault, offset into jump_
   std::vector<std::array<int, 3>> jump_;
   std::vector<Eigen::Vector3d> locked_;
-  std::vector<std::vector<std::pair<int, double>>> prescribed_;  // per load: (3 node + component, m)
+  std::vector<std::vector<std::pair<int, double>>>
+      prescribed_;  // per load: (3 node + component, m)
   std::vector<int> bulk_group_;
   int n_bulk_ = 0, n_jump_ = 0, n_groups_ = 0;
   bool pinned_ = false;
+
+  friend class DofMapBuilder;
 };
 
 /// K = Pᵀ K_full P (n x n, lower triangle, sorted columns): Q1 hexahedra, 2x2x2 Gauss points,
-/// B-bar (mean dilatation) when b_bar. Deterministic summation order.
+/// B-bar (mean dilatation) when b_bar. Deterministic summation order. In plane strain the matrix
+/// and all loads are per metre of thickness.
 SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
                                 const DofMap& dofs, bool b_bar);
 
 /// f = Pᵀ ∫ div v: b Δp = 1 Pa in the region, times the cells' volume fractions.
 Eigen::VectorXd pressure_load(const Mesh& mesh, const DofMap& dofs, int region, bool b_bar);
+/// ∫_side N (Δσ n) over the sides given, N (plane strain: per metre; front and back left out),
+/// 3 x n_nodes.
+Eigen::Matrix3Xd nodal_stress_forces(const Mesh& mesh, const std::vector<MeshSide>& sides,
+                                     const Eigen::Matrix3d& stress);
 /// f = Pᵀ ∫_side v·(Δσ n), total over the sides given.
-Eigen::VectorXd stress_load(const Mesh& mesh, const DofMap& dofs, const std::vector<MeshSide>& sides,
-                            const Eigen::Matrix3d& stress);
+Eigen::VectorXd stress_load(const Mesh& mesh, const DofMap& dofs,
+                            const std::vector<MeshSide>& sides, const Eigen::Matrix3d& stress);
 /// f = −Pᵀ K_full d_k.
 Eigen::VectorXd displacement_load(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
                                   const DofMap& dofs, int load, bool b_bar);

@@ -1,0 +1,136 @@
+#include "simulator/condensation/fault_geometry.h"
+
+#include <algorithm>
+
+#include "simulator/common/errors.h"
+
+namespace faultsim {
+namespace {
+
+/// The side of a face towards a cell, as PressurePair wants it.
+std::pair<int, double> region_of(const Mesh& mesh, int cell) {
+  const std::size_t c = static_cast<std::size_t>(cell);
+  const double fraction = mesh.region[c] < 0 ? 0 : mesh.region_fraction[c];
+  return fraction > 0 ? std::pair(mesh.region[c], fraction) : std::pair(-1, 0.0);
+}
+
+void add_pressure_pair(std::vector<PressurePair>& pairs, const PressurePair& pair) {
+  const auto same = std::find_if(pairs.begin(), pairs.end(), [&](const PressurePair& other) {
+    return other.minus_region == pair.minus_region && other.plus_region == pair.plus_region &&
+           other.minus_fraction == pair.minus_fraction && other.plus_fraction == pair.plus_fraction;
+  });
+  if (same == pairs.end()) {
+    pairs.push_back(pair);
+  } else {
+    same->weight += pair.weight;
+  }
+}
+
+/// Adds a face's quarter to the sums of one of its nodes.
+void add_quarter(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
+                 const FaultFace& face, OperatorNode& node) {
+  const double area = face.area / 4;
+  const auto material = [&](int cell) {
+    return materials.at(static_cast<std::size_t>(mesh.material[static_cast<std::size_t>(cell)]));
+  };
+  const ElasticMaterial minus = material(face.minus_cell), plus = material(face.plus_cell);
+  const double g_minus = shear_modulus(minus), g_plus = shear_modulus(plus);
+  node.effective_shear_modulus += area * 2 * g_plus * g_minus / (g_plus + g_minus);
+  node.poisson_ratio += area * (minus.poisson_ratio + plus.poisson_ratio) / 2;
+  PressurePair pair;
+  std::tie(pair.minus_region, pair.minus_fraction) = region_of(mesh, face.minus_cell);
+  std::tie(pair.plus_region, pair.plus_fraction) = region_of(mesh, face.plus_cell);
+  pair.weight = area;
+  add_pressure_pair(node.pressure, pair);
+}
+
+/// Longest edges of a face along strike (same row) and dip (same column).
+struct FaceEdges {
+  double strike = 0, dip = 0;
+};
+
+FaceEdges face_edges(const FaultSurface& fault, const FaultFace& face) {
+  FaceEdges edges;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const int from = face.grid[i], to = face.grid[(i + 1) % 4];
+    const double length = (fault.grid_position[static_cast<std::size_t>(to)] -
+                           fault.grid_position[static_cast<std::size_t>(from)])
+                              .norm();
+    const bool same_column = from / fault.n_rows == to / fault.n_rows;
+    double& edge = same_column ? edges.dip : edges.strike;
+    edge = std::max(edge, length);
+  }
+  return edges;
+}
+
+void average_over_faces(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
+                        const FaultSurface& fault, OperatorNode* nodes) {
+  std::vector<double> area(fault.nodes.size(), 0);
+  for (const FaultFace& face : fault.faces) {
+    const FaceEdges edges = face_edges(fault, face);
+    for (int corner : face.nodes) {
+      if (corner < 0) continue;
+      OperatorNode& node = nodes[corner];
+      add_quarter(mesh, materials, face, node);
+      area[static_cast<std::size_t>(corner)] += face.area / 4;
+      node.edge_strike = std::max(node.edge_strike, edges.strike);
+      node.edge_dip = std::max(node.edge_dip, edges.dip);
+    }
+  }
+  for (std::size_t k = 0; k < fault.nodes.size(); ++k) {
+    OperatorNode& node = nodes[k];
+    FAULTSIM_DEMAND(area[k] > 0, "node ", k, " of fault ", fault.name, " has no face");
+    node.effective_shear_modulus /= area[k];
+    node.poisson_ratio /= area[k];
+    for (PressurePair& pair : node.pressure) pair.weight /= area[k];
+  }
+}
+
+OperatorFault fault_grid(const FaultSurface& fault, int first_node) {
+  OperatorFault grid;
+  grid.name = fault.name;
+  grid.n_columns = fault.n_columns;
+  grid.n_rows = fault.n_rows;
+  grid.grid_position = fault.grid_position;
+  grid.grid_used = fault.grid_used;
+  grid.column_width = fault.column_width;
+  grid.first_node = first_node;
+  grid.n_nodes = static_cast<int>(fault.nodes.size());
+  for (int node : fault.grid_node) grid.grid_node.push_back(node < 0 ? -1 : first_node + node);
+  for (const FaultFace& face : fault.faces) grid.faces.push_back(face.grid);
+  return grid;
+}
+
+}  // namespace
+
+FaultGeometry fault_geometry(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
+                             const DofMap& dofs, bool half_domain) {
+  FaultGeometry geometry;
+  geometry.n_dofs = dofs.n_jump();
+  geometry.plane_strain = mesh.plane_strain;
+  geometry.half_domain = half_domain;
+  geometry.locked_positions = dofs.locked_positions();
+  for (std::size_t f = 0; f < mesh.faults.size(); ++f) {
+    const FaultSurface& fault = mesh.faults[f];
+    const int first_node = static_cast<int>(geometry.nodes.size());
+    geometry.faults.push_back(fault_grid(fault, first_node));
+    for (std::size_t k = 0; k < fault.nodes.size(); ++k) {
+      const FaultNode& from = fault.nodes[k];
+      OperatorNode node;
+      node.position = mesh.nodes[static_cast<std::size_t>(from.minus_node)];
+      node.normal = from.normal;
+      node.strike = from.strike;
+      node.dip = from.dip;
+      node.area = from.area;
+      for (int c = 0; c < 3; ++c) {
+        node.dof[static_cast<std::size_t>(c)] =
+            dofs.jump_dof(static_cast<int>(f), static_cast<int>(k), c);
+      }
+      geometry.nodes.push_back(std::move(node));
+    }
+    average_over_faces(mesh, materials, fault, geometry.nodes.data() + first_node);
+  }
+  return geometry;
+}
+
+}  // namespace faultsim

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "simulator/elasticity/elasticity.h"
+#include "simulator/output/fault_operator.h"
+
+namespace faultsim {
+
+/// The faults of a mesh as the contact solve sees them: grids, frames, areas, jump unknowns, and
+/// per node the means over the fault faces around it, each weighted by the quarter that is the
+/// node's.
+FaultGeometry fault_geometry(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
+                             const DofMap& dofs, bool half_domain);
+
+}  // namespace faultsim

@@ -1,0 +1,142 @@
+#include <algorithm>
+
+#include "simulator/common/errors.h"
+#include "simulator/elasticity/element.h"
+
+namespace faultsim {
+namespace {
+
+/// The unknowns of each cell, sorted, without repetition.
+struct CellUnknowns {
+  std::vector<long> begin;
+  std::vector<int> unknowns;
+};
+
+CellUnknowns cell_unknowns(const Mesh& mesh, const DofMap& dofs) {
+  CellUnknowns result;
+  result.begin.push_back(0);
+  std::vector<int> list;
+  for (const auto& cell : mesh.cells) {
+    list.clear();
+    for (int node : cell) {
+      for (int c = 0; c < 3; ++c) {
+        const auto [first, last] = dofs.terms(node, c);
+        for (const DofMap::Term* term = first; term != last; ++term) list.push_back(term->unknown);
+      }
+    }
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    result.unknowns.insert(result.unknowns.end(), list.begin(), list.end());
+    result.begin.push_back(static_cast<long>(result.unknowns.size()));
+  }
+  return result;
+}
+
+/// Cells of each unknown, ascending.
+CellUnknowns transposed(const CellUnknowns& cells, int n_unknowns) {
+  CellUnknowns result;
+  result.begin.assign(static_cast<std::size_t>(n_unknowns) + 1, 0);
+  for (int unknown : cells.unknowns) ++result.begin[static_cast<std::size_t>(unknown) + 1];
+  for (std::size_t i = 1; i < result.begin.size(); ++i) result.begin[i] += result.begin[i - 1];
+  result.unknowns.resize(cells.unknowns.size());
+  std::vector<long> next(result.begin.begin(), result.begin.end() - 1);
+  for (std::size_t cell = 0; cell + 1 < cells.begin.size(); ++cell) {
+    for (long k = cells.begin[cell]; k < cells.begin[cell + 1]; ++k) {
+      long& at = next[static_cast<std::size_t>(cells.unknowns[static_cast<std::size_t>(k)])];
+      result.unknowns[static_cast<std::size_t>(at++)] = static_cast<int>(cell);
+    }
+  }
+  return result;
+}
+
+/// The lower triangle's pattern with zero values.
+SparseMatrix make_pattern(const CellUnknowns& cells, int n_unknowns) {
+  const CellUnknowns cells_of = transposed(cells, n_unknowns);
+  std::vector<int> seen_by(static_cast<std::size_t>(n_unknowns), -1);
+  std::vector<int> rows;
+  const auto rows_of = [&](int column) {
+    rows.clear();
+    const std::size_t j = static_cast<std::size_t>(column);
+    for (long c = cells_of.begin[j]; c < cells_of.begin[j + 1]; ++c) {
+      const std::size_t cell =
+          static_cast<std::size_t>(cells_of.unknowns[static_cast<std::size_t>(c)]);
+      for (long k = cells.begin[cell]; k < cells.begin[cell + 1]; ++k) {
+        const int row = cells.unknowns[static_cast<std::size_t>(k)];
+        if (row < column || seen_by[static_cast<std::size_t>(row)] == column) continue;
+        seen_by[static_cast<std::size_t>(row)] = column;
+        rows.push_back(row);
+      }
+    }
+    std::sort(rows.begin(), rows.end());
+  };
+  SparseMatrix k(n_unknowns, n_unknowns);
+  long n_entries = 0;
+  for (int column = 0; column < n_unknowns; ++column) {
+    rows_of(column);
+    n_entries += static_cast<long>(rows.size());
+  }
+  k.resizeNonZeros(n_entries);
+  std::fill(seen_by.begin(), seen_by.end(), -1);
+  k.outerIndexPtr()[0] = 0;
+  for (int column = 0; column < n_unknowns; ++column) {
+    rows_of(column);
+    FAULTSIM_DEMAND(!rows.empty() && rows.front() == column, "unknown ", column, " has no cell");
+    long at = k.outerIndexPtr()[column];
+    for (int row : rows) k.innerIndexPtr()[at++] = row;
+    k.outerIndexPtr()[column + 1] = at;
+  }
+  std::fill(k.valuePtr(), k.valuePtr() + n_entries, 0.0);
+  return k;
+}
+
+/// Adds Tᵀ K_e T for one cell. `local` (by unknown: place in the cell's list) and `matrix` are
+/// workspace.
+void add_cell(const std::array<int, 8>& nodes, const ElementMatrix& k_e, double scale,
+              const DofMap& dofs, const int* unknowns, int n, std::vector<int>& local,
+              Eigen::MatrixXd& matrix, SparseMatrix& k) {
+  for (int i = 0; i < n; ++i) local[static_cast<std::size_t>(unknowns[i])] = i;
+  matrix.setZero(n, n);
+  for (int q = 0; q < 24; ++q) {
+    const auto [q_first, q_last] = dofs.terms(nodes[static_cast<std::size_t>(q / 3)], q % 3);
+    for (const DofMap::Term* b = q_first; b != q_last; ++b) {
+      const int column = local[static_cast<std::size_t>(b->unknown)];
+      for (int p = 0; p < 24; ++p) {
+        const auto [p_first, p_last] = dofs.terms(nodes[static_cast<std::size_t>(p / 3)], p % 3);
+        for (const DofMap::Term* a = p_first; a != p_last; ++a) {
+          matrix(local[static_cast<std::size_t>(a->unknown)], column) +=
+              a->coefficient * b->coefficient * k_e(p, q);
+        }
+      }
+    }
+  }
+  for (int j = 0; j < n; ++j) {
+    const long first = k.outerIndexPtr()[unknowns[j]], last = k.outerIndexPtr()[unknowns[j] + 1];
+    const long* at = k.innerIndexPtr() + first;
+    const long* end = k.innerIndexPtr() + last;
+    for (int i = j; i < n; ++i) {
+      at = std::lower_bound(at, end, static_cast<long>(unknowns[i]));
+      k.valuePtr()[at - k.innerIndexPtr()] += scale * matrix(i, j);
+    }
+  }
+}
+
+}  // namespace
+
+SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
+                                const DofMap& dofs, bool b_bar) {
+  const CellUnknowns cells = cell_unknowns(mesh, dofs);
+  SparseMatrix k = make_pattern(cells, dofs.n_unknowns());
+  const double scale = mesh.plane_strain ? 1 / mesh.thickness : 1;
+  std::vector<int> local(static_cast<std::size_t>(dofs.n_unknowns()));
+  Eigen::MatrixXd matrix;
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
+    const auto& material = materials.at(static_cast<std::size_t>(mesh.material[cell]));
+    const Element element = make_element(mesh, static_cast<int>(cell));
+    const int n = static_cast<int>(cells.begin[cell + 1] - cells.begin[cell]);
+    add_cell(mesh.cells[cell], element_stiffness(element, material, b_bar), scale, dofs,
+             cells.unknowns.data() + cells.begin[cell], n, local, matrix, k);
+  }
+  return k;
+}
+
+}  // namespace faultsim

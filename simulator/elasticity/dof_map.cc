@@ -1,0 +1,325 @@
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "simulator/common/errors.h"
+#include "simulator/elasticity/elasticity.h"
+#include "simulator/elasticity/rigid_modes.h"
+
+namespace faultsim {
+
+/// Builds a DofMap in the order of the rules in its header. "Root" is the node whose displacement a
+/// tied node shares, itself for others.
+class DofMapBuilder {
+ public:
+  DofMapBuilder(const Mesh& mesh, DofMap& map)
+      : mesh_(mesh),
+        map_(map),
+        n_nodes_(static_cast<int>(mesh.nodes.size())),
+        fixed_(mesh.nodes.size(), {false, false, false}),
+        pair_(mesh.nodes.size(), -1) {}
+
+  void prescribe(const std::vector<DisplacementCondition>& conditions, int n_loads);
+  void collect_pairs();
+  void pin();
+  void fix_y();
+  void place_jumps();
+  void number_bulk();
+  void write_terms();
+  void share_prescribed();
+
+ private:
+  struct Pair {
+    int minus, plus;  // roots
+    const FaultNode* node;
+    std::array<int, 3> jump = {-1, -1, -1};
+  };
+
+  int root(int node) const {
+    return mesh_.tied_to.empty() ? node : mesh_.tied_to[static_cast<std::size_t>(node)];
+  }
+  std::array<bool, 3>& fixed(int node) { return fixed_[static_cast<std::size_t>(node)]; }
+  bool fix(int node, std::size_t c);
+  bool may_pin(const Pieces& pieces, int piece, int node) const;
+  std::vector<int> three_far_nodes(const Pieces& pieces, int piece) const;
+
+  const Mesh& mesh_;
+  DofMap& map_;
+  int n_nodes_;
+  std::vector<std::array<bool, 3>> fixed_;  // by root
+  std::vector<int> pair_;                   // by root: index into pairs_, -1 = not duplicated
+  std::vector<Pair> pairs_;                 // fault by fault
+  std::vector<std::array<int, 3>> bulk_;    // by root: unknowns of ū, -1 = prescribed
+};
+
+/// Fixes a component; false when it was fixed before.
+bool DofMapBuilder::fix(int node, std::size_t c) {
+  bool& flag = fixed(root(node))[c];
+  const bool is_new = !flag;
+  flag = true;
+  return is_new;
+}
+
+void DofMapBuilder::prescribe(const std::vector<DisplacementCondition>& conditions, int n_loads) {
+  map_.prescribed_.resize(static_cast<std::size_t>(n_loads));
+  for (const DisplacementCondition& condition : conditions) {
+    FAULTSIM_DEMAND(condition.load >= -1 && condition.load < n_loads, "load ", condition.load);
+    std::vector<int> nodes;
+    for (const BoundaryFace& face : mesh_.boundary) {
+      if (face.side != condition.side) continue;
+      for (int node : face.nodes) nodes.push_back(root(node));
+    }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    for (int node : nodes) {
+      const Eigen::Vector3d value =
+          condition.translation + condition.gradient * mesh_.nodes[static_cast<std::size_t>(node)];
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (!condition.components[c] || !fix(node, c) || condition.load < 0) continue;
+        map_.prescribed_[static_cast<std::size_t>(condition.load)].emplace_back(
+            3 * node + static_cast<int>(c), value[static_cast<int>(c)]);
+      }
+    }
+  }
+  for (auto& list : map_.prescribed_) std::sort(list.begin(), list.end());
+}
+
+void DofMapBuilder::collect_pairs() {
+  for (const FaultSurface& fault : mesh_.faults) {
+    map_.jump_begin_.push_back(static_cast<int>(pairs_.size()));
+    for (const FaultNode& node : fault.nodes) {
+      const Pair pair{root(node.minus_node), root(node.plus_node), &node};
+      for (int side : {pair.minus, pair.plus}) {
+        FAULTSIM_DEMAND(pair_[static_cast<std::size_t>(side)] < 0, "node ", side,
+                        " belongs to two fault nodes");
+        pair_[static_cast<std::size_t>(side)] = static_cast<int>(pairs_.size());
+      }
+      FAULTSIM_DEMAND(pair.minus != pair.plus, "node ", pair.minus, " is tied across a fault");
+      pairs_.push_back(pair);
+    }
+  }
+}
+
+bool DofMapBuilder::may_pin(const Pieces& pieces, int piece, int node) const {
+  return pieces.of_node[static_cast<std::size_t>(node)] == piece && root(node) == node &&
+         pair_[static_cast<std::size_t>(node)] < 0;
+}
+
+/// Three nodes of the piece, off the faults and far apart: from the centre, from the first, and
+/// from the line through both.
+std::vector<int> DofMapBuilder::three_far_nodes(const Pieces& pieces, int piece) const {
+  const auto farthest = [&](const auto& distance) {
+    int best = -1;
+    double best_distance = -1;
+    for (int i = 0; i < n_nodes_; ++i) {
+      if (!may_pin(pieces, piece, i)) continue;
+      const double d = distance(mesh_.nodes[static_cast<std::size_t>(i)]);
+      // The margin keeps rounding from choosing among the corners of a box.
+      if (d > best_distance * (1 + 1e-9)) {
+        best = i;
+        best_distance = d;
+      }
+    }
+    FAULTSIM_DEMAND(best >= 0, "no node of piece ", piece, " lies off the faults");
+    return best;
+  };
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  int n = 0;
+  for (int i = 0; i < n_nodes_; ++i) {
+    if (!may_pin(pieces, piece, i)) continue;
+    centre += mesh_.nodes[static_cast<std::size_t>(i)];
+    ++n;
+  }
+  centre /= std::max(n, 1);
+  const int a = farthest([&](const Eigen::Vector3d& x) { return (x - centre).norm(); });
+  const Eigen::Vector3d& at_a = mesh_.nodes[static_cast<std::size_t>(a)];
+  const int b = farthest([&](const Eigen::Vector3d& x) { return (x - at_a).norm(); });
+  const Eigen::Vector3d line = (mesh_.nodes[static_cast<std::size_t>(b)] - at_a).normalized();
+  const int c = farthest([&](const Eigen::Vector3d& x) { return (x - at_a).cross(line).norm(); });
+  return {a, b, c};
+}
+
+/// Pins the rigid motions of the body with the most cells when nothing at all is prescribed.
+void DofMapBuilder::pin() {
+  for (const auto& flags : fixed_) {
+    if (flags[0] || flags[1] || flags[2]) return;
+  }
+  const Pieces pieces = find_pieces(mesh_);
+  const auto largest = std::max_element(pieces.n_cells.begin(), pieces.n_cells.end());
+  const int piece = static_cast<int>(largest - pieces.n_cells.begin());
+  const int body = pieces.body[static_cast<std::size_t>(piece)];
+  const auto in_body = [&](int node) {
+    const int its_piece = pieces.of_node[static_cast<std::size_t>(node)];
+    return pieces.body[static_cast<std::size_t>(its_piece)] == body;
+  };
+  const RigidModes modes = rigid_modes(mesh_, in_body, [](int, int) { return false; });
+  const Eigen::Index n_free = modes.free.cols();
+  const std::vector<int> nodes = three_far_nodes(pieces, piece);
+  Eigen::MatrixXd motions(9, n_free);  // of the candidates' components
+  for (int i = 0; i < 3; ++i) {
+    const int node = nodes[static_cast<std::size_t>(i)];
+    motions.middleRows(3 * i, 3) =
+        modes.at(mesh_.nodes[static_cast<std::size_t>(node)]) * modes.free;
+  }
+  // The pivots of a QR factorisation are components that hold the motions, and well.
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(motions.transpose());
+  FAULTSIM_DEMAND(qr.rank() == n_free, "rank ", qr.rank(), " of ", n_free);
+  for (Eigen::Index m = 0; m < n_free; ++m) {
+    const int row = qr.colsPermutation().indices()[m];
+    fix(nodes[static_cast<std::size_t>(row / 3)], static_cast<std::size_t>(row % 3));
+  }
+  map_.pinned_ = n_free > 0;
+}
+
+void DofMapBuilder::fix_y() {
+  for (auto& flags : fixed_) flags[1] = true;
+}
+
+void DofMapBuilder::place_jumps() {
+  constexpr double kParallel = 1 - 1e-9;
+  int n_jump = 0;
+  for (Pair& pair : pairs_) {
+    bool locked = false;
+    std::array<bool, 3> removed = {false, false, false};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const bool on_minus = fixed(pair.minus)[c], on_plus = fixed(pair.plus)[c];
+      if (!on_minus && !on_plus) continue;
+      const auto along = [&](const Eigen::Vector3d& direction) {
+        return std::abs(direction[static_cast<int>(c)]) > kParallel;
+      };
+      removed[1] = removed[1] || along(pair.node->strike);
+      removed[2] = removed[2] || along(pair.node->dip);
+      locked =
+          locked || on_minus != on_plus || !(along(pair.node->strike) || along(pair.node->dip));
+      // One value serves both sides; a locked node may have been fixed on one of them only.
+      fixed(pair.minus)[c] = fixed(pair.plus)[c] = true;
+    }
+    if (locked) {
+      map_.locked_.push_back(mesh_.nodes[static_cast<std::size_t>(pair.node->minus_node)]);
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (!locked && !removed[c]) pair.jump[c] = n_jump++;
+    }
+    map_.jump_.push_back(pair.jump);
+  }
+  map_.n_jump_ = n_jump;
+}
+
+void DofMapBuilder::number_bulk() {
+  bulk_.assign(mesh_.nodes.size(), {-1, -1, -1});
+  for (int node = 0; node < n_nodes_; ++node) {
+    if (root(node) != node) continue;
+    const int index = pair_[static_cast<std::size_t>(node)];
+    int other = node;
+    if (index >= 0) {
+      const Pair& pair = pairs_[static_cast<std::size_t>(index)];
+      other = pair.minus == node ? pair.plus : pair.minus;
+      if (other < node) continue;  // numbered with it
+    }
+    auto& unknowns = bulk_[static_cast<std::size_t>(node)];
+    bool has_any = false;
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (fixed(node)[c]) continue;
+      unknowns[c] = map_.n_bulk_++;
+      map_.bulk_group_.push_back(map_.n_groups_);
+      has_any = true;
+    }
+    bulk_[static_cast<std::size_t>(other)] = unknowns;
+    if (has_any) ++map_.n_groups_;
+  }
+}
+
+void DofMapBuilder::write_terms() {
+  map_.begin_.push_back(0);
+  for (int node = 0; node < n_nodes_; ++node) {
+    const int own = root(node);
+    const int index = pair_[static_cast<std::size_t>(own)];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int unknown = bulk_[static_cast<std::size_t>(own)][c];
+      if (unknown >= 0) map_.terms_.push_back({unknown, 1});
+      if (index >= 0) {
+        const Pair& pair = pairs_[static_cast<std::size_t>(index)];
+        const double half = pair.plus == own ? 0.5 : -0.5;
+        const std::array<const Eigen::Vector3d*, 3> axes = {&pair.node->normal, &pair.node->strike,
+                                                            &pair.node->dip};
+        for (std::size_t j = 0; j < 3; ++j) {
+          const double coefficient = half * (*axes[j])[static_cast<int>(c)];
+          // A fixed component has no part in the jumps that are left; what rounding leaves goes.
+          if (pair.jump[j] < 0 || coefficient == 0 || fixed(own)[c]) continue;
+          map_.terms_.push_back({map_.n_bulk_ + pair.jump[j], coefficient});
+        }
+      }
+      map_.begin_.push_back(static_cast<int>(map_.terms_.size()));
+    }
+  }
+}
+
+/// Tied nodes and the other side of a fault have the same prescribed value.
+void DofMapBuilder::share_prescribed() {
+  for (auto& list : map_.prescribed_) {
+    const auto find = [&](int key) {
+      const auto at = std::lower_bound(list.begin(), list.end(), std::pair(key, -HUGE_VAL));
+      return at != list.end() && at->first == key ? at : list.end();
+    };
+    std::vector<std::pair<int, double>> all;
+    for (int node = 0; node < n_nodes_ && !list.empty(); ++node) {
+      const int own = root(node);
+      const int index = pair_[static_cast<std::size_t>(own)];
+      for (int c = 0; c < 3; ++c) {
+        auto found = find(3 * own + c);
+        if (found == list.end() && index >= 0) {
+          const Pair& pair = pairs_[static_cast<std::size_t>(index)];
+          found = find(3 * (pair.minus == own ? pair.plus : pair.minus) + c);
+        }
+        if (found != list.end()) all.emplace_back(3 * node + c, found->second);
+      }
+    }
+    list = std::move(all);
+  }
+}
+
+DofMap::DofMap(const Mesh& mesh, const std::vector<DisplacementCondition>& conditions,
+               int n_loads) {
+  DofMapBuilder builder(mesh, *this);
+  builder.prescribe(conditions, n_loads);
+  builder.collect_pairs();
+  builder.pin();
+  if (mesh.plane_strain) builder.fix_y();
+  builder.place_jumps();
+  builder.number_bulk();
+  builder.write_terms();
+  builder.share_prescribed();
+}
+
+std::pair<const DofMap::Term*, const DofMap::Term*> DofMap::terms(int node, int component) const {
+  const std::size_t row = 3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(component);
+  return {terms_.data() + begin_[row], terms_.data() + begin_[row + 1]};
+}
+
+double DofMap::prescribed(int load, int node, int component) const {
+  const auto& list = prescribed_[static_cast<std::size_t>(load)];
+  const int key = 3 * node + component;
+  const auto at = std::lower_bound(list.begin(), list.end(), std::pair(key, -HUGE_VAL));
+  return at != list.end() && at->first == key ? at->second : 0;
+}
+
+bool DofMap::has_prescribed(int load) const {
+  return !prescribed_[static_cast<std::size_t>(load)].empty();
+}
+
+int DofMap::n_unknowns() const { return n_bulk_ + n_jump_; }
+int DofMap::n_bulk() const { return n_bulk_; }
+int DofMap::n_jump() const { return n_jump_; }
+
+int DofMap::jump_dof(int fault, int node, int component) const {
+  const int index = jump_begin_[static_cast<std::size_t>(fault)] + node;
+  return jump_[static_cast<std::size_t>(index)][static_cast<std::size_t>(component)];
+}
+
+const std::vector<Eigen::Vector3d>& DofMap::locked_positions() const { return locked_; }
+bool DofMap::pinned() const { return pinned_; }
+const std::vector<int>& DofMap::bulk_group() const { return bulk_group_; }
+int DofMap::n_groups() const { return n_groups_; }
+
+}  // namespace faultsim

@@ -1,1 +1,0 @@
-#include "simulator/elasticity/elasticity.h"

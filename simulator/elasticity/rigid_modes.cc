@@ -1,0 +1,142 @@
+#include "simulator/elasticity/rigid_modes.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+
+#include "simulator/common/errors.h"
+
+namespace faultsim {
+namespace {
+
+// Squares: a motion counts as free when what holds it is 1e-6 of what holds the best held one.
+constexpr double kFree = 1e-12;
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t n) : parent_(n) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  int find(int i) {
+    while (parent_[static_cast<std::size_t>(i)] != i) {
+      int& up = parent_[static_cast<std::size_t>(i)];
+      up = parent_[static_cast<std::size_t>(up)];
+      i = up;
+    }
+    return i;
+  }
+  void join(int i, int j) {
+    i = find(i);
+    j = find(j);
+    parent_[static_cast<std::size_t>(std::max(i, j))] = std::min(i, j);
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+}  // namespace
+
+Pieces find_pieces(const Mesh& mesh) {
+  DisjointSets sets(mesh.nodes.size());
+  for (const auto& cell : mesh.cells) {
+    for (int node : cell) sets.join(cell[0], node);
+  }
+  for (std::size_t i = 0; i < mesh.tied_to.size(); ++i) {
+    sets.join(static_cast<int>(i), mesh.tied_to[i]);
+  }
+  Pieces pieces;
+  std::vector<int> number(mesh.nodes.size(), -1);
+  for (const auto& cell : mesh.cells) {
+    int& piece = number[static_cast<std::size_t>(sets.find(cell[0]))];
+    if (piece < 0) {
+      piece = pieces.n_pieces++;
+      pieces.n_cells.push_back(0);
+    }
+    ++pieces.n_cells[static_cast<std::size_t>(piece)];
+  }
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+    pieces.of_node.push_back(number[static_cast<std::size_t>(sets.find(static_cast<int>(i)))]);
+    FAULTSIM_DEMAND(pieces.of_node.back() >= 0, "node ", i, " belongs to no cell");
+  }
+  DisjointSets bodies(static_cast<std::size_t>(pieces.n_pieces));
+  for (const FaultSurface& fault : mesh.faults) {
+    for (const FaultNode& node : fault.nodes) {
+      bodies.join(pieces.of_node[static_cast<std::size_t>(node.minus_node)],
+                  pieces.of_node[static_cast<std::size_t>(node.plus_node)]);
+    }
+  }
+  pieces.body.assign(static_cast<std::size_t>(pieces.n_pieces), -1);
+  for (int p = 0; p < pieces.n_pieces; ++p) {
+    const int first = bodies.find(p);  // the lowest of its body
+    pieces.body[static_cast<std::size_t>(p)] =
+        first == p ? pieces.n_bodies++ : pieces.body[static_cast<std::size_t>(first)];
+  }
+  return pieces;
+}
+
+Eigen::Matrix<double, 3, 6> RigidModes::at(const Eigen::Vector3d& x) const {
+  const Eigen::Vector3d r = (x - centre) / size;
+  Eigen::Matrix<double, 3, 6> u;
+  u << 1, 0, 0, 0, r.z(), -r.y(),  //
+      0, 1, 0, -r.z(), 0, r.x(),   //
+      0, 0, 1, r.y(), -r.x(), 0;
+  return u;
+}
+
+RigidModes rigid_modes(const Mesh& mesh, const std::function<bool(int)>& member,
+                       const std::function<bool(int, int)>& is_fixed) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(kInfinity);
+  Eigen::Vector3d high = -low;
+  const int n_nodes = static_cast<int>(mesh.nodes.size());
+  for (int i = 0; i < n_nodes; ++i) {
+    if (!member(i)) continue;
+    low = low.cwiseMin(mesh.nodes[static_cast<std::size_t>(i)]);
+    high = high.cwiseMax(mesh.nodes[static_cast<std::size_t>(i)]);
+  }
+  RigidModes modes;
+  FAULTSIM_DEMAND((high.array() >= low.array()).all(), "no nodes");
+  modes.centre = 0.5 * (low + high);
+  modes.size = 0.5 * (high - low).norm();
+  Eigen::Matrix<double, 6, 6> held = Eigen::Matrix<double, 6, 6>::Zero();
+  const auto hold = [&held](const Eigen::Matrix<double, 1, 6>& row) {
+    held += row.transpose() * row;
+  };
+  for (int i = 0; i < n_nodes; ++i) {
+    if (!member(i)) continue;
+    const Eigen::Matrix<double, 3, 6> u = modes.at(mesh.nodes[static_cast<std::size_t>(i)]);
+    for (int c = 0; c < 3; ++c) {
+      if (is_fixed(i, c) || (mesh.plane_strain && c == 1)) hold(u.row(c));
+    }
+    const int root = mesh.tied_to.empty() ? i : mesh.tied_to[static_cast<std::size_t>(i)];
+    if (root == i) continue;
+    const Eigen::Matrix<double, 3, 6> difference =
+        u - modes.at(mesh.nodes[static_cast<std::size_t>(root)]);
+    for (int c = 0; c < 3; ++c) hold(difference.row(c));
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(held);
+  const double limit = kFree * eigen.eigenvalues()[5];
+  int n_free = 0;  // the eigenvalues ascend
+  while (n_free < 6 && eigen.eigenvalues()[n_free] <= limit) ++n_free;
+  modes.free = eigen.eigenvectors().leftCols(n_free);
+  return modes;
+}
+
+std::string describe(const RigidModes& modes) {
+  static const std::array<const char*, 6> kNames = {"move along x", "move along y", "move along z",
+                                                    "turn about x", "turn about y", "turn about z"};
+  if (modes.free.cols() == 0) return "";
+  std::string text;
+  int n_named = 0;
+  for (int m = 0; m < 6; ++m) {
+    if (modes.free.row(m).norm() < 0.999) continue;  // not free by itself
+    text += (n_named++ == 0 ? "" : ", ") + std::string(kNames[static_cast<std::size_t>(m)]);
+  }
+  if (n_named < modes.free.cols()) text += n_named == 0 ? "turn" : ", turn about some point";
+  return text;
+}
+
+}  // namespace faultsim

@@ -1,1 +1,0 @@
-#include "simulator/output/write_result.h"

@@ -1,0 +1,162 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "simulator/elasticity/elasticity.h"
+#include "simulator/elasticity/rigid_modes.h"
+#include "tests/unit/elasticity/test_box.h"
+
+namespace faultsim {
+namespace {
+
+using test::make_box;
+
+const std::array<int, 3> kCells = {4, 2, 3};
+
+/// Jump components left per node of fault 0, as "n", "ns", "nsd", ...
+std::string components(const DofMap& dofs, int node) {
+  std::string text;
+  for (int c = 0; c < 3; ++c) {
+    if (dofs.jump_dof(0, node, c) >= 0) text += "nsd"[c];
+  }
+  return text;
+}
+
+TEST(DofMap, UnknownsAreMeansAndLocalJumps) {
+  const Mesh mesh = make_box(kCells, {4, 2, 3}, {{2, 0, 2, 0, 2}}, test::shear_to_dip(60));
+  const DofMap dofs(mesh, test::rollers({MeshSide::x_min}), 0);
+  EXPECT_EQ(dofs.n_unknowns(), dofs.n_bulk() + dofs.n_jump());
+  EXPECT_EQ(dofs.n_jump(), 3 * static_cast<int>(mesh.faults[0].nodes.size()));
+  EXPECT_EQ(static_cast<int>(dofs.bulk_group().size()), dofs.n_bulk());
+  const Eigen::VectorXd x = Eigen::VectorXd::Random(dofs.n_unknowns());
+  const Eigen::Matrix3Xd u = nodal_displacement(mesh, dofs, x, {});
+  for (std::size_t k = 0; k < mesh.faults[0].nodes.size(); ++k) {
+    const FaultNode& node = mesh.faults[0].nodes[k];
+    const Eigen::Vector3d jump = u.col(node.plus_node) - u.col(node.minus_node);
+    const std::array<Eigen::Vector3d, 3> axes = {node.normal, node.strike, node.dip};
+    for (int c = 0; c < 3; ++c) {
+      const int dof = dofs.n_bulk() + dofs.jump_dof(0, static_cast<int>(k), c);
+      EXPECT_NEAR(axes[static_cast<std::size_t>(c)].dot(jump), x[dof], 1e-14);
+    }
+    const Eigen::Vector3d mean = 0.5 * (u.col(node.plus_node) + u.col(node.minus_node));
+    const int first = dofs.terms(node.minus_node, 0).first->unknown;
+    EXPECT_EQ(first, dofs.terms(node.plus_node, 0).first->unknown);
+    EXPECT_NEAR(mean.x(), x[first], 1e-14);
+  }
+}
+
+TEST(DofMap, RollerAlongStrikeOrDipRemovesThatJump) {
+  const Mesh mesh = make_box(kCells, {4, 2, 3}, {test::through(2, kCells)});
+  const DofMap dofs(mesh, test::rollers({MeshSide::y_min, MeshSide::z_min, MeshSide::x_min}), 0);
+  EXPECT_TRUE(dofs.locked_positions().empty());
+  for (std::size_t k = 0; k < mesh.faults[0].nodes.size(); ++k) {
+    const Eigen::Vector3d x =
+        mesh.nodes[static_cast<std::size_t>(mesh.faults[0].nodes[k].minus_node)];
+    const std::string expected =
+        std::string("n") + (x.y() == 0 ? "" : "s") + (x.z() == -3 ? "" : "d");
+    EXPECT_EQ(components(dofs, static_cast<int>(k)), expected) << x.transpose();
+  }
+}
+
+TEST(DofMap, RollerAcrossADippingFaultLocksItsNodes) {
+  const Mesh mesh = make_box(kCells, {4, 2, 3}, {test::through(2, kCells)}, test::shear_to_dip(60));
+  const DofMap dofs(mesh, test::rollers({MeshSide::y_min, MeshSide::z_min}), 0);
+  EXPECT_EQ(dofs.locked_positions().size(), 3u);
+  for (std::size_t k = 0; k < mesh.faults[0].nodes.size(); ++k) {
+    const FaultNode& node = mesh.faults[0].nodes[k];
+    const Eigen::Vector3d x = mesh.nodes[static_cast<std::size_t>(node.minus_node)];
+    const std::string expected = x.z() == -3 ? "" : x.y() == 0 ? "nd" : "nsd";
+    EXPECT_EQ(components(dofs, static_cast<int>(k)), expected) << x.transpose();
+    if (x.z() != -3) continue;
+    const auto minus = dofs.terms(node.minus_node, 0), plus = dofs.terms(node.plus_node, 0);
+    ASSERT_EQ(minus.second - minus.first, 1);
+    EXPECT_EQ(minus.first->unknown, plus.first->unknown);
+  }
+}
+
+TEST(DofMap, FixedNormalLocks) {
+  const Mesh mesh = make_box(kCells, {4, 2, 3}, {test::through(2, kCells)});
+  const std::vector<DisplacementCondition> fixed = {
+      {MeshSide::z_min, {true, true, true}, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1}};
+  EXPECT_EQ(DofMap(mesh, fixed, 0).locked_positions().size(), 3u);
+}
+
+TEST(DofMap, PrescribedValuesComeFromTheFirstConditionOnAnEdge) {
+  const Mesh mesh = make_box(kCells, {4, 2, 3}, {});
+  std::vector<DisplacementCondition> conditions = test::rollers({MeshSide::x_min});
+  conditions.push_back({MeshSide::z_max,
+                        {true, false, true},
+                        Eigen::Vector3d(7, 8, 9),
+                        Eigen::Matrix3d::Identity(),
+                        1});
+  const DofMap dofs(mesh, conditions, 2);
+  EXPECT_FALSE(dofs.has_prescribed(0));
+  EXPECT_TRUE(dofs.has_prescribed(1));
+  const Eigen::Matrix3Xd u =
+      nodal_displacement(mesh, dofs, Eigen::VectorXd::Constant(dofs.n_unknowns(), 55), {3, 2});
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+    const Eigen::Vector3d& x = mesh.nodes[i];
+    const Eigen::Index n = static_cast<Eigen::Index>(i);
+    EXPECT_EQ(u(0, n), x.x() == 0 ? 0 : x.z() == 0 ? 2 * (7 + x.x()) : 55);
+    EXPECT_EQ(u(1, n), 55);
+    EXPECT_EQ(u(2, n), x.z() == 0 ? 2 * (9 + x.z()) : 55);
+  }
+}
+
+TEST(DofMap, PlaneStrainTiesAndRemovesTheJumpAlongY) {
+  const std::array<int, 3> n = {4, 1, 3};
+  Mesh mesh = make_box(n, {4, 5, 3}, {test::through(2, n)}, test::shear_to_dip(70));
+  test::make_plane_strain(mesh, 5);
+  ASSERT_EQ(mesh.faults[0].nodes.size(), 4u);
+  const DofMap dofs(mesh, test::rollers({MeshSide::x_min}), 0);
+  for (int k = 0; k < 4; ++k) EXPECT_EQ(components(dofs, k), "nd");
+  const Eigen::Matrix3Xd u =
+      nodal_displacement(mesh, dofs, Eigen::VectorXd::Random(dofs.n_unknowns()), {});
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+    EXPECT_EQ(u.col(static_cast<Eigen::Index>(i)), u.col(mesh.tied_to[i]));
+    EXPECT_EQ(u(1, static_cast<Eigen::Index>(i)), 0);
+  }
+}
+
+TEST(DofMap, PinsAsManyMotionsAsTheBodyHas) {
+  Mesh mesh = make_box({4, 1, 3}, {4, 1, 3}, {});
+  EXPECT_EQ(DofMap(mesh, {}, 0).n_unknowns(), 3 * 40 - 6);
+  Mesh tied = mesh;  // x sides move alike: it can neither turn about y nor about z
+  for (std::size_t i = 0; i < tied.nodes.size(); ++i) {
+    if (tied.nodes[i].x() == 4) tied.tied_to[i] = static_cast<int>(i) - 4;
+  }
+  EXPECT_EQ(DofMap(tied, {}, 0).n_unknowns(), 3 * 32 - 4);
+  test::make_plane_strain(mesh, 1);
+  EXPECT_EQ(DofMap(mesh, {}, 0).n_unknowns(), 2 * 20 - 3);
+}
+
+TEST(Pieces, FaultsCutTheBodyAndHoldItTogether) {
+  const Mesh mesh =
+      make_box(kCells, {4, 2, 3}, {test::through(1, kCells), test::through(3, kCells)});
+  const Pieces pieces = find_pieces(mesh);
+  EXPECT_EQ(pieces.n_pieces, 3);
+  EXPECT_EQ(pieces.n_bodies, 1);
+  EXPECT_EQ(pieces.n_cells, (std::vector<int>{6, 12, 6}));
+  EXPECT_EQ(find_pieces(test::without_faults(mesh)).n_bodies, 3);
+  const Mesh patch = make_box(kCells, {4, 2, 3}, {{2, 0, 2, 1, 3}});
+  EXPECT_EQ(find_pieces(patch).n_pieces, 1);
+}
+
+TEST(RigidModes, AreDescribedInWords) {
+  const Mesh mesh = make_box(kCells, {4, 2, 3}, {});
+  const auto words = [&](const std::vector<MeshSide>& sides) {
+    const DofMap dofs(mesh, test::rollers(sides), 0);
+    const auto fixed = [&](int node, int c) {
+      return dofs.terms(node, c).first == dofs.terms(node, c).second;
+    };
+    return describe(rigid_modes(
+        mesh, [](int) { return true; }, fixed));
+  };
+  EXPECT_EQ(words({MeshSide::z_min}), "move along x, move along y, turn about z");
+  EXPECT_EQ(words({MeshSide::z_min, MeshSide::y_min}), "move along x");
+  EXPECT_EQ(words({MeshSide::z_min, MeshSide::y_min, MeshSide::x_max}), "");
+}
+
+}  // namespace
+}  // namespace faultsim
