@@ -19,8 +19,10 @@ struct PressurePair {
 
 /// A node pair of a fault as the contact solve sees it.
 struct OperatorNode {
-  Eigen::Vector3d position;
-  Eigen::Vector3d normal, strike, dip;  ///< local frame (see mesh.h).
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< local frame (see mesh.h).
+  Eigen::Vector3d strike = Eigen::Vector3d::Zero();
+  Eigen::Vector3d dip = Eigen::Vector3d::Zero();
   double area = 0;                      ///< A_k, m2 (per metre in plane strain).
   std::array<int, 3> dof = {-1, -1, -1};  ///< index of the jump in n, strike, dip; -1 = removed.
   double effective_shear_modulus = 0;   ///< G_eff = 2 G⁺G⁻/(G⁺+G⁻), Pa, area-weighted.

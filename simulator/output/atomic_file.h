@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+namespace faultsim {
+
+/// A file that gets its name only when it is complete: bytes go to a temporary name in the same
+/// folder, commit() renames. Destroyed before commit() it leaves nothing behind. The temporary
+/// name tells host and process, so that what a killed process leaves can be told from work in
+/// progress (is_abandoned_temporary).
+class PendingFile {
+ public:
+  /// Creates the temporary file, and the folder when it is missing. Throws StorageError.
+  explicit PendingFile(std::filesystem::path target);
+  ~PendingFile();
+  PendingFile(const PendingFile&) = delete;
+  PendingFile& operator=(const PendingFile&) = delete;
+
+  const std::filesystem::path& temporary() const { return temporary_; }
+  const std::filesystem::path& target() const { return target_; }
+  /// Writes bytes at an offset, all of them. Throws StorageError (disk full, ...).
+  void write(const void* bytes, std::size_t n_bytes, std::size_t offset);
+  /// Brings the bytes to the disk; what fails late (quota, network disk) fails here.
+  void sync();
+  /// sync(), then gives the file its name, replacing an older one.
+  void commit();
+  /// Throws StorageError "cannot write TARGET: TEXT OF errno".
+  [[noreturn]] void fail(int error_number) const;
+
+ private:
+  std::filesystem::path target_;
+  std::filesystem::path temporary_;
+  int descriptor_ = -1;
+};
+
+/// True if the name is a PendingFile's temporary one whose process is gone: a dead process of this
+/// host, or untouched for a day on another host.
+bool is_abandoned_temporary(const std::filesystem::path& path);
+
+}  // namespace faultsim

@@ -1,0 +1,290 @@
+#include <cctype>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "simulator/common/errors.h"
+#include "simulator/output/file_pair.h"
+#include "simulator/output/hdf5_support.h"
+#include "simulator/output/write_result.h"
+
+namespace faultsim {
+namespace {
+
+/// The points of a fault that are written, and where their values come from.
+struct FaultPoints {
+  std::string group;               ///< "/faults/NAME"
+  std::string topology;            ///< "Quadrilateral", plane strain: "Polyline".
+  std::vector<int> source;         ///< node of the point; unsplit: of the nearest split one or -1.
+  std::vector<int> split;          ///< 1 where the point is split.
+  std::vector<double> position;    ///< x 3
+  std::vector<int> cells;
+  std::size_t points_per_cell = 4;
+};
+
+/// A name that HDF5 paths, XDMF references and ParaView all take.
+std::string plain_name(const std::string& name, std::set<std::string>& taken) {
+  std::string plain;
+  for (const char c : name) {
+    plain += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' ? c : '_';
+  }
+  if (plain.empty()) plain = "fault";
+  std::string unique = plain;
+  for (int i = 2; !taken.insert(unique).second; ++i) unique = concat(plain, '_', i);
+  return unique;
+}
+
+/// The split point nearest to a position; -1 when the fault has none.
+int nearest_node(const OperatorFault& fault, const Eigen::Vector3d& position) {
+  int nearest = -1;
+  double least = 0;
+  for (std::size_t i = 0; i < fault.grid_position.size(); ++i) {
+    if (fault.grid_node[i] < 0) continue;
+    const double distance = (fault.grid_position[i] - position).squaredNorm();
+    if (nearest < 0 || distance < least) {
+      nearest = fault.grid_node[i];
+      least = distance;
+    }
+  }
+  return nearest;
+}
+
+FaultPoints collect_points(const OperatorFault& fault, const std::string& plain,
+                           bool plane_strain) {
+  FaultPoints points;
+  points.group = "/faults/" + plain;
+  points.topology = plane_strain ? "Polyline" : "Quadrilateral";
+  points.points_per_cell = plane_strain ? 2 : 4;
+  std::vector<int> number(fault.grid_position.size(), -1);
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (fault.grid_used[i] == 0) continue;
+    number[i] = static_cast<int>(points.source.size());
+    const Eigen::Vector3d& position = fault.grid_position[i];
+    const bool is_split = fault.grid_node[i] >= 0;
+    points.split.push_back(is_split ? 1 : 0);
+    points.source.push_back(is_split ? fault.grid_node[i] : nearest_node(fault, position));
+    points.position.insert(points.position.end(), position.data(), position.data() + 3);
+  }
+  for (const auto& face : fault.faces) {
+    // In plane strain the two sides of a face along strike are one: corners (a, b, b, a).
+    for (std::size_t c = 0; c < points.points_per_cell; ++c) {
+      const int corner = number[static_cast<std::size_t>(face[c])];
+      FAULTSIM_DEMAND(corner >= 0, "fault ", fault.name, ": corner ", face[c], " is not used");
+      points.cells.push_back(corner);
+    }
+  }
+  return points;
+}
+
+struct FieldInfo {
+  const char* name;
+  std::size_t n_components;
+  const char* units;
+  const char* long_name;
+};
+
+constexpr FieldInfo kFields[] = {
+    {"traction_fault", 3, "Pa",
+     "effective traction (normal, strike, dip); tension positive, acts on the minus side"},
+    {"traction_global", 3, "Pa", "effective traction (x, y, z); acts on the minus side"},
+    {"slip_fault", 3, "m", "jump plus minus minus side (opening, slip along strike, down dip)"},
+    {"slip_global", 3, "m", "jump plus minus minus side (x, y, z)"},
+    {"critical_index", 1, "1", "shear traction over current limit shear traction; 1 where open"},
+    {"static_critical_index", 1, "1", "shear traction over static limit shear traction"},
+    {"fault_pressure_change", 1, "Pa", "pressure change in the fault; positive when it rises"},
+};
+constexpr const char* kState = "state";
+constexpr const char* kStateLegend = "0 = stick, 1 = slip, 2 = open";
+
+/// The values of the fields at a node, in the order of kFields, all components.
+std::vector<double> values_at(const OperatorNode& node, const FaultFields& fields, int k,
+                              bool is_split) {
+  const auto to_global = [&](const Eigen::Vector3d& local) -> Eigen::Vector3d {
+    return local[0] * node.normal + local[1] * node.strike + local[2] * node.dip;
+  };
+  const Eigen::Vector3d traction = fields.traction.col(k);
+  const Eigen::Vector3d jump = is_split ? Eigen::Vector3d(fields.jump.col(k))
+                                        : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  std::vector<double> values;
+  for (const auto& vector : {traction, to_global(traction), jump, to_global(jump)}) {
+    values.insert(values.end(), vector.data(), vector.data() + 3);
+  }
+  values.insert(values.end(), {fields.critical_index[k], fields.static_critical_index[k],
+                               fields.fault_pressure_change[k]});
+  return values;
+}
+
+}  // namespace
+
+struct FieldWriter::Impl {
+  std::filesystem::path folder;
+  std::vector<OperatorNode> nodes;
+  std::optional<hdf5::Handle> file;
+  std::vector<FaultPoints> faults;
+  std::vector<std::string> names;
+  std::vector<std::vector<hdf5::GrowingArray>> fields;  ///< per fault: kFields, then the state.
+  std::vector<double> times;
+  std::vector<int> steps;
+  std::vector<std::string> stages, outcomes;
+
+  void write_geometry(const FaultPoints& fault, const std::string& name);
+  void open_fields(const FaultPoints& fault);
+  void append(std::size_t f, const FaultFields& fields);
+  XdmfGrid grid(std::size_t f) const;
+};
+
+void FieldWriter::Impl::write_geometry(const FaultPoints& fault, const std::string& name) {
+  const std::size_t n = fault.source.size();
+  std::vector<double> normal(3 * n, 0.0), strike = normal, dip = normal, area(n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (fault.source[i] < 0) continue;
+    const OperatorNode& node = nodes[static_cast<std::size_t>(fault.source[i])];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto component = static_cast<Eigen::Index>(c);
+      normal[3 * i + c] = node.normal[component];
+      strike[3 * i + c] = node.strike[component];
+      dip[3 * i + c] = node.dip[component];
+    }
+    if (fault.split[i] != 0) area[i] = node.area;
+  }
+  const std::string at = fault.group + "/geometry/";
+  hdf5::write_array(*file, at + "points", {n, 3}, fault.position.data(), {"m", "grid points"});
+  hdf5::write_array(*file, at + "cells",
+                    {fault.cells.size() / fault.points_per_cell, fault.points_per_cell},
+                    fault.cells.data(), {"", "points of the faces"});
+  hdf5::write_array(*file, at + "split", {n}, fault.split.data(),
+                    {"", "1: the sides can move apart; 0: fault edge, values of the nearest "
+                         "split point and no slip"});
+  hdf5::write_array(*file, at + "normal", {n, 3}, normal.data(),
+                    {"1", "normal, from the minus to the plus side"});
+  hdf5::write_array(*file, at + "strike", {n, 3}, strike.data(), {"1", "strike direction"});
+  hdf5::write_array(*file, at + "dip", {n, 3}, dip.data(), {"1", "dip direction"});
+  hdf5::write_array(*file, at + "area", {n}, area.data(), {"m2", "area of the node"});
+  hdf5::write_text_attribute(*file, fault.group, "name", name);
+}
+
+void FieldWriter::Impl::open_fields(const FaultPoints& fault) {
+  std::vector<hdf5::GrowingArray>& arrays = fields.emplace_back();
+  for (const FieldInfo& info : kFields) {
+    arrays.emplace_back(*file, fault.group + "/steps/" + info.name, H5T_IEEE_F64LE,
+                        fault.source.size(), info.n_components,
+                        hdf5::About{info.units, info.long_name});
+  }
+  arrays.emplace_back(*file, fault.group + "/steps/" + kState, H5T_STD_I32LE, fault.source.size(),
+                      1, hdf5::About{"", "contact state"});
+  hdf5::write_text_attribute(arrays.back().id(), "legend", kStateLegend);
+}
+
+void FieldWriter::Impl::append(std::size_t f, const FaultFields& step) {
+  const FaultPoints& fault = faults[f];
+  const std::size_t n = fault.source.size();
+  std::vector<std::vector<double>> tables;
+  for (const FieldInfo& info : kFields) tables.emplace_back(n * info.n_components, 0.0);
+  std::vector<int> state(n, static_cast<int>(FaultState::stick));
+  for (std::size_t i = 0; i < n; ++i) {
+    const int k = fault.source[i];
+    if (k < 0) continue;
+    const std::vector<double> values =
+        values_at(nodes[static_cast<std::size_t>(k)], step, k, fault.split[i] != 0);
+    auto value = values.begin();
+    for (std::size_t t = 0; t < tables.size(); ++t) {
+      for (std::size_t c = 0; c < kFields[t].n_components; ++c) {
+        tables[t][i * kFields[t].n_components + c] = *value++;
+      }
+    }
+    if (fault.split[i] != 0) state[i] = step.state[k];
+  }
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    fields[f][t].append(H5T_NATIVE_DOUBLE, tables[t].data());
+  }
+  fields[f].back().append(H5T_NATIVE_INT, state.data());
+}
+
+XdmfGrid FieldWriter::Impl::grid(std::size_t f) const {
+  const FaultPoints& fault = faults[f];
+  const std::size_t n = fault.source.size(), n_steps = times.size();
+  const std::string at = fault.group + "/geometry/";
+  XdmfGrid grid{names[f],
+                fault.topology,
+                {at + "cells",
+                 {fault.cells.size() / fault.points_per_cell, fault.points_per_cell},
+                 true},
+                {at + "points", {n, 3}},
+                {}};
+  grid.attributes.push_back({"split", {at + "split", {n}, true}});
+  for (const char* direction : {"normal", "strike", "dip"}) {
+    grid.attributes.push_back({direction, {at + direction, {n, 3}}, false, true});
+  }
+  if (n_steps == 0) return grid;
+  for (const FieldInfo& info : kFields) {
+    std::vector<std::size_t> shape = {n_steps, n};
+    if (info.n_components > 1) shape.push_back(info.n_components);
+    grid.attributes.push_back({info.name, {fault.group + "/steps/" + info.name, shape}, false,
+                               info.n_components > 1, true});
+  }
+  grid.attributes.push_back(
+      {kState, {fault.group + "/steps/" + kState, {n_steps, n}, true}, false, false, true});
+  return grid;
+}
+
+FieldWriter::FieldWriter(const std::filesystem::path& folder, const FaultGeometry& geometry)
+    : impl_(std::make_unique<Impl>()) {
+  const hdf5::Session session;
+  impl_->folder = folder;
+  impl_->nodes = geometry.nodes;
+  impl_->file.emplace(hdf5::create_in_memory());
+  std::set<std::string> taken;
+  for (const OperatorFault& fault : geometry.faults) {
+    FaultPoints points =
+        collect_points(fault, plain_name(fault.name, taken), geometry.plane_strain);
+    if (points.cells.empty()) continue;  // nothing to draw
+    impl_->write_geometry(points, fault.name);
+    impl_->open_fields(points);
+    impl_->names.push_back(fault.name);
+    impl_->faults.push_back(std::move(points));
+  }
+}
+
+FieldWriter::~FieldWriter() {
+  const hdf5::Session session;
+  impl_.reset();
+}
+
+void FieldWriter::add_step(const StepResult& step, const FaultFields& fields) {
+  const auto n = static_cast<Eigen::Index>(impl_->nodes.size());
+  FAULTSIM_DEMAND(impl_->file.has_value(), "a step after finish()");
+  FAULTSIM_DEMAND(fields.traction.cols() == n && fields.jump.cols() == n &&
+                      fields.critical_index.size() == n &&
+                      fields.static_critical_index.size() == n && fields.state.size() == n &&
+                      fields.fault_pressure_change.size() == n,
+                  "fields of ", n, " nodes");
+  FAULTSIM_DEMAND(fields.traction.allFinite() && fields.jump.allFinite() &&
+                      fields.critical_index.allFinite() &&
+                      fields.static_critical_index.allFinite() &&
+                      fields.fault_pressure_change.allFinite(),
+                  "a field of step ", step.step, " is not finite");
+  const hdf5::Session session;
+  for (std::size_t f = 0; f < impl_->faults.size(); ++f) impl_->append(f, fields);
+  impl_->times.push_back(step.time);
+  impl_->steps.push_back(step.step);
+  impl_->stages.push_back(step.stage);
+  impl_->outcomes.emplace_back(to_string(step.outcome));
+}
+
+void FieldWriter::finish() {
+  FAULTSIM_DEMAND(impl_->file.has_value(), "finish() twice");
+  const hdf5::Session session;
+  Impl& impl = *impl_;
+  const std::size_t n_steps = impl.times.size();
+  hdf5::write_array(*impl.file, "/time", {n_steps}, impl.times.data(), {"s", "time"});
+  hdf5::write_array(*impl.file, "/step", {n_steps}, impl.steps.data(), {"", "load step"});
+  hdf5::write_texts(*impl.file, "/stage", impl.stages);
+  hdf5::write_texts(*impl.file, "/outcome", impl.outcomes);
+  std::vector<XdmfGrid> grids;
+  for (std::size_t f = 0; f < impl.faults.size(); ++f) grids.push_back(impl.grid(f));
+  write_file_pair(impl.folder, "faults", *impl.file, grids, impl.times);
+  impl.fields.clear();
+  impl.file.reset();
+}
+
+}  // namespace faultsim

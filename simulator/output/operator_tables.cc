@@ -1,0 +1,226 @@
+#include "simulator/output/operator_tables.h"
+
+#include <cstddef>
+
+#include "simulator/common/errors.h"
+
+namespace faultsim {
+namespace {
+
+void push(std::vector<double>& table, const Eigen::Vector3d& row) {
+  table.insert(table.end(), row.data(), row.data() + 3);
+}
+
+Eigen::Vector3d row3(const std::vector<double>& table, std::size_t row) {
+  return {table[3 * row], table[3 * row + 1], table[3 * row + 2]};
+}
+
+template <typename Dense>
+std::vector<double> flat(const Dense& dense) {
+  return {dense.data(), dense.data() + dense.size()};
+}
+
+void demand(bool holds, const char* what) {
+  if (!holds) throw StorageError(concat("the tables of an operator disagree: ", what));
+}
+
+/// Hands out consecutive stretches of a list; runs out with a StorageError.
+template <typename Value>
+class Cursor {
+ public:
+  Cursor(const std::vector<Value>& values, int columns) : values_(values), columns_(columns) {}
+  const Value* take(int n_rows) {
+    const std::size_t n = static_cast<std::size_t>(n_rows) * static_cast<std::size_t>(columns_);
+    demand(n_rows >= 0 && at_ + n <= values_.size(), "a list ends early");
+    at_ += n;
+    return values_.data() + (at_ - n);
+  }
+  bool at_end() const { return at_ == values_.size(); }
+
+ private:
+  const std::vector<Value>& values_;
+  int columns_;
+  std::size_t at_ = 0;
+};
+
+void add_node(OperatorTables& t, const OperatorNode& node) {
+  push(t.node_position, node.position);
+  push(t.node_normal, node.normal);
+  push(t.node_strike, node.strike);
+  push(t.node_dip, node.dip);
+  t.node_numbers.insert(t.node_numbers.end(),
+                        {node.area, node.effective_shear_modulus, node.poisson_ratio,
+                         node.edge_strike, node.edge_dip});
+  t.node_dof.insert(t.node_dof.end(), node.dof.begin(), node.dof.end());
+  t.node_n_pairs.push_back(static_cast<int>(node.pressure.size()));
+  for (const PressurePair& pair : node.pressure) {
+    t.pair_regions.insert(t.pair_regions.end(), {pair.minus_region, pair.plus_region});
+    t.pair_numbers.insert(t.pair_numbers.end(),
+                          {pair.minus_fraction, pair.plus_fraction, pair.weight});
+  }
+}
+
+void add_fault(OperatorTables& t, const OperatorFault& fault) {
+  const std::size_t n_points = fault.grid_position.size();
+  FAULTSIM_DEMAND(fault.grid_node.size() == n_points && fault.grid_used.size() == n_points,
+                  "fault ", fault.name, " has ", n_points, " points");
+  t.fault_names.push_back(fault.name);
+  t.fault_numbers.insert(
+      t.fault_numbers.end(),
+      {fault.n_columns, fault.n_rows, fault.first_node, fault.n_nodes, static_cast<int>(n_points),
+       static_cast<int>(fault.column_width.size()), static_cast<int>(fault.faces.size())});
+  for (const auto& position : fault.grid_position) push(t.grid_position, position);
+  t.grid_node.insert(t.grid_node.end(), fault.grid_node.begin(), fault.grid_node.end());
+  for (const char used : fault.grid_used) t.grid_used.push_back(used != 0 ? 1 : 0);
+  t.column_width.insert(t.column_width.end(), fault.column_width.begin(),
+                        fault.column_width.end());
+  for (const auto& face : fault.faces) t.faces.insert(t.faces.end(), face.begin(), face.end());
+}
+
+std::vector<OperatorNode> read_nodes(const OperatorTables& t, int n_dofs) {
+  const std::size_t n_nodes = t.node_n_pairs.size();
+  for (const auto* table : {&t.node_position, &t.node_normal, &t.node_strike, &t.node_dip}) {
+    demand(table->size() == 3 * n_nodes, "nodes and their directions");
+  }
+  demand(t.node_numbers.size() == 5 * n_nodes && t.node_dof.size() == 3 * n_nodes, "nodes");
+  Cursor regions(t.pair_regions, 2);
+  Cursor numbers(t.pair_numbers, 3);
+  std::vector<OperatorNode> nodes(n_nodes);
+  for (std::size_t i = 0; i < n_nodes; ++i) {
+    OperatorNode& node = nodes[i];
+    node.position = row3(t.node_position, i);
+    node.normal = row3(t.node_normal, i);
+    node.strike = row3(t.node_strike, i);
+    node.dip = row3(t.node_dip, i);
+    const double* number = &t.node_numbers[5 * i];
+    node.area = number[0];
+    node.effective_shear_modulus = number[1];
+    node.poisson_ratio = number[2];
+    node.edge_strike = number[3];
+    node.edge_dip = number[4];
+    for (std::size_t c = 0; c < 3; ++c) {
+      node.dof[c] = t.node_dof[3 * i + c];
+      demand(node.dof[c] >= -1 && node.dof[c] < n_dofs, "dof of a node");
+    }
+    const int* region = regions.take(t.node_n_pairs[i]);
+    const double* pair = numbers.take(t.node_n_pairs[i]);
+    for (int k = 0; k < t.node_n_pairs[i]; ++k, region += 2, pair += 3) {
+      node.pressure.push_back({region[0], pair[0], region[1], pair[1], pair[2]});
+    }
+  }
+  demand(regions.at_end() && numbers.at_end(), "pressure pairs");
+  return nodes;
+}
+
+void check_indices(const OperatorFault& fault, int n_nodes) {
+  const int n_points = static_cast<int>(fault.grid_position.size());
+  demand(fault.first_node >= 0 && fault.n_nodes >= 0 && fault.first_node <= n_nodes - fault.n_nodes,
+         "nodes of a fault");
+  for (const int node : fault.grid_node) demand(node >= -1 && node < n_nodes, "node of a point");
+  for (const auto& face : fault.faces) {
+    for (const int point : face) demand(point >= 0 && point < n_points, "corner of a face");
+  }
+}
+
+std::vector<OperatorFault> read_faults(const OperatorTables& t, int n_nodes) {
+  demand(t.fault_numbers.size() == 7 * t.fault_names.size(), "faults");
+  Cursor positions(t.grid_position, 3);
+  Cursor grid_nodes(t.grid_node, 1), grid_used(t.grid_used, 1), corners(t.faces, 4);
+  Cursor widths(t.column_width, 1);
+  std::vector<OperatorFault> faults(t.fault_names.size());
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    OperatorFault& fault = faults[i];
+    const int* number = &t.fault_numbers[7 * i];
+    fault.name = t.fault_names[i];
+    fault.n_columns = number[0];
+    fault.n_rows = number[1];
+    fault.first_node = number[2];
+    fault.n_nodes = number[3];
+    const double* position = positions.take(number[4]);
+    const int* node = grid_nodes.take(number[4]);
+    const int* used = grid_used.take(number[4]);
+    for (int k = 0; k < number[4]; ++k, position += 3) {
+      fault.grid_position.emplace_back(position[0], position[1], position[2]);
+      fault.grid_node.push_back(node[k]);
+      fault.grid_used.push_back(used[k] != 0 ? 1 : 0);
+    }
+    const double* width = widths.take(number[5]);
+    fault.column_width.assign(width, width + number[5]);
+    const int* corner = corners.take(number[6]);
+    for (int k = 0; k < number[6]; ++k, corner += 4) {
+      fault.faces.push_back({corner[0], corner[1], corner[2], corner[3]});
+    }
+    check_indices(fault, n_nodes);
+  }
+  demand(positions.at_end() && grid_nodes.at_end() && grid_used.at_end() && corners.at_end() &&
+             widths.at_end(),
+         "points and faces of the faults");
+  return faults;
+}
+
+Eigen::MatrixXd read_matrix(const std::vector<double>& values, Eigen::Index n_rows,
+                            Eigen::Index n_columns, const char* what) {
+  demand(static_cast<Eigen::Index>(values.size()) == n_rows * n_columns, what);
+  return Eigen::Map<const Eigen::MatrixXd>(values.data(), n_rows, n_columns);
+}
+
+}  // namespace
+
+OperatorTables to_tables(const FaultOperator& op) {
+  const FaultGeometry& geometry = op.geometry;
+  OperatorTables t;
+  t.fingerprint = {op.fingerprint};
+  t.blas = {op.blas};
+  t.header = {geometry.n_dofs, geometry.plane_strain ? 1 : 0, geometry.half_domain ? 1 : 0,
+              op.n_unknowns};
+  t.provenance = {op.build_seconds, op.factor_bytes};
+  for (const OperatorNode& node : geometry.nodes) add_node(t, node);
+  for (const OperatorFault& fault : geometry.faults) add_fault(t, fault);
+  for (const auto& position : geometry.locked_positions) push(t.locked_positions, position);
+  t.dof_area = flat(op.dof_area);
+  t.load_names = op.load_names;
+  t.locked = flat(op.locked);
+  for (const ObservationRow& row : op.observations) {
+    t.observation_names.push_back(row.name);
+    push(t.observation_position, row.position);
+  }
+  t.observed_load = flat(op.observed_load);
+  t.observed_jump = flat(op.observed_jump);
+  return t;
+}
+
+FaultOperator from_tables(const OperatorTables& t) {
+  demand(t.header.size() == 4 && t.provenance.size() == 2 && t.fingerprint.size() == 1 &&
+             t.blas.size() == 1 && t.header[0] >= 0,
+         "header");
+  FaultOperator op;
+  op.fingerprint = t.fingerprint[0];
+  op.blas = t.blas[0];
+  op.n_unknowns = t.header[3];
+  op.build_seconds = t.provenance[0];
+  op.factor_bytes = t.provenance[1];
+  op.geometry.n_dofs = t.header[0];
+  op.geometry.plane_strain = t.header[1] != 0;
+  op.geometry.half_domain = t.header[2] != 0;
+  op.geometry.nodes = read_nodes(t, op.geometry.n_dofs);
+  op.geometry.faults = read_faults(t, static_cast<int>(op.geometry.nodes.size()));
+  demand(t.locked_positions.size() % 3 == 0, "locked positions");
+  for (std::size_t i = 0; i < t.locked_positions.size() / 3; ++i) {
+    op.geometry.locked_positions.push_back(row3(t.locked_positions, i));
+  }
+  demand(t.observation_position.size() == 3 * t.observation_names.size(), "observations");
+  for (std::size_t i = 0; i < t.observation_names.size(); ++i) {
+    op.observations.push_back({t.observation_names[i], row3(t.observation_position, i)});
+  }
+  op.load_names = t.load_names;
+  const auto n_loads = static_cast<Eigen::Index>(t.load_names.size());
+  const auto n_observed = static_cast<Eigen::Index>(op.observations.size());
+  const Eigen::Index n_dofs = op.geometry.n_dofs;
+  op.dof_area = read_matrix(t.dof_area, n_dofs, 1, "areas");
+  op.locked = read_matrix(t.locked, n_dofs, n_loads, "locked loads");
+  op.observed_load = read_matrix(t.observed_load, n_observed, n_loads, "observed loads");
+  op.observed_jump = read_matrix(t.observed_jump, n_observed, n_dofs, "observed jumps");
+  return op;
+}
+
+}  // namespace faultsim

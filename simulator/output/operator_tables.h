@@ -1,0 +1,75 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "simulator/output/fault_operator.h"
+
+namespace faultsim {
+
+/// A FaultOperator without H as flat tables: what an operator file holds. Tables of Eigen vectors
+/// are row by row, one row per node, point, ...; lists of varying length are one after the other.
+struct OperatorTables {
+  std::vector<std::string> fingerprint, blas, fault_names, load_names, observation_names;
+  std::vector<int> header;        ///< n_dofs, plane_strain, half_domain, n_unknowns
+  std::vector<double> provenance; ///< build_seconds, factor_bytes
+  std::vector<double> node_position, node_normal, node_strike, node_dip;          ///< n x 3
+  std::vector<double> node_numbers;  ///< n x 5: area, G_eff, ν, edge_strike, edge_dip
+  std::vector<int> node_dof;         ///< n x 3
+  std::vector<int> node_n_pairs;     ///< pressure pairs of each node
+  std::vector<int> pair_regions;     ///< x 2: minus, plus
+  std::vector<double> pair_numbers;  ///< x 3: minus_fraction, plus_fraction, weight
+  std::vector<int> fault_numbers;    ///< x 7: columns, rows, first node, nodes, points, widths, faces
+  std::vector<double> grid_position; ///< x 3
+  std::vector<int> grid_node, grid_used;
+  std::vector<double> column_width;
+  std::vector<int> faces;            ///< x 4
+  std::vector<double> locked_positions;      ///< x 3
+  std::vector<double> dof_area;
+  std::vector<double> locked;                ///< column-major
+  std::vector<double> observation_position;  ///< x 3
+  std::vector<double> observed_load, observed_jump;  ///< column-major
+};
+
+OperatorTables to_tables(const FaultOperator& op);
+
+/// Rebuilds the operator without H; every length and index is checked. Throws StorageError.
+FaultOperator from_tables(const OperatorTables& tables);
+
+/// Calls archive(path, values, columns, units, long_name) for every table: the one list that
+/// writing, reading and comparing share.
+template <typename Tables, typename Archive>
+void for_each_table(Tables& t, Archive&& archive) {
+  archive("/fingerprint", t.fingerprint, 1, "", "");
+  archive("/made_with/blas", t.blas, 1, "", "");
+  archive("/made_with/cost", t.provenance, 1, "s, B", "build time, bytes of the factor");
+  archive("/sizes", t.header, 1, "", "n_dofs, plane_strain, half_domain, n_unknowns");
+  archive("/nodes/position", t.node_position, 3, "m", "position");
+  archive("/nodes/normal", t.node_normal, 3, "1", "normal, from the minus to the plus side");
+  archive("/nodes/strike", t.node_strike, 3, "1", "strike direction");
+  archive("/nodes/dip", t.node_dip, 3, "1", "dip direction, normal x strike");
+  archive("/nodes/numbers", t.node_numbers, 5, "m2, Pa, 1, m, m",
+          "area, effective shear modulus, Poisson ratio, edge along strike, edge down dip");
+  archive("/nodes/dof", t.node_dof, 3, "", "index of the jump in normal, strike, dip; -1 removed");
+  archive("/nodes/n_pairs", t.node_n_pairs, 1, "", "number of pressure pairs of the node");
+  archive("/pairs/regions", t.pair_regions, 2, "", "pressure region minus, plus; -1 none");
+  archive("/pairs/numbers", t.pair_numbers, 3, "1", "fraction minus, fraction plus, weight");
+  archive("/faults/names", t.fault_names, 1, "", "");
+  archive("/faults/numbers", t.fault_numbers, 7, "",
+          "columns, rows, first node, nodes, grid points, column widths, faces");
+  archive("/faults/grid_position", t.grid_position, 3, "m", "grid points of all faults");
+  archive("/faults/grid_node", t.grid_node, 1, "", "node at the grid point; -1 not split");
+  archive("/faults/grid_used", t.grid_used, 1, "", "1 where the point is a face's corner");
+  archive("/faults/column_width", t.column_width, 1, "m", "length along strike of a column");
+  archive("/faults/faces", t.faces, 4, "", "grid points of the faces' corners");
+  archive("/locked_positions", t.locked_positions, 3, "m", "nodes held closed by a boundary");
+  archive("/dof_area", t.dof_area, 1, "m2", "A per dof");
+  archive("/loads/names", t.load_names, 1, "", "");
+  archive("/loads/locked", t.locked, 1, "Pa per unit of load", "L, column by column");
+  archive("/observations/names", t.observation_names, 1, "", "");
+  archive("/observations/position", t.observation_position, 3, "m", "nodes observed");
+  archive("/observations/load", t.observed_load, 1, "m per unit of load", "U, column by column");
+  archive("/observations/jump", t.observed_jump, 1, "m per m", "V, column by column");
+}
+
+}  // namespace faultsim
