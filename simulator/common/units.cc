@@ -25,17 +25,28 @@ struct DimensionInfo {
 
 DimensionInfo info(Dimension dimension) {
   switch (dimension) {
-    case Dimension::number: return {"", "", "a number"};
-    case Dimension::length: return {"m", "m", "a length"};
-    case Dimension::area: return {"m2", "m2", "an area"};
-    case Dimension::pressure: return {"Pa", "bar", "a pressure"};
-    case Dimension::pressure_gradient: return {"Pa/m", "bar/m", "a pressure gradient"};
-    case Dimension::density: return {"kg/m3", "kg/m3", "a density"};
-    case Dimension::angle: return {"rad", "deg", "an angle"};
-    case Dimension::time: return {"s", "year", "a time"};
-    case Dimension::viscosity: return {"Pa s", "Pa s", "a viscosity"};
-    case Dimension::moment: return {"N m", "N m", "a moment"};
-    case Dimension::potency: return {"m3", "m3", "a potency"};
+    case Dimension::number:
+      return {"", "", "a number"};
+    case Dimension::length:
+      return {"m", "m", "a length"};
+    case Dimension::area:
+      return {"m2", "m2", "an area"};
+    case Dimension::pressure:
+      return {"Pa", "bar", "a pressure"};
+    case Dimension::pressure_gradient:
+      return {"Pa/m", "bar/m", "a pressure gradient"};
+    case Dimension::density:
+      return {"kg/m3", "kg/m3", "a density"};
+    case Dimension::angle:
+      return {"rad", "deg", "an angle"};
+    case Dimension::time:
+      return {"s", "year", "a time"};
+    case Dimension::viscosity:
+      return {"Pa s", "Pa s", "a viscosity"};
+    case Dimension::moment:
+      return {"N m", "N m", "a moment"};
+    case Dimension::potency:
+      return {"m3", "m3", "a potency"};
   }
   throw_internal("known dimension", "", __FILE__, __LINE__);
 }
@@ -90,8 +101,9 @@ class UnitSystem {
   std::map<std::pair<std::string, std::string>, Answer> cache_;
 };
 
-/// udunits' year is the tropical one; ours is 365.25 d. Spelled out before udunits sees it.
-std::string with_our_year(const std::string& unit) {
+/// udunits' year is the tropical one, ours is 365.25 d; and it has no "deg". Both are spelled out
+/// before udunits sees them.
+std::string with_our_words(const std::string& unit) {
   std::string result;
   for (std::size_t i = 0; i < unit.size();) {
     if (std::isalpha(static_cast<unsigned char>(unit[i])) == 0) {
@@ -102,7 +114,7 @@ std::string with_our_year(const std::string& unit) {
     while (j < unit.size() && std::isalpha(static_cast<unsigned char>(unit[j])) != 0) ++j;
     const std::string word = unit.substr(i, j - i);
     const bool is_year = word == "year" || word == "years" || word == "yr" || word == "a";
-    result += is_year ? "(31557600 s)" : word;
+    result += is_year ? "(31557600 s)" : word == "deg" ? "degree" : word;
     i = j;
   }
   return result;
@@ -130,9 +142,10 @@ ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
       !owned.empty() && (std::isdigit(static_cast<unsigned char>(owned[0])) != 0 ||
                          owned[0] == '-' || owned[0] == '+' || owned[0] == '.');
   const bool hexadecimal = owned.find_first_of("xX") != std::string::npos;
-  const long double number =
-      starts_decimal && !hexadecimal ? std::strtold(begin, &end) : 0.0L;
-  const std::string fallback = dimension == Dimension::number ? "write a number" : "write for example " + example(dimension, "25");
+  const long double number = starts_decimal && !hexadecimal ? std::strtold(begin, &end) : 0.0L;
+  const std::string fallback = dimension == Dimension::number
+                                   ? "write a number"
+                                   : "write for example " + example(dimension, "25");
   if (end == nullptr || end == begin) {
     return failed(quoted + " does not start with a number", fallback);
   }
@@ -151,7 +164,7 @@ ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
   if (unit.empty()) {
     return failed(quoted + " has no unit", "did you mean " + example(dimension, digits) + "?");
   }
-  const auto answer = UnitSystem::instance().factor(with_our_year(unit), info(dimension).si);
+  const auto answer = UnitSystem::instance().factor(with_our_words(unit), info(dimension).si);
   if (!answer.known) {
     return failed(quoted + " has the unknown unit \"" + unit + "\"",
                   "write " + std::string(info(dimension).name) + ", for example " +
@@ -167,7 +180,7 @@ ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
 }
 
 double from_si(double value, Dimension dimension, const std::string& unit) {
-  const auto answer = UnitSystem::instance().factor(with_our_year(unit), info(dimension).si);
+  const auto answer = UnitSystem::instance().factor(with_our_words(unit), info(dimension).si);
   FAULTSIM_DEMAND(answer.factor.has_value(), "unit ", unit);
   return value / *answer.factor;
 }

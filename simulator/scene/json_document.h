@@ -12,7 +12,7 @@ namespace faultsim {
 
 /// A JSON text with the line of every value, so that messages can point into the file.
 struct JsonDocument {
-  std::string source;    ///< file name, for messages.
+  std::string source;  ///< file name, for messages.
   nlohmann::json value;
   std::unordered_map<std::string, int> lines;  ///< JSON Pointer -> line, from 1.
 
@@ -27,8 +27,9 @@ JsonDocument parse_json(std::string_view text, const std::string& source);
 JsonDocument read_json_file(const std::string& path);
 
 /// Replaces the value at pointer by value, as `--set /json/pointer=value` does: text that parses as
-/// JSON is taken as such, else as a string. The parent must exist; an unknown last key is left for
-/// the schema to judge. Throws InputError naming the pointer.
+/// JSON is taken as such, else as a string. Missing objects on the
+/// way are made, and whether a key may be there is left for the schema to judge; elements of lists
+/// must exist. Throws InputError naming the pointer.
 void set_value(JsonDocument& document, const std::string& pointer, const std::string& value);
 
 /// Validates against a draft-07 schema (valijson) and returns one problem per mistake: the deepest

@@ -1,1 +1,229 @@
 #include "simulator/scene/read_scene.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "scene_schema_json.h"
+#include "simulator/scene/scene_reader.h"
+#include "simulator/scene/schema_walk.h"
+#include "starter_box_json.h"
+#include "starter_field_json.h"
+
+namespace faultsim {
+namespace {
+
+using nlohmann::json;
+
+struct TierSizes {
+  const char* name;
+  double strike, dip, normal;  ///< m
+};
+constexpr TierSizes kTiers[] = {
+    {"screening", 100, 10, 10},  // plane strain: the strike size is not used
+    {"demonstration", 200, 50, 100},
+    {"standard", 100, 20, 20},
+    {"reference", 50, 10, 10},
+};
+
+Switch switch_at(const SceneReader& reader, const std::string& pointer, Switch fallback) {
+  const std::string text = reader.text(pointer);
+  if (text == "on") return Switch::on;
+  if (text == "off") return Switch::off;
+  return text == "automatic" ? Switch::automatic : fallback;
+}
+
+void read_numerics(const SceneReader& reader, Numerics& numerics) {
+  const std::string at = "/numerics/";
+  numerics.slip_tolerance = reader.quantity(at + "slip_tolerance", numerics.slip_tolerance);
+  numerics.activation_length =
+      reader.quantity(at + "activation_length", numerics.activation_length);
+  numerics.traction_tolerance =
+      reader.number(at + "traction_tolerance", numerics.traction_tolerance);
+  numerics.max_newton_iterations =
+      reader.integer(at + "max_newton_iterations", numerics.max_newton_iterations);
+  numerics.max_active_set_passes =
+      reader.integer(at + "max_active_set_passes", numerics.max_active_set_passes);
+  numerics.max_step_cuts = reader.integer(at + "max_step_cuts", numerics.max_step_cuts);
+  numerics.b_bar = reader.boolean(at + "b_bar", numerics.b_bar);
+  numerics.half_domain = switch_at(reader, at + "half_domain", numerics.half_domain);
+  numerics.plane_strain = switch_at(reader, at + "plane_strain", numerics.plane_strain);
+}
+
+/// What a tier says beyond cell sizes; contradicting it is refused rather than renamed.
+void apply_tier_switches(SceneReader& reader, Scene& scene) {
+  Numerics& numerics = scene.numerics;
+  if (scene.tier == "screening") {
+    if (reader.has("/numerics/plane_strain") && numerics.plane_strain == Switch::off) {
+      reader.problem("/numerics/plane_strain", "the tier \"screening\" is plane strain",
+                     "remove this line or choose the tier \"standard\"");
+    }
+    numerics.plane_strain = Switch::on;
+  }
+  if (scene.tier == "reference" && numerics.plane_strain != Switch::on) {
+    if (numerics.half_domain == Switch::off) {
+      reader.problem("/numerics/half_domain",
+                     "the tier \"reference\" is made for half the domain; all of it does not fit",
+                     "remove this line or choose the tier \"standard\"");
+    }
+    numerics.half_domain = Switch::on;
+  }
+}
+
+/// Without a tier the sizes must be there; they are guessed from nothing.
+void demand_cell_sizes(SceneReader& reader, bool is_box, bool plane_strain) {
+  if (!reader.sound("/mesh")) return;
+  std::string missing;
+  std::string example;
+  for (const char* size : {"strike", "dip", "normal"}) {
+    const std::string name = std::string("\"") + size + "\"";
+    if (reader.has(std::string("/mesh/") + size)) continue;
+    if (plane_strain && std::string(size) == "strike") continue;
+    missing += (missing.empty() ? "" : ", ") + name;
+    example += (example.empty() ? "" : ", ") + name + ": \"20 m\"";
+  }
+  if (missing.empty()) return;
+  const bool has_mesh = reader.has("/mesh");
+  reader.problem(
+      has_mesh ? "/mesh" : "", "the mesh has no cell size " + missing,
+      (has_mesh ? "add for example " + example : "add for example \"mesh\": { " + example + " }") +
+          (is_box ? "" : ", or choose a tier: screening, standard or reference"));
+}
+
+}  // namespace
+
+void read_mesh(SceneReader& reader, Scene& scene) {
+  read_numerics(reader, scene.numerics);
+  scene.tier = reader.text("/tier", "custom");
+  const bool is_box = scene.geometry_kind == GeometryKind::box;
+  if (is_box && scene.tier != "custom" && reader.sound("/geometry/kind")) {
+    reader.problem("/tier", "tiers are for a field, this is a box",
+                   "remove it and give \"mesh\" with strike, dip and normal");
+    return;
+  }
+  MeshSizes& mesh = scene.mesh;
+  mesh = {kNaN, kNaN, kNaN, 1.3, 0, 0};
+  for (const TierSizes& tier : kTiers) {
+    if (scene.tier == tier.name) mesh = {tier.strike, tier.dip, tier.normal, 1.3, 0, 0};
+  }
+  mesh.strike = reader.quantity("/mesh/strike", mesh.strike);
+  mesh.dip = reader.quantity("/mesh/dip", mesh.dip);
+  mesh.normal = reader.quantity("/mesh/normal", mesh.normal);
+  mesh.growth = reader.number("/mesh/growth", mesh.growth);
+  mesh.fine_margin = reader.quantity("/mesh/fine_margin", mesh.fine_margin);
+  mesh.largest = reader.quantity("/mesh/largest", mesh.largest);
+  apply_tier_switches(reader, scene);
+  if (scene.tier != "custom") return;
+  const bool plane_strain = scene.numerics.plane_strain == Switch::on;
+  demand_cell_sizes(reader, is_box, plane_strain);
+  // One cell along y: its size says nothing and must not tell equal cases apart.
+  if (plane_strain && !reader.has("/mesh/strike")) mesh.strike = kTiers[0].strike;
+}
+
+void read_materials(SceneReader& reader, Scene& scene) {
+  for (const std::string& name : reader.keys("/materials")) {
+    const std::string at = "/materials/" + pointer_token(name) + "/";
+    Material material;
+    material.name = name;
+    material.density = reader.quantity(at + "density", 0);
+    material.youngs_modulus = reader.quantity(at + "youngs_modulus");
+    material.poisson_ratio = reader.number(at + "poisson_ratio");
+    material.biot = reader.number(at + "biot", 1);
+    if (reader.has(at + "viscosity")) {
+      reader.problem(at + "viscosity", "viscous salt is not modelled yet",
+                     "remove " + at + "viscosity");
+    }
+    scene.materials.push_back(material);
+  }
+}
+
+void read_initial_state(SceneReader& reader, Scene& scene) {
+  const std::string at = "/initial_state/";
+  InitialState& state = scene.initial;
+  const bool is_profile = reader.text(at + "kind") == "profile";
+  state.kind = is_profile ? InitialStressKind::profile : InitialStressKind::column;
+  state.ratio_across = reader.number(at + "ratio_across", 1);
+  state.ratio_along = reader.number(at + "ratio_along", 1);
+  state.initial_biot = reader.number(at + "initial_biot", 1);
+  state.gravity = reader.quantity(at + "gravity", state.gravity);
+  state.water_density = reader.quantity(at + "water_density", state.water_density);
+  state.overpressure = reader.quantity(at + "overpressure", 0);
+  state.vertical_stress = reader.quantity(at + "vertical_stress", 0);
+  state.vertical_stress_gradient = reader.quantity(at + "vertical_stress_gradient", 0);
+  state.pressure = reader.quantity(at + "pressure", 0);
+  state.pressure_gradient = reader.quantity(at + "pressure_gradient", 0);
+  if (!reader.has(at + "tensor")) return;
+  const std::array<double, 9> tensor = reader.tensor(at + "tensor");
+  if (tensor[1] != tensor[3] || tensor[2] != tensor[6] || tensor[5] != tensor[7]) {
+    if (reader.sound(at + "tensor")) {
+      reader.problem(at + "tensor", "the stress tensor is not symmetric",
+                     "write the same value for xy and yx, xz and zx, yz and zy");
+    }
+  }
+  for (const char* key : {"vertical_stress", "vertical_stress_gradient", "ratio_across",
+                          "ratio_along", "initial_biot"}) {
+    if (reader.has(at + key)) {
+      reader.problem(at + key, "has no effect next to \"tensor\"", "remove one of the two");
+    }
+  }
+  state.tensor = tensor;
+}
+
+void read_output(SceneReader& reader, Scene& scene) {
+  OutputRequest& output = scene.output;
+  output.fault_fields = reader.boolean("/output/fault_fields", true);
+  output.volume_fields = reader.boolean("/output/volume_fields", false);
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < reader.size("/output/observation_points"); ++i) {
+    const std::string at = concat("/output/observation_points/", i, "/");
+    output.observation_points.push_back({reader.text(at + "name"), reader.point(at + "position")});
+    names.push_back(output.observation_points.back().name);
+  }
+  reader.demand_unique("/output/observation_points", "/name", names);
+}
+
+const json& scene_schema() {
+  static const json schema = json::parse(embedded::scene_schema_json);
+  return schema;
+}
+
+Scene read_scene(const JsonDocument& document, std::vector<Problem>& problems) {
+  SceneReader reader(document, problems);
+  Scene scene;
+  scene.title = reader.text("/title");
+  if (!document.value.is_object()) return scene;
+  read_materials(reader, scene);
+  read_geometry(reader, scene);
+  read_mesh(reader, scene);
+  read_initial_state(reader, scene);
+  read_faults(reader, scene);
+  read_loading(reader, scene);
+  read_output(reader, scene);
+  check_geometry(reader, scene);
+  check_pressures(reader, scene);
+  std::stable_sort(problems.begin(), problems.end(),
+                   [](const Problem& a, const Problem& b) { return a.line < b.line; });
+  return scene;
+}
+
+Scene read_scene(const JsonDocument& document) {
+  std::vector<Problem> problems;
+  Scene scene = read_scene(document, problems);
+  if (!problems.empty()) throw InputError(document.source, problems);
+  return scene;
+}
+
+const Material& material_named(const Scene& scene, const std::string& name) {
+  for (const Material& material : scene.materials) {
+    if (material.name == name) return material;
+  }
+  throw_internal("the material exists", name, __FILE__, __LINE__);
+}
+
+std::string starter_scene(const std::string& kind) {
+  if (kind == "field") return std::string(embedded::starter_field_json);
+  if (kind == "box") return std::string(embedded::starter_box_json);
+  throw InputError("init", {{"", 0, "there is no starter scene \"" + kind + "\"",
+                             "choose \"field\" or \"box\""}});
+}
+
+}  // namespace faultsim

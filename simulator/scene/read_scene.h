@@ -31,17 +31,19 @@ std::string case_identity(const Scene& scene);
 
 /// One row of `faultsim parameters`.
 struct ParameterInfo {
-  std::string pointer;   ///< JSON Pointer into the scene's document.
-  std::string alias;     ///< short name for campaigns: "friction_angle"; may be empty.
-  Dimension dimension;
-  std::string value;     ///< as given in this scene, or the default.
+  std::string pointer;  ///< JSON Pointer into the scene's document.
+  std::string alias;    ///< short name for campaigns: "friction_angle"; may be empty.
+  Dimension dimension = Dimension::number;
+  std::string value;  ///< as given in this scene, or the default.
   std::string default_value;
-  std::string range;     ///< "[0 deg, 80 deg]".
-  bool new_family;       ///< changing it costs a new operator.
+  std::string range;        ///< "[0 deg, 80 deg]".
+  bool new_family = false;  ///< changing it costs a new operator.
   std::string description;
+  bool is_text = false;  ///< a word (or true, false) out of range "{mean, min, ...}", no number.
 };
 
-/// All numbers of this scene that can be varied, in document order.
+/// All numbers and words of this scene that can be varied, in document order; optional ones that it
+/// does not give too, with their defaults (set_value can set them).
 std::vector<ParameterInfo> parameters(const JsonDocument& document);
 
 /// The pointer of an alias in this document ("offset" -> "/geometry/blocks/1/offset"), or the text

@@ -1,0 +1,240 @@
+#include <array>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "simulator/common/fingerprint.h"
+#include "simulator/scene/read_scene.h"
+
+/// The resolved scene as text. Every struct of scene.h that says something about physics or
+/// numerics has a function here. A field added to scene.h later is written only when it differs
+/// from the value that reproduces the old behaviour, so that identities stored before stay valid.
+namespace faultsim {
+namespace {
+
+using nlohmann::json;
+
+/// -0 is 0; everything is a double, so that 1 and 1.0 are the same text.
+double plain(double value) { return value == 0 ? 0.0 : value; }
+
+template <typename Numbers>
+json list(const Numbers& numbers) {
+  json result = json::array();
+  for (const double number : numbers) result.push_back(plain(number));
+  return result;
+}
+
+json table(const TimeTable& table) {
+  return {{"time", list(table.time)}, {"factor", list(table.factor)}};
+}
+
+json layers(const std::vector<Layer>& layers) {
+  json result = json::array();
+  for (const Layer& layer : layers) {
+    result.push_back(
+        {{"name", layer.name}, {"material", layer.material}, {"top", plain(layer.top_depth)}});
+  }
+  return result;
+}
+
+json field(const FieldGeometry& field) {
+  json blocks = json::array();
+  for (const Block& block : field.blocks) {
+    blocks.push_back({{"name", block.name},
+                      {"from", plain(block.from)},
+                      {"to", plain(block.to)},
+                      {"offset", plain(block.offset)}});
+  }
+  return {{"kind", "field"},
+          {"width", plain(field.width)},
+          {"length", plain(field.length)},
+          {"depth", plain(field.depth)},
+          {"layers", layers(field.layers)},
+          {"reservoir_layer", field.reservoir_layer},
+          {"sideburden", field.sideburden},
+          {"blocks", blocks},
+          {"block_length", plain(field.block_length)},
+          {"fault_length", plain(field.fault_length)},
+          {"fault_overshoot", plain(field.fault_overshoot)},
+          {"pivot_depth", plain(field.pivot_depth)}};
+}
+
+json condition(const BoundaryCondition& condition) {
+  std::set<int> sides;
+  for (const Side side : condition.sides) sides.insert(static_cast<int>(side));
+  json result = {{"sides", sides}, {"kind", static_cast<int>(condition.kind)}};
+  if (condition.kind == BoundaryKind::displacement) {
+    result["components"] = condition.components;
+    result["translation"] = list(condition.translation);
+    result["gradient"] = list(condition.gradient);
+    result["table"] = table(condition.table);
+  } else if (condition.kind == BoundaryKind::stress) {
+    result["stress"] = list(condition.stress);
+    result["table"] = table(condition.table);
+  }
+  return result;
+}
+
+json box(const BoxGeometry& box) {
+  json patches = json::array();
+  for (const PatchGeometry& patch : box.patches) {
+    patches.push_back({{"center", list(patch.center)},
+                       {"strike", plain(patch.strike)},
+                       {"dip_from_vertical", plain(patch.dip_from_vertical)},
+                       {"length", plain(patch.length)},
+                       {"width", plain(patch.width)},
+                       {"shape", static_cast<int>(patch.shape)}});
+  }
+  json boundary = json::array();
+  for (const BoundaryCondition& each : box.boundary) boundary.push_back(condition(each));
+  json regions = json::array();
+  for (const PressureRegion& region : box.regions) {
+    json entry = {{"name", region.name}, {"shape", static_cast<int>(region.shape)}};
+    if (region.shape == RegionShape::box) {
+      entry["from"] = list(region.from);
+      entry["to"] = list(region.to);
+    } else {
+      entry["center"] = list(region.center);
+      entry["radius"] = plain(region.radius);
+      entry["thickness"] = plain(region.thickness);
+    }
+    regions.push_back(entry);
+  }
+  return {{"kind", "box"},
+          {"from", list(box.from)},
+          {"to", list(box.to)},
+          {"material", box.material},
+          {"layers", layers(box.layers)},
+          {"patches", patches},
+          {"boundary", boundary},
+          {"regions", regions}};
+}
+
+/// Only materials that something is made of: an unused one is a remark.
+json materials(const Scene& scene) {
+  std::set<std::string> used;
+  if (scene.geometry_kind == GeometryKind::field) {
+    for (const Layer& layer : scene.field.layers) used.insert(layer.material);
+    used.insert(scene.field.sideburden);
+  } else {
+    for (const Layer& layer : scene.box.layers) used.insert(layer.material);
+    used.insert(scene.box.material);
+  }
+  json result = json::object();
+  for (const Material& material : scene.materials) {
+    if (used.count(material.name) == 0) continue;
+    json entry = {{"density", plain(material.density)},
+                  {"youngs_modulus", plain(material.youngs_modulus)},
+                  {"poisson_ratio", plain(material.poisson_ratio)},
+                  {"biot", plain(material.biot)}};
+    if (material.viscosity) entry["viscosity"] = plain(*material.viscosity);
+    result[material.name] = entry;
+  }
+  return result;
+}
+
+json initial_state(const InitialState& state) {
+  const bool is_column = state.kind == InitialStressKind::column;
+  json result = {{"kind", is_column ? "column" : "profile"}};
+  if (!state.tensor) {
+    result["ratio_across"] = plain(state.ratio_across);
+    result["ratio_along"] = plain(state.ratio_along);
+    result["initial_biot"] = plain(state.initial_biot);
+  }
+  if (is_column) {
+    result["gravity"] = plain(state.gravity);
+    result["water_density"] = plain(state.water_density);
+    result["overpressure"] = plain(state.overpressure);
+    return result;
+  }
+  result["pressure"] = plain(state.pressure);
+  result["pressure_gradient"] = plain(state.pressure_gradient);
+  if (state.tensor) {
+    result["tensor"] = list(*state.tensor);
+  } else {
+    result["vertical_stress"] = plain(state.vertical_stress);
+    result["vertical_stress_gradient"] = plain(state.vertical_stress_gradient);
+  }
+  return result;
+}
+
+json fault(const Fault& fault) {
+  const Friction& friction = fault.friction;
+  const FaultPressure& pressure = fault.pressure;
+  json rule = {{"rule", static_cast<int>(pressure.rule)}};
+  if (pressure.rule == FaultPressureRule::fraction) rule["fraction"] = plain(pressure.fraction);
+  if (pressure.rule == FaultPressureRule::prescribed) {
+    rule["prescribed"] = plain(pressure.prescribed);
+    rule["table"] = table(pressure.table);
+    if (pressure.depth_window) rule["depth_window"] = list(*pressure.depth_window);
+  }
+  return {{"name", fault.name},
+          {"dip_from_vertical", plain(fault.dip_from_vertical)},
+          {"fault_biot", plain(fault.fault_biot)},
+          {"pressure", rule},
+          {"friction",
+           {{"law", static_cast<int>(friction.law)},
+            {"cohesion", plain(friction.cohesion)},
+            {"static", plain(friction.static_friction_angle)},
+            {"dynamic", plain(friction.dynamic_friction_angle)},
+            {"distance", plain(friction.slip_weakening_distance)},
+            {"slip_measure", static_cast<int>(friction.slip_measure)},
+            {"cohesion_after_opening", friction.cohesion_after_opening}}}};
+}
+
+json numerics(const Numerics& numerics) {
+  return {{"slip_tolerance", plain(numerics.slip_tolerance)},
+          {"activation_length", plain(numerics.activation_length)},
+          {"traction_tolerance", plain(numerics.traction_tolerance)},
+          {"max_newton_iterations", numerics.max_newton_iterations},
+          {"max_active_set_passes", numerics.max_active_set_passes},
+          {"max_step_cuts", numerics.max_step_cuts},
+          {"b_bar", numerics.b_bar},
+          {"half_domain", static_cast<int>(numerics.half_domain)},
+          {"plane_strain", static_cast<int>(numerics.plane_strain)}};
+}
+
+}  // namespace
+
+std::string canonical_scene(const Scene& scene) {
+  json faults = json::array();
+  for (const Fault& each : scene.faults) faults.push_back(fault(each));
+  json stages = json::array();
+  for (const Stage& stage : scene.stages) {
+    stages.push_back(
+        {{"name", stage.name}, {"duration", plain(stage.duration)}, {"steps", stage.n_steps}});
+  }
+  json pressure = json::array();
+  for (const PressureHistory& history : scene.pressure) {
+    pressure.push_back({{"region", history.region},
+                        {"time", list(history.time)},
+                        {"pressure_change", list(history.pressure_change)},
+                        {"scale", plain(history.scale)},
+                        {"lag", plain(history.lag)}});
+  }
+  const MeshSizes& mesh = scene.mesh;
+  const json result = {{"format", 1},
+                       {"materials", materials(scene)},
+                       {"geometry", scene.geometry_kind == GeometryKind::field ? field(scene.field)
+                                                                               : box(scene.box)},
+                       {"mesh",
+                        {{"strike", plain(mesh.strike)},
+                         {"dip", plain(mesh.dip)},
+                         {"normal", plain(mesh.normal)},
+                         {"growth", plain(mesh.growth)},
+                         {"fine_margin", plain(mesh.fine_margin)},
+                         {"largest", plain(mesh.largest)}}},
+                       {"initial_state", initial_state(scene.initial)},
+                       {"faults", faults},
+                       {"stages", stages},
+                       {"pressure", pressure},
+                       {"numerics", numerics(scene.numerics)}};
+  return result.dump();
+}
+
+std::string case_identity(const Scene& scene) {
+  return fingerprint(concat("numerics ", kNumericsVersion, "\n", canonical_scene(scene)));
+}
+
+}  // namespace faultsim

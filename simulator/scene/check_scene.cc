@@ -1,0 +1,367 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <string>
+
+#include "simulator/scene/initial_state.h"
+#include "simulator/scene/pressure_history.h"
+#include "simulator/scene/scene_reader.h"
+#include "simulator/scene/schema_walk.h"
+
+/// Checks that relate parts of a scene. NaN marks what was reported before and fails no check.
+namespace faultsim {
+namespace {
+
+std::string metres(double value) { return in_unit(value, Dimension::length, "m"); }
+
+struct DepthRange {
+  double top = kNaN;
+  double bottom = kNaN;
+};
+
+DepthRange reservoir_of(const FieldGeometry& field) {
+  for (std::size_t i = 0; i < field.layers.size(); ++i) {
+    if (field.layers[i].name != field.reservoir_layer) continue;
+    const bool is_last = i + 1 == field.layers.size();
+    return {field.layers[i].top_depth, is_last ? field.depth : field.layers[i + 1].top_depth};
+  }
+  return {};
+}
+
+void check_field_extent(SceneReader& reader, const FieldGeometry& field) {
+  const std::string at = "/geometry/";
+  for (const auto& [key, value] : {std::pair("block_length", field.block_length),
+                                   std::pair("fault_length", field.fault_length)}) {
+    if (value > field.length) {
+      reader.problem(at + key,
+                     reader.as_given(at + key) + " is more than the model's length, " +
+                         reader.as_given(at + "length"),
+                     "make it shorter or the model longer");
+    }
+  }
+  if (!field.layers.empty()) {
+    if (std::abs(field.layers.front().top_depth) > 0) {
+      reader.problem(at + "layers/0/top", "the first layer does not begin at the surface",
+                     "write \"0 m\"");
+    }
+    if (field.layers.back().top_depth >= field.depth) {
+      reader.problem(
+          concat(at, "layers/", field.layers.size() - 1, "/top"),
+          "the layer begins below the base of the model, " + reader.as_given(at + "depth"),
+          "make \"depth\" larger");
+    }
+  }
+  for (std::size_t i = 0; i < field.blocks.size(); ++i) {
+    for (const auto& [key, x] :
+         {std::pair("from", field.blocks[i].from), std::pair("to", field.blocks[i].to)}) {
+      if (std::abs(x) < 0.5 * field.width || std::isnan(x) || std::isnan(field.width)) continue;
+      const std::string pointer = concat(at, "blocks/", i, "/", key);
+      reader.problem(pointer,
+                     reader.as_given(pointer) + " is not inside the model, x = " +
+                         metres(-0.5 * field.width) + " to " + metres(0.5 * field.width),
+                     "make \"width\" larger");
+    }
+  }
+}
+
+void check_offsets(SceneReader& reader, const FieldGeometry& field) {
+  const DepthRange reservoir = reservoir_of(field);
+  const double margin = field.fault_overshoot;
+  for (std::size_t i = 0; i < field.blocks.size(); ++i) {
+    const Block& block = field.blocks[i];
+    const double top = reservoir.top + block.offset - margin;
+    const double bottom = reservoir.bottom + block.offset + margin;
+    if (!(top <= 0) && !(bottom >= field.depth)) continue;
+    const bool has_offset = block.offset != 0;
+    reader.problem(
+        concat("/geometry/blocks/", i, has_offset ? "/offset" : ""),
+        "the reservoir of \"" + block.name + "\" with its faults reaches from " + metres(top) +
+            " to " + metres(bottom) + " depth, out of the model",
+        "keep it between 0 m and " + metres(field.depth) + ": " +
+            (has_offset ? "an offset above " + metres(margin - reservoir.top) + " and below " +
+                              metres(field.depth - margin - reservoir.bottom)
+                        : "a smaller fault_overshoot or a larger depth"));
+  }
+}
+
+/// x of fault i at a depth, m.
+double fault_x(const Scene& scene, std::size_t i, double depth) {
+  const auto& blocks = scene.field.blocks;
+  const double x = i < blocks.size() ? blocks[i].from : blocks.back().to;
+  const double lean = std::tan(scene.faults[i].dip_from_vertical);
+  return x + (depth - scene.field.pivot_depth) * lean;
+}
+
+/// Dipping faults may not meet between the highest and the lowest point of any.
+void check_crossing(SceneReader& reader, const Scene& scene) {
+  const FieldGeometry& field = scene.field;
+  if (scene.faults.size() != field.blocks.size() + 1 || field.blocks.empty()) return;
+  const DepthRange reservoir = reservoir_of(field);
+  double least = 0;
+  double most = 0;
+  for (const Block& block : field.blocks) {
+    least = std::min(least, block.offset);
+    most = std::max(most, block.offset);
+  }
+  for (const double depth : {reservoir.top + least - field.fault_overshoot,
+                             reservoir.bottom + most + field.fault_overshoot}) {
+    for (std::size_t i = 0; i < scene.faults.size(); ++i) {
+      const std::string pointer = concat("/faults/", i, "/dip_from_vertical");
+      const double x = fault_x(scene, i, depth);
+      if (std::abs(x) >= 0.5 * field.width) {
+        reader.problem(pointer,
+                       "fault \"" + scene.faults[i].name + "\" leaves the model at " +
+                           metres(depth) + " depth",
+                       "use a smaller dip or a larger width");
+      }
+      if (i > 0 && x <= fault_x(scene, i - 1, depth)) {
+        reader.problem(pointer,
+                       "fault \"" + scene.faults[i].name + "\" meets \"" +
+                           scene.faults[i - 1].name + "\" at " + metres(depth) + " depth",
+                       "use smaller dips or a wider block");
+      }
+    }
+  }
+}
+
+void check_layer_tops(SceneReader& reader, const BoxGeometry& box) {
+  if (box.layers.empty()) return;
+  if (std::abs(box.layers.front().top_depth + box.to[2]) > 1e-9 * std::abs(box.to[2])) {
+    reader.problem("/geometry/layers/0/top", "the first layer does not begin at the top of the box",
+                   "write \"" + metres(-box.to[2]) + "\"");
+  }
+  if (-box.layers.back().top_depth <= box.from[2]) {
+    reader.problem(concat("/geometry/layers/", box.layers.size() - 1, "/top"),
+                   "the layer begins below the base of the box, " + metres(-box.from[2]) + " depth",
+                   "write a smaller depth");
+  }
+}
+
+/// Half extent of a patch along x, y, z: its plane's directions are strike (sin, cos, 0) and dip.
+std::array<double, 3> half_extent(const PatchGeometry& patch) {
+  const double a = 0.5 * patch.length;
+  const double b = 0.5 * patch.width;
+  const double lean = std::sin(patch.dip_from_vertical);
+  return {std::abs(a * std::sin(patch.strike)) + std::abs(b * lean * std::cos(patch.strike)),
+          std::abs(a * std::cos(patch.strike)) + std::abs(b * lean * std::sin(patch.strike)),
+          std::abs(b * std::cos(patch.dip_from_vertical))};
+}
+
+void check_box(SceneReader& reader, const Scene& scene) {
+  const BoxGeometry& box = scene.box;
+  static const char* const axes = "xyz";
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (box.to[k] <= box.from[k]) {
+      reader.problem(concat("/geometry/to/", k),
+                     std::string("the box ends before it begins along ") + axes[k],
+                     "write the upper corner in \"to\"");
+    }
+    for (std::size_t i = 0; i < box.patches.size(); ++i) {
+      const PatchGeometry& patch = box.patches[i];
+      const double half = half_extent(patch)[k];
+      if (patch.center[k] - half >= box.to[k] || patch.center[k] + half <= box.from[k]) {
+        reader.problem(
+            concat("/faults/", i, "/center"),
+            "fault \"" + scene.faults[i].name + "\" lies outside the box along " + axes[k],
+            "move its centre between " + metres(box.from[k]) + " and " + metres(box.to[k]));
+      }
+    }
+    for (std::size_t i = 0; i < box.regions.size(); ++i) {
+      const PressureRegion& region = box.regions[i];
+      const bool disc = region.shape == RegionShape::disc;
+      const double reach = k == 2 ? 0.5 * region.thickness : region.radius;
+      const double from = disc ? region.center[k] - reach : region.from[k];
+      const double to = disc ? region.center[k] + reach : region.to[k];
+      const std::string at = concat("/geometry/regions/", i);
+      if (to <= from) {
+        reader.problem(concat(at, "/to/", k),
+                       std::string("the region ends before it begins along ") + axes[k],
+                       "write the upper corner in \"to\"");
+      } else if (from >= box.to[k] || to <= box.from[k]) {
+        reader.problem(at, "region \"" + region.name + "\" lies outside the box along " + axes[k],
+                       "move it between " + metres(box.from[k]) + " and " + metres(box.to[k]));
+      }
+    }
+  }
+  check_layer_tops(reader, box);
+}
+
+void check_column(SceneReader& reader, const Scene& scene) {
+  if (scene.initial.kind != InitialStressKind::column || !reader.sound("/initial_state")) return;
+  std::set<std::string> used;
+  if (scene.geometry_kind == GeometryKind::field) {
+    for (const Layer& layer : scene.field.layers) used.insert(layer.material);
+    used.insert(scene.field.sideburden);
+  } else {
+    for (const Layer& layer : scene.box.layers) used.insert(layer.material);
+    used.insert(scene.box.material);
+    if (std::abs(scene.box.to[2]) > 0) {
+      reader.problem(
+          "/initial_state/kind",
+          "a column needs the top of the box at z = 0, it is at " + metres(scene.box.to[2]),
+          "use \"kind\": \"profile\", or move the box");
+    }
+    if (std::abs(scene.initial.overpressure) > 0) {
+      reader.problem("/initial_state/overpressure", "a box has no reservoir layer to hold it",
+                     "use \"kind\": \"profile\" with \"pressure\"");
+    }
+  }
+  for (const Material& material : scene.materials) {
+    const std::string at = "/materials/" + pointer_token(material.name);
+    if (used.count(material.name) != 0 && !reader.has(at + "/density")) {
+      reader.problem(at, "\"density\" is missing, the initial column weighs it",
+                     "add for example \"density\": \"2400 kg/m3\"");
+    }
+  }
+}
+
+void check_observation_points(SceneReader& reader, const Scene& scene) {
+  const bool is_field = scene.geometry_kind == GeometryKind::field;
+  const FieldGeometry& field = scene.field;
+  const std::array<double, 3> field_from = {-0.5 * field.width, -0.5 * field.length, -field.depth};
+  const std::array<double, 3> field_to = {0.5 * field.width, 0.5 * field.length, 0};
+  const auto& from = is_field ? field_from : scene.box.from;
+  const auto& to = is_field ? field_to : scene.box.to;
+  for (std::size_t i = 0; i < scene.output.observation_points.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = scene.output.observation_points[i].position[k];
+      if (!(x < from[k]) && !(x > to[k])) continue;
+      const std::string pointer = concat("/output/observation_points/", i, "/position/", k);
+      reader.problem(pointer, reader.as_given(pointer) + " is outside the model",
+                     std::string("write a value from ") + metres(from[k]) + " to " + metres(to[k]) +
+                         (k == 2 ? " (z grows upwards)" : ""));
+    }
+  }
+}
+
+/// Where pressure can be lowest in a region: its top and, if within, below an overpressured layer.
+struct Place {
+  double depth;
+  DepthSide side;
+};
+std::vector<Place> lowest_places(const Scene& scene, std::size_t region) {
+  if (scene.geometry_kind == GeometryKind::field) {
+    const DepthRange reservoir = reservoir_of(scene.field);
+    const double offset = scene.field.blocks[region].offset;
+    std::vector<Place> places = {{reservoir.top + offset, DepthSide::below}};
+    for (const double jump : {reservoir.top, reservoir.bottom}) {
+      if (jump > reservoir.top + offset && jump < reservoir.bottom + offset) {
+        places.push_back({jump, DepthSide::below});
+      }
+    }
+    return places;
+  }
+  const PressureRegion& box = scene.box.regions[region];
+  const bool disc = box.shape == RegionShape::disc;
+  const double top = disc ? box.center[2] + 0.5 * box.thickness : box.to[2];
+  const double bottom = disc ? box.center[2] - 0.5 * box.thickness : box.from[2];
+  return {{-std::min(top, scene.box.to[2]), DepthSide::below},
+          {-std::max(bottom, scene.box.from[2]), DepthSide::above}};
+}
+
+/// What in the document made the pressure of a region at a step.
+std::string cause(const SceneReader& reader, const std::string& region, std::size_t stage) {
+  const std::string csv = "/compartments/" + pointer_token(region) + "/csv";
+  if (reader.has(csv)) return csv;
+  for (std::size_t i = stage + 1; i-- > 0;) {
+    for (const char* key : {"pressure_change", "pressure", "pressure_between"}) {
+      const std::string pointer = concat("/stages/", i, "/", key);
+      if (reader.has(pointer + "/" + pointer_token(region))) {
+        return pointer + "/" + pointer_token(region);
+      }
+      if (reader.has(pointer) && !reader.find(pointer)->is_object()) return pointer;
+    }
+  }
+  return reader.has("/pressure_csv") ? "/pressure_csv" : "/stages";
+}
+
+std::string below_zero(const std::string& where, double depth, double pressure, std::size_t step,
+                       const Stage& stage) {
+  return "the pressure " + where + " falls to " + in_unit(pressure, Dimension::pressure, "bar") +
+         " at " + metres(depth) + " depth in step " + std::to_string(step + 1) + " (stage \"" +
+         stage.name + "\")";
+}
+
+/// The cure rounds towards zero, so that following it to the letter works.
+std::string below_zero_cure(double initial) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.1f bar",
+                std::floor(10 * from_si(initial, Dimension::pressure, "bar")) / 10);
+  return std::string("let it fall by at most ") + text;
+}
+
+void check_region(SceneReader& reader, const Scene& scene, std::size_t region) {
+  const PressureHistory& history = scene.pressure[region];
+  const std::vector<double> times = step_times(scene);
+  for (std::size_t step = 0; step < times.size(); ++step) {
+    for (const Place& place : lowest_places(scene, region)) {
+      const double initial = initial_state(scene, -place.depth, place.side).pressure;
+      const double pressure = initial + pressure_change_at(history, times[step]);
+      constexpr double kRounding = 1;  // Pa: "fall to zero" is written in decimal units
+      if (!(pressure < -kRounding)) continue;
+      const std::size_t stage = stage_of_step(scene, step);
+      reader.problem(cause(reader, history.region, stage),
+                     below_zero("in \"" + history.region + "\"", place.depth, pressure, step,
+                                scene.stages[stage]),
+                     initial > 0 ? below_zero_cure(initial)
+                                 : "give the region an initial pressure in initial_state");
+      return;
+    }
+  }
+}
+
+void check_prescribed(SceneReader& reader, const Scene& scene, std::size_t fault) {
+  const FaultPressure& rule = scene.faults[fault].pressure;
+  double depth = kNaN;
+  if (rule.depth_window) {
+    depth = (*rule.depth_window)[0];
+  } else if (scene.geometry_kind == GeometryKind::field) {
+    const auto& blocks = scene.field.blocks;
+    const double top = reservoir_of(scene.field).top;
+    if (fault > 0 && fault - 1 < blocks.size()) depth = top + blocks[fault - 1].offset;
+    if (fault < blocks.size()) depth = std::fmin(depth, top + blocks[fault].offset);
+  }
+  if (std::isnan(depth)) return;
+  const double initial = initial_state(scene, -depth, DepthSide::below).pressure;
+  const std::vector<double> times = step_times(scene);
+  for (std::size_t step = 0; step < times.size(); ++step) {
+    const double pressure = initial + rule.prescribed * factor_at(rule.table, times[step]);
+    if (!(pressure < -1)) continue;
+    const std::string own = concat("/faults/", fault, "/fault_pressure/prescribed");
+    reader.problem(reader.has(own) ? own : "/fault_pressure/prescribed",
+                   below_zero("in fault \"" + scene.faults[fault].name + "\"", depth, pressure,
+                              step, scene.stages[stage_of_step(scene, step)]),
+                   below_zero_cure(initial));
+    return;
+  }
+}
+
+}  // namespace
+
+void check_geometry(SceneReader& reader, const Scene& scene) {
+  if (!reader.sound("/geometry/kind") || !reader.has("/geometry/kind")) return;
+  if (scene.geometry_kind == GeometryKind::field) {
+    check_field_extent(reader, scene.field);
+    check_offsets(reader, scene.field);
+    check_crossing(reader, scene);
+  } else {
+    check_box(reader, scene);
+  }
+  check_column(reader, scene);
+  check_observation_points(reader, scene);
+}
+
+void check_pressures(SceneReader& reader, const Scene& scene) {
+  for (const char* part : {"/geometry", "/materials", "/initial_state"}) {
+    if (!reader.has(part) || !reader.sound(part)) return;
+  }
+  for (std::size_t i = 0; i < scene.pressure.size(); ++i) check_region(reader, scene, i);
+  for (std::size_t i = 0; i < scene.faults.size(); ++i) {
+    if (scene.faults[i].pressure.rule == FaultPressureRule::prescribed) {
+      check_prescribed(reader, scene, i);
+    }
+  }
+}
+
+}  // namespace faultsim

@@ -1,0 +1,153 @@
+#include "simulator/scene/initial_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace faultsim {
+namespace {
+
+/// A piece of a column, down to `bottom` from the piece above.
+struct Piece {
+  double bottom;   ///< m, depth.
+  double density;  ///< kg/m3
+};
+
+/// The reference column: layers at zero offset, or the box's layers from z = 0 down.
+std::vector<Piece> reference_column(const Scene& scene) {
+  const bool is_field = scene.geometry_kind == GeometryKind::field;
+  const double base = is_field ? scene.field.depth : -scene.box.from[2];
+  const std::vector<Layer>& layers = is_field ? scene.field.layers : scene.box.layers;
+  if (layers.empty()) return {{base, material_named(scene, scene.box.material).density}};
+  std::vector<Piece> column;
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const double bottom = i + 1 < layers.size() ? layers[i + 1].top_depth : base;
+    column.push_back({bottom, material_named(scene, layers[i].material).density});
+  }
+  return column;
+}
+
+/// ∫ ρ g from the surface to depth, Pa.
+double weight(const std::vector<Piece>& column, double gravity, double depth) {
+  double sum = 0;
+  double top = 0;
+  for (const Piece& piece : column) {
+    sum += piece.density * std::max(0.0, std::min(depth, piece.bottom) - top);
+    top = piece.bottom;
+  }
+  return sum * gravity;
+}
+
+struct DepthRange {
+  double top = 0;
+  double bottom = 0;
+  bool holds(double depth, DepthSide side) const {
+    const bool inside = depth > top && depth < bottom;
+    return inside || (depth == top && side == DepthSide::below) ||
+           (depth == bottom && side == DepthSide::above);
+  }
+};
+
+DepthRange reservoir_range(const Scene& scene) {
+  const FieldGeometry& field = scene.field;
+  for (std::size_t i = 0; i < field.layers.size(); ++i) {
+    if (field.layers[i].name != field.reservoir_layer) continue;
+    const bool is_last = i + 1 == field.layers.size();
+    return {field.layers[i].top_depth, is_last ? field.depth : field.layers[i + 1].top_depth};
+  }
+  return {};
+}
+
+StressAtDepth one_sided(const Scene& scene, double depth, DepthSide side) {
+  const InitialState& state = scene.initial;
+  StressAtDepth result;
+  double vertical = 0;
+  if (state.kind == InitialStressKind::column) {
+    depth = std::max(depth, 0.0);
+    vertical = -weight(reference_column(scene), state.gravity, depth);
+    result.pressure = state.water_density * state.gravity * depth;
+    if (scene.geometry_kind == GeometryKind::field && reservoir_range(scene).holds(depth, side)) {
+      result.pressure += state.overpressure;
+    }
+  } else {
+    vertical = state.vertical_stress + state.vertical_stress_gradient * depth;
+    result.pressure = state.pressure + state.pressure_gradient * depth;
+  }
+  if (state.tensor) {
+    result.sigma = *state.tensor;
+    return result;
+  }
+  const double pore = state.initial_biot * result.pressure;
+  result.sigma[0] = state.ratio_across * (vertical + pore) - pore;
+  result.sigma[4] = state.ratio_along * (vertical + pore) - pore;
+  result.sigma[8] = vertical;
+  return result;
+}
+
+/// A block's column: reservoir at its offset, sideburden where the layer is left empty.
+std::vector<Piece> block_column(const Scene& scene, double offset, bool has_reservoir) {
+  const DepthRange layer = reservoir_range(scene);
+  const double reservoir_density = [&] {
+    for (const Layer& each : scene.field.layers) {
+      if (each.name == scene.field.reservoir_layer) {
+        return material_named(scene, each.material).density;
+      }
+    }
+    return 0.0;
+  }();
+  const double side_density = material_named(scene, scene.field.sideburden).density;
+  const std::vector<Piece> reference = reference_column(scene);
+  std::vector<double> cuts = {layer.top + offset, layer.bottom + offset};
+  for (const Piece& piece : reference) cuts.push_back(piece.bottom);
+  std::sort(cuts.begin(), cuts.end());
+  std::vector<Piece> column;
+  double top = 0;
+  for (const double bottom : cuts) {
+    const double middle = 0.5 * (top + bottom);
+    const auto piece = std::find_if(reference.begin(), reference.end(),
+                                    [&](const Piece& each) { return middle < each.bottom; });
+    double density = piece == reference.end() ? 0.0 : piece->density;
+    if (middle > layer.top && middle < layer.bottom) density = side_density;
+    const bool in_reservoir = middle > layer.top + offset && middle < layer.bottom + offset;
+    if (has_reservoir && in_reservoir) density = reservoir_density;
+    column.push_back({bottom, density});
+    top = bottom;
+  }
+  return column;
+}
+
+}  // namespace
+
+StressAtDepth initial_state(const Scene& scene, double z, DepthSide side) {
+  if (side != DepthSide::mean) return one_sided(scene, -z, side);
+  const StressAtDepth above = one_sided(scene, -z, DepthSide::above);
+  const StressAtDepth below = one_sided(scene, -z, DepthSide::below);
+  if (above.pressure == below.pressure) return above;  // (a + a)/2 is a, but say so
+  StressAtDepth mean;
+  for (std::size_t i = 0; i < 9; ++i) mean.sigma[i] = 0.5 * (above.sigma[i] + below.sigma[i]);
+  mean.pressure = 0.5 * (above.pressure + below.pressure);
+  return mean;
+}
+
+double neglected_weight_difference(const Scene& scene) {
+  const bool has_columns =
+      scene.geometry_kind == GeometryKind::field && scene.initial.kind == InitialStressKind::column;
+  if (!has_columns) return 0;
+  const std::vector<Piece> reference = reference_column(scene);
+  std::vector<std::vector<Piece>> columns = {block_column(scene, 0, false)};
+  for (const Block& block : scene.field.blocks) {
+    columns.push_back(block_column(scene, block.offset, true));
+  }
+  double largest = 0;
+  for (const auto& column : columns) {
+    for (const Piece& piece : column) {  // weights are linear between the cuts
+      const double difference = weight(column, scene.initial.gravity, piece.bottom) -
+                                weight(reference, scene.initial.gravity, piece.bottom);
+      largest = std::max(largest, std::abs(difference));
+    }
+  }
+  return largest;
+}
+
+}  // namespace faultsim

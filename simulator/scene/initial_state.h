@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+
+#include "simulator/scene/scene.h"
+
+namespace faultsim {
+
+/// Total stress and pressure before any production.
+struct StressAtDepth {
+  std::array<double, 9> sigma =
+      {};               ///< Pa, σ0, row-major in x (across), y (along), z; tension > 0.
+  double pressure = 0;  ///< Pa, p0.
+};
+
+/// Which limit to take where p0 jumps (top and base of an overpressured reservoir layer).
+enum class DepthSide {
+  mean,   ///< of both limits.
+  above,  ///< as seen from smaller depths.
+  below,  ///< as seen from larger depths.
+};
+
+/// Initial state at height z (m, depth = −z), a function of depth only (design section 2):
+///
+///   column:   σ_v = −g ∫ ρ d(depth) over the layers at zero offset;  p0 = ρ_w g depth, plus the
+///             overpressure within the depth range of the reservoir layer at zero offset
+///   profile:  σ_v = σ_v0 + σ_v' depth,  p0 = p00 + p0' depth
+///   σ_xx = M1 (σ_v + α_0 p0) − α_0 p0,  σ_yy = M2 (σ_v + α_0 p0) − α_0 p0,  σ_zz = σ_v
+///
+/// or the uniform tensor in place of the stress. Above the surface of a column both are zero.
+/// @pre the scene comes from read_scene without problems.
+StressAtDepth initial_state(const Scene& scene, double z, DepthSide side = DepthSide::mean);
+
+/// The largest |difference| over all depths between the weight of a real column of a field
+/// (a block's, with the reservoir at its offset and sideburden in the gap, or the sideburden's) and
+/// of the reference column, Pa: what a start in equilibrium leaves out. 0 for boxes and profiles.
+double neglected_weight_difference(const Scene& scene);
+
+}  // namespace faultsim

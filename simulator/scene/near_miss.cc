@@ -1,0 +1,68 @@
+#include "simulator/scene/near_miss.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+
+namespace faultsim {
+namespace {
+
+std::string folded(const std::string& word) {
+  std::string result;
+  for (const char letter : word) {
+    const auto lower = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    result += lower == '-' || lower == ' ' ? '_' : lower;
+  }
+  return result;
+}
+
+/// Optimal string alignment distance: insert, delete, replace, swap of neighbours cost 1 each.
+std::size_t distance(const std::string& a, const std::string& b) {
+  const std::size_t n = b.size() + 1;
+  std::vector<std::size_t> before(n);
+  std::vector<std::size_t> last(n);
+  std::vector<std::size_t> now(n);
+  for (std::size_t j = 0; j < n; ++j) last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    now[0] = i;
+    for (std::size_t j = 1; j < n; ++j) {
+      const std::size_t replace = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      now[j] = std::min({last[j] + 1, now[j - 1] + 1, replace});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) now[j] = std::min(now[j], before[j - 2] + 1);
+    }
+    before.swap(last);
+    last.swap(now);
+  }
+  return last[n - 1];
+}
+
+}  // namespace
+
+std::string near_miss(const std::string& word, const std::vector<std::string>& candidates) {
+  std::string best;
+  std::size_t best_distance = 0;
+  for (const std::string& candidate : candidates) {
+    const std::size_t d = distance(folded(word), folded(candidate));
+    const std::size_t limit = std::max(word.size(), candidate.size()) / 3;
+    if (d > limit) continue;
+    if (best.empty() || d < best_distance) {
+      best = candidate;
+      best_distance = d;
+    }
+  }
+  return best;
+}
+
+std::string suggest(const std::string& word, const std::vector<std::string>& candidates) {
+  const std::string near = near_miss(word, candidates);
+  if (!near.empty()) return "did you mean \"" + near + "\"?";
+  if (candidates.empty()) return "remove it";
+  std::string text = candidates.size() == 1 ? "write " : "write one of ";
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    text += (i == 0 ? "\"" : ", \"") + candidates[i] + "\"";
+  }
+  return text;
+}
+
+}  // namespace faultsim

@@ -1,0 +1,285 @@
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "simulator/scene/near_miss.h"
+#include "simulator/scene/read_scene.h"
+#include "simulator/scene/scene_reader.h"
+#include "simulator/scene/schema_walk.h"
+
+/// Parameters are found by walking the schema along the document: what is there, and what could be.
+namespace faultsim {
+namespace {
+
+using nlohmann::json;
+
+std::string text_at(const json& document, const std::string& pointer) {
+  const json::json_pointer place(pointer);
+  if (!document.contains(place)) return "";
+  const json& value = document.at(place);
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+std::size_t size_at(const json& document, const std::string& pointer) {
+  const json::json_pointer place(pointer);
+  if (!document.contains(place) || !document.at(place).is_array()) return 0;
+  return document.at(place).size();
+}
+
+/// Letters, digits and '_' only, so that an alias can stand in an expression.
+std::string as_word(const std::string& name) {
+  std::string word;
+  for (const char letter : name) {
+    const bool fine = std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_';
+    word += fine ? letter : '_';
+  }
+  return word;
+}
+
+/// Short names of pointers in one document; the first name of a pointer is the one to show.
+class Aliases {
+ public:
+  explicit Aliases(const json& document) : document_(document) {
+    add_fixed();
+    add_blocks();
+    add_materials();
+    add_faults();
+    add_stages();
+  }
+  std::string of(const std::string& pointer) const {
+    const auto found = first_.find(pointer);
+    return found == first_.end() ? "" : found->second;
+  }
+  std::string pointer(const std::string& alias) const {
+    const auto found = pointers_.find(alias);
+    return found == pointers_.end() ? "" : found->second;
+  }
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const auto& [alias, pointer] : pointers_) names.push_back(alias);
+    return names;
+  }
+
+ private:
+  void add(const std::string& alias, const std::string& pointer) {
+    if (!pointers_.emplace(alias, pointer).second) return;  // names of users come last
+    first_.emplace(pointer, alias);
+  }
+  void add_fixed() {
+    add("tier", "/tier");
+    for (const char* key : {"ratio_across", "ratio_along", "initial_biot", "overpressure"}) {
+      add(key, std::string("/initial_state/") + key);
+    }
+    const std::string rule = text_at(document_, "/fault_pressure/rule");
+    add("fault_pressure",
+        std::string("/fault_pressure/") + (rule == "prescribed" ? "prescribed" : "rule"));
+    add("fault_pressure_rule", "/fault_pressure/rule");
+    add("fault_pressure_change", "/fault_pressure/prescribed");
+    add("fault_pressure_fraction", "/fault_pressure/fraction");
+    add("fault_biot", "/fault_pressure/fault_biot");
+    for (const char* key :
+         {"friction_angle", "friction_coefficient", "dynamic_friction_angle",
+          "dynamic_friction_coefficient", "slip_weakening_distance", "cohesion"}) {
+      add(key, std::string("/friction/") + key);
+    }
+    add("slip_tolerance", "/numerics/slip_tolerance");
+    add("activation_length", "/numerics/activation_length");
+    for (const char* key : {"strike", "dip", "normal"}) {
+      add(std::string("mesh_") + key, std::string("/mesh/") + key);
+    }
+  }
+  void add_blocks() {
+    const bool is_field = text_at(document_, "/geometry/kind") == "field";
+    const std::string list = is_field ? "/geometry/blocks" : "/geometry/regions";
+    const std::size_t n = size_at(document_, list);
+    if (is_field && n > 0) add("offset", concat(list, "/", n - 1, "/offset"));
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::string name = text_at(document_, concat(list, "/", i, "/name"));
+      if (is_field) add("offset_" + as_word(name), concat(list, "/", i, "/offset"));
+      const std::string compartment = "/compartments/" + pointer_token(name);
+      add("scale_" + as_word(name), compartment + "/scale");
+      add("lag_" + as_word(name), compartment + "/lag");
+    }
+  }
+  void add_material(const std::string& word, const std::string& material) {
+    if (material.empty()) return;
+    const std::string at = "/materials/" + pointer_token(material) + "/";
+    add(word + "_stiffness", at + "youngs_modulus");
+    add(word + "_poisson", at + "poisson_ratio");
+    add(word + "_density", at + "density");
+    add(word + "_biot", at + "biot");
+  }
+  void add_materials() {
+    const std::string layers = "/geometry/layers";
+    const std::string reservoir = text_at(document_, "/geometry/reservoir_layer");
+    for (std::size_t i = 0; i < size_at(document_, layers); ++i) {
+      if (text_at(document_, concat(layers, "/", i, "/name")) != reservoir) continue;
+      const std::string material = text_at(document_, concat(layers, "/", i, "/material"));
+      add("biot", "/materials/" + pointer_token(material) + "/biot");
+      add_material("reservoir", material);
+      if (i > 0) {
+        add_material("caprock", text_at(document_, concat(layers, "/", i - 1, "/material")));
+      }
+    }
+    add_material("sideburden", text_at(document_, "/geometry/sideburden"));
+    if (!document_.contains("materials") || !document_["materials"].is_object()) return;
+    for (const auto& [name, material] : document_["materials"].items()) {
+      add_material(as_word(name), name);
+    }
+  }
+  void add_faults() {
+    const std::size_t n = size_at(document_, "/faults");
+    if (n > 0) add("central_dip", concat("/faults/", n / 2, "/dip_from_vertical"));
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::string at = concat("/faults/", i, "/");
+      const std::string name = as_word(text_at(document_, at + "name"));
+      add("dip_" + name, at + "dip_from_vertical");
+      for (const char* key :
+           {"friction_angle", "dynamic_friction_angle", "slip_weakening_distance", "cohesion"}) {
+        add(std::string(key) + "_" + name, at + "friction/" + key);
+      }
+      add("fault_pressure_rule_" + name, at + "fault_pressure/rule");
+      add("fault_pressure_change_" + name, at + "fault_pressure/prescribed");
+    }
+  }
+  void add_stages() {
+    for (std::size_t i = 0; i < size_at(document_, "/stages"); ++i) {
+      const std::string at = concat("/stages/", i, "/");
+      const std::string name = as_word(text_at(document_, at + "name"));
+      add(name + "_pressure", at + "pressure_change");
+      add(name + "_absolute_pressure", at + "pressure");
+      add(name + "_first_pressure", at + "pressure_between/0");
+      add(name + "_second_pressure", at + "pressure_between/1");
+      add(name + "_duration", at + "duration");
+      add(name + "_steps", at + "steps");
+    }
+  }
+
+  const json& document_;
+  std::map<std::string, std::string> pointers_;
+  std::map<std::string, std::string> first_;
+};
+
+std::string range_text(const SchemaViews& views) {
+  if (keyword(views, "enum") != nullptr) {
+    std::string text;
+    for (const std::string& word : enum_texts(views)) text += (text.empty() ? "{" : ", ") + word;
+    return text + "}";
+  }
+  const std::string above = keyword_text(views, "x-above");
+  std::string least = keyword_text(views, "x-minimum");
+  std::string most = keyword_text(views, "x-maximum");
+  if (least.empty()) least = keyword_text(views, "minimum");
+  if (most.empty()) most = keyword_text(views, "maximum");
+  if (above.empty() && least.empty() && most.empty()) return "";
+  return (above.empty() ? (least.empty() ? "(" : "[" + least) : "(" + above) + ", " +
+         (most.empty() ? ")" : most + "]");
+}
+
+class Collector {
+ public:
+  Collector(const JsonDocument& document, const Aliases& aliases)
+      : document_(document), aliases_(aliases) {}
+
+  void walk(const json* value, const SchemaViews& views, const std::string& pointer, bool family) {
+    static const json kNull;
+    const json& here = value == nullptr ? kNull : *value;
+    if (const json* says = keyword(views, "x-new-family")) family = says->get<bool>();
+    if (is_leaf(views)) {
+      add_row(value, views, pointer, family);
+      return;
+    }
+    std::vector<std::string> keys = known_keys(views);
+    if (here.is_object()) {
+      for (const auto& [key, inner] : here.items()) {
+        if (!std::count(keys.begin(), keys.end(), key) && key != "comment") keys.push_back(key);
+      }
+    }
+    if (value != nullptr && here.is_array()) {
+      for (std::size_t i = 0; i < here.size(); ++i) keys.push_back(std::to_string(i));
+    }
+    for (const std::string& key : keys) {
+      const json* inner = nullptr;
+      if (here.is_object() && here.contains(key)) inner = &here[key];
+      if (here.is_array()) inner = &here[std::stoul(key)];
+      const std::string next = pointer + "/" + pointer_token(key);
+      if (is_hidden(next)) continue;
+      walk(inner, child_views(scene_schema(), views, key, inner == nullptr ? kNull : *inner), next,
+           family);
+    }
+  }
+
+  std::vector<ParameterInfo> rows() && {
+    std::stable_sort(rows_.begin(), rows_.end(), [this](const auto& a, const auto& b) {
+      return document_.line_of(a.pointer) < document_.line_of(b.pointer);
+    });
+    return std::move(rows_);
+  }
+
+ private:
+  bool is_hidden(const std::string& pointer) const {
+    const bool field = text_at(document_.value, "/geometry/kind") == "field";
+    static const char* const of_boxes[] = {"center", "strike", "length", "width", "shape"};
+    if (field && pointer.rfind("/faults/", 0) == 0) {
+      const std::string key = pointer.substr(pointer.rfind('/') + 1);
+      if (std::find(std::begin(of_boxes), std::end(of_boxes), key) != std::end(of_boxes))
+        return true;
+    }
+    return pointer == "/format" || pointer == "/title" || pointer == "/output" ||
+           (!field && pointer == "/tier");
+  }
+  static bool is_leaf(const SchemaViews& views) {
+    if (keyword(views, "x-dimension") != nullptr || keyword(views, "enum") != nullptr) return true;
+    const std::string type = keyword_text(views, "type");
+    return type == "number" || type == "integer" || type == "boolean";
+  }
+  void add_row(const json* value, const SchemaViews& views, const std::string& pointer,
+               bool family) {
+    if (keyword(views, "x-hidden") != nullptr) return;
+    const std::string dimension = keyword_text(views, "x-dimension");
+    ParameterInfo row;
+    row.pointer = pointer;
+    row.alias = aliases_.of(pointer);
+    row.dimension = dimension.empty() ? Dimension::number : dimension_named(dimension);
+    row.default_value = keyword_text(views, "default");
+    row.value = value == nullptr ? row.default_value : text_at(document_.value, pointer);
+    row.range = keyword_text(views, "type") == "boolean" ? "{true, false}" : range_text(views);
+    row.new_family = family;
+    row.description = keyword_text(views, "description");
+    row.is_text = keyword(views, "enum") != nullptr || keyword_text(views, "type") == "boolean";
+    rows_.push_back(row);
+  }
+
+  const JsonDocument& document_;
+  const Aliases& aliases_;
+  std::vector<ParameterInfo> rows_;
+};
+
+}  // namespace
+
+std::vector<ParameterInfo> parameters(const JsonDocument& document) {
+  const Aliases aliases(document.value);
+  Collector collector(document, aliases);
+  json completed = document.value;
+  // Optional objects by name do not show in the schema: a compartment per region.
+  const bool field = text_at(completed, "/geometry/kind") == "field";
+  const std::string list = field ? "/geometry/blocks" : "/geometry/regions";
+  for (std::size_t i = 0; i < size_at(completed, list); ++i) {
+    const std::string name = text_at(completed, concat(list, "/", i, "/name"));
+    if (!completed["compartments"].contains(name)) completed["compartments"][name] = json::object();
+  }
+  collector.walk(&completed, schema_views(scene_schema(), scene_schema(), completed), "", false);
+  return std::move(collector).rows();
+}
+
+std::string resolve_parameter(const JsonDocument& document, const std::string& alias_or_pointer) {
+  if (!alias_or_pointer.empty() && alias_or_pointer[0] == '/') return alias_or_pointer;
+  const Aliases aliases(document.value);
+  const std::string pointer = aliases.pointer(alias_or_pointer);
+  if (!pointer.empty()) return pointer;
+  throw InputError(document.source, {{"", 0, "there is no parameter \"" + alias_or_pointer + "\"",
+                                      suggest(alias_or_pointer, aliases.names())}});
+}
+
+}  // namespace faultsim

@@ -1,0 +1,221 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "simulator/scene/scene_reader.h"
+
+/// Faults: each takes the top-level friction and fault_pressure and overrides them key by key.
+namespace faultsim {
+namespace {
+
+constexpr double kRightAngle = 1.5707963267948966;
+constexpr double kSteepest = kRightAngle / 2;       // 45 deg from the vertical in a box
+constexpr double kSteepestField = kRightAngle / 3;  // 30 deg
+constexpr double kAngleSlack = 1e-9;                // rad; "90 deg" may come out one bit off
+
+/// Where the value of a key comes from: the fault's own object, else the default one, else "".
+class Overrides {
+ public:
+  Overrides(const SceneReader& reader, const std::string& name, std::size_t fault)
+      : reader_(reader), own_(concat("/faults/", fault, "/", name)), shared_("/" + name) {}
+
+  const std::string& own() const { return own_; }
+  /// Pointer to the key where it is given; where it is given nowhere, a pointer to nothing.
+  std::string at(const std::string& key) const {
+    const std::string pointer = own_ + "/" + key;
+    return reader_.has(pointer) ? pointer : shared_ + "/" + key;
+  }
+  /// Which of two keys that exclude each other counts: one of the fault's own wins.
+  std::string at_either(const std::string& a, const std::string& b) const {
+    for (const std::string& object : {own_, shared_}) {
+      for (const std::string& key : {a, b}) {
+        if (reader_.has(object + "/" + key)) return object + "/" + key;
+      }
+    }
+    return "";
+  }
+
+ private:
+  const SceneReader& reader_;
+  std::string own_;
+  std::string shared_;
+};
+
+void demand_one_of(SceneReader& reader, const std::string& object, const std::string& angle,
+                   const std::string& coefficient) {
+  if (reader.has(object + "/" + angle) && reader.has(object + "/" + coefficient)) {
+    reader.problem(object + "/" + coefficient, angle + " is given too", "remove one of the two");
+  }
+}
+
+/// The friction angle at pointer, rad, also when it is given as a coefficient.
+double angle_at(const SceneReader& reader, const std::string& pointer) {
+  if (pointer.empty()) return kNaN;
+  const bool is_coefficient =
+      pointer.size() >= 11 && pointer.substr(pointer.size() - 11) == "coefficient";
+  return is_coefficient ? std::atan(reader.number(pointer)) : reader.quantity(pointer);
+}
+
+void read_weakening(SceneReader& reader, const Overrides& from, Friction& friction) {
+  const std::string dynamic =
+      from.at_either("dynamic_friction_angle", "dynamic_friction_coefficient");
+  const double static_angle = friction.static_friction_angle;
+  friction.dynamic_friction_angle = dynamic.empty() ? static_angle : angle_at(reader, dynamic);
+  const std::string fixed = from.at_either("friction_angle", "friction_coefficient");
+  if (friction.dynamic_friction_angle > static_angle) {
+    reader.problem(dynamic,
+                   "the dynamic friction " + reader.as_given(dynamic) +
+                       " is larger than the static one, " + reader.as_given(fixed),
+                   "write at most the static value: friction weakens with slip");
+  }
+  const std::string distance = from.at("slip_weakening_distance");
+  const bool weakens = friction.dynamic_friction_angle < static_angle;
+  friction.slip_weakening_distance = weakens ? reader.quantity(distance) : 0;
+  if (weakens && !reader.has(distance) && reader.sound(dynamic.substr(0, dynamic.rfind('/')))) {
+    reader.problem(dynamic,
+                   "friction weakens from " + reader.as_given(fixed) + " to " +
+                       reader.as_given(dynamic) + " but slip_weakening_distance is missing",
+                   "add for example \"slip_weakening_distance\": \"0.02 m\" beside it");
+  }
+}
+
+Friction read_friction(SceneReader& reader, std::size_t fault) {
+  const Overrides from(reader, "friction", fault);
+  Friction friction;
+  for (const std::string& object : {std::string("/friction"), from.own()}) {
+    demand_one_of(reader, object, "friction_angle", "friction_coefficient");
+    demand_one_of(reader, object, "dynamic_friction_angle", "dynamic_friction_coefficient");
+  }
+  const bool by_coefficient = reader.text(from.at("law"), "angle") == "coefficient";
+  friction.law = by_coefficient ? FrictionLaw::coefficient : FrictionLaw::angle;
+  friction.cohesion = reader.quantity(from.at("cohesion"), 0);
+  const std::string fixed = from.at_either("friction_angle", "friction_coefficient");
+  if (fixed.empty() && reader.sound("/friction") && reader.sound(from.own())) {
+    reader.problem(reader.has("/friction") ? "/friction" : "/faults", "no friction angle is given",
+                   "add \"friction\": { \"friction_angle\": \"30 deg\" } at the top level");
+  }
+  friction.static_friction_angle = angle_at(reader, fixed);
+  read_weakening(reader, from, friction);
+  const bool weakens = friction.dynamic_friction_angle < friction.static_friction_angle;
+  const bool cumulated = reader.text(from.at("slip_measure")) == "cumulated";
+  // Without weakening neither law nor measure says anything; equal cases stay equal.
+  friction.slip_measure = cumulated && weakens ? SlipMeasure::cumulated : SlipMeasure::current;
+  if (!weakens) friction.law = FrictionLaw::angle;
+  friction.cohesion_after_opening = reader.boolean(from.at("cohesion_after_opening"), false);
+  return friction;
+}
+
+FaultPressureRule rule_named(const std::string& name) {
+  static const char* const names[] = {"mean", "min",      "max",        "minus",
+                                      "plus", "fraction", "prescribed", "none"};
+  for (unsigned i = 0; i < std::size(names); ++i) {
+    if (name == names[i]) return static_cast<FaultPressureRule>(i);
+  }
+  return FaultPressureRule::mean;
+}
+
+FaultPressure read_fault_pressure(SceneReader& reader, std::size_t fault) {
+  const Overrides from(reader, "fault_pressure", fault);
+  FaultPressure pressure;
+  const std::string rule = from.at("rule");
+  pressure.rule = rule_named(reader.text(rule, "mean"));
+  if (pressure.rule == FaultPressureRule::fraction) {
+    pressure.fraction = reader.number(from.at("fraction"), pressure.fraction);
+  }
+  if (pressure.rule != FaultPressureRule::prescribed) return pressure;
+  if (!reader.has(from.at("prescribed"))) {
+    reader.problem(rule, "the rule \"prescribed\" needs a pressure change",
+                   "add for example \"prescribed\": \"-100 bar\" beside it");
+  }
+  pressure.prescribed = reader.quantity(from.at("prescribed"));
+  if (reader.has(from.at("table"))) pressure.table = reader.table(from.at("table"));
+  const std::string window = from.at("depth_window");
+  if (reader.has(window)) {
+    pressure.depth_window = {reader.quantity(window + "/0"), reader.quantity(window + "/1")};
+    if ((*pressure.depth_window)[1] <= (*pressure.depth_window)[0]) {
+      reader.problem(window, "the window ends above where it begins",
+                     "write the top depth, then the bottom depth");
+    }
+  }
+  return pressure;
+}
+
+void check_dip(SceneReader& reader, const std::string& at, bool is_box, double dip) {
+  const std::string pointer = at + "dip_from_vertical";
+  if (!is_box && std::abs(dip) > kSteepestField + kAngleSlack) {
+    reader.problem(pointer, reader.as_given(pointer) + " is too far from the vertical for a field",
+                   "write a dip from -30 deg to 30 deg");
+  }
+  const bool is_horizontal = std::abs(std::abs(dip) - kRightAngle) < kAngleSlack;
+  if (is_box && std::abs(dip) > kSteepest + kAngleSlack && !is_horizontal) {
+    reader.problem(pointer,
+                   reader.as_given(pointer) + " is too far from the vertical for the sheared grid",
+                   "write a dip from -45 deg to 45 deg or 90 deg, and turn the stress instead");
+  }
+}
+
+PatchGeometry read_patch(SceneReader& reader, const std::string& at, double dip) {
+  PatchGeometry patch;
+  patch.center = reader.point(at + "center");
+  patch.strike = reader.quantity(at + "strike", 0);
+  patch.dip_from_vertical = dip;
+  patch.length = reader.quantity(at + "length");
+  patch.width = reader.quantity(at + "width");
+  const bool ellipse = reader.text(at + "shape") == "ellipse";
+  patch.shape = ellipse ? PatchShape::ellipse : PatchShape::rectangle;
+  const bool sound = reader.sound(at.substr(0, at.size() - 1));
+  for (const char* key : {"center", "length", "width"}) {
+    if (sound && !reader.has(at + key)) {
+      reader.problem(at + key, std::string("the fault of a box has no \"") + key + "\"",
+                     std::string("add for example \"") + key +
+                         (key[0] == 'c' ? "\": [\"0 m\", \"0 m\", \"0 m\"]" : "\": \"1000 m\""));
+    }
+  }
+  return patch;
+}
+
+void check_count(SceneReader& reader, const Scene& scene) {
+  const std::size_t wanted = scene.field.blocks.size() + 1;
+  if (scene.field.blocks.empty() || scene.faults.size() == wanted) return;
+  const bool listed = reader.has("/faults");
+  reader.problem(
+      listed ? "/faults" : "",
+      concat("there are ", scene.faults.size(), " faults for ", scene.field.blocks.size(),
+             " blocks"),
+      concat("list ", wanted, " faults: one at each end of the row and one between blocks"));
+}
+
+}  // namespace
+
+void read_faults(SceneReader& reader, Scene& scene) {
+  const bool is_box = scene.geometry_kind == GeometryKind::box;
+  const bool known_kind = reader.sound("/geometry/kind");
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < reader.size("/faults"); ++i) {
+    const std::string at = concat("/faults/", i, "/");
+    Fault fault;
+    fault.name = reader.text(at + "name");
+    fault.dip_from_vertical = reader.quantity(at + "dip_from_vertical", 0);
+    const std::string own_biot = at + "fault_biot";
+    fault.fault_biot =
+        reader.number(reader.has(own_biot) ? own_biot : "/fault_pressure/fault_biot", 1);
+    if (known_kind) check_dip(reader, at, is_box, fault.dip_from_vertical);
+    if (known_kind && is_box) {
+      scene.box.patches.push_back(read_patch(reader, at, fault.dip_from_vertical));
+    }
+    for (const char* key : {"center", "strike", "length", "width", "shape"}) {
+      if (known_kind && !is_box && reader.has(at + key)) {
+        reader.problem(at + key, "faults of a field lie at the ends of the blocks",
+                       "remove it; blocks, fault_length and fault_overshoot say where faults are");
+      }
+    }
+    fault.friction = read_friction(reader, i);
+    fault.pressure = read_fault_pressure(reader, i);
+    scene.faults.push_back(fault);
+    names.push_back(fault.name);
+  }
+  reader.demand_unique("/faults", "/name", names);
+  if (!is_box) check_count(reader, scene);
+}
+
+}  // namespace faultsim

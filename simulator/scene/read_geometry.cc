@@ -1,0 +1,227 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+
+#include "simulator/scene/near_miss.h"
+#include "simulator/scene/scene_reader.h"
+
+namespace faultsim {
+namespace {
+
+std::vector<std::string> material_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Material& material : scene.materials) names.push_back(material.name);
+  return names;
+}
+
+std::vector<Layer> read_layers(SceneReader& reader, const Scene& scene) {
+  const std::string list = "/geometry/layers";
+  std::vector<Layer> layers;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < reader.size(list); ++i) {
+    const std::string at = concat(list, "/", i, "/");
+    Layer layer{reader.text(at + "name"), reader.text(at + "material"),
+                reader.quantity(at + "top")};
+    reader.demand_known(at + "material", layer.material, "material", material_names(scene));
+    if (i > 0 && layer.top_depth <= layers.back().top_depth) {
+      reader.problem(at + "top",
+                     "the top of layer \"" + layer.name + "\" (" + reader.as_given(at + "top") +
+                         ") is not below that of \"" + layers.back().name + "\"",
+                     "write layers from the surface down");
+    }
+    names.push_back(layer.name);
+    layers.push_back(layer);
+  }
+  reader.demand_unique(list, "/name", names);
+  return layers;
+}
+
+void read_blocks(SceneReader& reader, FieldGeometry& field) {
+  const std::string list = "/geometry/blocks";
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < reader.size(list); ++i) {
+    const std::string at = concat(list, "/", i, "/");
+    const Block block{reader.text(at + "name"), reader.quantity(at + "from"),
+                      reader.quantity(at + "to"), reader.quantity(at + "offset", 0)};
+    if (block.to <= block.from) {
+      reader.problem(at + "to", "block \"" + block.name + "\" ends west of where it begins",
+                     "write \"to\" larger than \"from\" (x grows eastwards)");
+    }
+    if (i > 0 && block.from != field.blocks.back().to) {
+      const Block& west = field.blocks.back();
+      const bool overlap = block.from < west.to;
+      if (overlap || block.from > west.to) {
+        reader.problem(at + "from",
+                       "block \"" + block.name + "\" begins at " + reader.as_given(at + "from") +
+                           (overlap ? ", inside" : ", away from") + " block \"" + west.name +
+                           "\", which ends at " + in_unit(west.to, Dimension::length, "m"),
+                       "write \"" + in_unit(west.to, Dimension::length, "m") +
+                           "\": blocks lie side by side from west to east");
+      }
+    }
+    field.blocks.push_back(block);
+    names.push_back(block.name);
+  }
+  reader.demand_unique(list, "/name", names);
+}
+
+void read_field(SceneReader& reader, Scene& scene) {
+  FieldGeometry& field = scene.field;
+  const std::string at = "/geometry/";
+  field.width = reader.quantity(at + "width");
+  field.length = reader.quantity(at + "length");
+  field.depth = reader.quantity(at + "depth");
+  field.layers = read_layers(reader, scene);
+  field.reservoir_layer = reader.text(at + "reservoir_layer");
+  std::vector<std::string> layer_names;
+  for (const Layer& layer : field.layers) layer_names.push_back(layer.name);
+  if (reader.sound(at + "layers")) {
+    reader.demand_known(at + "reservoir_layer", field.reservoir_layer, "layer", layer_names);
+  }
+  field.sideburden = reader.text(at + "sideburden");
+  reader.demand_known(at + "sideburden", field.sideburden, "material", material_names(scene));
+  read_blocks(reader, field);
+  field.block_length = reader.quantity(at + "block_length");
+  field.fault_length = reader.quantity(at + "fault_length");
+  constexpr double kDefaultOvershoot = 150;  // m, the reference scene's
+  field.fault_overshoot = reader.quantity(at + "fault_overshoot", kDefaultOvershoot);
+  double middle = kNaN;
+  for (std::size_t i = 0; i < field.layers.size(); ++i) {
+    if (field.layers[i].name != field.reservoir_layer) continue;
+    const bool is_last = i + 1 == field.layers.size();
+    middle =
+        0.5 * (field.layers[i].top_depth + (is_last ? field.depth : field.layers[i + 1].top_depth));
+  }
+  field.pivot_depth = reader.quantity(at + "pivot_depth", middle);
+}
+
+Side side_named(const std::string& name) {
+  static const std::map<std::string, Side> sides = {{"x-", Side::x_min}, {"x+", Side::x_max},
+                                                    {"y-", Side::y_min}, {"y+", Side::y_max},
+                                                    {"z-", Side::z_min}, {"z+", Side::z_max}};
+  return sides.at(name);
+}
+
+BoundaryKind boundary_kind_named(const std::string& name) {
+  static const std::map<std::string, BoundaryKind> kinds = {
+      {"free", BoundaryKind::free},     {"roller", BoundaryKind::roller},
+      {"fixed", BoundaryKind::fixed},   {"displacement", BoundaryKind::displacement},
+      {"stress", BoundaryKind::stress}, {"tied", BoundaryKind::tied}};
+  const auto found = kinds.find(name);
+  return found == kinds.end() ? BoundaryKind::free : found->second;
+}
+
+void read_motion(SceneReader& reader, const std::string& at, BoundaryCondition& condition) {
+  if (reader.has(at + "components")) {
+    condition.components = {false, false, false};
+    for (std::size_t i = 0; i < reader.size(at + "components"); ++i) {
+      const std::string axis = reader.text(concat(at, "components/", i));
+      if (!axis.empty()) condition.components[static_cast<std::size_t>(axis[0] - 'x')] = true;
+    }
+  }
+  condition.translation = reader.point(at + "translation", 0);
+  if (reader.has(at + "gradient")) {
+    for (std::size_t i = 0; i < 9; ++i) {
+      condition.gradient[i] = reader.number(concat(at, "gradient/", i / 3, "/", i % 3));
+    }
+  }
+}
+
+void check_tied(SceneReader& reader, const std::string& at, const BoundaryCondition& condition) {
+  if (condition.kind != BoundaryKind::tied || !reader.sound(at + "sides")) return;
+  static const char* const names[] = {"x-", "x+", "y-", "y+", "z-", "z+"};
+  for (const Side side : condition.sides) {
+    const auto number = static_cast<unsigned>(side);
+    const auto opposite = static_cast<Side>(number ^ 1U);
+    const bool paired = std::find(condition.sides.begin(), condition.sides.end(), opposite) !=
+                        condition.sides.end();
+    if (paired) continue;
+    reader.problem(at + "sides",
+                   std::string("side ") + names[number] + " is tied but its opposite is not",
+                   std::string("add \"") + names[number ^ 1U] + "\" to the same list");
+  }
+}
+
+void read_boundary(SceneReader& reader, BoxGeometry& box) {
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < reader.size("/geometry/boundary"); ++i) {
+    const std::string at = concat("/geometry/boundary/", i, "/");
+    BoundaryCondition condition;
+    condition.kind = boundary_kind_named(reader.text(at + "kind"));
+    for (std::size_t k = 0; k < reader.size(at + "sides"); ++k) {
+      const std::string place = concat(at, "sides/", k);
+      const std::string name = reader.text(place);
+      if (name.empty()) continue;
+      condition.sides.push_back(side_named(name));
+      if (!taken.insert(name).second && reader.sound(place)) {
+        reader.problem(place, "side " + name + " has a condition already",
+                       "give each side one condition");
+      }
+    }
+    check_tied(reader, at, condition);
+    read_motion(reader, at, condition);
+    if (reader.has(at + "stress")) {
+      condition.stress = reader.tensor(at + "stress");
+      const auto& s = condition.stress;
+      if (reader.sound(at + "stress") && (s[1] != s[3] || s[2] != s[6] || s[5] != s[7])) {
+        reader.problem(at + "stress", "the stress tensor is not symmetric",
+                       "write the same value for xy and yx, xz and zx, yz and zy");
+      }
+    }
+    if (reader.has(at + "table")) condition.table = reader.table(at + "table");
+    box.boundary.push_back(condition);
+  }
+}
+
+void read_regions(SceneReader& reader, BoxGeometry& box) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < reader.size("/geometry/regions"); ++i) {
+    const std::string at = concat("/geometry/regions/", i, "/");
+    PressureRegion region;
+    region.name = reader.text(at + "name");
+    const bool is_disc = reader.text(at + "shape") == "disc";
+    region.shape = is_disc ? RegionShape::disc : RegionShape::box;
+    if (is_disc) {
+      region.center = reader.point(at + "center");
+      region.radius = reader.quantity(at + "radius");
+      region.thickness = reader.quantity(at + "thickness");
+    } else {
+      region.from = reader.point(at + "from");
+      region.to = reader.point(at + "to");
+    }
+    box.regions.push_back(region);
+    names.push_back(region.name);
+  }
+  reader.demand_unique("/geometry/regions", "/name", names);
+}
+
+void read_box(SceneReader& reader, Scene& scene) {
+  BoxGeometry& box = scene.box;
+  const std::string at = "/geometry/";
+  box.from = reader.point(at + "from");
+  box.to = reader.point(at + "to");
+  box.material = reader.text(at + "material");
+  box.layers = read_layers(reader, scene);
+  const bool has_layers = reader.has(at + "layers");
+  if (reader.has(at + "material") == has_layers && reader.sound(at + "material")) {
+    reader.problem(has_layers ? at + "material" : "/geometry",
+                   has_layers ? "material and layers are both given" : "the box has no material",
+                   has_layers ? "remove one of the two" : "add \"material\" or \"layers\"");
+  }
+  reader.demand_known(at + "material", box.material, "material", material_names(scene));
+  read_boundary(reader, box);
+  read_regions(reader, box);
+}
+
+}  // namespace
+
+void read_geometry(SceneReader& reader, Scene& scene) {
+  const std::string kind = reader.text("/geometry/kind");
+  scene.geometry_kind = kind == "box" ? GeometryKind::box : GeometryKind::field;
+  if (kind == "field") read_field(reader, scene);
+  if (kind == "box") read_box(reader, scene);
+}
+
+}  // namespace faultsim

@@ -1,0 +1,207 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "simulator/scene/initial_state.h"
+#include "simulator/scene/near_miss.h"
+#include "simulator/scene/pressure_csv.h"
+#include "simulator/scene/scene_reader.h"
+#include "simulator/scene/schema_walk.h"
+
+/// Stages, compartments and CSV files become one pressure history per region.
+namespace faultsim {
+namespace {
+
+/// Depth of the top of a region, m: of a block's shifted reservoir, or of a box region.
+double region_top(const Scene& scene, std::size_t region) {
+  if (scene.geometry_kind == GeometryKind::box) {
+    const PressureRegion& box = scene.box.regions[region];
+    if (box.shape == RegionShape::disc) return -(box.center[2] + 0.5 * box.thickness);
+    return -std::min(box.to[2], scene.box.to[2]);
+  }
+  for (const Layer& layer : scene.field.layers) {
+    if (layer.name == scene.field.reservoir_layer) {
+      return layer.top_depth + scene.field.blocks[region].offset;
+    }
+  }
+  return kNaN;
+}
+
+class LoadingReader {
+ public:
+  LoadingReader(SceneReader& reader, Scene& scene)
+      : reader_(reader), scene_(scene), regions_(region_names(scene)) {
+    for (const std::string& region : regions_) scene.pressure.push_back({region, {}, {}, 1, 0});
+  }
+
+  void read_stage(std::size_t index) {
+    const std::string at = concat("/stages/", index, "/");
+    Stage stage{reader_.text(at + "name"), reader_.quantity(at + "duration"),
+                reader_.integer(at + "steps", 1)};
+    const int cycles = reader_.integer(at + "cycles", 1);
+    check_keys(at, stage, cycles);
+    const bool between = reader_.has(at + "pressure_between");
+    const int n_halves = between ? 2 * cycles : 1;
+    for (int half = 1; half <= n_halves; ++half) {
+      const double time = start_ + stage.duration * half / n_halves;
+      for (std::size_t region = 0; region < regions_.size(); ++region) {
+        add_point(region, time, target(at, region, half));
+      }
+    }
+    start_ += stage.duration;
+    scene_.stages.push_back(stage);
+  }
+
+  void read_csv_files() {
+    if (const std::string file = reader_.text("/pressure_csv"); !file.empty()) {
+      const PressureCsv csv = open(file, "/pressure_csv");
+      for (const PressureHistory& column : csv.columns) take_column(column, "/pressure_csv");
+    }
+    for (const std::string& region : reader_.keys("/compartments")) {
+      const std::string pointer = "/compartments/" + pointer_token(region) + "/csv";
+      const std::string file = reader_.text(pointer);
+      if (file.empty() || std::count(regions_.begin(), regions_.end(), region) == 0) continue;
+      const PressureCsv csv = open(file, pointer);
+      const auto column = std::find_if(csv.columns.begin(), csv.columns.end(),
+                                       [&](const auto& each) { return each.region == region; });
+      if (column != csv.columns.end()) {
+        take_column(*column, pointer);
+      } else if (csv.what.empty()) {
+        reader_.problem(pointer, "\"" + file + "\" has no column \"" + region + "\"",
+                        "name a column like the compartment");
+      }
+    }
+  }
+
+  void read_compartments() {
+    for (const std::string& region : reader_.keys("/compartments")) {
+      const std::string at = "/compartments/" + pointer_token(region);
+      demand_region(at, region);
+      for (PressureHistory& history : scene_.pressure) {
+        if (history.region != region) continue;
+        history.scale = reader_.number(at + "/scale", 1);
+        history.lag = reader_.quantity(at + "/lag", 0);
+      }
+    }
+  }
+
+ private:
+  /// Silent when a mistake in the geometry may have hidden the region.
+  void demand_region(const std::string& pointer, const std::string& region) {
+    const bool certain = reader_.sound("/geometry/kind") && reader_.sound("/geometry/blocks") &&
+                         reader_.sound("/geometry/regions");
+    if (certain) reader_.demand_known(pointer, region, "pressure region", regions_);
+  }
+
+  void check_keys(const std::string& at, const Stage& stage, int cycles) {
+    std::vector<std::string> given;
+    for (const char* key : {"pressure_change", "pressure", "pressure_between"}) {
+      if (reader_.has(at + key)) given.emplace_back(key);
+    }
+    if (given.size() > 1) {
+      reader_.problem(at + given[1], "the stage has " + given[0] + " too", "keep one of the two");
+    }
+    for (const std::string& key : given) {
+      const nlohmann::json* value = reader_.find(at + key);
+      if (value->is_object()) {
+        for (const std::string& region : reader_.keys(at + key)) {
+          demand_region(at + key + "/" + pointer_token(region), region);
+        }
+      } else if (regions_.empty() && reader_.sound("/geometry")) {
+        reader_.problem(at + key, "there is no region whose pressure could change",
+                        "add \"regions\" to the geometry or remove this line");
+      }
+    }
+    if (reader_.has(at + "cycles") && !reader_.has(at + "pressure_between")) {
+      reader_.problem(at + "cycles", "there are cycles but no \"pressure_between\"",
+                      "add for example \"pressure_between\": [\"-120 bar\", \"-60 bar\"]");
+    } else if (reader_.sound(at + "cycles") && stage.n_steps % (2 * cycles) != 0 &&
+               reader_.has(at + "pressure_between")) {
+      reader_.problem(
+          reader_.has(at + "steps") ? at + "steps" : at.substr(0, at.size() - 1),
+          concat(stage.n_steps, " steps cannot be shared among ", 2 * cycles, " half cycles"),
+          concat("write a multiple of ", 2 * cycles));
+    }
+  }
+
+  /// Pointer to the value of key for a region; "" when the stage does not say.
+  std::string place(const std::string& at, const char* key, std::size_t region) const {
+    const std::string pointer = at + key;
+    const nlohmann::json* value = reader_.find(pointer);
+    if (value == nullptr) return "";
+    if (!value->is_object()) return pointer;
+    const std::string inner = pointer + "/" + pointer_token(regions_[region]);
+    return reader_.has(inner) ? inner : "";
+  }
+
+  /// Change at the end of the half cycle (1, 2, ...) or stage; the last value when nothing is said.
+  double target(const std::string& at, std::size_t region, int half) const {
+    const auto& history = scene_.pressure[region].pressure_change;
+    if (const auto pointer = place(at, "pressure_change", region); !pointer.empty()) {
+      return reader_.quantity(pointer);
+    }
+    if (const auto pointer = place(at, "pressure_between", region); !pointer.empty()) {
+      return reader_.quantity(pointer + (half % 2 == 1 ? "/0" : "/1"));
+    }
+    if (const auto pointer = place(at, "pressure", region); !pointer.empty()) {
+      const bool ready = reader_.sound("/geometry") && reader_.sound("/initial_state") &&
+                         reader_.sound("/materials");
+      if (!ready) return kNaN;
+      const double top = region_top(scene_, region);
+      return reader_.quantity(pointer) - initial_state(scene_, -top, DepthSide::below).pressure;
+    }
+    return history.empty() ? 0 : history.back();
+  }
+
+  void add_point(std::size_t region, double time, double change) {
+    scene_.pressure[region].time.push_back(time);
+    scene_.pressure[region].pressure_change.push_back(change);
+  }
+
+  /// Relative paths count from the folder of the scene file.
+  PressureCsv open(const std::string& file, const std::string& pointer) {
+    const std::string& source = reader_.document().source;
+    const auto slash = source.rfind('/', source.find('#'));
+    const bool relative = file[0] != '/' && slash != std::string::npos;
+    const PressureCsv csv =
+        read_pressure_csv(relative ? source.substr(0, slash + 1) + file : file, file);
+    if (!csv.what.empty()) {
+      reader_.problem(pointer, csv.what, csv.cure);
+      return {{}, csv.what, csv.cure};
+    }
+    return csv;
+  }
+
+  void take_column(const PressureHistory& column, const std::string& pointer) {
+    for (PressureHistory& history : scene_.pressure) {
+      if (history.region != column.region) continue;
+      history.time = column.time;
+      history.pressure_change = column.pressure_change;
+      return;
+    }
+    reader_.problem(pointer, "its column \"" + column.region + "\" is no pressure region",
+                    suggest(column.region, regions_));
+  }
+
+  SceneReader& reader_;
+  Scene& scene_;
+  std::vector<std::string> regions_;
+  double start_ = 0;
+};
+
+}  // namespace
+
+void read_loading(SceneReader& reader, Scene& scene) {
+  LoadingReader loading(reader, scene);
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < reader.size("/stages"); ++i) {
+    loading.read_stage(i);
+    names.push_back(scene.stages.back().name);
+  }
+  reader.demand_unique("/stages", "/name", names);
+  loading.read_csv_files();
+  loading.read_compartments();
+}
+
+}  // namespace faultsim

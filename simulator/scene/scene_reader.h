@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "simulator/common/units.h"
+#include "simulator/scene/json_document.h"
+#include "simulator/scene/scene.h"
+
+/// Inside of read_scene. A value that is missing or wrong has been reported once and reads as NaN
+/// (numbers) or "" (texts); checks are written such that NaN and "" never cause a second report.
+namespace faultsim {
+
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// A quantity of the schema: x-dimension, which knows one more than Dimension ("acceleration").
+ParsedQuantity parse_schema_quantity(const nlohmann::json& value, const std::string& dimension,
+                                     const std::string& usual_unit);
+/// Dimension by its name in the schema; acceleration is not one of them.
+Dimension dimension_named(const std::string& name);
+
+class SceneReader {
+ public:
+  /// Checks document against the schema and reads all quantities of it.
+  SceneReader(const JsonDocument& document, std::vector<Problem>& problems);
+
+  const JsonDocument& document() const { return document_; }
+  /// The value at pointer; nullptr when it is not there.
+  const nlohmann::json* find(const std::string& pointer) const;
+  bool has(const std::string& pointer) const { return find(pointer) != nullptr; }
+  /// No problem at the value or below it (a parent that lacks a key leaves its children sound).
+  bool sound(const std::string& pointer) const;
+  /// Elements of a list, 0 if it is none.
+  std::size_t size(const std::string& pointer) const;
+  /// Keys of an object without "comment".
+  std::vector<std::string> keys(const std::string& pointer) const;
+
+  double quantity(const std::string& pointer, double fallback = kNaN) const;  ///< SI.
+  double number(const std::string& pointer, double fallback = kNaN) const;
+  int integer(const std::string& pointer, int fallback) const;
+  std::string text(const std::string& pointer, const std::string& fallback = "") const;
+  bool boolean(const std::string& pointer, bool fallback) const;
+  std::array<double, 3> point(const std::string& pointer, double fallback = kNaN) const;
+  std::array<double, 9> tensor(const std::string& pointer) const;
+  TimeTable table(const std::string& pointer);
+
+  /// Adds a problem unless the same was said before.
+  void problem(const std::string& pointer, const std::string& what, const std::string& cure);
+  /// Adds a problem when name is not one of known; "" is silent.
+  void demand_known(const std::string& pointer, const std::string& name, const std::string& what,
+                    const std::vector<std::string>& known);
+  /// Adds a problem per name that was there before. @param suffix  of each element's pointer.
+  void demand_unique(const std::string& list, const std::string& suffix,
+                     const std::vector<std::string>& names);
+  /// The value as it stands in the file, without quotes.
+  std::string as_given(const std::string& pointer) const;
+
+ private:
+  void read_quantities();
+
+  const JsonDocument& document_;
+  std::vector<Problem>& problems_;
+  std::unordered_map<std::string, double> quantities_;
+};
+
+/// "-3.8 bar": for messages, at most six digits.
+std::string in_unit(double value, Dimension dimension, const std::string& unit);
+
+// Parts of read_scene, one file each.
+void read_materials(SceneReader& reader, Scene& scene);
+void read_geometry(SceneReader& reader, Scene& scene);
+void read_mesh(SceneReader& reader, Scene& scene);
+void read_faults(SceneReader& reader, Scene& scene);
+void read_initial_state(SceneReader& reader, Scene& scene);
+void read_loading(SceneReader& reader, Scene& scene);
+void read_output(SceneReader& reader, Scene& scene);
+/// Relations between parts: geometry of faults, observation points, pressures below zero.
+void check_geometry(SceneReader& reader, const Scene& scene);
+void check_pressures(SceneReader& reader, const Scene& scene);
+
+/// Names of the pressure regions: the field's blocks or the box's regions.
+std::vector<std::string> region_names(const Scene& scene);
+
+}  // namespace faultsim
