@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "simulator/plan/plan.h"
+#include "simulator/scene/read_scene.h"
+
+namespace faultsim::benchmarks {
+
+struct PlannedScene {
+  Scene scene;
+  Plan plan;
+};
+
+/// An example scene with changes ("/pointer", value), planned.
+inline PlannedScene planned(const std::string& file,
+                            const std::vector<std::pair<std::string, std::string>>& changes) {
+  JsonDocument document = read_json_file(std::string(FAULTSIM_SOURCE_DIR) + "/docs/examples/scenes/" + file);
+  for (const auto& [pointer, value] : changes) set_value(document, pointer, value);
+  PlannedScene result{read_scene(document), {}};
+  std::vector<Problem> problems;
+  result.plan = make_plan(result.scene, problems);
+  if (!problems.empty()) throw InputError(file, problems);
+  return result;
+}
+
+}  // namespace faultsim::benchmarks

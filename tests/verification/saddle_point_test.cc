@@ -1,0 +1,259 @@
+// The condensed path against an independent solve: both-sided displacements and multipliers in one
+// saddle-point system, semismooth Newton on it with a sparse LU, no condensation anywhere.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Sparse>
+#include <Eigen/SparseLU>
+#include <cmath>
+
+#include "simulator/condensation/condensation.h"
+#include "simulator/contact/contact.h"
+
+namespace faultsim {
+namespace {
+
+constexpr double kFriction = 0.5;  // tan φ
+
+/// A block with an inner fault dipping 20° from the vertical, a depleting region on its plus side, and
+/// a top that is pulled up and sheared along strike.
+BulkProblem make_problem() {
+  BoxMeshSpec spec{};
+  spec.from = {-300, -250, -400};
+  spec.to = {300, 250, 0};
+  spec.layer_materials = {0};
+  spec.patches.push_back({"F", {0, 0, -200}, 0.0, 20 * M_PI / 180, 300, 260, false});
+  BoxMeshSpec::Region region{};
+  region.disc = false;
+  region.from = {0, -250, -250};
+  region.to = {300, 250, -150};
+  spec.regions.push_back(region);
+  spec.sizes = {60, 50, 60, 1.3, 1e4, 0};
+  spec.plane_strain = false;
+  BulkProblem problem;
+  problem.mesh = make_mesh(spec);
+  problem.materials = {{12e9, 0.2}};
+  const Eigen::Matrix3d none = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d pull = none;
+  pull(0, 0) = 1;
+  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  problem.conditions = {{MeshSide::z_min, {true, true, true}, zero, none, -1},
+                        {MeshSide::z_max, {true, true, true}, {0, 1, 0}, none, 1},
+                        {MeshSide::x_min, {true, false, false}, zero, none, -1}};
+  LoadCase pressure, shear, tension;
+  pressure.name = "pressure:0:0";
+  pressure.region = 0;
+  shear.name = "boundary:0";
+  shear.displacement = true;
+  tension.name = "boundary:1";
+  tension.stress_sides = {MeshSide::x_max};
+  tension.stress = pull;
+  problem.loads = {pressure, shear, tension};
+  return problem;
+}
+
+/// Load factors of the steps: depletion, shear, pull until nodes open, then everything back by half.
+const std::vector<std::vector<double>> kSteps = {{-10e6, 0, 0}, {-10e6, 0.03, 3e6}, {-10e6, 0.05, 9.0e6}, {-4e6, 0.01, 4e6}};
+
+/// The full system. Unknowns z = (x, t'): displacements of both sides and effective tractions.
+class SaddlePoint {
+ public:
+  explicit SaddlePoint(const BulkProblem& problem)
+      : faults_(problem.mesh.faults), mesh_(problem.mesh) {
+    mesh_.faults.clear();  // both copies of a node are then ordinary, independent nodes
+    dofs_.emplace(mesh_, problem.conditions, static_cast<int>(problem.loads.size()));
+    stiffness_ = assemble_stiffness(mesh_, problem.materials, *dofs_, problem.b_bar);
+    for (std::size_t k = 0; k < problem.loads.size(); ++k) {
+      const LoadCase& load = problem.loads[k];
+      if (load.region >= 0) loads_.push_back(pressure_load(mesh_, *dofs_, load.region, problem.b_bar));
+      if (!load.stress_sides.empty()) loads_.push_back(stress_load(mesh_, *dofs_, load.stress_sides, load.stress));
+      if (load.displacement) {
+        loads_.push_back(displacement_load(mesh_, problem.materials, *dofs_, static_cast<int>(k), problem.b_bar));
+      }
+    }
+    for (const FaultNode& node : faults_.front().nodes) nodes_.push_back(&node);
+    n_ = dofs_->n_unknowns();
+    z_ = Eigen::VectorXd::Zero(n_ + 3 * static_cast<int>(nodes_.size()));
+    previous_ = Eigen::VectorXd::Zero(3 * static_cast<int>(nodes_.size()));
+    build_jump();
+  }
+
+  Eigen::VectorXd jump() const { return jump_ * z_.head(n_); }
+  Eigen::VectorXd traction() const { return z_.tail(z_.size() - n_); }
+
+  /// One load step; returns the number of Newton iterations, −1 if it did not converge.
+  int solve_step(const std::vector<double>& factors, const Eigen::VectorXd& initial) {
+    if (traction().isZero()) z_.tail(initial.size()) = initial;
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(n_);
+    for (std::size_t k = 0; k < factors.size(); ++k) force += factors[k] * loads_[k];
+    for (int iteration = 0; iteration < 200; ++iteration) {
+      triplets_.clear();
+      residual_.setZero(z_.size());
+      bulk_rows(force, initial);
+      for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) contact_rows(k);
+      // Rows in N over K's scale and in Pa over MPa: the update decides.
+      Eigen::SparseMatrix<double> matrix(z_.size(), z_.size());
+      matrix.setFromTriplets(triplets_.begin(), triplets_.end());
+      Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(matrix);
+      if (lu.info() != Eigen::Success) return -1;
+      const Eigen::VectorXd update = lu.solve(residual_);
+      z_ -= update;
+      const double du = update.head(n_).cwiseAbs().maxCoeff();
+      const double dt = update.tail(z_.size() - n_).cwiseAbs().maxCoeff();
+      if (du < 1e-14 && dt < 1e-4) {
+        previous_ = jump();
+        return iteration + 1;
+      }
+    }
+    return -1;
+  }
+
+ private:
+  void build_jump() {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {
+      const Eigen::Vector3d frame[3] = {nodes_[static_cast<std::size_t>(k)]->normal,
+                                        nodes_[static_cast<std::size_t>(k)]->strike,
+                                        nodes_[static_cast<std::size_t>(k)]->dip};
+      for (int c = 0; c < 3; ++c) {
+        for (int i = 0; i < 3; ++i) {
+          for (const int sign : {1, -1}) {
+            const FaultNode& node = *nodes_[static_cast<std::size_t>(k)];
+            const auto [begin, end] = dofs_->terms(sign > 0 ? node.plus_node : node.minus_node, i);
+            for (auto term = begin; term != end; ++term) {
+              entries.emplace_back(3 * k + c, term->unknown, sign * frame[c][i] * term->coefficient);
+            }
+          }
+        }
+      }
+    }
+    jump_.resize(3 * static_cast<int>(nodes_.size()), n_);
+    jump_.setFromTriplets(entries.begin(), entries.end());
+  }
+
+  void bulk_rows(const Eigen::VectorXd& force, const Eigen::VectorXd& initial) {
+    for (int column = 0; column < stiffness_.outerSize(); ++column) {
+      for (SparseMatrix::InnerIterator it(stiffness_, column); it; ++it) {
+        const auto row = static_cast<int>(it.row());
+        triplets_.emplace_back(row, column, it.value());
+        if (row != column) triplets_.emplace_back(column, row, it.value());
+      }
+    }
+    residual_.head(n_) = stiffness_.selfadjointView<Eigen::Lower>() * z_.head(n_) - force;
+    for (int column = 0; column < jump_.outerSize(); ++column) {
+      for (Eigen::SparseMatrix<double>::InnerIterator it(jump_, column); it; ++it) {
+        const auto row = static_cast<int>(it.row());
+        const double entry = it.value() * nodes_[static_cast<std::size_t>(row / 3)]->area;
+        triplets_.emplace_back(column, n_ + row, entry);
+        residual_[column] += entry * (z_[n_ + row] - initial[row]);
+      }
+    }
+  }
+
+  void add_jump_row(int row, int component, double factor) {
+    for (int column = 0; column < jump_.outerSize(); ++column) {
+      const double value = jump_.coeff(component, column);
+      if (value != 0) triplets_.emplace_back(row, column, factor * value);
+    }
+  }
+
+  /// Alart–Curnier: closed if −t'_N − r g_N > 0, stuck if |t'_T + r Δg_T| ≤ τ_L.
+  void contact_rows(int k) {
+    constexpr double r = 5e8;  // Pa/m, of the order of G/h
+    const int base = n_ + 3 * k;
+    const Eigen::Vector3d t = z_.segment<3>(base);
+    const Eigen::Vector3d g = (jump_ * z_.head(n_)).segment<3>(3 * k);
+    const Eigen::Vector2d slip = g.tail<2>() - previous_.segment<2>(3 * k + 1);
+    if (-t[0] - r * g[0] <= 0) {  // open
+      for (int c = 0; c < 3; ++c) {
+        triplets_.emplace_back(base + c, base + c, 1.0);
+        residual_[base + c] = t[c];
+      }
+      return;
+    }
+    add_jump_row(base, 3 * k, r);
+    residual_[base] = r * g[0];
+    const Eigen::Vector2d y = t.tail<2>() + r * slip;
+    const double limit = std::max(-t[0], 0.0) * kFriction;
+    if (y.norm() <= limit) {  // stick
+      for (int c = 0; c < 2; ++c) {
+        add_jump_row(base + 1 + c, 3 * k + 1 + c, r);
+        residual_[base + 1 + c] = r * slip[c];
+      }
+      return;
+    }
+    const Eigen::Vector2d m = y / y.norm();
+    const Eigen::Matrix2d turn = limit / y.norm() * (Eigen::Matrix2d::Identity() - m * m.transpose());
+    for (int c = 0; c < 2; ++c) {
+      residual_[base + 1 + c] = t[1 + c] - limit * m[c];
+      triplets_.emplace_back(base + 1 + c, base, kFriction * m[c]);
+      for (int d = 0; d < 2; ++d) {
+        triplets_.emplace_back(base + 1 + c, base + 1 + d, (c == d ? 1.0 : 0.0) - turn(c, d));
+        add_jump_row(base + 1 + c, 3 * k + 1 + d, -r * turn(c, d));
+      }
+    }
+  }
+
+  std::vector<FaultSurface> faults_;
+  Mesh mesh_;
+  std::optional<DofMap> dofs_;
+  SparseMatrix stiffness_;
+  std::vector<Eigen::VectorXd> loads_;
+  std::vector<const FaultNode*> nodes_;
+  Eigen::SparseMatrix<double> jump_;
+  Eigen::VectorXd z_, residual_, previous_;
+  std::vector<Eigen::Triplet<double>> triplets_;
+  int n_ = 0;
+};
+
+TEST(SaddlePoint, EqualsTheCondensedPathWithStickSlipAndOpenNodes) {
+  const BulkProblem problem = make_problem();
+  SilentMonitor monitor;
+  CondensedBulk bulk(problem, {}, monitor);
+  const FaultOperator op = bulk.condense();
+  const int n_nodes = static_cast<int>(op.geometry.nodes.size());
+  ASSERT_EQ(op.geometry.n_dofs, 3 * n_nodes);
+  ASSERT_GT(n_nodes, 15);
+
+  Eigen::VectorXd initial(3 * n_nodes);  // compression with a little shear, per node (n, strike, dip)
+  for (int k = 0; k < n_nodes; ++k) initial.segment<3>(3 * k) << -6e6, 0.4e6, 1.2e6;
+
+  ContactLaws laws;
+  CoulombLaw law;
+  law.static_friction_angle = law.dynamic_friction_angle = std::atan(kFriction);
+  laws.node.assign(static_cast<std::size_t>(n_nodes), law);
+  laws.cumulated.assign(static_cast<std::size_t>(n_nodes), 0);
+  laws.keep_cohesion.assign(static_cast<std::size_t>(n_nodes), 0);
+  ContactOptions options;
+  options.traction_tolerance = 1e-11;
+  ContactSolver solver(op, laws, options);
+  ContactState state = initial_state(op);
+  SaddlePoint reference(problem);
+
+  Eigen::VectorXd before = Eigen::VectorXd::Zero(3 * n_nodes);
+  bool seen[3] = {false, false, false};
+  bool seen_together = false;
+  ASSERT_EQ(solver.solve_step(before, initial, state).outcome, Outcome::converged);
+  before = initial;
+  for (const std::vector<double>& factors : kSteps) {
+    Eigen::VectorXd after = initial;
+    for (int k = 0; k < 3; ++k) after += factors[static_cast<std::size_t>(k)] * op.locked.col(k);
+    const ContactReport report = solver.solve_step(before, after, state);
+    ASSERT_EQ(report.outcome, Outcome::converged) << report.reason;
+    before = after;
+    ASSERT_GT(reference.solve_step(factors, initial), 0);
+    bool here[3] = {false, false, false};
+    for (const FaultState s : state.state) seen[static_cast<int>(s)] = here[static_cast<int>(s)] = true;
+    seen_together = seen_together || (here[0] && here[1] && here[2]);
+
+    const double slip_scale = std::max(reference.jump().cwiseAbs().maxCoeff(), 1e-6);
+    const double traction_scale = reference.traction().cwiseAbs().maxCoeff();
+    EXPECT_LT((state.jump - reference.jump()).cwiseAbs().maxCoeff(), 1e-8 * slip_scale);
+    EXPECT_LT((state.traction - reference.traction()).cwiseAbs().maxCoeff(), 1e-8 * traction_scale);
+  }
+  EXPECT_TRUE(seen[0] && seen[1] && seen[2]);
+  EXPECT_TRUE(seen_together) << "no step has stick, slip and open nodes at once";
+}
+
+}  // namespace
+}  // namespace faultsim
