@@ -34,8 +34,15 @@ struct Parameter {
   std::vector<std::string> targets;   ///< scene pointers that its choices may change.
   faultsim::Dimension dimension = faultsim::Dimension::number;  ///< of Choice::si.
   bool is_text = false;       ///< its choices are words, without si.
+  bool has_own_values = false;  ///< factors or variants: its value is not that of its targets.
   Choice base;                ///< the value where a design leaves the parameter alone; no changes.
   std::vector<Choice> choices;
+};
+
+/// Where a value of a group's scene that is not the base's comes from.
+struct Origin {
+  std::string scene_pointer;
+  std::string spec_pointer;
 };
 
 enum class DesignKind {
@@ -50,6 +57,7 @@ struct Group {
   std::string name;
   std::string pointer;        ///< of its design in the spec.
   nlohmann::json scene;       ///< the base with all `set` applied.
+  std::vector<Origin> origins;            ///< what `set` put there, for messages.
   DesignKind kind = DesignKind::grid;
   std::vector<Parameter> parameters;      ///< in document order.
   std::vector<std::vector<int>> rows;     ///< list: choice per parameter, -1 = its base value.
@@ -108,14 +116,16 @@ struct CampaignSpec {
   std::string rank_by = "activated_area";    ///< an expression over metrics.h.
   KeepFields keep_fields = KeepFields::none;
   faultsim::JsonDocument document;           ///< the spec, for pointers and lines.
+  faultsim::JsonDocument base;               ///< the base scene as given.
+  bool base_is_inline = false;               ///< base is document's /base.
 
   /// The second of the three copies (design section 8): JSON text in which every alias is a
   /// pointer, every range its values, and every group carries its scene.
   std::string resolved() const;
 };
 
-/// Reads a spec and its base scene. Throws InputError with *all* problems of the spec; problems of
-/// the base scene are reported under /base.
+/// Reads a spec and its base scene. Throws InputError with *all* problems of the spec. Whether the
+/// scenes that it describes are valid is for `expand` to say, which has the cases.
 CampaignSpec read_campaign(const std::string& path);
 
 /// The same from text; a relative `base` is looked for beside `source`.

@@ -1,0 +1,111 @@
+#include "campaign/expansion/case_values.h"
+
+#include <cmath>
+#include <limits>
+
+#include "simulator/scene/read_scene.h"
+
+namespace faultsweep {
+namespace {
+
+Value as_value(const Choice& choice) {
+  if (choice.si) return *choice.si;
+  return choice.text;
+}
+
+}  // namespace
+
+CaseValues::CaseValues(const CampaignSpec& spec, const Group& group) : spec_(spec), group_(group) {
+  if (spec.derived.empty() && spec.exclude.empty()) return;
+  for (const auto& info :
+       faultsim::parameters({spec.scene_source, group.scene, spec.base.lines})) {
+    const auto parsed = faultsim::parse_quantity(info.value, info.dimension);
+    if (parsed.ok) base_[info.pointer] = parsed.value;
+  }
+  for (const Derived& one : spec.derived) derived_.push_back(sources_of(one.expression));
+  for (const Exclusion& one : spec.exclude) exclude_.push_back(sources_of(one.expression));
+}
+
+std::vector<CaseValues::Source> CaseValues::sources_of(const Expression& expression) const {
+  std::vector<Source> sources;
+  for (const std::string& name : expression.names()) sources.push_back(source_of(name));
+  return sources;
+}
+
+CaseValues::Source CaseValues::source_of(const std::string& name) const {
+  Source source;
+  for (std::size_t p = 0; p < group_.parameters.size(); ++p) {
+    const Parameter& parameter = group_.parameters[p];
+    if (parameter.name != name) continue;
+    source.parameter = static_cast<int>(p);
+    for (const Choice& choice : parameter.choices) source.choices.push_back(as_value(choice));
+    if (parameter.base.si || parameter.is_text) source.base = as_value(parameter.base);
+    return source;
+  }
+  if (name == "group") {
+    source.base = group_.name;
+    return source;
+  }
+  std::string pointer;
+  faultsim::Dimension dimension = faultsim::Dimension::number;
+  for (const SpecIdentifier& one : spec_.identifiers) {
+    if (one.name == name) pointer = one.scene_pointer;
+  }
+  if (const auto base = base_.find(pointer); base != base_.end()) source.base = base->second;
+  for (std::size_t d = 0; d < spec_.derived.size(); ++d) {
+    if (spec_.derived[d].scene_pointer == pointer) source.derived = static_cast<int>(d);
+  }
+  // Changed by a parameter of another name: a factor, a variant, a list of pointers.
+  for (const auto& info : faultsim::parameters({spec_.scene_source, group_.scene, {}})) {
+    if (info.pointer == pointer) dimension = info.dimension;
+  }
+  for (std::size_t p = 0; p < group_.parameters.size() && !pointer.empty(); ++p) {
+    const Parameter& parameter = group_.parameters[p];
+    bool touched = false;
+    std::vector<Value> values;
+    for (const Choice& choice : parameter.choices) {
+      values.push_back(source.base);
+      for (const Change& change : choice.changes) {
+        if (change.pointer != pointer) continue;
+        touched = true;
+        const std::string text = change.value.is_string() ? change.value.get<std::string>()
+                                                          : change.value.dump();
+        const auto parsed = faultsim::parse_quantity(text, dimension);
+        values.back() = parsed.ok ? Value(parsed.value) : Value();
+      }
+    }
+    if (!touched) continue;
+    source.parameter = static_cast<int>(p);
+    source.choices = std::move(values);
+    break;
+  }
+  return source;
+}
+
+Value CaseValues::value_of(const Source& source, const Row& row,
+                           const std::vector<double>& derived) {
+  if (source.derived >= 0) return derived[static_cast<std::size_t>(source.derived)];
+  if (source.parameter < 0) return source.base;
+  const int choice = row[static_cast<std::size_t>(source.parameter)];
+  return choice < 0 ? source.base : source.choices[static_cast<std::size_t>(choice)];
+}
+
+void CaseValues::derive(const Row& row, std::vector<double>& derived) const {
+  derived.assign(spec_.derived.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t d = 0; d < spec_.derived.size(); ++d) {
+    const Value value = spec_.derived[d].expression.evaluate(
+        [&](std::size_t i) { return value_of(derived_[d][i], row, derived); });
+    if (const auto* number = std::get_if<double>(&value)) derived[d] = *number;
+  }
+}
+
+int CaseValues::excluded_by(const Row& row, const std::vector<double>& derived) const {
+  for (std::size_t e = 0; e < spec_.exclude.size(); ++e) {
+    const bool out = spec_.exclude[e].expression.holds(
+        [&](std::size_t i) { return value_of(exclude_[e][i], row, derived); });
+    if (out) return static_cast<int>(e);
+  }
+  return -1;
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,119 @@
+#include "campaign/expansion/scene_builder.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "campaign/spec/pointers.h"
+
+namespace faultsweep {
+
+using faultsim::Problem;
+
+nlohmann::json spelled(double si, faultsim::Dimension dimension) {
+  if (dimension == faultsim::Dimension::number) return si;
+  char digits[32];
+  const auto [end, error] = std::to_chars(digits, digits + sizeof digits, si);
+  FAULTSIM_DEMAND(error == std::errc(), si);
+  return std::string(digits, end) + " " + faultsim::si_unit(dimension);
+}
+
+SceneBuilder::SceneBuilder(const CampaignSpec& spec, const Group& group)
+    : spec_(spec), group_(group), document_{spec.scene_source, {}, spec.base.lines} {}
+
+std::vector<Change> SceneBuilder::changes(const Row& row,
+                                          const std::vector<double>& derived) const {
+  std::vector<Change> result;
+  for (std::size_t p = 0; p < row.size(); ++p) {
+    if (row[p] < 0) continue;
+    const Choice& choice = group_.parameters[p].choices[static_cast<std::size_t>(row[p])];
+    result.insert(result.end(), choice.changes.begin(), choice.changes.end());
+  }
+  for (std::size_t d = 0; d < derived.size(); ++d) {
+    const Derived& one = spec_.derived[d];
+    if (std::isnan(derived[d])) continue;
+    result.push_back({one.scene_pointer, spelled(derived[d], one.dimension)});
+  }
+  return result;
+}
+
+const faultsim::JsonDocument& SceneBuilder::document(const Row& row,
+                                                     const std::vector<double>& derived) {
+  document_.value = group_.scene;
+  for (const Change& change : changes(row, derived)) {
+    put_value(document_.value, change.pointer, change.value);
+  }
+  return document_;
+}
+
+std::optional<faultsim::Scene> SceneBuilder::scene(const Row& row,
+                                                   const std::vector<double>& derived,
+                                                   std::vector<Problem>& problems) {
+  bool ok = true;
+  for (std::size_t d = 0; d < derived.size(); ++d) {
+    if (!std::isnan(derived[d])) continue;
+    ok = false;
+    const Derived& one = spec_.derived[d];
+    problems.push_back({one.pointer, spec_.document.line_of(one.pointer),
+                        "\"" + one.text + "\" has no value where " + describe(row),
+                        "a name in it has no value in the scene, or a division is by zero"});
+  }
+  for (const Change& change : changes(row, derived)) {
+    nlohmann::json probe = group_.scene;
+    if (put_value(probe, change.pointer, change.value)) continue;
+    ok = false;
+    problems.push_back(in_spec({change.pointer, 0, "the base scene has no place " + change.pointer,
+                                "faultsim parameters lists what can be varied"},
+                               row));
+  }
+  if (!ok) return std::nullopt;
+  std::vector<Problem> found;
+  faultsim::Scene scene = faultsim::read_scene(document(row, derived), found);
+  for (const Problem& one : found) problems.push_back(in_spec(one, row));
+  if (!found.empty()) return std::nullopt;
+  return scene;
+}
+
+Problem SceneBuilder::in_spec(const Problem& problem, const Row& row) const {
+  const auto at = [&](const std::string& pointer) {
+    return Problem{pointer, spec_.document.line_of(pointer), problem.what, problem.cure};
+  };
+  for (const Derived& one : spec_.derived) {
+    if (overlap(one.scene_pointer, problem.pointer)) return at(one.pointer);
+  }
+  // The change that lies nearest: a problem of all of /friction is not that of one angle in it.
+  for (const bool only_at_or_below : {true, false}) {
+    for (std::size_t p = 0; p < row.size(); ++p) {
+      if (row[p] < 0) continue;
+      const Choice& choice = group_.parameters[p].choices[static_cast<std::size_t>(row[p])];
+      for (const Change& change : choice.changes) {
+        const bool below = problem.pointer.size() >= change.pointer.size();
+        if (problem.pointer.empty() || (only_at_or_below && !below)) continue;
+        if (overlap(change.pointer, problem.pointer)) return at(choice.pointer);
+      }
+    }
+    for (auto origin = group_.origins.rbegin(); origin != group_.origins.rend(); ++origin) {
+      const bool below = problem.pointer.size() >= origin->scene_pointer.size();
+      if (problem.pointer.empty() || (only_at_or_below && !below)) continue;
+      if (overlap(origin->scene_pointer, problem.pointer)) return at(origin->spec_pointer);
+    }
+  }
+  if (spec_.base_is_inline) return at("/base" + problem.pointer);
+  Problem result = at("/base");
+  const int line = spec_.base.line_of(problem.pointer);
+  result.what =
+      faultsim::format_problems(spec_.scene_source, {{problem.pointer, line, problem.what, ""}});
+  return result;
+}
+
+std::string SceneBuilder::describe(const Row& row) const {
+  std::string text;
+  for (std::size_t p = 0; p < row.size(); ++p) {
+    const Parameter& parameter = group_.parameters[p];
+    const Choice& choice =
+        row[p] < 0 ? parameter.base : parameter.choices[static_cast<std::size_t>(row[p])];
+    text += (text.empty() ? "" : ", ") + parameter.name + " = " + choice.text;
+  }
+  return text.empty() ? "nothing varies" : text;
+}
+
+}  // namespace faultsweep

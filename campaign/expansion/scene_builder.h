@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "campaign/expansion/rows.h"
+#include "simulator/scene/read_scene.h"
+
+namespace faultsweep {
+
+/// A number as the scene spells it: 0.83, "2e+07 Pa". Reading it back gives the same bits.
+nlohmann::json spelled(double si, faultsim::Dimension dimension);
+
+/// Turns rows of one group into scenes, and problems of a scene into problems of the spec.
+class SceneBuilder {
+ public:
+  SceneBuilder(const CampaignSpec& spec, const Group& group);
+
+  /// The changes of a row, parameters first, then derived.
+  std::vector<Change> changes(const Row& row, const std::vector<double>& derived) const;
+  /// The scene document of a row; valid until the next call.
+  const faultsim::JsonDocument& document(const Row& row, const std::vector<double>& derived);
+  /// The checked scene of a row; problems (in terms of the spec) are appended, and then it is empty.
+  std::optional<faultsim::Scene> scene(const Row& row, const std::vector<double>& derived,
+                                       std::vector<faultsim::Problem>& problems);
+  /// Puts a problem of a row's scene where the spec's author can mend it: the value in the design,
+  /// in `set`, in `derived`, or the base scene.
+  faultsim::Problem in_spec(const faultsim::Problem& problem, const Row& row) const;
+  /// "offset = 100 m, friction_angle = 20 deg".
+  std::string describe(const Row& row) const;
+
+ private:
+  const CampaignSpec& spec_;
+  const Group& group_;
+  faultsim::JsonDocument document_;
+};
+
+}  // namespace faultsweep

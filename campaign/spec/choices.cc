@@ -1,0 +1,286 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "campaign/spec/spec_reader.h"
+
+namespace faultsweep {
+namespace {
+
+using faultsim::Dimension;
+using nlohmann::json;
+
+/// "40 GPa" in its two parts.
+struct NumberAndUnit {
+  long double number = 0;
+  std::string unit;   ///< "" for a plain number.
+};
+std::optional<NumberAndUnit> split(const json& value) {
+  const std::string text = scalar_text(value);
+  char* end = nullptr;
+  const long double number = std::strtold(text.c_str(), &end);
+  if (value.is_boolean() || end == text.c_str() || !std::isfinite(number)) return std::nullopt;
+  std::string unit(end);
+  unit.erase(0, std::min(unit.find_first_not_of(' '), unit.size()));
+  return NumberAndUnit{number, unit};
+}
+
+/// Fifteen digits: what a user would have written (0.3, not 0.30000000000000004).
+std::string decimal(long double number) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.15Lg", number == 0 ? 0.0L : number);
+  return text;
+}
+
+/// The value as the scene spells it: a number, or text with a unit.
+json with_unit(long double number, const std::string& unit) {
+  if (unit.empty()) return json::parse(decimal(number));
+  return decimal(number) + " " + unit;
+}
+
+}  // namespace
+
+std::optional<Parameter> SpecReader::read_parameter(const std::string& pointer,
+                                                    const std::string& name,
+                                                    const SceneNames& names) {
+  Parameter parameter;
+  parameter.name = name;
+  parameter.pointer = pointer;
+  const std::size_t n_problems = problems_.size();
+  const json& value = at(pointer);
+  if (value.is_object() && (value.contains("scale") || value.contains("variants"))) {
+    parameter.has_own_values = true;
+    const bool taken = std::any_of(names.infos.begin(), names.infos.end(),
+                                   [&](const auto& info) { return info.alias == name; });
+    if (taken) {
+      problem(pointer, "\"" + name + "\" is the name of a scene parameter",
+              "choose another name for what has factors or variants");
+    }
+  }
+  if (value.is_array()) {
+    read_targets(names, parameter);
+    if (!parameter.targets.empty()) read_values(pointer, names, parameter);
+  } else {
+    std::vector<std::string> found;
+    for (const char* kind : {"values", "from", "scale", "variants"}) {
+      if (value.contains(kind)) found.emplace_back(kind);
+    }
+    if (found.size() != 1) {
+      const std::string what = found.empty() ? "says not how it varies"
+                                             : "has both " + found[0] + " and " + found[1];
+      problem(pointer, "\"" + name + "\" " + what,
+              "give one of values, from/to/count, scale/factors, variants");
+    } else if (found[0] == "scale") {
+      read_scale(names, parameter);
+    } else if (found[0] == "variants") {
+      read_variants(names, parameter);
+    } else {
+      read_targets(names, parameter);
+      if (parameter.targets.empty()) return std::nullopt;
+      if (found[0] == "values") {
+        read_values(pointer + "/values", names, parameter);
+      } else {
+        read_range(names, parameter);
+      }
+    }
+    for (const auto& [key, owner] : {std::pair("to", "from"), std::pair("count", "from"),
+                                     std::pair("spacing", "from"), std::pair("factors", "scale")}) {
+      if (value.contains(key) && !value.contains(owner)) {
+        problem(pointer + "/" + key, std::string(key) + " needs " + owner,
+                std::string("add ") + owner + " or remove " + key);
+      }
+    }
+    if (value.contains("pointers") && (value.contains("scale") || value.contains("variants"))) {
+      problem(pointer + "/pointers", "pointers go with values or a range", "remove pointers");
+    }
+  }
+  if (problems_.size() > n_problems) return std::nullopt;
+  return parameter;
+}
+
+void SpecReader::read_targets(const SceneNames& names, Parameter& parameter) {
+  const std::string list = parameter.pointer + "/pointers";
+  if (at(parameter.pointer).is_object() && has(list)) {
+    for (std::size_t i = 0; i < at(list).size(); ++i) {
+      const std::string place = list + "/" + std::to_string(i);
+      if (auto target = resolve(names, at(place).get<std::string>(), place)) {
+        parameter.targets.push_back(*target);
+      }
+    }
+  } else if (auto target = resolve(names, parameter.name, parameter.pointer)) {
+    parameter.targets.push_back(*target);
+  }
+  if (!parameter.targets.empty()) set_base_choice(names, parameter);
+}
+
+void SpecReader::set_base_choice(const SceneNames& names, Parameter& parameter) {
+  const std::string& target = parameter.targets.front();
+  parameter.base.pointer = "/base";
+  if (const auto* info = names.find(target)) {
+    parameter.dimension = info->dimension;
+    parameter.base.text = info->value;
+    const auto parsed = faultsim::parse_quantity(info->value, info->dimension);
+    if (parsed.ok) parameter.base.si = parsed.value;
+    return;
+  }
+  const json::json_pointer place(target);
+  if (!names.document.value.contains(place)) return;
+  const json& value = names.document.value.at(place);
+  parameter.base.text = scalar_text(value);
+  if (value.is_number()) parameter.base.si = value.get<double>();
+}
+
+std::optional<Choice> SpecReader::make_choice(const json& value, const std::string& pointer,
+                                              const SceneNames& names,
+                                              const Parameter& parameter) {
+  Choice choice;
+  choice.text = value.is_structured() ? value.dump() : scalar_text(value);
+  choice.pointer = pointer;
+  if (names.find(parameter.targets.front()) != nullptr) {
+    const auto parsed = faultsim::parse_quantity(choice.text, parameter.dimension);
+    if (!parsed.ok) {
+      problem(pointer, parsed.what, parsed.cure);
+      return std::nullopt;
+    }
+    choice.si = parsed.value;
+  } else if (value.is_number()) {
+    choice.si = value.get<double>();
+  }
+  for (const std::string& target : parameter.targets) choice.changes.push_back({target, value});
+  return choice;
+}
+
+void SpecReader::read_values(const std::string& pointer, const SceneNames& names,
+                             Parameter& parameter) {
+  const json& values = at(pointer);
+  std::vector<json> seen;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::string place = pointer + "/" + std::to_string(i);
+    const auto twice = std::find(seen.begin(), seen.end(), values[i]);
+    if (twice != seen.end()) {
+      problem(place, "the value " + values[i].dump() + " is given twice", "remove one");
+      continue;
+    }
+    seen.push_back(values[i]);
+    auto choice = make_choice(values[i], place, names, parameter);
+    if (!choice) continue;
+    if (!choice->si) parameter.is_text = true;
+    parameter.choices.push_back(std::move(*choice));
+  }
+  unify_kind(parameter);
+}
+
+/// Words and numbers mixed are words.
+void SpecReader::unify_kind(Parameter& parameter) {
+  if (!parameter.is_text) return;
+  for (Choice& choice : parameter.choices) choice.si.reset();
+  parameter.base.si.reset();
+}
+
+void SpecReader::read_range(const SceneNames& names, Parameter& parameter) {
+  const std::string& pointer = parameter.pointer;
+  if (!has(pointer + "/to") || !has(pointer + "/count")) {
+    problem(pointer, "the range of \"" + parameter.name + "\" is incomplete",
+            "give from, to and count");
+    return;
+  }
+  const auto from = make_choice(at(pointer + "/from"), pointer + "/from", names, parameter);
+  const auto to = make_choice(at(pointer + "/to"), pointer + "/to", names, parameter);
+  if (!from || !to) return;
+  const auto first = split(at(pointer + "/from"));
+  const auto last = split(at(pointer + "/to"));
+  if (!first || !last || !from->si || !to->si) {
+    problem(pointer + "/from", "a range needs two numbers", "list the values instead");
+    return;
+  }
+  if (*from->si == *to->si) {
+    problem(pointer + "/to", "the range is empty: from and to are the same", "give two values");
+    return;
+  }
+  const long double end = first->unit == last->unit
+                              ? last->number
+                              : static_cast<long double>(faultsim::from_si(
+                                    *to->si, parameter.dimension, first->unit));
+  const bool log = has(pointer + "/spacing") && at(pointer + "/spacing") == "log";
+  if (log && (first->number <= 0 || end <= 0)) {
+    problem(pointer + "/spacing", "a log range needs values above zero", "write \"linear\"");
+    return;
+  }
+  const int count = at(pointer + "/count").get<int>();
+  parameter.choices.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const long double t = static_cast<long double>(i) / (count - 1);
+    long double number = log ? first->number * std::pow(end / first->number, t)
+                             : first->number + (end - first->number) * t;
+    if (i == 0) number = first->number;
+    if (i == count - 1) number = end;
+    auto choice = make_choice(with_unit(number, first->unit), pointer, names, parameter);
+    if (!choice) return;
+    parameter.choices.push_back(std::move(*choice));
+  }
+}
+
+void SpecReader::read_scale(const SceneNames& names, Parameter& parameter) {
+  const std::string place = parameter.pointer + "/scale";
+  if (!has(parameter.pointer + "/factors")) {
+    problem(parameter.pointer, "scale needs factors", "add for example \"factors\": [0.5, 1, 2]");
+    return;
+  }
+  struct Scaled {
+    std::string pointer;
+    NumberAndUnit base;
+  };
+  std::vector<Scaled> scaled;
+  const bool many = at(place).is_array();
+  for (std::size_t i = 0; i < (many ? at(place).size() : 1); ++i) {
+    const std::string here = many ? place + "/" + std::to_string(i) : place;
+    const auto target = resolve(names, at(here).get<std::string>(), here);
+    if (!target) continue;
+    const json::json_pointer where(*target);
+    const auto* info = names.find(*target);
+    json base = names.document.value.contains(where) ? names.document.value.at(where) : json();
+    if (base.is_null() && info != nullptr) base = info->value;
+    const auto parts = base.is_primitive() && !base.is_null() ? split(base) : std::nullopt;
+    if (!parts) {
+      problem(here, *target + " has no number in the base scene to multiply", "give values instead");
+      continue;
+    }
+    scaled.push_back({*target, *parts});
+    parameter.targets.push_back(*target);
+  }
+  if (scaled.empty()) return;
+  parameter.base = {"1", 1.0, "/base", {}};
+  const json& factors = at(parameter.pointer + "/factors");
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    Choice choice{factors[i].dump(), factors[i].get<double>(),
+                  parameter.pointer + "/factors/" + std::to_string(i), {}};
+    const long double factor = std::strtold(choice.text.c_str(), nullptr);
+    for (const Scaled& one : scaled) {
+      choice.changes.push_back({one.pointer, with_unit(one.base.number * factor, one.base.unit)});
+    }
+    parameter.choices.push_back(std::move(choice));
+  }
+}
+
+void SpecReader::read_variants(const SceneNames& names, Parameter& parameter) {
+  const std::string place = parameter.pointer + "/variants";
+  parameter.is_text = true;
+  parameter.base = {"base", std::nullopt, "/base", {}};
+  for (const std::string& variant : keys(place)) {
+    Choice choice{variant, std::nullopt, place + "/" + escape_token(variant), {}};
+    for (const std::string& key : keys(choice.pointer)) {
+      const std::string here = choice.pointer + "/" + escape_token(key);
+      const auto target = resolve(names, key, here);
+      if (!target) continue;
+      choice.changes.push_back({*target, at(here)});
+      if (std::find(parameter.targets.begin(), parameter.targets.end(), *target) ==
+          parameter.targets.end()) {
+        parameter.targets.push_back(*target);
+      }
+    }
+    parameter.choices.push_back(std::move(choice));
+  }
+}
+
+}  // namespace faultsweep

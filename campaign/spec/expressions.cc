@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <set>
+
+#include "campaign/spec/metrics.h"
+#include "campaign/spec/spec_reader.h"
+
+namespace faultsweep {
+namespace {
+
+using faultsim::ParameterInfo;
+
+bool is_name(const std::string& word) {
+  return !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
+  });
+}
+
+}  // namespace
+
+/// Names of the designs' parameters first, then the aliases of every scene that a group has.
+void SpecReader::collect_identifiers() {
+  std::set<std::string> seen;
+  const auto add = [&](const std::string& name, const std::string& pointer, const Type& type) {
+    if (is_name(name) && seen.insert(name).second) {
+      spec_.identifiers.push_back({name, pointer, type});
+    }
+  };
+  for (const Group& group : spec_.groups) {
+    for (const Parameter& parameter : group.parameters) {
+      const Type type =
+          parameter.is_text ? Type{Kind::text, {}} : number_type(parameter.dimension);
+      const bool own = parameter.has_own_values || parameter.targets.empty();
+      add(parameter.name, own ? "" : parameter.targets.front(), type);
+      for (const SpecIdentifier& one : spec_.identifiers) {
+        if (one.name != parameter.name || one.type == type) continue;
+        problem(parameter.pointer,
+                "\"" + parameter.name + "\" is another kind of value in another group",
+                "give one of the two another name");
+      }
+    }
+  }
+  for (const Group& group : spec_.groups) {
+    for (const ParameterInfo& info :
+         faultsim::parameters({spec_.base.source, group.scene, spec_.base.lines})) {
+      add(info.alias, info.pointer, number_type(info.dimension));
+    }
+  }
+  add("group", "", Type{Kind::text, {}});
+}
+
+Symbols SpecReader::symbols() const {
+  Symbols result;
+  for (const SpecIdentifier& one : spec_.identifiers) result[one.name] = {"", one.type};
+  return result;
+}
+
+std::optional<Expression> SpecReader::parse(const std::string& pointer, const Symbols& known) {
+  try {
+    return Expression::parse(at(pointer).get<std::string>(), known);
+  } catch (const ExpressionError& error) {
+    for (const auto& one : error.problems()) problem(pointer, one.what, one.cure);
+  }
+  return std::nullopt;
+}
+
+void SpecReader::read_derived() {
+  if (!has("/derived")) return;
+  const SceneNames names(
+      faultsim::JsonDocument{spec_.base.source, spec_.groups.front().scene, spec_.base.lines});
+  for (const std::string& key : keys("/derived")) {
+    const std::string place = "/derived/" + escape_token(key);
+    const auto target = resolve(names, key, place);
+    auto expression = parse(place, symbols());
+    if (!target || !expression) continue;
+    const auto* info = names.find(*target);
+    if (info == nullptr) {
+      problem(place, *target + " is not a number of the scene",
+              "faultsim parameters lists what can be derived");
+      continue;
+    }
+    const Type type = expression->type();
+    if (type != number_type(info->dimension)) {
+      const std::string is = type.kind == Kind::number ? describe(type.units) : "no number";
+      problem(place, "the expression is " + is + ", but " + key + " is " +
+                         describe(units_of(info->dimension)),
+              "make the dimensions agree");
+    }
+    for (const Group& group : spec_.groups) {
+      for (const Parameter& parameter : group.parameters) {
+        for (const std::string& other : parameter.targets) {
+          if (!overlap(other, *target)) continue;
+          problem(place, "\"" + key + "\" is derived, but \"" + parameter.name + "\" varies it too",
+                  "remove one");
+        }
+      }
+    }
+    spec_.derived.push_back(
+        {key, place, *target, expression->text(), info->dimension, std::move(*expression)});
+  }
+  sort_derived();
+}
+
+/// Puts each derived parameter after those that it uses.
+void SpecReader::sort_derived() {
+  const auto pointer_of = [&](const std::string& name) {
+    for (const SpecIdentifier& one : spec_.identifiers) {
+      if (one.name == name) return one.scene_pointer;
+    }
+    return std::string();
+  };
+  std::vector<Derived> sorted;
+  std::vector<Derived> left = std::move(spec_.derived);
+  while (!left.empty()) {
+    const auto ready = std::find_if(left.begin(), left.end(), [&](const Derived& one) {
+      return std::none_of(left.begin(), left.end(), [&](const Derived& other) {
+        const auto& used = one.expression.names();
+        return std::any_of(used.begin(), used.end(), [&](const std::string& name) {
+          return pointer_of(name) == other.scene_pointer;
+        });
+      });
+    });
+    if (ready == left.end()) {
+      for (const Derived& one : left) {
+        problem(one.pointer, "\"" + one.name + "\" is derived from itself",
+                "break the circle of derived parameters");
+      }
+      break;
+    }
+    sorted.push_back(std::move(*ready));
+    left.erase(ready);
+  }
+  spec_.derived = std::move(sorted);
+}
+
+void SpecReader::read_exclusions() {
+  if (!has("/exclude")) return;
+  for (std::size_t i = 0; i < at("/exclude").size(); ++i) {
+    const std::string place = "/exclude/" + std::to_string(i);
+    auto expression = parse(place, symbols());
+    if (!expression) continue;
+    if (expression->type().kind != Kind::boolean) {
+      problem(place, "the expression is not a condition",
+              "compare something, for example offset > 100 m");
+      continue;
+    }
+    spec_.exclude.push_back({expression->text(), place, std::move(*expression)});
+  }
+}
+
+void SpecReader::read_rank_by() {
+  if (!has("/metrics/rank_by")) return;
+  Symbols metrics;
+  for (const MetricInfo& metric : metric_catalogue()) {
+    metrics[metric.name] = {
+        "", metric.is_flag ? Type{Kind::boolean, {}} : number_type(metric.dimension)};
+  }
+  if (const auto expression = parse("/metrics/rank_by", metrics)) {
+    if (expression->type().kind == Kind::text) {
+      problem("/metrics/rank_by", "the expression is text", "rank by a number");
+    }
+    spec_.rank_by = expression->text();
+  }
+}
+
+}  // namespace faultsweep

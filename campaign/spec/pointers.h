@@ -1,0 +1,15 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace faultsweep {
+
+/// Key as one token of a JSON Pointer.
+std::string escape_token(const std::string& key);
+/// True if one pointer is the other or lies below it.
+bool overlap(const std::string& a, const std::string& b);
+/// A JSON scalar as the user reads it: text without quotes, shortest number.
+std::string scalar_text(const nlohmann::json& value);
+
+}  // namespace faultsweep

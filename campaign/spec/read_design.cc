@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <map>
+
+#include "campaign/spec/spec_reader.h"
+
+namespace faultsweep {
+
+void SpecReader::read_designs(const std::string& pointer, const std::string& prefix,
+                              const json& scene, const std::vector<Origin>& origins) {
+  const auto kind = at(pointer + "/kind").get<std::string>();
+  if (kind == "groups") {
+    read_groups(pointer, prefix, scene, origins);
+    return;
+  }
+  Group group;
+  group.name = prefix;
+  group.pointer = pointer;
+  group.scene = scene;
+  group.origins = origins;
+  const SceneNames names(faultsim::JsonDocument{spec_.base.source, scene, spec_.base.lines});
+  if (kind == "list") {
+    group.kind = DesignKind::list;
+    read_list(pointer + "/cases", names, group);
+  } else {
+    group.kind = kind == "grid"  ? DesignKind::grid
+                 : kind == "zip" ? DesignKind::zip
+                                 : DesignKind::one_at_a_time;
+    for (const std::string& name : keys(pointer + "/parameters")) {
+      const std::string place = pointer + "/parameters/" + escape_token(name);
+      if (auto parameter = read_parameter(place, name, names)) {
+        group.parameters.push_back(std::move(*parameter));
+      }
+    }
+    if (group.kind == DesignKind::zip) check_zip(group);
+  }
+  check_targets(group);
+  spec_.groups.push_back(std::move(group));
+}
+
+void SpecReader::read_groups(const std::string& pointer, const std::string& prefix,
+                             const json& scene, const std::vector<Origin>& origins) {
+  std::map<std::string, std::string> seen;
+  for (std::size_t i = 0; i < at(pointer + "/groups").size(); ++i) {
+    const std::string place = pointer + "/groups/" + std::to_string(i);
+    const auto name = at(place + "/name").get<std::string>();
+    const auto [other, is_new] = seen.emplace(name, place);
+    if (!is_new) {
+      problem(place + "/name", "the name \"" + name + "\" is taken by " + other->second,
+              "give each group a name of its own");
+    }
+    json own_scene = scene;
+    std::vector<Origin> own_origins = origins;
+    if (has(place + "/set")) apply_set(place + "/set", own_scene, own_origins);
+    read_designs(place + "/design", prefix.empty() ? name : prefix + "/" + name, own_scene,
+                 own_origins);
+  }
+}
+
+void SpecReader::read_list(const std::string& pointer, const SceneNames& names, Group& group) {
+  std::map<std::string, int> columns;  // parameter -> column; -1 = unknown, reported
+  std::vector<std::map<std::string, int>> known;  // per column: JSON text of a value -> choice
+  const std::size_t n_cases = at(pointer).size();
+  for (std::size_t i = 0; i < n_cases; ++i) {
+    const std::string row_pointer = pointer + "/" + std::to_string(i);
+    std::vector<int> row(group.parameters.size(), -1);
+    for (const std::string& name : keys(row_pointer)) {
+      const std::string place = row_pointer + "/" + escape_token(name);
+      auto column = columns.find(name);
+      if (column == columns.end()) {
+        const auto target = resolve(names, name, place);
+        column = columns.emplace(name, target ? static_cast<int>(group.parameters.size()) : -1).first;
+        if (!target) continue;
+        Parameter parameter;
+        parameter.name = name;
+        parameter.pointer = place;
+        parameter.targets = {*target};
+        set_base_choice(names, parameter);
+        group.parameters.push_back(std::move(parameter));
+        known.emplace_back();
+        row.push_back(-1);
+      }
+      if (column->second < 0) continue;
+      const auto index = static_cast<std::size_t>(column->second);
+      Parameter& parameter = group.parameters[index];
+      const json& value = at(place);
+      auto choice = known[index].find(value.dump());
+      if (choice == known[index].end()) {
+        auto made = make_choice(value, place, names, parameter);
+        if (!made) continue;
+        if (!made->si) parameter.is_text = true;
+        choice = known[index].emplace(value.dump(), static_cast<int>(parameter.choices.size())).first;
+        parameter.choices.push_back(std::move(*made));
+      }
+      row[index] = choice->second;
+    }
+    group.rows.push_back(std::move(row));
+  }
+  for (auto& row : group.rows) row.resize(group.parameters.size(), -1);
+  for (Parameter& parameter : group.parameters) unify_kind(parameter);
+}
+
+void SpecReader::check_targets(const Group& group) {
+  for (std::size_t i = 0; i < group.parameters.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      for (const std::string& mine : group.parameters[i].targets) {
+        for (const std::string& other : group.parameters[j].targets) {
+          if (!overlap(mine, other)) continue;
+          problem(group.parameters[i].pointer,
+                  "\"" + group.parameters[i].name + "\" and \"" + group.parameters[j].name +
+                      "\" both change " + (mine.size() < other.size() ? other : mine),
+                  "vary it with one of them");
+        }
+      }
+    }
+  }
+}
+
+void SpecReader::check_zip(const Group& group) {
+  for (std::size_t i = 1; i < group.parameters.size(); ++i) {
+    const Parameter& first = group.parameters.front();
+    const Parameter& other = group.parameters[i];
+    if (other.choices.size() == first.choices.size()) continue;
+    problem(other.pointer,
+            "\"" + other.name + "\" has " + std::to_string(other.choices.size()) + " values, \"" +
+                first.name + "\" has " + std::to_string(first.choices.size()),
+            "a zip needs as many values of each parameter");
+  }
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,166 @@
+#include "campaign/spec/spec.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <sstream>
+
+#include "campaign/spec/spec_reader.h"
+#include "campaign_schema.h"
+
+namespace faultsweep {
+namespace {
+
+using nlohmann::json;
+
+/// "~1" and "~0" back to "/" and "~".
+std::string unescape(const std::string& token) {
+  std::string result;
+  for (std::size_t i = 0; i < token.size(); ++i) {
+    if (token[i] != '~' || i + 1 == token.size()) {
+      result += token[i];
+      continue;
+    }
+    result += token[++i] == '1' ? '/' : '~';
+  }
+  return result;
+}
+
+const char* kind_name(DesignKind kind) {
+  switch (kind) {
+    case DesignKind::grid: return "grid";
+    case DesignKind::list: return "list";
+    case DesignKind::zip: return "zip";
+    case DesignKind::one_at_a_time: return "one-at-a-time";
+  }
+  faultsim::throw_internal("known design", "", __FILE__, __LINE__);
+}
+
+json choice_to_json(const Choice& choice) {
+  json changes = json::object();
+  for (const Change& change : choice.changes) changes[change.pointer] = change.value;
+  json result = {{"text", choice.text}, {"changes", changes}};
+  if (choice.si) result["si"] = *choice.si;
+  return result;
+}
+
+json group_to_json(const Group& group) {
+  json parameters = json::array();
+  for (const Parameter& parameter : group.parameters) {
+    json choices = json::array();
+    for (const Choice& choice : parameter.choices) choices.push_back(choice_to_json(choice));
+    parameters.push_back({{"name", parameter.name},
+                          {"unit", faultsim::si_unit(parameter.dimension)},
+                          {"base", parameter.base.text},
+                          {"choices", choices}});
+  }
+  json result = {{"name", group.name},
+                 {"kind", kind_name(group.kind)},
+                 {"scene", group.scene},
+                 {"parameters", parameters}};
+  if (group.kind == DesignKind::list) result["rows"] = group.rows;
+  return result;
+}
+
+json policy_to_json(const Policy& policy) {
+  static constexpr const char* kActions[] = {"continue", "abort", "retry"};
+  json result = {{"on_failure", kActions[static_cast<int>(policy.on_failure)]},
+                 {"retries", policy.retries}};
+  if (policy.time_limit) result["time_limit_s"] = *policy.time_limit;
+  if (policy.memory_limit) result["memory_limit_bytes"] = *policy.memory_limit;
+  return result;
+}
+
+}  // namespace
+
+std::string CampaignSpec::resolved() const {
+  static constexpr const char* kKeep[] = {"none", "stages", "all"};
+  json result = {{"format", 1},
+                 {"name", name},
+                 {"title", title},
+                 {"policy", policy_to_json(policy)},
+                 {"rank_by", rank_by},
+                 {"keep_fields", kKeep[static_cast<int>(keep_fields)]},
+                 {"exclude", json::array()},
+                 {"derived", json::array()},
+                 {"groups", json::array()}};
+  for (const Exclusion& one : exclude) result["exclude"].push_back(one.text);
+  for (const Derived& one : derived) {
+    result["derived"].push_back({{"pointer", one.scene_pointer}, {"expression", one.text}});
+  }
+  for (const Group& group : groups) result["groups"].push_back(group_to_json(group));
+  return result.dump(1);
+}
+
+CampaignSpec read_campaign(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  // A directory opens but does not read, so both are asked.
+  if (!file || text.fail()) {
+    throw faultsim::InputError(path, {{"", 0, "the file cannot be read",
+                                       "give the name of a campaign file; faultsweep init writes "
+                                       "a first one"}});
+  }
+  return parse_campaign(text.str(), path);
+}
+
+CampaignSpec parse_campaign(const std::string& text, const std::string& source) {
+  return SpecReader(text, source).read();
+}
+
+const nlohmann::json& campaign_schema() {
+  static const json schema = json::parse(faultsim::embedded::campaign_schema);
+  return schema;
+}
+
+bool put_value(nlohmann::json& document, const std::string& pointer, const nlohmann::json& value) {
+  json* place = &document;
+  for (std::size_t begin = 1; begin <= pointer.size();) {
+    const std::size_t end = std::min(pointer.find('/', begin), pointer.size());
+    const std::string key = unescape(pointer.substr(begin, end - begin));
+    begin = end + 1;
+    if (place->is_object()) {
+      place = &(*place)[key];
+      if (place->is_null() && begin <= pointer.size()) *place = json::object();
+    } else if (place->is_array()) {
+      std::size_t index = 0;
+      const auto [rest, error] = std::from_chars(key.data(), key.data() + key.size(), index);
+      if (error != std::errc() || rest != key.data() + key.size() || index >= place->size()) {
+        return false;
+      }
+      place = &(*place)[index];
+    } else {
+      return false;
+    }
+  }
+  *place = value;
+  return true;
+}
+
+std::string escape_token(const std::string& key) {
+  std::string result;
+  for (const char c : key) {
+    if (c == '~') {
+      result += "~0";
+    } else if (c == '/') {
+      result += "~1";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+bool overlap(const std::string& a, const std::string& b) {
+  const std::string& inner = a.size() < b.size() ? b : a;
+  const std::string& outer = a.size() < b.size() ? a : b;
+  return inner.compare(0, outer.size(), outer) == 0 &&
+         (inner.size() == outer.size() || inner[outer.size()] == '/');
+}
+
+std::string scalar_text(const nlohmann::json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+}  // namespace faultsweep

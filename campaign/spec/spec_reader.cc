@@ -1,0 +1,224 @@
+#include "campaign/spec/spec_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <utility>
+
+namespace faultsweep {
+
+using faultsim::Dimension;
+using faultsim::JsonDocument;
+using faultsim::Problem;
+
+SceneNames::SceneNames(JsonDocument scene) : document(std::move(scene)) {
+  infos = faultsim::parameters(document);
+}
+
+const faultsim::ParameterInfo* SceneNames::find(const std::string& scene_pointer) const {
+  const auto found = std::find_if(infos.begin(), infos.end(), [&](const auto& info) {
+    return info.pointer == scene_pointer;
+  });
+  return found == infos.end() ? nullptr : &*found;
+}
+
+SpecReader::SpecReader(const std::string& text, const std::string& source) {
+  spec_.source = source;
+  spec_.given = text;
+  spec_.document = faultsim::parse_json(text, source);
+  ordered_ = nlohmann::ordered_json::parse(text);
+}
+
+CampaignSpec SpecReader::read() {
+  check_schema_and_throw();
+  read_name();
+  read_policy();
+  read_base();
+  if (spec_.base.value.is_object()) {
+    json scene = spec_.base.value;
+    std::vector<Origin> origins;
+    if (has("/set")) apply_set("/set", scene, origins);
+    read_designs("/design", "", scene, origins);
+    collect_identifiers();
+    read_derived();
+    read_exclusions();
+  }
+  read_rank_by();
+  if (!problems_.empty()) throw faultsim::InputError(spec_.source, problems_);
+  return std::move(spec_);
+}
+
+/// The rest of the reader relies on the shape that the schema promises.
+void SpecReader::check_schema_and_throw() {
+  const auto found = faultsim::check_schema(spec_.document, campaign_schema());
+  if (!found.empty()) throw faultsim::InputError(spec_.source, found);
+}
+
+void SpecReader::problem(const std::string& pointer, const std::string& what,
+                         const std::string& cure) {
+  const bool known =
+      std::any_of(problems_.begin(), problems_.end(), [&](const Problem& other) {
+        return other.pointer == pointer && other.what == what;
+      });
+  if (!known) problems_.push_back({pointer, spec_.document.line_of(pointer), what, cure});
+}
+
+const nlohmann::json& SpecReader::at(const std::string& pointer) const {
+  return spec_.document.value.at(json::json_pointer(pointer));
+}
+
+bool SpecReader::has(const std::string& pointer) const {
+  return spec_.document.value.contains(json::json_pointer(pointer));
+}
+
+std::vector<std::string> SpecReader::keys(const std::string& pointer) const {
+  std::vector<std::string> result;
+  for (const auto& [key, value] :
+       ordered_.at(nlohmann::ordered_json::json_pointer(pointer)).items()) {
+    if (key != "comment") result.push_back(key);
+  }
+  return result;
+}
+
+void SpecReader::read_name() {
+  spec_.name = at("/name").get<std::string>();
+  const bool plain = std::all_of(spec_.name.begin(), spec_.name.end(), [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '_';
+  });
+  if (!plain || spec_.name.front() == '-' || spec_.name.front() == '.') {
+    problem("/name", "\"" + spec_.name + "\" is no name for a campaign",
+            "use letters, digits, dots, dashes and underscores, beginning with a letter or digit");
+  }
+  if (has("/title")) spec_.title = at("/title").get<std::string>();
+  if (has("/keep_fields")) {
+    const auto keep = at("/keep_fields").get<std::string>();
+    spec_.keep_fields = keep == "all"      ? KeepFields::all
+                        : keep == "stages" ? KeepFields::stages
+                                           : KeepFields::none;
+  }
+}
+
+void SpecReader::read_base() {
+  const json& base = at("/base");
+  if (base.is_object()) {
+    spec_.base_is_inline = true;
+    spec_.scene_source = spec_.source;
+    spec_.base.source = spec_.source;
+    spec_.base.value = base;
+    for (const auto& [pointer, line] : spec_.document.lines) {
+      if (overlap("/base", pointer) && pointer.size() >= 5) {
+        spec_.base.lines[pointer.substr(5)] = line;
+      }
+    }
+    return;
+  }
+  const std::filesystem::path file =
+      std::filesystem::path(spec_.source).parent_path() / base.get<std::string>();
+  spec_.scene_source = file.string();
+  try {
+    spec_.base = faultsim::read_json_file(spec_.scene_source);
+    if (!spec_.base.value.is_object()) problem("/base", "the base scene is no object", "");
+  } catch (const faultsim::InputError& error) {
+    for (const Problem& one : error.problems()) {
+      problem("/base", faultsim::format_problems(error.source(), {{one.pointer, one.line, one.what, ""}}),
+              one.cure);
+    }
+  }
+}
+
+namespace {
+
+/// Bytes of "8 GB", "512 MiB"; nothing when it is no such thing.
+std::optional<double> parse_bytes(const std::string& text) {
+  static constexpr std::array<std::pair<const char*, double>, 9> kUnits = {{
+      {"B", 1.0},
+      {"kB", 1e3},
+      {"MB", 1e6},
+      {"GB", 1e9},
+      {"TB", 1e12},
+      {"KiB", 1024.0},
+      {"MiB", 1024.0 * 1024},
+      {"GiB", 1024.0 * 1024 * 1024},
+      {"TiB", 1024.0 * 1024 * 1024 * 1024},
+  }};
+  const std::size_t blank = text.find(' ');
+  if (blank == std::string::npos) return std::nullopt;
+  const auto number = faultsim::parse_quantity(text.substr(0, blank), Dimension::number);
+  const std::string unit = text.substr(text.find_last_of(' ') + 1);
+  for (const auto& [name, factor] : kUnits) {
+    if (unit == name && number.ok && number.value > 0) return number.value * factor;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void SpecReader::read_policy() {
+  if (!has("/policy")) return;
+  Policy& policy = spec_.policy;
+  if (has("/policy/on_failure")) {
+    const auto action = at("/policy/on_failure").get<std::string>();
+    policy.on_failure = action == "abort"   ? FailureAction::abort
+                        : action == "retry" ? FailureAction::retry
+                                            : FailureAction::proceed;
+  }
+  if (has("/policy/retries")) {
+    policy.retries = at("/policy/retries").get<int>();
+    if (policy.on_failure != FailureAction::retry) {
+      problem("/policy/retries", "retries without on_failure retry have no effect",
+              "write \"on_failure\": \"retry\" or remove retries");
+    }
+  }
+  if (has("/policy/time_limit")) {
+    const auto text = at("/policy/time_limit").get<std::string>();
+    const auto parsed = faultsim::parse_quantity(text, Dimension::time);
+    if (!parsed.ok) {
+      problem("/policy/time_limit", parsed.what, "write for example \"10 min\"");
+    } else if (parsed.value <= 0) {
+      problem("/policy/time_limit", "\"" + text + "\" is not above zero",
+              "write for example \"10 min\"");
+    }
+    policy.time_limit = parsed.value;
+  }
+  if (has("/policy/memory_limit")) {
+    const auto text = at("/policy/memory_limit").get<std::string>();
+    policy.memory_limit = parse_bytes(text);
+    if (!policy.memory_limit) {
+      problem("/policy/memory_limit", "\"" + text + "\" is not an amount of memory",
+              "write for example \"8 GB\"");
+    }
+  }
+}
+
+void SpecReader::apply_set(const std::string& pointer, json& scene, std::vector<Origin>& origins) {
+  for (const std::string& key : keys(pointer)) {
+    const std::string place = pointer + "/" + escape_token(key);
+    // Each key is looked up in the scene as the keys before it left it: "/friction" may come first.
+    const JsonDocument document{spec_.base.source, scene, {}};
+    std::string target = key;
+    if (key.empty() || key[0] != '/') {
+      const auto resolved = resolve(SceneNames(document), key, place);
+      if (!resolved) continue;
+      target = *resolved;
+    }
+    if (!put_value(scene, target, at(place))) {
+      problem(place, "the base scene has no place " + target,
+              "faultsim parameters lists what can be set");
+      continue;
+    }
+    origins.push_back({target, place});
+  }
+}
+
+std::optional<std::string> SpecReader::resolve(const SceneNames& names, const std::string& alias,
+                                               const std::string& spec_pointer) {
+  try {
+    return faultsim::resolve_parameter(names.document, alias);
+  } catch (const faultsim::InputError& error) {
+    for (const Problem& one : error.problems()) problem(spec_pointer, one.what, one.cure);
+  }
+  return std::nullopt;
+}
+
+}  // namespace faultsweep

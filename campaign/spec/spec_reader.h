@@ -1,0 +1,87 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "campaign/spec/pointers.h"
+#include "campaign/spec/spec.h"
+#include "simulator/scene/read_scene.h"
+
+/// Inside of the module: the steps from a spec's document to a CampaignSpec. Problems are collected,
+/// each once; what depends on a wrong value is left out.
+namespace faultsweep {
+
+/// A group's scene while its design is read: what its parameters are called and worth.
+struct SceneNames {
+  faultsim::JsonDocument document;             ///< the group's scene.
+  std::vector<faultsim::ParameterInfo> infos;  ///< of faultsim::parameters.
+
+  explicit SceneNames(faultsim::JsonDocument scene);
+  const faultsim::ParameterInfo* find(const std::string& scene_pointer) const;
+};
+
+class SpecReader {
+ public:
+  SpecReader(const std::string& text, const std::string& source);
+  /// Throws InputError with all problems.
+  CampaignSpec read();
+
+ private:
+  using json = nlohmann::json;
+
+  // spec_reader.cc: top level.
+  void check_schema_and_throw();
+  void read_name();
+  void read_base();
+  void read_policy();
+  void problem(const std::string& pointer, const std::string& what, const std::string& cure);
+  const json& at(const std::string& pointer) const;
+  bool has(const std::string& pointer) const;
+  /// Keys of an object in document order, without "comment".
+  std::vector<std::string> keys(const std::string& pointer) const;
+  /// Applies the `set` object at pointer to a scene and notes where each value came from.
+  void apply_set(const std::string& pointer, json& scene, std::vector<Origin>& origins);
+  /// Pointer of an alias in the scene; nothing (and a problem) when unknown.
+  std::optional<std::string> resolve(const SceneNames& names, const std::string& alias,
+                                     const std::string& spec_pointer);
+
+  // read_design.cc
+  void read_designs(const std::string& pointer, const std::string& prefix, const json& scene,
+                    const std::vector<Origin>& origins);
+  void read_groups(const std::string& pointer, const std::string& prefix, const json& scene,
+                   const std::vector<Origin>& origins);
+  void read_list(const std::string& pointer, const SceneNames& names, Group& group);
+  void check_targets(const Group& group);
+  void check_zip(const Group& group);
+
+  // choices.cc
+  std::optional<Parameter> read_parameter(const std::string& pointer, const std::string& name,
+                                          const SceneNames& names);
+  void read_targets(const SceneNames& names, Parameter& parameter);
+  void read_values(const std::string& pointer, const SceneNames& names, Parameter& parameter);
+  void read_range(const SceneNames& names, Parameter& parameter);
+  void read_scale(const SceneNames& names, Parameter& parameter);
+  void read_variants(const SceneNames& names, Parameter& parameter);
+  /// One value for all targets; nothing (and a problem) when it is not what the scene wants.
+  std::optional<Choice> make_choice(const json& value, const std::string& pointer,
+                                    const SceneNames& names, const Parameter& parameter);
+  void set_base_choice(const SceneNames& names, Parameter& parameter);
+  static void unify_kind(Parameter& parameter);
+
+  // expressions.cc
+  void collect_identifiers();
+  void read_derived();
+  void sort_derived();
+  void read_exclusions();
+  void read_rank_by();
+  Symbols symbols() const;
+  std::optional<Expression> parse(const std::string& pointer, const Symbols& symbols);
+
+  CampaignSpec spec_;
+  nlohmann::ordered_json ordered_;   ///< the document with its keys in order.
+  std::vector<faultsim::Problem> problems_;
+};
+
+}  // namespace faultsweep
