@@ -13,13 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kAngleTolerance = 1e-9;  // sines below this are rounding of degrees to radians
-constexpr double kShearMargin = 2;        // cells beyond a patch that are still sheared with it
+constexpr double kShearMargin = 2;  // cells beyond a patch that are still sheared with it
 constexpr std::array<const char*, 3> kAxisName = {"x", "y", "z"};
-
-double component(const Vector3d& v, size_t axis) { return v[static_cast<Eigen::Index>(axis)]; }
-
-std::string patch_pointer(size_t patch) { return concat("/faults/", patch); }
 
 void check_sizes(const BoxMeshSpec& spec, std::vector<Problem>& problems) {
   for (size_t d = 0; d < 3; ++d)
@@ -34,10 +29,11 @@ void check_sizes(const BoxMeshSpec& spec, std::vector<Problem>& problems) {
   positive(spec.sizes.dip, "/mesh/dip");
   positive(spec.sizes.normal, "/mesh/normal");
   if (!(spec.sizes.growth >= 1))
-    problems.push_back({"/mesh/growth", 0, concat(spec.sizes.growth, " is below 1"), "use 1.3, say"});
+    problems.push_back(
+        {"/mesh/growth", 0, concat(spec.sizes.growth, " is below 1"), "use 1.3, say"});
   if (!problems.empty()) return;
-  const double least = std::min({spec.sizes.dip, spec.sizes.normal,
-                                 spec.plane_strain ? spec.sizes.dip : spec.sizes.strike});
+  const double least = std::min(
+      {spec.sizes.dip, spec.sizes.normal, spec.plane_strain ? spec.sizes.dip : spec.sizes.strike});
   const double most = 1e6;  // lines per axis
   for (size_t d = 0; d < 3; ++d)
     if ((spec.to[d] - spec.from[d]) / least > most && !(spec.plane_strain && d == 1))
@@ -46,16 +42,17 @@ void check_sizes(const BoxMeshSpec& spec, std::vector<Problem>& problems) {
 
 void check_layers(const BoxMeshSpec& spec, std::vector<Problem>& problems) {
   const std::vector<double>& tops = spec.layer_tops_z;
-  FAULTSIM_DEMAND(!spec.layer_materials.empty() &&
-                      (tops.empty() || tops.size() == spec.layer_materials.size()),
-                  tops.size(), " ", spec.layer_materials.size());
+  FAULTSIM_DEMAND(
+      !spec.layer_materials.empty() && (tops.empty() || tops.size() == spec.layer_materials.size()),
+      tops.size(), " ", spec.layer_materials.size());
   if (!tops.empty() && tops[0] < spec.to[2] - edge_tolerance(spec))
-    problems.push_back({"/geometry/layers/0/top_depth", 0, "the first layer starts below the top of the box",
+    problems.push_back({"/geometry/layers/0/top_depth", 0,
+                        "the first layer starts below the top of the box",
                         concat("use a depth of ", -spec.to[2], " m")});
   for (size_t i = 1; i < tops.size(); ++i)
     if (!(tops[i] < tops[i - 1]))
-      problems.push_back({concat("/geometry/layers/", i, "/top_depth"), 0, "is not below the layer above",
-                          "order layers by depth"});
+      problems.push_back({concat("/geometry/layers/", i, "/top_depth"), 0,
+                          "is not below the layer above", "order layers by depth"});
 }
 
 void check_regions(const BoxMeshSpec& spec, std::vector<Problem>& problems) {
@@ -77,70 +74,6 @@ void check_regions(const BoxMeshSpec& spec, std::vector<Problem>& problems) {
                             concat("overlaps region ", j, " (discs by their bounding boxes)"),
                             "a cell has one pressure: make regions disjoint"});
   }
-}
-
-/// (sin, cos) with rounding of multiples of 90 degrees taken off.
-std::array<double, 2> clean_sin_cos(double angle) {
-  std::array<double, 2> result = {std::sin(angle), std::cos(angle)};
-  for (double& value : result)
-    if (std::abs(value) < kAngleTolerance) value = 0;
-  return result;
-}
-
-PatchFrame patch_frame(const BoxMeshSpec::Patch& patch) {
-  PatchFrame frame;
-  const auto [sin_strike, cos_strike] = clean_sin_cos(patch.strike);
-  const auto [sin_dip, cos_dip] = clean_sin_cos(patch.dip_from_vertical);
-  frame.center = Vector3d(patch.center[0], patch.center[1], patch.center[2]);
-  frame.along = Vector3d(sin_strike, cos_strike, 0).normalized();
-  frame.down = Vector3d(sin_dip * cos_strike, -sin_dip * sin_strike, -cos_dip).normalized();
-  frame.normal = frame.down.cross(frame.along);  // its sign is set with the grid axis
-  frame.half_length = 0.5 * patch.length;
-  frame.half_width = 0.5 * patch.width;
-  frame.ellipse = patch.ellipse;
-  frame.horizontal = cos_dip == 0;
-  return frame;
-}
-
-/// The plus side is the one of larger grid coordinate; the local frame follows from it.
-void orient(PatchFrame& frame, size_t axis) {
-  if (component(frame.normal, axis) < 0) frame.normal = -frame.normal;
-  frame.dip = frame.down;
-  frame.strike = frame.dip.cross(frame.normal);
-  if (!frame.horizontal) return;
-  frame.strike = frame.along;
-  frame.dip = frame.normal.cross(frame.along);
-}
-
-std::vector<PatchFrame> patch_frames(const BoxMeshSpec& spec, std::vector<Problem>& problems) {
-  const double right_angle = 0.5 * M_PI + kAngleTolerance;
-  std::vector<PatchFrame> frames;
-  for (size_t i = 0; i < spec.patches.size(); ++i) {
-    const BoxMeshSpec::Patch& patch = spec.patches[i];
-    if (!(patch.length > 0) || !(patch.width > 0))
-      problems.push_back({patch_pointer(i), 0, "has no area", "give a positive length and width"});
-    if (!(std::abs(patch.dip_from_vertical) <= right_angle))
-      problems.push_back({patch_pointer(i) + "/dip_from_vertical", 0, "is beyond ±90 deg",
-                          "reverse the strike instead"});
-    frames.push_back(patch_frame(patch));
-    const PatchFrame& frame = frames.back();
-    if (spec.plane_strain &&
-        (std::abs(frame.normal.y()) > kAngleTolerance || std::abs(frame.along.x()) > kAngleTolerance))
-      problems.push_back({patch_pointer(i) + "/strike", 0, "is not along y, as plane strain needs",
-                          "use a strike of 0 or 180 deg"});
-  }
-  return frames;
-}
-
-/// The first axis on which every plane is within 45 degrees of the grid; 3 = none.
-size_t common_axis(const std::vector<PatchFrame>& frames) {
-  for (size_t axis = 0; axis < 3; ++axis)
-    if (std::all_of(frames.begin(), frames.end(), [&](const PatchFrame& frame) {
-          return std::abs(component(frame.normal, axis)) >=
-                 frame.normal.cwiseAbs().maxCoeff() * (1 - kAngleTolerance);
-        }))
-      return axis;
-  return 3;
 }
 
 /// Works out one layout step by step; each step needs those before it.
@@ -171,23 +104,26 @@ class LayoutBuilder {
   void choose_axes() {
     const size_t axis = common_axis(layout_.frames);
     if (axis == 3) {
-      problems_.push_back({"/faults", 0,
-                           "no grid axis is within 45 deg of the normals of all patches",
-                           "make the patches more parallel; for a single fault turn the far-field stress"});
+      problems_.push_back(
+          {"/faults", 0, "no grid axis is within 45 deg of the normals of all patches",
+           "make the patches more parallel; for a single fault turn the far-field stress"});
       return;
     }
     layout_.axis = axis;
     const PatchFrame& first = layout_.frames[0];
-    const bool strike_is_x = std::abs(first.along.x()) > std::abs(first.along.y()) + kAngleTolerance;
+    const bool strike_is_x =
+        std::abs(first.along.x()) > std::abs(first.along.y()) + kAngleTolerance;
     layout_.column_axis = axis == 0 ? 1 : axis == 1 ? 0 : strike_is_x ? 0 : 1;
     layout_.row_axis = 3 - axis - layout_.column_axis;
     for (PatchFrame& frame : layout_.frames) {
       orient(frame, axis);
-      const bool bent = std::abs(component(frame.normal, axis)) < 1 - kAngleTolerance * kAngleTolerance;
+      const bool bent =
+          std::abs(component(frame.normal, axis)) < 1 - kAngleTolerance * kAngleTolerance;
       if (axis == 2 && bent && spec_.layer_tops_z.size() > 1)
-        problems_.push_back({patch_pointer(static_cast<size_t>(&frame - layout_.frames.data())), 0,
-                             "is flatter than 45 deg but not horizontal, which would bend the layers",
-                             "use one material, a steeper or a horizontal patch"});
+        problems_.push_back(
+            {patch_pointer(static_cast<size_t>(&frame - layout_.frames.data())), 0,
+             "is flatter than 45 deg but not horizontal, which would bend the layers",
+             "use one material, a steeper or a horizontal patch"});
     }
   }
 
@@ -223,15 +159,16 @@ class LayoutBuilder {
                           frame.center.y() - 0.5 * half.y() < spec_.from[1] &&
                           frame.center.y() + 0.5 * half.y() > spec_.to[1];
       if (skew > kAngleTolerance && !frame.ellipse && !covers)
-        problems_.push_back({patch_pointer(i) + "/strike", 0,
-                             "a flat rectangle that is not along x or y does not fit the grid",
-                             "use a multiple of 90 deg and turn the far-field stress, or an ellipse"});
+        problems_.push_back(
+            {patch_pointer(i) + "/strike", 0,
+             "a flat rectangle that is not along x or y does not fit the grid",
+             "use a multiple of 90 deg and turn the far-field stress, or an ellipse"});
     }
   }
 
   double column_slope(const PatchFrame& frame) const {
-    const double slope = component(frame.down, layout_.column_axis) /
-                         component(frame.down, layout_.row_axis);
+    const double slope =
+        component(frame.down, layout_.column_axis) / component(frame.down, layout_.row_axis);
     return std::abs(slope) > kAngleTolerance ? slope : 0;
   }
 
@@ -243,10 +180,11 @@ class LayoutBuilder {
       if (!has_ends(frame)) continue;
       if (first == nullptr) first = &frame;
       if (std::abs(column_slope(frame) - column_slope(*first)) > kAngleTolerance)
-        problems_.push_back({patch_pointer(i), 0,
-                             "its ends and those of another rectangle are not parallel on the grid",
-                             "give rectangles the same strike and dip, let them pass beyond the box, or "
-                             "use ellipses"});
+        problems_.push_back(
+            {patch_pointer(i), 0,
+             "its ends and those of another rectangle are not parallel on the grid",
+             "give rectangles the same strike and dip, let them pass beyond the box, or "
+             "use ellipses"});
     }
     if (first == nullptr || column_slope(*first) == 0 || !problems_.empty()) return;
     make_column_shear(*first);
@@ -275,13 +213,13 @@ class LayoutBuilder {
     if (first_end > last_end) std::swap(first_end, last_end);
     first_end = std::max(first_end, spec_.from[b]);
     last_end = std::min(last_end, spec_.to[b]);
-    const double most = std::abs(shear.slope) *
-                        std::max(std::abs(shear.high - shear.pivot), std::abs(shear.low - shear.pivot));
+    const double most = std::abs(shear.slope) * std::max(std::abs(shear.high - shear.pivot),
+                                                         std::abs(shear.low - shear.pivot));
     if (most > (1 - Shear::kLeastGap) * std::min(first_end - spec_.from[b], spec_.to[b] - last_end))
-      problems_.push_back({"/faults", 0,
-                           concat("the ends of the patches come too near the ", kAxisName[b],
-                                  " sides of the box"),
-                           "enlarge the box or let the patches pass beyond it"});
+      problems_.push_back(
+          {"/faults", 0,
+           concat("the ends of the patches come too near the ", kAxisName[b], " sides of the box"),
+           "enlarge the box or let the patches pass beyond it"});
     shear.knot = {spec_.from[b], first_end, last_end, spec_.to[b]};
     shear.weight = {0, 1, 1, 0};
     layout_.column_shear = shear;
@@ -292,7 +230,8 @@ class LayoutBuilder {
     for (size_t i = 0; i < layout_.frames.size(); ++i) {
       const PatchFrame& frame = layout_.frames[i];
       double middle_b = component(frame.center, b), half_b = component(frame.half_extent(), b);
-      const double middle_c = component(frame.center, c), half_c = component(frame.half_extent(), c);
+      const double middle_c = component(frame.center, c),
+                   half_c = component(frame.half_extent(), c);
       if (layout_.column_shear && !frame.ellipse) {
         middle_b = layout_.column_shear->reference(middle_b, middle_c);
         half_b = frame.half_length * std::abs(component(frame.along, b));
@@ -301,7 +240,8 @@ class LayoutBuilder {
         middle_b = 0.5 * (spec_.from[b] + spec_.to[b]);
         half_b = spec_.to[b] - spec_.from[b];
       }
-      extent_.push_back({{middle_b - half_b, middle_b + half_b}, {middle_c - half_c, middle_c + half_c}});
+      extent_.push_back(
+          {{middle_b - half_b, middle_b + half_b}, {middle_c - half_c, middle_c + half_c}});
       const Extent& e = extent_.back();
       if (e.column[0] >= spec_.to[b] || e.column[1] <= spec_.from[b] || e.row[0] >= spec_.to[c] ||
           e.row[1] <= spec_.from[c])
@@ -357,8 +297,8 @@ class LayoutBuilder {
       }
       check_overlap(i);
       if (!(plane.ref > spec_.from[a] + tolerance_) || !(plane.ref < spec_.to[a] - tolerance_))
-        problems_.push_back({patch_pointer(i), 0, concat("its plane meets the ", kAxisName[a],
-                                                         " side of the box"),
+        problems_.push_back({patch_pointer(i), 0,
+                             concat("its plane meets the ", kAxisName[a], " side of the box"),
                              "move it inwards or enlarge the box"});
     }
     if (problems_.empty()) sort_planes(planes, owner);
@@ -369,9 +309,10 @@ class LayoutBuilder {
       return std::min(p[1], q[1]) - std::max(p[0], q[0]) > tolerance_;
     };
     for (size_t j = 0; j < i; ++j)
-      if (layout_.plane_of[j] == layout_.plane_of[i] && overlap(extent_[i].column, extent_[j].column) &&
-          overlap(extent_[i].row, extent_[j].row))
-        problems_.push_back({patch_pointer(i), 0, concat("overlaps patch ", j, " on the same plane"),
+      if (layout_.plane_of[j] == layout_.plane_of[i] &&
+          overlap(extent_[i].column, extent_[j].column) && overlap(extent_[i].row, extent_[j].row))
+        problems_.push_back({patch_pointer(i), 0,
+                             concat("overlaps patch ", j, " on the same plane"),
                              "make one patch of them or move them apart"});
   }
 
@@ -385,7 +326,8 @@ class LayoutBuilder {
     for (size_t k = 0; k < order.size(); ++k) {
       if (k > 0 && planes[order[k]].ref - sorted.back().ref < tolerance_)
         problems_.push_back({patch_pointer(owner[order[k]]), 0,
-                             concat("crosses patch ", owner[order[k - 1]]), "patches may not cross"});
+                             concat("crosses patch ", owner[order[k - 1]]),
+                             "patches may not cross"});
       sorted.push_back(planes[order[k]]);
       rank[order[k]] = k;
     }
@@ -397,10 +339,10 @@ class LayoutBuilder {
                                                       {spec_.from[c], spec_.to[c]});
     if (gap < 0) return;
     const bool side = gap == 0 || static_cast<size_t>(gap) == sorted.size();
-    const size_t right = owner[order[side && gap > 0 ? sorted.size() - 1 : static_cast<size_t>(gap)]];
-    const std::string other =
-        side ? concat("the ", kAxisName[layout_.axis], " side of the box")
-             : concat("patch ", owner[order[static_cast<size_t>(gap) - 1]]);
+    const size_t right =
+        owner[order[side && gap > 0 ? sorted.size() - 1 : static_cast<size_t>(gap)]];
+    const std::string other = side ? concat("the ", kAxisName[layout_.axis], " side of the box")
+                                   : concat("patch ", owner[order[static_cast<size_t>(gap) - 1]]);
     problems_.push_back({patch_pointer(right), 0, concat("crosses or comes too near ", other),
                          "move them apart, make them parallel, or enlarge the box"});
   }
@@ -443,8 +385,8 @@ class LayoutBuilder {
   void add_windows_without_patch(size_t d, LineBuilder& builder) const {
     for (const BoxMeshSpec::Region& region : spec_.regions) {
       const auto bounds = region_bounds(region);
-      builder.add_window(bounds[0][d] - spec_.sizes.fine_margin, bounds[1][d] + spec_.sizes.fine_margin,
-                         size_[d]);
+      builder.add_window(bounds[0][d] - spec_.sizes.fine_margin,
+                         bounds[1][d] + spec_.sizes.fine_margin, size_[d]);
     }
     if (spec_.regions.empty()) builder.add_window(spec_.from[d], spec_.to[d], size_[d]);
   }
@@ -458,29 +400,6 @@ class LayoutBuilder {
 };
 
 }  // namespace
-
-Vector3d PatchFrame::half_extent() const {
-  const Vector3d u = half_length * along.cwiseAbs(), v = half_width * down.cwiseAbs();
-  if (!ellipse) return u + v;
-  return (u.array().square() + v.array().square()).sqrt().matrix();
-}
-
-bool PatchFrame::inside(const Vector3d& position, double tolerance, bool along_limit) const {
-  const double u = along_limit ? std::abs((position - center).dot(along)) : 0;
-  const double v = std::abs((position - center).dot(down));
-  if (!ellipse) return u < half_length - tolerance && v < half_width - tolerance;
-  const double p = u / (half_length - tolerance), q = v / (half_width - tolerance);
-  return p * p + q * q < 1;
-}
-
-double ColumnShear::shift(double ref, double c) const {
-  const size_t k = static_cast<size_t>(
-      std::clamp<std::ptrdiff_t>(std::upper_bound(knot.begin(), knot.end(), ref) - knot.begin(), 1,
-                                 static_cast<std::ptrdiff_t>(knot.size()) - 1));
-  const double width = knot[k] - knot[k - 1];
-  const double t = width > 0 ? (ref - knot[k - 1]) / width : 0;
-  return (weight[k - 1] * (1 - t) + weight[k] * t) * slope * (std::clamp(c, low, high) - pivot);
-}
 
 double edge_tolerance(const BoxMeshSpec& spec) {
   double tolerance = 0;

@@ -84,10 +84,12 @@ CellRegions cell_regions(const BoxMeshSpec& spec, const std::array<std::vector<d
       for (size_t i = range[0][0]; i < range[0][1]; ++i) {
         double plan_share = share(0, i) * share(1, j);
         if (region.disc) {
-          const double x0 = lines[0][i], x1 = lines[0][i + 1], y0 = lines[1][j], y1 = lines[1][j + 1];
-          plan_share = disc_rectangle_area(region.radius, x0 - region.center[0], x1 - region.center[0],
-                                           y0 - region.center[1], y1 - region.center[1]) /
-                       ((x1 - x0) * (y1 - y0));
+          const double x0 = lines[0][i], x1 = lines[0][i + 1], y0 = lines[1][j],
+                       y1 = lines[1][j + 1];
+          plan_share =
+              disc_rectangle_area(region.radius, x0 - region.center[0], x1 - region.center[0],
+                                  y0 - region.center[1], y1 - region.center[1]) /
+              ((x1 - x0) * (y1 - y0));
         }
         for (size_t k = range[2][0]; k < range[2][1]; ++k) {
           const double fraction = snapped(plan_share * share(2, k));

@@ -11,11 +11,11 @@
 namespace faultsim {
 namespace {
 
-constexpr double kMaxDip = 0.7854;     // 45 degrees, rounded up
+constexpr double kMaxDip = 0.7854;       // 45 degrees, rounded up
 constexpr double kEdgeTolerance = 1e-5;  // m; ten times the distance below which lines are merged
-constexpr double kLeastRest = 0.1;     // of a cell; a thinner rest is spread over its neighbours
-constexpr int kEdgeCells = 2;          // cells of exactly sizes.dip on each side of a reservoir edge
-constexpr double kShearMargin = 2;     // cells beyond a fault's tips that are still sheared with it
+constexpr double kLeastRest = 0.1;       // of a cell; a thinner rest is spread over its neighbours
+constexpr int kEdgeCells = 2;       // cells of exactly sizes.dip on each side of a reservoir edge
+constexpr double kShearMargin = 2;  // cells beyond a fault's tips that are still sheared with it
 
 struct DepthRange {
   double top, bottom;  // m, top < bottom
@@ -76,12 +76,14 @@ void check_sizes(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
   positive(spec.sizes.dip, "/mesh/dip");
   positive(spec.sizes.normal, "/mesh/normal");
   if (!(spec.sizes.growth >= 1))
-    problems.push_back({"/mesh/growth", 0, concat(spec.sizes.growth, " is below 1"), "use 1.3, say"});
+    problems.push_back(
+        {"/mesh/growth", 0, concat(spec.sizes.growth, " is below 1"), "use 1.3, say"});
   if (!(spec.fault_overshoot >= 0))
     problems.push_back({"/geometry/fault_overshoot", 0, "is negative", "use 0 or more"});
   const double most = 1e6;  // lines per axis
-  if (problems.empty() && (spec.depth / spec.sizes.dip > most || spec.width / spec.sizes.normal > most ||
-                           (along_strike_is_grid(spec) && spec.length / spec.sizes.strike > most)))
+  if (problems.empty() &&
+      (spec.depth / spec.sizes.dip > most || spec.width / spec.sizes.normal > most ||
+       (along_strike_is_grid(spec) && spec.length / spec.sizes.strike > most)))
     problems.push_back({"/mesh", 0, "cells are a millionth of the model", "use larger cells"});
 }
 
@@ -94,7 +96,8 @@ void check_layers(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
   for (size_t i = 0; i < tops.size(); ++i) {
     const std::string pointer = concat("/geometry/layers/", i, "/top_depth");
     if (i == 0 && tops[i] != 0)
-      problems.push_back({pointer, 0, "the first layer does not start at the surface", "use \"0 m\""});
+      problems.push_back(
+          {pointer, 0, "the first layer does not start at the surface", "use \"0 m\""});
     if (i > 0 && !(tops[i] > tops[i - 1]))
       problems.push_back({pointer, 0, "is not below the layer above", "order layers by depth"});
     if (!(tops[i] < spec.depth))
@@ -117,11 +120,13 @@ void check_blocks(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
     if (!(block.to - block.from > 2 * kEdgeTolerance))
       problems.push_back({pointer + "/to", 0, "is not east of `from`", "give a block some width"});
     if (i > 0 && std::abs(block.from - spec.blocks[i - 1].to) > kEdgeTolerance)
-      problems.push_back({pointer + "/from", 0, concat(block.from, " m is not where the block west of it ends, ",
-                                                       spec.blocks[i - 1].to, " m"),
+      problems.push_back({pointer + "/from", 0,
+                          concat(block.from, " m is not where the block west of it ends, ",
+                                 spec.blocks[i - 1].to, " m"),
                           "blocks are contiguous from west to east"});
   }
-  if (!(spec.blocks.front().from > -0.5 * spec.width) || !(spec.blocks.back().to < 0.5 * spec.width))
+  if (!(spec.blocks.front().from > -0.5 * spec.width) ||
+      !(spec.blocks.back().to < 0.5 * spec.width))
     problems.push_back({"/geometry/width", 0, "the blocks reach the sides of the model",
                         "make the model wider than its blocks"});
 }
@@ -134,10 +139,11 @@ void check_faults(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
       problems.push_back({pointer, 0, "puts the top of a fault at or above the surface",
                           "use a larger offset or a smaller fault_overshoot"});
     if (!(range.bottom + spec.fault_overshoot < spec.depth))
-      problems.push_back({pointer, 0, concat("puts the foot of a fault at ",
-                                             range.bottom + spec.fault_overshoot,
-                                             " m, at or below the base of the model"),
-                          "use a smaller offset or fault_overshoot, or a deeper model"});
+      problems.push_back(
+          {pointer, 0,
+           concat("puts the foot of a fault at ", range.bottom + spec.fault_overshoot,
+                  " m, at or below the base of the model"),
+           "use a smaller offset or fault_overshoot, or a deeper model"});
   }
   for (size_t i = 0; i < spec.fault_dips.size(); ++i)
     if (!(std::abs(spec.fault_dips[i]) <= kMaxDip))
@@ -167,11 +173,12 @@ void check_shear(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
   if (gap < 0) return;
   const size_t fault = std::min(static_cast<size_t>(gap), spec.blocks.size());
   const bool side = gap == 0 || static_cast<size_t>(gap) > spec.blocks.size();
-  const std::string other = side ? "the side of the model"
-                                 : concat("fault \"", spec.fault_names[fault - 1], "\"");
-  problems.push_back({concat("/faults/", fault, "/dip_from_vertical"), 0,
-                      concat("brings fault \"", spec.fault_names[fault], "\" to or too near ", other),
-                      "use a smaller dip, or move them apart"});
+  const std::string other =
+      side ? "the side of the model" : concat("fault \"", spec.fault_names[fault - 1], "\"");
+  problems.push_back(
+      {concat("/faults/", fault, "/dip_from_vertical"), 0,
+       concat("brings fault \"", spec.fault_names[fault], "\" to or too near ", other),
+       "use a smaller dip, or move them apart"});
 }
 
 std::vector<double> field_x(const FieldMeshSpec& spec) {
@@ -186,7 +193,8 @@ std::vector<double> field_y(const FieldMeshSpec& spec) {
   const double half = 0.5 * spec.length;
   LineBuilder builder(spec.half_domain ? 0 : -half, half, spec.sizes.growth, spec.sizes.largest);
   // A line at y = 0 in the full domain too, so that the half domain is half of its grid.
-  for (const double y : {-0.5 * spec.block_length, 0.0, 0.5 * spec.block_length}) builder.add_line(y);
+  for (const double y : {-0.5 * spec.block_length, 0.0, 0.5 * spec.block_length})
+    builder.add_line(y);
   builder.add_window(-0.5 * spec.fault_length, 0.5 * spec.fault_length, spec.sizes.strike);
   return builder.build();
 }
@@ -210,10 +218,12 @@ std::vector<double> must_lines(const FieldMeshSpec& spec) {
 }
 
 bool is_reservoir_edge(const FieldMeshSpec& spec, double z) {
-  return std::any_of(spec.blocks.begin(), spec.blocks.end(), [&](const FieldMeshSpec::Block& block) {
-    const DepthRange range = reservoir_of(spec, block);
-    return std::abs(z + range.top) < kEdgeTolerance || std::abs(z + range.bottom) < kEdgeTolerance;
-  });
+  return std::any_of(spec.blocks.begin(), spec.blocks.end(),
+                     [&](const FieldMeshSpec::Block& block) {
+                       const DepthRange range = reservoir_of(spec, block);
+                       return std::abs(z + range.top) < kEdgeTolerance ||
+                              std::abs(z + range.bottom) < kEdgeTolerance;
+                     });
 }
 
 /// Compartment corners carry logarithmic stress peaks, so cells there are sizes.dip high in all
@@ -249,18 +259,19 @@ CellKind kind_at(const FieldMeshSpec& spec, double x, double y, double depth) {
   const std::vector<double>& tops = spec.layer_tops;
   const size_t layer =
       static_cast<size_t>(std::upper_bound(tops.begin() + 1, tops.end(), depth) - tops.begin() - 1);
-  const auto block = std::find_if(spec.blocks.begin(), spec.blocks.end(), [&](const auto& one) {
-    return x > one.from && x < one.to;
-  });
+  const auto block = std::find_if(spec.blocks.begin(), spec.blocks.end(),
+                                  [&](const auto& one) { return x > one.from && x < one.to; });
   const size_t reservoir = static_cast<size_t>(spec.reservoir_layer);
   const bool beside = block == spec.blocks.end() ||
                       (along_strike_is_grid(spec) && std::abs(y) > 0.5 * spec.block_length);
-  if (beside) return {layer == reservoir ? spec.sideburden_material : spec.layer_materials[layer], -1};
+  if (beside)
+    return {layer == reservoir ? spec.sideburden_material : spec.layer_materials[layer], -1};
   const DepthRange range = reservoir_of(spec, *block);
   if (depth > range.top && depth < range.bottom)
     return {spec.layer_materials[reservoir], static_cast<int>(block - spec.blocks.begin())};
   // What the block left behind: the layer above follows it down, the layer below follows it up.
-  if (depth < range.top && depth > reservoir_top(spec)) return {spec.layer_materials[reservoir - 1], -1};
+  if (depth < range.top && depth > reservoir_top(spec))
+    return {spec.layer_materials[reservoir - 1], -1};
   if (depth > range.bottom && depth < reservoir_base(spec))
     return {spec.layer_materials[reservoir + 1], -1};
   return {spec.layer_materials[layer], -1};
@@ -306,7 +317,8 @@ GridFault field_fault(const FieldMeshSpec& spec, const StructuredGrid& grid, siz
   const DepthRange range = fault_range(spec, i);
   for (const double y : grid.lines[1])
     for (const double z : grid.lines[2]) {
-      const bool in_length = spec.plane_strain || std::abs(y) < 0.5 * spec.fault_length - kEdgeTolerance;
+      const bool in_length =
+          spec.plane_strain || std::abs(y) < 0.5 * spec.fault_length - kEdgeTolerance;
       const bool in_depth = -z > range.top + kEdgeTolerance && -z < range.bottom - kEdgeTolerance;
       fault.split.push_back(in_length && in_depth ? 1 : 0);
     }
@@ -337,7 +349,8 @@ Mesh make_mesh(const FieldMeshSpec& spec) {
   check_grid_size(grid.lines);
   place_points(spec, grid);
   fill_cells(spec, grid);
-  for (size_t i = 0; i <= spec.blocks.size(); ++i) grid.faults.push_back(field_fault(spec, grid, i));
+  for (size_t i = 0; i <= spec.blocks.size(); ++i)
+    grid.faults.push_back(field_fault(spec, grid, i));
   Mesh mesh = cut_faults(std::move(grid));
   refuse_bad_cells(mesh);
   return mesh;

@@ -12,9 +12,9 @@ namespace faultsim {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kStretch = 0.1;         // share of a cell that may be spread over the others
-constexpr double kRatioTolerance = 1e-9; // rounding of a length divided by a size
-constexpr int kMaxSmoothing = 40;        // passes that smooth sizes across lines that must be there
+constexpr double kStretch = 0.1;          // share of a cell that may be spread over the others
+constexpr double kRatioTolerance = 1e-9;  // rounding of a length divided by a size
+constexpr int kMaxSmoothing = 40;  // passes that smooth sizes across lines that must be there
 
 int even_count(double length, double size) {
   return std::max(1, static_cast<int>(std::ceil(length / size - kStretch)));
@@ -67,8 +67,8 @@ int fewest_cells(double length, double first, double last, double growth, double
 
 std::vector<double> graded_sizes(double length, double first_size, double last_size, double growth,
                                  double largest) {
-  FAULTSIM_DEMAND(length > 0 && first_size > 0 && last_size > 0 && largest > 0 && growth >= 1, length,
-                  " ", first_size, " ", last_size, " ", largest, " ", growth);
+  FAULTSIM_DEMAND(length > 0 && first_size > 0 && last_size > 0 && largest > 0 && growth >= 1,
+                  length, " ", first_size, " ", last_size, " ", largest, " ", growth);
   const double start = std::min({first_size, last_size, largest});
   if (start >= length) return {length};
   const int n = fewest_cells(length, first_size, last_size, growth, largest);
@@ -113,7 +113,8 @@ void LineBuilder::add_window(double window_from, double window_to, double size) 
 
 std::vector<LineBuilder::Line> LineBuilder::merged_lines() const {
   std::vector<Line> sorted = lines_;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Line& a, const Line& b) { return a.x < b.x; });
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Line& a, const Line& b) { return a.x < b.x; });
   std::vector<Line> merged = {{from_, kInfinity}};
   for (const Line& line : sorted) {
     if (line.x - merged.back().x < tolerance() && merged.size() > 1)
@@ -134,68 +135,84 @@ double LineBuilder::window_size(double piece_from, double piece_to) const {
 }
 
 std::vector<double> LineBuilder::build() const {
-  const std::vector<Line> lines = merged_lines();
-  const size_t n_pieces = lines.size() - 1;
-  std::vector<std::vector<double>> cells(n_pieces);
-  std::vector<char> even(n_pieces, 0);
-  std::vector<double> size(lines.size(), largest_);
-  const auto length = [&](size_t piece) { return lines[piece + 1].x - lines[piece].x; };
-
-  for (size_t i = 0; i < lines.size(); ++i) size[i] = std::min(largest_, lines[i].size);
-  const auto lower = [&](size_t line, double bound) {  // sizes asked for are not lowered
-    if (std::isinf(lines[line].size)) size[line] = std::min(size[line], bound);
-  };
-  for (size_t piece = 0; piece < n_pieces; ++piece) {
-    const double window = window_size(lines[piece].x, lines[piece + 1].x);
-    double bound = length(piece);
-    if (std::isfinite(window)) {
-      const int n = even_count(length(piece), window);
-      even[piece] = 1;
-      bound = length(piece) / n;
-      cells[piece].assign(static_cast<size_t>(n), bound);
-    }
-    lower(piece, bound);
-    lower(piece + 1, bound);
-  }
-  // Last of the cells that grow from `start` over a distance: (start + (growth − 1) distance)/growth.
-  const auto grown = [&](double start, double distance) {
-    return (start + (growth_ - 1) * distance) / growth_;
-  };
+  Pieces pieces = even_pieces();
   for (int pass = 0; pass < kMaxSmoothing; ++pass) {
-    for (size_t piece = 0; piece < n_pieces; ++piece)
-      if (!even[piece]) lower(piece + 1, std::max(grown(size[piece], length(piece)), 0.0));
-    for (size_t piece = n_pieces; piece-- > 0;)
-      if (!even[piece]) lower(piece, std::max(grown(size[piece + 1], length(piece)), 0.0));
-    for (size_t piece = 0; piece < n_pieces; ++piece)
-      if (!even[piece])
-        cells[piece] = graded_sizes(length(piece), piece == 0 ? kInfinity : size[piece],
-                                    piece + 1 == n_pieces ? kInfinity : size[piece + 1], growth_,
-                                    largest_);
-    bool smooth = true;
-    for (size_t line = 1; line < n_pieces; ++line) {
-      const double before = cells[line - 1].back(), after = cells[line].front();
-      const double small = std::min(before, after);
-      if (std::max(before, after) <= growth_ * small * (1 + kRatioTolerance)) continue;
-      if (std::isfinite(lines[line].size) || small >= size[line]) continue;
-      size[line] = small;
-      smooth = false;
-    }
-    if (smooth) break;
+    grade(pieces);
+    if (!lower_at_jumps(pieces)) break;
   }
-
   std::vector<double> result;
-  for (size_t piece = 0; piece < n_pieces; ++piece) {
-    const size_t n = cells[piece].size();
-    double x = lines[piece].x;
+  for (size_t piece = 0; piece < pieces.cells.size(); ++piece) {
+    const size_t n = pieces.cells[piece].size();
+    double x = pieces.lines[piece].x;
     for (size_t k = 0; k < n; ++k) {
-      result.push_back(even[piece] ? lines[piece].x + length(piece) * static_cast<double>(k) /
-                                                           static_cast<double>(n)
-                                   : x);
-      x += cells[piece][k];
+      // Even pieces by multiplication: rounding does not add up over thousands of cells.
+      const double share = static_cast<double>(k) / static_cast<double>(n);
+      result.push_back(pieces.even[piece] ? pieces.lines[piece].x + pieces.length(piece) * share
+                                          : x);
+      x += pieces.cells[piece][k];
     }
   }
   result.push_back(to_);
   return result;
+}
+
+LineBuilder::Pieces LineBuilder::even_pieces() const {
+  Pieces pieces;
+  pieces.lines = merged_lines();
+  const size_t n_pieces = pieces.lines.size() - 1;
+  pieces.cells.resize(n_pieces);
+  pieces.even.assign(n_pieces, 0);
+  for (const Line& line : pieces.lines) pieces.size.push_back(std::min(largest_, line.size));
+  for (size_t piece = 0; piece < n_pieces; ++piece) {
+    const double window = window_size(pieces.lines[piece].x, pieces.lines[piece + 1].x);
+    double bound = pieces.length(piece);
+    if (std::isfinite(window)) {
+      const int n = even_count(pieces.length(piece), window);
+      pieces.even[piece] = 1;
+      bound = pieces.length(piece) / n;
+      pieces.cells[piece].assign(static_cast<size_t>(n), bound);
+    }
+    pieces.lower(piece, bound);
+    pieces.lower(piece + 1, bound);
+  }
+  return pieces;
+}
+
+void LineBuilder::grade(Pieces& pieces) const {
+  const size_t n_pieces = pieces.cells.size();
+  // Last of the cells that grow from `start` over a distance.
+  const auto grown = [&](double start, double distance) {
+    return (start + (growth_ - 1) * distance) / growth_;
+  };
+  for (size_t piece = 0; piece < n_pieces; ++piece)
+    if (!pieces.even[piece])
+      pieces.lower(piece + 1, grown(pieces.size[piece], pieces.length(piece)));
+  for (size_t piece = n_pieces; piece-- > 0;)
+    if (!pieces.even[piece])
+      pieces.lower(piece, grown(pieces.size[piece + 1], pieces.length(piece)));
+  for (size_t piece = 0; piece < n_pieces; ++piece) {
+    if (pieces.even[piece]) continue;
+    const double first = piece == 0 ? kInfinity : pieces.size[piece];
+    const double last = piece + 1 == n_pieces ? kInfinity : pieces.size[piece + 1];
+    pieces.cells[piece] = graded_sizes(pieces.length(piece), first, last, growth_, largest_);
+  }
+}
+
+bool LineBuilder::lower_at_jumps(Pieces& pieces) const {
+  bool lowered = false;
+  for (size_t line = 1; line < pieces.cells.size(); ++line) {
+    const double before = pieces.cells[line - 1].back(), after = pieces.cells[line].front();
+    const double small = std::min(before, after);
+    if (std::max(before, after) <= growth_ * small * (1 + kRatioTolerance)) continue;
+    if (std::isfinite(pieces.lines[line].size) || small >= pieces.size[line]) continue;
+    pieces.size[line] = small;
+    lowered = true;
+  }
+  return lowered;
+}
+
+void LineBuilder::Pieces::lower(size_t line, double bound) {
+  if (std::isinf(lines[line].size)) size[line] = std::min(size[line], bound);
 }
 
 std::vector<double> graded_line(double a, double b, double fine_from, double fine_to, double fine,

@@ -38,19 +38,22 @@ struct FaultFace {
   std::array<int, 4> nodes;  ///< indices into FaultSurface::nodes; -1 where not split.
   int minus_cell;
   int plus_cell;
-  double area;               ///< m2 (plane strain: per metre of strike).
+  double area;  ///< m2 (plane strain: per metre of strike).
 };
 
 /// A fault as a structured grid of points: n_columns along strike times n_rows down dip.
 /// Point (column, row) is at column * n_rows + row; rows go down dip (for a horizontal fault along
-/// its dip direction). Points outside an elliptic patch have used = false.
+/// its dip direction), columns up the grid axis along strike (from south to north where that is y;
+/// a half domain begins at y = 0). Points outside an elliptic patch have used = false. In plane
+/// strain there is one column and a face is an edge of it, whose ends it has twice: corners 0 and
+/// 3, and 1 and 2, are the same point. On tied faces several points share one node.
 struct FaultSurface {
   std::string name;
   int n_columns = 0;
   int n_rows = 0;
   std::vector<Eigen::Vector3d> grid_position;
-  std::vector<int> grid_node;   ///< index into nodes, -1 where the point is not split.
-  std::vector<char> grid_used;  ///< 1 if the point is a corner of one of the faces.
+  std::vector<int> grid_node;        ///< index into nodes, -1 where the point is not split.
+  std::vector<char> grid_used;       ///< 1 if the point is a corner of one of the faces.
   std::vector<double> column_width;  ///< m along strike that a column stands for (plane strain: 1).
   std::vector<FaultNode> nodes;      ///< one per *independent* duplicated node (ties merged).
   std::vector<FaultFace> faces;
@@ -58,14 +61,14 @@ struct FaultSurface {
 
 /// Conforming hexahedra with duplicated nodes on the faults.
 struct Mesh {
-  std::vector<Eigen::Vector3d> nodes;      ///< m; n_nodes, both copies of a duplicated node.
-  std::vector<std::array<int, 8>> cells;   ///< VTK hexahedron order.
-  std::vector<int> material;               ///< per cell, index given by the spec.
-  std::vector<int> region;                 ///< per cell, pressure region or -1.
-  std::vector<double> region_fraction;     ///< per cell, share of its volume in the region, [0, 1].
+  std::vector<Eigen::Vector3d> nodes;     ///< m; n_nodes, both copies of a duplicated node.
+  std::vector<std::array<int, 8>> cells;  ///< VTK hexahedron order.
+  std::vector<int> material;              ///< per cell, index given by the spec.
+  std::vector<int> region;                ///< per cell, pressure region or -1.
+  std::vector<double> region_fraction;    ///< per cell, share of its volume in the region, [0, 1].
   std::vector<BoundaryFace> boundary;
-  std::vector<int> tied_to;                ///< per node: the node whose displacement it shares (itself
-                                           ///< when independent). Never a chain.
+  std::vector<int> tied_to;  ///< per node: the node whose displacement it shares (itself
+                             ///< when independent). Never a chain.
   std::vector<FaultSurface> faults;
   bool plane_strain = false;  ///< front and back tied, u_y = 0; thickness is then...
   double thickness = 1;       ///< ... the extent in y of the single cell row, m.
@@ -76,7 +79,7 @@ struct MeshQuality {
   double min_scaled_jacobian = 1;  ///< over cells, at the corners, in (0, 1] for valid cells.
   double max_aspect = 1;           ///< longest over shortest edge.
   Eigen::Vector3d worst_position = Eigen::Vector3d::Zero();
-  std::string refusal;             ///< what is wrong, where, and the cure.
+  std::string refusal;  ///< what is wrong, where, and the cure.
 };
 
 MeshQuality check_quality(const Mesh& mesh);

@@ -9,7 +9,9 @@
 
 namespace faultsim {
 
-/// Cell sizes of a generated mesh, m.
+/// Cell sizes of a generated mesh, m: `normal` on the grid axis across the faults, `strike` and
+/// `dip` on those nearest to strike and dip (vertical faults: y and z; flat ones of strike 0: y and
+/// x). Box without patches: normal, strike, dip in x, y, z.
 struct CellSizes {
   double strike;
   double dip;
@@ -21,40 +23,40 @@ struct CellSizes {
 
 /// The conceptual field (design section 7) in numbers; materials are indices.
 struct FieldMeshSpec {
-  double width, length, depth;            ///< m.
-  std::vector<double> layer_tops;         ///< depths, m, ascending, first 0.
+  double width, length, depth;     ///< m.
+  std::vector<double> layer_tops;  ///< depths, m, ascending, first 0.
   std::vector<int> layer_materials;
-  int reservoir_layer;                    ///< index into layer_tops.
+  int reservoir_layer;  ///< index into layer_tops.
   int sideburden_material;
   struct Block {
-    double from, to, offset;              ///< m.
+    double from, to, offset;  ///< m.
   };
-  std::vector<Block> blocks;              ///< contiguous; region index = block index.
+  std::vector<Block> blocks;  ///< contiguous; region index = block index.
   double block_length, fault_length, fault_overshoot, pivot_depth;  ///< m.
-  std::vector<std::string> fault_names;   ///< blocks + 1.
-  std::vector<double> fault_dips;         ///< rad from vertical, > 0 dips east.
+  std::vector<std::string> fault_names;                             ///< blocks + 1.
+  std::vector<double> fault_dips;  ///< rad from vertical, > 0 dips east.
   CellSizes sizes;
-  bool half_domain;                       ///< only y ≥ 0 (the symmetry plane is y_min).
-  bool plane_strain;                      ///< one cell in y at mid length, ties, thickness 1 m.
+  bool half_domain;   ///< only y ≥ 0 (the symmetry plane is y_min).
+  bool plane_strain;  ///< one cell in y at mid length, ties, thickness 1 m.
 };
 
 /// A box with fault patches and regions.
 struct BoxMeshSpec {
-  std::array<double, 3> from, to;         ///< m.
-  std::vector<double> layer_tops_z;       ///< z of each layer's top, descending; empty = one material.
-  std::vector<int> layer_materials;       ///< at least one.
+  std::array<double, 3> from, to;    ///< m.
+  std::vector<double> layer_tops_z;  ///< z of each layer's top, descending; empty = one material.
+  std::vector<int> layer_materials;  ///< at least one.
   struct Patch {
     std::string name;
     std::array<double, 3> center;
-    double strike, dip_from_vertical;     ///< rad, as scene's PatchGeometry.
-    double length, width;                 ///< m.
+    double strike, dip_from_vertical;  ///< rad, as scene's PatchGeometry.
+    double length, width;              ///< m.
     bool ellipse;
   };
   std::vector<Patch> patches;
   struct Region {
     bool disc;
-    std::array<double, 3> from, to;       ///< box
-    std::array<double, 3> center;         ///< disc
+    std::array<double, 3> from, to;  ///< box
+    std::array<double, 3> center;    ///< disc
     double radius, thickness;
   };
   std::vector<Region> regions;
@@ -69,7 +71,13 @@ struct GridLines {
 };
 
 /// Grid lines of a spec; cheap, used by `plan`. Problems (impossible geometry) are appended, with
-/// pointers into the scene document ("/geometry/blocks/1/offset").
+/// pointers into the scene document ("/geometry/blocks/1/offset"; a box's patches are its
+/// "/faults"), and the lines are then empty. What needs the mesh itself (quality, ties, too many
+/// cells) is left to make_mesh.
+///
+/// Box: fine in the plane of the patches within their bounds and fine_margin; without patches
+/// within those of the regions in all directions; without either even. Edges of patches, regions
+/// and layers are lines. Regions and layers are taken in unsheared coordinates.
 GridLines grid_lines(const FieldMeshSpec& spec, std::vector<Problem>& problems);
 GridLines grid_lines(const BoxMeshSpec& spec, std::vector<Problem>& problems);
 
@@ -77,8 +85,8 @@ GridLines grid_lines(const BoxMeshSpec& spec, std::vector<Problem>& problems);
 Mesh make_mesh(const FieldMeshSpec& spec);
 Mesh make_mesh(const BoxMeshSpec& spec);
 
-/// Points a...b with spacing `fine` inside [fine_from, fine_to] (stretched to fit) and growing by at
-/// most `growth` per cell outside, never above `largest` (0 = no cap); always contains `must`.
+/// Points a...b with spacing `fine` inside [fine_from, fine_to] (stretched to fit) and growing by
+/// at most `growth` per cell outside, never above `largest` (0 = no cap); always contains `must`.
 std::vector<double> graded_line(double a, double b, double fine_from, double fine_to, double fine,
                                 double growth, double largest, const std::vector<double>& must);
 

@@ -59,8 +59,8 @@ MeshQuality check_quality(const Mesh& mesh) {
   if (!(quality.min_scaled_jacobian > kLeastJacobian)) {
     const Vector3d& at = quality.worst_position;
     quality.refusal = concat("a cell at x = ", at.x(), " m, y = ", at.y(), " m, z = ", at.z(),
-                             " m is too distorted: its scaled Jacobian ", quality.min_scaled_jacobian,
-                             " is not above ", kLeastJacobian,
+                             " m is too distorted: its scaled Jacobian ",
+                             quality.min_scaled_jacobian, " is not above ", kLeastJacobian,
                              "; move the faults apart, reduce their dip or enlarge the body");
   }
   return quality;

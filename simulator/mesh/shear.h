@@ -31,9 +31,11 @@ class Shear {
   /// Shifts of lines `ref` (ascending) at one place of the other two axes; out has their number.
   void shifts(const std::vector<double>& ref, double b, double c, std::vector<double>& out) const;
 
-  /// Index k of the first gap (between plane k−1, or the near side for k = 0, and plane k, or the far
-  /// side) that is somewhere in the ranges squeezed to less than kLeastGap of its width; −1 = none.
-  int first_squeezed_gap(const std::array<double, 2>& range_b, const std::array<double, 2>& range_c) const;
+  /// Index k of the first gap (between plane k−1, or the near side for k = 0, and plane k, or the
+  /// far side) that is somewhere in the ranges squeezed to less than kLeastGap of its width; −1 =
+  /// none.
+  int first_squeezed_gap(const std::array<double, 2>& range_b,
+                         const std::array<double, 2>& range_c) const;
 
   static constexpr double kLeastGap = 0.2;
 

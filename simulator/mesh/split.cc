@@ -13,8 +13,14 @@ namespace {
 using Eigen::Vector3d;
 using Index3 = std::array<size_t, 3>;
 
-constexpr std::array<Index3, 8> kCorner = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},  // VTK order
-                                            {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
+constexpr std::array<Index3, 8> kCorner = {{{0, 0, 0},
+                                            {1, 0, 0},
+                                            {1, 1, 0},
+                                            {0, 1, 0},  // VTK order
+                                            {0, 0, 1},
+                                            {1, 0, 1},
+                                            {1, 1, 1},
+                                            {0, 1, 1}}};
 
 int to_int(size_t n) { return static_cast<int>(n); }
 
@@ -69,8 +75,8 @@ std::vector<int> split_nodes(const StructuredGrid& grid, Mesh& mesh) {
           const size_t n = static_cast<size_t>(node);
           const Index3 at = {n % grid.n_lines(0), n / grid.n_lines(0) % grid.n_lines(1),
                              n / (grid.n_lines(0) * grid.n_lines(1))};
-          if (at[fault.axis] == fault.plane && fault.split[at[fault.column_axis] * n_rows +
-                                                           at[fault.row_axis]])
+          if (at[fault.axis] == fault.plane &&
+              fault.split[at[fault.column_axis] * n_rows + at[fault.row_axis]])
             node = plus_of[n];
         }
   }
@@ -160,8 +166,8 @@ QuadAreas quad_areas(const std::array<Vector3d, 4>& p) {
 /// Makes one FaultSurface from a cut fault.
 class SurfaceBuilder {
  public:
-  SurfaceBuilder(const StructuredGrid& grid, const GridFault& fault, const std::vector<int>& plus_of,
-                 const Mesh& mesh)
+  SurfaceBuilder(const StructuredGrid& grid, const GridFault& fault,
+                 const std::vector<int>& plus_of, const Mesh& mesh)
       : grid_(grid), fault_(fault), plus_of_(plus_of), mesh_(mesh) {}
 
   FaultSurface build() {
@@ -177,7 +183,9 @@ class SurfaceBuilder {
   bool splits(size_t column, size_t row) const {
     return fault_.split[column * grid_.n_lines(fault_.row_axis) + row] != 0;
   }
-  size_t point(size_t column, size_t row) const { return grid_.point(on_plane(fault_, column, row)); }
+  size_t point(size_t column, size_t row) const {
+    return grid_.point(on_plane(fault_, column, row));
+  }
   /// Row line of the r-th row of the surface: rows go down dip.
   size_t row_line(int r) const {
     const bool up = fault_.dip[static_cast<int>(fault_.row_axis)] > 0;
@@ -188,7 +196,8 @@ class SurfaceBuilder {
 
   /// The smallest block of points that holds the split ones and one ring around them.
   void find_range() {
-    const size_t n_columns = grid_.n_lines(fault_.column_axis), n_rows = grid_.n_lines(fault_.row_axis);
+    const size_t n_columns = grid_.n_lines(fault_.column_axis),
+                 n_rows = grid_.n_lines(fault_.row_axis);
     first_column_ = n_columns, first_row_ = n_rows, last_column_ = 0, last_row_ = 0;
     for (size_t column = 0; column < n_columns; ++column)
       for (size_t row = 0; row < n_rows; ++row)
@@ -199,7 +208,8 @@ class SurfaceBuilder {
           last_row_ = std::max(last_row_, row);
         }
     if (first_column_ == n_columns)
-      refuse("/faults", concat("fault \"", fault_.name, "\" splits no node: it is smaller than a cell"),
+      refuse("/faults",
+             concat("fault \"", fault_.name, "\" splits no node: it is smaller than a cell"),
              "use smaller cells at the fault or a larger fault");
     first_column_ -= first_column_ > 0;
     first_row_ -= first_row_ > 0;
@@ -266,8 +276,8 @@ class SurfaceBuilder {
                                         mesh_.nodes[point(column + 1, row_line(r))]});
     Index3 plus = on_plane(fault_, column, row), minus = plus;
     --minus[fault_.axis];
-    FaultFace face{{}, {}, to_int(grid_.cell(minus)), to_int(grid_.cell(plus)),
-                   areas.total / thickness};
+    FaultFace face{
+        {}, {}, to_int(grid_.cell(minus)), to_int(grid_.cell(plus)), areas.total / thickness};
     for (size_t v = 0; v < 4; ++v) {
       face.grid[v] = to_int(corner[v]);
       face.nodes[v] = surface_.grid_node[corner[v]];

@@ -16,8 +16,10 @@ struct GridFault {
   size_t plane = 0;        ///< index of its grid line on that axis; inside the body.
   size_t column_axis = 1;  ///< grid axis of the columns (along strike).
   size_t row_axis = 2;     ///< grid axis of the rows (down dip).
-  Eigen::Vector3d normal, strike, dip;  ///< as in FaultNode; normal has a positive `axis` component.
-  std::vector<char> split;  ///< per point (column line * number of row lines + row line): 1 = splits.
+  Eigen::Vector3d normal, strike,
+      dip;  ///< as in FaultNode; normal has a positive `axis` component.
+  std::vector<char>
+      split;  ///< per point (column line * number of row lines + row line): 1 = splits.
 };
 
 /// Mapped structured hexahedra before the faults are cut. Point (i, j, k) of the lines is at
@@ -30,7 +32,7 @@ struct StructuredGrid {
   std::vector<double> region_fraction;       ///< per cell.
   std::vector<GridFault> faults;
   std::array<bool, 3> tied = {false, false, false};
-  bool plane_strain = false;                 ///< one cell in y; ties y.
+  bool plane_strain = false;  ///< one cell in y; ties y.
 
   size_t n_lines(size_t axis) const { return lines[axis].size(); }
   size_t n_points() const { return n_lines(0) * n_lines(1) * n_lines(2); }
@@ -45,13 +47,13 @@ struct StructuredGrid {
 
 /// Cuts the faults and ties the faces.
 ///
-/// The minus copy of a duplicated node keeps the grid's number (point number), the plus copies follow
-/// after all points, fault by fault. Columns ascend along the column axis, rows go down dip. In
-/// plane strain a fault has one column, its faces have both ends of an edge twice (corners 0 and 3,
-/// 1 and 2 are one point), and areas are divided by the thickness.
+/// The minus copy of a duplicated node keeps the grid's number (point number), the plus copies
+/// follow after all points, fault by fault. Columns ascend along the column axis, rows go down dip.
+/// In plane strain a fault has one column, its faces have both ends of an edge twice (corners 0 and
+/// 3, 1 and 2 are one point), and areas are divided by the thickness.
 ///
-/// Throws InputError where opposite tied faces do not match (shape, or a fault cuts one of them only)
-/// or a fault splits no node.
+/// Throws InputError where opposite tied faces do not match (shape, or a fault cuts one of them
+/// only) or a fault splits no node.
 Mesh cut_faults(StructuredGrid grid);
 
 /// Throws InputError when more than kMaxCells cells are asked for.

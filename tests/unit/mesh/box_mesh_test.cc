@@ -8,7 +8,8 @@ using List = std::vector<std::string>;
 
 constexpr double kDegree = M_PI / 180;
 
-BoxMeshSpec box(std::array<double, 3> from, std::array<double, 3> to, double size, double growth = 1) {
+BoxMeshSpec box(std::array<double, 3> from, std::array<double, 3> to, double size,
+                double growth = 1) {
   BoxMeshSpec spec;
   spec.from = from, spec.to = to;
   spec.layer_materials = {0};
@@ -55,8 +56,9 @@ TEST(BoxMesh, BoundaryFacesLieOnTheirSides) {
     const int side = static_cast<int>(face.side), axis = side / 2;
     const double wanted = side % 2 == 0 ? 0 : spec.to[static_cast<size_t>(axis)];
     for (const int n : face.nodes) EXPECT_EQ(node(mesh, n)[axis], wanted);
-    const Eigen::Vector3d normal = (node(mesh, face.nodes[1]) - node(mesh, face.nodes[0]))
-                                       .cross(node(mesh, face.nodes[2]) - node(mesh, face.nodes[0]));
+    const Eigen::Vector3d normal =
+        (node(mesh, face.nodes[1]) - node(mesh, face.nodes[0]))
+            .cross(node(mesh, face.nodes[2]) - node(mesh, face.nodes[0]));
     EXPECT_GT(normal[axis] * (side % 2 == 0 ? -1 : 1), 0);
   }
 }
@@ -201,13 +203,17 @@ TEST(BoxMesh, RefusesWhatCannotBeMeshed) {
   EXPECT_EQ(pointers([](BoxMeshSpec& s) { s.sizes = {0.01, 0.01, 0.01, 1, 0, 0}; }), List{"/mesh"});
   // Regions.
   EXPECT_EQ(pointers([](BoxMeshSpec& s) {
-              s.regions = {{false, {0, 0, 0}, {2, 2, 2}, {}, 0, 0}, {false, {1, 1, 1}, {3, 3, 3}, {}, 0, 0}};
+              s.regions = {{false, {0, 0, 0}, {2, 2, 2}, {}, 0, 0},
+                           {false, {1, 1, 1}, {3, 3, 3}, {}, 0, 0}};
             }),
             List{"/geometry/regions/1"});
-  EXPECT_EQ(pointers([](BoxMeshSpec& s) { s.regions = {{false, {20, 0, 0}, {22, 2, 2}, {}, 0, 0}}; }),
+  EXPECT_EQ(pointers([](BoxMeshSpec& s) {
+              s.regions = {{false, {20, 0, 0}, {22, 2, 2}, {}, 0, 0}};
+            }),
             List{"/geometry/regions/0"});
   // A tied face that a fault cuts on one side only; a grid sheared between tied faces.
-  EXPECT_EQ(pointers([](BoxMeshSpec& s) { s.tied[1] = true, s.patches[0].center[1] = 9; }), List{"/faults"});
+  EXPECT_EQ(pointers([](BoxMeshSpec& s) { s.tied[1] = true, s.patches[0].center[1] = 9; }),
+            List{"/faults"});
   EXPECT_EQ(pointers([](BoxMeshSpec& s) {
               s.tied[1] = true, s.patches[0].length = 100, s.patches[0].strike = 0.2;
             }),

@@ -1,7 +1,7 @@
 #include "tests/unit/mesh/mesh_checks.h"
 
-/// Patches of any orientation: they lie on the plane asked for, their edges on grid lines, and areas
-/// add up.
+/// Patches of any orientation: they lie on the plane asked for, their edges on grid lines, and
+/// areas add up.
 namespace faultsim {
 namespace {
 
@@ -67,7 +67,8 @@ TEST(BoxPatch, RectanglesEndOnGridLinesWhateverTheirStrikeAndDip) {
       check_mesh(mesh);
       const FaultSurface& fault = mesh.faults[0];
       EXPECT_NEAR(face_area(fault), 80, 1e-9);
-      EXPECT_EQ(fault.nodes.size(), static_cast<size_t>((fault.n_columns - 2) * (fault.n_rows - 2)));
+      EXPECT_EQ(fault.nodes.size(),
+                static_cast<size_t>((fault.n_columns - 2) * (fault.n_rows - 2)));
       double length = 0;
       for (const double width : fault.column_width) length += width;
       EXPECT_NEAR(length, 10, 1e-9);

@@ -66,7 +66,8 @@ TEST(FieldMesh, IsSoundForAllOffsetsAndDips) {
       EXPECT_NEAR(total_volume(mesh), 20e3 * 20e3 * 5e3, 1e-9 * 2e12);
       EXPECT_NEAR(volume_by_boundary(mesh), 20e3 * 20e3 * 5e3, 1e-9 * 2e12);
       const double shift_each = std::tan(dip * kDegree);
-      const double west = 2000 * (2000.0 * 200 + shift_each * 0);  // pivot in the middle of the layer
+      const double west =
+          2000 * (2000.0 * 200 + shift_each * 0);  // pivot in the middle of the layer
       EXPECT_NEAR(region_volume(mesh, 0), west, 1e-9 * west);
       // East block: its fault side lies offset below the pivot on average.
       const double east = 2000 * (2000 - offset * shift_each) * 200;
@@ -142,7 +143,8 @@ TEST(FieldMesh, AnUpwardOffsetPullsUpTheUnderburden) {
 
 /// Heights of the cells next to a depth: two above, two below.
 std::vector<double> heights_around(const std::vector<double>& z, double depth) {
-  const auto at = std::find_if(z.begin(), z.end(), [&](double x) { return std::abs(x + depth) < 1e-6; });
+  const auto at =
+      std::find_if(z.begin(), z.end(), [&](double x) { return std::abs(x + depth) < 1e-6; });
   EXPECT_NE(at, z.end()) << depth;
   if (at == z.end()) return {};
   return {at[2] - at[1], at[1] - at[0], at[0] - at[-1], at[-1] - at[-2]};
@@ -168,10 +170,11 @@ TEST(FieldMesh, CornersHaveEqualCellHeightsThroughAnOffsetSweep) {
             const double distance = side == 0 ? edge - other : other - edge;
             if (distance > 1e-6) room = std::min(room, distance);
           }
-          SCOPED_TRACE(::testing::Message() << "dip " << dip << " offset " << offset << " edge " << edge
-                                            << " room " << room);
+          SCOPED_TRACE(::testing::Message() << "dip " << dip << " offset " << offset << " edge "
+                                            << edge << " room " << room);
           if (room >= 4 * dip) {
-            for (int k = 0; k < 2; ++k) EXPECT_NEAR(heights[static_cast<size_t>(2 * side + k)], dip, 1e-9);
+            for (int k = 0; k < 2; ++k)
+              EXPECT_NEAR(heights[static_cast<size_t>(2 * side + k)], dip, 1e-9);
           } else {
             EXPECT_LE(heights[static_cast<size_t>(2 * side)], 1.1 * dip);
             EXPECT_LE(heights[static_cast<size_t>(2 * side + 1)], 1.1 * dip);
@@ -187,8 +190,9 @@ TEST(FieldMesh, BeginsWithTheNormalSizeBesideEachFaultAndGrows) {
   const std::vector<double> x = grid_lines(spec, problems).x;
   for (const double fault : {-2000.0, 0.0, 2000.0})
     for (const double near : {fault - 20, fault, fault + 20})
-      EXPECT_TRUE(std::any_of(x.begin(), x.end(), [&](double v) { return std::abs(v - near) < 1e-9; }))
-          << near;
+      EXPECT_TRUE(std::any_of(x.begin(), x.end(), [&](double v) {
+        return std::abs(v - near) < 1e-9;
+      })) << near;
   for (size_t k = 1; k + 1 < x.size(); ++k) {
     const double ratio = (x[k + 1] - x[k]) / (x[k] - x[k - 1]);
     EXPECT_LE(std::max(ratio, 1 / ratio), 1.3 + 1e-9);
@@ -214,8 +218,13 @@ TEST(FieldMesh, HalfDomainIsHalfOfTheFullOne) {
     EXPECT_NEAR(2 * half.faults[i].column_width[0], half.faults[i].column_width[1], 1e-9);
     EXPECT_NEAR(half.faults[i].grid_position[0].y(), 0, 1e-12);
     EXPECT_NEAR(2 * half.faults[i].nodes[3].area,
-                full.faults[i].nodes[full.faults[i].nodes.size() / 2 / static_cast<size_t>(full.faults[i].n_rows - 2) *
-                                         static_cast<size_t>(full.faults[i].n_rows - 2) + 3].area, 1e-9);
+                full.faults[i]
+                    .nodes[full.faults[i].nodes.size() / 2 /
+                               static_cast<size_t>(full.faults[i].n_rows - 2) *
+                               static_cast<size_t>(full.faults[i].n_rows - 2) +
+                           3]
+                    .area,
+                1e-9);
   }
 }
 
@@ -287,14 +296,20 @@ TEST(FieldMesh, RefusesImpossibleGeometryWithItsPlace) {
   };
   using List = std::vector<std::string>;
   EXPECT_EQ(pointers([](FieldMeshSpec&) {}), List{});
-  EXPECT_EQ(pointers([](FieldMeshSpec& s) { s.blocks[1].offset = 2700; }), List{"/geometry/blocks/1/offset"});
-  EXPECT_EQ(pointers([](FieldMeshSpec& s) { s.blocks[1].offset = -1900; }), List{"/geometry/blocks/1/offset"});
-  EXPECT_EQ(pointers([](FieldMeshSpec& s) { s.blocks[1].from = 10; }), List{"/geometry/blocks/1/from"});
+  EXPECT_EQ(pointers([](FieldMeshSpec& s) { s.blocks[1].offset = 2700; }),
+            List{"/geometry/blocks/1/offset"});
+  EXPECT_EQ(pointers([](FieldMeshSpec& s) { s.blocks[1].offset = -1900; }),
+            List{"/geometry/blocks/1/offset"});
+  EXPECT_EQ(pointers([](FieldMeshSpec& s) { s.blocks[1].from = 10; }),
+            List{"/geometry/blocks/1/from"});
   EXPECT_EQ(pointers([](FieldMeshSpec& s) { s.width = 4000; }), List{"/geometry/width"});
   EXPECT_EQ(pointers([](FieldMeshSpec& s) { s.sizes.dip = 0; }), List{"/mesh/dip"});
-  EXPECT_EQ(pointers([](FieldMeshSpec& s) { s.sizes.normal = std::nan(""); }), List{"/mesh/normal"});
-  EXPECT_EQ(pointers([](FieldMeshSpec& s) { s.fault_dips[2] = 1; }), List{"/faults/2/dip_from_vertical"});
-  EXPECT_EQ(pointers([](FieldMeshSpec& s) { s.layer_tops[1] = 2100; }), List{"/geometry/layers/2/top_depth"});
+  EXPECT_EQ(pointers([](FieldMeshSpec& s) { s.sizes.normal = std::nan(""); }),
+            List{"/mesh/normal"});
+  EXPECT_EQ(pointers([](FieldMeshSpec& s) { s.fault_dips[2] = 1; }),
+            List{"/faults/2/dip_from_vertical"});
+  EXPECT_EQ(pointers([](FieldMeshSpec& s) { s.layer_tops[1] = 2100; }),
+            List{"/geometry/layers/2/top_depth"});
   // Two faults 100 m apart that lean towards each other meet within the reservoir.
   EXPECT_EQ(pointers([](FieldMeshSpec& s) {
               s.blocks = {{-2000, 0, 0}, {0, 100, 0}};

@@ -79,7 +79,8 @@ TEST(GradedLine, AlwaysContainsTheLinesAskedFor) {
 }
 
 TEST(GradedLine, KeepsGrowthAcrossLinesAskedForWhereThereIsRoom) {
-  const std::vector<double> line = graded_line(-4000, 4000, -50, 50, 5, 1.3, 0, {-2100, -600, 700, 3000});
+  const std::vector<double> line =
+      graded_line(-4000, 4000, -50, 50, 5, 1.3, 0, {-2100, -600, 700, 3000});
   EXPECT_LE(largest_ratio(steps(line)), 1.3 + 1e-6);
 }
 
