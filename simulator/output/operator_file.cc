@@ -25,7 +25,8 @@
 namespace faultsim {
 namespace {
 
-constexpr std::size_t kBlock = 4096;  ///< also the alignment of H in the file.
+constexpr std::size_t kBlock = 4096;
+constexpr hsize_t kAlignment = 64;  ///< of H in the file and so, behind a whole block, in memory.
 constexpr int kFormat = 1;
 constexpr const char* kH = "/h";
 
@@ -176,9 +177,9 @@ void map_h(FaultOperator& op, hid_t file, std::shared_ptr<const Mapping> mapping
   }
   if (n > 0) {
     const haddr_t offset = H5Dget_offset(dataset);
-    if (offset == HADDR_UNDEF || offset % alignof(double) != 0 || offset > mapping->size() ||
+    if (offset == HADDR_UNDEF || offset % kAlignment != 0 || offset > mapping->size() ||
         mapping->size() - offset < n * n * sizeof(double)) {
-      throw Damage("H lies outside of the file");
+      throw Damage("H lies at the wrong place of the file");
     }
     const auto* values = reinterpret_cast<const double*>(mapping->bytes() + offset);
     new (&op.h) Eigen::Map<const Eigen::MatrixXd>(values, op.geometry.n_dofs, op.geometry.n_dofs);
@@ -211,7 +212,7 @@ void encode(const FaultOperator& op, const OperatorTables& tables, const Pending
     const hdf5::Session session;
     const hdf5::Handle access = hdf5::file_access();
     hdf5::use_disk_driver(access, &first_error);
-    hdf5::check(H5Pset_alignment(access, kBlock, kBlock), "alignment");
+    hdf5::check(H5Pset_alignment(access, 1, kAlignment), "alignment");
     const hdf5::Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "property list");
     hdf5::check(H5Pset_userblock(creation, kBlock), "user block");
     hdf5::Handle file(H5Fcreate(target.temporary().c_str(), H5F_ACC_TRUNC, creation, access),
