@@ -277,7 +277,6 @@ class LayoutBuilder {
   }
 
   void bend_planes() {
-    const size_t a = layout_.axis;
     std::vector<BentPlane> planes;
     std::vector<size_t> owner;  // first patch of each plane
     layout_.plane_of.assign(layout_.frames.size(), 0);
@@ -296,12 +295,41 @@ class LayoutBuilder {
         }
       }
       check_overlap(i);
-      if (!(plane.ref > spec_.from[a] + tolerance_) || !(plane.ref < spec_.to[a] - tolerance_))
-        problems_.push_back({patch_pointer(i), 0,
+    }
+    align_parallel(planes, owner);
+    check_inside(planes, owner);
+    if (problems_.empty()) sort_planes(planes, owner);
+  }
+
+  /// Parallel planes are bent over the same range and about the same place, the centre of the first
+  /// patch, so that they are as far apart everywhere as they are on the reference grid.
+  void align_parallel(std::vector<BentPlane>& planes, const std::vector<size_t>& owner) const {
+    const std::vector<BentPlane> own = planes;
+    for (size_t k = 0; k < planes.size(); ++k) {
+      bool first = true;
+      for (size_t m = 0; m < planes.size(); ++m) {
+        const Vector3d turn = layout_.frames[owner[k]].normal - layout_.frames[owner[m]].normal;
+        if (turn.norm() > kAngleTolerance) continue;
+        for (size_t d = 0; d < 2; ++d) {
+          planes[k].low[d] = std::min(planes[k].low[d], own[m].low[d]);
+          planes[k].high[d] = std::max(planes[k].high[d], own[m].high[d]);
+          if (!first) continue;
+          planes[k].ref += planes[k].slope[d] * (own[m].pivot[d] - planes[k].pivot[d]);
+          planes[k].pivot[d] = own[m].pivot[d];
+        }
+        first = false;
+      }
+    }
+  }
+
+  void check_inside(const std::vector<BentPlane>& planes, const std::vector<size_t>& owner) {
+    const size_t a = layout_.axis;
+    for (size_t k = 0; k < planes.size(); ++k)
+      if (!(planes[k].ref > spec_.from[a] + tolerance_) ||
+          !(planes[k].ref < spec_.to[a] - tolerance_))
+        problems_.push_back({patch_pointer(owner[k]), 0,
                              concat("its plane meets the ", kAxisName[a], " side of the box"),
                              "move it inwards or enlarge the box"});
-    }
-    if (problems_.empty()) sort_planes(planes, owner);
   }
 
   void check_overlap(size_t i) {

@@ -77,7 +77,9 @@ struct GridLines {
 ///
 /// Box: fine in the plane of the patches within their bounds and fine_margin; without patches
 /// within those of the regions in all directions; without either even. Edges of patches, regions
-/// and layers are lines. Regions and layers are taken in unsheared coordinates.
+/// and layers are lines. Regions and layers are taken in unsheared coordinates:
+/// there a patch lies where its plane passes the centre of the first patch parallel to it (its own,
+/// if it is alone).
 GridLines grid_lines(const FieldMeshSpec& spec, std::vector<Problem>& problems);
 GridLines grid_lines(const BoxMeshSpec& spec, std::vector<Problem>& problems);
 

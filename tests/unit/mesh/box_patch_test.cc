@@ -150,6 +150,16 @@ TEST(BoxPatch, SeveralFaultsSplitEachOnTheirPlane) {
   EXPECT_NEAR(face_area(mesh.faults[2]), 100, 1e-9);
 }
 
+TEST(BoxPatch, ParallelPatchesMayBeNearWhereTheirRangesDiffer) {
+  BoxMeshSpec spec = body();
+  spec.patches = {{"south", {0, -6, 0}, 30 * kDegree, 0, 6, 6, false},
+                  {"north", {3, 6, 0}, 30 * kDegree, 0, 6, 6, false}};
+  const Mesh mesh = make_mesh(spec);
+  check_mesh(mesh);
+  EXPECT_NEAR(face_area(mesh.faults[0]), 36, 1e-9);
+  EXPECT_NEAR(face_area(mesh.faults[1]), 36, 1e-9);
+}
+
 TEST(BoxPatch, TwoPatchesMayShareAPlaneAndAnEdge) {
   BoxMeshSpec spec = body();
   const double dip = 20 * kDegree;

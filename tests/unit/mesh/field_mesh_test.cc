@@ -24,7 +24,7 @@ FieldMeshSpec reference(double offset) {
   spec.fault_overshoot = 150, spec.pivot_depth = 2100;
   spec.fault_names = {"F1", "F2", "F3"};
   spec.fault_dips = {0, 0, 0};
-  spec.sizes = {200, 20, 50, 1.5, 0, 0};
+  spec.sizes = {400, 20, 100, 1.8, 0, 0};
   spec.half_domain = false;
   spec.plane_strain = false;
   return spec;
