@@ -1,5 +1,6 @@
 #include "simulator/condensation/condensation.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
