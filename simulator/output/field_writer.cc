@@ -13,11 +13,11 @@ namespace {
 
 /// The points of a fault that are written, and where their values come from.
 struct FaultPoints {
-  std::string group;               ///< "/faults/NAME"
-  std::string topology;            ///< "Quadrilateral", plane strain: "Polyline".
-  std::vector<int> source;         ///< node of the point; unsplit: of the nearest split one or -1.
-  std::vector<int> split;          ///< 1 where the point is split.
-  std::vector<double> position;    ///< x 3
+  std::string group;             ///< "/faults/NAME"
+  std::string topology;          ///< "Quadrilateral", plane strain: "Polyline".
+  std::vector<int> source;       ///< node of the point; unsplit: of the nearest split one or -1.
+  std::vector<int> split;        ///< 1 where the point is split.
+  std::vector<double> position;  ///< x 3
   std::vector<int> cells;
   std::size_t points_per_cell = 4;
 };
@@ -103,8 +103,8 @@ std::vector<double> values_at(const OperatorNode& node, const FaultFields& field
     return local[0] * node.normal + local[1] * node.strike + local[2] * node.dip;
   };
   const Eigen::Vector3d traction = fields.traction.col(k);
-  const Eigen::Vector3d jump = is_split ? Eigen::Vector3d(fields.jump.col(k))
-                                        : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  const Eigen::Vector3d jump =
+      is_split ? Eigen::Vector3d(fields.jump.col(k)) : Eigen::Vector3d(Eigen::Vector3d::Zero());
   std::vector<double> values;
   for (const auto& vector : {traction, to_global(traction), jump, to_global(jump)}) {
     values.insert(values.end(), vector.data(), vector.data() + 3);
@@ -153,8 +153,9 @@ void FieldWriter::Impl::write_geometry(const FaultPoints& fault, const std::stri
                     {fault.cells.size() / fault.points_per_cell, fault.points_per_cell},
                     fault.cells.data(), {"", "points of the faces"});
   hdf5::write_array(*file, at + "split", {n}, fault.split.data(),
-                    {"", "1: the sides can move apart; 0: fault edge, values of the nearest "
-                         "split point and no slip"});
+                    {"",
+                     "1: the sides can move apart; 0: fault edge, values of the nearest "
+                     "split point and no slip"});
   hdf5::write_array(*file, at + "normal", {n, 3}, normal.data(),
                     {"1", "normal, from the minus to the plus side"});
   hdf5::write_array(*file, at + "strike", {n, 3}, strike.data(), {"1", "strike direction"});
@@ -204,13 +205,12 @@ XdmfGrid FieldWriter::Impl::grid(std::size_t f) const {
   const FaultPoints& fault = faults[f];
   const std::size_t n = fault.source.size(), n_steps = times.size();
   const std::string at = fault.group + "/geometry/";
-  XdmfGrid grid{names[f],
-                fault.topology,
-                {at + "cells",
-                 {fault.cells.size() / fault.points_per_cell, fault.points_per_cell},
-                 true},
-                {at + "points", {n, 3}},
-                {}};
+  XdmfGrid grid{
+      names[f],
+      fault.topology,
+      {at + "cells", {fault.cells.size() / fault.points_per_cell, fault.points_per_cell}, true},
+      {at + "points", {n, 3}},
+      {}};
   grid.attributes.push_back({"split", {at + "split", {n}, true}});
   for (const char* direction : {"normal", "strike", "dip"}) {
     grid.attributes.push_back({direction, {at + direction, {n, 3}}, false, true});
@@ -219,8 +219,11 @@ XdmfGrid FieldWriter::Impl::grid(std::size_t f) const {
   for (const FieldInfo& info : kFields) {
     std::vector<std::size_t> shape = {n_steps, n};
     if (info.n_components > 1) shape.push_back(info.n_components);
-    grid.attributes.push_back({info.name, {fault.group + "/steps/" + info.name, shape}, false,
-                               info.n_components > 1, true});
+    grid.attributes.push_back({info.name,
+                               {fault.group + "/steps/" + info.name, shape},
+                               false,
+                               info.n_components > 1,
+                               true});
   }
   grid.attributes.push_back(
       {kState, {fault.group + "/steps/" + kState, {n_steps, n}, true}, false, false, true});
@@ -258,11 +261,10 @@ void FieldWriter::add_step(const StepResult& step, const FaultFields& fields) {
                       fields.static_critical_index.size() == n && fields.state.size() == n &&
                       fields.fault_pressure_change.size() == n,
                   "fields of ", n, " nodes");
-  FAULTSIM_DEMAND(fields.traction.allFinite() && fields.jump.allFinite() &&
-                      fields.critical_index.allFinite() &&
-                      fields.static_critical_index.allFinite() &&
-                      fields.fault_pressure_change.allFinite(),
-                  "a field of step ", step.step, " is not finite");
+  FAULTSIM_DEMAND(
+      fields.traction.allFinite() && fields.jump.allFinite() && fields.critical_index.allFinite() &&
+          fields.static_critical_index.allFinite() && fields.fault_pressure_change.allFinite(),
+      "a field of step ", step.step, " is not finite");
   const hdf5::Session session;
   for (std::size_t f = 0; f < impl_->faults.size(); ++f) impl_->append(f, fields);
   impl_->times.push_back(step.time);

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <filesystem>
 #include <hdf5.h>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -9,8 +9,8 @@
 
 namespace faultsim {
 
-/// Writes the HDF5 file that is in memory as folder/NAME.h5 with its folder/NAME.xmf. Both get their
-/// names when both are complete. Throws StorageError and leaves nothing behind.
+/// Writes the HDF5 file that is in memory as folder/NAME.h5 with its folder/NAME.xmf. Both get
+/// their names when both are complete. Throws StorageError and leaves nothing behind.
 void write_file_pair(const std::filesystem::path& folder, const std::string& name, hid_t file,
                      const std::vector<XdmfGrid>& grids, const std::vector<double>& times);
 

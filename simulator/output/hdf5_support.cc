@@ -138,8 +138,8 @@ std::vector<std::byte> image(hid_t file) {
 void write_text_attribute(hid_t object, const std::string& name, const std::string& text) {
   const Handle type = text_type(text.size());
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
-  const Handle attribute(
-      H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
+  const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose, name);
   check(H5Awrite(attribute, type, text.c_str()), name);
 }
 
@@ -213,8 +213,7 @@ GrowingArray::GrowingArray(hid_t file, const std::string& path, hid_t type, hsiz
         check(H5Pset_shuffle(creation), path);
         check(H5Pset_deflate(creation, 4), path);
         check(H5Pset_fletcher32(creation), path);
-        return {H5Dcreate2(file, path.c_str(), type, space, link_creation(), creation,
-                           H5P_DEFAULT),
+        return {H5Dcreate2(file, path.c_str(), type, space, link_creation(), creation, H5P_DEFAULT),
                 H5Dclose, path};
       }()),
       sizes_(n_components > 1 ? std::vector<hsize_t>{0, n_points, n_components}

@@ -72,8 +72,7 @@ void add_fault(OperatorTables& t, const OperatorFault& fault) {
   for (const auto& position : fault.grid_position) push(t.grid_position, position);
   t.grid_node.insert(t.grid_node.end(), fault.grid_node.begin(), fault.grid_node.end());
   for (const char used : fault.grid_used) t.grid_used.push_back(used != 0 ? 1 : 0);
-  t.column_width.insert(t.column_width.end(), fault.column_width.begin(),
-                        fault.column_width.end());
+  t.column_width.insert(t.column_width.end(), fault.column_width.begin(), fault.column_width.end());
   for (const auto& face : fault.faces) t.faces.insert(t.faces.end(), face.begin(), face.end());
 }
 

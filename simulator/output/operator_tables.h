@@ -11,23 +11,23 @@ namespace faultsim {
 /// are row by row, one row per node, point, ...; lists of varying length are one after the other.
 struct OperatorTables {
   std::vector<std::string> fingerprint, blas, fault_names, load_names, observation_names;
-  std::vector<int> header;        ///< n_dofs, plane_strain, half_domain, n_unknowns
-  std::vector<double> provenance; ///< build_seconds, factor_bytes
-  std::vector<double> node_position, node_normal, node_strike, node_dip;          ///< n x 3
+  std::vector<int> header;         ///< n_dofs, plane_strain, half_domain, n_unknowns
+  std::vector<double> provenance;  ///< build_seconds, factor_bytes
+  std::vector<double> node_position, node_normal, node_strike, node_dip;  ///< n x 3
   std::vector<double> node_numbers;  ///< n x 5: area, G_eff, ν, edge_strike, edge_dip
   std::vector<int> node_dof;         ///< n x 3
   std::vector<int> node_n_pairs;     ///< pressure pairs of each node
   std::vector<int> pair_regions;     ///< x 2: minus, plus
   std::vector<double> pair_numbers;  ///< x 3: minus_fraction, plus_fraction, weight
-  std::vector<int> fault_numbers;    ///< x 7: columns, rows, first node, nodes, points, widths, faces
-  std::vector<double> grid_position; ///< x 3
+  std::vector<int> fault_numbers;  ///< x 7: columns, rows, first node, nodes, points, widths, faces
+  std::vector<double> grid_position;  ///< x 3
   std::vector<int> grid_node, grid_used;
   std::vector<double> column_width;
-  std::vector<int> faces;            ///< x 4
-  std::vector<double> locked_positions;      ///< x 3
+  std::vector<int> faces;                ///< x 4
+  std::vector<double> locked_positions;  ///< x 3
   std::vector<double> dof_area;
-  std::vector<double> locked;                ///< column-major
-  std::vector<double> observation_position;  ///< x 3
+  std::vector<double> locked;                        ///< column-major
+  std::vector<double> observation_position;          ///< x 3
   std::vector<double> observed_load, observed_jump;  ///< column-major
 };
 

@@ -14,11 +14,16 @@ constexpr std::array kOutcomes = {Outcome::failed, Outcome::converged, Outcome::
 
 const char* to_string(Outcome outcome) {
   switch (outcome) {
-    case Outcome::failed: return "failed";
-    case Outcome::converged: return "converged";
-    case Outcome::unconverged: return "unconverged";
-    case Outcome::unstable: return "unstable";
-    case Outcome::interrupted: return "interrupted";
+    case Outcome::failed:
+      return "failed";
+    case Outcome::converged:
+      return "converged";
+    case Outcome::unconverged:
+      return "unconverged";
+    case Outcome::unstable:
+      return "unstable";
+    case Outcome::interrupted:
+      return "interrupted";
   }
   throw_internal("outcome is an enumerator", concat(static_cast<int>(outcome)), __FILE__, __LINE__);
 }

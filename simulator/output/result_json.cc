@@ -148,7 +148,7 @@ struct Writer {
     object[name] = std::move(list);
   }
   template <typename Struct>
-    requires std::is_class_v<Struct>
+  requires std::is_class_v<Struct>
   void operator()(const char* name, const Struct& value) const {
     json fields = json::object();
     for_each_field(value, Writer{fields});
@@ -212,7 +212,7 @@ struct Reader {
     }
   }
   template <typename Struct>
-    requires std::is_class_v<Struct>
+  requires std::is_class_v<Struct>
   static void read(const char* name, const json& value, Struct& target) {
     if (!value.is_object()) refuse(name, value, "an object");
     for_each_field(target, Reader{value});

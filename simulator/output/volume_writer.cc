@@ -40,8 +40,11 @@ void write_volume(const std::filesystem::path& folder, const Eigen::Matrix3Xd& n
     times.push_back(snapshot.time);
     names.push_back(snapshot.name);
   }
-  XdmfGrid grid{"volume", "Hexahedron", {"/mesh/cells", {cells.size(), 8}, true},
-                {"/mesh/nodes", {n_nodes, 3}}, {}};
+  XdmfGrid grid{"volume",
+                "Hexahedron",
+                {"/mesh/cells", {cells.size(), 8}, true},
+                {"/mesh/nodes", {n_nodes, 3}},
+                {}};
   grid.attributes.push_back({"material", {"/mesh/material", {cells.size()}, true}, true});
   if (!snapshots.empty()) {
     hdf5::write_array(file, "/time", {times.size()}, times.data(), {"s", "time"});
@@ -49,16 +52,13 @@ void write_volume(const std::filesystem::path& folder, const Eigen::Matrix3Xd& n
     hdf5::GrowingArray displacement(file, "/displacement", H5T_IEEE_F64LE, n_nodes, 3,
                                     {"m", "displacement since the initial equilibrium"});
     for (const VolumeSnapshot& snapshot : snapshots) {
-      FAULTSIM_DEMAND(snapshot.displacement.cols() == nodes.cols() &&
-                          snapshot.displacement.allFinite(),
-                      "snapshot ", snapshot.name, " of ", snapshot.displacement.cols(), " nodes");
+      FAULTSIM_DEMAND(
+          snapshot.displacement.cols() == nodes.cols() && snapshot.displacement.allFinite(),
+          "snapshot ", snapshot.name, " of ", snapshot.displacement.cols(), " nodes");
       displacement.append(H5T_NATIVE_DOUBLE, snapshot.displacement.data());
     }
-    grid.attributes.push_back({"displacement",
-                               {"/displacement", {snapshots.size(), n_nodes, 3}},
-                               false,
-                               true,
-                               true});
+    grid.attributes.push_back(
+        {"displacement", {"/displacement", {snapshots.size(), n_nodes, 3}}, false, true, true});
   }
   write_file_pair(folder, "volume", file, {grid}, times);
 }

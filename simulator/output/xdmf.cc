@@ -9,11 +9,20 @@ std::string escape(const std::string& text) {
   std::string result;
   for (const char c : text) {
     switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
     }
   }
   return result;
@@ -28,8 +37,8 @@ std::string join(const std::vector<std::size_t>& numbers) {
 /// A whole dataset.
 std::string item(const std::string& h5_name, const XdmfData& data) {
   return concat("<DataItem Format=\"HDF\" NumberType=\"", data.integer ? "Int" : "Float",
-                "\" Precision=\"", data.integer ? 4 : 8, "\" Dimensions=\"", join(data.shape), "\">",
-                escape(h5_name), ":", data.path, "</DataItem>");
+                "\" Precision=\"", data.integer ? 4 : 8, "\" Dimensions=\"", join(data.shape),
+                "\">", escape(h5_name), ":", data.path, "</DataItem>");
 }
 
 /// One step of a dataset in time, by a hyperslab: start, stride and count of each dimension.
@@ -39,9 +48,9 @@ std::string slab(const std::string& h5_name, const XdmfData& data, std::size_t s
   start[0] = step;
   count[0] = 1;
   return concat("<DataItem ItemType=\"HyperSlab\" Type=\"HyperSlab\" Dimensions=\"", join(count),
-                "\"><DataItem Format=\"XML\" NumberType=\"Int\" Dimensions=\"3 ",
-                data.shape.size(), "\">", join(start), " ", join(stride), " ", join(count),
-                "</DataItem>", item(h5_name, data), "</DataItem>");
+                "\"><DataItem Format=\"XML\" NumberType=\"Int\" Dimensions=\"3 ", data.shape.size(),
+                "\">", join(start), " ", join(stride), " ", join(count), "</DataItem>",
+                item(h5_name, data), "</DataItem>");
 }
 
 void write_grid(std::string& out, const std::string& h5_name, const XdmfGrid& grid,
@@ -55,12 +64,12 @@ void write_grid(std::string& out, const std::string& h5_name, const XdmfGrid& gr
   out += concat("        <Geometry GeometryType=\"XYZ\">", item(h5_name, grid.points),
                 "</Geometry>\n");
   for (const XdmfAttribute& attribute : grid.attributes) {
-    out += concat("        <Attribute Name=\"", escape(attribute.name), "\" AttributeType=\"",
-                  attribute.vector ? "Vector" : "Scalar", "\" Center=\"",
-                  attribute.on_cells ? "Cell" : "Node", "\">",
-                  attribute.in_time ? slab(h5_name, attribute.data, step)
-                                    : item(h5_name, attribute.data),
-                  "</Attribute>\n");
+    out += concat(
+        "        <Attribute Name=\"", escape(attribute.name), "\" AttributeType=\"",
+        attribute.vector ? "Vector" : "Scalar", "\" Center=\"",
+        attribute.on_cells ? "Cell" : "Node", "\">",
+        attribute.in_time ? slab(h5_name, attribute.data, step) : item(h5_name, attribute.data),
+        "</Attribute>\n");
   }
   out += "      </Grid>\n";
 }

@@ -27,9 +27,9 @@ struct XdmfAttribute {
 
 struct XdmfGrid {
   std::string name;
-  std::string topology;         ///< "Quadrilateral", "Polyline", "Hexahedron", "Polyvertex".
-  XdmfData cells;               ///< n_cells x nodes per cell.
-  XdmfData points;              ///< n_points x 3.
+  std::string topology;  ///< "Quadrilateral", "Polyline", "Hexahedron", "Polyvertex".
+  XdmfData cells;        ///< n_cells x nodes per cell.
+  XdmfData points;       ///< n_points x 3.
   std::vector<XdmfAttribute> attributes;
 };
 

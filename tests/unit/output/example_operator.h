@@ -29,8 +29,7 @@ class ScratchFolder {
   const std::filesystem::path& path() const { return path_; }
   /// Names of all entries, hidden ones too.
   std::size_t n_entries() const {
-    return static_cast<std::size_t>(
-        std::distance(std::filesystem::directory_iterator(path_), {}));
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
   }
 
  private:

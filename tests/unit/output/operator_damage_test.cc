@@ -61,8 +61,7 @@ TEST(DiskFullSlices, EveryLimitBelowTheSizeIsHandled) {
   const ScratchFolder folder;
   const FaultOperator op = example_operator("a");
   write_operator(op, folder.path() / "full");
-  const auto size =
-      std::filesystem::file_size(folder.path() / "full" / (op.fingerprint + ".h5"));
+  const auto size = std::filesystem::file_size(folder.path() / "full" / (op.fingerprint + ".h5"));
   const auto write = [&] {
     write_operator(op, folder.path() / "small");
     return 0;

@@ -47,9 +47,9 @@ StageMetrics example_stage(const char* name, bool active) {
     s.activated_fault = "F1";
     s.magnitude = 2.5;
   }
-  for (double* value : {&s.chi_bar, &s.chi_max, &s.area_chi_080, &s.thickness_chi_080,
-                        &s.activated_area, &s.slipping_area, &s.open_area, &s.max_slip,
-                        &s.potency, &s.moment}) {
+  for (double* value :
+       {&s.chi_bar, &s.chi_max, &s.area_chi_080, &s.thickness_chi_080, &s.activated_area,
+        &s.slipping_area, &s.open_area, &s.max_slip, &s.potency, &s.moment}) {
     *value = next();
   }
   return s;
@@ -225,8 +225,9 @@ TEST(ResultJson, ReadingRefusesWhatItDoesNotKnow) {
   expect_refused(json::array(), "not a JSON object");
   document = good;
   document["steps"][1]["faults"][0].erase("chi_bar");
-  expect_refused(document, "the key \"chi_bar\" is missing / while reading faults/0 / while "
-                           "reading steps/1");
+  expect_refused(document,
+                 "the key \"chi_bar\" is missing / while reading faults/0 / while "
+                 "reading steps/1");
   document = good;
   document["outcome"] = "splendid";
   expect_refused(document, "splendid");
