@@ -2,6 +2,7 @@
 
 #include <udunits2.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -120,6 +121,22 @@ std::string with_our_words(const std::string& unit) {
   return result;
 }
 
+/// number times factor. Factors of SI prefixes are powers of ten, of which udunits' double may be
+/// one bit off; taken exactly, "2.4 g/cm3" and "2400 kg/m3", "1 mm" and "0.001 m" are the same
+/// bits.
+long double times(long double number, double factor) {
+  constexpr long kLargestExact = 27;  // 10^27 = 2^27 5^27 fits the 64 bits of a long double
+  constexpr double kFewBits = 1e-14;
+  const long exponent = std::lround(std::log10(std::abs(factor)));
+  long double power = 1;
+  for (long i = 0; i < std::min(std::abs(exponent), kLargestExact); ++i) power *= 10;
+  const long double exact = exponent < 0 ? 1 / power : power;
+  const bool is_power = std::abs(exponent) <= kLargestExact &&
+                        std::abs(static_cast<long double>(factor) / exact - 1) < kFewBits;
+  if (!is_power) return number * static_cast<long double>(factor);
+  return exponent < 0 ? number / power : number * power;
+}
+
 ParsedQuantity failed(std::string what, std::string cure) {
   return {std::numeric_limits<double>::quiet_NaN(), false, std::move(what), std::move(cure)};
 }
@@ -174,7 +191,7 @@ ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
     return failed(quoted + " is not " + info(dimension).name,
                   "write for example " + example(dimension, digits));
   }
-  const auto value = static_cast<double>(number * static_cast<long double>(*answer.factor));
+  const auto value = static_cast<double>(times(number, *answer.factor));
   if (!std::isfinite(value)) return failed(quoted + " overflows", "write a finite value");
   return {value == 0.0 ? 0.0 : value, true, "", ""};
 }

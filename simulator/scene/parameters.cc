@@ -177,6 +177,25 @@ std::string range_text(const SchemaViews& views) {
          (most.empty() ? ")" : most + "]");
 }
 
+/// Keys that exclude each other: where one is given the others are no parameters.
+bool has_rival(const json& object, const std::string& key) {
+  static const std::vector<std::vector<std::string>> groups = {
+      {"friction_angle", "friction_coefficient"},
+      {"dynamic_friction_angle", "dynamic_friction_coefficient"},
+      {"pressure_change", "pressure", "pressure_between"},
+      {"tensor", "ratio_across"},
+      {"tensor", "ratio_along"},
+      {"tensor", "initial_biot"},
+      {"tensor", "vertical_stress"},
+      {"tensor", "vertical_stress_gradient"}};
+  if (object.contains(key)) return false;
+  return std::any_of(groups.begin(), groups.end(), [&](const auto& group) {
+    if (std::find(group.begin(), group.end(), key) == group.end()) return false;
+    return std::any_of(group.begin(), group.end(),
+                       [&](const auto& rival) { return object.contains(rival); });
+  });
+}
+
 class Collector {
  public:
   Collector(const JsonDocument& document, const Aliases& aliases)
@@ -204,7 +223,7 @@ class Collector {
       if (here.is_object() && here.contains(key)) inner = &here[key];
       if (here.is_array()) inner = &here[std::stoul(key)];
       const std::string next = pointer + "/" + pointer_token(key);
-      if (is_hidden(next)) continue;
+      if (is_hidden(next) || (here.is_object() && has_rival(here, key))) continue;
       walk(inner, child_views(scene_schema(), views, key, inner == nullptr ? kNull : *inner), next,
            family);
     }
@@ -243,6 +262,13 @@ class Collector {
     row.alias = aliases_.of(pointer);
     row.dimension = dimension.empty() ? Dimension::number : dimension_named(dimension);
     row.default_value = keyword_text(views, "default");
+    // A fault's own friction and fault_pressure default to those at the top level.
+    for (const char* object : {"/friction/", "/fault_pressure/"}) {
+      const auto at = pointer.find(object);
+      if (at == 0 || at == std::string::npos) continue;
+      const std::string shared = text_at(document_.value, pointer.substr(at));
+      if (!shared.empty()) row.default_value = shared;
+    }
     row.value = value == nullptr ? row.default_value : text_at(document_.value, pointer);
     row.range = keyword_text(views, "type") == "boolean" ? "{true, false}" : range_text(views);
     row.new_family = family;

@@ -1,1 +1,85 @@
 #include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "simulator/scene/json_document.h"
+#include "simulator/scene/read_scene.h"
+
+namespace faultsim {
+namespace {
+
+using nlohmann::json;
+
+std::string problems_of(const std::string& text, const json& schema) {
+  return format_problems("f", check_schema(parse_json(text, "f"), schema));
+}
+
+const json kSchema = json::parse(R"({
+  "type": "object",
+  "required": ["name", "kind"],
+  "additionalProperties": false,
+  "properties": {
+    "name": {"type": "string"},
+    "kind": {"enum": ["circle", "square"]},
+    "count": {"type": "integer", "minimum": 1, "maximum": 3},
+    "list": {"type": "array", "items": {"$ref": "#/definitions/item"}, "minItems": 2},
+    "anything": {"anyOf": [{"type": "string", "maxLength": 1}, {"type": "null"}]}
+  },
+  "if": {"properties": {"kind": {"const": "circle"}}, "required": ["kind"]},
+  "then": {"properties": {"count": {"maximum": 2}}},
+  "definitions": {"item": {"type": "object", "additionalProperties": false,
+                           "properties": {"size": {"type": "number"}}}}
+})");
+
+TEST(CheckSchema, IsSilentWhereAllIsWell) {
+  EXPECT_EQ(problems_of(R"({"name": "a", "kind": "circle", "list": [{"size": 1}, {}]})", kSchema),
+            "");
+}
+
+TEST(CheckSchema, ReportsEachMistakeOnceWithItsCure) {
+  EXPECT_EQ(problems_of("{\"nmae\": \"a\",\n\"kind\": \"sqare\",\n\"count\": 4,\n\"list\": [{\n"
+                        "\"size\": \"big\"},\n{\"sise\": 1, \"colour\": 2}]}",
+                        kSchema),
+            "f:1: /nmae: \"nmae\" is not a key of this object; did you mean \"name\"?\n"
+            "f:2: /kind: \"sqare\" is not known here; did you mean \"square\"?\n"
+            "f:3: /count: 4 is outside [1, 3]; write a number in the range\n"
+            "f:5: /list/0/size: \"big\" is not a number; write a number\n"
+            "f:6: /list/1/colour: \"colour\" is not a key of this object; write \"size\"\n"
+            "f:6: /list/1/sise: \"sise\" is not a key of this object; did you mean \"size\"?");
+}
+
+TEST(CheckSchema, SeesTheBranchOfAConditional) {
+  EXPECT_EQ(problems_of(R"({"name": "a", "kind": "square", "count": 3})", kSchema), "");
+  EXPECT_NE(problems_of(R"({"name": "a", "kind": "circle", "count": 3})", kSchema), "");
+}
+
+TEST(CheckSchema, NamesMissingKeysAndShortLists) {
+  EXPECT_EQ(problems_of(R"({"name": "a", "list": [{}]})", kSchema),
+            "f:1: \"kind\" is missing; add \"kind\"\n"
+            "f:1: /list: has 1 elements; write at least 2");
+}
+
+TEST(SceneSchema, IsOneThatValijsonKnows) {
+  EXPECT_NO_THROW(check_schema(parse_json("{}", "f"), scene_schema()));
+}
+
+/// Quantities without a dimension would slip through unconverted.
+TEST(SceneSchema, GivesEveryTextOrNumberADimension) {
+  int n_quantities = 0;
+  const std::function<void(const json&)> visit = [&](const json& schema) {
+    if (schema.is_object()) {
+      if (schema.contains("type") && schema["type"] == json({"string", "number"})) {
+        EXPECT_TRUE(schema.contains("x-dimension")) << schema.dump();
+        ++n_quantities;
+      }
+      for (const auto& [key, inner] : schema.items()) visit(inner);
+    } else if (schema.is_array()) {
+      for (const auto& inner : schema) visit(inner);
+    }
+  };
+  visit(scene_schema());
+  EXPECT_GE(n_quantities, 8);
+}
+
+}  // namespace
+}  // namespace faultsim
