@@ -3,8 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "simulator/scene/read_scene.h"
-
 namespace faultsweep {
 namespace {
 
@@ -19,8 +17,13 @@ CaseValues::CaseValues(const CampaignSpec& spec, const Group& group) : spec_(spe
   if (spec.derived.empty() && spec.exclude.empty()) return;
   for (const auto& info :
        faultsim::parameters({spec.scene_source, group.scene, spec.base.lines})) {
+    infos_[info.pointer] = info;
     const auto parsed = faultsim::parse_quantity(info.value, info.dimension);
-    if (parsed.ok) base_[info.pointer] = parsed.value;
+    if (info.is_text) {
+      base_[info.pointer] = info.value;
+    } else if (parsed.ok) {
+      base_[info.pointer] = parsed.value;
+    }
   }
   for (const Derived& one : spec.derived) derived_.push_back(sources_of(one.expression));
   for (const Exclusion& one : spec.exclude) exclude_.push_back(sources_of(one.expression));
@@ -47,7 +50,6 @@ CaseValues::Source CaseValues::source_of(const std::string& name) const {
     return source;
   }
   std::string pointer;
-  faultsim::Dimension dimension = faultsim::Dimension::number;
   for (const SpecIdentifier& one : spec_.identifiers) {
     if (one.name == name) pointer = one.scene_pointer;
   }
@@ -56,9 +58,7 @@ CaseValues::Source CaseValues::source_of(const std::string& name) const {
     if (spec_.derived[d].scene_pointer == pointer) source.derived = static_cast<int>(d);
   }
   // Changed by a parameter of another name: a factor, a variant, a list of pointers.
-  for (const auto& info : faultsim::parameters({spec_.scene_source, group_.scene, {}})) {
-    if (info.pointer == pointer) dimension = info.dimension;
-  }
+  const auto info = infos_.find(pointer);
   for (std::size_t p = 0; p < group_.parameters.size() && !pointer.empty(); ++p) {
     const Parameter& parameter = group_.parameters[p];
     bool touched = false;
@@ -70,8 +70,11 @@ CaseValues::Source CaseValues::source_of(const std::string& name) const {
         touched = true;
         const std::string text = change.value.is_string() ? change.value.get<std::string>()
                                                           : change.value.dump();
-        const auto parsed = faultsim::parse_quantity(text, dimension);
-        values.back() = parsed.ok ? Value(parsed.value) : Value();
+        if (info == infos_.end()) continue;
+        const auto parsed = faultsim::parse_quantity(text, info->second.dimension);
+        values.back() = info->second.is_text ? Value(text)
+                        : parsed.ok          ? Value(parsed.value)
+                                             : Value();
       }
     }
     if (!touched) continue;

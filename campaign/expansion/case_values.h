@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "campaign/expansion/rows.h"
+#include "simulator/scene/read_scene.h"
 
 namespace faultsweep {
 
@@ -32,6 +33,7 @@ class CaseValues {
 
   const CampaignSpec& spec_;
   const Group& group_;
+  std::map<std::string, faultsim::ParameterInfo> infos_;   ///< by scene pointer.
   std::map<std::string, Value> base_;              ///< scene pointer -> value in the group's scene.
   std::vector<std::vector<Source>> derived_;       ///< per derived parameter and name.
   std::vector<std::vector<Source>> exclude_;       ///< per exclusion and name.

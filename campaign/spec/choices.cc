@@ -51,11 +51,12 @@ std::optional<Parameter> SpecReader::read_parameter(const std::string& pointer,
   const json& value = at(pointer);
   if (value.is_object() && (value.contains("scale") || value.contains("variants"))) {
     parameter.has_own_values = true;
-    const bool taken = std::any_of(names.infos.begin(), names.infos.end(),
+    const bool taken = value.contains("scale") &&
+                       std::any_of(names.infos.begin(), names.infos.end(),
                                    [&](const auto& info) { return info.alias == name; });
     if (taken) {
       problem(pointer, "\"" + name + "\" is the name of a scene parameter",
-              "choose another name for what has factors or variants");
+              "a factor needs another name, for example " + name + "_factor");
     }
   }
   if (value.is_array()) {
@@ -120,6 +121,8 @@ void SpecReader::set_base_choice(const SceneNames& names, Parameter& parameter) 
   if (const auto* info = names.find(target)) {
     parameter.dimension = info->dimension;
     parameter.base.text = info->value;
+    parameter.is_text = info->is_text;
+    if (info->is_text) return;
     const auto parsed = faultsim::parse_quantity(info->value, info->dimension);
     if (parsed.ok) parameter.base.si = parsed.value;
     return;
@@ -137,14 +140,15 @@ std::optional<Choice> SpecReader::make_choice(const json& value, const std::stri
   Choice choice;
   choice.text = value.is_structured() ? value.dump() : scalar_text(value);
   choice.pointer = pointer;
-  if (names.find(parameter.targets.front()) != nullptr) {
+  const auto* info = names.find(parameter.targets.front());
+  if (info != nullptr && !info->is_text) {
     const auto parsed = faultsim::parse_quantity(choice.text, parameter.dimension);
     if (!parsed.ok) {
       problem(pointer, parsed.what, parsed.cure);
       return std::nullopt;
     }
     choice.si = parsed.value;
-  } else if (value.is_number()) {
+  } else if (value.is_number() && !parameter.is_text) {
     choice.si = value.get<double>();
   }
   for (const std::string& target : parameter.targets) choice.changes.push_back({target, value});

@@ -15,6 +15,10 @@ bool is_name(const std::string& word) {
   });
 }
 
+Type type_of(const ParameterInfo& info) {
+  return info.is_text ? Type{Kind::text, {}} : number_type(info.dimension);
+}
+
 }  // namespace
 
 /// Names of the designs' parameters first, then the aliases of every scene that a group has.
@@ -42,10 +46,37 @@ void SpecReader::collect_identifiers() {
   for (const Group& group : spec_.groups) {
     for (const ParameterInfo& info :
          faultsim::parameters({spec_.base.source, group.scene, spec_.base.lines})) {
-      add(info.alias, info.pointer, number_type(info.dimension));
+      add(info.alias, info.pointer, type_of(info));
     }
   }
   add("group", "", Type{Kind::text, {}});
+}
+
+/// A scene parameter may have more aliases than the one that is listed; those used are added.
+void SpecReader::add_other_aliases(const std::string& text) {
+  const SceneNames names(
+      faultsim::JsonDocument{spec_.base.source, spec_.groups.front().scene, spec_.base.lines});
+  const auto in_name = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+  };
+  for (auto begin = text.begin(); begin != text.end();) {
+    begin = std::find_if(begin, text.end(), in_name);
+    const auto end = std::find_if_not(begin, text.end(), in_name);
+    const std::string word(begin, end);
+    begin = end;
+    const bool known =
+        std::any_of(spec_.identifiers.begin(), spec_.identifiers.end(),
+                    [&](const SpecIdentifier& one) { return one.name == word; });
+    if (known || word.empty()) continue;
+    try {
+      const std::string pointer = faultsim::resolve_parameter(names.document, word);
+      if (const auto* info = names.find(pointer)) {
+        spec_.identifiers.push_back({word, pointer, type_of(*info)});
+      }
+    } catch (const faultsim::InputError&) {
+      // Not an alias: a unit, a function, or a mistake that the parser will explain.
+    }
+  }
 }
 
 Symbols SpecReader::symbols() const {
@@ -70,10 +101,11 @@ void SpecReader::read_derived() {
   for (const std::string& key : keys("/derived")) {
     const std::string place = "/derived/" + escape_token(key);
     const auto target = resolve(names, key, place);
+    add_other_aliases(at(place).get<std::string>());
     auto expression = parse(place, symbols());
     if (!target || !expression) continue;
     const auto* info = names.find(*target);
-    if (info == nullptr) {
+    if (info == nullptr || info->is_text) {
       problem(place, *target + " is not a number of the scene",
               "faultsim parameters lists what can be derived");
       continue;
@@ -136,6 +168,7 @@ void SpecReader::read_exclusions() {
   if (!has("/exclude")) return;
   for (std::size_t i = 0; i < at("/exclude").size(); ++i) {
     const std::string place = "/exclude/" + std::to_string(i);
+    add_other_aliases(at(place).get<std::string>());
     auto expression = parse(place, symbols());
     if (!expression) continue;
     if (expression->type().kind != Kind::boolean) {

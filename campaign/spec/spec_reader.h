@@ -72,6 +72,7 @@ class SpecReader {
 
   // expressions.cc
   void collect_identifiers();
+  void add_other_aliases(const std::string& text);
   void read_derived();
   void sort_derived();
   void read_exclusions();
