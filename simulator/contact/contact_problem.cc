@@ -117,12 +117,15 @@ NodeViolation check_node(const ContactProblem& problem, const SubStep& sub_step,
   const double limit = problem.strength(k, sub_step.cohesive[i] != 0, normal, s).value;
   violation.over_limit = std::max(shear_norm - limit, 0.0);
   if (slip_norm > 0) {
-    double stiffness = problem.stiffness(node, 1);
-    if (node.n_dofs > 2) stiffness = std::max(stiffness, problem.stiffness(node, 2));
-    // A slip so small that it hardly matters has a direction of round-off; it counts in proportion.
-    const double scale = std::max(slip_norm, 1e-6 * shear_norm / stiffness);
     violation.below_limit = std::max(limit - shear_norm, 0.0);
-    violation.misaligned = (shear_norm * slip - shear * slip_norm).norm() / scale;
+    const double across = (shear_norm * slip - shear * slip_norm).norm();
+    if (across > 0) {
+      // A slip so small that it hardly matters has a direction of round-off; it counts in
+      // proportion.
+      double stiffness = problem.stiffness(node, 1);
+      if (node.n_dofs > 2) stiffness = std::max(stiffness, problem.stiffness(node, 2));
+      violation.misaligned = across / std::max(slip_norm, 1e-6 * shear_norm / stiffness);
+    }
   }
   return violation;
 }

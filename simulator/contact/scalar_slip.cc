@@ -13,7 +13,9 @@ ScalarSlip::ScalarSlip(ContactProblem& problem, const ContactOptions& options)
 
 /// Lets every stick node beyond its limit slip along its traction. @returns whether there was one.
 bool ScalarSlip::add_violators(const SubStep& sub_step, bool& opens) {
+  constexpr double kNear = 0.7;  // of the limit; only speed depends on it
   bool any = false;
+  near_limit_.clear();
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     const ContactNode& node = problem_.nodes[i];
     const double tolerance = sub_step.tolerance[static_cast<Eigen::Index>(i)];
@@ -22,7 +24,39 @@ bool ScalarSlip::add_violators(const SubStep& sub_step, bool& opens) {
     if (wanted_[i] != 0 || node.n_dofs < 2) continue;
     const double shear = sub_step.traction[node.dof[1]];
     const double cohesion = sub_step.cohesive[i] ? problem_.laws.node[i].cohesion : 0;
-    if (std::abs(shear) - (cohesion - std::min(normal, 0.0) * node.friction) <= tolerance) continue;
+    const double limit = cohesion - std::min(normal, 0.0) * node.friction;
+    if (std::abs(shear) - limit > tolerance) {
+      wanted_[i] = shear > 0 ? 1 : -1;
+      any = true;
+    } else if (std::abs(shear) > kNear * limit) {
+      near_limit_.push_back(static_cast<int>(i));
+    }
+  }
+  return any;
+}
+
+/// The same with the slip just solved for, at the nodes near their limit alone and without the
+/// product with H: their rows are read from their own columns, by symmetry.
+bool ScalarSlip::add_neighbours(const SubStep& sub_step) {
+  bool any = false;
+  const std::size_t m = order_.size();
+  for (const int k : near_limit_) {
+    const auto i = static_cast<std::size_t>(k);
+    if (wanted_[i] != 0) continue;
+    const ContactNode& node = problem_.nodes[i];
+    const double* shear_row = problem_.op.h.col(node.dof[1]).data();
+    const double* normal_row = problem_.op.h.col(node.dof[0]).data();
+    double shear_sum = 0;
+    double normal_sum = 0;
+    for (std::size_t j = 0; j < m; ++j) {
+      shear_sum += shear_row[order_dof_[j]] * slip_[j];
+      normal_sum += normal_row[order_dof_[j]] * slip_[j];
+    }
+    const double shear = sub_step.trial[node.dof[1]] - shear_sum * node.inverse_area[1];
+    const double normal = sub_step.trial[node.dof[0]] - normal_sum * node.inverse_area[0];
+    const double cohesion = sub_step.cohesive[i] ? problem_.laws.node[i].cohesion : 0;
+    const double limit = cohesion - std::min(normal, 0.0) * node.friction;
+    if (!(std::abs(shear) - limit > sub_step.tolerance[k])) continue;
     wanted_[i] = shear > 0 ? 1 : -1;
     any = true;
   }
@@ -39,6 +73,7 @@ void ScalarSlip::synchronise() {
     placed_[static_cast<std::size_t>(order_[i])] = 0;
   }
   order_.resize(keep);
+  order_dof_.resize(keep);
   signs_.resize(keep);
   lu_.truncate(static_cast<int>(keep));
 }
@@ -66,6 +101,7 @@ bool ScalarSlip::append(int k) {
   constexpr double kSmallestPivot = 1e-8;
   if (!(lu_.append(diagonal) > kSmallestPivot * shear[node.dof[1]])) return false;
   order_.push_back(k);
+  order_dof_.push_back(node.dof[1]);
   signs_.push_back(wanted_[i]);
   placed_[i] = 1;
   return true;
@@ -113,6 +149,8 @@ NewtonReport ScalarSlip::solve(SubStep& sub_step) {
   NewtonReport report;
   seen_.clear();
   std::fill(wanted_.begin(), wanted_.end(), 0);
+  // A history starts with no jump: nothing of an earlier one, not even the order of nodes, stays.
+  if (sub_step.start->jump.isZero(0)) synchronise();
   bool opens = false;
   bool changed = add_violators(sub_step, opens);
   while (!opens && report.passes < options_.max_active_set_passes) {
@@ -128,7 +166,7 @@ NewtonReport ScalarSlip::solve(SubStep& sub_step) {
     }
     ++report.iterations;
     // A set that already fails in its own rows is revised before all rows are looked at.
-    if (release_wrong_way()) continue;
+    if (release_wrong_way() || add_neighbours(sub_step)) continue;
     sub_step.increment.setZero();
     for (std::size_t j = 0; j < order_.size(); ++j) {
       const auto i = static_cast<std::size_t>(order_[j]);

@@ -27,6 +27,7 @@ class ScalarSlip {
 
  private:
   bool add_violators(const SubStep& sub_step, bool& opens);
+  bool add_neighbours(const SubStep& sub_step);
   void synchronise();
   bool append(int node);
   bool solve_set(const SubStep& sub_step);
@@ -40,6 +41,8 @@ class ScalarSlip {
   std::vector<signed char> signs_;   ///< their slip signs there, per node of order_.
   std::vector<signed char> wanted_;  ///< per node: slip sign, 0 = stick.
   std::vector<signed char> placed_;  ///< per node: in the factor.
+  std::vector<int> order_dof_;       ///< shear dof per node of order_.
+  std::vector<int> near_limit_;      ///< stick nodes near their limit at the last full look.
   std::vector<double> slip_;
   std::vector<std::uint64_t> seen_;
 };
