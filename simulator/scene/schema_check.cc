@@ -129,8 +129,12 @@ class Explainer {
           concat("write ", says("no more") ? "at most " : "at least ", *wanted));
     } else if (description.rfind("Failed to validate", 0) == 0) {
       wrappers_.emplace_back(pointer, description);
+    } else if (says("no fewer than")) {
+      add(pointer, as_text(value) + " is too short", example_cure(views, "fill it in"));
+    } else if (says("Elements at indexes")) {
+      add(pointer, as_text(value) + " has equal elements", "remove one of them");
     } else {
-      add(pointer, as_text(value) + ": " + description, "");
+      add(pointer, as_text(value) + ": " + description, "see the schema");
     }
   }
 
@@ -142,7 +146,8 @@ class Explainer {
         return problem.pointer == pointer || problem.pointer.rfind(below, 0) == 0;
       };
       if (std::none_of(problems_.begin(), problems_.end(), is_reason)) {
-        add(pointer, as_text(*places_.at(pointer).value) + " does not fit the schema", "");
+        add(pointer, as_text(*places_.at(pointer).value) + " does not fit the schema",
+            "see the schema");
       }
     }
     return std::move(problems_);

@@ -249,6 +249,27 @@ TEST(ReadScene, ReadsTheRestOfABoxScene) {
   EXPECT_EQ(scene.initial.pressure_gradient, -1000);
 }
 
+/// Whatever stands in whatever place: problems, never a crash, and each problem has a cure and a
+/// place.
+TEST(ReadScene, AnswersNonsenseAnywhereWithProblems) {
+  for (const JsonDocument& document : {rotliegend(), parse_json(kFullBox, "full")}) {
+    for (const auto& [pointer, line] : document.lines) {
+      if (pointer.empty()) continue;
+      for (const char* nonsense : {"null", "[]", "{}", "-7", "nonsense", "[[1]]",
+                                   "{\"kind\": \"box\"}", "\"\"", "-1e9 m", "0 bar"}) {
+        JsonDocument broken = document;
+        set_value(broken, pointer, nonsense);
+        std::vector<Problem> problems;
+        ASSERT_NO_THROW(read_scene(broken, problems)) << pointer << " = " << nonsense;
+        for (const Problem& problem : problems) {
+          EXPECT_FALSE(problem.what.empty() || problem.cure.empty())
+              << pointer << " = " << nonsense << ": " << problem.pointer << ": " << problem.what;
+        }
+      }
+    }
+  }
+}
+
 TEST(CaseIdentity, IgnoresSpellingTitleCommentsAndOutput) {
   const std::string before = case_identity(read_scene(rotliegend()));
   EXPECT_EQ(before.size(), 32U);
