@@ -47,7 +47,7 @@ Handle file_access();
 Handle create_in_memory();
 std::vector<std::byte> image(hid_t file);
 
-/// Creates groups on the way to path (without the last part).
+/// A text attribute of an open object.
 void write_text_attribute(hid_t object, const std::string& name, const std::string& text);
 /// An attribute on an existing object by its path.
 void write_text_attribute(hid_t file, const std::string& path, const std::string& name,

@@ -8,8 +8,10 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <mutex>
 #include <new>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "simulator/common/errors.h"
