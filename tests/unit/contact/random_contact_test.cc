@@ -113,22 +113,22 @@ void run(const RandomProblem& problem, Totals& totals, unsigned seed) {
   }
 }
 
-void run_all(int n_shear) {
+/// @param most_iterations  a few percent above what is needed: a wrong tangent costs more.
+void run_all(int n_shear, int most_iterations) {
   Totals totals;
   constexpr unsigned kSeeds = 300;
   for (unsigned seed = 1; seed <= kSeeds; ++seed) run(random_problem(seed, n_shear), totals, seed);
   EXPECT_EQ(totals.n_failed, 0);
+  EXPECT_EQ(totals.n_cut, 0);
   EXPECT_GT(totals.n_open, 1000);
   EXPECT_GT(totals.n_slip, 10000);
   EXPECT_GT(totals.n_stick, 1000);
   EXPECT_GT(totals.n_closed_again, 100);
-  std::printf("open %d slip %d stick %d closed again %d cut %d failed %d iterations %d\n",
-              totals.n_open, totals.n_slip, totals.n_stick, totals.n_closed_again, totals.n_cut,
-              totals.n_failed, totals.iterations);
+  EXPECT_LT(totals.iterations, most_iterations);
 }
 
-TEST(RandomContact, ConvergesInThreeDimensions) { run_all(2); }
-TEST(RandomContact, ConvergesInPlaneStrain) { run_all(1); }
+TEST(RandomContact, ConvergesInThreeDimensions) { run_all(2, 10700); }
+TEST(RandomContact, ConvergesInPlaneStrain) { run_all(1, 7500); }
 
 }  // namespace
 }  // namespace faultsim
