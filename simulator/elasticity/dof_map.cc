@@ -157,7 +157,7 @@ void DofMapBuilder::pin() {
   const Eigen::Index n_free = modes.free.cols();
   const std::vector<int> nodes = three_far_nodes(pieces, piece);
   Eigen::MatrixXd motions(9, n_free);  // of the candidates' components
-  for (int i = 0; i < 3; ++i) {
+  for (Eigen::Index i = 0; i < 3; ++i) {
     const int node = nodes[static_cast<std::size_t>(i)];
     motions.middleRows(3 * i, 3) =
         modes.at(mesh_.nodes[static_cast<std::size_t>(node)]) * modes.free;

@@ -73,8 +73,8 @@ ElementMatrix element_stiffness(const Element& element, const ElasticMaterial& m
   const double lambda = b_bar ? -2 * mu / 3 : bulk - 2 * mu / 3;
   const double mean = b_bar ? bulk * element.volume : 0;
   ElementMatrix k;
-  for (int a = 0; a < 8; ++a) {
-    for (int b = 0; b <= a; ++b) {
+  for (Eigen::Index a = 0; a < 8; ++a) {
+    for (Eigen::Index b = 0; b <= a; ++b) {
       Eigen::Matrix3d block =
           mean * element.mean_gradient.row(a).transpose() * element.mean_gradient.row(b);
       for (std::size_t g = 0; g < 8; ++g) {

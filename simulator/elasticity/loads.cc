@@ -101,7 +101,7 @@ Eigen::VectorXd displacement_load(const Mesh& mesh, const std::vector<ElasticMat
     const Element element = make_element(mesh, static_cast<int>(cell));
     const Eigen::Matrix<double, 24, 1> force =
         element_stiffness(element, material, b_bar) * prescribed;
-    for (int a = 0; a < 8; ++a) {
+    for (Eigen::Index a = 0; a < 8; ++a) {
       forces.col(mesh.cells[cell][static_cast<std::size_t>(a)]) -=
           per_thickness(mesh) * force.segment<3>(3 * a);
     }

@@ -90,10 +90,8 @@ void postorder_bulk(cholmod_sparse& a, Index n_bulk, std::vector<Index>& order,
   for (std::size_t i = 0; i < n; ++i) {
     if (static_cast<Index>(i) >= n_bulk) {
       parent[i] = i + 1 < n ? static_cast<Index>(i) + 1 : kNoParent;
-    } else if (parent[i] >= n_bulk) {
-      parent[i] = n_bulk;
-    } else if (parent[i] == kNoParent && n_bulk < static_cast<Index>(n)) {
-      parent[i] = n_bulk;
+    } else if (parent[i] >= n_bulk || parent[i] == kNoParent) {
+      parent[i] = n_bulk < static_cast<Index>(n) ? n_bulk : kNoParent;
     }
   }
   const Index placed =
