@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "campaign/expansion/case_values.h"
+#include "campaign/expansion/composer.h"
 #include "campaign/expansion/families.h"
 #include "campaign/expansion/scene_builder.h"
 #include "simulator/common/fingerprint.h"
@@ -18,6 +19,8 @@ namespace {
 using faultsim::Problem;
 using nlohmann::json;
 
+constexpr long kRowsReadOneByOne = 400;  ///< beyond, identities are composed (composer.h).
+constexpr std::size_t kChoicesTried = 64;  ///< per parameter; the extremes are among them.
 constexpr int kMaximumWrongCases = 20;   ///< of cases wrong only as a combination.
 constexpr std::size_t kMaximumProblems = 100;
 
@@ -95,6 +98,14 @@ class Expander {
     if (!check_choices(group, builder, values)) return;
     FamilyFinder families(result_.spec, group, builder, result_.families, by_fingerprint_);
     const long n_rows = static_cast<long>(count_rows(group));
+    std::optional<Composer> composer;
+    if (n_rows > kRowsReadOneByOne) {
+      std::vector<Problem> found;
+      composer.emplace(result_.spec, group, builder, values);
+      if (!composer->prepare(found)) composer.reset();
+      add(found);
+      if (!found.empty()) return;
+    }
     Row row;
     std::vector<double> derived;
     int n_wrong = 0;
@@ -106,7 +117,9 @@ class Expander {
         continue;
       }
       std::vector<Problem> found;
-      if (!add_case(index, row, derived, builder, families, found)) {
+      std::string identity;
+      if (composer) identity = composer->identity(row, derived).value_or("");
+      if (!add_case(index, row, derived, identity, builder, families, found)) {
         for (Problem& one : found) one.what += " (where " + builder.describe(row) + ")";
         add(found);
         if (++n_wrong < kMaximumWrongCases) continue;
@@ -128,9 +141,10 @@ class Expander {
     std::vector<double> derived;
     bool ok = true;
     for (std::size_t p = 0; p < group.parameters.size(); ++p) {
-      for (std::size_t c = p == 0 ? 0 : 1; c < group.parameters[p].choices.size(); ++c) {
+      for (const int choice : sample_choices(group.parameters[p], kChoicesTried)) {
+        if (p > 0 && choice == first[p]) continue;  // the first row itself, tried already
         Row row = first;
-        row[p] = static_cast<int>(c);
+        row[p] = choice;
         values.derive(row, derived);
         if (values.excluded_by(row, derived) >= 0) continue;
         std::vector<Problem> found;
@@ -142,16 +156,21 @@ class Expander {
     return ok;
   }
 
+  /// @param identity  of the row's scene; "" where the scene must be read to know it.
   bool add_case(int group, const Row& row, const std::vector<double>& derived,
-                SceneBuilder& builder, FamilyFinder& families, std::vector<Problem>& problems) {
-    const auto scene = builder.scene(row, derived, problems);
-    if (!scene) return false;
+                const std::string& identity, SceneBuilder& builder, FamilyFinder& families,
+                std::vector<Problem>& problems) {
     Case one;
     one.index = static_cast<int>(result_.cases.size());
     one.group = group;
     one.choices = row;
     one.derived = derived;
-    one.identity = faultsim::case_identity(*scene);
+    one.identity = identity;
+    if (identity.empty()) {
+      const auto scene = builder.scene(row, derived, problems);
+      if (!scene) return false;
+      one.identity = faultsim::case_identity(*scene);
+    }
     const auto [known, is_new] = by_identity_.emplace(one.identity, one.index);
     if (!is_new) {
       ++result_.n_merged;

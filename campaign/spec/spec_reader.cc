@@ -31,28 +31,36 @@ SpecReader::SpecReader(const std::string& text, const std::string& source) {
 }
 
 CampaignSpec SpecReader::read() {
-  check_schema_and_throw();
+  check_schema();
   read_name();
-  read_policy();
-  read_base();
-  if (spec_.base.value.is_object()) {
+  if (is_sound("/policy")) read_policy();
+  if (is_sound("/base")) read_base();
+  if (spec_.base.value.is_object() && is_sound("/set") && is_sound("/design")) {
     json scene = spec_.base.value;
     std::vector<Origin> origins;
     if (has("/set")) apply_set("/set", scene, origins);
     read_designs("/design", "", scene, origins);
     collect_identifiers();
-    read_derived();
-    read_exclusions();
+    if (is_sound("/derived")) read_derived();
+    if (is_sound("/exclude")) read_exclusions();
   }
-  read_rank_by();
+  if (is_sound("/metrics")) read_rank_by();
   if (!problems_.empty()) throw faultsim::InputError(spec_.source, problems_);
   return std::move(spec_);
 }
 
-/// The rest of the reader relies on the shape that the schema promises.
-void SpecReader::check_schema_and_throw() {
-  const auto found = faultsim::check_schema(spec_.document, campaign_schema());
-  if (!found.empty()) throw faultsim::InputError(spec_.source, found);
+/// The rest of the reader relies on the shape that the schema promises, so it looks only at
+/// sections that are sound.
+void SpecReader::check_schema() {
+  problems_ = faultsim::check_schema(spec_.document, campaign_schema());
+  const bool is_incomplete = std::any_of(problems_.begin(), problems_.end(),
+                                         [](const Problem& one) { return one.pointer.empty(); });
+  if (is_incomplete) throw faultsim::InputError(spec_.source, problems_);
+}
+
+bool SpecReader::is_sound(const std::string& pointer) const {
+  return std::none_of(problems_.begin(), problems_.end(),
+                      [&](const Problem& one) { return overlap(pointer, one.pointer); });
 }
 
 void SpecReader::problem(const std::string& pointer, const std::string& what,
@@ -82,6 +90,7 @@ std::vector<std::string> SpecReader::keys(const std::string& pointer) const {
 }
 
 void SpecReader::read_name() {
+  if (!is_sound("/name") || !is_sound("/title") || !is_sound("/keep_fields")) return;
   spec_.name = at("/name").get<std::string>();
   const bool plain = std::all_of(spec_.name.begin(), spec_.name.end(), [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '_';
@@ -216,7 +225,14 @@ std::optional<std::string> SpecReader::resolve(const SceneNames& names, const st
   try {
     return faultsim::resolve_parameter(names.document, alias);
   } catch (const faultsim::InputError& error) {
-    for (const Problem& one : error.problems()) problem(spec_pointer, one.what, one.cure);
+    for (const Problem& one : error.problems()) {
+      // A list of every alias of the scene would bury the other problems.
+      const bool is_list = one.cure.size() > 300;
+      problem(spec_pointer, one.what,
+              is_list ? "faultsim parameters SCENE.json lists them; a name of your own needs "
+                        "pointers, scale or variants"
+                      : one.cure);
+    }
   }
   return std::nullopt;
 }

@@ -211,6 +211,7 @@ bool CaseRun::advance(const LoadStep& step, const Eigen::VectorXd& before, const
   result.counts = report.counts;
   add_counts(result_.counts, report.counts);
   const bool good = report.outcome == Outcome::converged;
+  result.seconds = watch.seconds();
   if (good) {
     record(step, loads, jump_before, result);
   } else {
@@ -218,7 +219,6 @@ bool CaseRun::advance(const LoadStep& step, const Eigen::VectorXd& before, const
     result_.reason = concat("load step ", step.step, " (", step.stage, "): ", report.reason);
     result_.failed_step = step.step;
   }
-  result.seconds = watch.seconds();
   result_.steps.push_back(std::move(result));
   return good;
 }

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "campaign/store/records.h"
+
+namespace faultsweep {
+
+/// One case to run.
+struct Job {
+  std::int64_t case_id = 0;
+  std::string scene;   ///< JSON text, one line.
+  std::string source;  ///< for messages and relative paths: "sweep/scene.json#case 17".
+};
+
+/// What a JobRunner is given besides jobs: one family at a time.
+struct FamilyTask {
+  int family = 0;                    ///< the manager's index.
+  std::optional<double> time_limit;  ///< s per case.
+  double operator_seconds = 0;       ///< predicted.
+  std::optional<double> memory_limit;
+};
+
+/// What happened to jobs since the last call.
+struct JobEvents {
+  struct Failure {
+    RunRecord run;
+    bool in_operator = false;  ///< the family's operator was under way, no case had started.
+  };
+  std::vector<RunRecord> completed;
+  std::vector<Failure> failed;
+  std::vector<std::int64_t> returned;  ///< handed back untried.
+  std::vector<OperatorRecord> operators;
+  bool empty() const {
+    return completed.empty() && failed.empty() && returned.empty() && operators.empty();
+  }
+};
+
+/// Runs cases of one family at a time, on this host, without blocking. Two users: the real one
+/// (LocalRunner, a simulator process) and the fake of the worker's tests.
+class JobRunner {
+ public:
+  virtual ~JobRunner() = default;
+  /// Turns to a family. @pre no jobs are left.
+  virtual void begin_family(const FamilyTask& task) = 0;
+  virtual void add(Job job) = 0;
+  /// Works for at most about timeout_ms and tells what happened. Throws ResourceError when the
+  /// simulator cannot be run at all.
+  virtual JobEvents work(int timeout_ms) = 0;
+  /// Hands back what has not started; the case under way goes on.
+  virtual void drain() = 0;
+  virtual bool is_idle() const = 0;
+};
+
+}  // namespace faultsweep

@@ -1,0 +1,286 @@
+#include "campaign/scheduler/local_runner.h"
+
+#include <algorithm>
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "simulator/common/errors.h"
+#include "simulator/common/exit_code.h"
+#include "simulator/output/write_result.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+using faultsim::ExitCode;
+using faultsim::ResourceError;
+using nlohmann::json;
+
+namespace {
+
+constexpr int kProtocolVersion = 1;
+
+/// A reply that is not what the protocol allows.
+struct Garbled {
+  std::string what;
+};
+
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kShown = 120;
+  std::string shown = text.substr(0, kShown);
+  for (char& c : shown) {
+    if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) >= 0x7f) c = '?';
+  }
+  return text.size() > kShown ? shown + "..." : shown;
+}
+
+bool mentions_memory(const std::string& text) {
+  return text.find("out of memory") != std::string::npos ||
+         text.find("bad_alloc") != std::string::npos;
+}
+
+/// What an exit code of the simulator says about the case (common/exit_code.h).
+RunStatus status_of(int exit_code, const std::string& text) {
+  switch (exit_code) {
+    case static_cast<int>(ExitCode::input): return RunStatus::refused;
+    case static_cast<int>(ExitCode::world):
+      return mentions_memory(text) ? RunStatus::memory : RunStatus::world;
+    case static_cast<int>(ExitCode::bug): return RunStatus::bug;
+    default: return RunStatus::crashed;
+  }
+}
+
+OperatorRecord operator_record(const json& reply) {
+  OperatorRecord record;
+  record.fingerprint = reply.at("fingerprint").get<std::string>();
+  record.from_cache = reply.at("from_cache").get<bool>();
+  record.seconds = reply.at("seconds").get<double>();
+  record.unknowns = reply.at("unknowns").get<std::int64_t>();
+  record.jump_unknowns = reply.at("jump_unknowns").get<std::int64_t>();
+  record.bytes = reply.at("bytes").get<std::int64_t>();
+  record.peak_bytes = reply.at("peak_bytes").get<std::int64_t>();
+  return record;
+}
+
+}  // namespace
+
+void LocalRunner::begin_family(const FamilyTask& task) {
+  FAULTSIM_DEMAND(jobs_.empty(), jobs_.size());
+  if (process_) {
+    process_->finish();
+    process_->exchange(0);
+    process_->wait(kEndGrace);
+    process_.reset();
+  }
+  task_ = task;
+}
+
+void LocalRunner::add(Job job) {
+  jobs_.push_back(std::move(job));
+  if (!process_) {
+    start();
+    return;
+  }
+  const Job& last = jobs_.back();
+  if (jobs_.size() == 1) since_ = {};
+  process_->send(concat("{\"run\":", last.case_id, ",\"scene\":", last.scene,
+                        ",\"source\":", json(last.source).dump(), "}"));
+  ++n_sent_;
+}
+
+void LocalRunner::start() {
+  SimulatorProcess::Options options = options_.process;
+  options.memory_limit = task_.memory_limit;
+  process_ = std::make_unique<SimulatorProcess>(options);
+  greeted_ = operator_known_ = started_ = false;
+  since_ = {};
+  n_sent_ = 0;
+  for (const Job& job : jobs_) {
+    process_->send(concat("{\"run\":", job.case_id, ",\"scene\":", job.scene,
+                          ",\"source\":", json(job.source).dump(), "}"));
+    ++n_sent_;
+  }
+}
+
+JobEvents LocalRunner::work(int timeout_ms) {
+  JobEvents events;
+  if (draining_ && !jobs_.empty()) {
+    // The case in flight goes on; an operator build is given up, as it may take an hour.
+    const std::size_t kept = started_ ? 1 : 0;
+    while (jobs_.size() > kept) {
+      events.returned.insert(events.returned.begin(), jobs_.back().case_id);
+      jobs_.pop_back();
+    }
+    if (jobs_.empty()) process_.reset();
+  }
+  if (!process_) return events;
+  process_->exchange(timeout_ms);
+  try {
+    // A drained process may be ahead of us with a case that was handed back.
+    while (!(draining_ && jobs_.empty())) {
+      const auto reply = process_->next_reply();
+      if (!reply) break;
+      handle(*reply, events);
+    }
+  } catch (const Garbled& garbled) {
+    process_->kill();
+    const ProcessEnd end = process_->wait(0);
+    process_failed(RunStatus::garbled, garbled.what, end, events);
+    return events;
+  }
+  if (draining_ && jobs_.empty()) {
+    process_.reset();
+  } else if (process_->is_silent()) {
+    process_ended(events);
+  } else if (is_over_time()) {
+    process_->kill();
+    const ProcessEnd end = process_->wait(0);
+    process_failed(RunStatus::hung, concat("over its time limit of ", *task_.time_limit, " s"), end,
+                   events);
+  }
+  return events;
+}
+
+void LocalRunner::drain() { draining_ = true; }
+
+bool LocalRunner::is_over_time() const {
+  if (!task_.time_limit || jobs_.empty()) return false;
+  double limit = *task_.time_limit;
+  if (!started_ && !operator_known_) {
+    limit += std::max(kOperatorLeast, kOperatorFactor * task_.operator_seconds);
+  }
+  return since_.seconds() > limit;
+}
+
+RunRecord LocalRunner::blank_run(std::int64_t case_id) const {
+  RunRecord run;
+  run.case_id = case_id;
+  run.host = options_.host;
+  run.rank = options_.rank;
+  run.wall_seconds = since_.seconds();
+  return run;
+}
+
+void LocalRunner::handle(const std::string& line, JobEvents& events) {
+  const json reply = json::parse(line, nullptr, false);
+  if (!reply.is_object() || !reply.contains("event") || !reply["event"].is_string()) {
+    throw Garbled{concat("wrote '", shortened(line), "', which is no reply")};
+  }
+  const std::string event = reply["event"];
+  try {
+    if (event == "hello") {
+      const int version = reply.at("version").get<int>();
+      if (version != kProtocolVersion) {
+        throw ResourceError(concat("the simulator ", options_.process.binary.string(),
+                                   " speaks protocol version ", version, ", faultsweep ",
+                                   kProtocolVersion, "; install both from the same source"));
+      }
+      greeted_ = true;
+      return;
+    }
+    const std::int64_t run = reply.at("run").get<std::int64_t>();
+    if (jobs_.empty() || jobs_.front().case_id != run) {
+      throw Garbled{concat("replied to run ", run, " out of turn")};
+    }
+    if (event == "operator") {
+      events.operators.push_back(operator_record(reply));
+      operator_known_ = true;
+      since_ = {};
+    } else if (event == "started") {
+      started_ = true;
+      since_ = {};
+    } else if (event == "done") {
+      handle_done(reply, events);
+    } else {
+      throw Garbled{concat("sent the unknown event '", shortened(event), "'")};
+    }
+  } catch (const json::exception& error) {
+    throw Garbled{concat("sent a reply that lacks something: ", error.what())};
+  }
+}
+
+void LocalRunner::handle_done(const json& reply, JobEvents& events) {
+  RunRecord run = blank_run(jobs_.front().case_id);
+  if (reply.contains("result")) {
+    run.status = RunStatus::completed;
+    try {
+      run.result = faultsim::result_from_json(reply.at("result"));
+    } catch (const faultsim::Error& error) {
+      throw Garbled{concat("sent a result that cannot be read: ", error.what())};
+    }
+    run.reason = run.result->reason;
+    run.wall_seconds = reply.at("seconds").get<double>();
+    operator_known_ = true;
+    events.completed.push_back(std::move(run));
+  } else {
+    const int exit_code = reply.at("exit_code").get<int>();
+    run.reason = reply.at("error").get<std::string>();
+    if (exit_code == static_cast<int>(ExitCode::interrupted)) {
+      events.returned.push_back(run.case_id);
+    } else {
+      run.status = status_of(exit_code, run.reason);
+      run.exit_code = exit_code;
+      run.log_tail = process_->log_tail();
+      const bool in_operator = !started_ && !operator_known_ && run.status != RunStatus::refused;
+      events.failed.push_back({std::move(run), in_operator});
+    }
+  }
+  jobs_.pop_front();
+  --n_sent_;
+  started_ = false;
+  since_ = {};
+}
+
+void LocalRunner::process_ended(JobEvents& events) {
+  const ProcessEnd end = process_->wait(kEndGrace);
+  const std::string tail = process_->log_tail();
+  if (!greeted_) {
+    throw ResourceError(concat("the simulator ", options_.process.binary.string(), " ",
+                               describe(end), " before it said hello; its last words: ",
+                               tail.empty() ? "none" : tail));
+  }
+  RunStatus status = RunStatus::crashed;
+  std::string reason = describe(end);
+  if (process_->overflowed()) {
+    status = RunStatus::garbled;
+    reason = concat("wrote more than ", SimulatorProcess::kLongestReply, " bytes without a newline");
+  } else if (end.signal == SIGKILL) {
+    status = RunStatus::memory;
+    reason += ", as the kernel does when memory runs out";
+  } else if (mentions_memory(tail)) {
+    status = RunStatus::memory;
+    reason += task_.memory_limit
+                  ? concat(", out of memory under the limit of ", *task_.memory_limit, " bytes")
+                  : std::string(", out of memory");
+  } else if (end.exit_code) {
+    status = status_of(*end.exit_code, tail);
+  }
+  if (jobs_.empty()) {
+    process_.reset();  // between slices: nobody is to blame, the next job starts another one
+    return;
+  }
+  process_failed(status, reason, end, events);
+}
+
+void LocalRunner::process_failed(RunStatus status, std::string reason, const ProcessEnd& end,
+                                 JobEvents& events) {
+  const std::string tail = process_->log_tail();
+  process_.reset();
+  if (jobs_.empty()) return;
+  RunRecord run = blank_run(jobs_.front().case_id);
+  run.status = status;
+  const bool in_operator = !started_ && !operator_known_;
+  run.reason = in_operator ? "while building the operator: " + std::move(reason) : std::move(reason);
+  run.signal = end.signal;
+  run.exit_code = end.exit_code;
+  run.log_tail = tail;
+  events.failed.push_back({std::move(run), in_operator});
+  jobs_.pop_front();
+  if (in_operator) {
+    for (const Job& job : jobs_) events.returned.push_back(job.case_id);
+    jobs_.clear();
+  }
+  started_ = false;
+  if (!jobs_.empty() && !draining_) start();
+}
+
+}  // namespace faultsweep

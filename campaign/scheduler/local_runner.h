@@ -1,0 +1,62 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+
+#include "campaign/scheduler/job_runner.h"
+#include "campaign/scheduler/simulator_process.h"
+#include "simulator/common/stopwatch.h"
+
+namespace faultsweep {
+
+/// A JobRunner with one simulator process per family, kept while the family lasts.
+///
+/// The case in flight is the one that the process said `started` last. When the process dies, hangs
+/// or talks garbage, that case has failed; the others of the family go to a new process. Where no case
+/// had started, the operator has failed: the first case carries the blame, the others are returned,
+/// for whoever decides whether the operator is worth another try.
+class LocalRunner final : public JobRunner {
+ public:
+  struct Options {
+    SimulatorProcess::Options process;
+    std::string host;
+    int rank = 0;
+  };
+  explicit LocalRunner(Options options) : options_(std::move(options)) {}
+
+  void begin_family(const FamilyTask& task) override;
+  void add(Job job) override;
+  JobEvents work(int timeout_ms) override;
+  void drain() override;
+  bool is_idle() const override { return jobs_.empty(); }
+
+  /// What the operator may take on top of the time limit of a case: at least this, s, ...
+  static constexpr double kOperatorLeast = 600;
+  /// ... or so many times the prediction, which is from another machine.
+  static constexpr double kOperatorFactor = 20;
+  /// Time for a process to end by itself after it has closed its replies, s.
+  static constexpr double kEndGrace = 5;
+
+ private:
+  void start();
+  void handle(const std::string& reply, JobEvents& events);
+  void handle_done(const nlohmann::json& reply, JobEvents& events);
+  void process_failed(RunStatus status, std::string reason, const ProcessEnd& end, JobEvents& events);
+  void process_ended(JobEvents& events);
+  bool is_over_time() const;
+  RunRecord blank_run(std::int64_t case_id) const;
+
+  Options options_;
+  FamilyTask task_;
+  std::unique_ptr<SimulatorProcess> process_;
+  std::deque<Job> jobs_;        ///< in the order sent; the first is in flight or next.
+  std::size_t n_sent_ = 0;      ///< of jobs_, to the present process.
+  bool greeted_ = false;        ///< the present process said hello.
+  bool operator_known_ = false; ///< the present process has its operator.
+  bool started_ = false;        ///< jobs_.front() has started.
+  bool draining_ = false;
+  faultsim::Stopwatch since_;   ///< of the present phase: start-up and operator, or a case.
+};
+
+}  // namespace faultsweep

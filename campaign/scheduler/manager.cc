@@ -1,0 +1,254 @@
+#include "campaign/scheduler/manager.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "simulator/common/errors.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+using faultsim::ExitCode;
+using faultsim::Outcome;
+using nlohmann::json;
+
+namespace {
+
+FamilyWork work_of(const WaitingFamily& waiting, const std::filesystem::path& operators) {
+  FamilyWork work;
+  work.id = waiting.family;
+  work.cases = waiting.cases;
+  work.operator_seconds = waiting.predicted.operator_seconds;
+  work.case_seconds = waiting.seconds_per_case.value_or(0);
+  work.memory_bytes = waiting.predicted.memory_bytes;
+  work.operator_cached = !waiting.operator_fingerprint.empty() &&
+                         std::filesystem::exists(operators / (waiting.operator_fingerprint + ".h5"));
+  return work;
+}
+
+}  // namespace
+
+Manager::Manager(Store& store, WorkerLink& link, ProgressDisplay& display, const Options& options)
+    : store_(store), link_(link), display_(display), options_(options) {
+  campaign_ = store_.campaign(options.campaign);
+  store_.claim_ownership(campaign_.id, link.n_workers());
+  campaign_ = store_.campaign(campaign_.name);  // nobody else changes it from here on
+  n_cases_ = campaign_.n_cases;
+  n_done_ = campaign_.n_done;
+  n_failed_ = campaign_.n_failed;
+  n_incomplete_ = campaign_.n_done - campaign_.n_converged;
+  families_ = store_.waiting_families(campaign_.id);
+  std::vector<FamilyWork> work;
+  for (const WaitingFamily& family : families_) {
+    work.push_back(work_of(family, store_.folder() / "operators"));
+  }
+  plan_ = std::make_unique<WorkPlan>(
+      std::move(work), WorkPlan::Limits{link.n_workers(), options.memory_bytes,
+                                        campaign_.policy.on_failure, campaign_.policy.retries});
+  const auto n_workers = static_cast<std::size_t>(link.n_workers());
+  scenes_sent_.resize(n_workers);
+  hosts_.resize(n_workers);
+  if (campaign_.cancelled) plan_->stop();
+  store_.record_event(campaign_.id, "started",
+                      concat(campaign_.n_waiting, " cases in ", families_.size(), " families, ",
+                             n_workers, " workers"));
+}
+
+Manager::~Manager() {
+  try {
+    store_.release_ownership();
+  } catch (...) {  // the next manager sees that we are gone
+  }
+}
+
+bool Manager::turn() {
+  busy_ = false;
+  while (auto received = link_.receive()) {
+    busy_ = true;
+    const auto worker = static_cast<std::size_t>(received->worker);
+    if (const auto* hello = std::get_if<message::Hello>(&received->message)) {
+      hosts_[worker] = hello->host;
+    } else if (auto* events = std::get_if<message::Events>(&received->message)) {
+      handle(received->worker, std::move(*events));
+    } else if (const auto* trouble = std::get_if<message::Trouble>(&received->message)) {
+      if (trouble_.empty()) trouble_ = trouble->text;
+      plan_->stop();
+    } else {
+      FAULTSIM_DEMAND(std::holds_alternative<message::Drained>(received->message),
+                      received->message.index());
+      ++n_drained_;
+    }
+  }
+  hand_out();
+  const bool is_old = !uncommitted_.empty() && since_first_uncommitted_.seconds() > kCommitSeconds;
+  if (is_old || uncommitted_.size() >= kCommitRuns || !operators_.empty()) commit();
+  beat();
+  const bool over = plan_->is_finished() || interrupted_ || !trouble_.empty();
+  if (over && !draining_) begin_drain();
+  if (!draining_) return true;
+  if (!workers_are_drained() && since_drain_.seconds() < options_.patience) return true;
+  commit();
+  return false;
+}
+
+void Manager::begin_drain() {
+  draining_ = true;
+  since_drain_ = {};
+  plan_->stop();
+  for (int worker = 0; worker < link_.n_workers(); ++worker) link_.send(worker, message::Drain{});
+}
+
+void Manager::interrupt() {
+  if (interrupted_) return;
+  interrupted_ = true;
+  plan_->stop();
+  display_.note(concat("stopping: ", plan_->n_in_flight(),
+                       " cases were handed out; the one under way of each worker may end, for at most ",
+                       options_.patience, " s"));
+}
+
+void Manager::handle(int worker, message::Events message) {
+  for (const OperatorRecord& record : message.events.operators) {
+    const int family = plan_->family_of(worker);
+    FAULTSIM_DEMAND(family >= 0, worker);
+    plan_->operator_ready(family, record.seconds, record.from_cache);
+    operators_.emplace_back(family, record);
+  }
+  for (RunRecord& run : message.events.completed) {
+    plan_->case_done(worker, run.case_id, run.wall_seconds);
+    ++n_done_;
+    if (run.result->outcome != Outcome::converged) ++n_incomplete_;
+    add_run(std::move(run));
+  }
+  for (const JobEvents::Failure& failure : message.events.failed) handle_failure(worker, failure);
+  if (!message.events.returned.empty()) {
+    plan_->returned(worker, message.events.returned);
+    for (const std::int64_t id : message.events.returned) inputs_.erase(id);
+  }
+  fail_hopeless();
+}
+
+void Manager::handle_failure(int worker, const JobEvents::Failure& failure) {
+  RunRecord run = failure.run;
+  run.final = !plan_->case_failed(worker, run.case_id, failure.in_operator);
+  const long position = inputs_.count(run.case_id) > 0 ? inputs_[run.case_id].position : 0;
+  const std::string text = concat("case ", position, " ", to_string(run.status), ": ", run.reason,
+                                  run.final ? "" : "; it is tried again");
+  store_.record_event(campaign_.id, "case failed", text);
+  display_.note(text);
+  if (run.final) {
+    ++n_failed_;
+    if (campaign_.policy.on_failure == FailureAction::abort && !aborted_) {
+      aborted_ = true;
+      store_.record_event(campaign_.id, "aborted", "a case failed and the spec says abort");
+    }
+  }
+  add_run(std::move(run));
+}
+
+void Manager::fail_hopeless() {
+  for (const std::int64_t id : plan_->take_hopeless()) {
+    RunRecord run;
+    run.case_id = id;
+    run.reason = concat("not tried: the operator of its family failed ", WorkPlan::kOperatorAttempts,
+                        " times, see the failed cases of that family");
+    ++n_failed_;
+    add_run(std::move(run));
+  }
+}
+
+void Manager::add_run(RunRecord run) {
+  if (uncommitted_.empty()) since_first_uncommitted_ = {};
+  ++n_finished_now_;
+  inputs_.erase(run.case_id);
+  uncommitted_.push_back(std::move(run));
+}
+
+void Manager::commit() {
+  for (const auto& [family, record] : operators_) {
+    store_.record_operator(families_[static_cast<std::size_t>(family)].family, record);
+  }
+  operators_.clear();
+  store_.record_runs(campaign_.id, uncommitted_);
+  uncommitted_.clear();
+}
+
+void Manager::hand_out() {
+  // Round by round, so that nobody gets a second slice before everybody had a first.
+  for (bool any = true; any;) {
+    any = false;
+    for (int worker = 0; worker < link_.n_workers(); ++worker) {
+      if (const auto slice = plan_->next(worker)) {
+        send_work(worker, *slice);
+        any = busy_ = true;
+      }
+    }
+  }
+}
+
+void Manager::send_work(int worker, const Slice& slice) {
+  message::Work work;
+  work.task.family = slice.family;
+  work.task.time_limit = campaign_.policy.time_limit;
+  work.task.memory_limit = campaign_.policy.memory_limit;
+  work.task.operator_seconds =
+      families_[static_cast<std::size_t>(slice.family)].predicted.operator_seconds;
+  std::set<std::int64_t>& sent = scenes_sent_[static_cast<std::size_t>(worker)];
+  for (const std::int64_t id : slice.cases) {
+    CaseInput input = store_.case_input(campaign_.id, id);
+    if (sent.insert(input.scene).second) work.scenes[input.scene] = store_.base_scene(input.scene);
+    work.items.push_back({id, input.scene, input.position, std::move(input.changes)});
+    inputs_[id] = {id, input.scene, input.position, {}};
+  }
+  link_.send(worker, work);
+}
+
+void Manager::beat() {
+  constexpr double kBeatSeconds = 1;
+  Progress progress{n_cases_, n_done_, n_failed_, plan_->seconds_left(), ""};
+  int n_building = 0;
+  for (int worker = 0; worker < link_.n_workers(); ++worker) n_building += plan_->is_building(worker);
+  if (n_building > 0) progress.doing = concat("building ", n_building, n_building == 1 ? " operator" : " operators");
+  if (n_finished_now_ == 0 && n_building == 0) progress.seconds_left = -1;
+  display_.show(progress);
+  if (since_beat_.seconds() < kBeatSeconds) return;
+  since_beat_ = {};
+  store_.heartbeat(progress_json());
+}
+
+std::string Manager::progress_json() const {
+  json workers = json::array();
+  for (int worker = 0; worker < link_.n_workers(); ++worker) {
+    const int family = plan_->family_of(worker);
+    const char* state = plan_->n_outstanding(worker) == 0 ? "waiting"
+                        : plan_->is_building(worker)      ? "building operator"
+                                                          : "running cases";
+    workers.push_back({{"rank", worker + 1},
+                       {"host", hosts_[static_cast<std::size_t>(worker)]},
+                       {"state", state},
+                       {"cases_at_hand", plan_->n_outstanding(worker)},
+                       {"family", family < 0 ? json() : json(families_[static_cast<std::size_t>(family)]
+                                                                 .predicted.fingerprint)}});
+  }
+  const double seconds = since_start_.seconds();
+  const json progress = {{"seconds", seconds},
+                         {"seconds_left", plan_->seconds_left()},
+                         {"finished_in_this_run", n_finished_now_},
+                         {"cases_per_second", seconds > 0 ? static_cast<double>(n_finished_now_) / seconds : 0},
+                         {"in_flight", plan_->n_in_flight()},
+                         {"stopping", draining_},
+                         {"workers", workers}};
+  return progress.dump();
+}
+
+ExitCode Manager::status() const {
+  if (!trouble_.empty()) return ExitCode::world;
+  if (interrupted_ && n_done_ + n_failed_ < n_cases_) return ExitCode::interrupted;
+  if (n_done_ + n_failed_ < n_cases_ || n_failed_ > 0 || n_incomplete_ > 0) {
+    return ExitCode::incomplete;
+  }
+  return ExitCode::done;
+}
+
+}  // namespace faultsweep

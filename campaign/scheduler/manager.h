@@ -1,0 +1,93 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "campaign/scheduler/progress.h"
+#include "campaign/scheduler/wire.h"
+#include "campaign/scheduler/work_plan.h"
+#include "campaign/store/store.h"
+#include "simulator/common/exit_code.h"
+#include "simulator/common/stopwatch.h"
+
+namespace faultsweep {
+
+class Messenger;
+
+/// Where the manager's messages come from and go to: MPI, or a test.
+class WorkerLink {
+ public:
+  virtual ~WorkerLink() = default;
+  virtual int n_workers() const = 0;
+  virtual void send(int worker, const Message& message) = 0;  ///< worker from 0.
+  struct Received {
+    int worker = 0;
+    Message message;
+  };
+  virtual std::optional<Received> receive() = 0;
+};
+
+/// Rank 0: owns the store, hands out cases, commits what comes back. One campaign per life.
+class Manager {
+ public:
+  struct Options {
+    std::string campaign;       ///< "" = the newest.
+    double memory_bytes = 0;    ///< for operator builds together; 0 = not limited.
+    double patience = 10;       ///< s for cases under way once stopped.
+  };
+  /// Claims the store. Throws StorageError.
+  Manager(Store& store, WorkerLink& link, ProgressDisplay& display, const Options& options);
+  ~Manager();
+  Manager(const Manager&) = delete;
+  Manager& operator=(const Manager&) = delete;
+
+  /// One turn: messages, work, commits, heartbeat. False when all is over and the workers may quit.
+  bool turn();
+  bool is_busy() const { return busy_; }
+  /// Hands out nothing any more; cases under way are waited for, at most `patience` seconds.
+  void interrupt();
+  /// Commits what has arrived. After the last turn, or when the job is torn down.
+  void commit();
+  /// How the campaign stands: done, incomplete, interrupted, world (a worker was in trouble).
+  faultsim::ExitCode status() const;
+  const std::string& trouble() const { return trouble_; }
+  /// All workers have handed back what they had; otherwise they cannot be told to quit in order.
+  bool workers_are_drained() const { return n_drained_ == link_.n_workers(); }
+
+  static constexpr double kCommitSeconds = 0.05;   ///< the oldest result waits no longer
+  static constexpr std::size_t kCommitRuns = 512;  ///< nor are more together in one transaction
+
+ private:
+  void handle(int worker, message::Events message);
+  void handle_failure(int worker, const JobEvents::Failure& failure);
+  void hand_out();
+  void send_work(int worker, const Slice& slice);
+  void add_run(RunRecord run);
+  void fail_hopeless();
+  void begin_drain();
+  void beat();
+  std::string progress_json() const;
+
+  Store& store_;
+  WorkerLink& link_;
+  ProgressDisplay& display_;
+  Options options_;
+  CampaignInfo campaign_;
+  std::vector<WaitingFamily> families_;
+  std::unique_ptr<WorkPlan> plan_;
+  std::map<std::int64_t, CaseInput> inputs_;   ///< of cases under way
+  std::vector<std::set<std::int64_t>> scenes_sent_;
+  std::vector<std::string> hosts_;
+  std::vector<RunRecord> uncommitted_;
+  std::vector<std::pair<int, OperatorRecord>> operators_;
+  faultsim::Stopwatch since_first_uncommitted_, since_beat_, since_start_, since_drain_;
+  long n_done_ = 0, n_failed_ = 0, n_incomplete_ = 0, n_cases_ = 0, n_finished_now_ = 0;
+  int n_drained_ = 0;
+  bool busy_ = false, interrupted_ = false, draining_ = false, aborted_ = false;
+  std::string trouble_;
+};
+
+}  // namespace faultsweep

@@ -1,0 +1,91 @@
+#include "campaign/scheduler/messenger.h"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+#include "simulator/common/errors.h"
+#include "simulator/common/stopwatch.h"
+
+namespace faultsweep {
+
+namespace {
+constexpr int kTag = 1;
+}
+
+struct Messenger::Outgoing {
+  std::string bytes;
+  MPI_Request request = MPI_REQUEST_NULL;
+};
+
+Messenger::Messenger(int& argc, char**& argv) {
+  MPI_Init(&argc, &argv);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+  MPI_Comm_size(MPI_COMM_WORLD, &size_);
+}
+
+Messenger::~Messenger() {
+  if (!finished_) std::fflush(nullptr);
+}
+
+void Messenger::send(int to, const Message& message) {
+  auto outgoing = std::make_unique<Outgoing>();
+  outgoing->bytes = encode(message);
+  FAULTSIM_DEMAND(outgoing->bytes.size() < (1u << 30), outgoing->bytes.size());
+  MPI_Isend(outgoing->bytes.data(), static_cast<int>(outgoing->bytes.size()), MPI_BYTE, to, kTag,
+            MPI_COMM_WORLD, &outgoing->request);
+  outbox_.push_back(std::move(outgoing));
+  is_flushed();
+}
+
+bool Messenger::is_flushed() {
+  outbox_.remove_if([](const std::unique_ptr<Outgoing>& outgoing) {
+    int done = 0;
+    MPI_Test(&outgoing->request, &done, MPI_STATUS_IGNORE);
+    return done != 0;
+  });
+  return outbox_.empty();
+}
+
+std::optional<Messenger::Received> Messenger::receive() {
+  if (!outbox_.empty()) is_flushed();
+  int there = 0;
+  MPI_Status status;
+  MPI_Iprobe(MPI_ANY_SOURCE, kTag, MPI_COMM_WORLD, &there, &status);
+  if (there == 0) return std::nullopt;
+  int n_bytes = 0;
+  MPI_Get_count(&status, MPI_BYTE, &n_bytes);
+  std::string bytes(static_cast<std::size_t>(n_bytes), '\0');
+  MPI_Recv(bytes.data(), n_bytes, MPI_BYTE, status.MPI_SOURCE, kTag, MPI_COMM_WORLD,
+           MPI_STATUS_IGNORE);
+  return Received{status.MPI_SOURCE, decode(bytes)};
+}
+
+void Messenger::finish() {
+  IdleSleep idle;
+  while (!is_flushed()) idle.sleep();
+  MPI_Request barrier = MPI_REQUEST_NULL;
+  MPI_Ibarrier(MPI_COMM_WORLD, &barrier);
+  for (int done = 0; done == 0;) {
+    MPI_Test(&barrier, &done, MPI_STATUS_IGNORE);
+    if (done == 0) idle.sleep();
+  }
+  finished_ = true;
+  MPI_Finalize();
+}
+
+void Messenger::abort(int code) {
+  std::fflush(nullptr);
+  MPI_Abort(MPI_COMM_WORLD, code);
+  std::_Exit(code);
+}
+
+void IdleSleep::sleep() {
+  std::this_thread::sleep_for(std::chrono::microseconds(microseconds_));
+  microseconds_ = std::min(2 * microseconds_, kLongest);
+}
+
+}  // namespace faultsweep

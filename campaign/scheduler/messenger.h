@@ -1,0 +1,59 @@
+#pragma once
+
+#include <list>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "campaign/scheduler/wire.h"
+
+namespace faultsweep {
+
+/// MPI for the campaign: whole messages, sent without waiting, received by looking. Neither side ever
+/// blocks inside MPI, as MPI waits by spinning: whoever has nothing to do sleeps (see IdleSleep).
+class Messenger {
+ public:
+  /// Starts MPI. One per process.
+  Messenger(int& argc, char**& argv);
+  /// Ends MPI together with all ranks; prefer finish().
+  ~Messenger();
+  Messenger(const Messenger&) = delete;
+  Messenger& operator=(const Messenger&) = delete;
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+  void send(int to, const Message& message);
+  struct Received {
+    int from = 0;
+    Message message;
+  };
+  /// A message that has arrived; nothing = none.
+  std::optional<Received> receive();
+  /// Everything that was sent has left.
+  bool is_flushed();
+  /// Ends MPI in order: every rank must call it. Waits, asleep, for what was sent.
+  void finish();
+  /// Ends all ranks now.
+  [[noreturn]] void abort(int code);
+
+ private:
+  struct Outgoing;
+  int rank_ = 0, size_ = 0;
+  bool finished_ = false;
+  std::list<std::unique_ptr<Outgoing>> outbox_;
+};
+
+/// Sleeps that grow from 50 µs to 2 ms while nothing happens: short enough not to be felt, long enough
+/// that looking costs less than 2 % of a core.
+class IdleSleep {
+ public:
+  void reset() { microseconds_ = kShortest; }
+  void sleep();
+  static constexpr int kShortest = 50;
+  static constexpr int kLongest = 2000;
+
+ private:
+  int microseconds_ = kShortest;
+};
+
+}  // namespace faultsweep

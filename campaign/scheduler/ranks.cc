@@ -1,0 +1,165 @@
+#include "campaign/scheduler/ranks.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+
+#include "campaign/scheduler/local_runner.h"
+#include "campaign/scheduler/manager.h"
+#include "campaign/scheduler/messenger.h"
+#include "campaign/scheduler/resources.h"
+#include "campaign/scheduler/worker.h"
+#include "simulator/common/errors.h"
+
+namespace faultsweep {
+namespace {
+
+using faultsim::concat;
+using faultsim::ExitCode;
+
+volatile std::sig_atomic_t stop_wanted = 0;
+volatile std::sig_atomic_t torn_down = 0;
+
+extern "C" void on_stop(int) { stop_wanted = 1; }
+extern "C" void on_tear_down(int) { torn_down = 1; }
+
+void on_signal(int number, void (*handler)(int)) {
+  struct sigaction action = {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  sigaction(number, &action, nullptr);
+}
+
+void set_signals(bool is_manager) {
+  on_signal(SIGUSR1, is_manager ? on_stop : SIG_IGN);
+  on_signal(SIGTERM, on_tear_down);
+  on_signal(SIGINT, SIG_IGN);   // the terminal's Ctrl-C is for the starter
+  on_signal(SIGPIPE, SIG_IGN);  // a dead simulator shows as EPIPE
+  on_signal(SIGXFSZ, SIG_IGN);  // a file size limit shows as a full disk
+}
+
+std::string host_name() {
+  char name[256] = {};
+  gethostname(name, sizeof name - 1);
+  return name;
+}
+
+class MpiWorkers final : public WorkerLink {
+ public:
+  explicit MpiWorkers(Messenger& messenger) : messenger_(messenger) {}
+  int n_workers() const override { return messenger_.size() - 1; }
+  void send(int worker, const Message& message) override { messenger_.send(worker + 1, message); }
+  std::optional<Received> receive() override {
+    auto received = messenger_.receive();
+    if (!received) return std::nullopt;
+    return Received{received->from - 1, std::move(received->message)};
+  }
+
+ private:
+  Messenger& messenger_;
+};
+
+void leave_status(const RunOptions& options, ExitCode status) {
+  if (options.status_file.empty()) return;
+  std::ofstream(options.status_file) << static_cast<int>(status) << '\n';
+}
+
+/// Runs the campaign; how it ended. Messages go to stderr.
+ExitCode manage(Messenger& messenger, const RunOptions& options, bool& in_order) {
+  ProgressDisplay display(options.progress);
+  Store store = Store::open_owner(options.store);
+  if (!store.remark().empty()) display.note(store.remark());
+  MpiWorkers link(messenger);
+  constexpr double kMemoryShare = 0.9;  // of what is available now; the rest is for results and cache
+  Manager manager(store, link, display,
+                  {options.campaign, kMemoryShare * available_memory(), Manager::Options{}.patience});
+  IdleSleep idle;
+  while (manager.turn()) {
+    if (stop_wanted != 0) manager.interrupt();
+    if (torn_down != 0) {
+      manager.commit();
+      in_order = false;
+      return ExitCode::interrupted;
+    }
+    if (manager.is_busy()) {
+      idle.reset();
+    } else {
+      idle.sleep();
+    }
+  }
+  in_order = manager.workers_are_drained();
+  const CampaignInfo info = store.campaign(options.campaign);
+  display.finish({info.n_cases, info.n_done, info.n_failed, -1, ""});
+  if (!manager.trouble().empty()) std::fprintf(stderr, "faultsweep: %s\n", manager.trouble().c_str());
+  store.record_event(info.id, "stopped", concat(info.n_done, " done, ", info.n_failed, " failed, ",
+                                                info.n_waiting, " waiting"));
+  store.checkpoint();
+  return manager.status();
+}
+
+ExitCode manager_rank(Messenger& messenger, const RunOptions& options) {
+  bool in_order = true;
+  ExitCode status = ExitCode::bug;
+  try {
+    status = manage(messenger, options, in_order);
+  } catch (const faultsim::InputError& error) {
+    std::fprintf(stderr, "faultsweep: %s\n", error.what());
+    status = ExitCode::input;
+    in_order = false;
+  } catch (const faultsim::Error& error) {
+    std::fprintf(stderr, "faultsweep: %s\n", error.what());
+    status = ExitCode::world;
+    in_order = false;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "faultsweep: %s\n", error.what());
+    in_order = false;
+  }
+  leave_status(options, status);
+  if (!in_order) messenger.abort(static_cast<int>(status));
+  for (int rank = 1; rank < messenger.size(); ++rank) messenger.send(rank, message::Quit{});
+  messenger.finish();
+  // Under somebody else's mpirun there is no starter to tell.
+  return options.status_file.empty() ? status : ExitCode::done;
+}
+
+ExitCode worker_rank(Messenger& messenger, const RunOptions& options) {
+  LocalRunner::Options runner_options;
+  runner_options.process.binary = options.simulator;
+  runner_options.process.cache = std::filesystem::absolute(options.store) / "operators";
+  runner_options.host = host_name();
+  runner_options.rank = messenger.rank();
+  try {
+    LocalRunner runner(runner_options);
+    run_worker(messenger, runner, runner_options.host, [] { return torn_down != 0; });
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "faultsweep: worker %d: %s\n", messenger.rank(), error.what());
+    messenger.abort(static_cast<int>(ExitCode::bug));
+  }
+  if (torn_down != 0) std::_Exit(static_cast<int>(ExitCode::interrupted));
+  messenger.finish();
+  return ExitCode::done;
+}
+
+}  // namespace
+
+bool is_rank() {
+  return std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMIX_RANK") != nullptr;
+}
+
+ExitCode run_ranks(int argc, char** argv, const RunOptions& options) {
+  set_signals(true);  // before MPI: a SIGUSR1 must not end a rank that is starting
+  Messenger messenger(argc, argv);
+  set_signals(messenger.rank() == 0);
+  if (messenger.size() < 2) {
+    throw faultsim::ResourceError(
+        "faultsweep run needs at least 2 ranks: a manager and a worker; start it without mpirun");
+  }
+  return messenger.rank() == 0 ? manager_rank(messenger, options) : worker_rank(messenger, options);
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,246 @@
+#include "campaign/scheduler/starter.h"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <fstream>
+#include <vector>
+
+#include "campaign/scheduler/resources.h"
+#include "campaign/store/store.h"
+#include "simulator/common/errors.h"
+#include "simulator/common/stopwatch.h"
+
+namespace faultsweep {
+namespace {
+
+using faultsim::concat;
+using faultsim::ExitCode;
+using faultsim::ResourceError;
+
+volatile std::sig_atomic_t n_signals = 0;
+
+extern "C" void count_signal(int) { n_signals = n_signals + 1; }
+
+/// Counts the signals that ask to stop, for as long as it lives.
+class StopSignals {
+ public:
+  StopSignals() {
+    n_signals = 0;
+    struct sigaction action = {};
+    action.sa_handler = count_signal;
+    sigemptyset(&action.sa_mask);
+    for (int k = 0; k < kCount; ++k) sigaction(kSignals[k], &action, &before_[k]);
+  }
+  ~StopSignals() {
+    for (int k = 0; k < kCount; ++k) sigaction(kSignals[k], &before_[k], nullptr);
+  }
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+
+ private:
+  static constexpr int kCount = 4;
+  static constexpr int kSignals[kCount] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
+  struct sigaction before_[kCount];
+};
+
+/// A file in the temporary folder, removed at the end.
+class StatusFile {
+ public:
+  StatusFile() {
+    std::string name = (std::filesystem::temp_directory_path() / "faultsweep-XXXXXX").string();
+    const int descriptor = mkstemp(name.data());
+    if (descriptor < 0) throw ResourceError(concat("cannot make ", name, ": ", std::strerror(errno)));
+    close(descriptor);
+    path_ = name;
+  }
+  ~StatusFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  StatusFile(const StatusFile&) = delete;
+  StatusFile& operator=(const StatusFile&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+  /// What the manager left; none = it could not leave anything.
+  std::optional<ExitCode> read() const {
+    std::ifstream file(path_);
+    int code = 0;
+    if (file >> code) return static_cast<ExitCode>(code);
+    return std::nullopt;
+  }
+  void clear() const { std::ofstream(path_, std::ios::trunc); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+const char* style_name(ProgressDisplay::Style style) {
+  switch (style) {
+    case ProgressDisplay::Style::silent: return "none";
+    case ProgressDisplay::Style::lines: return "lines";
+    case ProgressDisplay::Style::bar: return "bar";
+  }
+  return "lines";
+}
+
+std::vector<std::string> mpirun_command(const RunOptions& options, int n_workers,
+                                        const std::filesystem::path& status_file) {
+  const char* mpirun = std::getenv("FAULTSWEEP_MPIRUN");
+  std::vector<std::string> command = {mpirun != nullptr ? mpirun : "mpirun",
+                                      "-n", std::to_string(n_workers + 1),
+                                      // more ranks than cores, as the manager sleeps
+                                      "--oversubscribe",
+                                      // a bound rank would bind its simulator's threads to one core
+                                      "--bind-to", "none",
+                                      // containers forbid process_vm_readv, which vader would use
+                                      "--mca", "btl_vader_single_copy_mechanism", "none",
+                                      // ranks have this long to commit after SIGTERM
+                                      "--mca", "odls_base_sigkill_timeout", "30"};
+  if (geteuid() == 0) command.push_back("--allow-run-as-root");
+  const std::vector<std::string> own = {
+      std::filesystem::read_symlink("/proc/self/exe").string(), "run", options.campaign,
+      "--store", std::filesystem::absolute(options.store).string(),
+      "--simulator", options.simulator.string(),
+      "--progress", style_name(options.progress),
+      "--status-file", status_file.string()};
+  command.insert(command.end(), own.begin(), own.end());
+  return command;
+}
+
+/// Starts the command in a process group of its own, so that Ctrl-C reaches only us; it is told to
+/// end when we die.
+pid_t spawn(std::vector<std::string> command) {
+  std::vector<char*> arguments;
+  for (std::string& word : command) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  const pid_t parent = getpid();
+  const pid_t child = fork();
+  if (child < 0) throw ResourceError(concat("cannot start ", command[0], ": ", std::strerror(errno)));
+  if (child == 0) {
+    setpgid(0, 0);
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() != parent) _exit(127);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGPIPE}) std::signal(number, SIG_DFL);
+    const int null = open("/dev/null", O_RDONLY);
+    dup2(null, 0);
+    execvp(arguments[0], arguments.data());
+    _exit(127);
+  }
+  return child;
+}
+
+/// Waits for mpirun, passing on requests to stop. Returns waitpid's status.
+int wait_for(pid_t mpirun) {
+  int told = 0;
+  faultsim::Stopwatch since_told;
+  constexpr double kRepeatSeconds = 1;  // a signal that came before the ranks listened is lost
+  for (;;) {
+    int status = 0;
+    const pid_t ended = waitpid(mpirun, &status, WNOHANG);
+    if (ended == mpirun) return status;
+    const int wanted = std::min<int>(n_signals, 3);
+    if (wanted > told || (wanted == 1 && since_told.seconds() > kRepeatSeconds)) {
+      told = wanted;
+      since_told = {};
+      if (wanted == 1) kill(mpirun, SIGUSR1);  // mpirun passes SIGUSR1 to the ranks
+      if (wanted == 2) kill(mpirun, SIGTERM);
+      if (wanted == 3) kill(-mpirun, SIGKILL);
+    }
+    const timespec pause = {0, 20'000'000};
+    nanosleep(&pause, nullptr);
+  }
+}
+
+/// mpirun ends with 128 + n when a rank died by signal n, or dies itself.
+bool died_by_signal(int status) {
+  if (WIFSIGNALED(status)) return true;
+  constexpr int kSignalBase = 128;
+  return WEXITSTATUS(status) > kSignalBase && WEXITSTATUS(status) <= kSignalBase + SIGRTMIN;
+}
+
+long finished_cases(const RunOptions& options) {
+  const CampaignInfo info = Store::open_reader(options.store).campaign(options.campaign);
+  return info.n_done + info.n_failed;
+}
+
+/// Notes a restart in the store; trouble with the store shows in the next manager anyway.
+void note_restart(const RunOptions& options, const std::string& text) {
+  std::fprintf(stderr, "faultsweep: %s\n", text.c_str());
+  try {
+    Store store = Store::open_writer(options.store);
+    store.record_event(store.campaign(options.campaign).id, "restart", text);
+  } catch (const faultsim::Error& error) {
+    std::fprintf(stderr, "faultsweep: %s\n", error.what());
+  }
+}
+
+void check_before(RunOptions& options) {
+  if (!std::filesystem::exists(options.store / "campaign.sqlite")) Store::open_reader(options.store);
+  Store store = Store::open_writer(options.store);
+  const CampaignInfo info = store.campaign(options.campaign);
+  options.campaign = info.name;  // "the newest" stays the same one through restarts
+  if (const auto owner = store.owner(); owner && owner->alive) {
+    throw faultsim::StorageError(concat("the store ", options.store.string(),
+                                        " is managed by process ", owner->pid, " on ", owner->host,
+                                        "; wait for it, stop it, or use another --store"));
+  }
+  if (access(options.simulator.c_str(), X_OK) != 0) {
+    throw ResourceError(concat("there is no simulator at ", options.simulator.string(),
+                               "; set FAULTSIM_BINARY to the faultsim binary"));
+  }
+  if (info.cancelled) {
+    throw faultsim::InputError("--campaign", {{"", 0, concat(info.name, " was cancelled"),
+                                               "submit its spec again to reopen it"}});
+  }
+}
+
+ExitCode status_without_manager(int status) {
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 127) {
+    throw ResourceError("cannot run mpirun; install openmpi-bin, or set FAULTSWEEP_MPIRUN");
+  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(ExitCode::bug)) return ExitCode::bug;
+  return ExitCode::world;
+}
+
+}  // namespace
+
+ExitCode start_ranks(const RunOptions& given) {
+  RunOptions options = given;
+  check_before(options);
+  const int n_workers = options.n_workers.value_or(available_cores());
+  const StatusFile status_file;
+  const StopSignals stop_signals;
+  int n_restarts = 0;
+  long finished = finished_cases(options);
+  for (;;) {
+    status_file.clear();
+    const int ended = wait_for(spawn(mpirun_command(options, n_workers, status_file.path())));
+    const auto left = status_file.read();
+    if (n_signals > 0) {
+      // In order, the campaign may even have been completed; else it can be resumed.
+      return left && n_signals == 1 ? *left : ExitCode::interrupted;
+    }
+    if (left && *left != ExitCode::interrupted) return *left;
+    // A manager that was torn down, or that left nothing.
+    if (!left && !died_by_signal(ended)) return status_without_manager(ended);
+    const long now = finished_cases(options);
+    if (now > finished) n_restarts = 0;
+    finished = now;
+    if (++n_restarts > kMostRestarts) {
+      throw ResourceError(concat("the job died ", kMostRestarts + 1,
+                                 " times in a row without finishing a case; what is stored is intact"));
+    }
+    note_restart(options, concat("a process of the job died (mpirun status ", ended, "); restart ",
+                                 n_restarts, " of ", kMostRestarts));
+  }
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,220 @@
+#include "campaign/scheduler/wire.h"
+
+#include <cstring>
+#include <type_traits>
+
+#include "simulator/common/errors.h"
+
+namespace faultsweep {
+namespace {
+
+using faultsim::CaseResult;
+using faultsim::StageMetrics;
+using faultsim::StepResult;
+
+/// Appends values; the same `fields` functions drive writing and reading, so they cannot differ.
+class Writer {
+ public:
+  template <typename Plain>
+    requires(std::is_arithmetic_v<Plain> || std::is_enum_v<Plain>)
+  void operator()(const Plain& value) {
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  void operator()(const std::string& text) {
+    (*this)(static_cast<std::uint64_t>(text.size()));
+    bytes_ += text;
+  }
+  template <typename Value>
+  void operator()(const std::optional<Value>& value) {
+    (*this)(value.has_value());
+    if (value) (*this)(*value);
+  }
+  template <typename Value>
+  void operator()(const std::vector<Value>& values) {
+    (*this)(static_cast<std::uint64_t>(values.size()));
+    for (const Value& value : values) (*this)(value);
+  }
+  template <typename Key, typename Value>
+  void operator()(const std::map<Key, Value>& values) {
+    (*this)(static_cast<std::uint64_t>(values.size()));
+    for (const auto& [key, value] : values) {
+      (*this)(key);
+      (*this)(value);
+    }
+  }
+  template <typename Struct>
+    requires(std::is_class_v<Struct>)
+  void operator()(const Struct& value) {
+    fields(*this, const_cast<Struct&>(value));
+  }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+class Reader {
+ public:
+  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
+  template <typename Plain>
+    requires(std::is_arithmetic_v<Plain> || std::is_enum_v<Plain>)
+  void operator()(Plain& value) {
+    std::memcpy(&value, take(sizeof value).data(), sizeof value);
+  }
+  void operator()(std::string& text) { text = take(size()); }
+  template <typename Value>
+  void operator()(std::optional<Value>& value) {
+    bool has = false;
+    (*this)(has);
+    if (has) (*this)(value.emplace());
+  }
+  template <typename Value>
+  void operator()(std::vector<Value>& values) {
+    const std::size_t n = size();
+    values.clear();
+    for (std::size_t k = 0; k < n; ++k) (*this)(values.emplace_back());
+  }
+  template <typename Key, typename Value>
+  void operator()(std::map<Key, Value>& values) {
+    const std::size_t n = size();
+    for (std::size_t k = 0; k < n; ++k) {
+      Key key{};
+      (*this)(key);
+      (*this)(values[key]);
+    }
+  }
+  template <typename Struct>
+    requires(std::is_class_v<Struct>)
+  void operator()(Struct& value) {
+    fields(*this, value);
+  }
+  bool at_end() const { return bytes_.empty(); }
+
+ private:
+  std::size_t size() {
+    std::uint64_t n = 0;
+    (*this)(n);
+    FAULTSIM_DEMAND(n <= bytes_.size(), n, " of ", bytes_.size());
+    return static_cast<std::size_t>(n);
+  }
+  std::string_view take(std::size_t n) {
+    FAULTSIM_DEMAND(n <= bytes_.size(), n, " of ", bytes_.size());
+    const std::string_view taken = bytes_.substr(0, n);
+    bytes_.remove_prefix(n);
+    return taken;
+  }
+  std::string_view bytes_;
+};
+
+template <typename Archive, typename... Values>
+void all(Archive& archive, Values&... values) {
+  (archive(values), ...);
+}
+
+template <typename Archive>
+void fields(Archive& a, faultsim::FaultMetrics& m) {
+  all(a, m.chi_bar, m.chi_max, m.chi_static_max, m.area_chi_080, m.thickness_chi_080_max,
+      m.thickness_chi_080_mean, m.slipping_area, m.open_area, m.activated_area, m.activated_length,
+      m.activated, m.max_slip, m.mean_slip, m.potency, m.moment, m.moment_step);
+}
+template <typename Archive>
+void fields(Archive& a, faultsim::SolveCounts& c) {
+  all(a, c.newton_iterations, c.active_set_passes, c.sub_steps, c.wasted_newton_iterations);
+}
+template <typename Archive>
+void fields(Archive& a, StepResult& s) {
+  all(a, s.step, s.stage, s.time, s.pressure_change, s.outcome, s.reason, s.n_stick, s.n_slip,
+      s.n_open, s.faults, s.observed, s.counts, s.seconds);
+}
+template <typename Archive>
+void fields(Archive& a, StageMetrics& m) {
+  all(a, m.stage, m.first_step, m.last_step, m.activated, m.activation_step, m.activation_pressure,
+      m.activated_fault, m.chi_bar, m.chi_max, m.area_chi_080, m.thickness_chi_080,
+      m.activated_area, m.slipping_area, m.open_area, m.max_slip, m.potency, m.moment, m.magnitude);
+}
+template <typename Archive>
+void fields(Archive& a, CaseResult& r) {
+  all(a, r.title, r.identity, r.operator_fingerprint, r.numerics_version, r.outcome, r.reason,
+      r.failed_step, r.plane_strain, r.weakening_resolved, r.max_nucleation_ratio,
+      r.pressure_margin, r.region_names, r.fault_names, r.observation_names, r.steps, r.stages,
+      r.whole, r.counts, r.warnings, r.seconds);
+}
+template <typename Archive>
+void fields(Archive& a, RunRecord& r) {
+  all(a, r.case_id, r.status, r.reason, r.signal, r.exit_code, r.log_tail, r.host, r.rank,
+      r.wall_seconds, r.final, r.result);
+}
+template <typename Archive>
+void fields(Archive& a, OperatorRecord& r) {
+  all(a, r.fingerprint, r.from_cache, r.seconds, r.unknowns, r.jump_unknowns, r.bytes,
+      r.peak_bytes);
+}
+template <typename Archive>
+void fields(Archive& a, JobEvents::Failure& f) {
+  all(a, f.run, f.in_operator);
+}
+template <typename Archive>
+void fields(Archive& a, BaseScene& s) {
+  all(a, s.source, s.document);
+}
+template <typename Archive>
+void fields(Archive& a, message::Work::Item& i) {
+  all(a, i.case_id, i.scene, i.position, i.changes);
+}
+template <typename Archive>
+void fields(Archive& a, message::Hello& m) {
+  all(a, m.host);
+}
+template <typename Archive>
+void fields(Archive& a, message::Events& m) {
+  all(a, m.events.completed, m.events.failed, m.events.returned, m.events.operators);
+}
+template <typename Archive>
+void fields(Archive& a, message::Trouble& m) {
+  all(a, m.text);
+}
+template <typename Archive>
+void fields(Archive&, message::Drained&) {}
+template <typename Archive>
+void fields(Archive& a, message::Work& m) {
+  all(a, m.task.family, m.task.time_limit, m.task.operator_seconds, m.task.memory_limit, m.scenes,
+      m.items);
+}
+template <typename Archive>
+void fields(Archive&, message::Drain&) {}
+template <typename Archive>
+void fields(Archive&, message::Quit&) {}
+
+template <std::size_t Index = 0>
+void read_alternative(std::size_t index, Reader& reader, Message& message) {
+  if constexpr (Index < std::variant_size_v<Message>) {
+    if (index == Index) {
+      reader(message.emplace<Index>());
+    } else {
+      read_alternative<Index + 1>(index, reader, message);
+    }
+  } else {
+    FAULTSIM_DEMAND(false, "message of unknown kind ", index);
+  }
+}
+
+}  // namespace
+
+std::string encode(const Message& message) {
+  Writer writer;
+  writer(static_cast<std::uint8_t>(message.index()));
+  std::visit(writer, message);
+  return writer.take();
+}
+
+Message decode(std::string_view bytes) {
+  Reader reader(bytes);
+  std::uint8_t index = 0;
+  reader(index);
+  Message message;
+  read_alternative(index, reader, message);
+  FAULTSIM_DEMAND(reader.at_end(), "bytes behind a message of kind ", index);
+  return message;
+}
+
+}  // namespace faultsweep

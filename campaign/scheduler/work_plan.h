@@ -1,0 +1,121 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "campaign/spec/spec.h"
+
+namespace faultsweep {
+
+/// A family whose cases wait.
+struct FamilyWork {
+  std::int64_t id = 0;
+  std::vector<std::int64_t> cases;
+  double operator_seconds = 0;  ///< predicted, when it has to be built.
+  double case_seconds = 0;      ///< predicted or measured earlier; 0 = unknown.
+  double memory_bytes = 0;      ///< predicted peak while the operator is built.
+  bool operator_cached = false;
+};
+
+/// Cases of one family for one worker.
+struct Slice {
+  int family = 0;  ///< index of the FamilyWork.
+  std::vector<std::int64_t> cases;
+  bool builds_operator = false;
+};
+
+/// Who runs what next: a pure state machine without processes or clocks.
+///
+/// Families are taken longest first, those whose operator is known before the others. One worker
+/// builds a family's operator while others take other families; once it is there the family's cases
+/// are shared out in slices that hold about kSliceSeconds of work, and less towards the end so that
+/// all workers end together. Two operators are not built at once unless both fit into memory.
+class WorkPlan {
+ public:
+  struct Limits {
+    int n_workers = 1;
+    double memory_bytes = 0;  ///< for all builds together; 0 = not limited.
+    FailureAction on_failure = FailureAction::proceed;
+    int retries = 0;          ///< further attempts of a failed case, of FailureAction::retry.
+  };
+  WorkPlan(std::vector<FamilyWork> families, const Limits& limits);
+
+  /// What the worker (from 0) is to do in addition to what it has; nothing = have it wait.
+  std::optional<Slice> next(int worker);
+
+  void operator_ready(int family, double seconds, bool from_cache);
+  void case_done(int worker, std::int64_t case_id, double seconds);
+  /// A case failed. True if it is to be tried again (it waits again), false if that was final.
+  /// @param in_operator  the operator was under way, the case itself had not started.
+  bool case_failed(int worker, std::int64_t case_id, bool in_operator);
+  /// Cases that a worker hands back untried.
+  void returned(int worker, const std::vector<std::int64_t>& cases);
+  /// The cases that still wait in families whose operator cannot be built (it failed
+  /// kOperatorAttempts times); they are to be recorded as failed, and are forgotten here.
+  std::vector<std::int64_t> take_hopeless();
+  /// Hands out nothing any more.
+  void stop() { stopped_ = true; }
+  bool stopped() const { return stopped_; }
+
+  /// Nothing under way, and nothing waits (or it is stopped).
+  bool is_finished() const;
+  long n_waiting() const;
+  long n_in_flight() const { return static_cast<long>(in_flight_.size()); }
+  long n_outstanding(int worker) const { return workers_[static_cast<std::size_t>(worker)].n_cases; }
+  /// Index of the family that the worker is on; -1 = none.
+  int family_of(int worker) const { return workers_[static_cast<std::size_t>(worker)].family; }
+  bool is_building(int worker) const;
+  int family_index(std::int64_t case_id) const;  ///< of a case in flight.
+  /// Predicted wall seconds until all is done, from what was measured so far.
+  double seconds_left() const;
+
+  static constexpr double kSliceSeconds = 0.25;  ///< long against a message (~2 ms), short for a tail
+  static constexpr int kLargestSlice = 256;      ///< bounds memory and what a kill may lose
+  static constexpr int kOperatorAttempts = 2;    ///< a second try tells bad luck from a bad operator
+
+ private:
+  enum class State { cold, building, ready };
+  struct Family {
+    FamilyWork work;
+    std::deque<std::int64_t> waiting;
+    State state = State::cold;
+    int n_workers = 0;
+    int operator_failures = 0;
+    double measured_seconds = 0;  ///< of measured_cases cases.
+    long measured_cases = 0;
+  };
+  struct Worker {
+    int family = -1;
+    long n_cases = 0;
+  };
+  struct Flight {
+    int family = 0;
+    int worker = 0;
+  };
+
+  Family& family(int index) { return families_[static_cast<std::size_t>(index)]; }
+  const Family& family(int index) const { return families_[static_cast<std::size_t>(index)]; }
+  double case_seconds(const Family& family) const;
+  double total_seconds(const Family& family) const;
+  int choose_family(int worker) const;
+  bool fits_in_memory(const Family& family) const;
+  bool has_unclaimed_family() const;
+  Slice cut(int worker, int index);
+  void leave_family(Worker& worker);
+  void landed(int worker, std::int64_t case_id);
+
+  Limits limits_;
+  std::vector<Family> families_;
+  std::vector<int> order_;  ///< families by priority.
+  std::vector<Worker> workers_;
+  std::map<std::int64_t, Flight> in_flight_;
+  std::map<std::int64_t, int> failures_;
+  double predicted_operators_ = 0, measured_operators_ = 0;  ///< s, of those built.
+  bool stopped_ = false;
+};
+
+}  // namespace faultsweep

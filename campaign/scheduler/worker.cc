@@ -1,0 +1,127 @@
+#include "campaign/scheduler/worker.h"
+
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "campaign/expansion/expansion.h"
+#include "campaign/scheduler/messenger.h"
+#include "simulator/common/errors.h"
+
+namespace faultsweep {
+
+namespace {
+
+/// Results wait this long for company, s: a message costs little, but not nothing.
+constexpr double kReportSeconds = 0.02;
+
+template <typename Value>
+void append(std::vector<Value>& to, std::vector<Value>& from) {
+  to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
+
+class MpiLink final : public ManagerLink {
+ public:
+  explicit MpiLink(Messenger& messenger) : messenger_(messenger) {}
+  void send(const Message& message) override { messenger_.send(0, message); }
+  std::optional<Message> receive() override {
+    auto received = messenger_.receive();
+    if (!received) return std::nullopt;
+    return std::move(received->message);
+  }
+
+ private:
+  Messenger& messenger_;
+};
+
+}  // namespace
+
+bool Worker::turn(int timeout_ms) {
+  busy_ = false;
+  while (const auto message = link_.receive()) {
+    busy_ = true;
+    if (const auto* work = std::get_if<message::Work>(&*message)) {
+      take(*work);
+    } else if (std::holds_alternative<message::Drain>(*message)) {
+      draining_ = true;
+      runner_.drain();
+    } else {
+      FAULTSIM_DEMAND(std::holds_alternative<message::Quit>(*message), message->index());
+      quit_ = true;
+    }
+  }
+  if (quit_) return false;
+  if (!in_trouble_) {
+    try {
+      collect(runner_.work(timeout_ms));
+    } catch (const faultsim::ResourceError& error) {
+      in_trouble_ = true;
+      link_.send(message::Trouble{error.what()});
+    }
+  }
+  busy_ = busy_ || (!runner_.is_idle() && !in_trouble_);
+  report(runner_.is_idle());
+  if (draining_ && !said_drained_ && (in_trouble_ || runner_.is_idle())) {
+    said_drained_ = true;
+    link_.send(message::Drained{});
+  }
+  return true;
+}
+
+void Worker::take(const message::Work& work) {
+  for (const auto& [id, scene] : work.scenes) scenes_[id] = scene;
+  if (draining_ || in_trouble_) {
+    for (const auto& item : work.items) pending_.returned.push_back(item.case_id);
+    return;
+  }
+  try {
+    if (work.task.family != family_) {
+      runner_.begin_family(work.task);
+      family_ = work.task.family;
+    }
+    for (const auto& item : work.items) {
+      const BaseScene& base = scenes_.at(item.scene);
+      runner_.add({item.case_id, scene_from_changes(base.document, item.changes).dump(),
+                   faultsim::concat(base.source, "#case ", item.position)});
+    }
+  } catch (const faultsim::ResourceError& error) {
+    in_trouble_ = true;
+    link_.send(message::Trouble{error.what()});
+  }
+}
+
+void Worker::collect(JobEvents events) {
+  if (events.empty()) return;
+  busy_ = true;
+  // An operator is news for the others: it goes out at once.
+  const bool urgent = !events.operators.empty();
+  append(pending_.completed, events.completed);
+  append(pending_.failed, events.failed);
+  append(pending_.returned, events.returned);
+  append(pending_.operators, events.operators);
+  report(urgent);
+}
+
+void Worker::report(bool now) {
+  if (pending_.empty() || (!now && since_report_.seconds() < kReportSeconds)) return;
+  link_.send(message::Events{std::move(pending_)});
+  pending_ = {};
+  since_report_ = {};
+}
+
+void run_worker(Messenger& messenger, JobRunner& runner, const std::string& host,
+                const std::function<bool()>& must_leave) {
+  MpiLink link(messenger);
+  link.send(message::Hello{host});
+  Worker worker(link, runner);
+  IdleSleep idle;
+  constexpr int kWaitMs = 2;  // for the simulator's replies, which wake us; messages must wait so long
+  while (!must_leave() && worker.turn(kWaitMs)) {
+    if (worker.is_busy()) {
+      idle.reset();
+    } else {
+      idle.sleep();
+    }
+  }
+}
+
+}  // namespace faultsweep
