@@ -45,8 +45,8 @@ struct ContactSolver::Impl {
   bool rests_in_plane(int node, double margin) const;
   bool verified() const;
   bool count(const NewtonReport& report);
-  bool solve_motion();
-  Attempt attempt();
+  bool solve_motion(bool may_cut);
+  Attempt attempt(bool may_cut);
   void commit(ContactState& state) const;
   ContactReport cut(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
                     ContactState& state);
@@ -167,26 +167,29 @@ bool ContactSolver::Impl::count(const NewtonReport& report) {
   return report.converged && verified();
 }
 
-/// From rest by the fast road, by Newton, and by Newton after relaxation; one restart each.
-bool ContactSolver::Impl::solve_motion() {
+/// From rest by the fast road, by Newton, and by Newton after relaxation. With weakening, failure
+/// often means that there is nothing near to be found, so cutting comes before relaxing.
+bool ContactSolver::Impl::solve_motion(bool may_cut) {
   if (problem.scalar && closed) {
     start_from_rest();
     if (count(scalar.solve(sub_step))) return true;
   }
   start_from_rest();
   if (count(newton.solve(sub_step))) return true;
+  if (problem.any_weakening && may_cut) return false;
   constexpr int kSweeps = 200;
   for (const int sweeps : {kSweeps, 5 * kSweeps}) {
     start_from_rest();
     relax(problem, sub_step, sweeps);
     if (count(newton.solve(sub_step))) return true;
+    if (problem.any_weakening) break;
   }
   return false;
 }
 
-Attempt ContactSolver::Impl::attempt() {
+Attempt ContactSolver::Impl::attempt(bool may_cut) {
   stable = {};
-  const bool solved = solve_motion();
+  const bool solved = solve_motion(may_cut);
   if (problem.any_weakening) stable = stability.check(sub_step);
   if (!solved) return Attempt::failed;
   return stable.stable ? Attempt::converged : Attempt::not_shown_stable;
@@ -223,7 +226,7 @@ ContactReport ContactSolver::solve_step(const Eigen::VectorXd& before, const Eig
     return report;
   }
   impl.iterations = 0;
-  if (impl.attempt() == Attempt::converged) {
+  if (impl.attempt(impl.options.max_step_cuts > 0) == Attempt::converged) {
     impl.commit(state);
     impl.counts.newton_iterations = impl.iterations;
     impl.counts.sub_steps = 1;
@@ -256,7 +259,7 @@ ContactReport ContactSolver::Impl::cut(const Eigen::VectorXd& before, const Eige
     if (rest) {
       sub_step.increment.setZero(problem.n_dofs());
     } else {
-      last = attempt();
+      last = attempt(level < most);
     }
     if (last != Attempt::converged) {
       counts.wasted_newton_iterations += iterations;

@@ -59,7 +59,6 @@ inline FaultOperator spring_slider(double k, int n_shear, double area = 2.5) {
 inline Eigen::MatrixXd half_space_matrix(const FaultOperator& op, double shear_modulus,
                                          double coupling) {
   const int n = static_cast<int>(op.geometry.nodes.size());
-  const double spacing = 10;
   Eigen::MatrixXd single(n, n);
   // Piecewise constant slip on cells of one spacing: traction ~ 1/(x - a) - 1/(x - b), A times it.
   for (int i = 0; i < n; ++i) {
@@ -70,7 +69,6 @@ inline Eigen::MatrixXd half_space_matrix(const FaultOperator& op, double shear_m
       single(i, j) = scale * (-1 / (distance * distance - 0.25) + 1 / (image * image - 0.25));
     }
   }
-  (void)spacing;
   const int stride = op.geometry.n_dofs / n;
   Eigen::MatrixXd h = Eigen::MatrixXd::Zero(op.geometry.n_dofs, op.geometry.n_dofs);
   for (int i = 0; i < n; ++i) {

@@ -16,7 +16,7 @@ struct RandomProblem {
   std::vector<Eigen::VectorXd> locked;
 };
 
-/// Tractions of order 1e7 Pa, stiffness 1e8 Pa/m. kind 0: smooth kernel; 1: random dense coupling.
+/// Tractions of order 1e7 Pa, stiffness 1e8 Pa/m. Odd seeds: smooth kernel; even: random dense H.
 RandomProblem random_problem(unsigned seed, int n_shear) {
   std::mt19937 engine(seed);
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -129,6 +129,46 @@ void run_all(int n_shear, int most_iterations) {
 
 TEST(RandomContact, ConvergesInThreeDimensions) { run_all(2, 10700); }
 TEST(RandomContact, ConvergesInPlaneStrain) { run_all(1, 7500); }
+
+// With weakening there need not be a solution nearby; then the answer is `unstable`, with the state
+// kept, and never anything else.
+TEST(RandomContact, ConvergesOrIsUnstableWithWeakening) {
+  int n_converged = 0, n_unstable = 0, n_cut = 0;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    RandomProblem problem = random_problem(seed, 1 + seed / 2 % 2);
+    for (std::size_t k = 0; k < problem.laws.node.size(); ++k) {
+      CoulombLaw& law = problem.laws.node[k];
+      law.dynamic_friction_angle = 0.7 * law.static_friction_angle;
+      law.slip_weakening_distance = seed % 5 == 0 ? 0.05 : 0.4;
+      problem.laws.cumulated[k] = seed % 3 == 1;
+    }
+    ContactSolver solver(problem.op, problem.laws, {});
+    ContactState state = initial_state(problem.op);
+    Eigen::VectorXd before = Eigen::VectorXd::Zero(problem.op.geometry.n_dofs);
+    for (const Eigen::VectorXd& locked : problem.locked) {
+      const ContactState start = state;
+      const ContactReport report = solver.solve_step(before, locked, state);
+      if (report.outcome != Outcome::converged) {
+        n_unstable += report.outcome == Outcome::unstable;
+        EXPECT_EQ(report.outcome, Outcome::unstable) << seed << report.reason;
+        EXPECT_EQ(state.jump, start.jump);
+        break;
+      }
+      ++n_converged;
+      n_cut += report.counts.sub_steps > 1;
+      const ContactViolation v = contact_violation(problem.op, problem.laws, locked, start, state);
+      EXPECT_LT(v.tension + v.over_limit + v.open_traction, 2) << seed;
+      EXPECT_LT(v.equilibrium, 1e-4) << seed;
+      if (report.counts.sub_steps == 1) {
+        EXPECT_LT(v.slip_below_limit + v.misaligned, 4) << seed;
+      }
+      before = locked;
+    }
+  }
+  EXPECT_GT(n_converged, 300);
+  EXPECT_GT(n_unstable, 3);
+  EXPECT_GT(n_cut, 0);
+}
 
 }  // namespace
 }  // namespace faultsim
