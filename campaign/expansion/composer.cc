@@ -88,7 +88,7 @@ Composer::Composer(const CampaignSpec& spec, const Group& group, SceneBuilder& b
       group_(group),
       builder_(builder),
       values_(values),
-      n_rows_(static_cast<long>(count_rows(group))),
+      n_rows_(count_rows(group)),
       structural_(group.parameters.size(), false) {}
 
 std::optional<std::string> Composer::exact_text(const Row& row,

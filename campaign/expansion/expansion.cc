@@ -24,17 +24,12 @@ constexpr std::size_t kChoicesTried = 64;  ///< per parameter; the extremes are 
 constexpr int kMaximumWrongCases = 20;   ///< of cases wrong only as a combination.
 constexpr std::size_t kMaximumProblems = 100;
 
-std::string digits(long double count) {
-  if (count >= 1e18L) return "more than 10^18";
-  return std::to_string(static_cast<long long>(count));
-}
-
 class Expander {
  public:
   explicit Expander(CampaignSpec spec) { result_.spec = std::move(spec); }
 
   Expansion run() {
-    check_count();
+    for (const Group& group : result_.spec.groups) result_.n_designed += count_rows(group);
     for (const Exclusion& one : result_.spec.exclude) result_.excluded.push_back({one.text, 0});
     for (std::size_t g = 0; g < result_.spec.groups.size(); ++g) expand_group(static_cast<int>(g));
     throw_problems();
@@ -52,28 +47,6 @@ class Expander {
   }
 
  private:
-  void check_count() {
-    long double total = 0;
-    for (const Group& group : result_.spec.groups) total += count_rows(group);
-    if (total <= static_cast<long double>(kMaximumCases)) {
-      result_.n_designed = static_cast<long>(total);
-      return;
-    }
-    for (const Group& group : result_.spec.groups) {
-      const long double count = count_rows(group);
-      if (count <= static_cast<long double>(kMaximumCases) && result_.spec.groups.size() > 1 &&
-          count < total / static_cast<long double>(result_.spec.groups.size())) {
-        continue;  // not to blame
-      }
-      const std::string factors = describe_count(group);
-      problems_.push_back({group.pointer, result_.spec.document.line_of(group.pointer),
-                           digits(count) + " cases (" + factors + ")",
-                           "a campaign has at most " + std::to_string(kMaximumCases) +
-                               " cases; use fewer values or split it"});
-    }
-    throw_problems();
-  }
-
   void throw_problems() {
     if (problems_.empty()) return;
     throw faultsim::InputError(result_.spec.source, problems_);
@@ -97,7 +70,7 @@ class Expander {
     const CaseValues values(result_.spec, group);
     if (!check_choices(group, builder, values)) return;
     FamilyFinder families(result_.spec, group, builder, result_.families, by_fingerprint_);
-    const long n_rows = static_cast<long>(count_rows(group));
+    const long n_rows = count_rows(group);
     std::optional<Composer> composer;
     if (n_rows > kRowsReadOneByOne) {
       std::vector<Problem> found;

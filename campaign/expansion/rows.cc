@@ -6,42 +6,24 @@
 
 namespace faultsweep {
 
-long double count_rows(const Group& group) {
+long count_rows(const Group& group) {
+  const auto size_of = [](const Parameter& one) { return static_cast<long>(one.choices.size()); };
+  long count = 1;
   switch (group.kind) {
-    case DesignKind::list: return static_cast<long double>(group.rows.size());
-    case DesignKind::zip:
-      return group.parameters.empty()
-                 ? 0
-                 : static_cast<long double>(group.parameters.front().choices.size());
-    case DesignKind::one_at_a_time: {
-      long double count = 1;
-      for (const Parameter& one : group.parameters) {
-        count += static_cast<long double>(one.choices.size());
-      }
+    case DesignKind::list: return static_cast<long>(group.rows.size());
+    case DesignKind::zip: return group.parameters.empty() ? 0 : size_of(group.parameters.front());
+    case DesignKind::one_at_a_time:
+      for (const Parameter& one : group.parameters) count += size_of(one);
       return count;
-    }
-    case DesignKind::grid: break;
+    case DesignKind::grid:
+      for (const Parameter& one : group.parameters) count *= size_of(one);
+      return count;
   }
-  long double count = 1;
-  for (const Parameter& one : group.parameters) {
-    count *= static_cast<long double>(one.choices.size());
-  }
-  return count;
-}
-
-std::string describe_count(const Group& group) {
-  const char* between = group.kind == DesignKind::grid ? " x " : " + ";
-  if (group.kind == DesignKind::list || group.kind == DesignKind::zip) return "as listed";
-  std::string text;
-  for (const Parameter& one : group.parameters) {
-    if (!text.empty()) text += between;
-    text += std::to_string(one.choices.size()) + " (" + one.name + ")";
-  }
-  return text;
+  faultsim::throw_internal("known design", "", __FILE__, __LINE__);
 }
 
 void row_at(const Group& group, long i, Row& row) {
-  FAULTSIM_DEMAND(i >= 0 && static_cast<long double>(i) < count_rows(group), "row ", i);
+  FAULTSIM_DEMAND(i >= 0 && i < count_rows(group), "row ", i);
   const std::size_t n = group.parameters.size();
   row.assign(n, -1);
   switch (group.kind) {

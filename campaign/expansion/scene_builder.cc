@@ -11,8 +11,12 @@ using faultsim::Problem;
 
 nlohmann::json spelled(double si, faultsim::Dimension dimension) {
   if (dimension == faultsim::Dimension::number) return si;
-  char digits[32];
-  const auto [end, error] = std::to_chars(digits, digits + sizeof digits, si);
+  // Plain digits where a person would write them, else an exponent; the shortest exact text.
+  const bool plain = si == 0 || (std::abs(si) >= 1e-4 && std::abs(si) < 1e9);
+  char digits[64];
+  const auto [end, error] =
+      std::to_chars(digits, digits + sizeof digits, si,
+                    plain ? std::chars_format::fixed : std::chars_format::scientific);
   FAULTSIM_DEMAND(error == std::errc(), si);
   return std::string(digits, end) + " " + faultsim::si_unit(dimension);
 }

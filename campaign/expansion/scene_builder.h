@@ -9,7 +9,7 @@
 
 namespace faultsweep {
 
-/// A number as the scene spells it: 0.83, "2e+07 Pa". Reading it back gives the same bits.
+/// A number as the scene spells it: 0.83, "20000000 Pa". Reading it back gives the same bits.
 nlohmann::json spelled(double si, faultsim::Dimension dimension);
 
 /// Turns rows of one group into scenes, and problems of a scene into problems of the spec.

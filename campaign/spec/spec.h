@@ -13,6 +13,10 @@
 /// spelling is in schemas/campaign.schema.json, the meaning of each key in its descriptions.
 namespace faultsweep {
 
+/// The largest number of cases that one campaign may have before exclusions. More are refused by
+/// their number, before any is made.
+inline constexpr long kMaximumCases = 1'000'000;
+
 /// One value put into the scene document.
 struct Change {
   std::string pointer;   ///< JSON Pointer into the scene.

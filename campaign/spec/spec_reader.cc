@@ -35,7 +35,7 @@ CampaignSpec SpecReader::read() {
   read_name();
   if (is_sound("/policy")) read_policy();
   if (is_sound("/base")) read_base();
-  if (spec_.base.value.is_object() && is_sound("/set") && is_sound("/design")) {
+  if (spec_.base.value.is_object() && is_sound("/set") && is_sound("/design") && check_count()) {
     json scene = spec_.base.value;
     std::vector<Origin> origins;
     if (has("/set")) apply_set("/set", scene, origins);

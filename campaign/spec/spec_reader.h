@@ -49,6 +49,11 @@ class SpecReader {
   std::optional<std::string> resolve(const SceneNames& names, const std::string& alias,
                                      const std::string& spec_pointer);
 
+  // count_cases.cc: from the document alone; 10^30 must be counted to be refused.
+  bool check_count();
+  long double count_cases(const std::string& design);
+  std::string describe_count(const std::string& design);
+
   // read_design.cc
   void read_designs(const std::string& pointer, const std::string& prefix, const json& scene,
                     const std::vector<Origin>& origins);

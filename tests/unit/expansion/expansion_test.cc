@@ -137,7 +137,7 @@ TEST(Expansion, DerivedParametersFollow) {
                                               "cohesion": "ratio_along * 1 MPa"}, )");
   EXPECT_EQ(scene_of(all, all.cases[1])["initial_state"]["ratio_along"], json(0.4));
   EXPECT_EQ(scene_of(all, all.cases[1])["friction"]["cohesion"], "400000 Pa");
-  EXPECT_EQ(values_of(all, 0), "ratio_across=0.4 ratio_along=0.2 cohesion=2e+05 Pa");
+  EXPECT_EQ(values_of(all, 0), "ratio_across=0.4 ratio_along=0.2 cohesion=200000 Pa");
   expect_true_identities(all, 1);
 }
 
@@ -161,7 +161,7 @@ TEST(Expansion, AHugeGridIsRefusedByItsCount) {
     EXPECT_EQ(error.problems()[0].what,
               "1000000000000 cases (1000000 (offset) x 1000000 (biot))");
   }
-  EXPECT_LT(watch.seconds(), 20.0);
+  EXPECT_LT(watch.seconds(), 2.0) << "counted, not made";
 }
 
 TEST(Expansion, AWrongValueIsReportedOnce) {
