@@ -16,12 +16,12 @@ namespace faultsim {
 namespace {
 
 constexpr double kFriction = 0.5;  // tan φ
-/// r of the augmented tractions, Pa/m, around G/h. The solution does not depend on it; changing it every
-/// ten iterations ends the cycles that plain semismooth Newton falls into.
+/// r of the augmented tractions, Pa/m, around G/h. The solution does not depend on it; changing it
+/// every ten iterations ends the cycles that plain semismooth Newton falls into.
 constexpr double kAugmentations[4] = {1e8, 3e7, 3e8, 1e7};
 
-/// A block with an inner fault dipping 20° from the vertical, a depleting region on its plus side, and
-/// a top that is pulled up and sheared along strike.
+/// A block with an inner fault dipping 20° from the vertical, a depleting region on its plus side,
+/// and a top that is pulled up and sheared along strike.
 BulkProblem make_problem() {
   BoxMeshSpec spec{};
   spec.from = {-300, -250, -400};
@@ -57,8 +57,10 @@ BulkProblem make_problem() {
   return problem;
 }
 
-/// Load factors of the steps: depletion, shear, pull until nodes open, then everything back by half.
-const std::vector<std::vector<double>> kSteps = {{-10e6, 0, 0}, {-10e6, 0.03, 3e6}, {-10e6, 0.05, 9.0e6}, {-4e6, 0.01, 4e6}};
+/// Load factors of the steps: depletion, shear, pull until nodes open, then everything back by
+/// half.
+const std::vector<std::vector<double>> kSteps = {
+    {-10e6, 0, 0}, {-10e6, 0.03, 3e6}, {-10e6, 0.05, 9.0e6}, {-4e6, 0.01, 4e6}};
 
 /// The full system. Unknowns z = (x, t'): displacements of both sides and effective tractions.
 class SaddlePoint {
@@ -70,10 +72,13 @@ class SaddlePoint {
     stiffness_ = assemble_stiffness(mesh_, problem.materials, *dofs_, problem.b_bar);
     for (std::size_t k = 0; k < problem.loads.size(); ++k) {
       const LoadCase& load = problem.loads[k];
-      if (load.region >= 0) loads_.push_back(pressure_load(mesh_, *dofs_, load.region, problem.b_bar));
-      if (!load.stress_sides.empty()) loads_.push_back(stress_load(mesh_, *dofs_, load.stress_sides, load.stress));
+      if (load.region >= 0)
+        loads_.push_back(pressure_load(mesh_, *dofs_, load.region, problem.b_bar));
+      if (!load.stress_sides.empty())
+        loads_.push_back(stress_load(mesh_, *dofs_, load.stress_sides, load.stress));
       if (load.displacement) {
-        loads_.push_back(displacement_load(mesh_, problem.materials, *dofs_, static_cast<int>(k), problem.b_bar));
+        loads_.push_back(displacement_load(mesh_, problem.materials, *dofs_, static_cast<int>(k),
+                                           problem.b_bar));
       }
     }
     for (const FaultNode& node : faults_.front().nodes) nodes_.push_back(&node);
@@ -129,7 +134,8 @@ class SaddlePoint {
             const FaultNode& node = *nodes_[static_cast<std::size_t>(k)];
             const auto [begin, end] = dofs_->terms(sign > 0 ? node.plus_node : node.minus_node, i);
             for (auto term = begin; term != end; ++term) {
-              entries.emplace_back(3 * k + c, term->unknown, sign * frame[c][i] * term->coefficient);
+              entries.emplace_back(3 * k + c, term->unknown,
+                                   sign * frame[c][i] * term->coefficient);
             }
           }
         }
@@ -190,7 +196,8 @@ class SaddlePoint {
       return;
     }
     const Eigen::Vector2d m = y / y.norm();
-    const Eigen::Matrix2d turn = limit / y.norm() * (Eigen::Matrix2d::Identity() - m * m.transpose());
+    const Eigen::Matrix2d turn =
+        limit / y.norm() * (Eigen::Matrix2d::Identity() - m * m.transpose());
     for (int c = 0; c < 2; ++c) {
       residual_[base + 1 + c] = t[1 + c] - limit * m[c];
       triplets_.emplace_back(base + 1 + c, base, kFriction * m[c]);
@@ -254,7 +261,8 @@ TEST(SaddlePoint, EqualsTheCondensedPathWithStickSlipAndOpenNodes) {
     before = after;
     ASSERT_GT(reference.solve_step(factors, initial), 0);
     bool here[3] = {false, false, false};
-    for (const FaultState s : state.state) seen[static_cast<int>(s)] = here[static_cast<int>(s)] = true;
+    for (const FaultState s : state.state)
+      seen[static_cast<int>(s)] = here[static_cast<int>(s)] = true;
     seen_together = seen_together || (here[0] && here[1] && here[2]);
 
     const double slip_scale = std::max(reference.jump().cwiseAbs().maxCoeff(), 1e-6);

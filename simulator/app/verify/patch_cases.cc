@@ -145,23 +145,46 @@ VerifyCase refined_case() {
 
 VerifyCase several_case() {
   return {"V1-several",
-          "patch test with three parallel faults",
+          "patch test with several faults",
           {kScene},
           false,
           [](SceneRunner& runner, VerifyReport& report) {
-            const Settings settings = {{"/faults", R"([
+            const Settings parallel = {{"/faults", R"([
               {"name":"F1","center":["-250 m","0 m","0 m"],"dip_from_vertical":"-25 deg","length":"500 m","width":"400 m"},
               {"name":"F2","center":["0 m","0 m","0 m"],"dip_from_vertical":"-25 deg","length":"600 m","width":"500 m"},
               {"name":"F3","center":["250 m","0 m","100 m"],"dip_from_vertical":"-25 deg","length":"400 m","width":"400 m"}])"}};
-            check_patch(runner.run(kScene, settings), "three", report);
+            check_patch(runner.run(kScene, parallel), "parallel", report);
+            const Settings different = {{"/faults", R"([
+              {"name":"F1","center":["-300 m","0 m","0 m"],"dip_from_vertical":"20 deg","length":"500 m","width":"300 m"},
+              {"name":"F2","center":["0 m","0 m","0 m"],"dip_from_vertical":"0 deg","length":"600 m","width":"500 m"},
+              {"name":"F3","center":["300 m","0 m","0 m"],"dip_from_vertical":"-20 deg","length":"400 m","width":"300 m"}])"}};
+            check_patch(runner.run(kScene, different), "different dips", report);
+          }};
+}
+
+VerifyCase oriented_case() {
+  return {"V1-oriented",
+          "patch test with a strike off the axes and with a horizontal fault",
+          {kScene},
+          false,
+          [](SceneRunner& runner, VerifyReport& report) {
+            check_patch(
+                runner.run(kScene, {{"/faults/0/strike", "20 deg"}, {"/faults/0/width", "400 m"}}),
+                "strike 20°, vertical", report);
+            check_patch(runner.run(kScene, {{"/faults/0/strike", "15 deg"},
+                                            {"/faults/0/dip_from_vertical", "-20 deg"},
+                                            {"/faults/0/width", "400 m"}}),
+                        "strike 15°, dip 70°", report);
+            check_patch(runner.run(kScene, {{"/faults/0/dip_from_vertical", "90 deg"}}),
+                        "horizontal", report);
           }};
 }
 
 }  // namespace
 
 std::vector<VerifyCase> patch_cases() {
-  return {dip_case(90),   dip_case(65),   dip_case(45),  swapped_case(),
-          rotated_case(), refined_case(), several_case()};
+  return {dip_case(90),   dip_case(65),   dip_case(45),   swapped_case(),
+          rotated_case(), refined_case(), several_case(), oriented_case()};
 }
 
 }  // namespace faultsim

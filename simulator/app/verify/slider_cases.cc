@@ -62,10 +62,10 @@ void compare_path(const SceneRun& run, const std::vector<double>& u, VerifyRepor
   for (std::size_t i = 0; i < u.size(); ++i) {
     const double expected = slider_slip(slider, u[i]);
     const FaultFields& fields = run.fields.at(i + 1);
-    report.compare(concat("slip at u = ", u[i]), "m", expected, in_plane(run, fields.jump).x(),
-                   kTolerance, 1);
+    report.compare(concat("slip at u = ", short_number(u[i])), "m", expected,
+                   in_plane(run, fields.jump).x(), kTolerance, 1);
     const double shear = slider.stiffness * (u[i] - expected);
-    report.compare(concat("τ at u = ", u[i]), "MPa", shear / 1e6,
+    report.compare(concat("τ at u = ", short_number(u[i])), "MPa", shear / 1e6,
                    in_plane(run, fields.traction).x() / 1e6, kTolerance);
   }
 }
@@ -135,7 +135,8 @@ VerifyCase critical_case() {
             Settings settings = with_friction(driven_by({1.1, 1.1548, 1.156}), kAngleLaw);
             const SceneRun stable = runner.run(kScene, settings);
             const Slider slider = slider_of(stable.scene);
-            const double h_over_a = stable.op->h(1, 1) / stable.op->dof_area[1];
+            const int dof = stable.geometry().nodes.front().dof[1];
+            const double h_over_a = stable.op->h(dof, dof) / stable.op->dof_area[dof];
             report.compare("H/A of the slider = k", "MPa/m", slider.stiffness / 1e6, h_over_a / 1e6,
                            kTolerance);
             const double critical = slider_critical_distance(slider);
@@ -144,8 +145,9 @@ VerifyCase critical_case() {
                   {"/friction/slip_weakening_distance", concat(critical * factor, " m")});
               const SceneRun run = runner.run(kScene, settings, false);
               const Outcome expected = factor > 1 ? Outcome::converged : Outcome::unstable;
-              report.holds(concat("d_c ", factor, " times critical: ", to_string(expected)),
-                           run.result.outcome == expected);
+              report.holds(
+                  concat("d_c ", short_number(factor), " times critical: ", to_string(expected)),
+                  run.result.outcome == expected);
             }
             // The eigenvalue H/A − W of the patch changes sign there.
             CoulombLaw law{WeakeningLaw::angle, 0, slider.static_friction_angle,
@@ -172,8 +174,8 @@ VerifyCase reversal_case() {
             for (std::size_t i = 0; i < u.size(); ++i) {
               const double slip = in_plane(run, run.fields.at(i + 1).jump).x();
               const double shear = in_plane(run, run.fields.at(i + 1).traction).x();
-              report.compare(concat("slip at u = ", u[i], " (step ", i + 1, ")"), "m", path.slip[i],
-                             slip, kTolerance, 1);
+              report.compare(concat("slip at u = ", short_number(u[i]), " (step ", i + 1, ")"), "m",
+                             path.slip[i], slip, kTolerance, 1);
               if (i > 2) dissipated += shear * (slip - before);
               before = slip;
             }
@@ -191,7 +193,7 @@ VerifyCase oblique_case() {
             for (const double degrees : {30.0, 90.0, 200.0}) {
               const SceneRun run = runner.run(kScene, driven_by({1.3, 1.5}, degrees * kDegree));
               const Eigen::Vector3d slip = in_plane(run, run.fields.back().jump);
-              const std::string place = concat("load at ", degrees, "°: ");
+              const std::string place = concat("load at ", short_number(degrees), "°: ");
               report.compare(place + "|slip|", "m", slider_slip(slider_of(run.scene), 1.5),
                              slip.norm(), kTolerance);
               const Eigen::Vector3d direction(std::cos(degrees * kDegree),

@@ -41,6 +41,12 @@ double observed_order(double coarse_error, double fine_error) {
   return std::log2(coarse_error / fine_error);
 }
 
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
 namespace {
 
 std::string number(double value, const char* format = "%.9g") {

@@ -43,6 +43,9 @@ struct VerifyReport {
   bool passed() const;
 };
 
+/// A number for a label: shortest of six digits ("1.4", "18000").
+std::string short_number(double value);
+
 /// Order of convergence from errors at cell sizes h and h/2: log2(coarse / fine).
 double observed_order(double coarse_error, double fine_error);
 
