@@ -54,7 +54,8 @@ void expect_true_identities(const Expansion& expansion, std::size_t stride) {
 }
 
 TEST(Expansion, GridLastParameterFastest) {
-  const auto all = expand_grid(R"({"offset": ["0 m", "50 m"], "friction_angle": ["20 deg", "30 deg"]})");
+  const auto all =
+      expand_grid(R"({"offset": ["0 m", "50 m"], "friction_angle": ["20 deg", "30 deg"]})");
   ASSERT_EQ(all.cases.size(), 4u);
   EXPECT_EQ(values_of(all, 0), "offset=0 m friction_angle=20 deg");
   EXPECT_EQ(values_of(all, 1), "offset=0 m friction_angle=30 deg");
@@ -144,8 +145,8 @@ TEST(Expansion, DerivedParametersFollow) {
 TEST(Expansion, SceneFromWhatAStoreKeeps) {
   const auto all = expand_grid(R"({"offset": ["10 m"], "p": {"variants": {
       "fixed": {"/fault_pressure": {"rule": "prescribed", "prescribed": "-50 bar"}}}}})");
-  const json again = scene_from_changes(all.spec.groups[0].scene.dump(),
-                                        changes_of(all, all.cases[0]).dump());
+  const json again =
+      scene_from_changes(all.spec.groups[0].scene.dump(), changes_of(all, all.cases[0]).dump());
   EXPECT_EQ(again, scene_of(all, all.cases[0]));
   EXPECT_EQ(base_fingerprint(all, 0).size(), 32u);
 }
@@ -158,8 +159,7 @@ TEST(Expansion, AHugeGridIsRefusedByItsCount) {
     FAIL() << "accepted";
   } catch (const faultsim::InputError& error) {
     ASSERT_EQ(error.problems().size(), 1u);
-    EXPECT_EQ(error.problems()[0].what,
-              "1000000000000 cases (1000000 (offset) x 1000000 (biot))");
+    EXPECT_EQ(error.problems()[0].what, "1000000000000 cases (1000000 (offset) x 1000000 (biot))");
   }
   EXPECT_LT(watch.seconds(), 2.0) << "counted, not made";
 }
@@ -265,8 +265,8 @@ TEST(Expansion, ExamplesExpand) {
 TEST(CutAtValues, KeysAreNoValues) {
   const std::string text = R"({"a":[1.5,-2e-7,true],"b\"c":{"d":"x,y:\"z\""},"e":null,"f":[]})";
   const CanonicalPieces pieces = cut_at_values(text);
-  EXPECT_EQ(pieces.leaves, (std::vector<std::string>{"1.5", "-2e-7", "true",
-                                                     R"("x,y:\"z\"")", "null"}));
+  EXPECT_EQ(pieces.leaves,
+            (std::vector<std::string>{"1.5", "-2e-7", "true", R"("x,y:\"z\"")", "null"}));
   std::string again;
   for (std::size_t i = 0; i < pieces.leaves.size(); ++i) {
     again += pieces.between[i] + pieces.leaves[i];

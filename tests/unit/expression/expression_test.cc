@@ -13,9 +13,14 @@ namespace {
 using faultsim::Dimension;
 
 const std::map<std::string, Value> kValues = {
-    {"offset", 120.0},           {"friction_angle", 0.25}, {"chi_bar", 1.5},
-    {"salt.youngs_modulus", 4e10}, {"activated", true},      {"rule", std::string("mean")},
-    {"magnitude", std::monostate{}}, {"zero", 0.0},
+    {"offset", 120.0},
+    {"friction_angle", 0.25},
+    {"chi_bar", 1.5},
+    {"salt.youngs_modulus", 4e10},
+    {"activated", true},
+    {"rule", std::string("mean")},
+    {"magnitude", std::monostate{}},
+    {"zero", 0.0},
 };
 
 Symbols symbols() {
@@ -156,8 +161,7 @@ INSTANTIATE_TEST_SUITE_P(
               "year\n    offset > 3 furlngs\n               ^"},
         Wrong{"activated && chi_bar > 1",
               "\"&&\" is unknown; write and\n    activated && chi_bar > 1\n              ^"},
-        Wrong{"(chi_bar > 1",
-              "this \"(\" is not closed; add \")\"\n    (chi_bar > 1\n    ^"},
+        Wrong{"(chi_bar > 1", "this \"(\" is not closed; add \")\"\n    (chi_bar > 1\n    ^"},
         Wrong{"chi_bar > 1)",
               "\")\" closes nothing; remove it or add \"(\" before\n    chi_bar > 1)\n"
               "               ^"},
@@ -171,28 +175,37 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"rule > \"max\"",
               "rule is text, which has no order; compare it with = or !=\n    rule > \"max\"\n"
               "         ^"},
-        Wrong{"rule = 3", "rule is text, 3 is a plain number; compare things of one kind\n"
-                          "    rule = 3\n           ^"},
-        Wrong{"rule = \"mean", "this quote is not closed; add the closing quote\n"
-                               "    rule = \"mean\n           ^"},
-        Wrong{"tan(30)", "30 is a plain number, but the function takes an angle; write for example "
-                         "tan(30 deg)\n    tan(30)\n        ^"},
-        Wrong{"log10(offset)", "offset is a length, but the function takes a plain number; divide "
-                               "by a unit first\n    log10(offset)\n          ^"},
-        Wrong{"sqrt(offset)", "offset is a length, which has no square root with a unit; divide by "
-                              "a unit first\n    sqrt(offset)\n         ^"},
-        Wrong{"offset ^ 0.5 > 1 m", "offset is a length, so its power must be a whole number; write "
-                                    "for example ^2, or divide by a unit first\n"
-                                    "    offset ^ 0.5 > 1 m\n             ^"},
+        Wrong{"rule = 3",
+              "rule is text, 3 is a plain number; compare things of one kind\n"
+              "    rule = 3\n           ^"},
+        Wrong{"rule = \"mean",
+              "this quote is not closed; add the closing quote\n"
+              "    rule = \"mean\n           ^"},
+        Wrong{"tan(30)",
+              "30 is a plain number, but the function takes an angle; write for example "
+              "tan(30 deg)\n    tan(30)\n        ^"},
+        Wrong{"log10(offset)",
+              "offset is a length, but the function takes a plain number; divide "
+              "by a unit first\n    log10(offset)\n          ^"},
+        Wrong{"sqrt(offset)",
+              "offset is a length, which has no square root with a unit; divide by "
+              "a unit first\n    sqrt(offset)\n         ^"},
+        Wrong{"offset ^ 0.5 > 1 m",
+              "offset is a length, so its power must be a whole number; write "
+              "for example ^2, or divide by a unit first\n"
+              "    offset ^ 0.5 > 1 m\n             ^"},
         Wrong{"squrt(4)", "unknown function \"squrt\"; did you mean sqrt?\n    squrt(4)\n    ^"},
         Wrong{"max(4)", "max takes two or more values, not 1; write max(a, b)\n    max(4)\n    ^"},
-        Wrong{"chi_bar > 1; drop table runs", "unexpected character; remove it\n"
-                                              "    chi_bar > 1; drop table runs\n"
-                                              "               ^"},
-        Wrong{"\"χ\" = rule and χ", "unexpected character; remove it\n"
-                                    "    \"χ\" = rule and χ\n                   ^"},
-        Wrong{"1e999 > chi_bar", "\"1e999\" overflows; write a finite number\n"
-                                 "    1e999 > chi_bar\n    ^"}));
+        Wrong{"chi_bar > 1; drop table runs",
+              "unexpected character; remove it\n"
+              "    chi_bar > 1; drop table runs\n"
+              "               ^"},
+        Wrong{"\"χ\" = rule and χ",
+              "unexpected character; remove it\n"
+              "    \"χ\" = rule and χ\n                   ^"},
+        Wrong{"1e999 > chi_bar",
+              "\"1e999\" overflows; write a finite number\n"
+              "    1e999 > chi_bar\n    ^"}));
 
 TEST(Expression, DeepNestingIsRefused) {
   EXPECT_NE(error_of(std::string(5000, '(') + "1").find("nested too deeply"), std::string::npos);
@@ -207,8 +220,7 @@ TEST(Expression, SqlBindsEveryLiteral) {
       Expression::parse("not (offset > 150 m and rule = \"x'); drop\") or abs(-chi_bar) ^ 2 > 1",
                         symbols())
           .sql();
-  EXPECT_EQ(sql.text,
-            "((NOT ((c_offset > ?) AND (c_rule = ?))) OR (pow(abs((-c_chi)), ?) > ?))");
+  EXPECT_EQ(sql.text, "((NOT ((c_offset > ?) AND (c_rule = ?))) OR (pow(abs((-c_chi)), ?) > ?))");
   EXPECT_EQ(sql.parameters, (std::vector<Value>{150.0, std::string("x'); drop"), 2.0, 1.0}));
 }
 
@@ -272,23 +284,35 @@ std::string random_expression(std::mt19937& random, bool condition, int depth) {
     static const char* leaves[] = {"chi_bar", "zero", "magnitude", "2", "0.5", "(offset / 1 m)"};
     if (depth <= 0) return leaves[pick(6)];
     switch (pick(8)) {
-      case 0: return "(" + sub(false) + " + " + sub(false) + ")";
-      case 1: return "(" + sub(false) + " - " + sub(false) + ")";
-      case 2: return "(" + sub(false) + " * " + sub(false) + ")";
-      case 3: return "(" + sub(false) + " / " + sub(false) + ")";
-      case 4: return "-(" + sub(false) + ")";
-      case 5: return "min(" + sub(false) + ", " + sub(false) + ", 3)";
-      case 6: return "sqrt(" + sub(false) + ")";
-      default: return "abs(" + sub(false) + ")";
+      case 0:
+        return "(" + sub(false) + " + " + sub(false) + ")";
+      case 1:
+        return "(" + sub(false) + " - " + sub(false) + ")";
+      case 2:
+        return "(" + sub(false) + " * " + sub(false) + ")";
+      case 3:
+        return "(" + sub(false) + " / " + sub(false) + ")";
+      case 4:
+        return "-(" + sub(false) + ")";
+      case 5:
+        return "min(" + sub(false) + ", " + sub(false) + ", 3)";
+      case 6:
+        return "sqrt(" + sub(false) + ")";
+      default:
+        return "abs(" + sub(false) + ")";
     }
   }
   static const char* comparisons[] = {"<", "<=", ">", ">=", "=", "!="};
   if (depth <= 0) return pick(2) == 0 ? "activated" : "rule = 'mean'";
   switch (pick(4)) {
-    case 0: return "(" + sub(true) + " and " + sub(true) + ")";
-    case 1: return "(" + sub(true) + " or " + sub(true) + ")";
-    case 2: return "not (" + sub(true) + ")";
-    default: return "(" + sub(false) + " " + comparisons[pick(6)] + " " + sub(false) + ")";
+    case 0:
+      return "(" + sub(true) + " and " + sub(true) + ")";
+    case 1:
+      return "(" + sub(true) + " or " + sub(true) + ")";
+    case 2:
+      return "not (" + sub(true) + ")";
+    default:
+      return "(" + sub(false) + " " + comparisons[pick(6)] + " " + sub(false) + ")";
   }
 }
 

@@ -78,9 +78,8 @@ TEST(Spec, ScaleMultipliesTheBaseValue) {
 }
 
 TEST(Spec, ScaleSeesWhatSetChanged) {
-  const auto spec =
-      grid_with(R"({"stiff": {"scale": "caprock_stiffness", "factors": [2]}})",
-                R"("set": {"caprock_stiffness": "30 GPa"}, )");
+  const auto spec = grid_with(R"({"stiff": {"scale": "caprock_stiffness", "factors": [2]}})",
+                              R"("set": {"caprock_stiffness": "30 GPa"}, )");
   EXPECT_EQ(spec.groups[0].parameters[0].choices[0].changes[0].value, "60 GPa");
   ASSERT_EQ(spec.groups[0].origins.size(), 1u);
   EXPECT_EQ(spec.groups[0].origins[0].spec_pointer, "/set/caprock_stiffness");

@@ -1,0 +1,137 @@
+// A stand-in for `faultsim` that speaks schemas/worker_protocol.md and answers at once with a made-up
+// result. The scene's title says what to do: one of the words of `obey`, or anything else for a result
+// whose strength is the scene's number "strength" (default: from the number in the title).
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <sys/prctl.h>
+#include <unistd.h>
+#include <vector>
+
+#include "simulator/common/fingerprint.h"
+#include "simulator/output/write_result.h"
+#include "tests/campaign/made_up_result.h"
+
+namespace {
+
+using nlohmann::json;
+
+struct Channel {
+  int requests = -1, replies = -1;
+  std::string cache;
+};
+
+void write_all(int descriptor, const std::string& text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const ssize_t n = write(descriptor, text.data() + at, text.size() - at);
+    if (n <= 0) std::_Exit(0);  // nobody listens any more
+    at += static_cast<std::size_t>(n);
+  }
+}
+
+void reply(const Channel& channel, const json& value) {
+  write_all(channel.replies, value.dump() + "\n");
+}
+
+[[noreturn]] void use_up_memory() {
+  try {
+    std::vector<std::string> hoard;
+    for (int k = 0; k < 4096; ++k) hoard.emplace_back(std::size_t{1} << 24, 'x');
+  } catch (const std::bad_alloc&) {
+  }
+  std::fprintf(stderr, "faultsim: out of memory\n");
+  std::_Exit(4);
+}
+
+/// Does what the word says; true if the case is then answered as usual.
+bool obey(const Channel& channel, const std::string& title, const json& run) {
+  if (title == "crash") std::raise(SIGSEGV);
+  if (title == "killed") std::raise(SIGKILL);
+  if (title == "hang") pause();
+  if (title == "exit") std::_Exit(7);
+  if (title == "allocate") use_up_memory();
+  if (title == "garbage") write_all(channel.replies, "Residual norm 1.2e-3\n");
+  if (title == "half") {
+    write_all(channel.replies, "{\"event\": \"do");
+    std::_Exit(0);
+  }
+  if (title == "wrong run") reply(channel, {{"event", "started"}, {"run", 123456789}});
+  if (title == "refuse") {
+    reply(channel, {{"event", "done"}, {"run", run}, {"error", "friction angle < 0"}, {"exit_code", 2}});
+    return false;
+  }
+  if (title == "noise") {
+    for (int k = 0; k < 20000; ++k) std::printf("line %d of a library that likes to talk\n", k);
+    std::fflush(stdout);
+  }
+  if (title == "slow") usleep(100000);
+  if (title == "environment") {
+    for (char** entry = environ; *entry != nullptr; ++entry) std::fprintf(stderr, "%s\n", *entry);
+    std::_Exit(7);
+  }
+  return true;
+}
+
+void serve(const Channel& channel, const json& request, bool& has_operator) {
+  const json& run = request.at("run");
+  const json& scene = request.at("scene");
+  const std::string title = scene.value("title", "");
+  const std::string family = scene.value("family", "only");
+  if (title == "refuse early") {
+    reply(channel, {{"event", "done"}, {"run", run}, {"error", "no such layer"}, {"exit_code", 2}});
+    return;
+  }
+  if (!has_operator) {
+    if (title == "operator crash") std::abort();
+    const std::string fingerprint = faultsim::fingerprint(family);
+    bool cached = false;
+    if (!channel.cache.empty()) {
+      const std::string file = channel.cache + "/" + fingerprint + ".h5";
+      cached = std::filesystem::exists(file);
+      std::filesystem::create_directories(channel.cache);
+      std::ofstream(file) << family;
+    }
+    if (!cached) usleep(static_cast<useconds_t>(1e6 * scene.value("operator_seconds", 0.0)));
+    reply(channel, {{"event", "operator"}, {"run", run}, {"fingerprint", fingerprint},
+                    {"from_cache", cached}, {"seconds", 0.01}, {"unknowns", 1000},
+                    {"jump_unknowns", 100}, {"bytes", 80000}, {"peak_bytes", 1000000}});
+    has_operator = true;
+  }
+  reply(channel, {{"event", "started"}, {"run", run}});
+  if (!obey(channel, title, run)) return;
+  usleep(static_cast<useconds_t>(1e6 * scene.value("seconds", 0.0)));
+  const auto result = faultsweep::testing::made_up_result(scene.value("strength", 0.3),
+                                                          scene.value("steps", 12));
+  reply(channel, {{"event", "done"}, {"run", run}, {"result", faultsim::result_to_json(result)},
+                  {"seconds", 0.001}});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  Channel channel;
+  for (int k = 2; k + 1 < argc; k += 2) {
+    if (std::strcmp(argv[k], "--requests") == 0) channel.requests = std::atoi(argv[k + 1]);
+    if (std::strcmp(argv[k], "--replies") == 0) channel.replies = std::atoi(argv[k + 1]);
+    if (std::strcmp(argv[k], "--cache") == 0) channel.cache = argv[k + 1];
+  }
+  if (argc < 2 || std::strcmp(argv[1], "worker") != 0) return 2;
+  if (const char* failure = std::getenv("FAKE_SIMULATOR_START")) return std::atoi(failure);
+  reply(channel, {{"event", "hello"}, {"version", 1}, {"numerics_version", 1}});
+  std::FILE* requests = fdopen(channel.requests, "r");
+  char* line = nullptr;
+  std::size_t capacity = 0;
+  bool has_operator = false;
+  while (getline(&line, &capacity, requests) > 0) {
+    serve(channel, json::parse(line), has_operator);
+  }
+  return 0;
+}

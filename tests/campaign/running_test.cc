@@ -1,0 +1,222 @@
+// Campaigns with the real faultsweep, under the real mpirun, with the fake simulator.
+#include <nlohmann/json.hpp>
+
+#include "tests/campaign/campaign_fixture.h"
+
+namespace faultsweep {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Running : public testing::CampaignTest {};
+class Trouble : public testing::CampaignTest {};
+class Killing : public testing::CampaignTest {};
+
+TEST_F(Running, FortyCasesWithTwoWorkersAndASecondRunDoesNothing) {
+  const std::int64_t campaign = submit(std::vector<std::string>(40, "good"));
+  const auto first = faultsweep({"run", "--workers", "2"});
+  EXPECT_EQ(first.code, 0) << first.err;
+  EXPECT_THAT(first.err, HasSubstr("40 of 40 cases (100 %)"));
+  expect_each_case_completed_once(campaign, 40);
+  const auto again = faultsweep({"run", "--workers", "2"});
+  EXPECT_EQ(again.code, 0) << again.err;
+  expect_each_case_completed_once(campaign, 40);
+  const auto families = Store::open_reader(store_).family_progress(campaign);
+  ASSERT_EQ(families.size(), 2u);
+  EXPECT_NE(families[0].operator_fingerprint, families[1].operator_fingerprint);
+}
+
+TEST_F(Running, ResultsDoNotDependOnTheNumberOfWorkers) {
+  submit(std::vector<std::string>(60, "good"));
+  EXPECT_EQ(faultsweep({"run", "--workers", "1"}).code, 0);
+  const auto one = faultsweep({"rank", "--json", "--top", "0"});
+  std::filesystem::remove_all(store_);
+  submit(std::vector<std::string>(60, "good"));
+  EXPECT_EQ(faultsweep({"run", "--workers", "3"}).code, 0);
+  const auto three = faultsweep({"rank", "--json", "--top", "0"});
+  EXPECT_EQ(one.out, three.out);
+  EXPECT_EQ(nlohmann::json::parse(one.out)["cases"].size(), 60u);
+}
+
+TEST_F(Running, ReadingCommandsAnswer) {
+  submit({"good", "crash", "good", "good"});
+  EXPECT_EQ(faultsweep({"run", "--workers", "1"}).code, 1);
+  const auto status = faultsweep({"status", "--json"});
+  EXPECT_EQ(status.code, 0);
+  const auto counts = nlohmann::json::parse(status.out);
+  EXPECT_EQ(counts["done"], 3);
+  EXPECT_EQ(counts["failed"], 1);
+  const auto rank = faultsweep({"rank", "--by", "chi_bar", "--where", "strength > 0.005", "--json"});
+  EXPECT_EQ(nlohmann::json::parse(rank.out)["cases"][0]["case"], 4);
+  const auto show = faultsweep({"show", "sweep/2"});
+  EXPECT_THAT(show.out, HasSubstr("killed by SIGSEGV (11)"));
+  const auto history = faultsweep({"show", "3"});
+  EXPECT_THAT(history.out, HasSubstr("fault F2:"));
+  EXPECT_THAT(faultsweep({"explain", "1"}).out, HasSubstr("will not run: it has a result"));
+  EXPECT_THAT(faultsweep({"explain", "2"}).out, HasSubstr("faultsweep retry sweep --case 2"));
+  EXPECT_EQ(faultsweep({"retry"}).out, "1\n");
+  EXPECT_THAT(faultsweep({"explain", "2"}).out, HasSubstr("will run: it waits for another attempt"));
+  EXPECT_EQ(faultsweep({"show", "99"}).code, 2);
+  EXPECT_EQ(faultsweep({"rank", "--by", "nonsense"}).code, 2);
+  EXPECT_EQ(faultsweep({"rank", "--where", "chi_bar > 3 bar"}).code, 2);
+  EXPECT_EQ(faultsweep({"status", "other"}).code, 2);
+  EXPECT_EQ(faultsweep({"cancel"}).code, 0);
+  EXPECT_EQ(faultsweep({"run"}).code, 2);
+}
+
+TEST_F(Trouble, EveryKindOfFailureIsARowAndTheOthersAreDone) {
+  Policy policy;
+  policy.time_limit = 1;
+  policy.memory_limit = 3e8;
+  const std::vector<std::string> titles = {"good", "crash",   "good",   "garbage", "good", "exit", "hang",
+                                           "good", "allocate", "refuse", "good",    "killed", "noise"};
+  const std::int64_t campaign = submit(titles, 0, policy);
+  const auto end = faultsweep({"run", "--workers", "2"});
+  EXPECT_EQ(end.code, 1) << end.err;
+  Store store = Store::open_reader(store_);
+  EXPECT_EQ(store.campaign("").n_done, 6);
+  EXPECT_EQ(store.campaign("").n_failed, 7);
+  const auto run_of = [&](const char* position) { return store.stored_case(campaign, position).runs.at(0); };
+  EXPECT_EQ(run_of("2").reason, "killed by SIGSEGV (11)");
+  EXPECT_EQ(run_of("4").status, "garbled");
+  EXPECT_EQ(run_of("6").exit_code, 7);
+  EXPECT_EQ(run_of("7").status, "hung");
+  EXPECT_EQ(run_of("9").status, "memory");
+  EXPECT_EQ(run_of("10").reason, "friction angle < 0");
+  EXPECT_THAT(run_of("12").reason, HasSubstr("killed by SIGKILL"));
+}
+
+TEST_F(Trouble, AFamilyWithoutOperatorIsGivenUpAndTheOthersRun) {
+  std::vector<std::string> titles(20, "good");
+  for (std::size_t k = 0; k < titles.size(); k += 2) titles[k] = "operator crash";
+  submit(titles);
+  EXPECT_EQ(faultsweep({"run", "--workers", "2"}).code, 1);
+  Store store = Store::open_reader(store_);
+  EXPECT_EQ(store.campaign("").n_done, 10);
+  EXPECT_EQ(store.campaign("").n_failed, 10);
+}
+
+TEST_F(Trouble, ASimulatorThatDoesNotStartStopsTheCampaign) {
+  submit(std::vector<std::string>(10, "good"));
+  const auto dead = faultsweep({"run", "-w", "1"}, [] { setenv("FAKE_SIMULATOR_START", "9", 1); });
+  EXPECT_EQ(dead.code, 4) << dead.err;
+  EXPECT_THAT(dead.err, HasSubstr("before it said hello"));
+  const auto missing = faultsweep({"run", "-w", "1"}, [] { setenv("FAULTSIM_BINARY", "/no/faultsim", 1); });
+  EXPECT_EQ(missing.code, 4);
+  EXPECT_EQ(Store::open_reader(store_).campaign("").n_waiting, 10);
+}
+
+TEST_F(Trouble, AFullDiskEndsWithFourAndKeepsWhatWasStored) {
+  const std::int64_t campaign = submit(std::vector<std::string>(400, "good"));
+  const auto end = faultsweep({"run", "-w", "1"}, [] {
+    const rlimit limit = {600000, 600000};  // bytes per file: the WAL hits it
+    setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, SIG_IGN);
+  });
+  EXPECT_EQ(end.code, 4) << end.err;
+  EXPECT_THAT(Store::open_reader(store_).integrity_problems(), ::testing::IsEmpty());
+  EXPECT_EQ(faultsweep({"run", "-w", "2"}).code, 0);
+  expect_each_case_completed_once(campaign, 400);
+}
+
+TEST_F(Trouble, AnUnwritableStoreEndsWithFour) {
+  submit({"good"});
+  const auto own = geteuid() == 0 ? [] { if (setgid(65534) != 0 || setuid(65534) != 0) _exit(126); }
+                                  : [] {};
+  std::filesystem::permissions(folder_, std::filesystem::perms(0755));
+  std::filesystem::permissions(store_, std::filesystem::perms(0555));
+  std::ofstream(folder_ / "out").close();
+  const auto end = faultsweep({"run", "-w", "1"}, own);
+  std::filesystem::permissions(store_, std::filesystem::perms(0755));
+  if (end.code == 127) GTEST_SKIP() << "the build folder is closed to other users";
+  EXPECT_EQ(end.code, 4) << end.err;
+  EXPECT_EQ(Store::open_reader(store_).campaign("").n_waiting, 1);
+  store_ = "/proc/no-store-here";
+  EXPECT_EQ(faultsweep({"run"}).code, 4);
+}
+
+TEST_F(Killing, AKilledManagerIsReplacedWithoutAHuman) {
+  const std::int64_t campaign = submit(std::vector<std::string>(200, "good"), 0.01);
+  const pid_t starter = start({"run", "--workers", "2"});
+  ASSERT_TRUE(wait_for_done(20));
+  const auto owner = Store::open_reader(store_).owner();
+  ASSERT_TRUE(owner);
+  kill(static_cast<pid_t>(owner->pid), SIGKILL);
+  const auto end = wait(starter);
+  EXPECT_EQ(end.code, 0) << end.err;
+  expect_each_case_completed_once(campaign, 200);
+  std::string kinds;
+  for (const EventRecord& event : Store::open_reader(store_).events(campaign, 20)) kinds += event.kind + " ";
+  EXPECT_THAT(kinds, HasSubstr("restart"));
+  EXPECT_THAT(kinds, HasSubstr("takeover"));
+}
+
+TEST_F(Killing, AKilledWorkerIsReplacedAndLeavesNoSimulator) {
+  const std::int64_t campaign = submit(std::vector<std::string>(200, "good"), 0.01);
+  const pid_t starter = start({"run", "--workers", "2"});
+  ASSERT_TRUE(wait_for_done(20));
+  pid_t worker = 0;
+  std::vector<pid_t> simulators;
+  for (const pid_t mpirun : children_of(starter)) {
+    for (const pid_t rank : children_of(mpirun)) {
+      if (const auto children = children_of(rank); !children.empty()) {
+        worker = rank;
+        simulators = children;
+      }
+    }
+  }
+  ASSERT_GT(worker, 0);
+  kill(worker, SIGKILL);
+  usleep(2000000);
+  for (const pid_t simulator : simulators) EXPECT_FALSE(is_running(simulator));
+  const auto end = wait(starter);
+  EXPECT_EQ(end.code, 0) << end.err;
+  expect_each_case_completed_once(campaign, 200);
+}
+
+TEST_F(Killing, AfterEverythingWasKilledTheNextRunCompletesTheCampaign) {
+  const std::int64_t campaign = submit(std::vector<std::string>(200, "good"), 0.01);
+  const pid_t starter = start({"run", "--workers", "2"});
+  ASSERT_TRUE(wait_for_done(20));
+  for (const pid_t mpirun : children_of(starter)) {
+    for (const pid_t rank : children_of(mpirun)) kill(rank, SIGKILL);
+    kill(mpirun, SIGKILL);
+  }
+  kill(starter, SIGKILL);
+  waitpid(starter, nullptr, 0);
+  const auto end = faultsweep({"run", "--workers", "2"});
+  EXPECT_EQ(end.code, 0) << end.err;
+  expect_each_case_completed_once(campaign, 200);
+}
+
+TEST_F(Killing, CtrlCStopsInOrderAndRunContinues) {
+  const std::int64_t campaign = submit(std::vector<std::string>(300, "good"), 0.01);
+  const pid_t starter = start({"run", "--workers", "2"});
+  ASSERT_TRUE(wait_for_done(20));
+  kill(starter, SIGINT);
+  const faultsim::Stopwatch watch;
+  const auto stopped = wait(starter);
+  EXPECT_LT(watch.seconds(), 8);
+  EXPECT_EQ(stopped.code, 75) << stopped.err;
+  EXPECT_THAT(stopped.err, HasSubstr("Next: faultsweep run sweep"));
+  EXPECT_FALSE(Store::open_reader(store_).owner());
+  const long done = Store::open_reader(store_).campaign("").n_done;
+  EXPECT_LT(done, 300);
+  EXPECT_EQ(faultsweep({"run", "--workers", "2"}).code, 0);
+  expect_each_case_completed_once(campaign, 300);
+}
+
+TEST_F(Killing, ASecondManagerIsRefused) {
+  submit(std::vector<std::string>(200, "good"), 0.02);
+  const pid_t starter = start({"run", "--workers", "1"});
+  ASSERT_TRUE(wait_for_done(5));
+  const auto first_out = folder_;
+  const auto second = faultsweep({"run", "--workers", "1"});
+  EXPECT_EQ(second.code, 4);
+  EXPECT_THAT(second.err, HasSubstr("is managed by process"));
+  kill(starter, SIGTERM);
+  EXPECT_EQ(wait(starter).code, 75);
+}
+
+}  // namespace
+}  // namespace faultsweep

@@ -1,0 +1,248 @@
+#include "campaign/scheduler/manager.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <deque>
+
+#include "campaign/scheduler/worker.h"
+#include "simulator/common/stopwatch.h"
+#include "tests/campaign/made_up_result.h"
+
+namespace faultsweep {
+namespace {
+
+using faultsim::ExitCode;
+
+/// Decides each job by its title, at once; one job per call of work().
+class FakeRunner final : public JobRunner {
+ public:
+  void begin_family(const FamilyTask&) override { has_operator_ = false; }
+  void add(Job job) override { jobs_.push_back(std::move(job)); }
+  bool is_idle() const override { return jobs_.empty(); }
+  void drain() override { draining_ = true; }
+  JobEvents work(int) override {
+    JobEvents events;
+    if (draining_) {
+      for (const Job& job : jobs_) events.returned.push_back(job.case_id);
+      jobs_.clear();
+    }
+    if (jobs_.empty()) return events;
+    const Job job = jobs_.front();
+    jobs_.pop_front();
+    RunRecord run;
+    run.case_id = job.case_id;
+    run.wall_seconds = 0.001;
+    if (job.scene.find("crash") != std::string::npos) {
+      run.reason = "killed";
+      events.failed.push_back({run, false});
+      return events;
+    }
+    if (!has_operator_) events.operators.push_back({"print", false, 1, 1, 1, 1, 1});
+    has_operator_ = true;
+    run.status = RunStatus::completed;
+    run.result = testing::made_up_result(0.7, 3);
+    ++n_runs;
+    events.completed.push_back(std::move(run));
+    return events;
+  }
+  static inline int n_runs = 0;
+
+ private:
+  std::deque<Job> jobs_;
+  bool has_operator_ = false, draining_ = false;
+};
+
+/// Manager and workers in one process, taking turns; messages are encoded on the way.
+class Stage final : public WorkerLink {
+ public:
+  class End final : public ManagerLink {
+   public:
+    End(Stage& stage, int index) : stage_(stage), index_(index) {}
+    void send(const Message& message) override {
+      stage_.to_manager_.push_back({index_, encode(message)});
+    }
+    std::optional<Message> receive() override {
+      if (inbox.empty()) return std::nullopt;
+      const std::string bytes = inbox.front();
+      inbox.pop_front();
+      return decode(bytes);
+    }
+    std::deque<std::string> inbox;
+
+   private:
+    Stage& stage_;
+    int index_;
+  };
+
+  explicit Stage(int n) {
+    for (int k = 0; k < n; ++k) {
+      ends_.push_back(std::make_unique<End>(*this, k));
+      runners_.push_back(std::make_unique<FakeRunner>());
+      workers_.push_back(std::make_unique<Worker>(*ends_.back(), *runners_.back()));
+    }
+  }
+  int n_workers() const override { return static_cast<int>(ends_.size()); }
+  void send(int worker, const Message& message) override {
+    ends_[static_cast<std::size_t>(worker)]->inbox.push_back(encode(message));
+  }
+  std::optional<Received> receive() override {
+    if (to_manager_.empty()) return std::nullopt;
+    auto [worker, bytes] = to_manager_.front();
+    to_manager_.pop_front();
+    return Received{worker, decode(bytes)};
+  }
+  /// Until the manager is done, at most n_turns; true if it is.
+  bool play(Manager& manager, int n_turns = 1000000) {
+    for (int turn = 0; turn < n_turns; ++turn) {
+      if (!manager.turn()) return true;
+      for (const auto& worker : workers_) worker->turn(0);
+    }
+    return false;
+  }
+
+ private:
+  std::vector<std::unique_ptr<End>> ends_;
+  std::vector<std::unique_ptr<FakeRunner>> runners_;
+  std::vector<std::unique_ptr<Worker>> workers_;
+  std::deque<std::pair<int, std::string>> to_manager_;
+};
+
+class ManagerTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = ::testing::TempDir() + "manager_XXXXXX";
+    folder_ = mkdtemp(name.data());
+    FakeRunner::n_runs = 0;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  void submit(int n, const std::vector<int>& crashing, Policy policy = {}) {
+    Submission s;
+    s.name = "sweep";
+    s.parameters = "[]";
+    s.policy = policy;
+    s.scenes = {{"scene.json", "{\"title\": \"base\"}"}};
+    s.families = {{"a", 1, 1, 2, 1}, {"b", 1, 1, 1, 1}, {"c", 1, 1, 1, 1}};
+    for (int k = 0; k < n; ++k) {
+      const bool crashes = std::count(crashing.begin(), crashing.end(), k) > 0;
+      s.cases.push_back({"case-" + std::to_string(k), k % 3, 0,
+                         crashes ? R"({"/title": "crash"})" : "{}", "[]", "[]"});
+    }
+    Store::open_writer(folder_).submit(s);
+  }
+
+  std::filesystem::path folder_;
+  ProgressDisplay silent_{ProgressDisplay::Style::silent};
+};
+
+TEST_F(ManagerTest, RunsEveryCaseOnceAndASecondRunDoesNothing) {
+  submit(200, {});
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    Store store = Store::open_owner(folder_);
+    Stage stage(3);
+    Manager manager(store, stage, silent_, {});
+    EXPECT_TRUE(stage.play(manager));
+    EXPECT_EQ(manager.status(), ExitCode::done);
+    EXPECT_EQ(store.campaign("").n_converged, 200);
+    EXPECT_EQ(FakeRunner::n_runs, 200);
+  }
+}
+
+TEST_F(ManagerTest, FailuresAreRowsAndTheCampaignIsIncomplete) {
+  submit(30, {3, 17});
+  Store store = Store::open_owner(folder_);
+  Stage stage(2);
+  Manager manager(store, stage, silent_, {});
+  EXPECT_TRUE(stage.play(manager));
+  EXPECT_EQ(manager.status(), ExitCode::incomplete);
+  const CampaignInfo info = store.campaign("");
+  EXPECT_EQ(info.n_done, 28);
+  EXPECT_EQ(info.n_failed, 2);
+  EXPECT_EQ(store.stored_case(info.id, "4").runs.at(0).reason, "killed");
+}
+
+TEST_F(ManagerTest, RetriesAsTheSpecSays) {
+  Policy policy;
+  policy.on_failure = FailureAction::retry;
+  policy.retries = 2;
+  submit(10, {5}, policy);
+  Store store = Store::open_owner(folder_);
+  Stage stage(2);
+  Manager manager(store, stage, silent_, {});
+  EXPECT_TRUE(stage.play(manager));
+  EXPECT_EQ(store.stored_case(store.campaign("").id, "6").runs.size(), 3u);
+}
+
+TEST_F(ManagerTest, AbortLeavesTheRestWaiting) {
+  Policy policy;
+  policy.on_failure = FailureAction::abort;
+  submit(300, {0}, policy);
+  Store store = Store::open_owner(folder_);
+  Stage stage(1);
+  Manager manager(store, stage, silent_, {});
+  EXPECT_TRUE(stage.play(manager));
+  EXPECT_EQ(manager.status(), ExitCode::incomplete);
+  EXPECT_EQ(store.campaign("").n_failed, 1);
+  EXPECT_GT(store.campaign("").n_waiting, 200);
+}
+
+TEST_F(ManagerTest, InterruptedCampaignsResumeWhereTheyStopped) {
+  submit(100, {});
+  {
+    Store store = Store::open_owner(folder_);
+    Stage stage(2);
+    Manager manager(store, stage, silent_, {});
+    EXPECT_FALSE(stage.play(manager, 20));
+    manager.interrupt();
+    EXPECT_TRUE(stage.play(manager));
+    EXPECT_TRUE(manager.workers_are_drained());
+    EXPECT_EQ(manager.status(), ExitCode::interrupted);
+    EXPECT_GT(store.campaign("").n_done, 0);
+    EXPECT_EQ(store.campaign("").n_done, FakeRunner::n_runs);
+  }
+  Store store = Store::open_owner(folder_);
+  Stage stage(2);
+  Manager manager(store, stage, silent_, {});
+  EXPECT_TRUE(stage.play(manager));
+  EXPECT_EQ(manager.status(), ExitCode::done);
+  EXPECT_EQ(FakeRunner::n_runs, 100);
+}
+
+/// Forgets manager and workers after each number of turns, as kill -9 of all of them would.
+TEST_F(ManagerTest, KilledAtAnyTurnTheNextManagerCompletesTheCampaign) {
+  submit(25, {7});
+  for (int turns = 0; turns < 60; turns += 3) {
+    Store store = Store::open_owner(folder_);
+    Stage stage(2);
+    Manager manager(store, stage, silent_, {});
+    stage.play(manager, turns);
+    EXPECT_TRUE(store.integrity_problems().empty());
+  }
+  Store store = Store::open_owner(folder_);
+  Stage stage(2);
+  Manager manager(store, stage, silent_, {});
+  EXPECT_TRUE(stage.play(manager));
+  const CampaignInfo info = store.campaign("");
+  EXPECT_EQ(info.n_done, 24);
+  EXPECT_EQ(info.n_failed, 1);
+  for (int position = 1; position <= 25; ++position) {
+    EXPECT_EQ(store.stored_case(info.id, std::to_string(position)).runs.size(), 1u);
+  }
+}
+
+TEST_F(ManagerTest, CommitsThousandsOfResultsPerSecond) {
+  submit(3000, {});
+  Store store = Store::open_owner(folder_);
+  Stage stage(2);
+  Manager manager(store, stage, silent_, {});
+  const faultsim::Stopwatch watch;
+  EXPECT_TRUE(stage.play(manager));
+  // Shared machines: a tenth of what is measured on an idle one (docs/campaign.md).
+  EXPECT_LT(watch.seconds(), 6);
+  RecordProperty("cases_per_second", static_cast<int>(3000 / watch.seconds()));
+}
+
+}  // namespace
+}  // namespace faultsweep

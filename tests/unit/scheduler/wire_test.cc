@@ -1,0 +1,60 @@
+#include "campaign/scheduler/wire.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/campaign/made_up_result.h"
+
+namespace faultsweep {
+namespace {
+
+TEST(Wire, ResultsTravelBitForBit) {
+  JobEvents events;
+  RunRecord run;
+  run.case_id = 42;
+  run.status = RunStatus::completed;
+  run.host = "node7";
+  run.wall_seconds = 0.1;
+  run.result = testing::made_up_result(0.8);
+  run.result->steps[3].faults[1].chi_max = 0.1 + 0.2;
+  events.completed.push_back(run);
+  JobEvents::Failure failure;
+  failure.run.reason = "killed";
+  failure.run.signal = 9;
+  failure.in_operator = true;
+  events.failed.push_back(failure);
+  events.returned = {7, 8};
+  events.operators.push_back({"print", true, 1.5, 10, 20, 30, 40});
+  const std::string bytes = encode(message::Events{events});
+  const auto back = std::get<message::Events>(decode(bytes)).events;
+  EXPECT_EQ(encode(message::Events{back}), bytes);
+  ASSERT_EQ(back.completed.size(), 1u);
+  EXPECT_EQ(back.completed[0].result->steps[3].faults[1].chi_max, 0.1 + 0.2);
+  EXPECT_EQ(back.completed[0].result->stages[2].stage, "gas_storage");
+  EXPECT_EQ(back.failed[0].run.signal, 9);
+  EXPECT_FALSE(back.failed[0].run.result);
+  EXPECT_EQ(back.returned, events.returned);
+  EXPECT_EQ(back.operators[0].peak_bytes, 40);
+}
+
+TEST(Wire, WorkTravels) {
+  message::Work work;
+  work.task.family = 3;
+  work.task.time_limit = 2.5;
+  work.scenes[5] = {"scene.json", "{}"};
+  work.items.push_back({17, 5, 9, R"({"/a": 1})"});
+  const auto back = std::get<message::Work>(decode(encode(work)));
+  EXPECT_EQ(back.task.time_limit, 2.5);
+  EXPECT_FALSE(back.task.memory_limit);
+  EXPECT_EQ(back.scenes.at(5).source, "scene.json");
+  EXPECT_EQ(back.items[0].changes, R"({"/a": 1})");
+}
+
+TEST(Wire, BrokenBytesAreABug) {
+  std::string bytes = encode(message::Hello{"node"});
+  EXPECT_THROW(decode(bytes.substr(0, bytes.size() - 1)), faultsim::InternalError);
+  EXPECT_THROW(decode(bytes + "x"), faultsim::InternalError);
+  EXPECT_THROW(decode("\x63"), faultsim::InternalError);
+}
+
+}  // namespace
+}  // namespace faultsweep

@@ -1,0 +1,196 @@
+#include "campaign/scheduler/work_plan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <set>
+
+namespace faultsweep {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+FamilyWork family(std::int64_t first_case, int n, double operator_seconds, bool cached = false) {
+  FamilyWork work;
+  work.id = first_case;
+  work.cases.resize(static_cast<std::size_t>(n));
+  std::iota(work.cases.begin(), work.cases.end(), first_case);
+  work.operator_seconds = operator_seconds;
+  work.memory_bytes = 1e9;
+  work.operator_cached = cached;
+  return work;
+}
+
+TEST(WorkPlan, TakesCachedFamiliesFirstThenTheLongest) {
+  WorkPlan plan({family(100, 5, 1), family(200, 5, 50), family(300, 5, 9, true)}, {.n_workers = 3});
+  EXPECT_EQ(plan.next(0)->family, 2);
+  EXPECT_EQ(plan.next(1)->family, 1);
+  EXPECT_EQ(plan.next(2)->family, 0);
+}
+
+TEST(WorkPlan, OneWorkerBuildsWhileOthersWaitForTheOperator) {
+  WorkPlan plan({family(1, 10, 5)}, {.n_workers = 2});
+  const auto slice = plan.next(0);
+  ASSERT_TRUE(slice);
+  EXPECT_TRUE(slice->builds_operator);
+  EXPECT_EQ(slice->cases.size(), 1u);
+  EXPECT_FALSE(plan.next(1));
+  EXPECT_TRUE(plan.is_building(0));
+  plan.operator_ready(0, 5, false);
+  EXPECT_TRUE(plan.next(1));
+}
+
+TEST(WorkPlan, SlicesGrowWithFastCasesAndShrinkTowardsTheEnd) {
+  WorkPlan plan({family(1, 1000, 1)}, {.n_workers = 2});
+  const auto first = plan.next(0);
+  plan.operator_ready(0, 1, false);
+  plan.case_done(0, first->cases[0], 0.002);
+  std::vector<std::size_t> sizes;
+  int worker = 0;
+  while (auto slice = plan.next(worker)) {
+    sizes.push_back(slice->cases.size());
+    for (const auto id : slice->cases) plan.case_done(worker, id, 0.002);
+    worker = 1 - worker;
+  }
+  EXPECT_EQ(sizes.front(), 125u);  // 0.25 s of work
+  EXPECT_EQ(sizes.back(), 1u);
+  EXPECT_TRUE(std::is_sorted(sizes.rbegin(), sizes.rend()));
+  EXPECT_EQ(std::accumulate(sizes.begin(), sizes.end(), 0u), 999u);
+  EXPECT_TRUE(plan.is_finished());
+}
+
+TEST(WorkPlan, KeepsAWorkerAheadButDoesNotHoard) {
+  WorkPlan plan({family(1, 1000, 1, true)}, {.n_workers = 1});
+  const auto first = plan.next(0);
+  ASSERT_EQ(first->cases.size(), 1u);
+  EXPECT_FALSE(plan.next(0));  // how long a case takes is not known yet
+  plan.case_done(0, first->cases[0], 0.01);
+  const auto second = plan.next(0);
+  EXPECT_EQ(second->cases.size(), 25u);
+  EXPECT_FALSE(plan.next(0));
+  for (int k = 0; k < 20; ++k) plan.case_done(0, second->cases[static_cast<std::size_t>(k)], 0.01);
+  EXPECT_TRUE(plan.next(0));
+}
+
+TEST(WorkPlan, BuildsTwoOperatorsAtOnceOnlyIfBothFit) {
+  WorkPlan plan({family(1, 3, 5), family(11, 3, 4)}, {.n_workers = 2, .memory_bytes = 1.5e9});
+  EXPECT_TRUE(plan.next(0));
+  EXPECT_FALSE(plan.next(1));
+  plan.operator_ready(0, 5, false);
+  EXPECT_EQ(plan.next(1)->family, 1);
+  WorkPlan roomy({family(1, 3, 5), family(11, 3, 4)}, {.n_workers = 2, .memory_bytes = 2.5e9});
+  EXPECT_TRUE(roomy.next(0));
+  EXPECT_TRUE(roomy.next(1));
+}
+
+TEST(WorkPlan, RetriesAsOftenAsAskedThenGivesUp) {
+  WorkPlan plan({family(1, 1, 1, true)},
+                {.n_workers = 1, .on_failure = FailureAction::retry, .retries = 2});
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    const auto slice = plan.next(0);
+    ASSERT_TRUE(slice) << attempt;
+    EXPECT_EQ(plan.case_failed(0, 1, false), attempt < 2);
+  }
+  EXPECT_FALSE(plan.next(0));
+  EXPECT_TRUE(plan.is_finished());
+}
+
+TEST(WorkPlan, AbortStopsAtTheFirstFailure) {
+  WorkPlan plan({family(1, 5, 1, true)}, {.n_workers = 1, .on_failure = FailureAction::abort});
+  plan.next(0);
+  EXPECT_FALSE(plan.case_failed(0, 1, false));
+  EXPECT_FALSE(plan.next(0));
+  EXPECT_TRUE(plan.is_finished());
+  EXPECT_EQ(plan.n_waiting(), 4);
+}
+
+TEST(WorkPlan, GivesUpAFamilyWhoseOperatorFailsTwice) {
+  WorkPlan plan({family(1, 5, 1), family(11, 1, 0.5, true)}, {.n_workers = 1});
+  EXPECT_EQ(plan.next(0)->family, 1);
+  plan.case_done(0, 11, 0.1);
+  EXPECT_EQ(plan.next(0)->cases.front(), 1);
+  plan.case_failed(0, 1, true);
+  EXPECT_THAT(plan.take_hopeless(), IsEmpty());
+  EXPECT_EQ(plan.next(0)->cases.front(), 2);
+  plan.case_failed(0, 2, true);
+  EXPECT_THAT(plan.take_hopeless(), ElementsAre(3, 4, 5));
+  EXPECT_TRUE(plan.is_finished());
+}
+
+TEST(WorkPlan, ReturnedCasesGoOutAgainInOrder) {
+  WorkPlan plan({family(1, 10, 1, true)}, {.n_workers = 2});
+  const auto first = plan.next(0);
+  plan.case_done(0, 1, 0.1);
+  const auto slice = plan.next(0);
+  ASSERT_EQ(slice->cases.size(), 3u);
+  plan.returned(0, slice->cases);
+  EXPECT_EQ(plan.n_in_flight(), 0);
+  EXPECT_EQ(plan.next(1)->cases, slice->cases);
+}
+
+TEST(WorkPlan, ARefusedBuilderLeavesTheFamilyToTheNextCase) {
+  WorkPlan plan({family(1, 2, 1)}, {.n_workers = 2});
+  EXPECT_TRUE(plan.next(0)->builds_operator);
+  plan.case_failed(0, 1, false);
+  const auto slice = plan.next(1);
+  ASSERT_TRUE(slice);
+  EXPECT_TRUE(slice->builds_operator);
+}
+
+/// Random outcomes: every case is decided exactly once, whatever happens.
+TEST(WorkPlan, DecidesEveryCaseExactlyOnceUnderRandomTrouble) {
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    unsigned state = seed;
+    const auto dice = [&](unsigned n) {
+      state = state * 1664525u + 1013904223u;
+      return (state >> 16) % n;
+    };
+    std::vector<FamilyWork> families;
+    long n_cases = 0;
+    for (int f = 0; f < 6; ++f) {
+      const int n = 1 + static_cast<int>(dice(40));
+      families.push_back(family(1000 * f + 1, n, dice(10), dice(2) == 0));
+      n_cases += n;
+    }
+    WorkPlan plan(families, {.n_workers = 3,
+                             .memory_bytes = 2e9,
+                             .on_failure = FailureAction::retry,
+                             .retries = 1});
+    std::set<std::int64_t> decided;
+    std::vector<std::deque<std::int64_t>> queues(3);
+    for (int turn = 0; turn < 100000 && !plan.is_finished(); ++turn) {
+      const int worker = static_cast<int>(dice(3));
+      auto& queue = queues[static_cast<std::size_t>(worker)];
+      if (const auto slice = plan.next(worker)) {
+        queue.insert(queue.end(), slice->cases.begin(), slice->cases.end());
+      }
+      if (queue.empty()) continue;
+      const std::int64_t id = queue.front();
+      queue.pop_front();
+      const bool building = plan.is_building(worker);
+      switch (dice(10)) {
+        case 0:
+          if (!plan.case_failed(worker, id, building)) {
+            EXPECT_TRUE(decided.insert(id).second) << id;
+          }
+          break;
+        case 1:
+          queue.push_front(id);
+          plan.returned(worker, {queue.begin(), queue.end()});
+          queue.clear();
+          break;
+        default:
+          if (building) plan.operator_ready(plan.family_of(worker), 1, false);
+          plan.case_done(worker, id, 0.01 * (1 + dice(5)));
+          EXPECT_TRUE(decided.insert(id).second) << id;
+      }
+      for (const auto lost : plan.take_hopeless()) EXPECT_TRUE(decided.insert(lost).second) << lost;
+    }
+    EXPECT_EQ(static_cast<long>(decided.size()), n_cases) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace faultsweep
