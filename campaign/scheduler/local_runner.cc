@@ -41,11 +41,14 @@ bool mentions_memory(const std::string& text) {
 /// What an exit code of the simulator says about the case (common/exit_code.h).
 RunStatus status_of(int exit_code, const std::string& text) {
   switch (exit_code) {
-    case static_cast<int>(ExitCode::input): return RunStatus::refused;
+    case static_cast<int>(ExitCode::input):
+      return RunStatus::refused;
     case static_cast<int>(ExitCode::world):
       return mentions_memory(text) ? RunStatus::memory : RunStatus::world;
-    case static_cast<int>(ExitCode::bug): return RunStatus::bug;
-    default: return RunStatus::crashed;
+    case static_cast<int>(ExitCode::bug):
+      return RunStatus::bug;
+    default:
+      return RunStatus::crashed;
   }
 }
 
@@ -234,15 +237,16 @@ void LocalRunner::process_ended(JobEvents& events) {
   const ProcessEnd end = process_->wait(kEndGrace);
   const std::string tail = process_->log_tail();
   if (!greeted_) {
-    throw ResourceError(concat("the simulator ", options_.process.binary.string(), " ",
-                               describe(end), " before it said hello; its last words: ",
-                               tail.empty() ? "none" : tail));
+    throw ResourceError(
+        concat("the simulator ", options_.process.binary.string(), " ", describe(end),
+               " before it said hello; its last words: ", tail.empty() ? "none" : tail));
   }
   RunStatus status = RunStatus::crashed;
   std::string reason = describe(end);
   if (process_->overflowed()) {
     status = RunStatus::garbled;
-    reason = concat("wrote more than ", SimulatorProcess::kLongestReply, " bytes without a newline");
+    reason =
+        concat("wrote more than ", SimulatorProcess::kLongestReply, " bytes without a newline");
   } else if (end.signal == SIGKILL) {
     status = RunStatus::memory;
     reason += ", as the kernel does when memory runs out";
@@ -269,7 +273,8 @@ void LocalRunner::process_failed(RunStatus status, std::string reason, const Pro
   RunRecord run = blank_run(jobs_.front().case_id);
   run.status = status;
   const bool in_operator = !started_ && !operator_known_;
-  run.reason = in_operator ? "while building the operator: " + std::move(reason) : std::move(reason);
+  run.reason =
+      in_operator ? "while building the operator: " + std::move(reason) : std::move(reason);
   run.signal = end.signal;
   run.exit_code = end.exit_code;
   run.log_tail = tail;

@@ -13,9 +13,9 @@ namespace faultsweep {
 /// A JobRunner with one simulator process per family, kept while the family lasts.
 ///
 /// The case in flight is the one that the process said `started` last. When the process dies, hangs
-/// or talks garbage, that case has failed; the others of the family go to a new process. Where no case
-/// had started, the operator has failed: the first case carries the blame, the others are returned,
-/// for whoever decides whether the operator is worth another try.
+/// or talks garbage, that case has failed; the others of the family go to a new process. Where no
+/// case had started, the operator has failed: the first case carries the blame, the others are
+/// returned, for whoever decides whether the operator is worth another try.
 class LocalRunner final : public JobRunner {
  public:
   struct Options {
@@ -42,7 +42,8 @@ class LocalRunner final : public JobRunner {
   void start();
   void handle(const std::string& reply, JobEvents& events);
   void handle_done(const nlohmann::json& reply, JobEvents& events);
-  void process_failed(RunStatus status, std::string reason, const ProcessEnd& end, JobEvents& events);
+  void process_failed(RunStatus status, std::string reason, const ProcessEnd& end,
+                      JobEvents& events);
   void process_ended(JobEvents& events);
   bool is_over_time() const;
   RunRecord blank_run(std::int64_t case_id) const;
@@ -50,13 +51,13 @@ class LocalRunner final : public JobRunner {
   Options options_;
   FamilyTask task_;
   std::unique_ptr<SimulatorProcess> process_;
-  std::deque<Job> jobs_;        ///< in the order sent; the first is in flight or next.
-  std::size_t n_sent_ = 0;      ///< of jobs_, to the present process.
-  bool greeted_ = false;        ///< the present process said hello.
-  bool operator_known_ = false; ///< the present process has its operator.
-  bool started_ = false;        ///< jobs_.front() has started.
+  std::deque<Job> jobs_;         ///< in the order sent; the first is in flight or next.
+  std::size_t n_sent_ = 0;       ///< of jobs_, to the present process.
+  bool greeted_ = false;         ///< the present process said hello.
+  bool operator_known_ = false;  ///< the present process has its operator.
+  bool started_ = false;         ///< jobs_.front() has started.
   bool draining_ = false;
-  faultsim::Stopwatch since_;   ///< of the present phase: start-up and operator, or a case.
+  faultsim::Stopwatch since_;  ///< of the present phase: start-up and operator, or a case.
 };
 
 }  // namespace faultsweep

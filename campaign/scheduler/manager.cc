@@ -22,8 +22,9 @@ FamilyWork work_of(const WaitingFamily& waiting, const std::filesystem::path& op
   work.operator_seconds = waiting.predicted.operator_seconds;
   work.case_seconds = waiting.seconds_per_case.value_or(0);
   work.memory_bytes = waiting.predicted.memory_bytes;
-  work.operator_cached = !waiting.operator_fingerprint.empty() &&
-                         std::filesystem::exists(operators / (waiting.operator_fingerprint + ".h5"));
+  work.operator_cached =
+      !waiting.operator_fingerprint.empty() &&
+      std::filesystem::exists(operators / (waiting.operator_fingerprint + ".h5"));
   return work;
 }
 
@@ -103,9 +104,10 @@ void Manager::interrupt() {
   if (interrupted_) return;
   interrupted_ = true;
   plan_->stop();
-  display_.note(concat("stopping: ", plan_->n_in_flight(),
-                       " cases were handed out; the one under way of each worker may end, for at most ",
-                       options_.patience, " s"));
+  display_.note(
+      concat("stopping: ", plan_->n_in_flight(),
+             " cases were handed out; the one under way of each worker may end, for at most ",
+             options_.patience, " s"));
 }
 
 void Manager::handle(int worker, message::Events message) {
@@ -151,8 +153,8 @@ void Manager::fail_hopeless() {
   for (const std::int64_t id : plan_->take_hopeless()) {
     RunRecord run;
     run.case_id = id;
-    run.reason = concat("not tried: the operator of its family failed ", WorkPlan::kOperatorAttempts,
-                        " times, see the failed cases of that family");
+    run.reason = concat("not tried: the operator of its family failed ",
+                        WorkPlan::kOperatorAttempts, " times, see the failed cases of that family");
     ++n_failed_;
     add_run(std::move(run));
   }
@@ -206,15 +208,25 @@ void Manager::send_work(int worker, const Slice& slice) {
 
 void Manager::beat() {
   constexpr double kBeatSeconds = 1;
+  constexpr double kLookSeconds = 0.1;  // the sums below are not for every turn
+  if (since_look_.seconds() < kLookSeconds) return;
+  since_look_ = {};
   Progress progress{n_cases_, n_done_, n_failed_, plan_->seconds_left(), ""};
   int n_building = 0;
-  for (int worker = 0; worker < link_.n_workers(); ++worker) n_building += plan_->is_building(worker);
-  if (n_building > 0) progress.doing = concat("building ", n_building, n_building == 1 ? " operator" : " operators");
+  for (int worker = 0; worker < link_.n_workers(); ++worker)
+    n_building += plan_->is_building(worker);
+  if (n_building > 0)
+    progress.doing = concat("building ", n_building, n_building == 1 ? " operator" : " operators");
   if (n_finished_now_ == 0 && n_building == 0) progress.seconds_left = -1;
   display_.show(progress);
   if (since_beat_.seconds() < kBeatSeconds) return;
   since_beat_ = {};
   store_.heartbeat(progress_json());
+  if (!cancelled_ && store_.is_cancelled(campaign_.id)) {
+    cancelled_ = true;
+    display_.note(concat(campaign_.name, " was cancelled: no more cases are handed out"));
+    plan_->stop();
+  }
 }
 
 std::string Manager::progress_json() const {
@@ -224,21 +236,24 @@ std::string Manager::progress_json() const {
     const char* state = plan_->n_outstanding(worker) == 0 ? "waiting"
                         : plan_->is_building(worker)      ? "building operator"
                                                           : "running cases";
-    workers.push_back({{"rank", worker + 1},
-                       {"host", hosts_[static_cast<std::size_t>(worker)]},
-                       {"state", state},
-                       {"cases_at_hand", plan_->n_outstanding(worker)},
-                       {"family", family < 0 ? json() : json(families_[static_cast<std::size_t>(family)]
-                                                                 .predicted.fingerprint)}});
+    workers.push_back(
+        {{"rank", worker + 1},
+         {"host", hosts_[static_cast<std::size_t>(worker)]},
+         {"state", state},
+         {"cases_at_hand", plan_->n_outstanding(worker)},
+         {"family",
+          family < 0 ? json()
+                     : json(families_[static_cast<std::size_t>(family)].predicted.fingerprint)}});
   }
   const double seconds = since_start_.seconds();
-  const json progress = {{"seconds", seconds},
-                         {"seconds_left", plan_->seconds_left()},
-                         {"finished_in_this_run", n_finished_now_},
-                         {"cases_per_second", seconds > 0 ? static_cast<double>(n_finished_now_) / seconds : 0},
-                         {"in_flight", plan_->n_in_flight()},
-                         {"stopping", draining_},
-                         {"workers", workers}};
+  const json progress = {
+      {"seconds", seconds},
+      {"seconds_left", plan_->seconds_left()},
+      {"finished_in_this_run", n_finished_now_},
+      {"cases_per_second", seconds > 0 ? static_cast<double>(n_finished_now_) / seconds : 0},
+      {"in_flight", plan_->n_in_flight()},
+      {"stopping", draining_},
+      {"workers", workers}};
   return progress.dump();
 }
 

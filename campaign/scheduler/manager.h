@@ -34,9 +34,9 @@ class WorkerLink {
 class Manager {
  public:
   struct Options {
-    std::string campaign;       ///< "" = the newest.
-    double memory_bytes = 0;    ///< for operator builds together; 0 = not limited.
-    double patience = 10;       ///< s for cases under way once stopped.
+    std::string campaign;     ///< "" = the newest.
+    double memory_bytes = 0;  ///< for operator builds together; 0 = not limited.
+    double patience = 10;     ///< s for cases under way once stopped.
   };
   /// Claims the store. Throws StorageError.
   Manager(Store& store, WorkerLink& link, ProgressDisplay& display, const Options& options);
@@ -78,15 +78,16 @@ class Manager {
   CampaignInfo campaign_;
   std::vector<WaitingFamily> families_;
   std::unique_ptr<WorkPlan> plan_;
-  std::map<std::int64_t, CaseInput> inputs_;   ///< of cases under way
+  std::map<std::int64_t, CaseInput> inputs_;  ///< of cases under way
   std::vector<std::set<std::int64_t>> scenes_sent_;
   std::vector<std::string> hosts_;
   std::vector<RunRecord> uncommitted_;
   std::vector<std::pair<int, OperatorRecord>> operators_;
-  faultsim::Stopwatch since_first_uncommitted_, since_beat_, since_start_, since_drain_;
+  faultsim::Stopwatch since_first_uncommitted_, since_beat_, since_look_, since_start_,
+      since_drain_;
   long n_done_ = 0, n_failed_ = 0, n_incomplete_ = 0, n_cases_ = 0, n_finished_now_ = 0;
   int n_drained_ = 0;
-  bool busy_ = false, interrupted_ = false, draining_ = false, aborted_ = false;
+  bool busy_ = false, interrupted_ = false, draining_ = false, aborted_ = false, cancelled_ = false;
   std::string trouble_;
 };
 

@@ -9,8 +9,9 @@
 
 namespace faultsweep {
 
-/// MPI for the campaign: whole messages, sent without waiting, received by looking. Neither side ever
-/// blocks inside MPI, as MPI waits by spinning: whoever has nothing to do sleeps (see IdleSleep).
+/// MPI for the campaign: whole messages, sent without waiting, received by looking. Neither side
+/// ever blocks inside MPI, as MPI waits by spinning: whoever has nothing to do sleeps (see
+/// IdleSleep).
 class Messenger {
  public:
   /// Starts MPI. One per process.
@@ -43,8 +44,8 @@ class Messenger {
   std::list<std::unique_ptr<Outgoing>> outbox_;
 };
 
-/// Sleeps that grow from 50 µs to 2 ms while nothing happens: short enough not to be felt, long enough
-/// that looking costs less than 2 % of a core.
+/// Sleeps that grow from 50 µs to 2 ms while nothing happens: short enough not to be felt, long
+/// enough that looking costs less than 2 % of a core.
 class IdleSleep {
  public:
   void reset() { microseconds_ = kShortest; }

@@ -1,30 +1,14 @@
 #include "campaign/scheduler/progress.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "campaign/store/clock.h"
 #include "simulator/common/errors.h"
 
 namespace faultsweep {
 
 using faultsim::concat;
-
-std::string format_duration(double seconds) {
-  const long total = std::lround(std::max(0.0, seconds));
-  constexpr long kMinute = 60, kHour = 3600, kDay = 86400;
-  char text[64];
-  if (total >= kDay) {
-    std::snprintf(text, sizeof text, "%ld d %ld h", total / kDay, total % kDay / kHour);
-  } else if (total >= kHour) {
-    std::snprintf(text, sizeof text, "%ld h %02ld min", total / kHour, total % kHour / kMinute);
-  } else if (total >= kMinute) {
-    std::snprintf(text, sizeof text, "%ld min %02ld s", total / kMinute, total % kMinute);
-  } else {
-    std::snprintf(text, sizeof text, "%ld s", total);
-  }
-  return text;
-}
 
 namespace {
 

@@ -9,12 +9,10 @@ namespace faultsweep {
 /// How far a campaign is.
 struct Progress {
   long n_cases = 0, n_done = 0, n_failed = 0;
-  double seconds_left = 0;   ///< predicted; < 0 = not known.
-  std::string doing;         ///< "building 2 operators".
+  double seconds_left = 0;  ///< predicted; < 0 = not known.
+  std::string doing;        ///< "building 2 operators".
 };
 
-/// "1 h 05 min", "3 min 20 s", "12 s".
-std::string format_duration(double seconds);
 /// "[#####.....] 120/240 cases, 3 failed, 2 min 10 s left, building 1 operator".
 std::string progress_bar(const Progress& progress);
 /// The same without the bar, for logs: "120 of 240 cases (50 %), ...".

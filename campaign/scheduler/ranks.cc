@@ -75,9 +75,11 @@ ExitCode manage(Messenger& messenger, const RunOptions& options, bool& in_order)
   Store store = Store::open_owner(options.store);
   if (!store.remark().empty()) display.note(store.remark());
   MpiWorkers link(messenger);
-  constexpr double kMemoryShare = 0.9;  // of what is available now; the rest is for results and cache
-  Manager manager(store, link, display,
-                  {options.campaign, kMemoryShare * available_memory(), Manager::Options{}.patience});
+  constexpr double kMemoryShare =
+      0.9;  // of what is available now; the rest is for results and cache
+  Manager manager(
+      store, link, display,
+      {options.campaign, kMemoryShare * available_memory(), Manager::Options{}.patience});
   IdleSleep idle;
   while (manager.turn()) {
     if (stop_wanted != 0) manager.interrupt();
@@ -95,9 +97,11 @@ ExitCode manage(Messenger& messenger, const RunOptions& options, bool& in_order)
   in_order = manager.workers_are_drained();
   const CampaignInfo info = store.campaign(options.campaign);
   display.finish({info.n_cases, info.n_done, info.n_failed, -1, ""});
-  if (!manager.trouble().empty()) std::fprintf(stderr, "faultsweep: %s\n", manager.trouble().c_str());
-  store.record_event(info.id, "stopped", concat(info.n_done, " done, ", info.n_failed, " failed, ",
-                                                info.n_waiting, " waiting"));
+  if (!manager.trouble().empty())
+    std::fprintf(stderr, "faultsweep: %s\n", manager.trouble().c_str());
+  store.record_event(
+      info.id, "stopped",
+      concat(info.n_done, " done, ", info.n_failed, " failed, ", info.n_waiting, " waiting"));
   store.checkpoint();
   return manager.status();
 }

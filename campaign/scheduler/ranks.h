@@ -12,11 +12,11 @@ namespace faultsweep {
 /// What `faultsweep run` was asked.
 struct RunOptions {
   std::filesystem::path store;
-  std::string campaign;                 ///< "" = the newest.
-  std::optional<int> n_workers;         ///< default: available_cores().
-  std::filesystem::path simulator;      ///< the faultsim binary.
+  std::string campaign;             ///< "" = the newest.
+  std::optional<int> n_workers;     ///< default: available_cores().
+  std::filesystem::path simulator;  ///< the faultsim binary.
   ProgressDisplay::Style progress = ProgressDisplay::Style::lines;
-  std::filesystem::path status_file;    ///< of the ranks: where rank 0 leaves the campaign's status.
+  std::filesystem::path status_file;  ///< of the ranks: where rank 0 leaves the campaign's status.
 };
 
 /// True in a process that mpirun (or srun with PMIx) started as a rank.
@@ -26,8 +26,8 @@ bool is_rank();
 /// options.status_file (if any); the process ends with 0 unless it is in trouble itself, as mpirun
 /// takes any other code for an accident.
 ///
-/// Signals: SIGUSR1 asks the manager to stop in order (workers ignore it), SIGTERM means that mpirun
-/// tears the job down: the manager commits what it has, everybody leaves at once.
+/// Signals: SIGUSR1 asks the manager to stop in order (workers ignore it), SIGTERM means that
+/// mpirun tears the job down: the manager commits what it has, everybody leaves at once.
 faultsim::ExitCode run_ranks(int argc, char** argv, const RunOptions& options);
 
 }  // namespace faultsweep

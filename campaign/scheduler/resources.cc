@@ -59,7 +59,8 @@ void for_each_group(const std::filesystem::path& root, const std::string& groups
     if (first == std::string::npos || second == std::string::npos) continue;
     const std::string controllers = line.substr(first + 1, second - first - 1);
     const bool is_v2 = controllers.empty();
-    if (!is_v2 && ("," + controllers + ",").find("," + controller + ",") == std::string::npos) continue;
+    if (!is_v2 && ("," + controllers + ",").find("," + controller + ",") == std::string::npos)
+      continue;
     const std::filesystem::path base = is_v2 ? root : root / controller;
     std::filesystem::path group = std::filesystem::path(line.substr(second + 1)).relative_path();
     for (;; group = group.parent_path()) {
@@ -83,7 +84,8 @@ std::optional<int> slurm_number(const char* text) {
   if (text == nullptr) return std::nullopt;
   char* end = nullptr;
   const long value = std::strtol(text, &end, 10);
-  if (end == text || value <= 0 || (*end != '\0' && *end != '(' && *end != ',')) return std::nullopt;
+  if (end == text || value <= 0 || (*end != '\0' && *end != '(' && *end != ','))
+    return std::nullopt;
   return static_cast<int>(std::min(value, 1000000L));
 }
 
@@ -100,7 +102,8 @@ int available_cores() {
   const auto on_node = slurm_number(std::getenv("SLURM_CPUS_ON_NODE"));
   const auto nodes = slurm_number(std::getenv("SLURM_JOB_NUM_NODES"));
   if (tasks && *tasks > 1) {
-    cores = *tasks * per_task.value_or(1);  // may be on several hosts: the affinity here says nothing
+    cores =
+        *tasks * per_task.value_or(1);  // may be on several hosts: the affinity here says nothing
   } else if (per_task) {
     cores = std::min(cores, *per_task);
   } else if (on_node) {
@@ -118,14 +121,13 @@ double available_memory() {
     double kilobytes = 0;
     if (text >> key >> kilobytes && key == "MemAvailable:") keep_least(least, 1024 * kilobytes);
   }
-  for_each_group("/sys/fs/cgroup", own_groups(), "memory",
-                 [&](const std::filesystem::path& folder, bool is_v2) {
-                   const auto limit =
-                       number_in(folder / (is_v2 ? "memory.max" : "memory.limit_in_bytes"));
-                   const auto used =
-                       number_in(folder / (is_v2 ? "memory.current" : "memory.usage_in_bytes"));
-                   if (limit) keep_least(least, *limit - used.value_or(0));
-                 });
+  for_each_group(
+      "/sys/fs/cgroup", own_groups(), "memory",
+      [&](const std::filesystem::path& folder, bool is_v2) {
+        const auto limit = number_in(folder / (is_v2 ? "memory.max" : "memory.limit_in_bytes"));
+        const auto used = number_in(folder / (is_v2 ? "memory.current" : "memory.usage_in_bytes"));
+        if (limit) keep_least(least, *limit - used.value_or(0));
+      });
   return std::max(0.0, least.value_or(0));
 }
 

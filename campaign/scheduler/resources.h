@@ -10,7 +10,8 @@ namespace faultsweep {
 /// share of a Slurm job.
 /// At least 1.
 int available_cores();
-/// Bytes: the lesser of the host's available memory and the cgroup's limit less its use; 0 = unknown.
+/// Bytes: the lesser of the host's available memory and the cgroup's limit less its use; 0 =
+/// unknown.
 double available_memory();
 
 /// CPUs granted by the tightest cpu.max (cgroup v2) or cpu.cfs_quota_us (v1) on the way from the

@@ -98,8 +98,8 @@ struct SpawnSetup {
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawnattr_setsigdefault(&attributes, &all);
     posix_spawnattr_setpgroup(&attributes, 0);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF |
-                                              POSIX_SPAWN_SETPGROUP);
+    posix_spawnattr_setflags(
+        &attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   }
   SpawnSetup(const SpawnSetup&) = delete;
   SpawnSetup& operator=(const SpawnSetup&) = delete;
@@ -128,10 +128,11 @@ SimulatorProcess::SimulatorProcess(const Options& options) {
   requests.open();
   replies.open();
   log.open();
-  std::vector<std::string> arguments = {options.binary.string(), "worker",
-                                        "--requests", std::to_string(kChildRequests),
-                                        "--replies", std::to_string(kChildReplies)};
-  if (!options.cache.empty()) arguments.insert(arguments.end(), {"--cache", options.cache.string()});
+  std::vector<std::string> arguments = {
+      options.binary.string(),        "worker",    "--requests",
+      std::to_string(kChildRequests), "--replies", std::to_string(kChildReplies)};
+  if (!options.cache.empty())
+    arguments.insert(arguments.end(), {"--cache", options.cache.string()});
   if (options.cache_bytes) {
     arguments.insert(arguments.end(), {"--cache-size", std::to_string(*options.cache_bytes)});
   }

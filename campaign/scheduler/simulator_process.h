@@ -22,17 +22,18 @@ std::string describe(const ProcessEnd& end);
 
 /// A `faultsim worker` child (schemas/worker_protocol.md) and the pipes to it.
 ///
-/// The child gets: its own process group, so that a Ctrl-C at the terminal is ours to handle; signal
-/// mask and handlers reset; descriptors 0 (null), 1 and 2 (the log), 3 (requests), 4 (replies) and no
-/// other; an environment without OMPI_*, PMIX_*, PMI_* and SLURM_*, for it is no rank; an OOM score of
-/// 1000, so that the kernel takes it and not a rank. It sees the end of the request pipe when we die.
+/// The child gets: its own process group, so that a Ctrl-C at the terminal is ours to handle;
+/// signal mask and handlers reset; descriptors 0 (null), 1 and 2 (the log), 3 (requests), 4
+/// (replies) and no other; an environment without OMPI_*, PMIX_*, PMI_* and SLURM_*, for it is no
+/// rank; an OOM score of 1000, so that the kernel takes it and not a rank. It sees the end of the
+/// request pipe when we die.
 class SimulatorProcess {
  public:
   struct Options {
     std::filesystem::path binary;
-    std::filesystem::path cache;              ///< operator cache; empty = none.
-    std::optional<std::uint64_t> cache_bytes; ///< cap of the cache.
-    std::optional<double> memory_limit;       ///< bytes of private memory (RLIMIT_DATA).
+    std::filesystem::path cache;               ///< operator cache; empty = none.
+    std::optional<std::uint64_t> cache_bytes;  ///< cap of the cache.
+    std::optional<double> memory_limit;        ///< bytes of private memory (RLIMIT_DATA).
   };
   /// Starts it. Throws ResourceError when that is not possible.
   explicit SimulatorProcess(const Options& options);
@@ -59,8 +60,9 @@ class SimulatorProcess {
   std::string log_tail() const;
   pid_t pid() const { return pid_; }
 
-  static constexpr std::size_t kLogTail = 4096;          ///< bytes kept for the store.
-  static constexpr std::size_t kLongestReply = 64 << 20; ///< bytes; more without a newline is garbage.
+  static constexpr std::size_t kLogTail = 4096;  ///< bytes kept for the store.
+  static constexpr std::size_t kLongestReply =
+      64 << 20;  ///< bytes; more without a newline is garbage.
   /// A reply line longer than kLongestReply was cut off.
   bool overflowed() const { return overflowed_; }
 

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -58,7 +59,8 @@ class StatusFile {
   StatusFile() {
     std::string name = (std::filesystem::temp_directory_path() / "faultsweep-XXXXXX").string();
     const int descriptor = mkstemp(name.data());
-    if (descriptor < 0) throw ResourceError(concat("cannot make ", name, ": ", std::strerror(errno)));
+    if (descriptor < 0)
+      throw ResourceError(concat("cannot make ", name, ": ", std::strerror(errno)));
     close(descriptor);
     path_ = name;
   }
@@ -84,9 +86,12 @@ class StatusFile {
 
 const char* style_name(ProgressDisplay::Style style) {
   switch (style) {
-    case ProgressDisplay::Style::silent: return "none";
-    case ProgressDisplay::Style::lines: return "lines";
-    case ProgressDisplay::Style::bar: return "bar";
+    case ProgressDisplay::Style::silent:
+      return "none";
+    case ProgressDisplay::Style::lines:
+      return "lines";
+    case ProgressDisplay::Style::bar:
+      return "bar";
   }
   return "lines";
 }
@@ -94,8 +99,8 @@ const char* style_name(ProgressDisplay::Style style) {
 std::vector<std::string> mpirun_command(const RunOptions& options, int n_workers,
                                         const std::filesystem::path& status_file) {
   const char* mpirun = std::getenv("FAULTSWEEP_MPIRUN");
-  std::vector<std::string> command = {mpirun != nullptr ? mpirun : "mpirun",
-                                      "-n", std::to_string(n_workers + 1),
+  std::vector<std::string> command = {mpirun != nullptr ? mpirun : "mpirun", "-n",
+                                      std::to_string(n_workers + 1),
                                       // more ranks than cores, as the manager sleeps
                                       "--oversubscribe",
                                       // a bound rank would bind its simulator's threads to one core
@@ -105,12 +110,17 @@ std::vector<std::string> mpirun_command(const RunOptions& options, int n_workers
                                       // ranks have this long to commit after SIGTERM
                                       "--mca", "odls_base_sigkill_timeout", "30"};
   if (geteuid() == 0) command.push_back("--allow-run-as-root");
-  const std::vector<std::string> own = {
-      std::filesystem::read_symlink("/proc/self/exe").string(), "run", options.campaign,
-      "--store", std::filesystem::absolute(options.store).string(),
-      "--simulator", options.simulator.string(),
-      "--progress", style_name(options.progress),
-      "--status-file", status_file.string()};
+  const std::vector<std::string> own = {std::filesystem::read_symlink("/proc/self/exe").string(),
+                                        "run",
+                                        options.campaign,
+                                        "--store",
+                                        std::filesystem::absolute(options.store).string(),
+                                        "--simulator",
+                                        options.simulator.string(),
+                                        "--progress",
+                                        style_name(options.progress),
+                                        "--status-file",
+                                        status_file.string()};
   command.insert(command.end(), own.begin(), own.end());
   return command;
 }
@@ -123,12 +133,14 @@ pid_t spawn(std::vector<std::string> command) {
   arguments.push_back(nullptr);
   const pid_t parent = getpid();
   const pid_t child = fork();
-  if (child < 0) throw ResourceError(concat("cannot start ", command[0], ": ", std::strerror(errno)));
+  if (child < 0)
+    throw ResourceError(concat("cannot start ", command[0], ": ", std::strerror(errno)));
   if (child == 0) {
     setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent) _exit(127);
-    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGPIPE}) std::signal(number, SIG_DFL);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGPIPE})
+      std::signal(number, SIG_DFL);
     const int null = open("/dev/null", O_RDONLY);
     dup2(null, 0);
     execvp(arguments[0], arguments.data());
@@ -146,7 +158,7 @@ int wait_for(pid_t mpirun) {
     int status = 0;
     const pid_t ended = waitpid(mpirun, &status, WNOHANG);
     if (ended == mpirun) return status;
-    const int wanted = std::min<int>(n_signals, 3);
+    const int wanted = std::min(int{n_signals}, 3);
     if (wanted > told || (wanted == 1 && since_told.seconds() > kRepeatSeconds)) {
       told = wanted;
       since_told = {};
@@ -183,7 +195,8 @@ void note_restart(const RunOptions& options, const std::string& text) {
 }
 
 void check_before(RunOptions& options) {
-  if (!std::filesystem::exists(options.store / "campaign.sqlite")) Store::open_reader(options.store);
+  if (!std::filesystem::exists(options.store / "campaign.sqlite"))
+    Store::open_reader(options.store);
   Store store = Store::open_writer(options.store);
   const CampaignInfo info = store.campaign(options.campaign);
   options.campaign = info.name;  // "the newest" stays the same one through restarts
@@ -206,7 +219,8 @@ ExitCode status_without_manager(int status) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127) {
     throw ResourceError("cannot run mpirun; install openmpi-bin, or set FAULTSWEEP_MPIRUN");
   }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(ExitCode::bug)) return ExitCode::bug;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(ExitCode::bug))
+    return ExitCode::bug;
   return ExitCode::world;
 }
 
@@ -235,8 +249,9 @@ ExitCode start_ranks(const RunOptions& given) {
     if (now > finished) n_restarts = 0;
     finished = now;
     if (++n_restarts > kMostRestarts) {
-      throw ResourceError(concat("the job died ", kMostRestarts + 1,
-                                 " times in a row without finishing a case; what is stored is intact"));
+      throw ResourceError(
+          concat("the job died ", kMostRestarts + 1,
+                 " times in a row without finishing a case; what is stored is intact"));
     }
     note_restart(options, concat("a process of the job died (mpirun status ", ended, "); restart ",
                                  n_restarts, " of ", kMostRestarts));

@@ -4,15 +4,15 @@
 
 namespace faultsweep {
 
-/// `faultsweep run` outside of mpirun: starts itself under mpirun with a manager and n_workers workers,
-/// waits, and returns the campaign's status.
+/// `faultsweep run` outside of mpirun: starts itself under mpirun with a manager and n_workers
+/// workers, waits, and returns the campaign's status.
 ///
 /// A job that died by a signal (a killed rank ends all of them) is started again, at most
-/// kMostRestarts times without a case finished in between; each restart is an event of the campaign.
-/// The first Ctrl-C (or SIGTERM, SIGHUP) stops in order: cases under way end and are committed; the
-/// second tears the job down; the third kills it. All give exit 75: `faultsweep run` continues.
-/// Throws StorageError, InputError before anything is started when the store, the campaign or the
-/// simulator is not usable.
+/// kMostRestarts times without a case finished in between; each restart is an event of the
+/// campaign. The first Ctrl-C (or SIGTERM, SIGHUP) stops in order: cases under way end and are
+/// committed; the second tears the job down; the third kills it. All give exit 75: `faultsweep run`
+/// continues. Throws StorageError, InputError before anything is started when the store, the
+/// campaign or the simulator is not usable.
 faultsim::ExitCode start_ranks(const RunOptions& options);
 
 inline constexpr int kMostRestarts = 3;

@@ -16,8 +16,8 @@ using faultsim::StepResult;
 class Writer {
  public:
   template <typename Plain>
-    requires(std::is_arithmetic_v<Plain> || std::is_enum_v<Plain>)
-  void operator()(const Plain& value) {
+  requires(std::is_arithmetic_v<Plain> || std::is_enum_v<Plain>) void operator()(
+      const Plain& value) {
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
   void operator()(const std::string& text) {
@@ -43,8 +43,7 @@ class Writer {
     }
   }
   template <typename Struct>
-    requires(std::is_class_v<Struct>)
-  void operator()(const Struct& value) {
+  requires(std::is_class_v<Struct>) void operator()(const Struct& value) {
     fields(*this, const_cast<Struct&>(value));
   }
   std::string take() { return std::move(bytes_); }
@@ -57,8 +56,7 @@ class Reader {
  public:
   explicit Reader(std::string_view bytes) : bytes_(bytes) {}
   template <typename Plain>
-    requires(std::is_arithmetic_v<Plain> || std::is_enum_v<Plain>)
-  void operator()(Plain& value) {
+  requires(std::is_arithmetic_v<Plain> || std::is_enum_v<Plain>) void operator()(Plain& value) {
     std::memcpy(&value, take(sizeof value).data(), sizeof value);
   }
   void operator()(std::string& text) { text = take(size()); }
@@ -84,10 +82,7 @@ class Reader {
     }
   }
   template <typename Struct>
-    requires(std::is_class_v<Struct>)
-  void operator()(Struct& value) {
-    fields(*this, value);
-  }
+  requires(std::is_class_v<Struct>) void operator()(Struct& value) { fields(*this, value); }
   bool at_end() const { return bytes_.empty(); }
 
  private:

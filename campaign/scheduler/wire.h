@@ -9,8 +9,8 @@
 
 #include "campaign/scheduler/job_runner.h"
 
-/// Messages between the manager (rank 0) and its workers, as bytes. Both ends are the same binary on
-/// like machines, so numbers go as they are in memory; the version is checked with the greeting.
+/// Messages between the manager (rank 0) and its workers, as bytes. Both ends are the same binary
+/// on like machines, so numbers go as they are in memory; the version is checked with the greeting.
 namespace faultsweep {
 
 namespace message {
@@ -22,10 +22,10 @@ struct Hello {
 struct Events {
   JobEvents events;
 };
-struct Trouble {   ///< the worker cannot go on: the simulator cannot be run.
+struct Trouble {  ///< the worker cannot go on: the simulator cannot be run.
   std::string text;
 };
-struct Drained {   ///< nothing is under way any more.
+struct Drained {  ///< nothing is under way any more.
 };
 
 // From manager to worker.
@@ -40,7 +40,7 @@ struct Work {
   std::map<std::int64_t, BaseScene> scenes;
   std::vector<Item> items;
 };
-struct Drain {     ///< finish the case under way, hand back the others, say Drained.
+struct Drain {  ///< finish the case under way, hand back the others, say Drained.
 };
 struct Quit {};
 

@@ -14,6 +14,7 @@ WorkPlan::WorkPlan(std::vector<FamilyWork> families, const Limits& limits) : lim
   for (FamilyWork& work : families) {
     Family entry;
     entry.waiting.assign(work.cases.begin(), work.cases.end());
+    n_waiting_ += static_cast<long>(work.cases.size());
     entry.state = work.operator_cached ? State::ready : State::cold;
     entry.work = std::move(work);
     families_.push_back(std::move(entry));
@@ -125,6 +126,7 @@ Slice WorkPlan::cut(int worker, int index) {
   for (std::size_t k = 0; k < size && !entry.waiting.empty(); ++k) {
     const std::int64_t id = entry.waiting.front();
     entry.waiting.pop_front();
+    --n_waiting_;
     slice.cases.push_back(id);
     in_flight_[id] = {index, worker};
     ++workers_[static_cast<std::size_t>(worker)].n_cases;
@@ -148,7 +150,8 @@ void WorkPlan::operator_ready(int index, double seconds, bool from_cache) {
 
 void WorkPlan::landed(int worker, std::int64_t case_id) {
   const auto flight = in_flight_.find(case_id);
-  FAULTSIM_DEMAND(flight != in_flight_.end() && flight->second.worker == worker, case_id, " ", worker);
+  FAULTSIM_DEMAND(flight != in_flight_.end() && flight->second.worker == worker, case_id, " ",
+                  worker);
   Family& entry = family(flight->second.family);
   in_flight_.erase(flight);
   Worker& self = workers_[static_cast<std::size_t>(worker)];
@@ -176,13 +179,17 @@ bool WorkPlan::case_failed(int worker, std::int64_t case_id, bool in_operator) {
   if (limits_.on_failure == FailureAction::abort) stop();
   const bool again =
       limits_.on_failure == FailureAction::retry && ++failures_[case_id] <= limits_.retries;
-  if (again) family(index).waiting.push_back(case_id);
+  if (again) {
+    family(index).waiting.push_back(case_id);
+    ++n_waiting_;
+  }
   return again;
 }
 
 void WorkPlan::returned(int worker, const std::vector<std::int64_t>& cases) {
   for (auto id = cases.rbegin(); id != cases.rend(); ++id) {
     family(family_index(*id)).waiting.push_front(*id);
+    ++n_waiting_;
     landed(worker, *id);
   }
 }
@@ -192,20 +199,13 @@ std::vector<std::int64_t> WorkPlan::take_hopeless() {
   for (Family& entry : families_) {
     if (entry.operator_failures < kOperatorAttempts || entry.state != State::cold) continue;
     hopeless.insert(hopeless.end(), entry.waiting.begin(), entry.waiting.end());
+    n_waiting_ -= static_cast<long>(entry.waiting.size());
     entry.waiting.clear();
   }
   return hopeless;
 }
 
-bool WorkPlan::is_finished() const {
-  return in_flight_.empty() && (stopped_ || n_waiting() == 0);
-}
-
-long WorkPlan::n_waiting() const {
-  std::size_t count = 0;
-  for (const Family& entry : families_) count += entry.waiting.size();
-  return static_cast<long>(count);
-}
+bool WorkPlan::is_finished() const { return in_flight_.empty() && (stopped_ || n_waiting_ == 0); }
 
 bool WorkPlan::is_building(int worker) const {
   const int index = family_of(worker);

@@ -40,7 +40,7 @@ class WorkPlan {
     int n_workers = 1;
     double memory_bytes = 0;  ///< for all builds together; 0 = not limited.
     FailureAction on_failure = FailureAction::proceed;
-    int retries = 0;          ///< further attempts of a failed case, of FailureAction::retry.
+    int retries = 0;  ///< further attempts of a failed case, of FailureAction::retry.
   };
   WorkPlan(std::vector<FamilyWork> families, const Limits& limits);
 
@@ -63,9 +63,11 @@ class WorkPlan {
 
   /// Nothing under way, and nothing waits (or it is stopped).
   bool is_finished() const;
-  long n_waiting() const;
+  long n_waiting() const { return n_waiting_; }
   long n_in_flight() const { return static_cast<long>(in_flight_.size()); }
-  long n_outstanding(int worker) const { return workers_[static_cast<std::size_t>(worker)].n_cases; }
+  long n_outstanding(int worker) const {
+    return workers_[static_cast<std::size_t>(worker)].n_cases;
+  }
   /// Index of the family that the worker is on; -1 = none.
   int family_of(int worker) const { return workers_[static_cast<std::size_t>(worker)].family; }
   bool is_building(int worker) const;
@@ -73,9 +75,10 @@ class WorkPlan {
   /// Predicted wall seconds until all is done, from what was measured so far.
   double seconds_left() const;
 
-  static constexpr double kSliceSeconds = 0.25;  ///< long against a message (~2 ms), short for a tail
-  static constexpr int kLargestSlice = 256;      ///< bounds memory and what a kill may lose
-  static constexpr int kOperatorAttempts = 2;    ///< a second try tells bad luck from a bad operator
+  static constexpr double kSliceSeconds =
+      0.25;                                    ///< long against a message (~2 ms), short for a tail
+  static constexpr int kLargestSlice = 256;    ///< bounds memory and what a kill may lose
+  static constexpr int kOperatorAttempts = 2;  ///< a second try tells bad luck from a bad operator
 
  private:
   enum class State { cold, building, ready };
@@ -115,6 +118,7 @@ class WorkPlan {
   std::map<std::int64_t, Flight> in_flight_;
   std::map<std::int64_t, int> failures_;
   double predicted_operators_ = 0, measured_operators_ = 0;  ///< s, of those built.
+  long n_waiting_ = 0;                                       ///< over all families.
   bool stopped_ = false;
 };
 

@@ -114,7 +114,8 @@ void run_worker(Messenger& messenger, JobRunner& runner, const std::string& host
   link.send(message::Hello{host});
   Worker worker(link, runner);
   IdleSleep idle;
-  constexpr int kWaitMs = 2;  // for the simulator's replies, which wake us; messages must wait so long
+  constexpr int kWaitMs =
+      2;  // for the simulator's replies, which wake us; messages must wait so long
   while (!must_leave() && worker.turn(kWaitMs)) {
     if (worker.is_busy()) {
       idle.reset();

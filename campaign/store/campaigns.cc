@@ -242,13 +242,22 @@ CampaignInfo Store::campaign(const std::string& name) const {
                                              concat("there are: ", names)}});
 }
 
-void Store::cancel(std::int64_t campaign, bool cancelled) {
+void Store::cancel(std::int64_t campaign) {
   Transaction transaction(*connection_);
-  connection_->prepared("UPDATE campaigns SET state = ? WHERE id = ?")
-      .bind(cancelled ? "cancelled" : "open", campaign)
+  connection_->prepared("UPDATE campaigns SET state = 'cancelled' WHERE id = ?")
+      .bind(campaign)
       .run();
-  record_event(campaign, cancelled ? "cancelled" : "reopened", "by the user");
+  record_event(campaign, "cancelled", "by the user");
   transaction.commit();
+}
+
+bool Store::is_cancelled(std::int64_t campaign) const {
+  Statement& query =
+      connection_->prepared("SELECT state = 'cancelled' FROM campaigns WHERE id = ?");
+  FAULTSIM_DEMAND(query.bind(campaign).step(), campaign);
+  const bool cancelled = query.integer(0) != 0;
+  query.reset();
+  return cancelled;
 }
 
 long Store::retry(std::int64_t campaign, bool unconverged_too, std::optional<long> position) {

@@ -1,12 +1,14 @@
 #pragma once
 
-#include <chrono>
+#include <string>
 
 namespace faultsweep {
 
 /// Time of day for rows of the store; never part of a result.
-inline double seconds_since_1970() {
-  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-}
+double seconds_since_1970();
+/// "2026-03-01 14:05:09", local time.
+std::string format_time(double seconds_since_1970);
+/// "1 h 05 min", "3 min 20 s", "12 s".
+std::string format_duration(double seconds);
 
 }  // namespace faultsweep

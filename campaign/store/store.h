@@ -57,7 +57,8 @@ class Store {
   std::vector<CampaignInfo> campaigns() const;  ///< newest last, without counts of cases.
   /// By name; "" = the newest. Throws StorageError listing the names there are.
   CampaignInfo campaign(const std::string& name) const;
-  void cancel(std::int64_t campaign, bool cancelled);
+  void cancel(std::int64_t campaign);
+  bool is_cancelled(std::int64_t campaign) const;
   /// Failed cases (and, if asked, done ones that are not converged) wait again; returns how many.
   /// Done results are replaced when the new run ends, not before.
   long retry(std::int64_t campaign, bool unconverged_too, std::optional<long> position);

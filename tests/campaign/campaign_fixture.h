@@ -35,7 +35,8 @@ class CampaignTest : public ::testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   /// Cases by title (see fake_simulator.cc), in two families; each takes `seconds`.
-  std::int64_t submit(const std::vector<std::string>& titles, double seconds = 0, Policy policy = {}) {
+  std::int64_t submit(const std::vector<std::string>& titles, double seconds = 0,
+                      Policy policy = {}) {
     Submission s;
     s.name = "sweep";
     s.source = "sweep.json";
@@ -43,8 +44,9 @@ class CampaignTest : public ::testing::Test {
     s.parameters = R"([{"name": "strength", "dimension": "number"}])";
     s.rank_by = "activated_area";
     s.policy = policy;
-    s.scenes = {{"scene.json", "{\"title\": \"\", \"strength\": 0, \"family\": \"\", \"seconds\": " +
-                                   std::to_string(seconds) + "}"}};
+    s.scenes = {
+        {"scene.json", "{\"title\": \"\", \"strength\": 0, \"family\": \"\", \"seconds\": " +
+                           std::to_string(seconds) + "}"}};
     s.families = {{"family-a", 1000, 100, 1, 1e8}, {"family-b", 1000, 100, 1, 1e8}};
     for (std::size_t k = 0; k < titles.size(); ++k) {
       const std::string strength = std::to_string(static_cast<double>(k % 97) / 97);
@@ -89,7 +91,8 @@ class CampaignTest : public ::testing::Test {
     const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
     return {code, text("out"), text("err")};
   }
-  ProgramEnd faultsweep(std::vector<std::string> arguments, const std::function<void()>& prepare = {}) {
+  ProgramEnd faultsweep(std::vector<std::string> arguments,
+                        const std::function<void()>& prepare = {}) {
     return wait(start(std::move(arguments), prepare));
   }
 
@@ -119,7 +122,8 @@ class CampaignTest : public ::testing::Test {
   /// Processes whose parent is pid.
   static std::vector<pid_t> children_of(pid_t pid) {
     std::vector<pid_t> children;
-    std::ifstream file("/proc/" + std::to_string(pid) + "/task/" + std::to_string(pid) + "/children");
+    std::ifstream file("/proc/" + std::to_string(pid) + "/task/" + std::to_string(pid) +
+                       "/children");
     for (pid_t child = 0; file >> child;) children.push_back(child);
     return children;
   }

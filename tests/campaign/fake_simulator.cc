@@ -1,6 +1,9 @@
-// A stand-in for `faultsim` that speaks schemas/worker_protocol.md and answers at once with a made-up
-// result. The scene's title says what to do: one of the words of `obey`, or anything else for a result
-// whose strength is the scene's number "strength" (default: from the number in the title).
+// A stand-in for `faultsim` that speaks schemas/worker_protocol.md and answers at once with a
+// made-up result. The scene's title says what to do: one of the words of `obey`, or anything else
+// for a result whose strength is the scene's number "strength" (default: from the number in the
+// title).
+#include <sys/prctl.h>
+#include <unistd.h>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -11,8 +14,6 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <sys/prctl.h>
-#include <unistd.h>
 #include <vector>
 
 #include "simulator/common/fingerprint.h"
@@ -64,7 +65,8 @@ bool obey(const Channel& channel, const std::string& title, const json& run) {
   }
   if (title == "wrong run") reply(channel, {{"event", "started"}, {"run", 123456789}});
   if (title == "refuse") {
-    reply(channel, {{"event", "done"}, {"run", run}, {"error", "friction angle < 0"}, {"exit_code", 2}});
+    reply(channel,
+          {{"event", "done"}, {"run", run}, {"error", "friction angle < 0"}, {"exit_code", 2}});
     return false;
   }
   if (title == "noise") {
@@ -99,17 +101,25 @@ void serve(const Channel& channel, const json& request, bool& has_operator) {
       std::ofstream(file) << family;
     }
     if (!cached) usleep(static_cast<useconds_t>(1e6 * scene.value("operator_seconds", 0.0)));
-    reply(channel, {{"event", "operator"}, {"run", run}, {"fingerprint", fingerprint},
-                    {"from_cache", cached}, {"seconds", 0.01}, {"unknowns", 1000},
-                    {"jump_unknowns", 100}, {"bytes", 80000}, {"peak_bytes", 1000000}});
+    reply(channel, {{"event", "operator"},
+                    {"run", run},
+                    {"fingerprint", fingerprint},
+                    {"from_cache", cached},
+                    {"seconds", 0.01},
+                    {"unknowns", 1000},
+                    {"jump_unknowns", 100},
+                    {"bytes", 80000},
+                    {"peak_bytes", 1000000}});
     has_operator = true;
   }
   reply(channel, {{"event", "started"}, {"run", run}});
   if (!obey(channel, title, run)) return;
   usleep(static_cast<useconds_t>(1e6 * scene.value("seconds", 0.0)));
-  const auto result = faultsweep::testing::made_up_result(scene.value("strength", 0.3),
-                                                          scene.value("steps", 12));
-  reply(channel, {{"event", "done"}, {"run", run}, {"result", faultsim::result_to_json(result)},
+  const auto result =
+      faultsweep::testing::made_up_result(scene.value("strength", 0.3), scene.value("steps", 12));
+  reply(channel, {{"event", "done"},
+                  {"run", run},
+                  {"result", faultsim::result_to_json(result)},
                   {"seconds", 0.001}});
 }
 

@@ -46,7 +46,8 @@ TEST_F(Running, ReadingCommandsAnswer) {
   const auto counts = nlohmann::json::parse(status.out);
   EXPECT_EQ(counts["done"], 3);
   EXPECT_EQ(counts["failed"], 1);
-  const auto rank = faultsweep({"rank", "--by", "chi_bar", "--where", "strength > 0.005", "--json"});
+  const auto rank =
+      faultsweep({"rank", "--by", "chi_bar", "--where", "strength > 0.005", "--json"});
   EXPECT_EQ(nlohmann::json::parse(rank.out)["cases"][0]["case"], 4);
   const auto show = faultsweep({"show", "sweep/2"});
   EXPECT_THAT(show.out, HasSubstr("killed by SIGSEGV (11)"));
@@ -55,7 +56,8 @@ TEST_F(Running, ReadingCommandsAnswer) {
   EXPECT_THAT(faultsweep({"explain", "1"}).out, HasSubstr("will not run: it has a result"));
   EXPECT_THAT(faultsweep({"explain", "2"}).out, HasSubstr("faultsweep retry sweep --case 2"));
   EXPECT_EQ(faultsweep({"retry"}).out, "1\n");
-  EXPECT_THAT(faultsweep({"explain", "2"}).out, HasSubstr("will run: it waits for another attempt"));
+  EXPECT_THAT(faultsweep({"explain", "2"}).out,
+              HasSubstr("will run: it waits for another attempt"));
   EXPECT_EQ(faultsweep({"show", "99"}).code, 2);
   EXPECT_EQ(faultsweep({"rank", "--by", "nonsense"}).code, 2);
   EXPECT_EQ(faultsweep({"rank", "--where", "chi_bar > 3 bar"}).code, 2);
@@ -68,15 +70,18 @@ TEST_F(Trouble, EveryKindOfFailureIsARowAndTheOthersAreDone) {
   Policy policy;
   policy.time_limit = 1;
   policy.memory_limit = 3e8;
-  const std::vector<std::string> titles = {"good", "crash",   "good",   "garbage", "good", "exit", "hang",
-                                           "good", "allocate", "refuse", "good",    "killed", "noise"};
+  const std::vector<std::string> titles = {"good", "crash",  "good", "garbage",  "good",
+                                           "exit", "hang",   "good", "allocate", "refuse",
+                                           "good", "killed", "noise"};
   const std::int64_t campaign = submit(titles, 0, policy);
   const auto end = faultsweep({"run", "--workers", "2"});
   EXPECT_EQ(end.code, 1) << end.err;
   Store store = Store::open_reader(store_);
   EXPECT_EQ(store.campaign("").n_done, 6);
   EXPECT_EQ(store.campaign("").n_failed, 7);
-  const auto run_of = [&](const char* position) { return store.stored_case(campaign, position).runs.at(0); };
+  const auto run_of = [&](const char* position) {
+    return store.stored_case(campaign, position).runs.at(0);
+  };
   EXPECT_EQ(run_of("2").reason, "killed by SIGSEGV (11)");
   EXPECT_EQ(run_of("4").status, "garbled");
   EXPECT_EQ(run_of("6").exit_code, 7);
@@ -101,7 +106,8 @@ TEST_F(Trouble, ASimulatorThatDoesNotStartStopsTheCampaign) {
   const auto dead = faultsweep({"run", "-w", "1"}, [] { setenv("FAKE_SIMULATOR_START", "9", 1); });
   EXPECT_EQ(dead.code, 4) << dead.err;
   EXPECT_THAT(dead.err, HasSubstr("before it said hello"));
-  const auto missing = faultsweep({"run", "-w", "1"}, [] { setenv("FAULTSIM_BINARY", "/no/faultsim", 1); });
+  const auto missing =
+      faultsweep({"run", "-w", "1"}, [] { setenv("FAULTSIM_BINARY", "/no/faultsim", 1); });
   EXPECT_EQ(missing.code, 4);
   EXPECT_EQ(Store::open_reader(store_).campaign("").n_waiting, 10);
 }
@@ -146,7 +152,8 @@ TEST_F(Killing, AKilledManagerIsReplacedWithoutAHuman) {
   EXPECT_EQ(end.code, 0) << end.err;
   expect_each_case_completed_once(campaign, 200);
   std::string kinds;
-  for (const EventRecord& event : Store::open_reader(store_).events(campaign, 20)) kinds += event.kind + " ";
+  for (const EventRecord& event : Store::open_reader(store_).events(campaign, 20))
+    kinds += event.kind + " ";
   EXPECT_THAT(kinds, HasSubstr("restart"));
   EXPECT_THAT(kinds, HasSubstr("takeover"));
 }

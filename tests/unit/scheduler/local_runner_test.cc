@@ -86,7 +86,8 @@ TEST_F(LocalRunnerTest, EachKindOfDeathHasItsReason) {
     const char* reason;
   } deaths[] = {
       {"exit", RunStatus::crashed, "ended with exit code 7"},
-      {"killed", RunStatus::memory, "killed by SIGKILL (9), as the kernel does when memory runs out"},
+      {"killed", RunStatus::memory,
+       "killed by SIGKILL (9), as the kernel does when memory runs out"},
       {"garbage", RunStatus::garbled, "wrote 'Residual norm 1.2e-3', which is no reply"},
       {"half", RunStatus::garbled, "wrote '{\"event\": \"do', which is no reply"},
       {"wrong run", RunStatus::garbled, "replied to run 123456789 out of turn"},

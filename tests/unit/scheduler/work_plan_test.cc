@@ -154,10 +154,9 @@ TEST(WorkPlan, DecidesEveryCaseExactlyOnceUnderRandomTrouble) {
       families.push_back(family(1000 * f + 1, n, dice(10), dice(2) == 0));
       n_cases += n;
     }
-    WorkPlan plan(families, {.n_workers = 3,
-                             .memory_bytes = 2e9,
-                             .on_failure = FailureAction::retry,
-                             .retries = 1});
+    WorkPlan plan(
+        families,
+        {.n_workers = 3, .memory_bytes = 2e9, .on_failure = FailureAction::retry, .retries = 1});
     std::set<std::int64_t> decided;
     std::vector<std::deque<std::int64_t>> queues(3);
     for (int turn = 0; turn < 100000 && !plan.is_finished(); ++turn) {

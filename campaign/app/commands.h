@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "campaign/report/ranking_report.h"
+#include "campaign/scheduler/ranks.h"
+#include "simulator/common/exit_code.h"
+
+/// The commands of faultsweep: each prints its data on stdout, its talk on stderr, and returns the
+/// exit code. Errors are thrown (common/errors.h).
+namespace faultsweep {
+
+using faultsim::ExitCode;
+
+/// What all commands share.
+struct StoreArguments {
+  std::filesystem::path store;  ///< --store, FAULTSWEEP_STORE or ./faultsweep-store.
+  std::string campaign;         ///< "" = the newest.
+  bool json = false;
+};
+
+ExitCode init_command(const std::filesystem::path& folder);
+struct SubmitArguments {
+  std::string spec;
+  bool dry_run = false;
+};
+ExitCode submit_command(const StoreArguments& common, const SubmitArguments& arguments);
+ExitCode run_command(const StoreArguments& common, RunOptions options, int argc, char** argv);
+ExitCode status_command(const StoreArguments& common);
+ExitCode rank_command(const StoreArguments& common, const RankRequest& request, bool list_metrics);
+/// @param name  case number, beginning of an identity, or CAMPAIGN/either.
+ExitCode show_command(const StoreArguments& common, const std::string& name);
+ExitCode explain_command(const StoreArguments& common, const std::string& name);
+struct RetryArguments {
+  bool unconverged = false;
+  std::optional<long> position;
+};
+ExitCode retry_command(const StoreArguments& common, const RetryArguments& arguments);
+ExitCode cancel_command(const StoreArguments& common);
+ExitCode cache_list_command(const StoreArguments& common);
+ExitCode cache_verify_command(const StoreArguments& common);
+/// @param size  "20 GB", "500 MB", "0".
+ExitCode cache_prune_command(const StoreArguments& common, const std::string& size);
+ExitCode backup_command(const StoreArguments& common, const std::filesystem::path& target);
+
+}  // namespace faultsweep

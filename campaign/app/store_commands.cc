@@ -1,0 +1,219 @@
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "campaign/app/commands.h"
+#include "campaign/report/case_report.h"
+#include "campaign/report/status_report.h"
+#include "campaign/report/text_table.h"
+#include "campaign/scheduler/starter.h"
+#include "campaign/store/clock.h"
+#include "simulator/output/operator_cache.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+using faultsim::InputError;
+using nlohmann::json;
+
+namespace {
+
+void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
+void print(const json& document) { print(document.dump(2) + "\n"); }
+
+/// A case addressed as CASE or CAMPAIGN/CASE.
+struct NamedCase {
+  CampaignInfo campaign;
+  StoredCase stored;
+};
+
+NamedCase find_case(const Store& store, const StoreArguments& common, const std::string& name) {
+  const std::size_t slash = name.rfind('/');
+  const bool has_campaign = slash != std::string::npos;
+  NamedCase found;
+  found.campaign = store.campaign(has_campaign ? name.substr(0, slash) : common.campaign);
+  found.stored = store.stored_case(found.campaign.id, has_campaign ? name.substr(slash + 1) : name);
+  return found;
+}
+
+/// The faultsim binary: FAULTSIM_BINARY, or the one beside this program.
+std::filesystem::path simulator_binary() {
+  if (const char* given = std::getenv("FAULTSIM_BINARY")) return std::filesystem::absolute(given);
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "faultsim";
+}
+
+std::uint64_t parse_size(const std::string& text) {
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  std::string unit(end);
+  unit.erase(0, unit.find_first_not_of(' ') == std::string::npos ? unit.size()
+                                                                 : unit.find_first_not_of(' '));
+  const double factor = unit == "GB" ? 1e9 : unit == "MB" ? 1e6 : unit == "kB" ? 1e3 : 1;
+  const bool known = factor != 1 || (unit.empty() && number == 0) || unit == "B";
+  if (end == text.c_str() || !(number >= 0) || number > 1e9 || !known) {
+    throw InputError("--max-size",
+                     {{"", 0, concat("\"", text, "\" is no size"), "write \"20 GB\" or 0"}});
+  }
+  return static_cast<std::uint64_t>(number * factor);
+}
+
+}  // namespace
+
+ExitCode run_command(const StoreArguments& common, RunOptions options, int argc, char** argv) {
+  options.store = common.store;
+  options.campaign = common.campaign;
+  if (options.simulator.empty()) options.simulator = simulator_binary();
+  if (is_rank()) return run_ranks(argc, argv, options);
+  const ExitCode status = start_ranks(options);
+  const std::string name = Store::open_reader(common.store).campaign(options.campaign).name;
+  switch (status) {
+    case ExitCode::done:
+    case ExitCode::incomplete:
+      std::fprintf(stderr, "Next: faultsweep rank %s --store %s\n", name.c_str(),
+                   common.store.c_str());
+      break;
+    case ExitCode::interrupted:
+      std::fprintf(stderr, "Interrupted, nothing is lost. Next: faultsweep run %s --store %s\n",
+                   name.c_str(), common.store.c_str());
+      break;
+    default:
+      break;
+  }
+  return status;
+}
+
+ExitCode status_command(const StoreArguments& common) {
+  const Store store = Store::open_reader(common.store);
+  const StatusReport status = make_status(store, common.campaign);
+  if (common.json) {
+    print(status_to_json(status));
+    return ExitCode::done;
+  }
+  print(status_to_text(status));
+  const CampaignInfo& c = status.campaign;
+  if (!status.manager && c.n_waiting > 0 && !c.cancelled) {
+    std::fprintf(stderr, "Next: faultsweep run %s\n", c.name.c_str());
+  } else if (c.n_done > 0) {
+    std::fprintf(stderr, "Next: faultsweep rank %s\n", c.name.c_str());
+  }
+  return ExitCode::done;
+}
+
+ExitCode rank_command(const StoreArguments& common, const RankRequest& request, bool list_metrics) {
+  if (list_metrics) {
+    common.json ? print(metrics_to_json()) : print(metrics_to_text());
+    return ExitCode::done;
+  }
+  const Store store = Store::open_reader(common.store);
+  const Ranking ranking = make_ranking(store, store.campaign(common.campaign), request);
+  if (common.json) {
+    print(ranking_to_json(ranking));
+    return ExitCode::done;
+  }
+  print(ranking_to_text(ranking));
+  const CampaignInfo& c = ranking.campaign;
+  if (c.n_waiting + c.n_failed > 0) {
+    std::fprintf(stderr, "%ld of %ld cases have no result yet (%ld failed)\n",
+                 c.n_waiting + c.n_failed, c.n_cases, c.n_failed);
+  }
+  if (!ranking.rows.empty()) {
+    std::fprintf(stderr, "Next: faultsweep show %s/%ld\n", c.name.c_str(),
+                 ranking.rows[0].position);
+  }
+  return ExitCode::done;
+}
+
+ExitCode show_command(const StoreArguments& common, const std::string& name) {
+  const Store store = Store::open_reader(common.store);
+  const NamedCase found = find_case(store, common, name);
+  common.json ? print(case_to_json(found.campaign, found.stored))
+              : print(case_to_text(found.campaign, found.stored));
+  return ExitCode::done;
+}
+
+ExitCode explain_command(const StoreArguments& common, const std::string& name) {
+  const Store store = Store::open_reader(common.store);
+  const NamedCase found = find_case(store, common, name);
+  print(explain_case(store, found.campaign, found.stored));
+  return ExitCode::done;
+}
+
+ExitCode retry_command(const StoreArguments& common, const RetryArguments& arguments) {
+  Store::open_reader(common.store);
+  Store store = Store::open_writer(common.store);
+  const CampaignInfo campaign = store.campaign(common.campaign);
+  if (const auto owner = store.owner(); owner && owner->alive && owner->campaign == campaign.id) {
+    throw faultsim::StorageError(
+        concat(campaign.name, " is running; stop it, or wait for its end"));
+  }
+  const long count = store.retry(campaign.id, arguments.unconverged, arguments.position);
+  std::printf("%ld\n", count);
+  std::fprintf(stderr, "%ld cases of %s wait again. Next: faultsweep run %s\n", count,
+               campaign.name.c_str(), campaign.name.c_str());
+  return ExitCode::done;
+}
+
+ExitCode cancel_command(const StoreArguments& common) {
+  Store::open_reader(common.store);
+  Store store = Store::open_writer(common.store);
+  const CampaignInfo campaign = store.campaign(common.campaign);
+  store.cancel(campaign.id);
+  std::fprintf(stderr,
+               "%s is cancelled: its manager, if one runs, hands out nothing more; results stay\n",
+               campaign.name.c_str());
+  return ExitCode::done;
+}
+
+ExitCode cache_list_command(const StoreArguments& common) {
+  const auto entries = faultsim::list_operators(common.store / "operators");
+  json document = json::array();
+  TextTable table({"operator", "MB", "last used"});
+  constexpr double kMegabyte = 1e6;
+  for (const faultsim::CacheEntry& entry : entries) {
+    document.push_back({{"operator", entry.fingerprint},
+                        {"bytes", entry.bytes},
+                        {"last_used_at", entry.last_used}});
+    table.add_row({entry.fingerprint, format_number(static_cast<double>(entry.bytes) / kMegabyte),
+                   format_time(static_cast<double>(entry.last_used))});
+  }
+  if (common.json) {
+    print(document);
+  } else {
+    print(table.empty() ? std::string("the cache is empty\n") : table.text());
+  }
+  return ExitCode::done;
+}
+
+ExitCode cache_verify_command(const StoreArguments& common) {
+  const std::filesystem::path folder = common.store / "operators";
+  bool sound = true;
+  for (const faultsim::CacheEntry& entry : faultsim::list_operators(folder)) {
+    std::string remark;
+    const bool good = faultsim::read_operator(folder, entry.fingerprint, &remark).has_value();
+    sound = sound && good;
+    std::printf("%s  %s\n", entry.fingerprint.c_str(), good ? "sound" : remark.c_str());
+  }
+  if (std::filesystem::exists(common.store / "campaign.sqlite")) {
+    for (const std::string& problem : Store::open_reader(common.store).integrity_problems()) {
+      sound = false;
+      std::printf("campaign.sqlite  %s\n", problem.c_str());
+    }
+  }
+  return sound ? ExitCode::done : ExitCode::world;
+}
+
+ExitCode cache_prune_command(const StoreArguments& common, const std::string& size) {
+  const auto freed = faultsim::prune_operators(common.store / "operators", parse_size(size), "");
+  std::printf("%llu\n", static_cast<unsigned long long>(freed));
+  std::fprintf(stderr, "bytes freed; what is missing is built again when it is needed\n");
+  return ExitCode::done;
+}
+
+ExitCode backup_command(const StoreArguments& common, const std::filesystem::path& target) {
+  Store::open_reader(common.store).backup_to(target);
+  std::fprintf(stderr, "backup written to %s\n", target.c_str());
+  return ExitCode::done;
+}
+
+}  // namespace faultsweep

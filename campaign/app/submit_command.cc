@@ -1,0 +1,198 @@
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "campaign/app/commands.h"
+#include "campaign/app/submission.h"
+#include "campaign/report/parameters.h"
+#include "campaign/report/text_table.h"
+#include "campaign/scheduler/resources.h"
+#include "campaign/store/clock.h"
+#include "simulator/scene/read_scene.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+using faultsim::InputError;
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* kStarterSpec = R"({
+  "format": 1,
+  "name": "starter",
+  "title": "Offset, friction and fault pressure of the starter field",
+  "base": "scene.json",
+  "set": { "/tier": "screening" },
+  "design": {
+    "kind": "grid",
+    "parameters": {
+      "offset": ["0 m", "100 m", "200 m"],
+      "friction_angle": { "from": "20 deg", "to": "35 deg", "count": 4 },
+      "fault_pressure": {
+        "variants": {
+          "mean": { "/fault_pressure": { "rule": "mean" } },
+          "min": { "/fault_pressure": { "rule": "min" } }
+        }
+      }
+    }
+  },
+  "policy": { "on_failure": "continue", "time_limit": "10 min" },
+  "metrics": { "rank_by": "activated_area" }
+}
+)";
+
+void write_new(const std::filesystem::path& path, const std::string& text) {
+  if (std::filesystem::exists(path)) {
+    throw InputError(path.string(),
+                     {{"", 0, "the file is there already", "choose another folder"}});
+  }
+  std::ofstream file(path);
+  file << text;
+  file.close();
+  if (!file) throw faultsim::StorageError(concat("cannot write ", path.string()));
+  std::printf("%s\n", path.c_str());
+}
+
+/// What a submission would do, or did.
+struct SubmitReport {
+  Submission submission;
+  std::vector<ExcludedCases> excluded;
+  std::vector<std::string> notes;
+  std::vector<long> cases_per_family;
+  long n_designed = 0, n_cached = 0;
+  double operator_seconds = 0;
+};
+
+SubmitReport make_report(const Expansion& expansion) {
+  SubmitReport report;
+  report.submission = make_submission(expansion);
+  report.excluded = expansion.excluded;
+  report.notes = expansion.notes;
+  report.n_designed = expansion.n_designed;
+  for (const Family& family : expansion.families) {
+    report.cases_per_family.push_back(static_cast<long>(family.cases.size()));
+    report.operator_seconds += family.plan.operator_seconds;
+  }
+  return report;
+}
+
+std::string report_to_text(const SubmitReport& report) {
+  const Submission& s = report.submission;
+  std::string text =
+      concat(s.name, ": ", s.cases.size(), " cases in ", s.families.size(), " families; ",
+             report.n_designed, " designed, ", s.n_excluded, " excluded, ", s.n_merged,
+             " merged as the same, ", report.n_cached, " have a result already\n");
+  for (const ExcludedCases& excluded : report.excluded) {
+    text += concat("  excluded ", excluded.n_cases, ": ", excluded.reason, "\n");
+  }
+  TextTable table({"family", "cases", "unknowns", "on faults", "operator/s", "memory/GB"});
+  constexpr std::size_t kShown = 20;
+  constexpr double kGigabyte = 1e9;
+  for (std::size_t k = 0; k < std::min(kShown, s.families.size()); ++k) {
+    const FamilyRecord& family = s.families[k];
+    table.add_row({family.fingerprint.substr(0, 8), std::to_string(report.cases_per_family[k]),
+                   std::to_string(family.unknowns), std::to_string(family.jump_unknowns),
+                   format_number(family.operator_seconds, 2),
+                   format_number(family.memory_bytes / kGigabyte, 2)});
+  }
+  text += table.text();
+  if (s.families.size() > kShown)
+    text += concat("and ", s.families.size() - kShown, " more families\n");
+  text += concat("predicted: ", format_duration(report.operator_seconds),
+                 " for the operators that are not cached, on one core\n");
+  return text;
+}
+
+json report_to_json(const SubmitReport& report) {
+  const Submission& s = report.submission;
+  json excluded = json::array();
+  for (const ExcludedCases& one : report.excluded) {
+    excluded.push_back({{"expression", one.reason}, {"cases", one.n_cases}});
+  }
+  json families = json::array();
+  for (std::size_t k = 0; k < s.families.size(); ++k) {
+    const FamilyRecord& family = s.families[k];
+    families.push_back({{"family", family.fingerprint},
+                        {"cases", report.cases_per_family[k]},
+                        {"unknowns", family.unknowns},
+                        {"jump_unknowns", family.jump_unknowns},
+                        {"predicted_operator_s", family.operator_seconds},
+                        {"predicted_memory_bytes", family.memory_bytes}});
+  }
+  return {{"campaign", s.name},
+          {"cases", s.cases.size()},
+          {"designed", report.n_designed},
+          {"excluded_cases", s.n_excluded},
+          {"excluded", excluded},
+          {"merged", s.n_merged},
+          {"cached", report.n_cached},
+          {"parameters", json::parse(s.parameters)},
+          {"families", families},
+          {"predicted_operator_s", report.operator_seconds},
+          {"notes", report.notes}};
+}
+
+long count_cached(const std::filesystem::path& store, const Submission& submission) {
+  if (!std::filesystem::exists(store / "campaign.sqlite")) return 0;
+  std::vector<std::string> identities;
+  for (const CaseRecord& one : submission.cases) identities.push_back(one.identity);
+  return Store::open_reader(store).count_cached(identities);
+}
+
+}  // namespace
+
+ExitCode init_command(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw faultsim::StorageError(concat("cannot make ", folder.string(), ": ", error.message()));
+  write_new(folder / "scene.json", faultsim::starter_scene("field"));
+  write_new(folder / "campaign.json", kStarterSpec);
+  std::fprintf(stderr, "Next: faultsweep submit %s --dry-run\n",
+               (folder / "campaign.json").c_str());
+  return ExitCode::done;
+}
+
+ExitCode submit_command(const StoreArguments& common, const SubmitArguments& arguments) {
+  SubmitReport report = make_report(expand(read_campaign(arguments.spec)));
+  if (report.submission.cases.empty()) {
+    throw InputError(arguments.spec,
+                     {{"/exclude", 0, "every case is excluded", "relax a condition"}});
+  }
+  json document;
+  if (arguments.dry_run) {
+    report.n_cached = count_cached(common.store, report.submission);
+    document = report_to_json(report);
+  } else {
+    Store store = Store::open_writer(common.store);
+    if (!store.remark().empty()) std::fprintf(stderr, "%s\n", store.remark().c_str());
+    const SubmitOutcome outcome = store.submit(report.submission);
+    if (outcome.existed) {
+      std::fprintf(stderr,
+                   "%s is in the store already: nothing added, `faultsweep run` resumes it\n",
+                   outcome.name.c_str());
+    } else if (outcome.name != report.submission.name) {
+      std::fprintf(stderr, "another campaign is called %s: this one becomes %s\n",
+                   report.submission.name.c_str(), outcome.name.c_str());
+    }
+    report.submission.name = outcome.name;
+    report.n_cached = outcome.n_cached;
+    document = report_to_json(report);
+  }
+  for (const std::string& note : report.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+  const std::string text = common.json ? document.dump(2) + "\n" : report_to_text(report);
+  std::fputs(text.c_str(), stdout);
+  if (arguments.dry_run) {
+    std::fprintf(stderr, "Nothing was stored. Next: faultsweep submit %s\n",
+                 arguments.spec.c_str());
+  } else {
+    std::fprintf(stderr, "Next: faultsweep run %s --workers %d --store %s\n",
+                 report.submission.name.c_str(), available_cores(), common.store.c_str());
+  }
+  return ExitCode::done;
+}
+
+}  // namespace faultsweep

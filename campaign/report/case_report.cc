@@ -1,0 +1,191 @@
+#include "campaign/report/case_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "campaign/report/parameters.h"
+#include "campaign/report/text_table.h"
+#include "campaign/store/clock.h"
+#include "simulator/common/errors.h"
+#include "simulator/common/fingerprint.h"
+#include "simulator/output/write_result.h"
+
+namespace faultsweep {
+
+using faultsim::CaseResult;
+using faultsim::concat;
+using faultsim::StageMetrics;
+using nlohmann::json;
+
+namespace {
+
+constexpr double kBar = 1e5;        // Pa
+constexpr double kYear = 31557600;  // s, 365.25 d
+
+std::string parameters_text(const CampaignInfo& campaign, const StoredCase& one) {
+  const auto parameters = parameters_from_json(campaign.parameters);
+  const auto labels = labels_from_json(one.parameter_labels);
+  std::string text;
+  for (std::size_t k = 0; k < parameters.size() && k < labels.size(); ++k) {
+    if (!labels[k].empty()) text += concat("  ", parameters[k].name, " = ", labels[k], "\n");
+  }
+  return text;
+}
+
+void add_stage(TextTable& table, const std::string& name, const StageMetrics& m) {
+  table.add_row({name, concat(m.first_step, "-", m.last_step),
+                 m.activated ? (m.activated_fault.empty() ? "yes" : m.activated_fault) : "no",
+                 m.activation_step ? std::to_string(*m.activation_step) : "",
+                 m.activation_pressure ? format_number(*m.activation_pressure / kBar) : "",
+                 format_number(m.chi_bar, 3), format_number(m.chi_max, 3),
+                 format_number(m.area_chi_080), format_number(m.activated_area),
+                 format_number(m.max_slip, 3), format_number(m.moment, 3),
+                 m.magnitude ? format_number(*m.magnitude, 2) : ""});
+}
+
+std::string stages_text(const CaseResult& result) {
+  TextTable table({"stage", "steps", "activated", "at step", "Δp/bar", "χ̄", "χ max",
+                   "area χ>0.8/m2", "activated/m2", "slip/m", "M0/Nm", "Mw"});
+  for (const StageMetrics& stage : result.stages) add_stage(table, stage.stage, stage);
+  add_stage(table, "whole history", result.whole);
+  return table.text();
+}
+
+std::string history_text(const CaseResult& result, std::size_t fault) {
+  TextTable table({"step", "stage", "year", "Δp/bar", "χ̄", "χ max", "area χ>0.8/m2", "slipping/m2",
+                   "activated/m2", "slip/m", "M0/Nm"});
+  for (const faultsim::StepResult& step : result.steps) {
+    std::string pressure;
+    for (const double change : step.pressure_change) {
+      pressure += (pressure.empty() ? "" : " ") + format_number(change / kBar);
+    }
+    if (fault >= step.faults.size()) {
+      table.add_row({std::to_string(step.step), step.stage, format_number(step.time / kYear),
+                     pressure, faultsim::to_string(step.outcome), "", "", "", "", "", ""});
+      continue;
+    }
+    const faultsim::FaultMetrics& m = step.faults[fault];
+    table.add_row({std::to_string(step.step), step.stage, format_number(step.time / kYear),
+                   pressure, format_number(m.chi_bar, 3), format_number(m.chi_max, 3),
+                   format_number(m.area_chi_080), format_number(m.slipping_area),
+                   format_number(m.activated_area), format_number(m.max_slip, 3),
+                   format_number(m.moment, 3)});
+  }
+  return table.text();
+}
+
+std::string runs_text(const StoredCase& one) {
+  std::string text;
+  for (const StoredRun& run : one.runs) {
+    text += concat("  attempt ", run.attempt, " (", format_time(run.ended_at), ", ",
+                   format_number(run.wall_seconds, 3), " s, rank ", run.rank, "): ", run.status,
+                   run.outcome.empty() ? "" : ", " + run.outcome,
+                   run.reason.empty() ? "" : ": " + run.reason, "\n");
+    if (!run.log_tail.empty()) {
+      text += "    last words of the simulator:\n";
+      for (std::size_t at = 0; at < run.log_tail.size();) {
+        const std::size_t end = std::min(run.log_tail.find('\n', at), run.log_tail.size());
+        text += "    | " + run.log_tail.substr(at, end - at) + "\n";
+        at = end + 1;
+      }
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string case_to_text(const CampaignInfo& campaign, const StoredCase& one) {
+  std::string text = concat("case ", one.position, " of ", campaign.name, ", ", one.state, "\n");
+  text += concat("identity ", one.identity, ", family ", one.family, "\n");
+  text += parameters_text(campaign, one);
+  if (!one.runs.empty()) text += "\nruns:\n" + runs_text(one);
+  if (!one.has_result) return text;
+  const CaseResult& result = one.result;
+  text += concat("\n", faultsim::to_string(result.outcome),
+                 result.reason.empty() ? "" : ": " + result.reason, "; ", result.steps.size(),
+                 " load steps, ", result.counts.newton_iterations, " Newton iterations\n");
+  for (const std::string& warning : result.warnings) text += "warning: " + warning + "\n";
+  if (std::isfinite(result.pressure_margin)) {
+    text += concat("activates after ", format_number(result.pressure_margin / kBar),
+                   " bar more depletion, extrapolated\n");
+  }
+  text += "\n" + stages_text(result);
+  for (std::size_t fault = 0; fault < result.fault_names.size(); ++fault) {
+    text += concat("\nfault ", result.fault_names[fault], ":\n", history_text(result, fault));
+  }
+  return text;
+}
+
+json case_to_json(const CampaignInfo& campaign, const StoredCase& one) {
+  const auto parameters = parameters_from_json(campaign.parameters);
+  const auto labels = labels_from_json(one.parameter_labels);
+  const json values = json::parse(one.parameter_values, nullptr, false);
+  json named = json::object();
+  for (std::size_t k = 0; k < parameters.size() && k < values.size(); ++k) {
+    if (values[k].is_null()) continue;
+    named[parameters[k].name] = {
+        {"value", values[k]},
+        {"unit", parameters[k].is_text ? "" : faultsim::si_unit(parameters[k].dimension)},
+        {"text", k < labels.size() ? labels[k] : ""}};
+  }
+  json runs = json::array();
+  for (const StoredRun& run : one.runs) {
+    runs.push_back({{"attempt", run.attempt},
+                    {"ended_at", run.ended_at},
+                    {"wall_s", run.wall_seconds},
+                    {"host", run.host},
+                    {"rank", run.rank},
+                    {"status", run.status},
+                    {"outcome", run.outcome.empty() ? json() : json(run.outcome)},
+                    {"reason", run.reason},
+                    {"signal", run.signal ? json(*run.signal) : json()},
+                    {"exit_code", run.exit_code ? json(*run.exit_code) : json()},
+                    {"log_tail", run.log_tail}});
+  }
+  return {{"campaign", campaign.name},
+          {"case", one.position},
+          {"identity", one.identity},
+          {"family", one.family},
+          {"state", one.state},
+          {"parameters", named},
+          {"changes", json::parse(one.changes, nullptr, false)},
+          {"runs", runs},
+          {"result", one.has_result ? faultsim::result_to_json(one.result) : json()}};
+}
+
+std::string explain_case(const Store& store, const CampaignInfo& campaign, const StoredCase& one) {
+  std::string text = concat("case ", one.position, " of ", campaign.name, " (identity ",
+                            one.identity, ", numerics version ", faultsim::kNumericsVersion, ")\n");
+  const StoredRun* last = one.runs.empty() ? nullptr : &one.runs.back();
+  if (campaign.cancelled) {
+    text += "will not run: the campaign is cancelled; submit its spec again to reopen it\n";
+  } else if (one.state == "done") {
+    text += concat("will not run: it has a result (", faultsim::to_string(one.result.outcome),
+                   ") from ", format_time(last->ended_at),
+                   "; the same scene gives the same numbers, so nothing would change\n");
+  } else if (one.state == "failed") {
+    text += concat("will not run: attempt ", last->attempt, " ", last->status, ": ", last->reason,
+                   "; `faultsweep retry ", campaign.name, " --case ", one.position,
+                   "` lets it run again\n");
+  } else if (last == nullptr) {
+    text += "will run: no scene with this identity has been run in this store\n";
+  } else {
+    text += concat("will run: it waits for another attempt after attempt ", last->attempt, " ",
+                   last->status, last->reason.empty() ? "" : ": " + last->reason, "\n");
+  }
+  for (const Store::FamilyProgress& family : store.family_progress(campaign.id)) {
+    if (family.fingerprint != one.family) continue;
+    text += concat(
+        "its family has ", family.n_cases, " cases in this campaign, ", family.n_done,
+        " done; the operator is ",
+        family.operator_fingerprint.empty() ? "not known yet" : family.operator_fingerprint, "\n");
+  }
+  std::string names;
+  for (const std::string& name : store.campaigns_with(one.id)) names += " " + name;
+  return text + "campaigns with this case:" + names + "\n";
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "campaign/expression/expression.h"
+#include "campaign/store/records.h"
+#include "simulator/common/units.h"
+
+namespace faultsweep {
+
+/// A parameter of a campaign as the store keeps it (CampaignInfo::parameters).
+struct StoredParameter {
+  std::string name;
+  faultsim::Dimension dimension = faultsim::Dimension::number;
+  bool is_text = false;
+};
+
+/// Names of dimensions in the store: "length", "pressure", ...
+std::string dimension_name(faultsim::Dimension dimension);
+faultsim::Dimension dimension_named(const std::string& name);
+
+std::string parameters_to_json(const std::vector<StoredParameter>& parameters);
+/// Throws StorageError when the text is not what parameters_to_json writes.
+std::vector<StoredParameter> parameters_from_json(const std::string& text);
+/// The labels of a case (RankedCase::parameter_labels); "" where it has no such parameter.
+std::vector<std::string> labels_from_json(const std::string& text);
+
+/// What expressions over the results of a campaign may name: all metrics, "outcome",
+/// "activated_fault", and the campaign's parameters.
+Symbols result_symbols(const CampaignInfo& campaign);
+
+}  // namespace faultsweep

@@ -1,0 +1,189 @@
+#include "campaign/report/ranking_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "campaign/report/parameters.h"
+#include "campaign/report/text_table.h"
+#include "campaign/spec/metrics.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+using faultsim::Dimension;
+using faultsim::InputError;
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* kDefaultMetric = "activated_area";
+
+Expression parse_number(const std::string& text, const Symbols& symbols) {
+  Expression expression = Expression::parse(text, symbols);
+  if (expression.type().kind == Kind::text) {
+    throw InputError("--by", {{"", 0, concat("'", text, "' is a word, not a number"),
+                               "rank by a metric of --list-metrics"}});
+  }
+  return expression;
+}
+
+void check_stage(const Store& store, const CampaignInfo& campaign, const std::string& stage) {
+  if (stage.empty()) return;
+  const std::vector<std::string> stages = store.stages(campaign.id);
+  if (std::count(stages.begin(), stages.end(), stage) > 0) return;
+  std::string names;
+  for (const std::string& name : stages) {
+    if (!name.empty()) names += (names.empty() ? "" : ", ") + name;
+  }
+  throw InputError("--stage",
+                   {{"", 0, concat("there is no stage '", stage, "' in the results"),
+                     names.empty() ? "no case has a result yet" : "there are: " + names}});
+}
+
+std::string flag_of(const RankedCase& row) {
+  std::string flag = row.outcome;
+  if (!row.weakening_resolved) flag += ", mesh too coarse for its weakening";
+  return flag;
+}
+
+std::string activation_of(const faultsim::StageMetrics& m) {
+  if (!m.activated) return "no";
+  std::string text = m.activated_fault.empty() ? "yes" : m.activated_fault;
+  if (m.activation_step) text += concat(" at step ", *m.activation_step);
+  return text;
+}
+
+json optional_json(const std::optional<double>& value) { return value ? json(*value) : json(); }
+
+}  // namespace
+
+Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankRequest request) {
+  if (request.by.empty()) request.by = campaign.rank_by.empty() ? kDefaultMetric : campaign.rank_by;
+  check_stage(store, campaign, request.stage);
+  const Symbols symbols = result_symbols(campaign);
+  Store::RankingQuery query;
+  Ranking ranking{campaign, request, request.by == kDefaultMetric && !request.ascending, {}};
+  if (!ranking.by_default) query.by = parse_number(request.by, symbols).sql();
+  if (!request.where.empty()) {
+    const Expression where = Expression::parse(request.where, symbols);
+    if (where.type().kind != Kind::boolean) {
+      throw InputError("--where", {{"", 0, concat("'", request.where, "' is no condition"),
+                                    "compare it with something: \"chi_bar > 0.8\""}});
+    }
+    query.where = where.sql();
+  }
+  query.stage = request.stage;
+  query.ascending = request.ascending;
+  query.limit = request.top;
+  ranking.rows = store.ranking(campaign.id, query);
+  return ranking;
+}
+
+std::string ranking_to_text(const Ranking& ranking) {
+  const auto parameters = parameters_from_json(ranking.campaign.parameters);
+  std::vector<std::string> header = {"rank", "case"};
+  for (const StoredParameter& parameter : parameters) header.push_back(parameter.name);
+  for (const char* name :
+       {"outcome", "activated", "area/m2", "M0/Nm", "Mw", "χ̄", "margin/bar", "slip/m"}) {
+    header.push_back(name);
+  }
+  const bool has_score = !ranking.by_default;
+  header.push_back(has_score ? ranking.request.by : "");
+  TextTable table(header);
+  int rank = 0;
+  for (const RankedCase& row : ranking.rows) {
+    const faultsim::StageMetrics& m = row.metrics;
+    // Cases without a full history are no competitors: they get no rank.
+    std::vector<std::string> cells = {row.rank_class == 0 ? std::to_string(++rank) : "*",
+                                      std::to_string(row.position)};
+    std::vector<std::string> labels = labels_from_json(row.parameter_labels);
+    labels.resize(parameters.size());
+    cells.insert(cells.end(), labels.begin(), labels.end());
+    constexpr double kBar = 1e5;
+    cells.insert(cells.end(),
+                 {flag_of(row), activation_of(m), format_number(m.activated_area),
+                  format_number(m.moment, 3), m.magnitude ? format_number(*m.magnitude, 2) : "",
+                  format_number(m.chi_bar, 3),
+                  row.pressure_margin ? format_number(*row.pressure_margin / kBar, 3) : "",
+                  format_number(m.max_slip, 3),
+                  has_score ? (row.score ? format_number(*row.score) : "-") : ""});
+    table.add_row(std::move(cells));
+  }
+  if (table.empty()) return "no case of " + ranking.campaign.name + " matches\n";
+  std::string text = table.text();
+  if (std::any_of(ranking.rows.begin(), ranking.rows.end(),
+                  [](const RankedCase& row) { return row.rank_class != 0; })) {
+    text += "* history ends early: listed apart, not ranked\n";
+  }
+  return text;
+}
+
+json ranking_to_json(const Ranking& ranking) {
+  const auto parameters = parameters_from_json(ranking.campaign.parameters);
+  json cases = json::array();
+  int rank = 0;
+  for (const RankedCase& row : ranking.rows) {
+    const faultsim::StageMetrics& m = row.metrics;
+    json values = json::object();
+    const json stored = json::parse(row.parameter_values, nullptr, false);
+    const std::vector<std::string> labels = labels_from_json(row.parameter_labels);
+    for (std::size_t k = 0; k < parameters.size() && k < stored.size(); ++k) {
+      if (stored[k].is_null()) continue;
+      values[parameters[k].name] = {
+          {"value", stored[k]},
+          {"unit", parameters[k].is_text ? "" : faultsim::si_unit(parameters[k].dimension)},
+          {"text", k < labels.size() ? labels[k] : ""}};
+    }
+    json entry = {{"rank", row.rank_class == 0 ? json(++rank) : json()},
+                  {"case", row.position},
+                  {"parameters", values},
+                  {"outcome", row.outcome},
+                  {"weakening_resolved", row.weakening_resolved},
+                  {"activated", m.activated},
+                  {"activated_fault", m.activated_fault},
+                  {"activation_step", m.activation_step ? json(*m.activation_step) : json()},
+                  {"activation_pressure_pa", optional_json(m.activation_pressure)},
+                  {"activated_area_m2", m.activated_area},
+                  {"moment_nm", m.moment},
+                  {"magnitude_mw", optional_json(m.magnitude)},
+                  {"chi_bar", m.chi_bar},
+                  {"chi_max", m.chi_max},
+                  {"area_chi_080_m2", m.area_chi_080},
+                  {"thickness_chi_080_m", m.thickness_chi_080},
+                  {"slipping_area_m2", m.slipping_area},
+                  {"open_area_m2", m.open_area},
+                  {"max_slip_m", m.max_slip},
+                  {"potency_m3", m.potency},
+                  {"pressure_margin_pa", optional_json(row.pressure_margin)}};
+    if (!ranking.by_default) entry["score"] = optional_json(row.score);
+    cases.push_back(std::move(entry));
+  }
+  return {{"campaign", ranking.campaign.name},
+          {"by", ranking.request.by},
+          {"stage", ranking.request.stage},
+          {"where", ranking.request.where},
+          {"cases", std::move(cases)}};
+}
+
+std::string metrics_to_text() {
+  TextTable table({"metric", "unit", "meaning"});
+  for (const MetricInfo& metric : metric_catalogue()) {
+    table.add_row({metric.name, metric.is_flag ? "yes/no" : faultsim::si_unit(metric.dimension),
+                   metric.description});
+  }
+  return table.text();
+}
+
+json metrics_to_json() {
+  json all = json::array();
+  for (const MetricInfo& metric : metric_catalogue()) {
+    all.push_back({{"name", metric.name},
+                   {"unit", faultsim::si_unit(metric.dimension)},
+                   {"is_flag", metric.is_flag},
+                   {"description", metric.description}});
+  }
+  return all;
+}
+
+}  // namespace faultsweep

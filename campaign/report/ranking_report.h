@@ -1,0 +1,37 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "campaign/store/store.h"
+
+namespace faultsweep {
+
+/// What `faultsweep rank` was asked.
+struct RankRequest {
+  std::string by;          ///< metric or expression of numbers; "" = the campaign's own.
+  std::string stage;       ///< "" = the whole history.
+  std::string where;       ///< condition; "" = all cases.
+  bool ascending = false;  ///< smallest first.
+  long top = 20;           ///< 0 = all.
+};
+
+/// A ranking: complete histories first, then unstable cases, then those that ended early otherwise.
+struct Ranking {
+  CampaignInfo campaign;
+  RankRequest request;
+  bool by_default = false;  ///< activated area, M0, pressure margin, χ̄.
+  std::vector<RankedCase> rows;
+};
+
+/// Asks the store. Throws InputError on a wrong expression or an unknown stage.
+Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankRequest request);
+
+std::string ranking_to_text(const Ranking& ranking);
+/// SI throughout, units in key names.
+nlohmann::json ranking_to_json(const Ranking& ranking);
+/// The metrics that rank --by and --where know, with unit and meaning.
+std::string metrics_to_text();
+nlohmann::json metrics_to_json();
+
+}  // namespace faultsweep

@@ -1,0 +1,136 @@
+#include "campaign/report/status_report.h"
+
+#include <nlohmann/json.hpp>
+
+#include "campaign/report/text_table.h"
+#include "campaign/store/clock.h"
+#include "simulator/common/errors.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+using nlohmann::json;
+
+StatusReport make_status(const Store& store, const std::string& campaign) {
+  constexpr int kEvents = 10;
+  StatusReport status;
+  status.campaign = store.campaign(campaign);
+  if (auto owner = store.owner()) {
+    if (!owner->alive) {
+      status.manager_died = true;
+    } else if (owner->campaign == status.campaign.id) {
+      status.manager = std::move(owner);
+    }
+  }
+  status.failures = store.failure_counts(status.campaign.id);
+  status.families = store.family_progress(status.campaign.id);
+  status.events = store.events(status.campaign.id, kEvents);
+  for (const CampaignInfo& other : store.campaigns()) {
+    if (other.id != status.campaign.id) status.others.push_back(other.name);
+  }
+  return status;
+}
+
+namespace {
+
+std::string manager_text(const StatusReport& status) {
+  if (status.manager_died) return "the last manager died; `faultsweep run` takes over\n";
+  if (!status.manager) return "";
+  const json progress = json::parse(status.manager->progress, nullptr, false);
+  std::string text = concat("running: process ", status.manager->pid, " on ", status.manager->host,
+                            ", ", status.manager->n_workers, " workers");
+  if (progress.is_object() && progress.contains("seconds_left")) {
+    text += concat(", ", format_number(progress.value("cases_per_second", 0.0), 3), " cases/s, ",
+                   format_duration(progress.value("seconds_left", 0.0)), " left\n");
+    TextTable table({"rank", "host", "state", "cases at hand", "family"});
+    for (const json& worker : progress.value("workers", json::array())) {
+      const json& family = worker.at("family");
+      table.add_row({std::to_string(worker.at("rank").get<int>()), worker.at("host"),
+                     worker.at("state"), std::to_string(worker.at("cases_at_hand").get<long>()),
+                     family.is_string() ? family.get<std::string>().substr(0, 8) : ""});
+    }
+    return text + table.text();
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string status_to_text(const StatusReport& status) {
+  const CampaignInfo& c = status.campaign;
+  std::string text = concat(c.name, ": ", c.n_cases, " cases, ", c.n_done, " done (", c.n_converged,
+                            " converged), ", c.n_failed, " failed, ", c.n_waiting, " waiting",
+                            c.cancelled ? "; cancelled" : "", "\n");
+  text += concat("submitted ", format_time(c.submitted_at), " from ", c.source, ", ",
+                 status.families.size(), " families, ", c.n_excluded, " excluded, ", c.n_merged,
+                 " merged, on failure: ", to_string(c.policy.on_failure), "\n");
+  text += manager_text(status);
+  if (!status.failures.empty()) {
+    TextTable table({"cases", "ended", "why"});
+    for (const FailureCount& failure : status.failures) {
+      table.add_row({std::to_string(failure.count), failure.status, failure.reason});
+    }
+    text += "\nwithout a full result:\n" + table.text();
+  }
+  if (!status.events.empty()) {
+    text += "\nlast events:\n";
+    for (const EventRecord& event : status.events) {
+      text += concat("  ", format_time(event.at), "  ", event.kind, ": ", event.text, "\n");
+    }
+  }
+  if (!status.others.empty()) {
+    text += "\nother campaigns:";
+    for (const std::string& name : status.others) text += " " + name;
+    text += "\n";
+  }
+  return text;
+}
+
+json status_to_json(const StatusReport& status) {
+  const CampaignInfo& c = status.campaign;
+  json failures = json::array();
+  for (const FailureCount& failure : status.failures) {
+    failures.push_back(
+        {{"status", failure.status}, {"reason", failure.reason}, {"cases", failure.count}});
+  }
+  json families = json::array();
+  for (const auto& family : status.families) {
+    families.push_back({{"family", family.fingerprint},
+                        {"operator", family.operator_fingerprint},
+                        {"cases", family.n_cases},
+                        {"done", family.n_done},
+                        {"failed", family.n_failed},
+                        {"build_s", family.build_seconds ? json(*family.build_seconds) : json()}});
+  }
+  json events = json::array();
+  for (const EventRecord& event : status.events) {
+    events.push_back({{"at", event.at}, {"kind", event.kind}, {"text", event.text}});
+  }
+  json manager;
+  if (status.manager) {
+    manager = {{"host", status.manager->host},
+               {"pid", status.manager->pid},
+               {"workers", status.manager->n_workers},
+               {"heartbeat_at", status.manager->heartbeat_at},
+               {"progress", json::parse(status.manager->progress, nullptr, false)}};
+  }
+  return {{"campaign", c.name},
+          {"submitted_at", c.submitted_at},
+          {"source", c.source},
+          {"cancelled", c.cancelled},
+          {"cases", c.n_cases},
+          {"done", c.n_done},
+          {"converged", c.n_converged},
+          {"failed", c.n_failed},
+          {"waiting", c.n_waiting},
+          {"excluded", c.n_excluded},
+          {"merged", c.n_merged},
+          {"manager", manager},
+          {"manager_died", status.manager_died},
+          {"failures", failures},
+          {"families", families},
+          {"events", events},
+          {"other_campaigns", status.others}};
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "campaign/store/store.h"
+
+namespace faultsweep {
+
+/// How a campaign stands, for `faultsweep status`.
+struct StatusReport {
+  CampaignInfo campaign;
+  std::optional<OwnerInfo> manager;  ///< the living manager, if it runs this campaign.
+  bool manager_died = false;         ///< there is an owner, but it is gone.
+  std::vector<FailureCount> failures;
+  std::vector<Store::FamilyProgress> families;
+  std::vector<EventRecord> events;  ///< newest first.
+  std::vector<std::string> others;  ///< names of the store's other campaigns.
+};
+
+StatusReport make_status(const Store& store, const std::string& campaign);
+std::string status_to_text(const StatusReport& status);
+nlohmann::json status_to_json(const StatusReport& status);
+
+}  // namespace faultsweep
