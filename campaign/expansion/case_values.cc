@@ -15,8 +15,7 @@ Value as_value(const Choice& choice) {
 
 CaseValues::CaseValues(const CampaignSpec& spec, const Group& group) : spec_(spec), group_(group) {
   if (spec.derived.empty() && spec.exclude.empty()) return;
-  for (const auto& info :
-       faultsim::parameters({spec.scene_source, group.scene, spec.base.lines})) {
+  for (const auto& info : faultsim::parameters({spec.scene_source, group.scene, spec.base.lines})) {
     infos_[info.pointer] = info;
     const auto parsed = faultsim::parse_quantity(info.value, info.dimension);
     if (info.is_text) {
@@ -68,8 +67,8 @@ CaseValues::Source CaseValues::source_of(const std::string& name) const {
       for (const Change& change : choice.changes) {
         if (change.pointer != pointer) continue;
         touched = true;
-        const std::string text = change.value.is_string() ? change.value.get<std::string>()
-                                                          : change.value.dump();
+        const std::string text =
+            change.value.is_string() ? change.value.get<std::string>() : change.value.dump();
         if (info == infos_.end()) continue;
         const auto parsed = faultsim::parse_quantity(text, info->second.dimension);
         values.back() = info->second.is_text ? Value(text)

@@ -22,10 +22,10 @@ class CaseValues {
  private:
   /// Where a name's value comes from.
   struct Source {
-    int derived = -1;                        ///< index into CampaignSpec::derived, or
-    int parameter = -1;                      ///< index into the group's parameters, or neither:
-    std::vector<Value> choices;              ///< of that parameter: value per choice
-    Value base;                              ///< the value otherwise.
+    int derived = -1;            ///< index into CampaignSpec::derived, or
+    int parameter = -1;          ///< index into the group's parameters, or neither:
+    std::vector<Value> choices;  ///< of that parameter: value per choice
+    Value base;                  ///< the value otherwise.
   };
   Source source_of(const std::string& name) const;
   std::vector<Source> sources_of(const Expression& expression) const;
@@ -33,10 +33,10 @@ class CaseValues {
 
   const CampaignSpec& spec_;
   const Group& group_;
-  std::map<std::string, faultsim::ParameterInfo> infos_;   ///< by scene pointer.
-  std::map<std::string, Value> base_;              ///< scene pointer -> value in the group's scene.
-  std::vector<std::vector<Source>> derived_;       ///< per derived parameter and name.
-  std::vector<std::vector<Source>> exclude_;       ///< per exclusion and name.
+  std::map<std::string, faultsim::ParameterInfo> infos_;  ///< by scene pointer.
+  std::map<std::string, Value> base_;         ///< scene pointer -> value in the group's scene.
+  std::vector<std::vector<Source>> derived_;  ///< per derived parameter and name.
+  std::vector<std::vector<Source>> exclude_;  ///< per exclusion and name.
 };
 
 }  // namespace faultsweep

@@ -11,16 +11,14 @@
 namespace faultsweep {
 namespace {
 
-constexpr std::size_t kAllChoices = 16;     ///< up to here every choice is read.
+constexpr std::size_t kAllChoices = 16;  ///< up to here every choice is read.
 constexpr std::size_t kMaximumCorners = 128;
 constexpr long kSpreadRows = 32;
 
 /// As canonical_scene writes a number.
 std::string number_text(double value) { return nlohmann::json(value == 0 ? 0.0 : value).dump(); }
 
-std::string preamble() {
-  return faultsim::concat("numerics ", faultsim::kNumericsVersion, "\n");
-}
+std::string preamble() { return faultsim::concat("numerics ", faultsim::kNumericsVersion, "\n"); }
 
 std::set<std::size_t> leaves_of(const std::vector<std::pair<std::size_t, std::string>>& change) {
   std::set<std::size_t> leaves;
@@ -139,9 +137,8 @@ void Composer::find_number_effects(Template& one) {
       const auto si = parameter.choices[static_cast<std::size_t>(choice)].si;
       if (leaves.empty()) leaves = leaves_of(*change);
       is_number = si && leaves == leaves_of(*change) &&
-                  std::all_of(change->begin(), change->end(), [&](const auto& place) {
-                    return place.second == number_text(*si);
-                  });
+                  std::all_of(change->begin(), change->end(),
+                              [&](const auto& place) { return place.second == number_text(*si); });
     }
     if (!is_number) continue;
     one.effects[p].is_number = true;
@@ -234,7 +231,8 @@ bool Composer::find_structure() {
       const bool meet = std::any_of(leaves[p].begin(), leaves[p].end(),
                                     [&](std::size_t leaf) { return leaves[q].count(leaf) != 0; });
       if (!meet || structural_[p] || structural_[q]) continue;
-      const bool q_smaller = group_.parameters[q].choices.size() < group_.parameters[p].choices.size();
+      const bool q_smaller =
+          group_.parameters[q].choices.size() < group_.parameters[p].choices.size();
       structural_[q_smaller ? q : p] = true;
     }
   }

@@ -43,7 +43,7 @@ class Composer {
   using Difference = std::vector<std::pair<std::size_t, std::string>>;  // leaf, its text
   /// What the choices of one parameter change in a template.
   struct Effect {
-    bool is_number = false;             ///< every choice writes its own number into `leaves`.
+    bool is_number = false;  ///< every choice writes its own number into `leaves`.
     std::vector<std::size_t> leaves;
     std::unordered_map<int, std::optional<Difference>> known;
   };
@@ -51,8 +51,8 @@ class Composer {
     Row reference;
     std::vector<double> derived;
     CanonicalPieces pieces;
-    std::vector<Effect> effects;                            ///< per parameter.
-    std::vector<std::vector<std::size_t>> derived_leaves;   ///< per derived parameter.
+    std::vector<Effect> effects;                           ///< per parameter.
+    std::vector<std::vector<std::size_t>> derived_leaves;  ///< per derived parameter.
   };
 
   std::optional<std::string> exact_text(const Row& row, const std::vector<double>& derived);
@@ -73,10 +73,10 @@ class Composer {
   const CaseValues& values_;
   long n_rows_ = 0;
   Row reference_;
-  std::vector<bool> structural_;   ///< per parameter: has templates of its own.
-  std::map<Row, std::optional<Template>> templates_;   ///< by the structural choices.
-  std::vector<std::string> scratch_;      ///< texts of numbers of the row at hand.
-  std::string text_;                      ///< composed text of the row at hand.
+  std::vector<bool> structural_;                      ///< per parameter: has templates of its own.
+  std::map<Row, std::optional<Template>> templates_;  ///< by the structural choices.
+  std::vector<std::string> scratch_;                  ///< texts of numbers of the row at hand.
+  std::string text_;                                  ///< composed text of the row at hand.
 };
 
 /// Up to n choices of a parameter, always with the first, last, smallest and largest.

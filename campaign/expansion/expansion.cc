@@ -19,9 +19,9 @@ namespace {
 using faultsim::Problem;
 using nlohmann::json;
 
-constexpr long kRowsReadOneByOne = 400;  ///< beyond, identities are composed (composer.h).
+constexpr long kRowsReadOneByOne = 400;    ///< beyond, identities are composed (composer.h).
 constexpr std::size_t kChoicesTried = 64;  ///< per parameter; the extremes are among them.
-constexpr int kMaximumWrongCases = 20;   ///< of cases wrong only as a combination.
+constexpr int kMaximumWrongCases = 20;     ///< of cases wrong only as a combination.
 constexpr std::size_t kMaximumProblems = 100;
 
 class Expander {
@@ -97,8 +97,7 @@ class Expander {
         add(found);
         if (++n_wrong < kMaximumWrongCases) continue;
         add({{group.pointer, result_.spec.document.line_of(group.pointer),
-              "more combinations may be wrong: checking stopped after " +
-                  std::to_string(n_wrong),
+              "more combinations may be wrong: checking stopped after " + std::to_string(n_wrong),
               "exclude them or change the values"}});
         return;
       }
@@ -148,8 +147,8 @@ class Expander {
     if (!is_new) {
       ++result_.n_merged;
       if (first_merged_.empty()) {
-        first_merged_ = builder.describe(row) + " is the same as case " +
-                        std::to_string(known->second);
+        first_merged_ =
+            builder.describe(row) + " is the same as case " + std::to_string(known->second);
       }
       return true;
     }
@@ -161,10 +160,9 @@ class Expander {
 
   void write_notes() {
     if (result_.n_merged > 0) {
-      result_.notes.push_back(std::to_string(result_.n_merged) +
-                              (result_.n_merged == 1 ? " case is" : " cases are") +
-                              " the same as an earlier one and run once (the first: " +
-                              first_merged_ + ")");
+      result_.notes.push_back(
+          std::to_string(result_.n_merged) + (result_.n_merged == 1 ? " case is" : " cases are") +
+          " the same as an earlier one and run once (the first: " + first_merged_ + ")");
     }
     for (const ExcludedCases& one : result_.excluded) {
       if (one.n_cases == 0) {
@@ -222,7 +220,8 @@ nlohmann::json scene_of(const Expansion& expansion, const Case& one) {
 }
 
 std::string base_fingerprint(const Expansion& expansion, int group) {
-  return faultsim::fingerprint(expansion.spec.groups.at(static_cast<std::size_t>(group)).scene.dump());
+  return faultsim::fingerprint(
+      expansion.spec.groups.at(static_cast<std::size_t>(group)).scene.dump());
 }
 
 nlohmann::json scene_from_changes(const std::string& base, const std::string& changes) {

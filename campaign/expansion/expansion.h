@@ -20,24 +20,24 @@ struct ParameterValue {
 /// One case: small, because there may be 10^6. Its parameter vector and its scene are made on
 /// demand by the functions below.
 struct Case {
-  int index = 0;               ///< from 0, in design order, without gaps.
-  int group = 0;               ///< into CampaignSpec::groups.
-  int family = 0;              ///< into Expansion::families.
-  std::string identity;        ///< faultsim::case_identity of its scene.
-  std::vector<int> choices;    ///< per parameter of the group; -1 = the base value.
-  std::vector<double> derived; ///< SI, per CampaignSpec::derived.
+  int index = 0;                ///< from 0, in design order, without gaps.
+  int group = 0;                ///< into CampaignSpec::groups.
+  int family = 0;               ///< into Expansion::families.
+  std::string identity;         ///< faultsim::case_identity of its scene.
+  std::vector<int> choices;     ///< per parameter of the group; -1 = the base value.
+  std::vector<double> derived;  ///< SI, per CampaignSpec::derived.
 };
 
 /// The cases that share a linear bulk, hence an operator.
 struct Family {
-  std::string fingerprint;     ///< faultsim::Plan::family.
-  faultsim::Plan plan;         ///< of its first case: sizes and predicted cost.
-  std::vector<int> cases;      ///< indices into Expansion::cases, ascending.
+  std::string fingerprint;  ///< faultsim::Plan::family.
+  faultsim::Plan plan;      ///< of its first case: sizes and predicted cost.
+  std::vector<int> cases;   ///< indices into Expansion::cases, ascending.
 };
 
 /// Cases left out by one `exclude` expression. A case counts for the first that is true.
 struct ExcludedCases {
-  std::string reason;          ///< the expression's text.
+  std::string reason;  ///< the expression's text.
   long n_cases = 0;
 };
 
@@ -45,11 +45,11 @@ struct ExcludedCases {
 struct Expansion {
   CampaignSpec spec;
   std::vector<Case> cases;
-  std::vector<Family> families;          ///< in order of first use.
-  std::vector<ExcludedCases> excluded;   ///< per CampaignSpec::exclude.
-  long n_designed = 0;                   ///< cases before exclusion and merging.
-  long n_merged = 0;                     ///< cases dropped as the same as an earlier one.
-  std::vector<std::string> notes;        ///< what the user should know: merged cases, ...
+  std::vector<Family> families;         ///< in order of first use.
+  std::vector<ExcludedCases> excluded;  ///< per CampaignSpec::exclude.
+  long n_designed = 0;                  ///< cases before exclusion and merging.
+  long n_merged = 0;                    ///< cases dropped as the same as an earlier one.
+  std::vector<std::string> notes;       ///< what the user should know: merged cases, ...
 };
 
 /// Expands a spec. Throws InputError with all problems: values that the scene does not accept (each

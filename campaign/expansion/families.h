@@ -31,8 +31,8 @@ class FamilyFinder {
   SceneBuilder& builder_;
   std::vector<Family>& families_;
   std::map<std::string, int>& by_fingerprint_;
-  std::vector<bool> relevant_;           ///< per parameter: may change the family.
-  std::vector<bool> derived_relevant_;   ///< per derived parameter.
+  std::vector<bool> relevant_;          ///< per parameter: may change the family.
+  std::vector<bool> derived_relevant_;  ///< per derived parameter.
   std::map<std::vector<double>, int> by_key_;
 };
 

@@ -21,7 +21,8 @@ class SceneBuilder {
   std::vector<Change> changes(const Row& row, const std::vector<double>& derived) const;
   /// The scene document of a row; valid until the next call.
   const faultsim::JsonDocument& document(const Row& row, const std::vector<double>& derived);
-  /// The checked scene of a row; problems (in terms of the spec) are appended, and then it is empty.
+  /// The checked scene of a row; problems (in terms of the spec) are appended, and then it is
+  /// empty.
   std::optional<faultsim::Scene> scene(const Row& row, const std::vector<double>& derived,
                                        std::vector<faultsim::Problem>& problems);
   /// Puts a problem of a row's scene where the spec's author can mend it: the value in the design,

@@ -16,8 +16,11 @@ class Checker {
   void check(Node& node) {
     for (auto& child : node.children) check(*child);
     switch (node.operation) {
-      case Operation::literal: return;
-      case Operation::name: node.type = name_types_[node.name]; return;
+      case Operation::literal:
+        return;
+      case Operation::name:
+        node.type = name_types_[node.name];
+        return;
       case Operation::negate:
       case Operation::absolute:
         require_number(*node.children[0]);
@@ -26,18 +29,36 @@ class Checker {
       case Operation::add:
       case Operation::subtract:
       case Operation::minimum:
-      case Operation::maximum: check_same(node); return;
-      case Operation::multiply: check_product(node, 1); return;
-      case Operation::divide: check_product(node, -1); return;
-      case Operation::power: check_power(node); return;
-      case Operation::square_root: check_square_root(node); return;
+      case Operation::maximum:
+        check_same(node);
+        return;
+      case Operation::multiply:
+        check_product(node, 1);
+        return;
+      case Operation::divide:
+        check_product(node, -1);
+        return;
+      case Operation::power:
+        check_power(node);
+        return;
+      case Operation::square_root:
+        check_square_root(node);
+        return;
       case Operation::log10:
-      case Operation::exponential: check_argument(node, Dimension::number); return;
-      case Operation::tangent: check_argument(node, Dimension::angle); return;
+      case Operation::exponential:
+        check_argument(node, Dimension::number);
+        return;
+      case Operation::tangent:
+        check_argument(node, Dimension::angle);
+        return;
       case Operation::logical_and:
       case Operation::logical_or:
-      case Operation::logical_not: check_logical(node); return;
-      default: check_comparison(node); return;
+      case Operation::logical_not:
+        check_logical(node);
+        return;
+      default:
+        check_comparison(node);
+        return;
     }
   }
 
@@ -72,10 +93,10 @@ class Checker {
     std::string cure = "both sides need the same dimension";
     for (const auto& [bare, other] : {std::pair(&left, &right), std::pair(&right, &left)}) {
       if (bare->operation != Operation::literal || bare->type.units != Units{}) continue;
-      for (const Dimension dimension : {Dimension::length, Dimension::area, Dimension::pressure,
-                                        Dimension::pressure_gradient, Dimension::density,
-                                        Dimension::angle, Dimension::time, Dimension::viscosity,
-                                        Dimension::moment, Dimension::potency}) {
+      for (const Dimension dimension :
+           {Dimension::length, Dimension::area, Dimension::pressure, Dimension::pressure_gradient,
+            Dimension::density, Dimension::angle, Dimension::time, Dimension::viscosity,
+            Dimension::moment, Dimension::potency}) {
         if (units_of(dimension) != other->type.units) continue;
         const std::string number = text_.substr(bare->position, bare->end - bare->position);
         const std::string unit = faultsim::usual_unit(dimension);
@@ -152,8 +173,7 @@ class Checker {
     require_number(argument);
     if (argument.type.units != units_of(wanted)) {
       const bool angle = wanted == Dimension::angle;
-      fail(argument, sentence(argument) + ", but the function takes " +
-                         describe(units_of(wanted)),
+      fail(argument, sentence(argument) + ", but the function takes " + describe(units_of(wanted)),
            angle ? "write for example tan(30 deg)" : "divide by a unit first");
     }
     node.type = Type{};

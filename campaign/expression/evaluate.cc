@@ -20,20 +20,34 @@ bool is_missing(const Value& value) { return std::holds_alternative<std::monosta
 
 double arithmetic(Operation operation, double a, double b) {
   switch (operation) {
-    case Operation::negate: return -a;
-    case Operation::add: return a + b;
-    case Operation::subtract: return a - b;
-    case Operation::multiply: return a * b;
-    case Operation::divide: return a / b;
-    case Operation::power: return std::pow(a, b);
-    case Operation::minimum: return std::min(a, b);
-    case Operation::maximum: return std::max(a, b);
-    case Operation::absolute: return std::abs(a);
-    case Operation::square_root: return std::sqrt(a);
-    case Operation::log10: return std::log10(a);
-    case Operation::exponential: return std::exp(a);
-    case Operation::tangent: return std::tan(a);
-    default: FAULTSIM_DEMAND(false, "operation ", static_cast<int>(operation));
+    case Operation::negate:
+      return -a;
+    case Operation::add:
+      return a + b;
+    case Operation::subtract:
+      return a - b;
+    case Operation::multiply:
+      return a * b;
+    case Operation::divide:
+      return a / b;
+    case Operation::power:
+      return std::pow(a, b);
+    case Operation::minimum:
+      return std::min(a, b);
+    case Operation::maximum:
+      return std::max(a, b);
+    case Operation::absolute:
+      return std::abs(a);
+    case Operation::square_root:
+      return std::sqrt(a);
+    case Operation::log10:
+      return std::log10(a);
+    case Operation::exponential:
+      return std::exp(a);
+    case Operation::tangent:
+      return std::tan(a);
+    default:
+      FAULTSIM_DEMAND(false, "operation ", static_cast<int>(operation));
   }
   return 0;
 }
@@ -57,12 +71,18 @@ Value evaluate_comparison(const Node& node, const Lookup& lookup) {
   if (is_missing(left) || is_missing(right)) return std::monostate{};
   FAULTSIM_DEMAND(left.index() == right.index(), "kinds ", left.index(), " ", right.index());
   switch (node.operation) {
-    case Operation::less: return left < right;
-    case Operation::less_equal: return left <= right;
-    case Operation::greater: return left > right;
-    case Operation::greater_equal: return left >= right;
-    case Operation::equal: return left == right;
-    default: return left != right;
+    case Operation::less:
+      return left < right;
+    case Operation::less_equal:
+      return left <= right;
+    case Operation::greater:
+      return left > right;
+    case Operation::greater_equal:
+      return left >= right;
+    case Operation::equal:
+      return left == right;
+    default:
+      return left != right;
   }
 }
 
@@ -81,7 +101,8 @@ Value evaluate_logical(const Node& node, const Lookup& lookup) {
 
 Value evaluate_node(const Node& node, const Lookup& lookup) {
   switch (node.operation) {
-    case Operation::literal: return node.literal;
+    case Operation::literal:
+      return node.literal;
     case Operation::name: {
       Value value = lookup(node.name);
       if (const auto* real = std::get_if<double>(&value)) return number(*real);
@@ -92,11 +113,14 @@ Value evaluate_node(const Node& node, const Lookup& lookup) {
     case Operation::greater:
     case Operation::greater_equal:
     case Operation::equal:
-    case Operation::not_equal: return evaluate_comparison(node, lookup);
+    case Operation::not_equal:
+      return evaluate_comparison(node, lookup);
     case Operation::logical_and:
     case Operation::logical_or:
-    case Operation::logical_not: return evaluate_logical(node, lookup);
-    default: return evaluate_arithmetic(node, lookup);
+    case Operation::logical_not:
+      return evaluate_logical(node, lookup);
+    default:
+      return evaluate_arithmetic(node, lookup);
   }
 }
 

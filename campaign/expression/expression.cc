@@ -12,7 +12,7 @@ using faultsim::Dimension;
 
 struct NamedUnits {
   Dimension dimension;
-  Units units;   // length, mass, time, angle
+  Units units;  // length, mass, time, angle
   const char* name;
 };
 

@@ -14,7 +14,8 @@
 #include "simulator/common/errors.h"
 #include "simulator/common/units.h"
 
-/// The one expression grammar of faultsweep: `rank --where`, exclusions, derived parameters, scores.
+/// The one expression grammar of faultsweep: `rank --where`, exclusions, derived parameters,
+/// scores.
 ///
 ///   or         := and ("or" and)*
 ///   and        := not ("and" not)*
@@ -47,7 +48,7 @@ enum class Kind { number, boolean, text };
 /// The type of a (sub)expression.
 struct Type {
   Kind kind = Kind::number;
-  Units units = {};             ///< kind number only.
+  Units units = {};  ///< kind number only.
   bool operator==(const Type&) const = default;
 };
 Type number_type(faultsim::Dimension dimension);
@@ -58,7 +59,7 @@ using Value = std::variant<std::monostate, double, bool, std::string>;
 
 /// What a name stands for.
 struct Symbol {
-  std::string sql;   ///< column expression, trusted; empty where SQL is not wanted.
+  std::string sql;  ///< column expression, trusted; empty where SQL is not wanted.
   Type type;
 };
 using Symbols = std::map<std::string, Symbol>;
@@ -107,11 +108,12 @@ class Expression {
  private:
   std::string text_;
   std::vector<std::string> names_;
-  std::vector<std::string> columns_;   ///< Symbol::sql per name.
+  std::vector<std::string> columns_;  ///< Symbol::sql per name.
   std::shared_ptr<const Node> root_;
 };
 
 /// The candidate nearest to word, if near enough to be meant: at most a third of its letters wrong.
-std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& candidates);
+std::optional<std::string> nearest(std::string_view word,
+                                   const std::vector<std::string>& candidates);
 
 }  // namespace faultsweep

@@ -38,19 +38,19 @@ enum class Operation {
 
 struct Node {
   Operation operation = Operation::literal;
-  std::size_t position = 0;   ///< byte offset in the text of what to point at.
-  std::size_t end = 0;        ///< one past the last byte of a literal or name.
-  Type type;                  ///< set by the parser for literals, by check for the rest.
+  std::size_t position = 0;  ///< byte offset in the text of what to point at.
+  std::size_t end = 0;       ///< one past the last byte of a literal or name.
+  Type type;                 ///< set by the parser for literals, by check for the rest.
   Value literal;
-  std::string quoted;         ///< literal in quotes: what stood between them.
+  std::string quoted;  ///< literal in quotes: what stood between them.
   bool is_quoted = false;
-  std::size_t name = 0;       ///< into the names.
+  std::size_t name = 0;  ///< into the names.
   std::vector<std::unique_ptr<Node>> children;
 };
 
 struct ParsedText {
   std::unique_ptr<Node> root;
-  std::vector<std::string> names;   ///< each once, in order of appearance.
+  std::vector<std::string> names;  ///< each once, in order of appearance.
 };
 
 /// Text to tree. Throws ExpressionError on syntax only; known_names serve suggestions.

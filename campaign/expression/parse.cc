@@ -14,10 +14,9 @@ constexpr std::size_t kMaximumLength = 10'000;
 constexpr int kMaximumDepth = 200;
 
 constexpr std::array kDimensions = {
-    Dimension::length,    Dimension::area,     Dimension::pressure,
-    Dimension::pressure_gradient, Dimension::density, Dimension::angle,
-    Dimension::time,      Dimension::viscosity, Dimension::moment,
-    Dimension::potency};
+    Dimension::length,  Dimension::area,   Dimension::pressure, Dimension::pressure_gradient,
+    Dimension::density, Dimension::angle,  Dimension::time,     Dimension::viscosity,
+    Dimension::moment,  Dimension::potency};
 
 const std::array<std::pair<const char*, Operation>, 7> kFunctions = {{
     {"min", Operation::minimum},
@@ -99,9 +98,9 @@ class Parser {
   std::string_view peek_word() const {
     std::size_t end = position_;
     if (at_end() || !is_letter(text_[end])) return {};
-    while (end < text_.size() && (is_letter(text_[end]) || is_digit(text_[end]) ||
-                                  (text_[end] == '.' && end + 1 < text_.size() &&
-                                   is_letter(text_[end + 1])))) {
+    while (end < text_.size() &&
+           (is_letter(text_[end]) || is_digit(text_[end]) ||
+            (text_[end] == '.' && end + 1 < text_.size() && is_letter(text_[end + 1])))) {
       ++end;
     }
     return std::string_view(text_).substr(position_, end - position_);
@@ -266,7 +265,8 @@ class Parser {
   NodePointer parse_quoted() {
     const std::size_t start = position_;
     const std::size_t close = text_.find(text_[start], start + 1);
-    if (close == std::string::npos) fail(start, "this quote is not closed", "add the closing quote");
+    if (close == std::string::npos)
+      fail(start, "this quote is not closed", "add the closing quote");
     const std::string inside = text_.substr(start + 1, close - start - 1);
     position_ = close + 1;
     const bool may_be_number = !inside.empty() && (is_digit(inside[0]) || inside[0] == '-' ||
@@ -328,8 +328,7 @@ class Parser {
     }
     for (const bool with_slash : {true, false}) {
       const std::size_t end = end_of_unit(position_, with_slash);
-      const auto quantity =
-          read_quantity(digits + " " + text_.substr(position_, end - position_));
+      const auto quantity = read_quantity(digits + " " + text_.substr(position_, end - position_));
       if (!quantity) continue;
       position_ = end;
       return make_literal(start, quantity->value, quantity->type);
@@ -402,11 +401,11 @@ class Parser {
       if (!at_end()) fail_unexpected();
       fail(open, "this \"(\" is not closed", "add \")\"");
     }
-    const bool many =
-        found->second == Operation::minimum || found->second == Operation::maximum;
+    const bool many = found->second == Operation::minimum || found->second == Operation::maximum;
     if (many ? node->children.size() < 2 : node->children.size() != 1) {
-      fail(start, word + " takes " + (many ? "two or more values" : "one value") + ", not " +
-                      std::to_string(node->children.size()),
+      fail(start,
+           word + " takes " + (many ? "two or more values" : "one value") + ", not " +
+               std::to_string(node->children.size()),
            many ? "write " + word + "(a, b)" : "write " + word + "(a)");
     }
     return node;

@@ -5,36 +5,60 @@ namespace {
 
 const char* infix(Operation operation) {
   switch (operation) {
-    case Operation::add: return " + ";
-    case Operation::subtract: return " - ";
-    case Operation::multiply: return " * ";
-    case Operation::divide: return " / ";
-    case Operation::less: return " < ";
-    case Operation::less_equal: return " <= ";
-    case Operation::greater: return " > ";
-    case Operation::greater_equal: return " >= ";
-    case Operation::equal: return " = ";
-    case Operation::not_equal: return " <> ";
-    case Operation::logical_and: return " AND ";
-    case Operation::logical_or: return " OR ";
-    default: return nullptr;
+    case Operation::add:
+      return " + ";
+    case Operation::subtract:
+      return " - ";
+    case Operation::multiply:
+      return " * ";
+    case Operation::divide:
+      return " / ";
+    case Operation::less:
+      return " < ";
+    case Operation::less_equal:
+      return " <= ";
+    case Operation::greater:
+      return " > ";
+    case Operation::greater_equal:
+      return " >= ";
+    case Operation::equal:
+      return " = ";
+    case Operation::not_equal:
+      return " <> ";
+    case Operation::logical_and:
+      return " AND ";
+    case Operation::logical_or:
+      return " OR ";
+    default:
+      return nullptr;
   }
 }
 
 /// What stands before the arguments of the others.
 const char* opening(Operation operation) {
   switch (operation) {
-    case Operation::power: return "pow(";
-    case Operation::minimum: return "min(";
-    case Operation::maximum: return "max(";
-    case Operation::absolute: return "abs(";
-    case Operation::square_root: return "sqrt(";
-    case Operation::log10: return "log10(";
-    case Operation::exponential: return "exp(";
-    case Operation::tangent: return "tan(";
-    case Operation::negate: return "(-";
-    case Operation::logical_not: return "(NOT ";
-    default: return nullptr;
+    case Operation::power:
+      return "pow(";
+    case Operation::minimum:
+      return "min(";
+    case Operation::maximum:
+      return "max(";
+    case Operation::absolute:
+      return "abs(";
+    case Operation::square_root:
+      return "sqrt(";
+    case Operation::log10:
+      return "log10(";
+    case Operation::exponential:
+      return "exp(";
+    case Operation::tangent:
+      return "tan(";
+    case Operation::negate:
+      return "(-";
+    case Operation::logical_not:
+      return "(NOT ";
+    default:
+      return nullptr;
   }
 }
 

@@ -14,7 +14,7 @@ using nlohmann::json;
 /// "40 GPa" in its two parts.
 struct NumberAndUnit {
   long double number = 0;
-  std::string unit;   ///< "" for a plain number.
+  std::string unit;  ///< "" for a plain number.
 };
 std::optional<NumberAndUnit> split(const json& value) {
   const std::string text = scalar_text(value);
@@ -68,8 +68,8 @@ std::optional<Parameter> SpecReader::read_parameter(const std::string& pointer,
       if (value.contains(kind)) found.emplace_back(kind);
     }
     if (found.size() != 1) {
-      const std::string what = found.empty() ? "says not how it varies"
-                                             : "has both " + found[0] + " and " + found[1];
+      const std::string what =
+          found.empty() ? "says not how it varies" : "has both " + found[0] + " and " + found[1];
       problem(pointer, "\"" + name + "\" " + what,
               "give one of values, from/to/count, scale/factors, variants");
     } else if (found[0] == "scale") {
@@ -85,19 +85,25 @@ std::optional<Parameter> SpecReader::read_parameter(const std::string& pointer,
         read_range(names, parameter);
       }
     }
-    for (const auto& [key, owner] : {std::pair("to", "from"), std::pair("count", "from"),
-                                     std::pair("spacing", "from"), std::pair("factors", "scale")}) {
-      if (value.contains(key) && !value.contains(owner)) {
-        problem(pointer + "/" + key, std::string(key) + " needs " + owner,
-                std::string("add ") + owner + " or remove " + key);
-      }
-    }
-    if (value.contains("pointers") && (value.contains("scale") || value.contains("variants"))) {
-      problem(pointer + "/pointers", "pointers go with values or a range", "remove pointers");
-    }
+    check_stray_keys(pointer);
   }
   if (problems_.size() > n_problems) return std::nullopt;
   return parameter;
+}
+
+/// Keys that do nothing without another one.
+void SpecReader::check_stray_keys(const std::string& pointer) {
+  const json& value = at(pointer);
+  for (const auto& [key, owner] : {std::pair("to", "from"), std::pair("count", "from"),
+                                   std::pair("spacing", "from"), std::pair("factors", "scale")}) {
+    if (value.contains(key) && !value.contains(owner)) {
+      problem(pointer + "/" + key, std::string(key) + " needs " + owner,
+              std::string("add ") + owner + " or remove " + key);
+    }
+  }
+  if (value.contains("pointers") && (value.contains("scale") || value.contains("variants"))) {
+    problem(pointer + "/pointers", "pointers go with values or a range", "remove pointers");
+  }
 }
 
 void SpecReader::read_targets(const SceneNames& names, Parameter& parameter) {
@@ -135,8 +141,7 @@ void SpecReader::set_base_choice(const SceneNames& names, Parameter& parameter) 
 }
 
 std::optional<Choice> SpecReader::make_choice(const json& value, const std::string& pointer,
-                                              const SceneNames& names,
-                                              const Parameter& parameter) {
+                                              const SceneNames& names, const Parameter& parameter) {
   Choice choice;
   choice.text = value.is_structured() ? value.dump() : scalar_text(value);
   choice.pointer = pointer;
@@ -202,10 +207,10 @@ void SpecReader::read_range(const SceneNames& names, Parameter& parameter) {
     problem(pointer + "/to", "the range is empty: from and to are the same", "give two values");
     return;
   }
-  const long double end = first->unit == last->unit
-                              ? last->number
-                              : static_cast<long double>(faultsim::from_si(
-                                    *to->si, parameter.dimension, first->unit));
+  const long double end =
+      first->unit == last->unit
+          ? last->number
+          : static_cast<long double>(faultsim::from_si(*to->si, parameter.dimension, first->unit));
   const bool log = has(pointer + "/spacing") && at(pointer + "/spacing") == "log";
   if (log && (first->number <= 0 || end <= 0)) {
     problem(pointer + "/spacing", "a log range needs values above zero", "write \"linear\"");
@@ -247,7 +252,8 @@ void SpecReader::read_scale(const SceneNames& names, Parameter& parameter) {
     if (base.is_null() && info != nullptr) base = info->value;
     const auto parts = base.is_primitive() && !base.is_null() ? split(base) : std::nullopt;
     if (!parts) {
-      problem(here, *target + " has no number in the base scene to multiply", "give values instead");
+      problem(here, *target + " has no number in the base scene to multiply",
+              "give values instead");
       continue;
     }
     scaled.push_back({*target, *parts});
@@ -257,8 +263,10 @@ void SpecReader::read_scale(const SceneNames& names, Parameter& parameter) {
   parameter.base = {"1", 1.0, "/base", {}};
   const json& factors = at(parameter.pointer + "/factors");
   for (std::size_t i = 0; i < factors.size(); ++i) {
-    Choice choice{factors[i].dump(), factors[i].get<double>(),
-                  parameter.pointer + "/factors/" + std::to_string(i), {}};
+    Choice choice{factors[i].dump(),
+                  factors[i].get<double>(),
+                  parameter.pointer + "/factors/" + std::to_string(i),
+                  {}};
     const long double factor = std::strtold(choice.text.c_str(), nullptr);
     for (const Scaled& one : scaled) {
       choice.changes.push_back({one.pointer, with_unit(one.base.number * factor, one.base.unit)});

@@ -31,8 +31,7 @@ void SpecReader::collect_identifiers() {
   };
   for (const Group& group : spec_.groups) {
     for (const Parameter& parameter : group.parameters) {
-      const Type type =
-          parameter.is_text ? Type{Kind::text, {}} : number_type(parameter.dimension);
+      const Type type = parameter.is_text ? Type{Kind::text, {}} : number_type(parameter.dimension);
       const bool own = parameter.has_own_values || parameter.targets.empty();
       add(parameter.name, own ? "" : parameter.targets.front(), type);
       for (const SpecIdentifier& one : spec_.identifiers) {
@@ -64,9 +63,8 @@ void SpecReader::add_other_aliases(const std::string& text) {
     const auto end = std::find_if_not(begin, text.end(), in_name);
     const std::string word(begin, end);
     begin = end;
-    const bool known =
-        std::any_of(spec_.identifiers.begin(), spec_.identifiers.end(),
-                    [&](const SpecIdentifier& one) { return one.name == word; });
+    const bool known = std::any_of(spec_.identifiers.begin(), spec_.identifiers.end(),
+                                   [&](const SpecIdentifier& one) { return one.name == word; });
     if (known || word.empty()) continue;
     try {
       const std::string pointer = faultsim::resolve_parameter(names.document, word);
@@ -113,9 +111,10 @@ void SpecReader::read_derived() {
     const Type type = expression->type();
     if (type != number_type(info->dimension)) {
       const std::string is = type.kind == Kind::number ? describe(type.units) : "no number";
-      problem(place, "the expression is " + is + ", but " + key + " is " +
-                         describe(units_of(info->dimension)),
-              "make the dimensions agree");
+      problem(
+          place,
+          "the expression is " + is + ", but " + key + " is " + describe(units_of(info->dimension)),
+          "make the dimensions agree");
     }
     for (const Group& group : spec_.groups) {
       for (const Parameter& parameter : group.parameters) {

@@ -9,7 +9,7 @@ namespace faultsweep {
 
 /// A number (or flag) per case and stage that `rank` can order and filter by.
 struct MetricInfo {
-  std::string name;                ///< field of faultsim::StageMetrics or CaseResult.
+  std::string name;  ///< field of faultsim::StageMetrics or CaseResult.
   faultsim::Dimension dimension;
   bool is_flag = false;
   std::string description;

@@ -57,7 +57,7 @@ void SpecReader::read_groups(const std::string& pointer, const std::string& pref
 }
 
 void SpecReader::read_list(const std::string& pointer, const SceneNames& names, Group& group) {
-  std::map<std::string, int> columns;  // parameter -> column; -1 = unknown, reported
+  std::map<std::string, int> columns;             // parameter -> column; -1 = unknown, reported
   std::vector<std::map<std::string, int>> known;  // per column: JSON text of a value -> choice
   const std::size_t n_cases = at(pointer).size();
   for (std::size_t i = 0; i < n_cases; ++i) {
@@ -68,7 +68,8 @@ void SpecReader::read_list(const std::string& pointer, const SceneNames& names, 
       auto column = columns.find(name);
       if (column == columns.end()) {
         const auto target = resolve(names, name, place);
-        column = columns.emplace(name, target ? static_cast<int>(group.parameters.size()) : -1).first;
+        column =
+            columns.emplace(name, target ? static_cast<int>(group.parameters.size()) : -1).first;
         if (!target) continue;
         Parameter parameter;
         parameter.name = name;
@@ -88,7 +89,8 @@ void SpecReader::read_list(const std::string& pointer, const SceneNames& names, 
         auto made = make_choice(value, place, names, parameter);
         if (!made) continue;
         if (!made->si) parameter.is_text = true;
-        choice = known[index].emplace(value.dump(), static_cast<int>(parameter.choices.size())).first;
+        choice =
+            known[index].emplace(value.dump(), static_cast<int>(parameter.choices.size())).first;
         parameter.choices.push_back(std::move(*made));
       }
       row[index] = choice->second;

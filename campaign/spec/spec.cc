@@ -28,10 +28,14 @@ std::string unescape(const std::string& token) {
 
 const char* kind_name(DesignKind kind) {
   switch (kind) {
-    case DesignKind::grid: return "grid";
-    case DesignKind::list: return "list";
-    case DesignKind::zip: return "zip";
-    case DesignKind::one_at_a_time: return "one-at-a-time";
+    case DesignKind::grid:
+      return "grid";
+    case DesignKind::list:
+      return "list";
+    case DesignKind::zip:
+      return "zip";
+    case DesignKind::one_at_a_time:
+      return "one-at-a-time";
   }
   faultsim::throw_internal("known design", "", __FILE__, __LINE__);
 }

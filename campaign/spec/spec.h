@@ -19,27 +19,27 @@ inline constexpr long kMaximumCases = 1'000'000;
 
 /// One value put into the scene document.
 struct Change {
-  std::string pointer;   ///< JSON Pointer into the scene.
+  std::string pointer;  ///< JSON Pointer into the scene.
   nlohmann::json value;
 };
 
 /// One value of a parameter and what it does to the scene.
 struct Choice {
-  std::string text;           ///< as given: "100 m", "0.5", "mean".
-  std::optional<double> si;   ///< SI; nothing for words.
-  std::string pointer;        ///< into the spec, for messages.
+  std::string text;          ///< as given: "100 m", "0.5", "mean".
+  std::optional<double> si;  ///< SI; nothing for words.
+  std::string pointer;       ///< into the spec, for messages.
   std::vector<Change> changes;
 };
 
 /// Something that varies between cases.
 struct Parameter {
-  std::string name;           ///< alias, JSON Pointer or a name of the spec's own.
-  std::string pointer;        ///< into the spec.
-  std::vector<std::string> targets;   ///< scene pointers that its choices may change.
+  std::string name;                  ///< alias, JSON Pointer or a name of the spec's own.
+  std::string pointer;               ///< into the spec.
+  std::vector<std::string> targets;  ///< scene pointers that its choices may change.
   faultsim::Dimension dimension = faultsim::Dimension::number;  ///< of Choice::si.
-  bool is_text = false;       ///< its choices are words, without si.
+  bool is_text = false;         ///< its choices are words, without si.
   bool has_own_values = false;  ///< factors or variants: its value is not that of its targets.
-  Choice base;                ///< the value where a design leaves the parameter alone; no changes.
+  Choice base;  ///< the value where a design leaves the parameter alone; no changes.
   std::vector<Choice> choices;
 };
 
@@ -59,12 +59,12 @@ enum class DesignKind {
 /// One design on one scene. A spec without groups has a single group named "".
 struct Group {
   std::string name;
-  std::string pointer;        ///< of its design in the spec.
-  nlohmann::json scene;       ///< the base with all `set` applied.
-  std::vector<Origin> origins;            ///< what `set` put there, for messages.
+  std::string pointer;          ///< of its design in the spec.
+  nlohmann::json scene;         ///< the base with all `set` applied.
+  std::vector<Origin> origins;  ///< what `set` put there, for messages.
   DesignKind kind = DesignKind::grid;
-  std::vector<Parameter> parameters;      ///< in document order.
-  std::vector<std::vector<int>> rows;     ///< list: choice per parameter, -1 = its base value.
+  std::vector<Parameter> parameters;   ///< in document order.
+  std::vector<std::vector<int>> rows;  ///< list: choice per parameter, -1 = its base value.
 };
 
 /// `exclude`: cases for which the expression is true are left out.
@@ -77,8 +77,8 @@ struct Exclusion {
 /// `derived`: a scene parameter computed from others.
 struct Derived {
   std::string name;
-  std::string pointer;         ///< into the spec.
-  std::string scene_pointer;   ///< what it sets.
+  std::string pointer;        ///< into the spec.
+  std::string scene_pointer;  ///< what it sets.
   std::string text;
   faultsim::Dimension dimension = faultsim::Dimension::number;
   Expression expression;
@@ -87,41 +87,42 @@ struct Derived {
 /// A name that expressions of the spec may use.
 struct SpecIdentifier {
   std::string name;
-  std::string scene_pointer;   ///< "" for a parameter with a name of its own.
+  std::string scene_pointer;  ///< "" for a parameter with a name of its own.
   Type type;
 };
 
 enum class FailureAction {
-  proceed,   ///< "continue": note it and go on.
-  abort,     ///< stop the campaign.
-  retry,     ///< again, up to Policy::retries times.
+  proceed,  ///< "continue": note it and go on.
+  abort,    ///< stop the campaign.
+  retry,    ///< again, up to Policy::retries times.
 };
 
 struct Policy {
   FailureAction on_failure = FailureAction::proceed;
   int retries = 1;
-  std::optional<double> time_limit;     ///< s per case.
-  std::optional<double> memory_limit;   ///< bytes per simulator process.
+  std::optional<double> time_limit;    ///< s per case.
+  std::optional<double> memory_limit;  ///< bytes per simulator process.
 };
 
 enum class KeepFields { none, stages, all };
 
 struct CampaignSpec {
-  std::string name;          ///< [A-Za-z0-9._-]+
+  std::string name;  ///< [A-Za-z0-9._-]+
   std::string title;
-  std::string source;        ///< file name, for messages.
-  std::string given;         ///< the text as given.
-  std::string scene_source;  ///< what relative paths in the scene start from (JsonDocument::source).
+  std::string source;  ///< file name, for messages.
+  std::string given;   ///< the text as given.
+  std::string
+      scene_source;  ///< what relative paths in the scene start from (JsonDocument::source).
   std::vector<Group> groups;
   std::vector<Exclusion> exclude;
-  std::vector<Derived> derived;              ///< ordered so that each uses only earlier ones.
-  std::vector<SpecIdentifier> identifiers;   ///< what exclude and derived may name.
+  std::vector<Derived> derived;             ///< ordered so that each uses only earlier ones.
+  std::vector<SpecIdentifier> identifiers;  ///< what exclude and derived may name.
   Policy policy;
-  std::string rank_by = "activated_area";    ///< an expression over metrics.h.
+  std::string rank_by = "activated_area";  ///< an expression over metrics.h.
   KeepFields keep_fields = KeepFields::none;
-  faultsim::JsonDocument document;           ///< the spec, for pointers and lines.
-  faultsim::JsonDocument base;               ///< the base scene as given.
-  bool base_is_inline = false;               ///< base is document's /base.
+  faultsim::JsonDocument document;  ///< the spec, for pointers and lines.
+  faultsim::JsonDocument base;      ///< the base scene as given.
+  bool base_is_inline = false;      ///< base is document's /base.
 
   /// The second of the three copies (design section 8): JSON text in which every alias is a
   /// pointer, every range its values, and every group carries its scene.

@@ -17,9 +17,8 @@ SceneNames::SceneNames(JsonDocument scene) : document(std::move(scene)) {
 }
 
 const faultsim::ParameterInfo* SceneNames::find(const std::string& scene_pointer) const {
-  const auto found = std::find_if(infos.begin(), infos.end(), [&](const auto& info) {
-    return info.pointer == scene_pointer;
-  });
+  const auto found = std::find_if(infos.begin(), infos.end(),
+                                  [&](const auto& info) { return info.pointer == scene_pointer; });
   return found == infos.end() ? nullptr : &*found;
 }
 
@@ -65,10 +64,9 @@ bool SpecReader::is_sound(const std::string& pointer) const {
 
 void SpecReader::problem(const std::string& pointer, const std::string& what,
                          const std::string& cure) {
-  const bool known =
-      std::any_of(problems_.begin(), problems_.end(), [&](const Problem& other) {
-        return other.pointer == pointer && other.what == what;
-      });
+  const bool known = std::any_of(problems_.begin(), problems_.end(), [&](const Problem& other) {
+    return other.pointer == pointer && other.what == what;
+  });
   if (!known) problems_.push_back({pointer, spec_.document.line_of(pointer), what, cure});
 }
 
@@ -130,7 +128,8 @@ void SpecReader::read_base() {
     if (!spec_.base.value.is_object()) problem("/base", "the base scene is no object", "");
   } catch (const faultsim::InputError& error) {
     for (const Problem& one : error.problems()) {
-      problem("/base", faultsim::format_problems(error.source(), {{one.pointer, one.line, one.what, ""}}),
+      problem("/base",
+              faultsim::format_problems(error.source(), {{one.pointer, one.line, one.what, ""}}),
               one.cure);
     }
   }

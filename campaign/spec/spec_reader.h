@@ -9,8 +9,8 @@
 #include "campaign/spec/spec.h"
 #include "simulator/scene/read_scene.h"
 
-/// Inside of the module: the steps from a spec's document to a CampaignSpec. Problems are collected,
-/// each once; what depends on a wrong value is left out.
+/// Inside of the module: the steps from a spec's document to a CampaignSpec. Problems are
+/// collected, each once; what depends on a wrong value is left out.
 namespace faultsweep {
 
 /// A group's scene while its design is read: what its parameters are called and worth.
@@ -66,6 +66,7 @@ class SpecReader {
   // choices.cc
   std::optional<Parameter> read_parameter(const std::string& pointer, const std::string& name,
                                           const SceneNames& names);
+  void check_stray_keys(const std::string& pointer);
   void read_targets(const SceneNames& names, Parameter& parameter);
   void read_values(const std::string& pointer, const SceneNames& names, Parameter& parameter);
   void read_range(const SceneNames& names, Parameter& parameter);
@@ -88,7 +89,7 @@ class SpecReader {
   std::optional<Expression> parse(const std::string& pointer, const Symbols& symbols);
 
   CampaignSpec spec_;
-  nlohmann::ordered_json ordered_;   ///< the document with its keys in order.
+  nlohmann::ordered_json ordered_;  ///< the document with its keys in order.
   std::vector<faultsim::Problem> problems_;
 };
 
