@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct VerifyCase {
   bool slow = false;                ///< takes more than about 20 s.
   std::function<void(SceneRunner&, VerifyReport&)> evaluate;
 };
+
+/// How tests print a case.
+inline void PrintTo(const VerifyCase& verify_case, std::ostream* out) { *out << verify_case.name; }
 
 /// All cases in the order of docs/verification.md.
 const std::vector<VerifyCase>& verify_cases();

@@ -83,6 +83,16 @@ std::vector<std::vector<std::string>> table_of(const VerifyReport& report) {
   return table;
 }
 
+/// '|' would end a cell of a Markdown table.
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '|') result += '\\';
+    result += c;
+  }
+  return result;
+}
+
 }  // namespace
 
 std::string report_to_text(const VerifyReport& report) {
@@ -114,7 +124,7 @@ std::string report_to_markdown(const VerifyReport& report) {
   bool header = true;
   for (const auto& row : table_of(report)) {
     text += "|";
-    for (const std::string& cell : row) text += " " + cell + " |";
+    for (const std::string& cell : row) text += " " + escaped(cell) + " |";
     text += "\n";
     if (header) text += "|---|---|---|---|---|---|\n";
     header = false;
