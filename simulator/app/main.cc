@@ -75,13 +75,14 @@ ExitCode faultsim_main(int argc, char** argv) {
   worker_app->callback([&] { code = worker_command(worker); });
 
   std::vector<std::string> names;
-  bool list = false, json = false, slow = false;
+  bool list = false, json = false, slow = false, markdown = false;
   CLI::App* verify = app.add_subcommand("verify", "run the verification problems against closed forms");
   verify->add_option("names", names, "V1 V2 … (default: all)");
   verify->add_flag("--list", list, "list the problems");
   verify->add_flag("--json", json, "machine-readable output");
   verify->add_flag("--slow", slow, "also the members that take minutes");
-  verify->callback([&] { code = verify_command(names, list, json, slow); });
+  verify->add_flag("--markdown", markdown, "tables as in docs/verification.md");
+  verify->callback([&] { code = verify_command(names, list, json, slow, markdown); });
 
   try {
     app.parse(argc, argv);

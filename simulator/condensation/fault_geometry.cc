@@ -101,6 +101,25 @@ OperatorFault fault_grid(const FaultSurface& fault, int first_node) {
   return grid;
 }
 
+/// Nodes that a boundary holds closed have no jump: for the contact solve they are like unsplit ones.
+void drop_locked_nodes(FaultGeometry& geometry, OperatorFault& grid) {
+  std::vector<int> renumbered;
+  const auto begin = geometry.nodes.begin() + grid.first_node;
+  auto kept = begin;
+  for (auto node = begin; node != geometry.nodes.end(); ++node) {
+    const bool locked = node->dof == std::array<int, 3>{-1, -1, -1};
+    renumbered.push_back(locked ? -1 : static_cast<int>(kept - geometry.nodes.begin()));
+    if (locked) continue;
+    if (kept != node) *kept = std::move(*node);
+    ++kept;
+  }
+  geometry.nodes.erase(kept, geometry.nodes.end());
+  for (int& node : grid.grid_node) {
+    if (node >= 0) node = renumbered[static_cast<std::size_t>(node - grid.first_node)];
+  }
+  grid.n_nodes = static_cast<int>(geometry.nodes.size()) - grid.first_node;
+}
+
 }  // namespace
 
 FaultGeometry fault_geometry(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
@@ -129,6 +148,7 @@ FaultGeometry fault_geometry(const Mesh& mesh, const std::vector<ElasticMaterial
       geometry.nodes.push_back(std::move(node));
     }
     average_over_faces(mesh, materials, fault, geometry.nodes.data() + first_node);
+    drop_locked_nodes(geometry, geometry.faults.back());
   }
   return geometry;
 }

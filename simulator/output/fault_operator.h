@@ -52,7 +52,7 @@ struct FaultGeometry {
   int n_dofs = 0;
   bool plane_strain = false;
   bool half_domain = false;            ///< areas, potency and M0 are to be doubled.
-  std::vector<Eigen::Vector3d> locked_positions;  ///< nodes that a boundary forced to stay closed.
+  std::vector<Eigen::Vector3d> locked_positions;  ///< nodes that a boundary holds closed; not in nodes.
 };
 
 /// A displacement component observed at a node of the mesh.
