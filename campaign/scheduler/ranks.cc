@@ -124,6 +124,8 @@ ExitCode manager_rank(Messenger& messenger, const RunOptions& options) {
     in_order = false;
   }
   leave_status(options, status);
+  // mpirun, which would be asked by MPI_Abort, is tearing us down already.
+  if (torn_down != 0) std::_Exit(static_cast<int>(status));
   if (!in_order) messenger.abort(static_cast<int>(status));
   for (int rank = 1; rank < messenger.size(); ++rank) messenger.send(rank, message::Quit{});
   messenger.finish();

@@ -53,32 +53,33 @@ class StopSignals {
   struct sigaction before_[kCount];
 };
 
-/// A file in the temporary folder, removed at the end.
-class StatusFile {
+/// A temporary folder for the status file and mpirun's session files, removed at the end: a killed
+/// mpirun leaves its files behind.
+class ScratchFolder {
  public:
-  StatusFile() {
+  ScratchFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "faultsweep-XXXXXX").string();
-    const int descriptor = mkstemp(name.data());
-    if (descriptor < 0)
+    if (mkdtemp(name.data()) == nullptr) {
       throw ResourceError(concat("cannot make ", name, ": ", std::strerror(errno)));
-    close(descriptor);
+    }
     path_ = name;
   }
-  ~StatusFile() {
+  ~ScratchFolder() {
     std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
+    std::filesystem::remove_all(path_, ignored);
   }
-  StatusFile(const StatusFile&) = delete;
-  StatusFile& operator=(const StatusFile&) = delete;
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
   const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path status_file() const { return path_ / "status"; }
   /// What the manager left; none = it could not leave anything.
-  std::optional<ExitCode> read() const {
-    std::ifstream file(path_);
+  std::optional<ExitCode> read_status() const {
+    std::ifstream file(status_file());
     int code = 0;
     if (file >> code) return static_cast<ExitCode>(code);
     return std::nullopt;
   }
-  void clear() const { std::ofstream(path_, std::ios::trunc); }
+  void clear_status() const { std::ofstream(status_file(), std::ios::trunc); }
 
  private:
   std::filesystem::path path_;
@@ -97,7 +98,7 @@ const char* style_name(ProgressDisplay::Style style) {
 }
 
 std::vector<std::string> mpirun_command(const RunOptions& options, int n_workers,
-                                        const std::filesystem::path& status_file) {
+                                        const ScratchFolder& scratch) {
   const char* mpirun = std::getenv("FAULTSWEEP_MPIRUN");
   std::vector<std::string> command = {mpirun != nullptr ? mpirun : "mpirun", "-n",
                                       std::to_string(n_workers + 1),
@@ -108,7 +109,8 @@ std::vector<std::string> mpirun_command(const RunOptions& options, int n_workers
                                       // containers forbid process_vm_readv, which vader would use
                                       "--mca", "btl_vader_single_copy_mechanism", "none",
                                       // ranks have this long to commit after SIGTERM
-                                      "--mca", "odls_base_sigkill_timeout", "30"};
+                                      "--mca", "odls_base_sigkill_timeout", "30", "--mca",
+                                      "orte_tmpdir_base", scratch.path().string()};
   if (geteuid() == 0) command.push_back("--allow-run-as-root");
   const std::vector<std::string> own = {std::filesystem::read_symlink("/proc/self/exe").string(),
                                         "run",
@@ -120,7 +122,7 @@ std::vector<std::string> mpirun_command(const RunOptions& options, int n_workers
                                         "--progress",
                                         style_name(options.progress),
                                         "--status-file",
-                                        status_file.string()};
+                                        scratch.status_file().string()};
   command.insert(command.end(), own.begin(), own.end());
   return command;
 }
@@ -149,15 +151,60 @@ pid_t spawn(std::vector<std::string> command) {
   return child;
 }
 
+/// Children of the process that are not zombies: its ranks here, and its ways to other hosts.
+std::vector<pid_t> living_children(pid_t parent) {
+  std::vector<pid_t> living;
+  std::error_code error;
+  const std::string tasks = concat("/proc/", parent, "/task");
+  for (const auto& task : std::filesystem::directory_iterator(tasks, error)) {
+    std::ifstream children(task.path() / "children");
+    for (pid_t child = 0; children >> child;) {
+      std::ifstream file(concat("/proc/", child, "/stat"));
+      const std::string text((std::istreambuf_iterator<char>(file)), {});
+      const std::size_t end = text.rfind(')');
+      if (end != std::string::npos && end + 2 < text.size() && text[end + 2] != 'Z') {
+        living.push_back(child);
+      }
+    }
+  }
+  return living;
+}
+
+/// Ends a job whose rank has died. Open MPI 4.1 would do so itself, but only after it has slept
+/// odls_base_sigkill_timeout before SIGTERM and again before SIGKILL: a minute for each restart. We
+/// tell the other ranks to leave, and end mpirun when nobody is left.
+class JobWatch {
+ public:
+  void look_after(pid_t mpirun) {
+    if (since_look_.seconds() < kLookSeconds) return;
+    since_look_ = {};
+    const std::vector<pid_t> living = living_children(mpirun);
+    if (living.size() >= most_) {
+      most_ = living.size();
+      since_loss_ = {};
+    }
+    if (most_ == 0 || since_loss_.seconds() < kGraceSeconds) return;
+    for (const pid_t rank : living) kill(rank, SIGTERM);
+    if (living.empty()) kill(mpirun, SIGKILL);
+    since_loss_ = {};
+  }
+
+ private:
+  static constexpr double kLookSeconds = 0.2;
+  static constexpr double kGraceSeconds = 1;  // an ordinary end takes a tenth of that
+  std::size_t most_ = 0;
+  faultsim::Stopwatch since_look_, since_loss_;
+};
+
 /// Waits for mpirun, passing on requests to stop. Returns waitpid's status.
 int wait_for(pid_t mpirun) {
   int told = 0;
   faultsim::Stopwatch since_told;
+  JobWatch watch;
   constexpr double kRepeatSeconds = 1;  // a signal that came before the ranks listened is lost
   for (;;) {
     int status = 0;
-    const pid_t ended = waitpid(mpirun, &status, WNOHANG);
-    if (ended == mpirun) return status;
+    if (waitpid(mpirun, &status, WNOHANG) == mpirun) return status;
     const int wanted = std::min(int{n_signals}, 3);
     if (wanted > told || (wanted == 1 && since_told.seconds() > kRepeatSeconds)) {
       told = wanted;
@@ -166,6 +213,7 @@ int wait_for(pid_t mpirun) {
       if (wanted == 2) kill(mpirun, SIGTERM);
       if (wanted == 3) kill(-mpirun, SIGKILL);
     }
+    watch.look_after(mpirun);
     const timespec pause = {0, 20'000'000};
     nanosleep(&pause, nullptr);
   }
@@ -230,14 +278,14 @@ ExitCode start_ranks(const RunOptions& given) {
   RunOptions options = given;
   check_before(options);
   const int n_workers = options.n_workers.value_or(available_cores());
-  const StatusFile status_file;
+  const ScratchFolder scratch;
   const StopSignals stop_signals;
   int n_restarts = 0;
   long finished = finished_cases(options);
   for (;;) {
-    status_file.clear();
-    const int ended = wait_for(spawn(mpirun_command(options, n_workers, status_file.path())));
-    const auto left = status_file.read();
+    scratch.clear_status();
+    const int ended = wait_for(spawn(mpirun_command(options, n_workers, scratch)));
+    const auto left = scratch.read_status();
     if (n_signals > 0) {
       // In order, the campaign may even have been completed; else it can be resumed.
       return left && n_signals == 1 ? *left : ExitCode::interrupted;

@@ -113,12 +113,14 @@ TEST_F(Trouble, ASimulatorThatDoesNotStartStopsTheCampaign) {
 }
 
 TEST_F(Trouble, AFullDiskEndsWithFourAndKeepsWhatWasStored) {
-  const std::int64_t campaign = submit(std::vector<std::string>(400, "good"));
-  const auto end = faultsweep({"run", "-w", "1"}, [] {
-    const rlimit limit = {600000, 600000};  // bytes per file: the WAL hits it
-    setrlimit(RLIMIT_FSIZE, &limit);
-    std::signal(SIGXFSZ, SIG_IGN);
-  });
+  const std::int64_t campaign = submit(std::vector<std::string>(400, "good"), 0.002);
+  const pid_t starter = start({"run", "-w", "1"});
+  ASSERT_TRUE(wait_for_done(5));
+  const rlimit limit = {400000, 400000};  // bytes per file: soon the WAL has no room
+  const auto owner = Store::open_reader(store_).owner();
+  ASSERT_TRUE(owner);
+  ASSERT_EQ(prlimit(static_cast<pid_t>(owner->pid), RLIMIT_FSIZE, &limit, nullptr), 0);
+  const auto end = wait(starter);
   EXPECT_EQ(end.code, 4) << end.err;
   EXPECT_THAT(Store::open_reader(store_).integrity_problems(), ::testing::IsEmpty());
   EXPECT_EQ(faultsweep({"run", "-w", "2"}).code, 0);
