@@ -25,10 +25,10 @@ struct RunArguments {
 };
 
 struct WorkerArguments {
-  int requests = 0;              ///< descriptor to read from.
-  int replies = 1;               ///< descriptor to write to.
+  int requests = 0;  ///< descriptor to read from.
+  int replies = 1;   ///< descriptor to write to.
   std::filesystem::path cache;
-  double cache_size = 20e9;      ///< bytes.
+  double cache_size = 20e9;  ///< bytes.
 };
 
 ExitCode init_command(const std::string& kind, const std::filesystem::path& file);

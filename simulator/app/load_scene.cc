@@ -23,7 +23,8 @@ LoadedScene load_scene(const SceneArguments& arguments) {
       throw InputError("--set", {{"", 0, "\"" + change + "\" has no \"=\"",
                                   "write --set /json/pointer=value or --set alias=value"}});
     }
-    set_value(document, resolve_parameter(document, change.substr(0, equals)), change.substr(equals + 1));
+    set_value(document, resolve_parameter(document, change.substr(0, equals)),
+              change.substr(equals + 1));
   }
   return load_scene(std::move(document));
 }

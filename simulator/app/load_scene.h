@@ -12,8 +12,8 @@ struct LoadedScene {
   Plan plan;
 };
 
-/// Reads the file, applies --set and --tier, checks everything and plans. Throws InputError with all
-/// problems of scene and geometry.
+/// Reads the file, applies --set and --tier, checks everything and plans. Throws InputError with
+/// all problems of scene and geometry.
 LoadedScene load_scene(const SceneArguments& arguments);
 /// The same for a document at hand (a campaign's case).
 LoadedScene load_scene(JsonDocument document);

@@ -21,8 +21,10 @@ constexpr const char* kFooter =
 void add_scene(CLI::App* command, SceneArguments& arguments) {
   command->add_option("scene", arguments.file, "scene file (JSON)")->required();
   command->add_option("--set", arguments.set, "change a value: /json/pointer=value or alias=value")
-      ->type_name("POINTER=VALUE")->allow_extra_args(false);
-  command->add_option("--tier", arguments.tier, "screening, demonstration, standard, reference or custom");
+      ->type_name("POINTER=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--tier", arguments.tier,
+                      "screening, demonstration, standard, reference or custom");
   command->add_flag("--json", arguments.json, "machine-readable output on stdout");
 }
 
@@ -38,7 +40,8 @@ ExitCode faultsim_main(int argc, char** argv) {
   CLI::App* init = app.add_subcommand("init", "write a starter scene");
   init->add_option("kind", kind, "field or box")->check(CLI::IsMember({"field", "box"}));
   init->add_option("file", init_file, "where to write it (default KIND.json)");
-  init->callback([&] { code = init_command(kind, init_file.empty() ? kind + ".json" : init_file); });
+  init->callback(
+      [&] { code = init_command(kind, init_file.empty() ? kind + ".json" : init_file); });
 
   SceneArguments scene;
   CLI::App* validate = app.add_subcommand("validate", "check a scene and list all its problems");
@@ -47,11 +50,13 @@ ExitCode faultsim_main(int argc, char** argv) {
   CLI::App* plan = app.add_subcommand("plan", "what will be modelled and why, sizes and cost");
   add_scene(plan, scene);
   plan->callback([&] { code = plan_command(scene); });
-  CLI::App* parameters = app.add_subcommand("parameters", "what can be varied, with aliases and ranges");
+  CLI::App* parameters =
+      app.add_subcommand("parameters", "what can be varied, with aliases and ranges");
   add_scene(parameters, scene);
   parameters->callback([&] { code = parameters_command(scene); });
   std::string mesh_output;
-  CLI::App* mesh = app.add_subcommand("mesh", "make the mesh, report its quality, write it for ParaView");
+  CLI::App* mesh =
+      app.add_subcommand("mesh", "make the mesh, report its quality, write it for ParaView");
   add_scene(mesh, scene);
   mesh->add_option("-o,--output", mesh_output, "folder for volume.h5 and volume.xmf");
   mesh->callback([&] { code = mesh_command(scene, mesh_output); });
@@ -67,7 +72,8 @@ ExitCode faultsim_main(int argc, char** argv) {
   run_app->callback([&] { code = run_command(run); });
 
   WorkerArguments worker;
-  CLI::App* worker_app = app.add_subcommand("worker", "serve cases to faultsweep (schemas/worker_protocol.md)");
+  CLI::App* worker_app =
+      app.add_subcommand("worker", "serve cases to faultsweep (schemas/worker_protocol.md)");
   worker_app->add_option("--requests", worker.requests, "descriptor to read from")->required();
   worker_app->add_option("--replies", worker.replies, "descriptor to write to")->required();
   worker_app->add_option("--cache", worker.cache, "operator cache");
@@ -76,7 +82,8 @@ ExitCode faultsim_main(int argc, char** argv) {
 
   std::vector<std::string> names;
   bool list = false, json = false, slow = false, markdown = false;
-  CLI::App* verify = app.add_subcommand("verify", "run the verification problems against closed forms");
+  CLI::App* verify =
+      app.add_subcommand("verify", "run the verification problems against closed forms");
   verify->add_option("names", names, "V1 V2 … (default: all)");
   verify->add_flag("--list", list, "list the problems");
   verify->add_flag("--json", json, "machine-readable output");

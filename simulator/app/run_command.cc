@@ -15,18 +15,24 @@ namespace faultsim {
 namespace {
 
 std::filesystem::path user_cache() {
-  if (const char* xdg = std::getenv("XDG_CACHE_HOME")) return std::filesystem::path(xdg) / "faultsim";
-  if (const char* home = std::getenv("HOME")) return std::filesystem::path(home) / ".cache" / "faultsim";
+  if (const char* xdg = std::getenv("XDG_CACHE_HOME"))
+    return std::filesystem::path(xdg) / "faultsim";
+  if (const char* home = std::getenv("HOME"))
+    return std::filesystem::path(home) / ".cache" / "faultsim";
   return {};
 }
 
 ExitCode exit_code_of(Outcome outcome) {
   switch (outcome) {
-    case Outcome::converged: return ExitCode::done;
+    case Outcome::converged:
+      return ExitCode::done;
     case Outcome::unconverged:
-    case Outcome::unstable: return ExitCode::no_convergence;
-    case Outcome::interrupted: return ExitCode::interrupted;
-    case Outcome::failed: return ExitCode::bug;
+    case Outcome::unstable:
+      return ExitCode::no_convergence;
+    case Outcome::interrupted:
+      return ExitCode::interrupted;
+    case Outcome::failed:
+      return ExitCode::bug;
   }
   return ExitCode::bug;
 }
@@ -35,7 +41,10 @@ ExitCode exit_code_of(Outcome outcome) {
 class VolumeRecorder {
  public:
   VolumeRecorder(const Scene& scene, const PreparedOperator& prepared)
-      : factors_(scene, *prepared.op), op_(*prepared.op), bulk_(*prepared.bulk), steps_(load_steps(scene)) {}
+      : factors_(scene, *prepared.op),
+        op_(*prepared.op),
+        bulk_(*prepared.bulk),
+        steps_(load_steps(scene)) {}
   void add(const StepResult& step, const FaultFields& fields) {
     const auto i = static_cast<std::size_t>(step.step);
     if (i + 1 < steps_.size() && steps_[i + 1].stage == steps_[i].stage) return;
@@ -46,7 +55,8 @@ class VolumeRecorder {
         if (dof >= 0) jump[dof] = fields.jump(c, static_cast<Eigen::Index>(k));
       }
     }
-    snapshots_.push_back({step.stage, step.time, bulk_.displacement(factors_.at(step.time, step.pressure_change), jump)});
+    snapshots_.push_back({step.stage, step.time,
+                          bulk_.displacement(factors_.at(step.time, step.pressure_change), jump)});
   }
   const std::vector<VolumeSnapshot>& snapshots() const { return snapshots_; }
 
@@ -62,7 +72,8 @@ void write_volume_fields(const std::filesystem::path& folder, const LoadedScene&
                          const VolumeRecorder& recorder) {
   const Mesh mesh = bulk_problem(loaded.scene, loaded.plan).mesh;
   Eigen::Matrix3Xd nodes(3, static_cast<Eigen::Index>(mesh.nodes.size()));
-  for (Eigen::Index i = 0; i < nodes.cols(); ++i) nodes.col(i) = mesh.nodes[static_cast<std::size_t>(i)];
+  for (Eigen::Index i = 0; i < nodes.cols(); ++i)
+    nodes.col(i) = mesh.nodes[static_cast<std::size_t>(i)];
   write_volume(folder, nodes, mesh.cells, mesh.material, recorder.snapshots());
 }
 
@@ -73,10 +84,12 @@ ExitCode run_command(const RunArguments& arguments) {
   const LoadedScene loaded = load_scene(arguments.scene);
   const Scene& scene = loaded.scene;
   const bool json = arguments.scene.json;
-  if (const std::string complaint = blas_complaint(); !complaint.empty()) std::cerr << complaint << "\n";
+  if (const std::string complaint = blas_complaint(); !complaint.empty())
+    std::cerr << complaint << "\n";
   const std::filesystem::path folder =
       arguments.output.empty()
-          ? std::filesystem::path(std::filesystem::path(arguments.scene.file).stem().string() + "-result")
+          ? std::filesystem::path(std::filesystem::path(arguments.scene.file).stem().string() +
+                                  "-result")
           : arguments.output;
   write_text(folder / "plan.json", plan_to_json(loaded.plan).dump(2) + "\n");
   write_text(folder / "scene.json", loaded.document.value.dump(2) + "\n");
@@ -90,7 +103,9 @@ ExitCode run_command(const RunArguments& arguments) {
   if (!prepared.remark.empty()) monitor.note(prepared.remark);
   monitor.clear();
   if (!json) {
-    std::cerr << (prepared.from_cache ? "operator: from the cache" : concat("operator: built in ", prepared.op->build_seconds, " s"))
+    std::cerr << (prepared.from_cache
+                      ? "operator: from the cache"
+                      : concat("operator: built in ", prepared.op->build_seconds, " s"))
               << ", " << prepared.op->geometry.nodes.size() << " fault node pairs\n";
   }
   throw_if_interrupted("building the operator");
@@ -100,16 +115,18 @@ ExitCode run_command(const RunArguments& arguments) {
   std::optional<VolumeRecorder> volume;
   if (prepared.bulk) volume.emplace(scene, prepared);
   CaseResult names;
-  for (const PressureHistory& history : scene.pressure) names.region_names.push_back(history.region);
+  for (const PressureHistory& history : scene.pressure)
+    names.region_names.push_back(history.region);
   for (const Fault& fault : scene.faults) names.fault_names.push_back(fault.name);
   names.plane_strain = loaded.plan.plane_strain;
   if (!json) std::cout << step_table_header(names);
   SilentMonitor silent;
-  const CaseResult result = run_case(scene, *prepared.op, silent, [&](const StepResult& step, const FaultFields& fields) {
-    if (!json) std::cout << step_table_row(step) << std::flush;
-    if (writer) writer->add_step(step, fields);
-    if (volume) volume->add(step, fields);
-  });
+  const CaseResult result =
+      run_case(scene, *prepared.op, silent, [&](const StepResult& step, const FaultFields& fields) {
+        if (!json) std::cout << step_table_row(step) << std::flush;
+        if (writer) writer->add_step(step, fields);
+        if (volume) volume->add(step, fields);
+      });
   if (writer) writer->finish();
   if (volume) write_volume_fields(folder, loaded, *volume);
   const std::string text = result_to_json(result).dump(2) + "\n";

@@ -25,16 +25,19 @@ ExitCode validate_command(const SceneArguments& arguments) {
   try {
     const LoadedScene loaded = load_scene(arguments);
     if (arguments.json) {
-      std::cout << nlohmann::json{{"valid", true}, {"identity", case_identity(loaded.scene)}}.dump() << "\n";
+      std::cout << nlohmann::json{{"valid", true}, {"identity", case_identity(loaded.scene)}}.dump()
+                << "\n";
     } else {
-      std::cout << arguments.file << ": valid, case " << case_identity(loaded.scene).substr(0, 12) << "\n";
+      std::cout << arguments.file << ": valid, case " << case_identity(loaded.scene).substr(0, 12)
+                << "\n";
     }
     return ExitCode::done;
   } catch (const InputError& error) {
     if (!arguments.json) throw;
     nlohmann::json problems = nlohmann::json::array();
     for (const Problem& p : error.problems()) {
-      problems.push_back({{"pointer", p.pointer}, {"line", p.line}, {"what", p.what}, {"cure", p.cure}});
+      problems.push_back(
+          {{"pointer", p.pointer}, {"line", p.line}, {"what", p.what}, {"cure", p.cure}});
     }
     std::cout << nlohmann::json{{"valid", false}, {"problems", problems}}.dump(2) << "\n";
     return ExitCode::input;
@@ -57,17 +60,24 @@ ExitCode parameters_command(const SceneArguments& arguments) {
   if (arguments.json) {
     nlohmann::json out = nlohmann::json::array();
     for (const ParameterInfo& p : rows) {
-      out.push_back({{"pointer", p.pointer}, {"alias", p.alias}, {"unit", si_unit(p.dimension)},
-                     {"value", p.value}, {"default", p.default_value}, {"range", p.range},
-                     {"new_family", p.new_family}, {"description", p.description}});
+      out.push_back({{"pointer", p.pointer},
+                     {"alias", p.alias},
+                     {"unit", si_unit(p.dimension)},
+                     {"value", p.value},
+                     {"default", p.default_value},
+                     {"range", p.range},
+                     {"new_family", p.new_family},
+                     {"description", p.description}});
     }
     std::cout << out.dump(2) << "\n";
     return ExitCode::done;
   }
-  std::printf("%-52s %-26s %-16s %-14s %-20s %s\n", "pointer", "alias", "value", "default", "range", "new operator?");
+  std::printf("%-52s %-26s %-16s %-14s %-20s %s\n", "pointer", "alias", "value", "default", "range",
+              "new operator?");
   for (const ParameterInfo& p : rows) {
-    std::printf("%-52s %-26s %-16s %-14s %-20s %s\n", p.pointer.c_str(), p.alias.c_str(), p.value.c_str(),
-                p.default_value.c_str(), p.range.c_str(), p.new_family ? "yes" : "no");
+    std::printf("%-52s %-26s %-16s %-14s %-20s %s\n", p.pointer.c_str(), p.alias.c_str(),
+                p.value.c_str(), p.default_value.c_str(), p.range.c_str(),
+                p.new_family ? "yes" : "no");
   }
   return ExitCode::done;
 }
@@ -83,15 +93,21 @@ ExitCode mesh_command(const SceneArguments& arguments, const std::filesystem::pa
                                 {"n_cells", problem.mesh.cells.size()},
                                 {"n_fault_node_pairs", n_pairs},
                                 {"min_scaled_jacobian", quality.min_scaled_jacobian},
-                                {"max_aspect", quality.max_aspect}}.dump(2) << "\n";
+                                {"max_aspect", quality.max_aspect}}
+                     .dump(2)
+              << "\n";
   } else {
-    std::printf("nodes %zu, cells %zu, fault node pairs %zu\nsmallest scaled Jacobian %.3f, largest aspect ratio %.1f, worst cell at (%.0f, %.0f, %.0f) m\n",
-                problem.mesh.nodes.size(), problem.mesh.cells.size(), n_pairs, quality.min_scaled_jacobian,
-                quality.max_aspect, quality.worst_position.x(), quality.worst_position.y(), quality.worst_position.z());
+    std::printf(
+        "nodes %zu, cells %zu, fault node pairs %zu\nsmallest scaled Jacobian %.3f, largest aspect "
+        "ratio %.1f, worst cell at (%.0f, %.0f, %.0f) m\n",
+        problem.mesh.nodes.size(), problem.mesh.cells.size(), n_pairs, quality.min_scaled_jacobian,
+        quality.max_aspect, quality.worst_position.x(), quality.worst_position.y(),
+        quality.worst_position.z());
   }
   if (!output.empty()) {
     Eigen::Matrix3Xd nodes(3, static_cast<Eigen::Index>(problem.mesh.nodes.size()));
-    for (Eigen::Index i = 0; i < nodes.cols(); ++i) nodes.col(i) = problem.mesh.nodes[static_cast<std::size_t>(i)];
+    for (Eigen::Index i = 0; i < nodes.cols(); ++i)
+      nodes.col(i) = problem.mesh.nodes[static_cast<std::size_t>(i)];
     write_volume(output, nodes, problem.mesh.cells, problem.mesh.material, {});
     std::cerr << "wrote " << (output / "volume.xmf").string() << " (open it in ParaView)\n";
   }

@@ -36,9 +36,13 @@ void ScreenMonitor::progress(double fraction, const std::string& what) {
   constexpr int kWidth = 30;
   const int filled = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kWidth);
   const double seconds = watch_.seconds();
-  const std::string left = fraction > 0.05 && fraction < 1 ? format(", about %.0f s left", seconds * (1 / fraction - 1)) : "";
-  std::fprintf(stderr, "\r\033[K[%s%s] %s%s", std::string(static_cast<std::size_t>(filled), '#').c_str(),
-               std::string(static_cast<std::size_t>(kWidth - filled), '.').c_str(), what.c_str(), left.c_str());
+  const std::string left = fraction > 0.05 && fraction < 1
+                               ? format(", about %.0f s left", seconds * (1 / fraction - 1))
+                               : "";
+  std::fprintf(stderr, "\r\033[K[%s%s] %s%s",
+               std::string(static_cast<std::size_t>(filled), '#').c_str(),
+               std::string(static_cast<std::size_t>(kWidth - filled), '.').c_str(), what.c_str(),
+               left.c_str());
   last_ = what;
 }
 
@@ -55,9 +59,11 @@ void ScreenMonitor::note(const std::string& text) {
 
 std::string step_table_header(const CaseResult& names) {
   std::string line = format("%4s  %-22s %7s", "step", "stage", "year");
-  for (const std::string& region : names.region_names) line += format(" %9.9s", ("dp " + region).c_str());
+  for (const std::string& region : names.region_names)
+    line += format(" %9.9s", ("dp " + region).c_str());
   line += format("  %6s %6s %6s", "stick", "slip", "open");
-  for (const std::string& fault : names.fault_names) line += format(" %8.8s", ("chi " + fault).c_str());
+  for (const std::string& fault : names.fault_names)
+    line += format(" %8.8s", ("chi " + fault).c_str());
   line += format(" %11s %10s %5s %8s\n", "chi>0.8", "max slip", "iter", "time");
   line += format("%4s  %-22s %7s", "", "", "");
   for (std::size_t i = 0; i < names.region_names.size(); ++i) line += format(" %9s", "bar");
@@ -68,7 +74,8 @@ std::string step_table_header(const CaseResult& names) {
 
 std::string step_table_row(const StepResult& step) {
   constexpr double kYear = 31557600.0;
-  std::string line = format("%4d  %-22.22s %7.2f", step.step, step.stage.c_str(), step.time / kYear);
+  std::string line =
+      format("%4d  %-22.22s %7.2f", step.step, step.stage.c_str(), step.time / kYear);
   for (const double dp : step.pressure_change) line += format(" %9s", bar(dp).c_str());
   if (step.outcome != Outcome::converged) {
     return line + "  " + to_string(step.outcome) + ": " + step.reason + "\n";
@@ -80,8 +87,8 @@ std::string step_table_row(const StepResult& step) {
     area += fault.area_chi_080;
     slip = std::max(slip, fault.max_slip);
   }
-  return line + format(" %11.4g %10.3f %5d %8.2f\n", area, slip * 1e3, step.counts.newton_iterations,
-                       step.seconds * 1e3);
+  return line + format(" %11.4g %10.3f %5d %8.2f\n", area, slip * 1e3,
+                       step.counts.newton_iterations, step.seconds * 1e3);
 }
 
 std::string case_summary(const CaseResult& result) {
@@ -90,18 +97,23 @@ std::string case_summary(const CaseResult& result) {
   text += "\n";
   const StageMetrics& whole = result.whole;
   if (whole.activated) {
-    text += format("activated: fault %s in load step %d at a pressure change of %s bar (* in the table)\n",
-                   whole.activated_fault.c_str(), *whole.activation_step,
-                   bar(*whole.activation_pressure).c_str());
+    text += format(
+        "activated: fault %s in load step %d at a pressure change of %s bar (* in the table)\n",
+        whole.activated_fault.c_str(), *whole.activation_step,
+        bar(*whole.activation_pressure).c_str());
   } else {
     text += "activated: no fault";
-    if (result.pressure_margin > 0) text += format(", about %s bar more depletion to a window index of 1", bar(result.pressure_margin).c_str());
+    if (result.pressure_margin > 0)
+      text += format(", about %s bar more depletion to a window index of 1",
+                     bar(result.pressure_margin).c_str());
     text += "\n";
   }
   for (const StageMetrics& stage : result.stages) {
-    text += format("  %-22.22s steps %d-%d: window chi %.3f, slip within the stage %.2f mm, activated area %.4g m2, M0 %.3g N m",
-                   stage.stage.c_str(), stage.first_step, stage.last_step, stage.chi_bar,
-                   stage.max_slip * 1e3, stage.activated_area, stage.moment);
+    text += format(
+        "  %-22.22s steps %d-%d: window chi %.3f, slip within the stage %.2f mm, activated area "
+        "%.4g m2, M0 %.3g N m",
+        stage.stage.c_str(), stage.first_step, stage.last_step, stage.chi_bar, stage.max_slip * 1e3,
+        stage.activated_area, stage.moment);
     if (stage.magnitude) text += format(" (Mw %.1f)", *stage.magnitude);
     text += stage.activated ? format(", activated in step %d\n", *stage.activation_step) : "\n";
   }

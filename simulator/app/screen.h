@@ -8,7 +8,8 @@
 
 namespace faultsim {
 
-/// Progress on stderr: one line that is redrawn on a terminal, a plain line per stage of work elsewhere.
+/// Progress on stderr: one line that is redrawn on a terminal, a plain line per stage of work
+/// elsewhere.
 class ScreenMonitor final : public Monitor {
  public:
   explicit ScreenMonitor(bool quiet);

@@ -102,7 +102,8 @@ class Worker {
   void need_operator(const json& run, const LoadedScene& loaded) {
     std::string key = loaded.plan.family;
     for (const ObservationPoint& point : loaded.scene.output.observation_points) {
-      key += concat("/", point.name, point.position[0], ",", point.position[1], ",", point.position[2]);
+      key += concat("/", point.name, point.position[0], ",", point.position[1], ",",
+                    point.position[2]);
     }
     if (prepared_.op && key == key_) return;
     const Stopwatch watch;
@@ -132,7 +133,7 @@ class Worker {
 }  // namespace
 
 ExitCode worker_command(const WorkerArguments& arguments) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);       // a worker never outlives its rank, however that dies
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // a worker never outlives its rank, however that dies
   if (getppid() == 1) return ExitCode::interrupted;  // the parent died before the line above
   std::signal(SIGPIPE, SIG_IGN);
   Worker(arguments).serve();

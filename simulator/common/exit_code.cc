@@ -20,9 +20,9 @@ ExitCode run_program(const char* program, ExitCode (*body)(int, char**), int arg
   try {
     return body(argc, argv);
   } catch (const InputError& error) {
-    const std::string count = concat("the input has ", error.problems().size(), " problem",
-                                     error.problems().size() == 1 ? "" : "s",
-                                     "; nothing was started\n", error.what());
+    const std::string count =
+        concat("the input has ", error.problems().size(), " problem",
+               error.problems().size() == 1 ? "" : "s", "; nothing was started\n", error.what());
     return say(program, count.c_str(), ExitCode::input);
   } catch (const Interrupted& error) {
     return say(program, error.what(), ExitCode::interrupted);

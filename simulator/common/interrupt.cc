@@ -27,7 +27,8 @@ void catch_interrupts() {
 bool interrupted() { return caught_signal != 0; }
 
 void throw_if_interrupted(const char* doing) {
-  if (interrupted()) throw Interrupted(concat("stopped by signal ", int{caught_signal}, " while ", doing));
+  if (interrupted())
+    throw Interrupted(concat("stopped by signal ", int{caught_signal}, " while ", doing));
 }
 
 }  // namespace faultsim

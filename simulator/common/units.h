@@ -7,17 +7,17 @@ namespace faultsim {
 
 /// The physical dimensions that occur in scenes, campaign specs and expressions.
 enum class Dimension {
-  number,       ///< no unit allowed
-  length,       ///< m
-  area,         ///< m2
-  pressure,     ///< Pa (stress, modulus, cohesion, traction)
+  number,             ///< no unit allowed
+  length,             ///< m
+  area,               ///< m2
+  pressure,           ///< Pa (stress, modulus, cohesion, traction)
   pressure_gradient,  ///< Pa/m
-  density,      ///< kg/m3
-  angle,        ///< rad
-  time,         ///< s (a "year" is 365.25 d here, not udunits' tropical year)
-  viscosity,    ///< Pa s
-  moment,       ///< N m
-  potency,      ///< m3
+  density,            ///< kg/m3
+  angle,              ///< rad
+  time,               ///< s (a "year" is 365.25 d here, not udunits' tropical year)
+  viscosity,          ///< Pa s
+  moment,             ///< N m
+  potency,            ///< m3
 };
 
 /// The SI unit of a dimension as udunits writes it: "m", "Pa", "rad", "" for number.
@@ -27,7 +27,7 @@ const char* usual_unit(Dimension dimension);
 
 /// The outcome of reading one quantity; on failure value is NaN and what/cure say why.
 struct ParsedQuantity {
-  double value;      ///< SI.
+  double value;  ///< SI.
   bool ok = false;
   std::string what;  ///< "\"25\" has no unit"
   std::string cure;  ///< "did you mean \"25 deg\"?"

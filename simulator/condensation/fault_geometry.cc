@@ -101,7 +101,8 @@ OperatorFault fault_grid(const FaultSurface& fault, int first_node) {
   return grid;
 }
 
-/// Nodes that a boundary holds closed have no jump: for the contact solve they are like unsplit ones.
+/// Nodes that a boundary holds closed have no jump: for the contact solve they are like unsplit
+/// ones.
 void drop_locked_nodes(FaultGeometry& geometry, OperatorFault& grid) {
   std::vector<int> renumbered;
   const auto begin = geometry.nodes.begin() + grid.first_node;

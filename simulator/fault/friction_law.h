@@ -17,7 +17,7 @@ struct CoulombLaw {
 struct LimitShearTraction {
   double value;              ///< τ_L ≥ 0, Pa.
   double d_normal_traction;  ///< ∂τ_L/∂t'_N = −tan φ ≤ 0, dimensionless.
-  double d_slip;             ///< ∂τ_L/∂s ≤ 0, Pa/m; the right-hand derivative at s = d_c (0).
+  double d_slip;  ///< ∂τ_L/∂s ≤ 0, Pa/m; the right-hand derivative at s = d_c (0).
 };
 
 /// The largest shear traction that a closed fault point carries (D3, D4):
@@ -35,7 +35,8 @@ LimitShearTraction limit_shear_traction(const CoulombLaw& law, double normal_tra
 double critical_index(double shear_traction_norm, double limit_shear_traction);
 
 /// Nucleation length of Uenishi and Rice: h_n = 1.157773883699 G*/W, W = −∂τ_L/∂s at onset, m;
-/// infinity without weakening. @param modulus  G* = G/(1−ν) down dip (mode II), G along strike (III).
+/// infinity without weakening. @param modulus  G* = G/(1−ν) down dip (mode II), G along strike
+/// (III).
 double nucleation_length(double modulus, double weakening_rate);
 
 }  // namespace faultsim

@@ -30,17 +30,23 @@ double history_value(const PressureHistory& history, double time) {
 
 double by_rule(const FaultPressure& law, double minus, double plus) {
   switch (law.rule) {
-    case FaultPressureRule::mean: return 0.5 * (minus + plus);
-    case FaultPressureRule::min: return std::min(minus, plus);
-    case FaultPressureRule::max: return std::max(minus, plus);
-    case FaultPressureRule::minus: return minus;
-    case FaultPressureRule::plus: return plus;
+    case FaultPressureRule::mean:
+      return 0.5 * (minus + plus);
+    case FaultPressureRule::min:
+      return std::min(minus, plus);
+    case FaultPressureRule::max:
+      return std::max(minus, plus);
+    case FaultPressureRule::minus:
+      return minus;
+    case FaultPressureRule::plus:
+      return plus;
     case FaultPressureRule::fraction: {
       const double low = std::min(minus, plus);
       return low + law.fraction * (std::max(minus, plus) - low);
     }
     case FaultPressureRule::prescribed:
-    case FaultPressureRule::none: return 0;
+    case FaultPressureRule::none:
+      return 0;
   }
   throw_internal("known fault pressure rule", "", __FILE__, __LINE__);
 }
@@ -66,8 +72,8 @@ std::vector<LoadStep> load_steps(const Scene& scene) {
   double start = 0;
   for (const Stage& stage : scene.stages) {
     for (int i = 1; i <= stage.n_steps; ++i) {
-      steps.push_back({static_cast<int>(steps.size()), stage.name,
-                       start + stage.duration * i / stage.n_steps});
+      steps.push_back(
+          {static_cast<int>(steps.size()), stage.name, start + stage.duration * i / stage.n_steps});
     }
     start += stage.duration;
   }
@@ -111,9 +117,9 @@ LoadFactors::LoadFactors(const Scene& scene, const FaultOperator& op) : scene_(s
       region_of_load_.push_back(index);
       boundary_of_load_.push_back(-1);
     } else {
-      FAULTSIM_DEMAND(kind == "boundary" &&
-                          static_cast<std::size_t>(index) < scene.box.boundary.size(),
-                      "load ", name);
+      FAULTSIM_DEMAND(
+          kind == "boundary" && static_cast<std::size_t>(index) < scene.box.boundary.size(),
+          "load ", name);
       biot_.push_back(0);
       region_of_load_.push_back(-1);
       boundary_of_load_.push_back(index);
@@ -124,9 +130,11 @@ LoadFactors::LoadFactors(const Scene& scene, const FaultOperator& op) : scene_(s
 std::vector<double> LoadFactors::at(double time, const std::vector<double>& pressure_change) const {
   std::vector<double> factors(biot_.size());
   for (std::size_t k = 0; k < factors.size(); ++k) {
-    factors[k] = boundary_of_load_[k] >= 0
-                     ? table_value(scene_.box.boundary[static_cast<std::size_t>(boundary_of_load_[k])].table, time)
-                     : biot_[k] * pressure_change[static_cast<std::size_t>(region_of_load_[k])];
+    factors[k] =
+        boundary_of_load_[k] >= 0
+            ? table_value(scene_.box.boundary[static_cast<std::size_t>(boundary_of_load_[k])].table,
+                          time)
+            : biot_[k] * pressure_change[static_cast<std::size_t>(region_of_load_[k])];
   }
   return factors;
 }

@@ -34,8 +34,8 @@ struct PressureLoad {
 std::string load_name(const PressureLoad& load);
 std::string boundary_load_name(int boundary_index);
 
-/// The factors c_k of the operator's loads at a time: b Δp for pressure loads, the table's value for
-/// boundary loads. Names that the scene does not know are our bug (InternalError).
+/// The factors c_k of the operator's loads at a time: b Δp for pressure loads, the table's value
+/// for boundary loads. Names that the scene does not know are our bug (InternalError).
 class LoadFactors {
  public:
   LoadFactors(const Scene& scene, const FaultOperator& op);
@@ -46,9 +46,9 @@ class LoadFactors {
 
  private:
   const Scene& scene_;
-  std::vector<double> biot_;          // per load; 0 for boundary loads
-  std::vector<int> region_of_load_;   // −1 for boundary loads
-  std::vector<int> boundary_of_load_; // −1 for pressure loads
+  std::vector<double> biot_;           // per load; 0 for boundary loads
+  std::vector<int> region_of_load_;    // −1 for boundary loads
+  std::vector<int> boundary_of_load_;  // −1 for pressure loads
 };
 
 /// Δp_f of every fault node at a time, Pa (n_nodes): per pair of neighbouring cells by the fault's

@@ -25,12 +25,13 @@ InitialTraction initial_traction(const Scene& scene, const FaultGeometry& geomet
         if (node.dof[c] >= 0) {
           initial.traction[node.dof[c]] = local[c];
         } else if (std::abs(local[c]) > 1e-9 * (total.norm() + 1.0)) {
-          throw InputError("scene", {{"/initial_state", 0,
-                                      concat("the initial traction on fault ", scene.faults[f].name,
-                                             " has a component (", local[c] / 1e6,
-                                             " MPa) that symmetry or plane strain removes"),
-                                      "align the initial stress with the axes or switch the reduction off "
-                                      "(/numerics/half_domain, /numerics/plane_strain)"}});
+          throw InputError(
+              "scene",
+              {{"/initial_state", 0,
+                concat("the initial traction on fault ", scene.faults[f].name, " has a component (",
+                       local[c] / 1e6, " MPa) that symmetry or plane strain removes"),
+                "align the initial stress with the axes or switch the reduction off "
+                "(/numerics/half_domain, /numerics/plane_strain)"}});
         }
       }
       initial.pressure[k] = at.pressure;

@@ -13,7 +13,8 @@ constexpr double kStrengthFloor = 1e3;  // Pa; keeps χ finite, never enters D3 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Column make_column(const OperatorFault& fault, int fault_index, int j) {
-  Column column{fault_index, fault.column_width[static_cast<std::size_t>(j)], {}, {}, {}, kNaN, kNaN};
+  Column column{fault_index, fault.column_width[static_cast<std::size_t>(j)], {}, {}, {}, kNaN,
+                kNaN};
   double s = 0;
   const Eigen::Vector3d* last = nullptr;
   for (int row = 0; row < fault.n_rows; ++row) {
@@ -68,7 +69,8 @@ class Integral {
                 0.5 * (value(i - 1) + value(i)) * (column.position[i] - column.position[i - 1]);
     }
   }
-  /// Integral from the start to s, s in segment i (between nodes i−1 and i; i = 0: before the first).
+  /// Integral from the start to s, s in segment i (between nodes i−1 and i; i = 0: before the
+  /// first).
   double to(double s, std::size_t i) const {
     const auto& x = column_.position;
     if (i == 0) return value(0) * (s - start_of(column_));
@@ -217,7 +219,8 @@ void FaultMeter::evaluate(const ContactState& state, NodalState& nodal) const {
                                     dof[2] >= 0 ? state.traction[dof[2]] : 0.0);
     const double normal = std::min(state.traction[dof[0]], 0.0);
     const CoulombLaw& law = laws_.node[i];
-    const double cohesion = state.opened[i] != 0 && laws_.keep_cohesion[i] == 0 ? 0.0 : law.cohesion;
+    const double cohesion =
+        state.opened[i] != 0 && laws_.keep_cohesion[i] == 0 ? 0.0 : law.cohesion;
     const double static_strength = cohesion - normal * static_tangent_[i];
     double strength = static_strength;
     if (weakens_[i] != 0) {
@@ -240,7 +243,8 @@ void FaultMeter::measure_columns(const NodalState& nodal, std::vector<FaultMetri
     m.chi_bar = std::max(m.chi_bar, window_critical_index(column, nodal, activation_length_));
     const double thickness = length_above(column, nodal.critical_index, kThreshold);
     m.thickness_chi_080_max = std::max(m.thickness_chi_080_max, thickness);
-    m.thickness_chi_080_mean += thickness * column.width / fault_width_[static_cast<std::size_t>(column.fault)];
+    m.thickness_chi_080_mean +=
+        thickness * column.width / fault_width_[static_cast<std::size_t>(column.fault)];
     m.area_chi_080 += multiplicity_ * thickness * column.width;
   }
 }
@@ -292,7 +296,8 @@ std::vector<FaultMeter::Activation> FaultMeter::activation(const ContactState& s
       any = any || slip > slip_tolerance_;
       a.max_slip = std::max(a.max_slip, slip);
       const double from = i > 0 ? column.position[i - 1] : column.tip_before;
-      if (!std::isnan(from)) finder.add(i > 0 ? last : 0.0, slip, column.position[i] - from, slip_tolerance_);
+      if (!std::isnan(from))
+        finder.add(i > 0 ? last : 0.0, slip, column.position[i] - from, slip_tolerance_);
       last = slip;
     }
     if (!any) continue;

@@ -11,11 +11,11 @@ namespace faultsim {
 
 /// Point values of one load step, per fault node.
 struct NodalState {
-  Eigen::VectorXd shear;            ///< |t'_T|, Pa.
-  Eigen::VectorXd strength;         ///< τ_L, current, Pa.
-  Eigen::VectorXd critical_index;   ///< χ; 1 where open.
+  Eigen::VectorXd shear;           ///< |t'_T|, Pa.
+  Eigen::VectorXd strength;        ///< τ_L, current, Pa.
+  Eigen::VectorXd critical_index;  ///< χ; 1 where open.
   Eigen::VectorXd static_critical_index;
-  Eigen::VectorXd slip;             ///< |g_T|, m.
+  Eigen::VectorXd slip;  ///< |g_T|, m.
 };
 
 /// A strike column of a fault as profiles down dip, prepared once per operator.
@@ -44,13 +44,14 @@ class FaultMeter {
 
   /// Activation by slip since `reference`: extent, area, flag.
   struct Activation {
-    double length = 0;      ///< m, longest down-dip extent with slip > tolerance.
-    double area = 0;        ///< m2, of the extents in columns that satisfy the criterion.
-    double max_slip = 0;    ///< m.
+    double length = 0;    ///< m, longest down-dip extent with slip > tolerance.
+    double area = 0;      ///< m2, of the extents in columns that satisfy the criterion.
+    double max_slip = 0;  ///< m.
     bool activated = false;
   };
   /// @param reference  jump at the reference time; nullptr = zero.
-  std::vector<Activation> activation(const ContactState& state, const Eigen::VectorXd* reference) const;
+  std::vector<Activation> activation(const ContactState& state,
+                                     const Eigen::VectorXd* reference) const;
 
   const std::vector<Column>& columns() const { return columns_; }
 
@@ -62,16 +63,16 @@ class FaultMeter {
   const ContactLaws& laws_;
   double slip_tolerance_;
   double activation_length_;
-  double multiplicity_;                ///< 2 for a half domain: areas, potency, M0.
+  double multiplicity_;  ///< 2 for a half domain: areas, potency, M0.
   std::vector<Column> columns_;
-  std::vector<double> static_tangent_; ///< tan φ_s per node.
-  std::vector<char> weakens_;          ///< per node.
-  std::vector<double> fault_area_;     ///< per fault, m2 (not doubled).
-  std::vector<double> fault_width_;    ///< per fault, Σ column widths, m.
+  std::vector<double> static_tangent_;  ///< tan φ_s per node.
+  std::vector<char> weakens_;           ///< per node.
+  std::vector<double> fault_area_;      ///< per fault, m2 (not doubled).
+  std::vector<double> fault_width_;     ///< per fault, Σ column widths, m.
 };
 
-/// χ̄ of one column: max over windows of `length` of ∫|t'_T| ds / ∫τ_L ds, both linear between nodes;
-/// the whole column when it is shorter.
+/// χ̄ of one column: max over windows of `length` of ∫|t'_T| ds / ∫τ_L ds, both linear between
+/// nodes; the whole column when it is shorter.
 double window_critical_index(const Column& column, const NodalState& nodal, double length);
 
 /// Down-dip length of the column where the nodal profile exceeds a threshold, linear between nodes,

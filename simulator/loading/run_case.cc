@@ -11,6 +11,7 @@
 #include "simulator/loading/initial_traction.h"
 #include "simulator/loading/metrics.h"
 #include "simulator/loading/stage_summary.h"
+#include "simulator/loading/warnings.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsim {
@@ -21,11 +22,13 @@ ContactLaws contact_laws(const Scene& scene, const FaultGeometry& geometry) {
   for (std::size_t f = 0; f < geometry.faults.size(); ++f) {
     const Friction& friction = scene.faults[f].friction;
     CoulombLaw law;
-    law.weakening = friction.law == FrictionLaw::angle ? WeakeningLaw::angle : WeakeningLaw::coefficient;
+    law.weakening =
+        friction.law == FrictionLaw::angle ? WeakeningLaw::angle : WeakeningLaw::coefficient;
     law.cohesion = friction.cohesion;
     law.static_friction_angle = friction.static_friction_angle;
     law.dynamic_friction_angle = friction.dynamic_friction_angle;
-    if (friction.slip_weakening_distance > 0) law.slip_weakening_distance = friction.slip_weakening_distance;
+    if (friction.slip_weakening_distance > 0)
+      law.slip_weakening_distance = friction.slip_weakening_distance;
     const auto n = static_cast<std::size_t>(geometry.faults[f].n_nodes);
     laws.node.insert(laws.node.end(), n, law);
     laws.cumulated.insert(laws.cumulated.end(), n, friction.slip_measure == SlipMeasure::cumulated);
@@ -35,8 +38,8 @@ ContactLaws contact_laws(const Scene& scene, const FaultGeometry& geometry) {
 }
 
 ContactOptions contact_options(const Numerics& numerics) {
-  return {numerics.traction_tolerance, numerics.max_newton_iterations, numerics.max_active_set_passes,
-          numerics.max_step_cuts};
+  return {numerics.traction_tolerance, numerics.max_newton_iterations,
+          numerics.max_active_set_passes, numerics.max_step_cuts};
 }
 
 void add_counts(SolveCounts& sum, const SolveCounts& part) {
@@ -48,10 +51,10 @@ void add_counts(SolveCounts& sum, const SolveCounts& part) {
 
 /// The loads of one step: what the faults would carry if they stayed closed.
 struct StepLoads {
-  std::vector<double> pressure_change;   // per region, Pa
-  std::vector<double> factors;           // per operator load
-  Eigen::VectorXd locked;                // t_L, n_dofs, Pa
-  Eigen::VectorXd fault_pressure_change; // n_nodes, Pa
+  std::vector<double> pressure_change;    // per region, Pa
+  std::vector<double> factors;            // per operator load
+  Eigen::VectorXd locked;                 // t_L, n_dofs, Pa
+  Eigen::VectorXd fault_pressure_change;  // n_nodes, Pa
 };
 
 /// One case on its way through the load steps.
@@ -78,8 +81,7 @@ class CaseRun {
   void record(const LoadStep& step, const StepLoads& loads, const Eigen::VectorXd& jump_before,
               StepResult& result);
   FaultFields fields(const StepLoads& loads) const;
-  void note_weakening(const StepResult& step);
-  void warn();
+  void note_weakening(const Eigen::VectorXd& traction, bool trial);
 
   const Scene& scene_;
   const FaultOperator& op_;
@@ -102,7 +104,8 @@ StepLoads CaseRun::loads_at(const LoadStep& step) const {
   loads.factors = load_factors_.at(step.time, loads.pressure_change);
   loads.locked = initial_.traction;
   for (std::size_t k = 0; k < loads.factors.size(); ++k) {
-    if (loads.factors[k] != 0) loads.locked += loads.factors[k] * op_.locked.col(static_cast<Eigen::Index>(k));
+    if (loads.factors[k] != 0)
+      loads.locked += loads.factors[k] * op_.locked.col(static_cast<Eigen::Index>(k));
   }
   loads.fault_pressure_change = fault_pressure_change(
       scene_, op_.geometry, load_factors_.region_of_load(), step.time, loads.pressure_change);
@@ -124,12 +127,13 @@ void CaseRun::check_fault_pressure(const LoadStep& step, const StepLoads& loads)
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
       const double p = initial_.pressure[k] + loads.fault_pressure_change[k];
       if (p >= -slack) continue;
-      throw InputError("scene",
-                       {{concat("/faults/", f, "/fault_pressure"), 0,
-                         concat("the prescribed fault pressure of ", fault.name, " falls to ", p / 1e5,
-                                " bar at depth ", -op_.geometry.nodes[static_cast<std::size_t>(k)].position.z(),
-                                " m in load step ", step.step),
-                         "prescribe a smaller drop or a narrower depth window"}});
+      throw InputError(
+          "scene",
+          {{concat("/faults/", f, "/fault_pressure"), 0,
+            concat("the prescribed fault pressure of ", fault.name, " falls to ", p / 1e5,
+                   " bar at depth ", -op_.geometry.nodes[static_cast<std::size_t>(k)].position.z(),
+                   " m in load step ", step.step),
+            "prescribe a smaller drop or a narrower depth window"}});
     }
   }
 }
@@ -155,24 +159,32 @@ FaultFields CaseRun::fields(const StepLoads& loads) const {
   return f;
 }
 
-/// Cell edges against the nucleation length where it slips (design section 4).
-void CaseRun::note_weakening(const StepResult& step) {
-  if (step.n_slip == 0) return;
+/// Cell edges against the nucleation length (design section 4) where it slips; with a trial
+/// traction, where that would make it slip.
+void CaseRun::note_weakening(const Eigen::VectorXd& traction, bool trial) {
   for (std::size_t k = 0; k < op_.geometry.nodes.size(); ++k) {
     const CoulombLaw& law = laws_.node[k];
-    if (state_.state[k] != FaultState::slip || law.dynamic_friction_angle >= law.static_friction_angle) continue;
+    if (law.dynamic_friction_angle >= law.static_friction_angle) continue;
     const OperatorNode& node = op_.geometry.nodes[k];
-    const double normal = std::min(state_.traction[node.dof[0]], 0.0);
+    const double normal = std::min(traction[node.dof[0]], 0.0);
+    bool slips = state_.state[k] == FaultState::slip;
+    if (trial && !slips) {
+      const double shear = std::hypot(node.dof[1] >= 0 ? traction[node.dof[1]] : 0.0,
+                                      node.dof[2] >= 0 ? traction[node.dof[2]] : 0.0);
+      slips = shear > limit_shear_traction(law, normal, 0).value;
+    }
+    if (!slips) continue;
     const double rate = -limit_shear_traction(law, normal, 0).d_slip;
     const double g = node.effective_shear_modulus;
     const double down_dip = node.edge_dip / nucleation_length(g / (1 - node.poisson_ratio), rate);
-    const double along = op_.geometry.plane_strain ? 0 : node.edge_strike / nucleation_length(g, rate);
+    const double along =
+        op_.geometry.plane_strain ? 0 : node.edge_strike / nucleation_length(g, rate);
     result_.max_nucleation_ratio = std::max({result_.max_nucleation_ratio, down_dip, along});
   }
 }
 
-void CaseRun::record(const LoadStep& step, const StepLoads& loads, const Eigen::VectorXd& jump_before,
-                     StepResult& result) {
+void CaseRun::record(const LoadStep& step, const StepLoads& loads,
+                     const Eigen::VectorXd& jump_before, StepResult& result) {
   meter_.evaluate(state_, nodal_);
   result.faults = meter_.measure(nodal_, state_, jump_before);
   for (const FaultState s : state_.state) {
@@ -186,7 +198,7 @@ void CaseRun::record(const LoadStep& step, const StepLoads& loads, const Eigen::
     const Eigen::VectorXd u = op_.observed_load * factors + op_.observed_jump * state_.jump;
     result.observed.assign(u.begin(), u.end());
   }
-  note_weakening(result);
+  if (result.n_slip > 0) note_weakening(state_.traction, false);
   whole_.add(result, meter_, state_, result_.fault_names);
   if (step.step > 0) {
     if (!stage_) {
@@ -218,37 +230,11 @@ bool CaseRun::advance(const LoadStep& step, const Eigen::VectorXd& before, const
     result_.outcome = report.outcome;
     result_.reason = concat("load step ", step.step, " (", step.stage, "): ", report.reason);
     result_.failed_step = step.step;
+    // What slips in a step that has no end: judged by the traction of faults held as they were.
+    note_weakening(state_.traction + (loads.locked - before), true);
   }
   result_.steps.push_back(std::move(result));
   return good;
-}
-
-void CaseRun::warn() {
-  auto& warnings = result_.warnings;
-  if (!op_.geometry.locked_positions.empty()) {
-    const Eigen::Vector3d& p = op_.geometry.locked_positions.front();
-    warnings.push_back(concat(op_.geometry.locked_positions.size(),
-                              " fault nodes are held closed by a boundary, the first at (", p.x(), ", ",
-                              p.y(), ", ", p.z(), ") m"));
-  }
-  if (!result_.steps.empty() && result_.steps.front().n_slip + result_.steps.front().n_open > 0) {
-    warnings.push_back(concat("the initial stress is beyond the strength of ",
-                              result_.steps.front().n_slip + result_.steps.front().n_open,
-                              " fault nodes; they were equilibrated in step 0"));
-  }
-  result_.weakening_resolved = result_.max_nucleation_ratio <= 1.0 / 3.0;
-  if (!result_.weakening_resolved) {
-    warnings.push_back(concat("slip weakening is not resolved: cells are ", result_.max_nucleation_ratio,
-                              " times the nucleation length, 1/3 is needed"));
-  }
-  bool opened = false;
-  for (const StepResult& step : result_.steps) opened = opened || step.n_open > 0;
-  for (const Fault& fault : scene_.faults) {
-    if (!opened || fault.fault_biot == 1) continue;
-    warnings.push_back("a fault opened although fault_biot < 1: an open fault then carries only the share "
-                       "fault_biot of its fluid pressure");
-    break;
-  }
 }
 
 CaseResult CaseRun::run(Monitor& monitor) {
@@ -258,8 +244,9 @@ CaseResult CaseRun::run(Monitor& monitor) {
   result_.operator_fingerprint = op_.fingerprint;
   result_.numerics_version = kNumericsVersion;
   result_.plane_strain = op_.geometry.plane_strain;
-  for (const PressureHistory& history : scene_.pressure) result_.region_names.push_back(history.region);
-  for (const OperatorFault& fault : op_.geometry.faults) result_.fault_names.push_back(fault.name);
+  for (const PressureHistory& history : scene_.pressure)
+    result_.region_names.push_back(history.region);
+  for (const Fault& fault : scene_.faults) result_.fault_names.push_back(fault.name);
   for (const ObservationRow& row : op_.observations) result_.observation_names.push_back(row.name);
 
   const std::vector<LoadStep> steps = load_steps(scene_);
@@ -281,15 +268,18 @@ CaseResult CaseRun::run(Monitor& monitor) {
       stage_.reset();
     }
     if (!advance(steps[i], i == 0 ? unloaded : loads[i - 1].locked, loads[i])) break;
-    monitor.progress(static_cast<double>(i + 1) / static_cast<double>(steps.size()), steps[i].stage);
+    monitor.progress(static_cast<double>(i + 1) / static_cast<double>(steps.size()),
+                     steps[i].stage);
   }
   if (stage_) result_.stages.push_back(stage_->finish());
   result_.whole = whole_.finish();
   if (!result_.whole.activated) {
     const std::span<const StepResult> all(result_.steps);
-    result_.pressure_margin = pressure_margin(all.first(all.size() - (result_.failed_step ? 1 : 0)));
+    result_.pressure_margin =
+        pressure_margin(all.first(all.size() - (result_.failed_step ? 1 : 0)));
   }
-  warn();
+  result_.weakening_resolved = result_.max_nucleation_ratio <= 1.0 / 3.0;
+  result_.warnings = case_warnings(scene_, op_, meter_, result_);
   result_.seconds = watch.seconds();
   return std::move(result_);
 }

@@ -8,8 +8,9 @@ namespace faultsim {
 namespace {
 
 double lowest(const std::vector<double>& pressure_change) {
-  return pressure_change.empty() ? 0
-                                 : *std::min_element(pressure_change.begin(), pressure_change.end());
+  return pressure_change.empty()
+             ? 0
+             : *std::min_element(pressure_change.begin(), pressure_change.end());
 }
 
 double chi_bar_of(const StepResult& step) {

@@ -26,23 +26,23 @@ enum class FaultState : int { stick = 0, slip = 1, open = 2 };
 
 /// Metrics of one fault at one load step. Definitions: docs/model.md (design section 2).
 struct FaultMetrics {
-  double chi_bar = 0;             ///< χ̄, window maximum of ∫|t'_T| / ∫τ_L; mesh-independent.
-  double chi_max = 0;             ///< nodal max χ: mesh-dependent.
-  double chi_static_max = 0;      ///< nodal max χ_s, against the static strength.
-  double area_chi_080 = 0;        ///< m2 with χ > 0.8.
-  double thickness_chi_080_max = 0;   ///< m, longest down-dip length with χ > 0.8 over the columns.
+  double chi_bar = 0;         ///< χ̄, window maximum of ∫|t'_T| / ∫τ_L; mesh-independent.
+  double chi_max = 0;         ///< nodal max χ: mesh-dependent.
+  double chi_static_max = 0;  ///< nodal max χ_s, against the static strength.
+  double area_chi_080 = 0;    ///< m2 with χ > 0.8.
+  double thickness_chi_080_max = 0;  ///< m, longest down-dip length with χ > 0.8 over the columns.
   double thickness_chi_080_mean = 0;  ///< m, strike mean of that length.
-  double slipping_area = 0;       ///< m2 of nodes in state slip in this step.
-  double open_area = 0;           ///< m2.
-  double activated_area = 0;      ///< m2: slip since start > slip_tolerance in columns that satisfy
-                                  ///< the activation length.
-  double activated_length = 0;    ///< m, longest down-dip extent with slip > slip_tolerance.
-  bool activated = false;         ///< activated_length ≥ activation_length.
-  double max_slip = 0;            ///< m, |g_T| since start.
-  double mean_slip = 0;           ///< m, over the fault's area.
-  double potency = 0;             ///< m3 (plane strain: per metre of strike, m3/m).
-  double moment = 0;              ///< M0, N m (plane strain: N m per metre of strike).
-  double moment_step = 0;         ///< ∫ G_eff |Δg_T| dA of this step alone, N m.
+  double slipping_area = 0;           ///< m2 of nodes in state slip in this step.
+  double open_area = 0;               ///< m2.
+  double activated_area = 0;    ///< m2: slip since start > slip_tolerance in columns that satisfy
+                                ///< the activation length.
+  double activated_length = 0;  ///< m, longest down-dip extent with slip > slip_tolerance.
+  bool activated = false;       ///< activated_length ≥ activation_length.
+  double max_slip = 0;          ///< m, |g_T| since start.
+  double mean_slip = 0;         ///< m, over the fault's area.
+  double potency = 0;           ///< m3 (plane strain: per metre of strike, m3/m).
+  double moment = 0;            ///< M0, N m (plane strain: N m per metre of strike).
+  double moment_step = 0;       ///< ∫ G_eff |Δg_T| dA of this step alone, N m.
 };
 
 /// How hard the contact solve worked; regression-tested counts.
@@ -54,75 +54,77 @@ struct SolveCounts {
 };
 
 struct StepResult {
-  int step = 0;              ///< 0 = initial equilibrium.
-  std::string stage;         ///< "initial" for step 0.
-  double time = 0;           ///< s.
+  int step = 0;                         ///< 0 = initial equilibrium.
+  std::string stage;                    ///< "initial" for step 0.
+  double time = 0;                      ///< s.
   std::vector<double> pressure_change;  ///< Pa, per region, in region order.
   Outcome outcome = Outcome::failed;
-  std::string reason;        ///< why not converged: counts per reason and the worst node.
+  std::string reason;  ///< why not converged: counts per reason and the worst node.
   int n_stick = 0, n_slip = 0, n_open = 0;
   std::vector<FaultMetrics> faults;
-  std::vector<double> observed;         ///< m, per observation row.
+  std::vector<double> observed;  ///< m, per observation row.
   SolveCounts counts;
-  double seconds = 0;        ///< wall; not compared.
+  double seconds = 0;  ///< wall; not compared.
 };
 
 /// Fault fields of one load step, per fault node of FaultGeometry (fault frame).
 struct FaultFields {
-  Eigen::Matrix3Xd traction;        ///< t' effective (n, strike, dip), Pa.
-  Eigen::Matrix3Xd jump;            ///< g (g_N, slip strike, slip dip), m.
-  Eigen::VectorXd critical_index;   ///< χ.
+  Eigen::Matrix3Xd traction;              ///< t' effective (n, strike, dip), Pa.
+  Eigen::Matrix3Xd jump;                  ///< g (g_N, slip strike, slip dip), m.
+  Eigen::VectorXd critical_index;         ///< χ.
   Eigen::VectorXd static_critical_index;  ///< χ_s.
-  Eigen::VectorXi state;            ///< FaultState.
+  Eigen::VectorXi state;                  ///< FaultState.
   Eigen::VectorXd fault_pressure_change;  ///< Δp_f, Pa.
 };
 
 /// Metrics of one stage (its steps together); the same fields per case are the "whole" stage.
 struct StageMetrics {
-  std::string stage;               ///< "" for the whole case.
+  std::string stage;  ///< "" for the whole case.
   int first_step = 0, last_step = 0;
-  bool activated = false;          ///< slip since the *start of the stage* reaches the criterion
-                                   ///< (whole case: since start).
+  bool activated = false;  ///< slip since the *start of the stage* reaches the criterion
+                           ///< (whole case: since start).
   std::optional<int> activation_step;         ///< first step with the criterion met.
   std::optional<double> activation_pressure;  ///< Pa, Δp of the most depleted region then.
-  std::string activated_fault;     ///< the first fault activated; "" if none.
-  double chi_bar = 0;              ///< maximum over faults and steps.
-  double chi_max = 0;              ///< mesh-dependent.
-  double area_chi_080 = 0;         ///< m2, maximum over steps of the sum over faults.
-  double thickness_chi_080 = 0;    ///< m, maximum over faults and steps.
-  double activated_area = 0;       ///< m2, at its maximum over steps, sum over faults.
-  double slipping_area = 0;        ///< m2, maximum over steps.
-  double open_area = 0;            ///< m2, maximum over steps.
-  double max_slip = 0;             ///< m, at most over faults and steps (stage: slip within the stage).
-  double potency = 0;              ///< m3, at the end.
-  double moment = 0;               ///< N m, at the end (stage: summed over its steps).
-  std::optional<double> magnitude; ///< Mw of moment; none where moment = 0 or plane strain.
+  std::string activated_fault;                ///< the first fault activated; "" if none.
+  double chi_bar = 0;                         ///< maximum over faults and steps.
+  double chi_max = 0;                         ///< mesh-dependent.
+  double area_chi_080 = 0;                    ///< m2, maximum over steps of the sum over faults.
+  double thickness_chi_080 = 0;               ///< m, maximum over faults and steps.
+  double activated_area = 0;                  ///< m2, at its maximum over steps, sum over faults.
+  double slipping_area = 0;                   ///< m2, maximum over steps.
+  double open_area = 0;                       ///< m2, maximum over steps.
+  double max_slip = 0;  ///< m, at most over faults and steps (stage: slip within the stage).
+  double potency = 0;   ///< m3, at the end.
+  double moment = 0;    ///< N m, at the end (stage: summed over its steps).
+  std::optional<double> magnitude;  ///< Mw of moment; none where moment = 0 or plane strain.
 };
 
 struct CaseResult {
   std::string title;
-  std::string identity;              ///< case_identity of the scene.
+  std::string identity;  ///< case_identity of the scene.
   std::string operator_fingerprint;
   int numerics_version = 0;
   Outcome outcome = Outcome::failed;
-  std::string reason;                ///< empty when converged.
-  std::optional<int> failed_step;    ///< where the history ends, when it ends early.
+  std::string reason;              ///< empty when converged.
+  std::optional<int> failed_step;  ///< where the history ends, when it ends early.
   bool plane_strain = false;
-  bool weakening_resolved = true;    ///< cell edges ≤ h_n / 3 where it slips (true without weakening).
-  double max_nucleation_ratio = 0;   ///< largest edge / h_n over slipping nodes.
+  bool weakening_resolved =
+      true;  ///< cell edges ≤ h_n / 3 where it slips (true without weakening).
+  double max_nucleation_ratio = 0;  ///< largest edge / h_n over slipping nodes.
   double pressure_margin = std::numeric_limits<double>::quiet_NaN();
-                                     ///< Pa of further depletion scale to χ̄ = 1 by linear
-                                     ///< extrapolation for inactive cases; NaN = null.
+  ///< Pa of further depletion scale to χ̄ = 1 by linear
+  ///< extrapolation for inactive cases; NaN = null.
   std::vector<std::string> region_names;
   std::vector<std::string> fault_names;
   std::vector<std::string> observation_names;
-  std::vector<StepResult> steps;     ///< step 0 first; only steps in equilibrium, plus the failed one
-                                     ///< (outcome != converged, metrics of the last iterate not given).
+  std::vector<StepResult>
+      steps;  ///< step 0 first; only steps in equilibrium, plus the failed one
+              ///< (outcome != converged, metrics of the last iterate not given).
   std::vector<StageMetrics> stages;
   StageMetrics whole;
   SolveCounts counts;
   std::vector<std::string> warnings;
-  double seconds = 0;                ///< wall; not compared.
+  double seconds = 0;  ///< wall; not compared.
 };
 
 /// Mw = (2/3)(log10 M0 − 9.1); none for M0 ≤ 0.

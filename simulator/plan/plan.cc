@@ -57,7 +57,8 @@ long field_jumps(const Scene& scene, const Plan& plan, const GridLines& lines) {
     base = i + 1 < field.layers.size() ? field.layers[i + 1].top_depth : field.depth;
   }
   const long columns =
-      plan.plane_strain ? 1 : count_between(lines.y, -field.fault_length / 2, field.fault_length / 2);
+      plan.plane_strain ? 1
+                        : count_between(lines.y, -field.fault_length / 2, field.fault_length / 2);
   long jumps = 0;
   for (std::size_t f = 0; f <= field.blocks.size(); ++f) {
     double shallow = 1e300, deep = -1e300;
@@ -95,11 +96,11 @@ void predict_cost(Plan& plan) {
   const auto n = static_cast<double>(std::max(plan.n_unknowns, 1L));
   const auto g = static_cast<double>(plan.n_jump);
   const double per_cell = 1.2e4;  // bytes: element lists, pattern, values, the copy CHOLMOD gets
-  const double factor = plan.plane_strain ? 8 * 6.0 * n * std::log2(n + 2)
-                                          : 4.3e9 * std::pow(n / 260e3, 4.0 / 3.0);
+  const double factor =
+      plan.plane_strain ? 8 * 6.0 * n * std::log2(n + 2) : 4.3e9 * std::pow(n / 260e3, 4.0 / 3.0);
   plan.memory_bytes = factor + per_cell * static_cast<double>(plan.n_cells) + 3 * 8 * g * g;
-  const double bulk = plan.plane_strain ? 1.2 * std::pow(n / 50e3, 1.3)
-                                        : 30.0 * std::pow(n / 260e3, 1.8);
+  const double bulk =
+      plan.plane_strain ? 1.2 * std::pow(n / 50e3, 1.3) : 30.0 * std::pow(n / 260e3, 1.8);
   plan.operator_seconds = bulk + g * g * g / 3e10;
 }
 
@@ -132,8 +133,7 @@ nlohmann::json family_of_box(const Scene& scene, const BoxMeshSpec& spec) {
                       {"regions", nlohmann::json::array()},
                       {"boundary", nlohmann::json::array()}};
   for (const auto& p : spec.patches) {
-    j["patches"].push_back(
-        {p.center, p.strike, p.dip_from_vertical, p.length, p.width, p.ellipse});
+    j["patches"].push_back({p.center, p.strike, p.dip_from_vertical, p.length, p.width, p.ellipse});
   }
   for (const auto& r : spec.regions) {
     j["regions"].push_back({r.disc, r.from, r.to, r.center, r.radius, r.thickness});
@@ -141,8 +141,8 @@ nlohmann::json family_of_box(const Scene& scene, const BoxMeshSpec& spec) {
   for (const BoundaryCondition& b : scene.box.boundary) {  // tables only scale the unit loads
     nlohmann::json sides;
     for (const Side side : b.sides) sides.push_back(static_cast<int>(side));
-    j["boundary"].push_back({sides, static_cast<int>(b.kind), b.components, b.translation,
-                             b.gradient, b.stress});
+    j["boundary"].push_back(
+        {sides, static_cast<int>(b.kind), b.components, b.translation, b.gradient, b.stress});
   }
   return j;
 }
@@ -160,7 +160,8 @@ nlohmann::json family_of(const Scene& scene, const Plan& plan) {
     j = family_of_box(scene, spec);
     sizes = spec.sizes;
   }
-  j["sizes"] = {sizes.strike, sizes.dip, sizes.normal, sizes.growth, sizes.fine_margin, sizes.largest};
+  j["sizes"] = {sizes.strike, sizes.dip,         sizes.normal,
+                sizes.growth, sizes.fine_margin, sizes.largest};
   j["plane_strain"] = plan.plane_strain;
   j["b_bar"] = scene.numerics.b_bar;
   for (const Material& m : scene.materials) {
@@ -183,7 +184,8 @@ CellSizes cell_sizes(const MeshSizes& sizes) {
 
 std::string human_bytes(double bytes) {
   char text[32];
-  std::snprintf(text, sizeof text, bytes >= 1e9 ? "%.1f GB" : "%.0f MB", bytes / (bytes >= 1e9 ? 1e9 : 1e6));
+  std::snprintf(text, sizeof text, bytes >= 1e9 ? "%.1f GB" : "%.0f MB",
+                bytes / (bytes >= 1e9 ? 1e9 : 1e6));
   return text;
 }
 
@@ -201,7 +203,8 @@ FieldMeshSpec field_mesh_spec(const Scene& scene, const Plan& plan) {
     if (field.layers[i].name == field.reservoir_layer) spec.reservoir_layer = static_cast<int>(i);
   }
   spec.sideburden_material = material_index(scene, field.sideburden);
-  for (const Block& block : field.blocks) spec.blocks.push_back({block.from, block.to, block.offset});
+  for (const Block& block : field.blocks)
+    spec.blocks.push_back({block.from, block.to, block.offset});
   spec.block_length = field.block_length;
   spec.fault_length = field.fault_length;
   spec.fault_overshoot = field.fault_overshoot;
@@ -267,7 +270,8 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
 }
 
 std::string operator_fingerprint(const Scene& scene, const Plan& plan, const std::string& blas) {
-  nlohmann::json j = {{"family", plan.family}, {"numerics_version", kNumericsVersion}, {"blas", blas}};
+  nlohmann::json j = {
+      {"family", plan.family}, {"numerics_version", kNumericsVersion}, {"blas", blas}};
   for (const ObservationPoint& point : scene.output.observation_points) {
     j["observation_points"].push_back({point.name, point.position});
   }

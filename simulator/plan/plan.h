@@ -11,11 +11,11 @@ namespace faultsim {
 
 /// One decision about what is modelled (design section 6).
 struct Reduction {
-  std::string name;      ///< "half_domain", "plane_strain", "creep_off", ...
+  std::string name;  ///< "half_domain", "plane_strain", "creep_off", ...
   bool applied = false;
-  std::string reason;    ///< why it may, or may not, be used.
-  std::string bound;     ///< what it can change in the answer: "exact by symmetry".
-  std::string switch_;   ///< how to force it: "/numerics/half_domain".
+  std::string reason;   ///< why it may, or may not, be used.
+  std::string bound;    ///< what it can change in the answer: "exact by symmetry".
+  std::string switch_;  ///< how to force it: "/numerics/half_domain".
 };
 
 /// What will be modelled and what it costs: a pure function of the scene alone.
@@ -24,12 +24,12 @@ struct Plan {
   bool plane_strain = false;
   std::vector<Reduction> reductions;
   long n_cells = 0;
-  long n_unknowns = 0;    ///< bulk and jump, estimated from the grid lines.
+  long n_unknowns = 0;  ///< bulk and jump, estimated from the grid lines.
   long n_jump = 0;
   double operator_seconds = 0;  ///< predicted, on one core of the calibration machine.
   double memory_bytes = 0;      ///< predicted peak while the operator is built.
   int n_steps = 0;
-  std::string family;     ///< fingerprint of what defines the linear bulk (without BLAS).
+  std::string family;  ///< fingerprint of what defines the linear bulk (without BLAS).
 };
 
 /// Makes the plan. Geometry problems are appended with pointers into the scene document.

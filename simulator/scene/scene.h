@@ -13,10 +13,10 @@ namespace faultsim {
 
 struct Material {
   std::string name;
-  double density = 0;          ///< kg/m3, bulk.
-  double youngs_modulus = 0;   ///< Pa.
-  double poisson_ratio = 0;    ///< in [0, 0.4999].
-  double biot = 1;             ///< Biot coefficient b in [0, 1].
+  double density = 0;               ///< kg/m3, bulk.
+  double youngs_modulus = 0;        ///< Pa.
+  double poisson_ratio = 0;         ///< in [0, 0.4999].
+  double biot = 1;                  ///< Biot coefficient b in [0, 1].
   std::optional<double> viscosity;  ///< Pa s, Maxwell, ε̇_v = s/(2μ); none = elastic.
 };
 
@@ -29,26 +29,27 @@ struct Layer {
 
 /// One compartment of a field: x in [from, to], the reservoir shifted down by `offset`.
 struct Block {
-  std::string name;      ///< also the name of its pressure region.
-  double from = 0;       ///< m.
-  double to = 0;         ///< m.
-  double offset = 0;     ///< m, > 0 is down.
+  std::string name;   ///< also the name of its pressure region.
+  double from = 0;    ///< m.
+  double to = 0;      ///< m.
+  double offset = 0;  ///< m, > 0 is down.
 };
 
 /// The conceptual Dutch field of design section 7: layers, a row of contiguous reservoir blocks, a
 /// fault at every block boundary (n_blocks + 1 faults, from west to east, see Scene::faults).
 struct FieldGeometry {
-  double width = 0;            ///< m, extent in x, centred on 0.
-  double length = 0;           ///< m, extent in y, centred on 0.
-  double depth = 0;            ///< m, base of the model.
-  std::vector<Layer> layers;   ///< from the surface down.
-  std::string reservoir_layer; ///< the layer that the blocks shift and that is depleted.
-  std::string sideburden;      ///< material beside the blocks at reservoir level.
-  std::vector<Block> blocks;   ///< west to east, contiguous.
-  double block_length = 0;     ///< m, blocks cover |y| <= block_length/2.
-  double fault_length = 0;     ///< m, faults cover |y| <= fault_length/2.
-  double fault_overshoot = 0;  ///< m above the shallowest and below the deepest reservoir edge touched.
-  double pivot_depth = 0;      ///< m, where a dipping fault keeps its x.
+  double width = 0;             ///< m, extent in x, centred on 0.
+  double length = 0;            ///< m, extent in y, centred on 0.
+  double depth = 0;             ///< m, base of the model.
+  std::vector<Layer> layers;    ///< from the surface down.
+  std::string reservoir_layer;  ///< the layer that the blocks shift and that is depleted.
+  std::string sideburden;       ///< material beside the blocks at reservoir level.
+  std::vector<Block> blocks;    ///< west to east, contiguous.
+  double block_length = 0;      ///< m, blocks cover |y| <= block_length/2.
+  double fault_length = 0;      ///< m, faults cover |y| <= fault_length/2.
+  double fault_overshoot =
+      0;                   ///< m above the shallowest and below the deepest reservoir edge touched.
+  double pivot_depth = 0;  ///< m, where a dipping fault keeps its x.
 };
 
 enum class PatchShape { rectangle, ellipse };
@@ -86,10 +87,10 @@ struct TimeTable {
 struct BoundaryCondition {
   std::vector<Side> sides;
   BoundaryKind kind = BoundaryKind::roller;
-  std::array<bool, 3> components = {true, true, true};    ///< of `displacement`: which of x, y, z.
-  std::array<double, 3> translation = {0, 0, 0};          ///< m.
+  std::array<bool, 3> components = {true, true, true};  ///< of `displacement`: which of x, y, z.
+  std::array<double, 3> translation = {0, 0, 0};        ///< m.
   std::array<double, 9> gradient = {0, 0, 0, 0, 0, 0, 0, 0, 0};  ///< row-major ∂u_i/∂x_j.
-  std::array<double, 9> stress = {0, 0, 0, 0, 0, 0, 0, 0, 0};    ///< Pa, Δσ, symmetric, row-major.
+  std::array<double, 9> stress = {0, 0, 0, 0, 0, 0, 0, 0, 0};  ///< Pa, Δσ, symmetric, row-major.
   TimeTable table;
 };
 
@@ -99,20 +100,20 @@ enum class RegionShape { box, disc };
 struct PressureRegion {
   std::string name;
   RegionShape shape = RegionShape::box;
-  std::array<double, 3> from = {0, 0, 0};    ///< box: corner; on a sheared mesh x and y are taken
-  std::array<double, 3> to = {0, 0, 0};      ///< in the unsheared grid, so a region ends on the fault.
+  std::array<double, 3> from = {0, 0, 0};  ///< box: corner; on a sheared mesh x and y are taken
+  std::array<double, 3> to = {0, 0, 0};  ///< in the unsheared grid, so a region ends on the fault.
   std::array<double, 3> center = {0, 0, 0};  ///< disc: centre of a vertical cylinder
   double radius = 0;                         ///< disc, m.
   double thickness = 0;                      ///< disc, m.
 };
 
 struct BoxGeometry {
-  std::array<double, 3> from = {0, 0, 0};  ///< m, lower corner.
-  std::array<double, 3> to = {0, 0, 0};    ///< m, upper corner.
-  std::string material;                    ///< fills the box unless layers are given.
-  std::vector<Layer> layers;               ///< top_depth is -z of the top; may be empty.
-  std::vector<PatchGeometry> patches;      ///< one per Scene::faults, same order.
-  std::vector<BoundaryCondition> boundary; ///< faces not mentioned: free.
+  std::array<double, 3> from = {0, 0, 0};   ///< m, lower corner.
+  std::array<double, 3> to = {0, 0, 0};     ///< m, upper corner.
+  std::string material;                     ///< fills the box unless layers are given.
+  std::vector<Layer> layers;                ///< top_depth is -z of the top; may be empty.
+  std::vector<PatchGeometry> patches;       ///< one per Scene::faults, same order.
+  std::vector<BoundaryCondition> boundary;  ///< faces not mentioned: free.
   std::vector<PressureRegion> regions;
 };
 
@@ -121,12 +122,12 @@ enum class Switch { automatic, on, off };
 
 /// Cell sizes. A `tier` fills them; explicit values win.
 struct MeshSizes {
-  double strike = 0;      ///< m, along y at the faults (box: y).
-  double dip = 0;         ///< m, down dip at reservoir level (box: z in the fine window).
-  double normal = 0;      ///< m, first cell beside a fault.
-  double growth = 1.3;    ///< largest ratio of neighbouring cell sizes away from the faults.
-  double fine_margin = 0; ///< m, box: how far beyond patches and regions the fine size is kept.
-  double largest = 0;     ///< m, cap of graded cells; 0 = none.
+  double strike = 0;       ///< m, along y at the faults (box: y).
+  double dip = 0;          ///< m, down dip at reservoir level (box: z in the fine window).
+  double normal = 0;       ///< m, first cell beside a fault.
+  double growth = 1.3;     ///< largest ratio of neighbouring cell sizes away from the faults.
+  double fine_margin = 0;  ///< m, box: how far beyond patches and regions the fine size is kept.
+  double largest = 0;      ///< m, cap of graded cells; 0 = none.
 };
 
 enum class InitialStressKind { column, profile };
@@ -136,17 +137,18 @@ enum class InitialStressKind { column, profile };
 /// profile: σ_v(z) = vertical + vertical_gradient (−z), p0 likewise; or a uniform full tensor.
 struct InitialState {
   InitialStressKind kind = InitialStressKind::column;
-  double ratio_across = 1;   ///< M1: σ'_x / σ'_v.
-  double ratio_along = 1;    ///< M2: σ'_y / σ'_v.
-  double initial_biot = 1;   ///< α_0 in σ_h = M(σ_v + α_0 p0) − α_0 p0.
-  double gravity = 9.81;     ///< m/s2.
+  double ratio_across = 1;              ///< M1: σ'_x / σ'_v.
+  double ratio_along = 1;               ///< M2: σ'_y / σ'_v.
+  double initial_biot = 1;              ///< α_0 in σ_h = M(σ_v + α_0 p0) − α_0 p0.
+  double gravity = 9.81;                ///< m/s2.
   double water_density = 1000;          ///< kg/m3, hydrostatic p0 (column).
   double overpressure = 0;              ///< Pa, in the depth range of the reservoir at zero offset.
   double vertical_stress = 0;           ///< Pa at z = 0, negative in compression (profile).
   double vertical_stress_gradient = 0;  ///< Pa per m of depth, negative (profile).
   double pressure = 0;                  ///< Pa at z = 0 (profile).
   double pressure_gradient = 0;         ///< Pa per m of depth (profile).
-  std::optional<std::array<double, 9>> tensor;  ///< Pa, uniform total σ0; replaces the profile's stress.
+  std::optional<std::array<double, 9>>
+      tensor;  ///< Pa, uniform total σ0; replaces the profile's stress.
 };
 
 enum class FrictionLaw {
@@ -169,9 +171,9 @@ enum class FaultPressureRule { mean, min, max, minus, plus, fraction, prescribed
 
 struct FaultPressure {
   FaultPressureRule rule = FaultPressureRule::mean;
-  double fraction = 0.5;                ///< rule fraction: Δp_min + f (Δp_max − Δp_min).
-  double prescribed = 0;                ///< Pa, change; times table.
-  TimeTable table;                      ///< rule prescribed.
+  double fraction = 0.5;  ///< rule fraction: Δp_min + f (Δp_max − Δp_min).
+  double prescribed = 0;  ///< Pa, change; times table.
+  TimeTable table;        ///< rule prescribed.
   std::optional<std::array<double, 2>> depth_window;  ///< m; prescribed: top, bottom. None = where
                                                       ///< either side is reservoir.
 };
@@ -187,7 +189,7 @@ struct Fault {
 /// One named stage of the loading; steps are equal in time unless times are given.
 struct Stage {
   std::string name;
-  double duration = 0;   ///< s.
+  double duration = 0;  ///< s.
   int n_steps = 1;
 };
 
@@ -214,15 +216,15 @@ struct OutputRequest {
 
 /// Knobs of the numerics that are part of a case's identity.
 struct Numerics {
-  double slip_tolerance = 1e-4;       ///< m, of `activated`.
-  double activation_length = 40;      ///< m, of `activated` and χ̄.
-  double traction_tolerance = 1e-8;   ///< relative to the local traction level.
+  double slip_tolerance = 1e-4;      ///< m, of `activated`.
+  double activation_length = 40;     ///< m, of `activated` and χ̄.
+  double traction_tolerance = 1e-8;  ///< relative to the local traction level.
   int max_newton_iterations = 30;
   int max_active_set_passes = 100;
   int max_step_cuts = 6;
   bool b_bar = true;
-  Switch half_domain = Switch::automatic;   ///< field: symmetry about y = 0.
-  Switch plane_strain = Switch::off;        ///< one cell in y, front and back tied, u_y = 0.
+  Switch half_domain = Switch::automatic;  ///< field: symmetry about y = 0.
+  Switch plane_strain = Switch::off;       ///< one cell in y, front and back tied, u_y = 0.
 };
 
 struct Scene {
@@ -230,8 +232,8 @@ struct Scene {
   std::string tier = "custom";
   std::vector<Material> materials;
   GeometryKind geometry_kind = GeometryKind::field;
-  FieldGeometry field;   ///< used when geometry_kind == field.
-  BoxGeometry box;       ///< used when geometry_kind == box.
+  FieldGeometry field;  ///< used when geometry_kind == field.
+  BoxGeometry box;      ///< used when geometry_kind == box.
   MeshSizes mesh;
   std::vector<Fault> faults;
   InitialState initial;

@@ -16,7 +16,8 @@ struct PlannedScene {
 /// An example scene with changes ("/pointer", value), planned.
 inline PlannedScene planned(const std::string& file,
                             const std::vector<std::pair<std::string, std::string>>& changes) {
-  JsonDocument document = read_json_file(std::string(FAULTSIM_SOURCE_DIR) + "/docs/examples/scenes/" + file);
+  JsonDocument document =
+      read_json_file(std::string(FAULTSIM_SOURCE_DIR) + "/docs/examples/scenes/" + file);
   for (const auto& [pointer, value] : changes) set_value(document, pointer, value);
   PlannedScene result{read_scene(document), {}};
   std::vector<Problem> problems;

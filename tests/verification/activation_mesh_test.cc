@@ -13,7 +13,8 @@
 namespace faultsim {
 namespace {
 
-CaseResult run_reference(const std::string& offset, const std::string& angle, const std::string& cell) {
+CaseResult run_reference(const std::string& offset, const std::string& angle,
+                         const std::string& cell) {
   JsonDocument document =
       read_json_file(std::string(FAULTSIM_SOURCE_DIR) + "/docs/examples/scenes/rotliegend.json");
   set_value(document, "/tier", "screening");

@@ -18,7 +18,8 @@ TEST(LockedNodes, AreReportedAndLeftOutOfTheContactProblem) {
   problem.mesh = make_mesh(spec);
   problem.materials = {{10e9, 0.2}};
   const Eigen::Matrix3d none = Eigen::Matrix3d::Zero();
-  for (const MeshSide side : {MeshSide::x_min, MeshSide::x_max, MeshSide::y_min, MeshSide::y_max, MeshSide::z_min}) {
+  for (const MeshSide side :
+       {MeshSide::x_min, MeshSide::x_max, MeshSide::y_min, MeshSide::y_max, MeshSide::z_min}) {
     std::array<bool, 3> components = {false, false, false};
     components[static_cast<std::size_t>(side) / 2] = true;
     problem.conditions.push_back({side, components, Eigen::Vector3d::Zero(), none, -1});
@@ -35,7 +36,8 @@ TEST(LockedNodes, AreReportedAndLeftOutOfTheContactProblem) {
       const bool on_base = std::abs(fault.grid_position[point].z() + 100) < 1e-9;
       ASSERT_EQ(fault.grid_node[point] < 0, on_base);
       if (on_base) continue;
-      const OperatorNode& node = op.geometry.nodes[static_cast<std::size_t>(fault.grid_node[point])];
+      const OperatorNode& node =
+          op.geometry.nodes[static_cast<std::size_t>(fault.grid_node[point])];
       EXPECT_LT((node.position - fault.grid_position[point]).norm(), 1e-9);
     }
   }

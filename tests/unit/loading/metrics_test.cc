@@ -115,7 +115,8 @@ TEST(FaultMeter, ActivationNeedsTheLengthNotTheNumberOfCells) {
     LineFault f(n, h);
     const auto tent = [&](double half_width) {  // slip of 1 mm at the centre, 0 at ± half_width
       for (int k = 0; k < n; ++k) {
-        f.state.jump[2 * k + 1] = -1e-3 * std::max(0.0, 1 - std::abs((k + 1) * h - 100) / half_width);
+        f.state.jump[2 * k + 1] =
+            -1e-3 * std::max(0.0, 1 - std::abs((k + 1) * h - 100) / half_width);
       }
     };
     const FaultMeter meter(f.op, f.laws, 1e-4, 40);
@@ -148,7 +149,8 @@ TEST(FaultMeter, MomentAndPotencyAreDoubledForAHalfDomain) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(6);
   const FaultMeter a(full.op, full.laws, 1e-4, 40), b(half.op, half.laws, 1e-4, 40);
   a.evaluate(full.state, nodal);
-  const FaultMetrics m = a.measure(nodal, full.state, zero)[0], m2 = b.measure(nodal, half.state, zero)[0];
+  const FaultMetrics m = a.measure(nodal, full.state, zero)[0],
+                     m2 = b.measure(nodal, half.state, zero)[0];
   EXPECT_DOUBLE_EQ(m.potency, 0.03);
   EXPECT_DOUBLE_EQ(m.moment, 0.03 * 5e9);
   EXPECT_DOUBLE_EQ(m.moment_step, m.moment);
