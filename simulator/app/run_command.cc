@@ -1,3 +1,4 @@
+#include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -20,6 +21,12 @@ std::filesystem::path user_cache() {
   if (const char* home = std::getenv("HOME"))
     return std::filesystem::path(home) / ".cache" / "faultsim";
   return {};
+}
+
+std::string built_in(double seconds) {
+  char text[48];
+  std::snprintf(text, sizeof text, "operator: built in %.2f s", seconds);
+  return text;
 }
 
 ExitCode exit_code_of(Outcome outcome) {
@@ -103,9 +110,8 @@ ExitCode run_command(const RunArguments& arguments) {
   if (!prepared.remark.empty()) monitor.note(prepared.remark);
   monitor.clear();
   if (!json) {
-    std::cerr << (prepared.from_cache
-                      ? "operator: from the cache"
-                      : concat("operator: built in ", prepared.op->build_seconds, " s"))
+    std::cerr << (prepared.from_cache ? "operator: from the cache"
+                                      : built_in(prepared.op->build_seconds))
               << ", " << prepared.op->geometry.nodes.size() << " fault node pairs\n";
   }
   throw_if_interrupted("building the operator");

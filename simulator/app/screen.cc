@@ -108,12 +108,14 @@ std::string case_summary(const CaseResult& result) {
                      bar(result.pressure_margin).c_str());
     text += "\n";
   }
+  const char* area_unit = result.plane_strain ? "m2/m" : "m2";
+  const char* moment_unit = result.plane_strain ? "N m/m" : "N m";
   for (const StageMetrics& stage : result.stages) {
     text += format(
         "  %-22.22s steps %d-%d: window chi %.3f, slip within the stage %.2f mm, activated area "
-        "%.4g m2, M0 %.3g N m",
+        "%.4g %s, M0 %.3g %s",
         stage.stage.c_str(), stage.first_step, stage.last_step, stage.chi_bar, stage.max_slip * 1e3,
-        stage.activated_area, stage.moment);
+        stage.activated_area, area_unit, stage.moment, moment_unit);
     if (stage.magnitude) text += format(" (Mw %.1f)", *stage.magnitude);
     text += stage.activated ? format(", activated in step %d\n", *stage.activation_step) : "\n";
   }

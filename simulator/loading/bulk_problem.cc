@@ -1,3 +1,4 @@
+#include <cmath>
 #include <set>
 
 #include "simulator/loading/history.h"
@@ -9,7 +10,8 @@ namespace {
 MeshSide mesh_side(Side side) { return static_cast<MeshSide>(static_cast<int>(side)); }
 
 /// Splits the mesh's pressure regions by material, because Biot coefficients belong to materials:
-/// afterwards Mesh::region indexes the pressure loads, which are appended in (region, material) order.
+/// afterwards Mesh::region indexes the pressure loads, which are appended in (region, material)
+/// order.
 void add_pressure_loads(Mesh& mesh, std::vector<LoadCase>& loads) {
   std::set<std::pair<int, int>> present;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
@@ -42,8 +44,8 @@ std::array<bool, 3> normal_only(MeshSide side) {
 /// Rollers on sides and base, free top; plane strain and half domain need nothing more, because
 /// y_min and y_max are rollers anyway.
 void add_field_conditions(BulkProblem& problem) {
-  for (const MeshSide side : {MeshSide::x_min, MeshSide::x_max, MeshSide::y_min, MeshSide::y_max,
-                              MeshSide::z_min}) {
+  for (const MeshSide side :
+       {MeshSide::x_min, MeshSide::x_max, MeshSide::y_min, MeshSide::y_max, MeshSide::z_min}) {
     problem.conditions.push_back(held(side, normal_only(side)));
   }
 }
@@ -60,20 +62,21 @@ void add_box_conditions(const Scene& scene, BulkProblem& problem) {
     load.name = boundary_load_name(static_cast<int>(i));
     switch (condition.kind) {
       case BoundaryKind::free:
-      case BoundaryKind::tied: break;  // ties are in the mesh
+      case BoundaryKind::tied:
+        break;  // ties are in the mesh
       case BoundaryKind::roller:
       case BoundaryKind::fixed:
         for (const Side side : condition.sides) {
           const MeshSide s = mesh_side(side);
-          problem.conditions.push_back(
-              held(s, condition.kind == BoundaryKind::fixed ? std::array<bool, 3>{true, true, true}
-                                                            : normal_only(s)));
+          problem.conditions.push_back(held(s, condition.kind == BoundaryKind::fixed
+                                                   ? std::array<bool, 3>{true, true, true}
+                                                   : normal_only(s)));
         }
         break;
       case BoundaryKind::displacement:
         for (const Side side : condition.sides) {
-          problem.conditions.push_back({mesh_side(side), condition.components, translation, gradient,
-                                        static_cast<int>(problem.loads.size())});
+          problem.conditions.push_back({mesh_side(side), condition.components, translation,
+                                        gradient, static_cast<int>(problem.loads.size())});
         }
         load.displacement = true;
         problem.loads.push_back(load);
@@ -92,7 +95,8 @@ void add_box_conditions(const Scene& scene, BulkProblem& problem) {
 BulkProblem bulk_problem(const Scene& scene, const Plan& plan) {
   BulkProblem problem;
   const bool is_field = scene.geometry_kind == GeometryKind::field;
-  problem.mesh = is_field ? make_mesh(field_mesh_spec(scene, plan)) : make_mesh(box_mesh_spec(scene, plan));
+  problem.mesh =
+      is_field ? make_mesh(field_mesh_spec(scene, plan)) : make_mesh(box_mesh_spec(scene, plan));
   for (const Material& m : scene.materials) {
     problem.materials.push_back({m.youngs_modulus, m.poisson_ratio});
   }
@@ -103,8 +107,10 @@ BulkProblem bulk_problem(const Scene& scene, const Plan& plan) {
     add_box_conditions(scene, problem);
   }
   for (const ObservationPoint& point : scene.output.observation_points) {
+    // By symmetry; prepare_operator turns u_y round again.
+    const double y = plan.half_domain ? std::abs(point.position[1]) : point.position[1];
     problem.observation_points.emplace_back(
-        point.name, Eigen::Vector3d(point.position[0], point.position[1], point.position[2]));
+        point.name, Eigen::Vector3d(point.position[0], y, point.position[2]));
   }
   problem.b_bar = scene.numerics.b_bar;
   problem.half_domain = plan.half_domain;

@@ -187,6 +187,17 @@ FaultMeter::FaultMeter(const FaultOperator& op, const ContactLaws& laws, double 
   }
 }
 
+double FaultMeter::down_dip_length(int fault) const {
+  double longest = 0;
+  for (const Column& c : columns_) {
+    if (c.fault != fault) continue;
+    const double first = std::isnan(c.tip_before) ? c.position.front() : c.tip_before;
+    const double last = std::isnan(c.tip_after) ? c.position.back() : c.tip_after;
+    longest = std::max(longest, last - first);
+  }
+  return longest;
+}
+
 double FaultMeter::slip_norm(int node, const Eigen::VectorXd& jump,
                              const Eigen::VectorXd* reference) const {
   const auto& dof = op_.geometry.nodes[static_cast<std::size_t>(node)].dof;

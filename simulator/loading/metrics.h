@@ -54,6 +54,8 @@ class FaultMeter {
                                      const Eigen::VectorXd* reference) const;
 
   const std::vector<Column>& columns() const { return columns_; }
+  /// The longest extent that slip could reach on a fault, m; 0 for a fault without nodes.
+  double down_dip_length(int fault) const;
 
  private:
   double slip_norm(int node, const Eigen::VectorXd& jump, const Eigen::VectorXd* reference) const;

@@ -1,8 +1,46 @@
+#include "simulator/common/errors.h"
 #include "simulator/linalg/cholesky.h"
+#include "simulator/loading/memory.h"
 #include "simulator/loading/run_case.h"
 #include "simulator/output/operator_cache.h"
 
 namespace faultsim {
+namespace {
+
+/// Fault names are no part of a family: an operator made for another scene may carry other names.
+void take_fault_names(const Scene& scene, FaultOperator& op) {
+  FAULTSIM_DEMAND(op.geometry.faults.size() == scene.faults.size(), op.geometry.faults.size());
+  for (std::size_t f = 0; f < scene.faults.size(); ++f) {
+    op.geometry.faults[f].name = scene.faults[f].name;
+  }
+}
+
+/// Points of the half that is not modelled were observed at their mirror image (bulk_problem):
+/// there u_y is opposite.
+void mirror_observations(const Scene& scene, FaultOperator& op) {
+  const auto& points = scene.output.observation_points;
+  FAULTSIM_DEMAND(op.observations.size() == 3 * points.size(), op.observations.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].position[1] >= 0) continue;
+    for (std::size_t c = 0; c < 3; ++c) op.observations[3 * i + c].position.y() *= -1;
+    const auto row = static_cast<Eigen::Index>(3 * i + 1);
+    op.observed_load.row(row) *= -1;
+    op.observed_jump.row(row) *= -1;
+  }
+}
+
+/// An operator that cannot be kept is still an operator: a full disk must not cost the run.
+void keep_operator(const FaultOperator& op, const CachePolicy& cache, std::string& remark) {
+  try {
+    write_operator(op, cache.folder);
+    prune_operators(cache.folder, cache.max_bytes, op.fingerprint);
+  } catch (const StorageError& error) {
+    if (!remark.empty()) remark += "; ";
+    remark += concat("the operator is not kept for other runs: ", error.what());
+  }
+}
+
+}  // namespace
 
 PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const CachePolicy& cache,
                                   bool keep_bulk, Monitor& monitor) {
@@ -12,20 +50,20 @@ PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const Ca
   const std::string name = operator_fingerprint(scene, plan, blas_description());
   if (!cache.folder.empty() && !keep_bulk) {
     if (auto found = read_operator(cache.folder, name, &prepared.remark)) {
+      take_fault_names(scene, *found);
       prepared.op = std::make_shared<FaultOperator>(std::move(*found));
       prepared.from_cache = true;
       return prepared;
     }
   }
+  demand_memory(plan, available_memory());
   monitor.progress(0.0, "meshing");
   const BulkProblem problem = bulk_problem(scene, plan);
   auto bulk = std::make_shared<CondensedBulk>(problem, options, monitor);
   auto op = std::make_shared<FaultOperator>(bulk->condense());
+  if (plan.half_domain) mirror_observations(scene, *op);
   op->fingerprint = name;
-  if (!cache.folder.empty()) {
-    write_operator(*op, cache.folder);
-    prune_operators(cache.folder, cache.max_bytes, name);
-  }
+  if (!cache.folder.empty()) keep_operator(*op, cache, prepared.remark);
   prepared.op = op;
   if (keep_bulk) prepared.bulk = bulk;
   return prepared;

@@ -25,11 +25,13 @@ struct CachePolicy {
 };
 
 /// The operator of the scene: from the cache if it is there and sound, else built (and cached).
+/// Throws ResourceError before anything is built when the plan needs more memory than is available;
+/// a cache that cannot be written is a remark.
 struct PreparedOperator {
   std::shared_ptr<const FaultOperator> op;
   std::shared_ptr<CondensedBulk> bulk;  ///< only when keep_bulk was asked (displacement fields).
   bool from_cache = false;
-  std::string remark;                   ///< "damaged operator file moved aside", ...
+  std::string remark;  ///< "damaged operator file moved aside", "not kept", ...
 };
 PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const CachePolicy& cache,
                                   bool keep_bulk, Monitor& monitor);
@@ -37,8 +39,9 @@ PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const Ca
 /// Called after each load step in equilibrium.
 using StepObserver = std::function<void(const StepResult&, const FaultFields&)>;
 
-/// Runs one case on its operator: initial state, load steps, contact, metrics. Deterministic: the same
-/// scene and operator give the same bits whatever ran before. Never throws for non-convergence.
+/// Runs one case on its operator: initial state, load steps, contact, metrics. Deterministic: the
+/// same scene and operator give the same bits whatever ran before. Never throws for
+/// non-convergence.
 CaseResult run_case(const Scene& scene, const FaultOperator& op, Monitor& monitor,
                     const StepObserver& observer = {});
 

@@ -1,0 +1,124 @@
+#include "simulator/loading/warnings.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "simulator/common/errors.h"
+#include "simulator/scene/initial_state.h"
+
+namespace faultsim {
+namespace {
+
+/// A number for people.
+std::string brief(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+std::string place(const Eigen::Vector3d& p) {
+  return "(" + brief(p.x()) + ", " + brief(p.y()) + ", " + brief(p.z()) + ") m";
+}
+
+class Warnings {
+ public:
+  Warnings(const Scene& scene, const FaultOperator& op, const FaultMeter& meter,
+           const CaseResult& result)
+      : scene_(scene), op_(op), meter_(meter), result_(result) {}
+
+  std::vector<std::string> all() {
+    neglected_weight();
+    held_closed();
+    moved_observations();
+    short_faults();
+    start_beyond_strength();
+    unresolved_weakening();
+    open_with_partial_biot();
+    return std::move(texts_);
+  }
+
+ private:
+  void neglected_weight() {
+    const double difference = neglected_weight_difference(scene_);
+    if (difference <= 0) return;
+    texts_.push_back(
+        "columns of different weight start from one reference column: a weight difference of "
+        "up to " +
+        brief(difference / 1e5) + " bar is left out of the initial stress");
+  }
+
+  void held_closed() {
+    const auto& held = op_.geometry.locked_positions;
+    if (held.empty()) return;
+    texts_.push_back(concat(held.size(),
+                            " fault nodes are held closed by a boundary, the first at ",
+                            place(held.front())));
+  }
+
+  void moved_observations() {
+    constexpr double kNear = 1;  // m
+    const auto& points = scene_.output.observation_points;
+    for (std::size_t i = 0; i < std::min(points.size(), op_.observations.size() / 3); ++i) {
+      const Eigen::Vector3d asked(points[i].position.data());
+      const Eigen::Vector3d& node = op_.observations[3 * i].position;
+      Eigen::Vector3d way = node - asked;
+      if (op_.geometry.plane_strain) way.y() = 0;
+      if (way.norm() <= kNear) continue;
+      texts_.push_back("observation point " + points[i].name +
+                       " is taken at the nearest mesh node, " + place(node) + ", " +
+                       brief(way.norm()) + " m away");
+    }
+  }
+
+  void short_faults() {
+    const double needed = scene_.numerics.activation_length;
+    for (std::size_t f = 0; f < scene_.faults.size(); ++f) {
+      const double length = meter_.down_dip_length(static_cast<int>(f));
+      if (length >= needed) continue;
+      texts_.push_back("fault " + scene_.faults[f].name + " extends " + brief(length) +
+                       " m down dip, less than the activation_length of " + brief(needed) +
+                       " m: it cannot be counted as activated");
+    }
+  }
+
+  void start_beyond_strength() {
+    if (result_.steps.empty()) return;
+    const int n = result_.steps.front().n_slip + result_.steps.front().n_open;
+    if (n == 0) return;
+    texts_.push_back(concat("the initial stress is beyond the strength of ", n,
+                            " fault nodes; they were equilibrated in step 0"));
+  }
+
+  void unresolved_weakening() {
+    if (result_.weakening_resolved) return;
+    texts_.push_back("slip weakening is not resolved: cells are " +
+                     brief(result_.max_nucleation_ratio) +
+                     " times the nucleation length, 1/3 is needed");
+  }
+
+  void open_with_partial_biot() {
+    const bool opened = std::any_of(result_.steps.begin(), result_.steps.end(),
+                                    [](const StepResult& step) { return step.n_open > 0; });
+    const bool partial = std::any_of(scene_.faults.begin(), scene_.faults.end(),
+                                     [](const Fault& fault) { return fault.fault_biot != 1; });
+    if (!opened || !partial) return;
+    texts_.push_back(
+        "a fault opened although fault_biot < 1: an open fault then carries only the share "
+        "fault_biot of its fluid pressure");
+  }
+
+  const Scene& scene_;
+  const FaultOperator& op_;
+  const FaultMeter& meter_;
+  const CaseResult& result_;
+  std::vector<std::string> texts_;
+};
+
+}  // namespace
+
+std::vector<std::string> case_warnings(const Scene& scene, const FaultOperator& op,
+                                       const FaultMeter& meter, const CaseResult& result) {
+  return Warnings(scene, op, meter, result).all();
+}
+
+}  // namespace faultsim

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "simulator/loading/metrics.h"
+#include "simulator/output/fault_operator.h"
+#include "simulator/output/result.h"
+#include "simulator/scene/scene.h"
+
+namespace faultsim {
+
+/// What the user of a result should know before believing it, one sentence each: weight left out of
+/// the initial state, nodes held closed, observation points moved to a node, faults shorter than
+/// the activation length, a start beyond Coulomb, weakening finer than the cells, faults open with
+/// fault_biot < 1.
+/// @param result  complete but for its warnings.
+std::vector<std::string> case_warnings(const Scene& scene, const FaultOperator& op,
+                                       const FaultMeter& meter, const CaseResult& result);
+
+}  // namespace faultsim
