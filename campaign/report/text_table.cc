@@ -10,16 +10,22 @@ namespace faultsweep {
 namespace {
 
 bool looks_like_number(const std::string& text) {
-  return !text.empty() && text.find_first_not_of("0123456789.+-e%") == std::string::npos;
+  return !text.empty() && text.find_first_not_of("0123456789.+-e%*") == std::string::npos;
 }
 
 }  // namespace
 
 std::size_t display_width(const std::string& text) {
-  // Bytes 10xxxxxx continue a code point.
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-  }));
+  std::size_t width = 0;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const auto byte = static_cast<unsigned char>(text[k]);
+    const bool continues = (byte & 0xC0) == 0x80;
+    // U+0300 to U+036F, such as the bar of χ̄, sit on the letter before: bytes CC 80 to CD AF.
+    const auto next = k + 1 < text.size() ? static_cast<unsigned char>(text[k + 1]) : 0;
+    const bool combines = byte == 0xCC || (byte == 0xCD && next < 0xB0);
+    if (!continues && !combines) ++width;
+  }
+  return width;
 }
 
 std::string format_number(double value, int digits) {

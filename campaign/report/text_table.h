@@ -22,7 +22,8 @@ class TextTable {
 
 /// At most `digits` significant digits, without needless zeros: "0.52", "1.3e+15"; "-" for NaN.
 std::string format_number(double value, int digits = 4);
-/// Columns that the text takes on a screen: code points, as all that we print are one wide.
+/// Columns that the text takes on a screen: code points without combining ones, as all that we
+/// print are one wide.
 std::size_t display_width(const std::string& text);
 
 }  // namespace faultsweep

@@ -22,6 +22,7 @@ std::string format_time(double seconds_since_1970) {
 }
 
 std::string format_duration(double seconds) {
+  if (seconds < 1) return "less than 1 s";
   const long total = std::lround(std::max(0.0, seconds));
   constexpr long kMinute = 60, kHour = 3600, kDay = 86400;
   char text[64];

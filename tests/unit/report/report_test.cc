@@ -1,0 +1,206 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "campaign/report/case_report.h"
+#include "campaign/report/parameters.h"
+#include "campaign/report/ranking_report.h"
+#include "campaign/report/status_report.h"
+#include "campaign/report/text_table.h"
+#include "campaign/spec/metrics.h"
+#include "tests/campaign/made_up_result.h"
+
+namespace faultsweep {
+namespace {
+
+using faultsim::Dimension;
+using faultsim::InputError;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(TextTable, AlignsNumbersRightWordsLeftAndDropsEmptyColumns) {
+  TextTable table({"name", "χ̄", "empty", "n"});
+  table.add_row({"F1", "0.5", "", "12"});
+  table.add_row({"long name", "0.75", "", "3"});
+  EXPECT_EQ(table.text(),
+            "name          χ̄   n\n"
+            "F1          0.5  12\n"
+            "long name  0.75   3\n");
+  EXPECT_THROW(table.add_row({"too few"}), faultsim::InternalError);
+  EXPECT_EQ(format_number(1.23456e15, 3), "1.23e+15");
+  EXPECT_EQ(format_number(std::nan("")), "-");
+}
+
+TEST(Parameters, TravelThroughTheStore) {
+  const std::vector<StoredParameter> parameters = {{"offset", Dimension::length, false},
+                                                   {"rule", Dimension::number, true}};
+  const auto back = parameters_from_json(parameters_to_json(parameters));
+  ASSERT_EQ(back.size(), 2u);
+  EXPECT_EQ(back[0].dimension, Dimension::length);
+  EXPECT_TRUE(back[1].is_text);
+  EXPECT_THROW(parameters_from_json("[{}]"), faultsim::StorageError);
+  for (const auto dimension :
+       {Dimension::number, Dimension::length, Dimension::area, Dimension::pressure,
+        Dimension::pressure_gradient, Dimension::density, Dimension::angle, Dimension::time,
+        Dimension::viscosity, Dimension::moment, Dimension::potency}) {
+    EXPECT_EQ(dimension_named(dimension_name(dimension)), dimension);
+  }
+}
+
+/// A store with 6 cases: offset k x 10 m, rule "mean" or "min", strengths that mix the order.
+class ReportTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = ::testing::TempDir() + "report_XXXXXX";
+    folder_ = mkdtemp(name.data());
+    Submission s;
+    s.name = "sweep";
+    s.source = "sweep.json";
+    s.rank_by = "activated_area";
+    s.parameters = parameters_to_json(
+        {{"offset", Dimension::length, false}, {"rule", Dimension::number, true}});
+    s.scenes = {{"scene.json", "{}"}};
+    s.families = {{"family-a", 1000, 100, 1, 1}};
+    for (int k = 0; k < 6; ++k) {
+      const std::string rule = k % 2 == 0 ? "mean" : "min";
+      s.cases.push_back({"identity-" + std::to_string(k), 0, 0, "{}",
+                         "[" + std::to_string(10 * k) + ".0, \"" + rule + "\"]",
+                         "[\"" + std::to_string(10 * k) + " m\", \"" + rule + "\"]"});
+    }
+    store_ = std::make_unique<Store>(Store::open_owner(folder_));
+    const std::int64_t id = store_->submit(s).campaign;
+    const double strengths[] = {0.2, 0.9, 0.4, 0.6, 0.95};
+    for (int k = 0; k < 5; ++k) {
+      RunRecord run;
+      run.case_id = k + 1;
+      run.status = RunStatus::completed;
+      run.result = testing::made_up_result(strengths[k]);
+      if (k == 4) {
+        run.result->outcome = faultsim::Outcome::unstable;
+        run.result->reason = "slip weakening outran the stiffness at step 7";
+        run.result->weakening_resolved = false;
+      }
+      store_->record_runs(id, {run});
+    }
+    RunRecord crash;
+    crash.case_id = 6;
+    crash.reason = "killed by SIGSEGV (11)";
+    crash.log_tail = "first line\nlast words";
+    store_->record_runs(id, {crash});
+    campaign_ = store_->campaign("");
+  }
+  void TearDown() override {
+    store_.reset();
+    std::filesystem::remove_all(folder_);
+  }
+  std::vector<long> order(RankRequest request) {
+    std::vector<long> positions;
+    for (const auto& row : make_ranking(*store_, campaign_, std::move(request)).rows) {
+      positions.push_back(row.position);
+    }
+    return positions;
+  }
+  static RankRequest request(const std::string& by, const std::string& where = "") {
+    RankRequest r;
+    r.by = by;
+    r.where = where;
+    return r;
+  }
+
+  std::filesystem::path folder_;
+  std::unique_ptr<Store> store_;
+  CampaignInfo campaign_;
+};
+
+TEST_F(ReportTest, EveryMetricOfTheCatalogueCanBeRankedBy) {
+  for (const MetricInfo& metric : metric_catalogue()) {
+    EXPECT_EQ(order(request(metric.name)).size(), 5u) << metric.name;
+  }
+}
+
+TEST_F(ReportTest, ExpressionsOverMetricsAndParametersOrderAndFilter) {
+  EXPECT_THAT(order(request("")), ElementsAre(2, 4, 3, 1, 5));
+  EXPECT_THAT(order(request("chi_bar", "offset > 5 m and not (rule = \"mean\")")),
+              ElementsAre(2, 4));
+  EXPECT_THAT(order(request("-offset", "outcome = \"converged\"")), ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(order(request("moment / activated_area", "activated")), ElementsAre(2, 4, 5));
+  EXPECT_THROW(order(request("chi_bor")), InputError);
+  EXPECT_THROW(order(request("chi_bar", "offset > 5 deg")), InputError);
+  EXPECT_THROW(order(request("chi_bar", "offset")), InputError);
+  EXPECT_THROW(order(request("outcome")), InputError);
+  RankRequest stage;
+  stage.stage = "gas_storrage";
+  EXPECT_THROW(order(stage), InputError);
+}
+
+TEST_F(ReportTest, UserTextNeverReachesTheDatabase) {
+  EXPECT_TRUE(order(request("chi_bar", "rule = \"'; DROP TABLE cases; --\"")).empty());
+  EXPECT_THROW(order(request("1; DROP TABLE cases")), InputError);
+  EXPECT_EQ(order(request("")).size(), 5u);
+}
+
+TEST_F(ReportTest, TheTableShowsFlagsAndListsEarlyEndsApart) {
+  const std::string text = ranking_to_text(make_ranking(*store_, campaign_, {}));
+  EXPECT_THAT(text, HasSubstr("rank  case  offset  rule  outcome"));
+  EXPECT_THAT(text, HasSubstr("   1     2  10 m    min   converged"));
+  EXPECT_THAT(text,
+              HasSubstr("   *     5  40 m    mean  unstable, mesh too coarse for its weakening"));
+  EXPECT_THAT(text, HasSubstr("* history ends early: listed apart, not ranked"));
+  EXPECT_THAT(ranking_to_text(make_ranking(*store_, campaign_, request("", "chi_bar > 7"))),
+              HasSubstr("no case of sweep matches"));
+}
+
+TEST_F(ReportTest, TheJsonIsInSiWithUnitsInTheNames) {
+  const auto json = ranking_to_json(make_ranking(*store_, campaign_, request("moment")));
+  ASSERT_EQ(json["cases"].size(), 5u);
+  const auto& first = json["cases"][0];
+  EXPECT_EQ(first["rank"], 1);
+  EXPECT_EQ(first["case"], 2);
+  EXPECT_EQ(first["parameters"]["offset"]["value"], 10.0);
+  EXPECT_EQ(first["parameters"]["offset"]["unit"], "m");
+  EXPECT_EQ(first["parameters"]["rule"]["value"], "min");
+  EXPECT_EQ(first["score"], first["moment_nm"]);
+  EXPECT_TRUE(json["cases"][4]["rank"].is_null());
+  EXPECT_EQ(metrics_to_json().size(), metric_catalogue().size());
+}
+
+TEST_F(ReportTest, ShowTellsParametersStagesAndHistory) {
+  const std::string good = case_to_text(campaign_, store_->stored_case(campaign_.id, "2"));
+  EXPECT_THAT(good, HasSubstr("  offset = 10 m\n  rule = min\n"));
+  EXPECT_THAT(good, HasSubstr("primary_production"));
+  EXPECT_THAT(good, HasSubstr("fault F2:"));
+  const std::string failed = case_to_text(campaign_, store_->stored_case(campaign_.id, "6"));
+  EXPECT_THAT(failed, HasSubstr("crashed: killed by SIGSEGV (11)"));
+  EXPECT_THAT(failed, HasSubstr("    | last words\n"));
+  EXPECT_THAT(failed, Not(HasSubstr("fault F")));
+  const auto json = case_to_json(campaign_, store_->stored_case(campaign_.id, "2"));
+  EXPECT_EQ(json["result"]["steps"].size(), 13u);
+  EXPECT_TRUE(case_to_json(campaign_, store_->stored_case(campaign_.id, "6"))["result"].is_null());
+}
+
+TEST_F(ReportTest, ExplainSaysWhy) {
+  const auto explain = [&](const char* name) {
+    return explain_case(*store_, campaign_, store_->stored_case(campaign_.id, name));
+  };
+  EXPECT_THAT(explain("1"), HasSubstr("will not run: it has a result (converged)"));
+  EXPECT_THAT(explain("6"), HasSubstr("will not run: attempt 1 crashed: killed by SIGSEGV (11); "
+                                      "`faultsweep retry sweep --case 6` lets it run again"));
+  store_->retry(campaign_.id, false, 6);
+  EXPECT_THAT(explain("6"), HasSubstr("will run: it waits for another attempt"));
+}
+
+TEST_F(ReportTest, StatusCountsAndGivesReasons) {
+  const StatusReport status = make_status(*store_, "");
+  const std::string text = status_to_text(status);
+  EXPECT_THAT(text, HasSubstr("sweep: 6 cases, 5 done (4 converged), 1 failed, 0 waiting"));
+  EXPECT_THAT(text, HasSubstr("killed by SIGSEGV (11)"));
+  EXPECT_THAT(text, HasSubstr("unstable"));
+  const auto json = status_to_json(status);
+  EXPECT_EQ(json["failures"].size(), 2u);
+  EXPECT_TRUE(json["manager"].is_null());
+}
+
+}  // namespace
+}  // namespace faultsweep
