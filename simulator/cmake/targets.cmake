@@ -26,12 +26,18 @@ function(faultsweep_library name)
   target_link_libraries(faultsweep_${name} PUBLIC ${ARG_PUBLIC} PRIVATE faultsim_options ${ARG_PRIVATE})
 endfunction()
 
+# All unit tests, without the binaries and the tests of whole runs: what the sanitizers build.
+add_custom_target(unit_tests)
+
 # faultsim_test(target label SOURCES ... LIBS ...): one GoogleTest binary; label is unit,
 # verification, regression or campaign. Tests whose name contains "Slow" get the label slow instead.
 function(faultsim_test target label)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
   add_executable(${target} ${ARG_SOURCES})
   target_link_libraries(${target} PRIVATE faultsim_options ${ARG_LIBS} GTest::gmock GTest::gtest_main)
+  if(label STREQUAL unit)
+    add_dependencies(unit_tests ${target})
+  endif()
   target_compile_definitions(${target} PRIVATE FAULTSIM_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                              FAULTSIM_BINARY_DIR="${PROJECT_BINARY_DIR}")
   gtest_discover_tests(${target} TEST_FILTER "-*Slow*" PROPERTIES LABELS ${label} TIMEOUT 600
