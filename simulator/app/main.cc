@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <iostream>
 
 #include "simulator/app/commands.h"
 #include "simulator/app/verify/verify.h"
@@ -26,6 +27,18 @@ void add_scene(CLI::App* command, SceneArguments& arguments) {
   command->add_option("--tier", arguments.tier,
                       "screening, demonstration, standard, reference or custom");
   command->add_flag("--json", arguments.json, "machine-readable output on stdout");
+}
+
+/// A mistyped command is named before CLI11 asks for one.
+void demand_known_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) {
+    if (command->get_name() == argv[1]) return;
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  throw InputError("faultsim", {{"", 0, concat("\"", argv[1], "\" is not a command"),
+                                 "choose one of " + names}});
 }
 
 /// Reads the command line and returns the chosen command's exit code.
@@ -92,10 +105,14 @@ ExitCode faultsim_main(int argc, char** argv) {
   verify->callback([&] { code = verify_command(names, list, json, slow, markdown); });
 
   try {
+    demand_known_command(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const int status = app.exit(error);
     return status == 0 ? ExitCode::done : ExitCode::input;
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout.flush()) {
+    throw StorageError("the output could not be written completely (disk full?)");
   }
   return code;
 }

@@ -89,7 +89,7 @@ class Worker {
       } catch (const InputError& error) {
         reply["error"] = error.what();
         reply["exit_code"] = static_cast<int>(ExitCode::input);
-      } catch (const StorageError& error) {
+      } catch (const Error& error) {  // disk or memory: the next case may well fit
         reply["error"] = error.what();
         reply["exit_code"] = static_cast<int>(ExitCode::world);
       }
@@ -101,6 +101,7 @@ class Worker {
  private:
   void need_operator(const json& run, const LoadedScene& loaded) {
     std::string key = loaded.plan.family;
+    for (const Fault& fault : loaded.scene.faults) key += "/" + fault.name;
     for (const ObservationPoint& point : loaded.scene.output.observation_points) {
       key += concat("/", point.name, point.position[0], ",", point.position[1], ",",
                     point.position[2]);

@@ -56,14 +56,16 @@ class Warnings {
   }
 
   void moved_observations() {
-    constexpr double kNear = 1;  // m
+    const bool is_field = scene_.geometry_kind == GeometryKind::field;
+    const double extent = is_field ? scene_.field.width : scene_.box.to[0] - scene_.box.from[0];
+    const double near = extent / 1000;
     const auto& points = scene_.output.observation_points;
     for (std::size_t i = 0; i < std::min(points.size(), op_.observations.size() / 3); ++i) {
       const Eigen::Vector3d asked(points[i].position.data());
       const Eigen::Vector3d& node = op_.observations[3 * i].position;
       Eigen::Vector3d way = node - asked;
       if (op_.geometry.plane_strain) way.y() = 0;
-      if (way.norm() <= kNear) continue;
+      if (way.norm() <= near) continue;
       texts_.push_back("observation point " + points[i].name +
                        " is taken at the nearest mesh node, " + place(node) + ", " +
                        brief(way.norm()) + " m away");

@@ -261,9 +261,11 @@ std::vector<Place> lowest_places(const Scene& scene, std::size_t region) {
 }
 
 /// What in the document made the pressure of a region at a step.
-std::string cause(const SceneReader& reader, const std::string& region, std::size_t stage) {
+std::string cause(const SceneReader& reader, const PressureHistory& history, std::size_t stage) {
+  const std::string& region = history.region;
   const std::string csv = "/compartments/" + pointer_token(region) + "/csv";
   if (reader.has(csv)) return csv;
+  if (history.from_csv) return "/pressure_csv";
   for (std::size_t i = stage + 1; i-- > 0;) {
     for (const char* key : {"pressure_change", "pressure", "pressure_between"}) {
       const std::string pointer = concat("/stages/", i, "/", key);
@@ -273,7 +275,7 @@ std::string cause(const SceneReader& reader, const std::string& region, std::siz
       if (reader.has(pointer) && !reader.find(pointer)->is_object()) return pointer;
     }
   }
-  return reader.has("/pressure_csv") ? "/pressure_csv" : "/stages";
+  return "/stages";
 }
 
 std::string below_zero(const std::string& where, double depth, double pressure, std::size_t step,
@@ -301,7 +303,7 @@ void check_region(SceneReader& reader, const Scene& scene, std::size_t region) {
       constexpr double kRounding = 1;  // Pa: "fall to zero" is written in decimal units
       if (!(pressure < -kRounding)) continue;
       const std::size_t stage = stage_of_step(scene, step);
-      reader.problem(cause(reader, history.region, stage),
+      reader.problem(cause(reader, history, stage),
                      below_zero("in \"" + history.region + "\"", place.depth, pressure, step,
                                 scene.stages[stage]),
                      initial > 0 ? below_zero_cure(initial)

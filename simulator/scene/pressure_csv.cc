@@ -32,6 +32,10 @@ class CsvReader {
   explicit CsvReader(std::string given) : given_(std::move(given)) {}
 
   bool header(const std::string& line) {
+    if (line.find(';') != std::string::npos && line.find(',') == std::string::npos) {
+      return refuse("the columns are separated by semicolons",
+                    "separate them by commas, with decimal points in the numbers");
+    }
     for (const std::string& cell : cells_of(line)) {
       const auto open = cell.find('[');
       if (open == std::string::npos || cell.back() != ']') {
@@ -114,6 +118,8 @@ PressureCsv read_pressure_csv(const std::string& path, const std::string& given)
   }
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
+    if (number == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0)
+      line.erase(0, 3);  // of spreadsheets
     const std::string text = trimmed(line);
     if (text.empty() || text[0] == '#') continue;
     reader.set_line(number);

@@ -178,6 +178,7 @@ class LoadingReader {
       if (history.region != column.region) continue;
       history.time = column.time;
       history.pressure_change = column.pressure_change;
+      history.from_csv = true;
       return;
     }
     reader_.problem(pointer, "its column \"" + column.region + "\" is no pressure region",

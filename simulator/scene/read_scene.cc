@@ -100,6 +100,11 @@ void read_mesh(SceneReader& reader, Scene& scene) {
                    "remove it and give \"mesh\" with strike, dip and normal");
     return;
   }
+  if (is_box && scene.numerics.half_domain == Switch::on) {
+    reader.problem("/numerics/half_domain",
+                   "half domains are for a field, a box is modelled as given",
+                   "remove this line; for half a box put a roller on its plane of symmetry");
+  }
   MeshSizes& mesh = scene.mesh;
   mesh = {kNaN, kNaN, kNaN, 1.3, 0, 0};
   for (const TierSizes& tier : kTiers) {

@@ -200,6 +200,7 @@ struct PressureHistory {
   std::vector<double> pressure_change;  ///< Pa, Δp.
   double scale = 1;                     ///< multiplies Δp.
   double lag = 0;                       ///< s, ≥ 0: Δp(t) = scale · history(t − lag).
+  bool from_csv = false;  ///< a CSV file replaced what the stages say; for messages only.
 };
 
 struct ObservationPoint {

@@ -151,6 +151,25 @@ TEST(ReadScene, ReadsPressuresFromCsv) {
   EXPECT_EQ(one.pressure[1].time.size(), 14U) << "the stages'";
 }
 
+TEST(ReadScene, ReadsCsvAsSpreadsheetsWriteIt) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "scene_csv";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "q.csv") << "\xEF\xBB\xBFtime [year],\"west [bar]\"\r\n0,0\r\n1,-10\r\n";
+  JsonDocument document = rotliegend();
+  document.source = (folder / "scene.json").string();
+  const Scene scene = varied(document, {{"/pressure_csv", "q.csv"}});
+  EXPECT_EQ(scene.pressure[0].pressure_change, (std::vector<double>{0, -1e6}));
+}
+
+TEST(ReadJsonFile, NamesAFolder) {
+  try {
+    read_json_file(testing::TempDir());
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().front().what, "this is a folder");
+  }
+}
+
 /// Every field of BoxGeometry and the rest that a field does not have.
 const char* const kFullBox = R"({
   "format": 1, "title": "full", "tier": "custom",
