@@ -315,10 +315,12 @@ GridFault field_fault(const FieldMeshSpec& spec, const StructuredGrid& grid, siz
   fault.plane = static_cast<size_t>(
       std::lower_bound(x.begin(), x.end(), fault_x(spec, i) - kEdgeTolerance) - x.begin());
   const DepthRange range = fault_range(spec, i);
+  // As long as the model: it has no ends, the model's ends cut it.
+  const bool through = spec.fault_length >= spec.length - kEdgeTolerance;
   for (const double y : grid.lines[1])
     for (const double z : grid.lines[2]) {
       const bool in_length =
-          spec.plane_strain || std::abs(y) < 0.5 * spec.fault_length - kEdgeTolerance;
+          spec.plane_strain || through || std::abs(y) < 0.5 * spec.fault_length - kEdgeTolerance;
       const bool in_depth = -z > range.top + kEdgeTolerance && -z < range.bottom - kEdgeTolerance;
       fault.split.push_back(in_length && in_depth ? 1 : 0);
     }

@@ -32,7 +32,8 @@ struct FieldMeshSpec {
     double from, to, offset;  ///< m.
   };
   std::vector<Block> blocks;  ///< contiguous; region index = block index.
-  double block_length, fault_length, fault_overshoot, pivot_depth;  ///< m.
+  double block_length, fault_length, fault_overshoot, pivot_depth;  ///< m. A fault_length
+                                                                    ///< of `length` has no ends.
   std::vector<std::string> fault_names;                             ///< blocks + 1.
   std::vector<double> fault_dips;  ///< rad from vertical, > 0 dips east.
   CellSizes sizes;

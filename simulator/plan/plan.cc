@@ -74,9 +74,9 @@ long field_jumps(const Scene& scene, const Plan& plan, const GridLines& lines) {
     top = field.layers[i].top_depth;
     base = i + 1 < field.layers.size() ? field.layers[i + 1].top_depth : field.depth;
   }
-  const long columns =
-      plan.plane_strain ? 1
-                        : count_between(lines.y, -field.fault_length / 2, field.fault_length / 2);
+  const bool has_ends = field.fault_length < field.length;  // else the model's ends cut it
+  const double reach = has_ends ? field.fault_length / 2 : field.length;
+  const long columns = plan.plane_strain ? 1 : count_between(lines.y, -reach, reach);
   long jumps = 0;
   for (std::size_t f = 0; f <= field.blocks.size(); ++f) {
     double shallow = 1e300, deep = -1e300;
@@ -141,6 +141,7 @@ nlohmann::json family_of_field(const FieldMeshSpec& spec) {
   for (const auto& block : spec.blocks) {
     j["blocks"].push_back({block.from, block.to, block.offset});
   }
+  if (!spec.plane_strain && spec.fault_length >= spec.length) j["fault_ends"] = "none";
   return j;
 }
 

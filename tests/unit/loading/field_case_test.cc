@@ -184,6 +184,31 @@ TEST(FieldCase, RefusesWhatNoMachineHolds) {
   EXPECT_THROW(prepare_operator(scene, plan, {}, false, monitor), ResourceError);
 }
 
+/// Where nothing varies along strike, plane strain is the 3D field per metre.
+TEST(PlaneStrain, EqualsAFieldWithoutEnds) {
+  json scene = field();
+  scene["mesh"] = {{"strike", "700 m"}, {"dip", "100 m"}, {"normal", "250 m"}, {"growth", 2.0}};
+  for (const char* key : {"length", "block_length", "fault_length"})
+    scene["geometry"][key] = "2 km";
+  const CaseResult plane = run(scene);
+  scene["numerics"] = json::object();
+  const CaseResult solid = run(scene);
+  ASSERT_EQ(solid.outcome, Outcome::converged) << solid.reason;
+  ASSERT_TRUE(plane.whole.activated);
+  for (std::size_t i = 0; i < plane.steps.size(); ++i) {
+    for (std::size_t f = 0; f < 3; ++f) {
+      FaultMetrics per_metre = solid.steps[i].faults[f];
+      for (double* integral : {&per_metre.area_chi_080, &per_metre.slipping_area,
+                               &per_metre.open_area, &per_metre.activated_area, &per_metre.potency,
+                               &per_metre.moment, &per_metre.moment_step}) {
+        *integral /= 2000;
+      }
+      expect_alike(plane.steps[i].faults[f], per_metre, 1e-6);
+    }
+    EXPECT_NEAR(plane.steps[i].observed[2], solid.steps[i].observed[2], 1e-8);
+  }
+}
+
 /// The half domain is exact: all metrics, doubled areas, potency and M0, and points on either side.
 TEST(HalfDomain, EqualsTheWholeOne) {
   json scene = field();
