@@ -10,7 +10,10 @@ namespace {
 volatile std::sig_atomic_t caught_signal = 0;
 
 extern "C" void remember_signal(int number) {
-  if (caught_signal != 0) std::signal(number, SIG_DFL);
+  if (caught_signal != 0) {  // asked twice: end now
+    std::signal(number, SIG_DFL);
+    std::raise(number);
+  }
   caught_signal = number;
 }
 
