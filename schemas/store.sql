@@ -70,6 +70,7 @@ CREATE TABLE cases (
   scene_id INTEGER NOT NULL REFERENCES scenes (id),
   changes TEXT NOT NULL,               -- JSON object: pointer -> value, applied to the base scene
   state TEXT NOT NULL DEFAULT 'waiting' CHECK (state IN ('waiting', 'done', 'failed')),
+  outcome TEXT,                        -- of the run that decided the state, when it was completed
   run_id INTEGER                       -- the run that decided the state
 ) STRICT;
 CREATE INDEX cases_of_family ON cases (family_id);

@@ -32,7 +32,7 @@ NamedCase find_case(const Store& store, const StoreArguments& common, const std:
   const std::size_t slash = name.rfind('/');
   const bool has_campaign = slash != std::string::npos;
   NamedCase found;
-  found.campaign = store.campaign(has_campaign ? name.substr(0, slash) : common.campaign);
+  found.campaign = store.campaign(has_campaign ? name.substr(0, slash) : common.campaign, false);
   found.stored = store.stored_case(found.campaign.id, has_campaign ? name.substr(slash + 1) : name);
   return found;
 }

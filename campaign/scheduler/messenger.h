@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <list>
 #include <memory>
 #include <optional>
@@ -39,21 +40,30 @@ class Messenger {
 
  private:
   struct Outgoing;
+  struct Incoming;
+  void accept();
+
   int rank_ = 0, size_ = 0;
   bool finished_ = false;
   std::list<std::unique_ptr<Outgoing>> outbox_;
+  std::deque<std::unique_ptr<Incoming>> inbox_;  ///< in order of arrival
 };
 
-/// Sleeps that grow from 50 µs to 2 ms while nothing happens: short enough not to be felt, long
-/// enough that looking costs less than 2 % of a core.
+/// Sleeps that grow from 50 µs while nothing happens: short enough not to be felt, long enough that
+/// looking costs less than 2 % of a core.
 class IdleSleep {
  public:
+  /// @param longest  µs. A worker's 2 ms are the most that a message waits for it; the manager may
+  /// sleep
+  ///                 longer, as workers have work ahead (WorkPlan::kSliceSeconds).
+  explicit IdleSleep(int longest = 2000) : longest_(longest) {}
   void reset() { microseconds_ = kShortest; }
   void sleep();
   static constexpr int kShortest = 50;
-  static constexpr int kLongest = 2000;
+  static constexpr int kManagerLongest = 5000;
 
  private:
+  int longest_;
   int microseconds_ = kShortest;
 };
 

@@ -80,7 +80,7 @@ ExitCode manage(Messenger& messenger, const RunOptions& options, bool& in_order)
   Manager manager(
       store, link, display,
       {options.campaign, kMemoryShare * available_memory(), Manager::Options{}.patience});
-  IdleSleep idle;
+  IdleSleep idle(IdleSleep::kManagerLongest);
   while (manager.turn()) {
     if (stop_wanted != 0) manager.interrupt();
     if (torn_down != 0) {

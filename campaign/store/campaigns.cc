@@ -109,10 +109,8 @@ CampaignInfo read_info(const Statement& row) {
 void count_cases(Connection& db, CampaignInfo& info) {
   Statement& query = db.prepared(
       "SELECT count(*), total(c.state = 'done'), total(c.state = 'failed'),"
-      " total(c.state = 'waiting'), total(r.outcome = 'converged')"
-      " FROM campaign_cases cc JOIN cases c ON c.id = cc.case_id LEFT JOIN runs r ON r.id = "
-      "c.run_id"
-      " WHERE cc.campaign_id = ?");
+      " total(c.state = 'waiting'), total(c.state = 'done' AND c.outcome = 'converged')"
+      " FROM campaign_cases cc JOIN cases c ON c.id = cc.case_id WHERE cc.campaign_id = ?");
   query.bind(info.id).step();
   info.n_cases = query.integer(0);
   info.n_done = query.integer(1);
@@ -224,7 +222,7 @@ std::vector<CampaignInfo> Store::campaigns() const {
   return all;
 }
 
-CampaignInfo Store::campaign(const std::string& name) const {
+CampaignInfo Store::campaign(const std::string& name, bool with_counts) const {
   std::vector<CampaignInfo> all = campaigns();
   if (all.empty()) {
     throw StorageError(concat("the store ", folder_.string(),
@@ -232,7 +230,7 @@ CampaignInfo Store::campaign(const std::string& name) const {
   }
   for (CampaignInfo& info : all) {
     if (info.name == name || (name.empty() && &info == &all.back())) {
-      count_cases(*connection_, info);
+      if (with_counts) count_cases(*connection_, info);
       return info;
     }
   }

@@ -144,7 +144,7 @@ void read_stages(Connection& db, std::int64_t case_id, CaseResult& result) {
       " s.chi_bar, s.chi_max, s.area_chi_080_m2, s.thickness_chi_080_m, s.activated_area_m2,"
       " s.slipping_area_m2, s.open_area_m2, s.max_slip_m, s.potency_m3, s.moment_nm, "
       "s.magnitude_mw,"
-      " s.first_step, s.last_step FROM names n JOIN stage_metrics s ON s.stage_id = n.id"
+      " s.first_step, s.last_step FROM names n CROSS JOIN stage_metrics s ON s.stage_id = n.id"
       " LEFT JOIN names f ON f.id = s.activated_fault_id WHERE s.case_id = ? ORDER BY "
       "s.first_step");
   query.bind(case_id);
@@ -201,15 +201,20 @@ StoredCase find_case(Connection& db, std::int64_t campaign, const std::string& n
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), position);
   const bool is_number = error == std::errc() && end == name.data() + name.size();
   constexpr std::size_t kShortestPrefix = 6;
-  Statement& query = db.prepared(
+  constexpr const char* kColumns =
       "SELECT c.id, cc.position, c.identity, f.fingerprint, c.state, c.changes,"
       " cc.parameter_values, cc.parameter_labels, c.scene_id FROM campaign_cases cc"
       " JOIN cases c ON c.id = cc.case_id JOIN families f ON f.id = c.family_id"
-      " WHERE cc.campaign_id = ?1"
-      " AND (cc.position = ?2 OR (?2 IS NULL AND substr(c.identity, 1, length(?3)) = ?3))");
-  std::optional<long> number;
-  if (is_number) number = position;
-  query.bind(campaign, number, name);
+      " WHERE cc.campaign_id = ?1 AND ";
+  Statement query(db, concat(kColumns, is_number ? "cc.position = ?2"
+                                                 : "c.identity >= ?2 AND c.identity < ?2 || '~'")
+                          .c_str());
+  query.bind_at(1, campaign);
+  if (is_number) {
+    query.bind_at(2, position);
+  } else {
+    query.bind_at(2, name);
+  }
   if ((!is_number && name.size() < kShortestPrefix) || !query.step()) {
     throw faultsim::InputError("CASE", {{"", 0, concat("the campaign has no case '", name, "'"),
                                          concat("give its number from 1, or at least ",
@@ -225,7 +230,6 @@ StoredCase find_case(Connection& db, std::int64_t campaign, const std::string& n
   found.parameter_values = query.text(6);
   found.parameter_labels = query.text(7);
   found.scene = query.integer(8);
-  query.reset();
   return found;
 }
 
@@ -250,8 +254,8 @@ std::vector<FailureCount> Store::failure_counts(std::int64_t campaign) const {
       "SELECT r.status, CASE WHEN r.outcome IS NULL THEN r.reason ELSE r.outcome END AS why, "
       "count(*)"
       " FROM campaign_cases cc JOIN cases c ON c.id = cc.case_id JOIN runs r ON r.id = c.run_id"
-      " WHERE cc.campaign_id = ? AND (r.status <> 'completed' OR r.outcome <> 'converged')"
-      " AND c.state <> 'waiting' GROUP BY 1, 2 ORDER BY 3 DESC, 1, 2 LIMIT 20");
+      " WHERE cc.campaign_id = ? AND c.state <> 'waiting' AND c.outcome IS NOT 'converged' GROUP "
+      "BY 1, 2 ORDER BY 3 DESC, 1, 2 LIMIT 20");
   query.bind(campaign);
   while (query.step())
     counts.push_back({query.text(0), query.text(1), static_cast<long>(query.integer(2))});
@@ -270,11 +274,12 @@ std::vector<EventRecord> Store::events(std::int64_t campaign, int limit) const {
 std::vector<Store::FamilyProgress> Store::family_progress(std::int64_t campaign) const {
   std::vector<FamilyProgress> all;
   Statement& query = connection_->prepared(
-      "SELECT f.fingerprint, coalesce(f.operator, ''), count(*), total(c.state = 'done'),"
-      " total(c.state = 'failed'), o.build_s FROM campaign_cases cc JOIN cases c ON c.id = "
+      "SELECT f.fingerprint, coalesce(f.operator, ''), g.n_cases, g.n_done, g.n_failed, o.build_s"
+      " FROM (SELECT c.family_id, count(*) AS n_cases, total(c.state = 'done') AS n_done,"
+      "  total(c.state = 'failed') AS n_failed FROM campaign_cases cc JOIN cases c ON c.id = "
       "cc.case_id"
-      " JOIN families f ON f.id = c.family_id LEFT JOIN operators o ON o.fingerprint = f.operator"
-      " WHERE cc.campaign_id = ? GROUP BY f.id ORDER BY f.id");
+      "  WHERE cc.campaign_id = ? GROUP BY c.family_id) g JOIN families f ON f.id = g.family_id"
+      " LEFT JOIN operators o ON o.fingerprint = f.operator ORDER BY f.id");
   query.bind(campaign);
   while (query.step()) {
     all.push_back({query.text(0), query.text(1), static_cast<long>(query.integer(2)),

@@ -154,8 +154,9 @@ void Store::record_run(std::int64_t campaign, const RunRecord& run, double now) 
     record_histories(run.case_id, *result);
   }
   if (!run.final) return;
-  db.prepared("UPDATE cases SET state = ?, run_id = ? WHERE id = ?")
-      .bind(result != nullptr ? "done" : "failed", run_id, run.case_id)
+  db.prepared("UPDATE cases SET state = ?, outcome = ?, run_id = ? WHERE id = ?")
+      .bind(result != nullptr ? "done" : "failed",
+            result ? Text(faultsim::to_string(result->outcome)) : Text(), run_id, run.case_id)
       .run();
 }
 

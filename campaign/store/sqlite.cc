@@ -32,8 +32,7 @@ constexpr int kBusyTimeoutMs = 10000;  // a commit takes milliseconds; 10 s mean
           concat(text, "; check the folder's permissions or choose another --store"));
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
-      throw StorageError(
-          concat(text, "; restore a backup (faultsweep cache backup) or move the file"));
+      throw StorageError(concat(text, "; restore a backup (faultsweep backup) or move the file"));
     default:
       throw StorageError(text);
   }

@@ -66,6 +66,30 @@ TEST_F(Running, ReadingCommandsAnswer) {
   EXPECT_EQ(faultsweep({"run"}).code, 2);
 }
 
+TEST_F(Running, TheStarterSpecGoesFromInitToRanking) {
+  // init takes no --store, so it is run by hand.
+  const std::string init =
+      std::string(FAULTSWEEP) + " init " + (folder_ / "my").string() + " >/dev/null 2>&1";
+  ASSERT_EQ(std::system(init.c_str()), 0);
+  EXPECT_NE(std::system(init.c_str()), 0) << "it must not overwrite";
+  const std::string spec = folder_ / "my" / "campaign.json";
+  const auto dry = faultsweep({"submit", spec, "--dry-run", "--json"});
+  ASSERT_EQ(dry.code, 0) << dry.err;
+  EXPECT_EQ(nlohmann::json::parse(dry.out)["cases"], 24);
+  EXPECT_EQ(nlohmann::json::parse(dry.out)["families"].size(), 3u);
+  EXPECT_FALSE(std::filesystem::exists(store_));
+  const auto first = faultsweep({"submit", spec});
+  EXPECT_EQ(first.code, 0);
+  EXPECT_THAT(first.err, HasSubstr("Next: faultsweep run starter"));
+  EXPECT_EQ(faultsweep({"run", "-w", "2"}).code, 0);
+  const auto again = faultsweep({"submit", spec});
+  EXPECT_THAT(again.err, HasSubstr("in the store already"));
+  EXPECT_THAT(again.out, HasSubstr("24 have a result already"));
+  const auto rank =
+      faultsweep({"rank", "--where", "friction_angle < 25 deg and offset > 50 m", "--json"});
+  EXPECT_EQ(nlohmann::json::parse(rank.out)["cases"].size(), 4u) << rank.err;
+}
+
 TEST_F(Trouble, EveryKindOfFailureIsARowAndTheOthersAreDone) {
   Policy policy;
   policy.time_limit = 1;
@@ -213,6 +237,53 @@ TEST_F(Killing, CtrlCStopsInOrderAndRunContinues) {
   EXPECT_LT(done, 300);
   EXPECT_EQ(faultsweep({"run", "--workers", "2"}).code, 0);
   expect_each_case_completed_once(campaign, 300);
+}
+
+/// Kills manager, workers and simulators in turn at pseudo-random moments; the final numbers are
+/// those of an undisturbed campaign.
+TEST_F(Killing, SlowThirtyKillsLeaveTheSameNumbers) {
+  constexpr int kCases = 500, kKills = 30;
+  submit(std::vector<std::string>(kCases, "good"));
+  ASSERT_EQ(faultsweep({"run", "--workers", "2"}).code, 0);
+  const std::string undisturbed = faultsweep({"rank", "--json", "--top", "0"}).out;
+  std::filesystem::remove_all(store_);
+  const std::int64_t campaign = submit(std::vector<std::string>(kCases, "good"), 0.25);
+  unsigned state = 12345;
+  const auto dice = [&](unsigned n) {
+    state = state * 1664525u + 1013904223u;
+    return (state >> 16) % n;
+  };
+  pid_t starter = start({"run", "--workers", "2"});
+  int kills = 0, code = -1;
+  for (int round = 0; round < 10 * kKills && code < 0; ++round) {
+    usleep(300000 + 1000 * dice(700));
+    int status = 0;
+    if (waitpid(starter, &status, WNOHANG) == starter) {
+      code = WEXITSTATUS(status);
+      break;
+    }
+    std::vector<pid_t> targets;
+    for (const pid_t mpirun : children_of(starter)) {
+      for (const pid_t rank : children_of(mpirun)) {
+        targets.push_back(rank);
+        for (const pid_t simulator : children_of(rank)) targets.push_back(simulator);
+      }
+    }
+    if (kills < kKills && !targets.empty()) {
+      kill(targets[dice(static_cast<unsigned>(targets.size()))], SIGKILL);
+      ++kills;
+    }
+  }
+  if (code < 0) code = wait(starter, 200).code;
+  EXPECT_EQ(kills, kKills);
+  // A killed simulator is a failed case: those are tried again by hand, as the policy says
+  // `continue`.
+  EXPECT_TRUE(code == 0 || code == 1 || code == 4) << code;
+  faultsweep({"run", "--workers", "2"});
+  faultsweep({"retry"});
+  EXPECT_EQ(faultsweep({"run", "--workers", "2"}).code, 0);
+  expect_each_case_completed_once(campaign, kCases);
+  EXPECT_EQ(faultsweep({"rank", "--json", "--top", "0"}).out, undisturbed);
 }
 
 TEST_F(Killing, ASecondManagerIsRefused) {

@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "campaign/store/store.h"
+#include "simulator/common/stopwatch.h"
+#include "tests/campaign/made_up_result.h"
+
+namespace faultsweep {
+namespace {
+
+/// 10^5 cases with 25 load steps on 2 faults: what the commands ask must come in tenths of a
+/// second.
+TEST(StoreSpeed, SlowHundredThousandCases) {
+  constexpr int kCases = 100000, kPerCommit = 500;
+  std::string name = ::testing::TempDir() + "store_XXXXXX";
+  const std::filesystem::path folder = mkdtemp(name.data());
+  Submission s;
+  s.name = "sweep";
+  s.parameters = R"([{"name": "strength", "dimension": "number"}])";
+  s.rank_by = "activated_area";
+  s.scenes = {{"scene.json", "{}"}};
+  for (int k = 0; k < 50; ++k)
+    s.families.push_back({"family-" + std::to_string(k), 1000, 100, 1, 1});
+  for (int k = 0; k < kCases; ++k) {
+    const std::string number = std::to_string(k);
+    s.cases.push_back({"identity-" + number, k % 50, 0, "{\"/strength\": " + number + "}",
+                       "[" + number + "]", "[\"" + number + "\"]"});
+  }
+  Store store = Store::open_owner(folder);
+  faultsim::Stopwatch watch;
+  const std::int64_t campaign = store.submit(s).campaign;
+  std::printf("submit: %.2f s\n", watch.seconds());
+  watch = {};
+  std::vector<RunRecord> runs;
+  for (int k = 1; k <= kCases; ++k) {
+    RunRecord run;
+    run.case_id = k;
+    run.status = RunStatus::completed;
+    run.result = testing::made_up_result(static_cast<double>((k * 7919L) % kCases) / kCases, 25);
+    runs.push_back(std::move(run));
+    if (runs.size() == kPerCommit) {
+      store.record_runs(campaign, runs);
+      runs.clear();
+    }
+  }
+  std::printf("insert: %.0f cases/s\n", kCases / watch.seconds());
+  store.checkpoint();
+  std::printf("size: %.0f bytes/case\n",
+              static_cast<double>(std::filesystem::file_size(folder / "campaign.sqlite")) / kCases);
+  Store reader = Store::open_reader(folder);
+  const auto timed = [&](const char* what, double limit, const auto& query) {
+    const faultsim::Stopwatch one;
+    query();
+    std::printf("%s: %.1f ms\n", what, 1e3 * one.seconds());
+    EXPECT_LT(one.seconds(), limit) << what;
+  };
+  // Limits leave room for a loaded machine; an idle one takes a fifth (docs/campaign.md).
+  timed("campaign", 0.5, [&] { reader.campaign(""); });
+  Store::RankingQuery query;
+  query.limit = 20;
+  timed("rank, default order", 0.5, [&] { reader.ranking(campaign, query); });
+  query.by = {metric_sql("chi_max"), {}};
+  timed("rank by metric", 0.5, [&] { reader.ranking(campaign, query); });
+  query.by = {};
+  query.where = {parameter_sql(0) + " < ?", {Value(1000.0)}};
+  timed("rank where", 0.5, [&] { reader.ranking(campaign, query); });
+  timed("show", 0.5, [&] { reader.stored_case(campaign, "77777"); });
+  timed("failures", 0.5, [&] { reader.failure_counts(campaign); });
+  timed("families", 0.5, [&] { reader.family_progress(campaign); });
+  timed("stages", 0.5, [&] { reader.stages(campaign); });
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace faultsweep
