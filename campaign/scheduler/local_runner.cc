@@ -95,6 +95,7 @@ void LocalRunner::start() {
   options.memory_limit = task_.memory_limit;
   process_ = std::make_unique<SimulatorProcess>(options);
   greeted_ = operator_known_ = started_ = false;
+  operator_seconds_ = 0;
   since_ = {};
   n_sent_ = 0;
   for (const Job& job : jobs_) {
@@ -186,6 +187,7 @@ void LocalRunner::handle(const std::string& line, JobEvents& events) {
     }
     if (event == "operator") {
       events.operators.push_back(operator_record(reply));
+      operator_seconds_ = events.operators.back().seconds;
       operator_known_ = true;
       since_ = {};
     } else if (event == "started") {
@@ -211,7 +213,8 @@ void LocalRunner::handle_done(const json& reply, JobEvents& events) {
       throw Garbled{concat("sent a result that cannot be read: ", error.what())};
     }
     run.reason = run.result->reason;
-    run.wall_seconds = reply.at("seconds").get<double>();
+    // The first case's time has the operator in it, which is no part of what a case takes.
+    run.wall_seconds = std::max(0.0, reply.at("seconds").get<double>() - operator_seconds_);
     operator_known_ = true;
     events.completed.push_back(std::move(run));
   } else {
@@ -230,6 +233,7 @@ void LocalRunner::handle_done(const json& reply, JobEvents& events) {
   jobs_.pop_front();
   --n_sent_;
   started_ = false;
+  operator_seconds_ = 0;
   since_ = {};
 }
 

@@ -57,7 +57,8 @@ class LocalRunner final : public JobRunner {
   bool operator_known_ = false;  ///< the present process has its operator.
   bool started_ = false;         ///< jobs_.front() has started.
   bool draining_ = false;
-  faultsim::Stopwatch since_;  ///< of the present phase: start-up and operator, or a case.
+  double operator_seconds_ = 0;  ///< of the operator made for jobs_.front().
+  faultsim::Stopwatch since_;    ///< of the present phase: start-up and operator, or a case.
 };
 
 }  // namespace faultsweep

@@ -90,6 +90,8 @@ void serve(const Channel& channel, const json& request, bool& has_operator) {
     reply(channel, {{"event", "done"}, {"run", run}, {"error", "no such layer"}, {"exit_code", 2}});
     return;
   }
+  // As faultsim does: the first case's time has the operator's in it.
+  const double operator_seconds = has_operator ? 0 : 7;
   if (!has_operator) {
     if (title == "operator crash") std::abort();
     const std::string fingerprint = faultsim::fingerprint(family);
@@ -105,7 +107,7 @@ void serve(const Channel& channel, const json& request, bool& has_operator) {
                     {"run", run},
                     {"fingerprint", fingerprint},
                     {"from_cache", cached},
-                    {"seconds", 0.01},
+                    {"seconds", operator_seconds},
                     {"unknowns", 1000},
                     {"jump_unknowns", 100},
                     {"bytes", 80000},
@@ -120,7 +122,7 @@ void serve(const Channel& channel, const json& request, bool& has_operator) {
   reply(channel, {{"event", "done"},
                   {"run", run},
                   {"result", faultsim::result_to_json(result)},
-                  {"seconds", 0.001}});
+                  {"seconds", 0.001 + operator_seconds}});
 }
 
 }  // namespace

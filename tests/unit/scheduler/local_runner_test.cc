@@ -66,6 +66,9 @@ TEST_F(LocalRunnerTest, RunsCasesWithOneProcessAndOneOperator) {
   EXPECT_EQ(events.completed[0].result->whole.chi_bar, 0.7);
   EXPECT_EQ(events.completed[0].result->steps.size(), 13u);
   EXPECT_EQ(events.completed[0].rank, 3);
+  EXPECT_EQ(events.operators[0].seconds, 7);
+  EXPECT_NEAR(events.completed[0].wall_seconds, 0.001, 1e-9);  // without the operator's 7 s
+  EXPECT_EQ(events.completed[1].wall_seconds, 0.001);
 }
 
 TEST_F(LocalRunnerTest, ACrashIsOneFailedCaseAndTheOthersGoOn) {
