@@ -78,13 +78,11 @@ json policy_to_json(const Policy& policy) {
 }  // namespace
 
 std::string CampaignSpec::resolved() const {
-  static constexpr const char* kKeep[] = {"none", "stages", "all"};
   json result = {{"format", 1},
                  {"name", name},
                  {"title", title},
                  {"policy", policy_to_json(policy)},
                  {"rank_by", rank_by},
-                 {"keep_fields", kKeep[static_cast<int>(keep_fields)]},
                  {"exclude", json::array()},
                  {"derived", json::array()},
                  {"groups", json::array()}};

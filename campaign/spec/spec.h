@@ -104,8 +104,6 @@ struct Policy {
   std::optional<double> memory_limit;  ///< bytes per simulator process.
 };
 
-enum class KeepFields { none, stages, all };
-
 struct CampaignSpec {
   std::string name;  ///< [A-Za-z0-9._-]+
   std::string title;
@@ -119,10 +117,9 @@ struct CampaignSpec {
   std::vector<SpecIdentifier> identifiers;  ///< what exclude and derived may name.
   Policy policy;
   std::string rank_by = "activated_area";  ///< an expression over metrics.h.
-  KeepFields keep_fields = KeepFields::none;
-  faultsim::JsonDocument document;  ///< the spec, for pointers and lines.
-  faultsim::JsonDocument base;      ///< the base scene as given.
-  bool base_is_inline = false;      ///< base is document's /base.
+  faultsim::JsonDocument document;         ///< the spec, for pointers and lines.
+  faultsim::JsonDocument base;             ///< the base scene as given.
+  bool base_is_inline = false;             ///< base is document's /base.
 
   /// The second of the three copies (design section 8): JSON text in which every alias is a
   /// pointer, every range its values, and every group carries its scene.

@@ -88,7 +88,7 @@ std::vector<std::string> SpecReader::keys(const std::string& pointer) const {
 }
 
 void SpecReader::read_name() {
-  if (!is_sound("/name") || !is_sound("/title") || !is_sound("/keep_fields")) return;
+  if (!is_sound("/name") || !is_sound("/title")) return;
   spec_.name = at("/name").get<std::string>();
   const bool plain = std::all_of(spec_.name.begin(), spec_.name.end(), [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '_';
@@ -98,12 +98,6 @@ void SpecReader::read_name() {
             "use letters, digits, dots, dashes and underscores, beginning with a letter or digit");
   }
   if (has("/title")) spec_.title = at("/title").get<std::string>();
-  if (has("/keep_fields")) {
-    const auto keep = at("/keep_fields").get<std::string>();
-    spec_.keep_fields = keep == "all"      ? KeepFields::all
-                        : keep == "stages" ? KeepFields::stages
-                                           : KeepFields::none;
-  }
 }
 
 void SpecReader::read_base() {

@@ -141,13 +141,12 @@ TEST(Spec, PolicyAndMetrics) {
   const auto spec = grid_with(R"({"offset": ["0 m"]})", R"~(
       "policy": {"on_failure": "retry", "retries": 3, "time_limit": "10 min",
                  "memory_limit": "8 GB"},
-      "metrics": {"rank_by": "max(chi_bar, 0.5)"}, "keep_fields": "stages", )~");
+      "metrics": {"rank_by": "max(chi_bar, 0.5)"}, )~");
   EXPECT_EQ(spec.policy.on_failure, FailureAction::retry);
   EXPECT_EQ(spec.policy.retries, 3);
   EXPECT_EQ(spec.policy.time_limit, 600.0);
   EXPECT_EQ(spec.policy.memory_limit, 8e9);
   EXPECT_EQ(spec.rank_by, "max(chi_bar, 0.5)");
-  EXPECT_EQ(spec.keep_fields, KeepFields::stages);
 }
 
 TEST(Spec, ResolvedNamesPointersAndValues) {
