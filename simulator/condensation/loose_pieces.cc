@@ -70,9 +70,15 @@ Eigen::VectorXd loose_piece_springs(const BulkProblem& problem, const DofMap& do
     is_loose.push_back(rigid_modes(mesh, member, is_fixed).free.cols() > 0);
   }
   Eigen::VectorXd springs = Eigen::VectorXd::Zero(geometry.n_dofs);
-  auto node = geometry.nodes.begin();
-  for (const FaultSurface& fault : mesh.faults) {
-    for (const FaultNode& pair : fault.nodes) {
+  auto node = geometry.nodes.begin();  // skips the pairs that a boundary holds closed
+  for (std::size_t f = 0; f < mesh.faults.size(); ++f) {
+    const FaultSurface& fault = mesh.faults[f];
+    for (std::size_t k = 0; k < fault.nodes.size(); ++k) {
+      const auto jump = [&](int c) {
+        return dofs.jump_dof(static_cast<int>(f), static_cast<int>(k), c);
+      };
+      if (jump(0) < 0 && jump(1) < 0 && jump(2) < 0) continue;
+      const FaultNode& pair = fault.nodes[k];
       const bool holds_loose = is_loose[static_cast<std::size_t>(piece_of(pair.minus_node))] ||
                                is_loose[static_cast<std::size_t>(piece_of(pair.plus_node))];
       const double edge = std::max(node->edge_strike, node->edge_dip);
@@ -84,6 +90,7 @@ Eigen::VectorXd loose_piece_springs(const BulkProblem& problem, const DofMap& do
       ++node;
     }
   }
+  FAULTSIM_DEMAND(node == geometry.nodes.end(), geometry.nodes.size(), " nodes");
   return springs;
 }
 
