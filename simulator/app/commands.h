@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "simulator/common/exit_code.h"
+#include "simulator/output/result.h"
 
 /// The commands of `faultsim`, one function each; main.cc reads the command line.
 namespace faultsim {
@@ -24,6 +25,15 @@ struct RunArguments {
   bool no_cache = false;
 };
 
+struct ExportArguments {
+  SceneArguments scene;
+  int step = 0;                  ///< load step whose contact problem is wanted.
+  std::filesystem::path output;  ///< the HDF5 file.
+  std::filesystem::path cache;   ///< empty = the user's cache folder.
+  bool no_cache = false;
+  bool freeze_strength = false;  ///< weakening friction keeps its value at the start of the step.
+};
+
 struct WorkerArguments {
   int requests = 0;  ///< descriptor to read from.
   int replies = 1;   ///< descriptor to write to.
@@ -31,12 +41,18 @@ struct WorkerArguments {
   double cache_size = 20e9;  ///< bytes.
 };
 
+/// What the outcome of a case is to a shell.
+ExitCode exit_code_of(Outcome outcome);
+
 ExitCode init_command(const std::string& kind, const std::filesystem::path& file);
 ExitCode validate_command(const SceneArguments& arguments);
 ExitCode plan_command(const SceneArguments& arguments);
 ExitCode parameters_command(const SceneArguments& arguments);
 ExitCode mesh_command(const SceneArguments& arguments, const std::filesystem::path& output);
 ExitCode run_command(const RunArguments& arguments);
+/// Writes the contact problem of one load step, and our solution, as an FCLib file. Ends with
+/// no_convergence when the case does not reach the step, or the step has no solution to add.
+ExitCode export_contact_command(const ExportArguments& arguments);
 /// Serves cases to a campaign; see schemas/worker_protocol.md.
 ExitCode worker_command(const WorkerArguments& arguments);
 

@@ -1,6 +1,19 @@
 #include "simulator/app/load_scene.h"
 
+#include <cstdlib>
+
 namespace faultsim {
+namespace {
+
+std::filesystem::path user_cache() {
+  if (const char* xdg = std::getenv("XDG_CACHE_HOME"))
+    return std::filesystem::path(xdg) / "faultsim";
+  if (const char* home = std::getenv("HOME"))
+    return std::filesystem::path(home) / ".cache" / "faultsim";
+  return {};
+}
+
+}  // namespace
 
 LoadedScene load_scene(JsonDocument document) {
   LoadedScene loaded{std::move(document), {}, {}};
@@ -27,6 +40,12 @@ LoadedScene load_scene(const SceneArguments& arguments) {
               change.substr(equals + 1));
   }
   return load_scene(std::move(document));
+}
+
+CachePolicy cache_policy(const std::filesystem::path& folder, bool no_cache) {
+  CachePolicy policy;
+  if (!no_cache) policy.folder = folder.empty() ? user_cache() : folder;
+  return policy;
 }
 
 }  // namespace faultsim

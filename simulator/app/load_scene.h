@@ -1,6 +1,7 @@
 #pragma once
 
 #include "simulator/app/commands.h"
+#include "simulator/loading/run_case.h"
 #include "simulator/plan/plan.h"
 #include "simulator/scene/read_scene.h"
 
@@ -17,5 +18,8 @@ struct LoadedScene {
 LoadedScene load_scene(const SceneArguments& arguments);
 /// The same for a document at hand (a campaign's case).
 LoadedScene load_scene(JsonDocument document);
+
+/// Where a command keeps operators: the folder given, or the user's cache folder, or nowhere.
+CachePolicy cache_policy(const std::filesystem::path& folder, bool no_cache);
 
 }  // namespace faultsim

@@ -15,6 +15,8 @@ constexpr const char* kFooter =
     "  faultsim plan my-field.json                what will be modelled, unknowns, memory, time\n"
     "  faultsim run my-field.json -o out          run it: table, result.json, faults.xmf\n"
     "  faultsim run my-field.json --tier screening --set friction_angle=\"20 deg\"\n"
+    "  faultsim export-contact my-field.json --step 10 -o step10.hdf5\n"
+    "                                             a step's contact problem for other solvers\n"
     "  faultsim verify V1 V2                      meet the closed forms\n"
     "Exit codes: 0 done, 2 input, 3 no convergence, 4 disk or memory, 5 a comparison failed,\n"
     "            70 bug, 75 interrupted.";
@@ -83,6 +85,25 @@ ExitCode faultsim_main(int argc, char** argv) {
   run_app->add_flag("--no-cache", run.no_cache, "neither read nor write cached operators");
   run_app->add_option("--path", path, "how to solve")->check(CLI::IsMember({"condensed"}));
   run_app->callback([&] { code = run_command(run); });
+
+  ExportArguments exported;
+  CLI::App* export_app = app.add_subcommand(
+      "export-contact", "write the contact problem of a load step as an FCLib HDF5 file");
+  add_scene(export_app, exported.scene);
+  export_app->add_option("--step", exported.step, "load step; 0 = the initial equilibrium")
+      ->required();
+  export_app->add_option("-o,--output", exported.output, "file to write")->required();
+  export_app->add_flag("--freeze-strength", exported.freeze_strength,
+                       "friction that weakens keeps its value at the start of the step");
+  export_app->add_option("--cache", exported.cache,
+                         "operator cache (default: the user's cache folder)");
+  export_app->add_flag("--no-cache", exported.no_cache, "neither read nor write cached operators");
+  export_app->footer(
+      "Runs the scene up to the step before, and writes u = W r + q, friction coefficients and "
+      "our\n"
+      "solution. The step must have no cohesion; see docs/contact-export.md.\n"
+      "Example: faultsim export-contact my-field.json --step 10 -o step10.hdf5");
+  export_app->callback([&] { code = export_contact_command(exported); });
 
   WorkerArguments worker;
   CLI::App* worker_app =

@@ -1,5 +1,4 @@
 #include <cstdio>
-#include <cstdlib>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -15,33 +14,10 @@
 namespace faultsim {
 namespace {
 
-std::filesystem::path user_cache() {
-  if (const char* xdg = std::getenv("XDG_CACHE_HOME"))
-    return std::filesystem::path(xdg) / "faultsim";
-  if (const char* home = std::getenv("HOME"))
-    return std::filesystem::path(home) / ".cache" / "faultsim";
-  return {};
-}
-
 std::string built_in(double seconds) {
   char text[48];
   std::snprintf(text, sizeof text, "operator: built in %.2f s", seconds);
   return text;
-}
-
-ExitCode exit_code_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::converged:
-      return ExitCode::done;
-    case Outcome::unconverged:
-    case Outcome::unstable:
-      return ExitCode::no_convergence;
-    case Outcome::interrupted:
-      return ExitCode::interrupted;
-    case Outcome::failed:
-      return ExitCode::bug;
-  }
-  return ExitCode::bug;
 }
 
 /// Displacement of the whole mesh at the end of each stage, computed from the factor kept.
@@ -86,6 +62,21 @@ void write_volume_fields(const std::filesystem::path& folder, const LoadedScene&
 
 }  // namespace
 
+ExitCode exit_code_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::converged:
+      return ExitCode::done;
+    case Outcome::unconverged:
+    case Outcome::unstable:
+      return ExitCode::no_convergence;
+    case Outcome::interrupted:
+      return ExitCode::interrupted;
+    case Outcome::failed:
+      return ExitCode::bug;
+  }
+  return ExitCode::bug;
+}
+
 ExitCode run_command(const RunArguments& arguments) {
   catch_interrupts();
   const LoadedScene loaded = load_scene(arguments.scene);
@@ -103,8 +94,7 @@ ExitCode run_command(const RunArguments& arguments) {
 
   ScreenMonitor monitor(json);
   if (!json) std::cerr << plan_to_text(loaded.plan);
-  CachePolicy cache;
-  if (!arguments.no_cache) cache.folder = arguments.cache.empty() ? user_cache() : arguments.cache;
+  const CachePolicy cache = cache_policy(arguments.cache, arguments.no_cache);
   const PreparedOperator prepared =
       prepare_operator(scene, loaded.plan, cache, scene.output.volume_fields, monitor);
   if (!prepared.remark.empty()) monitor.note(prepared.remark);

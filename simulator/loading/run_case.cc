@@ -73,8 +73,10 @@ class CaseRun {
         whole_("", 0, nullptr, true, op.geometry.plane_strain) {}
 
   CaseResult run(Monitor& monitor);
+  StepStart start_of(int step);
 
  private:
+  void name_result();
   StepLoads loads_at(const LoadStep& step) const;
   void check_fault_pressure(const LoadStep& step, const StepLoads& loads) const;
   bool advance(const LoadStep& step, const Eigen::VectorXd& before, const StepLoads& loads);
@@ -237,8 +239,8 @@ bool CaseRun::advance(const LoadStep& step, const Eigen::VectorXd& before, const
   return good;
 }
 
-CaseResult CaseRun::run(Monitor& monitor) {
-  const Stopwatch watch;
+/// Identity and names, which the metrics of a step refer to.
+void CaseRun::name_result() {
   result_.title = scene_.title;
   result_.identity = case_identity(scene_);
   result_.operator_fingerprint = op_.fingerprint;
@@ -248,7 +250,11 @@ CaseResult CaseRun::run(Monitor& monitor) {
     result_.region_names.push_back(history.region);
   for (const Fault& fault : scene_.faults) result_.fault_names.push_back(fault.name);
   for (const ObservationRow& row : op_.observations) result_.observation_names.push_back(row.name);
+}
 
+CaseResult CaseRun::run(Monitor& monitor) {
+  const Stopwatch watch;
+  name_result();
   const std::vector<LoadStep> steps = load_steps(scene_);
   std::vector<StepLoads> loads;
   for (const LoadStep& step : steps) {
@@ -284,11 +290,51 @@ CaseResult CaseRun::run(Monitor& monitor) {
   return std::move(result_);
 }
 
+/// The steps before are solved as run() does; their metrics are by the way.
+StepStart CaseRun::start_of(int step) {
+  const std::vector<LoadStep> steps = load_steps(scene_);
+  const auto n_steps = static_cast<int>(steps.size());
+  if (step < 0 || step >= n_steps) {
+    throw InputError("scene", {{"/stages", 0, concat("the case has no load step ", step),
+                                concat("choose one of 0 to ", n_steps - 1)}});
+  }
+  StepStart start;
+  start.laws = laws_;
+  start.options = contact_options(scene_.numerics);
+  start.before = Eigen::VectorXd::Zero(op_.geometry.n_dofs);
+  start.outcome = result_.outcome = Outcome::converged;
+  name_result();
+  for (const LoadStep& next : steps) {
+    if (interrupted()) {
+      start.outcome = Outcome::interrupted;
+      start.reason = concat("stopped before load step ", next.step);
+      return start;
+    }
+    const StepLoads loads = loads_at(next);
+    check_fault_pressure(next, loads);
+    start.step = next;
+    start.after = loads.locked;
+    if (next.step == step) break;
+    if (!advance(next, start.before, loads)) {
+      start.outcome = result_.outcome;
+      start.reason = result_.reason;
+      return start;
+    }
+    start.before = loads.locked;
+  }
+  start.state = state_;
+  return start;
+}
+
 }  // namespace
 
 CaseResult run_case(const Scene& scene, const FaultOperator& op, Monitor& monitor,
                     const StepObserver& observer) {
   return CaseRun(scene, op, observer).run(monitor);
+}
+
+StepStart start_of_step(const Scene& scene, const FaultOperator& op, int step) {
+  return CaseRun(scene, op, {}).start_of(step);
 }
 
 }  // namespace faultsim

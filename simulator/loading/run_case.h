@@ -8,6 +8,8 @@
 
 #include "simulator/common/monitor.h"
 #include "simulator/condensation/condensation.h"
+#include "simulator/contact/contact.h"
+#include "simulator/loading/history.h"
 #include "simulator/output/fault_operator.h"
 #include "simulator/output/result.h"
 #include "simulator/plan/plan.h"
@@ -44,5 +46,20 @@ using StepObserver = std::function<void(const StepResult&, const FaultFields&)>;
 /// non-convergence.
 CaseResult run_case(const Scene& scene, const FaultOperator& op, Monitor& monitor,
                     const StepObserver& observer = {});
+
+/// One load step of a case before it is solved: what a contact solver would be given.
+struct StepStart {
+  LoadStep step;
+  ContactLaws laws;
+  ContactOptions options;
+  Eigen::VectorXd before, after;      ///< locked effective traction t_L at its start and end, Pa.
+  ContactState state;                 ///< at the start.
+  Outcome outcome = Outcome::failed;  ///< of the steps before; the rest holds iff converged.
+  std::string reason;                 ///< why they ended early.
+};
+
+/// Runs a case up to the end of load step − 1 (0: the unloaded start, whose step equilibrates the
+/// initial state). Throws InputError when the case has no such step.
+StepStart start_of_step(const Scene& scene, const FaultOperator& op, int step);
 
 }  // namespace faultsim

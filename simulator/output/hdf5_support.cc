@@ -159,6 +159,17 @@ void write_array(hid_t file, const std::string& path, const std::vector<hsize_t>
   write_any(file, path, sizes, H5T_STD_I32LE, H5T_NATIVE_INT, values, about);
 }
 
+void write_text(hid_t file, const std::string& path, const std::string& text) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "text type");
+  check(H5Tset_size(type, text.size() + 1), "text type");
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, path);
+  Handle dataset(
+      H5Dcreate2(file, path.c_str(), type, space, link_creation(), dataset_creation(), H5P_DEFAULT),
+      H5Dclose, path);
+  check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), path);
+  dataset.close(path);
+}
+
 void write_texts(hid_t file, const std::string& path, const std::vector<std::string>& texts) {
   std::size_t length = 1;
   for (const std::string& text : texts) length = std::max(length, text.size());

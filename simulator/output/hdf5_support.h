@@ -8,7 +8,7 @@
 #include <vector>
 
 /// A thin layer on HDF5's C interface: handles that close themselves, errors as StorageError, and
-/// the three kinds of dataset that we use. Equal content gives equal bytes: no time stamps.
+/// the few kinds of dataset that we use. Equal content gives equal bytes: no time stamps.
 namespace faultsim::hdf5 {
 
 /// Held while HDF5 is used (the library is not thread safe); its error printing is off.
@@ -64,6 +64,8 @@ void write_array(hid_t file, const std::string& path, const std::vector<hsize_t>
                  const double* values, const About& about);
 void write_array(hid_t file, const std::string& path, const std::vector<hsize_t>& sizes,
                  const int* values, const About& about);
+/// One string, ending with a zero byte as C's do.
+void write_text(hid_t file, const std::string& path, const std::string& text);
 /// Strings of fixed length, padded with zeros.
 void write_texts(hid_t file, const std::string& path, const std::vector<std::string>& texts);
 
