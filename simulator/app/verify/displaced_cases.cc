@@ -20,9 +20,12 @@ struct LinePoint {
   double length;  ///< m along dip that the node stands for
 };
 
-/// Dip from the horizontal of a fault that leans to the right going up (dips west).
+/// Dip from the horizontal of a fault that leans to the right going up (dips west); beyond 90° for
+/// one that leans to the left. A strike of 180° describes the plane from its other side.
 double plane_dip(const Scene& scene) {
-  return std::numbers::pi / 2 + scene.box.patches.front().dip_from_vertical;
+  const PatchGeometry& patch = scene.box.patches.front();
+  const double side = std::cos(patch.strike) > 0 ? 1 : -1;
+  return std::numbers::pi / 2 + side * patch.dip_from_vertical;
 }
 
 std::vector<LinePoint> fault_line(const SceneRun& run, const FaultFields& fields) {
@@ -206,6 +209,12 @@ SlipFigures slip_figures(const SceneRun& run) {
   return figures;
 }
 
+constexpr std::size_t kBoxes = 3, kCells = 4;
+constexpr std::array<double, kBoxes> kHalfSizes = {4500, 9000, 18000};
+constexpr std::array<double, kCells> kCellSizes = {5, 2.5, 1.25, 0.625};
+/// Of slip, per cell size.
+constexpr std::array<double, kCells> kTolerances = {0.06, 0.06, 0.025, 0.013};
+
 const char kSlipping[] = "v5_slipping_fault.json";
 
 /// The full-space solution: boundary elements at two sizes, extrapolated at first order.
@@ -231,7 +240,37 @@ double slip_at(const SlipProfile& profile, double y) {
       [&](std::size_t k) { return profile.slip[k]; });
 }
 
-void compare_slip_profile(const SceneRun& run, VerifyReport& report) {
+/// Where the slip patches of a profile end: heights of its first and last slipping points above and
+/// below the centre, m.
+struct PatchEnds {
+  double lower_from = 0, lower_to = -1e9, upper_from = 1e9, upper_to = 0;
+
+  void add(double y) {
+    lower_from = std::min(lower_from, y);
+    upper_to = std::max(upper_to, y);
+    if (y < 0) lower_to = std::max(lower_to, y);
+    if (y > 0) upper_from = std::min(upper_from, y);
+  }
+};
+
+void compare_patch_ends(const SceneRun& run, double cell, VerifyReport& report) {
+  const SlipProfile profile = boundary_element_slip(slipping_fault_of(run), 0.125);
+  PatchEnds expected, computed;
+  for (std::size_t k = 0; k < profile.y.size(); ++k)
+    if (std::abs(profile.slip[k]) > 0) expected.add(profile.y[k]);
+  for (const LinePoint& point : fault_line(run, run.fields.back()))
+    if (std::abs(point.slip) > 0) computed.add(point.y);
+  const std::string place = ", " + short_number(cell) + " m cells (error in cells)";
+  report.compare("lower patch from" + place, "m", expected.lower_from, computed.lower_from, 2,
+                 cell);
+  report.compare("lower patch to" + place, "m", expected.lower_to, computed.lower_to, 2, cell);
+  report.compare("upper patch from" + place, "m", expected.upper_from, computed.upper_from, 2,
+                 cell);
+  report.compare("upper patch to" + place, "m", expected.upper_to, computed.upper_to, 2, cell);
+}
+
+void compare_slip_profile(const SceneRun& run, double cell, double tolerance,
+                          VerifyReport& report) {
   const std::vector<LinePoint> line = fault_line(run, run.fields.back());
   const SlippingFault fault = slipping_fault_of(run);
   const SlipProfile coarse = boundary_element_slip(fault, 0.25);
@@ -241,14 +280,12 @@ void compare_slip_profile(const SceneRun& run, VerifyReport& report) {
     const double computed = interpolate(
         y, line.size(), [&](std::size_t k) { return line[k].y; },
         [&](std::size_t k) { return line[k].slip; });
-    report.compare("slip at y = " + short_number(y) + " m, 1.25 m cells (error of the maximum)",
-                   "mm", expected * 1e3, computed * 1e3, 0.03, fine.max_slip * 1e3);
+    report.compare("slip at y = " + short_number(y) + " m, " + short_number(cell) +
+                       " m cells (error of the maximum)",
+                   "mm", expected * 1e3, computed * 1e3, tolerance, fine.max_slip * 1e3);
   }
 }
 
-constexpr std::size_t kBoxes = 3, kCells = 4;
-constexpr std::array<double, kBoxes> kHalfSizes = {4500, 9000, 18000};
-constexpr std::array<double, kCells> kCellSizes = {5, 2.5, 1.25, 0.625};
 using Study = std::array<std::array<double, kCells>, kBoxes>;
 
 /// To cells of no size at first order, from the two finest, then to an infinite box by the order
@@ -274,7 +311,7 @@ void compare_study(const std::string& quantity, const std::string& unit, double 
       const std::string place = ", " + short_number(kCellSizes[cell]) + " m cells, " +
                                 short_number(kHalfSizes[box] / 500) + " km box";
       report.compare(quantity + place, unit, exact * factor, values[box][cell] * factor,
-                     kCellSizes[cell] <= 1.25 ? 0.03 : 0.06);
+                     kTolerances[cell]);
     }
   }
   report.compare(quantity + ", extrapolated in both", unit, exact * factor,
@@ -303,12 +340,68 @@ VerifyCase slipping_case() {
                 const SlipFigures figures = slip_figures(run);
                 max_slip[box][cell] = figures.max_slip;
                 integral[box][cell] = figures.integral;
-                if (kHalfSizes[box] == 9000 && kCellSizes[cell] == 1.25)
-                  compare_slip_profile(run, report);
+                if (box + 1 < kBoxes || cell + 2 < kCells) continue;
+                compare_slip_profile(run, kCellSizes[cell], kTolerances[cell], report);
+                compare_patch_ends(run, kCellSizes[cell], report);
               }
             }
             compare_study("max slip", "mm", exact.max_slip, 1e3, max_slip, report);
             compare_study("∫ slip ds", "m²", exact.integral, 1, integral, report);
+          }};
+}
+
+/// The scene in the mirror x → −x: the other dip, and the blocks change sides.
+Settings mirrored(Settings settings) {
+  settings.push_back({"/faults/0/dip_from_vertical", "20 deg"});
+  settings.push_back({"/geometry/regions", R"([
+    {"name":"left","shape":"box","from":["-100 km","-1 m","-75 m"],"to":["0 m","2 m","150 m"]},
+    {"name":"right","shape":"box","from":["0 m","-1 m","-150 m"],"to":["100 km","2 m","75 m"]}])"});
+  return settings;
+}
+
+/// Largest difference of |slip|, of σ_n and of |τ| (which change sign in a mirror) of two runs on
+/// the same heights, relative to the largest value in `given`.
+struct LineDifference {
+  double slip = 0, normal = 0, shear = 0;
+};
+LineDifference line_difference(const SceneRun& given, const SceneRun& other) {
+  const std::vector<LinePoint> p = fault_line(given, given.fields.back());
+  const std::vector<LinePoint> q = fault_line(other, other.fields.back());
+  if (p.size() != q.size()) throw Error("the runs have different numbers of fault nodes");
+  LineDifference difference, scale;
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    if (std::abs(p[k].y - q[k].y) > 1e-6) throw Error("the runs have different fault nodes");
+    const auto note = [](double& worst, double& largest, double a, double b) {
+      worst = std::max(worst, std::abs(std::abs(a) - std::abs(b)));
+      largest = std::max(largest, std::abs(a));
+    };
+    note(difference.slip, scale.slip, p[k].slip, q[k].slip);
+    note(difference.normal, scale.normal, p[k].normal, q[k].normal);
+    note(difference.shear, scale.shear, p[k].shear, q[k].shear);
+  }
+  return {difference.slip / scale.slip, difference.normal / scale.normal,
+          difference.shear / scale.shear};
+}
+
+VerifyCase mirrored_case() {
+  return {"V5-mirrored",
+          "slip of the displaced fault: mirrored and reversed scenes give the same figures",
+          {kSlipping},
+          false,
+          [](SceneRunner& runner, VerifyReport& report) {
+            const Settings settings = box_and_cells(18000, 2.5);
+            const SceneRun given = runner.run(kSlipping, settings);
+            Settings reversed = settings;
+            reversed.push_back({"/faults/0/strike", "180 deg"});
+            reversed.push_back({"/faults/0/dip_from_vertical", "20 deg"});
+            const auto same = [&](const std::string& what, const Settings& changed) {
+              const LineDifference worst = line_difference(given, runner.run(kSlipping, changed));
+              report.bound(what + ": slip, worst node", "of the maximum", worst.slip, 1e-8);
+              report.bound(what + ": σ_n, worst node", "of the maximum", worst.normal, 1e-8);
+              report.bound(what + ": τ, worst node", "of the maximum", worst.shear, 1e-8);
+            };
+            same("in a mirror", mirrored(settings));
+            same("strike + 180°, the same plane", reversed);
           }};
 }
 
@@ -344,7 +437,9 @@ std::vector<VerifyCase> displaced_cases() {
                      {{"/compartments/right/scale", "0"}}),
           stuck_case("V4-right", "the same, only the right block depleted",
                      {{"/compartments/left/scale", "0"}}),
-          slipping_case(), frictionless_case()};
+          slipping_case(),
+          mirrored_case(),
+          frictionless_case()};
 }
 
 }  // namespace faultsim

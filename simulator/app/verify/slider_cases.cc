@@ -37,10 +37,13 @@ Settings with_friction(Settings settings, const std::string& friction) {
   return settings;
 }
 
-/// The slider that a scene describes: N from the initial stress, k = G/2H.
+/// The slider that a scene describes: N from the initial stress, k = G/2H; the box is as long as
+/// both blocks are high across the fault and shorter along it.
 Slider slider_of(const Scene& scene) {
   const Material& rock = scene.materials.front();
-  const double height = (scene.box.to[2] - scene.box.from[2]) / 2;
+  double height = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    height = std::max(height, (scene.box.to[i] - scene.box.from[i]) / 2);
   const Friction& friction = scene.faults.front().friction;
   return {rock.youngs_modulus / (2 * (1 + rock.poisson_ratio)) / (2 * height),
           -scene.initial.tensor.value()[8],
@@ -50,10 +53,11 @@ Slider slider_of(const Scene& scene) {
           friction.law == FrictionLaw::angle};
 }
 
-/// Global slip (upper relative to lower block) and shear traction at a step.
+/// Global slip (the driven block, on the side of larger coordinates, relative to the held one) and
+/// shear traction at a step.
 Eigen::Vector3d in_plane(const SceneRun& run, const Eigen::Matrix3Xd& field) {
   const OperatorNode& node = run.geometry().nodes.front();
-  const double sign = node.normal.z() > 0 ? 1 : -1;
+  const double sign = node.normal.sum() > 0 ? 1 : -1;
   return sign * (field(1, 0) * node.strike + field(2, 0) * node.dip);
 }
 
@@ -140,6 +144,8 @@ VerifyCase critical_case() {
             report.compare("H/A of the slider = k", "MPa/m", slider.stiffness / 1e6, h_over_a / 1e6,
                            kTolerance);
             const double critical = slider_critical_distance(slider);
+            report.compare("critical distance N sec²φ_s Δφ/k", "m", 0.93084227, critical,
+                           kTolerance, 1);
             for (const double factor : {1.01, 0.99}) {
               settings.push_back(
                   {"/friction/slip_weakening_distance", concat(critical * factor, " m")});
@@ -153,8 +159,8 @@ VerifyCase critical_case() {
             CoulombLaw law{WeakeningLaw::angle, 0, slider.static_friction_angle,
                            slider.dynamic_friction_angle, critical};
             const double rate = -limit_shear_traction(law, -slider.normal_stress, 0).d_slip;
-            report.compare("H/A − W at the critical distance", "MPa/m", 0, (h_over_a - rate) / 1e6,
-                           1e-6);
+            report.compare("H/A − W at the critical distance (error of k)", "MPa/m", 0,
+                           (h_over_a - rate) / 1e6, kTolerance, slider.stiffness / 1e6);
           }};
 }
 
@@ -176,6 +182,9 @@ VerifyCase reversal_case() {
               const double shear = in_plane(run, run.fields.at(i + 1).traction).x();
               report.compare(concat("slip at u = ", short_number(u[i]), " (step ", i + 1, ")"), "m",
                              path.slip[i], slip, kTolerance, 1);
+              report.compare(concat("τ at u = ", short_number(u[i]), " (step ", i + 1, ")"), "MPa",
+                             slider.stiffness * (u[i] - path.slip[i]) / 1e6, shear / 1e6,
+                             kTolerance, 12);
               if (i > 2) dissipated += shear * (slip - before);
               before = slip;
             }
@@ -200,6 +209,8 @@ VerifyCase oblique_case() {
                                               std::sin(degrees * kDegree), 0);
               report.bound(place + "slip across the load's direction", "m",
                            (slip - slip.dot(direction) * direction).norm(), kTolerance);
+              const Eigen::Vector3d shear = in_plane(run, run.fields.back().traction) / 1e6;
+              report.compare(place + "τ along it", "MPa", 9, shear.dot(direction), kTolerance);
             }
           }};
 }
@@ -276,23 +287,88 @@ VerifyCase tiny_case() {
       }};
 }
 
+/// The angle-law path in a changed scene that is driven along `direction`: whole vectors.
+void compare_turned(SceneRunner& runner, const std::string& what, const Settings& changes,
+                    const Eigen::Vector3d& direction, VerifyReport& report) {
+  const std::vector<double> u = {1.1, 1.3, 1.5, 1.7, 1.9, 2.1};
+  Settings settings = with_friction(driven_by(u), kAngleLaw);
+  settings.push_back(
+      {"/geometry/boundary/1/translation",
+       concat("[\"", direction.x(), " m\",\"", direction.y(), " m\",\"", direction.z(), " m\"]")});
+  settings.insert(settings.end(), changes.begin(), changes.end());
+  const SceneRun run = runner.run(kScene, settings);
+  const Slider slider = slider_of(run.scene);
+  double slip = 0, shear = 0;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    const double expected = slider_slip(slider, u[i]);
+    const double strength = slider.stiffness * (u[i] - expected);
+    const FaultFields& fields = run.fields.at(i + 1);
+    slip = std::max(slip, (in_plane(run, fields.jump) - expected * direction).norm());
+    shear =
+        std::max(shear, (in_plane(run, fields.traction) - strength * direction).norm() / strength);
+  }
+  report.bound(what + ": slip vector, worst step", "m", slip, kTolerance);
+  report.bound(what + ": τ vector, worst step", "relative", shear, kTolerance);
+}
+
+/// The same body with its fault across x or y.
+Settings on_its_side(bool across_x) {
+  const auto swap = [&](const char* x, const char* y) { return std::string(across_x ? x : y); };
+  return {
+      {"/geometry/from", swap(R"(["-1 m","0 m","0 m"])", R"(["0 m","-1 m","0 m"])")},
+      {"/geometry/boundary/0/sides", swap(R"(["x-"])", R"(["y-"])")},
+      {"/geometry/boundary/1/sides", swap(R"(["x+"])", R"(["y+"])")},
+      {"/geometry/boundary/2/sides", swap(R"(["y-","y+","z-","z+"])", R"(["x-","x+","z-","z+"])")},
+      {"/faults/0/center", swap(R"(["0 m","0.5 m","0.5 m"])", R"(["0.5 m","0 m","0.5 m"])")},
+      {"/faults/0/strike", swap("0 deg", "90 deg")},
+      {"/faults/0/dip_from_vertical", "0 deg"}};
+}
+
+/// The slider on its side, its fault reversed and its fault's axes turned: the same path.
+VerifyCase turned_case() {
+  return {"V7-turned",
+          "spring and slider on its side, reversed, and with the fault's axes turned",
+          {kScene},
+          false,
+          [](SceneRunner& runner, VerifyReport& report) {
+            compare_turned(runner, "driven along −x", {}, {-1, 0, 0}, report);
+            compare_turned(runner, "fault's strike 37°", {{"/faults/0/strike", "37 deg"}},
+                           {1, 0, 0}, report);
+            compare_turned(
+                runner, "strike + 180°, dip −90°: the same plane",
+                {{"/faults/0/strike", "180 deg"}, {"/faults/0/dip_from_vertical", "-90 deg"}},
+                {1, 0, 0}, report);
+            compare_turned(runner, "fault across x, driven along y and up", on_its_side(true),
+                           {0, 0.6, 0.8}, report);
+            compare_turned(runner, "fault across y, driven along x and down", on_its_side(false),
+                           {0.6, 0, -0.8}, report);
+          }};
+}
+
 VerifyCase nucleation_case() {
   return {"V7-nucleation",
           "nucleation length of Uenishi and Rice",
-          {},
+          {kScene},
           false,
-          [](SceneRunner&, VerifyReport& report) {
+          [](SceneRunner& runner, VerifyReport& report) {
+            // 1.157773883699 G*/W with all digits, G* = G/(1−ν) and G.
             const double rate = 36e6 * 0.32 / 0.02;
-            report.compare("h_n, mode II", "m", 15.370773,
-                           nucleation_length(6500e6 / (1 - 0.15), rate), 1e-7);
+            report.compare("h_n, mode II", "m", 15.370772557278,
+                           nucleation_length(6500e6 / (1 - 0.15), rate), kTolerance);
+            report.compare("h_n, mode III", "m", 13.065156673687, nucleation_length(6500e6, rate),
+                           kTolerance);
+            // The slider: cells of 1 m, W = N Δμ/d_c = 5 MPa/m, G 20 MPa; mode III is the shorter.
+            const SceneRun run = runner.run(kScene, driven_by({1.3}));
+            report.compare("longest cell edge / h_n, of a run", "", 0.215931628377,
+                           run.result.max_nucleation_ratio, kTolerance);
           }};
 }
 
 }  // namespace
 
 std::vector<VerifyCase> slider_cases() {
-  return {linear_case(),   angle_case(),   unstable_case(), critical_case(),
-          reversal_case(), oblique_case(), tiny_case(),     nucleation_case()};
+  return {linear_case(),  angle_case(),  unstable_case(), critical_case(),  reversal_case(),
+          oblique_case(), turned_case(), tiny_case(),     nucleation_case()};
 }
 
 }  // namespace faultsim

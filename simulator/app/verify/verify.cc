@@ -15,8 +15,8 @@ namespace faultsim {
 const std::vector<VerifyCase>& verify_cases() {
   static const std::vector<VerifyCase> cases = [] {
     std::vector<VerifyCase> all;
-    for (auto part :
-         {patch_cases(), depletion_cases(), displaced_cases(), crack_cases(), slider_cases()})
+    for (auto part : {patch_cases(), depletion_cases(), displaced_cases(), crack_cases(),
+                      penny_cases(), slider_cases()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

@@ -29,7 +29,8 @@ const std::vector<VerifyCase>& verify_cases();
 std::vector<VerifyCase> patch_cases();      // V1
 std::vector<VerifyCase> depletion_cases();  // V2, V3
 std::vector<VerifyCase> displaced_cases();  // V4, V5
-std::vector<VerifyCase> crack_cases();      // V6
+std::vector<VerifyCase> crack_cases();      // V6, plane strain
+std::vector<VerifyCase> penny_cases();      // V6, 3D
 std::vector<VerifyCase> slider_cases();     // V7
 
 /// Runs one case. What goes wrong in it becomes VerifyReport::failure; only Interrupted (and bugs)

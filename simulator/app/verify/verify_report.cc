@@ -72,7 +72,7 @@ std::vector<std::string> cells_of(const VerifyRow& row) {
           number(row.expected) + unit,
           number(row.computed) + unit,
           number(row.error, "%.2e"),
-          number(row.tolerance, "%.0e"),
+          number(row.tolerance, "%.2g"),
           row.pass ? "pass" : "MISS"};
 }
 
