@@ -113,14 +113,7 @@ json box(const BoxGeometry& box) {
 
 /// Only materials that something is made of: an unused one is a remark.
 json materials(const Scene& scene) {
-  std::set<std::string> used;
-  if (scene.geometry_kind == GeometryKind::field) {
-    for (const Layer& layer : scene.field.layers) used.insert(layer.material);
-    used.insert(scene.field.sideburden);
-  } else {
-    for (const Layer& layer : scene.box.layers) used.insert(layer.material);
-    used.insert(scene.box.material);
-  }
+  const std::set<std::string> used = used_materials(scene);
   json result = json::object();
   for (const Material& material : scene.materials) {
     if (used.count(material.name) == 0) continue;

@@ -189,13 +189,7 @@ void check_box(SceneReader& reader, const Scene& scene) {
 
 void check_column(SceneReader& reader, const Scene& scene) {
   if (scene.initial.kind != InitialStressKind::column || !reader.sound("/initial_state")) return;
-  std::set<std::string> used;
-  if (scene.geometry_kind == GeometryKind::field) {
-    for (const Layer& layer : scene.field.layers) used.insert(layer.material);
-    used.insert(scene.field.sideburden);
-  } else {
-    for (const Layer& layer : scene.box.layers) used.insert(layer.material);
-    used.insert(scene.box.material);
+  if (scene.geometry_kind == GeometryKind::box) {
     if (std::abs(scene.box.to[2]) > 0) {
       reader.problem(
           "/initial_state/kind",
@@ -207,6 +201,7 @@ void check_column(SceneReader& reader, const Scene& scene) {
                      "use \"kind\": \"profile\" with \"pressure\"");
     }
   }
+  const std::set<std::string> used = used_materials(scene);
   for (const Material& material : scene.materials) {
     const std::string at = "/materials/" + pointer_token(material.name);
     if (used.count(material.name) != 0 && !reader.has(at + "/density")) {

@@ -224,6 +224,16 @@ const Material& material_named(const Scene& scene, const std::string& name) {
   throw_internal("the material exists", name, __FILE__, __LINE__);
 }
 
+std::set<std::string> used_materials(const Scene& scene) {
+  std::set<std::string> used;
+  const bool is_field = scene.geometry_kind == GeometryKind::field;
+  for (const Layer& layer : is_field ? scene.field.layers : scene.box.layers) {
+    used.insert(layer.material);
+  }
+  used.insert(is_field ? scene.field.sideburden : scene.box.material);
+  return used;
+}
+
 std::string starter_scene(const std::string& kind) {
   if (kind == "field") return std::string(embedded::starter_field_json);
   if (kind == "box") return std::string(embedded::starter_box_json);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -246,5 +247,7 @@ struct Scene {
 
 /// The material of that name. @pre it exists.
 const Material& material_named(const Scene& scene, const std::string& name);
+/// Names of the materials that the geometry is made of; the scene may list others.
+std::set<std::string> used_materials(const Scene& scene);
 
 }  // namespace faultsim
