@@ -202,11 +202,17 @@ class Collector {
       : document_(document), aliases_(aliases) {}
 
   void walk(const json* value, const SchemaViews& views, const std::string& pointer, bool family) {
-    static const json kNull;
-    const json& here = value == nullptr ? kNull : *value;
+    const json& here = value == nullptr ? null() : *value;
     if (const json* says = keyword(views, "x-new-family")) family = says->get<bool>();
     if (is_leaf(views)) {
       add_row(value, views, pointer, family);
+      return;
+    }
+    if (here.is_array()) {
+      // A list where the schema wants an object has elements only; the schema check refuses it.
+      for (std::size_t i = 0; i < here.size(); ++i) {
+        walk_child(&here[i], views, pointer, std::to_string(i), family);
+      }
       return;
     }
     std::vector<std::string> keys = known_keys(views);
@@ -215,17 +221,10 @@ class Collector {
         if (!std::count(keys.begin(), keys.end(), key) && key != "comment") keys.push_back(key);
       }
     }
-    if (value != nullptr && here.is_array()) {
-      for (std::size_t i = 0; i < here.size(); ++i) keys.push_back(std::to_string(i));
-    }
     for (const std::string& key : keys) {
-      const json* inner = nullptr;
-      if (here.is_object() && here.contains(key)) inner = &here[key];
-      if (here.is_array()) inner = &here[std::stoul(key)];
-      const std::string next = pointer + "/" + pointer_token(key);
-      if (is_hidden(next) || (here.is_object() && has_rival(here, key))) continue;
-      walk(inner, child_views(scene_schema(), views, key, inner == nullptr ? kNull : *inner), next,
-           family);
+      if (here.is_object() && has_rival(here, key)) continue;
+      const bool given = here.is_object() && here.contains(key);
+      walk_child(given ? &here[key] : nullptr, views, pointer, key, family);
     }
   }
 
@@ -237,6 +236,17 @@ class Collector {
   }
 
  private:
+  void walk_child(const json* value, const SchemaViews& parent, const std::string& at,
+                  const std::string& key, bool family) {
+    const std::string pointer = at + "/" + pointer_token(key);
+    if (is_hidden(pointer)) return;
+    const json& here = value == nullptr ? null() : *value;
+    walk(value, child_views(scene_schema(), parent, key, here), pointer, family);
+  }
+  static const json& null() {
+    static const json nothing;
+    return nothing;
+  }
   bool is_hidden(const std::string& pointer) const {
     const bool field = text_at(document_.value, "/geometry/kind") == "field";
     static const char* const of_boxes[] = {"center", "strike", "length", "width", "shape"};
@@ -293,7 +303,9 @@ std::vector<ParameterInfo> parameters(const JsonDocument& document) {
   const std::string list = field ? "/geometry/blocks" : "/geometry/regions";
   for (std::size_t i = 0; i < size_at(completed, list); ++i) {
     const std::string name = text_at(completed, concat(list, "/", i, "/name"));
-    if (!completed["compartments"].contains(name)) completed["compartments"][name] = json::object();
+    json& compartments = completed["compartments"];
+    const bool is_object = compartments.is_null() || compartments.is_object();
+    if (is_object && !compartments.contains(name)) compartments[name] = json::object();
   }
   collector.walk(&completed, schema_views(scene_schema(), scene_schema(), completed), "", false);
   return std::move(collector).rows();

@@ -113,6 +113,25 @@ TEST(Parameters, OfABoxMarkLoadsAsNoNewFamily) {
   EXPECT_TRUE(rows.at("/faults/0/strike").new_family);
 }
 
+/// Campaigns ask for the parameters of a base before its schema is checked.
+TEST(Parameters, OfAMisshapenSceneAreNoAccident) {
+  const JsonDocument document = example("rotliegend-weakening.json");
+  std::size_t n_tried = 0;
+  for (const auto& [pointer, line] : document.lines) {
+    for (const char* wrong : {"[1, {}, []]", "{\"0\": 1}", "7", "\"word\"", "null", "[]"}) {
+      JsonDocument misshapen = document;
+      if (pointer.empty()) {
+        misshapen.value = nlohmann::json::parse(wrong);
+      } else {
+        misshapen.value[nlohmann::json::json_pointer(pointer)] = nlohmann::json::parse(wrong);
+      }
+      EXPECT_NO_THROW(parameters(misshapen)) << pointer << " = " << wrong;
+      ++n_tried;
+    }
+  }
+  EXPECT_GT(n_tried, 600U);
+}
+
 /// The strongest check of the identity: whatever can be set changes it, or is refused, but for the
 /// few values that are known to be without effect in this scene.
 TEST(Parameters, AllOfThemChangeTheIdentity) {
