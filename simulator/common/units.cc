@@ -90,11 +90,17 @@ class UnitSystem {
     if (ut_are_convertible(from.get(), to.get()) == 0) return answer;
     cv_converter* converter = ut_get_converter(from.get(), to.get());
     if (converter == nullptr) return answer;
-    if (cv_convert_double(converter, 0.0) == 0.0) {
-      answer.factor = cv_convert_double(converter, 1.0);
-    }
+    const double factor = cv_convert_double(converter, 1.0);
+    const bool has_offset = cv_convert_double(converter, 0.0) != 0.0;
     cv_free(converter);
+    if (!has_offset && is_multiple(from.get(), factor, to.get())) answer.factor = factor;
     return answer;
+  }
+  /// True if one `from` is `factor` times `to`, radians counted: convertible is also "%" to "rad",
+  /// as an angle has no dimension.
+  static bool is_multiple(const ut_unit* from, double factor, const ut_unit* to) {
+    const Unit scaled(ut_scale(factor, to));
+    return scaled && ut_compare(from, scaled.get()) == 0;
   }
 
   ut_system* system_ = nullptr;

@@ -53,6 +53,22 @@ TEST(ParseQuantity, KnowsDegreesByAllTheirNames) {
   EXPECT_EQ(value("90 deg", Dimension::angle), value("90 degrees", Dimension::angle));
   EXPECT_EQ(value("90 deg", Dimension::angle), value("90 \xC2\xB0", Dimension::angle));
   EXPECT_EQ(value("1 rad", Dimension::angle), 1);
+  EXPECT_EQ(value("1 mrad", Dimension::angle), 1e-3);
+  EXPECT_DOUBLE_EQ(value("0.25 turn", Dimension::angle), right);
+  EXPECT_DOUBLE_EQ(value("5400 arcmin", Dimension::angle), right);
+}
+
+TEST(ParseQuantity, TakesNoBareRatioForAnAngle) {
+  EXPECT_EQ(complaint("25 %", Dimension::angle),
+            "\"25 %\" is not an angle; write for example \"25 deg\"");
+  for (const char* ratio : {"1 1", "1 m/m", "3 mm/m", "5 ppm", "1 sr", "1 rad2", "1 deg/rad"}) {
+    EXPECT_EQ(complaint(ratio, Dimension::angle).find("is not an angle"),
+              std::string(ratio).size() + 3)
+        << ratio;
+  }
+  complaint("1 Pa rad", Dimension::pressure);
+  complaint("1 N m/rad", Dimension::moment);
+  EXPECT_EQ(value("1 Pa deg/deg", Dimension::pressure), 1);
 }
 
 TEST(ParseQuantity, TakesAYearOf365AndAQuarterDays) {
