@@ -29,8 +29,7 @@ class VolumeRecorder {
         bulk_(*prepared.bulk),
         steps_(load_steps(scene)) {}
   void add(const StepResult& step, const FaultFields& fields) {
-    const auto i = static_cast<std::size_t>(step.step);
-    if (i + 1 < steps_.size() && steps_[i + 1].stage == steps_[i].stage) return;
+    if (!is_stage_end(steps_, static_cast<std::size_t>(step.step))) return;
     Eigen::VectorXd jump(op_.geometry.n_dofs);
     for (std::size_t k = 0; k < op_.geometry.nodes.size(); ++k) {
       for (Eigen::Index c = 0; c < 3; ++c) {

@@ -80,6 +80,11 @@ std::vector<LoadStep> load_steps(const Scene& scene) {
   return steps;
 }
 
+bool is_stage_end(const std::vector<LoadStep>& steps, std::size_t i) {
+  FAULTSIM_DEMAND(i < steps.size(), i, " of ", steps.size());
+  return i + 1 == steps.size() || steps[i + 1].stage != steps[i].stage;
+}
+
 std::vector<double> pressure_changes(const Scene& scene, double time) {
   std::vector<double> changes;
   changes.reserve(scene.pressure.size());

@@ -18,6 +18,8 @@ struct LoadStep {
 
 /// Step 0, then every step of every stage at its end time.
 std::vector<LoadStep> load_steps(const Scene& scene);
+/// True for step 0 and for the last step of each stage. @pre i < steps.size().
+bool is_stage_end(const std::vector<LoadStep>& steps, std::size_t i);
 
 /// Δp of each region at time t, Pa: scale · history(t − lag), 0 before the history starts.
 std::vector<double> pressure_changes(const Scene& scene, double time);

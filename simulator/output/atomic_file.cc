@@ -128,6 +128,25 @@ bool is_abandoned_temporary(const std::filesystem::path& path) {
   return stat(path.c_str(), &info) == 0 && std::time(nullptr) - info.st_mtime > kOneDay;
 }
 
+std::uint64_t remove_abandoned_temporaries(const std::filesystem::path& folder) {
+  std::uint64_t freed = 0;
+  std::error_code error;
+  std::filesystem::directory_iterator it(folder, error), end;
+  if (error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory)
+    return 0;
+  for (; !error && it != end; it.increment(error)) {
+    struct stat info = {};
+    if (!is_abandoned_temporary(it->path()) || stat(it->path().c_str(), &info) != 0) continue;
+    if (std::filesystem::remove(it->path(), error))
+      freed += static_cast<std::uint64_t>(info.st_size);
+    if (error) break;
+  }
+  if (error) {
+    throw StorageError(concat("cannot clean up in ", folder.string(), ": ", error.message()));
+  }
+  return freed;
+}
+
 void write_text(const std::filesystem::path& path, const std::string& text) {
   PendingFile file(path);
   file.write(text.data(), text.size(), 0);

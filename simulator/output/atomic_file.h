@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -38,5 +39,8 @@ class PendingFile {
 /// True if the name is a PendingFile's temporary one whose process is gone: a dead process of this
 /// host, or untouched for a day on another host.
 bool is_abandoned_temporary(const std::filesystem::path& path);
+/// Removes such files from a folder, which may be missing; returns the bytes freed. Throws
+/// StorageError when the folder cannot be listed or a file not be removed.
+std::uint64_t remove_abandoned_temporaries(const std::filesystem::path& folder);
 
 }  // namespace faultsim

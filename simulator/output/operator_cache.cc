@@ -70,16 +70,6 @@ bool remove_file(const std::filesystem::path& path) {
   return removed;
 }
 
-std::uint64_t remove_abandoned(const std::filesystem::path& folder) {
-  std::uint64_t freed = 0;
-  for (const auto& path : entries(folder)) {
-    struct stat info = {};
-    if (!is_abandoned_temporary(path) || stat(path.c_str(), &info) != 0) continue;
-    if (remove_file(path)) freed += static_cast<std::uint64_t>(info.st_size);
-  }
-  return freed;
-}
-
 }  // namespace
 
 std::vector<CacheEntry> list_operators(const std::filesystem::path& folder) {
@@ -93,7 +83,7 @@ std::vector<CacheEntry> list_operators(const std::filesystem::path& folder) {
 
 std::uint64_t prune_operators(const std::filesystem::path& folder, std::uint64_t max_bytes,
                               const std::string& keep) {
-  std::uint64_t freed = remove_abandoned(folder);
+  std::uint64_t freed = remove_abandoned_temporaries(folder);
   const std::vector<FoundFile> files = find_files(folder);
   std::uint64_t total = 0;
   for (const FoundFile& file : files) total += file.bytes;

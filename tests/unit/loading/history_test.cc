@@ -26,6 +26,16 @@ TEST(LoadSteps, StartsAtTheInitialStateAndEndsStagesExactly) {
   EXPECT_EQ(steps[7].time, 14.0);
 }
 
+TEST(StageEnds, AreTheInitialStateAndTheLastStepOfEachStage) {
+  const auto steps = load_steps(two_regions());
+  std::vector<int> ends;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (is_stage_end(steps, i)) ends.push_back(steps[i].step);
+  }
+  EXPECT_EQ(ends, (std::vector<int>{0, 5, 7}));
+  EXPECT_THROW(is_stage_end(steps, steps.size()), InternalError);
+}
+
 TEST(PressureChanges, AreLinearLaggedAndScaled) {
   const Scene scene = two_regions();
   EXPECT_DOUBLE_EQ(pressure_changes(scene, 5.0)[0], -10e6);

@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <hdf5.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -11,6 +10,7 @@
 #include "simulator/output/write_result.h"
 #include "simulator/output/xdmf.h"
 #include "tests/unit/output/example_operator.h"
+#include "tests/unit/output/h5_file.h"
 
 namespace faultsim {
 namespace {
@@ -18,59 +18,6 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
-
-/// A dataset of any rank as doubles, and its shape.
-struct Dataset {
-  std::vector<hsize_t> shape;
-  std::vector<double> values;
-};
-
-class H5File {
- public:
-  explicit H5File(const std::filesystem::path& path)
-      : file_(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)) {}
-  ~H5File() { H5Fclose(file_); }
-  H5File(const H5File&) = delete;
-  H5File& operator=(const H5File&) = delete;
-  hid_t id() const { return file_; }
-
-  Dataset read(const std::string& path) const {
-    Dataset result;
-    const hid_t dataset = H5Dopen2(file_, path.c_str(), H5P_DEFAULT);
-    EXPECT_GE(dataset, 0) << path;
-    const hid_t space = H5Dget_space(dataset);
-    result.shape.resize(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
-    H5Sget_simple_extent_dims(space, result.shape.data(), nullptr);
-    result.values.resize(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-    EXPECT_GE(
-        H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.values.data()),
-        0);
-    H5Sclose(space);
-    H5Dclose(dataset);
-    return result;
-  }
-  std::string attribute(const std::string& path, const char* name) const {
-    const hid_t attribute = H5Aopen_by_name(file_, path.c_str(), name, H5P_DEFAULT, H5P_DEFAULT);
-    if (attribute < 0) return "(none)";
-    const hid_t type = H5Aget_type(attribute);
-    std::string text(H5Tget_size(type), '\0');
-    H5Aread(attribute, type, text.data());
-    H5Tclose(type);
-    H5Aclose(attribute);
-    return text;
-  }
-  int n_filters(const std::string& path) const {
-    const hid_t dataset = H5Dopen2(file_, path.c_str(), H5P_DEFAULT);
-    const hid_t creation = H5Dget_create_plist(dataset);
-    const int n = H5Pget_nfilters(creation);
-    H5Pclose(creation);
-    H5Dclose(dataset);
-    return n;
-  }
-
- private:
-  hid_t file_;
-};
 
 /// Element names that are open at the end, "" for a well-formed text; enough of XML for our files.
 std::string check_xml(const std::string& text) {

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulator/loading/history.h"
+#include "simulator/output/write_result.h"
+
+namespace faultsim {
+
+/// The load steps whose fault fields are written.
+enum class FieldSteps {
+  stages,  ///< the initial state, the last step of each stage, and where the history ends early the
+           ///< last step in equilibrium.
+  all,     ///< every step in equilibrium.
+};
+/// From "stages" or "all"; anything else is an InternalError, as programs write it.
+FieldSteps field_steps_from_string(const std::string& text);
+
+/// Writes the fault fields of one case as it runs: FOLDER/faults.h5 and FOLDER/faults.xmf, as
+/// `faultsim run` does. Files that are there already stay until finish() replaces them; what a
+/// killed process left of its own is removed. Without finish() nothing changes in the folder.
+/// Throws StorageError when the folder or the files cannot be written.
+class FieldKeeper {
+ public:
+  FieldKeeper(const std::filesystem::path& folder, FieldSteps which, const Scene& scene,
+              const FaultGeometry& geometry);
+  /// To be called after each load step in equilibrium, in order (a StepObserver).
+  void add(const StepResult& step, const FaultFields& fields);
+  /// Completes the files. Returns the numbers of the steps in them, ascending.
+  std::vector<int> finish();
+
+ private:
+  struct Step {
+    StepResult result;
+    FaultFields fields;
+  };
+  void write(const StepResult& step, const FaultFields& fields);
+
+  FieldSteps which_;
+  std::vector<LoadStep> history_;
+  FieldWriter writer_;
+  std::optional<Step> last_;  ///< not written: it is if nothing follows.
+  std::vector<int> written_;
+};
+
+}  // namespace faultsim
