@@ -113,9 +113,11 @@ ExitCode rank_command(const StoreArguments& common, const RankRequest& request, 
   }
   print(ranking_to_text(ranking));
   const CampaignInfo& c = ranking.campaign;
-  if (c.n_waiting + c.n_failed > 0) {
-    std::fprintf(stderr, "%ld of %ld cases have no result yet (%ld failed)\n",
-                 c.n_waiting + c.n_failed, c.n_cases, c.n_failed);
+  const long n_failed = c.n_failed - c.n_fields_failed;
+  const long n_waiting = c.n_waiting - c.n_fields_waiting;
+  if (n_waiting + n_failed > 0) {
+    std::fprintf(stderr, "%ld of %ld cases have no result yet (%ld failed)\n", n_waiting + n_failed,
+                 c.n_cases, n_failed);
   }
   if (!ranking.rows.empty()) {
     std::fprintf(stderr, "Next: faultsweep show %s/%ld\n", c.name.c_str(),

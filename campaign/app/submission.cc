@@ -41,6 +41,7 @@ Submission make_submission(const Expansion& expansion) {
   submission.spec_resolved = spec.resolved();
   submission.rank_by = spec.rank_by;
   submission.policy = spec.policy;
+  submission.keep_fields = spec.keep_fields;
   submission.n_merged = expansion.n_merged;
   for (const ExcludedCases& excluded : expansion.excluded)
     submission.n_excluded += excluded.n_cases;

@@ -62,7 +62,9 @@ struct SubmitReport {
   std::vector<ExcludedCases> excluded;
   std::vector<std::string> notes;
   std::vector<long> cases_per_family;
-  long n_designed = 0, n_cached = 0;
+  long n_designed = 0;
+  long n_cached = 0;  ///< have a result already.
+  long n_fields = 0;  ///< of these: run again, for their fields only.
   double operator_seconds = 0;
 };
 
@@ -85,6 +87,14 @@ std::string report_to_text(const SubmitReport& report) {
       concat(s.name, ": ", s.cases.size(), " cases in ", s.families.size(), " families; ",
              report.n_designed, " designed, ", s.n_excluded, " excluded, ", s.n_merged,
              " merged as the same, ", report.n_cached, " have a result already\n");
+  if (s.keep_fields != KeepFields::none) {
+    text += concat("fault fields are kept (", to_string(s.keep_fields), ")");
+    if (report.n_fields > 0) {
+      text += concat("; ", report.n_fields,
+                     " cases with a result lack them and are run again for them alone");
+    }
+    text += "\n";
+  }
   for (const ExcludedCases& excluded : report.excluded) {
     text += concat("  excluded ", excluded.n_cases, ": ", excluded.reason, "\n");
   }
@@ -129,17 +139,17 @@ json report_to_json(const SubmitReport& report) {
           {"excluded", excluded},
           {"merged", s.n_merged},
           {"cached", report.n_cached},
+          {"keep_fields", to_string(s.keep_fields)},
+          {"for_fields_only", report.n_fields},
           {"parameters", json::parse(s.parameters)},
           {"families", families},
           {"predicted_operator_s", report.operator_seconds},
           {"notes", report.notes}};
 }
 
-long count_cached(const std::filesystem::path& store, const Submission& submission) {
-  if (!std::filesystem::exists(store / "campaign.sqlite")) return 0;
-  std::vector<std::string> identities;
-  for (const CaseRecord& one : submission.cases) identities.push_back(one.identity);
-  return Store::open_reader(store).count_cached(identities);
+SubmitOutcome preview(const std::filesystem::path& store, const Submission& submission) {
+  if (!std::filesystem::exists(store / "campaign.sqlite")) return {};
+  return Store::open_reader(store).preview(submission);
 }
 
 }  // namespace
@@ -164,7 +174,9 @@ ExitCode submit_command(const StoreArguments& common, const SubmitArguments& arg
   }
   json document;
   if (arguments.dry_run) {
-    report.n_cached = count_cached(common.store, report.submission);
+    const SubmitOutcome outcome = preview(common.store, report.submission);
+    report.n_cached = outcome.n_cached;
+    report.n_fields = outcome.n_fields;
     document = report_to_json(report);
   } else {
     Store store = Store::open_writer(common.store);
@@ -180,6 +192,7 @@ ExitCode submit_command(const StoreArguments& common, const SubmitArguments& arg
     }
     report.submission.name = outcome.name;
     report.n_cached = outcome.n_cached;
+    report.n_fields = outcome.n_fields;
     document = report_to_json(report);
   }
   for (const std::string& note : report.notes) std::fprintf(stderr, "note: %s\n", note.c_str());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include <nlohmann/json.hpp>
 
@@ -80,7 +81,8 @@ std::string runs_text(const StoredCase& one) {
   std::string text;
   for (const StoredRun& run : one.runs) {
     text += concat("  attempt ", run.attempt, " (", format_time(run.ended_at), ", ",
-                   format_number(run.wall_seconds, 3), " s, rank ", run.rank, "): ", run.status,
+                   format_number(run.wall_seconds, 3), " s, rank ", run.rank,
+                   run.fields_only ? ", for the fields only): " : "): ", run.status,
                    run.outcome.empty() ? "" : ", " + run.outcome,
                    run.reason.empty() ? "" : ": " + run.reason, "\n");
     if (!run.log_tail.empty()) {
@@ -95,12 +97,58 @@ std::string runs_text(const StoredCase& one) {
   return text;
 }
 
+bool fields_are_there(const StoredCase& one) {
+  std::error_code error;  // what cannot be looked at is not there
+  return std::filesystem::exists(one.fields_folder / "faults.h5", error) &&
+         std::filesystem::exists(one.fields_folder / "faults.xmf", error);
+}
+
+std::string fields_text(const CampaignInfo& campaign, const StoredCase& one) {
+  switch (one.fields) {
+    case FieldsState::none:
+      return "";
+    case FieldsState::wanted:
+      return concat("fault fields: not yet; `faultsweep run ", campaign.name, "` writes them\n");
+    case FieldsState::failed:
+      return concat("fault fields: not written, see the last attempt; `faultsweep retry ",
+                    campaign.name, " --case ", one.position, "` lets them be tried again\n");
+    case FieldsState::kept:
+      break;
+  }
+  if (!fields_are_there(one)) {
+    return concat("fault fields: gone from ", one.fields_folder.string(), "; `faultsweep run ",
+                  campaign.name, "` writes them again\n");
+  }
+  return concat("fault fields (",
+                campaign.keep_fields == KeepFields::all ? "all load steps"
+                                                        : "initial state and ends of stages",
+                "): ", (one.fields_folder / "faults.xmf").string(), " for ParaView, faults.h5\n");
+}
+
+/// Why the last run for the fields only failed.
+std::string last_fields_failure(const StoredCase& one) {
+  std::string reason;
+  for (const StoredRun& run : one.runs) {
+    if (run.fields_only && run.status != "completed") reason = run.status + ", " + run.reason;
+  }
+  return reason;
+}
+
+json fields_to_json(const CampaignInfo& campaign, const StoredCase& one) {
+  if (one.fields == FieldsState::none) return {};
+  const bool gone = one.fields == FieldsState::kept && !fields_are_there(one);
+  return {{"steps", to_string(campaign.keep_fields)},
+          {"state", gone ? "gone" : to_string(one.fields)},
+          {"folder", one.fields_folder.string()}};
+}
+
 }  // namespace
 
 std::string case_to_text(const CampaignInfo& campaign, const StoredCase& one) {
   std::string text = concat("case ", one.position, " of ", campaign.name, ", ", one.state, "\n");
   text += concat("identity ", one.identity, ", family ", one.family, "\n");
   text += parameters_text(campaign, one);
+  text += fields_text(campaign, one);
   if (!one.runs.empty()) text += "\nruns:\n" + runs_text(one);
   if (!one.has_result) return text;
   const CaseResult& result = one.result;
@@ -139,6 +187,7 @@ json case_to_json(const CampaignInfo& campaign, const StoredCase& one) {
                     {"host", run.host},
                     {"rank", run.rank},
                     {"status", run.status},
+                    {"fields_only", run.fields_only},
                     {"outcome", run.outcome.empty() ? json() : json(run.outcome)},
                     {"reason", run.reason},
                     {"signal", run.signal ? json(*run.signal) : json()},
@@ -152,6 +201,7 @@ json case_to_json(const CampaignInfo& campaign, const StoredCase& one) {
           {"state", one.state},
           {"parameters", named},
           {"changes", json::parse(one.changes, nullptr, false)},
+          {"fields", fields_to_json(campaign, one)},
           {"runs", runs},
           {"result", one.has_result ? faultsim::result_to_json(one.result) : json()}};
 }
@@ -162,6 +212,16 @@ std::string explain_case(const Store& store, const CampaignInfo& campaign, const
   const StoredRun* last = one.runs.empty() ? nullptr : &one.runs.back();
   if (campaign.cancelled) {
     text += "will not run: the campaign is cancelled; submit its spec again to reopen it\n";
+  } else if (one.state == "done" && one.fields == FieldsState::wanted) {
+    text += concat("will run, for its fault fields only: it has a result (",
+                   faultsim::to_string(one.result.outcome),
+                   "), which the run must repeat bit for bit\n");
+  } else if (one.state == "done" && one.fields == FieldsState::failed) {
+    text += concat("will not run: it has a result, but its fault fields could not be added: ",
+                   last_fields_failure(one), "; `faultsweep retry ", campaign.name, " --case ",
+                   one.position, "` lets them be tried again\n");
+  } else if (one.state == "done" && one.fields == FieldsState::kept && !fields_are_there(one)) {
+    text += "will run, for its fault fields only: their files are gone\n";
   } else if (one.state == "done") {
     text += concat("will not run: it has a result (", faultsim::to_string(one.result.outcome),
                    ") from ", format_time(last->ended_at),

@@ -64,6 +64,15 @@ std::string status_to_text(const StatusReport& status) {
   text += concat("submitted ", format_time(c.submitted_at), " from ", c.source, ", ",
                  status.families.size(), " families, ", c.n_excluded, " excluded, ", c.n_merged,
                  " merged, on failure: ", to_string(c.policy.on_failure), "\n");
+  if (c.keep_fields != KeepFields::none) {
+    const long n_lacking = c.n_fields_waiting + c.n_fields_failed;
+    text += concat("fault fields: ", to_string(c.keep_fields));
+    if (n_lacking > 0) {
+      text += concat("; ", n_lacking, " cases have a result and lack them (", c.n_fields_failed,
+                     " failed)");
+    }
+    text += "\n";
+  }
   text += manager_text(status);
   if (!status.failures.empty()) {
     TextTable table({"cases", "ended", "why"});
@@ -123,6 +132,9 @@ json status_to_json(const StatusReport& status) {
           {"converged", c.n_converged},
           {"failed", c.n_failed},
           {"waiting", c.n_waiting},
+          {"keep_fields", to_string(c.keep_fields)},
+          {"waiting_for_fields_only", c.n_fields_waiting},
+          {"failed_fields", c.n_fields_failed},
           {"excluded", c.n_excluded},
           {"merged", c.n_merged},
           {"manager", manager},

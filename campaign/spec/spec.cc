@@ -77,6 +77,25 @@ json policy_to_json(const Policy& policy) {
 
 }  // namespace
 
+const char* to_string(KeepFields keep) {
+  switch (keep) {
+    case KeepFields::none:
+      return "none";
+    case KeepFields::stages:
+      return "stages";
+    case KeepFields::all:
+      return "all";
+  }
+  faultsim::throw_internal("known keep_fields", "", __FILE__, __LINE__);
+}
+
+std::optional<KeepFields> keep_fields_named(const std::string& name) {
+  for (const KeepFields keep : {KeepFields::none, KeepFields::stages, KeepFields::all}) {
+    if (name == to_string(keep)) return keep;
+  }
+  return std::nullopt;
+}
+
 std::string CampaignSpec::resolved() const {
   json result = {{"format", 1},
                  {"name", name},
@@ -86,6 +105,8 @@ std::string CampaignSpec::resolved() const {
                  {"exclude", json::array()},
                  {"derived", json::array()},
                  {"groups", json::array()}};
+  // Only where it says something: specs that were stored before the key existed stay the same.
+  if (keep_fields != KeepFields::none) result["keep_fields"] = to_string(keep_fields);
   for (const Exclusion& one : exclude) result["exclude"].push_back(one.text);
   for (const Derived& one : derived) {
     result["derived"].push_back({{"pointer", one.scene_pointer}, {"expression", one.text}});

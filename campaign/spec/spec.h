@@ -104,6 +104,16 @@ struct Policy {
   std::optional<double> memory_limit;  ///< bytes per simulator process.
 };
 
+/// `keep_fields`: the load steps whose fault fields are written for each case. No part of a case's
+/// identity.
+enum class KeepFields {
+  none,
+  stages,  ///< the ends of stages.
+  all,
+};
+const char* to_string(KeepFields keep);  ///< "none", "stages", "all".
+std::optional<KeepFields> keep_fields_named(const std::string& name);
+
 struct CampaignSpec {
   std::string name;  ///< [A-Za-z0-9._-]+
   std::string title;
@@ -117,9 +127,10 @@ struct CampaignSpec {
   std::vector<SpecIdentifier> identifiers;  ///< what exclude and derived may name.
   Policy policy;
   std::string rank_by = "activated_area";  ///< an expression over metrics.h.
-  faultsim::JsonDocument document;         ///< the spec, for pointers and lines.
-  faultsim::JsonDocument base;             ///< the base scene as given.
-  bool base_is_inline = false;             ///< base is document's /base.
+  KeepFields keep_fields = KeepFields::none;
+  faultsim::JsonDocument document;  ///< the spec, for pointers and lines.
+  faultsim::JsonDocument base;      ///< the base scene as given.
+  bool base_is_inline = false;      ///< base is document's /base.
 
   /// The second of the three copies (design section 8): JSON text in which every alias is a
   /// pointer, every range its values, and every group carries its scene.

@@ -30,6 +30,29 @@ FailureAction failure_action_from_string(const std::string& text) {
   throw StorageError(concat("unknown failure policy '", text, "' in the store"));
 }
 
+const char* to_string(FieldsState state) {
+  switch (state) {
+    case FieldsState::none:
+      return "none";
+    case FieldsState::wanted:
+      return "wanted";
+    case FieldsState::kept:
+      return "kept";
+    case FieldsState::failed:
+      return "failed";
+  }
+  FAULTSIM_DEMAND(false, static_cast<int>(state));
+  return "";
+}
+
+FieldsState fields_state_from_string(const std::string& text) {
+  for (const auto state :
+       {FieldsState::none, FieldsState::wanted, FieldsState::kept, FieldsState::failed}) {
+    if (text == to_string(state)) return state;
+  }
+  throw StorageError(concat("unknown state of fields '", text, "' in the store"));
+}
+
 namespace {
 
 /// Covers what the expanded copy is made of: base scenes and parameter vectors, in order.
@@ -86,7 +109,7 @@ std::vector<std::int64_t> add_families(Connection& db, const Submission& submiss
 
 constexpr const char* kInfoColumns =
     "SELECT id, name, submitted_at, state, source, parameters, rank_by, n_excluded, n_merged,"
-    " on_failure, retries, case_time_limit_s, case_memory_limit_bytes FROM campaigns ";
+    " on_failure, retries, case_time_limit_s, case_memory_limit_bytes, keep_fields FROM campaigns ";
 
 CampaignInfo read_info(const Statement& row) {
   CampaignInfo info;
@@ -103,20 +126,37 @@ CampaignInfo read_info(const Statement& row) {
   info.policy.retries = static_cast<int>(row.integer(10));
   info.policy.time_limit = row.optional_real(11);
   info.policy.memory_limit = row.optional_real(12);
+  const auto keep = keep_fields_named(row.text(13));
+  if (!keep) throw StorageError(concat("unknown keep_fields '", row.text(13), "' in the store"));
+  info.keep_fields = *keep;
   return info;
 }
 
 void count_cases(Connection& db, CampaignInfo& info) {
   Statement& query = db.prepared(
-      "SELECT count(*), total(c.state = 'done'), total(c.state = 'failed'),"
-      " total(c.state = 'waiting'), total(c.state = 'done' AND c.outcome = 'converged')"
-      " FROM campaign_cases cc JOIN cases c ON c.id = cc.case_id WHERE cc.campaign_id = ?");
+      "SELECT count(*), total(state = 'done'), total(state = 'failed'),"
+      " total(state = 'done' AND outcome = 'converged'), total(lacks_only_fields),"
+      " total(lacks_only_fields AND fields = 'failed')"
+      " FROM campaign_case_states WHERE campaign_id = ?");
   query.bind(info.id).step();
   info.n_cases = query.integer(0);
   info.n_done = query.integer(1);
   info.n_failed = query.integer(2);
-  info.n_waiting = query.integer(3);
-  info.n_converged = query.integer(4);
+  info.n_waiting = info.n_cases - info.n_done - info.n_failed;
+  info.n_converged = query.integer(3);
+  info.n_fields_failed = query.integer(5);
+  info.n_fields_waiting = query.integer(4) - info.n_fields_failed;
+  query.reset();
+}
+
+/// Of a campaign that is in the store: how many cases have a result, and of these lack fields.
+void count_known(Connection& db, SubmitOutcome& outcome) {
+  Statement& query = db.prepared(
+      "SELECT total(state = 'done' OR lacks_only_fields), total(lacks_only_fields)"
+      " FROM campaign_case_states WHERE campaign_id = ?");
+  query.bind(outcome.campaign).step();
+  outcome.n_cached = query.integer(0);
+  outcome.n_fields = query.integer(1);
   query.reset();
 }
 
@@ -146,7 +186,9 @@ void Store::add_cases(std::int64_t campaign, const Submission& submission) {
   Statement& find = db.prepared("SELECT id FROM cases WHERE identity = ?");
   Statement& link = db.prepared(
       "INSERT INTO campaign_cases (campaign_id, position, case_id, parameter_values,"
-      " parameter_labels) VALUES (?, ?, ?, ?, ?)");
+      " parameter_labels, fields) VALUES (?, ?, ?, ?, ?, ?)");
+  const char* fields = to_string(submission.keep_fields == KeepFields::none ? FieldsState::none
+                                                                            : FieldsState::wanted);
   long position = 0;
   for (const CaseRecord& one : submission.cases) {
     insert
@@ -159,7 +201,7 @@ void Store::add_cases(std::int64_t campaign, const Submission& submission) {
       id = find.integer(0);
       find.reset();
     }
-    link.bind(campaign, ++position, id, one.parameter_values, one.parameter_labels).run();
+    link.bind(campaign, ++position, id, one.parameter_values, one.parameter_labels, fields).run();
   }
 }
 
@@ -182,8 +224,8 @@ SubmitOutcome Store::submit(const Submission& submission) {
     db.prepared(
           "INSERT INTO campaigns (name, submitted_at, source, spec_given, spec_given_hash,"
           " spec_resolved, spec_resolved_hash, spec_expanded_hash, parameters, rank_by, n_excluded,"
-          " n_merged, on_failure, retries, case_time_limit_s, case_memory_limit_bytes)"
-          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+          " n_merged, on_failure, retries, case_time_limit_s, case_memory_limit_bytes, keep_fields)"
+          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
         .bind(place.name, seconds_since_1970(), submission.source, submission.spec_given,
               faultsim::fingerprint(submission.spec_given), submission.spec_resolved, resolved_hash,
               expanded, submission.parameters, submission.rank_by, submission.n_excluded,
@@ -191,28 +233,36 @@ SubmitOutcome Store::submit(const Submission& submission) {
               submission.policy.retries, submission.policy.time_limit,
               submission.policy.memory_limit
                   ? std::optional(static_cast<std::int64_t>(*submission.policy.memory_limit))
-                  : std::nullopt)
+                  : std::nullopt,
+              to_string(submission.keep_fields))
         .run();
     outcome.campaign = db.last_insert_id();
     add_cases(outcome.campaign, submission);
   }
-  Statement& cached = db.prepared(
-      "SELECT count(*) FROM campaign_cases cc JOIN cases c ON c.id = cc.case_id"
-      " WHERE cc.campaign_id = ? AND c.state = 'done'");
-  cached.bind(outcome.campaign).step();
-  outcome.n_cached = cached.integer(0);
-  cached.reset();
+  count_known(db, outcome);
   transaction.commit();
   return outcome;
 }
 
-long Store::count_cached(const std::vector<std::string>& identities) const {
-  Statement& query =
-      connection_->prepared("SELECT 1 FROM cases WHERE identity = ? AND state = 'done'");
-  long count = 0;
-  for (const std::string& identity : identities) count += query.bind(identity).step() ? 1 : 0;
+SubmitOutcome Store::preview(const Submission& submission) const {
+  Connection& db = *connection_;
+  const Place place = find_place(db, submission, faultsim::fingerprint(submission.spec_resolved),
+                                 expanded_hash(submission));
+  SubmitOutcome outcome;
+  outcome.name = place.name;
+  outcome.existed = place.campaign.has_value();
+  if (outcome.existed) {
+    outcome.campaign = *place.campaign;
+    count_known(db, outcome);
+    return outcome;
+  }
+  Statement& query = db.prepared("SELECT 1 FROM cases WHERE identity = ? AND state = 'done'");
+  for (const CaseRecord& one : submission.cases) {
+    outcome.n_cached += query.bind(one.identity).step() ? 1 : 0;
+  }
   query.reset();
-  return count;
+  if (submission.keep_fields != KeepFields::none) outcome.n_fields = outcome.n_cached;
+  return outcome;
 }
 
 std::vector<CampaignInfo> Store::campaigns() const {
@@ -267,7 +317,15 @@ long Store::retry(std::int64_t campaign, bool unconverged_too, std::optional<lon
       "  WHERE cc.campaign_id = ?1 AND (?3 IS NULL OR cc.position = ?3)"
       "  AND (c.state = 'failed' OR (?2 AND c.state = 'done' AND m.outcome <> 'converged')))");
   update.bind(campaign, unconverged_too, position).run();
-  const long count = connection_->changes();
+  long count = connection_->changes();
+  connection_
+      ->prepared(
+          "UPDATE campaign_cases SET fields = 'wanted' WHERE campaign_id = ?1 AND fields = 'failed'"
+          " AND (?2 IS NULL OR position = ?2)"
+          " AND (SELECT state FROM cases WHERE id = case_id) = 'done'")
+      .bind(campaign, position)
+      .run();
+  count += connection_->changes();
   if (count > 0) record_event(campaign, "retry", concat(count, " cases wait again"));
   transaction.commit();
   return count;

@@ -3,6 +3,7 @@
 #include <ctime>
 
 #include "campaign/store/sqlite.h"
+#include "store_2_sql.h"
 #include "store_sql.h"
 
 namespace faultsweep {
@@ -36,6 +37,7 @@ int usable_version(Connection& connection, int newest) {
 const std::vector<Migration>& store_migrations() {
   static const std::vector<Migration> migrations = {
       {1, "created", faultsim::embedded::store_sql},
+      {2, "2026-11-21 fields of cases", faultsim::embedded::store_2_sql},
   };
   return migrations;
 }

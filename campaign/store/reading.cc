@@ -77,7 +77,8 @@ std::vector<StoredRun> read_runs(Connection& db, std::int64_t case_id) {
   std::vector<StoredRun> runs;
   Statement& query = db.prepared(
       "SELECT id, attempt, ended_at, wall_s, status, coalesce(outcome, ''), reason, log_tail,"
-      " coalesce(operator, ''), host, rank, signal, exit_code FROM runs WHERE case_id = ?"
+      " coalesce(operator, ''), host, rank, signal, exit_code, fields_only FROM runs WHERE case_id "
+      "= ?"
       " ORDER BY attempt");
   query.bind(case_id);
   while (query.step()) {
@@ -95,6 +96,7 @@ std::vector<StoredRun> read_runs(Connection& db, std::int64_t case_id) {
     run.rank = static_cast<int>(query.integer(10));
     run.signal = query.optional_integer(11);
     run.exit_code = query.optional_integer(12);
+    run.fields_only = query.integer(13) != 0;
     runs.push_back(std::move(run));
   }
   return runs;
@@ -203,8 +205,10 @@ StoredCase find_case(Connection& db, std::int64_t campaign, const std::string& n
   constexpr std::size_t kShortestPrefix = 6;
   constexpr const char* kColumns =
       "SELECT c.id, cc.position, c.identity, f.fingerprint, c.state, c.changes,"
-      " cc.parameter_values, cc.parameter_labels, c.scene_id FROM campaign_cases cc"
-      " JOIN cases c ON c.id = cc.case_id JOIN families f ON f.id = c.family_id"
+      " cc.parameter_values, cc.parameter_labels, c.scene_id, cc.fields, k.name FROM "
+      "campaign_cases cc"
+      " JOIN campaigns k ON k.id = cc.campaign_id JOIN cases c ON c.id = cc.case_id JOIN families "
+      "f ON f.id = c.family_id"
       " WHERE cc.campaign_id = ?1 AND ";
   Statement query(db, concat(kColumns, is_number ? "cc.position = ?2"
                                                  : "c.identity >= ?2 AND c.identity < ?2 || '~'")
@@ -230,6 +234,8 @@ StoredCase find_case(Connection& db, std::int64_t campaign, const std::string& n
   found.parameter_values = query.text(6);
   found.parameter_labels = query.text(7);
   found.scene = query.integer(8);
+  found.fields = fields_state_from_string(query.text(9));
+  found.fields_folder = query.text(10);
   return found;
 }
 
@@ -238,24 +244,38 @@ StoredCase find_case(Connection& db, std::int64_t campaign, const std::string& n
 StoredCase Store::stored_case(std::int64_t campaign, const std::string& name) const {
   Connection& db = *connection_;
   StoredCase found = find_case(db, campaign, name);
+  found.fields_folder = fields_folder(found.fields_folder.string(), found.position);
   found.runs = read_runs(db, found.id);
-  found.result.identity = found.identity;
-  found.has_result = read_case_metrics(db, found.id, found.result);
-  if (found.has_result) {
-    read_steps(db, found.id, found.result);
-    read_stages(db, found.id, found.result);
+  if (auto result = stored_result(found.id)) {
+    found.has_result = true;
+    found.result = std::move(*result);
   }
+  found.result.identity = found.identity;
   return found;
+}
+
+std::optional<CaseResult> Store::stored_result(std::int64_t case_id) const {
+  Connection& db = *connection_;
+  CaseResult result;
+  if (!read_case_metrics(db, case_id, result)) return std::nullopt;
+  read_steps(db, case_id, result);
+  read_stages(db, case_id, result);
+  return result;
 }
 
 std::vector<FailureCount> Store::failure_counts(std::int64_t campaign) const {
   std::vector<FailureCount> counts;
   Statement& query = connection_->prepared(
-      "SELECT r.status, CASE WHEN r.outcome IS NULL THEN r.reason ELSE r.outcome END AS why, "
-      "count(*)"
-      " FROM campaign_cases cc JOIN cases c ON c.id = cc.case_id JOIN runs r ON r.id = c.run_id"
-      " WHERE cc.campaign_id = ? AND c.state <> 'waiting' AND c.outcome IS NOT 'converged' GROUP "
-      "BY 1, 2 ORDER BY 3 DESC, 1, 2 LIMIT 20");
+      "SELECT status, why, count(*) FROM ("
+      "SELECT r.status, CASE WHEN r.outcome IS NULL THEN r.reason ELSE r.outcome END AS why"
+      " FROM campaign_case_states s JOIN runs r ON r.id = s.run_id WHERE s.campaign_id = ?1"
+      " AND s.state <> 'waiting' AND NOT s.lacks_only_fields AND s.outcome IS NOT 'converged'"
+      " UNION ALL SELECT r.status, 'fields: ' || r.reason FROM campaign_case_states s"
+      " JOIN runs r ON r.case_id = s.case_id WHERE s.campaign_id = ?1 AND s.state = 'failed'"
+      " AND s.lacks_only_fields AND r.campaign_id = ?1 AND r.fields_only"
+      " AND NOT EXISTS (SELECT 1 FROM runs later WHERE later.case_id = r.case_id"
+      " AND later.campaign_id = ?1 AND later.fields_only AND later.attempt > r.attempt))"
+      " GROUP BY 1, 2 ORDER BY 3 DESC, 1, 2 LIMIT 20");
   query.bind(campaign);
   while (query.step())
     counts.push_back({query.text(0), query.text(1), static_cast<long>(query.integer(2))});
@@ -275,10 +295,9 @@ std::vector<Store::FamilyProgress> Store::family_progress(std::int64_t campaign)
   std::vector<FamilyProgress> all;
   Statement& query = connection_->prepared(
       "SELECT f.fingerprint, coalesce(f.operator, ''), g.n_cases, g.n_done, g.n_failed, o.build_s"
-      " FROM (SELECT c.family_id, count(*) AS n_cases, total(c.state = 'done') AS n_done,"
-      "  total(c.state = 'failed') AS n_failed FROM campaign_cases cc JOIN cases c ON c.id = "
-      "cc.case_id"
-      "  WHERE cc.campaign_id = ? GROUP BY c.family_id) g JOIN families f ON f.id = g.family_id"
+      " FROM (SELECT family_id, count(*) AS n_cases, total(state = 'done') AS n_done,"
+      "  total(state = 'failed') AS n_failed FROM campaign_case_states WHERE campaign_id = ?"
+      "  GROUP BY family_id) g JOIN families f ON f.id = g.family_id"
       " LEFT JOIN operators o ON o.fingerprint = f.operator ORDER BY f.id");
   query.bind(campaign);
   while (query.step()) {

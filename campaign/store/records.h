@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,17 @@ namespace faultsweep {
 
 const char* to_string(FailureAction action);  ///< "abort", "retry", "continue".
 FailureAction failure_action_from_string(const std::string& text);
+
+/// How the fault fields of a case stand in a campaign.
+enum class FieldsState {
+  none,    ///< not asked for.
+  wanted,  ///< to be written, by the run of the case or, where it has a result, by one for them
+           ///< only.
+  kept,    ///< in Store::fields_folder.
+  failed,  ///< the case has a result, but the run that was to add its fields failed.
+};
+FieldsState fields_state_from_string(const std::string& text);  ///< throws StorageError.
+const char* to_string(FieldsState state);
 
 /// A family as submitted.
 struct FamilyRecord {
@@ -52,6 +64,7 @@ struct Submission {
   long n_excluded = 0;
   long n_merged = 0;
   Policy policy;
+  KeepFields keep_fields = KeepFields::none;
   std::vector<BaseScene> scenes;
   std::vector<FamilyRecord> families;
   std::vector<CaseRecord> cases;  ///< in the order of the expansion.
@@ -62,9 +75,11 @@ struct SubmitOutcome {
   std::string name;      ///< "sweep-2" where a different campaign has the name.
   bool existed = false;  ///< the very same campaign is there already: nothing was added.
   long n_cached = 0;     ///< cases with a result from earlier.
+  long n_fields = 0;     ///< of these: to be run again, for their fields only.
 };
 
-/// A campaign in short.
+/// A campaign in short. Counts are those of the campaign: a case whose fields it still wants waits,
+/// one whose fields could not be added has failed, although both have a result.
 struct CampaignInfo {
   std::int64_t id = 0;
   std::string name;
@@ -75,8 +90,11 @@ struct CampaignInfo {
   std::string rank_by;
   long n_excluded = 0, n_merged = 0;
   Policy policy;
+  KeepFields keep_fields = KeepFields::none;
   long n_cases = 0, n_done = 0, n_failed = 0, n_waiting = 0;
-  long n_converged = 0;  ///< of done.
+  long n_converged = 0;       ///< of done.
+  long n_fields_waiting = 0;  ///< of waiting: those with a result, for their fields only.
+  long n_fields_failed = 0;   ///< of failed: those with a result.
 };
 
 /// A family with cases that still wait.
@@ -86,6 +104,7 @@ struct WaitingFamily {
   std::string operator_fingerprint;        ///< "" = not known yet.
   std::optional<double> seconds_per_case;  ///< mean of what this family's cases took.
   std::vector<std::int64_t> cases;         ///< ids, by position.
+  std::vector<std::int64_t> fields_only;   ///< those of them that have a result already.
 };
 
 /// What is needed to run a case.
@@ -120,7 +139,10 @@ struct RunRecord {
   std::string host;
   int rank = 0;
   double wall_seconds = 0;
-  bool final = true;                           ///< false: the case waits for another attempt.
+  bool final = true;  ///< false: the case waits for another attempt.
+  bool has_fields =
+      false;  ///< completed, and the fields that the campaign keeps are in their files.
+  bool fields_only = false;  ///< of a case that had its result before; decides its fields alone.
   std::optional<faultsim::CaseResult> result;  ///< iff completed.
 };
 
@@ -157,6 +179,7 @@ struct StoredRun {
   std::string status, outcome, reason, log_tail, operator_fingerprint, host;
   int rank = 0;
   std::optional<std::int64_t> signal, exit_code;
+  bool fields_only = false;
 };
 
 /// A case of a campaign with all that is stored about it.
@@ -165,6 +188,8 @@ struct StoredCase {
   long position = 0;
   std::string identity, family, state, changes, parameter_values, parameter_labels;
   std::int64_t scene = 0;
+  FieldsState fields = FieldsState::none;
+  std::filesystem::path fields_folder;  ///< where faults.h5 and faults.xmf are, or would be.
   std::vector<StoredRun> runs;
   bool has_result = false;
   faultsim::CaseResult

@@ -74,10 +74,9 @@ std::vector<WaitingFamily> Store::waiting_families(std::int64_t campaign) const 
   std::vector<WaitingFamily> families;
   Statement& query = connection_->prepared(
       "SELECT f.id, f.fingerprint, f.predicted_unknowns, f.predicted_jump_unknowns,"
-      " f.predicted_operator_s, f.predicted_memory_bytes, coalesce(f.operator, ''), c.id"
-      " FROM campaign_cases cc JOIN cases c ON c.id = cc.case_id JOIN families f ON f.id = "
-      "c.family_id"
-      " WHERE cc.campaign_id = ? AND c.state = 'waiting' ORDER BY f.id, cc.position");
+      " f.predicted_operator_s, f.predicted_memory_bytes, coalesce(f.operator, ''), s.case_id,"
+      " s.lacks_only_fields FROM campaign_case_states s JOIN families f ON f.id = s.family_id"
+      " WHERE s.campaign_id = ? AND s.state = 'waiting' ORDER BY f.id, s.position");
   query.bind(campaign);
   while (query.step()) {
     if (families.empty() || families.back().family != query.integer(0)) {
@@ -89,6 +88,7 @@ std::vector<WaitingFamily> Store::waiting_families(std::int64_t campaign) const 
       families.push_back(std::move(family));
     }
     families.back().cases.push_back(query.integer(7));
+    if (query.integer(8) != 0) families.back().fields_only.push_back(query.integer(7));
   }
   Statement& cost = connection_->prepared(
       "SELECT avg(r.wall_s) FROM cases c JOIN runs r ON r.id = c.run_id"
@@ -98,6 +98,31 @@ std::vector<WaitingFamily> Store::waiting_families(std::int64_t campaign) const 
   }
   cost.reset();
   return families;
+}
+
+long Store::want_lost_fields(const CampaignInfo& campaign) {
+  if (campaign.keep_fields == KeepFields::none) return 0;
+  Transaction transaction(*connection_);
+  Statement& query = connection_->prepared(
+      "SELECT position FROM campaign_cases WHERE campaign_id = ? AND fields = 'kept'");
+  query.bind(campaign.id);
+  std::vector<long> lost;
+  while (query.step()) {
+    const auto folder = fields_folder(campaign.name, query.integer(0));
+    std::error_code error;  // what cannot be looked at is as good as gone
+    const bool there = std::filesystem::exists(folder / "faults.h5", error) &&
+                       std::filesystem::exists(folder / "faults.xmf", error);
+    if (!there) lost.push_back(query.integer(0));
+  }
+  for (const long position : lost) {
+    connection_
+        ->prepared(
+            "UPDATE campaign_cases SET fields = 'wanted' WHERE campaign_id = ? AND position = ?")
+        .bind(campaign.id, position)
+        .run();
+  }
+  transaction.commit();
+  return static_cast<long>(lost.size());
 }
 
 CaseInput Store::case_input(std::int64_t campaign, std::int64_t case_id) const {
@@ -126,37 +151,58 @@ void Store::record_runs(std::int64_t campaign, const std::vector<RunRecord>& run
 
 void Store::record_run(std::int64_t campaign, const RunRecord& run, double now) {
   FAULTSIM_DEMAND((run.status == RunStatus::completed) == run.result.has_value(), run.case_id);
-  Connection& db = *connection_;
-  Statement& state = db.prepared(
+  FAULTSIM_DEMAND(run.result || !run.has_fields, run.case_id);
+  Statement& state = connection_->prepared(
       "SELECT state, (SELECT coalesce(max(attempt), 0) FROM runs WHERE case_id = c.id)"
       " FROM cases c WHERE id = ?");
   FAULTSIM_DEMAND(state.bind(run.case_id).step(), run.case_id);
   const bool waiting = state.text(0) == "waiting";
   const std::int64_t attempt = state.integer(1) + 1;
   state.reset();
-  if (!waiting) return;
+  if (!waiting && !run.fields_only) return;
+  const std::int64_t run_id = add_run(campaign, run, attempt, now);
+  if (!run.fields_only) decide_case(run, run_id);
+  if (run.has_fields || (run.fields_only && run.final)) decide_fields(campaign, run);
+}
+
+std::int64_t Store::add_run(std::int64_t campaign, const RunRecord& run, std::int64_t attempt,
+                            double now) {
   const CaseResult* result = run.result ? &*run.result : nullptr;
   using Text = std::optional<std::string>;
-  db.prepared(
-        "INSERT INTO runs (case_id, campaign_id, attempt, ended_at, wall_s, host, rank, status,"
-        " outcome, reason, signal, exit_code, log_tail, operator, numerics_version)"
-        " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+  connection_
+      ->prepared(
+          "INSERT INTO runs (case_id, campaign_id, attempt, ended_at, wall_s, host, rank, status,"
+          " outcome, reason, signal, exit_code, log_tail, operator, numerics_version, fields_only)"
+          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
       .bind(run.case_id, campaign, attempt, now, run.wall_seconds, run.host, run.rank,
             to_string(run.status), result ? Text(faultsim::to_string(result->outcome)) : Text(),
             run.reason, run.signal, run.exit_code, run.log_tail,
             result ? Text(result->operator_fingerprint) : Text(),
-            result ? std::optional(result->numerics_version) : std::nullopt)
+            result ? std::optional(result->numerics_version) : std::nullopt, run.fields_only)
       .run();
-  const std::int64_t run_id = db.last_insert_id();
+  return connection_->last_insert_id();
+}
+
+void Store::decide_case(const RunRecord& run, std::int64_t run_id) {
+  const CaseResult* result = run.result ? &*run.result : nullptr;
+  using Text = std::optional<std::string>;
   if (result != nullptr) {
     forget_result(run.case_id);
     record_result(run.case_id, run_id, *result);
     record_histories(run.case_id, *result);
   }
   if (!run.final) return;
-  db.prepared("UPDATE cases SET state = ?, outcome = ?, run_id = ? WHERE id = ?")
+  connection_->prepared("UPDATE cases SET state = ?, outcome = ?, run_id = ? WHERE id = ?")
       .bind(result != nullptr ? "done" : "failed",
             result ? Text(faultsim::to_string(result->outcome)) : Text(), run_id, run.case_id)
+      .run();
+}
+
+void Store::decide_fields(std::int64_t campaign, const RunRecord& run) {
+  connection_
+      ->prepared("UPDATE campaign_cases SET fields = ? WHERE case_id = ? AND campaign_id = ?")
+      .bind(to_string(run.has_fields ? FieldsState::kept : FieldsState::failed), run.case_id,
+            campaign)
       .run();
 }
 
@@ -172,6 +218,10 @@ void Store::forget_result(std::int64_t case_id) {
       .bind(case_id)
       .run();
   db.prepared("DELETE FROM case_metrics WHERE case_id = ?").bind(case_id).run();
+  // Fields that campaigns kept are those of the result that goes.
+  db.prepared("UPDATE campaign_cases SET fields = 'wanted' WHERE case_id = ? AND fields = 'kept'")
+      .bind(case_id)
+      .run();
 }
 
 void Store::record_result(std::int64_t case_id, std::int64_t run_id, const CaseResult& result) {

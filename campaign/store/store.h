@@ -52,8 +52,8 @@ class Store {
   /// Adds a campaign, its families and the cases that are new, in one transaction. The same
   /// expanded spec under the same name is recognised; another one gets a number behind its name.
   SubmitOutcome submit(const Submission& submission);
-  /// How many of these identities have a result already.
-  long count_cached(const std::vector<std::string>& identities) const;
+  /// What submit would return, but nothing is added; campaign is 0 where it would be a new one.
+  SubmitOutcome preview(const Submission& submission) const;
   std::vector<CampaignInfo> campaigns() const;  ///< newest last, without counts of cases.
   /// By name; "" = the newest. Throws InputError listing the names there are, StorageError when
   /// there is none. Counting takes about 0.5 µs per case: leave it out where it is not needed.
@@ -72,10 +72,21 @@ class Store {
   // Running ---------------------------------------------------------------------------------------
   /// Families of the campaign with cases that wait, with these cases.
   std::vector<WaitingFamily> waiting_families(std::int64_t campaign) const;
+  /// The result of a case as stored; none = it has none.
+  std::optional<faultsim::CaseResult> stored_result(std::int64_t case_id) const;
+  /// Where the fault fields of a case are written: faults.h5 and faults.xmf in this folder.
+  std::filesystem::path fields_folder(const std::string& campaign, long position) const {
+    return fields_folder(campaign) / std::to_string(position);
+  }
+  std::filesystem::path fields_folder(const std::string& campaign) const {
+    return folder_ / "fields" / campaign;
+  }
+  /// Fields that were kept but whose files are gone are wanted again; returns of how many cases.
+  long want_lost_fields(const CampaignInfo& campaign);
   CaseInput case_input(std::int64_t campaign, std::int64_t case_id) const;
   /// Commits attempts, in one transaction each group: the run, and with a result also metrics,
   /// stage metrics, histories. A case that is not waiting any more keeps what it has: no second
-  /// success.
+  /// success. A run for fields only changes nothing but how the fields of its case stand.
   void record_runs(std::int64_t campaign, const std::vector<RunRecord>& runs);
   void record_operator(std::int64_t family, const OperatorRecord& record);
   void record_event(std::optional<std::int64_t> campaign, const std::string& kind,
@@ -124,6 +135,10 @@ class Store {
  private:
   Store(std::filesystem::path folder, std::unique_ptr<Connection> connection, std::string remark);
   void record_run(std::int64_t campaign, const RunRecord& run, double now);
+  std::int64_t add_run(std::int64_t campaign, const RunRecord& run, std::int64_t attempt,
+                       double now);
+  void decide_case(const RunRecord& run, std::int64_t run_id);
+  void decide_fields(std::int64_t campaign, const RunRecord& run);
   void record_result(std::int64_t case_id, std::int64_t run_id, const faultsim::CaseResult& result);
   void record_histories(std::int64_t case_id, const faultsim::CaseResult& result);
   void record_stage(std::int64_t case_id, const faultsim::StageMetrics& stage,
@@ -132,7 +147,6 @@ class Store {
   std::int64_t name_id(const std::string& name);
   std::int64_t add_scene(const BaseScene& scene);
   void add_cases(std::int64_t campaign, const Submission& submission);
-  void read_result(std::int64_t case_id, faultsim::CaseResult& result) const;
 
   std::filesystem::path folder_;
   std::unique_ptr<Connection> connection_;

@@ -43,6 +43,8 @@ struct FaultMetrics {
   double potency = 0;           ///< m3 (plane strain: per metre of strike, m3/m).
   double moment = 0;            ///< M0, N m (plane strain: N m per metre of strike).
   double moment_step = 0;       ///< ∫ G_eff |Δg_T| dA of this step alone, N m.
+
+  bool operator==(const FaultMetrics&) const = default;  ///< the very same numbers.
 };
 
 /// How hard the contact solve worked; regression-tested counts.
@@ -97,6 +99,8 @@ struct StageMetrics {
   double potency = 0;   ///< m3, at the end.
   double moment = 0;    ///< N m, at the end (stage: summed over its steps).
   std::optional<double> magnitude;  ///< Mw of moment; none where moment = 0 or plane strain.
+
+  bool operator==(const StageMetrics&) const = default;  ///< the very same numbers.
 };
 
 struct CaseResult {

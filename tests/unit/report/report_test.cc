@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "campaign/report/case_report.h"
@@ -189,6 +190,71 @@ TEST_F(ReportTest, ExplainSaysWhy) {
                                       "`faultsweep retry sweep --case 6` lets it run again"));
   store_->retry(campaign_.id, false, 6);
   EXPECT_THAT(explain("6"), HasSubstr("will run: it waits for another attempt"));
+}
+
+/// The same six cases in a campaign that keeps fields: of the first they are there, of the second
+/// gone, of the third failed.
+TEST_F(ReportTest, SaysWhereTheFieldsAre) {
+  Submission s;
+  s.name = "fields";
+  s.parameters = "[]";
+  s.keep_fields = KeepFields::stages;
+  s.scenes = {{"scene.json", "{}"}};
+  s.families = {{"family-a", 1000, 100, 1, 1}};
+  for (int k = 0; k < 6; ++k) {
+    s.cases.push_back({"identity-" + std::to_string(k), 0, 0, "{}", "[]", "[]"});
+  }
+  const std::int64_t id = store_->submit(s).campaign;
+  for (int k = 1; k <= 3; ++k) {
+    RunRecord run;
+    run.case_id = k;
+    run.fields_only = true;
+    run.status = k == 3 ? RunStatus::world : RunStatus::completed;
+    run.reason = k == 3 ? "cannot write faults.h5: No space left on device" : "";
+    run.has_fields = k != 3;
+    if (k != 3) run.result = testing::made_up_result(0.2);
+    store_->record_runs(id, {run});
+  }
+  const auto folder = folder_ / "fields" / "fields" / "1";
+  std::filesystem::create_directories(folder);
+  for (const char* file : {"faults.h5", "faults.xmf"}) std::ofstream(folder / file) << "x";
+  const CampaignInfo info = store_->campaign("fields");
+  const auto show = [&](const char* name) {
+    return case_to_text(info, store_->stored_case(id, name));
+  };
+  const auto explain = [&](const char* name) {
+    return explain_case(*store_, info, store_->stored_case(id, name));
+  };
+  EXPECT_THAT(show("1"),
+              HasSubstr("fault fields (initial state and ends of stages): " +
+                        (folder / "faults.xmf").string() + " for ParaView, faults.h5\n"));
+  EXPECT_THAT(show("1"), HasSubstr("for the fields only): completed"));
+  EXPECT_THAT(explain("1"), HasSubstr("will not run: it has a result"));
+  EXPECT_THAT(show("2"),
+              HasSubstr("fault fields: gone from " + (folder_ / "fields/fields/2").string() +
+                        "; `faultsweep run fields` writes them again"));
+  EXPECT_THAT(explain("2"), HasSubstr("will run, for its fault fields only: their files are gone"));
+  EXPECT_THAT(show("3"), HasSubstr("`faultsweep retry fields --case 3` lets them be tried again"));
+  EXPECT_THAT(explain("3"), HasSubstr("could not be added: world, cannot write faults.h5: No space "
+                                      "left on device; `faultsweep retry fields --case 3`"));
+  EXPECT_THAT(show("4"), HasSubstr("not yet; `faultsweep run fields` writes them"));
+  EXPECT_THAT(explain("4"), HasSubstr("will run, for its fault fields only: it has a result"));
+  EXPECT_THAT(case_to_text(campaign_, store_->stored_case(campaign_.id, "1")),
+              Not(HasSubstr("fault fields")));
+  const auto json = [&](const char* name) {
+    return case_to_json(info, store_->stored_case(id, name))["fields"];
+  };
+  EXPECT_EQ(json("1")["state"], "kept");
+  EXPECT_EQ(json("1")["steps"], "stages");
+  EXPECT_EQ(json("1")["folder"], folder.string());
+  EXPECT_EQ(json("2")["state"], "gone");
+  EXPECT_EQ(json("3")["state"], "failed");
+  EXPECT_TRUE(case_to_json(campaign_, store_->stored_case(campaign_.id, "1"))["fields"].is_null());
+  const StatusReport status = make_status(*store_, "fields");
+  EXPECT_THAT(status_to_text(status),
+              HasSubstr("fault fields: stages; 3 cases have a result and lack them (1 failed)"));
+  EXPECT_THAT(status_to_text(status), HasSubstr("fields: cannot write faults.h5"));
+  EXPECT_EQ(status_to_json(status)["waiting_for_fields_only"], 2);
 }
 
 TEST_F(ReportTest, StatusCountsAndGivesReasons) {

@@ -112,7 +112,9 @@ TEST_F(StoreTest, SharesCasesBetweenCampaigns) {
   store.record_runs(first, {completed(ids[0], 0.7), completed(ids[1], 0.2)});
   const SubmitOutcome second = store.submit(submission(6, "other"));
   EXPECT_EQ(second.n_cached, 2);
-  EXPECT_EQ(store.count_cached({"identity-0", "identity-5", "unknown"}), 1);
+  EXPECT_EQ(store.preview(submission(1, "third")).n_cached, 1);
+  EXPECT_TRUE(store.preview(submission(6, "other")).existed);
+  EXPECT_EQ(store.campaigns().size(), 2u) << "a preview adds nothing";
   EXPECT_EQ(waiting(store, second.campaign).size(), 4u);
   EXPECT_THAT(store.campaigns_with(ids[0]), ElementsAre("sweep", "other"));
 }
@@ -288,22 +290,211 @@ TEST_F(StoreTest, MigratesStepByStepAndNotesEach) {
   Connection connection(folder_ / "other.sqlite", Connection::Mode::owner);
   std::vector<Migration> migrations = store_migrations();
   migrate(connection, migrations);
-  migrations.push_back({2, "2026-01-01 colour", "ALTER TABLE cases ADD COLUMN colour TEXT"});
+  const int last = migrations.back().version;
+  migrations.push_back({last + 1, "2026-01-01 colour", "ALTER TABLE cases ADD COLUMN colour TEXT"});
   migrate(connection, migrations);
   migrate(connection, migrations);
   Statement query(connection, "SELECT max(version), count(*) FROM migrations");
   query.step();
-  EXPECT_EQ(query.integer(0), 2);
-  EXPECT_EQ(query.integer(1), 2);
+  EXPECT_EQ(query.integer(0), last + 1);
+  EXPECT_EQ(query.integer(1), last + 1);
   Statement uses(connection, "SELECT colour FROM cases");
-  migrations.push_back({3, "broken", "CREATE TABLE half (a); SELECT nonsense"});
+  migrations.push_back({last + 2, "broken", "CREATE TABLE half (a); SELECT nonsense"});
   EXPECT_THROW(migrate(connection, migrations), StorageError);
   Statement version(connection, "PRAGMA user_version");
   version.step();
-  EXPECT_EQ(version.integer(0), 2);
+  EXPECT_EQ(version.integer(0), last + 1);
   Statement half(connection, "SELECT count(*) FROM sqlite_master WHERE name = 'half'");
   half.step();
   EXPECT_EQ(half.integer(0), 0);
+}
+
+TEST_F(StoreTest, BringsAStoreOfTheFirstVersionUpToDate) {
+  {
+    Connection connection(folder_ / "campaign.sqlite", Connection::Mode::owner);
+    migrate(connection, {store_migrations().front()});
+    connection.execute(
+        "INSERT INTO scenes VALUES (1, 'h', 'scene.json', '{}');"
+        "INSERT INTO families VALUES (1, 'family', 1, 1, 1, 1, NULL);"
+        "INSERT INTO campaigns VALUES (1, 'old', 5, 'open', 'f', '{}', 'h', '{}', 'h', 'h', '[]',"
+        " 'moment', 0, 0, 'continue', 0, NULL, NULL);"
+        "INSERT INTO cases VALUES (1, 'id-1', 1, 1, '{}', 'done', 'converged', 1);"
+        "INSERT INTO cases VALUES (2, 'id-2', 1, 1, '{}', 'waiting', NULL, NULL);"
+        "INSERT INTO campaign_cases VALUES (1, 1, 1, '[]', '[]'), (1, 2, 2, '[]', '[]');"
+        "INSERT INTO runs VALUES (1, 1, 1, 1, 5, 1, 'here', 1, 'completed', 'converged', '', NULL,"
+        " NULL, '', 'op', 1);");
+  }
+  EXPECT_THROW(Store::open_reader(folder_), StorageError) << "readers change nothing";
+  Store store = Store::open_writer(folder_);
+  const CampaignInfo info = store.campaign("old");
+  EXPECT_EQ(info.keep_fields, KeepFields::none);
+  EXPECT_EQ(info.n_done, 1);
+  EXPECT_EQ(info.n_waiting, 1);
+  EXPECT_EQ(info.n_fields_waiting, 0);
+  const StoredCase stored = store.stored_case(info.id, "1");
+  EXPECT_EQ(stored.fields, FieldsState::none);
+  ASSERT_EQ(stored.runs.size(), 1u);
+  EXPECT_FALSE(stored.runs[0].fields_only);
+  EXPECT_THAT(store.integrity_problems(), IsEmpty());
+}
+
+/// A campaign of four cases that keeps fields; case 1 was completed with them.
+class FieldsTest : public StoreTest {
+ protected:
+  void SetUp() override {
+    StoreTest::SetUp();
+    store_ = std::make_unique<Store>(Store::open_owner(folder_));
+    Submission s = submission(4);
+    s.keep_fields = KeepFields::stages;
+    campaign_ = store_->submit(s).campaign;
+    ids_ = waiting(*store_, campaign_);  // by family: positions 1, 3, 2, 4
+    record(with_fields(completed(ids_[0], 0.7)));
+  }
+  void TearDown() override {
+    store_.reset();
+    StoreTest::TearDown();
+  }
+  void record(const RunRecord& run) { store_->record_runs(campaign_, {run}); }
+  static RunRecord with_fields(RunRecord run) {
+    run.has_fields = true;
+    return run;
+  }
+  static RunRecord fields_only(RunRecord run) {
+    run.fields_only = true;
+    return run;
+  }
+  StoredCase stored(const char* name) const { return store_->stored_case(campaign_, name); }
+  void write_files(long position) const {
+    const auto folder = store_->fields_folder("sweep", position);
+    std::filesystem::create_directories(folder);
+    for (const char* file : {"faults.h5", "faults.xmf"}) std::ofstream(folder / file) << "x";
+  }
+
+  std::unique_ptr<Store> store_;
+  std::int64_t campaign_ = 0;
+  std::vector<std::int64_t> ids_;
+};
+
+TEST_F(FieldsTest, AreKeptWithTheRunThatWroteThem) {
+  EXPECT_EQ(store_->campaign("").keep_fields, KeepFields::stages);
+  EXPECT_EQ(stored("1").fields, FieldsState::kept);
+  EXPECT_EQ(stored("2").fields, FieldsState::wanted);
+  EXPECT_EQ(stored("1").fields_folder, folder_ / "fields" / "sweep" / "1");
+  const CampaignInfo info = store_->campaign("");
+  EXPECT_EQ(info.n_done, 1);
+  EXPECT_EQ(info.n_waiting, 3);
+  EXPECT_EQ(info.n_fields_waiting, 0);
+}
+
+TEST_F(FieldsTest, OfAnotherCampaignAreAddedToTheStoredResult) {
+  Submission s = submission(4, "other");
+  s.keep_fields = KeepFields::all;
+  EXPECT_EQ(store_->preview(s).n_fields, 1);
+  const SubmitOutcome other = store_->submit(s);
+  EXPECT_EQ(other.n_cached, 1);
+  EXPECT_EQ(other.n_fields, 1);
+  EXPECT_EQ(store_->preview(s).n_fields, 1) << "now that it exists";
+  const auto families = store_->waiting_families(other.campaign);
+  EXPECT_THAT(families[0].cases, ElementsAre(ids_[0], ids_[1]));
+  EXPECT_THAT(families[0].fields_only, ElementsAre(ids_[0]));
+  EXPECT_THAT(families[1].fields_only, IsEmpty());
+  CampaignInfo info = store_->campaign("other");
+  EXPECT_EQ(info.n_done, 0) << "not done here without its fields";
+  EXPECT_EQ(info.n_waiting, 4);
+  EXPECT_EQ(info.n_fields_waiting, 1);
+
+  store_->record_runs(other.campaign, {fields_only(with_fields(completed(ids_[0], 0.7)))});
+  const StoredCase added = store_->stored_case(other.campaign, "1");
+  EXPECT_EQ(added.fields, FieldsState::kept);
+  ASSERT_EQ(added.runs.size(), 2u);
+  EXPECT_FALSE(added.runs[0].fields_only);
+  EXPECT_TRUE(added.runs[1].fields_only);
+  info = store_->campaign("other");
+  EXPECT_EQ(info.n_done, 1);
+  EXPECT_EQ(info.n_fields_waiting, 0);
+  EXPECT_EQ(stored("1").fields, FieldsState::kept) << "the first campaign's stay";
+  EXPECT_THAT(store_->integrity_problems(), IsEmpty());
+}
+
+TEST_F(FieldsTest, ThatCannotBeAddedLeaveTheResultAndWaitForRetry) {
+  Submission s = submission(4, "other");
+  s.keep_fields = KeepFields::all;
+  const std::int64_t other = store_->submit(s).campaign;
+  RunRecord run = fields_only(crashed(ids_[0], false));
+  store_->record_runs(other, {run});
+  EXPECT_EQ(store_->campaign("other").n_fields_waiting, 1) << "another attempt follows";
+  run.final = true;
+  run.reason = "disk full";
+  store_->record_runs(other, {run});
+  const CampaignInfo info = store_->campaign("other");
+  EXPECT_EQ(info.n_failed, 1);
+  EXPECT_EQ(info.n_fields_failed, 1);
+  EXPECT_EQ(info.n_fields_waiting, 0);
+  const StoredCase failed = store_->stored_case(other, "1");
+  EXPECT_EQ(failed.fields, FieldsState::failed);
+  EXPECT_EQ(failed.state, "done");
+  EXPECT_EQ(failed.result.whole.chi_bar, 0.7);
+  const auto failures = store_->failure_counts(other);
+  ASSERT_EQ(failures.size(), 1u);
+  EXPECT_EQ(failures[0].reason, "fields: disk full");
+  EXPECT_EQ(failures[0].count, 1);
+  EXPECT_THAT(store_->failure_counts(campaign_), IsEmpty());
+  EXPECT_EQ(store_->campaign("sweep").n_done, 1);
+  EXPECT_EQ(store_->retry(other, false, 2), 0);
+  EXPECT_EQ(store_->retry(other, false, 1), 1);
+  EXPECT_EQ(store_->campaign("other").n_fields_waiting, 1);
+}
+
+TEST_F(FieldsTest, ThatAWaitingCaseCouldNotWriteAreAFailedCase) {
+  record(crashed(ids_[1], true));
+  CampaignInfo info = store_->campaign("");
+  EXPECT_EQ(info.n_failed, 1);
+  EXPECT_EQ(info.n_fields_failed, 0);
+  EXPECT_EQ(store_->retry(campaign_, false, std::nullopt), 1);
+  record(with_fields(completed(ids_[1], 0.2)));
+  EXPECT_EQ(stored("3").fields, FieldsState::kept);
+  EXPECT_EQ(store_->campaign("").n_done, 2);
+}
+
+TEST_F(FieldsTest, WhoseFilesAreGoneAreWantedAgain) {
+  record(with_fields(completed(ids_[1], 0.2)));
+  write_files(1);
+  EXPECT_EQ(store_->want_lost_fields(store_->campaign("")), 1);
+  EXPECT_EQ(stored("1").fields, FieldsState::kept);
+  EXPECT_EQ(stored("3").fields, FieldsState::wanted);
+  EXPECT_EQ(store_->campaign("").n_fields_waiting, 1);
+  std::filesystem::remove(store_->fields_folder("sweep", 1) / "faults.xmf");
+  EXPECT_EQ(store_->want_lost_fields(store_->campaign("")), 1);
+}
+
+TEST_F(FieldsTest, OfAReplacedResultAreWantedAgain) {
+  RunRecord run = with_fields(completed(ids_[1], 0.3));
+  run.result->outcome = faultsim::Outcome::unconverged;
+  record(run);
+  const std::int64_t plain = store_->submit(submission(4, "plain")).campaign;
+  EXPECT_EQ(store_->retry(plain, true, std::nullopt), 1);
+  store_->record_runs(plain, {completed(ids_[1], 0.9)});
+  EXPECT_EQ(stored("3").fields, FieldsState::wanted);
+  EXPECT_EQ(store_->stored_case(plain, "3").fields, FieldsState::none);
+  EXPECT_THAT(store_->waiting_families(campaign_)[0].fields_only, ElementsAre(ids_[1]));
+}
+
+TEST_F(FieldsTest, ViewsCountThem) {
+  Submission s = submission(4, "other");
+  s.keep_fields = KeepFields::all;
+  const std::int64_t other = store_->submit(s).campaign;
+  store_->record_runs(other, {fields_only(crashed(ids_[0], true))});
+  Connection connection(folder_ / "campaign.sqlite", Connection::Mode::read_only);
+  const auto count = [&](const char* sql) {
+    Statement query(connection, sql);
+    query.step();
+    return query.integer(0);
+  };
+  EXPECT_EQ(count("SELECT done FROM campaign_progress WHERE campaign = 'sweep'"), 1);
+  EXPECT_EQ(count("SELECT done FROM campaign_progress WHERE campaign = 'other'"), 0);
+  EXPECT_EQ(count("SELECT failed FROM campaign_progress WHERE campaign = 'other'"), 1);
+  EXPECT_EQ(count("SELECT count(*) FROM failures WHERE campaign = 'sweep'"), 0);
+  EXPECT_EQ(count("SELECT count(*) FROM failures WHERE campaign = 'other' AND fields_only"), 1);
 }
 
 TEST_F(StoreTest, DropsWalOnANetworkFileSystem) {
