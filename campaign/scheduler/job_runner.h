@@ -11,8 +11,9 @@ namespace faultsweep {
 /// One case to run.
 struct Job {
   std::int64_t case_id = 0;
-  std::string scene;   ///< JSON text, one line.
-  std::string source;  ///< for messages and relative paths: "sweep/scene.json#case 17".
+  std::string scene;          ///< JSON text, one line.
+  std::string source;         ///< for messages and relative paths: "sweep/scene.json#case 17".
+  std::string fields_folder;  ///< where its fault fields go; "" = they are not kept.
 };
 
 /// What a JobRunner is given besides jobs: one family at a time.
@@ -21,6 +22,8 @@ struct FamilyTask {
   std::optional<double> time_limit;  ///< s per case.
   double operator_seconds = 0;       ///< predicted.
   std::optional<double> memory_limit;
+  KeepFields keep_fields = KeepFields::none;
+  std::string fields_folder;  ///< of the campaign, absolute; a case's is the one in it named CASE.
 };
 
 /// What happened to jobs since the last call.

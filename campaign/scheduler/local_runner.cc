@@ -17,7 +17,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int kProtocolVersion = 1;
+constexpr int kProtocolVersion = 2;
 
 /// A reply that is not what the protocol allows.
 struct Garbled {
@@ -83,11 +83,8 @@ void LocalRunner::add(Job job) {
     start();
     return;
   }
-  const Job& last = jobs_.back();
   if (jobs_.size() == 1) since_ = {};
-  process_->send(concat("{\"run\":", last.case_id, ",\"scene\":", last.scene,
-                        ",\"source\":", json(last.source).dump(), "}"));
-  ++n_sent_;
+  send(jobs_.back());
 }
 
 void LocalRunner::start() {
@@ -98,11 +95,18 @@ void LocalRunner::start() {
   operator_seconds_ = 0;
   since_ = {};
   n_sent_ = 0;
-  for (const Job& job : jobs_) {
-    process_->send(concat("{\"run\":", job.case_id, ",\"scene\":", job.scene,
-                          ",\"source\":", json(job.source).dump(), "}"));
-    ++n_sent_;
+  for (const Job& job : jobs_) send(job);
+}
+
+void LocalRunner::send(const Job& job) {
+  std::string line = concat("{\"run\":", job.case_id, ",\"scene\":", job.scene,
+                            ",\"source\":", json(job.source).dump());
+  if (!job.fields_folder.empty()) {
+    const json fields = {{"folder", job.fields_folder}, {"steps", to_string(task_.keep_fields)}};
+    line += ",\"fields\":" + fields.dump();
   }
+  process_->send(line + "}");
+  ++n_sent_;
 }
 
 JobEvents LocalRunner::work(int timeout_ms) {
@@ -206,6 +210,10 @@ void LocalRunner::handle(const std::string& line, JobEvents& events) {
 void LocalRunner::handle_done(const json& reply, JobEvents& events) {
   RunRecord run = blank_run(jobs_.front().case_id);
   if (reply.contains("result")) {
+    run.has_fields = !jobs_.front().fields_folder.empty();
+    if (run.has_fields && !reply.contains("fields")) {
+      throw Garbled{"sent a result without the fault fields that it was asked for"};
+    }
     run.status = RunStatus::completed;
     try {
       run.result = faultsim::result_from_json(reply.at("result"));

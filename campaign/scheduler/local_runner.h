@@ -40,6 +40,7 @@ class LocalRunner final : public JobRunner {
 
  private:
   void start();
+  void send(const Job& job);
   void handle(const std::string& reply, JobEvents& events);
   void handle_done(const nlohmann::json& reply, JobEvents& events);
   void process_failed(RunStatus status, std::string reason, const ProcessEnd& end,

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "campaign/store/same_numbers.h"
 #include "simulator/common/errors.h"
 
 namespace faultsweep {
@@ -34,15 +35,20 @@ Manager::Manager(Store& store, WorkerLink& link, ProgressDisplay& display, const
     : store_(store), link_(link), display_(display), options_(options) {
   campaign_ = store_.campaign(options.campaign);
   store_.claim_ownership(campaign_.id, link.n_workers());
+  const long n_lost = store_.want_lost_fields(campaign_);
+  if (n_lost > 0) display_.note(concat("the fields of ", n_lost, " cases are gone: written again"));
   campaign_ = store_.campaign(campaign_.name);  // nobody else changes it from here on
   n_cases_ = campaign_.n_cases;
   n_done_ = campaign_.n_done;
   n_failed_ = campaign_.n_failed;
   n_incomplete_ = campaign_.n_done - campaign_.n_converged;
+  fields_folder_ =
+      std::filesystem::absolute(store_.fields_folder(campaign_.name)).lexically_normal();
   families_ = store_.waiting_families(campaign_.id);
   std::vector<FamilyWork> work;
   for (const WaitingFamily& family : families_) {
     work.push_back(work_of(family, store_.folder() / "operators"));
+    fields_only_.insert(family.fields_only.begin(), family.fields_only.end());
   }
   plan_ = std::make_unique<WorkPlan>(
       std::move(work), WorkPlan::Limits{link.n_workers(), options.memory_bytes,
@@ -53,7 +59,10 @@ Manager::Manager(Store& store, WorkerLink& link, ProgressDisplay& display, const
   if (campaign_.cancelled) plan_->stop();
   store_.record_event(campaign_.id, "started",
                       concat(campaign_.n_waiting, " cases in ", families_.size(), " families, ",
-                             n_workers, " workers"));
+                             n_workers, " workers",
+                             fields_only_.empty() ? std::string()
+                                                  : concat("; ", fields_only_.size(),
+                                                           " cases for their fields only")));
 }
 
 Manager::~Manager() {
@@ -117,12 +126,7 @@ void Manager::handle(int worker, message::Events message) {
     plan_->operator_ready(family, record.seconds, record.from_cache);
     operators_.emplace_back(family, record);
   }
-  for (RunRecord& run : message.events.completed) {
-    plan_->case_done(worker, run.case_id, run.wall_seconds);
-    ++n_done_;
-    if (run.result->outcome != Outcome::converged) ++n_incomplete_;
-    add_run(std::move(run));
-  }
+  for (RunRecord& run : message.events.completed) handle_result(worker, std::move(run));
   for (const JobEvents::Failure& failure : message.events.failed) handle_failure(worker, failure);
   if (!message.events.returned.empty()) {
     plan_->returned(worker, message.events.returned);
@@ -131,12 +135,47 @@ void Manager::handle(int worker, message::Events message) {
   fail_hopeless();
 }
 
+void Manager::handle_result(int worker, RunRecord run) {
+  if (fields_only_.count(run.case_id) > 0) {
+    if (const auto failure = refuse_fields(run)) {
+      handle_failure(worker, *failure);
+      return;
+    }
+  }
+  plan_->case_done(worker, run.case_id, run.wall_seconds);
+  ++n_done_;
+  if (run.result->outcome != Outcome::converged) ++n_incomplete_;
+  add_run(std::move(run));
+}
+
+std::optional<JobEvents::Failure> Manager::refuse_fields(const RunRecord& run) const {
+  const auto stored = store_.stored_result(run.case_id);
+  FAULTSIM_DEMAND(stored.has_value(), run.case_id);
+  const std::string difference = first_difference(*stored, *run.result);
+  if (difference.empty()) return std::nullopt;
+  const bool same_operator = stored->operator_fingerprint == run.result->operator_fingerprint;
+  RunRecord refused = run;
+  refused.result.reset();
+  refused.has_fields = false;
+  refused.status = same_operator ? RunStatus::bug : RunStatus::world;
+  refused.reason = concat(
+      "the fields are not those of the stored result, from which this run differs in ", difference,
+      same_operator ? std::string(", with the same operator")
+                    : concat(": it used the operator ", run.result->operator_fingerprint,
+                             ", the stored one comes from ", stored->operator_fingerprint));
+  std::error_code ignored;  // if they cannot be removed, the store still says that there are none
+  std::filesystem::remove_all(
+      store_.fields_folder(campaign_.name, inputs_.at(run.case_id).position), ignored);
+  return JobEvents::Failure{std::move(refused), false};
+}
+
 void Manager::handle_failure(int worker, const JobEvents::Failure& failure) {
   RunRecord run = failure.run;
   run.final = !plan_->case_failed(worker, run.case_id, failure.in_operator);
   const long position = inputs_.count(run.case_id) > 0 ? inputs_[run.case_id].position : 0;
-  const std::string text = concat("case ", position, " ", to_string(run.status), ": ", run.reason,
-                                  run.final ? "" : "; it is tried again");
+  const std::string text =
+      concat(fields_only_.count(run.case_id) > 0 ? "fields of case " : "case ", position, " ",
+             to_string(run.status), ": ", run.reason, run.final ? "" : "; it is tried again");
   store_.record_event(campaign_.id, "case failed", text);
   display_.note(text);
   if (run.final) {
@@ -163,6 +202,7 @@ void Manager::fail_hopeless() {
 void Manager::add_run(RunRecord run) {
   if (uncommitted_.empty()) since_first_uncommitted_ = {};
   ++n_finished_now_;
+  run.fields_only = fields_only_.count(run.case_id) > 0;
   inputs_.erase(run.case_id);
   uncommitted_.push_back(std::move(run));
 }
@@ -194,6 +234,8 @@ void Manager::send_work(int worker, const Slice& slice) {
   work.task.family = slice.family;
   work.task.time_limit = campaign_.policy.time_limit;
   work.task.memory_limit = campaign_.policy.memory_limit;
+  work.task.keep_fields = campaign_.keep_fields;
+  work.task.fields_folder = fields_folder_;
   work.task.operator_seconds =
       families_[static_cast<std::size_t>(slice.family)].predicted.operator_seconds;
   std::set<std::int64_t>& sent = scenes_sent_[static_cast<std::size_t>(worker)];

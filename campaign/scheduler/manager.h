@@ -62,6 +62,11 @@ class Manager {
 
  private:
   void handle(int worker, message::Events message);
+  void handle_result(int worker, RunRecord run);
+  /// A run for fields only must repeat the stored result bit for bit: the fields are those of that
+  /// result or they are removed. With the same operator a difference is our bug, with another one
+  /// (another BLAS kernel, hence other last bits) the world's doing. Nothing = they are kept.
+  std::optional<JobEvents::Failure> refuse_fields(const RunRecord& run) const;
   void handle_failure(int worker, const JobEvents::Failure& failure);
   void hand_out();
   void send_work(int worker, const Slice& slice);
@@ -76,9 +81,11 @@ class Manager {
   ProgressDisplay& display_;
   Options options_;
   CampaignInfo campaign_;
+  std::string fields_folder_;  ///< of the campaign, absolute.
   std::vector<WaitingFamily> families_;
   std::unique_ptr<WorkPlan> plan_;
   std::map<std::int64_t, CaseInput> inputs_;  ///< of cases under way
+  std::set<std::int64_t> fields_only_;        ///< cases that have a result and lack their fields
   std::vector<std::set<std::int64_t>> scenes_sent_;
   std::vector<std::string> hosts_;
   std::vector<RunRecord> uncommitted_;

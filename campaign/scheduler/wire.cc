@@ -137,7 +137,7 @@ void fields(Archive& a, CaseResult& r) {
 template <typename Archive>
 void fields(Archive& a, RunRecord& r) {
   all(a, r.case_id, r.status, r.reason, r.signal, r.exit_code, r.log_tail, r.host, r.rank,
-      r.wall_seconds, r.final, r.result);
+      r.wall_seconds, r.final, r.has_fields, r.fields_only, r.result);
 }
 template <typename Archive>
 void fields(Archive& a, OperatorRecord& r) {
@@ -172,8 +172,8 @@ template <typename Archive>
 void fields(Archive&, message::Drained&) {}
 template <typename Archive>
 void fields(Archive& a, message::Work& m) {
-  all(a, m.task.family, m.task.time_limit, m.task.operator_seconds, m.task.memory_limit, m.scenes,
-      m.items);
+  all(a, m.task.family, m.task.time_limit, m.task.operator_seconds, m.task.memory_limit,
+      m.task.keep_fields, m.task.fields_folder, m.scenes, m.items);
 }
 template <typename Archive>
 void fields(Archive&, message::Drain&) {}

@@ -80,8 +80,14 @@ void Worker::take(const message::Work& work) {
     }
     for (const auto& item : work.items) {
       const BaseScene& base = scenes_.at(item.scene);
-      runner_.add({item.case_id, scene_from_changes(base.document, item.changes).dump(),
-                   faultsim::concat(base.source, "#case ", item.position)});
+      Job job;
+      job.case_id = item.case_id;
+      job.scene = scene_from_changes(base.document, item.changes).dump();
+      job.source = faultsim::concat(base.source, "#case ", item.position);
+      if (work.task.keep_fields != KeepFields::none) {
+        job.fields_folder = faultsim::concat(work.task.fields_folder, '/', item.position);
+      }
+      runner_.add(std::move(job));
     }
   } catch (const faultsim::ResourceError& error) {
     in_trouble_ = true;

@@ -11,6 +11,7 @@
 #include "simulator/app/load_scene.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/stopwatch.h"
+#include "simulator/loading/field_keeper.h"
 #include "simulator/loading/run_case.h"
 #include "simulator/output/write_result.h"
 
@@ -18,6 +19,8 @@ namespace faultsim {
 namespace {
 
 using nlohmann::json;
+
+constexpr int kProtocolVersion = 2;  // schemas/worker_protocol.md
 
 /// JSON lines over two descriptors.
 class Channel {
@@ -73,7 +76,9 @@ class Worker {
         cache_{arguments.cache, static_cast<std::uint64_t>(arguments.cache_size)} {}
 
   void serve() {
-    channel_.say({{"event", "hello"}, {"version", 1}, {"numerics_version", kNumericsVersion}});
+    channel_.say({{"event", "hello"},
+                  {"version", kProtocolVersion},
+                  {"numerics_version", kNumericsVersion}});
     while (const auto line = channel_.next()) {
       const json request = json::parse(*line);
       const json& run = request.at("run");
@@ -84,8 +89,7 @@ class Worker {
         const LoadedScene loaded = load_scene(std::move(document));
         need_operator(run, loaded);
         channel_.say({{"event", "started"}, {"run", run}});
-        SilentMonitor silent;
-        reply["result"] = result_to_json(run_case(loaded.scene, *prepared_.op, silent));
+        run_one(request, loaded.scene, reply);
       } catch (const InputError& error) {
         reply["error"] = error.what();
         reply["exit_code"] = static_cast<int>(ExitCode::input);
@@ -99,6 +103,24 @@ class Worker {
   }
 
  private:
+  /// A result goes out only with the fields that were asked for.
+  void run_one(const json& request, const Scene& scene, json& reply) {
+    SilentMonitor silent;
+    if (!request.contains("fields")) {
+      reply["result"] = result_to_json(run_case(scene, *prepared_.op, silent));
+      return;
+    }
+    const json& wanted = request["fields"];
+    FieldKeeper keeper(wanted.at("folder").get<std::string>(),
+                       field_steps_from_string(wanted.at("steps").get<std::string>()), scene,
+                       prepared_.op->geometry);
+    const CaseResult result = run_case(
+        scene, *prepared_.op, silent,
+        [&](const StepResult& step, const FaultFields& fields) { keeper.add(step, fields); });
+    reply["fields"] = {{"steps", keeper.finish()}};
+    reply["result"] = result_to_json(result);
+  }
+
   void need_operator(const json& run, const LoadedScene& loaded) {
     std::string key = loaded.plan.family;
     for (const Fault& fault : loaded.scene.faults) key += "/" + fault.name;
@@ -137,6 +159,7 @@ ExitCode worker_command(const WorkerArguments& arguments) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // a worker never outlives its rank, however that dies
   if (getppid() == 1) return ExitCode::interrupted;  // the parent died before the line above
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit shows as a full disk
   Worker(arguments).serve();
   return ExitCode::done;
 }

@@ -117,12 +117,19 @@ void serve(const Channel& channel, const json& request, bool& has_operator) {
   reply(channel, {{"event", "started"}, {"run", run}});
   if (!obey(channel, title, run)) return;
   usleep(static_cast<useconds_t>(1e6 * scene.value("seconds", 0.0)));
+  json done = {{"event", "done"}, {"run", run}, {"seconds", 0.001 + operator_seconds}};
+  if (request.contains("fields") && title != "no fields") {
+    const std::filesystem::path folder = request["fields"].at("folder").get<std::string>();
+    std::filesystem::create_directories(folder);
+    for (const char* file : {"faults.h5", "faults.xmf"}) {
+      std::ofstream(folder / file) << request["fields"].at("steps").get<std::string>();
+    }
+    done["fields"] = {{"steps", {0}}};
+  }
   const auto result =
       faultsweep::testing::made_up_result(scene.value("strength", 0.3), scene.value("steps", 12));
-  reply(channel, {{"event", "done"},
-                  {"run", run},
-                  {"result", faultsim::result_to_json(result)},
-                  {"seconds", 0.001 + operator_seconds}});
+  done["result"] = faultsim::result_to_json(result);
+  reply(channel, done);
 }
 
 }  // namespace
@@ -137,7 +144,7 @@ int main(int argc, char** argv) {
   }
   if (argc < 2 || std::strcmp(argv[1], "worker") != 0) return 2;
   if (const char* failure = std::getenv("FAKE_SIMULATOR_START")) return std::atoi(failure);
-  reply(channel, {{"event", "hello"}, {"version", 1}, {"numerics_version", 1}});
+  reply(channel, {{"event", "hello"}, {"version", 2}, {"numerics_version", 1}});
   std::FILE* requests = fdopen(channel.requests, "r");
   char* line = nullptr;
   std::size_t capacity = 0;

@@ -33,7 +33,9 @@ class LocalRunnerTest : public ::testing::Test {
     runner.begin_family(task);
     std::int64_t id = 0;
     for (const std::string& title : titles) {
-      runner.add({++id, "{\"title\": \"" + title + "\", \"strength\": 0.7}", "test"});
+      const std::string fields =
+          task.fields_folder.empty() ? "" : task.fields_folder + "/" + std::to_string(id + 1);
+      runner.add({++id, "{\"title\": \"" + title + "\", \"strength\": 0.7}", "test", fields});
     }
     JobEvents all;
     const faultsim::Stopwatch watch;
@@ -136,6 +138,27 @@ TEST_F(LocalRunnerTest, AFailedOperatorBlamesTheFirstAndReturnsTheOthers) {
   EXPECT_THAT(events.returned, ElementsAre(2, 3));
 }
 
+TEST_F(LocalRunnerTest, AsksForFieldsWhereTheyAreKept) {
+  std::string name = ::testing::TempDir() + "runner_XXXXXX";
+  const std::filesystem::path folder = mkdtemp(name.data());
+  FamilyTask task;
+  task.keep_fields = KeepFields::stages;
+  task.fields_folder = folder / "fields \"1\"";
+  const JobEvents events = run({"a", "no fields", "crash", "d"}, task);
+  EXPECT_THAT(completed(events), ElementsAre(1, 4));
+  EXPECT_TRUE(events.completed[0].has_fields);
+  std::string steps;
+  std::ifstream(task.fields_folder + "/4/faults.h5") >> steps;
+  EXPECT_EQ(steps, "stages");
+  ASSERT_EQ(events.failed.size(), 2u);
+  EXPECT_EQ(events.failed[0].run.status, RunStatus::garbled);
+  EXPECT_EQ(events.failed[0].run.reason,
+            "sent a result without the fault fields that it was asked for");
+  EXPECT_FALSE(events.failed[0].run.has_fields);
+  EXPECT_FALSE(run({"a"}).completed[0].has_fields) << "not asked for";
+  std::filesystem::remove_all(folder);
+}
+
 TEST_F(LocalRunnerTest, LibrariesMayTalkOnStdout) {
   const JobEvents events = run({"noise", "exit", "noise"});
   EXPECT_THAT(completed(events), ElementsAre(1, 3));
@@ -172,7 +195,7 @@ TEST_F(LocalRunnerTest, ASimulatorThatCannotStartIsNoCasesFault) {
 TEST_F(LocalRunnerTest, DrainingEndsTheCaseUnderWayAndReturnsTheOthers) {
   LocalRunner runner(options_);
   runner.begin_family({});
-  for (int id = 1; id <= 4; ++id) runner.add({id, R"({"title": "slow"})", "test"});
+  for (int id = 1; id <= 4; ++id) runner.add({id, R"({"title": "slow"})", "test", ""});
   std::vector<std::int64_t> done, returned;
   bool drained = false;
   const faultsim::Stopwatch watch;

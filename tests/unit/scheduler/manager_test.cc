@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <deque>
+#include <fstream>
+#include <set>
 
 #include "campaign/scheduler/worker.h"
 #include "simulator/common/stopwatch.h"
@@ -42,12 +45,18 @@ class FakeRunner final : public JobRunner {
     if (!has_operator_) events.operators.push_back({"print", false, 1, 1, 1, 1, 1});
     has_operator_ = true;
     run.status = RunStatus::completed;
-    run.result = testing::made_up_result(0.7, 3);
+    run.result = testing::made_up_result(strength, 3);
+    run.result->operator_fingerprint = operator_fingerprint;
+    run.has_fields = !job.fields_folder.empty();
+    fields_folders.insert(job.fields_folder);
     ++n_runs;
     events.completed.push_back(std::move(run));
     return events;
   }
   static inline int n_runs = 0;
+  static inline double strength = 0.7;
+  static inline std::string operator_fingerprint = "print";
+  static inline std::set<std::string> fields_folders;
 
  private:
   std::deque<Job> jobs_;
@@ -115,12 +124,17 @@ class ManagerTest : public ::testing::Test {
     std::string name = ::testing::TempDir() + "manager_XXXXXX";
     folder_ = mkdtemp(name.data());
     FakeRunner::n_runs = 0;
+    FakeRunner::strength = 0.7;
+    FakeRunner::operator_fingerprint = "print";
+    FakeRunner::fields_folders.clear();
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  void submit(int n, const std::vector<int>& crashing, Policy policy = {}) {
+  void submit(int n, const std::vector<int>& crashing, Policy policy = {},
+              const std::string& name = "sweep", KeepFields keep = KeepFields::none) {
     Submission s;
-    s.name = "sweep";
+    s.name = name;
+    s.keep_fields = keep;
     s.parameters = "[]";
     s.policy = policy;
     s.scenes = {{"scene.json", "{\"title\": \"base\"}"}};
@@ -131,6 +145,21 @@ class ManagerTest : public ::testing::Test {
                          crashes ? R"({"/title": "crash"})" : "{}", "[]", "[]"});
     }
     Store::open_writer(folder_).submit(s);
+  }
+
+  /// Runs the newest campaign; how it ended.
+  ExitCode run() {
+    Store store = Store::open_owner(folder_);
+    Stage stage(2);
+    Manager manager(store, stage, silent_, {});
+    EXPECT_TRUE(stage.play(manager));
+    return manager.status();
+  }
+  /// Twelve cases that were run without fields, and a campaign that wants the fields of them.
+  void submit_for_fields(Policy policy = {}) {
+    submit(12, {});
+    EXPECT_EQ(run(), ExitCode::done);
+    submit(12, {}, policy, "fields", KeepFields::stages);
   }
 
   std::filesystem::path folder_;
@@ -230,6 +259,87 @@ TEST_F(ManagerTest, KilledAtAnyTurnTheNextManagerCompletesTheCampaign) {
   for (int position = 1; position <= 25; ++position) {
     EXPECT_EQ(store.stored_case(info.id, std::to_string(position)).runs.size(), 1u);
   }
+}
+
+TEST_F(ManagerTest, TellsWhereTheFieldsOfEachCaseGo) {
+  submit(3, {}, {}, "sweep", KeepFields::all);
+  EXPECT_EQ(run(), ExitCode::done);
+  const std::string folder = folder_ / "fields" / "sweep";
+  EXPECT_EQ(FakeRunner::fields_folders,
+            (std::set<std::string>{folder + "/1", folder + "/2", folder + "/3"}));
+}
+
+TEST_F(ManagerTest, AddsFieldsToStoredResults) {
+  submit_for_fields();
+  EXPECT_EQ(run(), ExitCode::done);
+  EXPECT_EQ(FakeRunner::n_runs, 24);
+  Store store = Store::open_reader(folder_);
+  const CampaignInfo info = store.campaign("fields");
+  EXPECT_EQ(info.n_done, 12);
+  for (int position = 1; position <= 12; ++position) {
+    const StoredCase stored = store.stored_case(info.id, std::to_string(position));
+    EXPECT_EQ(stored.fields, FieldsState::kept);
+    ASSERT_EQ(stored.runs.size(), 2u);
+    EXPECT_FALSE(stored.runs[0].fields_only);
+    EXPECT_TRUE(stored.runs[1].fields_only);
+  }
+}
+
+TEST_F(ManagerTest, WritesLostFieldsAgain) {
+  submit(3, {}, {}, "sweep", KeepFields::all);
+  EXPECT_EQ(run(), ExitCode::done);
+  EXPECT_EQ(FakeRunner::n_runs, 3);  // the fake writes no files, so they count as lost
+  EXPECT_EQ(run(), ExitCode::done);
+  EXPECT_EQ(FakeRunner::n_runs, 6);
+  for (int position = 1; position <= 3; ++position) {
+    const auto folder = folder_ / "fields" / "sweep" / std::to_string(position);
+    std::filesystem::create_directories(folder);
+    for (const char* file : {"faults.h5", "faults.xmf"}) std::ofstream(folder / file) << "x";
+  }
+  EXPECT_EQ(run(), ExitCode::done);
+  EXPECT_EQ(FakeRunner::n_runs, 6);
+}
+
+/// With the same operator another number is a bug, with another operator the world's doing; either
+/// way the fields do not stay and the stored result does.
+TEST_F(ManagerTest, RefusesFieldsOfOtherNumbers) {
+  for (const char* fingerprint : {"print", "other"}) {
+    std::filesystem::remove_all(folder_);
+    FakeRunner::strength = 0.7;
+    FakeRunner::operator_fingerprint = "print";
+    submit_for_fields();
+    FakeRunner::strength = std::nextafter(0.7, 1.0);
+    FakeRunner::operator_fingerprint = fingerprint;
+    std::filesystem::create_directories(folder_ / "fields" / "fields" / "5");
+    EXPECT_EQ(run(), ExitCode::incomplete);
+    Store store = Store::open_reader(folder_);
+    const CampaignInfo info = store.campaign("fields");
+    EXPECT_EQ(info.n_failed, 12);
+    EXPECT_EQ(info.n_fields_failed, 12);
+    const StoredCase stored = store.stored_case(info.id, "5");
+    EXPECT_EQ(stored.fields, FieldsState::failed);
+    EXPECT_EQ(stored.result.whole.chi_bar, 0.7);
+    const bool same = std::string(fingerprint) == "print";
+    EXPECT_EQ(stored.runs.at(1).status, same ? "bug" : "world");
+    EXPECT_EQ(stored.runs.at(1).reason,
+              "the fields are not those of the stored result, from which this run differs in load "
+              "step 1 (primary_production)" +
+                  std::string(same ? ", with the same operator"
+                                   : ": it used the operator other, the stored one comes from "
+                                     "print"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "fields" / "fields" / "5"));
+  }
+}
+
+TEST_F(ManagerTest, RetriesRunsForFieldsAsTheSpecSays) {
+  Policy policy;
+  policy.on_failure = FailureAction::retry;
+  policy.retries = 1;
+  submit_for_fields(policy);
+  FakeRunner::strength = 0.8;
+  EXPECT_EQ(run(), ExitCode::incomplete);
+  Store store = Store::open_reader(folder_);
+  EXPECT_EQ(store.stored_case(store.campaign("fields").id, "3").runs.size(), 3u);
 }
 
 TEST_F(ManagerTest, CommitsThousandsOfResultsPerSecond) {

@@ -15,6 +15,8 @@ TEST(Wire, ResultsTravelBitForBit) {
   run.host = "node7";
   run.wall_seconds = 0.1;
   run.result = testing::made_up_result(0.8);
+  run.has_fields = true;
+  run.fields_only = true;
   run.result->steps[3].faults[1].chi_max = 0.1 + 0.2;
   events.completed.push_back(run);
   JobEvents::Failure failure;
@@ -30,6 +32,9 @@ TEST(Wire, ResultsTravelBitForBit) {
   ASSERT_EQ(back.completed.size(), 1u);
   EXPECT_EQ(back.completed[0].result->steps[3].faults[1].chi_max, 0.1 + 0.2);
   EXPECT_EQ(back.completed[0].result->stages[2].stage, "gas_storage");
+  EXPECT_TRUE(back.completed[0].has_fields);
+  EXPECT_TRUE(back.completed[0].fields_only);
+  EXPECT_FALSE(back.failed[0].run.has_fields);
   EXPECT_EQ(back.failed[0].run.signal, 9);
   EXPECT_FALSE(back.failed[0].run.result);
   EXPECT_EQ(back.returned, events.returned);
@@ -40,11 +45,15 @@ TEST(Wire, WorkTravels) {
   message::Work work;
   work.task.family = 3;
   work.task.time_limit = 2.5;
+  work.task.keep_fields = KeepFields::all;
+  work.task.fields_folder = "/store/fields/sweep";
   work.scenes[5] = {"scene.json", "{}"};
   work.items.push_back({17, 5, 9, R"({"/a": 1})"});
   const auto back = std::get<message::Work>(decode(encode(work)));
   EXPECT_EQ(back.task.time_limit, 2.5);
   EXPECT_FALSE(back.task.memory_limit);
+  EXPECT_EQ(back.task.keep_fields, KeepFields::all);
+  EXPECT_EQ(back.task.fields_folder, "/store/fields/sweep");
   EXPECT_EQ(back.scenes.at(5).source, "scene.json");
   EXPECT_EQ(back.items[0].changes, R"({"/a": 1})");
 }
