@@ -44,6 +44,9 @@ CampaignSpec SpecReader::read() {
     if (is_sound("/exclude")) read_exclusions();
   }
   if (is_sound("/metrics")) read_rank_by();
+  if (has("/keep_fields") && is_sound("/keep_fields")) {
+    spec_.keep_fields = keep_fields_named(at("/keep_fields").get<std::string>()).value();
+  }
   if (!problems_.empty()) throw faultsim::InputError(spec_.source, problems_);
   return std::move(spec_);
 }

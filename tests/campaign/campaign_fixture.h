@@ -24,7 +24,7 @@ struct ProgramEnd {
   std::string out, err;
 };
 
-/// The real faultsweep binary with the fake simulator, in a folder of its own.
+/// The real faultsweep binary with the fake simulator (or another one), in a folder of its own.
 class CampaignTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -68,7 +68,7 @@ class CampaignTest : public ::testing::Test {
     const std::string out = (folder_ / "out").string(), err = (folder_ / "err").string();
     const pid_t pid = fork();
     if (pid == 0) {
-      setenv("FAULTSIM_BINARY", FAKE_SIMULATOR, 1);
+      setenv("FAULTSIM_BINARY", simulator_.c_str(), 1);
       dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), 1);
       dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), 2);
       if (prepare) prepare();
@@ -135,6 +135,7 @@ class CampaignTest : public ::testing::Test {
   }
 
   std::filesystem::path folder_, store_;
+  std::filesystem::path simulator_ = FAKE_SIMULATOR;
 
  private:
   std::string text(const char* name) const {

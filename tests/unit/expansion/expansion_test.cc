@@ -53,6 +53,17 @@ void expect_true_identities(const Expansion& expansion, std::size_t stride) {
   }
 }
 
+TEST(Expansion, KeptFieldsAreNoPartOfACase) {
+  const char* parameters = R"({"offset": ["0 m", "50 m"]})";
+  const auto without = expand_grid(parameters);
+  const auto with = expand_grid(parameters, R"("keep_fields": "all", )");
+  ASSERT_EQ(with.cases.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(with.cases[i].identity, without.cases[i].identity);
+    EXPECT_EQ(with.families[i].fingerprint, without.families[i].fingerprint);
+  }
+}
+
 TEST(Expansion, GridLastParameterFastest) {
   const auto all =
       expand_grid(R"({"offset": ["0 m", "50 m"], "friction_angle": ["20 deg", "30 deg"]})");

@@ -149,6 +149,19 @@ TEST(Spec, PolicyAndMetrics) {
   EXPECT_EQ(spec.rank_by, "max(chi_bar, 0.5)");
 }
 
+TEST(Spec, KeepsFieldsWhenAsked) {
+  const char* offset = R"({"offset": ["0 m"]})";
+  const auto silent = grid_with(offset);
+  EXPECT_EQ(silent.keep_fields, KeepFields::none);
+  EXPECT_EQ(silent.resolved().find("keep_fields"), std::string::npos)
+      << "specs of stores that did not know the key must stay the same";
+  EXPECT_EQ(grid_with(offset, R"("keep_fields": "none", )").resolved(), silent.resolved());
+  const auto stages = grid_with(offset, R"("keep_fields": "stages", )");
+  EXPECT_EQ(stages.keep_fields, KeepFields::stages);
+  EXPECT_EQ(json::parse(stages.resolved())["keep_fields"], "stages");
+  EXPECT_EQ(grid_with(offset, R"("keep_fields": "all", )").keep_fields, KeepFields::all);
+}
+
 TEST(Spec, ResolvedNamesPointersAndValues) {
   const auto spec = grid_with(R"({"offset": {"from": "0 m", "to": "10 m", "count": 2}})");
   const json resolved = json::parse(spec.resolved());
@@ -164,6 +177,7 @@ TEST(Spec, ExamplesAreRead) {
   const std::string folder = FAULTSIM_SOURCE_DIR "/docs/examples/campaigns/";
   EXPECT_EQ(read_campaign(folder + "quickstart.json").groups.size(), 3u);
   EXPECT_EQ(read_campaign(folder + "small.json").groups.size(), 1u);
+  EXPECT_EQ(read_campaign(folder + "fields.json").keep_fields, KeepFields::stages);
 }
 
 TEST(Spec, MissingFile) {
