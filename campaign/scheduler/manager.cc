@@ -11,7 +11,6 @@ namespace faultsweep {
 
 using faultsim::concat;
 using faultsim::ExitCode;
-using faultsim::Outcome;
 using nlohmann::json;
 
 namespace {
@@ -144,7 +143,7 @@ void Manager::handle_result(int worker, RunRecord run) {
   }
   plan_->case_done(worker, run.case_id, run.wall_seconds);
   ++n_done_;
-  if (run.result->outcome != Outcome::converged) ++n_incomplete_;
+  if (!faultsim::in_equilibrium(run.result->outcome)) ++n_incomplete_;
   add_run(std::move(run));
 }
 

@@ -40,7 +40,9 @@ namespace {
 int rank_class(Outcome outcome) {
   switch (outcome) {
     case Outcome::converged:
+    case Outcome::event:
       return 0;
+    case Outcome::unresolved_event:
     case Outcome::unstable:
       return 1;
     case Outcome::failed:
@@ -280,7 +282,7 @@ void Store::record_histories(std::int64_t case_id, const CaseResult& result) {
               step.n_open, step.counts.newton_iterations, step.counts.active_set_passes)
         .run();
     // A step that did not converge has no metrics.
-    if (step.outcome != Outcome::converged) continue;
+    if (!faultsim::in_equilibrium(step.outcome)) continue;
     for (std::size_t k = 0; k < step.faults.size(); ++k) {
       const faultsim::FaultMetrics& m = step.faults[k];
       FAULTSIM_DEMAND(k < result.fault_names.size(), k);

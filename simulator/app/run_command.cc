@@ -64,6 +64,8 @@ void write_volume_fields(const std::filesystem::path& folder, const LoadedScene&
 ExitCode exit_code_of(Outcome outcome) {
   switch (outcome) {
     case Outcome::converged:
+    case Outcome::event:
+    case Outcome::unresolved_event:
       return ExitCode::done;
     case Outcome::unconverged:
     case Outcome::unstable:

@@ -77,7 +77,7 @@ std::string step_table_row(const StepResult& step) {
   std::string line =
       format("%4d  %-22.22s %7.2f", step.step, step.stage.c_str(), step.time / kYear);
   for (const double dp : step.pressure_change) line += format(" %9s", bar(dp).c_str());
-  if (step.outcome != Outcome::converged) {
+  if (!in_equilibrium(step.outcome)) {
     return line + "  " + to_string(step.outcome) + ": " + step.reason + "\n";
   }
   line += format("  %6d %6d %6d", step.n_stick, step.n_slip, step.n_open);

@@ -4,12 +4,10 @@
 #include <cmath>
 
 #include "simulator/common/errors.h"
-#include "simulator/contact/contact_newton.h"
 #include "simulator/contact/contact_problem.h"
-#include "simulator/contact/node_relaxation.h"
-#include "simulator/contact/scalar_slip.h"
-#include "simulator/contact/stability.h"
+#include "simulator/contact/jump_follower.h"
 #include "simulator/contact/step_report.h"
+#include "simulator/contact/sub_step_solver.h"
 
 namespace faultsim {
 
@@ -20,47 +18,37 @@ ContactState initial_state(const FaultOperator& op) {
   state.traction = state.jump;
   state.state.assign(n, FaultState::stick);
   state.slip_path = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
-  state.opened.assign(n, 0);
+  state.cohesion_lost.assign(n, 0);
   return state;
 }
 
-namespace {
-
-enum class Attempt { converged, failed, not_shown_stable };
-
-}  // namespace
-
+/// A load step in halves of halves. Position and width are in units of the smallest sub-step.
 struct ContactSolver::Impl {
   Impl(const FaultOperator& op, const ContactLaws& laws, const ContactOptions& given)
-      : options(given),
-        problem(op, laws),
-        scalar(problem, options),
-        newton(problem, options),
-        stability(problem) {}
+      : options(given), solver(op, laws, options), follower(solver, options) {
+    FAULTSIM_DEMAND(laws.damping.size() == 0 || laws.damping.size() == solver.problem().n_nodes(),
+                    "damping of ", laws.damping.size(), " nodes");
+    follows = laws.damping.size() > 0;
+    most_cuts = options.max_step_cuts;
+    // An onset is a matter of the load factor; other trouble is not helped by ever smaller steps.
+    if (follows && solver.problem().may_jump) {
+      most_cuts = std::max(most_cuts,
+                           static_cast<int>(std::ceil(std::log2(1 / options.onset_tolerance))));
+    }
+  }
 
-  bool begin(const Eigen::VectorXd& before, const Eigen::VectorXd& after, double from, double to,
-             const ContactState& start);
-  bool at_rest() const;
-  void start_from_rest();
-  bool rests_in_plane(int node, double margin) const;
-  bool verified() const;
-  bool count(const NewtonReport& report);
-  bool solve_motion(bool may_cut);
-  Attempt attempt(bool may_cut);
-  void commit(ContactState& state) const;
-  ContactReport cut(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
-                    ContactState& state);
+  void walk(const Eigen::VectorXd& before, const Eigen::VectorXd& after, ContactReport& report);
+  bool sub_step(const Eigen::VectorXd& before, const Eigen::VectorXd& after, int position,
+                int width, SolveCounts& counts);
+  bool jump(const Eigen::VectorXd& before, const Eigen::VectorXd& after, int position,
+            ContactReport& report);
+  void explain(int position, ContactReport& report) const;
 
   ContactOptions options;
-  ContactProblem problem;
-  ScalarSlip scalar;
-  ContactNewton newton;
-  StabilityCheck stability;
-  SubStep sub_step;
-  bool closed = true;  ///< no gap at the start of the sub-step.
-  StabilityReport stable;
-  SolveCounts counts;    ///< of the step.
-  int iterations = 0;    ///< of the attempt.
+  SubStepSolver solver;
+  JumpFollower follower;
+  bool follows = false;
+  int most_cuts = 0;
   ContactState rolling;  ///< the state between sub-steps.
 };
 
@@ -69,223 +57,122 @@ ContactSolver::ContactSolver(const FaultOperator& op, const ContactLaws& laws,
     : impl_(std::make_unique<Impl>(op, laws, options)) {}
 ContactSolver::~ContactSolver() = default;
 
-/// Sets up the sub-step over load factors [from, to] of the step. @returns whether rest is a
-/// solution.
-bool ContactSolver::Impl::begin(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
-                                double from, double to, const ContactState& start) {
-  SubStep& s = sub_step;
-  s.start = &start;
-  if (from == 0 && to == 1) {
-    s.trial = start.traction + (after - before);
-    s.locked = after;
-  } else {
-    s.trial = start.traction + (to - from) * (after - before);
-    s.locked = before + to * (after - before);
-  }
-  FAULTSIM_DEMAND(s.trial.allFinite(), "locked traction of a load step is not finite");
-  s.traction = s.trial;
-  const int n = problem.n_nodes();
-  s.state.resize(static_cast<std::size_t>(n));
-  s.cohesive.resize(static_cast<std::size_t>(n));
-  s.tolerance.resize(n);
-  closed = true;
-  double highest = 0;
-  for (int k = 0; k < n; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const ContactNode& node = problem.nodes[i];
-    double level = 0;
-    for (std::size_t c = 0; c < static_cast<std::size_t>(node.n_dofs); ++c) {
-      level = std::max({level, std::abs(s.trial[node.dof[c]]), std::abs(s.locked[node.dof[c]]),
-                        std::abs(start.traction[node.dof[c]])});
-    }
-    s.tolerance[k] = level;
-    highest = std::max(highest, level);
-    s.cohesive[i] = !start.opened[i] || problem.laws.keep_cohesion[i];
-    s.state[i] = FaultState::stick;
-    if (start.jump[node.dof[0]] != 0 || start.state[i] == FaultState::open) closed = false;
-  }
-  // A node that carries little is not asked for more than a thousandth of the highest level.
-  constexpr double kLowest = 1e-3;
-  s.tolerance = options.traction_tolerance * s.tolerance.cwiseMax(kLowest * highest).array();
-  return closed && at_rest();
-}
-
-bool ContactSolver::Impl::at_rest() const {
-  for (int k = 0; k < problem.n_nodes(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const ContactNode& node = problem.nodes[i];
-    const double normal = sub_step.trial[node.dof[0]];
-    if (normal > sub_step.tolerance[k]) return false;
-    if (node.n_dofs < 2) continue;
-    double s = 0;
-    if (node.weakens) {
-      s = problem.laws.cumulated[i] ? sub_step.start->slip_path[k]
-                                    : shear_part(node, sub_step.start->jump).norm();
-    }
-    const double limit = problem.strength(k, sub_step.cohesive[i] != 0, normal, s).value;
-    const double shear = node.n_dofs > 2 ? shear_part(node, sub_step.trial).norm()
-                                         : std::abs(sub_step.trial[node.dof[1]]);
-    if (shear - limit > sub_step.tolerance[k]) return false;
-  }
-  return true;
-}
-
-void ContactSolver::Impl::start_from_rest() {
-  sub_step.increment.setZero(problem.n_dofs());
-  sub_step.traction = sub_step.trial;
-  std::fill(sub_step.state.begin(), sub_step.state.end(), FaultState::stick);
-}
-
-/// The most frequent case of check_node: two dofs, no weakening, closed and at rest.
-bool ContactSolver::Impl::rests_in_plane(int k, double margin) const {
-  const auto i = static_cast<std::size_t>(k);
-  const ContactNode& node = problem.nodes[i];
-  if (node.n_dofs != 2 || node.weakens || sub_step.state[i] != FaultState::stick) return false;
-  const double normal = sub_step.traction[node.dof[0]];
-  const double cohesion = sub_step.cohesive[i] ? problem.laws.node[i].cohesion : 0;
-  return sub_step.increment[node.dof[0]] == 0 && sub_step.increment[node.dof[1]] == 0 &&
-         sub_step.start->jump[node.dof[0]] == 0 && normal <= margin &&
-         std::abs(sub_step.traction[node.dof[1]]) <=
-             cohesion - std::min(normal, 0.0) * node.friction + margin;
-}
-
-/// D2-D3 straight from their definition at each node: what decides whether a step is accepted.
-bool ContactSolver::Impl::verified() const {
-  constexpr double kMargin = 4;  // the solvers stop at 1 to 1.5
-  for (int k = 0; k < problem.n_nodes(); ++k) {
-    const double margin = kMargin * sub_step.tolerance[k];
-    if (!rests_in_plane(k, margin) && !(check_node(problem, sub_step, k).worst() <= margin)) {
-      return false;
-    }
-  }
-  return true;
-}
-
-bool ContactSolver::Impl::count(const NewtonReport& report) {
-  iterations += report.iterations;
-  counts.active_set_passes += report.passes;
-  return report.converged && verified();
-}
-
-/// From rest by the fast road, by Newton, and by Newton after relaxation. With weakening, failure
-/// often means that there is nothing near to be found, so cutting comes before relaxing.
-bool ContactSolver::Impl::solve_motion(bool may_cut) {
-  if (problem.scalar && closed) {
-    start_from_rest();
-    if (count(scalar.solve(sub_step))) return true;
-  }
-  start_from_rest();
-  if (count(newton.solve(sub_step))) return true;
-  if (problem.any_weakening && may_cut) return false;
-  constexpr int kSweeps = 200;
-  for (const int sweeps : {kSweeps, 5 * kSweeps}) {
-    start_from_rest();
-    relax(problem, sub_step, sweeps);
-    if (count(newton.solve(sub_step))) return true;
-    if (problem.any_weakening) break;
-  }
-  return false;
-}
-
-Attempt ContactSolver::Impl::attempt(bool may_cut) {
-  stable = {};
-  const bool solved = solve_motion(may_cut);
-  if (problem.any_weakening) stable = stability.check(sub_step);
-  if (!solved) return Attempt::failed;
-  return stable.stable ? Attempt::converged : Attempt::not_shown_stable;
-}
-
-void ContactSolver::Impl::commit(ContactState& state) const {
-  state.traction = sub_step.traction;
-  for (int k = 0; k < problem.n_nodes(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const ContactNode& node = problem.nodes[i];
-    state.state[i] = sub_step.state[i];
-    if (sub_step.state[i] == FaultState::open) state.opened[i] = 1;
-    // Opened and closed again within the sub-step: its cohesion is gone all the same.
-    if (!sub_step.cohesive[i] && !problem.laws.keep_cohesion[i]) state.opened[i] = 1;
-    const Eigen::Vector2d slip = shear_part(node, sub_step.increment);
-    if (slip[0] != 0 || slip[1] != 0) state.slip_path[k] += slip.norm();
-  }
-  state.jump += sub_step.increment;
-}
-
 ContactReport ContactSolver::solve_step(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
                                         ContactState& state) {
   Impl& impl = *impl_;
-  const auto n = impl.problem.n_dofs();
+  const auto n = impl.solver.problem().n_dofs();
   FAULTSIM_DEMAND(before.size() == n && after.size() == n && state.jump.size() == n, "n_dofs ", n,
                   " before ", before.size(), " after ", after.size());
-  impl.counts = {};
   ContactReport report;
-  if (impl.begin(before, after, 0, 1, state)) {
-    state.traction = impl.sub_step.trial;
-    std::fill(state.state.begin(), state.state.end(), FaultState::stick);
+  impl.solver.begin(before, after, {}, state);
+  const bool rests = impl.solver.rest();
+  if (rests || impl.solver.attempt(impl.most_cuts == 0) == Attempt::converged) {
+    impl.solver.commit(state);
+    report.counts = {impl.solver.iterations(), impl.solver.passes(), 1, 0};
     report.outcome = Outcome::converged;
-    report.counts.sub_steps = 1;
     return report;
   }
-  impl.iterations = 0;
-  if (impl.attempt(impl.options.max_step_cuts > 0) == Attempt::converged) {
-    impl.commit(state);
-    impl.counts.newton_iterations = impl.iterations;
-    impl.counts.sub_steps = 1;
-    report.outcome = Outcome::converged;
-    report.counts = impl.counts;
-    return report;
+  report.counts.active_set_passes = impl.solver.passes();
+  report.counts.wasted_newton_iterations = impl.solver.iterations();
+  impl.rolling = state;
+  impl.walk(before, after, report);
+  if (report.outcome == Outcome::converged || report.outcome == Outcome::event) {
+    std::swap(state, impl.rolling);
   }
-  return impl.cut(before, after, state);
+  return report;
 }
 
-/// Halves the step where it fails and doubles again where it works: sub-steps [p, p +
-/// 2^(max−level)] in units of 2^−max.
-ContactReport ContactSolver::Impl::cut(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
-                                       ContactState& state) {
-  ContactReport report;
-  rolling = state;
-  counts.wasted_newton_iterations = iterations;
-  const int most = options.max_step_cuts;
-  const int units = 1 << most;
+/// One sub-step of the cut step. @returns whether rolling advanced.
+bool ContactSolver::Impl::sub_step(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
+                                   int position, int width, SolveCounts& counts) {
+  const double unit = 1.0 / (1 << most_cuts);
+  solver.begin(before, after, {position * unit, (position + width) * unit, 0}, rolling);
+  if (!solver.rest()) {
+    const bool last = width == 1 && !follows;
+    const bool good = solver.attempt(last) == Attempt::converged;
+    counts.active_set_passes += solver.passes();
+    (good ? counts.newton_iterations : counts.wasted_newton_iterations) += solver.iterations();
+    if (!good) return false;
+  }
+  solver.commit(rolling);
+  ++counts.sub_steps;
+  return true;
+}
+
+/// Halves the step where it fails, doubles again where it works, and follows a jump where even the
+/// smallest sub-step fails.
+void ContactSolver::Impl::walk(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
+                               ContactReport& report) {
+  const int units = 1 << most_cuts;
   int position = 0;
-  int level = 1;
-  Attempt last = Attempt::failed;
-  while (position < units && level <= most) {
-    const int width = units >> level;
-    const double from = static_cast<double>(position) / units;
-    const double to = static_cast<double>(position + width) / units;
-    iterations = 0;
-    const bool rest = begin(before, after, from, to, rolling);
-    last = Attempt::converged;
-    if (rest) {
-      sub_step.increment.setZero(problem.n_dofs());
+  int width = std::max(units / 2, 1);
+  while (position < units) {
+    if (sub_step(before, after, position, width, report.counts)) {
+      position += width;
+      // One doubling per success, and only onto the grid of the doubled width.
+      if (position % (2 * width) == 0 && position + 2 * width <= units) width *= 2;
+    } else if (width > 1) {
+      width /= 2;
     } else {
-      last = attempt(level < most);
+      if (!follows || !jump(before, after, position, report)) {
+        explain(position, report);
+        return;
+      }
+      ++position;
     }
-    if (last != Attempt::converged) {
-      counts.wasted_newton_iterations += iterations;
-      ++level;
-      continue;
-    }
-    commit(rolling);
-    counts.newton_iterations += iterations;
-    ++counts.sub_steps;
-    position += width;
-    // One doubling per success, and only onto the grid of the doubled width.
-    if (position % (2 * width) == 0 && position + 2 * width <= units) --level;
+    while (position < units && (position % width != 0 || position + width > units)) width /= 2;
   }
-  report.counts = counts;
-  if (position == units) {
-    std::swap(state, rolling);
-    report.outcome = Outcome::converged;
-    return report;
+  report.outcome = report.jumps.empty() ? Outcome::converged : Outcome::event;
+}
+
+/// Follows the jump in the smallest sub-step at position. A jump that starts where the last one
+/// ended belongs to it.
+bool ContactSolver::Impl::jump(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
+                               int position, ContactReport& report) {
+  if (static_cast<int>(report.jumps.size()) >= options.max_jumps) return false;
+  const double unit = 1.0 / (1 << most_cuts);
+  JumpFollower::Report followed =
+      follower.follow(before, after, position * unit, (position + 1) * unit, rolling);
+  report.counts.newton_iterations += followed.counts.newton_iterations;
+  report.counts.active_set_passes += followed.counts.active_set_passes;
+  report.counts.wasted_newton_iterations += followed.counts.wasted_newton_iterations;
+  ++report.counts.sub_steps;
+  if (!followed.jump) return followed.arrived;
+  if (!report.jumps.empty() && report.jumps.back().load_after >= followed.jump->load_before) {
+    report.jumps.back().append(*followed.jump);
+  } else {
+    report.jumps.push_back(std::move(*followed.jump));
   }
-  const double from = static_cast<double>(position) / units;
-  const double to = static_cast<double>(position + 1) / units;
-  const bool weakens = stable.checked;
+  return followed.arrived;
+}
+
+void ContactSolver::Impl::explain(int position, ContactReport& report) const {
+  const double from = static_cast<double>(position) / (1 << most_cuts);
+  const double to = static_cast<double>(position + 1) / (1 << most_cuts);
+  const StabilityReport& stable = solver.stability_report();
+  const ContactProblem& problem = solver.problem();
+  const bool weakens = stable.checked || !report.jumps.empty();
   report.outcome = weakens ? Outcome::unstable : Outcome::unconverged;
-  report.reason = weakens ? instability_text(problem, sub_step, stable, from, to)
-                          : failure_text(problem, sub_step, counts, from, to);
-  return report;
+  if (static_cast<int>(report.jumps.size()) >= options.max_jumps) {
+    report.reason = too_many_jumps_text(report.jumps.size(), from);
+  } else if (stable.checked) {
+    report.reason = instability_text(problem, solver.sub_step(), stable, from, to);
+  } else {
+    report.reason = failure_text(problem, solver.sub_step(), report.counts, from, to);
+  }
+}
+
+void ContactJump::append(const ContactJump& next) {
+  load_after = next.load_after;
+  jump_after = next.jump_after;
+  traction_after = next.traction_after;
+  n_lost_cohesion += next.n_lost_cohesion;
+  negative_pivots = std::max(negative_pivots, next.negative_pivots);
+  residual_after = next.residual_after;
+  released += next.released;
+  dissipated += next.dissipated;
+  duration += next.duration;
+  damped_steps += next.damped_steps;
 }
 
 ContactViolation contact_violation(const FaultOperator& op, const ContactLaws& laws,
@@ -303,7 +190,7 @@ ContactViolation contact_violation(const FaultOperator& op, const ContactLaws& l
   for (int k = 0; k < problem.n_nodes(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     const ContactNode& node = problem.nodes[i];
-    s.cohesive[i] = !after.opened[i] || laws.keep_cohesion[i];
+    s.cohesive[i] = !after.cohesion_lost[i];
     const NodeViolation at = check_node(problem, s, k);
     violation.tension = std::max(violation.tension, at.tension);
     violation.over_limit = std::max(violation.over_limit, at.over_limit);

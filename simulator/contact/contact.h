@@ -13,32 +13,57 @@ namespace faultsim {
 
 /// What the contact solve needs besides the operator; per case, constant over its steps.
 struct ContactLaws {
-  std::vector<CoulombLaw> node;     ///< one per operator node.
-  std::vector<char> cumulated;      ///< per node: slip measure is the cumulated path.
-  std::vector<char> keep_cohesion;  ///< per node: cohesion survives opening.
+  std::vector<CoulombLaw> node;              ///< one per operator node.
+  std::vector<char> cumulated;               ///< per node: slip measure is the cumulated path.
+  std::vector<char> keep_cohesion;           ///< per node: cohesion survives opening.
+  std::vector<char> lose_cohesion_slipping = {};  ///< per node: the first slip ends cohesion; empty: no.
+  Eigen::VectorXd damping = {};  ///< η = G/2c_s per node, Pa s/m; empty = jumps are not followed.
 };
 
 struct ContactOptions {
   double traction_tolerance = 1e-8;  ///< relative to the local traction level; too tight: cycling.
   int max_newton_iterations = 30;    ///< per active-set pass.
   int max_active_set_passes = 100;
-  int max_step_cuts = 6;  ///< halvings of a load step before giving up.
+  int max_step_cuts = 6;             ///< halvings of a load step before giving up.
+  double onset_tolerance = 1.0 / 4096;  ///< of a load step, to which an instability is located.
+  int max_jumps = 256;                  ///< per load step.
 };
 
 /// The state that a load step starts from and ends in.
 struct ContactState {
-  Eigen::VectorXd jump;           ///< g, n_dofs, m.
-  Eigen::VectorXd traction;       ///< t', n_dofs, Pa.
-  std::vector<FaultState> state;  ///< per node.
-  Eigen::VectorXd slip_path;      ///< Σ|Δg_T| per node, m.
-  std::vector<char> opened;       ///< per node: was open once (cohesion lost).
+  Eigen::VectorXd jump;             ///< g, n_dofs, m.
+  Eigen::VectorXd traction;         ///< t', n_dofs, Pa.
+  std::vector<FaultState> state;    ///< per node.
+  Eigen::VectorXd slip_path;        ///< Σ|Δg_T| per node, m.
+  std::vector<char> cohesion_lost;  ///< per node: by opening or, where the law says so, by slip.
 };
 ContactState initial_state(const FaultOperator& op);
+
+/// Equilibrium jumped: between two load factors there is no stable equilibrium next to the last one.
+/// The jump was followed at fixed load to the next one (jump_follower.h).
+struct ContactJump {
+  double load_before = 0;  ///< load factor of the step with the last equilibrium before.
+  double load_after = 0;   ///< and the one at which the jump was followed.
+  Eigen::VectorXd jump_before, traction_before;  ///< g and t' at load_before.
+  Eigen::VectorXd jump_after, traction_after;    ///< g and t' at load_after.
+  std::vector<int> nucleus;    ///< nodes that slipped when the tangent first lost stability.
+  int n_lost_cohesion = 0;     ///< nodes whose cohesion was lost by slip.
+  int negative_pivots = 0;     ///< of the undamped tangent, most seen; 0 before and after.
+  double residual_before = 0;  ///< largest violation of D2-D3 in units of the tolerance.
+  double residual_after = 0;
+  double released = 0;    ///< energy released by bulk and loads, ½ Σ A (t'_0 + t'_1)·Δg, J.
+  double dissipated = 0;  ///< by friction, Σ A τ_L |Δg_T|, J; the rest is radiated.
+  double duration = 0;    ///< s, of the damped motion.
+  int damped_steps = 0;
+  /// Makes one jump of this and the next one, which starts where this one ended.
+  void append(const ContactJump& next);
+};
 
 struct ContactReport {
   Outcome outcome = Outcome::failed;
   std::string reason;  ///< why, with counts per reason and the worst node; empty if converged.
   SolveCounts counts;
+  std::vector<ContactJump> jumps;  ///< in order of load.
 };
 
 /// Solves the frictional contact problem on the faults, load step by load step (D2, D3, D4):
@@ -54,7 +79,9 @@ struct ContactReport {
 /// When a step is cut, D3 holds over each sub-step, not over the step as a whole.
 ///
 /// A step with weakening is accepted only when every state on the way was shown stable
-/// (stability.h); what cannot be shown at the smallest sub-step is `unstable`.
+/// (stability.h). Where that fails at the smallest sub-step, the jump is followed to the next
+/// stable equilibrium (jump_follower.h) and reported; without ContactLaws::damping the outcome is
+/// `unstable`.
 class ContactSolver {
  public:
   /// @pre op and laws outlive the solver; sizes agree (InternalError).

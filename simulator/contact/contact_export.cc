@@ -61,7 +61,7 @@ ContactLaws frozen_laws(const FaultOperator& op, const ContactLaws& laws, const 
   Obstacle cohesion, change;
   for (std::size_t i = 0; i < laws.node.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    const bool cohesive = !start.opened[i] || laws.keep_cohesion[i];
+    const bool cohesive = !start.cohesion_lost[i];
     CoulombLaw& law = frozen.node[i];
     if (law.cohesion > 0 && cohesive) cohesion.note(i);
     law.cohesion = 0;

@@ -27,6 +27,7 @@ SlipPoint ContactNewton::slip_point(const SubStep& sub_step, const Eigen::Vector
     if (node.n_dofs > 2) point.stiffness = std::max(point.stiffness, problem_.stiffness(node, 2));
   }
   point.cohesive = sub_step.cohesive[i] != 0;
+  point.damping = sub_step.damping_per_second * problem_.damping(k);
   return point;
 }
 
@@ -249,8 +250,11 @@ void ContactNewton::lose_cohesion(SubStep& sub_step) {
   }
 }
 
-NewtonReport ContactNewton::solve(SubStep& sub_step) {
+NewtonReport ContactNewton::solve(SubStep& sub_step, int patience) {
   NewtonReport report;
+  constexpr double kProgress = 0.5;
+  double best = std::numeric_limits<double>::infinity();
+  int idle = 0;
   seen_.clear();
   was_open_.assign(static_cast<std::size_t>(problem_.n_nodes()), 0);
   bool damped = false;
@@ -267,6 +271,14 @@ NewtonReport ContactNewton::solve(SubStep& sub_step) {
     ++report.iterations;
     const bool changed = classify(sub_step);
     same_set = changed ? 0 : same_set + 1;
+    if (patience > 0) {
+      double worst = 0;
+      const double merit =
+          natural_residual(sub_step, sub_step.traction, sub_step.increment, worst);
+      idle = merit < kProgress * best ? 0 : idle + 1;
+      best = std::min(best, merit);
+      if (idle >= patience) return report;
+    }
     if (changed) {
       if (++report.passes > options_.max_active_set_passes) return report;
       if (seen_before(sub_step)) {

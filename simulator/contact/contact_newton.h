@@ -22,8 +22,11 @@ struct NewtonReport {
 class ContactNewton {
  public:
   ContactNewton(ContactProblem& problem, const ContactOptions& options);
-  /// Starts from sub_step.increment and state; leaves its best iterate there in any case.
-  NewtonReport solve(SubStep& sub_step);
+  /// Starts from sub_step.increment and state; leaves its last iterate there in any case.
+  /// @param patience  gives up after so many iterations without progress of the natural residual:
+  /// where strength falls with slip there may be nothing to find, and a smaller sub-step is better
+  /// than a long search. 0 = only the bounds of ContactOptions.
+  NewtonReport solve(SubStep& sub_step, int patience = 0);
 
  private:
   struct Unknown {

@@ -38,6 +38,9 @@ ContactProblem::ContactProblem(const FaultOperator& fault_operator, const Contac
     any_weakening = any_weakening || node.weakens;
     if (node.weakens || node.n_dofs > 2) scalar = false;
   }
+  may_jump = any_weakening ||
+             std::any_of(laws.lose_cohesion_slipping.begin(), laws.lose_cohesion_slipping.end(),
+                         [](char loses) { return loses != 0; });
 }
 
 LimitShearTraction ContactProblem::strength(int k, bool cohesive, double normal_traction,
@@ -114,7 +117,8 @@ NodeViolation check_node(const ContactProblem& problem, const SubStep& sub_step,
                      shear_part(node, start.jump), slip, slip)
             .value;
   }
-  const double limit = problem.strength(k, sub_step.cohesive[i] != 0, normal, s).value;
+  const double limit = problem.strength(k, sub_step.cohesive[i] != 0, normal, s).value +
+                       sub_step.damping_per_second * problem.damping(k) * slip_norm;
   violation.over_limit = std::max(shear_norm - limit, 0.0);
   if (slip_norm > 0) {
     violation.below_limit = std::max(limit - shear_norm, 0.0);

@@ -28,6 +28,8 @@ class ContactProblem {
   int n_dofs() const { return static_cast<int>(inverse_area.size()); }
   /// τ_L and derivatives; normal tractions > 0 count as 0 (with derivative 0).
   LimitShearTraction strength(int node, bool cohesive, double normal_traction, double slip) const;
+  /// η of a node, Pa s/m; 0 where the laws give none.
+  double damping(int node) const { return laws.damping.size() > 0 ? laws.damping[node] : 0; }
   /// H_dd / A, Pa/m, of component c of a node. Read on demand: columns of nodes at rest stay
   /// unread.
   double stiffness(const ContactNode& node, int component) const;
@@ -39,6 +41,7 @@ class ContactProblem {
   std::vector<ContactNode> nodes;
   Eigen::VectorXd inverse_area;  ///< per dof.
   bool any_weakening = false;
+  bool may_jump = false;  ///< some strength falls with slip: by weakening or by lost cohesion.
   bool scalar = true;  ///< at most one shear dof per node and no weakening anywhere.
 
  private:
@@ -56,6 +59,8 @@ struct SubStep {
   std::vector<FaultState> state;
   std::vector<char> cohesive;  ///< cohesion counts at this node.
   Eigen::VectorXd tolerance;   ///< per node, Pa.
+  /// 1/Δt of a damped sub-step, 1/s: τ_L grows by η |Δg_T|/Δt; 0 = static.
+  double damping_per_second = 0;
 };
 
 /// Shear components of a dof vector at a node; missing ones are 0.

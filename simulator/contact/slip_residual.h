@@ -14,6 +14,7 @@ struct SlipPoint {
   Eigen::Vector2d slip_before{0, 0};     ///< g_T at the start of the sub-step, m.
   double path_before = 0;                ///< slip path at the start, m.
   double stiffness = 0;                  ///< r > 0, Pa/m: any value gives the same solutions.
+  double damping = 0;                    ///< η/Δt, Pa/m: τ_L grows by η |Δg_T|/Δt.
   bool cohesive = true;
 };
 

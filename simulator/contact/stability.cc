@@ -29,25 +29,40 @@ double StabilityCheck::fastest_weakening(const SubStep& sub_step, int k,
   return -problem_.strength(k, cohesive, normal, smallest).d_slip * rate;
 }
 
-void StabilityCheck::collect(const SubStep& sub_step, StabilityReport& report) {
+/// −dτ_L/d|Δg_T| where the sub-step ends.
+double StabilityCheck::weakening_at_the_end(const SubStep& sub_step, int k,
+                                            const Eigen::Vector2d& slip) const {
+  const auto i = static_cast<std::size_t>(k);
+  const ContactNode& node = problem_.nodes[i];
+  const SlipMeasure s = slip_measure(problem_.laws.cumulated[i] != 0, sub_step.start->slip_path[k],
+                                     shear_part(node, sub_step.start->jump), slip, slip);
+  const double normal = sub_step.traction[node.dof[0]];
+  const double rate = s.gradient.dot(slip) / slip.norm();
+  return -problem_.strength(k, sub_step.cohesive[i] != 0, normal, s.value).d_slip * rate;
+}
+
+void StabilityCheck::collect(const SubStep& sub_step, Where where, StabilityReport& report) {
   movers_.clear();
   for (int k = 0; k < problem_.n_nodes(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     const ContactNode& node = problem_.nodes[i];
     if (sub_step.state[i] == FaultState::open) {
-      for (int c = 0; c < node.n_dofs; ++c) movers_.push_back({k, c, {0, 0}, 0, 0});
+      for (int c = 0; c < node.n_dofs; ++c) movers_.push_back({k, c, {0, 0}, 0, 0, 0});
       continue;
     }
     const Eigen::Vector2d slip = shear_part(node, sub_step.increment);
     if (sub_step.state[i] != FaultState::slip || slip.norm() == 0) continue;
-    Mover mover{k, -1, slip / slip.norm(), 0, 0};
+    Mover mover{k, -1, slip / slip.norm(), 0, 0, sub_step.damping_per_second * problem_.damping(k)};
     const SlipMeasure s =
         slip_measure(problem_.laws.cumulated[i] != 0, sub_step.start->slip_path[k],
                      shear_part(node, sub_step.start->jump), slip, slip);
     mover.friction =
         -problem_.strength(k, sub_step.cohesive[i] != 0, sub_step.traction[node.dof[0]], s.value)
              .d_normal_traction;
-    if (node.weakens) mover.weakening = fastest_weakening(sub_step, k, slip);
+    if (node.weakens) {
+      mover.weakening = where == Where::at_the_end ? weakening_at_the_end(sub_step, k, slip)
+                                                   : fastest_weakening(sub_step, k, slip);
+    }
     ++report.n_slipping;
     if (mover.weakening > 0) {
       report.checked = true;
@@ -61,7 +76,7 @@ void StabilityCheck::collect(const SubStep& sub_step, StabilityReport& report) {
   }
 }
 
-int StabilityCheck::negative_pivots(bool with_weakening) {
+int StabilityCheck::count_negative_pivots(bool with_weakening, bool damped) {
   lu_.clear();
   int negative = 0;
   const auto n = static_cast<Eigen::Index>(movers_.size());
@@ -70,12 +85,11 @@ int StabilityCheck::negative_pivots(bool with_weakening) {
       lu_.row()[j] = tangent_(i, j);
       lu_.column()[j] = tangent_(j, i);
     }
+    const Mover& mover = movers_[static_cast<std::size_t>(i)];
+    const ContactNode& node = problem_.nodes[static_cast<std::size_t>(mover.node)];
     double diagonal = tangent_(i, i);
-    if (with_weakening) {
-      const Mover& mover = movers_[static_cast<std::size_t>(i)];
-      const ContactNode& node = problem_.nodes[static_cast<std::size_t>(mover.node)];
-      diagonal -= mover.weakening / node.inverse_area[1];
-    }
+    if (with_weakening) diagonal -= mover.weakening / node.inverse_area[1];
+    if (damped) diagonal += mover.damping / node.inverse_area[1];
     const double pivot = lu_.append(diagonal);
     if (pivot == 0 || !std::isfinite(pivot)) return negative + 1;
     if (pivot < 0) ++negative;
@@ -83,10 +97,8 @@ int StabilityCheck::negative_pivots(bool with_weakening) {
   return negative;
 }
 
-StabilityReport StabilityCheck::check(const SubStep& sub_step) {
-  StabilityReport report;
-  collect(sub_step, report);
-  if (!report.checked) return report;
+/// The elastic and frictional part of the tangent over the movers, times A.
+void StabilityCheck::assemble() {
   const auto n = static_cast<Eigen::Index>(movers_.size());
   tangent_.resize(n, n);
   const auto& h = problem_.op.h;
@@ -115,9 +127,25 @@ StabilityReport StabilityCheck::check(const SubStep& sub_step) {
           sum + row.friction * response(to.dof[0]) * to.inverse_area[0] / to.inverse_area[1];
     }
   }
-  const int with = negative_pivots(true);
-  report.stable = with == 0 || with == negative_pivots(false);
+}
+
+StabilityReport StabilityCheck::check(const SubStep& sub_step) {
+  StabilityReport report;
+  collect(sub_step, Where::fastest_on_the_way, report);
+  if (!report.checked) return report;
+  assemble();
+  const int with = count_negative_pivots(true, true);
+  report.stable = with == 0 || with == count_negative_pivots(false, true);
   return report;
+}
+
+int StabilityCheck::negative_pivots(const SubStep& sub_step) {
+  StabilityReport report;
+  collect(sub_step, Where::at_the_end, report);
+  if (!report.checked) return 0;
+  assemble();
+  const int with = count_negative_pivots(true, false);
+  return with == 0 ? 0 : std::max(0, with - count_negative_pivots(false, false));
 }
 
 }  // namespace faultsim

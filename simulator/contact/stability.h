@@ -22,23 +22,30 @@ struct StabilityReport {
 /// scaled by A, with the dofs of open nodes appended. All pivots positive means that every state
 /// passed is stable: a smaller patch is a leading block of a reordering, and less weakening adds a
 /// positive diagonal. A converged state that fails may still be stable; then the caller takes a
-/// smaller sub-step, on which W is closer to the truth. Negative pivots that are there without
+/// smaller sub-step, on which W is closer to the truth. Damping adds a positive diagonal η/Δt.
+/// Negative pivots that are there without
 /// weakening (strong coupling with the normal traction) are not held against weakening.
 class StabilityCheck {
  public:
   explicit StabilityCheck(const ContactProblem& problem) : problem_(problem) {}
   StabilityReport check(const SubStep& sub_step);
+  /// Negative pivots of the undamped tangent at the end of the sub-step, with the weakening there.
+  int negative_pivots(const SubStep& sub_step);
 
  private:
+  enum class Where { fastest_on_the_way, at_the_end };
   struct Mover {
     int node;
     int open_component;  ///< −1: slips.
     Eigen::Vector2d direction;
     double friction, weakening;
+    double damping;  ///< η/Δt, Pa/m.
   };
-  void collect(const SubStep& sub_step, StabilityReport& report);
+  void collect(const SubStep& sub_step, Where where, StabilityReport& report);
   double fastest_weakening(const SubStep& sub_step, int node, const Eigen::Vector2d& slip) const;
-  int negative_pivots(bool with_weakening);
+  double weakening_at_the_end(const SubStep& sub_step, int node, const Eigen::Vector2d& slip) const;
+  void assemble();
+  int count_negative_pivots(bool with_weakening, bool damped);
 
   const ContactProblem& problem_;
   std::vector<Mover> movers_;

@@ -86,4 +86,10 @@ std::string instability_text(const ContactProblem& problem, const SubStep& sub_s
               " at that node alone)");
 }
 
+std::string too_many_jumps_text(std::size_t n_jumps, double from) {
+  return text(n_jumps, " instabilities were followed up to load factor ", from,
+              " of the step, and there are more; take smaller load steps, a finer mesh or raise "
+              "/numerics/max_jumps");
+}
+
 }  // namespace faultsim

@@ -19,4 +19,7 @@ std::string failure_text(const ContactProblem& problem, const SubStep& sub_step,
 std::string instability_text(const ContactProblem& problem, const SubStep& sub_step,
                              const StabilityReport& stability, double from, double to);
 
+/// More instabilities in one load step than are followed.
+std::string too_many_jumps_text(std::size_t n_jumps, double from);
+
 }  // namespace faultsim

@@ -14,7 +14,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Column make_column(const OperatorFault& fault, int fault_index, int j) {
   Column column{fault_index, fault.column_width[static_cast<std::size_t>(j)], {}, {}, {}, kNaN,
-                kNaN};
+                kNaN, false};
   double s = 0;
   const Eigen::Vector3d* last = nullptr;
   for (int row = 0; row < fault.n_rows; ++row) {
@@ -39,6 +39,11 @@ Column make_column(const OperatorFault& fault, int fault_index, int j) {
                            (std::isnan(after) ? 0 : (after - column.position[i]) / 2));
   }
   return column;
+}
+
+bool has_nodes(const OperatorFault& fault, int j) {
+  const auto first = fault.grid_node.begin() + j * fault.n_rows;
+  return std::any_of(first, first + fault.n_rows, [](int node) { return node >= 0; });
 }
 
 double start_of(const Column& c) {
@@ -172,6 +177,8 @@ FaultMeter::FaultMeter(const FaultOperator& op, const ContactLaws& laws, double 
     for (int j = 0; j < fault.n_columns; ++j) {
       Column column = make_column(fault, static_cast<int>(f), j);
       if (column.nodes.empty()) continue;
+      column.strike_edge = (j > 0 && !has_nodes(fault, j - 1)) ||
+                           (j + 1 < fault.n_columns && !has_nodes(fault, j + 1));
       width += column.width;
       columns_.push_back(std::move(column));
     }
@@ -230,8 +237,7 @@ void FaultMeter::evaluate(const ContactState& state, NodalState& nodal) const {
                                     dof[2] >= 0 ? state.traction[dof[2]] : 0.0);
     const double normal = std::min(state.traction[dof[0]], 0.0);
     const CoulombLaw& law = laws_.node[i];
-    const double cohesion =
-        state.opened[i] != 0 && laws_.keep_cohesion[i] == 0 ? 0.0 : law.cohesion;
+    const double cohesion = state.cohesion_lost[i] != 0 ? 0.0 : law.cohesion;
     const double static_strength = cohesion - normal * static_tangent_[i];
     double strength = static_strength;
     if (weakens_[i] != 0) {
@@ -289,6 +295,7 @@ std::vector<FaultMetrics> FaultMeter::measure(const NodalState& nodal, const Con
     faults[f].activated_area = activations[f].area;
     faults[f].activated_length = activations[f].length;
     faults[f].activated = activations[f].activated;
+    faults[f].activated_at_edge = activations[f].at_edge;
   }
   return faults;
 }
@@ -301,9 +308,10 @@ std::vector<FaultMeter::Activation> FaultMeter::activation(const ContactState& s
     ExtentFinder finder;
     const std::size_t n = column.nodes.size();
     double last = 0;
-    bool any = false;
+    bool any = false, first = false;
     for (std::size_t i = 0; i < n; ++i) {
       const double slip = slip_norm(column.nodes[i], state.jump, reference);
+      first = first || (i == 0 && slip > slip_tolerance_);
       any = any || slip > slip_tolerance_;
       a.max_slip = std::max(a.max_slip, slip);
       const double from = i > 0 ? column.position[i - 1] : column.tip_before;
@@ -319,6 +327,8 @@ std::vector<FaultMeter::Activation> FaultMeter::activation(const ContactState& s
     a.length = std::max(a.length, extent.longest);
     if (extent.longest >= activation_length_) {
       a.activated = true;
+      a.at_edge = a.at_edge || column.strike_edge || (first && !std::isnan(column.tip_before)) ||
+                  (last > slip_tolerance_ && !std::isnan(column.tip_after));
       a.area += multiplicity_ * extent.total * column.width;
     }
   }

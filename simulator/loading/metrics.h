@@ -27,6 +27,7 @@ struct Column {
   std::vector<double> share;     ///< tributary length of each node, m.
   double tip_before, tip_after;  ///< s of the unsplit ends (slip 0); NaN where the column is cut by
                                  ///< the body's boundary instead.
+  bool strike_edge = false;      ///< the fault ends next to it along strike, inside the rock.
 };
 
 /// Metrics on the faults (design section 2). Profiles down dip are piecewise linear between nodes,
@@ -48,6 +49,7 @@ class FaultMeter {
     double area = 0;      ///< m2, of the extents in columns that satisfy the criterion.
     double max_slip = 0;  ///< m.
     bool activated = false;
+    bool at_edge = false;  ///< an activated extent reaches a node next to an edge of the fault.
   };
   /// @param reference  jump at the reference time; nullptr = zero.
   std::vector<Activation> activation(const ContactState& state,

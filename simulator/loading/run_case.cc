@@ -7,15 +7,29 @@
 #include "simulator/common/interrupt.h"
 #include "simulator/common/stopwatch.h"
 #include "simulator/contact/contact.h"
+#include "simulator/loading/episodes.h"
 #include "simulator/loading/history.h"
 #include "simulator/loading/initial_traction.h"
 #include "simulator/loading/metrics.h"
+#include "simulator/loading/slip_events.h"
 #include "simulator/loading/stage_summary.h"
 #include "simulator/loading/warnings.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsim {
 namespace {
+
+/// η = G/2c_s = ½ √(ρ G) per node, Pa s/m (Rice 1993). Density enters as a root and only scales the
+/// duration of events, so one value stands for all rocks.
+Eigen::VectorXd radiation_damping(const FaultGeometry& geometry) {
+  constexpr double kDensity = 2500;  // kg/m3
+  Eigen::VectorXd damping(static_cast<Eigen::Index>(geometry.nodes.size()));
+  for (Eigen::Index k = 0; k < damping.size(); ++k) {
+    const OperatorNode& node = geometry.nodes[static_cast<std::size_t>(k)];
+    damping[k] = 0.5 * std::sqrt(kDensity * node.effective_shear_modulus);
+  }
+  return damping;
+}
 
 ContactLaws contact_laws(const Scene& scene, const FaultGeometry& geometry) {
   ContactLaws laws;
@@ -33,13 +47,23 @@ ContactLaws contact_laws(const Scene& scene, const FaultGeometry& geometry) {
     laws.node.insert(laws.node.end(), n, law);
     laws.cumulated.insert(laws.cumulated.end(), n, friction.slip_measure == SlipMeasure::cumulated);
     laws.keep_cohesion.insert(laws.keep_cohesion.end(), n, friction.cohesion_after_opening);
+    laws.lose_cohesion_slipping.insert(laws.lose_cohesion_slipping.end(), n,
+                                       !friction.cohesion_after_slip);
   }
+  if (scene.numerics.follow_events) laws.damping = radiation_damping(geometry);
   return laws;
 }
 
 ContactOptions contact_options(const Numerics& numerics) {
   return {numerics.traction_tolerance, numerics.max_newton_iterations,
-          numerics.max_active_set_passes, numerics.max_step_cuts};
+          numerics.max_active_set_passes, numerics.max_step_cuts, numerics.onset_tolerance,
+          numerics.max_events};
+}
+
+std::vector<std::string> fault_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Fault& fault : scene.faults) names.push_back(fault.name);
+  return names;
 }
 
 void add_counts(SolveCounts& sum, const SolveCounts& part) {
@@ -70,6 +94,7 @@ class CaseRun {
         meter_(op, laws_, scene.numerics.slip_tolerance, scene.numerics.activation_length),
         solver_(op, laws_, contact_options(scene.numerics)),
         state_(initial_state(op)),
+        episodes_(meter_, fault_names(scene), op.geometry.plane_strain),
         whole_("", 0, nullptr, true, op.geometry.plane_strain) {}
 
   CaseResult run(Monitor& monitor);
@@ -79,10 +104,13 @@ class CaseRun {
   void name_result();
   StepLoads loads_at(const LoadStep& step) const;
   void check_fault_pressure(const LoadStep& step, const StepLoads& loads) const;
-  bool advance(const LoadStep& step, const Eigen::VectorXd& before, const StepLoads& loads);
+  bool advance(const LoadStep& step, const StepLoads* before, const StepLoads& loads);
+  void record_events(const LoadStep& step, const StepLoads* before, const StepLoads& loads,
+                     const std::vector<ContactJump>& jumps);
   void record(const LoadStep& step, const StepLoads& loads, const Eigen::VectorXd& jump_before,
               StepResult& result);
   FaultFields fields(const StepLoads& loads) const;
+  void name_events();
   void note_weakening(const Eigen::VectorXd& traction, bool trial);
 
   const Scene& scene_;
@@ -96,8 +124,10 @@ class CaseRun {
   ContactState state_;
   NodalState nodal_;
   CaseResult result_;
+  EpisodeTracker episodes_;
   StageSummary whole_;
   std::optional<StageSummary> stage_;
+  double last_time_ = 0;  ///< s, of the last step.
 };
 
 StepLoads CaseRun::loads_at(const LoadStep& step) const {
@@ -176,12 +206,9 @@ void CaseRun::note_weakening(const Eigen::VectorXd& traction, bool trial) {
       slips = shear > limit_shear_traction(law, normal, 0).value;
     }
     if (!slips) continue;
-    const double rate = -limit_shear_traction(law, normal, 0).d_slip;
-    const double g = node.effective_shear_modulus;
-    const double down_dip = node.edge_dip / nucleation_length(g / (1 - node.poisson_ratio), rate);
-    const double along =
-        op_.geometry.plane_strain ? 0 : node.edge_strike / nucleation_length(g, rate);
-    result_.max_nucleation_ratio = std::max({result_.max_nucleation_ratio, down_dip, along});
+    result_.max_nucleation_ratio =
+        std::max(result_.max_nucleation_ratio,
+                 nucleation_ratio(node, law, op_.geometry.plane_strain, normal));
   }
 }
 
@@ -194,6 +221,9 @@ void CaseRun::record(const LoadStep& step, const StepLoads& loads,
     result.n_slip += s == FaultState::slip;
     result.n_open += s == FaultState::open;
   }
+  for (const OperatorNode& node : op_.geometry.nodes) {
+    result_.max_penetration = std::max(result_.max_penetration, -state_.jump[node.dof[0]]);
+  }
   const Eigen::Map<const Eigen::VectorXd> factors(loads.factors.data(),
                                                   static_cast<Eigen::Index>(loads.factors.size()));
   if (!op_.observations.empty()) {
@@ -201,17 +231,39 @@ void CaseRun::record(const LoadStep& step, const StepLoads& loads,
     result.observed.assign(u.begin(), u.end());
   }
   if (result.n_slip > 0) note_weakening(state_.traction, false);
-  whole_.add(result, meter_, state_, result_.fault_names);
+  const auto first = std::find_if(result_.events.begin(), result_.events.end(),
+                                  [&](const SlipEvent& e) { return e.step == step.step; });
+  const std::span<const SlipEvent> events(first, result_.events.end());
+  whole_.add(result, meter_, state_, result_.fault_names, events);
   if (step.step > 0) {
+    episodes_.add(result, state_, jump_before);
     if (!stage_) {
       stage_.emplace(step.stage, step.step, &jump_before, false, op_.geometry.plane_strain);
     }
-    stage_->add(result, meter_, state_, result_.fault_names);
+    stage_->add(result, meter_, state_, result_.fault_names, events);
   }
   if (observer_) observer_(result, fields(loads));
 }
 
-bool CaseRun::advance(const LoadStep& step, const Eigen::VectorXd& before, const StepLoads& loads) {
+/// Loads are linear within a step, so onset lies where its load factor says.
+void CaseRun::record_events(const LoadStep& step, const StepLoads* before, const StepLoads& loads,
+                            const std::vector<ContactJump>& jumps) {
+  for (const ContactJump& jump : jumps) {
+    SlipEvent event = measure_event(op_, laws_, meter_, jump);
+    event.step = step.step;
+    event.stage = step.stage;
+    const double share = jump.load_before;
+    event.time = last_time_ + share * (step.time - last_time_);
+    for (std::size_t r = 0; r < loads.pressure_change.size(); ++r) {
+      const double start = before != nullptr ? before->pressure_change[r] : 0;
+      const double onset = start + share * (loads.pressure_change[r] - start);
+      event.pressure_change = std::min(event.pressure_change, onset);
+    }
+    result_.events.push_back(std::move(event));
+  }
+}
+
+bool CaseRun::advance(const LoadStep& step, const StepLoads* before, const StepLoads& loads) {
   const Stopwatch watch;
   StepResult result;
   result.step = step.step;
@@ -219,12 +271,15 @@ bool CaseRun::advance(const LoadStep& step, const Eigen::VectorXd& before, const
   result.time = step.time;
   result.pressure_change = loads.pressure_change;
   const Eigen::VectorXd jump_before = state_.jump;
-  const ContactReport report = solver_.solve_step(before, loads.locked, state_);
+  const Eigen::VectorXd locked_before =
+      before != nullptr ? before->locked : Eigen::VectorXd::Zero(op_.geometry.n_dofs);
+  const ContactReport report = solver_.solve_step(locked_before, loads.locked, state_);
   result.outcome = report.outcome;
   result.reason = report.reason;
   result.counts = report.counts;
   add_counts(result_.counts, report.counts);
-  const bool good = report.outcome == Outcome::converged;
+  const bool good = in_equilibrium(report.outcome);
+  record_events(step, before, loads, report.jumps);
   result.seconds = watch.seconds();
   if (good) {
     record(step, loads, jump_before, result);
@@ -233,10 +288,21 @@ bool CaseRun::advance(const LoadStep& step, const Eigen::VectorXd& before, const
     result_.reason = concat("load step ", step.step, " (", step.stage, "): ", report.reason);
     result_.failed_step = step.step;
     // What slips in a step that has no end: judged by the traction of faults held as they were.
-    note_weakening(state_.traction + (loads.locked - before), true);
+    note_weakening(state_.traction + (loads.locked - locked_before), true);
   }
+  last_time_ = step.time;
   result_.steps.push_back(std::move(result));
   return good;
+}
+
+/// A case with events is never called converged; with cells too coarse for its weakening, or with an
+/// event whose evidence does not hold, it is marked.
+void CaseRun::name_events() {
+  const bool evident = std::all_of(result_.events.begin(), result_.events.end(),
+                                   [](const SlipEvent& e) { return e.evidence_holds; });
+  if (result_.events.empty() || result_.outcome != Outcome::converged) return;
+  result_.outcome = result_.weakening_resolved && evident ? Outcome::event
+                                                          : Outcome::unresolved_event;
 }
 
 /// Identity and names, which the metrics of a step refer to.
@@ -248,7 +314,7 @@ void CaseRun::name_result() {
   result_.plane_strain = op_.geometry.plane_strain;
   for (const PressureHistory& history : scene_.pressure)
     result_.region_names.push_back(history.region);
-  for (const Fault& fault : scene_.faults) result_.fault_names.push_back(fault.name);
+  result_.fault_names = fault_names(scene_);
   for (const ObservationRow& row : op_.observations) result_.observation_names.push_back(row.name);
 }
 
@@ -262,7 +328,6 @@ CaseResult CaseRun::run(Monitor& monitor) {
     check_fault_pressure(step, loads.back());
   }
   result_.outcome = Outcome::converged;
-  const Eigen::VectorXd unloaded = Eigen::VectorXd::Zero(op_.geometry.n_dofs);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (interrupted()) {
       result_.outcome = Outcome::interrupted;
@@ -273,18 +338,21 @@ CaseResult CaseRun::run(Monitor& monitor) {
       result_.stages.push_back(stage_->finish());
       stage_.reset();
     }
-    if (!advance(steps[i], i == 0 ? unloaded : loads[i - 1].locked, loads[i])) break;
+    if (!advance(steps[i], i == 0 ? nullptr : &loads[i - 1], loads[i])) break;
     monitor.progress(static_cast<double>(i + 1) / static_cast<double>(steps.size()),
                      steps[i].stage);
   }
   if (stage_) result_.stages.push_back(stage_->finish());
   result_.whole = whole_.finish();
+  result_.episodes = episodes_.finish();
+  result_.unexpected = unexpected_reactivation(result_.episodes);
   if (!result_.whole.activated) {
     const std::span<const StepResult> all(result_.steps);
     result_.pressure_margin =
         pressure_margin(all.first(all.size() - (result_.failed_step ? 1 : 0)));
   }
   result_.weakening_resolved = result_.max_nucleation_ratio <= 1.0 / 3.0;
+  name_events();
   result_.warnings = case_warnings(scene_, op_, meter_, result_);
   result_.seconds = watch.seconds();
   return std::move(result_);
@@ -302,6 +370,7 @@ StepStart CaseRun::start_of(int step) {
   start.laws = laws_;
   start.options = contact_options(scene_.numerics);
   start.before = Eigen::VectorXd::Zero(op_.geometry.n_dofs);
+  std::optional<StepLoads> last;
   start.outcome = result_.outcome = Outcome::converged;
   name_result();
   for (const LoadStep& next : steps) {
@@ -315,12 +384,13 @@ StepStart CaseRun::start_of(int step) {
     start.step = next;
     start.after = loads.locked;
     if (next.step == step) break;
-    if (!advance(next, start.before, loads)) {
+    if (!advance(next, last ? &*last : nullptr, loads)) {
       start.outcome = result_.outcome;
       start.reason = result_.reason;
       return start;
     }
     start.before = loads.locked;
+    last = loads;
   }
   start.state = state_;
   return start;

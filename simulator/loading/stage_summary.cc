@@ -30,7 +30,8 @@ StageSummary::StageSummary(std::string name, int first_step, const Eigen::Vector
 }
 
 void StageSummary::add(const StepResult& step, const FaultMeter& meter, const ContactState& state,
-                       const std::vector<std::string>& fault_names) {
+                       const std::vector<std::string>& fault_names,
+                       std::span<const SlipEvent> events) {
   StageMetrics& m = metrics_;
   m.last_step = step.step;
   const auto activations = meter.activation(state, reference_ ? &*reference_ : nullptr);
@@ -59,6 +60,12 @@ void StageSummary::add(const StepResult& step, const FaultMeter& meter, const Co
   m.activated_area = std::max(m.activated_area, activated_area);
   m.potency = potency;
   m.moment = whole_ ? moment : m.moment + moment;
+  for (const SlipEvent& event : events) {
+    ++m.n_events;
+    if (event.moment <= m.event_moment) continue;
+    m.event_moment = event.moment;
+    m.event_magnitude = event.magnitude;
+  }
 }
 
 StageMetrics StageSummary::finish() {

@@ -17,8 +17,9 @@ class StageSummary {
   StageSummary(std::string name, int first_step, const Eigen::VectorXd* reference, bool whole,
                bool plane_strain);
   /// @param fault_names  to name the first fault activated.
+  /// @param events  of this step.
   void add(const StepResult& step, const FaultMeter& meter, const ContactState& state,
-           const std::vector<std::string>& fault_names);
+           const std::vector<std::string>& fault_names, std::span<const SlipEvent> events);
   StageMetrics finish();
 
  private:

@@ -34,6 +34,9 @@ class Warnings {
     start_beyond_strength();
     unresolved_weakening();
     open_with_partial_biot();
+    activated_at_an_edge();
+    penetration();
+    without_strength();
     return std::move(texts_);
   }
 
@@ -107,6 +110,38 @@ class Warnings {
     texts_.push_back(
         "a fault opened although fault_biot < 1: an open fault then carries only the share "
         "fault_biot of its fluid pressure");
+  }
+
+  void activated_at_an_edge() {
+    std::vector<char> told(result_.fault_names.size(), 0);
+    for (const StepResult& step : result_.steps) {
+      for (std::size_t f = 0; f < step.faults.size(); ++f) {
+        if (!step.faults[f].activated_at_edge || told[f]) continue;
+        told[f] = 1;
+        texts_.push_back(concat("fault ", result_.fault_names[f],
+                                " is activated up to its edge in load step ", step.step, " (",
+                                brief(step.faults[f].activated_area),
+                                result_.plane_strain ? " m2/m" : " m2",
+                                "): slip might go on beyond; make the fault longer"));
+      }
+    }
+  }
+
+  void penetration() {
+    constexpr double kSmall = 1e-9;  // m
+    if (result_.max_penetration <= kSmall) return;
+    texts_.push_back("the sides of a fault overlap by up to " + brief(result_.max_penetration) +
+                     " m: tighten /numerics/traction_tolerance");
+  }
+
+  void without_strength() {
+    for (const Fault& fault : scene_.faults) {
+      const Friction& friction = fault.friction;
+      if (friction.cohesion > 0 || friction.static_friction_angle > 0) continue;
+      texts_.push_back("fault " + fault.name +
+                       " has neither friction nor cohesion: it slips under any shear, and its "
+                       "critical index is taken against 1 kPa");
+    }
   }
 
   const Scene& scene_;

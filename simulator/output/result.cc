@@ -7,8 +7,9 @@
 namespace faultsim {
 namespace {
 
-constexpr std::array kOutcomes = {Outcome::failed, Outcome::converged, Outcome::unconverged,
-                                  Outcome::unstable, Outcome::interrupted};
+constexpr std::array kOutcomes = {Outcome::failed,   Outcome::converged,
+                                  Outcome::event,    Outcome::unresolved_event,
+                                  Outcome::unconverged, Outcome::unstable, Outcome::interrupted};
 
 }  // namespace
 
@@ -18,6 +19,10 @@ const char* to_string(Outcome outcome) {
       return "failed";
     case Outcome::converged:
       return "converged";
+    case Outcome::event:
+      return "event";
+    case Outcome::unresolved_event:
+      return "unresolved_event";
     case Outcome::unconverged:
       return "unconverged";
     case Outcome::unstable:

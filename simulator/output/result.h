@@ -13,12 +13,20 @@ namespace faultsim {
 
 /// How a load step or a case ended. The default is `failed`: forgetting to set it is not a success.
 enum class Outcome {
-  failed,       ///< internal trouble; see reason.
-  converged,    ///< every load step is in equilibrium within tolerance.
-  unconverged,  ///< a load step did not converge; the history ends before it.
-  unstable,     ///< slip weakening outran the elastic stiffness; the history ends before the jump.
+  failed,     ///< internal trouble; see reason.
+  converged,  ///< every load step is in equilibrium within tolerance.
+  event,      ///< in equilibrium too, after one or more recorded slip events.
+  unresolved_event,  ///< a case of that kind whose cells are too coarse for its weakening, so that
+                     ///< the size of its events is the mesh's.
+  unconverged,       ///< a load step did not converge; the history ends before it.
+  unstable,     ///< equilibrium jumped and the jump was not followed; the history ends before it.
   interrupted,  ///< stopped by a signal or a limit.
 };
+/// Whether a step ended in equilibrium, or all steps of a case did.
+inline bool in_equilibrium(Outcome outcome) {
+  return outcome == Outcome::converged || outcome == Outcome::event ||
+         outcome == Outcome::unresolved_event;
+}
 const char* to_string(Outcome outcome);
 Outcome outcome_from_string(const std::string& text);  ///< throws StorageError when unknown.
 
@@ -38,6 +46,7 @@ struct FaultMetrics {
                                 ///< the activation length.
   double activated_length = 0;  ///< m, longest down-dip extent with slip > slip_tolerance.
   bool activated = false;       ///< activated_length ≥ activation_length.
+  bool activated_at_edge = false;  ///< activated next to an edge of the fault: it might go on.
   double max_slip = 0;          ///< m, |g_T| since start.
   double mean_slip = 0;         ///< m, over the fault's area.
   double potency = 0;           ///< m3 (plane strain: per metre of strike, m3/m).
@@ -67,6 +76,50 @@ struct StepResult {
   std::vector<double> observed;  ///< m, per observation row.
   SolveCounts counts;
   double seconds = 0;  ///< wall; not compared.
+};
+
+/// A jump of equilibrium within a load step, followed to the next equilibrium (design section 4),
+/// with its evidence. Values cover all faults that moved; plane strain: per metre of strike.
+struct SlipEvent {
+  int step = 0;
+  std::string stage;
+  double load_factor_before = 0;  ///< of the load step, where the last equilibrium was found;
+  double load_factor_after = 0;   ///< the load at which the jump was followed.
+  double time = 0;                ///< s, of onset.
+  double pressure_change = 0;     ///< Pa, Δp of the most depleted region at onset.
+  std::string fault;              ///< where it nucleated.
+  double depth = 0;               ///< m, of the centre of the nucleus.
+  double nucleation_length = 0;   ///< m, down-dip length slipping when stability was lost.
+  double slipped_area = 0;        ///< m2.
+  double max_slip = 0;            ///< m, of the event.
+  double mean_slip = 0;           ///< m, over the slipped area.
+  double stress_drop = 0;         ///< Pa, of shear traction along the slip, weighted by slip.
+  double potency = 0;             ///< m3.
+  double moment = 0;              ///< M0, N m.
+  std::optional<double> magnitude;  ///< Mw; none in plane strain.
+  double duration = 0;              ///< s, of the radiation-damped motion.
+  bool resolved = true;             ///< cell edges ≤ h_n / 3 where it slipped.
+  int negative_pivots = 0;          ///< of the tangent on the way; 0 before and after.
+  int n_lost_cohesion = 0;          ///< nodes that lost their cohesion by slipping.
+  double residual_before = 0;       ///< largest violation of D2-D3, in units of the tolerance.
+  double residual_after = 0;
+  double energy_released = 0;    ///< J, by bulk and loads.
+  double energy_dissipated = 0;  ///< J, by friction; the rest is radiated.
+  bool evidence_holds = false;   ///< stability lost in between, equilibrium before and after,
+                                 ///< energy released ≥ dissipated ≥ 0.
+};
+
+/// A run of load steps of one stage in which a fault slips far enough to count as activated.
+struct Episode {
+  std::string stage;
+  std::string fault;
+  int first_step = 0, last_step = 0;
+  double pressure_change = 0;   ///< Pa, Δp of the most depleted region at the first step.
+  bool after_recovery = false;  ///< pressure had been lower before: cushion gas, storage.
+  double activated_area = 0;    ///< m2, by the slip of the episode.
+  double max_slip = 0;          ///< m, of the episode.
+  double moment = 0;            ///< M0, N m, summed over its steps.
+  std::optional<double> magnitude;  ///< Mw; none in plane strain.
 };
 
 /// Fault fields of one load step, per fault node of FaultGeometry (fault frame).
@@ -99,6 +152,9 @@ struct StageMetrics {
   double potency = 0;   ///< m3, at the end.
   double moment = 0;    ///< N m, at the end (stage: summed over its steps).
   std::optional<double> magnitude;  ///< Mw of moment; none where moment = 0 or plane strain.
+  int n_events = 0;
+  double event_moment = 0;                ///< N m, of the largest event; 0 without events.
+  std::optional<double> event_magnitude;  ///< its Mw.
 
   bool operator==(const StageMetrics&) const = default;  ///< the very same numbers.
 };
@@ -115,6 +171,7 @@ struct CaseResult {
   bool weakening_resolved =
       true;  ///< cell edges ≤ h_n / 3 where it slips (true without weakening).
   double max_nucleation_ratio = 0;  ///< largest edge / h_n over slipping nodes.
+  double max_penetration = 0;       ///< m, largest −g_N of any step; 0 up to the tolerance.
   double pressure_margin = std::numeric_limits<double>::quiet_NaN();
   ///< Pa of further depletion scale to χ̄ = 1 by linear
   ///< extrapolation for inactive cases; NaN = null.
@@ -126,6 +183,9 @@ struct CaseResult {
               ///< (outcome != converged, metrics of the last iterate not given).
   std::vector<StageMetrics> stages;
   StageMetrics whole;
+  std::vector<SlipEvent> events;  ///< in order of time.
+  std::vector<Episode> episodes;  ///< in order of time.
+  bool unexpected = false;        ///< an episode after recovery follows one on the way down.
   SolveCounts counts;
   std::vector<std::string> warnings;
   double seconds = 0;  ///< wall; not compared.

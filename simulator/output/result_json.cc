@@ -29,6 +29,7 @@ void for_each_field_of_metrics(Metrics& m, Visit&& visit) {
   visit("activated_area_m2", m.activated_area);
   visit("activated_length_m", m.activated_length);
   visit("activated", m.activated);
+  visit("activated_at_edge", m.activated_at_edge);
   visit("max_slip_m", m.max_slip);
   visit("mean_slip_m", m.mean_slip);
   visit("potency_m3", m.potency);
@@ -81,6 +82,52 @@ void for_each_field_of_stage(Stage& s, Visit&& visit) {
   visit("potency_m3", s.potency);
   visit("moment_nm", s.moment);
   visit("magnitude_mw", s.magnitude);
+  visit("n_events", s.n_events);
+  visit("event_moment_nm", s.event_moment);
+  visit("event_magnitude_mw", s.event_magnitude);
+}
+
+template <typename Event, typename Visit>
+void for_each_field_of_event(Event& e, Visit&& visit) {
+  visit("step", e.step);
+  visit("stage", e.stage);
+  visit("load_factor_before", e.load_factor_before);
+  visit("load_factor_after", e.load_factor_after);
+  visit("time_s", e.time);
+  visit("pressure_change_pa", e.pressure_change);
+  visit("fault", e.fault);
+  visit("depth_m", e.depth);
+  visit("nucleation_length_m", e.nucleation_length);
+  visit("slipped_area_m2", e.slipped_area);
+  visit("max_slip_m", e.max_slip);
+  visit("mean_slip_m", e.mean_slip);
+  visit("stress_drop_pa", e.stress_drop);
+  visit("potency_m3", e.potency);
+  visit("moment_nm", e.moment);
+  visit("magnitude_mw", e.magnitude);
+  visit("duration_s", e.duration);
+  visit("resolved", e.resolved);
+  visit("negative_pivots", e.negative_pivots);
+  visit("n_lost_cohesion", e.n_lost_cohesion);
+  visit("residual_before", e.residual_before);
+  visit("residual_after", e.residual_after);
+  visit("energy_released_j", e.energy_released);
+  visit("energy_dissipated_j", e.energy_dissipated);
+  visit("evidence_holds", e.evidence_holds);
+}
+
+template <typename Part, typename Visit>
+void for_each_field_of_episode(Part& e, Visit&& visit) {
+  visit("stage", e.stage);
+  visit("fault", e.fault);
+  visit("first_step", e.first_step);
+  visit("last_step", e.last_step);
+  visit("pressure_change_pa", e.pressure_change);
+  visit("after_recovery", e.after_recovery);
+  visit("activated_area_m2", e.activated_area);
+  visit("max_slip_m", e.max_slip);
+  visit("moment_nm", e.moment);
+  visit("magnitude_mw", e.magnitude);
 }
 
 template <typename Case, typename Visit>
@@ -95,6 +142,7 @@ void for_each_field_of_case(Case& c, Visit&& visit) {
   visit("plane_strain", c.plane_strain);
   visit("weakening_resolved", c.weakening_resolved);
   visit("max_nucleation_ratio", c.max_nucleation_ratio);
+  visit("max_penetration_m", c.max_penetration);
   visit("pressure_margin_pa", c.pressure_margin);
   visit("regions", c.region_names);
   visit("faults", c.fault_names);
@@ -102,6 +150,9 @@ void for_each_field_of_case(Case& c, Visit&& visit) {
   visit("steps", c.steps);
   visit("stages", c.stages);
   visit("whole", c.whole);
+  visit("events", c.events);
+  visit("episodes", c.episodes);
+  visit("unexpected", c.unexpected);
   visit("counts", c.counts);
   visit("warnings", c.warnings);
   visit("wall_s", c.seconds);
@@ -115,6 +166,8 @@ void for_each_field(Struct& value, Visit&& visit) {
   if constexpr (std::is_same_v<Plain, SolveCounts>) for_each_field_of_counts(value, visit);
   if constexpr (std::is_same_v<Plain, StepResult>) for_each_field_of_step(value, visit);
   if constexpr (std::is_same_v<Plain, StageMetrics>) for_each_field_of_stage(value, visit);
+  if constexpr (std::is_same_v<Plain, SlipEvent>) for_each_field_of_event(value, visit);
+  if constexpr (std::is_same_v<Plain, Episode>) for_each_field_of_episode(value, visit);
   if constexpr (std::is_same_v<Plain, CaseResult>) for_each_field_of_case(value, visit);
 }
 

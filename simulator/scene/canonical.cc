@@ -173,7 +173,8 @@ json fault(const Fault& fault) {
             {"dynamic", plain(friction.dynamic_friction_angle)},
             {"distance", plain(friction.slip_weakening_distance)},
             {"slip_measure", static_cast<int>(friction.slip_measure)},
-            {"cohesion_after_opening", friction.cohesion_after_opening}}}};
+            {"cohesion_after_opening", friction.cohesion_after_opening},
+            {"cohesion_after_slip", friction.cohesion_after_slip}}}};
 }
 
 json numerics(const Numerics& numerics) {
@@ -183,6 +184,9 @@ json numerics(const Numerics& numerics) {
           {"max_newton_iterations", numerics.max_newton_iterations},
           {"max_active_set_passes", numerics.max_active_set_passes},
           {"max_step_cuts", numerics.max_step_cuts},
+          {"follow_events", numerics.follow_events},
+          {"onset_tolerance", plain(numerics.onset_tolerance)},
+          {"max_events", numerics.max_events},
           {"b_bar", numerics.b_bar},
           {"half_domain", static_cast<int>(numerics.half_domain)},
           {"plane_strain", static_cast<int>(numerics.plane_strain)}};

@@ -102,6 +102,7 @@ Friction read_friction(SceneReader& reader, std::size_t fault) {
   friction.slip_measure = cumulated && weakens ? SlipMeasure::cumulated : SlipMeasure::current;
   if (!weakens) friction.law = FrictionLaw::angle;
   friction.cohesion_after_opening = reader.boolean(from.at("cohesion_after_opening"), false);
+  friction.cohesion_after_slip = reader.boolean(from.at("cohesion_after_slip"), true);
   return friction;
 }
 

@@ -44,6 +44,9 @@ void read_numerics(const SceneReader& reader, Numerics& numerics) {
   numerics.max_active_set_passes =
       reader.integer(at + "max_active_set_passes", numerics.max_active_set_passes);
   numerics.max_step_cuts = reader.integer(at + "max_step_cuts", numerics.max_step_cuts);
+  numerics.follow_events = reader.boolean(at + "follow_events", numerics.follow_events);
+  numerics.onset_tolerance = reader.number(at + "onset_tolerance", numerics.onset_tolerance);
+  numerics.max_events = reader.integer(at + "max_events", numerics.max_events);
   numerics.b_bar = reader.boolean(at + "b_bar", numerics.b_bar);
   numerics.half_domain = switch_at(reader, at + "half_domain", numerics.half_domain);
   numerics.plane_strain = switch_at(reader, at + "plane_strain", numerics.plane_strain);

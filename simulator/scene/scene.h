@@ -166,6 +166,7 @@ struct Friction {
   double slip_weakening_distance = 0;  ///< m; > 0 where the angles differ.
   SlipMeasure slip_measure = SlipMeasure::current;
   bool cohesion_after_opening = false;
+  bool cohesion_after_slip = true;  ///< false: the first slip ends cohesion.
 };
 
 enum class FaultPressureRule { mean, min, max, minus, plus, fraction, prescribed, none };
@@ -224,6 +225,9 @@ struct Numerics {
   int max_newton_iterations = 30;
   int max_active_set_passes = 100;
   int max_step_cuts = 6;
+  bool follow_events = true;       ///< false: a case ends where equilibrium jumps.
+  double onset_tolerance = 2.5e-4;  ///< of a load step, to which the onset of an event is located.
+  int max_events = 256;            ///< per load step.
   bool b_bar = true;
   Switch half_domain = Switch::automatic;  ///< field: symmetry about y = 0.
   Switch plane_strain = Switch::off;       ///< one cell in y, front and back tied, u_y = 0.

@@ -243,7 +243,7 @@ TEST(FrozenLaws, RefuseCohesionThatIsAtWork) {
               HasSubstr("cohesion is at work in the step at 1 of 1 nodes (first: fault 'main' at "
                         "x = 0 m, y = 0 m, depth = 2000 m), and a friction cone has none; set the "
                         "cohesion to 0"));
-  start.opened[0] = 1;  // gone
+  start.cohesion_lost[0] = 1;  // gone
   EXPECT_EQ(refusal(op, laws, start), "accepted");
   EXPECT_EQ(frozen_laws(op, laws, start, Weakening::refuse).node[0].cohesion, 0);
 }

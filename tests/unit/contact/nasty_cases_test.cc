@@ -46,7 +46,7 @@ TEST(NastyContact, OpensWithoutCohesionAndCarriesNothing) {
   EXPECT_EQ(node.state.state[0], FaultState::open);
   EXPECT_LT(node.state.traction.norm(), 1e-15);
   EXPECT_LT((node.state.jump - Eigen::Vector3d(0.25, 0.25, -0.15)).norm(), 1e-15);
-  EXPECT_TRUE(node.state.opened[0]);
+  EXPECT_TRUE(node.state.cohesion_lost[0]);
 }
 
 TEST(NastyContact, ClosesAgainWithoutItsCohesion) {
@@ -86,7 +86,7 @@ TEST(NastyContact, ResolvesTheCycleOfACohesiveNodeThatOpensAndCloses) {
   const double slip = (5 + 0.1 * 0.6) / (2 + 0.6);
   EXPECT_NEAR(node.state.jump[1], slip, 1e-12);
   EXPECT_EQ(node.state.jump[0], 0);
-  EXPECT_TRUE(node.state.opened[0]);
+  EXPECT_TRUE(node.state.cohesion_lost[0]);
 }
 
 TEST(NastyContact, SaysWhyThereIsNoSolutionAndKeepsTheState) {
@@ -103,7 +103,7 @@ TEST(NastyContact, SaysWhyThereIsNoSolutionAndKeepsTheState) {
       << report.reason;
   EXPECT_EQ(node.state.jump, before.jump);
   EXPECT_EQ(node.state.traction, before.traction);
-  EXPECT_EQ(node.state.opened, before.opened);
+  EXPECT_EQ(node.state.cohesion_lost, before.cohesion_lost);
 }
 
 TEST(NastyContact, AcceptsNodesWithoutSomeShearDofs) {

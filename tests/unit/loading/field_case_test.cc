@@ -130,17 +130,42 @@ TEST(FieldCase, SaysWhatWeightIsLeftOutAndWhereAPointWasObserved) {
   EXPECT_FALSE(level.whole.activated);
 }
 
-TEST(FieldCase, UnstableWeakeningInCoarseCellsIsNotCalledResolved) {
+TEST(FieldCase, EventsInCoarseCellsAreNotCalledResolved) {
   json scene = field();
   scene["friction"] = {{"friction_angle", "30 deg"},
                        {"dynamic_friction_angle", "10 deg"},
                        {"slip_weakening_distance", "2 mm"}};
   scene["fault_pressure"] = {{"rule", "max"}};
   const CaseResult result = run(scene);
-  ASSERT_EQ(result.outcome, Outcome::unstable);
+  ASSERT_EQ(result.outcome, Outcome::unresolved_event);
   EXPECT_FALSE(result.weakening_resolved);
   EXPECT_GT(result.max_nucleation_ratio, 10);  // 50 m cells, h_n about 2 m
   EXPECT_TRUE(warns(result, "not resolved"));
+  ASSERT_FALSE(result.events.empty());
+  int n_events = 0;
+  for (const StageMetrics& stage : result.stages) n_events += stage.n_events;
+  EXPECT_EQ(n_events, result.whole.n_events);
+  EXPECT_EQ(n_events, static_cast<int>(result.events.size()));
+  double time = 0;
+  for (const SlipEvent& event : result.events) {
+    EXPECT_FALSE(event.resolved);
+    EXPECT_TRUE(event.evidence_holds);
+    EXPECT_GE(event.time, time);
+    time = event.time;
+    EXPECT_LT(event.pressure_change, 0);
+    EXPECT_GT(event.moment, 0);
+    EXPECT_LE(event.moment, result.whole.event_moment);
+    EXPECT_GT(event.energy_released, event.energy_dissipated);
+    EXPECT_FALSE(event.fault.empty());
+    EXPECT_GT(event.depth, 1500);
+    EXPECT_LT(event.depth, 2600);
+    EXPECT_EQ(result.steps[static_cast<std::size_t>(event.step)].outcome, Outcome::event);
+  }
+  scene["numerics"]["follow_events"] = false;
+  const CaseResult stopped = run(scene);
+  EXPECT_EQ(stopped.outcome, Outcome::unstable);
+  EXPECT_TRUE(stopped.events.empty());
+  EXPECT_EQ(*stopped.failed_step, result.events[0].step);
 }
 
 TEST(FieldCase, TakesFaultNamesFromTheSceneNotFromTheOperator) {

@@ -42,7 +42,7 @@ struct LineFault {
     state.jump = state.traction = Eigen::VectorXd::Zero(2 * n);
     state.slip_path = Eigen::VectorXd::Zero(n);
     state.state.assign(static_cast<std::size_t>(n), FaultState::stick);
-    state.opened.assign(static_cast<std::size_t>(n), 0);
+    state.cohesion_lost.assign(static_cast<std::size_t>(n), 0);
     for (int k = 0; k < n; ++k) state.traction[2 * k] = -10e6;
   }
   FaultOperator op;

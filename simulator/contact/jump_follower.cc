@@ -1,0 +1,168 @@
+#include "simulator/contact/jump_follower.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faultsim {
+namespace {
+
+// Accuracy of the way, not of the end: halving the share moves results by less than the share of
+// a cell.
+constexpr double kLargestShare = 0.25;  // of d_c that a node may slip in one damped step
+constexpr double kGrowth = 1.6;         // of Δt after a good damped step
+constexpr int kMaxDampedSteps = 4000;
+constexpr int kMaxHalvings = 60;
+constexpr int kStaticInterval = 4;  // damped steps between two tries at the static end
+
+}  // namespace
+
+JumpFollower::JumpFollower(SubStepSolver& solver, const ContactOptions& options)
+    : solver_(solver), options_(options) {}
+
+/// Δt at which damping outweighs the stiffness of every node, and so any weakening worth the name.
+double JumpFollower::first_duration() const {
+  const ContactProblem& problem = solver_.problem();
+  double duration = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < problem.n_nodes(); ++k) {
+    const ContactNode& node = problem.nodes[static_cast<std::size_t>(k)];
+    if (node.n_dofs < 2) continue;
+    duration = std::min(duration, problem.damping(k) / problem.stiffness(node, 1));
+  }
+  return std::isfinite(duration) ? duration : 1;
+}
+
+/// Largest slip of the sub-step in units of d_c among nodes that still weaken.
+double JumpFollower::weakening_share() const {
+  const ContactProblem& problem = solver_.problem();
+  const SubStep& s = solver_.sub_step();
+  double share = 0;
+  for (int k = 0; k < problem.n_nodes(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const ContactNode& node = problem.nodes[i];
+    if (!node.weakens || s.state[i] != FaultState::slip) continue;
+    const double d_c = problem.laws.node[i].slip_weakening_distance;
+    const double before = problem.laws.cumulated[i] ? s.start->slip_path[k]
+                                                    : shear_part(node, s.start->jump).norm();
+    if (before < d_c) share = std::max(share, shear_part(node, s.increment).norm() / d_c);
+  }
+  return share;
+}
+
+void JumpFollower::note_stability() {
+  negative_now_ = solver_.negative_pivots();
+  if (negative_now_ > 0 && evidence_.negative_pivots == 0) {
+    const auto& state = solver_.sub_step().state;
+    evidence_.nucleus.clear();
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      if (state[i] == FaultState::slip) evidence_.nucleus.push_back(static_cast<int>(i));
+    }
+  }
+  evidence_.negative_pivots = std::max(evidence_.negative_pivots, negative_now_);
+}
+
+void JumpFollower::add_energy() {
+  const ContactProblem& problem = solver_.problem();
+  const SubStep& s = solver_.sub_step();
+  evidence_.released +=
+      0.5 * s.increment.cwiseQuotient(problem.inverse_area).dot(s.trial + s.traction);
+  for (int k = 0; k < problem.n_nodes(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const ContactNode& node = problem.nodes[i];
+    if (s.state[i] != FaultState::slip || node.n_dofs < 2) continue;
+    const Eigen::Vector2d slip = shear_part(node, s.increment);
+    const Eigen::Vector2d before = shear_part(node, s.start->jump);
+    const bool cumulated = problem.laws.cumulated[i] != 0;
+    const double path = s.start->slip_path[k];
+    const double length = slip.norm();
+    if (length == 0) continue;
+    // Trapezoidal rule: exact while strength falls linearly with slip.
+    const auto strength = [&](double normal, double measure) {
+      return problem.strength(k, s.cohesive[i] != 0, normal, measure).value;
+    };
+    const double friction =
+        0.5 * (strength(s.start->traction[node.dof[0]], cumulated ? path : before.norm()) +
+               strength(s.traction[node.dof[0]],
+                        slip_measure(cumulated, path, before, slip, slip).value));
+    evidence_.dissipated += friction * length / node.inverse_area[1];
+  }
+}
+
+bool JumpFollower::damped_step(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
+                               double from, ContactState& state) {
+  for (int halving = 0; halving < kMaxHalvings; ++halving) {
+    solver_.begin(before, after, {from, load_, duration_}, state);
+    if (solver_.rest()) break;
+    const Attempt attempt = solver_.attempt(false);
+    report_.counts.active_set_passes += solver_.passes();
+    if (attempt == Attempt::converged && weakening_share() <= kLargestShare) {
+      report_.counts.newton_iterations += solver_.iterations();
+      break;
+    }
+    report_.counts.wasted_newton_iterations += solver_.iterations();
+    if (halving + 1 == kMaxHalvings) return false;
+    duration_ *= 0.5;
+  }
+  note_stability();
+  add_energy();
+  const ContactLaws& laws = solver_.problem().laws;
+  if (!laws.lose_cohesion_slipping.empty()) {
+    for (std::size_t i = 0; i < laws.lose_cohesion_slipping.size(); ++i) {
+      evidence_.n_lost_cohesion += laws.lose_cohesion_slipping[i] && !state.cohesion_lost[i] &&
+                                   solver_.sub_step().state[i] == FaultState::slip;
+    }
+  }
+  solver_.commit(state);
+  evidence_.duration += duration_;
+  ++evidence_.damped_steps;
+  duration_ *= kGrowth;
+  return true;
+}
+
+bool JumpFollower::try_static(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
+                              ContactState& state) {
+  solver_.begin(before, after, {load_, load_, 0}, state);
+  if (!solver_.rest()) {
+    const Attempt attempt = solver_.attempt(false);
+    report_.counts.active_set_passes += solver_.passes();
+    if (attempt != Attempt::converged) {
+      report_.counts.wasted_newton_iterations += solver_.iterations();
+      return false;
+    }
+    report_.counts.newton_iterations += solver_.iterations();
+    add_energy();
+  }
+  evidence_.residual_after = solver_.residual();
+  solver_.commit(state);
+  return true;
+}
+
+JumpFollower::Report JumpFollower::follow(const Eigen::VectorXd& before,
+                                          const Eigen::VectorXd& after, double from, double to,
+                                          ContactState& state) {
+  report_ = {};
+  evidence_ = {};
+  evidence_.load_before = from;
+  evidence_.load_after = load_ = to;
+  evidence_.jump_before = state.jump;
+  evidence_.traction_before = state.traction;
+  solver_.begin(before, after, {from, from, 0}, state);
+  evidence_.residual_before = solver_.residual_at_rest();
+  duration_ = first_duration();
+  int until_static = kStaticInterval;
+  while (evidence_.damped_steps < kMaxDampedSteps) {
+    if (!damped_step(before, after, evidence_.damped_steps == 0 ? from : load_, state)) break;
+    if (--until_static > 0 || negative_now_ > 0) continue;
+    if (try_static(before, after, state)) {
+      report_.arrived = true;
+      break;
+    }
+    until_static = kStaticInterval;
+  }
+  evidence_.jump_after = state.jump;
+  evidence_.traction_after = state.traction;
+  if (evidence_.negative_pivots > 0 || evidence_.n_lost_cohesion > 0) report_.jump = evidence_;
+  return report_;
+}
+
+}  // namespace faultsim
