@@ -74,7 +74,7 @@ SceneRun SceneRunner::run(const std::string& file, const Settings& settings, boo
                [&](const StepResult&, const FaultFields& fields) { run.fields.push_back(fields); });
   if (run.result.outcome == Outcome::interrupted)
     throw Interrupted("stopped while running " + file);
-  if (must_converge && run.result.outcome != Outcome::converged) {
+  if (must_converge && !in_equilibrium(run.result.outcome)) {
     throw Error(concat(file, " ended ", to_string(run.result.outcome), ": ", run.result.reason));
   }
   return run;
