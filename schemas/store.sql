@@ -1,5 +1,5 @@
 -- The store of faultsweep as created: campaign.sqlite, user_version 1.
--- Later changes are the named migrations in campaign/store/migrations.cc: store_2.sql.
+-- Later changes are the named migrations in campaign/store/migrations.cc: store_2.sql, store_3.sql.
 -- Units are part of column names; times are seconds since 1970 (_at) or durations (_s).
 
 CREATE TABLE migrations (
@@ -133,7 +133,8 @@ CREATE TABLE case_metrics (
   warnings TEXT NOT NULL               -- one per line
 ) STRICT;
 
--- What rankings read. rank_class: 0 complete history, 1 unstable, 2 any other early end.
+-- What rankings read. rank_class: 0 complete history, 1 unstable, 2 any other early end; since
+-- store_3.sql the early ends are 2 and 3.
 CREATE TABLE stage_metrics (
   stage_id INTEGER NOT NULL REFERENCES names (id),
   case_id INTEGER NOT NULL REFERENCES cases (id),
@@ -202,7 +203,8 @@ CREATE TABLE chi_history (
   PRIMARY KEY (case_id, fault, step)
 ) STRICT, WITHOUT ROWID;
 
--- What happened to the campaigns: managers, restarts, operators, poison cases.
+-- The log of the campaigns: managers, restarts, operators, poison cases. Slip events, the jumps of
+-- faults within a case, are something else: slip_events in store_3.sql.
 CREATE TABLE events (
   id INTEGER PRIMARY KEY,
   at REAL NOT NULL,

@@ -40,7 +40,7 @@ Manager::Manager(Store& store, WorkerLink& link, ProgressDisplay& display, const
   n_cases_ = campaign_.n_cases;
   n_done_ = campaign_.n_done;
   n_failed_ = campaign_.n_failed;
-  n_incomplete_ = campaign_.n_done - campaign_.n_converged;
+  n_incomplete_ = campaign_.n_done - campaign_.n_complete();
   fields_folder_ =
       std::filesystem::absolute(store_.fields_folder(campaign_.name)).lexically_normal();
   families_ = store_.waiting_families(campaign_.id);

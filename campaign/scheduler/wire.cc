@@ -110,7 +110,8 @@ template <typename Archive>
 void fields(Archive& a, faultsim::FaultMetrics& m) {
   all(a, m.chi_bar, m.chi_max, m.chi_static_max, m.area_chi_080, m.thickness_chi_080_max,
       m.thickness_chi_080_mean, m.slipping_area, m.open_area, m.activated_area, m.activated_length,
-      m.activated, m.max_slip, m.mean_slip, m.potency, m.moment, m.moment_step);
+      m.activated, m.activated_at_edge, m.max_slip, m.mean_slip, m.potency, m.moment,
+      m.moment_step);
 }
 template <typename Archive>
 void fields(Archive& a, faultsim::SolveCounts& c) {
@@ -125,14 +126,29 @@ template <typename Archive>
 void fields(Archive& a, StageMetrics& m) {
   all(a, m.stage, m.first_step, m.last_step, m.activated, m.activation_step, m.activation_pressure,
       m.activated_fault, m.chi_bar, m.chi_max, m.area_chi_080, m.thickness_chi_080,
-      m.activated_area, m.slipping_area, m.open_area, m.max_slip, m.potency, m.moment, m.magnitude);
+      m.activated_area, m.slipping_area, m.open_area, m.max_slip, m.potency, m.moment, m.magnitude,
+      m.n_events, m.event_moment, m.event_magnitude);
+}
+template <typename Archive>
+void fields(Archive& a, faultsim::SlipEvent& e) {
+  all(a, e.step, e.stage, e.load_factor_before, e.load_factor_after, e.time, e.pressure_change,
+      e.fault, e.depth, e.nucleation_length, e.slipped_area, e.max_slip, e.mean_slip, e.stress_drop,
+      e.potency, e.moment, e.magnitude, e.duration, e.resolved, e.negative_pivots,
+      e.n_lost_cohesion, e.residual_before, e.residual_after, e.energy_released,
+      e.energy_dissipated, e.evidence_holds);
+}
+template <typename Archive>
+void fields(Archive& a, faultsim::Episode& e) {
+  all(a, e.stage, e.fault, e.first_step, e.last_step, e.pressure_change, e.after_recovery,
+      e.activated_area, e.max_slip, e.moment, e.magnitude);
 }
 template <typename Archive>
 void fields(Archive& a, CaseResult& r) {
   all(a, r.title, r.identity, r.operator_fingerprint, r.numerics_version, r.outcome, r.reason,
       r.failed_step, r.plane_strain, r.weakening_resolved, r.max_nucleation_ratio,
-      r.pressure_margin, r.region_names, r.fault_names, r.observation_names, r.steps, r.stages,
-      r.whole, r.counts, r.warnings, r.seconds);
+      r.max_penetration, r.pressure_margin, r.region_names, r.fault_names, r.observation_names,
+      r.steps, r.stages, r.whole, r.events, r.episodes, r.unexpected, r.counts, r.warnings,
+      r.seconds);
 }
 template <typename Archive>
 void fields(Archive& a, RunRecord& r) {

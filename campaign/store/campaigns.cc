@@ -136,7 +136,9 @@ void count_cases(Connection& db, CampaignInfo& info) {
   Statement& query = db.prepared(
       "SELECT count(*), total(state = 'done'), total(state = 'failed'),"
       " total(state = 'done' AND outcome = 'converged'), total(lacks_only_fields),"
-      " total(lacks_only_fields AND fields = 'failed')"
+      " total(lacks_only_fields AND fields = 'failed'),"
+      " total(state = 'done' AND outcome = 'event'),"
+      " total(state = 'done' AND outcome = 'unresolved_event')"
       " FROM campaign_case_states WHERE campaign_id = ?");
   query.bind(info.id).step();
   info.n_cases = query.integer(0);
@@ -146,6 +148,8 @@ void count_cases(Connection& db, CampaignInfo& info) {
   info.n_converged = query.integer(3);
   info.n_fields_failed = query.integer(5);
   info.n_fields_waiting = query.integer(4) - info.n_fields_failed;
+  info.n_event = query.integer(6);
+  info.n_unresolved = query.integer(7);
   query.reset();
 }
 
@@ -313,9 +317,9 @@ long Store::retry(std::int64_t campaign, bool unconverged_too, std::optional<lon
   Statement& update = connection_->prepared(
       "UPDATE cases SET state = 'waiting' WHERE id IN"
       " (SELECT c.id FROM campaign_cases cc JOIN cases c ON c.id = cc.case_id"
-      "  LEFT JOIN case_metrics m ON m.case_id = c.id"
+      "  JOIN campaign_case_states s ON s.campaign_id = ?1 AND s.position = cc.position"
       "  WHERE cc.campaign_id = ?1 AND (?3 IS NULL OR cc.position = ?3)"
-      "  AND (c.state = 'failed' OR (?2 AND c.state = 'done' AND m.outcome <> 'converged')))");
+      "  AND (c.state = 'failed' OR (?2 AND c.state = 'done' AND NOT s.complete)))");
   update.bind(campaign, unconverged_too, position).run();
   long count = connection_->changes();
   connection_

@@ -4,6 +4,7 @@
 
 #include "campaign/store/sqlite.h"
 #include "store_2_sql.h"
+#include "store_3_sql.h"
 #include "store_sql.h"
 
 namespace faultsweep {
@@ -32,12 +33,41 @@ int usable_version(Connection& connection, int newest) {
   return version;
 }
 
+/// Foreign keys off as long as it lives, for a table that is made anew under its name. A pragma
+/// within a transaction would have no effect.
+class ForeignKeysOff {
+ public:
+  explicit ForeignKeysOff(Connection& connection) : connection_(connection) {
+    connection_.execute("PRAGMA foreign_keys = OFF");
+  }
+  ~ForeignKeysOff() {
+    try {
+      connection_.execute("PRAGMA foreign_keys = ON");
+    } catch (const StorageError&) {  // the connection is of no use any more, and its owner is told
+    }
+  }
+  ForeignKeysOff(const ForeignKeysOff&) = delete;
+  ForeignKeysOff& operator=(const ForeignKeysOff&) = delete;
+
+ private:
+  Connection& connection_;
+};
+
+void demand_sound_references(Connection& connection, const Migration& migration) {
+  Statement broken(connection, "PRAGMA foreign_key_check");
+  if (!broken.step()) return;
+  throw StorageError(concat("migration ", migration.version, " (", migration.name,
+                            ") found rows of ", broken.text(0), " that refer to missing rows of ",
+                            broken.text(2), "; nothing was changed"));
+}
+
 }  // namespace
 
 const std::vector<Migration>& store_migrations() {
   static const std::vector<Migration> migrations = {
       {1, "created", faultsim::embedded::store_sql},
       {2, "2026-11-21 fields of cases", faultsim::embedded::store_2_sql},
+      {3, "2026-11-21 slip events and episodes", faultsim::embedded::store_3_sql},
   };
   return migrations;
 }
@@ -45,6 +75,7 @@ const std::vector<Migration>& store_migrations() {
 void migrate(Connection& connection, const std::vector<Migration>& migrations) {
   const int newest = migrations.back().version;
   if (usable_version(connection, newest) == newest) return;
+  const ForeignKeysOff foreign_keys_off(connection);
   for (const Migration& migration : migrations) {
     Transaction transaction(connection);
     // Read again: another process may have migrated while we waited for the lock.
@@ -54,6 +85,7 @@ void migrate(Connection& connection, const std::vector<Migration>& migrations) {
     if (version == 0)
       connection.execute(concat("PRAGMA application_id = ", kStoreApplicationId).c_str());
     connection.execute(std::string(migration.sql).c_str());
+    demand_sound_references(connection, migration);
     connection.execute(concat("PRAGMA user_version = ", migration.version).c_str());
     Statement(connection, "INSERT INTO migrations (version, name, applied_at) VALUES (?, ?, ?)")
         .bind(migration.version, migration.name, static_cast<double>(std::time(nullptr)))

@@ -20,8 +20,9 @@ const std::vector<Migration>& store_migrations();
 inline constexpr int kStoreApplicationId = 0x46535750;  // "FSWP"
 
 /// Brings the file to the last version, each step in a transaction of its own with its row in
-/// `migrations`. An empty file is created. Throws StorageError on a file of another application or
-/// of a newer version; such a file is left alone.
+/// `migrations`; foreign keys are off meanwhile and checked before each step is committed. An empty
+/// file is created. Throws StorageError on a file of another application or of a newer version;
+/// such a file is left alone.
 void migrate(Connection& connection, const std::vector<Migration>& migrations);
 /// The same check without changing anything, for readers: the version must be the last one.
 void check_version(Connection& connection, const std::vector<Migration>& migrations);

@@ -27,11 +27,17 @@ const std::map<std::string, const char*>& metric_columns() {
       {"potency", "s.potency_m3"},
       {"moment", "s.moment_nm"},
       {"magnitude", "s.magnitude_mw"},
+      {"n_events", "s.n_events"},
+      {"event_moment", "s.event_moment_nm"},
+      {"event_magnitude", "s.event_magnitude_mw"},
       {"pressure_margin", "m.pressure_margin_pa"},
       {"failed_step", "m.failed_step"},
       {"plane_strain", "m.plane_strain"},
       {"weakening_resolved", "m.weakening_resolved"},
       {"max_nucleation_ratio", "m.max_nucleation_ratio"},
+      {"unexpected", "coalesce(m.unexpected, 0)"},
+      {"n_episodes", "m.n_episodes"},
+      {"max_penetration", "m.max_penetration_m"},
       {"newton_iterations", "m.newton_iterations"},
       {"active_set_passes", "m.active_set_passes"},
       {"sub_steps", "m.sub_steps"},
@@ -125,7 +131,8 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
       " s.activation_pressure_pa, coalesce(f.name, ''), s.chi_bar, s.chi_max, s.area_chi_080_m2,"
       " s.thickness_chi_080_m, s.activated_area_m2, s.slipping_area_m2, s.open_area_m2, "
       "s.max_slip_m,"
-      " s.potency_m3, s.moment_nm, s.magnitude_mw, s.first_step, s.last_step"
+      " s.potency_m3, s.moment_nm, s.magnitude_mw, s.n_events, s.event_moment_nm,"
+      " s.event_magnitude_mw, s.first_step, s.last_step, coalesce(m.unexpected, 0)"
       " FROM stage_metrics s JOIN case_metrics m ON m.case_id = s.case_id"
       " JOIN campaign_cases cc ON cc.campaign_id = ?1 AND cc.position = ?2"
       " LEFT JOIN names f ON f.id = s.activated_fault_id"
@@ -146,6 +153,7 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
     row.pressure_margin = rows.optional_real(5);
     row.metrics = read_stage_metrics(rows, 6);
     row.metrics.stage = query.stage;
+    row.unexpected = rows.integer(26) != 0;
     ranked.push_back(std::move(row));
   }
   rows.reset();

@@ -6,8 +6,8 @@
 namespace faultsweep {
 
 /// Reads activated, activation_step, activation_pressure, fault name, chi_bar, chi_max, area,
-/// thickness, activated, slipping and open area, max_slip, potency, moment, magnitude, first and
-/// last step from 17 columns that start at `first`.
+/// thickness, activated, slipping and open area, max_slip, potency, moment, magnitude, n_events,
+/// event_moment, event_magnitude, first and last step from 20 columns that start at `first`.
 faultsim::StageMetrics read_stage_metrics(const Statement& row, int first);
 
 }  // namespace faultsweep

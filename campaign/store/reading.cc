@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <charconv>
+#include <limits>
 
 #include "campaign/store/read_stage.h"
 #include "campaign/store/sqlite.h"
@@ -28,8 +29,11 @@ faultsim::StageMetrics read_stage_metrics(const Statement& row, int first) {
   m.potency = row.real(first + 12);
   m.moment = row.real(first + 13);
   m.magnitude = row.optional_real(first + 14);
-  m.first_step = static_cast<int>(row.integer(first + 15));
-  m.last_step = static_cast<int>(row.integer(first + 16));
+  m.n_events = static_cast<int>(row.integer(first + 15));
+  m.event_moment = row.real(first + 16);
+  m.event_magnitude = row.optional_real(first + 17);
+  m.first_step = static_cast<int>(row.integer(first + 18));
+  m.last_step = static_cast<int>(row.integer(first + 19));
   return m;
 }
 
@@ -70,6 +74,7 @@ faultsim::FaultMetrics read_fault_metrics(const Statement& row) {
   m.potency = row.real(16);
   m.moment = row.real(17);
   m.moment_step = row.real(18);
+  m.activated_at_edge = row.integer(19) != 0;
   return m;
 }
 
@@ -127,7 +132,8 @@ void read_steps(Connection& db, std::int64_t case_id, CaseResult& result) {
       "SELECT h.fault, h.step, n.name, chi_bar, chi_max, chi_static_max, area_chi_080_m2,"
       " thickness_chi_080_max_m, thickness_chi_080_mean_m, slipping_area_m2, open_area_m2,"
       " activated_area_m2, activated_length_m, activated, max_slip_m, mean_slip_m, potency_m3,"
-      " moment_nm, moment_step_nm FROM chi_history h JOIN names n ON n.id = h.fault_id"
+      " moment_nm, moment_step_nm, activated_at_edge FROM chi_history h JOIN names n ON n.id = "
+      "h.fault_id"
       " WHERE h.case_id = ? ORDER BY h.fault, h.step");
   faults.bind(case_id);
   while (faults.step()) {
@@ -146,6 +152,7 @@ void read_stages(Connection& db, std::int64_t case_id, CaseResult& result) {
       " s.chi_bar, s.chi_max, s.area_chi_080_m2, s.thickness_chi_080_m, s.activated_area_m2,"
       " s.slipping_area_m2, s.open_area_m2, s.max_slip_m, s.potency_m3, s.moment_nm, "
       "s.magnitude_mw,"
+      " s.n_events, s.event_moment_nm, s.event_magnitude_mw,"
       " s.first_step, s.last_step FROM names n CROSS JOIN stage_metrics s ON s.stage_id = n.id"
       " LEFT JOIN names f ON f.id = s.activated_fault_id WHERE s.case_id = ? ORDER BY "
       "s.first_step");
@@ -158,6 +165,70 @@ void read_stages(Connection& db, std::int64_t case_id, CaseResult& result) {
     } else {
       result.stages.push_back(std::move(stage));
     }
+  }
+}
+
+void read_slip_events(Connection& db, std::int64_t case_id, CaseResult& result) {
+  Statement& query = db.prepared(
+      "SELECT e.step, g.name, e.load_factor_before, e.load_factor_after, e.time_s,"
+      " e.pressure_change_pa, coalesce(f.name, ''), e.depth_m, e.nucleation_length_m,"
+      " e.slipped_area_m2, e.max_slip_m, e.mean_slip_m, e.stress_drop_pa, e.potency_m3,"
+      " e.moment_nm, e.magnitude_mw, e.duration_s, e.resolved, e.negative_pivots,"
+      " e.n_lost_cohesion, e.residual_before, e.residual_after, e.energy_released_j,"
+      " e.energy_dissipated_j, e.evidence_holds FROM slip_events e JOIN names g ON g.id ="
+      " e.stage_id LEFT JOIN names f ON f.id = e.fault_id WHERE e.case_id = ? ORDER BY e.number");
+  query.bind(case_id);
+  while (query.step()) {
+    faultsim::SlipEvent event;
+    event.step = static_cast<int>(query.integer(0));
+    event.stage = query.text(1);
+    event.load_factor_before = query.real(2);
+    event.load_factor_after = query.real(3);
+    event.time = query.real(4);
+    event.pressure_change = query.real(5);
+    event.fault = query.text(6);
+    event.depth = query.real(7);
+    event.nucleation_length = query.real(8);
+    event.slipped_area = query.real(9);
+    event.max_slip = query.real(10);
+    event.mean_slip = query.real(11);
+    event.stress_drop = query.real(12);
+    event.potency = query.real(13);
+    event.moment = query.real(14);
+    event.magnitude = query.optional_real(15);
+    event.duration = query.real(16);
+    event.resolved = query.integer(17) != 0;
+    event.negative_pivots = static_cast<int>(query.integer(18));
+    event.n_lost_cohesion = static_cast<int>(query.integer(19));
+    event.residual_before = query.real(20);
+    event.residual_after = query.real(21);
+    event.energy_released = query.real(22);
+    event.energy_dissipated = query.real(23);
+    event.evidence_holds = query.integer(24) != 0;
+    result.events.push_back(std::move(event));
+  }
+}
+
+void read_episodes(Connection& db, std::int64_t case_id, CaseResult& result) {
+  Statement& query = db.prepared(
+      "SELECT g.name, f.name, e.first_step, e.last_step, e.pressure_change_pa, e.after_recovery,"
+      " e.activated_area_m2, e.max_slip_m, e.moment_nm, e.magnitude_mw FROM episodes e"
+      " JOIN names g ON g.id = e.stage_id JOIN names f ON f.id = e.fault_id"
+      " WHERE e.case_id = ? ORDER BY e.number");
+  query.bind(case_id);
+  while (query.step()) {
+    faultsim::Episode episode;
+    episode.stage = query.text(0);
+    episode.fault = query.text(1);
+    episode.first_step = static_cast<int>(query.integer(2));
+    episode.last_step = static_cast<int>(query.integer(3));
+    episode.pressure_change = query.real(4);
+    episode.after_recovery = query.integer(5) != 0;
+    episode.activated_area = query.real(6);
+    episode.max_slip = query.real(7);
+    episode.moment = query.real(8);
+    episode.magnitude = query.optional_real(9);
+    result.episodes.push_back(std::move(episode));
   }
 }
 
@@ -176,7 +247,8 @@ bool read_case_metrics(Connection& db, std::int64_t case_id, CaseResult& result)
       "SELECT m.outcome, m.reason, m.failed_step, m.plane_strain, m.weakening_resolved,"
       " m.max_nucleation_ratio, m.pressure_margin_pa, m.newton_iterations, m.active_set_passes,"
       " m.sub_steps, m.wasted_newton_iterations, m.warnings, coalesce(r.operator, ''),"
-      " coalesce(r.numerics_version, 0), r.wall_s FROM case_metrics m JOIN runs r ON r.id = "
+      " coalesce(r.numerics_version, 0), r.wall_s, coalesce(m.unexpected, 0),"
+      " m.max_penetration_m FROM case_metrics m JOIN runs r ON r.id = "
       "m.run_id"
       " WHERE m.case_id = ?");
   if (!query.bind(case_id).step()) return false;
@@ -193,6 +265,9 @@ bool read_case_metrics(Connection& db, std::int64_t case_id, CaseResult& result)
   result.operator_fingerprint = query.text(12);
   result.numerics_version = static_cast<int>(query.integer(13));
   result.seconds = query.real(14);
+  result.unexpected = query.integer(15) != 0;
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  result.max_penetration = query.optional_real(16).value_or(kUnknown);
   query.reset();
   return true;
 }
@@ -260,6 +335,8 @@ std::optional<CaseResult> Store::stored_result(std::int64_t case_id) const {
   if (!read_case_metrics(db, case_id, result)) return std::nullopt;
   read_steps(db, case_id, result);
   read_stages(db, case_id, result);
+  read_slip_events(db, case_id, result);
+  read_episodes(db, case_id, result);
   return result;
 }
 
@@ -269,7 +346,7 @@ std::vector<FailureCount> Store::failure_counts(std::int64_t campaign) const {
       "SELECT status, why, count(*) FROM ("
       "SELECT r.status, CASE WHEN r.outcome IS NULL THEN r.reason ELSE r.outcome END AS why"
       " FROM campaign_case_states s JOIN runs r ON r.id = s.run_id WHERE s.campaign_id = ?1"
-      " AND s.state <> 'waiting' AND NOT s.lacks_only_fields AND s.outcome IS NOT 'converged'"
+      " AND s.state <> 'waiting' AND NOT s.lacks_only_fields AND NOT s.complete"
       " UNION ALL SELECT r.status, 'fields: ' || r.reason FROM campaign_case_states s"
       " JOIN runs r ON r.case_id = s.case_id WHERE s.campaign_id = ?1 AND s.state = 'failed'"
       " AND s.lacks_only_fields AND r.campaign_id = ?1 AND r.fields_only"

@@ -93,8 +93,12 @@ struct CampaignInfo {
   KeepFields keep_fields = KeepFields::none;
   long n_cases = 0, n_done = 0, n_failed = 0, n_waiting = 0;
   long n_converged = 0;       ///< of done.
+  long n_event = 0;           ///< of done: complete, with slip events.
+  long n_unresolved = 0;      ///< of done: complete, but the size of the events is the mesh's.
   long n_fields_waiting = 0;  ///< of waiting: those with a result, for their fields only.
   long n_fields_failed = 0;   ///< of failed: those with a result.
+  /// Done with a history to its end.
+  long n_complete() const { return n_converged + n_event + n_unresolved; }
 };
 
 /// A family with cases that still wait.
@@ -203,9 +207,11 @@ struct RankedCase {
   std::string parameter_values;  ///< JSON array.
   std::string parameter_labels;  ///< JSON array.
   std::optional<double> score;   ///< what it was ranked by; none in the default order.
-  int rank_class = 0;            ///< 0 complete, 1 unstable, 2 ended early otherwise.
+  int rank_class = 0;  ///< 0 complete, 1 complete with unresolved events, 2 unstable, 3 ended
+                       ///< early otherwise.
   std::string outcome;
   bool weakening_resolved = true;
+  bool unexpected = false;                ///< reactivation as pressure recovers.
   std::optional<double> pressure_margin;  ///< Pa.
   faultsim::StageMetrics metrics;
 };

@@ -20,8 +20,8 @@ bool same_step(const StepResult& a, const StepResult& b) {
                            a.pressure_change == b.pressure_change && a.outcome == b.outcome &&
                            a.reason == b.reason && a.n_stick == b.n_stick && a.n_slip == b.n_slip &&
                            a.n_open == b.n_open;
-  // A step that did not converge has no metrics in the store.
-  return same_course && (a.outcome != faultsim::Outcome::converged || a.faults == b.faults);
+  // A step that did not end in equilibrium has no metrics in the store.
+  return same_course && (!faultsim::in_equilibrium(a.outcome) || a.faults == b.faults);
 }
 
 }  // namespace
@@ -40,8 +40,13 @@ std::string first_difference(const CaseResult& stored, const CaseResult& again) 
   if (stored.stages != again.stages || stored.whole != again.whole) {
     return "the metrics of the stages";
   }
+  if (stored.events != again.events) return "the slip events";
+  if (stored.episodes != again.episodes || stored.unexpected != again.unexpected) {
+    return "the episodes";
+  }
   const bool same_rest = same(stored.pressure_margin, again.pressure_margin) &&
                          same(stored.max_nucleation_ratio, again.max_nucleation_ratio) &&
+                         same(stored.max_penetration, again.max_penetration) &&
                          stored.plane_strain == again.plane_strain &&
                          stored.weakening_resolved == again.weakening_resolved;
   return same_rest ? "" : "the metrics of the case";

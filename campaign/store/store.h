@@ -60,7 +60,7 @@ class Store {
   CampaignInfo campaign(const std::string& name, bool with_counts = true) const;
   void cancel(std::int64_t campaign);
   bool is_cancelled(std::int64_t campaign) const;
-  /// Failed cases (and, if asked, done ones that are not converged) wait again; returns how many.
+  /// Failed cases (and, if asked, done ones whose history ends early) wait again; returns how many.
   /// Done results are replaced when the new run ends, not before.
   long retry(std::int64_t campaign, bool unconverged_too, std::optional<long> position);
   BaseScene base_scene(std::int64_t scene) const;
@@ -113,7 +113,8 @@ class Store {
     long limit = 0;          ///< 0 = all.
   };
   /// Cases of the campaign with metrics of the stage; rank classes stay apart, complete histories
-  /// first. Default order: activated area, M0, then inactive cases by pressure margin, χ̄.
+  /// first, of these the ones with unresolved events last. Default order: activated area, M0, then
+  /// inactive cases by pressure margin, χ̄.
   std::vector<RankedCase> ranking(std::int64_t campaign, const RankingQuery& query) const;
   std::vector<std::string> stages(std::int64_t campaign) const;  ///< names that have metrics.
   std::vector<FailureCount> failure_counts(std::int64_t campaign) const;
@@ -141,6 +142,8 @@ class Store {
   void decide_fields(std::int64_t campaign, const RunRecord& run);
   void record_result(std::int64_t case_id, std::int64_t run_id, const faultsim::CaseResult& result);
   void record_histories(std::int64_t case_id, const faultsim::CaseResult& result);
+  void record_slip_events(std::int64_t case_id, const faultsim::CaseResult& result);
+  void record_episodes(std::int64_t case_id, const faultsim::CaseResult& result);
   void record_stage(std::int64_t case_id, const faultsim::StageMetrics& stage,
                     const faultsim::CaseResult& result);
   void forget_result(std::int64_t case_id);

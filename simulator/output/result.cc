@@ -7,9 +7,9 @@
 namespace faultsim {
 namespace {
 
-constexpr std::array kOutcomes = {Outcome::failed,   Outcome::converged,
-                                  Outcome::event,    Outcome::unresolved_event,
-                                  Outcome::unconverged, Outcome::unstable, Outcome::interrupted};
+constexpr std::array kOutcomes = {
+    Outcome::failed,      Outcome::converged, Outcome::event,      Outcome::unresolved_event,
+    Outcome::unconverged, Outcome::unstable,  Outcome::interrupted};
 
 }  // namespace
 

@@ -13,9 +13,9 @@ namespace faultsim {
 
 /// How a load step or a case ended. The default is `failed`: forgetting to set it is not a success.
 enum class Outcome {
-  failed,     ///< internal trouble; see reason.
-  converged,  ///< every load step is in equilibrium within tolerance.
-  event,      ///< in equilibrium too, after one or more recorded slip events.
+  failed,            ///< internal trouble; see reason.
+  converged,         ///< every load step is in equilibrium within tolerance.
+  event,             ///< in equilibrium too, after one or more recorded slip events.
   unresolved_event,  ///< a case of that kind whose cells are too coarse for its weakening, so that
                      ///< the size of its events is the mesh's.
   unconverged,       ///< a load step did not converge; the history ends before it.
@@ -47,11 +47,11 @@ struct FaultMetrics {
   double activated_length = 0;  ///< m, longest down-dip extent with slip > slip_tolerance.
   bool activated = false;       ///< activated_length ≥ activation_length.
   bool activated_at_edge = false;  ///< activated next to an edge of the fault: it might go on.
-  double max_slip = 0;          ///< m, |g_T| since start.
-  double mean_slip = 0;         ///< m, over the fault's area.
-  double potency = 0;           ///< m3 (plane strain: per metre of strike, m3/m).
-  double moment = 0;            ///< M0, N m (plane strain: N m per metre of strike).
-  double moment_step = 0;       ///< ∫ G_eff |Δg_T| dA of this step alone, N m.
+  double max_slip = 0;             ///< m, |g_T| since start.
+  double mean_slip = 0;            ///< m, over the fault's area.
+  double potency = 0;              ///< m3 (plane strain: per metre of strike, m3/m).
+  double moment = 0;               ///< M0, N m (plane strain: N m per metre of strike).
+  double moment_step = 0;          ///< ∫ G_eff |Δg_T| dA of this step alone, N m.
 
   bool operator==(const FaultMetrics&) const = default;  ///< the very same numbers.
 };
@@ -83,19 +83,19 @@ struct StepResult {
 struct SlipEvent {
   int step = 0;
   std::string stage;
-  double load_factor_before = 0;  ///< of the load step, where the last equilibrium was found;
-  double load_factor_after = 0;   ///< the load at which the jump was followed.
-  double time = 0;                ///< s, of onset.
-  double pressure_change = 0;     ///< Pa, Δp of the most depleted region at onset.
-  std::string fault;              ///< where it nucleated.
-  double depth = 0;               ///< m, of the centre of the nucleus.
-  double nucleation_length = 0;   ///< m, down-dip length slipping when stability was lost.
-  double slipped_area = 0;        ///< m2.
-  double max_slip = 0;            ///< m, of the event.
-  double mean_slip = 0;           ///< m, over the slipped area.
-  double stress_drop = 0;         ///< Pa, of shear traction along the slip, weighted by slip.
-  double potency = 0;             ///< m3.
-  double moment = 0;              ///< M0, N m.
+  double load_factor_before = 0;    ///< of the load step, where the last equilibrium was found;
+  double load_factor_after = 0;     ///< the load at which the jump was followed.
+  double time = 0;                  ///< s, of onset.
+  double pressure_change = 0;       ///< Pa, Δp of the most depleted region at onset.
+  std::string fault;                ///< where it nucleated.
+  double depth = 0;                 ///< m, of the centre of the nucleus.
+  double nucleation_length = 0;     ///< m, down-dip length slipping when stability was lost.
+  double slipped_area = 0;          ///< m2.
+  double max_slip = 0;              ///< m, of the event.
+  double mean_slip = 0;             ///< m, over the slipped area.
+  double stress_drop = 0;           ///< Pa, of shear traction along the slip, weighted by slip.
+  double potency = 0;               ///< m3.
+  double moment = 0;                ///< M0, N m.
   std::optional<double> magnitude;  ///< Mw; none in plane strain.
   double duration = 0;              ///< s, of the radiation-damped motion.
   bool resolved = true;             ///< cell edges ≤ h_n / 3 where it slipped.
@@ -107,6 +107,8 @@ struct SlipEvent {
   double energy_dissipated = 0;  ///< J, by friction; the rest is radiated.
   bool evidence_holds = false;   ///< stability lost in between, equilibrium before and after,
                                  ///< energy released ≥ dissipated ≥ 0.
+
+  bool operator==(const SlipEvent&) const = default;  ///< the very same numbers.
 };
 
 /// A run of load steps of one stage in which a fault slips far enough to count as activated.
@@ -114,12 +116,14 @@ struct Episode {
   std::string stage;
   std::string fault;
   int first_step = 0, last_step = 0;
-  double pressure_change = 0;   ///< Pa, Δp of the most depleted region at the first step.
-  bool after_recovery = false;  ///< pressure had been lower before: cushion gas, storage.
-  double activated_area = 0;    ///< m2, by the slip of the episode.
-  double max_slip = 0;          ///< m, of the episode.
-  double moment = 0;            ///< M0, N m, summed over its steps.
+  double pressure_change = 0;       ///< Pa, Δp of the most depleted region at the first step.
+  bool after_recovery = false;      ///< pressure had been lower before: cushion gas, storage.
+  double activated_area = 0;        ///< m2, by the slip of the episode.
+  double max_slip = 0;              ///< m, of the episode.
+  double moment = 0;                ///< M0, N m, summed over its steps.
   std::optional<double> magnitude;  ///< Mw; none in plane strain.
+
+  bool operator==(const Episode&) const = default;  ///< the very same numbers.
 };
 
 /// Fault fields of one load step, per fault node of FaultGeometry (fault frame).

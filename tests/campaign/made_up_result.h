@@ -72,4 +72,56 @@ inline faultsim::CaseResult made_up_result(double strength, int n_steps = 12) {
   return result;
 }
 
+/// A made-up result with two slip events and two episodes, every field of which differs from its
+/// default and, flags aside, from all other fields.
+inline faultsim::CaseResult made_up_result_with_events(double strength) {
+  faultsim::CaseResult result = made_up_result(strength);
+  result.outcome = faultsim::Outcome::unresolved_event;
+  result.weakening_resolved = false;
+  result.max_nucleation_ratio = 0.7;
+  result.max_penetration = 1e-10 / 3;
+  result.unexpected = true;
+  result.steps[3].outcome = faultsim::Outcome::unresolved_event;
+  result.steps[3].faults[1].activated_at_edge = true;
+  result.whole.n_events = 2;
+  result.whole.event_moment = 2e13 / 3;
+  result.whole.event_magnitude = faultsim::moment_magnitude(2e13 / 3);
+  result.stages[0].n_events = 1;
+  result.stages[0].event_moment = 1e13 / 3;
+  double next = 1.0 / 3;
+  const auto number = [&next] { return next += 1; };
+  for (const char* stage : {"primary_production", "gas_storage"}) {
+    faultsim::SlipEvent e;
+    e.step = static_cast<int>(number());
+    e.stage = stage;
+    for (double* value :
+         {&e.load_factor_before, &e.load_factor_after, &e.time, &e.pressure_change, &e.depth,
+          &e.nucleation_length, &e.slipped_area, &e.max_slip, &e.mean_slip, &e.stress_drop,
+          &e.potency, &e.moment, &e.duration, &e.residual_before, &e.residual_after,
+          &e.energy_released, &e.energy_dissipated}) {
+      *value = number();
+    }
+    e.fault = "F2";
+    e.magnitude = number();
+    e.resolved = false;
+    e.negative_pivots = static_cast<int>(number());
+    e.n_lost_cohesion = static_cast<int>(number());
+    e.evidence_holds = true;
+    result.events.push_back(e);
+    faultsim::Episode episode;
+    episode.stage = stage;
+    episode.fault = "F1";
+    episode.first_step = static_cast<int>(number());
+    episode.last_step = static_cast<int>(number());
+    episode.pressure_change = -number();
+    episode.after_recovery = true;
+    for (double* value : {&episode.activated_area, &episode.max_slip, &episode.moment}) {
+      *value = number();
+    }
+    episode.magnitude = number();
+    result.episodes.push_back(episode);
+  }
+  return result;
+}
+
 }  // namespace faultsweep::testing

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "campaign/scheduler/worker.h"
+#include "campaign/store/sqlite.h"
 #include "simulator/common/stopwatch.h"
 #include "tests/campaign/made_up_result.h"
 
@@ -46,6 +47,7 @@ class FakeRunner final : public JobRunner {
     has_operator_ = true;
     run.status = RunStatus::completed;
     run.result = testing::made_up_result(strength, 3);
+    run.result->outcome = outcome;
     run.result->operator_fingerprint = operator_fingerprint;
     run.has_fields = !job.fields_folder.empty();
     fields_folders.insert(job.fields_folder);
@@ -55,6 +57,7 @@ class FakeRunner final : public JobRunner {
   }
   static inline int n_runs = 0;
   static inline double strength = 0.7;
+  static inline faultsim::Outcome outcome = faultsim::Outcome::converged;
   static inline std::string operator_fingerprint = "print";
   static inline std::set<std::string> fields_folders;
 
@@ -124,6 +127,7 @@ class ManagerTest : public ::testing::Test {
     std::string name = ::testing::TempDir() + "manager_XXXXXX";
     folder_ = mkdtemp(name.data());
     FakeRunner::n_runs = 0;
+    FakeRunner::outcome = faultsim::Outcome::converged;
     FakeRunner::strength = 0.7;
     FakeRunner::operator_fingerprint = "print";
     FakeRunner::fields_folders.clear();
@@ -190,6 +194,27 @@ TEST_F(ManagerTest, FailuresAreRowsAndTheCampaignIsIncomplete) {
   EXPECT_EQ(info.n_done, 28);
   EXPECT_EQ(info.n_failed, 2);
   EXPECT_EQ(store.stored_case(info.id, "4").runs.at(0).reason, "killed");
+}
+
+TEST_F(ManagerTest, SlipEventsAreFullResultsAndEarlyEndsAreNot) {
+  using faultsim::Outcome;
+  submit(4, {});
+  const std::pair<Outcome, ExitCode> expected[] = {{Outcome::unstable, ExitCode::incomplete},
+                                                   {Outcome::unresolved_event, ExitCode::done},
+                                                   {Outcome::event, ExitCode::done}};
+  for (const auto& [outcome, status] : expected) {
+    FakeRunner::outcome = outcome;
+    Store store = Store::open_owner(folder_);
+    for (int repeat = 0; repeat < 2; ++repeat) {  // as it comes, and as the store counts it
+      Stage stage(1);
+      Manager manager(store, stage, silent_, {});
+      EXPECT_TRUE(stage.play(manager));
+      EXPECT_EQ(manager.status(), status) << faultsim::to_string(outcome) << repeat;
+    }
+    // The next outcome takes its place.
+    Connection connection(folder_ / "campaign.sqlite", Connection::Mode::read_write);
+    connection.execute("UPDATE cases SET state = 'waiting'");
+  }
 }
 
 TEST_F(ManagerTest, RetriesAsTheSpecSays) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
+#include "simulator/output/write_result.h"
 #include "tests/campaign/made_up_result.h"
 
 namespace faultsweep {
@@ -39,6 +42,19 @@ TEST(Wire, ResultsTravelBitForBit) {
   EXPECT_FALSE(back.failed[0].run.result);
   EXPECT_EQ(back.returned, events.returned);
   EXPECT_EQ(back.operators[0].peak_bytes, 40);
+}
+
+/// By the fields that result.json is written from, so that one that the wire forgets is found.
+TEST(Wire, EveryFieldOfAResultTravels) {
+  JobEvents events;
+  RunRecord run;
+  run.status = RunStatus::completed;
+  run.result = testing::made_up_result_with_events(0.8);
+  events.completed.push_back(run);
+  const auto back = std::get<message::Events>(decode(encode(message::Events{events}))).events;
+  EXPECT_EQ(nlohmann::json::diff(faultsim::result_to_json(*run.result),
+                                 faultsim::result_to_json(*back.completed.at(0).result)),
+            nlohmann::json::array());
 }
 
 TEST(Wire, WorkTravels) {

@@ -59,6 +59,8 @@ TEST(SameNumbers, AResultIsTheSameAfterItsWayThroughTheStore) {
     const CaseResult result = example(strength);
     EXPECT_EQ(first_difference(stored(result), result), "");
   }
+  const CaseResult with_events = testing::made_up_result_with_events(0.8);
+  EXPECT_EQ(first_difference(stored(with_events), with_events), "");
   CaseResult failed = example(0.8);
   failed.outcome = faultsim::Outcome::unconverged;
   failed.reason = "load step 12: it cycles";
@@ -66,6 +68,23 @@ TEST(SameNumbers, AResultIsTheSameAfterItsWayThroughTheStore) {
   failed.steps.back().outcome = faultsim::Outcome::unconverged;
   failed.steps.back().faults.clear();
   EXPECT_EQ(first_difference(stored(failed), failed), "");
+}
+
+TEST(SameNumbers, EventsAndEpisodesCount) {
+  const CaseResult result = testing::made_up_result_with_events(0.8);
+  const CaseResult before = stored(result);
+  const auto changed = [&](const auto& change) {
+    CaseResult again = result;
+    change(again);
+    return first_difference(before, again);
+  };
+  EXPECT_EQ(changed([](CaseResult& r) { r.events[1].duration *= 1 + 1e-15; }), "the slip events");
+  EXPECT_EQ(changed([](CaseResult& r) { r.episodes[0].moment *= 1 + 1e-15; }), "the episodes");
+  EXPECT_EQ(changed([](CaseResult& r) { r.unexpected = false; }), "the episodes");
+  EXPECT_EQ(changed([](CaseResult& r) { r.max_penetration = 0; }), "the metrics of the case");
+  EXPECT_EQ(changed([](CaseResult& r) { r.steps[3].faults[1].activated_at_edge = false; }),
+            "load step 3 (primary_production)");
+  EXPECT_EQ(changed([](CaseResult& r) { r.stages[0].n_events = 2; }), "the metrics of the stages");
 }
 
 TEST(SameNumbers, TheLastBitOfAnythingIsADifference) {
