@@ -110,7 +110,8 @@ void add_reading(CLI::App& app, Arguments& a, ExitCode& code) {
   add_json(rank, a.common);
   rank->callback([&] { code = rank_command(a.common, a.rank, a.list_metrics); });
 
-  CLI::App* show = app.add_subcommand("show", "one case: parameters, outcome, stages, chi history");
+  CLI::App* show =
+      app.add_subcommand("show", "one case: parameters, outcome, stages, slip events, chi history");
   add_case(show, a.common, a.case_name);
   add_json(show, a.common);
   show->callback([&] { code = show_command(a.common, a.case_name); });

@@ -77,6 +77,43 @@ std::string history_text(const CaseResult& result, std::size_t fault) {
   return table.text();
 }
 
+/// M0 with its Mw, which plane strain has none of.
+std::string size_text(double moment, const std::optional<double>& magnitude) {
+  const std::string m0 = concat("M0 ", format_number(moment, 3));
+  return magnitude ? concat("Mw ", format_number(*magnitude, 2), " (", m0, ")") : m0;
+}
+
+std::string events_text(const CaseResult& result) {
+  if (result.events.empty()) return "";
+  TextTable table({"event", "step", "stage", "Δp/bar", "fault", "depth/m", "nucleus/m", "area/m2",
+                   "slip/m", "drop/bar", "size/Nm", "resolved", "evidence"});
+  int number = 0;
+  for (const faultsim::SlipEvent& e : result.events) {
+    table.add_row({std::to_string(++number), std::to_string(e.step), e.stage,
+                   format_number(e.pressure_change / kBar), e.fault, format_number(e.depth),
+                   format_number(e.nucleation_length, 3), format_number(e.slipped_area),
+                   format_number(e.max_slip, 3), format_number(e.stress_drop / kBar, 3),
+                   size_text(e.moment, e.magnitude), e.resolved ? "yes" : "NO, mesh too coarse",
+                   e.evidence_holds ? "holds" : "DOES NOT HOLD"});
+  }
+  return "\nslip events:\n" + table.text();
+}
+
+std::string episodes_text(const CaseResult& result) {
+  if (result.episodes.empty()) return "";
+  TextTable table({"episode", "stage", "steps", "fault", "from Δp/bar", "pressure", "activated/m2",
+                   "slip/m", "size/Nm"});
+  int number = 0;
+  for (const faultsim::Episode& e : result.episodes) {
+    table.add_row({std::to_string(++number), e.stage, concat(e.first_step, "-", e.last_step),
+                   e.fault, format_number(e.pressure_change / kBar),
+                   e.after_recovery ? "had been lower" : "the lowest so far",
+                   format_number(e.activated_area), format_number(e.max_slip, 3),
+                   size_text(e.moment, e.magnitude)});
+  }
+  return "\nactivation episodes:\n" + table.text();
+}
+
 std::string runs_text(const StoredCase& one) {
   std::string text;
   for (const StoredRun& run : one.runs) {
@@ -155,12 +192,18 @@ std::string case_to_text(const CampaignInfo& campaign, const StoredCase& one) {
   text += concat("\n", faultsim::to_string(result.outcome),
                  result.reason.empty() ? "" : ": " + result.reason, "; ", result.steps.size(),
                  " load steps, ", result.counts.newton_iterations, " Newton iterations\n");
+  if (result.unexpected) text += "UNEXPECTED REACTIVATION: activated again as pressure recovers\n";
+  if (result.outcome == faultsim::Outcome::unresolved_event) {
+    text += result.weakening_resolved
+                ? "UNRESOLVED: the evidence of a slip event does not hold\n"
+                : "UNRESOLVED: the size of its slip events depends on the mesh\n";
+  }
   for (const std::string& warning : result.warnings) text += "warning: " + warning + "\n";
   if (std::isfinite(result.pressure_margin)) {
     text += concat("activates after ", format_number(result.pressure_margin / kBar),
                    " bar more depletion, extrapolated\n");
   }
-  text += "\n" + stages_text(result);
+  text += "\n" + stages_text(result) + events_text(result) + episodes_text(result);
   for (std::size_t fault = 0; fault < result.fault_names.size(); ++fault) {
     text += concat("\nfault ", result.fault_names[fault], ":\n", history_text(result, fault));
   }

@@ -44,6 +44,8 @@ void check_stage(const Store& store, const CampaignInfo& campaign, const std::st
 std::string flag_of(const RankedCase& row) {
   std::string flag = row.outcome;
   if (!row.weakening_resolved) flag += ", mesh too coarse for its weakening";
+  if (row.weakening_resolved && row.rank_class == 1) flag += ", evidence of an event does not hold";
+  if (row.unexpected) flag += ", UNEXPECTED";
   return flag;
 }
 
@@ -80,43 +82,72 @@ Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankReque
   return ranking;
 }
 
+namespace {
+
+/// What stands in the first column. Cases whose sizes are the mesh's compete among themselves,
+/// cases without a full history not at all.
+class PlaceNames {
+ public:
+  std::string next(int rank_class) {
+    if (rank_class == 0) return std::to_string(++complete_);
+    return rank_class == 1 ? concat("+", ++unresolved_) : "*";
+  }
+
+ private:
+  int complete_ = 0, unresolved_ = 0;
+};
+
+std::string footnotes(const std::vector<RankedCase>& rows) {
+  const auto any = [&](auto&& holds) { return std::any_of(rows.begin(), rows.end(), holds); };
+  std::string text;
+  if (any([](const RankedCase& row) { return row.rank_class == 1; })) {
+    text +=
+        "+ complete, but the size of its slip events depends on the mesh or is not evident: "
+        "ranked apart\n";
+  }
+  if (any([](const RankedCase& row) { return row.rank_class > 1; })) {
+    text += "* history ends early: listed apart, not ranked\n";
+  }
+  if (any([](const RankedCase& row) { return row.unexpected; })) {
+    text += "UNEXPECTED: activated again as pressure recovers\n";
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string ranking_to_text(const Ranking& ranking) {
   const auto parameters = parameters_from_json(ranking.campaign.parameters);
   std::vector<std::string> header = {"rank", "case"};
   for (const StoredParameter& parameter : parameters) header.push_back(parameter.name);
-  for (const char* name :
-       {"outcome", "activated", "area/m2", "M0/Nm", "Mw", "χ̄", "margin/bar", "slip/m"}) {
+  for (const char* name : {"outcome", "activated", "area/m2", "M0/Nm", "Mw", "events",
+                           "event M0/Nm", "χ̄", "margin/bar", "slip/m"}) {
     header.push_back(name);
   }
   const bool has_score = !ranking.by_default;
   header.push_back(has_score ? ranking.request.by : "");
   TextTable table(header);
-  int rank = 0;
+  PlaceNames places;
   for (const RankedCase& row : ranking.rows) {
     const faultsim::StageMetrics& m = row.metrics;
-    // Cases without a full history are no competitors: they get no rank.
-    std::vector<std::string> cells = {row.rank_class == 0 ? std::to_string(++rank) : "*",
-                                      std::to_string(row.position)};
+    std::vector<std::string> cells = {places.next(row.rank_class), std::to_string(row.position)};
     std::vector<std::string> labels = labels_from_json(row.parameter_labels);
     labels.resize(parameters.size());
     cells.insert(cells.end(), labels.begin(), labels.end());
     constexpr double kBar = 1e5;
-    cells.insert(cells.end(),
-                 {flag_of(row), activation_of(m), format_number(m.activated_area),
-                  format_number(m.moment, 3), m.magnitude ? format_number(*m.magnitude, 2) : "",
-                  format_number(m.chi_bar, 3),
-                  row.pressure_margin ? format_number(*row.pressure_margin / kBar, 3) : "",
-                  format_number(m.max_slip, 3),
-                  has_score ? (row.score ? format_number(*row.score) : "-") : ""});
+    cells.insert(
+        cells.end(),
+        {flag_of(row), activation_of(m), format_number(m.activated_area),
+         format_number(m.moment, 3), m.magnitude ? format_number(*m.magnitude, 2) : "",
+         m.n_events > 0 ? std::to_string(m.n_events) : "",
+         m.n_events > 0 ? format_number(m.event_moment, 3) : "", format_number(m.chi_bar, 3),
+         row.pressure_margin ? format_number(*row.pressure_margin / kBar, 3) : "",
+         format_number(m.max_slip, 3),
+         has_score ? (row.score ? format_number(*row.score) : "-") : ""});
     table.add_row(std::move(cells));
   }
   if (table.empty()) return "no case of " + ranking.campaign.name + " matches\n";
-  std::string text = table.text();
-  if (std::any_of(ranking.rows.begin(), ranking.rows.end(),
-                  [](const RankedCase& row) { return row.rank_class != 0; })) {
-    text += "* history ends early: listed apart, not ranked\n";
-  }
-  return text;
+  return table.text() + footnotes(ranking.rows);
 }
 
 json ranking_to_json(const Ranking& ranking) {
@@ -139,6 +170,8 @@ json ranking_to_json(const Ranking& ranking) {
                   {"case", row.position},
                   {"parameters", values},
                   {"outcome", row.outcome},
+                  {"rank_class", row.rank_class},
+                  {"unexpected", row.unexpected},
                   {"weakening_resolved", row.weakening_resolved},
                   {"activated", m.activated},
                   {"activated_fault", m.activated_fault},
@@ -147,6 +180,9 @@ json ranking_to_json(const Ranking& ranking) {
                   {"activated_area_m2", m.activated_area},
                   {"moment_nm", m.moment},
                   {"magnitude_mw", optional_json(m.magnitude)},
+                  {"n_events", m.n_events},
+                  {"event_moment_nm", m.event_moment},
+                  {"event_magnitude_mw", optional_json(m.event_magnitude)},
                   {"chi_bar", m.chi_bar},
                   {"chi_max", m.chi_max},
                   {"area_chi_080_m2", m.area_chi_080},

@@ -16,7 +16,8 @@ struct RankRequest {
   long top = 20;           ///< 0 = all.
 };
 
-/// A ranking: complete histories first, then unstable cases, then those that ended early otherwise.
+/// A ranking: complete histories first, then those with unresolved events, whose size is the
+/// mesh's, then unstable cases, then those that ended early otherwise.
 struct Ranking {
   CampaignInfo campaign;
   RankRequest request;

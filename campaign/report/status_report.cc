@@ -54,13 +54,23 @@ std::string manager_text(const StatusReport& status) {
   return text + "\n";
 }
 
+/// Complete histories with slip events, counted apart from converged ones.
+std::string events_text(const CampaignInfo& c) {
+  std::string text;
+  if (c.n_event > 0) text += concat(", ", c.n_event, " with slip events");
+  if (c.n_unresolved > 0) {
+    text += concat(", ", c.n_unresolved, " with unresolved slip events");
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string status_to_text(const StatusReport& status) {
   const CampaignInfo& c = status.campaign;
   std::string text = concat(c.name, ": ", c.n_cases, " cases, ", c.n_done, " done (", c.n_converged,
-                            " converged), ", c.n_failed, " failed, ", c.n_waiting, " waiting",
-                            c.cancelled ? "; cancelled" : "", "\n");
+                            " converged", events_text(c), "), ", c.n_failed, " failed, ",
+                            c.n_waiting, " waiting", c.cancelled ? "; cancelled" : "", "\n");
   text += concat("submitted ", format_time(c.submitted_at), " from ", c.source, ", ",
                  status.families.size(), " families, ", c.n_excluded, " excluded, ", c.n_merged,
                  " merged, on failure: ", to_string(c.policy.on_failure), "\n");
@@ -130,6 +140,8 @@ json status_to_json(const StatusReport& status) {
           {"cases", c.n_cases},
           {"done", c.n_done},
           {"converged", c.n_converged},
+          {"event", c.n_event},
+          {"unresolved_event", c.n_unresolved},
           {"failed", c.n_failed},
           {"waiting", c.n_waiting},
           {"keep_fields", to_string(c.keep_fields)},

@@ -257,6 +257,93 @@ TEST_F(ReportTest, SaysWhereTheFieldsAre) {
   EXPECT_EQ(status_to_json(status)["waiting_for_fields_only"], 2);
 }
 
+/// The first three cases again, with events, in a campaign with two new ones: resolved, unresolved.
+class EventReportTest : public ReportTest {
+ protected:
+  void SetUp() override {
+    ReportTest::SetUp();
+    Submission s;
+    s.name = "events";
+    s.parameters = "[]";
+    s.scenes = {{"scene.json", "{}"}};
+    s.families = {{"family-a", 1000, 100, 1, 1}};
+    for (const char* identity : {"identity-1", "event-1", "event-2"}) {
+      s.cases.push_back({identity, 0, 0, "{}", "[]", "[]"});
+    }
+    id_ = store_->submit(s).campaign;
+    const auto ids = store_->waiting_families(id_).at(0).cases;
+    RunRecord run;
+    run.status = RunStatus::completed;
+    run.case_id = ids.at(0);
+    run.result = testing::made_up_result_with_events(0.95);
+    store_->record_runs(id_, {run});
+    run.case_id = ids.at(1);
+    run.result->outcome = faultsim::Outcome::event;
+    run.result->weakening_resolved = true;
+    run.result->unexpected = false;
+    for (faultsim::SlipEvent& event : run.result->events) event.resolved = true;
+    store_->record_runs(id_, {run});
+    events_ = store_->campaign("events");
+  }
+  std::string show(const char* name) const {
+    return case_to_text(events_, store_->stored_case(id_, name));
+  }
+  std::int64_t id_ = 0;
+  CampaignInfo events_;
+};
+
+TEST_F(EventReportTest, TheRankingKeepsUnresolvedOnesApart) {
+  const std::string text = ranking_to_text(make_ranking(*store_, events_, {}));
+  EXPECT_THAT(text, HasSubstr("   1     3  event "));
+  EXPECT_THAT(text, HasSubstr("   2     1  converged"));
+  EXPECT_THAT(text, HasSubstr("  +1     2  unresolved_event, mesh too coarse for its weakening, "
+                              "UNEXPECTED  "));
+  EXPECT_THAT(text, HasSubstr("+ complete, but the size of its slip events depends on the mesh"));
+  EXPECT_THAT(text, Not(HasSubstr("ends early")));
+  const auto json = ranking_to_json(make_ranking(*store_, events_, {}));
+  EXPECT_EQ(json["cases"][0]["n_events"], 2);
+  EXPECT_EQ(json["cases"][0]["event_moment_nm"], 2e13 / 3);
+  EXPECT_EQ(json["cases"][2]["rank_class"], 1);
+  EXPECT_EQ(json["cases"][2]["unexpected"], true);
+  EXPECT_TRUE(json["cases"][2]["rank"].is_null());
+}
+
+TEST_F(EventReportTest, EventsOrderAndFilter) {
+  const auto positions = [&](const std::string& where) {
+    std::vector<long> all;
+    for (const auto& row : make_ranking(*store_, events_, request("event_moment", where)).rows) {
+      all.push_back(row.position);
+    }
+    return all;
+  };
+  EXPECT_THAT(positions("n_events >= 1 and event_magnitude > 2"), ElementsAre(3, 2));
+  EXPECT_THAT(positions("unexpected"), ElementsAre(2));
+  EXPECT_THAT(positions("not weakening_resolved"), ElementsAre(2));
+  EXPECT_THAT(positions("n_episodes = 0"), ElementsAre(1));
+}
+
+TEST_F(EventReportTest, ShowListsEventsAndEpisodes) {
+  const std::string text = show("2");
+  EXPECT_THAT(text, HasSubstr("UNEXPECTED REACTIVATION: activated again as pressure recovers\n"));
+  EXPECT_THAT(text, HasSubstr("UNRESOLVED: the size of its slip events depends on the mesh\n"));
+  EXPECT_THAT(text, HasSubstr("\nslip events:\nevent  step  stage "));
+  EXPECT_THAT(text, HasSubstr("NO, mesh too coarse  holds\n"));
+  EXPECT_THAT(text, HasSubstr("\nactivation episodes:\nepisode  stage "));
+  EXPECT_THAT(text, HasSubstr("had been lower"));
+  EXPECT_THAT(show("3"), Not(HasSubstr("UN")));
+  EXPECT_THAT(show("1"), Not(HasSubstr("slip events")));
+}
+
+TEST_F(EventReportTest, StatusCountsThemAsDoneButNotAsConverged) {
+  const StatusReport status = make_status(*store_, "events");
+  EXPECT_THAT(status_to_text(status),
+              HasSubstr("events: 3 cases, 3 done (1 converged, 1 with slip events, 1 with "
+                        "unresolved slip events), 0 failed, 0 waiting"));
+  EXPECT_THAT(status_to_text(status), Not(HasSubstr("without a full result")));
+  EXPECT_EQ(status_to_json(status)["event"], 1);
+  EXPECT_EQ(status_to_json(status)["unresolved_event"], 1);
+}
+
 TEST_F(ReportTest, StatusCountsAndGivesReasons) {
   const StatusReport status = make_status(*store_, "");
   const std::string text = status_to_text(status);
