@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdarg>
 #include <cstdio>
+#include <span>
 
 namespace faultsim {
 namespace {
@@ -74,8 +75,10 @@ std::string step_table_header(const CaseResult& names) {
 
 std::string step_table_row(const StepResult& step) {
   constexpr double kYear = 31557600.0;
-  std::string line =
-      format("%4d  %-22.22s %7.2f", step.step, step.stage.c_str(), step.time / kYear);
+  const bool has_event =
+      step.outcome == Outcome::event || step.outcome == Outcome::unresolved_event;
+  std::string line = format("%4d%c %-22.22s %7.2f", step.step, has_event ? '!' : ' ',
+                            step.stage.c_str(), step.time / kYear);
   for (const double dp : step.pressure_change) line += format(" %9s", bar(dp).c_str());
   if (!in_equilibrium(step.outcome)) {
     return line + "  " + to_string(step.outcome) + ": " + step.reason + "\n";
@@ -90,6 +93,45 @@ std::string step_table_row(const StepResult& step) {
   return line + format(" %11.4g %10.3f %5d %8.2f\n", area, slip * 1e3,
                        step.counts.newton_iterations, step.seconds * 1e3);
 }
+
+namespace {
+
+std::string size_text(double moment, const std::optional<double>& magnitude) {
+  return magnitude ? format("Mw %.1f", *magnitude) : format("M0 %.3g N m/m", moment);
+}
+
+std::string events_text(const CaseResult& result) {
+  if (result.events.empty()) return "";
+  std::string text = format("slip events: %zu (! in the table)\n", result.events.size());
+  constexpr std::size_t kShown = 20;
+  for (const SlipEvent& e :
+       std::span(result.events).first(std::min(result.events.size(), kShown))) {
+    text += format("  step %d at %s bar: fault %s at %.0f m depth, nucleus %.3g m, slip %.1f mm, ",
+                   e.step, bar(e.pressure_change).c_str(), e.fault.c_str(), e.depth,
+                   e.nucleation_length, e.max_slip * 1e3);
+    text += size_text(e.moment, e.magnitude);
+    if (!e.resolved) text += ", NOT RESOLVED: its size is the mesh's";
+    if (!e.evidence_holds) text += ", EVIDENCE DOES NOT HOLD";
+    text += "\n";
+  }
+  if (result.events.size() > kShown) text += "  the rest is in result.json\n";
+  return text;
+}
+
+std::string episodes_text(const CaseResult& result) {
+  std::string text;
+  for (const Episode& e : result.episodes) {
+    text += format("episode: fault %s, steps %d-%d of %s, from %s bar%s, slip %.1f mm, ",
+                   e.fault.c_str(), e.first_step, e.last_step, e.stage.c_str(),
+                   bar(e.pressure_change).c_str(), e.after_recovery ? " as pressure recovered" : "",
+                   e.max_slip * 1e3);
+    text += size_text(e.moment, e.magnitude) + "\n";
+  }
+  if (result.unexpected) text += "UNEXPECTED REACTIVATION: activated again as pressure recovers\n";
+  return text;
+}
+
+}  // namespace
 
 std::string case_summary(const CaseResult& result) {
   std::string text = std::string("outcome: ") + to_string(result.outcome);
@@ -119,6 +161,7 @@ std::string case_summary(const CaseResult& result) {
     if (stage.magnitude) text += format(" (Mw %.1f)", *stage.magnitude);
     text += stage.activated ? format(", activated in step %d\n", *stage.activation_step) : "\n";
   }
+  text += events_text(result) + episodes_text(result);
   for (const std::string& warning : result.warnings) text += "warning: " + warning + "\n";
   return text;
 }

@@ -26,10 +26,10 @@ class ScreenMonitor final : public Monitor {
   Stopwatch watch_;
 };
 
-/// The table per load step that `faultsim run` prints.
+/// The table per load step that `faultsim run` prints; ! marks steps with slip events.
 std::string step_table_header(const CaseResult& names);
 std::string step_table_row(const StepResult& step);
-/// The closing lines: outcome, activation, stages, warnings.
+/// The closing lines: outcome, activation, stages, slip events, episodes, warnings.
 std::string case_summary(const CaseResult& result);
 
 }  // namespace faultsim
