@@ -405,6 +405,55 @@ VerifyCase mirrored_case() {
           }};
 }
 
+/// μ from 0.52 to 0.20 over 20 mm: slip outruns the rock before the depletion is over.
+Settings weakening(Settings settings) {
+  settings.push_back({"/friction/dynamic_friction_coefficient", "0.2"});
+  settings.push_back({"/friction/slip_weakening_distance", "20 mm"});
+  settings.push_back({"/numerics/onset_tolerance", "1e-5"});
+  settings.push_back({"/stages/0/steps", "100"});
+  return settings;
+}
+
+/// Δp at the onset of the first event, MPa.
+double onset_of(const SceneRun& run, VerifyReport& report, const std::string& where) {
+  const auto& events = run.result.events;
+  report.holds("one event, its evidence holds" + where,
+               events.size() == 1 && events.front().evidence_holds);
+  return events.empty() ? 0 : events.front().pressure_change / 1e6;
+}
+
+void study_onset(SceneRunner& runner, VerifyReport& report) {
+  const std::array<double, 3> cells = {2.5, 1.25, 0.625};
+  std::array<double, 3> onset{};
+  double exact = 0;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::string where = ", " + short_number(cells[i]) + " m cells";
+    const SceneRun run = runner.run(kSlipping, weakening(box_and_cells(18000, cells[i])));
+    if (exact == 0) {
+      const SlippingFault fault = slipping_fault_of(run);
+      const auto share = [&](double element) {
+        return boundary_element_onset(fault, {0.2, 0.02}, element);
+      };
+      exact = (2 * share(0.25) - share(0.5)) * fault.fault_pressure_change / 1e6;
+    }
+    onset[i] = onset_of(run, report, where);
+    report.compare("onset" + where, "MPa", exact, onset[i], 0.01);
+  }
+  const double first = 2 * onset[1] - onset[0], second = 2 * onset[2] - onset[1];
+  report.compare("onset, 2.5 and 1.25 m extrapolated", "MPa", exact, first, 0.005);
+  report.compare("onset, 1.25 and 0.625 m extrapolated", "MPa", exact, second, 0.005);
+  report.bound("difference of the extrapolated onsets", "relative", std::abs(first / second - 1),
+               0.003);
+  report.at_least("order of the onset in the cell size", 0.8,
+                  observed_order(onset[1] - onset[0], onset[2] - onset[1]));
+}
+
+VerifyCase weakening_case() {
+  return {"V5-weakening", "the displaced fault with slip weakening: onset of the event",
+          {kSlipping},    true,
+          study_onset};
+}
+
 const char kFrictionless[] = "v5_frictionless_fault.json";
 
 VerifyCase frictionless_case() {
@@ -439,6 +488,7 @@ std::vector<VerifyCase> displaced_cases() {
                      {{"/compartments/left/scale", "0"}}),
           slipping_case(),
           mirrored_case(),
+          weakening_case(),
           frictionless_case()};
 }
 

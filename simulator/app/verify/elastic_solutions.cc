@@ -143,20 +143,22 @@ SlipProblem slip_problem(const SlippingFault& fault, double element_height) {
   return problem;
 }
 
-}  // namespace
+/// The active set of Coulomb friction with a stiffness per element; positive definite matrices only.
+struct SlipSolution {
+  bool stable = false;  ///< the set settled, with positive pivots all the way.
+  Eigen::VectorXd slip;
+};
 
-SlipProfile boundary_element_slip(const SlippingFault& fault, double element_height) {
-  const SlipProblem problem = slip_problem(fault, element_height);
+SlipSolution solve_slip(const SlipProblem& problem) {
   const Eigen::Index n = problem.y.size();
-  Eigen::VectorXd slip = Eigen::VectorXd::Zero(n);
+  SlipSolution solution{false, Eigen::VectorXd::Zero(n)};
+  Eigen::VectorXd& slip = solution.slip;
   std::vector<int> direction(static_cast<std::size_t>(n), 0);
   // The matrix is an M-matrix, so the slipping set grows from the violated elements and each pass
   // adds or drops elements once; the bound is generous.
   constexpr int max_passes = 1000;
-  bool changed = true;
-  for (int pass = 0; changed; ++pass) {
-    FAULTSIM_DEMAND(pass < max_passes, "boundary elements do not settle");
-    changed = false;
+  for (int pass = 0; pass < max_passes; ++pass) {
+    bool changed = false;
     const Eigen::VectorXd shear = problem.shear - problem.stiffness * slip;
     std::vector<Eigen::Index> active;
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -167,18 +169,73 @@ SlipProfile boundary_element_slip(const SlippingFault& fault, double element_hei
       changed = changed || d != before;
       if (d != 0) active.push_back(i);
     }
-    if (!changed) break;
-    Eigen::VectorXd excess(static_cast<Eigen::Index>(active.size()));
-    for (Eigen::Index k = 0; k < excess.size(); ++k) {
-      const Eigen::Index i = active[static_cast<std::size_t>(k)];
-      excess[k] = problem.shear[i] - direction[static_cast<std::size_t>(i)] * problem.limit[i];
+    if (!changed) {
+      solution.stable = true;
+      return solution;
     }
-    const Eigen::MatrixXd stiffness = problem.stiffness(active, active);
-    const Eigen::VectorXd solution = stiffness.partialPivLu().solve(excess);
+    const auto n_active = static_cast<Eigen::Index>(active.size());
+    Eigen::VectorXd excess(n_active);
+    Eigen::MatrixXd stiffness(n_active, n_active);
+    // Times its length, an element's row is symmetric with the others up to their lengths.
+    for (Eigen::Index k = 0; k < n_active; ++k) {
+      const Eigen::Index i = active[static_cast<std::size_t>(k)];
+      const double limit = direction[static_cast<std::size_t>(i)] * problem.limit[i];
+      excess[k] = problem.length[i] * (problem.shear[i] - limit);
+      for (Eigen::Index m = 0; m < n_active; ++m) {
+        stiffness(k, m) =
+            problem.length[i] * problem.stiffness(i, active[static_cast<std::size_t>(m)]);
+      }
+    }
+    const Eigen::LLT<Eigen::MatrixXd> symmetric(0.5 * (stiffness + stiffness.transpose()));
+    if (symmetric.info() != Eigen::Success) return solution;
+    const Eigen::VectorXd found = stiffness.partialPivLu().solve(excess);
     slip.setZero();
     for (Eigen::Index k = 0; k < excess.size(); ++k)
-      slip[active[static_cast<std::size_t>(k)]] = solution[k];
+      slip[active[static_cast<std::size_t>(k)]] = found[k];
   }
+  return solution;
+}
+
+/// The fault after a share of its pressure change.
+SlippingFault after(const SlippingFault& fault, double share) {
+  SlippingFault part = fault;
+  part.reservoir.left_pressure_change *= share;
+  part.reservoir.right_pressure_change *= share;
+  part.fault_pressure_change *= share;
+  return part;
+}
+
+}  // namespace
+
+double boundary_element_onset(const SlippingFault& fault, const WeakeningOnset& weakening,
+                              double element_height) {
+  const double rate = (fault.friction_coefficient - weakening.dynamic_coefficient) /
+                      fault.friction_coefficient / weakening.slip_weakening_distance;
+  const auto is_stable = [&](double share) {
+    SlipProblem problem = slip_problem(after(fault, share), element_height);
+    problem.stiffness.diagonal() -= rate * problem.limit;
+    const SlipSolution solution = solve_slip(problem);
+    if (solution.stable) {
+      const double slip = solution.slip.cwiseAbs().maxCoeff();
+      FAULTSIM_DEMAND(slip < weakening.slip_weakening_distance, "slip ", slip, " m before onset");
+    }
+    return solution.stable;
+  };
+  if (is_stable(1)) return 1;
+  double low = 0, high = 1;
+  while (high - low > 1e-8) {
+    const double middle = (low + high) / 2;
+    (is_stable(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+SlipProfile boundary_element_slip(const SlippingFault& fault, double element_height) {
+  const SlipProblem problem = slip_problem(fault, element_height);
+  const Eigen::Index n = problem.y.size();
+  const SlipSolution solution = solve_slip(problem);
+  FAULTSIM_DEMAND(solution.stable, "boundary elements do not settle");
+  const Eigen::VectorXd& slip = solution.slip;
   SlipProfile profile;
   for (Eigen::Index i = 0; i < n; ++i) {
     profile.y.push_back(problem.y[i]);

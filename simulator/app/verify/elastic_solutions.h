@@ -96,6 +96,18 @@ struct SlipProfile {
 /// element height.
 SlipProfile boundary_element_slip(const SlippingFault& fault, double element_height);
 
+/// Friction that falls linearly with slip from μ of SlippingFault, and its onset of instability.
+struct WeakeningOnset {
+  double dynamic_coefficient;      ///< μ_d
+  double slip_weakening_distance;  ///< d_c, m
+};
+/// The share of the pressure change, in (0, 1], up to which the same boundary elements have a stable
+/// equilibrium: weakening subtracts N_i (μ − μ_d)/d_c from their diagonal stiffness, and onset is
+/// where the matrix of what slips stops being positive definite. By bisection to 1e-8; 1 when it
+/// stays stable. Slip must stay below d_c up to there (InternalError).
+double boundary_element_onset(const SlippingFault& fault, const WeakeningOnset& weakening,
+                              double element_height);
+
 /// Slip of a straight crack of half length b under uniform far stress, with friction, at distance s
 /// from its centre (Phan 2003): 4(1−ν²)/E · σ sin ψ (cos ψ − sin ψ tan φ) √(b²−s²), m.
 /// @param load  σ > 0: uniaxial compression at angle ψ to the crack, Pa.
