@@ -233,6 +233,17 @@ bool ContactNewton::finish(SubStep& sub_step) {
   return worst <= 1.5;  // the tolerance with a margin for what was rounded to rest
 }
 
+/// Whether slip follows traction. The natural residual weighs a wrong direction by the size of the
+/// slip, so where a node has moved little it is satisfied long before D3 is.
+bool ContactNewton::aligned(const SubStep& sub_step) const {
+  for (int k = 0; k < problem_.n_nodes(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    if (sub_step.state[i] != FaultState::slip || problem_.nodes[i].n_dofs < 3) continue;
+    if (check_node(problem_, sub_step, k).misaligned > sub_step.tolerance[k]) return false;
+  }
+  return true;
+}
+
 bool ContactNewton::seen_before(const SubStep& sub_step) {
   std::uint64_t hash = 1469598103934665603ULL;  // FNV-1a
   for (const FaultState state : sub_step.state) {
@@ -289,7 +300,7 @@ NewtonReport ContactNewton::solve(SubStep& sub_step, int patience) {
     }
     double worst = 0;
     natural_residual(sub_step, sub_step.traction, sub_step.increment, worst);
-    if (worst <= 1 && finish(sub_step)) {
+    if (worst <= 1 && finish(sub_step) && aligned(sub_step)) {
       report.converged = true;
       return report;
     }

@@ -45,6 +45,7 @@ class ContactNewton {
   bool solve_linear();
   void advance(SubStep& sub_step, bool damped);
   bool finish(SubStep& sub_step);
+  bool aligned(const SubStep& sub_step) const;
   bool seen_before(const SubStep& sub_step);
   void lose_cohesion(SubStep& sub_step);
 
