@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/linalg/gmres.h"
+
 namespace faultsim {
 
 ContactNewton::ContactNewton(ContactProblem& problem, const ContactOptions& options)
@@ -154,12 +156,9 @@ void ContactNewton::collect(const SubStep& sub_step) {
   }
 }
 
-/// Assembles the tangent over the unknowns and adds their part to direction_.
-bool ContactNewton::solve_linear() {
+void ContactNewton::assemble_tangent() {
   const auto n = static_cast<Eigen::Index>(unknowns_.size());
-  if (n == 0) return true;
-  if (tangent_.rows() < n) tangent_.resize(problem_.n_dofs(), problem_.n_dofs());
-  auto tangent = tangent_.topLeftCorner(n, n);
+  tangent_.resize(n, n);
   for (Eigen::Index v = 0; v < n; ++v) {
     const Unknown& column = unknowns_[static_cast<std::size_t>(v)];
     const double* h = problem_.op.h.col(column.dof).data();
@@ -172,14 +171,50 @@ bool ContactNewton::solve_linear() {
       if (row.node == column.node && column.component > 0) {
         sum += row.own[static_cast<std::size_t>(column.component - 1)];
       }
-      tangent(u, v) = sum;
+      tangent_(u, v) = sum;
     }
   }
-  const Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>> lu(tangent);
-  const Eigen::VectorXd solution = lu.solve(right_.head(n));
-  if (!solution.allFinite()) return false;
-  for (Eigen::Index u = 0; u < n; ++u) {
-    direction_[unknowns_[static_cast<std::size_t>(u)].dof] = solution[u];
+}
+
+/// Tangents over the same unknowns differ little from one iteration, and one sub-step, to the next:
+/// the last factor is then a preconditioner that needs a few products instead of n³ operations.
+bool ContactNewton::solve_tangent(Eigen::VectorXd& solution) {
+  constexpr Eigen::Index kSmall = 100;  // factorising anew is cheaper
+  constexpr double kTolerance = 1e-13;
+  constexpr int kIterations = 15;
+  const auto n = static_cast<Eigen::Index>(unknowns_.size());
+  const auto same = [&] {
+    return std::equal(unknowns_.begin(), unknowns_.end(), factored_.begin(), factored_.end(),
+                      [](const Unknown& unknown, int dof) { return unknown.dof == dof; });
+  };
+  if (n > kSmall && lu_.size() == n && same()) {
+    const LinearMap multiply = [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) {
+      y.noalias() = tangent_ * x;
+    };
+    const LinearMap precondition = [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) {
+      y = x;
+      lu_.solve(y);
+    };
+    if (gmres(multiply, precondition, right_.head(n), kTolerance, kIterations, solution).converged) {
+      return solution.allFinite();
+    }
+  }
+  factored_.clear();
+  if (!lu_.factor(tangent_)) return false;
+  for (const Unknown& unknown : unknowns_) factored_.push_back(unknown.dof);
+  solution = right_.head(n);
+  lu_.solve(solution);
+  return solution.allFinite();
+}
+
+/// Solves the tangent over the unknowns and adds their part to direction_.
+bool ContactNewton::solve_linear() {
+  if (unknowns_.empty()) return true;
+  assemble_tangent();
+  Eigen::VectorXd solution;
+  if (!solve_tangent(solution)) return false;
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+    direction_[unknowns_[u].dof] = solution[static_cast<Eigen::Index>(u)];
   }
   return true;
 }
@@ -267,6 +302,8 @@ NewtonReport ContactNewton::solve(SubStep& sub_step, int patience) {
   double best = std::numeric_limits<double>::infinity();
   int idle = 0;
   seen_.clear();
+  // A history starts with no jump: no factor of an earlier one has a say in its digits.
+  if (sub_step.start->jump.isZero(0)) lu_.clear();
   was_open_.assign(static_cast<std::size_t>(problem_.n_nodes()), 0);
   bool damped = false;
   int same_set = 0;

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <Eigen/LU>
 #include <cstdint>
 #include <vector>
 
 #include "simulator/contact/contact_problem.h"
 #include "simulator/contact/slip_residual.h"
+#include "simulator/linalg/dense_lu.h"
 
 namespace faultsim {
 
@@ -42,6 +42,8 @@ class ContactNewton {
   void prescribe(const SubStep& sub_step);
   void collect(const SubStep& sub_step);
   void collect_node(const SubStep& sub_step, int node);
+  void assemble_tangent();
+  bool solve_tangent(Eigen::VectorXd& solution);
   bool solve_linear();
   void advance(SubStep& sub_step, bool damped);
   bool finish(SubStep& sub_step);
@@ -57,6 +59,8 @@ class ContactNewton {
   std::vector<char> was_open_;
   Eigen::VectorXd direction_, response_, right_, trial_increment_, trial_traction_;
   Eigen::MatrixXd tangent_;
+  DenseLu lu_;                ///< of an earlier tangent over factored_.
+  std::vector<int> factored_;  ///< dofs of the unknowns then.
 };
 
 }  // namespace faultsim

@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <random>
+
+#include "simulator/linalg/dense_lu.h"
+#include "simulator/linalg/gmres.h"
+
+namespace faultsim {
+namespace {
+
+Eigen::MatrixXd random_matrix(int n, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> normal;
+  return Eigen::MatrixXd::NullaryExpr(n, n, [&] { return normal(generator); });
+}
+
+TEST(DenseLu, SolvesWhateverWasFactoredBefore) {
+  DenseLu lu;
+  for (const int n : {5, 80, 1, 33, 200}) {
+    const Eigen::MatrixXd m = random_matrix(n, 7);
+    const Eigen::VectorXd expected = random_matrix(n, 8).col(0);
+    ASSERT_TRUE(lu.factor(m));
+    EXPECT_EQ(lu.size(), n);
+    Eigen::VectorXd x = m * expected;
+    lu.solve(x);
+    EXPECT_LT((x - expected).norm(), 1e-9 * expected.norm()) << n;
+  }
+}
+
+TEST(DenseLu, SaysThatAMatrixIsSingularAndKeepsNoFactor) {
+  DenseLu lu;
+  Eigen::MatrixXd m = random_matrix(6, 3);
+  m.row(2).setZero();
+  EXPECT_FALSE(lu.factor(m));
+  EXPECT_EQ(lu.size(), 0);
+}
+
+struct Maps {
+  Eigen::MatrixXd matrix, inverse;
+  LinearMap multiply = [this](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y = matrix * x; };
+  LinearMap precondition = [this](const Eigen::VectorXd& x, Eigen::VectorXd& y) {
+    y = inverse * x;
+  };
+};
+
+TEST(Gmres, NeedsAsManyIterationsAsTheDifferenceToThePreconditionerHasRank) {
+  const int n = 40;
+  Maps maps;
+  maps.matrix = random_matrix(n, 1) + 20 * Eigen::MatrixXd::Identity(n, n);
+  maps.inverse = maps.matrix.inverse();
+  const Eigen::VectorXd expected = random_matrix(n, 2).col(0);
+  for (const int rank : {0, 1, 3}) {
+    Maps changed{maps.matrix, maps.inverse};
+    changed.matrix += random_matrix(n, 5).leftCols(rank) * random_matrix(n, 6).leftCols(rank).transpose();
+    Eigen::VectorXd x;
+    const GmresReport report =
+        gmres(changed.multiply, changed.precondition, changed.matrix * expected, 1e-12, 20, x);
+    EXPECT_TRUE(report.converged);
+    EXPECT_EQ(report.iterations, rank + 1);
+    EXPECT_LT((x - expected).norm(), 1e-10 * expected.norm());
+  }
+}
+
+TEST(Gmres, SaysWhenItsIterationsDoNotSuffice) {
+  const int n = 40;
+  Maps maps{random_matrix(n, 1), Eigen::MatrixXd::Identity(n, n)};
+  Eigen::VectorXd x;
+  const GmresReport report =
+      gmres(maps.multiply, maps.precondition, Eigen::VectorXd::Ones(n), 1e-12, 5, x);
+  EXPECT_FALSE(report.converged);
+  EXPECT_GT(report.relative_residual, 1e-12);
+}
+
+}  // namespace
+}  // namespace faultsim
