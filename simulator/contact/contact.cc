@@ -32,8 +32,8 @@ struct ContactSolver::Impl {
     most_cuts = options.max_step_cuts;
     // An onset is a matter of the load factor; other trouble is not helped by ever smaller steps.
     if (follows && solver.problem().may_jump) {
-      most_cuts = std::max(most_cuts,
-                           static_cast<int>(std::ceil(std::log2(1 / options.onset_tolerance))));
+      most_cuts =
+          std::max(most_cuts, static_cast<int>(std::ceil(std::log2(1 / options.onset_tolerance))));
     }
   }
 

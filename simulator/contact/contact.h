@@ -13,10 +13,11 @@ namespace faultsim {
 
 /// What the contact solve needs besides the operator; per case, constant over its steps.
 struct ContactLaws {
-  std::vector<CoulombLaw> node;              ///< one per operator node.
-  std::vector<char> cumulated;               ///< per node: slip measure is the cumulated path.
-  std::vector<char> keep_cohesion;           ///< per node: cohesion survives opening.
-  std::vector<char> lose_cohesion_slipping = {};  ///< per node: the first slip ends cohesion; empty: no.
+  std::vector<CoulombLaw> node;     ///< one per operator node.
+  std::vector<char> cumulated;      ///< per node: slip measure is the cumulated path.
+  std::vector<char> keep_cohesion;  ///< per node: cohesion survives opening.
+  std::vector<char> lose_cohesion_slipping =
+      {};                        ///< per node: the first slip ends cohesion; empty: no.
   Eigen::VectorXd damping = {};  ///< η = G/2c_s per node, Pa s/m; empty = jumps are not followed.
 };
 
@@ -24,7 +25,7 @@ struct ContactOptions {
   double traction_tolerance = 1e-8;  ///< relative to the local traction level; too tight: cycling.
   int max_newton_iterations = 30;    ///< per active-set pass.
   int max_active_set_passes = 100;
-  int max_step_cuts = 6;             ///< halvings of a load step before giving up.
+  int max_step_cuts = 6;                ///< halvings of a load step before giving up.
   double onset_tolerance = 1.0 / 4096;  ///< of a load step, to which an instability is located.
   int max_jumps = 256;                  ///< per load step.
 };
@@ -39,8 +40,8 @@ struct ContactState {
 };
 ContactState initial_state(const FaultOperator& op);
 
-/// Equilibrium jumped: between two load factors there is no stable equilibrium next to the last one.
-/// The jump was followed at fixed load to the next one (jump_follower.h).
+/// Equilibrium jumped: between two load factors there is no stable equilibrium next to the last
+/// one. The jump was followed at fixed load to the next one (jump_follower.h).
 struct ContactJump {
   double load_before = 0;  ///< load factor of the step with the last equilibrium before.
   double load_after = 0;   ///< and the one at which the jump was followed.

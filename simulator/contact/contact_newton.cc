@@ -195,7 +195,8 @@ bool ContactNewton::solve_tangent(Eigen::VectorXd& solution) {
       y = x;
       lu_.solve(y);
     };
-    if (gmres(multiply, precondition, right_.head(n), kTolerance, kIterations, solution).converged) {
+    if (gmres(multiply, precondition, right_.head(n), kTolerance, kIterations, solution)
+            .converged) {
       return solution.allFinite();
     }
   }
@@ -321,8 +322,7 @@ NewtonReport ContactNewton::solve(SubStep& sub_step, int patience) {
     same_set = changed ? 0 : same_set + 1;
     if (patience > 0) {
       double worst = 0;
-      const double merit =
-          natural_residual(sub_step, sub_step.traction, sub_step.increment, worst);
+      const double merit = natural_residual(sub_step, sub_step.traction, sub_step.increment, worst);
       idle = merit < kProgress * best ? 0 : idle + 1;
       best = std::min(best, merit);
       if (idle >= patience) return report;

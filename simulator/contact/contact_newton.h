@@ -59,7 +59,7 @@ class ContactNewton {
   std::vector<char> was_open_;
   Eigen::VectorXd direction_, response_, right_, trial_increment_, trial_traction_;
   Eigen::MatrixXd tangent_;
-  DenseLu lu_;                ///< of an earlier tangent over factored_.
+  DenseLu lu_;                 ///< of an earlier tangent over factored_.
   std::vector<int> factored_;  ///< dofs of the unknowns then.
 };
 

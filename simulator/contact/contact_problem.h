@@ -42,7 +42,7 @@ class ContactProblem {
   Eigen::VectorXd inverse_area;  ///< per dof.
   bool any_weakening = false;
   bool may_jump = false;  ///< some strength falls with slip: by weakening or by lost cohesion.
-  bool scalar = true;  ///< at most one shear dof per node and no weakening anywhere.
+  bool scalar = true;     ///< at most one shear dof per node and no weakening anywhere.
 
  private:
   Eigen::VectorXd product_;

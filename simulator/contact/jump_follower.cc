@@ -42,8 +42,8 @@ double JumpFollower::weakening_share() const {
     const ContactNode& node = problem.nodes[i];
     if (!node.weakens || s.state[i] != FaultState::slip) continue;
     const double d_c = problem.laws.node[i].slip_weakening_distance;
-    const double before = problem.laws.cumulated[i] ? s.start->slip_path[k]
-                                                    : shear_part(node, s.start->jump).norm();
+    const double before =
+        problem.laws.cumulated[i] ? s.start->slip_path[k] : shear_part(node, s.start->jump).norm();
     if (before < d_c) share = std::max(share, shear_part(node, s.increment).norm() / d_c);
   }
   return share;

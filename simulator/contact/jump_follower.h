@@ -12,9 +12,9 @@ namespace faultsim {
 ///
 ///   |t'_T| = τ_L(t'_N, s) + η v,   η = G/2c_s,   v = |Δg_T|/Δt
 ///
-/// (backward Euler). Δt follows the slip: small enough that the damped tangent is stable and that no
-/// node weakens by more than a share of d_c at once, growing as the motion dies. The jump has ended
-/// when a static solution follows with every state on the way shown stable.
+/// (backward Euler). Δt follows the slip: small enough that the damped tangent is stable and that
+/// no node weakens by more than a share of d_c at once, growing as the motion dies. The jump has
+/// ended when a static solution follows with every state on the way shown stable.
 ///
 /// Where the tangent never loses stability and no cohesion is lost, the way was continuous and
 /// merely hard to find: the state is advanced, but no jump is reported.

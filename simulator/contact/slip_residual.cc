@@ -16,9 +16,8 @@ Strength strength_at(const ContactProblem& problem, int k, const SlipPoint& poin
   const double norm = y.norm();
   Strength at{norm > 0 ? Eigen::Vector2d(y / norm) : Eigen::Vector2d(0, 0), norm, {}, {0, 0}};
   if (problem.nodes[i].weakens) {
-    const SlipMeasure measure =
-        slip_measure(problem.laws.cumulated[i] != 0, point.path_before, point.slip_before,
-                     point.slip_increment, at.direction);
+    const SlipMeasure measure = slip_measure(problem.laws.cumulated[i] != 0, point.path_before,
+                                             point.slip_before, point.slip_increment, at.direction);
     at.limit = problem.strength(k, point.cohesive, point.normal_traction, measure.value);
     at.d_slip = at.limit.d_slip * measure.gradient;
   } else {
@@ -27,8 +26,8 @@ Strength strength_at(const ContactProblem& problem, int k, const SlipPoint& poin
   if (point.damping > 0) {
     const double slip = point.slip_increment.norm();
     at.limit.value += point.damping * slip;
-    at.d_slip += point.damping * (slip > 0 ? Eigen::Vector2d(point.slip_increment / slip)
-                                           : at.direction);
+    at.d_slip +=
+        point.damping * (slip > 0 ? Eigen::Vector2d(point.slip_increment / slip) : at.direction);
   }
   return at;
 }

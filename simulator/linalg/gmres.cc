@@ -46,9 +46,8 @@ GmresReport gmres(const LinearMap& multiply, const LinearMap& precondition,
     if (hessenberg(j - 1, j - 1) == 0) return report;
   }
   report.iterations = j;
-  const Eigen::VectorXd y = hessenberg.topLeftCorner(j, j)
-                                .triangularView<Eigen::Upper>()
-                                .solve(right.head(j));
+  const Eigen::VectorXd y =
+      hessenberg.topLeftCorner(j, j).triangularView<Eigen::Upper>().solve(right.head(j));
   w = basis.leftCols(j) * y;
   precondition(w, x);
   return report;

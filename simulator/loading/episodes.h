@@ -33,7 +33,7 @@ class EpisodeTracker {
   std::vector<std::string> names_;
   bool plane_strain_;
   std::string stage_;
-  double lowest_pressure_ = 0;  ///< Pa, Δp of the most depleted region so far.
+  double lowest_pressure_ = 0;                   ///< Pa, Δp of the most depleted region so far.
   std::vector<std::optional<Running>> running_;  ///< per fault.
   std::vector<Episode> done_;
 };

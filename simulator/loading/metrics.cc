@@ -13,8 +13,8 @@ constexpr double kStrengthFloor = 1e3;  // Pa; keeps χ finite, never enters D3 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Column make_column(const OperatorFault& fault, int fault_index, int j) {
-  Column column{fault_index, fault.column_width[static_cast<std::size_t>(j)], {}, {}, {}, kNaN,
-                kNaN, false};
+  Column column{
+      fault_index, fault.column_width[static_cast<std::size_t>(j)], {}, {}, {}, kNaN, kNaN, false};
   double s = 0;
   const Eigen::Vector3d* last = nullptr;
   for (int row = 0; row < fault.n_rows; ++row) {

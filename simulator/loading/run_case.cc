@@ -55,9 +55,9 @@ ContactLaws contact_laws(const Scene& scene, const FaultGeometry& geometry) {
 }
 
 ContactOptions contact_options(const Numerics& numerics) {
-  return {numerics.traction_tolerance, numerics.max_newton_iterations,
-          numerics.max_active_set_passes, numerics.max_step_cuts, numerics.onset_tolerance,
-          numerics.max_events};
+  return {numerics.traction_tolerance,    numerics.max_newton_iterations,
+          numerics.max_active_set_passes, numerics.max_step_cuts,
+          numerics.onset_tolerance,       numerics.max_events};
 }
 
 std::vector<std::string> fault_names(const Scene& scene) {
@@ -295,14 +295,14 @@ bool CaseRun::advance(const LoadStep& step, const StepLoads* before, const StepL
   return good;
 }
 
-/// A case with events is never called converged; with cells too coarse for its weakening, or with an
-/// event whose evidence does not hold, it is marked.
+/// A case with events is never called converged; with cells too coarse for its weakening, or with
+/// an event whose evidence does not hold, it is marked.
 void CaseRun::name_events() {
   const bool evident = std::all_of(result_.events.begin(), result_.events.end(),
                                    [](const SlipEvent& e) { return e.evidence_holds; });
   if (result_.events.empty() || result_.outcome != Outcome::converged) return;
-  result_.outcome = result_.weakening_resolved && evident ? Outcome::event
-                                                          : Outcome::unresolved_event;
+  result_.outcome =
+      result_.weakening_resolved && evident ? Outcome::event : Outcome::unresolved_event;
 }
 
 /// Identity and names, which the metrics of a step refer to.

@@ -65,8 +65,7 @@ SlipEvent measure_event(const FaultOperator& op, const ContactLaws& laws, const 
   double weighted_drop = 0, ratio = 0;
   for (std::size_t k = 0; k < op.geometry.nodes.size(); ++k) {
     const OperatorNode& node = op.geometry.nodes[k];
-    const Eigen::Vector2d slip =
-        shear_at(node, jump.jump_after) - shear_at(node, jump.jump_before);
+    const Eigen::Vector2d slip = shear_at(node, jump.jump_after) - shear_at(node, jump.jump_before);
     const double length = slip.norm();
     if (length == 0) continue;
     const double area = multiplicity * node.area;
@@ -93,8 +92,7 @@ SlipEvent measure_event(const FaultOperator& op, const ContactLaws& laws, const 
   event.energy_dissipated = multiplicity * jump.dissipated;
   constexpr double kEquilibrium = 10;  // a step is accepted at 4, judged at a slightly other load
   event.evidence_holds = (jump.negative_pivots > 0 || jump.n_lost_cohesion > 0) &&
-                         jump.dissipated >= 0 &&
-                         jump.released >= jump.dissipated * (1 - 1e-9) &&
+                         jump.dissipated >= 0 && jump.released >= jump.dissipated * (1 - 1e-9) &&
                          jump.residual_before <= kEquilibrium &&
                          jump.residual_after <= kEquilibrium;
   return event;

@@ -225,9 +225,9 @@ struct Numerics {
   int max_newton_iterations = 30;
   int max_active_set_passes = 100;
   int max_step_cuts = 6;
-  bool follow_events = true;       ///< false: a case ends where equilibrium jumps.
+  bool follow_events = true;        ///< false: a case ends where equilibrium jumps.
   double onset_tolerance = 2.5e-4;  ///< of a load step, to which the onset of an event is located.
-  int max_events = 256;            ///< per load step.
+  int max_events = 256;             ///< per load step.
   bool b_bar = true;
   Switch half_domain = Switch::automatic;  ///< field: symmetry about y = 0.
   Switch plane_strain = Switch::off;       ///< one cell in y, front and back tied, u_y = 0.

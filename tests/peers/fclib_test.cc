@@ -1,6 +1,7 @@
 // Our FCLib files as FCLib's own library reads them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "simulator/common/errors.h"
 #include "tests/peers/fclib_reader.h"
@@ -8,6 +9,11 @@
 
 namespace faultsim {
 namespace {
+
+/// Tests run side by side.
+std::string scratch_file(const std::string& name) {
+  return testing::TempDir() + name + "_" + std::to_string(getpid()) + ".hdf5";
+}
 
 /// W of n contacts: symmetric, positive definite, no two entries equal.
 FrictionalContactProblem example(int dimension, int n_contacts) {
@@ -41,7 +47,7 @@ FrictionalContactSolution solve(const FrictionalContactProblem& problem) {
 class Fclib : public testing::TestWithParam<int> {};
 
 TEST_P(Fclib, ReadsBackEveryNumberAndText) {
-  const std::string path = testing::TempDir() + "fclib_test.hdf5";
+  const std::string path = scratch_file("fclib_test");
   const FrictionalContactProblem problem = example(GetParam(), 4);
   const FrictionalContactSolution solution = solve(problem);
   write_fclib(path, problem, {"the title", "the description", "the mathematics"}, &solution);
@@ -60,7 +66,7 @@ TEST_P(Fclib, ReadsBackEveryNumberAndText) {
 INSTANTIATE_TEST_SUITE_P(TwoAndThreeDimensions, Fclib, testing::Values(2, 3));
 
 TEST(Fclib, MeasuresOurSolutionAsWeDo) {
-  const std::string path = testing::TempDir() + "fclib_merit_test.hdf5";
+  const std::string path = scratch_file("fclib_merit_test");
   const FrictionalContactProblem problem = example(3, 4);
   FrictionalContactSolution solution = solve(problem);
   write_fclib(path, problem, {"exact", "", ""}, &solution);
@@ -75,7 +81,7 @@ TEST(Fclib, MeasuresOurSolutionAsWeDo) {
 }
 
 TEST(Fclib, ReadsAFileWithoutSolution) {
-  const std::string path = testing::TempDir() + "fclib_bare_test.hdf5";
+  const std::string path = scratch_file("fclib_bare_test");
   write_fclib(path, example(3, 2), {"bare", "", ""}, nullptr);
   const FclibFile file = read_with_fclib(path);
   EXPECT_EQ(file.problem.q, example(3, 2).q);

@@ -449,8 +449,10 @@ void study_onset(SceneRunner& runner, VerifyReport& report) {
 }
 
 VerifyCase weakening_case() {
-  return {"V5-weakening", "the displaced fault with slip weakening: onset of the event",
-          {kSlipping},    true,
+  return {"V5-weakening",
+          "the displaced fault with slip weakening: onset of the event",
+          {kSlipping},
+          true,
           study_onset};
 }
 

@@ -143,7 +143,8 @@ SlipProblem slip_problem(const SlippingFault& fault, double element_height) {
   return problem;
 }
 
-/// The active set of Coulomb friction with a stiffness per element; positive definite matrices only.
+/// The active set of Coulomb friction with a stiffness per element; positive definite matrices
+/// only.
 struct SlipSolution {
   bool stable = false;  ///< the set settled, with positive pivots all the way.
   Eigen::VectorXd slip;

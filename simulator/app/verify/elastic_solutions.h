@@ -101,10 +101,10 @@ struct WeakeningOnset {
   double dynamic_coefficient;      ///< μ_d
   double slip_weakening_distance;  ///< d_c, m
 };
-/// The share of the pressure change, in (0, 1], up to which the same boundary elements have a stable
-/// equilibrium: weakening subtracts N_i (μ − μ_d)/d_c from their diagonal stiffness, and onset is
-/// where the matrix of what slips stops being positive definite. By bisection to 1e-8; 1 when it
-/// stays stable. Slip must stay below d_c up to there (InternalError).
+/// The share of the pressure change, in (0, 1], up to which the same boundary elements have a
+/// stable equilibrium: weakening subtracts N_i (μ − μ_d)/d_c from their diagonal stiffness, and
+/// onset is where the matrix of what slips stops being positive definite. By bisection to 1e-8; 1
+/// when it stays stable. Slip must stay below d_c up to there (InternalError).
 double boundary_element_onset(const SlippingFault& fault, const WeakeningOnset& weakening,
                               double element_height);
 

@@ -96,7 +96,8 @@ TEST(Jump, StableWeakeningHasNone) {
 
 TEST(Jump, CohesionLostAtFirstSlipIsAnEventOfTheDropInStrength) {
   FaultOperator op = spring_slider(10 * kMPa, 1);
-  ContactLaws laws = following(op, {WeakeningLaw::angle, 2 * kMPa, std::atan(0.5), std::atan(0.5), 1});
+  ContactLaws laws =
+      following(op, {WeakeningLaw::angle, 2 * kMPa, std::atan(0.5), std::atan(0.5), 1});
   laws.lose_cohesion_slipping = {1};
   ContactOptions options;
   options.onset_tolerance = 1e-9;
@@ -135,8 +136,10 @@ FaultOperator bump_operator(int n_nodes) {
   const int n = op.geometry.n_dofs;
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
-      if (i % 2 == j % 2) h(i, j) = 6e9 / 5.026548 / (0.25 - 0.25 * (i - j) * (i - j));
-      else h(i, j) = 0;
+      if (i % 2 == j % 2)
+        h(i, j) = 6e9 / 5.026548 / (0.25 - 0.25 * (i - j) * (i - j));
+      else
+        h(i, j) = 0;
     }
   }
   set_h(op, h);

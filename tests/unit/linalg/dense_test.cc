@@ -52,7 +52,8 @@ TEST(Gmres, NeedsAsManyIterationsAsTheDifferenceToThePreconditionerHasRank) {
   const Eigen::VectorXd expected = random_matrix(n, 2).col(0);
   for (const int rank : {0, 1, 3}) {
     Maps changed{maps.matrix, maps.inverse};
-    changed.matrix += random_matrix(n, 5).leftCols(rank) * random_matrix(n, 6).leftCols(rank).transpose();
+    changed.matrix +=
+        random_matrix(n, 5).leftCols(rank) * random_matrix(n, 6).leftCols(rank).transpose();
     Eigen::VectorXd x;
     const GmresReport report =
         gmres(changed.multiply, changed.precondition, changed.matrix * expected, 1e-12, 20, x);

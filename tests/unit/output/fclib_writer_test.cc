@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <sstream>
@@ -28,7 +29,8 @@ FrictionalContactProblem example() {
 
 class FclibFile : public testing::Test {
  protected:
-  FclibFile() : path_(testing::TempDir() + "fclib_writer_test.hdf5") {
+  FclibFile()
+      : path_(testing::TempDir() + "fclib_writer_test_" + std::to_string(getpid()) + ".hdf5") {
     std::filesystem::remove(path_);
   }
   void open() {
