@@ -49,7 +49,8 @@ struct ContactSolver::Impl {
   JumpFollower follower;
   bool follows = false;
   int most_cuts = 0;
-  ContactState rolling;  ///< the state between sub-steps.
+  Attempt failure = Attempt::failed;  ///< how the last sub-step ended.
+  ContactState rolling;               ///< the state between sub-steps.
 };
 
 ContactSolver::ContactSolver(const FaultOperator& op, const ContactLaws& laws,
@@ -89,7 +90,8 @@ bool ContactSolver::Impl::sub_step(const Eigen::VectorXd& before, const Eigen::V
   solver.begin(before, after, {position * unit, (position + width) * unit, 0}, rolling);
   if (!solver.rest()) {
     const bool last = width == 1 && !follows;
-    const bool good = solver.attempt(last) == Attempt::converged;
+    failure = solver.attempt(last);
+    const bool good = failure == Attempt::converged;
     counts.active_set_passes += solver.passes();
     (good ? counts.newton_iterations : counts.wasted_newton_iterations) += solver.iterations();
     if (!good) return false;
@@ -130,9 +132,11 @@ void ContactSolver::Impl::walk(const Eigen::VectorXd& before, const Eigen::Vecto
 bool ContactSolver::Impl::jump(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
                                int position, ContactReport& report) {
   if (static_cast<int>(report.jumps.size()) >= options.max_jumps) return false;
+  const int budget = options.max_iterations - report.counts.newton_iterations -
+                     report.counts.wasted_newton_iterations;
   const double unit = 1.0 / (1 << most_cuts);
   JumpFollower::Report followed =
-      follower.follow(before, after, position * unit, (position + 1) * unit, rolling);
+      follower.follow(before, after, position * unit, (position + 1) * unit, budget, rolling);
   report.counts.newton_iterations += followed.counts.newton_iterations;
   report.counts.active_set_passes += followed.counts.active_set_passes;
   report.counts.wasted_newton_iterations += followed.counts.wasted_newton_iterations;
@@ -151,10 +155,13 @@ void ContactSolver::Impl::explain(int position, ContactReport& report) const {
   const double to = static_cast<double>(position + 1) / (1 << most_cuts);
   const StabilityReport& stable = solver.stability_report();
   const ContactProblem& problem = solver.problem();
-  const bool weakens = stable.checked || !report.jumps.empty();
+  const bool loses_cohesion = !follows && failure == Attempt::lost_cohesion;
+  const bool weakens = stable.checked || loses_cohesion || !report.jumps.empty();
   report.outcome = weakens ? Outcome::unstable : Outcome::unconverged;
   if (static_cast<int>(report.jumps.size()) >= options.max_jumps) {
     report.reason = too_many_jumps_text(report.jumps.size(), from);
+  } else if (loses_cohesion) {
+    report.reason = lost_cohesion_text(problem, solver.sub_step(), from, to);
   } else if (stable.checked) {
     report.reason = instability_text(problem, solver.sub_step(), stable, from, to);
   } else {

@@ -30,6 +30,9 @@ SlipPoint ContactNewton::slip_point(const SubStep& sub_step, const Eigen::Vector
   }
   point.cohesive = sub_step.cohesive[i] != 0;
   point.damping = sub_step.damping_per_second * problem_.damping(k);
+  // With damping in r, |y| − τ_L of a node that slips along its traction does not depend on Δt;
+  // without, a first guess that slips too far would look like rest, and the set would cycle.
+  point.stiffness += point.damping;
   return point;
 }
 
@@ -76,7 +79,8 @@ double ContactNewton::natural_residual(const SubStep& sub_step, const Eigen::Vec
     double square = normal - std::min(0.0, augmented);
     square *= square;
     if (augmented > (sub_step.state[i] == FaultState::open ? 0 : sub_step.tolerance[k])) {
-      square += shear_part(node, traction).squaredNorm();
+      const double damping = sub_step.damping_per_second * problem_.damping(k);
+      square += (shear_part(node, traction) - damping * shear_part(node, increment)).squaredNorm();
     } else if (node.n_dofs > 1) {
       const SlipPoint point = slip_point(sub_step, traction, increment, k);
       const double excess = slip_excess(problem_, k, point);
@@ -118,11 +122,14 @@ void ContactNewton::collect_node(const SubStep& sub_step, int k) {
   std::array<double, 3> response{};
   for (std::size_t c = 0; c < n; ++c) response[c] = response_[node.dof[c]];
   if (sub_step.state[i] == FaultState::open) {
+    const double damping = sub_step.damping_per_second * problem_.damping(k);
     for (std::size_t c = 0; c < n; ++c) {
       Unknown unknown{k, static_cast<int>(c), node.dof[c], {0, 0, 0}, {0, 0}};
       unknown.weight[c] = -node.inverse_area[c];
+      const double carried = c > 0 ? damping * sub_step.increment[node.dof[c]] : 0;
+      if (c > 0) unknown.own[c - 1] = -damping;
       right_[static_cast<Eigen::Index>(unknowns_.size())] =
-          -sub_step.traction[node.dof[c]] - response[c];
+          carried - sub_step.traction[node.dof[c]] - response[c];
       unknowns_.push_back(unknown);
     }
     return;
@@ -254,7 +261,8 @@ bool ContactNewton::finish(SubStep& sub_step) {
       sub_step.state[i] = FaultState::stick;
       continue;
     }
-    const double noise = 0.01 * sub_step.tolerance[k] / problem_.stiffness(node, 1);
+    const double damping = sub_step.damping_per_second * problem_.damping(k);
+    const double noise = 0.01 * sub_step.tolerance[k] / (problem_.stiffness(node, 1) + damping);
     if (sub_step.state[i] == FaultState::stick || slip.norm() < noise) {
       for (std::size_t c = 1; c < static_cast<std::size_t>(node.n_dofs); ++c) {
         sub_step.increment[node.dof[c]] = 0;
@@ -291,10 +299,20 @@ bool ContactNewton::seen_before(const SubStep& sub_step) {
 }
 
 /// A node that keeps opening and closing has failed in tension: it closes again without cohesion.
-void ContactNewton::lose_cohesion(SubStep& sub_step) {
+/// Where cohesion outlives opening, open, it would close, and closed, its shear, held by cohesion,
+/// would open it: in a damped sub-step it hops, and slides on the average without cohesion. A
+/// static sub-step knows no hopping and then has no solution.
+/// @returns whether some node lost it just now.
+bool ContactNewton::lose_cohesion(SubStep& sub_step) {
+  const bool hops = sub_step.damping_per_second > 0;
+  bool any = false;
   for (std::size_t i = 0; i < was_open_.size(); ++i) {
-    if (was_open_[i] && !problem_.laws.keep_cohesion[i]) sub_step.cohesive[i] = 0;
+    if (!was_open_[i] || !sub_step.cohesive[i] || problem_.laws.node[i].cohesion == 0) continue;
+    if (problem_.laws.keep_cohesion[i] && !hops) continue;
+    sub_step.cohesive[i] = 0;
+    any = true;
   }
+  return any;
 }
 
 NewtonReport ContactNewton::solve(SubStep& sub_step, int patience) {
@@ -329,11 +347,13 @@ NewtonReport ContactNewton::solve(SubStep& sub_step, int patience) {
     }
     if (changed) {
       if (++report.passes > options_.max_active_set_passes) return report;
-      if (seen_before(sub_step)) {
-        damped = true;
-        lose_cohesion(sub_step);
+      if (!seen_before(sub_step)) continue;
+      // Sets that repeat may differ by nodes whose slip is round-off: both are solutions then.
+      damped = true;
+      if (lose_cohesion(sub_step)) {
+        idle = 0;
+        best = std::numeric_limits<double>::infinity();
       }
-      continue;
     }
     double worst = 0;
     natural_residual(sub_step, sub_step.traction, sub_step.increment, worst);

@@ -49,7 +49,7 @@ class ContactNewton {
   bool finish(SubStep& sub_step);
   bool aligned(const SubStep& sub_step) const;
   bool seen_before(const SubStep& sub_step);
-  void lose_cohesion(SubStep& sub_step);
+  bool lose_cohesion(SubStep& sub_step);
 
   ContactProblem& problem_;
   const ContactOptions& options_;

@@ -89,6 +89,14 @@ SlipMeasure slip_measure(bool cumulated, double path_before, const Eigen::Vector
   return {cumulated ? path_before + norm : norm, gradient};
 }
 
+bool loses_cohesion(const ContactProblem& problem, const SubStep& sub_step, int k) {
+  const auto i = static_cast<std::size_t>(k);
+  const ContactLaws& laws = problem.laws;
+  return !laws.lose_cohesion_slipping.empty() && laws.lose_cohesion_slipping[i] != 0 &&
+         sub_step.state[i] == FaultState::slip && sub_step.cohesive[i] != 0 &&
+         laws.node[i].cohesion > 0;
+}
+
 double NodeViolation::worst() const {
   return std::max({tension, penetration, over_limit, below_limit, misaligned, open_traction});
 }
@@ -101,10 +109,11 @@ NodeViolation check_node(const ContactProblem& problem, const SubStep& sub_step,
   const Eigen::Vector2d shear = shear_part(node, sub_step.traction);
   const Eigen::Vector2d slip = shear_part(node, sub_step.increment);
   const double gap = start.jump[node.dof[0]] + sub_step.increment[node.dof[0]];
+  const double damping = sub_step.damping_per_second * problem.damping(k);
   NodeViolation violation;
   if (gap < 0) violation.penetration = -gap * problem.stiffness(node, 0);
   if (gap > 0 || sub_step.state[i] == FaultState::open) {
-    violation.open_traction = std::max(std::abs(normal), shear.norm());
+    violation.open_traction = std::max(std::abs(normal), (shear - damping * slip).norm());
     return violation;
   }
   violation.tension = std::max(normal, 0.0);
@@ -117,8 +126,8 @@ NodeViolation check_node(const ContactProblem& problem, const SubStep& sub_step,
                      shear_part(node, start.jump), slip, slip)
             .value;
   }
-  const double limit = problem.strength(k, sub_step.cohesive[i] != 0, normal, s).value +
-                       sub_step.damping_per_second * problem.damping(k) * slip_norm;
+  const double limit =
+      problem.strength(k, sub_step.cohesive[i] != 0, normal, s).value + damping * slip_norm;
   violation.over_limit = std::max(shear_norm - limit, 0.0);
   if (slip_norm > 0) {
     violation.below_limit = std::max(limit - shear_norm, 0.0);
@@ -128,7 +137,8 @@ NodeViolation check_node(const ContactProblem& problem, const SubStep& sub_step,
       // proportion.
       double stiffness = problem.stiffness(node, 1);
       if (node.n_dofs > 2) stiffness = std::max(stiffness, problem.stiffness(node, 2));
-      violation.misaligned = across / std::max(slip_norm, 1e-6 * shear_norm / stiffness);
+      violation.misaligned =
+          across / std::max(slip_norm, 1e-6 * shear_norm / (stiffness + damping));
     }
   }
   return violation;

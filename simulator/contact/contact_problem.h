@@ -78,6 +78,9 @@ struct SlipMeasure {
 SlipMeasure slip_measure(bool cumulated, double path_before, const Eigen::Vector2d& slip_before,
                          const Eigen::Vector2d& slip_increment, const Eigen::Vector2d& direction);
 
+/// Whether a node slips in the sub-step that still has cohesion and loses it by slip.
+bool loses_cohesion(const ContactProblem& problem, const SubStep& sub_step, int node);
+
 /// Why a node is not in equilibrium, as the report counts it.
 struct NodeViolation {
   double tension = 0;      ///< t'_N over closed, Pa.

@@ -10,7 +10,8 @@ namespace {
 // Accuracy of the way, not of the end: halving the share moves results by less than the share of
 // a cell.
 constexpr double kLargestShare = 0.25;  // of d_c that a node may slip in one damped step
-constexpr double kGrowth = 1.6;         // of Δt after a good damped step
+constexpr double kLargestHop = 0.02;  // −t'_N/c of a node that hops, at the end of a damped step
+constexpr double kGrowth = 1.6;       // of Δt after a good damped step
 constexpr int kMaxDampedSteps = 4000;
 constexpr int kMaxHalvings = 60;
 constexpr int kStaticInterval = 4;  // damped steps between two tries at the static end
@@ -45,6 +46,21 @@ double JumpFollower::weakening_share() const {
     const double before =
         problem.laws.cumulated[i] ? s.start->slip_path[k] : shear_part(node, s.start->jump).norm();
     if (before < d_c) share = std::max(share, shear_part(node, s.increment).norm() / d_c);
+  }
+  return share;
+}
+
+/// Largest −t'_N/c among nodes that slide without the cohesion they keep (ContactNewton). Hopping
+/// ends where tension does; a long damped step would slide on, down to the strength without
+/// cohesion.
+double JumpFollower::hop_share() const {
+  const ContactProblem& problem = solver_.problem();
+  const SubStep& s = solver_.sub_step();
+  double share = 0;
+  for (std::size_t i = 0; i < problem.nodes.size(); ++i) {
+    const bool hops = problem.laws.keep_cohesion[i] && !s.cohesive[i] && !s.start->cohesion_lost[i];
+    if (!hops || s.state[i] != FaultState::slip) continue;
+    share = std::max(share, -s.traction[problem.nodes[i].dof[0]] / problem.laws.node[i].cohesion);
   }
   return share;
 }
@@ -95,7 +111,8 @@ bool JumpFollower::damped_step(const Eigen::VectorXd& before, const Eigen::Vecto
     if (solver_.rest()) break;
     const Attempt attempt = solver_.attempt(false);
     report_.counts.active_set_passes += solver_.passes();
-    if (attempt == Attempt::converged && weakening_share() <= kLargestShare) {
+    if (attempt == Attempt::converged && weakening_share() <= kLargestShare &&
+        hop_share() <= kLargestHop) {
       report_.counts.newton_iterations += solver_.iterations();
       break;
     }
@@ -139,7 +156,7 @@ bool JumpFollower::try_static(const Eigen::VectorXd& before, const Eigen::Vector
 
 JumpFollower::Report JumpFollower::follow(const Eigen::VectorXd& before,
                                           const Eigen::VectorXd& after, double from, double to,
-                                          ContactState& state) {
+                                          int budget, ContactState& state) {
   report_ = {};
   evidence_ = {};
   evidence_.load_before = from;
@@ -150,7 +167,9 @@ JumpFollower::Report JumpFollower::follow(const Eigen::VectorXd& before,
   evidence_.residual_before = solver_.residual_at_rest();
   duration_ = first_duration();
   int until_static = kStaticInterval;
-  while (evidence_.damped_steps < kMaxDampedSteps) {
+  const SolveCounts& counts = report_.counts;
+  while (evidence_.damped_steps < kMaxDampedSteps &&
+         counts.newton_iterations + counts.wasted_newton_iterations < budget) {
     if (!damped_step(before, after, evidence_.damped_steps == 0 ? from : load_, state)) break;
     if (--until_static > 0 || negative_now_ > 0) continue;
     if (try_static(before, after, state)) {

@@ -12,9 +12,10 @@ namespace faultsim {
 ///
 ///   |t'_T| = τ_L(t'_N, s) + η v,   η = G/2c_s,   v = |Δg_T|/Δt
 ///
-/// (backward Euler). Δt follows the slip: small enough that the damped tangent is stable and that
-/// no node weakens by more than a share of d_c at once, growing as the motion dies. The jump has
-/// ended when a static solution follows with every state on the way shown stable.
+/// (backward Euler); a node that is open carries t'_N = 0 and t'_T = η Δg_T/Δt. Δt follows the
+/// slip: small enough that the damped tangent is stable and that no node weakens by more than a
+/// share of d_c at once, growing as the motion dies. The jump has ended when a static solution
+/// follows with every state on the way shown stable.
 ///
 /// Where the tangent never loses stability and no cohesion is lost, the way was continuous and
 /// merely hard to find: the state is advanced, but no jump is reported.
@@ -28,9 +29,10 @@ class JumpFollower {
     SolveCounts counts;
   };
   /// @param from, to  load factors: state is the last equilibrium, at `from`; the load is held at
-  /// `to`. @param state  moved to the new equilibrium; undefined when not arrived.
+  /// `to`. @param budget  Newton iterations after which it gives up. @param state  moved to the new
+  /// equilibrium; undefined when not arrived.
   Report follow(const Eigen::VectorXd& before, const Eigen::VectorXd& after, double from, double to,
-                ContactState& state);
+                int budget, ContactState& state);
 
  private:
   double first_duration() const;
@@ -38,6 +40,7 @@ class JumpFollower {
                    ContactState& state);
   bool try_static(const Eigen::VectorXd& before, const Eigen::VectorXd& after, ContactState& state);
   double weakening_share() const;
+  double hop_share() const;
   void note_stability();
   void add_energy();
 

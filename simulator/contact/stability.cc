@@ -46,13 +46,16 @@ void StabilityCheck::collect(const SubStep& sub_step, Where where, StabilityRepo
   for (int k = 0; k < problem_.n_nodes(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     const ContactNode& node = problem_.nodes[i];
+    const double damping = sub_step.damping_per_second * problem_.damping(k);
     if (sub_step.state[i] == FaultState::open) {
-      for (int c = 0; c < node.n_dofs; ++c) movers_.push_back({k, c, {0, 0}, 0, 0, 0});
+      for (int c = 0; c < node.n_dofs; ++c) {
+        movers_.push_back({k, c, {0, 0}, 0, 0, c > 0 ? damping : 0});
+      }
       continue;
     }
     const Eigen::Vector2d slip = shear_part(node, sub_step.increment);
     if (sub_step.state[i] != FaultState::slip || slip.norm() == 0) continue;
-    Mover mover{k, -1, slip / slip.norm(), 0, 0, sub_step.damping_per_second * problem_.damping(k)};
+    Mover mover{k, -1, slip / slip.norm(), 0, 0, damping};
     const SlipMeasure s =
         slip_measure(problem_.laws.cumulated[i] != 0, sub_step.start->slip_path[k],
                      shear_part(node, sub_step.start->jump), slip, slip);

@@ -86,6 +86,24 @@ std::string instability_text(const ContactProblem& problem, const SubStep& sub_s
               " at that node alone)");
 }
 
+std::string lost_cohesion_text(const ContactProblem& problem, const SubStep& sub_step, double from,
+                               double to) {
+  int n_slipping = 0, largest = 0;
+  double slip = -1;
+  for (int k = 0; k < problem.n_nodes(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    if (!loses_cohesion(problem, sub_step, k)) continue;
+    ++n_slipping;
+    const double here = shear_part(problem.nodes[i], sub_step.increment).norm();
+    if (here <= slip) continue;
+    slip = here;
+    largest = k;
+  }
+  return text("slip ends the cohesion of ", n_slipping, " nodes between load factors ", from,
+              " and ", to, " of the step, most on ", place(problem, largest),
+              ": their strength drops and equilibrium jumps");
+}
+
 std::string too_many_jumps_text(std::size_t n_jumps, double from) {
   return text(n_jumps, " instabilities were followed up to load factor ", from,
               " of the step, and there are more; take smaller load steps, a finer mesh or raise "

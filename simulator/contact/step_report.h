@@ -19,6 +19,10 @@ std::string failure_text(const ContactProblem& problem, const SubStep& sub_step,
 std::string instability_text(const ContactProblem& problem, const SubStep& sub_step,
                              const StabilityReport& stability, double from, double to);
 
+/// Where and between which load factors slip ends cohesion: strength drops, and equilibrium jumps.
+std::string lost_cohesion_text(const ContactProblem& problem, const SubStep& sub_step, double from,
+                               double to);
+
 /// More instabilities in one load step than are followed.
 std::string too_many_jumps_text(std::size_t n_jumps, double from);
 

@@ -170,12 +170,8 @@ bool SubStepSolver::solve_motion(bool last) {
 }
 
 bool SubStepSolver::loses_cohesion() const {
-  if (problem_.laws.lose_cohesion_slipping.empty()) return false;
-  for (std::size_t i = 0; i < problem_.nodes.size(); ++i) {
-    if (sub_step_.state[i] == FaultState::slip && sub_step_.cohesive[i] != 0 &&
-        problem_.laws.lose_cohesion_slipping[i] != 0 && problem_.laws.node[i].cohesion > 0) {
-      return true;
-    }
+  for (int k = 0; k < problem_.n_nodes(); ++k) {
+    if (faultsim::loses_cohesion(problem_, sub_step_, k)) return true;
   }
   return false;
 }

@@ -187,5 +187,35 @@ TEST(Jump, IsNotFollowedWithoutDamping) {
   EXPECT_EQ(run.state.jump[1], 0);
 }
 
+TEST(Jump, LostCohesionWithoutDampingIsAnInstabilityToo) {
+  FaultOperator op = spring_slider(10 * kMPa, 1);
+  ContactLaws laws = same_law(op, {WeakeningLaw::angle, 2 * kMPa, 0.4, 0.4, 1});
+  laws.lose_cohesion_slipping = {1};
+  History run(std::move(op), laws);
+  ASSERT_EQ(run.step(pulled(1.0, 2)).outcome, Outcome::converged);
+  const ContactReport report = run.step(pulled(1.3, 2));
+  EXPECT_EQ(report.outcome, Outcome::unstable);
+  EXPECT_NE(report.reason.find("slip ends the cohesion of 1 nodes"), std::string::npos)
+      << report.reason;
+  EXPECT_NE(report.reason.find("fault 'main'"), std::string::npos) << report.reason;
+}
+
+// Open, the release of the shear closes the node; closed, cohesion holds shear that opens it. It
+// hops until t'_N = 0.1 − 10 s is no tension any more. NastyContact has the same without damping.
+TEST(Jump, ANodeThatKeepsItsCohesionHopsUntilItIsClosed) {
+  FaultOperator op = spring_slider(1, 1, 1);
+  set_h(op, 10 * kMPa * Eigen::Matrix2d{{2, 1}, {1, 2}});
+  ContactLaws laws = following(op, {WeakeningLaw::angle, 10 * kMPa, 0.6, 0.6, 1});
+  laws.keep_cohesion = {1};
+  History run(std::move(op), laws);
+  ASSERT_EQ(run.step(Eigen::Vector2d(-1, 1) * kMPa).outcome, Outcome::converged);
+  const ContactReport report = run.step(Eigen::Vector2d(0.1, 5) * kMPa);
+  ASSERT_EQ(report.outcome, Outcome::converged) << report.reason;
+  EXPECT_EQ(run.state.jump[0], 0);
+  EXPECT_NEAR(run.state.jump[1], 0.01, 0.02);  // by the share allowed in one step
+  EXPECT_LT(run.state.traction[0], 1);
+  EXPECT_FALSE(run.state.cohesion_lost[0]);
+}
+
 }  // namespace
 }  // namespace faultsim
