@@ -30,7 +30,7 @@ endfunction()
 add_custom_target(unit_tests)
 
 # faultsim_test(target label SOURCES ... LIBS ...): one GoogleTest binary; label is unit,
-# verification, regression or campaign. Tests whose name contains "Slow" get the label slow instead.
+# stress, verification, regression or campaign. Tests whose name contains "Slow" get the label slow instead.
 function(faultsim_test target label)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
   add_executable(${target} ${ARG_SOURCES})
