@@ -25,7 +25,7 @@ ContactState initial_state(const FaultOperator& op) {
 /// A load step in halves of halves. Position and width are in units of the smallest sub-step.
 struct ContactSolver::Impl {
   Impl(const FaultOperator& op, const ContactLaws& laws, const ContactOptions& given)
-      : options(given), solver(op, laws, options), follower(solver, options) {
+      : options(given), solver(op, laws, options), follower(solver) {
     FAULTSIM_DEMAND(laws.damping.size() == 0 || laws.damping.size() == solver.problem().n_nodes(),
                     "damping of ", laws.damping.size(), " nodes");
     follows = laws.damping.size() > 0;
@@ -77,7 +77,7 @@ ContactReport ContactSolver::solve_step(const Eigen::VectorXd& before, const Eig
   report.counts.wasted_newton_iterations = impl.solver.iterations();
   impl.rolling = state;
   impl.walk(before, after, report);
-  if (report.outcome == Outcome::converged || report.outcome == Outcome::event) {
+  if (in_equilibrium(report.outcome)) {
     std::swap(state, impl.rolling);
   }
   return report;
@@ -122,7 +122,6 @@ void ContactSolver::Impl::walk(const Eigen::VectorXd& before, const Eigen::Vecto
       }
       ++position;
     }
-    while (position < units && (position % width != 0 || position + width > units)) width /= 2;
   }
   report.outcome = report.jumps.empty() ? Outcome::converged : Outcome::event;
 }

@@ -49,9 +49,10 @@ struct ContactJump {
   double load_after = 0;   ///< and the one at which the jump was followed.
   Eigen::VectorXd jump_before, traction_before;  ///< g and t' at load_before.
   Eigen::VectorXd jump_after, traction_after;    ///< g and t' at load_after.
-  std::vector<int> nucleus;    ///< nodes that slipped when the tangent first lost stability.
-  int n_lost_cohesion = 0;     ///< nodes whose cohesion was lost by slip.
-  int negative_pivots = 0;     ///< of the undamped tangent, most seen; 0 before and after.
+  std::vector<int> nucleus;  ///< nodes that slip and weaken, or lose their cohesion, when stability
+                             ///< is first lost.
+  int n_lost_cohesion = 0;   ///< nodes whose cohesion was lost by slip.
+  int negative_pivots = 0;   ///< of the undamped tangent, most seen; 0 before and after.
   double residual_before = 0;  ///< largest violation of D2-D3 in units of the tolerance.
   double residual_after = 0;
   double released = 0;    ///< energy released by bulk and loads, ½ Σ A (t'_0 + t'_1)·Δg, J.
@@ -92,7 +93,8 @@ class ContactSolver {
   ~ContactSolver();
 
   /// Advances state to the end of a load step whose locked traction goes linearly from `before`
-  /// (of the last step) to `after`. On any outcome but converged, state is left as it was.
+  /// (of the last step) to `after`. On any outcome but converged and event, state is left as it
+  /// was.
   ContactReport solve_step(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
                            ContactState& state);
 

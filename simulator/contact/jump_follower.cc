@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace faultsim {
 namespace {
@@ -18,9 +20,6 @@ constexpr int kStaticInterval = 4;  // damped steps between two tries at the sta
 
 }  // namespace
 
-JumpFollower::JumpFollower(SubStepSolver& solver, const ContactOptions& options)
-    : solver_(solver), options_(options) {}
-
 /// Δt at which damping outweighs the stiffness of every node, and so any weakening worth the name.
 double JumpFollower::first_duration() const {
   const ContactProblem& problem = solver_.problem();
@@ -33,19 +32,27 @@ double JumpFollower::first_duration() const {
   return std::isfinite(duration) ? duration : 1;
 }
 
+/// Whether the node slips and was not fully weakened before the sub-step.
+bool JumpFollower::still_weakens(int k) const {
+  const ContactProblem& problem = solver_.problem();
+  const SubStep& s = solver_.sub_step();
+  const auto i = static_cast<std::size_t>(k);
+  const ContactNode& node = problem.nodes[i];
+  if (!node.weakens || s.state[i] != FaultState::slip) return false;
+  const double before =
+      problem.laws.cumulated[i] ? s.start->slip_path[k] : shear_part(node, s.start->jump).norm();
+  return before < problem.laws.node[i].slip_weakening_distance;
+}
+
 /// Largest slip of the sub-step in units of d_c among nodes that still weaken.
 double JumpFollower::weakening_share() const {
   const ContactProblem& problem = solver_.problem();
-  const SubStep& s = solver_.sub_step();
   double share = 0;
   for (int k = 0; k < problem.n_nodes(); ++k) {
+    if (!still_weakens(k)) continue;
     const auto i = static_cast<std::size_t>(k);
-    const ContactNode& node = problem.nodes[i];
-    if (!node.weakens || s.state[i] != FaultState::slip) continue;
-    const double d_c = problem.laws.node[i].slip_weakening_distance;
-    const double before =
-        problem.laws.cumulated[i] ? s.start->slip_path[k] : shear_part(node, s.start->jump).norm();
-    if (before < d_c) share = std::max(share, shear_part(node, s.increment).norm() / d_c);
+    const double slip = shear_part(problem.nodes[i], solver_.sub_step().increment).norm();
+    share = std::max(share, slip / problem.laws.node[i].slip_weakening_distance);
   }
   return share;
 }
@@ -68,13 +75,21 @@ double JumpFollower::hop_share() const {
 void JumpFollower::note_stability() {
   negative_now_ = solver_.negative_pivots();
   if (negative_now_ > 0 && evidence_.negative_pivots == 0) {
-    const auto& state = solver_.sub_step().state;
     evidence_.nucleus.clear();
-    for (std::size_t i = 0; i < state.size(); ++i) {
-      if (state[i] == FaultState::slip) evidence_.nucleus.push_back(static_cast<int>(i));
+    for (int k = 0; k < solver_.problem().n_nodes(); ++k) {
+      if (still_weakens(k)) evidence_.nucleus.push_back(k);
     }
   }
   evidence_.negative_pivots = std::max(evidence_.negative_pivots, negative_now_);
+}
+
+void JumpFollower::note_lost_cohesion() {
+  std::vector<int> losing;
+  for (int k = 0; k < solver_.problem().n_nodes(); ++k) {
+    if (loses_cohesion(solver_.problem(), solver_.sub_step(), k)) losing.push_back(k);
+  }
+  evidence_.n_lost_cohesion += static_cast<int>(losing.size());
+  if (evidence_.nucleus.empty()) evidence_.nucleus = std::move(losing);
 }
 
 void JumpFollower::add_energy() {
@@ -122,13 +137,7 @@ bool JumpFollower::damped_step(const Eigen::VectorXd& before, const Eigen::Vecto
   }
   note_stability();
   add_energy();
-  const ContactLaws& laws = solver_.problem().laws;
-  if (!laws.lose_cohesion_slipping.empty()) {
-    for (std::size_t i = 0; i < laws.lose_cohesion_slipping.size(); ++i) {
-      evidence_.n_lost_cohesion += laws.lose_cohesion_slipping[i] && !state.cohesion_lost[i] &&
-                                   solver_.sub_step().state[i] == FaultState::slip;
-    }
-  }
+  note_lost_cohesion();
   solver_.commit(state);
   evidence_.duration += duration_;
   ++evidence_.damped_steps;

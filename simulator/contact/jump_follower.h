@@ -21,7 +21,7 @@ namespace faultsim {
 /// merely hard to find: the state is advanced, but no jump is reported.
 class JumpFollower {
  public:
-  JumpFollower(SubStepSolver& solver, const ContactOptions& options);
+  explicit JumpFollower(SubStepSolver& solver) : solver_(solver) {}
 
   struct Report {
     bool arrived = false;
@@ -39,13 +39,14 @@ class JumpFollower {
   bool damped_step(const Eigen::VectorXd& before, const Eigen::VectorXd& after, double from,
                    ContactState& state);
   bool try_static(const Eigen::VectorXd& before, const Eigen::VectorXd& after, ContactState& state);
+  bool still_weakens(int node) const;
   double weakening_share() const;
   double hop_share() const;
   void note_stability();
+  void note_lost_cohesion();
   void add_energy();
 
   SubStepSolver& solver_;
-  ContactOptions options_;
   Report report_;
   ContactJump evidence_;
   double load_ = 0;

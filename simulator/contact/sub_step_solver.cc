@@ -67,11 +67,14 @@ void SubStepSolver::set_tolerance() {
   }
   s.tolerance = options_.traction_tolerance * s.tolerance.cwiseMax(kLowest * highest).array();
   if (largest_jump == 0) return;
-  for (int k = 0; k < problem_.n_nodes(); ++k) {
-    const ContactNode& node = problem_.nodes[static_cast<std::size_t>(k)];
-    s.tolerance[k] =
-        std::max(s.tolerance[k], kRounding * largest_jump * problem_.stiffness(node, 0));
+  if (normal_stiffness_.size() == 0) {  // scattered reads: once per case, and only if it slips
+    normal_stiffness_.resize(problem_.n_nodes());
+    for (int k = 0; k < problem_.n_nodes(); ++k) {
+      const ContactNode& node = problem_.nodes[static_cast<std::size_t>(k)];
+      normal_stiffness_[k] = problem_.stiffness(node, 0);
+    }
   }
+  s.tolerance = s.tolerance.cwiseMax(kRounding * largest_jump * normal_stiffness_);
 }
 
 bool SubStepSolver::rest() {

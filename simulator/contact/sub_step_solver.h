@@ -74,6 +74,7 @@ class SubStepSolver {
   SubStep sub_step_;
   bool closed_ = true;  ///< no gap at the start of the sub-step.
   StabilityReport stable_;
+  Eigen::VectorXd normal_stiffness_;  ///< H_NN/A per node, Pa/m; empty until something slipped.
   int iterations_ = 0;
   int passes_ = 0;
 };

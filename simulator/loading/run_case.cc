@@ -257,7 +257,7 @@ void CaseRun::record_events(const LoadStep& step, const StepLoads* before, const
     for (std::size_t r = 0; r < loads.pressure_change.size(); ++r) {
       const double start = before != nullptr ? before->pressure_change[r] : 0;
       const double onset = start + share * (loads.pressure_change[r] - start);
-      event.pressure_change = std::min(event.pressure_change, onset);
+      if (r == 0 || onset < event.pressure_change) event.pressure_change = onset;
     }
     result_.events.push_back(std::move(event));
   }

@@ -89,7 +89,7 @@ struct SlipEvent {
   double pressure_change = 0;       ///< Pa, Δp of the most depleted region at onset.
   std::string fault;                ///< where it nucleated.
   double depth = 0;                 ///< m, of the centre of the nucleus.
-  double nucleation_length = 0;     ///< m, down-dip length slipping when stability was lost.
+  double nucleation_length = 0;     ///< m, down-dip, slipping and weakening as stability is lost.
   double slipped_area = 0;          ///< m2.
   double max_slip = 0;              ///< m, of the event.
   double mean_slip = 0;             ///< m, over the slipped area.

@@ -108,6 +108,7 @@ TEST(Jump, CohesionLostAtFirstSlipIsAnEventOfTheDropInStrength) {
   ASSERT_EQ(report.outcome, Outcome::event) << report.reason;
   ASSERT_EQ(report.jumps.size(), 1u);
   EXPECT_EQ(report.jumps[0].n_lost_cohesion, 1);
+  EXPECT_EQ(report.jumps[0].nucleus, std::vector<int>{0});
   EXPECT_NEAR(report.jumps[0].jump_after[1], 0.2, 1e-7);  // from 12 to 10 MPa
   EXPECT_NEAR(run.state.jump[1], 0.3, 1e-7);
   EXPECT_NEAR(run.state.traction[1], 10 * kMPa, 1);
