@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simulator/common/fingerprint.h"
+#include "simulator/plan/creep_plan.h"
 
 namespace faultsim {
 namespace {
@@ -283,6 +284,9 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
   plan.plane_strain = plan.reductions.back().applied;
   plan.reductions.push_back(plan_half_domain(scene, plan.plane_strain));
   plan.half_domain = plan.reductions.back().applied;
+
+  plan.creep.active = has_viscous_material(scene) && scene.numerics.creep != Switch::off;
+  if (plan.creep.active) plan.creep.rungs = creep_rungs(scene);
 
   const bool is_field = scene.geometry_kind == GeometryKind::field;
   const GridLines lines = is_field ? grid_lines(field_mesh_spec(scene, plan), problems)

@@ -18,10 +18,21 @@ struct Reduction {
   std::string switch_;  ///< how to force it: "/numerics/half_domain".
 };
 
+/// The steps of creep of viscous materials. Each needs a fault operator of its own besides the
+/// elastic one, as the stiffness that a step sees depends on its length (D5, design section 3).
+struct CreepPlan {
+  bool active = false;
+  /// Distinct step lengths Δt, s, descending; two that agree to 1e-9 are one. Error-controlled:
+  /// D/2^k, k = 0 to creep_refinements, of each length D of a load step (duration / n_steps);
+  /// fixed: D/n with the least n that makes it at most creep_time_step. Empty when not active.
+  std::vector<double> rungs;
+};
+
 /// What will be modelled and what it costs: a pure function of the scene alone.
 struct Plan {
   bool half_domain = false;
   bool plane_strain = false;
+  CreepPlan creep;
   std::vector<Reduction> reductions;
   long n_cells = 0;
   long n_unknowns = 0;  ///< bulk and jump, estimated from the grid lines.

@@ -130,6 +130,7 @@ json materials(const Scene& scene) {
 json initial_state(const InitialState& state) {
   const bool is_column = state.kind == InitialStressKind::column;
   json result = {{"kind", is_column ? "column" : "profile"}};
+  if (state.lithostatic_viscous_layers) result["viscous_layers"] = "lithostatic";
   if (!state.tensor) {
     result["ratio_across"] = plain(state.ratio_across);
     result["ratio_along"] = plain(state.ratio_along);
@@ -192,6 +193,14 @@ json numerics(const Numerics& numerics) {
           {"plane_strain", static_cast<int>(numerics.plane_strain)}};
 }
 
+json creep(const Numerics& numerics) {
+  return {{"switch", static_cast<int>(numerics.creep)},
+          {"time_step", plain(numerics.creep_time_step)},
+          {"refinements", numerics.creep_refinements},
+          {"tolerance", plain(numerics.creep_tolerance)},
+          {"scheme", static_cast<int>(numerics.creep_scheme)}};
+}
+
 }  // namespace
 
 std::string canonical_scene(const Scene& scene) {
@@ -211,22 +220,24 @@ std::string canonical_scene(const Scene& scene) {
                         {"lag", plain(history.lag)}});
   }
   const MeshSizes& mesh = scene.mesh;
-  const json result = {{"format", 1},
-                       {"materials", materials(scene)},
-                       {"geometry", scene.geometry_kind == GeometryKind::field ? field(scene.field)
-                                                                               : box(scene.box)},
-                       {"mesh",
-                        {{"strike", plain(mesh.strike)},
-                         {"dip", plain(mesh.dip)},
-                         {"normal", plain(mesh.normal)},
-                         {"growth", plain(mesh.growth)},
-                         {"fine_margin", plain(mesh.fine_margin)},
-                         {"largest", plain(mesh.largest)}}},
-                       {"initial_state", initial_state(scene.initial)},
-                       {"faults", faults},
-                       {"stages", stages},
-                       {"pressure", pressure},
-                       {"numerics", numerics(scene.numerics)}};
+  json result = {{"format", 1},
+                 {"materials", materials(scene)},
+                 {"geometry",
+                  scene.geometry_kind == GeometryKind::field ? field(scene.field) : box(scene.box)},
+                 {"mesh",
+                  {{"strike", plain(mesh.strike)},
+                   {"dip", plain(mesh.dip)},
+                   {"normal", plain(mesh.normal)},
+                   {"growth", plain(mesh.growth)},
+                   {"fine_margin", plain(mesh.fine_margin)},
+                   {"largest", plain(mesh.largest)}}},
+                 {"initial_state", initial_state(scene.initial)},
+                 {"faults", faults},
+                 {"stages", stages},
+                 {"pressure", pressure},
+                 {"numerics", numerics(scene.numerics)}};
+  // An elastic scene has no creep to speak of: it keeps the identity from before there was any.
+  if (has_viscous_material(scene)) result["creep"] = creep(scene.numerics);
   return result.dump();
 }
 

@@ -14,11 +14,15 @@ struct Piece {
   double density;  ///< kg/m3
 };
 
+const std::vector<Layer>& layers_of(const Scene& scene) {
+  return scene.geometry_kind == GeometryKind::field ? scene.field.layers : scene.box.layers;
+}
+
 /// The reference column: layers at zero offset, or the box's layers from z = 0 down.
 std::vector<Piece> reference_column(const Scene& scene) {
   const bool is_field = scene.geometry_kind == GeometryKind::field;
   const double base = is_field ? scene.field.depth : -scene.box.from[2];
-  const std::vector<Layer>& layers = is_field ? scene.field.layers : scene.box.layers;
+  const std::vector<Layer>& layers = layers_of(scene);
   if (layers.empty()) return {{base, material_named(scene, scene.box.material).density}};
   std::vector<Piece> column;
   for (std::size_t i = 0; i < layers.size(); ++i) {
@@ -59,6 +63,23 @@ DepthRange reservoir_range(const Scene& scene) {
   return {};
 }
 
+bool is_viscous(const Scene& scene, const std::string& material) {
+  return material_named(scene, material).viscosity.has_value();
+}
+
+/// Whether the layer at that depth is viscous; beyond the model the nearest layer counts.
+bool is_viscous_at(const Scene& scene, double depth, DepthSide side) {
+  const std::vector<Layer>& layers = layers_of(scene);
+  if (layers.empty()) return is_viscous(scene, scene.box.material);
+  std::size_t i = 0;
+  while (i + 1 < layers.size()) {
+    const double top = layers[i + 1].top_depth;
+    if (depth < top || (depth == top && side == DepthSide::above)) break;
+    ++i;
+  }
+  return is_viscous(scene, layers[i].material);
+}
+
 StressAtDepth one_sided(const Scene& scene, double depth, DepthSide side) {
   const InitialState& state = scene.initial;
   StressAtDepth result;
@@ -78,10 +99,14 @@ StressAtDepth one_sided(const Scene& scene, double depth, DepthSide side) {
     result.sigma = *state.tensor;
     return result;
   }
+  result.sigma[8] = vertical;
+  if (state.lithostatic_viscous_layers && is_viscous_at(scene, depth, side)) {
+    result.sigma[0] = result.sigma[4] = vertical;
+    return result;
+  }
   const double pore = state.initial_biot * result.pressure;
   result.sigma[0] = state.ratio_across * (vertical + pore) - pore;
   result.sigma[4] = state.ratio_along * (vertical + pore) - pore;
-  result.sigma[8] = vertical;
   return result;
 }
 
@@ -123,11 +148,19 @@ StressAtDepth initial_state(const Scene& scene, double z, DepthSide side) {
   if (side != DepthSide::mean) return one_sided(scene, -z, side);
   const StressAtDepth above = one_sided(scene, -z, DepthSide::above);
   const StressAtDepth below = one_sided(scene, -z, DepthSide::below);
-  if (above.pressure == below.pressure) return above;  // (a + a)/2 is a, but say so
+  const bool is_equal = above.pressure == below.pressure && above.sigma == below.sigma;
+  if (is_equal) return above;  // (a + a)/2 is a, but say so
   StressAtDepth mean;
   for (std::size_t i = 0; i < 9; ++i) mean.sigma[i] = 0.5 * (above.sigma[i] + below.sigma[i]);
   mean.pressure = 0.5 * (above.pressure + below.pressure);
   return mean;
+}
+
+bool has_viscous_layer(const Scene& scene) {
+  const std::vector<Layer>& layers = layers_of(scene);
+  if (layers.empty()) return is_viscous(scene, scene.box.material);
+  return std::any_of(layers.begin(), layers.end(),
+                     [&](const Layer& layer) { return is_viscous(scene, layer.material); });
 }
 
 double neglected_weight_difference(const Scene& scene) {

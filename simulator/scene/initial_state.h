@@ -13,7 +13,8 @@ struct StressAtDepth {
   double pressure = 0;  ///< Pa, p0.
 };
 
-/// Which limit to take where p0 jumps (top and base of an overpressured reservoir layer).
+/// Which limit to take where p0 jumps (top and base of an overpressured reservoir layer) or σ_h
+/// does (top and base of a lithostatic viscous layer).
 enum class DepthSide {
   mean,   ///< of both limits.
   above,  ///< as seen from smaller depths.
@@ -27,9 +28,14 @@ enum class DepthSide {
 ///   profile:  σ_v = σ_v0 + σ_v' depth,  p0 = p00 + p0' depth
 ///   σ_xx = M1 (σ_v + α_0 p0) − α_0 p0,  σ_yy = M2 (σ_v + α_0 p0) − α_0 p0,  σ_zz = σ_v
 ///
-/// or the uniform tensor in place of the stress. Above the surface of a column both are zero.
+/// or the uniform tensor in place of the stress. With lithostatic_viscous_layers σ_xx = σ_yy = σ_v
+/// in the depth ranges of the layers of viscous material (of a box without layers: everywhere if
+/// its material is viscous). Above the surface of a column both are zero.
 /// @pre the scene comes from read_scene without problems.
 StressAtDepth initial_state(const Scene& scene, double z, DepthSide side = DepthSide::mean);
+
+/// Whether a layer at zero offset (of a box without layers: the box) is of a viscous material.
+bool has_viscous_layer(const Scene& scene);
 
 /// The largest |difference| over all depths between the weight of a real column of a field
 /// (a block's, with the reservoir at its offset and sideburden in the gap, or the sideburden's) and

@@ -109,6 +109,7 @@ class Aliases {
     add(word + "_poisson", at + "poisson_ratio");
     add(word + "_density", at + "density");
     add(word + "_biot", at + "biot");
+    add(word + "_viscosity", at + "viscosity");
   }
   void add_materials() {
     const std::string layers = "/geometry/layers";
@@ -187,7 +188,9 @@ bool has_rival(const json& object, const std::string& key) {
       {"tensor", "ratio_along"},
       {"tensor", "initial_biot"},
       {"tensor", "vertical_stress"},
-      {"tensor", "vertical_stress_gradient"}};
+      {"tensor", "vertical_stress_gradient"},
+      {"tensor", "viscous_layers"},
+      {"creep_time_step", "creep_refinements"}};
   if (object.contains(key)) return false;
   return std::any_of(groups.begin(), groups.end(), [&](const auto& group) {
     if (std::find(group.begin(), group.end(), key) == group.end()) return false;

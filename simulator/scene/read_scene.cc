@@ -50,6 +50,13 @@ void read_numerics(const SceneReader& reader, Numerics& numerics) {
   numerics.b_bar = reader.boolean(at + "b_bar", numerics.b_bar);
   numerics.half_domain = switch_at(reader, at + "half_domain", numerics.half_domain);
   numerics.plane_strain = switch_at(reader, at + "plane_strain", numerics.plane_strain);
+  numerics.creep = switch_at(reader, at + "creep", numerics.creep);
+  numerics.creep_time_step = reader.quantity(at + "creep_time_step", numerics.creep_time_step);
+  numerics.creep_refinements = reader.integer(at + "creep_refinements", numerics.creep_refinements);
+  numerics.creep_tolerance = reader.quantity(at + "creep_tolerance", numerics.creep_tolerance);
+  if (reader.text(at + "creep_scheme") == "backward_euler") {
+    numerics.creep_scheme = CreepScheme::backward_euler;
+  }
 }
 
 /// What a tier says beyond cell sizes; contradicting it is refused rather than renamed.
@@ -136,10 +143,7 @@ void read_materials(SceneReader& reader, Scene& scene) {
     material.youngs_modulus = reader.quantity(at + "youngs_modulus");
     material.poisson_ratio = reader.number(at + "poisson_ratio");
     material.biot = reader.number(at + "biot", 1);
-    if (reader.has(at + "viscosity")) {
-      reader.problem(at + "viscosity", "viscous salt is not modelled yet",
-                     "remove " + at + "viscosity");
-    }
+    if (reader.has(at + "viscosity")) material.viscosity = reader.quantity(at + "viscosity");
     scene.materials.push_back(material);
   }
 }
@@ -159,6 +163,7 @@ void read_initial_state(SceneReader& reader, Scene& scene) {
   state.vertical_stress_gradient = reader.quantity(at + "vertical_stress_gradient", 0);
   state.pressure = reader.quantity(at + "pressure", 0);
   state.pressure_gradient = reader.quantity(at + "pressure_gradient", 0);
+  state.lithostatic_viscous_layers = reader.text(at + "viscous_layers") == "lithostatic";
   if (!reader.has(at + "tensor")) return;
   const std::array<double, 9> tensor = reader.tensor(at + "tensor");
   if (tensor[1] != tensor[3] || tensor[2] != tensor[6] || tensor[5] != tensor[7]) {
@@ -208,6 +213,7 @@ Scene read_scene(const JsonDocument& document, std::vector<Problem>& problems) {
   read_output(reader, scene);
   check_geometry(reader, scene);
   check_pressures(reader, scene);
+  check_creep(reader, scene);
   std::stable_sort(problems.begin(), problems.end(),
                    [](const Problem& a, const Problem& b) { return a.line < b.line; });
   return scene;
@@ -235,6 +241,13 @@ std::set<std::string> used_materials(const Scene& scene) {
   }
   used.insert(is_field ? scene.field.sideburden : scene.box.material);
   return used;
+}
+
+bool has_viscous_material(const Scene& scene) {
+  const std::set<std::string> used = used_materials(scene);
+  return std::any_of(scene.materials.begin(), scene.materials.end(), [&](const Material& material) {
+    return material.viscosity && used.count(material.name) != 0;
+  });
 }
 
 std::string starter_scene(const std::string& kind) {

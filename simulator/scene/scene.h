@@ -18,7 +18,7 @@ struct Material {
   double youngs_modulus = 0;        ///< Pa.
   double poisson_ratio = 0;         ///< in [0, 0.4999].
   double biot = 1;                  ///< Biot coefficient b in [0, 1].
-  std::optional<double> viscosity;  ///< Pa s, Maxwell, ε̇_v = s/(2μ); none = elastic.
+  std::optional<double> viscosity;  ///< η > 0, Pa s, Maxwell: ε̇_v = s/(2η); none = elastic.
 };
 
 /// A horizontal layer by its top; it reaches to the next layer's top or the base of the model.
@@ -150,6 +150,9 @@ struct InitialState {
   double pressure_gradient = 0;         ///< Pa per m of depth (profile).
   std::optional<std::array<double, 9>>
       tensor;  ///< Pa, uniform total σ0; replaces the profile's stress.
+  /// σ_xx = σ_yy = σ_v in the layers of viscous material, whatever the ratios: salt that has come
+  /// to rest. Never next to `tensor`.
+  bool lithostatic_viscous_layers = false;
 };
 
 enum class FrictionLaw {
@@ -217,7 +220,14 @@ struct OutputRequest {
   std::vector<ObservationPoint> observation_points;
 };
 
-/// Knobs of the numerics that are part of a case's identity.
+/// How the viscous strain of a step follows from the stresses (D5).
+enum class CreepScheme {
+  exponential,     ///< exact for a strain rate that is constant in the step.
+  backward_euler,  ///< first order: what many codes do, to measure the difference.
+};
+
+/// Knobs of the numerics that are part of a case's identity (those of creep only where something
+/// is made of viscous material).
 struct Numerics {
   double slip_tolerance = 1e-4;      ///< m, of `activated`.
   double activation_length = 40;     ///< m, of `activated` and χ̄.
@@ -231,6 +241,12 @@ struct Numerics {
   bool b_bar = true;
   Switch half_domain = Switch::automatic;  ///< field: symmetry about y = 0.
   Switch plane_strain = Switch::off;       ///< one cell in y, front and back tied, u_y = 0.
+  Switch creep = Switch::automatic;        ///< of viscous materials; off: they are elastic.
+  double creep_time_step = 0;    ///< s, longest step of creep; 0 = found by error control.
+  int creep_refinements = 1;     ///< error control: how often a load step may be halved, 0 to 6.
+  double creep_tolerance = 2e4;  ///< Pa, largest difference of fault traction between one step of
+                                 ///< creep and two of half its length that is accepted.
+  CreepScheme creep_scheme = CreepScheme::exponential;
 };
 
 struct Scene {
@@ -253,5 +269,7 @@ struct Scene {
 const Material& material_named(const Scene& scene, const std::string& name);
 /// Names of the materials that the geometry is made of; the scene may list others.
 std::set<std::string> used_materials(const Scene& scene);
+/// Whether one of those has a viscosity.
+bool has_viscous_material(const Scene& scene);
 
 }  // namespace faultsim

@@ -77,9 +77,10 @@ void read_faults(SceneReader& reader, Scene& scene);
 void read_initial_state(SceneReader& reader, Scene& scene);
 void read_loading(SceneReader& reader, Scene& scene);
 void read_output(SceneReader& reader, Scene& scene);
-/// Relations between parts: geometry of faults, observation points, pressures below zero.
+/// Relations between parts: geometry of faults, observation points, pressures below zero, creep.
 void check_geometry(SceneReader& reader, const Scene& scene);
 void check_pressures(SceneReader& reader, const Scene& scene);
+void check_creep(SceneReader& reader, const Scene& scene);
 
 /// Names of the pressure regions: the field's blocks or the box's regions.
 std::vector<std::string> region_names(const Scene& scene);

@@ -98,6 +98,60 @@ TEST(InitialState, TakesAUniformTensorAsItIs) {
   EXPECT_EQ(state.pressure, 5e6);
 }
 
+/// Salt from 1500 to 2000 m has come to rest: σ_h = σ_v there, the ratios rule outside, and on its
+/// top and base the mean of both limits.
+TEST(InitialState, IsLithostaticInViscousLayersWhereAsked) {
+  JsonDocument document = rotliegend();
+  set_value(document, "/materials/salt/viscosity", "1e17 Pa s");
+  const Scene rocklike = read_scene(document);
+  set_value(document, "/initial_state/viscous_layers", "lithostatic");
+  const Scene scene = read_scene(document);
+  const auto across = [](double depth, double m) {  // hydrostatic p0, 2200 over 2100 kg/m3
+    const double vertical = -9.81 * (2200 * 1500 + 2100 * (depth - 1500));
+    return m * (vertical + 9810 * depth) - 9810 * depth;
+  };
+  const double vertical = -9.81 * (2200 * 1500 + 2100 * 200);
+  const StressAtDepth in_salt = initial_state(scene, -1700);
+  const std::array<double, 9> expected = {vertical, 0, 0, 0, vertical, 0, 0, 0, vertical};
+  for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(in_salt.sigma[i], expected[i], 1e-6) << i;
+  EXPECT_EQ(in_salt.sigma[0], in_salt.sigma[8]) << "no deviator at all";
+  EXPECT_EQ(in_salt.pressure, 1700 * 9810.0);
+  for (const double z : {-1400.0, -2100.0, -3000.0}) {
+    EXPECT_EQ(initial_state(scene, z).sigma, initial_state(rocklike, z).sigma) << z;
+    EXPECT_NE(initial_state(scene, z).sigma[0], initial_state(scene, z).sigma[8]) << z;
+  }
+  EXPECT_NEAR(initial_state(rocklike, -1700).sigma[0], across(1700, 0.74), 1e-6);
+  EXPECT_NEAR(initial_state(scene, -1500, DepthSide::above).sigma[0], across(1500, 0.74), 1e-6);
+  EXPECT_NEAR(initial_state(scene, -1500, DepthSide::below).sigma[0], across(1500, 1), 1e-6);
+  EXPECT_NEAR(initial_state(scene, -1500).sigma[4], across(1500, 0.5 * (0.83 + 1)), 1e-6);
+  EXPECT_NEAR(initial_state(scene, -2000, DepthSide::above).sigma[0], across(2000, 1), 1e-6);
+  EXPECT_NE(initial_state(scene, -2000, DepthSide::below).sigma[0],
+            initial_state(scene, -2000, DepthSide::below).sigma[8]);
+}
+
+TEST(InitialState, OfABoxIsLithostaticInItsViscousLayersOrThroughout) {
+  JsonDocument document = parse_json(starter_scene("box"), "box");  // 1000 to 3000 m deep
+  set_value(document, "/materials/rock/viscosity", "1e17 Pa s");
+  set_value(document, "/initial_state/viscous_layers", "lithostatic");
+  const Scene all = read_scene(document);
+  EXPECT_TRUE(has_viscous_layer(all));
+  for (const double depth : {1000.0, 1777.0, 3000.0}) {
+    EXPECT_EQ(initial_state(all, -depth).sigma[0], -22e3 * depth);
+    EXPECT_EQ(initial_state(all, -depth).sigma[4], -22e3 * depth);
+  }
+  set_value(document, "/materials/lower", R"({"youngs_modulus": "1 GPa", "poisson_ratio": 0.2})");
+  document.value["geometry"].erase("material");
+  set_value(document, "/geometry/layers",
+            R"([{"name": "salt", "material": "rock", "top": "1000 m"},
+                {"name": "rock", "material": "lower", "top": "1500 m"}])");
+  const Scene layered = read_scene(document);
+  EXPECT_EQ(initial_state(layered, -1200).sigma[0], -22e3 * 1200);
+  EXPECT_NEAR(initial_state(layered, -2000).sigma[0], 0.74 * (-44e6 + 20e6) - 20e6, 1e-6);
+  set_value(document, "/geometry/layers/0/material", "lower");
+  set_value(document, "/initial_state/viscous_layers", "ratios");
+  EXPECT_FALSE(has_viscous_layer(read_scene(document)));
+}
+
 TEST(NeglectedWeightDifference, IsThatOfTheShiftedReservoir) {
   JsonDocument document = rotliegend();
   EXPECT_EQ(neglected_weight_difference(read_scene(document)), 0) << "sideburden weighs the same";
@@ -142,6 +196,25 @@ TEST(PressureHistory, FollowsTheStagesOfTheReferenceScene) {
   EXPECT_EQ(stage_of_step(scene, 9), 0U);
   EXPECT_EQ(stage_of_step(scene, 10), 1U);
   EXPECT_EQ(stage_of_step(scene, 23), 2U);
+}
+
+/// A stage without a pressure key keeps the pressures that it finds, in all of its steps.
+TEST(PressureHistory, HoldsInAStageThatNamesNoPressure) {
+  JsonDocument document = rotliegend();
+  set_value(document, "/stages", R"([
+      {"name": "production", "duration": "2 year", "steps": 2, "pressure_change": "-100 bar"},
+      {"name": "shut_in", "duration": "9 year", "steps": 3},
+      {"name": "storage", "duration": "1 year", "pressure_change": "-50 bar"}])");
+  const Scene scene = read_scene(document);
+  const std::vector<double> times = step_times(scene);
+  const double expected[] = {-5e6, -10e6, -10e6, -10e6, -10e6, -5e6};
+  ASSERT_EQ(times.size(), 6U);
+  for (const PressureHistory& history : scene.pressure) {
+    for (std::size_t k = 0; k < 6; ++k) {
+      EXPECT_DOUBLE_EQ(pressure_change_at(history, times[k]), expected[k]) << k;
+    }
+    EXPECT_EQ(pressure_change_at(history, 0.5 * (times[2] + times[3])), -10e6) << "between steps";
+  }
 }
 
 TEST(TimeTable, IsOneWhenEmptyAndConstantOutside) {

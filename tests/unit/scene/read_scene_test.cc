@@ -341,19 +341,83 @@ TEST(CaseIdentity, OfTheReferenceSceneIsTheOneOnFile) {
   EXPECT_EQ(case_identity(read_scene(rotliegend())), "6054f13c8b3b1cff6c7302cd8a0629fd");
 }
 
+/// Viscous salt in the reference scene.
+const std::pair<std::string, std::string> kViscous = {"/materials/salt/viscosity", "1e17 Pa s"};
+
+TEST(ReadScene, ReadsViscousSaltAndItsNumerics) {
+  const Scene scene = varied(rotliegend(), {kViscous});
+  EXPECT_EQ(material_named(scene, "salt").viscosity, 1e17);
+  EXPECT_FALSE(material_named(scene, "overburden").viscosity);
+  EXPECT_EQ(scene.numerics.creep, Switch::automatic);
+  EXPECT_EQ(scene.numerics.creep_time_step, 0);
+  EXPECT_EQ(scene.numerics.creep_refinements, 1);
+  EXPECT_EQ(scene.numerics.creep_tolerance, 2e4);
+  EXPECT_EQ(scene.numerics.creep_scheme, CreepScheme::exponential);
+  EXPECT_FALSE(scene.initial.lithostatic_viscous_layers);
+  const Scene other = varied(rotliegend(), {kViscous,
+                                            {"/numerics/creep", "on"},
+                                            {"/numerics/creep_time_step", "0.5 year"},
+                                            {"/numerics/creep_tolerance", "1 bar"},
+                                            {"/numerics/creep_scheme", "backward_euler"},
+                                            {"/initial_state/viscous_layers", "lithostatic"}});
+  EXPECT_EQ(other.numerics.creep, Switch::on);
+  EXPECT_EQ(other.numerics.creep_time_step, 0.5 * kYear);
+  EXPECT_EQ(other.numerics.creep_tolerance, 1e5);
+  EXPECT_EQ(other.numerics.creep_scheme, CreepScheme::backward_euler);
+  EXPECT_TRUE(other.initial.lithostatic_viscous_layers);
+}
+
+TEST(HasViscousMaterial, AsksWhatTheModelIsMadeOf) {
+  EXPECT_FALSE(has_viscous_material(read_scene(rotliegend())));
+  EXPECT_TRUE(has_viscous_material(varied(rotliegend(), {kViscous})));
+  EXPECT_FALSE(has_viscous_material(varied(
+      rotliegend(),
+      {{"/materials/unused",
+        R"({"youngs_modulus": "1 GPa", "poisson_ratio": 0.1, "viscosity": "1e17 Pa s"})"}})));
+}
+
+/// Without viscous material creep is no part of a case, with it all of creep is.
+TEST(CaseIdentity, HasCreepWhereSomethingIsViscous) {
+  const std::vector<std::pair<std::string, std::string>> keys = {
+      {"/numerics/creep", "off"},
+      {"/numerics/creep_time_step", "0.5 year"},
+      {"/numerics/creep_refinements", "2"},
+      {"/numerics/creep_tolerance", "1 bar"},
+      {"/numerics/creep_scheme", "backward_euler"}};
+  const std::string elastic = case_identity(read_scene(rotliegend()));
+  const std::string viscous = case_identity(varied(rotliegend(), {kViscous}));
+  EXPECT_NE(viscous, elastic);
+  for (const auto& key : keys) {
+    EXPECT_EQ(case_identity(varied(rotliegend(), {key})), elastic) << key.first;
+    EXPECT_NE(case_identity(varied(rotliegend(), {kViscous, key})), viscous) << key.first;
+  }
+  const Scene resting =
+      varied(rotliegend(), {kViscous, {"/initial_state/viscous_layers", "lithostatic"}});
+  EXPECT_NE(case_identity(resting), viscous);
+  const Scene stiffer = varied(rotliegend(), {{"/materials/salt/viscosity", "2e17 Pa s"}});
+  EXPECT_NE(case_identity(stiffer), viscous);
+}
+
 /// A default in the schema that is not the one in the code would be a lie.
-TEST(Defaults, OfTheSchemaAreThoseOfTheCode) {
-  const std::string before = case_identity(read_scene(rotliegend()));
+void expect_true_defaults(const JsonDocument& document, int at_least) {
+  const std::string before = case_identity(read_scene(document));
   int n_tried = 0;
-  for (const ParameterInfo& row : parameters(rotliegend())) {
+  for (const ParameterInfo& row : parameters(document)) {
     const bool is_value =
         !row.default_value.empty() && (row.is_text || std::isdigit(row.default_value[0]) != 0);
     if (!is_value || row.value != row.default_value) continue;
-    EXPECT_EQ(case_identity(varied(rotliegend(), {{row.pointer, row.default_value}})), before)
+    EXPECT_EQ(case_identity(varied(document, {{row.pointer, row.default_value}})), before)
         << row.pointer;
     ++n_tried;
   }
-  EXPECT_GT(n_tried, 30);
+  EXPECT_GT(n_tried, at_least);
+}
+
+TEST(Defaults, OfTheSchemaAreThoseOfTheCode) {
+  expect_true_defaults(rotliegend(), 30);
+  JsonDocument viscous = rotliegend();
+  set_value(viscous, kViscous.first, kViscous.second);
+  expect_true_defaults(viscous, 34);
 }
 
 }  // namespace
