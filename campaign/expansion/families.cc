@@ -45,7 +45,7 @@ int FamilyFinder::family_of(const Row& row, const std::vector<double>& derived,
   const auto known = by_key_.find(key);
   if (known != by_key_.end()) return known->second;
   const int family = plan_row(row, derived, problems);
-  if (family >= 0) by_key_.emplace(std::move(key), family);
+  if (family >= 0 && !may_creep_) by_key_.emplace(std::move(key), family);
   return family;
 }
 
@@ -55,6 +55,8 @@ int FamilyFinder::plan_row(const Row& row, const std::vector<double>& derived,
   if (!scene) return -1;
   std::vector<faultsim::Problem> found;
   faultsim::Plan plan = faultsim::make_plan(*scene, found);
+  may_creep_ =
+      faultsim::has_viscous_material(*scene) && scene->numerics.creep != faultsim::Switch::off;
   for (const auto& one : found) problems.push_back(builder_.in_spec(one, row));
   if (!found.empty()) return -1;
   const auto [place, is_new] =

@@ -10,7 +10,8 @@
 namespace faultsweep {
 
 /// Finds the family of each row of one group, making a plan once per distinct family key: the
-/// values of the parameters that may change the linear bulk.
+/// values of the parameters that may change the linear bulk. A row that may creep is planned by
+/// itself: its steps are those of the stages, and whether it creeps may depend on the loads.
 class FamilyFinder {
  public:
   /// @param families  those found so far, in all groups; new ones are added.
@@ -33,6 +34,7 @@ class FamilyFinder {
   std::map<std::string, int>& by_fingerprint_;
   std::vector<bool> relevant_;          ///< per parameter: may change the family.
   std::vector<bool> derived_relevant_;  ///< per derived parameter.
+  bool may_creep_ = false;              ///< the row planned last: its family takes more than a key.
   std::map<std::vector<double>, int> by_key_;
 };
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+
+#include "simulator/common/errors.h"
 
 namespace faultsim {
 namespace {
@@ -19,7 +22,60 @@ std::vector<double> distinct(std::vector<double> lengths) {
   return lengths;
 }
 
+/// "75.2 days", "18 years": four digits at the most.
+std::string duration_text(double seconds) {
+  struct Unit {
+    const char* name;
+    double seconds;
+  };
+  constexpr Unit kUnits[] = {{"year", 31557600}, {"day", 86400}, {"hour", 3600}, {"s", 1}};
+  const Unit* unit = kUnits;
+  while (unit->seconds > 1 && seconds < unit->seconds * (1 - 1e-9)) ++unit;
+  char number[32];
+  std::snprintf(number, sizeof number, "%.4g", seconds / unit->seconds);
+  const bool is_many = unit->seconds > 1 && std::string(number) != "1";
+  return std::string(number) + " " + unit->name + (is_many ? "s" : "");
+}
+
+std::string digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+std::string megapascals(double pascals) { return digits(pascals / 1e6) + " MPa"; }
+
+std::string relaxation_text(const CreepEstimate& estimate) {
+  return concat("relaxation time ", duration_text(estimate.relaxation_time), ", history ",
+                duration_text(estimate.duration), ": ", digits(100 * estimate.relaxed_share),
+                " % relaxed");
+}
+
 }  // namespace
+
+Reduction plan_creep_off(const Scene& scene, const CreepEstimate& estimate) {
+  const double limit = scene.numerics.creep_tolerance / 10;
+  const Switch creep = scene.numerics.creep;
+  const bool is_small = estimate.bound && *estimate.bound < limit;
+  const std::string tenth = "a tenth of creep_tolerance, " + megapascals(limit);
+  Reduction r{"creep_off", false, relaxation_text(estimate), "", "/numerics/creep"};
+  r.applied = creep == Switch::off || (creep == Switch::automatic && is_small);
+  r.bound = !estimate.bound ? "not bounded, as a face is translated"
+                            : "moves fault tractions by less than " + megapascals(*estimate.bound);
+  if (creep == Switch::off) {
+    r.reason = "switched off; " + r.reason;
+  } else if (creep == Switch::on) {
+    r.reason = "creep is switched on; " + r.reason;
+  } else if (is_small) {
+    r.bound += ", below " + tenth;
+  } else if (estimate.bound) {
+    r.reason += concat("; may move fault tractions by up to ", megapascals(*estimate.bound),
+                       ", more than ", tenth);
+  } else {
+    r.reason += "; its effect on faults is not bounded, as a face is translated";
+  }
+  return r;
+}
 
 std::vector<double> creep_rungs(const Scene& scene) {
   const Numerics& numerics = scene.numerics;
@@ -36,6 +92,16 @@ std::vector<double> creep_rungs(const Scene& scene) {
     }
   }
   return distinct(std::move(lengths));
+}
+
+std::string creep_text(const CreepPlan& creep) {
+  if (!creep.active) return "";
+  std::string steps;
+  for (const double rung : creep.rungs) {
+    steps += (steps.empty() ? "" : ", ") + duration_text(rung);
+  }
+  return concat("creep: steps of ", steps, "; ", creep.rungs.size() + 1,
+                " operators with the elastic one\n");
 }
 
 }  // namespace faultsim

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "simulator/common/fingerprint.h"
 #include "simulator/plan/creep_plan.h"
@@ -119,11 +120,13 @@ void predict_cost(Plan& plan) {
   const double per_cell = plan.plane_strain ? 2e3 : 1.2e4;  // lists, pattern, two copies of K
   const double factor =
       plan.plane_strain ? 8 * 6.0 * n * std::log2(n + 2) : 2.8e9 * std::pow(n / 260e3, 4.0 / 3.0);
-  plan.memory_bytes =
-      program + factor + per_cell * static_cast<double>(plan.n_cells) + 3 * 8 * g * g;
+  // A viscous family keeps the factor and H of every step length beside the build of the last one.
+  const auto rungs = static_cast<double>(plan.creep.rungs.size());
+  plan.memory_bytes = program + factor + per_cell * static_cast<double>(plan.n_cells) +
+                      3 * 8 * g * g + rungs * (factor + 8 * g * g);
   const double bulk =
       plan.plane_strain ? 1.2 * std::pow(n / 50e3, 1.3) : 30.0 * std::pow(n / 260e3, 1.8);
-  plan.operator_seconds = bulk + g * g * g / 3e10;
+  plan.operator_seconds = (1 + rungs) * (bulk + g * g * g / 3e10);
 }
 
 nlohmann::json numbers(const std::vector<double>& values) { return nlohmann::json(values); }
@@ -170,6 +173,19 @@ nlohmann::json family_of_box(const Scene& scene, const BoxMeshSpec& spec) {
   return j;
 }
 
+/// Absent where nothing creeps: elastic families are those from before there was creep.
+nlohmann::json family_of_creep(const Scene& scene, const CreepPlan& creep) {
+  const std::set<std::string> used = used_materials(scene);
+  nlohmann::json viscosities = nlohmann::json::array();
+  for (const Material& m : scene.materials) {
+    const bool creeps = m.viscosity && used.count(m.name) != 0;
+    viscosities.push_back(creeps ? nlohmann::json(*m.viscosity) : nlohmann::json());
+  }
+  return {{"viscosities", viscosities},
+          {"scheme", static_cast<int>(scene.numerics.creep_scheme)},
+          {"rungs", numbers(creep.rungs)}};
+}
+
 nlohmann::json family_of(const Scene& scene, const Plan& plan) {
   const bool is_field = scene.geometry_kind == GeometryKind::field;
   nlohmann::json j;
@@ -190,6 +206,7 @@ nlohmann::json family_of(const Scene& scene, const Plan& plan) {
   for (const Material& m : scene.materials) {
     j["materials"].push_back({m.youngs_modulus, m.poisson_ratio});
   }
+  if (plan.creep.active) j["creep"] = family_of_creep(scene, plan.creep);
   return j;
 }
 
@@ -285,8 +302,13 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
   plan.reductions.push_back(plan_half_domain(scene, plan.plane_strain));
   plan.half_domain = plan.reductions.back().applied;
 
-  plan.creep.active = has_viscous_material(scene) && scene.numerics.creep != Switch::off;
-  if (plan.creep.active) plan.creep.rungs = creep_rungs(scene);
+  if (has_viscous_material(scene)) {
+    const CreepEstimate estimate = estimate_creep(scene);
+    plan.reductions.push_back(plan_creep_off(scene, estimate));
+    plan.creep.active = !plan.reductions.back().applied;
+    plan.creep.bound = estimate.bound;
+    if (plan.creep.active) plan.creep.rungs = creep_rungs(scene);
+  }
 
   const bool is_field = scene.geometry_kind == GeometryKind::field;
   const GridLines lines = is_field ? grid_lines(field_mesh_spec(scene, plan), problems)
@@ -322,7 +344,12 @@ nlohmann::json plan_to_json(const Plan& plan) {
                       {"predicted_operator_s", plan.operator_seconds},
                       {"predicted_memory_bytes", plan.memory_bytes},
                       {"family", plan.family},
+                      {"creep",
+                       {{"active", plan.creep.active},
+                        {"rungs_s", numbers(plan.creep.rungs)},
+                        {"bound_pa", nullptr}}},
                       {"reductions", nlohmann::json::array()}};
+  if (plan.creep.bound) j["creep"]["bound_pa"] = *plan.creep.bound;
   for (const Reduction& r : plan.reductions) {
     j["reductions"].push_back({{"name", r.name},
                                {"applied", r.applied},
@@ -343,7 +370,7 @@ std::string plan_to_text(const Plan& plan) {
   char line[256];
   std::snprintf(line, sizeof line, "cells %ld, unknowns %ld (of which jumps %ld), load steps %d\n",
                 plan.n_cells, plan.n_unknowns, plan.n_jump, plan.n_steps);
-  text += line;
+  text += line + creep_text(plan.creep);
   std::snprintf(line, sizeof line, "operator: about %s and %s at its peak; family %.12s\n",
                 human_time(plan.operator_seconds).c_str(), human_bytes(plan.memory_bytes).c_str(),
                 plan.family.c_str());

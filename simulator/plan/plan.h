@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct CreepPlan {
   /// D/2^k, k = 0 to creep_refinements, of each length D of a load step (duration / n_steps);
   /// fixed: D/n with the least n that makes it at most creep_time_step. Empty when not active.
   std::vector<double> rungs;
+  /// What creep may change of a fault traction, Pa (docs/model.md, section 9); nothing where no
+  /// material is viscous or a load has no bound.
+  std::optional<double> bound;
 };
 
 /// What will be modelled and what it costs: a pure function of the scene alone.

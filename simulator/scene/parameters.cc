@@ -202,7 +202,7 @@ bool has_rival(const json& object, const std::string& key) {
 class Collector {
  public:
   Collector(const JsonDocument& document, const Aliases& aliases)
-      : document_(document), aliases_(aliases) {}
+      : document_(document), aliases_(aliases), may_creep_(has_viscosity(document.value)) {}
 
   void walk(const json* value, const SchemaViews& views, const std::string& pointer, bool family) {
     const json& here = value == nullptr ? null() : *value;
@@ -246,6 +246,21 @@ class Collector {
     const json& here = value == nullptr ? null() : *value;
     walk(value, child_views(scene_schema(), parent, key, here), pointer, family);
   }
+  /// Whether a material of the document has a viscosity and creep is not switched off.
+  static bool has_viscosity(const json& document) {
+    if (text_at(document, "/numerics/creep") == "off") return false;
+    if (!document.is_object() || !document.contains("materials")) return false;
+    const json& materials = document["materials"];
+    return std::any_of(materials.begin(), materials.end(), [](const json& material) {
+      return material.is_object() && material.contains("viscosity");
+    });
+  }
+  /// Creep takes the steps of the stages, and each length of a step has an operator.
+  bool makes_creep_steps(const std::string& pointer) const {
+    if (!may_creep_ || pointer.rfind("/stages/", 0) != 0) return false;
+    const std::string key = pointer.substr(pointer.rfind('/') + 1);
+    return key == "duration" || key == "steps";
+  }
   static const json& null() {
     static const json nothing;
     return nothing;
@@ -284,7 +299,7 @@ class Collector {
     }
     row.value = value == nullptr ? row.default_value : text_at(document_.value, pointer);
     row.range = keyword_text(views, "type") == "boolean" ? "{true, false}" : range_text(views);
-    row.new_family = family;
+    row.new_family = family || makes_creep_steps(pointer);
     row.description = keyword_text(views, "description");
     row.is_text = keyword(views, "enum") != nullptr || keyword_text(views, "type") == "boolean";
     rows_.push_back(row);
@@ -292,6 +307,7 @@ class Collector {
 
   const JsonDocument& document_;
   const Aliases& aliases_;
+  bool may_creep_;
   std::vector<ParameterInfo> rows_;
 };
 

@@ -64,6 +64,44 @@ TEST(Expansion, KeptFieldsAreNoPartOfACase) {
   }
 }
 
+/// The salt's viscosity is a parameter like others. It makes families, and so do step lengths once
+/// salt creeps: each has operators of its own. Salt too stiff to matter is the elastic family,
+/// whatever its steps and its viscosity.
+TEST(Expansion, ViscosityAndItsStepsMakeFamilies) {
+  const auto all = expand_grid(
+      R"({"caprock_viscosity": ["1e17 Pa s", "1e18 Pa s", "1e25 Pa s"],
+          "gas_storage_duration": ["6 year", "12 year"], "friction_angle": ["20 deg", "30 deg"]})");
+  ASSERT_EQ(all.cases.size(), 12u);
+  EXPECT_EQ(values_of(all, 0),
+            "caprock_viscosity=1e17 Pa s gas_storage_duration=6 year friction_angle=20 deg");
+  ASSERT_EQ(all.families.size(), 5u);
+  EXPECT_EQ(all.families[0].cases, (std::vector<int>{0, 1}));
+  EXPECT_EQ(all.families[1].cases, (std::vector<int>{2, 3}));
+  EXPECT_EQ(all.families[4].cases, (std::vector<int>{8, 9, 10, 11}));
+  EXPECT_EQ(all.families[0].plan.creep.rungs.size(), 3u);
+  EXPECT_FALSE(all.families[4].plan.creep.active);
+  expect_true_identities(all, 1);
+}
+
+/// Whether salt creeps may depend on the loads alone: this one is stiff, and matters only where the
+/// pressure falls by more than a little.
+TEST(Expansion, LoadsMayDecideWhetherSaltCreeps) {
+  const std::string text = R"({"format": 1, "name": "test",
+      "base": "docs/examples/scenes/rotliegend-salt.json",
+      "set": {"/tier": "screening", "/materials/salt/viscosity": "1e23 Pa s",
+              "/initial_state/ratio_across": 1, "/initial_state/ratio_along": 1,
+              "/stages": [{"name": "production", "duration": "18 year", "steps": 18}]},
+      "design": {"kind": "grid", "parameters": {
+          "friction_angle": ["20 deg", "30 deg"],
+          "production_pressure": ["-1 bar", "-200 bar"]}}})";
+  const auto all = expand(parse_campaign(text, FAULTSIM_SOURCE_DIR "/test.json"));
+  ASSERT_EQ(all.families.size(), 2u);
+  EXPECT_EQ(all.families[0].cases, (std::vector<int>{0, 2}));
+  EXPECT_FALSE(all.families[0].plan.creep.active);
+  EXPECT_TRUE(all.families[1].plan.creep.active);
+  expect_true_identities(all, 1);
+}
+
 TEST(Expansion, GridLastParameterFastest) {
   const auto all =
       expand_grid(R"({"offset": ["0 m", "50 m"], "friction_angle": ["20 deg", "30 deg"]})");

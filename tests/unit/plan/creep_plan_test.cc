@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <nlohmann/json.hpp>
+
 #include "simulator/scene/read_scene.h"
 
 namespace faultsim {
@@ -9,13 +12,34 @@ namespace {
 
 constexpr double kYear = 31557600;
 
-/// The reference scene with viscous salt and some values set.
-Scene viscous(const std::vector<std::pair<std::string, std::string>>& sets) {
-  JsonDocument document =
-      read_json_file(FAULTSIM_SOURCE_DIR "/docs/examples/scenes/rotliegend.json");
-  set_value(document, "/materials/salt/viscosity", "1e17 Pa s");
+using Changes = std::vector<std::pair<std::string, std::string>>;
+
+Scene changed(JsonDocument document, const Changes& sets) {
   for (const auto& [pointer, value] : sets) set_value(document, pointer, value);
   return read_scene(document);
+}
+
+Scene elastic(const Changes& sets) {
+  return changed(read_json_file(FAULTSIM_SOURCE_DIR "/docs/examples/scenes/rotliegend.json"), sets);
+}
+
+Scene viscous(const Changes& sets) {
+  return changed(read_json_file(FAULTSIM_SOURCE_DIR "/docs/examples/scenes/rotliegend-salt.json"),
+                 sets);
+}
+
+Plan planned(const Scene& scene) {
+  std::vector<Problem> problems;
+  Plan plan = make_plan(scene, problems);
+  EXPECT_TRUE(problems.empty());
+  return plan;
+}
+
+const Reduction* creep_off(const Plan& plan) {
+  for (const Reduction& reduction : plan.reductions) {
+    if (reduction.name == "creep_off") return &reduction;
+  }
+  return nullptr;
 }
 
 void expect_rungs(const Scene& scene, const std::vector<double>& expected) {
@@ -55,6 +79,192 @@ TEST(CreepRungs, DoNotSplitOnRounding) {
   apart.numerics.creep_refinements = 0;
   apart.stages = {{"a", 1, 1}, {"b", 1 + 1e-10, 1}, {"c", 1 + 1e-8, 1}};
   expect_rungs(apart, {1 + 1e-8, 1 + 1e-10});
+}
+
+/// Salt of V8: τ = η/G = 1e17/15.384615e9 = 6.5e6 s.
+TEST(CreepEstimate, OfTheReferenceSceneByHand) {
+  const CreepEstimate estimate = estimate_creep(viscous({}));
+  EXPECT_NEAR(estimate.relaxation_time, 6.5e6, 1);
+  EXPECT_DOUBLE_EQ(estimate.duration, 18 * kYear);
+  EXPECT_DOUBLE_EQ(estimate.relaxed_share, 1);
+  // |Δp| 200 bar; the initial deviator is largest at 5000 m: σ'_v = −118.7991 + 49.05 MPa, of which
+  // 26 % across and 17 % along are missing; its deviator d has |d|² = (2/3)(a² + b² − ab)
+  const double effective = 9.81 * (2200 * 1500 + 2100 * 500 + 2400 * 200 + 2600 * 2800) - 49.05e6;
+  const double a = 0.26 * effective, b = 0.17 * effective;
+  const double shear = std::sqrt((a * a + b * b - a * b) / 3);
+  ASSERT_TRUE(estimate.stress);
+  EXPECT_NEAR(*estimate.stress, 20e6 + shear, 1);
+  EXPECT_NEAR(*estimate.bound, 10 * (20e6 + shear), 10);
+}
+
+TEST(CreepEstimate, IsLinearWhereLittleRelaxes) {
+  const CreepEstimate estimate =
+      estimate_creep(viscous({{"/materials/salt/viscosity", "1e25 Pa s"}}));
+  const double share = 18 * kYear / 6.5e14;
+  EXPECT_NEAR(estimate.relaxed_share, share, 1e-5 * share);
+  EXPECT_NEAR(*estimate.bound, 10 * *estimate.stress * share, 1e-5 * *estimate.bound);
+}
+
+/// The pressure counts where it lies within the history, scaled and delayed; that of faults too.
+TEST(CreepEstimate, TakesTheLargestPressureChangeOfTheHistory) {
+  const auto stress = [](const Changes& sets) {
+    Changes all = {{"/initial_state/ratio_across", "1"}, {"/initial_state/ratio_along", "1"}};
+    all.insert(all.end(), sets.begin(), sets.end());
+    return *estimate_creep(viscous(all)).stress;
+  };
+  EXPECT_NEAR(stress({}), 20e6, 1e-3) << "no initial shear stress to release";
+  EXPECT_NEAR(stress({{"/compartments/east/scale", "1.05"}}), 21e6, 1e-3);
+  EXPECT_NEAR(stress({{"/compartments/east/lag", "13 year"}, {"/compartments/west/scale", "0"}}),
+              10e6, 1e-3)
+      << "half of it arrives in 18 years";
+  EXPECT_NEAR(stress({{"/fault_pressure", R"({"rule": "prescribed", "prescribed": "125 bar",
+                        "table": {"time": ["0 s", "1 year"], "factor": [0, -1.6]}})"},
+                      {"/stages/0/pressure_change", "-150 bar"}}),
+              20e6, 1e-3);
+}
+
+/// A box that nothing but its faces load.
+Scene viscous_box(const std::string& face) {
+  JsonDocument document = parse_json(starter_scene("box"), "box");
+  set_value(document, "/materials/rock/viscosity", "1e17 Pa s");
+  set_value(document, "/stages/0/pressure_change", "0 bar");
+  set_value(document, "/initial_state/viscous_layers", "lithostatic");
+  set_value(document, "/geometry/boundary/1", face);
+  return read_scene(document);
+}
+
+TEST(CreepEstimate, CountsTheLoadsOfFaces) {
+  const CreepEstimate pulled = estimate_creep(viscous_box(
+      R"({"sides": ["z+"], "kind": "stress", "stress": [["3 MPa", "0 MPa", "0 MPa"],
+          ["0 MPa", "0 MPa", "0 MPa"], ["0 MPa", "0 MPa", "4 MPa"]],
+          "table": {"time": ["0 s", "1 s"], "factor": [0.5, -2]}})"));
+  EXPECT_NEAR(*pulled.stress, 2 * 5e6, 1e-3);
+  const double confined = 11e9 * 0.85 / (1.15 * 0.7);  // E (1−ν)/((1+ν)(1−2ν))
+  const CreepEstimate strained = estimate_creep(viscous_box(
+      R"({"sides": ["z+"], "kind": "displacement", "components": ["x"],
+          "gradient": [[1e-4, 0, 0], [0, 0, 0], [9, 9, 9]]})"));
+  EXPECT_NEAR(*strained.stress, 1e-4 * confined, 1e-3);
+  // u_z = 1e-4 z is 0.3 m at 3000 m depth: the smallest extent, 1000 m, may take it all
+  const CreepEstimate distant = estimate_creep(viscous_box(
+      R"({"sides": ["z+"], "kind": "displacement",
+          "gradient": [[0, 0, 0], [0, 0, 0], [0, 0, 1e-4]]})"));
+  EXPECT_NEAR(*distant.stress, 3e-4 * confined, 1e-3);
+}
+
+TEST(CreepEstimate, HasNoBoundWhereAFaceIsTranslated) {
+  const char* face = R"({"sides": ["z+"], "kind": "displacement", "components": ["x"],
+                         "translation": ["1 mm", "0 m", "0 m"]})";
+  const CreepEstimate moved = estimate_creep(viscous_box(face));
+  EXPECT_FALSE(moved.stress);
+  EXPECT_FALSE(moved.bound);
+  const Plan plan = planned(viscous_box(face));
+  EXPECT_TRUE(plan.creep.active);
+  EXPECT_FALSE(plan.creep.bound);
+  EXPECT_TRUE(plan_to_json(plan)["creep"]["bound_pa"].is_null());
+  EXPECT_NE(creep_off(plan)->reason.find("not bounded"), std::string::npos);
+  const Scene other = viscous_box(R"({"sides": ["z+"], "kind": "displacement", "components": ["x"],
+                                      "translation": ["0 m", "1 mm", "0 m"]})");
+  EXPECT_TRUE(estimate_creep(other).bound) << "y is not prescribed";
+}
+
+TEST(CreepOff, IsSilentWhereNothingIsViscous) {
+  const Plan plan = planned(elastic({}));
+  EXPECT_EQ(creep_off(plan), nullptr);
+  EXPECT_FALSE(plan.creep.active);
+  EXPECT_TRUE(plan.creep.rungs.empty());
+  EXPECT_EQ(plan_to_text(plan).find("creep"), std::string::npos);
+  EXPECT_EQ(plan_to_json(plan)["creep"].dump(), R"({"active":false,"bound_pa":null,"rungs_s":[]})");
+}
+
+TEST(CreepOff, SaysWhyTheReferenceSaltCreeps) {
+  const Plan plan = planned(viscous({}));
+  EXPECT_TRUE(plan.creep.active);
+  EXPECT_EQ(creep_off(plan)->reason,
+            "relaxation time 75.23 days, history 18 years: 100 % relaxed; may move fault tractions "
+            "by up to 292 MPa, more than a tenth of creep_tolerance, 0.002 MPa");
+  EXPECT_EQ(plan_to_json(plan)["creep"]["rungs_s"],
+            nlohmann::json({kYear, 0.5 * kYear, 0.25 * kYear}));
+  EXPECT_NE(plan_to_text(plan).find("creep: steps of 1 year, 182.6 days, 91.31 days; 4 operators "
+                                    "with the elastic one\n"),
+            std::string::npos)
+      << plan_to_text(plan);
+}
+
+/// On both sides of the threshold: automatic switches creep off below a tenth of creep_tolerance.
+TEST(CreepOff, IsAutomaticBelowATenthOfTheTolerance) {
+  const Plan plan = planned(viscous({{"/materials/salt/viscosity", "1e25 Pa s"}}));
+  EXPECT_FALSE(plan.creep.active);
+  EXPECT_TRUE(plan.creep.rungs.empty());
+  ASSERT_TRUE(plan.creep.bound);
+  const double bound = *plan.creep.bound;
+  EXPECT_LT(bound, 2e3);
+  EXPECT_EQ(creep_off(plan)->reason,
+            "relaxation time 2.06e+07 years, history 18 years: 8.74e-05 % relaxed");
+  EXPECT_EQ(creep_off(plan)->bound,
+            "moves fault tractions by less than 0.000255 MPa, below a tenth of creep_tolerance, "
+            "0.002 MPa");
+  const auto with_tolerance = [](double tolerance) {
+    return planned(viscous({{"/materials/salt/viscosity", "1e25 Pa s"},
+                            {"/numerics/creep_tolerance", concat(tolerance, " Pa")}}));
+  };
+  EXPECT_FALSE(with_tolerance(10.001 * bound).creep.active);
+  EXPECT_TRUE(with_tolerance(9.999 * bound).creep.active);
+}
+
+TEST(CreepOff, IsForcedByItsSwitch) {
+  const Plan off = planned(viscous({{"/numerics/creep", "off"}}));
+  EXPECT_FALSE(off.creep.active);
+  EXPECT_EQ(creep_off(off)->reason.rfind("switched off; relaxation time 75.23 days", 0), 0U);
+  EXPECT_EQ(creep_off(off)->bound, "moves fault tractions by less than 292 MPa");
+  const Plan on =
+      planned(viscous({{"/numerics/creep", "on"}, {"/materials/salt/viscosity", "1e25 Pa s"}}));
+  EXPECT_TRUE(on.creep.active);
+  EXPECT_EQ(on.creep.rungs.size(), 3U);
+}
+
+/// One factor and H more per step length.
+TEST(CreepCost, GrowsWithTheOperators) {
+  const Plan none = planned(elastic({}));
+  const Plan three = planned(viscous({}));
+  const Plan four = planned(viscous({{"/numerics/creep_refinements", "2"}}));
+  EXPECT_NEAR(three.operator_seconds, 4 * none.operator_seconds, 1e-9 * none.operator_seconds);
+  EXPECT_NEAR(four.operator_seconds, 5 * none.operator_seconds, 1e-9 * none.operator_seconds);
+  const double per_step = four.memory_bytes - three.memory_bytes;
+  EXPECT_NEAR(three.memory_bytes, none.memory_bytes + 3 * per_step, 1e-6 * per_step);
+  const auto jumps = static_cast<double>(three.n_jump);
+  EXPECT_GT(per_step, 8 * jumps * jumps);
+  EXPECT_LT(per_step, none.memory_bytes);
+}
+
+/// The fingerprint of the elastic reference family is the one from before there was creep.
+TEST(CreepFamily, IsTheElasticOneWhereNothingCreeps) {
+  const std::string family = planned(elastic({})).family;
+  EXPECT_EQ(family, "a0cf543c9a423cd168668c8fc7801e87");
+  EXPECT_EQ(planned(viscous({{"/numerics/creep", "off"}})).family, family);
+  EXPECT_EQ(planned(viscous({{"/materials/salt/viscosity", "1e25 Pa s"}})).family, family);
+}
+
+TEST(CreepFamily, HoldsWhatTheOperatorsDependOn) {
+  const std::string family = planned(viscous({})).family;
+  EXPECT_NE(family, planned(elastic({})).family);
+  const std::vector<Changes> others = {{{"/materials/salt/viscosity", "2e17 Pa s"}},
+                                       {{"/materials/overburden/viscosity", "1e21 Pa s"}},
+                                       {{"/numerics/creep_scheme", "backward_euler"}},
+                                       {{"/numerics/creep_refinements", "2"}},
+                                       {{"/numerics/creep_time_step", "0.1 year"}},
+                                       {{"/stages/1/steps", "3"}},
+                                       {{"/stages/1/duration", "3 year"}}};
+  for (const Changes& sets : others) {
+    EXPECT_NE(planned(viscous(sets)).family, family) << sets[0].first;
+  }
+  const std::vector<Changes> same = {{{"/numerics/creep", "on"}},
+                                     {{"/numerics/creep_tolerance", "1 bar"}},
+                                     {{"/initial_state/viscous_layers", "lithostatic"}},
+                                     {{"/stages/0/pressure_change", "-100 bar"}},
+                                     {{"/stages/0/duration", "5 year"}, {"/stages/0/steps", "5"}}};
+  for (const Changes& sets : same) {
+    EXPECT_EQ(planned(viscous(sets)).family, family) << sets[0].first;
+  }
 }
 
 }  // namespace

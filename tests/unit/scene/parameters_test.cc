@@ -47,7 +47,8 @@ TEST(Parameters, HaveTheAliasesOfTheSeedsFamilies) {
 }
 
 TEST(Parameters, ShowTheAliasThatResolves) {
-  for (const char* name : {"rotliegend.json", "rotliegend-weakening.json"}) {
+  for (const char* name :
+       {"rotliegend.json", "rotliegend-weakening.json", "rotliegend-salt.json"}) {
     const JsonDocument document = example(name);
     for (const ParameterInfo& row : parameters(document)) {
       if (row.alias.empty()) continue;
@@ -97,6 +98,21 @@ TEST(Parameters, TellValueDefaultRangeAndFamily) {
   EXPECT_EQ(viscosity.value, "") << "elastic";
   EXPECT_TRUE(viscosity.new_family);
   EXPECT_EQ(rows.count("/output/observation_points/0/position/0"), 0U);
+}
+
+TEST(Parameters, OfStepsCostOperatorsWhereSaltCreeps) {
+  JsonDocument salt = example("rotliegend-salt.json");
+  const auto elastic = by_pointer(example("rotliegend.json"));
+  const auto viscous = by_pointer(salt);
+  set_value(salt, "/numerics/creep", "off");
+  const auto off = by_pointer(salt);
+  for (const char* pointer : {"/stages/0/duration", "/stages/0/steps"}) {
+    EXPECT_FALSE(elastic.at(pointer).new_family) << pointer;
+    EXPECT_TRUE(viscous.at(pointer).new_family) << pointer;
+    EXPECT_FALSE(off.at(pointer).new_family) << pointer;
+  }
+  EXPECT_FALSE(viscous.at("/stages/0/pressure_change").new_family);
+  EXPECT_EQ(viscous.at("/materials/salt/viscosity").value, "1e17 Pa s");
 }
 
 TEST(Parameters, ComeInTheOrderOfTheDocument) {

@@ -1,0 +1,172 @@
+#include "simulator/plan/creep_estimate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "simulator/scene/initial_state.h"
+#include "simulator/scene/pressure_history.h"
+
+namespace faultsim {
+namespace {
+
+/// Largest |factor| of a table.
+double largest_factor(const TimeTable& table) {
+  if (table.factor.empty()) return 1;
+  double largest = 0;
+  for (const double factor : table.factor) largest = std::max(largest, std::abs(factor));
+  return largest;
+}
+
+/// Frobenius norm.
+double norm(const std::array<double, 9>& tensor) {
+  double sum = 0;
+  for (const double component : tensor) sum += component * component;
+  return std::sqrt(sum);
+}
+
+/// Largest |Δp| of a region within the history, which is linear between its points.
+double largest_pressure_change(const PressureHistory& history, double duration) {
+  double largest = std::abs(pressure_change_at(history, duration));
+  for (const double time : history.time) {
+    const double at = std::min(time + history.lag, duration);
+    largest = std::max(largest, std::abs(pressure_change_at(history, at)));
+  }
+  return largest;
+}
+
+double largest_pressure_change(const Scene& scene, double duration) {
+  double largest = 0;
+  for (const PressureHistory& history : scene.pressure) {
+    largest = std::max(largest, largest_pressure_change(history, duration));
+  }
+  for (const Fault& fault : scene.faults) {
+    if (fault.pressure.rule != FaultPressureRule::prescribed) continue;
+    const double factor = largest_factor(fault.pressure.table);
+    largest = std::max(largest, std::abs(fault.pressure.prescribed) * factor);
+  }
+  return largest;
+}
+
+double shear_modulus(const Material& material) {
+  return material.youngs_modulus / (2 * (1 + material.poisson_ratio));
+}
+
+/// E (1 − ν)/((1 + ν)(1 − 2ν)) of the stiffest material in use, Pa.
+double largest_confined_modulus(const Scene& scene) {
+  double largest = 0;
+  for (const std::string& name : used_materials(scene)) {
+    if (name.empty()) continue;
+    const Material& material = material_named(scene, name);
+    const double nu = material.poisson_ratio;
+    const double modulus = material.youngs_modulus * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
+    largest = std::max(largest, modulus);
+  }
+  return largest;
+}
+
+/// Strain that a displaced face brings: its gradient, or its largest displacement over the
+/// smallest extent of the box where a gradient about a distant origin amounts to a translation.
+double boundary_strain(const BoxGeometry& box, const BoundaryCondition& condition) {
+  std::array<double, 9> gradient = condition.gradient;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!condition.components[i]) std::fill_n(gradient.begin() + 3 * static_cast<long>(i), 3, 0.0);
+  }
+  double largest = 0;  // |u|², an affine displacement is largest at a corner
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    double square = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      double u = 0;
+      for (std::size_t j = 0; j < 3; ++j) {
+        u += gradient[3 * i + j] * ((corner >> j & 1U) != 0 ? box.to[j] : box.from[j]);
+      }
+      square += u * u;
+    }
+    largest = std::max(largest, square);
+  }
+  double extent = box.to[0] - box.from[0];
+  for (std::size_t j = 1; j < 3; ++j) extent = std::min(extent, box.to[j] - box.from[j]);
+  return std::max(norm(gradient), std::sqrt(largest) / extent) * largest_factor(condition.table);
+}
+
+bool is_translated(const BoundaryCondition& condition) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (condition.components[i] && condition.translation[i] != 0) return true;
+  }
+  return false;
+}
+
+/// Stress that the faces of a box bring; nothing where one is translated: against what it would
+/// push is not known here.
+std::optional<double> boundary_stress(const Scene& scene) {
+  double stress = 0, strain = 0;
+  for (const BoundaryCondition& condition : scene.box.boundary) {
+    if (condition.kind == BoundaryKind::stress) {
+      stress = std::max(stress, norm(condition.stress) * largest_factor(condition.table));
+    } else if (condition.kind == BoundaryKind::displacement) {
+      if (is_translated(condition)) return std::nullopt;
+      strain = std::max(strain, boundary_strain(scene.box, condition));
+    }
+  }
+  return stress + (strain > 0 ? strain * largest_confined_modulus(scene) : 0);
+}
+
+/// At least the largest shear stress on any plane: |s|/√2 of the deviator s.
+double shear_stress(std::array<double, 9> sigma) {
+  const double mean = (sigma[0] + sigma[4] + sigma[8]) / 3;
+  for (const std::size_t i : {0, 4, 8}) sigma[i] -= mean;
+  return norm(sigma) / std::sqrt(2.0);
+}
+
+/// Largest initial shear stress in the model, which slip may release. Between the depths where
+/// something changes the initial stress is linear.
+double largest_initial_shear(const Scene& scene) {
+  if (scene.faults.empty()) return 0;
+  const bool is_field = scene.geometry_kind == GeometryKind::field;
+  std::vector<double> depths;
+  for (const Layer& layer : is_field ? scene.field.layers : scene.box.layers) {
+    depths.push_back(layer.top_depth);
+  }
+  if (depths.empty()) depths.push_back(-scene.box.to[2]);
+  depths.push_back(is_field ? scene.field.depth : -scene.box.from[2]);
+  double largest = 0;
+  for (const double depth : depths) {
+    for (const DepthSide side : {DepthSide::above, DepthSide::below}) {
+      largest = std::max(largest, shear_stress(initial_state(scene, -depth, side).sigma));
+    }
+  }
+  return largest;
+}
+
+double shortest_relaxation_time(const Scene& scene) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const std::string& name : used_materials(scene)) {
+    if (name.empty()) continue;
+    const Material& material = material_named(scene, name);
+    if (material.viscosity) {
+      shortest = std::min(shortest, *material.viscosity / shear_modulus(material));
+    }
+  }
+  return shortest;
+}
+
+}  // namespace
+
+CreepEstimate estimate_creep(const Scene& scene) {
+  CreepEstimate estimate;
+  estimate.relaxation_time = shortest_relaxation_time(scene);
+  for (const Stage& stage : scene.stages) estimate.duration += stage.duration;
+  estimate.relaxed_share = -std::expm1(-estimate.duration / estimate.relaxation_time);
+  const bool is_box = scene.geometry_kind == GeometryKind::box;
+  const std::optional<double> boundary = is_box ? boundary_stress(scene) : 0;
+  if (!boundary) return estimate;
+  estimate.stress =
+      largest_pressure_change(scene, estimate.duration) + *boundary + largest_initial_shear(scene);
+  estimate.bound = kCreepConcentration * *estimate.stress * estimate.relaxed_share;
+  return estimate;
+}
+
+}  // namespace faultsim
