@@ -248,7 +248,8 @@ void LocalRunner::handle_done(const json& reply, JobEvents& events) {
 void LocalRunner::process_ended(JobEvents& events) {
   const ProcessEnd end = process_->wait(kEndGrace);
   const std::string tail = process_->log_tail();
-  if (!greeted_) {
+  // Whatever ends it that early would end the next one too, unless somebody killed it.
+  if (!greeted_ && end.signal != SIGKILL) {
     throw ResourceError(
         concat("the simulator ", options_.process.binary.string(), " ", describe(end),
                " before it said hello; its last words: ", tail.empty() ? "none" : tail));
@@ -285,8 +286,10 @@ void LocalRunner::process_failed(RunStatus status, std::string reason, const Pro
   RunRecord run = blank_run(jobs_.front().case_id);
   run.status = status;
   const bool in_operator = !started_ && !operator_known_;
-  run.reason =
-      in_operator ? "while building the operator: " + std::move(reason) : std::move(reason);
+  const char* const phase = !greeted_     ? "before it said hello: "
+                            : in_operator ? "while building the operator: "
+                                          : "";
+  run.reason = phase + std::move(reason);
   run.signal = end.signal;
   run.exit_code = end.exit_code;
   run.log_tail = tail;

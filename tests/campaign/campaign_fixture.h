@@ -134,14 +134,14 @@ class CampaignTest : public ::testing::Test {
     return end != std::string::npos && text[end + 2] != 'Z';
   }
 
-  std::filesystem::path folder_, store_;
-  std::filesystem::path simulator_ = FAKE_SIMULATOR;
-
- private:
+  /// What the last program wrote: "out" or "err".
   std::string text(const char* name) const {
     std::ifstream file(folder_ / name);
     return {std::istreambuf_iterator<char>(file), {}};
   }
+
+  std::filesystem::path folder_, store_;
+  std::filesystem::path simulator_ = FAKE_SIMULATOR;
 };
 
 }  // namespace faultsweep::testing

@@ -144,6 +144,12 @@ int main(int argc, char** argv) {
   }
   if (argc < 2 || std::strcmp(argv[1], "worker") != 0) return 2;
   if (const char* failure = std::getenv("FAKE_SIMULATOR_START")) return std::atoi(failure);
+  if (const char* once = std::getenv("FAKE_SIMULATOR_KILLED_ONCE")) {
+    if (!std::filesystem::exists(once)) {
+      std::ofstream(once) << "killed";
+      raise(SIGKILL);
+    }
+  }
   reply(channel, {{"event", "hello"}, {"version", 2}, {"numerics_version", 1}});
   std::FILE* requests = fdopen(channel.requests, "r");
   char* line = nullptr;
