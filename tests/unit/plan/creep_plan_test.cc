@@ -67,13 +67,14 @@ TEST(CreepRungs, OfFixedStepsCutTheLoadStepsEvenly) {
   expect_rungs(of("7 year"), {kYear, 0.5 * kYear});
 }
 
-/// 1 year / 10 is not a whole multiple of 0.1 year in the last bit: neither an eleventh step nor a
-/// second rung may come of it.
+/// 2.1/0.7 is more than 3 in the last bit: neither a fourth step nor a second rung may come of
+/// it.
 TEST(CreepRungs, DoNotSplitOnRounding) {
-  const Scene scene = viscous({{"/numerics/creep_time_step", "0.1 year"},
-                               {"/stages/1/duration", "0.9 year"},
-                               {"/stages/1/steps", "3"}});
-  expect_rungs(scene, {0.1 * kYear});
+  ASSERT_GT(2.1 / 0.7, 3);
+  Scene scene = viscous({});
+  scene.numerics.creep_time_step = 0.7;
+  scene.stages = {{"a", 2.1, 1}, {"b", 1.4, 1}};
+  expect_rungs(scene, {0.7});
   Scene apart = scene;
   apart.numerics.creep_time_step = 0;
   apart.numerics.creep_refinements = 0;
@@ -117,6 +118,9 @@ TEST(CreepEstimate, TakesTheLargestPressureChangeOfTheHistory) {
   EXPECT_NEAR(stress({{"/compartments/east/lag", "13 year"}, {"/compartments/west/scale", "0"}}),
               10e6, 1e-3)
       << "half of it arrives in 18 years";
+  EXPECT_NEAR(stress({{"/compartments/east/lag", "2.75 year"}, {"/compartments/west/scale", "0"}}),
+              20e6, 1e-3)
+      << "all of it arrives, at 12.75 years, between two points of the history of the west";
   EXPECT_NEAR(stress({{"/fault_pressure", R"({"rule": "prescribed", "prescribed": "125 bar",
                         "table": {"time": ["0 s", "1 year"], "factor": [0, -1.6]}})"},
                       {"/stages/0/pressure_change", "-150 bar"}}),
@@ -257,6 +261,9 @@ TEST(CreepFamily, HoldsWhatTheOperatorsDependOn) {
   for (const Changes& sets : others) {
     EXPECT_NE(planned(viscous(sets)).family, family) << sets[0].first;
   }
+  EXPECT_NE(planned(viscous({{"/numerics/creep_time_step", "0.5 year"}})).family,
+            planned(viscous({{"/numerics/creep_time_step", "0.25 year"}})).family)
+      << "one step length each";
   const std::vector<Changes> same = {{{"/numerics/creep", "on"}},
                                      {{"/numerics/creep_tolerance", "1 bar"}},
                                      {{"/initial_state/viscous_layers", "lithostatic"}},

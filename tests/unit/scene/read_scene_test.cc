@@ -268,10 +268,21 @@ TEST(ReadScene, ReadsTheRestOfABoxScene) {
   EXPECT_EQ(scene.initial.pressure_gradient, -1000);
 }
 
+/// The reference scene with all there is to say about creep, but for the fixed steps that exclude
+/// the others.
+JsonDocument creeping() {
+  JsonDocument document =
+      read_json_file(FAULTSIM_SOURCE_DIR "/docs/examples/scenes/rotliegend-salt.json");
+  set_value(document, "/initial_state/viscous_layers", "lithostatic");
+  set_value(document, "/numerics", R"({"creep": "on", "creep_refinements": 2,
+      "creep_tolerance": "1 bar", "creep_scheme": "backward_euler"})");
+  return parse_json(document.value.dump(2), "creeping");
+}
+
 /// Whatever stands in whatever place: problems, never a crash, and each problem has a cure and a
 /// place.
 TEST(ReadScene, AnswersNonsenseAnywhereWithProblems) {
-  for (const JsonDocument& document : {rotliegend(), parse_json(kFullBox, "full")}) {
+  for (const JsonDocument& document : {rotliegend(), parse_json(kFullBox, "full"), creeping()}) {
     for (const auto& [pointer, line] : document.lines) {
       if (pointer.empty()) continue;
       for (const char* nonsense : {"null", "[]", "{}", "-7", "nonsense", "[[1]]",
