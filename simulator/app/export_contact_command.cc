@@ -102,6 +102,12 @@ void report(const ExportArguments& arguments, const ExportedStep& exported) {
 ExitCode export_contact_command(const ExportArguments& arguments) {
   catch_interrupts();
   const LoadedScene loaded = load_scene(arguments.scene);
+  if (loaded.plan.creep.active) {
+    throw InputError(loaded.document.source,
+                     {{"/numerics/creep", 0,
+                       "a load step with creeping salt is not one contact problem but several",
+                       "export the elastic case: --set /numerics/creep=off"}});
+  }
   ScreenMonitor monitor(arguments.scene.json);
   const PreparedOperator prepared = prepare_operator(
       loaded.scene, loaded.plan, cache_policy(arguments.cache, arguments.no_cache), false, monitor);

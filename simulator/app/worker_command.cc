@@ -107,15 +107,15 @@ class Worker {
   void run_one(const json& request, const Scene& scene, json& reply) {
     SilentMonitor silent;
     if (!request.contains("fields")) {
-      reply["result"] = result_to_json(run_case(scene, *prepared_.op, silent));
+      reply["result"] = result_to_json(run_case(scene, prepared_, silent));
       return;
     }
     const json& wanted = request["fields"];
     FieldKeeper keeper(wanted.at("folder").get<std::string>(),
                        field_steps_from_string(wanted.at("steps").get<std::string>()), scene,
-                       prepared_.op->geometry);
+                       prepared_.op->geometry, prepared_.ladder != nullptr);
     const CaseResult result = run_case(
-        scene, *prepared_.op, silent,
+        scene, prepared_, silent,
         [&](const StepResult& step, const FaultFields& fields) { keeper.add(step, fields); });
     reply["fields"] = {{"steps", keeper.finish()}};
     reply["result"] = result_to_json(result);

@@ -56,19 +56,6 @@ void check_balance(const BulkProblem& problem, const LoadCase& load, Monitor& mo
                       "together, or three pinned points carry the difference"));
 }
 
-int nearest_node(const Mesh& mesh, const Eigen::Vector3d& point) {
-  int best = 0;
-  double best_distance = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
-    const double distance = (mesh.nodes[i] - point).squaredNorm();
-    if (distance < best_distance) {
-      best = static_cast<int>(i);
-      best_distance = distance;
-    }
-  }
-  return best;
-}
-
 void check_problem(const BulkProblem& problem) {
   const Mesh& mesh = problem.mesh;
   FAULTSIM_DEMAND(!mesh.cells.empty(), "empty mesh");
@@ -85,12 +72,32 @@ void check_problem(const BulkProblem& problem) {
 
 }  // namespace
 
+int observed_node(const Mesh& mesh, const Eigen::Vector3d& point) {
+  int best = 0;
+  double best_distance = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+    const double distance = (mesh.nodes[i] - point).squaredNorm();
+    if (distance < best_distance) {
+      best = static_cast<int>(i);
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
 struct CondensedBulk::Impl {
   Impl(const BulkProblem& bulk_problem, const BuildOptions& build_options)
       : problem(bulk_problem),
         options(build_options),
         dofs(problem.mesh, problem.conditions, static_cast<int>(problem.loads.size())),
-        geometry(fault_geometry(problem.mesh, problem.materials, dofs, problem.half_domain)) {}
+        geometry(fault_geometry(problem.mesh, problem.materials, dofs, problem.half_domain)),
+        dof_area(geometry.n_dofs) {
+    for (const OperatorNode& node : geometry.nodes) {
+      for (int dof : node.dof) {
+        if (dof >= 0) dof_area[dof] = node.area;
+      }
+    }
+  }
 
   void factorise(Monitor& monitor);
   void make_loads(Monitor& monitor);
@@ -102,7 +109,8 @@ struct CondensedBulk::Impl {
   BuildOptions options;
   DofMap dofs;
   FaultGeometry geometry;
-  Eigen::VectorXd springs;  // D
+  Eigen::VectorXd dof_area;  // A per jump, m2
+  Eigen::VectorXd springs;   // D
   std::unique_ptr<TrailingCholesky> factor;
   std::vector<Eigen::VectorXd> loads;
   std::vector<Eigen::VectorXd> forward_loads;  // L⁻¹ P f_k, made when first wanted
@@ -145,12 +153,7 @@ Eigen::MatrixXd CondensedBulk::Impl::condensed_matrix() const {
 }
 
 void CondensedBulk::Impl::set_locked(FaultOperator& op) {
-  op.dof_area.resize(geometry.n_dofs);
-  for (const OperatorNode& node : geometry.nodes) {
-    for (int dof : node.dof) {
-      if (dof >= 0) op.dof_area[dof] = node.area;
-    }
-  }
+  op.dof_area = dof_area;
   op.locked.resize(geometry.n_dofs, static_cast<Eigen::Index>(loads.size()));
   for (std::size_t k = 0; k < loads.size(); ++k) {
     throw_if_interrupted("condensing the loads");
@@ -170,7 +173,7 @@ void CondensedBulk::Impl::observe(FaultOperator& op) {
   op.observed_jump.setZero(n_rows, geometry.n_dofs);
   Eigen::Index row = 0;
   for (const auto& [name, point] : problem.observation_points) {
-    const int node = nearest_node(problem.mesh, point);
+    const int node = observed_node(problem.mesh, point);
     for (int c = 0; c < 3; ++c, ++row) {
       throw_if_interrupted("condensing the observation points");
       op.observations.push_back(
@@ -236,5 +239,32 @@ Eigen::Matrix3Xd CondensedBulk::displacement(const std::vector<double>& load_fac
   return nodal_displacement(self.problem.mesh, self.dofs, self.factor->expand(f, jump),
                             load_factors);
 }
+
+Eigen::VectorXd CondensedBulk::forward(const Eigen::VectorXd& force) {
+  set_blas_threads(impl_->options.blas_threads);
+  return impl_->factor->forward(force);
+}
+
+Eigen::VectorXd CondensedBulk::locked_traction(const Eigen::VectorXd& forward) const {
+  return impl_->factor->condensed(forward).cwiseQuotient(impl_->dof_area);
+}
+
+Eigen::Matrix3Xd CondensedBulk::displacement(Eigen::VectorXd forward,
+                                             const std::vector<double>& load_factors,
+                                             const Eigen::VectorXd& jump) {
+  Impl& self = *impl_;
+  FAULTSIM_DEMAND(load_factors.size() == self.forward_loads.size(), load_factors.size(),
+                  " factors for ", self.forward_loads.size(), " loads");
+  set_blas_threads(self.options.blas_threads);
+  for (std::size_t k = 0; k < load_factors.size(); ++k) {
+    if (load_factors[k] != 0) forward += load_factors[k] * self.forward_loads[k];
+  }
+  return nodal_displacement(self.problem.mesh, self.dofs,
+                            self.factor->expand_forward(std::move(forward), jump), load_factors);
+}
+
+const BulkProblem& CondensedBulk::problem() const { return impl_->problem; }
+
+const DofMap& CondensedBulk::dofs() const { return impl_->dofs; }
 
 }  // namespace faultsim

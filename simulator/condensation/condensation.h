@@ -25,6 +25,7 @@ struct LoadCase {
 struct BulkProblem {
   Mesh mesh;
   std::vector<ElasticMaterial> materials;
+  std::vector<double> viscosity;  ///< per material, Pa s, infinite = elastic; empty = all elastic.
   std::vector<DisplacementCondition> conditions;
   std::vector<LoadCase> loads;
   std::vector<std::pair<std::string, Eigen::Vector3d>> observation_points;
@@ -32,11 +33,15 @@ struct BulkProblem {
   bool half_domain = false;
 };
 
+/// The mesh node whose displacement stands for that of a point: the nearest.
+int observed_node(const Mesh& mesh, const Eigen::Vector3d& point);
+
 struct BuildOptions {
   int blas_threads = 1;  ///< a policy value, never a function of the machine (design section 9).
 };
 
-/// The factorised bulk of one family: kept while displacement fields are still wanted.
+/// The factorised bulk of one family: kept while displacement fields, or the creep of salt, still
+/// need it.
 class CondensedBulk {
  public:
   /// Orders jump unknowns last, factorises K (blocks that faults cut loose get D > 0 on their
@@ -51,6 +56,18 @@ class CondensedBulk {
   /// Displacement of all mesh nodes for given load factors and jumps: 3 x n_nodes, m.
   Eigen::Matrix3Xd displacement(const std::vector<double>& load_factors,
                                 const Eigen::VectorXd& jump);
+
+  /// Half of a back-solve for nodal forces that are no load of the family (n_unknowns, N), and its
+  /// two uses.
+  Eigen::VectorXd forward(const Eigen::VectorXd& force);
+  /// The locked traction A⁻¹ (f_g − K_gr K_rr⁻¹ f_r) of that force, n_dofs, Pa.
+  Eigen::VectorXd locked_traction(const Eigen::VectorXd& forward) const;
+  /// Displacement of all mesh nodes for that force, load factors and jumps, m. @pre condense() was
+  /// called.
+  Eigen::Matrix3Xd displacement(Eigen::VectorXd forward, const std::vector<double>& load_factors,
+                                const Eigen::VectorXd& jump);
+  const BulkProblem& problem() const;
+  const DofMap& dofs() const;
 
  private:
   struct Impl;

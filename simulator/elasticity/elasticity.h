@@ -15,6 +15,7 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, long>;  // 64-
 struct ElasticMaterial {
   double youngs_modulus;  ///< Pa.
   double poisson_ratio;
+  double shear_factor = 1;  ///< of the shear modulus that acts in a time step (MaxwellStep).
 };
 
 /// Displacement prescribed on a side: components, and u(x) = translation + gradient x (per unit
@@ -27,7 +28,7 @@ struct DisplacementCondition {
   int load;  ///< index of the load this value belongs to; -1 = zero for ever (roller, fixed).
 };
 
-/// Young's modulus and Poisson's ratio as shear modulus, Pa.
+/// Instantaneous shear modulus G = E/2(1 + ν), Pa.
 double shear_modulus(const ElasticMaterial& material);
 
 /// The linear map from unknowns to nodal displacements, u = P x + Σ_k c_k d_k (D6):

@@ -67,7 +67,7 @@ Element make_element(const Mesh& mesh, int cell) {
 
 ElementMatrix element_stiffness(const Element& element, const ElasticMaterial& material,
                                 bool b_bar) {
-  const double mu = shear_modulus(material);
+  const double mu = shear_modulus(material) * material.shear_factor;
   const double bulk = material.youngs_modulus / (3 * (1 - 2 * material.poisson_ratio));
   // With B-bar: deviatoric part point by point, bulk modulus on the mean dilatation.
   const double lambda = b_bar ? -2 * mu / 3 : bulk - 2 * mu / 3;

@@ -212,9 +212,13 @@ Eigen::VectorXd TrailingCholesky::condense(const Eigen::VectorXd& f) {
 }
 
 Eigen::VectorXd TrailingCholesky::expand(const Eigen::VectorXd& f, const Eigen::VectorXd& g) {
+  return expand_forward(forward(f), g);
+}
+
+Eigen::VectorXd TrailingCholesky::expand_forward(Eigen::VectorXd y, const Eigen::VectorXd& g) {
   const Index n_bulk = impl_->n_bulk;
-  FAULTSIM_DEMAND(g.size() == impl_->n - n_bulk, g.size(), " of ", impl_->n - n_bulk);
-  Eigen::VectorXd y = forward(f);
+  FAULTSIM_DEMAND(g.size() == impl_->n - n_bulk && y.size() == impl_->n, g.size(), " of ",
+                  impl_->n - n_bulk);
   // The backward substitution yields g in the tail when it starts from L_ggᵀ g there.
   impl_->for_each_column(n_bulk,
                          [&](Index column, const Index* rows, const double* values, Index count) {

@@ -52,6 +52,8 @@ class TrailingCholesky {
   Eigen::VectorXd condense(const Eigen::VectorXd& f);
   /// r = K_rr⁻¹ (f_r − K_rg g), returned as (r, g), size n.
   Eigen::VectorXd expand(const Eigen::VectorXd& f, const Eigen::VectorXd& g);
+  /// The same from y = forward(f): the second half of the back-solve.
+  Eigen::VectorXd expand_forward(Eigen::VectorXd y, const Eigen::VectorXd& g);
   /// K⁻¹ f.
   Eigen::VectorXd solve(const Eigen::VectorXd& f);
 

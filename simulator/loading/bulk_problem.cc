@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "simulator/loading/history.h"
@@ -99,6 +100,8 @@ BulkProblem bulk_problem(const Scene& scene, const Plan& plan) {
       is_field ? make_mesh(field_mesh_spec(scene, plan)) : make_mesh(box_mesh_spec(scene, plan));
   for (const Material& m : scene.materials) {
     problem.materials.push_back({m.youngs_modulus, m.poisson_ratio});
+    const bool creeps = plan.creep.active && m.viscosity;
+    problem.viscosity.push_back(creeps ? *m.viscosity : std::numeric_limits<double>::infinity());
   }
   add_pressure_loads(problem.mesh, problem.loads);
   if (is_field) {

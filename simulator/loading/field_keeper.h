@@ -26,7 +26,7 @@ FieldSteps field_steps_from_string(const std::string& text);
 class FieldKeeper {
  public:
   FieldKeeper(const std::filesystem::path& folder, FieldSteps which, const Scene& scene,
-              const FaultGeometry& geometry);
+              const FaultGeometry& geometry, bool creep = false);
   /// To be called after each load step in equilibrium, in order (a StepObserver).
   void add(const StepResult& step, const FaultFields& fields);
   /// Completes the files. Returns the numbers of the steps in them, ascending.

@@ -40,12 +40,36 @@ void keep_operator(const FaultOperator& op, const CachePolicy& cache, std::strin
   }
 }
 
+/// Every process needs the factors of a creeping family, so its operators are built, never read.
+PreparedOperator prepare_ladder(const Scene& scene, const Plan& plan, const BuildOptions& options,
+                                Monitor& monitor) {
+  demand_memory(plan, available_memory());
+  monitor.progress(0.0, "meshing");
+  const MaxwellScheme scheme = scene.numerics.creep_scheme == CreepScheme::exponential
+                                   ? MaxwellScheme::exponential
+                                   : MaxwellScheme::backward_euler;
+  PreparedOperator prepared;
+  prepared.ladder = std::make_shared<CreepLadder>(bulk_problem(scene, plan), plan.creep.rungs,
+                                                  scheme, options, monitor);
+  auto op = std::make_shared<FaultOperator>(prepared.ladder->op(0));  // shares H
+  take_fault_names(scene, *op);
+  if (plan.half_domain) mirror_observations(scene, *op);
+  op->fingerprint = operator_fingerprint(scene, plan, blas_description());
+  for (int rung = 1; rung < prepared.ladder->n_rungs(); ++rung) {
+    op->build_seconds += prepared.ladder->op(rung).build_seconds;
+    op->factor_bytes += prepared.ladder->op(rung).factor_bytes;
+  }
+  prepared.op = op;
+  return prepared;
+}
+
 }  // namespace
 
 PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const CachePolicy& cache,
                                   bool keep_bulk, Monitor& monitor) {
   const BuildOptions options;
   set_blas_threads(options.blas_threads);
+  if (plan.creep.active) return prepare_ladder(scene, plan, options, monitor);
   PreparedOperator prepared;
   const std::string name = operator_fingerprint(scene, plan, blas_description());
   if (!cache.folder.empty() && !keep_bulk) {

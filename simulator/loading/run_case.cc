@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/interrupt.h"
 #include "simulator/common/stopwatch.h"
 #include "simulator/contact/contact.h"
+#include "simulator/loading/case_contact.h"
+#include "simulator/loading/case_loads.h"
+#include "simulator/loading/creep_march.h"
 #include "simulator/loading/episodes.h"
 #include "simulator/loading/history.h"
-#include "simulator/loading/initial_traction.h"
 #include "simulator/loading/metrics.h"
 #include "simulator/loading/slip_events.h"
 #include "simulator/loading/stage_summary.h"
@@ -18,47 +21,6 @@
 
 namespace faultsim {
 namespace {
-
-/// η = G/2c_s = ½ √(ρ G) per node, Pa s/m (Rice 1993). Density enters as a root and only scales the
-/// duration of events, so one value stands for all rocks.
-Eigen::VectorXd radiation_damping(const FaultGeometry& geometry) {
-  constexpr double kDensity = 2500;  // kg/m3
-  Eigen::VectorXd damping(static_cast<Eigen::Index>(geometry.nodes.size()));
-  for (Eigen::Index k = 0; k < damping.size(); ++k) {
-    const OperatorNode& node = geometry.nodes[static_cast<std::size_t>(k)];
-    damping[k] = 0.5 * std::sqrt(kDensity * node.effective_shear_modulus);
-  }
-  return damping;
-}
-
-ContactLaws contact_laws(const Scene& scene, const FaultGeometry& geometry) {
-  ContactLaws laws;
-  for (std::size_t f = 0; f < geometry.faults.size(); ++f) {
-    const Friction& friction = scene.faults[f].friction;
-    CoulombLaw law;
-    law.weakening =
-        friction.law == FrictionLaw::angle ? WeakeningLaw::angle : WeakeningLaw::coefficient;
-    law.cohesion = friction.cohesion;
-    law.static_friction_angle = friction.static_friction_angle;
-    law.dynamic_friction_angle = friction.dynamic_friction_angle;
-    if (friction.slip_weakening_distance > 0)
-      law.slip_weakening_distance = friction.slip_weakening_distance;
-    const auto n = static_cast<std::size_t>(geometry.faults[f].n_nodes);
-    laws.node.insert(laws.node.end(), n, law);
-    laws.cumulated.insert(laws.cumulated.end(), n, friction.slip_measure == SlipMeasure::cumulated);
-    laws.keep_cohesion.insert(laws.keep_cohesion.end(), n, friction.cohesion_after_opening);
-    laws.lose_cohesion_slipping.insert(laws.lose_cohesion_slipping.end(), n,
-                                       !friction.cohesion_after_slip);
-  }
-  if (scene.numerics.follow_events) laws.damping = radiation_damping(geometry);
-  return laws;
-}
-
-ContactOptions contact_options(const Numerics& numerics) {
-  return {numerics.traction_tolerance,    numerics.max_newton_iterations,
-          numerics.max_active_set_passes, numerics.max_step_cuts,
-          numerics.onset_tolerance,       numerics.max_events};
-}
 
 std::vector<std::string> fault_names(const Scene& scene) {
   std::vector<std::string> names;
@@ -73,42 +35,40 @@ void add_counts(SolveCounts& sum, const SolveCounts& part) {
   sum.wasted_newton_iterations += part.wasted_newton_iterations;
 }
 
-/// The loads of one step: what the faults would carry if they stayed closed.
-struct StepLoads {
-  std::vector<double> pressure_change;    // per region, Pa
-  std::vector<double> factors;            // per operator load
-  Eigen::VectorXd locked;                 // t_L, n_dofs, Pa
-  Eigen::VectorXd fault_pressure_change;  // n_nodes, Pa
-};
-
 /// One case on its way through the load steps.
 class CaseRun {
  public:
-  CaseRun(const Scene& scene, const FaultOperator& op, const StepObserver& observer)
+  /// @param ladder  of the family whose elastic operator op is; null = no creep.
+  CaseRun(const Scene& scene, const FaultOperator& op, CreepLadder* ladder,
+          const StepObserver& observer)
       : scene_(scene),
         op_(op),
         observer_(observer),
         laws_(contact_laws(scene, op.geometry)),
-        load_factors_(scene, op),
-        initial_(initial_traction(scene, op.geometry)),
+        loads_(scene, op),
         meter_(op, laws_, scene.numerics.slip_tolerance, scene.numerics.activation_length),
         solver_(op, laws_, contact_options(scene.numerics)),
         state_(initial_state(op)),
         episodes_(meter_, fault_names(scene), op.geometry.plane_strain),
-        whole_("", 0, nullptr, true, op.geometry.plane_strain) {}
+        whole_("", 0, nullptr, true, op.geometry.plane_strain) {
+    if (ladder != nullptr) march_.emplace(scene, loads_, *ladder, laws_);
+  }
 
   CaseResult run(Monitor& monitor);
   StepStart start_of(int step);
 
  private:
   void name_result();
-  StepLoads loads_at(const LoadStep& step) const;
-  void check_fault_pressure(const LoadStep& step, const StepLoads& loads) const;
+  ContactReport solve(const LoadStep& step, const StepLoads* before, const StepLoads& loads,
+                      StepResult& result);
   bool advance(const LoadStep& step, const StepLoads* before, const StepLoads& loads);
   void record_events(const LoadStep& step, const StepLoads* before, const StepLoads& loads,
                      const std::vector<ContactJump>& jumps);
   void record(const LoadStep& step, const StepLoads& loads, const Eigen::VectorXd& jump_before,
               StepResult& result);
+  void record_creep(const StepLoads& loads, StepCreep& creep);
+  void observe(const StepLoads& loads, StepResult& result) const;
+  Eigen::Matrix3Xd per_node(const Eigen::VectorXd& values) const;
   FaultFields fields(const StepLoads& loads) const;
   void name_events();
   void note_weakening(const Eigen::VectorXd& traction, bool trial);
@@ -117,8 +77,7 @@ class CaseRun {
   const FaultOperator& op_;
   const StepObserver& observer_;
   ContactLaws laws_;
-  LoadFactors load_factors_;
-  InitialTraction initial_;
+  CaseLoads loads_;
   FaultMeter meter_;
   ContactSolver solver_;
   ContactState state_;
@@ -127,67 +86,41 @@ class CaseRun {
   EpisodeTracker episodes_;
   StageSummary whole_;
   std::optional<StageSummary> stage_;
-  double last_time_ = 0;  ///< s, of the last step.
+  std::optional<CreepMarch> march_;
+  Eigen::VectorXd creep_traction_;  ///< t'_creep of the last step, n_dofs, Pa; empty without creep.
+  double last_time_ = 0;            ///< s, of the last step.
 };
 
-StepLoads CaseRun::loads_at(const LoadStep& step) const {
-  StepLoads loads;
-  loads.pressure_change = pressure_changes(scene_, step.time);
-  loads.factors = load_factors_.at(step.time, loads.pressure_change);
-  loads.locked = initial_.traction;
-  for (std::size_t k = 0; k < loads.factors.size(); ++k) {
-    if (loads.factors[k] != 0)
-      loads.locked += loads.factors[k] * op_.locked.col(static_cast<Eigen::Index>(k));
-  }
-  loads.fault_pressure_change = fault_pressure_change(
-      scene_, op_.geometry, load_factors_.region_of_load(), step.time, loads.pressure_change);
-  for (std::size_t f = 0; f < op_.geometry.faults.size(); ++f) {
-    const OperatorFault& fault = op_.geometry.faults[f];
-    for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
-      loads.locked[op_.geometry.nodes[static_cast<std::size_t>(k)].dof[0]] +=
-          scene_.faults[f].fault_biot * loads.fault_pressure_change[k];
+/// A dof vector as components (n, strike, dip) of nodes; removed components are 0.
+Eigen::Matrix3Xd CaseRun::per_node(const Eigen::VectorXd& values) const {
+  Eigen::Matrix3Xd result =
+      Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(op_.geometry.nodes.size()));
+  for (Eigen::Index k = 0; k < result.cols(); ++k) {
+    const auto& dof = op_.geometry.nodes[static_cast<std::size_t>(k)].dof;
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      const int d = dof[static_cast<std::size_t>(c)];
+      if (d >= 0) result(c, k) = values[d];
     }
   }
-  return loads;
-}
-
-void CaseRun::check_fault_pressure(const LoadStep& step, const StepLoads& loads) const {
-  const double slack = 1.0;  // Pa
-  for (std::size_t f = 0; f < op_.geometry.faults.size(); ++f) {
-    if (scene_.faults[f].pressure.rule != FaultPressureRule::prescribed) continue;
-    const OperatorFault& fault = op_.geometry.faults[f];
-    for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
-      const double p = initial_.pressure[k] + loads.fault_pressure_change[k];
-      if (p >= -slack) continue;
-      throw InputError(
-          "scene",
-          {{concat("/faults/", f, "/fault_pressure"), 0,
-            concat("the prescribed fault pressure of ", fault.name, " falls to ", p / 1e5,
-                   " bar at depth ", -op_.geometry.nodes[static_cast<std::size_t>(k)].position.z(),
-                   " m in load step ", step.step),
-            "prescribe a smaller drop or a narrower depth window"}});
-    }
-  }
+  return result;
 }
 
 FaultFields CaseRun::fields(const StepLoads& loads) const {
   const auto n = static_cast<Eigen::Index>(op_.geometry.nodes.size());
   FaultFields f;
-  f.traction = f.jump = Eigen::Matrix3Xd::Zero(3, n);
+  f.traction = per_node(state_.traction);
+  f.jump = per_node(state_.jump);
   f.state.resize(n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const auto& dof = op_.geometry.nodes[static_cast<std::size_t>(k)].dof;
-    for (Eigen::Index c = 0; c < 3; ++c) {
-      const int d = dof[static_cast<std::size_t>(c)];
-      if (d < 0) continue;
-      f.traction(c, k) = state_.traction[d];
-      f.jump(c, k) = state_.jump[d];
-    }
     f.state[k] = static_cast<int>(state_.state[static_cast<std::size_t>(k)]);
   }
   f.critical_index = nodal_.critical_index;
   f.static_critical_index = nodal_.static_critical_index;
   f.fault_pressure_change = loads.fault_pressure_change;
+  if (march_) {
+    f.creep_traction = per_node(creep_traction_);
+    f.displacement = &march_->displacement();
+  }
   return f;
 }
 
@@ -212,6 +145,36 @@ void CaseRun::note_weakening(const Eigen::VectorXd& traction, bool trial) {
   }
 }
 
+void CaseRun::observe(const StepLoads& loads, StepResult& result) const {
+  Eigen::VectorXd u;
+  if (march_) {
+    u = march_->observed();
+    const auto& points = scene_.output.observation_points;
+    for (std::size_t i = 0; op_.geometry.half_domain && i < points.size(); ++i) {
+      if (points[i].position[1] < 0) u[3 * static_cast<Eigen::Index>(i) + 1] *= -1;  // mirrored
+    }
+  } else {
+    const Eigen::Map<const Eigen::VectorXd> factors(
+        loads.factors.data(), static_cast<Eigen::Index>(loads.factors.size()));
+    u = op_.observed_load * factors + op_.observed_jump * state_.jump;
+  }
+  result.observed.assign(u.begin(), u.end());
+}
+
+void CaseRun::record_creep(const StepLoads& loads, StepCreep& creep) {
+  creep_traction_ = state_.traction - loads.locked + elastic_traction_drop(op_, state_.jump);
+  const Eigen::Matrix3Xd traction = per_node(creep_traction_);
+  for (const OperatorFault& fault : op_.geometry.faults) {
+    FaultCreep sum;
+    for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
+      sum.normal_min = std::min(sum.normal_min, traction(0, k));
+      sum.normal_max = std::max(sum.normal_max, traction(0, k));
+      sum.shear_max = std::max(sum.shear_max, traction.col(k).tail<2>().norm());
+    }
+    creep.faults.push_back(sum);
+  }
+}
+
 void CaseRun::record(const LoadStep& step, const StepLoads& loads,
                      const Eigen::VectorXd& jump_before, StepResult& result) {
   meter_.evaluate(state_, nodal_);
@@ -224,12 +187,8 @@ void CaseRun::record(const LoadStep& step, const StepLoads& loads,
   for (const OperatorNode& node : op_.geometry.nodes) {
     result_.max_penetration = std::max(result_.max_penetration, -state_.jump[node.dof[0]]);
   }
-  const Eigen::Map<const Eigen::VectorXd> factors(loads.factors.data(),
-                                                  static_cast<Eigen::Index>(loads.factors.size()));
-  if (!op_.observations.empty()) {
-    const Eigen::VectorXd u = op_.observed_load * factors + op_.observed_jump * state_.jump;
-    result.observed.assign(u.begin(), u.end());
-  }
+  if (!op_.observations.empty()) observe(loads, result);
+  if (result.creep) record_creep(loads, *result.creep);
   if (result.n_slip > 0) note_weakening(state_.traction, false);
   const auto first = std::find_if(result_.events.begin(), result_.events.end(),
                                   [&](const SlipEvent& e) { return e.step == step.step; });
@@ -263,6 +222,24 @@ void CaseRun::record_events(const LoadStep& step, const StepLoads* before, const
   }
 }
 
+/// The faults' way through one step, in place; step 0 (no loads before) is elastic.
+ContactReport CaseRun::solve(const LoadStep& step, const StepLoads* before, const StepLoads& loads,
+                             StepResult& result) {
+  if (march_ && before != nullptr) {
+    CreepReport report = march_->advance(step.time, state_);
+    result.creep = StepCreep{report.time_steps, report.time_error, report.time_resolved, {}};
+    return std::move(report.contact);
+  }
+  const Eigen::VectorXd locked_before =
+      before != nullptr ? before->locked : Eigen::VectorXd::Zero(op_.geometry.n_dofs);
+  ContactReport report = solver_.solve_step(locked_before, loads.locked, state_);
+  if (march_ && in_equilibrium(report.outcome)) {
+    march_->begin(loads, state_);
+    result.creep.emplace();
+  }
+  return report;
+}
+
 bool CaseRun::advance(const LoadStep& step, const StepLoads* before, const StepLoads& loads) {
   const Stopwatch watch;
   StepResult result;
@@ -271,9 +248,7 @@ bool CaseRun::advance(const LoadStep& step, const StepLoads* before, const StepL
   result.time = step.time;
   result.pressure_change = loads.pressure_change;
   const Eigen::VectorXd jump_before = state_.jump;
-  const Eigen::VectorXd locked_before =
-      before != nullptr ? before->locked : Eigen::VectorXd::Zero(op_.geometry.n_dofs);
-  const ContactReport report = solver_.solve_step(locked_before, loads.locked, state_);
+  const ContactReport report = solve(step, before, loads, result);
   result.outcome = report.outcome;
   result.reason = report.reason;
   result.counts = report.counts;
@@ -288,7 +263,9 @@ bool CaseRun::advance(const LoadStep& step, const StepLoads* before, const StepL
     result_.reason = concat("load step ", step.step, " (", step.stage, "): ", report.reason);
     result_.failed_step = step.step;
     // What slips in a step that has no end: judged by the traction of faults held as they were.
-    note_weakening(state_.traction + (loads.locked - locked_before), true);
+    Eigen::VectorXd trial = state_.traction + loads.locked;
+    if (before != nullptr) trial -= before->locked;
+    note_weakening(trial, true);
   }
   last_time_ = step.time;
   result_.steps.push_back(std::move(result));
@@ -324,8 +301,8 @@ CaseResult CaseRun::run(Monitor& monitor) {
   const std::vector<LoadStep> steps = load_steps(scene_);
   std::vector<StepLoads> loads;
   for (const LoadStep& step : steps) {
-    loads.push_back(loads_at(step));
-    check_fault_pressure(step, loads.back());
+    loads.push_back(loads_.at(step.time));
+    loads_.check_fault_pressure(step, loads.back());
   }
   result_.outcome = Outcome::converged;
   for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -379,8 +356,8 @@ StepStart CaseRun::start_of(int step) {
       start.reason = concat("stopped before load step ", next.step);
       return start;
     }
-    const StepLoads loads = loads_at(next);
-    check_fault_pressure(next, loads);
+    const StepLoads loads = loads_.at(next.time);
+    loads_.check_fault_pressure(next, loads);
     start.step = next;
     start.after = loads.locked;
     if (next.step == step) break;
@@ -400,11 +377,16 @@ StepStart CaseRun::start_of(int step) {
 
 CaseResult run_case(const Scene& scene, const FaultOperator& op, Monitor& monitor,
                     const StepObserver& observer) {
-  return CaseRun(scene, op, observer).run(monitor);
+  return CaseRun(scene, op, nullptr, observer).run(monitor);
+}
+
+CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, Monitor& monitor,
+                    const StepObserver& observer) {
+  return CaseRun(scene, *prepared.op, prepared.ladder.get(), observer).run(monitor);
 }
 
 StepStart start_of_step(const Scene& scene, const FaultOperator& op, int step) {
-  return CaseRun(scene, op, {}).start_of(step);
+  return CaseRun(scene, op, nullptr, {}).start_of(step);
 }
 
 }  // namespace faultsim

@@ -8,6 +8,7 @@
 
 #include "simulator/common/monitor.h"
 #include "simulator/condensation/condensation.h"
+#include "simulator/condensation/creep_ladder.h"
 #include "simulator/contact/contact.h"
 #include "simulator/loading/history.h"
 #include "simulator/output/fault_operator.h"
@@ -30,7 +31,9 @@ struct CachePolicy {
 /// Throws ResourceError before anything is built when the plan needs more memory than is available;
 /// a cache that cannot be written is a remark.
 struct PreparedOperator {
-  std::shared_ptr<const FaultOperator> op;
+  std::shared_ptr<const FaultOperator> op;  ///< elastic.
+  std::shared_ptr<CreepLadder> ladder;      ///< only when the plan has creep; never cached on disk,
+                                            ///< because every time step needs the factors.
   std::shared_ptr<CondensedBulk> bulk;  ///< only when keep_bulk was asked (displacement fields).
   bool from_cache = false;
   std::string remark;  ///< "damaged operator file moved aside", "not kept", ...
@@ -44,6 +47,9 @@ using StepObserver = std::function<void(const StepResult&, const FaultFields&)>;
 /// Runs one case on its operator: initial state, load steps, contact, metrics. Deterministic: the
 /// same scene and operator give the same bits whatever ran before. Never throws for
 /// non-convergence.
+CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, Monitor& monitor,
+                    const StepObserver& observer = {});
+/// The same without creep, whatever the scene says of viscosity.
 CaseResult run_case(const Scene& scene, const FaultOperator& op, Monitor& monitor,
                     const StepObserver& observer = {});
 

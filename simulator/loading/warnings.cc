@@ -35,6 +35,7 @@ class Warnings {
     unresolved_weakening();
     open_with_partial_biot();
     activated_at_an_edge();
+    creep_too_coarse();
     penetration();
     without_strength();
     return std::move(texts_);
@@ -125,6 +126,23 @@ class Warnings {
                                 "): slip might go on beyond; make the fault longer"));
       }
     }
+  }
+
+  void creep_too_coarse() {
+    int n_steps = 0;
+    double worst = 0;
+    for (const StepResult& step : result_.steps) {
+      if (!step.creep || step.creep->time_resolved) continue;
+      ++n_steps;
+      worst = std::max(worst, step.creep->time_error);
+    }
+    if (n_steps == 0) return;
+    texts_.push_back(concat("the time steps of creep are too long in ", n_steps,
+                            " load steps: halving them changes fault tractions by up to ",
+                            brief(worst / 1e6), " MPa, ",
+                            brief(scene_.numerics.creep_tolerance / 1e6),
+                            " MPa are allowed, or a fault jumps while the salt creeps; raise "
+                            "/numerics/creep_refinements or take shorter load steps"));
   }
 
   void penetration() {

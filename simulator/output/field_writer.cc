@@ -2,6 +2,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "simulator/common/errors.h"
 #include "simulator/output/file_pair.h"
@@ -92,7 +93,13 @@ constexpr FieldInfo kFields[] = {
     {"critical_index", 1, "1", "shear traction over current limit shear traction; 1 where open"},
     {"static_critical_index", 1, "1", "shear traction over static limit shear traction"},
     {"fault_pressure_change", 1, "Pa", "pressure change in the fault; positive when it rises"},
+    {"creep_traction_fault", 3, "Pa",
+     "traction beyond what pressure and slip alone would give (normal, strike, dip)"},
 };
+/// The last field is there only where salt creeps.
+std::span<const FieldInfo> field_infos(bool creep) {
+  return std::span(kFields).first(std::size(kFields) - (creep ? 0 : 1));
+}
 constexpr const char* kState = "state";
 constexpr const char* kStateLegend = "0 = stick, 1 = slip, 2 = open";
 
@@ -111,6 +118,10 @@ std::vector<double> values_at(const OperatorNode& node, const FaultFields& field
   }
   values.insert(values.end(), {fields.critical_index[k], fields.static_critical_index[k],
                                fields.fault_pressure_change[k]});
+  if (fields.creep_traction.cols() > 0) {
+    const Eigen::Vector3d creep = fields.creep_traction.col(k);
+    values.insert(values.end(), creep.data(), creep.data() + 3);
+  }
   return values;
 }
 
@@ -120,9 +131,10 @@ struct FieldWriter::Impl {
   std::filesystem::path folder;
   std::vector<OperatorNode> nodes;
   std::optional<hdf5::Handle> file;
+  std::span<const FieldInfo> infos;
   std::vector<FaultPoints> faults;
   std::vector<std::string> names;
-  std::vector<std::vector<hdf5::GrowingArray>> fields;  ///< per fault: kFields, then the state.
+  std::vector<std::vector<hdf5::GrowingArray>> fields;  ///< per fault: infos, then the state.
   std::vector<double> times;
   std::vector<int> steps;
   std::vector<std::string> stages, outcomes;
@@ -166,7 +178,7 @@ void FieldWriter::Impl::write_geometry(const FaultPoints& fault, const std::stri
 
 void FieldWriter::Impl::open_fields(const FaultPoints& fault) {
   std::vector<hdf5::GrowingArray>& arrays = fields.emplace_back();
-  for (const FieldInfo& info : kFields) {
+  for (const FieldInfo& info : infos) {
     arrays.emplace_back(*file, fault.group + "/steps/" + info.name, H5T_IEEE_F64LE,
                         fault.source.size(), info.n_components,
                         hdf5::About{info.units, info.long_name});
@@ -180,7 +192,7 @@ void FieldWriter::Impl::append(std::size_t f, const FaultFields& step) {
   const FaultPoints& fault = faults[f];
   const std::size_t n = fault.source.size();
   std::vector<std::vector<double>> tables;
-  for (const FieldInfo& info : kFields) tables.emplace_back(n * info.n_components, 0.0);
+  for (const FieldInfo& info : infos) tables.emplace_back(n * info.n_components, 0.0);
   std::vector<int> state(n, static_cast<int>(FaultState::stick));
   for (std::size_t i = 0; i < n; ++i) {
     const int k = fault.source[i];
@@ -189,8 +201,8 @@ void FieldWriter::Impl::append(std::size_t f, const FaultFields& step) {
         values_at(nodes[static_cast<std::size_t>(k)], step, k, fault.split[i] != 0);
     auto value = values.begin();
     for (std::size_t t = 0; t < tables.size(); ++t) {
-      for (std::size_t c = 0; c < kFields[t].n_components; ++c) {
-        tables[t][i * kFields[t].n_components + c] = *value++;
+      for (std::size_t c = 0; c < infos[t].n_components; ++c) {
+        tables[t][i * infos[t].n_components + c] = *value++;
       }
     }
     if (fault.split[i] != 0) state[i] = step.state[k];
@@ -216,7 +228,7 @@ XdmfGrid FieldWriter::Impl::grid(std::size_t f) const {
     grid.attributes.push_back({direction, {at + direction, {n, 3}}, false, true});
   }
   if (n_steps == 0) return grid;
-  for (const FieldInfo& info : kFields) {
+  for (const FieldInfo& info : infos) {
     std::vector<std::size_t> shape = {n_steps, n};
     if (info.n_components > 1) shape.push_back(info.n_components);
     grid.attributes.push_back({info.name,
@@ -230,11 +242,13 @@ XdmfGrid FieldWriter::Impl::grid(std::size_t f) const {
   return grid;
 }
 
-FieldWriter::FieldWriter(const std::filesystem::path& folder, const FaultGeometry& geometry)
+FieldWriter::FieldWriter(const std::filesystem::path& folder, const FaultGeometry& geometry,
+                         bool creep)
     : impl_(std::make_unique<Impl>()) {
   const hdf5::Session session;
   impl_->folder = folder;
   impl_->nodes = geometry.nodes;
+  impl_->infos = field_infos(creep);
   impl_->file.emplace(hdf5::create_in_memory());
   std::set<std::string> taken;
   for (const OperatorFault& fault : geometry.faults) {
@@ -256,15 +270,17 @@ FieldWriter::~FieldWriter() {
 void FieldWriter::add_step(const StepResult& step, const FaultFields& fields) {
   const auto n = static_cast<Eigen::Index>(impl_->nodes.size());
   FAULTSIM_DEMAND(impl_->file.has_value(), "a step after finish()");
-  FAULTSIM_DEMAND(fields.traction.cols() == n && fields.jump.cols() == n &&
-                      fields.critical_index.size() == n &&
-                      fields.static_critical_index.size() == n && fields.state.size() == n &&
-                      fields.fault_pressure_change.size() == n,
-                  "fields of ", n, " nodes");
   FAULTSIM_DEMAND(
-      fields.traction.allFinite() && fields.jump.allFinite() && fields.critical_index.allFinite() &&
-          fields.static_critical_index.allFinite() && fields.fault_pressure_change.allFinite(),
-      "a field of step ", step.step, " is not finite");
+      fields.traction.cols() == n && fields.jump.cols() == n && fields.critical_index.size() == n &&
+          fields.static_critical_index.size() == n && fields.state.size() == n &&
+          fields.fault_pressure_change.size() == n &&
+          (fields.creep_traction.cols() == n) == (impl_->infos.size() == std::size(kFields)),
+      "fields of ", n, " nodes");
+  FAULTSIM_DEMAND(fields.traction.allFinite() && fields.jump.allFinite() &&
+                      fields.critical_index.allFinite() &&
+                      fields.static_critical_index.allFinite() &&
+                      fields.fault_pressure_change.allFinite() && fields.creep_traction.allFinite(),
+                  "a field of step ", step.step, " is not finite");
   const hdf5::Session session;
   for (std::size_t f = 0; f < impl_->faults.size(); ++f) impl_->append(f, fields);
   impl_->times.push_back(step.time);

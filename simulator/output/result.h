@@ -64,6 +64,24 @@ struct SolveCounts {
   int wasted_newton_iterations = 0;  ///< in sub-steps that were thrown away.
 };
 
+/// What the creep of salt did to one fault up to the end of a step: t'_creep = t' − (t_L − A⁻¹ H g)
+/// with the elastic operator, that is, the traction beyond what pressure and slip alone would give.
+struct FaultCreep {
+  double normal_min = 0;  ///< Pa, most compressive change of t'_N by creep; ≤ 0.
+  double normal_max = 0;  ///< Pa, most tensile one; ≥ 0.
+  double shear_max = 0;   ///< Pa, largest |change of t'_T|.
+
+  bool operator==(const FaultCreep&) const = default;  ///< the very same numbers.
+};
+
+/// How a step with creeping salt was walked, and what the salt did to the faults.
+struct StepCreep {
+  int time_steps = 0;         ///< that the step was divided into.
+  double time_error = 0;      ///< Pa, largest change of fault traction when a time step was halved.
+  bool time_resolved = true;  ///< within /numerics/creep_tolerance wherever it was measured.
+  std::vector<FaultCreep> faults;
+};
+
 struct StepResult {
   int step = 0;                         ///< 0 = initial equilibrium.
   std::string stage;                    ///< "initial" for step 0.
@@ -73,7 +91,8 @@ struct StepResult {
   std::string reason;  ///< why not converged: counts per reason and the worst node.
   int n_stick = 0, n_slip = 0, n_open = 0;
   std::vector<FaultMetrics> faults;
-  std::vector<double> observed;  ///< m, per observation row.
+  std::vector<double> observed;    ///< m, per observation row.
+  std::optional<StepCreep> creep;  ///< only where salt creeps.
   SolveCounts counts;
   double seconds = 0;  ///< wall; not compared.
 };
@@ -134,6 +153,9 @@ struct FaultFields {
   Eigen::VectorXd static_critical_index;  ///< χ_s.
   Eigen::VectorXi state;                  ///< FaultState.
   Eigen::VectorXd fault_pressure_change;  ///< Δp_f, Pa.
+  Eigen::Matrix3Xd creep_traction;        ///< t'_creep (n, strike, dip), Pa; empty without creep.
+  /// Displacement of all mesh nodes, m: given where salt creeps, valid during the call.
+  const Eigen::Matrix3Xd* displacement = nullptr;
 };
 
 /// Metrics of one stage (its steps together); the same fields per case are the "whole" stage.

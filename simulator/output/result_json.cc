@@ -45,6 +45,21 @@ void for_each_field_of_counts(Counts& c, Visit&& visit) {
   visit("wasted_newton_iterations", c.wasted_newton_iterations);
 }
 
+template <typename Creep, typename Visit>
+void for_each_field_of_fault_creep(Creep& c, Visit&& visit) {
+  visit("normal_min_pa", c.normal_min);
+  visit("normal_max_pa", c.normal_max);
+  visit("shear_max_pa", c.shear_max);
+}
+
+template <typename Creep, typename Visit>
+void for_each_field_of_creep(Creep& c, Visit&& visit) {
+  visit("time_steps", c.time_steps);
+  visit("time_error_pa", c.time_error);
+  visit("time_resolved", c.time_resolved);
+  visit("faults", c.faults);
+}
+
 template <typename Step, typename Visit>
 void for_each_field_of_step(Step& s, Visit&& visit) {
   visit("step", s.step);
@@ -58,6 +73,7 @@ void for_each_field_of_step(Step& s, Visit&& visit) {
   visit("n_open", s.n_open);
   visit("faults", s.faults);
   visit("observed_m", s.observed);
+  visit("creep", s.creep);
   visit("counts", s.counts);
   visit("wall_s", s.seconds);
 }
@@ -165,6 +181,8 @@ void for_each_field(Struct& value, Visit&& visit) {
   if constexpr (std::is_same_v<Plain, FaultMetrics>) for_each_field_of_metrics(value, visit);
   if constexpr (std::is_same_v<Plain, SolveCounts>) for_each_field_of_counts(value, visit);
   if constexpr (std::is_same_v<Plain, StepResult>) for_each_field_of_step(value, visit);
+  if constexpr (std::is_same_v<Plain, FaultCreep>) for_each_field_of_fault_creep(value, visit);
+  if constexpr (std::is_same_v<Plain, StepCreep>) for_each_field_of_creep(value, visit);
   if constexpr (std::is_same_v<Plain, StageMetrics>) for_each_field_of_stage(value, visit);
   if constexpr (std::is_same_v<Plain, SlipEvent>) for_each_field_of_event(value, visit);
   if constexpr (std::is_same_v<Plain, Episode>) for_each_field_of_episode(value, visit);

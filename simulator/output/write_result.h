@@ -19,11 +19,13 @@ CaseResult result_from_json(const nlohmann::json& json);
 
 /// Writes fault fields as they come: FOLDER/faults.h5 (chunked by step, gzip, units as attributes)
 /// and FOLDER/faults.xmf that ParaView opens: one surface grid per fault and step with traction and
-/// slip in the fault frame and globally, χ, χ_s, state, Δp_f. Only base names are referenced.
+/// slip in the fault frame and globally, χ, χ_s, state, Δp_f and, where salt creeps, t'_creep. Only
+/// base names are referenced.
 /// Files get a temporary name until finish(); an abandoned writer leaves nothing.
 class FieldWriter {
  public:
-  FieldWriter(const std::filesystem::path& folder, const FaultGeometry& geometry);
+  FieldWriter(const std::filesystem::path& folder, const FaultGeometry& geometry,
+              bool creep = false);
   ~FieldWriter();
   FieldWriter(const FieldWriter&) = delete;
   FieldWriter& operator=(const FieldWriter&) = delete;

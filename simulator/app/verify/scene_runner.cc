@@ -66,11 +66,11 @@ SceneRun SceneRunner::run(const std::string& file, const Settings& settings, boo
   if (!problems.empty()) throw InputError(file, problems);
 
   const std::string name = operator_fingerprint(run.scene, plan, blas_description());
-  std::shared_ptr<const FaultOperator>& op = operators_[name];
-  if (!op) op = prepare_operator(run.scene, plan, CachePolicy{}, false, monitor_).op;
-  run.op = op;
+  PreparedOperator& prepared = operators_[name];
+  if (!prepared.op) prepared = prepare_operator(run.scene, plan, CachePolicy{}, false, monitor_);
+  run.op = prepared.op;
   run.result =
-      run_case(run.scene, *op, monitor_,
+      run_case(run.scene, prepared, monitor_,
                [&](const StepResult&, const FaultFields& fields) { run.fields.push_back(fields); });
   if (run.result.outcome == Outcome::interrupted)
     throw Interrupted("stopped while running " + file);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "simulator/common/monitor.h"
+#include "simulator/loading/run_case.h"
 #include "simulator/output/fault_operator.h"
 #include "simulator/output/result.h"
 #include "simulator/scene/scene.h"
@@ -46,7 +47,7 @@ class SceneRunner {
 
  private:
   Monitor& monitor_;
-  std::map<std::string, std::shared_ptr<const FaultOperator>> operators_;
+  std::map<std::string, PreparedOperator> operators_;
 };
 
 /// The text of an embedded scene. InternalError when there is none of that name.

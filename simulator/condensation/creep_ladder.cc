@@ -1,0 +1,135 @@
+#include "simulator/condensation/creep_ladder.h"
+
+#include <utility>
+
+#include "simulator/common/errors.h"
+
+namespace faultsim {
+namespace {
+
+/// The steps of all materials over Δt.
+std::vector<MaxwellStep> maxwell_steps(const BulkProblem& problem, double duration,
+                                       MaxwellScheme scheme) {
+  std::vector<MaxwellStep> steps;
+  for (std::size_t m = 0; m < problem.materials.size(); ++m) {
+    steps.push_back(
+        maxwell_step(shear_modulus(problem.materials[m]), problem.viscosity[m], duration, scheme));
+  }
+  return steps;
+}
+
+/// Shows the building of one of several operators as a share of the whole.
+class ShareMonitor final : public Monitor {
+ public:
+  ShareMonitor(Monitor& whole, int part, int n_parts)
+      : whole_(whole), part_(part), n_parts_(n_parts) {}
+  void progress(double share, const std::string& what) override {
+    whole_.progress((part_ + share) / n_parts_,
+                    concat("operator ", part_ + 1, " of ", n_parts_, ": ", what));
+  }
+  void note(const std::string& text) override {
+    if (part_ == 0) whole_.note(text);
+  }
+
+ private:
+  Monitor& whole_;
+  int part_, n_parts_;
+};
+
+}  // namespace
+
+struct CreepLadder::Impl {
+  struct Rung {
+    double duration;
+    std::vector<MaxwellStep> step;  // per viscous material of `cells`
+    std::unique_ptr<CondensedBulk> bulk;
+    FaultOperator op;
+  };
+  std::vector<Rung> rungs;
+  std::unique_ptr<CreepCells> cells;  // refers to the mesh and dofs of rung 0
+  std::vector<int> observed_nodes;
+
+  Rung& at(int rung) { return rungs.at(static_cast<std::size_t>(rung)); }
+};
+
+CreepLadder::CreepLadder(const BulkProblem& problem, const std::vector<double>& durations,
+                         MaxwellScheme scheme, const BuildOptions& options, Monitor& monitor)
+    : impl_(std::make_unique<Impl>()) {
+  FAULTSIM_DEMAND(problem.viscosity.size() == problem.materials.size(), problem.viscosity.size());
+  std::vector<double> all = {0};
+  all.insert(all.end(), durations.begin(), durations.end());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    ShareMonitor share(monitor, static_cast<int>(i), static_cast<int>(all.size()));
+    const std::vector<MaxwellStep> steps = maxwell_steps(problem, all[i], scheme);
+    BulkProblem relaxed = problem;
+    for (std::size_t m = 0; m < steps.size(); ++m) {
+      relaxed.materials[m].shear_factor = steps[m].shear_factor;
+    }
+    auto bulk = std::make_unique<CondensedBulk>(relaxed, options, share);
+    if (i == 0) {
+      impl_->cells = std::make_unique<CreepCells>(bulk->problem().mesh, bulk->problem().materials,
+                                                  problem.viscosity, bulk->dofs());
+    }
+    std::vector<MaxwellStep> creeping;
+    for (const int m : impl_->cells->materials()) {
+      creeping.push_back(steps[static_cast<std::size_t>(m)]);
+    }
+    FaultOperator op = bulk->condense();
+    impl_->rungs.push_back({all[i], std::move(creeping), std::move(bulk), std::move(op)});
+  }
+  for (const auto& [name, point] : problem.observation_points) {
+    impl_->observed_nodes.push_back(observed_node(problem.mesh, point));
+  }
+}
+
+CreepLadder::~CreepLadder() = default;
+
+int CreepLadder::n_rungs() const { return static_cast<int>(impl_->rungs.size()); }
+
+double CreepLadder::duration(int rung) const { return impl_->at(rung).duration; }
+
+const FaultOperator& CreepLadder::op(int rung) const { return impl_->at(rung).op; }
+
+int CreepLadder::n_creeping_cells() const { return impl_->cells->n_cells(); }
+
+BulkState CreepLadder::at_rest() const {
+  const auto n_nodes = impl_->at(0).bulk->problem().mesh.nodes.size();
+  return {impl_->cells->at_rest(), Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(n_nodes))};
+}
+
+CreepLadder::History CreepLadder::history(int rung, const BulkState& state) {
+  Impl::Rung& r = impl_->at(rung);
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(r.op.n_unknowns);
+  for (std::size_t m = 0; m < r.step.size(); ++m) {
+    force += r.step[m].relaxed * state.stress.force.col(static_cast<Eigen::Index>(m));
+  }
+  History history;
+  if (force.isZero(0)) {  // at rest, or an elastic step
+    history.forward = force;
+    history.traction = Eigen::VectorXd::Zero(r.op.geometry.n_dofs);
+    return history;
+  }
+  history.forward = r.bulk->forward(force);
+  history.traction = r.bulk->locked_traction(history.forward);
+  return history;
+}
+
+void CreepLadder::advance(int rung, History history, const std::vector<double>& load_increments,
+                          const Eigen::VectorXd& jump_increment, BulkState& state) {
+  Impl::Rung& r = impl_->at(rung);
+  const Eigen::Matrix3Xd u =
+      r.bulk->displacement(std::move(history.forward), load_increments, jump_increment);
+  impl_->cells->advance(u, r.step, state.stress);
+  state.displacement += u;
+}
+
+Eigen::VectorXd CreepLadder::observed(const BulkState& state) const {
+  Eigen::VectorXd u(3 * static_cast<Eigen::Index>(impl_->observed_nodes.size()));
+  for (std::size_t i = 0; i < impl_->observed_nodes.size(); ++i) {
+    u.segment<3>(3 * static_cast<Eigen::Index>(i)) =
+        state.displacement.col(impl_->observed_nodes[i]);
+  }
+  return u;
+}
+
+}  // namespace faultsim

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "simulator/condensation/condensation.h"
+#include "simulator/elasticity/creep.h"
+
+namespace faultsim {
+
+/// What the bulk remembers of a case: the creeping cells' stress and the displacement so far.
+struct BulkState {
+  CreepStress stress;
+  Eigen::Matrix3Xd displacement;  ///< of all mesh nodes since the start, 3 x n_nodes, m.
+};
+
+/// The linear bulk of a family whose salt creeps, condensed once per time step length Δt and kept
+/// factorised. Rung 0 is elastic (Δt = 0: step 0, instantaneous loads, slip events); rungs 1, 2,
+/// ... have the durations asked for. Over a step of a rung, with the history s of the salt,
+///
+///   A (t_{n+1} − t_n) = f_g − K_gr K_rr⁻¹ f_r − H_Δt (g_{n+1} − g_n),
+///   f = Σ_k Δc_k f_k + Pᵀ ∫ ε(v):(1 − decay) s_n                         (design section 3)
+///
+/// costs one forward substitution for the history, before contact is solved, and one backward
+/// substitution for the displacement, after: together one back-solve, and never a factorisation.
+class CreepLadder {
+ public:
+  /// Factorises the elastic bulk and one per duration (s, > 0). @pre problem.viscosity is set.
+  CreepLadder(const BulkProblem& problem, const std::vector<double>& durations,
+              MaxwellScheme scheme, const BuildOptions& options, Monitor& monitor);
+  ~CreepLadder();
+
+  int n_rungs() const;  ///< with the elastic one.
+  double duration(int rung) const;
+  const FaultOperator& op(int rung) const;
+  BulkState at_rest() const;
+  int n_creeping_cells() const;
+
+  /// What the history adds to a step of the rung.
+  struct History {
+    Eigen::VectorXd traction;  ///< locked traction, n_dofs, Pa.
+    Eigen::VectorXd forward;   ///< half of the back-solve, for advance().
+  };
+  History history(int rung, const BulkState& state);
+
+  /// Moves the bulk over a step of the rung, given the increments of the load factors and jumps.
+  void advance(int rung, History history, const std::vector<double>& load_increments,
+               const Eigen::VectorXd& jump_increment, BulkState& state);
+
+  /// Displacement components of the observation points, in the order of
+  /// FaultOperator::observations.
+  Eigen::VectorXd observed(const BulkState& state) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace faultsim

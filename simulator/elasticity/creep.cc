@@ -1,0 +1,88 @@
+#include "simulator/elasticity/creep.h"
+
+#include <array>
+#include <cmath>
+
+#include "simulator/common/errors.h"
+
+namespace faultsim {
+namespace {
+
+using CellDeviator = Eigen::Map<Eigen::Matrix<double, 6, 8>>;
+
+/// Deviator of the symmetric gradient of u at a Gauss point: xx yy zz xy yz xz.
+Eigen::Matrix<double, 6, 1> strain_deviator(const Eigen::Matrix<double, 3, 8>& u,
+                                            const Eigen::Matrix<double, 8, 3>& gradient) {
+  const Eigen::Matrix3d g = u * gradient;
+  const double mean = g.trace() / 3;
+  Eigen::Matrix<double, 6, 1> e;
+  e << g(0, 0) - mean, g(1, 1) - mean, g(2, 2) - mean, (g(0, 1) + g(1, 0)) / 2,
+      (g(1, 2) + g(2, 1)) / 2, (g(0, 2) + g(2, 0)) / 2;
+  return e;
+}
+
+Eigen::Matrix3d tensor(const Eigen::Matrix<double, 6, 1>& s) {
+  Eigen::Matrix3d t;
+  t << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+  return t;
+}
+
+}  // namespace
+
+CreepCells::CreepCells(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
+                       const std::vector<double>& viscosity, const DofMap& dofs)
+    : mesh_(mesh), dofs_(dofs) {
+  FAULTSIM_DEMAND(viscosity.size() == materials.size(), viscosity.size(), " viscosities of ",
+                  materials.size(), " materials");
+  std::vector<int> place(materials.size(), -1);
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
+    const auto m = static_cast<std::size_t>(mesh.material[cell]);
+    if (!std::isfinite(viscosity[m])) continue;
+    if (place[m] < 0) {
+      place[m] = static_cast<int>(materials_.size());
+      materials_.push_back(mesh.material[cell]);
+      shear_modulus_.push_back(shear_modulus(materials[m]));
+    }
+    cells_.push_back(static_cast<int>(cell));
+    material_of_.push_back(place[m]);
+  }
+}
+
+CreepStress CreepCells::at_rest() const {
+  return {Eigen::MatrixXd::Zero(48, static_cast<Eigen::Index>(cells_.size())),
+          Eigen::MatrixXd::Zero(dofs_.n_unknowns(), static_cast<Eigen::Index>(materials_.size()))};
+}
+
+void CreepCells::advance(const Eigen::Matrix3Xd& displacement, const std::vector<MaxwellStep>& step,
+                         CreepStress& stress) const {
+  FAULTSIM_DEMAND(step.size() == materials_.size(), step.size(), " of ", materials_.size());
+  const double scale = mesh_.plane_strain ? 1 / mesh_.thickness : 1;
+  stress.force.setZero();
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const auto& nodes = mesh_.cells[static_cast<std::size_t>(cells_[i])];
+    const auto m = static_cast<std::size_t>(material_of_[i]);
+    const double stiffness = 2 * shear_modulus_[m] * step[m].shear_factor;
+    const Element element = make_element(mesh_, cells_[i]);
+    Eigen::Matrix<double, 3, 8> u;
+    for (int a = 0; a < 8; ++a) u.col(a) = displacement.col(nodes[static_cast<std::size_t>(a)]);
+    CellDeviator s(stress.deviator.col(static_cast<Eigen::Index>(i)).data());
+    Eigen::Matrix<double, 3, 8> force = Eigen::Matrix<double, 3, 8>::Zero();
+    for (std::size_t g = 0; g < 8; ++g) {
+      const auto point = static_cast<Eigen::Index>(g);
+      s.col(point) =
+          step[m].decay * s.col(point) + stiffness * strain_deviator(u, element.gradient[g]);
+      force += element.weight[g] * tensor(s.col(point)) * element.gradient[g].transpose();
+    }
+    for (int a = 0; a < 8; ++a) {
+      for (int c = 0; c < 3; ++c) {
+        const auto [first, last] = dofs_.terms(nodes[static_cast<std::size_t>(a)], c);
+        for (const DofMap::Term* term = first; term != last; ++term) {
+          stress.force(term->unknown, static_cast<Eigen::Index>(m)) +=
+              scale * term->coefficient * force(c, a);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace faultsim

@@ -1,0 +1,53 @@
+#include "simulator/loading/case_loads.h"
+
+#include "simulator/common/errors.h"
+
+namespace faultsim {
+
+CaseLoads::CaseLoads(const Scene& scene, const FaultOperator& op)
+    : scene_(scene),
+      op_(op),
+      load_factors_(scene, op),
+      initial_(initial_traction(scene, op.geometry)) {}
+
+StepLoads CaseLoads::at(double time) const {
+  StepLoads loads;
+  loads.pressure_change = pressure_changes(scene_, time);
+  loads.factors = load_factors_.at(time, loads.pressure_change);
+  loads.locked = initial_.traction;
+  for (std::size_t k = 0; k < loads.factors.size(); ++k) {
+    if (loads.factors[k] != 0)
+      loads.locked += loads.factors[k] * op_.locked.col(static_cast<Eigen::Index>(k));
+  }
+  loads.fault_pressure_change = fault_pressure_change(
+      scene_, op_.geometry, load_factors_.region_of_load(), time, loads.pressure_change);
+  for (std::size_t f = 0; f < op_.geometry.faults.size(); ++f) {
+    const OperatorFault& fault = op_.geometry.faults[f];
+    for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
+      loads.locked[op_.geometry.nodes[static_cast<std::size_t>(k)].dof[0]] +=
+          scene_.faults[f].fault_biot * loads.fault_pressure_change[k];
+    }
+  }
+  return loads;
+}
+
+void CaseLoads::check_fault_pressure(const LoadStep& step, const StepLoads& loads) const {
+  const double slack = 1.0;  // Pa
+  for (std::size_t f = 0; f < op_.geometry.faults.size(); ++f) {
+    if (scene_.faults[f].pressure.rule != FaultPressureRule::prescribed) continue;
+    const OperatorFault& fault = op_.geometry.faults[f];
+    for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
+      const double p = initial_.pressure[k] + loads.fault_pressure_change[k];
+      if (p >= -slack) continue;
+      throw InputError(
+          "scene",
+          {{concat("/faults/", f, "/fault_pressure"), 0,
+            concat("the prescribed fault pressure of ", fault.name, " falls to ", p / 1e5,
+                   " bar at depth ", -op_.geometry.nodes[static_cast<std::size_t>(k)].position.z(),
+                   " m in load step ", step.step),
+            "prescribe a smaller drop or a narrower depth window"}});
+    }
+  }
+}
+
+}  // namespace faultsim

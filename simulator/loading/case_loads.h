@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "simulator/loading/history.h"
+#include "simulator/loading/initial_traction.h"
+#include "simulator/output/fault_operator.h"
+#include "simulator/scene/scene.h"
+
+namespace faultsim {
+
+/// The loads of a case at one time: what the faults would carry if they stayed closed.
+struct StepLoads {
+  std::vector<double> pressure_change;    ///< per region, Pa.
+  std::vector<double> factors;            ///< c_k, per operator load.
+  Eigen::VectorXd locked;                 ///< t_L = t'_0 + Σ c_k L_k + α_f Δp_f n, n_dofs, Pa.
+  Eigen::VectorXd fault_pressure_change;  ///< Δp_f, n_nodes, Pa.
+};
+
+/// The loads of a case as functions of time, on an (elastic) operator.
+class CaseLoads {
+ public:
+  /// @pre scene and op outlive this. Throws InputError as initial_traction() does.
+  CaseLoads(const Scene& scene, const FaultOperator& op);
+  StepLoads at(double time) const;
+  /// Throws InputError where a prescribed fault pressure falls below zero in that step.
+  void check_fault_pressure(const LoadStep& step, const StepLoads& loads) const;
+
+ private:
+  const Scene& scene_;
+  const FaultOperator& op_;
+  LoadFactors load_factors_;
+  InitialTraction initial_;
+};
+
+}  // namespace faultsim

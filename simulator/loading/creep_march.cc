@@ -1,0 +1,260 @@
+#include "simulator/loading/creep_march.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "simulator/common/errors.h"
+#include "simulator/common/interrupt.h"
+#include "simulator/loading/case_contact.h"
+
+namespace faultsim {
+namespace {
+
+ContactLaws without_following(ContactLaws laws) {
+  laws.damping.resize(0);
+  return laws;
+}
+
+void add_counts(SolveCounts& sum, const SolveCounts& part, bool wasted) {
+  sum.sub_steps += wasted ? 0 : part.sub_steps;
+  sum.active_set_passes += part.active_set_passes;
+  sum.newton_iterations += wasted ? 0 : part.newton_iterations;
+  sum.wasted_newton_iterations +=
+      part.wasted_newton_iterations + (wasted ? part.newton_iterations : 0);
+}
+
+}  // namespace
+
+Eigen::VectorXd elastic_traction_drop(const FaultOperator& op, const Eigen::VectorXd& jump) {
+  Eigen::VectorXd drop = Eigen::VectorXd::Zero(op.geometry.n_dofs);
+  for (Eigen::Index d = 0; d < jump.size(); ++d) {
+    if (jump[d] != 0) drop += jump[d] * op.h.col(d);
+  }
+  return drop.cwiseQuotient(op.dof_area);
+}
+
+struct CreepMarch::Impl {
+  /// Everything that a time step changes.
+  struct Point {
+    double time = 0;  // s
+    StepLoads loads;
+    ContactState contact;
+    BulkState bulk;
+  };
+  /// A way from one point to a later one.
+  struct Path {
+    Point end;
+    CreepReport report;
+    bool good() const { return in_equilibrium(report.contact.outcome); }
+  };
+
+  Impl(const Scene& given_scene, const CaseLoads& given_loads, CreepLadder& given_ladder,
+       const ContactLaws& laws)
+      : numerics(given_scene.numerics),
+        case_loads(given_loads),
+        ladder(given_ladder),
+        following_laws(laws),
+        static_laws(without_following(laws)),
+        static_solver(static_cast<std::size_t>(ladder.n_rungs())) {}
+
+  int rung_of(double duration) const;
+  int finer(int rung) const;
+  ContactSolver& solver(int rung, bool follows);
+  Path step(const Point& from, const StepLoads& loads, double to, int rung, bool follows);
+  Path whole(const Point& from, double to, int rung);
+  Path split(const Point& from, double to, int rung);
+  Path joined(Path first, const Path& second) const;
+  Path fixed(const Point& from, double to);
+  Path controlled(const Point& from, double to, Path coarse, int rung);
+
+  Numerics numerics;
+  const CaseLoads& case_loads;
+  CreepLadder& ladder;
+  ContactLaws following_laws, static_laws;
+  std::vector<std::unique_ptr<ContactSolver>> static_solver;
+  std::unique_ptr<ContactSolver> elastic_solver, holding_solver;
+  Point now;
+  double step_from = 0, step_length = 0;  // s, of the load step
+  int thrown_away = 0;                    // Newton iterations of paths not taken
+};
+
+/// The rung of that duration; −1 if there is none.
+int CreepMarch::Impl::rung_of(double duration) const {
+  for (int r = 1; r < ladder.n_rungs(); ++r) {
+    if (std::abs(ladder.duration(r) - duration) <= 1e-6 * duration) return r;
+  }
+  return -1;
+}
+
+int CreepMarch::Impl::finer(int rung) const { return rung_of(ladder.duration(rung) / 2); }
+
+ContactSolver& CreepMarch::Impl::solver(int rung, bool follows) {
+  std::unique_ptr<ContactSolver>& chosen = !follows ? static_solver[static_cast<std::size_t>(rung)]
+                                           : rung == 0 ? elastic_solver
+                                                       : holding_solver;
+  if (!chosen) {
+    chosen = std::make_unique<ContactSolver>(
+        ladder.op(rung), follows ? following_laws : static_laws, contact_options(numerics));
+  }
+  return *chosen;
+}
+
+/// One step of a rung, from a point to the loads given. Load factors of jumps are turned into those
+/// of the load step, whose loads are linear in time.
+CreepMarch::Impl::Path CreepMarch::Impl::step(const Point& from, const StepLoads& loads, double to,
+                                              int rung, bool follows) {
+  throw_if_interrupted("creep");
+  const FaultOperator& op = ladder.op(rung);
+  const FaultOperator& elastic = ladder.op(0);
+  CreepLadder::History history = ladder.history(rung, from.bulk);
+  std::vector<double> increments(loads.factors.size());
+  Eigen::VectorXd change = loads.locked - from.loads.locked + history.traction;
+  for (std::size_t k = 0; k < increments.size(); ++k) {
+    increments[k] = loads.factors[k] - from.loads.factors[k];
+    if (increments[k] == 0 || rung == 0) continue;
+    const auto column = static_cast<Eigen::Index>(k);
+    change += increments[k] * (op.locked.col(column) - elastic.locked.col(column));
+  }
+  const Eigen::VectorXd before =
+      from.contact.traction + elastic_traction_drop(op, from.contact.jump);
+  Path path{from, {}};
+  path.report.contact = solver(rung, follows).solve_step(before, before + change, path.end.contact);
+  path.report.time_steps = 1;
+  for (ContactJump& jump : path.report.contact.jumps) {
+    for (double* factor : {&jump.load_before, &jump.load_after}) {
+      *factor = (from.time + *factor * (to - from.time) - step_from) / step_length;
+    }
+  }
+  if (!path.good()) return path;
+  ladder.advance(rung, std::move(history), increments, path.end.contact.jump - from.contact.jump,
+                 path.end.bulk);
+  path.end.loads = loads;
+  path.end.time = to;
+  return path;
+}
+
+CreepMarch::Impl::Path CreepMarch::Impl::joined(Path first, const Path& second) const {
+  CreepReport& sum = first.report;
+  const CreepReport& more = second.report;
+  sum.contact.outcome =
+      more.contact.outcome == Outcome::converged ? sum.contact.outcome : more.contact.outcome;
+  sum.contact.reason += more.contact.reason;
+  sum.contact.jumps.insert(sum.contact.jumps.end(), more.contact.jumps.begin(),
+                           more.contact.jumps.end());
+  add_counts(sum.contact.counts, more.contact.counts, false);
+  sum.time_steps += more.time_steps;
+  sum.time_error = std::max(sum.time_error, more.time_error);
+  sum.time_resolved = sum.time_resolved && more.time_resolved;
+  first.end = second.end;
+  return first;
+}
+
+/// On the shortest rung: the load at once, then creep at constant load.
+CreepMarch::Impl::Path CreepMarch::Impl::split(const Point& from, double to, int rung) {
+  const StepLoads loads = case_loads.at(to);
+  Path jump = step(from, loads, to, 0, true);
+  if (!jump.good()) return jump;
+  jump.report.time_steps = 0;
+  jump.end.time = from.time;
+  Path creep = step(jump.end, loads, to, rung, true);
+  creep.report.time_resolved = creep.report.contact.jumps.empty();
+  return joined(std::move(jump), creep);
+}
+
+CreepMarch::Impl::Path CreepMarch::Impl::whole(const Point& from, double to, int rung) {
+  Path path = step(from, case_loads.at(to), to, rung, false);
+  if (path.good() || finer(rung) >= 0) return path;
+  thrown_away += path.report.contact.counts.newton_iterations +
+                 path.report.contact.counts.wasted_newton_iterations;
+  return split(from, to, rung);
+}
+
+CreepMarch::Impl::Path CreepMarch::Impl::fixed(const Point& from, double to) {
+  const auto n = static_cast<int>(std::ceil((to - from.time) / numerics.creep_time_step - 1e-9));
+  const int rung = rung_of((to - from.time) / n);
+  FAULTSIM_DEMAND(rung > 0, "no rung of ", (to - from.time) / n, " s");
+  const double start = from.time;
+  Path path = whole(from, start + (to - start) / n, rung);
+  for (int i = 2; i <= n && path.good(); ++i) {
+    const Point middle = path.end;
+    path = joined(std::move(path), whole(middle, start + (to - start) * i / n, rung));
+  }
+  return path;
+}
+
+/// @param coarse  the way in one step of the rung, taken already.
+CreepMarch::Impl::Path CreepMarch::Impl::controlled(const Point& from, double to, Path coarse,
+                                                    int rung) {
+  const int half = finer(rung);
+  if (half < 0) return coarse;
+  const double middle = from.time + (to - from.time) / 2;
+  const bool last = finer(half) < 0;
+  Path first = whole(from, middle, half);
+  Path second;
+  bool good_enough = false;
+  double difference = 0;
+  if (first.good()) {
+    second = whole(first.end, to, half);
+    if (coarse.good() && second.good()) {
+      difference =
+          (coarse.end.contact.traction - second.end.contact.traction).lpNorm<Eigen::Infinity>();
+      good_enough = difference <= numerics.creep_tolerance;
+    }
+  }
+  thrown_away += coarse.report.contact.counts.newton_iterations +
+                 coarse.report.contact.counts.wasted_newton_iterations;
+  if (!good_enough && !last) {
+    const Point start = from;
+    Path path = controlled(start, middle, std::move(first), half);
+    if (!path.good()) return path;
+    const Point there = path.end;
+    Path rest = whole(there, to, half);
+    return joined(std::move(path), controlled(there, to, std::move(rest), half));
+  }
+  if (!first.good()) return first;
+  Path path = joined(std::move(first), second);
+  path.report.time_error = std::max(path.report.time_error, difference);
+  path.report.time_resolved = path.report.time_resolved && (good_enough || !coarse.good());
+  return path;
+}
+
+CreepMarch::CreepMarch(const Scene& scene, const CaseLoads& loads, CreepLadder& ladder,
+                       const ContactLaws& laws)
+    : impl_(std::make_unique<Impl>(scene, loads, ladder, laws)) {}
+
+CreepMarch::~CreepMarch() = default;
+
+void CreepMarch::begin(const StepLoads& loads, const ContactState& state) {
+  Impl& self = *impl_;
+  self.now = {0, loads, state, self.ladder.at_rest()};
+  self.ladder.advance(0, self.ladder.history(0, self.now.bulk), loads.factors, state.jump,
+                      self.now.bulk);
+}
+
+CreepReport CreepMarch::advance(double to, ContactState& state) {
+  Impl& self = *impl_;
+  self.step_from = self.now.time;
+  self.step_length = to - self.now.time;
+  self.thrown_away = 0;
+  Impl::Path path;
+  if (self.numerics.creep_time_step > 0) {
+    path = self.fixed(self.now, to);
+  } else {
+    const int rung = self.rung_of(self.step_length);
+    FAULTSIM_DEMAND(rung > 0, "no rung of ", self.step_length, " s");
+    path = self.controlled(self.now, to, self.whole(self.now, to, rung), rung);
+  }
+  path.report.contact.counts.wasted_newton_iterations += self.thrown_away;
+  if (path.good()) {
+    self.now = std::move(path.end);
+    state = self.now.contact;
+  }
+  return path.report;
+}
+
+Eigen::VectorXd CreepMarch::observed() const { return impl_->ladder.observed(impl_->now.bulk); }
+
+const Eigen::Matrix3Xd& CreepMarch::displacement() const { return impl_->now.bulk.displacement; }
+
+}  // namespace faultsim
