@@ -79,6 +79,12 @@ void apply_tier_switches(SceneReader& reader, Scene& scene) {
   }
 }
 
+/// An operator per step length is cheap in a plane; in 3D it takes gigabytes that must stay.
+void default_creep_refinements(SceneReader& reader, Numerics& numerics) {
+  if (reader.has("/numerics/creep_refinements")) return;
+  numerics.creep_refinements = numerics.plane_strain == Switch::on ? 4 : 1;
+}
+
 /// Without a tier the sizes must be there; they are guessed from nothing.
 void demand_cell_sizes(SceneReader& reader, bool is_box, bool plane_strain) {
   if (!reader.sound("/mesh")) return;
@@ -127,6 +133,7 @@ void read_mesh(SceneReader& reader, Scene& scene) {
   mesh.fine_margin = reader.quantity("/mesh/fine_margin", mesh.fine_margin);
   mesh.largest = reader.quantity("/mesh/largest", mesh.largest);
   apply_tier_switches(reader, scene);
+  default_creep_refinements(reader, scene.numerics);
   if (scene.tier != "custom") return;
   const bool plane_strain = scene.numerics.plane_strain == Switch::on;
   demand_cell_sizes(reader, is_box, plane_strain);

@@ -243,7 +243,8 @@ struct Numerics {
   Switch plane_strain = Switch::off;       ///< one cell in y, front and back tied, u_y = 0.
   Switch creep = Switch::automatic;        ///< of viscous materials; off: they are elastic.
   double creep_time_step = 0;    ///< s, longest step of creep; 0 = found by error control.
-  int creep_refinements = 1;     ///< error control: how often a load step may be halved, 0 to 6.
+  int creep_refinements = 1;     ///< error control: how often a load step may be halved, 0 to 6;
+                                 ///< not given: 4 in plane strain, 1 in 3D.
   double creep_tolerance = 2e4;  ///< Pa, largest difference of fault traction between one step of
                                  ///< creep and two of half its length that is accepted.
   CreepScheme creep_scheme = CreepScheme::exponential;
