@@ -131,6 +131,32 @@ std::string episodes_text(const CaseResult& result) {
   return text;
 }
 
+/// How creep was stepped and the most that it changed on each fault.
+std::string creep_text(const CaseResult& result) {
+  int n_steps = 0;
+  double error = 0;
+  std::vector<double> shear(result.fault_names.size()), normal(shear);
+  for (const StepResult& step : result.steps) {
+    if (!step.creep) continue;
+    n_steps += step.creep->time_steps;
+    error = std::max(error, step.creep->time_error);
+    for (std::size_t f = 0; f < step.creep->faults.size(); ++f) {
+      const FaultCreep& fault = step.creep->faults[f];
+      shear[f] = std::max(shear[f], fault.shear_max);
+      normal[f] = std::max({normal[f], fault.normal_max, -fault.normal_min});
+    }
+  }
+  if (n_steps == 0) return "";
+  std::string text = format("creep: %d time steps", n_steps);
+  if (error > 0) text += format(", halving them changes tractions by up to %.3g MPa", error / 1e6);
+  text += "; salt changed shear and normal traction by up to";
+  for (std::size_t f = 0; f < shear.size(); ++f) {
+    text += format("%s %.1f and %.1f MPa on %s", f == 0 ? "" : ",", shear[f] / 1e6,
+                   normal[f] / 1e6, result.fault_names[f].c_str());
+  }
+  return text + "\n";
+}
+
 }  // namespace
 
 std::string case_summary(const CaseResult& result) {
@@ -161,7 +187,7 @@ std::string case_summary(const CaseResult& result) {
     if (stage.magnitude) text += format(" (Mw %.1f)", *stage.magnitude);
     text += stage.activated ? format(", activated in step %d\n", *stage.activation_step) : "\n";
   }
-  text += events_text(result) + episodes_text(result);
+  text += events_text(result) + episodes_text(result) + creep_text(result);
   for (const std::string& warning : result.warnings) text += "warning: " + warning + "\n";
   return text;
 }

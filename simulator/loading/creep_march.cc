@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "simulator/common/errors.h"
-#include "simulator/common/interrupt.h"
 #include "simulator/loading/case_contact.h"
 
 namespace faultsim {
@@ -62,7 +62,8 @@ struct CreepMarch::Impl {
   int finer(int rung) const;
   ContactSolver& solver(int rung, bool follows);
   Path step(const Point& from, const StepLoads& loads, double to, int rung, bool follows);
-  Path whole(const Point& from, double to, int rung);
+  Path whole(const Point& from, double to, int rung, bool shortest);
+  void discard(const Path& path);
   Path split(const Point& from, double to, int rung);
   Path joined(Path first, const Path& second) const;
   Path fixed(const Point& from, double to);
@@ -104,7 +105,6 @@ ContactSolver& CreepMarch::Impl::solver(int rung, bool follows) {
 /// of the load step, whose loads are linear in time.
 CreepMarch::Impl::Path CreepMarch::Impl::step(const Point& from, const StepLoads& loads, double to,
                                               int rung, bool follows) {
-  throw_if_interrupted("creep");
   const FaultOperator& op = ladder.op(rung);
   const FaultOperator& elastic = ladder.op(0);
   CreepLadder::History history = ladder.history(rung, from.bulk);
@@ -162,23 +162,29 @@ CreepMarch::Impl::Path CreepMarch::Impl::split(const Point& from, double to, int
   return joined(std::move(jump), creep);
 }
 
-CreepMarch::Impl::Path CreepMarch::Impl::whole(const Point& from, double to, int rung) {
+void CreepMarch::Impl::discard(const Path& path) {
+  const SolveCounts& counts = path.report.contact.counts;
+  thrown_away += counts.newton_iterations + counts.wasted_newton_iterations;
+}
+
+/// @param shortest  no shorter step will be tried.
+CreepMarch::Impl::Path CreepMarch::Impl::whole(const Point& from, double to, int rung,
+                                               bool shortest) {
   Path path = step(from, case_loads.at(to), to, rung, false);
-  if (path.good() || finer(rung) >= 0) return path;
-  thrown_away += path.report.contact.counts.newton_iterations +
-                 path.report.contact.counts.wasted_newton_iterations;
+  if (path.good() || !shortest) return path;
+  discard(path);
   return split(from, to, rung);
 }
 
 CreepMarch::Impl::Path CreepMarch::Impl::fixed(const Point& from, double to) {
-  const auto n = static_cast<int>(std::ceil((to - from.time) / numerics.creep_time_step - 1e-9));
-  const int rung = rung_of((to - from.time) / n);
-  FAULTSIM_DEMAND(rung > 0, "no rung of ", (to - from.time) / n, " s");
-  const double start = from.time;
-  Path path = whole(from, start + (to - start) / n, rung);
+  const double start = from.time, length = to - from.time;
+  const auto n = static_cast<int>(std::ceil(length / numerics.creep_time_step - 1e-9));
+  const int rung = rung_of(length / n);
+  FAULTSIM_DEMAND(rung > 0, "no rung of ", length / n, " s");
+  Path path = whole(from, start + length / n, rung, true);
   for (int i = 2; i <= n && path.good(); ++i) {
     const Point middle = path.end;
-    path = joined(std::move(path), whole(middle, start + (to - start) * i / n, rung));
+    path = joined(std::move(path), whole(middle, start + length * i / n, rung, true));
   }
   return path;
 }
@@ -190,32 +196,29 @@ CreepMarch::Impl::Path CreepMarch::Impl::controlled(const Point& from, double to
   if (half < 0) return coarse;
   const double middle = from.time + (to - from.time) / 2;
   const bool last = finer(half) < 0;
-  Path first = whole(from, middle, half);
+  Path first = whole(from, middle, half, last);
   Path second;
-  bool good_enough = false;
-  double difference = 0;
-  if (first.good()) {
-    second = whole(first.end, to, half);
-    if (coarse.good() && second.good()) {
-      difference =
-          (coarse.end.contact.traction - second.end.contact.traction).lpNorm<Eigen::Infinity>();
-      good_enough = difference <= numerics.creep_tolerance;
-    }
+  double difference = std::numeric_limits<double>::infinity();
+  if (first.good()) second = whole(first.end, to, half, last);
+  if (coarse.good() && first.good() && second.good()) {
+    difference =
+        (coarse.end.contact.traction - second.end.contact.traction).lpNorm<Eigen::Infinity>();
   }
-  thrown_away += coarse.report.contact.counts.newton_iterations +
-                 coarse.report.contact.counts.wasted_newton_iterations;
-  if (!good_enough && !last) {
-    const Point start = from;
-    Path path = controlled(start, middle, std::move(first), half);
+  discard(coarse);
+  if (difference > numerics.creep_tolerance && !last) {
+    discard(second);
+    Path path = controlled(from, middle, std::move(first), half);
     if (!path.good()) return path;
     const Point there = path.end;
-    Path rest = whole(there, to, half);
+    Path rest = whole(there, to, half, false);
     return joined(std::move(path), controlled(there, to, std::move(rest), half));
   }
   if (!first.good()) return first;
   Path path = joined(std::move(first), second);
-  path.report.time_error = std::max(path.report.time_error, difference);
-  path.report.time_resolved = path.report.time_resolved && (good_enough || !coarse.good());
+  if (std::isfinite(difference)) {  // else a jump was in the way, and there is nothing to compare
+    path.report.time_error = std::max(path.report.time_error, difference);
+    path.report.time_resolved = path.report.time_resolved && difference <= numerics.creep_tolerance;
+  }
   return path;
 }
 
@@ -243,7 +246,8 @@ CreepReport CreepMarch::advance(double to, ContactState& state) {
   } else {
     const int rung = self.rung_of(self.step_length);
     FAULTSIM_DEMAND(rung > 0, "no rung of ", self.step_length, " s");
-    path = self.controlled(self.now, to, self.whole(self.now, to, rung), rung);
+    const bool only = self.finer(rung) < 0;
+    path = self.controlled(self.now, to, self.whole(self.now, to, rung, only), rung);
   }
   path.report.contact.counts.wasted_newton_iterations += self.thrown_away;
   if (path.good()) {
