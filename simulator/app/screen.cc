@@ -151,8 +151,8 @@ std::string creep_text(const CaseResult& result) {
   if (error > 0) text += format(", halving them changes tractions by up to %.3g MPa", error / 1e6);
   text += "; salt changed shear and normal traction by up to";
   for (std::size_t f = 0; f < shear.size(); ++f) {
-    text += format("%s %.1f and %.1f MPa on %s", f == 0 ? "" : ",", shear[f] / 1e6,
-                   normal[f] / 1e6, result.fault_names[f].c_str());
+    text += format("%s %.1f and %.1f MPa on %s", f == 0 ? "" : ",", shear[f] / 1e6, normal[f] / 1e6,
+                   result.fault_names[f].c_str());
   }
   return text + "\n";
 }
