@@ -19,6 +19,8 @@
 #include "v6_frictional_crack.h"
 #include "v6_penny_crack.h"
 #include "v7_slider.h"
+#include "v8_column.h"
+#include "v8_maxwell.h"
 
 namespace faultsim {
 
@@ -34,7 +36,9 @@ std::string_view verification_scene(const std::string& file) {
       {"v5_slipping_fault.json", embedded::v5_slipping_fault},
       {"v6_frictional_crack.json", embedded::v6_frictional_crack},
       {"v6_penny_crack.json", embedded::v6_penny_crack},
-      {"v7_slider.json", embedded::v7_slider}};
+      {"v7_slider.json", embedded::v7_slider},
+      {"v8_column.json", embedded::v8_column},
+      {"v8_maxwell.json", embedded::v8_maxwell}};
   const auto found = scenes.find(file);
   FAULTSIM_DEMAND(found != scenes.end(), "no embedded scene ", file);
   return found->second;

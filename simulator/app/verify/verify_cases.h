@@ -32,6 +32,7 @@ std::vector<VerifyCase> displaced_cases();  // V4, V5
 std::vector<VerifyCase> crack_cases();      // V6, plane strain
 std::vector<VerifyCase> penny_cases();      // V6, 3D
 std::vector<VerifyCase> slider_cases();     // V7
+std::vector<VerifyCase> creep_cases();      // V8
 
 /// Runs one case. What goes wrong in it becomes VerifyReport::failure; only Interrupted (and bugs)
 /// leave.
