@@ -84,6 +84,9 @@ void add_running(CLI::App& app, Arguments& a, ExitCode& code, int argc, char** a
       ->transform(CLI::CheckedTransformer(styles));
   run->add_option("--simulator", a.run.simulator,
                   "the faultsim binary; default FAULTSIM_BINARY, or beside faultsweep");
+  run->add_option("--memory", a.run.memory,
+                  "for operators that are built or held together: \"12 GB\", 0 = no limit;\n"
+                  "default: 0.9 of what is available");
   run->add_option("--status-file", a.run.status_file)->group("");
   run->callback([&, argc, argv] { code = run_command(a.common, a.run, argc, argv); });
 }

@@ -43,7 +43,7 @@ std::filesystem::path simulator_binary() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "faultsim";
 }
 
-std::uint64_t parse_size(const std::string& text) {
+std::uint64_t parse_size(const std::string& option, const std::string& text) {
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
   std::string unit(end);
@@ -52,7 +52,7 @@ std::uint64_t parse_size(const std::string& text) {
   const double factor = unit == "GB" ? 1e9 : unit == "MB" ? 1e6 : unit == "kB" ? 1e3 : 1;
   const bool known = factor != 1 || (unit.empty() && number == 0) || unit == "B";
   if (end == text.c_str() || !(number >= 0) || number > 1e9 || !known) {
-    throw InputError("--max-size",
+    throw InputError(option,
                      {{"", 0, concat("\"", text, "\" is no size"), "write \"20 GB\" or 0"}});
   }
   return static_cast<std::uint64_t>(number * factor);
@@ -64,6 +64,9 @@ ExitCode run_command(const StoreArguments& common, RunOptions options, int argc,
   options.store = common.store;
   options.campaign = common.campaign;
   if (options.simulator.empty()) options.simulator = simulator_binary();
+  if (!options.memory.empty()) {
+    options.memory_bytes = static_cast<double>(parse_size("--memory", options.memory));
+  }
   if (is_rank()) return run_ranks(argc, argv, options);
   const ExitCode status = start_ranks(options);
   const std::string name = Store::open_reader(common.store).campaign(options.campaign).name;
@@ -206,7 +209,8 @@ ExitCode cache_verify_command(const StoreArguments& common) {
 }
 
 ExitCode cache_prune_command(const StoreArguments& common, const std::string& size) {
-  const auto freed = faultsim::prune_operators(common.store / "operators", parse_size(size), "");
+  const auto freed =
+      faultsim::prune_operators(common.store / "operators", parse_size("--max-size", size), "");
   std::printf("%llu\n", static_cast<unsigned long long>(freed));
   std::fprintf(stderr, "bytes freed; what is missing is built again when it is needed\n");
   return ExitCode::done;

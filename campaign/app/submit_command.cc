@@ -81,6 +81,23 @@ SubmitReport make_report(const Expansion& expansion) {
   return report;
 }
 
+/// What differs where salt creeps; "" where it does not.
+std::string creep_text(const std::vector<FamilyRecord>& families) {
+  long n_creeping = 0;
+  double memory = 0;
+  for (const FamilyRecord& family : families) {
+    if (!family.creeps()) continue;
+    ++n_creeping;
+    memory = std::max(memory, family.memory_bytes);
+  }
+  if (n_creeping == 0) return "";
+  constexpr double kGigabyte = 1e9;
+  return concat("salt creeps in ", n_creeping, n_creeping == 1 ? " family" : " families",
+                ": operators are built by each worker that runs it, not cached, and stay in its "
+                "memory, at most ",
+                format_number(memory / kGigabyte, 2), " GB per worker\n");
+}
+
 std::string report_to_text(const SubmitReport& report) {
   const Submission& s = report.submission;
   std::string text =
@@ -98,14 +115,15 @@ std::string report_to_text(const SubmitReport& report) {
   for (const ExcludedCases& excluded : report.excluded) {
     text += concat("  excluded ", excluded.n_cases, ": ", excluded.reason, "\n");
   }
-  TextTable table({"family", "cases", "unknowns", "on faults", "operator/s", "memory/GB"});
+  TextTable table(
+      {"family", "cases", "unknowns", "on faults", "operators", "build/s", "memory/GB"});
   constexpr std::size_t kShown = 20;
   constexpr double kGigabyte = 1e9;
   for (std::size_t k = 0; k < std::min(kShown, s.families.size()); ++k) {
     const FamilyRecord& family = s.families[k];
     table.add_row({family.fingerprint.substr(0, 8), std::to_string(report.cases_per_family[k]),
                    std::to_string(family.unknowns), std::to_string(family.jump_unknowns),
-                   format_number(family.operator_seconds, 2),
+                   std::to_string(family.n_operators), format_number(family.operator_seconds, 2),
                    format_number(family.memory_bytes / kGigabyte, 2)});
   }
   text += table.text();
@@ -113,7 +131,7 @@ std::string report_to_text(const SubmitReport& report) {
     text += concat("and ", s.families.size() - kShown, " more families\n");
   text += concat("predicted: ", format_duration(report.operator_seconds),
                  " for the operators that are not cached, on one core\n");
-  return text;
+  return text + creep_text(s.families);
 }
 
 json report_to_json(const SubmitReport& report) {
@@ -129,6 +147,8 @@ json report_to_json(const SubmitReport& report) {
                         {"cases", report.cases_per_family[k]},
                         {"unknowns", family.unknowns},
                         {"jump_unknowns", family.jump_unknowns},
+                        {"creeps", family.creeps()},
+                        {"n_operators", family.n_operators},
                         {"predicted_operator_s", family.operator_seconds},
                         {"predicted_memory_bytes", family.memory_bytes}});
   }

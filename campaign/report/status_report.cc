@@ -1,5 +1,6 @@
 #include "campaign/report/status_report.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "campaign/report/text_table.h"
@@ -54,6 +55,22 @@ std::string manager_text(const StatusReport& status) {
   return text + "\n";
 }
 
+/// Families whose operators are not shared; "" where there are none.
+std::string creep_text(const std::vector<Store::FamilyProgress>& families) {
+  long n_creeping = 0;
+  double memory = 0;
+  for (const auto& family : families) {
+    if (family.n_operators < 2) continue;
+    ++n_creeping;
+    memory = std::max(memory, family.memory_bytes);
+  }
+  if (n_creeping == 0) return "";
+  constexpr double kGigabyte = 1e9;
+  return concat("salt creeps in ", n_creeping, n_creeping == 1 ? " family" : " families",
+                ": operators are built by each worker that runs it, at most ",
+                format_number(memory / kGigabyte, 2), " GB each\n");
+}
+
 /// Complete histories with slip events, counted apart from converged ones.
 std::string events_text(const CampaignInfo& c) {
   std::string text;
@@ -74,6 +91,7 @@ std::string status_to_text(const StatusReport& status) {
   text += concat("submitted ", format_time(c.submitted_at), " from ", c.source, ", ",
                  status.families.size(), " families, ", c.n_excluded, " excluded, ", c.n_merged,
                  " merged, on failure: ", to_string(c.policy.on_failure), "\n");
+  text += creep_text(status.families);
   if (c.keep_fields != KeepFields::none) {
     const long n_lacking = c.n_fields_waiting + c.n_fields_failed;
     text += concat("fault fields: ", to_string(c.keep_fields));
@@ -116,6 +134,9 @@ json status_to_json(const StatusReport& status) {
   for (const auto& family : status.families) {
     families.push_back({{"family", family.fingerprint},
                         {"operator", family.operator_fingerprint},
+                        {"creeps", family.n_operators > 1},
+                        {"n_operators", family.n_operators},
+                        {"predicted_memory_bytes", family.memory_bytes},
                         {"cases", family.n_cases},
                         {"done", family.n_done},
                         {"failed", family.n_failed},

@@ -48,6 +48,8 @@ class JobRunner {
   virtual ~JobRunner() = default;
   /// Turns to a family. @pre no jobs are left.
   virtual void begin_family(const FamilyTask& task) = 0;
+  /// Lets go of the family: when it returns, the simulator's memory is free. @pre no jobs are left.
+  virtual void end_family() = 0;
   virtual void add(Job job) = 0;
   /// Works for at most about timeout_ms and tells what happened. Throws ResourceError when the
   /// simulator cannot be run at all.

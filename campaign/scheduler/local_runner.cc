@@ -67,14 +67,17 @@ OperatorRecord operator_record(const json& reply) {
 }  // namespace
 
 void LocalRunner::begin_family(const FamilyTask& task) {
-  FAULTSIM_DEMAND(jobs_.empty(), jobs_.size());
-  if (process_) {
-    process_->finish();
-    process_->exchange(0);
-    process_->wait(kEndGrace);
-    process_.reset();
-  }
+  end_family();
   task_ = task;
+}
+
+void LocalRunner::end_family() {
+  FAULTSIM_DEMAND(jobs_.empty(), jobs_.size());
+  if (!process_) return;
+  process_->finish();
+  process_->exchange(0);
+  process_->wait(kEndGrace);
+  process_.reset();
 }
 
 void LocalRunner::add(Job job) {

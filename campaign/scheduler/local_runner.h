@@ -26,6 +26,7 @@ class LocalRunner final : public JobRunner {
   explicit LocalRunner(Options options) : options_(std::move(options)) {}
 
   void begin_family(const FamilyTask& task) override;
+  void end_family() override;
   void add(Job job) override;
   JobEvents work(int timeout_ms) override;
   void drain() override;

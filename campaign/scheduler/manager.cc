@@ -22,8 +22,9 @@ FamilyWork work_of(const WaitingFamily& waiting, const std::filesystem::path& op
   work.operator_seconds = waiting.predicted.operator_seconds;
   work.case_seconds = waiting.seconds_per_case.value_or(0);
   work.memory_bytes = waiting.predicted.memory_bytes;
+  work.creeps = waiting.predicted.creeps();
   work.operator_cached =
-      !waiting.operator_fingerprint.empty() &&
+      !work.creeps && !waiting.operator_fingerprint.empty() &&
       std::filesystem::exists(operators / (waiting.operator_fingerprint + ".h5"));
   return work;
 }
@@ -83,6 +84,8 @@ bool Manager::turn() {
     } else if (const auto* trouble = std::get_if<message::Trouble>(&received->message)) {
       if (trouble_.empty()) trouble_ = trouble->text;
       plan_->stop();
+    } else if (std::holds_alternative<message::Released>(received->message)) {
+      plan_->released(received->worker);
     } else {
       FAULTSIM_DEMAND(std::holds_alternative<message::Drained>(received->message),
                       received->message.index());
@@ -122,7 +125,7 @@ void Manager::handle(int worker, message::Events message) {
   for (const OperatorRecord& record : message.events.operators) {
     const int family = plan_->family_of(worker);
     FAULTSIM_DEMAND(family >= 0, worker);
-    plan_->operator_ready(family, record.seconds, record.from_cache);
+    plan_->operator_ready(worker, record.seconds, record.from_cache);
     operators_.emplace_back(family, record);
   }
   for (RunRecord& run : message.events.completed) handle_result(worker, std::move(run));
@@ -225,6 +228,9 @@ void Manager::hand_out() {
         any = busy_ = true;
       }
     }
+  }
+  for (int worker = 0; worker < link_.n_workers(); ++worker) {
+    if (plan_->take_release(worker)) link_.send(worker, message::Release{});
   }
 }
 

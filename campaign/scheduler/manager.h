@@ -35,7 +35,7 @@ class Manager {
  public:
   struct Options {
     std::string campaign;     ///< "" = the newest.
-    double memory_bytes = 0;  ///< for operator builds together; 0 = not limited.
+    double memory_bytes = 0;  ///< for operators built and held together; 0 = not limited.
     double patience = 10;     ///< s for cases under way once stopped.
   };
   /// Claims the store. Throws StorageError.

@@ -77,9 +77,8 @@ ExitCode manage(Messenger& messenger, const RunOptions& options, bool& in_order)
   MpiWorkers link(messenger);
   constexpr double kMemoryShare =
       0.9;  // of what is available now; the rest is for results and cache
-  Manager manager(
-      store, link, display,
-      {options.campaign, kMemoryShare * available_memory(), Manager::Options{}.patience});
+  const double memory = options.memory_bytes.value_or(kMemoryShare * available_memory());
+  Manager manager(store, link, display, {options.campaign, memory, Manager::Options{}.patience});
   IdleSleep idle(IdleSleep::kManagerLongest);
   while (manager.turn()) {
     if (stop_wanted != 0) manager.interrupt();

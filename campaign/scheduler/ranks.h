@@ -15,6 +15,10 @@ struct RunOptions {
   std::string campaign;             ///< "" = the newest.
   std::optional<int> n_workers;     ///< default: available_cores().
   std::filesystem::path simulator;  ///< the faultsim binary.
+  /// For operators that are built or held together, bytes, 0 = not limited; default: 0.9 of what is
+  /// available.
+  std::optional<double> memory_bytes;
+  std::string memory;  ///< the same as given: "12 GB".
   ProgressDisplay::Style progress = ProgressDisplay::Style::lines;
   std::filesystem::path status_file;  ///< of the ranks: where rank 0 leaves the campaign's status.
 };

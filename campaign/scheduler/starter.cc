@@ -124,6 +124,7 @@ std::vector<std::string> mpirun_command(const RunOptions& options, int n_workers
                                         "--status-file",
                                         scratch.status_file().string()};
   command.insert(command.end(), own.begin(), own.end());
+  if (options.memory_bytes) command.insert(command.end(), {"--memory", options.memory});
   return command;
 }
 

@@ -118,9 +118,17 @@ void fields(Archive& a, faultsim::SolveCounts& c) {
   all(a, c.newton_iterations, c.active_set_passes, c.sub_steps, c.wasted_newton_iterations);
 }
 template <typename Archive>
+void fields(Archive& a, faultsim::FaultCreep& c) {
+  all(a, c.normal_min, c.normal_max, c.shear_max);
+}
+template <typename Archive>
+void fields(Archive& a, faultsim::StepCreep& c) {
+  all(a, c.time_steps, c.time_error, c.time_resolved, c.faults);
+}
+template <typename Archive>
 void fields(Archive& a, StepResult& s) {
   all(a, s.step, s.stage, s.time, s.pressure_change, s.outcome, s.reason, s.n_stick, s.n_slip,
-      s.n_open, s.faults, s.observed, s.counts, s.seconds);
+      s.n_open, s.faults, s.observed, s.creep, s.counts, s.seconds);
 }
 template <typename Archive>
 void fields(Archive& a, StageMetrics& m) {
@@ -195,6 +203,10 @@ template <typename Archive>
 void fields(Archive&, message::Drain&) {}
 template <typename Archive>
 void fields(Archive&, message::Quit&) {}
+template <typename Archive>
+void fields(Archive&, message::Release&) {}
+template <typename Archive>
+void fields(Archive&, message::Released&) {}
 
 template <std::size_t Index = 0>
 void read_alternative(std::size_t index, Reader& reader, Message& message) {

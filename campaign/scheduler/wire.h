@@ -27,6 +27,8 @@ struct Trouble {  ///< the worker cannot go on: the simulator cannot be run.
 };
 struct Drained {  ///< nothing is under way any more.
 };
+struct Released {  ///< the simulator has ended.
+};
 
 // From manager to worker.
 struct Work {
@@ -42,12 +44,15 @@ struct Work {
 };
 struct Drain {  ///< finish the case under way, hand back the others, say Drained.
 };
+struct Release {  ///< end the simulator: what it holds is of no use any more.
+};
 struct Quit {};
 
 }  // namespace message
 
-using Message = std::variant<message::Hello, message::Events, message::Trouble, message::Drained,
-                             message::Work, message::Drain, message::Quit>;
+using Message =
+    std::variant<message::Hello, message::Events, message::Trouble, message::Drained, message::Work,
+                 message::Drain, message::Quit, message::Release, message::Released>;
 
 std::string encode(const Message& message);
 /// Throws InternalError on bytes that are no message.

@@ -36,25 +36,46 @@ double WorkPlan::case_seconds(const Family& entry) const {
   return entry.work.case_seconds;
 }
 
+double WorkPlan::build_seconds(const Family& entry) const {
+  const double ratio = predicted_operators_ > 0 ? measured_operators_ / predicted_operators_ : 1;
+  return ratio * entry.work.operator_seconds;
+}
+
 double WorkPlan::total_seconds(const Family& entry) const {
   constexpr double kUnknownCase = 1e-3;  // s; only decides the order of families alike
   const double one = case_seconds(entry) > 0 ? case_seconds(entry) : kUnknownCase;
   double seconds = one * static_cast<double>(entry.waiting.size());
-  if (entry.state == State::cold) {
-    const double ratio = predicted_operators_ > 0 ? measured_operators_ / predicted_operators_ : 1;
-    seconds += ratio * entry.work.operator_seconds;
-  }
+  if (entry.state == State::cold) seconds += build_seconds(entry);
   return seconds;
 }
 
-bool WorkPlan::fits_in_memory(const Family& entry) const {
+bool WorkPlan::has_operator(int worker, int index) const {
+  if (!family(index).work.creeps) return family(index).state == State::ready;
+  return at(worker).holds == index && at(worker).has_operators;
+}
+
+bool WorkPlan::fits_in_memory(int worker, int index) const {
   if (limits_.memory_bytes <= 0) return true;
   double used = 0;
   for (const Family& other : families_) {
-    if (other.state == State::building) used += other.work.memory_bytes;
+    if (!other.work.creeps && other.state == State::building) used += other.work.memory_bytes;
+  }
+  for (const Worker& other : workers_) {
+    // The worker itself lets go of what it holds before it builds.
+    if (other.holds >= 0 && &other != &at(worker)) used += family(other.holds).work.memory_bytes;
   }
   // Alone it may always try: the prediction may be too careful.
-  return used == 0 || used + entry.work.memory_bytes <= limits_.memory_bytes;
+  return used == 0 || used + family(index).work.memory_bytes <= limits_.memory_bytes;
+}
+
+/// Those n who are on it need W/n seconds for what waits, n + 1 need (W + B)/(n + 1) with the build
+/// B. W is not known before the first case has ended.
+bool WorkPlan::pays_to_join(int index) const {
+  const Family& entry = family(index);
+  const auto n = std::count_if(workers_.begin(), workers_.end(),
+                               [index](const Worker& worker) { return worker.holds == index; });
+  const double waiting = case_seconds(entry) * static_cast<double>(entry.waiting.size());
+  return !entry.alone && waiting > static_cast<double>(n) * build_seconds(entry);
 }
 
 bool WorkPlan::has_unclaimed_family() const {
@@ -64,19 +85,27 @@ bool WorkPlan::has_unclaimed_family() const {
 }
 
 int WorkPlan::choose_family(int worker) const {
-  const int own = workers_[static_cast<std::size_t>(worker)].family;
-  if (own >= 0 && family(own).state != State::building && !family(own).waiting.empty()) return own;
+  for (const int own : {at(worker).family, at(worker).holds}) {
+    if (own >= 0 && has_operator(worker, own) && !family(own).waiting.empty()) return own;
+  }
   for (const int index : order_) {
     const Family& entry = family(index);
     if (entry.waiting.empty() || entry.n_workers > 0) continue;
-    if (entry.state == State::cold && !fits_in_memory(entry)) continue;
+    if (entry.work.creeps && entry.state != State::cold) continue;  // somebody still has it
+    if (!has_operator(worker, index) && !fits_in_memory(worker, index)) continue;
     return index;
   }
+  return family_to_join(worker);
+}
+
+/// Of those that others are on, the one with the most to do per worker; -1 = none.
+int WorkPlan::family_to_join(int worker) const {
   int best = -1;
   double most = 0;
   for (const int index : order_) {
     const Family& entry = family(index);
     if (entry.waiting.empty() || entry.state != State::ready) continue;
+    if (entry.work.creeps && !(pays_to_join(index) && fits_in_memory(worker, index))) continue;
     const double share = total_seconds(entry) / (entry.n_workers + 1);
     if (best < 0 || share > most) {
       best = index;
@@ -88,11 +117,11 @@ int WorkPlan::choose_family(int worker) const {
 
 std::optional<Slice> WorkPlan::next(int worker) {
   if (stopped_) return std::nullopt;
-  Worker& self = workers_[static_cast<std::size_t>(worker)];
+  Worker& self = at(worker);
   if (self.n_cases > 0) {
     // Keep the pipe full, but only with the family that is at hand.
     const Family& own = family(self.family);
-    if (own.state != State::ready || own.waiting.empty()) return std::nullopt;
+    if (!has_operator(worker, self.family) || own.waiting.empty()) return std::nullopt;
     const double ahead = static_cast<double>(self.n_cases) * case_seconds(own);
     if (ahead > kSliceSeconds / 2 || own.measured_cases == 0 || self.n_cases > kLargestSlice) {
       return std::nullopt;
@@ -101,35 +130,65 @@ std::optional<Slice> WorkPlan::next(int worker) {
   }
   const int index = choose_family(worker);
   if (index < 0) return std::nullopt;
+  turn_to(worker, index);
+  return cut(worker, index);
+}
+
+void WorkPlan::turn_to(int worker, int index) {
+  Worker& self = at(worker);
   if (self.family != index) {
     leave_family(self);
     self.family = index;
     ++family(index).n_workers;
   }
-  return cut(worker, index);
+  if (self.holds != index || self.is_releasing) let_go(self);
+  if (!family(index).work.creeps) {
+    if (family(index).state == State::cold) family(index).state = State::building;
+    return;
+  }
+  self.holds = index;
+  update_state(index);
+}
+
+void WorkPlan::let_go(Worker& worker) {
+  const int held = worker.holds;
+  worker.holds = -1;
+  worker.has_operators = worker.is_releasing = false;
+  if (held >= 0) update_state(held);
+}
+
+/// @pre salt creeps in it.
+void WorkPlan::update_state(int index) {
+  State state = State::cold;
+  for (const Worker& worker : workers_) {
+    if (worker.holds != index || worker.is_releasing) continue;
+    if (worker.has_operators) state = State::ready;
+    if (state == State::cold) state = State::building;
+  }
+  family(index).state = state;
 }
 
 Slice WorkPlan::cut(int worker, int index) {
   Family& entry = family(index);
   Slice slice;
   slice.family = index;
-  slice.builds_operator = entry.state == State::cold;
+  slice.builds_operator = !has_operator(worker, index);
   std::size_t size = 1;  // also while the time of a case is unknown: the first tells
   const double one = case_seconds(entry);
   if (!slice.builds_operator && one > 0) {
-    const int sharers = has_unclaimed_family() ? entry.n_workers : limits_.n_workers;
+    const bool all_may_come = !has_unclaimed_family() && !entry.work.creeps;
+    const int sharers = all_may_come ? limits_.n_workers : entry.n_workers;
     const double fair = std::ceil(static_cast<double>(entry.waiting.size()) / (2.0 * sharers));
     size = static_cast<std::size_t>(
         std::clamp(std::min(std::ceil(kSliceSeconds / one), fair), 1.0, double{kLargestSlice}));
   }
-  if (slice.builds_operator) entry.state = State::building;
   for (std::size_t k = 0; k < size && !entry.waiting.empty(); ++k) {
     const std::int64_t id = entry.waiting.front();
     entry.waiting.pop_front();
     --n_waiting_;
     slice.cases.push_back(id);
     in_flight_[id] = {index, worker};
-    ++workers_[static_cast<std::size_t>(worker)].n_cases;
+    ++at(worker).n_cases;
   }
   return slice;
 }
@@ -139,28 +198,48 @@ void WorkPlan::leave_family(Worker& worker) {
   worker.family = -1;
 }
 
-void WorkPlan::operator_ready(int index, double seconds, bool from_cache) {
+void WorkPlan::operator_ready(int worker, double seconds, bool from_cache) {
+  const int index = family_of(worker);
+  FAULTSIM_DEMAND(index >= 0, worker);
   Family& entry = family(index);
   if (!from_cache && entry.work.operator_seconds > 0) {
     predicted_operators_ += entry.work.operator_seconds;
     measured_operators_ += seconds;
   }
   entry.state = State::ready;
+  if (entry.work.creeps) at(worker).has_operators = true;
+}
+
+bool WorkPlan::take_release(int worker) {
+  Worker& self = at(worker);
+  if (stopped_ || self.holds < 0 || self.n_cases > 0 || self.is_releasing) return false;
+  if (!family(self.holds).waiting.empty()) return false;
+  self.is_releasing = true;
+  update_state(self.holds);
+  return true;
+}
+
+void WorkPlan::released(int worker) {
+  if (at(worker).is_releasing) let_go(at(worker));  // else it has turned to another family since
 }
 
 void WorkPlan::landed(int worker, std::int64_t case_id) {
   const auto flight = in_flight_.find(case_id);
   FAULTSIM_DEMAND(flight != in_flight_.end() && flight->second.worker == worker, case_id, " ",
                   worker);
-  Family& entry = family(flight->second.family);
+  const int index = flight->second.family;
   in_flight_.erase(flight);
-  Worker& self = workers_[static_cast<std::size_t>(worker)];
-  --self.n_cases;
-  // The builder ended without an operator: somebody else may try with another case.
-  if (entry.state == State::building && self.n_cases == 0) {
-    entry.state = State::cold;
+  Worker& self = at(worker);
+  if (--self.n_cases > 0) return;
+  if (!has_operator(worker, index)) {
+    // The builder ended without an operator: somebody else may try with another case.
+    if (family(index).work.creeps) {
+      let_go(self);
+    } else {
+      family(index).state = State::cold;
+    }
     leave_family(self);
-  } else if (entry.waiting.empty() && self.n_cases == 0) {
+  } else if (family(index).waiting.empty()) {
     leave_family(self);
   }
 }
@@ -174,6 +253,18 @@ void WorkPlan::case_done(int worker, std::int64_t case_id, double seconds) {
 
 bool WorkPlan::case_failed(int worker, std::int64_t case_id, bool in_operator) {
   const int index = family_index(case_id);
+  if (in_operator && family(index).work.creeps) {
+    at(worker).has_operators = false;  // it may have had some, in a simulator that died
+    update_state(index);
+    if (family(index).state == State::ready) {
+      // Another worker has them, so the case is not to blame: there is no room for two.
+      family(index).alone = true;
+      family(index).waiting.push_back(case_id);
+      ++n_waiting_;
+      landed(worker, case_id);
+      return true;
+    }
+  }
   if (in_operator) ++family(index).operator_failures;
   landed(worker, case_id);
   if (limits_.on_failure == FailureAction::abort) stop();
@@ -209,7 +300,7 @@ bool WorkPlan::is_finished() const { return in_flight_.empty() && (stopped_ || n
 
 bool WorkPlan::is_building(int worker) const {
   const int index = family_of(worker);
-  return index >= 0 && family(index).state == State::building;
+  return index >= 0 && at(worker).n_cases > 0 && !has_operator(worker, index);
 }
 
 int WorkPlan::family_index(std::int64_t case_id) const {
@@ -220,10 +311,13 @@ int WorkPlan::family_index(std::int64_t case_id) const {
 
 double WorkPlan::seconds_left() const {
   double work = 0;
-  double longest = 0;  // a single family's build cannot be shared
+  double longest = 0;  // of what cannot be shared: a build, cases of a family that is not joined
   for (const Family& entry : families_) {
-    if (!entry.waiting.empty()) work += total_seconds(entry);
-    if (entry.state == State::cold && !entry.waiting.empty()) {
+    if (entry.waiting.empty()) continue;
+    work += total_seconds(entry);
+    if (entry.work.creeps) {
+      longest = std::max(longest, total_seconds(entry) / std::max(entry.n_workers, 1));
+    } else if (entry.state == State::cold) {
       longest = std::max(longest, entry.work.operator_seconds);
     }
   }

@@ -19,6 +19,9 @@ struct FamilyWork {
   double case_seconds = 0;      ///< predicted or measured earlier; 0 = unknown.
   double memory_bytes = 0;      ///< predicted peak while the operator is built.
   bool operator_cached = false;
+  /// Salt creeps: each worker on the family builds its operators for itself and holds them, and the
+  /// memory, as long as it has cases of it. @pre not operator_cached.
+  bool creeps = false;
 };
 
 /// Cases of one family for one worker.
@@ -34,11 +37,15 @@ struct Slice {
 /// builds a family's operator while others take other families; once it is there the family's cases
 /// are shared out in slices that hold about kSliceSeconds of work, and less towards the end so that
 /// all workers end together. Two operators are not built at once unless both fit into memory.
+///
+/// The operators of a family whose salt creeps are one worker's own. Another worker joins it only
+/// if a second set fits beside all that is held and being built, and if it pays: what waits keeps
+/// each of those who are on it busy for longer than a build takes. Results do not depend on it.
 class WorkPlan {
  public:
   struct Limits {
     int n_workers = 1;
-    double memory_bytes = 0;  ///< for all builds together; 0 = not limited.
+    double memory_bytes = 0;  ///< for all that is built or held together; 0 = not limited.
     FailureAction on_failure = FailureAction::proceed;
     int retries = 0;  ///< further attempts of a failed case, of FailureAction::retry.
   };
@@ -47,13 +54,18 @@ class WorkPlan {
   /// What the worker (from 0) is to do in addition to what it has; nothing = have it wait.
   std::optional<Slice> next(int worker);
 
-  void operator_ready(int family, double seconds, bool from_cache);
+  /// The worker has the operator, or operators, of the family that it is on.
+  void operator_ready(int worker, double seconds, bool from_cache);
   void case_done(int worker, std::int64_t case_id, double seconds);
   /// A case failed. True if it is to be tried again (it waits again), false if that was final.
   /// @param in_operator  the operator was under way, the case itself had not started.
   bool case_failed(int worker, std::int64_t case_id, bool in_operator);
   /// Cases that a worker hands back untried.
   void returned(int worker, const std::vector<std::int64_t>& cases);
+  /// True, once, when the operators that the worker holds are of no use any more: its simulator is
+  /// to end. Their memory counts until released().
+  bool take_release(int worker);
+  void released(int worker);
   /// The cases that still wait in families whose operator cannot be built (it failed
   /// kOperatorAttempts times); they are to be recorded as failed, and are forgotten here.
   std::vector<std::int64_t> take_hopeless();
@@ -65,11 +77,9 @@ class WorkPlan {
   bool is_finished() const;
   long n_waiting() const { return n_waiting_; }
   long n_in_flight() const { return static_cast<long>(in_flight_.size()); }
-  long n_outstanding(int worker) const {
-    return workers_[static_cast<std::size_t>(worker)].n_cases;
-  }
+  long n_outstanding(int worker) const { return at(worker).n_cases; }
   /// Index of the family that the worker is on; -1 = none.
-  int family_of(int worker) const { return workers_[static_cast<std::size_t>(worker)].family; }
+  int family_of(int worker) const { return at(worker).family; }
   bool is_building(int worker) const;
   int family_index(std::int64_t case_id) const;  ///< of a case in flight.
   /// Predicted wall seconds until all is done, from what was measured so far.
@@ -85,15 +95,19 @@ class WorkPlan {
   struct Family {
     FamilyWork work;
     std::deque<std::int64_t> waiting;
-    State state = State::cold;
+    State state = State::cold;  ///< where salt creeps: of the worker that is furthest.
     int n_workers = 0;
     int operator_failures = 0;
+    bool alone = false;  ///< salt creeps, and a second set of operators could not be built.
     double measured_seconds = 0;  ///< of measured_cases cases.
     long measured_cases = 0;
   };
   struct Worker {
     int family = -1;
     long n_cases = 0;
+    int holds = -1;  ///< the creeping family whose operators its simulator builds or has.
+    bool has_operators = false;  ///< of that family.
+    bool is_releasing = false;
   };
   struct Flight {
     int family = 0;
@@ -101,11 +115,20 @@ class WorkPlan {
   };
 
   Family& family(int index) { return families_[static_cast<std::size_t>(index)]; }
+  Worker& at(int worker) { return workers_[static_cast<std::size_t>(worker)]; }
+  const Worker& at(int worker) const { return workers_[static_cast<std::size_t>(worker)]; }
   const Family& family(int index) const { return families_[static_cast<std::size_t>(index)]; }
   double case_seconds(const Family& family) const;
+  double build_seconds(const Family& family) const;
   double total_seconds(const Family& family) const;
+  bool has_operator(int worker, int family) const;
   int choose_family(int worker) const;
-  bool fits_in_memory(const Family& family) const;
+  int family_to_join(int worker) const;
+  bool fits_in_memory(int worker, int family) const;
+  bool pays_to_join(int family) const;
+  void turn_to(int worker, int family);
+  void let_go(Worker& worker);
+  void update_state(int family);
   bool has_unclaimed_family() const;
   Slice cut(int worker, int index);
   void leave_family(Worker& worker);

@@ -41,6 +41,8 @@ bool Worker::turn(int timeout_ms) {
     busy_ = true;
     if (const auto* work = std::get_if<message::Work>(&*message)) {
       take(*work);
+    } else if (std::holds_alternative<message::Release>(*message)) {
+      release();
     } else if (std::holds_alternative<message::Drain>(*message)) {
       draining_ = true;
       runner_.drain();
@@ -93,6 +95,14 @@ void Worker::take(const message::Work& work) {
     in_trouble_ = true;
     link_.send(message::Trouble{error.what()});
   }
+}
+
+void Worker::release() {
+  if (!in_trouble_) {
+    runner_.end_family();
+    family_ = -1;
+  }
+  link_.send(message::Released{});
 }
 
 void Worker::collect(JobEvents events) {

@@ -34,6 +34,7 @@ class Worker {
 
  private:
   void take(const message::Work& work);
+  void release();
   void collect(JobEvents events);
   void report(bool now);
 

@@ -94,10 +94,10 @@ std::vector<std::int64_t> add_families(Connection& db, const Submission& submiss
   for (const FamilyRecord& family : submission.families) {
     db.prepared(
           "INSERT INTO families (fingerprint, predicted_unknowns, predicted_jump_unknowns,"
-          " predicted_operator_s, predicted_memory_bytes) VALUES (?, ?, ?, ?, ?)"
-          " ON CONFLICT (fingerprint) DO NOTHING")
+          " predicted_operator_s, predicted_memory_bytes, n_operators) VALUES (?, ?, ?, ?, ?, ?)"
+          " ON CONFLICT (fingerprint) DO UPDATE SET n_operators = excluded.n_operators")
         .bind(family.fingerprint, family.unknowns, family.jump_unknowns, family.operator_seconds,
-              family.memory_bytes)
+              family.memory_bytes, family.n_operators)
         .run();
     Statement& query = db.prepared("SELECT id FROM families WHERE fingerprint = ?");
     query.bind(family.fingerprint).step();

@@ -5,6 +5,7 @@
 #include "campaign/store/sqlite.h"
 #include "store_2_sql.h"
 #include "store_3_sql.h"
+#include "store_4_sql.h"
 #include "store_sql.h"
 
 namespace faultsweep {
@@ -68,6 +69,7 @@ const std::vector<Migration>& store_migrations() {
       {1, "created", faultsim::embedded::store_sql},
       {2, "2026-11-21 fields of cases", faultsim::embedded::store_2_sql},
       {3, "2026-11-21 slip events and episodes", faultsim::embedded::store_3_sql},
+      {4, "2026-11-21 creep of salt", faultsim::embedded::store_4_sql},
   };
   return migrations;
 }

@@ -56,6 +56,13 @@ std::vector<double> numbers_of(const std::string& json_array) {
   return numbers;
 }
 
+std::optional<faultsim::StepCreep> read_step_creep(const Statement& row, int first) {
+  const auto time_steps = row.optional_integer(first);
+  if (!time_steps) return std::nullopt;
+  return faultsim::StepCreep{
+      static_cast<int>(*time_steps), row.real(first + 1), row.integer(first + 2) != 0, {}};
+}
+
 faultsim::FaultMetrics read_fault_metrics(const Statement& row) {
   faultsim::FaultMetrics m;
   m.chi_bar = row.real(3);
@@ -110,7 +117,8 @@ std::vector<StoredRun> read_runs(Connection& db, std::int64_t case_id) {
 void read_steps(Connection& db, std::int64_t case_id, CaseResult& result) {
   Statement& steps = db.prepared(
       "SELECT l.step, n.name, l.time_s, l.pressure_change_pa, l.outcome, l.reason, l.n_stick,"
-      " l.n_slip, l.n_open, l.newton_iterations, l.active_set_passes FROM load_steps l"
+      " l.n_slip, l.n_open, l.newton_iterations, l.active_set_passes, l.time_steps,"
+      " l.time_error_pa, l.time_resolved FROM load_steps l"
       " JOIN names n ON n.id = l.stage_id WHERE l.case_id = ? ORDER BY l.step");
   steps.bind(case_id);
   while (steps.step()) {
@@ -126,21 +134,26 @@ void read_steps(Connection& db, std::int64_t case_id, CaseResult& result) {
     step.n_open = static_cast<int>(steps.integer(8));
     step.counts.newton_iterations = static_cast<int>(steps.integer(9));
     step.counts.active_set_passes = static_cast<int>(steps.integer(10));
+    step.creep = read_step_creep(steps, 11);
     result.steps.push_back(std::move(step));
   }
   Statement& faults = db.prepared(
       "SELECT h.fault, h.step, n.name, chi_bar, chi_max, chi_static_max, area_chi_080_m2,"
       " thickness_chi_080_max_m, thickness_chi_080_mean_m, slipping_area_m2, open_area_m2,"
       " activated_area_m2, activated_length_m, activated, max_slip_m, mean_slip_m, potency_m3,"
-      " moment_nm, moment_step_nm, activated_at_edge FROM chi_history h JOIN names n ON n.id = "
-      "h.fault_id"
+      " moment_nm, moment_step_nm, activated_at_edge, creep_normal_min_pa, creep_normal_max_pa,"
+      " creep_shear_max_pa FROM chi_history h JOIN names n ON n.id = h.fault_id"
       " WHERE h.case_id = ? ORDER BY h.fault, h.step");
   faults.bind(case_id);
   while (faults.step()) {
     const auto fault = static_cast<std::size_t>(faults.integer(0));
     if (result.fault_names.size() <= fault) result.fault_names.push_back(faults.text(2));
     for (faultsim::StepResult& step : result.steps) {
-      if (step.step == faults.integer(1)) step.faults.push_back(read_fault_metrics(faults));
+      if (step.step != faults.integer(1)) continue;
+      step.faults.push_back(read_fault_metrics(faults));
+      if (step.creep && faults.optional_real(20)) {
+        step.creep->faults.push_back({faults.real(20), faults.real(21), faults.real(22)});
+      }
     }
   }
 }
@@ -371,7 +384,8 @@ std::vector<EventRecord> Store::events(std::int64_t campaign, int limit) const {
 std::vector<Store::FamilyProgress> Store::family_progress(std::int64_t campaign) const {
   std::vector<FamilyProgress> all;
   Statement& query = connection_->prepared(
-      "SELECT f.fingerprint, coalesce(f.operator, ''), g.n_cases, g.n_done, g.n_failed, o.build_s"
+      "SELECT f.fingerprint, coalesce(f.operator, ''), g.n_cases, g.n_done, g.n_failed, o.build_s,"
+      " f.n_operators, f.predicted_memory_bytes"
       " FROM (SELECT family_id, count(*) AS n_cases, total(state = 'done') AS n_done,"
       "  total(state = 'failed') AS n_failed FROM campaign_case_states WHERE campaign_id = ?"
       "  GROUP BY family_id) g JOIN families f ON f.id = g.family_id"
@@ -380,7 +394,7 @@ std::vector<Store::FamilyProgress> Store::family_progress(std::int64_t campaign)
   while (query.step()) {
     all.push_back({query.text(0), query.text(1), static_cast<long>(query.integer(2)),
                    static_cast<long>(query.integer(3)), static_cast<long>(query.integer(4)),
-                   query.optional_real(5)});
+                   query.optional_real(5), static_cast<int>(query.integer(6)), query.real(7)});
   }
   return all;
 }

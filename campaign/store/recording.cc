@@ -118,30 +118,43 @@ void Store::record_histories(std::int64_t case_id, const CaseResult& result) {
   Statement& add_step = connection_->prepared(
       "INSERT INTO load_steps (case_id, step, stage_id, time_s, pressure_change_pa, outcome, "
       "reason,"
-      " n_stick, n_slip, n_open, newton_iterations, active_set_passes)"
-      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+      " n_stick, n_slip, n_open, newton_iterations, active_set_passes, time_steps, time_error_pa,"
+      " time_resolved) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   Statement& add_fault = connection_->prepared(
       "INSERT INTO chi_history (case_id, fault, step, fault_id, chi_bar, chi_max, chi_static_max,"
       " area_chi_080_m2, thickness_chi_080_max_m, thickness_chi_080_mean_m, slipping_area_m2,"
       " open_area_m2, activated_area_m2, activated_length_m, activated, max_slip_m, mean_slip_m,"
-      " potency_m3, moment_nm, moment_step_nm, activated_at_edge)"
-      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+      " potency_m3, moment_nm, moment_step_nm, activated_at_edge, creep_normal_min_pa,"
+      " creep_normal_max_pa, creep_shear_max_pa)"
+      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (const faultsim::StepResult& step : result.steps) {
+    const std::optional<faultsim::StepCreep>& creep = step.creep;
     add_step
         .bind(case_id, step.step, name_id(step.stage), step.time, json_array(step.pressure_change),
               faultsim::to_string(step.outcome), step.reason, step.n_stick, step.n_slip,
-              step.n_open, step.counts.newton_iterations, step.counts.active_set_passes)
+              step.n_open, step.counts.newton_iterations, step.counts.active_set_passes,
+              creep ? std::optional(creep->time_steps) : std::nullopt,
+              creep ? std::optional(creep->time_error) : std::nullopt,
+              creep ? std::optional(creep->time_resolved) : std::nullopt)
         .run();
     // A step that did not converge has no metrics.
     if (!faultsim::in_equilibrium(step.outcome)) continue;
     for (std::size_t k = 0; k < step.faults.size(); ++k) {
       const faultsim::FaultMetrics& m = step.faults[k];
       FAULTSIM_DEMAND(k < result.fault_names.size(), k);
+      std::optional<double> normal_min, normal_max, shear_max;
+      if (creep && k < creep->faults.size()) {
+        const faultsim::FaultCreep& c = creep->faults[k];
+        normal_min = c.normal_min;
+        normal_max = c.normal_max;
+        shear_max = c.shear_max;
+      }
       add_fault
           .bind(case_id, k, step.step, name_id(result.fault_names[k]), m.chi_bar, m.chi_max,
                 m.chi_static_max, m.area_chi_080, m.thickness_chi_080_max, m.thickness_chi_080_mean,
                 m.slipping_area, m.open_area, m.activated_area, m.activated_length, m.activated,
-                m.max_slip, m.mean_slip, m.potency, m.moment, m.moment_step, m.activated_at_edge)
+                m.max_slip, m.mean_slip, m.potency, m.moment, m.moment_step, m.activated_at_edge,
+                normal_min, normal_max, shear_max)
           .run();
     }
   }

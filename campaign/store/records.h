@@ -34,6 +34,9 @@ struct FamilyRecord {
   long jump_unknowns = 0;
   double operator_seconds = 0;  ///< predicted.
   double memory_bytes = 0;      ///< predicted peak.
+  int n_operators = 1;  ///< more where salt creeps: one per step length and the elastic one.
+  /// Salt creeps: every worker on the family builds its operators and holds them; none is on file.
+  bool creeps() const { return n_operators > 1; }
 };
 
 /// A base scene that cases are changes of.

@@ -36,15 +36,20 @@ std::vector<WaitingFamily> Store::waiting_families(std::int64_t campaign) const 
   Statement& query = connection_->prepared(
       "SELECT f.id, f.fingerprint, f.predicted_unknowns, f.predicted_jump_unknowns,"
       " f.predicted_operator_s, f.predicted_memory_bytes, coalesce(f.operator, ''), s.case_id,"
-      " s.lacks_only_fields FROM campaign_case_states s JOIN families f ON f.id = s.family_id"
+      " s.lacks_only_fields, f.n_operators FROM campaign_case_states s JOIN families f ON f.id = "
+      "s.family_id"
       " WHERE s.campaign_id = ? AND s.state = 'waiting' ORDER BY f.id, s.position");
   query.bind(campaign);
   while (query.step()) {
     if (families.empty() || families.back().family != query.integer(0)) {
       WaitingFamily family;
       family.family = query.integer(0);
-      family.predicted = {query.text(1), static_cast<long>(query.integer(2)),
-                          static_cast<long>(query.integer(3)), query.real(4), query.real(5)};
+      family.predicted = {query.text(1),
+                          static_cast<long>(query.integer(2)),
+                          static_cast<long>(query.integer(3)),
+                          query.real(4),
+                          query.real(5),
+                          static_cast<int>(query.integer(9))};
       family.operator_fingerprint = query.text(6);
       families.push_back(std::move(family));
     }

@@ -15,13 +15,20 @@ namespace {
 /// A margin that is not given is NaN.
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
+bool same_creep(const StepResult& a, const StepResult& b) {
+  if (!a.creep || !b.creep) return !a.creep && !b.creep;
+  return a.creep->time_steps == b.creep->time_steps && a.creep->time_error == b.creep->time_error &&
+         a.creep->time_resolved == b.creep->time_resolved && a.creep->faults == b.creep->faults;
+}
+
 bool same_step(const StepResult& a, const StepResult& b) {
   const bool same_course = a.step == b.step && a.stage == b.stage && a.time == b.time &&
                            a.pressure_change == b.pressure_change && a.outcome == b.outcome &&
                            a.reason == b.reason && a.n_stick == b.n_stick && a.n_slip == b.n_slip &&
                            a.n_open == b.n_open;
   // A step that did not end in equilibrium has no metrics in the store.
-  return same_course && (!faultsim::in_equilibrium(a.outcome) || a.faults == b.faults);
+  return same_course &&
+         (!faultsim::in_equilibrium(a.outcome) || (a.faults == b.faults && same_creep(a, b)));
 }
 
 }  // namespace

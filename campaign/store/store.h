@@ -123,6 +123,8 @@ class Store {
     std::string fingerprint, operator_fingerprint;
     long n_cases = 0, n_done = 0, n_failed = 0;
     std::optional<double> build_seconds;
+    int n_operators = 1;  ///< see FamilyRecord.
+    double memory_bytes = 0;
   };
   std::vector<FamilyProgress> family_progress(std::int64_t campaign) const;
   /// Other campaigns that have this case.

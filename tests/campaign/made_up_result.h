@@ -72,8 +72,8 @@ inline faultsim::CaseResult made_up_result(double strength, int n_steps = 12) {
   return result;
 }
 
-/// A made-up result with two slip events and two episodes, every field of which differs from its
-/// default and, flags aside, from all other fields.
+/// A made-up result with two slip events, two episodes and creeping salt, every field of which
+/// differs from its default and, flags aside, from all other fields.
 inline faultsim::CaseResult made_up_result_with_events(double strength) {
   faultsim::CaseResult result = made_up_result(strength);
   result.outcome = faultsim::Outcome::unresolved_event;
@@ -90,6 +90,12 @@ inline faultsim::CaseResult made_up_result_with_events(double strength) {
   result.stages[0].event_moment = 1e13 / 3;
   double next = 1.0 / 3;
   const auto number = [&next] { return next += 1; };
+  for (faultsim::StepResult& step : result.steps) {
+    step.creep = faultsim::StepCreep{static_cast<int>(number()), number(), false, {}};
+    for (std::size_t f = 0; f < step.faults.size(); ++f) {
+      step.creep->faults.push_back({-number(), number(), number()});
+    }
+  }
   for (const char* stage : {"primary_production", "gas_storage"}) {
     faultsim::SlipEvent e;
     e.step = static_cast<int>(number());

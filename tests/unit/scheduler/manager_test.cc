@@ -23,6 +23,7 @@ using faultsim::ExitCode;
 class FakeRunner final : public JobRunner {
  public:
   void begin_family(const FamilyTask&) override { has_operator_ = false; }
+  void end_family() override { has_operator_ = false; }
   void add(Job job) override { jobs_.push_back(std::move(job)); }
   bool is_idle() const override { return jobs_.empty(); }
   void drain() override { draining_ = true; }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <set>
 
@@ -139,7 +140,129 @@ TEST(WorkPlan, ARefusedBuilderLeavesTheFamilyToTheNextCase) {
   EXPECT_TRUE(slice->builds_operator);
 }
 
-/// Random outcomes: every case is decided exactly once, whatever happens.
+/// A family whose salt creeps: 1 GB of operators per worker.
+FamilyWork creeping(std::int64_t first_case, int n, double operator_seconds) {
+  FamilyWork work = family(first_case, n, operator_seconds);
+  work.creeps = true;
+  return work;
+}
+
+/// Has the worker build the operators of its family and end its first case after `seconds`.
+void build_and_run_one(WorkPlan& plan, int worker, double seconds) {
+  const auto slice = plan.next(worker);
+  ASSERT_TRUE(slice);
+  ASSERT_TRUE(slice->builds_operator);
+  ASSERT_EQ(slice->cases.size(), 1u);
+  plan.operator_ready(worker, 5, false);
+  plan.case_done(worker, slice->cases[0], seconds);
+}
+
+TEST(WorkPlan, ASecondWorkerJoinsACreepingFamilyWhenItFitsAndPays) {
+  WorkPlan plan({creeping(1, 20, 5)}, {.n_workers = 2, .memory_bytes = 2.5e9});
+  const auto first = plan.next(0);
+  EXPECT_FALSE(plan.next(1)) << "nothing is known of its cases";
+  plan.operator_ready(0, 5, false);
+  EXPECT_FALSE(plan.next(1));
+  plan.case_done(0, first->cases[0], 1);
+  const auto joined = plan.next(1);  // 19 s wait, a build takes 5
+  ASSERT_TRUE(joined);
+  EXPECT_TRUE(joined->builds_operator);
+  EXPECT_TRUE(plan.is_building(1));
+  EXPECT_FALSE(plan.next(0)->builds_operator) << "it goes on with its own";
+  EXPECT_FALSE(plan.is_building(0));
+  plan.operator_ready(1, 5, false);
+  plan.case_done(1, joined->cases[0], 1);
+  EXPECT_FALSE(plan.next(1)->builds_operator);
+}
+
+TEST(WorkPlan, NobodyJoinsACreepingFamilyThatIsDoneBeforeTheBuildIs) {
+  WorkPlan plan({creeping(1, 20, 25)}, {.n_workers = 2});
+  build_and_run_one(plan, 0, 1);  // 19 s wait; builds take a fifth of what was predicted, 5 s
+  EXPECT_TRUE(plan.next(1));
+  WorkPlan slow({creeping(1, 20, 5)}, {.n_workers = 2});
+  build_and_run_one(slow, 0, 0.2);  // 3.8 s wait
+  EXPECT_FALSE(slow.next(1));
+  WorkPlan third({creeping(1, 20, 5)}, {.n_workers = 3});
+  build_and_run_one(third, 0, 0.5);  // 9.5 s wait: the second gains, the third does not
+  EXPECT_TRUE(third.next(1));
+  EXPECT_FALSE(third.next(2));
+}
+
+TEST(WorkPlan, TheMemoryOfACreepingFamilyCountsAsLongAsItIsHeld) {
+  WorkPlan plan({creeping(1, 20, 5), family(101, 5, 2)}, {.n_workers = 2, .memory_bytes = 1.5e9});
+  build_and_run_one(plan, 0, 1);
+  EXPECT_FALSE(plan.next(1)) << "neither a second set nor the elastic operator fits";
+  for (int k = 2; k <= 20; ++k) {
+    EXPECT_FALSE(plan.take_release(0));
+    ASSERT_EQ(plan.next(0)->cases, std::vector<std::int64_t>{k});
+    plan.case_done(0, k, 1);
+  }
+  EXPECT_TRUE(plan.take_release(0));
+  EXPECT_FALSE(plan.take_release(0)) << "once is enough";
+  EXPECT_FALSE(plan.next(1)) << "the simulator has not ended yet";
+  plan.released(0);
+  EXPECT_EQ(plan.next(1)->family, 1);
+}
+
+TEST(WorkPlan, TheOtherWorkerTakesAnotherFamilyBesideACreepingOne) {
+  WorkPlan plan({creeping(1, 20, 5), creeping(101, 20, 4)},
+                {.n_workers = 2, .memory_bytes = 2.5e9});
+  EXPECT_EQ(plan.next(0)->family, 0);
+  EXPECT_EQ(plan.next(1)->family, 1);
+}
+
+TEST(WorkPlan, AWorkerLetsGoOfACreepingFamilyToBuildAnother) {
+  WorkPlan plan({creeping(1, 1, 5), creeping(101, 2, 4)}, {.n_workers = 1, .memory_bytes = 1.5e9});
+  build_and_run_one(plan, 0, 1);
+  const auto slice = plan.next(0);
+  ASSERT_TRUE(slice);
+  EXPECT_EQ(slice->family, 1);
+  EXPECT_TRUE(slice->builds_operator);
+  EXPECT_FALSE(plan.take_release(0));
+}
+
+/// Two that hold the last family's operators, and a third family that needs the memory of both.
+TEST(WorkPlan, IdleHoldersDoNotBlockALargeFamily) {
+  FamilyWork large = creeping(201, 1, 1);
+  large.memory_bytes = 2e9;
+  WorkPlan plan({creeping(1, 1, 5), creeping(101, 1, 4), large},
+                {.n_workers = 2, .memory_bytes = 2.5e9});
+  const auto a = plan.next(0), b = plan.next(1);
+  for (const int worker : {0, 1}) plan.operator_ready(worker, 1, false);
+  plan.case_done(0, a->cases[0], 1);
+  EXPECT_FALSE(plan.next(0));
+  EXPECT_TRUE(plan.take_release(0));
+  plan.case_done(1, b->cases[0], 1);
+  plan.released(0);
+  EXPECT_FALSE(plan.next(0)) << "worker 1 still holds 1 GB";
+  EXPECT_EQ(plan.next(1)->family, 2) << "but may let go of it";
+}
+
+TEST(WorkPlan, ASecondSetThatCannotBeBuiltIsNoFaultOfTheCase) {
+  WorkPlan plan({creeping(1, 20, 5)}, {.n_workers = 2, .on_failure = FailureAction::abort});
+  build_and_run_one(plan, 0, 1);
+  const auto joined = plan.next(1);
+  ASSERT_TRUE(joined);
+  EXPECT_TRUE(plan.case_failed(1, joined->cases[0], true)) << "it is tried again";
+  EXPECT_FALSE(plan.stopped());
+  EXPECT_FALSE(plan.next(1)) << "there is no room for two";
+  EXPECT_THAT(plan.take_hopeless(), IsEmpty());
+  for (int n = 0; n < 19; ++n) plan.case_done(0, plan.next(0)->cases.at(0), 1);
+  EXPECT_TRUE(plan.is_finished());
+}
+
+TEST(WorkPlan, GivesUpACreepingFamilyWhoseOperatorsFailTwice) {
+  WorkPlan plan({creeping(1, 5, 1)}, {.n_workers = 1});
+  for (int k = 1; k <= 2; ++k) {
+    ASSERT_TRUE(plan.next(0)->builds_operator);
+    EXPECT_FALSE(plan.case_failed(0, k, true));
+  }
+  EXPECT_THAT(plan.take_hopeless(), ElementsAre(3, 4, 5));
+  EXPECT_TRUE(plan.is_finished());
+}
+
+/// Random outcomes: every case is decided exactly once, whatever happens, and what is held or built
+/// at once fits.
 TEST(WorkPlan, DecidesEveryCaseExactlyOnceUnderRandomTrouble) {
   for (unsigned seed = 1; seed <= 50; ++seed) {
     unsigned state = seed;
@@ -151,7 +274,9 @@ TEST(WorkPlan, DecidesEveryCaseExactlyOnceUnderRandomTrouble) {
     long n_cases = 0;
     for (int f = 0; f < 6; ++f) {
       const int n = 1 + static_cast<int>(dice(40));
-      families.push_back(family(1000 * f + 1, n, dice(10), dice(2) == 0));
+      const bool creeps = dice(2) == 0;
+      families.push_back(creeps ? creeping(1000 * f + 1, n, dice(10) / 10.0)
+                                : family(1000 * f + 1, n, dice(10), dice(2) == 0));
       n_cases += n;
     }
     WorkPlan plan(
@@ -159,11 +284,21 @@ TEST(WorkPlan, DecidesEveryCaseExactlyOnceUnderRandomTrouble) {
         {.n_workers = 3, .memory_bytes = 2e9, .on_failure = FailureAction::retry, .retries = 1});
     std::set<std::int64_t> decided;
     std::vector<std::deque<std::int64_t>> queues(3);
+    std::vector<int> ladder(3, -1);  // the creeping family whose operators a worker holds
     for (int turn = 0; turn < 100000 && !plan.is_finished(); ++turn) {
       const int worker = static_cast<int>(dice(3));
       auto& queue = queues[static_cast<std::size_t>(worker)];
       if (const auto slice = plan.next(worker)) {
         queue.insert(queue.end(), slice->cases.begin(), slice->cases.end());
+        int& held = ladder[static_cast<std::size_t>(worker)];
+        const bool creeps = families[static_cast<std::size_t>(slice->family)].creeps;
+        EXPECT_TRUE(!creeps || slice->builds_operator || held == slice->family);
+        held = creeps ? slice->family : -1;
+        EXPECT_LE(std::count_if(ladder.begin(), ladder.end(), [](int f) { return f >= 0; }), 2);
+      }
+      if (plan.take_release(worker)) {
+        ladder[static_cast<std::size_t>(worker)] = -1;
+        plan.released(worker);
       }
       if (queue.empty()) continue;
       const std::int64_t id = queue.front();
@@ -171,6 +306,7 @@ TEST(WorkPlan, DecidesEveryCaseExactlyOnceUnderRandomTrouble) {
       const bool building = plan.is_building(worker);
       switch (dice(10)) {
         case 0:
+          if (building) ladder[static_cast<std::size_t>(worker)] = -1;
           if (!plan.case_failed(worker, id, building)) {
             EXPECT_TRUE(decided.insert(id).second) << id;
           }
@@ -178,10 +314,11 @@ TEST(WorkPlan, DecidesEveryCaseExactlyOnceUnderRandomTrouble) {
         case 1:
           queue.push_front(id);
           plan.returned(worker, {queue.begin(), queue.end()});
+          if (building) ladder[static_cast<std::size_t>(worker)] = -1;
           queue.clear();
           break;
         default:
-          if (building) plan.operator_ready(plan.family_of(worker), 1, false);
+          if (building) plan.operator_ready(worker, 1, false);
           plan.case_done(worker, id, 0.01 * (1 + dice(5)));
           EXPECT_TRUE(decided.insert(id).second) << id;
       }

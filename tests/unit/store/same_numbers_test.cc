@@ -84,6 +84,11 @@ TEST(SameNumbers, EventsAndEpisodesCount) {
   EXPECT_EQ(changed([](CaseResult& r) { r.max_penetration = 0; }), "the metrics of the case");
   EXPECT_EQ(changed([](CaseResult& r) { r.steps[3].faults[1].activated_at_edge = false; }),
             "load step 3 (primary_production)");
+  EXPECT_EQ(changed([](CaseResult& r) { r.steps[7].creep->time_error *= 1 + 1e-15; }),
+            "load step 7 (cushion_gas_injection)");
+  EXPECT_EQ(changed([](CaseResult& r) { r.steps[9].creep->faults[1].shear_max *= 1 + 1e-15; }),
+            "load step 9 (gas_storage)");
+  EXPECT_EQ(changed([](CaseResult& r) { r.steps[0].creep.reset(); }), "load step 0 (initial)");
   EXPECT_EQ(changed([](CaseResult& r) { r.stages[0].n_events = 2; }), "the metrics of the stages");
 }
 
