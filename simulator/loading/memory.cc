@@ -75,13 +75,21 @@ std::optional<double> available_memory(const std::filesystem::path& proc,
 
 void demand_memory(const Plan& plan, std::optional<double> available) {
   if (!available || plan.memory_bytes <= *available) return;
+  const bool creeps = plan.creep.active;
+  const std::string what =
+      creeps ? concat("the ", 1 + plan.creep.rungs.size(),
+                      " operators of this scene, one per step length of creep and the elastic one, "
+                      "need about ",
+                      gigabytes(plan.memory_bytes), " together (")
+             : concat("the operator of this scene needs about ", gigabytes(plan.memory_bytes),
+                      " while it is built (");
   throw ResourceError(
-      concat("not enough memory: the operator of this scene needs about ",
-             gigabytes(plan.memory_bytes), " while it is built (", plan.n_unknowns, " unknowns, ",
-             plan.n_jump, " of them jumps), ", gigabytes(*available), " are available; ",
+      concat("not enough memory: ", what, plan.n_unknowns, " unknowns, ", plan.n_jump,
+             " of them jumps), ", gigabytes(*available), " are available; ",
              plan.plane_strain ? "choose larger cells (/mesh)"
                                : "choose a coarser tier or larger cells (/mesh), or plane strain "
-                                 "(for a field the tier \"screening\")"));
+                                 "(for a field the tier \"screening\")",
+             creeps ? ", or fewer step lengths (/numerics/creep_refinements)" : ""));
 }
 
 }  // namespace faultsim

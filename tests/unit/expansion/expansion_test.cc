@@ -308,6 +308,10 @@ TEST(Expansion, ExamplesExpand) {
   EXPECT_GE(n_field, 200);
   EXPECT_GE(fields.size(), 6u);
   EXPECT_EQ(quickstart.n_merged, 0);
+  const auto salt = expand(read_campaign(folder + "rotliegend-salt.json"));
+  EXPECT_EQ(salt.cases.size(), 32u);
+  ASSERT_EQ(salt.families.size(), 1u) << "friction and fault pressure leave the operators alone";
+  EXPECT_EQ(salt.families[0].plan.creep.rungs.size(), 6u);
   EXPECT_EQ(expand(read_campaign(folder + "small.json")).cases.size(), 12u);
 }
 

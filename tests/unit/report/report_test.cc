@@ -257,6 +257,27 @@ TEST_F(ReportTest, SaysWhereTheFieldsAre) {
   EXPECT_EQ(status_to_json(status)["waiting_for_fields_only"], 2);
 }
 
+TEST_F(ReportTest, SaysWhereOperatorsAreNotShared) {
+  EXPECT_THAT(status_to_text(make_status(*store_, "")), Not(HasSubstr("salt creeps")));
+  Submission s;
+  s.name = "salt";
+  s.parameters = "[]";
+  s.scenes = {{"scene.json", "{}"}};
+  s.families = {{"family-a", 1000, 100, 1, 1}, {"family-b", 1000, 100, 1, 1.98e10, 4}};
+  s.cases = {{"elastic", 0, 0, "{}", "[]", "[]"}, {"viscous", 1, 0, "{}", "[]", "[]"}};
+  const std::int64_t id = store_->submit(s).campaign;
+  EXPECT_FALSE(store_->waiting_families(id).at(0).predicted.creeps());
+  EXPECT_TRUE(store_->waiting_families(id).at(1).predicted.creeps());
+  const StatusReport status = make_status(*store_, "salt");
+  EXPECT_THAT(status_to_text(status),
+              HasSubstr("salt creeps in 1 family: operators are built by each worker that runs it, "
+                        "at most 20 GB each\n"));
+  const auto family = status_to_json(status)["families"].at(1);
+  EXPECT_EQ(family["creeps"], true);
+  EXPECT_EQ(family["n_operators"], 4);
+  EXPECT_EQ(family["predicted_memory_bytes"], 1.98e10);
+}
+
 /// The first three cases again, with events, in a campaign with two new ones: resolved, unresolved.
 class EventReportTest : public ReportTest {
  protected:

@@ -178,6 +178,7 @@ TEST(Spec, ExamplesAreRead) {
   EXPECT_EQ(read_campaign(folder + "quickstart.json").groups.size(), 3u);
   EXPECT_EQ(read_campaign(folder + "small.json").groups.size(), 1u);
   EXPECT_EQ(read_campaign(folder + "rotliegend-events.json").groups.size(), 2u);
+  EXPECT_EQ(read_campaign(folder + "rotliegend-salt.json").groups.size(), 1u);
   EXPECT_EQ(read_campaign(folder + "fields.json").keep_fields, KeepFields::stages);
 }
 
