@@ -88,7 +88,11 @@ int CreepMarch::Impl::rung_of(double duration) const {
   return -1;
 }
 
-int CreepMarch::Impl::finer(int rung) const { return rung_of(ladder.duration(rung) / 2); }
+/// The rung of half that duration, of whichever load step it is a part; −1 if there is none or
+/// nothing is to be halved.
+int CreepMarch::Impl::finer(int rung) const {
+  return numerics.creep_refinements == 0 ? -1 : rung_of(ladder.duration(rung) / 2);
+}
 
 ContactSolver& CreepMarch::Impl::solver(int rung, bool follows) {
   std::unique_ptr<ContactSolver>& chosen = !follows ? static_solver[static_cast<std::size_t>(rung)]

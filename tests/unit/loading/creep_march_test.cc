@@ -93,6 +93,28 @@ TEST(CreepMarch, SaysThatTheShortestStepsAreTooLong) {
   EXPECT_TRUE(unrefined.creep(1).time_resolved) << "nothing was measured";
 }
 
+/// Steps of τ next to steps of τ/2: the shorter rung is there, but is not for halving; with one
+/// refinement it is, and so is its own half.
+TEST(CreepMarch, HalvesNothingWithoutRefinements) {
+  const auto of = [](const char* refinements) {
+    return Case(scene_of("v8_column.json",
+                         {{"/stages", R"([{"name": "long", "duration": "6.5e6 s"},
+                         {"name": "short", "duration": "6.5e6 s", "steps": 2}])"},
+                          {"/numerics", std::string(R"({"creep": "on", "creep_tolerance": "1e-3 Pa",
+                                       "creep_refinements": )") +
+                                            refinements + "}"}}));
+  };
+  const Case none = of("0");
+  for (const std::size_t step : {1U, 2U, 3U}) {
+    EXPECT_EQ(none.creep(step).time_steps, 1);
+    EXPECT_EQ(none.creep(step).time_error, 0);
+    EXPECT_TRUE(none.creep(step).time_resolved);
+  }
+  const Case one = of("1");
+  EXPECT_EQ(one.creep(1).time_steps, 4);
+  EXPECT_EQ(one.creep(2).time_steps, 2);
+}
+
 /// Creep is fast at first: the halves of the load step are divided each as far as it needs.
 TEST(CreepMarch, TakesShortStepsWhereCreepIsFast) {
   const Case controlled(scene_of(
