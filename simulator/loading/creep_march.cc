@@ -80,12 +80,19 @@ struct CreepMarch::Impl {
   int thrown_away = 0;                    // Newton iterations of paths not taken
 };
 
-/// The rung of that duration; −1 if there is none.
+/// The rung of that duration; −1 if there is none. Durations of load steps are differences of
+/// times: good to the last digit of the time.
 int CreepMarch::Impl::rung_of(double duration) const {
+  double nearest =
+      1e-6 * duration + 4 * std::numeric_limits<double>::epsilon() * (step_from + step_length);
+  int found = -1;
   for (int r = 1; r < ladder.n_rungs(); ++r) {
-    if (std::abs(ladder.duration(r) - duration) <= 1e-6 * duration) return r;
+    const double distance = std::abs(ladder.duration(r) - duration);
+    if (distance > nearest) continue;
+    nearest = distance;
+    found = r;
   }
-  return -1;
+  return found;
 }
 
 /// The rung of half that duration, of whichever load step it is a part; −1 if there is none or
@@ -182,7 +189,7 @@ CreepMarch::Impl::Path CreepMarch::Impl::whole(const Point& from, double to, int
 
 CreepMarch::Impl::Path CreepMarch::Impl::fixed(const Point& from, double to) {
   const double start = from.time, length = to - from.time;
-  const auto n = static_cast<int>(std::ceil(length / numerics.creep_time_step - 1e-9));
+  const int n = std::max(1, static_cast<int>(std::ceil(length / numerics.creep_time_step - 1e-9)));
   const int rung = rung_of(length / n);
   FAULTSIM_DEMAND(rung > 0, "no rung of ", length / n, " s");
   Path path = whole(from, start + length / n, rung, true);

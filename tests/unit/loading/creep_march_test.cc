@@ -127,6 +127,23 @@ TEST(CreepMarch, TakesShortStepsWhereCreepIsFast) {
   EXPECT_LT(controlled.creep(1).time_steps, 40) << "of 64";
 }
 
+/// The length of a step is the difference of its times, of which few digits are left here; and it
+/// is very much shorter than the longest step allowed.
+TEST(CreepMarch, FindsAShortStepAfterALongOne) {
+  for (const char* numerics : {R"({"creep": "on", "creep_refinements": 2})",
+                               R"({"creep": "on", "creep_time_step": "1e13 s"})"}) {
+    const Case run(scene_of(
+        "v8_maxwell.json", {{"/stages", R"([{"name": "long", "duration": "6.5e11 s"},
+                                            {"name": "short", "duration": "6.7 s", "steps": 3}])"},
+                            {"/geometry/boundary/0/table",
+                             R"({"time": ["0 s", "6.5e11 s", "6.6e11 s"], "factor": [0, 0, 1e9]})"},
+                            {"/numerics", numerics}}));
+    ASSERT_EQ(run.result.outcome, Outcome::converged);
+    // ε = 0.67e-3 comes within 1e-6 τ: elastic. σ_x = ε λ.
+    EXPECT_NEAR(run.fields[4].traction(0, 0), -200e6 + 0.67e-3 * 23.076923e9, 2e3) << numerics;
+  }
+}
+
 /// The traction by creep is σ_x(t) − σ_x(0) of the column.
 TEST(CreepMarch, SeparatesWhatTheSaltDid) {
   const Case whole(scene_of("v8_column.json", {}));
