@@ -56,7 +56,8 @@ struct CreepMarch::Impl {
         ladder(given_ladder),
         following_laws(laws),
         static_laws(without_following(laws)),
-        static_solver(static_cast<std::size_t>(ladder.n_rungs())) {}
+        static_solver(static_cast<std::size_t>(ladder.n_rungs())),
+        following_solver(static_cast<std::size_t>(ladder.n_rungs())) {}
 
   int rung_of(double duration) const;
   int finer(int rung) const;
@@ -73,8 +74,7 @@ struct CreepMarch::Impl {
   const CaseLoads& case_loads;
   CreepLadder& ladder;
   ContactLaws following_laws, static_laws;
-  std::vector<std::unique_ptr<ContactSolver>> static_solver;
-  std::unique_ptr<ContactSolver> elastic_solver, holding_solver;
+  std::vector<std::unique_ptr<ContactSolver>> static_solver, following_solver;  // per rung
   Point now;
   double step_from = 0, step_length = 0;  // s, of the load step
   int thrown_away = 0;                    // Newton iterations of paths not taken
@@ -102,9 +102,8 @@ int CreepMarch::Impl::finer(int rung) const {
 }
 
 ContactSolver& CreepMarch::Impl::solver(int rung, bool follows) {
-  std::unique_ptr<ContactSolver>& chosen = !follows ? static_solver[static_cast<std::size_t>(rung)]
-                                           : rung == 0 ? elastic_solver
-                                                       : holding_solver;
+  std::unique_ptr<ContactSolver>& chosen =
+      (follows ? following_solver : static_solver)[static_cast<std::size_t>(rung)];
   if (!chosen) {
     chosen = std::make_unique<ContactSolver>(
         ladder.op(rung), follows ? following_laws : static_laws, contact_options(numerics));

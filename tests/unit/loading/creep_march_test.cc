@@ -261,6 +261,44 @@ TEST(CreepMarch, MarksAJumpThatCreepItselfMakes) {
   EXPECT_FALSE(pulled.creep(1).time_resolved);
 }
 
+/// The same column with two patches, of which the second jumps in a load step of another length.
+/// In the end both slide at a steady rate, whatever the steps were: so the bulk carries the
+/// tractions that the faults say.
+TEST(CreepMarch, FollowsJumpsOnRungsOfDifferentLengths) {
+  const auto pulled = [](const std::string& first_stages) {
+    const std::string friction =
+        R"("friction": {"law": "coefficient", "cohesion": "0 MPa", "dynamic_friction_coefficient": 0.1,
+           "slip_weakening_distance": "1 um", "friction_coefficient": )";
+    const std::string size = R"("length": "2 m", "width": "2 m")";
+    return Case(scene_of(
+        "v8_column.json",
+        {{"/geometry/boundary/1/stress",
+          R"([["0 MPa","0 MPa","0 MPa"],["0 MPa","0 MPa","0 MPa"],["0 MPa","0 MPa","10 MPa"]])"},
+         {"/initial_state/tensor",
+          R"([["-14 MPa","0 MPa","6 MPa"],["0 MPa","-14 MPa","0 MPa"],["6 MPa","0 MPa","-30 MPa"]])"},
+         {"/faults", R"([{"name": "F1", "center": ["-1 m", "0 m", "-2 m"], )" + size + ", " +
+                         friction + R"(0.7}}, {"name": "F2", "center": ["1 m", "0 m", "-2 m"], )" +
+                         size + ", " + friction + "1.2}}]"},
+         {"/stages", "[" + first_stages + R"(,
+           {"name": "on", "duration": "650e6 s", "steps": 25}])"},
+         {"/numerics", R"({"creep": "on", "creep_time_step": "1000 year"})"}}));
+  };
+  const Case mixed = pulled(R"({"name": "a", "duration": "6.5e6 s"})");
+  const Case even = pulled(R"({"name": "a", "duration": "26e6 s"})");
+  ASSERT_TRUE(in_equilibrium(mixed.result.outcome)) << mixed.result.reason;
+  ASSERT_EQ(mixed.result.events.size(), 2U);
+  EXPECT_EQ(mixed.result.events[0].fault, "F1");
+  EXPECT_EQ(mixed.result.events[0].step, 1);
+  EXPECT_EQ(mixed.result.events[1].fault, "F2");
+  EXPECT_EQ(mixed.result.events[1].step, 2);
+  const auto rate = [](const Case& run) {
+    return Eigen::Vector2d(run.fields[26].jump(2, 0) - run.fields[25].jump(2, 0),
+                           run.fields[26].jump(2, 1) - run.fields[25].jump(2, 1));
+  };
+  EXPECT_GT(rate(even).cwiseAbs().minCoeff(), 1e-6);
+  EXPECT_LT((rate(mixed) - rate(even)).norm(), 1e-9 * rate(even).norm());
+}
+
 /// A march that is asked for a step without an equilibrium next to the last one.
 TEST(CreepMarch, LeavesEverythingAsItWasWhereAStepFails) {
   const Case failed(
