@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "simulator/common/errors.h"
@@ -42,10 +43,18 @@ struct CreepMarch::Impl {
     ContactState contact;
     BulkState bulk;
   };
+  /// What a step does to the bulk, once it is known to be wanted: half of its back-solve.
+  struct BulkMove {
+    int rung;
+    CreepLadder::History history;
+    std::vector<double> load_increments;
+    Eigen::VectorXd jump_increment;
+  };
   /// A way from one point to a later one.
   struct Path {
-    Point end;
+    Point end;  ///< its bulk lags behind while there is a move to be made: see arrive().
     CreepReport report;
+    std::optional<BulkMove> move;
     bool good() const { return in_equilibrium(report.contact.outcome); }
   };
 
@@ -62,11 +71,12 @@ struct CreepMarch::Impl {
   int rung_of(double duration) const;
   int finer(int rung) const;
   ContactSolver& solver(int rung, bool follows);
+  const Point& arrive(Path& path);
   Path step(const Point& from, const StepLoads& loads, double to, int rung, bool follows);
   Path whole(const Point& from, double to, int rung, bool shortest);
   void discard(const Path& path);
   Path split(const Point& from, double to, int rung);
-  Path joined(Path first, const Path& second) const;
+  static Path joined(Path first, Path second);
   Path fixed(const Point& from, double to);
   Path controlled(const Point& from, double to, Path coarse, int rung);
 
@@ -111,6 +121,17 @@ ContactSolver& CreepMarch::Impl::solver(int rung, bool follows) {
   return *chosen;
 }
 
+/// The end of a path, bulk and all.
+const CreepMarch::Impl::Point& CreepMarch::Impl::arrive(Path& path) {
+  if (path.move) {
+    BulkMove& move = *path.move;
+    ladder.advance(move.rung, std::move(move.history), move.load_increments, move.jump_increment,
+                   path.end.bulk);
+    path.move.reset();
+  }
+  return path.end;
+}
+
 /// One step of a rung, from a point to the loads given. Load factors of jumps are turned into those
 /// of the load step, whose loads are linear in time.
 CreepMarch::Impl::Path CreepMarch::Impl::step(const Point& from, const StepLoads& loads, double to,
@@ -128,7 +149,7 @@ CreepMarch::Impl::Path CreepMarch::Impl::step(const Point& from, const StepLoads
   }
   const Eigen::VectorXd before =
       from.contact.traction + elastic_traction_drop(op, from.contact.jump);
-  Path path{from, {}};
+  Path path{from, {}, {}};
   path.report.contact = solver(rung, follows).solve_step(before, before + change, path.end.contact);
   path.report.time_steps = 1;
   for (ContactJump& jump : path.report.contact.jumps) {
@@ -137,14 +158,14 @@ CreepMarch::Impl::Path CreepMarch::Impl::step(const Point& from, const StepLoads
     }
   }
   if (!path.good()) return path;
-  ladder.advance(rung, std::move(history), increments, path.end.contact.jump - from.contact.jump,
-                 path.end.bulk);
+  path.move = BulkMove{rung, std::move(history), std::move(increments),
+                       path.end.contact.jump - from.contact.jump};
   path.end.loads = loads;
   path.end.time = to;
   return path;
 }
 
-CreepMarch::Impl::Path CreepMarch::Impl::joined(Path first, const Path& second) const {
+CreepMarch::Impl::Path CreepMarch::Impl::joined(Path first, Path second) {
   CreepReport& sum = first.report;
   const CreepReport& more = second.report;
   sum.contact.outcome =
@@ -156,7 +177,8 @@ CreepMarch::Impl::Path CreepMarch::Impl::joined(Path first, const Path& second) 
   sum.time_steps += more.time_steps;
   sum.time_error = std::max(sum.time_error, more.time_error);
   sum.time_resolved = sum.time_resolved && more.time_resolved;
-  first.end = second.end;
+  first.end = std::move(second.end);
+  first.move = std::move(second.move);
   return first;
 }
 
@@ -167,9 +189,9 @@ CreepMarch::Impl::Path CreepMarch::Impl::split(const Point& from, double to, int
   if (!jump.good()) return jump;
   jump.report.time_steps = 0;
   jump.end.time = from.time;
-  Path creep = step(jump.end, loads, to, rung, true);
+  Path creep = step(arrive(jump), loads, to, rung, true);
   creep.report.time_resolved = creep.report.contact.jumps.empty();
-  return joined(std::move(jump), creep);
+  return joined(std::move(jump), std::move(creep));
 }
 
 void CreepMarch::Impl::discard(const Path& path) {
@@ -193,7 +215,7 @@ CreepMarch::Impl::Path CreepMarch::Impl::fixed(const Point& from, double to) {
   FAULTSIM_DEMAND(rung > 0, "no rung of ", length / n, " s");
   Path path = whole(from, start + length / n, rung, true);
   for (int i = 2; i <= n && path.good(); ++i) {
-    const Point middle = path.end;
+    const Point middle = arrive(path);
     path = joined(std::move(path), whole(middle, start + length * i / n, rung, true));
   }
   return path;
@@ -209,7 +231,7 @@ CreepMarch::Impl::Path CreepMarch::Impl::controlled(const Point& from, double to
   Path first = whole(from, middle, half, last);
   Path second;
   double difference = std::numeric_limits<double>::infinity();
-  if (first.good()) second = whole(first.end, to, half, last);
+  if (first.good()) second = whole(arrive(first), to, half, last);
   if (coarse.good() && first.good() && second.good()) {
     difference =
         (coarse.end.contact.traction - second.end.contact.traction).lpNorm<Eigen::Infinity>();
@@ -219,12 +241,12 @@ CreepMarch::Impl::Path CreepMarch::Impl::controlled(const Point& from, double to
     discard(second);
     Path path = controlled(from, middle, std::move(first), half);
     if (!path.good()) return path;
-    const Point there = path.end;
+    const Point there = arrive(path);
     Path rest = whole(there, to, half, false);
     return joined(std::move(path), controlled(there, to, std::move(rest), half));
   }
   if (!first.good()) return first;
-  Path path = joined(std::move(first), second);
+  Path path = joined(std::move(first), std::move(second));
   if (std::isfinite(difference)) {  // else a jump was in the way, and there is nothing to compare
     path.report.time_error = std::max(path.report.time_error, difference);
     path.report.time_resolved = path.report.time_resolved && difference <= numerics.creep_tolerance;
@@ -261,6 +283,7 @@ CreepReport CreepMarch::advance(double to, ContactState& state) {
   }
   path.report.contact.counts.wasted_newton_iterations += self.thrown_away;
   if (path.good()) {
+    self.arrive(path);
     self.now = std::move(path.end);
     state = self.now.contact;
   }
