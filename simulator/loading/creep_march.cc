@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/interrupt.h"
 #include "simulator/loading/case_contact.h"
 
 namespace faultsim {
@@ -136,6 +137,12 @@ const CreepMarch::Impl::Point& CreepMarch::Impl::arrive(Path& path) {
 /// of the load step, whose loads are linear in time.
 CreepMarch::Impl::Path CreepMarch::Impl::step(const Point& from, const StepLoads& loads, double to,
                                               int rung, bool follows) {
+  if (interrupted()) {
+    Path stopped{from, {}, {}};
+    stopped.report.contact.outcome = Outcome::interrupted;
+    stopped.report.contact.reason = concat("stopped at a step of creep from ", from.time, " s");
+    return stopped;
+  }
   const FaultOperator& op = ladder.op(rung);
   const FaultOperator& elastic = ladder.op(0);
   CreepLadder::History history = ladder.history(rung, from.bulk);
