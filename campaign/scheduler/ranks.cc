@@ -14,6 +14,7 @@
 #include "campaign/scheduler/resources.h"
 #include "campaign/scheduler/worker.h"
 #include "simulator/common/errors.h"
+#include "simulator/common/stopwatch.h"
 
 namespace faultsweep {
 namespace {
@@ -64,6 +65,22 @@ class MpiWorkers final : public WorkerLink {
   Messenger& messenger_;
 };
 
+/// This process's CPU time so far, s.
+double cpu_seconds() {
+  struct rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+std::string hundredths(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
 void leave_status(const RunOptions& options, ExitCode status) {
   if (options.status_file.empty()) return;
   std::ofstream(options.status_file) << static_cast<int>(status) << '\n';
@@ -71,6 +88,7 @@ void leave_status(const RunOptions& options, ExitCode status) {
 
 /// Runs the campaign; how it ended. Messages go to stderr.
 ExitCode manage(Messenger& messenger, const RunOptions& options, bool& in_order) {
+  const faultsim::Stopwatch since_start;
   ProgressDisplay display(options.progress);
   Store store = Store::open_owner(options.store);
   if (!store.remark().empty()) display.note(store.remark());
@@ -98,9 +116,10 @@ ExitCode manage(Messenger& messenger, const RunOptions& options, bool& in_order)
   display.finish({info.n_cases, info.n_done, info.n_failed, -1, ""});
   if (!manager.trouble().empty())
     std::fprintf(stderr, "faultsweep: %s\n", manager.trouble().c_str());
-  store.record_event(
-      info.id, "stopped",
-      concat(info.n_done, " done, ", info.n_failed, " failed, ", info.n_waiting, " waiting"));
+  store.record_event(info.id, "stopped",
+                     concat(info.n_done, " done, ", info.n_failed, " failed, ", info.n_waiting,
+                            " waiting; the manager was at work for ", hundredths(cpu_seconds()),
+                            " of ", hundredths(since_start.seconds()), " s"));
   store.checkpoint();
   return manager.status();
 }

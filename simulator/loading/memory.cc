@@ -89,7 +89,9 @@ void demand_memory(const Plan& plan, std::optional<double> available) {
              plan.plane_strain ? "choose larger cells (/mesh)"
                                : "choose a coarser tier or larger cells (/mesh), or plane strain "
                                  "(for a field the tier \"screening\")",
-             creeps ? ", or fewer step lengths (/numerics/creep_refinements)" : ""));
+             creeps ? ", or fewer step lengths (/numerics/creep_refinements, or fixed steps by "
+                      "/numerics/creep_time_step)"
+                    : ""));
 }
 
 }  // namespace faultsim

@@ -137,6 +137,12 @@ class Warnings {
       worst = std::max(worst, step.creep->time_error);
     }
     if (n_steps == 0) return;
+    if (scene_.numerics.creep_time_step > 0) {  // fixed steps: no error was estimated
+      texts_.push_back(concat("a fault jumps while the salt creeps in ", n_steps,
+                              " load steps, whose loads were put on at once for it; shorten "
+                              "/numerics/creep_time_step"));
+      return;
+    }
     texts_.push_back(concat("the time steps of creep are too long in ", n_steps,
                             " load steps: halving them changes fault tractions by up to ",
                             brief(worst / 1e6), " MPa, ",
