@@ -1,5 +1,6 @@
 #include "campaign/app/submission.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -29,6 +30,23 @@ class Columns {
  private:
   std::map<std::string, std::size_t> places_;
 };
+
+/// Rows of designs whose rows are not simply their cases.
+std::vector<DesignRow> design_rows(const Expansion& expansion) {
+  std::vector<long> n_cases(expansion.spec.groups.size(), 0);
+  for (const Case& one : expansion.cases) ++n_cases[static_cast<std::size_t>(one.group)];
+  std::vector<DesignRow> result;
+  for (std::size_t g = 0; g < expansion.case_of_row.size(); ++g) {
+    const std::vector<int>& rows = expansion.case_of_row[g];
+    const long n_kept = std::count_if(rows.begin(), rows.end(), [](int one) { return one >= 0; });
+    if (n_kept == n_cases[g]) continue;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (rows[i] < 0) continue;
+      result.push_back({static_cast<int>(g), static_cast<long>(i) + 1, rows[i] + 1});
+    }
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -77,6 +95,7 @@ Submission make_submission(const Expansion& expansion) {
                                 changes_of(expansion, one).dump(), json(values).dump(),
                                 json(labels).dump()});
   }
+  submission.design_rows = design_rows(expansion);
   submission.parameters = parameters_to_json(columns.parameters);
   return submission;
 }

@@ -31,6 +31,7 @@ class Expander {
   Expansion run() {
     for (const Group& group : result_.spec.groups) result_.n_designed += count_rows(group);
     for (const Exclusion& one : result_.spec.exclude) result_.excluded.push_back({one.text, 0});
+    result_.case_of_row.resize(result_.spec.groups.size());
     for (std::size_t g = 0; g < result_.spec.groups.size(); ++g) expand_group(static_cast<int>(g));
     throw_problems();
     for (const Case& one : result_.cases) {
@@ -79,6 +80,8 @@ class Expander {
       add(found);
       if (!found.empty()) return;
     }
+    std::vector<int>& case_of_row = result_.case_of_row[static_cast<std::size_t>(index)];
+    case_of_row.assign(static_cast<std::size_t>(n_rows), -1);
     Row row;
     std::vector<double> derived;
     int n_wrong = 0;
@@ -92,7 +95,9 @@ class Expander {
       std::vector<Problem> found;
       std::string identity;
       if (composer) identity = composer->identity(row, derived).value_or("");
-      if (!add_case(index, row, derived, identity, builder, families, found)) {
+      int& place = case_of_row[static_cast<std::size_t>(i)];
+      place = add_case(index, row, derived, identity, builder, families, found);
+      if (place < 0) {
         for (Problem& one : found) one.what += " (where " + builder.describe(row) + ")";
         add(found);
         if (++n_wrong < kMaximumWrongCases) continue;
@@ -128,10 +133,11 @@ class Expander {
     return ok;
   }
 
+  /// The index of the row's case, or -1 where problems were found.
   /// @param identity  of the row's scene; "" where the scene must be read to know it.
-  bool add_case(int group, const Row& row, const std::vector<double>& derived,
-                const std::string& identity, SceneBuilder& builder, FamilyFinder& families,
-                std::vector<Problem>& problems) {
+  int add_case(int group, const Row& row, const std::vector<double>& derived,
+               const std::string& identity, SceneBuilder& builder, FamilyFinder& families,
+               std::vector<Problem>& problems) {
     Case one;
     one.index = static_cast<int>(result_.cases.size());
     one.group = group;
@@ -140,7 +146,7 @@ class Expander {
     one.identity = identity;
     if (identity.empty()) {
       const auto scene = builder.scene(row, derived, problems);
-      if (!scene) return false;
+      if (!scene) return -1;
       one.identity = faultsim::case_identity(*scene);
     }
     const auto [known, is_new] = by_identity_.emplace(one.identity, one.index);
@@ -148,14 +154,14 @@ class Expander {
       ++result_.n_merged;
       if (first_merged_.empty()) {
         first_merged_ =
-            builder.describe(row) + " is the same as case " + std::to_string(known->second);
+            builder.describe(row) + " is the same as case " + std::to_string(known->second + 1);
       }
-      return true;
+      return known->second;
     }
     one.family = families.family_of(row, derived, problems);
-    if (one.family < 0) return false;
+    if (one.family < 0) return -1;
     result_.cases.push_back(std::move(one));
-    return true;
+    return result_.cases.back().index;
   }
 
   void write_notes() {

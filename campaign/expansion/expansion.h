@@ -45,7 +45,10 @@ struct ExcludedCases {
 struct Expansion {
   CampaignSpec spec;
   std::vector<Case> cases;
-  std::vector<Family> families;         ///< in order of first use.
+  std::vector<Family> families;  ///< in order of first use.
+  /// Per group and row of its design: the index in `cases` of what it became (rows that are merged
+  /// have the same), or -1 where it is excluded.
+  std::vector<std::vector<int>> case_of_row;
   std::vector<ExcludedCases> excluded;  ///< per CampaignSpec::exclude.
   long n_designed = 0;                  ///< cases before exclusion and merging.
   long n_merged = 0;                    ///< cases dropped as the same as an earlier one.

@@ -207,6 +207,11 @@ void Store::add_cases(std::int64_t campaign, const Submission& submission) {
     }
     link.bind(campaign, ++position, id, one.parameter_values, one.parameter_labels, fields).run();
   }
+  Statement& add_row = db.prepared(
+      "INSERT INTO design_rows (campaign_id, design, row, position) VALUES (?, ?, ?, ?)");
+  for (const DesignRow& one : submission.design_rows) {
+    add_row.bind(campaign, one.design, one.row, one.position).run();
+  }
 }
 
 SubmitOutcome Store::submit(const Submission& submission) {
@@ -350,6 +355,17 @@ Store::SpecCopies Store::spec_copies(std::int64_t campaign) const {
   SpecCopies copies{query.text(0), query.text(1), query.text(2)};
   query.reset();
   return copies;
+}
+
+std::vector<DesignRow> Store::design_rows(std::int64_t campaign) const {
+  Statement& query = connection_->prepared(
+      "SELECT design, row, position FROM design_rows WHERE campaign_id = ? ORDER BY design, row");
+  query.bind(campaign);
+  std::vector<DesignRow> rows;
+  while (query.step()) {
+    rows.push_back({static_cast<int>(query.integer(0)), query.integer(1), query.integer(2)});
+  }
+  return rows;
 }
 
 }  // namespace faultsweep

@@ -6,6 +6,7 @@
 #include "store_2_sql.h"
 #include "store_3_sql.h"
 #include "store_4_sql.h"
+#include "store_5_sql.h"
 #include "store_sql.h"
 
 namespace faultsweep {
@@ -70,6 +71,7 @@ const std::vector<Migration>& store_migrations() {
       {2, "2026-11-21 fields of cases", faultsim::embedded::store_2_sql},
       {3, "2026-11-21 slip events and episodes", faultsim::embedded::store_3_sql},
       {4, "2026-11-21 creep of salt", faultsim::embedded::store_4_sql},
+      {5, "2026-11-21 rows of designs", faultsim::embedded::store_5_sql},
   };
   return migrations;
 }

@@ -56,6 +56,13 @@ struct CaseRecord {
   std::string parameter_labels;  ///< JSON array of the same as text, with the units given.
 };
 
+/// A row of a design and the case that it became.
+struct DesignRow {
+  int design = 0;     ///< from 0: index in `groups` of the resolved spec.
+  long row = 0;       ///< from 1, in the order of the design.
+  long position = 0;  ///< of the case in the campaign, from 1; rows that are merged share it.
+};
+
 /// A campaign as submitted: the three copies of the spec and what became of it.
 struct Submission {
   std::string name;
@@ -70,7 +77,8 @@ struct Submission {
   KeepFields keep_fields = KeepFields::none;
   std::vector<BaseScene> scenes;
   std::vector<FamilyRecord> families;
-  std::vector<CaseRecord> cases;  ///< in the order of the expansion.
+  std::vector<CaseRecord> cases;       ///< in the order of the expansion.
+  std::vector<DesignRow> design_rows;  ///< of sampled designs, and of others with merged rows.
 };
 
 struct SubmitOutcome {

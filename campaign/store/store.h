@@ -68,6 +68,10 @@ class Store {
     std::string given, resolved, expanded_hash;
   };
   SpecCopies spec_copies(std::int64_t campaign) const;
+  /// Rows of the campaign's designs by design and row. Every latin-hypercube, sobol or morris
+  /// design (or nested one with such) has them, but for its excluded rows; others only where rows
+  /// were merged: elsewhere the cases of a design, by position, are its rows.
+  std::vector<DesignRow> design_rows(std::int64_t campaign) const;
 
   // Running ---------------------------------------------------------------------------------------
   /// Families of the campaign with cases that wait, with these cases.

@@ -129,7 +129,8 @@ TEST(Expansion, OneAtATimeStartsWithTheBase) {
   ASSERT_EQ(all.notes.size(), 1u);
   EXPECT_EQ(all.notes[0],
             "2 cases are the same as an earlier one and run once (the first: offset = 0 m, "
-            "friction_angle = 30 deg is the same as case 0)");
+            "friction_angle = 30 deg is the same as case 1)");
+  EXPECT_EQ(all.case_of_row[0], (std::vector<int>{0, 0, 1, 2, 0}));
 }
 
 TEST(Expansion, ZipAndList) {
@@ -156,6 +157,7 @@ TEST(Expansion, ExcludedCasesAreCountedWithTheReason) {
                      "reservoir_stiffness > 1 TPa", "offset_east = 0 m"], )");
   EXPECT_EQ(all.cases.size(), 3u);
   EXPECT_EQ(all.n_designed, 6);
+  EXPECT_EQ(all.case_of_row[0], (std::vector<int>{-1, -1, 0, 1, -1, 2}));
   EXPECT_EQ(all.excluded[0].n_cases, 1);
   EXPECT_EQ(all.excluded[1].n_cases, 2);
   EXPECT_EQ(all.excluded[2].n_cases, 0);

@@ -105,6 +105,26 @@ TEST_F(StoreTest, RecognisesTheSameSpecAndNumbersAnother) {
   EXPECT_EQ(store.campaign("sweep").n_cases, 4);
 }
 
+TEST_F(StoreTest, FindsTheCaseOfEachRowOfADesign) {
+  Store store = Store::open_writer(folder_);
+  Submission s = submission(3);
+  s.design_rows = {{1, 2, 2}, {0, 1, 1}, {1, 1, 3}, {1, 3, 2}};  // row 3 was merged with row 2
+  const std::int64_t first = store.submit(s).campaign;
+  const std::int64_t other = store.submit(submission(3, "other")).campaign;
+  std::vector<std::vector<long>> rows;
+  for (const DesignRow& one : store.design_rows(first)) {
+    rows.push_back({one.design, one.row, one.position});
+  }
+  EXPECT_THAT(rows, ElementsAre(ElementsAre(0, 1, 1), ElementsAre(1, 1, 3), ElementsAre(1, 2, 2),
+                                ElementsAre(1, 3, 2)));
+  EXPECT_THAT(store.design_rows(other), IsEmpty());
+  EXPECT_TRUE(store.submit(s).existed);
+  EXPECT_EQ(store.design_rows(first).size(), 4u);
+  s.name = "beyond";
+  s.design_rows = {{0, 1, 4}};
+  EXPECT_THROW(store.submit(s), StorageError) << "there is no case 4";
+}
+
 TEST_F(StoreTest, SharesCasesBetweenCampaigns) {
   Store store = Store::open_owner(folder_);
   const std::int64_t first = store.submit(submission(4)).campaign;
