@@ -13,6 +13,7 @@ struct MetricInfo {
   faultsim::Dimension dimension;
   bool is_flag = false;
   std::string description;
+  bool may_be_missing = false;  ///< cases with a full history may have no value.
 };
 
 /// All metrics of `rank --list-metrics`, in the order shown.

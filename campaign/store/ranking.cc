@@ -1,5 +1,6 @@
 #include <map>
 
+#include "campaign/store/bind_values.h"
 #include "campaign/store/read_stage.h"
 #include "campaign/store/sqlite.h"
 #include "campaign/store/store.h"
@@ -8,8 +9,19 @@ namespace faultsweep {
 namespace {
 
 /// Metrics of spec/metrics.h (fields of StageMetrics and CaseResult) -> columns.
-const std::map<std::string, const char*>& metric_columns() {
-  static const std::map<std::string, const char*> columns = {
+const std::map<std::string, std::string>& metric_columns() {
+  // Creep is kept per load step only: few ask for it, and a case's steps lie together.
+  const auto creep = [](const char* aggregate, const char* table) {
+    return faultsim::concat("(SELECT ", aggregate, " FROM ", table, " WHERE case_id = s.case_id",
+                            " AND step BETWEEN s.first_step AND s.last_step)");
+  };
+  static const std::map<std::string, std::string> columns = {
+      {"creep_normal_min", creep("min(creep_normal_min_pa)", "chi_history")},
+      {"creep_normal_max", creep("max(creep_normal_max_pa)", "chi_history")},
+      {"creep_shear_max", creep("max(creep_shear_max_pa)", "chi_history")},
+      {"creep_time_steps", creep("sum(time_steps)", "load_steps")},
+      {"creep_time_error", creep("max(time_error_pa)", "load_steps")},
+      {"creep_time_resolved", creep("min(time_resolved)", "load_steps")},
       {"outcome", "m.outcome"},
       {"rank_class", "s.rank_class"},
       {"activated", "s.activated"},
@@ -52,6 +64,8 @@ constexpr const char* kDefaultOrder =
     "s.rank_class, s.activated_area_m2 DESC, s.moment_nm DESC,"
     " coalesce(s.pressure_margin_pa, 9e99), s.chi_bar DESC, s.case_id";
 
+}  // namespace
+
 void bind_values(Statement& statement, int& position, const std::vector<Value>& values) {
   for (const Value& value : values) {
     ++position;
@@ -66,8 +80,6 @@ void bind_values(Statement& statement, int& position, const std::vector<Value>& 
     }
   }
 }
-
-}  // namespace
 
 std::string metric_sql(const std::string& metric) {
   const auto found = metric_columns().find(metric);

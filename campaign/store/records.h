@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "campaign/spec/spec.h"
@@ -225,6 +226,25 @@ struct RankedCase {
   bool unexpected = false;                ///< reactivation as pressure recovers.
   std::optional<double> pressure_margin;  ///< Pa.
   faultsim::StageMetrics metrics;
+};
+
+/// A value of a table that is read row by row: missing, whole number (flags: 0, 1), number, text.
+using Cell = std::variant<std::monostate, std::int64_t, double, std::string>;
+
+/// A case of a campaign as one row of a table, whether it has a result or not.
+struct CaseRow {
+  std::int64_t id = 0;  ///< the same number: one stored result, shared by campaigns.
+  long position = 0;
+  std::string identity, state;
+  std::string outcome;            ///< of the result; "" without one.
+  std::string status;             ///< how the run that decided the case ended; "" before.
+  std::string reason;             ///< why that is no full history.
+  std::optional<int> rank_class;  ///< see RankedCase; none without a result in the stage.
+  std::string parameter_values;   ///< JSON array.
+  std::string parameter_labels;   ///< JSON array.
+  std::vector<Cell> metrics;      ///< in the order asked for.
+  /// A history to its end: what statistics may take.
+  bool complete() const { return rank_class && *rank_class < 2; }
 };
 
 /// Counts of what went wrong, for status.

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "campaign/store/records.h"
 #include "simulator/common/errors.h"
 
 struct sqlite3;
@@ -91,6 +92,7 @@ class Statement {
   std::optional<std::int64_t> optional_integer(int column) const;
   std::optional<double> optional_real(int column) const;  ///< NULL reads as none.
   std::optional<std::string> optional_text(int column) const;
+  Cell cell(int column) const;  ///< whatever is there.
 
  private:
   template <std::integral Value>

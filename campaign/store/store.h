@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -121,6 +122,21 @@ class Store {
   /// inactive cases by pressure margin, χ̄.
   std::vector<RankedCase> ranking(std::int64_t campaign, const RankingQuery& query) const;
   std::vector<std::string> stages(std::int64_t campaign) const;  ///< names that have metrics.
+  /// Which cases to read, and what of them.
+  struct TableQuery {
+    std::string stage;                 ///< "" = the whole history.
+    std::vector<std::string> metrics;  ///< names that metric_sql knows.
+    SqlFragment where;                 ///< condition; empty = all.
+    bool by_design_row = false;        ///< order of design_rows: merged rows repeat their case.
+  };
+  /// Visits the campaign's cases by position, one in memory at a time.
+  void for_each_case(std::int64_t campaign, const TableQuery& query,
+                     const std::function<void(const CaseRow&)>& visit) const;
+  /// Columns of the χ histories, units in their names as in the view chi_history_wide.
+  static std::vector<std::string> history_columns();
+  /// Visits the histories by position, fault and step; cells in the order of history_columns().
+  void for_each_history_row(std::int64_t campaign, const TableQuery& query,
+                            const std::function<void(const std::vector<Cell>&)>& visit) const;
   std::vector<FailureCount> failure_counts(std::int64_t campaign) const;
   std::vector<EventRecord> events(std::int64_t campaign, int limit) const;  ///< newest first.
   struct FamilyProgress {

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "campaign/spec/metrics.h"
 #include "campaign/store/store.h"
 #include "simulator/common/stopwatch.h"
 #include "tests/campaign/made_up_result.h"
@@ -69,6 +70,14 @@ TEST(StoreSpeed, SlowHundredThousandCases) {
   timed("failures", 0.5, [&] { reader.failure_counts(campaign); });
   timed("families", 0.5, [&] { reader.family_progress(campaign); });
   timed("stages", 0.5, [&] { reader.stages(campaign); });
+  Store::TableQuery table;
+  for (const MetricInfo& metric : metric_catalogue()) {
+    if (!metric.name.starts_with("creep_")) table.metrics.push_back(metric.name);
+  }
+  long n_rows = 0;
+  timed("all cases as a table", 5,
+        [&] { reader.for_each_case(campaign, table, [&](const CaseRow&) { ++n_rows; }); });
+  EXPECT_EQ(n_rows, kCases);
   std::filesystem::remove_all(folder);
 }
 

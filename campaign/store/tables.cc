@@ -1,0 +1,159 @@
+#include <algorithm>
+#include <array>
+
+#include "campaign/store/bind_values.h"
+#include "campaign/store/sqlite.h"
+#include "campaign/store/store.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+
+namespace {
+
+/// What the tables are read from, after "cc", a campaign's cases. CROSS JOIN fixes the order of the
+/// loops, so that rows come in the order of their keys and nothing is sorted.
+constexpr const char* kJoins =
+    " CROSS JOIN cases c ON c.id = cc.case_id"
+    " LEFT JOIN runs r ON r.id = c.run_id"
+    " LEFT JOIN case_metrics m ON m.case_id = cc.case_id"
+    " LEFT JOIN stage_metrics s ON s.case_id = cc.case_id"
+    " AND s.stage_id = (SELECT id FROM names WHERE name = ?)"
+    " LEFT JOIN names f ON f.id = s.activated_fault_id";
+
+std::string where_sql(const SqlFragment& where) {
+  return where.text.empty() ? "" : " AND coalesce((" + where.text + "), 0)";
+}
+
+CaseRow read_case(const Statement& row, std::size_t n_metrics) {
+  constexpr int kFirstMetric = 10;
+  CaseRow one;
+  one.id = row.integer(0);
+  one.position = static_cast<long>(row.integer(1));
+  one.identity = row.text(2);
+  one.state = row.text(3);
+  one.outcome = row.text(4);
+  one.status = row.text(5);
+  one.reason = row.text(6);
+  if (const auto rank_class = row.optional_integer(7))
+    one.rank_class = static_cast<int>(*rank_class);
+  one.parameter_values = row.text(8);
+  one.parameter_labels = row.text(9);
+  one.metrics.reserve(n_metrics);
+  for (std::size_t k = 0; k < n_metrics; ++k) {
+    one.metrics.push_back(row.cell(kFirstMetric + static_cast<int>(k)));
+  }
+  return one;
+}
+
+/// @param source  what gives cc, with one parameter per campaign of its text.
+void visit_cases(Connection& db, const std::string& source, int n_campaigns, std::int64_t campaign,
+                 const Store::TableQuery& query, const char* order,
+                 const std::function<void(const CaseRow&)>& visit) {
+  std::string sql =
+      "SELECT cc.case_id, cc.position, c.identity, c.state, coalesce(m.outcome, ''),"
+      " coalesce(r.status, ''), coalesce(m.reason, r.reason, ''), s.rank_class,"
+      " cc.parameter_values, cc.parameter_labels";
+  for (const std::string& metric : query.metrics) sql += ", " + metric_sql(metric);
+  Statement rows(db, (sql + source + where_sql(query.where) + order).c_str());
+  int bound = 0;
+  rows.bind_at(++bound, query.stage);
+  for (int k = 0; k < n_campaigns; ++k) rows.bind_at(++bound, campaign);
+  bind_values(rows, bound, query.where.parameters);
+  while (rows.step()) visit(read_case(rows, query.metrics.size()));
+}
+
+struct HistoryColumn {
+  const char *name, *sql;
+};
+
+/// Joined as in the view chi_history_wide.
+constexpr std::array<HistoryColumn, 31> kHistory = {{
+    {"case", "cc.position"},
+    {"fault", "hf.name"},
+    {"step", "h.step"},
+    {"stage", "g.name"},
+    {"time_s", "l.time_s"},
+    {"pressure_change_pa", "l.pressure_change_pa"},
+    {"outcome", "l.outcome"},
+    {"chi_bar", "h.chi_bar"},
+    {"chi_max", "h.chi_max"},
+    {"chi_static_max", "h.chi_static_max"},
+    {"area_chi_080_m2", "h.area_chi_080_m2"},
+    {"thickness_chi_080_max_m", "h.thickness_chi_080_max_m"},
+    {"thickness_chi_080_mean_m", "h.thickness_chi_080_mean_m"},
+    {"slipping_area_m2", "h.slipping_area_m2"},
+    {"open_area_m2", "h.open_area_m2"},
+    {"activated_area_m2", "h.activated_area_m2"},
+    {"activated_length_m", "h.activated_length_m"},
+    {"activated", "h.activated"},
+    {"activated_at_edge", "h.activated_at_edge"},
+    {"max_slip_m", "h.max_slip_m"},
+    {"mean_slip_m", "h.mean_slip_m"},
+    {"potency_m3", "h.potency_m3"},
+    {"moment_nm", "h.moment_nm"},
+    {"moment_step_nm", "h.moment_step_nm"},
+    {"newton_iterations", "l.newton_iterations"},
+    {"creep_normal_min_pa", "h.creep_normal_min_pa"},
+    {"creep_normal_max_pa", "h.creep_normal_max_pa"},
+    {"creep_shear_max_pa", "h.creep_shear_max_pa"},
+    {"time_steps", "l.time_steps"},
+    {"time_error_pa", "l.time_error_pa"},
+    {"time_resolved", "l.time_resolved"},
+}};
+
+}  // namespace
+
+void Store::for_each_case(std::int64_t campaign, const TableQuery& query,
+                          const std::function<void(const CaseRow&)>& visit) const {
+  Connection& db = *connection_;
+  constexpr const char* kCases = " FROM campaign_cases cc";
+  if (!query.by_design_row) {
+    visit_cases(db, concat(kCases, kJoins, " WHERE cc.campaign_id = ?"), 1, campaign, query,
+                " ORDER BY cc.position", visit);
+    return;
+  }
+  visit_cases(db,
+              concat(" FROM design_rows d CROSS JOIN campaign_cases cc"
+                     " ON cc.campaign_id = d.campaign_id AND cc.position = d.position",
+                     kJoins, " WHERE d.campaign_id = ?"),
+              1, campaign, query, " ORDER BY d.design, d.row", visit);
+  // Designs whose rows are their cases.
+  visit_cases(db,
+              concat(kCases, kJoins,
+                     " WHERE cc.campaign_id = ? AND cc.position NOT IN"
+                     " (SELECT position FROM design_rows WHERE campaign_id = ?)"),
+              2, campaign, query, " ORDER BY cc.position", visit);
+}
+
+std::vector<std::string> Store::history_columns() {
+  std::vector<std::string> names;
+  for (const HistoryColumn& column : kHistory) names.emplace_back(column.name);
+  return names;
+}
+
+void Store::for_each_history_row(std::int64_t campaign, const TableQuery& query,
+                                 const std::function<void(const std::vector<Cell>&)>& visit) const {
+  std::string sql;
+  for (const HistoryColumn& column : kHistory)
+    sql += (sql.empty() ? "SELECT " : ", ") + std::string(column.sql);
+  sql += concat(" FROM campaign_cases cc", kJoins,
+                " CROSS JOIN chi_history h ON h.case_id = cc.case_id"
+                " CROSS JOIN load_steps l ON l.case_id = h.case_id AND l.step = h.step"
+                " CROSS JOIN names g ON g.id = l.stage_id CROSS JOIN names hf ON hf.id = h.fault_id"
+                " WHERE cc.campaign_id = ?",
+                query.stage.empty() ? "" : " AND h.step BETWEEN s.first_step AND s.last_step",
+                where_sql(query.where), " ORDER BY cc.position, h.fault, h.step");
+  Statement rows(*connection_, sql.c_str());
+  int bound = 0;
+  rows.bind_at(++bound, query.stage);
+  rows.bind_at(++bound, campaign);
+  bind_values(rows, bound, query.where.parameters);
+  std::vector<Cell> cells(kHistory.size());
+  while (rows.step()) {
+    for (std::size_t k = 0; k < cells.size(); ++k) cells[k] = rows.cell(static_cast<int>(k));
+    visit(cells);
+  }
+}
+
+}  // namespace faultsweep
