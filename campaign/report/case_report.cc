@@ -54,9 +54,59 @@ std::string stages_text(const CaseResult& result) {
   return table.text();
 }
 
+/// What the salt did to one fault up to a load step; empty where nothing creeps.
+struct CreepCells {
+  std::string normal, shear, time_steps;
+};
+
+CreepCells creep_cells(const faultsim::StepResult& step, std::size_t fault) {
+  if (!step.creep) return {};
+  CreepCells cells;
+  cells.time_steps = concat(step.creep->time_steps, step.creep->time_resolved ? "" : "!");
+  if (fault >= step.creep->faults.size()) return cells;
+  const faultsim::FaultCreep& c = step.creep->faults[fault];
+  cells.normal =
+      concat(format_number(c.normal_min / kBar, 3), " to ", format_number(c.normal_max / kBar, 3));
+  cells.shear = format_number(c.shear_max / kBar, 3);
+  return cells;
+}
+
+/// The most that creep did to any fault, in one line; "" where nothing creeps.
+std::string creep_text(const CaseResult& result) {
+  faultsim::FaultCreep most;
+  int n_time_steps = 0, n_unresolved = 0;
+  double time_error = 0;
+  bool creeps = false;
+  for (const faultsim::StepResult& step : result.steps) {
+    if (!step.creep) continue;
+    creeps = true;
+    n_time_steps += step.creep->time_steps;
+    n_unresolved += step.creep->time_resolved ? 0 : 1;
+    time_error = std::max(time_error, step.creep->time_error);
+    for (const faultsim::FaultCreep& c : step.creep->faults) {
+      most.normal_min = std::min(most.normal_min, c.normal_min);
+      most.normal_max = std::max(most.normal_max, c.normal_max);
+      most.shear_max = std::max(most.shear_max, c.shear_max);
+    }
+  }
+  if (!creeps) return "";
+  std::string text = concat(
+      "salt creeps: it changed fault tractions by ", format_number(most.normal_min / kBar, 3),
+      " bar (compression) to ", format_number(most.normal_max / kBar, 3),
+      " bar (tension) normal and at most ", format_number(most.shear_max / kBar, 3),
+      " bar in shear; ", n_time_steps, " time steps, halving them changes at most ",
+      format_number(time_error / kBar, 2), " bar\n");
+  if (n_unresolved > 0) {
+    text += concat("time steps of ", n_unresolved,
+                   " load steps (marked !) are coarser than creep_tolerance asks\n");
+  }
+  return text;
+}
+
 std::string history_text(const CaseResult& result, std::size_t fault) {
   TextTable table({"step", "stage", "year", "Δp/bar", "χ̄", "χ max", "area χ>0.8/m2", "slipping/m2",
-                   "activated/m2", "slip/m", "M0/Nm"});
+                   "activated/m2", "slip/m", "M0/Nm", "creep ΔtN/bar", "creep |ΔtT|/bar",
+                   "time steps"});
   for (const faultsim::StepResult& step : result.steps) {
     std::string pressure;
     for (const double change : step.pressure_change) {
@@ -64,15 +114,17 @@ std::string history_text(const CaseResult& result, std::size_t fault) {
     }
     if (fault >= step.faults.size()) {
       table.add_row({std::to_string(step.step), step.stage, format_number(step.time / kYear),
-                     pressure, faultsim::to_string(step.outcome), "", "", "", "", "", ""});
+                     pressure, faultsim::to_string(step.outcome), "", "", "", "", "", "", "", "",
+                     ""});
       continue;
     }
     const faultsim::FaultMetrics& m = step.faults[fault];
+    const CreepCells creep = creep_cells(step, fault);
     table.add_row({std::to_string(step.step), step.stage, format_number(step.time / kYear),
                    pressure, format_number(m.chi_bar, 3), format_number(m.chi_max, 3),
                    format_number(m.area_chi_080), format_number(m.slipping_area),
                    format_number(m.activated_area), format_number(m.max_slip, 3),
-                   format_number(m.moment, 3)});
+                   format_number(m.moment, 3), creep.normal, creep.shear, creep.time_steps});
   }
   return table.text();
 }
@@ -203,6 +255,7 @@ std::string case_to_text(const CampaignInfo& campaign, const StoredCase& one) {
     text += concat("activates after ", format_number(result.pressure_margin / kBar),
                    " bar more depletion, extrapolated\n");
   }
+  text += creep_text(result);
   text += "\n" + stages_text(result) + events_text(result) + episodes_text(result);
   for (std::size_t fault = 0; fault < result.fault_names.size(); ++fault) {
     text += concat("\nfault ", result.fault_names[fault], ":\n", history_text(result, fault));
@@ -249,36 +302,51 @@ json case_to_json(const CampaignInfo& campaign, const StoredCase& one) {
           {"result", one.has_result ? faultsim::result_to_json(one.result) : json()}};
 }
 
+namespace {
+
+/// Whether an open campaign computes the case, and why: "will run..." or "will not run...".
+std::string verdict_of(const CampaignInfo& campaign, const StoredCase& one) {
+  const StoredRun* last = one.runs.empty() ? nullptr : &one.runs.back();
+  if (one.state == "done" && one.fields == FieldsState::wanted) {
+    return concat("will run, for its fault fields only: it has a result (",
+                  faultsim::to_string(one.result.outcome),
+                  "), which the run must repeat bit for bit\n");
+  }
+  if (one.state == "done" && one.fields == FieldsState::failed) {
+    return concat("will not run: it has a result, but its fault fields could not be added: ",
+                  last_fields_failure(one), "; `faultsweep retry ", campaign.name, " --case ",
+                  one.position, "` lets them be tried again\n");
+  }
+  if (one.state == "done" && one.fields == FieldsState::kept && !fields_are_there(one)) {
+    return "will run, for its fault fields only: their files are gone\n";
+  }
+  if (one.state == "done") {
+    return concat("will not run: it has a result (", faultsim::to_string(one.result.outcome),
+                  ") from ", format_time(last->ended_at),
+                  "; the same scene gives the same numbers, so nothing would change\n");
+  }
+  if (one.state == "failed") {
+    return concat("will not run: attempt ", last->attempt, " ", last->status, ": ", last->reason,
+                  "; `faultsweep retry ", campaign.name, " --case ", one.position,
+                  "` lets it run again\n");
+  }
+  if (last == nullptr) {
+    return "will run: no scene with this identity has been run in this store\n";
+  }
+  return concat("will run: it waits for another attempt after attempt ", last->attempt, " ",
+                last->status, last->reason.empty() ? "" : ": " + last->reason, "\n");
+}
+
+}  // namespace
+
 std::string explain_case(const Store& store, const CampaignInfo& campaign, const StoredCase& one) {
   std::string text = concat("case ", one.position, " of ", campaign.name, " (identity ",
                             one.identity, ", numerics version ", faultsim::kNumericsVersion, ")\n");
-  const StoredRun* last = one.runs.empty() ? nullptr : &one.runs.back();
-  if (campaign.cancelled) {
-    text += "will not run: the campaign is cancelled; submit its spec again to reopen it\n";
-  } else if (one.state == "done" && one.fields == FieldsState::wanted) {
-    text += concat("will run, for its fault fields only: it has a result (",
-                   faultsim::to_string(one.result.outcome),
-                   "), which the run must repeat bit for bit\n");
-  } else if (one.state == "done" && one.fields == FieldsState::failed) {
-    text += concat("will not run: it has a result, but its fault fields could not be added: ",
-                   last_fields_failure(one), "; `faultsweep retry ", campaign.name, " --case ",
-                   one.position, "` lets them be tried again\n");
-  } else if (one.state == "done" && one.fields == FieldsState::kept && !fields_are_there(one)) {
-    text += "will run, for its fault fields only: their files are gone\n";
-  } else if (one.state == "done") {
-    text += concat("will not run: it has a result (", faultsim::to_string(one.result.outcome),
-                   ") from ", format_time(last->ended_at),
-                   "; the same scene gives the same numbers, so nothing would change\n");
-  } else if (one.state == "failed") {
-    text += concat("will not run: attempt ", last->attempt, " ", last->status, ": ", last->reason,
-                   "; `faultsweep retry ", campaign.name, " --case ", one.position,
-                   "` lets it run again\n");
-  } else if (last == nullptr) {
-    text += "will run: no scene with this identity has been run in this store\n";
-  } else {
-    text += concat("will run: it waits for another attempt after attempt ", last->attempt, " ",
-                   last->status, last->reason.empty() ? "" : ": " + last->reason, "\n");
-  }
+  const std::string verdict = verdict_of(campaign, one);
+  text += campaign.cancelled && verdict.starts_with("will run")
+              ? concat("will not run: the campaign is cancelled; `faultsweep submit ",
+                       campaign.source, "` reopens it\n")
+              : verdict;
   for (const Store::FamilyProgress& family : store.family_progress(campaign.id)) {
     if (family.fingerprint != one.family) continue;
     text += concat(

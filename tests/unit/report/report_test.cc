@@ -313,6 +313,41 @@ class EventReportTest : public ReportTest {
   CampaignInfo events_;
 };
 
+TEST_F(EventReportTest, ShowAndRankTellWhatTheSaltDid) {
+  const std::string text = show("2");
+  const auto result = testing::made_up_result_with_events(0.95);
+  double shear = 0, normal = 0;
+  int n_time_steps = 0;
+  for (const faultsim::StepResult& step : result.steps) {
+    n_time_steps += step.creep->time_steps;
+    for (const faultsim::FaultCreep& one : step.creep->faults) {
+      shear = std::max(shear, one.shear_max);
+      normal = std::min(normal, one.normal_min);
+    }
+  }
+  EXPECT_THAT(text, HasSubstr("salt creeps: it changed fault tractions by " +
+                              format_number(normal / 1e5, 3) + " bar (compression) to "));
+  EXPECT_THAT(text, HasSubstr(" bar in shear; " + std::to_string(n_time_steps) + " time steps"));
+  EXPECT_THAT(text, HasSubstr("creep |ΔtT|/bar  time steps"));
+  EXPECT_THAT(text, HasSubstr("time steps of 13 load steps (marked !)"));
+  EXPECT_THAT(show("1"), Not(HasSubstr("creep")));
+  const auto scores = [&](const std::string& by, const std::string& stage = "") {
+    RankRequest asked = request(by);
+    asked.stage = stage;
+    std::vector<std::optional<double>> found;
+    for (const RankedCase& row : make_ranking(*store_, events_, asked).rows) {
+      found.push_back(row.score);
+    }
+    return found;
+  };
+  // Case 3 is complete and creeps, case 1 has no creep, case 2 has unresolved events.
+  EXPECT_THAT(scores("creep_shear_max"), ElementsAre(shear, std::nullopt, shear));
+  EXPECT_THAT(scores("creep_normal_min"), ElementsAre(normal, std::nullopt, normal));
+  EXPECT_THAT(scores("creep_time_steps"), ElementsAre(n_time_steps, std::nullopt, n_time_steps));
+  EXPECT_EQ(scores("creep_shear_max", "primary_production")[0],
+            result.steps[4].creep->faults[1].shear_max);
+}
+
 TEST_F(EventReportTest, TheRankingKeepsUnresolvedOnesApart) {
   const std::string text = ranking_to_text(make_ranking(*store_, events_, {}));
   EXPECT_THAT(text, HasSubstr("   1     3  event "));
