@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "campaign/report/compare.h"
+#include "campaign/report/export.h"
 #include "campaign/report/ranking_report.h"
 #include "campaign/scheduler/ranks.h"
 #include "simulator/common/exit_code.h"
@@ -33,6 +35,15 @@ ExitCode rank_command(const StoreArguments& common, const RankRequest& request, 
 /// @param name  case number, beginning of an identity, or CAMPAIGN/either.
 ExitCode show_command(const StoreArguments& common, const std::string& name);
 ExitCode explain_command(const StoreArguments& common, const std::string& name);
+/// Prints the table unless it goes to a file; says on stderr what is in it and what is missing.
+ExitCode export_command(const StoreArguments& common, const ExportRequest& request);
+struct CompareArguments {
+  std::string a, b;                   ///< campaigns; b "" = of a's name, in the other store.
+  std::filesystem::path other_store;  ///< where b is; "" = in the same store.
+  CompareRequest request;
+};
+/// Exit code 5 where something differs or nothing was compared.
+ExitCode compare_command(const StoreArguments& common, const CompareArguments& arguments);
 struct RetryArguments {
   bool unconverged = false;
   std::optional<long> position;

@@ -19,9 +19,25 @@ constexpr const char* kFooter =
     "  faultsweep status                             from another terminal: time left, failures\n"
     "  faultsweep rank --by moment --where \"friction_angle < 25 deg\" --top 10\n"
     "  faultsweep show 17                            one case: stages, chi history per fault\n"
+    "  faultsweep export -o cases.csv                all cases, for pandas or a spreadsheet\n"
+    "  faultsweep compare coarse fine                two campaigns, case by case\n"
     "Campaigns are addressed by name, the newest by default; cases by number, or CAMPAIGN/NUMBER.\n"
     "Exit codes: 0 done, 1 done with some cases without a full result, 2 input, 4 disk or memory,\n"
-    "            70 bug, 75 interrupted: run again to continue.";
+    "            5 compared and different, or nothing compared, 70 bug,\n"
+    "            75 interrupted: run again to continue.";
+constexpr const char* kExportFooter =
+    "Examples:\n"
+    "  faultsweep export -o cases.csv                 a row per case, whatever became of it\n"
+    "  faultsweep export --metrics moment,max_slip --where \"friction_angle < 25 deg\"\n"
+    "  faultsweep export --histories -o histories.csv a row per case, fault and load step\n"
+    "  faultsweep export --format dakota -o points.dat\n"
+    "  faultsweep export --format salib -o salib      problem.json, X.txt, Y_METRIC.txt";
+constexpr const char* kCompareFooter =
+    "Examples:\n"
+    "  faultsweep compare coarse fine --tolerance 0.05 --metrics chi_bar,activated_area\n"
+    "  faultsweep compare sweep --other-store yesterday/faultsweep-store\n"
+    "Cases are matched by identity, then by the parameters that both campaigns have.\n"
+    "Exit code 0: all that was compared agrees; 5: something differs, or nothing was compared.";
 
 std::filesystem::path default_store() {
   const char* given = std::getenv("FAULTSWEEP_STORE");
@@ -54,6 +70,8 @@ struct Arguments {
   RunOptions run;
   RankRequest rank;
   bool list_metrics = false;
+  ExportRequest exporting;
+  CompareArguments compare;
   RetryArguments retry;
 };
 
@@ -124,6 +142,51 @@ void add_reading(CLI::App& app, Arguments& a, ExitCode& code) {
   explain->callback([&] { code = explain_command(a.common, a.case_name); });
 }
 
+void add_export(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* command = app.add_subcommand("export", "cases as tables: CSV, or for Dakota or SALib");
+  add_campaign(command, a.common);
+  const std::map<std::string, ExportFormat> formats = {
+      {"csv", ExportFormat::csv}, {"dakota", ExportFormat::dakota}, {"salib", ExportFormat::salib}};
+  command->add_option("--format", a.exporting.format, "csv (default), dakota or salib")
+      ->transform(CLI::CheckedTransformer(formats));
+  command->add_option("-o,--output", a.exporting.target,
+                      "file, or folder for salib; default: stdout");
+  command->add_option("--metrics", a.exporting.metrics,
+                      "names of `rank --list-metrics`, with commas; default: all, for dakota and\n"
+                      "salib those that every full history has");
+  command->add_option("--where", a.exporting.where, "condition on metrics and parameters");
+  command->add_option("--stage", a.exporting.stage,
+                      "metrics of this stage; default: the whole history");
+  command->add_flag("--histories", a.exporting.histories,
+                    "the chi histories instead: a row per case, fault and load step");
+  command->footer(kExportFooter);
+  command->callback([&] { code = export_command(a.common, a.exporting); });
+}
+
+void add_compare(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* command = app.add_subcommand("compare", "two campaigns, case by case");
+  command->add_option("A", a.compare.a, "a campaign")->required();
+  command->add_option("B", a.compare.b,
+                      "another one; default with --other-store: of the same name");
+  command->add_option("--other-store", a.compare.other_store, "store folder of B");
+  command
+      ->add_option("--tolerance", a.compare.request.tolerance,
+                   "relative difference of a metric that still agrees (default 1e-9)")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--metrics", a.compare.request.metrics,
+                      "names of `rank --list-metrics`, with commas; default: all");
+  command->add_option("--stage", a.compare.request.stage,
+                      "metrics of this stage; default: the whole history");
+  command
+      ->add_option("--top", a.compare.request.top,
+                   "how many of the worst cases; 0 = all that differ (default 10)")
+      ->check(CLI::NonNegativeNumber);
+  add_store(command, a.common);
+  add_json(command, a.common);
+  command->footer(kCompareFooter);
+  command->callback([&] { code = compare_command(a.common, a.compare); });
+}
+
 void add_caring(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* retry = app.add_subcommand("retry", "let failed cases run again");
   add_campaign(retry, a.common);
@@ -168,6 +231,8 @@ ExitCode faultsweep_main(int argc, char** argv) {
   ExitCode code = ExitCode::done;
   add_running(app, arguments, code, argc, argv);
   add_reading(app, arguments, code);
+  add_export(app, arguments, code);
+  add_compare(app, arguments, code);
   add_caring(app, arguments, code);
   try {
     app.parse(argc, argv);

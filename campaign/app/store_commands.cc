@@ -97,6 +97,8 @@ ExitCode status_command(const StoreArguments& common) {
   const CampaignInfo& c = status.campaign;
   if (!status.manager && c.n_waiting > 0 && !c.cancelled) {
     std::fprintf(stderr, "Next: faultsweep run %s\n", c.name.c_str());
+  } else if (c.cancelled && c.n_waiting > 0) {
+    std::fprintf(stderr, "Next: faultsweep submit %s, which reopens it\n", c.source.c_str());
   } else if (c.n_done > 0) {
     std::fprintf(stderr, "Next: faultsweep rank %s\n", c.name.c_str());
   }
@@ -137,12 +139,58 @@ ExitCode show_command(const StoreArguments& common, const std::string& name) {
   return ExitCode::done;
 }
 
+ExitCode export_command(const StoreArguments& common, const ExportRequest& request) {
+  const Store store = Store::open_reader(common.store);
+  const CampaignInfo campaign = store.campaign(common.campaign, false);
+  std::fputs(export_campaign(store, campaign, request).c_str(), stderr);
+  return ExitCode::done;
+}
+
+ExitCode compare_command(const StoreArguments& common, const CompareArguments& arguments) {
+  if (arguments.b.empty() && arguments.other_store.empty()) {
+    throw InputError("B", {{"", 0, "there is nothing to compare with",
+                            "name another campaign, or another store with --other-store"}});
+  }
+  const Store store_a = Store::open_reader(common.store);
+  const Store store_b =
+      Store::open_reader(arguments.other_store.empty() ? common.store : arguments.other_store);
+  const CampaignInfo a = store_a.campaign(arguments.a);
+  const CampaignInfo b = store_b.campaign(arguments.b.empty() ? a.name : arguments.b);
+  const Comparison comparison = compare_campaigns(store_a, a, store_b, b, arguments.request);
+  common.json ? print(comparison_to_json(comparison)) : print(comparison_to_text(comparison));
+  return comparison.agrees() ? ExitCode::done : ExitCode::regress;
+}
+
 ExitCode explain_command(const StoreArguments& common, const std::string& name) {
   const Store store = Store::open_reader(common.store);
   const NamedCase found = find_case(store, common, name);
   print(explain_case(store, found.campaign, found.stored));
   return ExitCode::done;
 }
+
+namespace {
+
+/// Why `retry` found nothing to do.
+std::string nothing_to_retry(const Store& store, const CampaignInfo& campaign,
+                             const RetryArguments& arguments) {
+  if (!arguments.position) {
+    const long n_early = campaign.n_done - campaign.n_complete();
+    if (n_early == 0 || arguments.unconverged) return "no case of " + campaign.name + " failed";
+    return concat("no case of ", campaign.name, " failed; ", n_early,
+                  " have a history that ends early: --unconverged lets them run again");
+  }
+  const StoredCase one = store.stored_case(campaign.id, std::to_string(*arguments.position));
+  const std::string name = concat("case ", one.position);
+  if (one.state == "waiting") return name + " waits already";
+  if (faultsim::in_equilibrium(one.result.outcome)) {
+    return concat(name, " has a full result (", faultsim::to_string(one.result.outcome),
+                  "): the same scene gives the same numbers");
+  }
+  return concat(name, " has a history that ends early (", faultsim::to_string(one.result.outcome),
+                "): --unconverged lets it run again");
+}
+
+}  // namespace
 
 ExitCode retry_command(const StoreArguments& common, const RetryArguments& arguments) {
   Store::open_reader(common.store);
@@ -152,10 +200,20 @@ ExitCode retry_command(const StoreArguments& common, const RetryArguments& argum
     throw faultsim::StorageError(
         concat(campaign.name, " is running; stop it, or wait for its end"));
   }
+  // Throws where there is no such case.
+  if (arguments.position) store.stored_case(campaign.id, std::to_string(*arguments.position));
   const long count = store.retry(campaign.id, arguments.unconverged, arguments.position);
   std::printf("%ld\n", count);
-  std::fprintf(stderr, "%ld cases of %s wait again. Next: faultsweep run %s\n", count,
-               campaign.name.c_str(), campaign.name.c_str());
+  if (count == 0) {
+    std::fprintf(stderr, "%s\n", nothing_to_retry(store, campaign, arguments).c_str());
+    return ExitCode::done;
+  }
+  const std::string next = campaign.cancelled
+                               ? concat("submit ", campaign.source, ", which reopens it")
+                               : "run " + campaign.name;
+  std::fprintf(stderr, "%ld %s of %s %s again. Next: faultsweep %s\n", count,
+               count == 1 ? "case" : "cases", campaign.name.c_str(), count == 1 ? "waits" : "wait",
+               next.c_str());
   return ExitCode::done;
 }
 
@@ -163,10 +221,16 @@ ExitCode cancel_command(const StoreArguments& common) {
   Store::open_reader(common.store);
   Store store = Store::open_writer(common.store);
   const CampaignInfo campaign = store.campaign(common.campaign);
-  store.cancel(campaign.id);
-  std::fprintf(stderr,
-               "%s is cancelled: its manager, if one runs, hands out nothing more; results stay\n",
-               campaign.name.c_str());
+  const bool was_cancelled = campaign.cancelled;
+  if (!was_cancelled) store.cancel(campaign.id);
+  std::fprintf(stderr, "%s %s cancelled with %ld of %ld cases waiting; results stay\n",
+               campaign.name.c_str(), was_cancelled ? "was already" : "is", campaign.n_waiting,
+               campaign.n_cases);
+  const auto owner = store.owner();
+  if (owner && owner->alive && owner->campaign == campaign.id) {
+    std::fprintf(stderr, "Its manager hands out nothing more and ends with the cases at work.\n");
+  }
+  std::fprintf(stderr, "faultsweep submit %s reopens it.\n", campaign.source.c_str());
   return ExitCode::done;
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/report/parameters.h"
+#include "campaign/report/selection.h"
 #include "campaign/report/text_table.h"
 #include "campaign/spec/metrics.h"
 
@@ -26,19 +27,6 @@ Expression parse_number(const std::string& text, const Symbols& symbols) {
                                "rank by a metric of --list-metrics"}});
   }
   return expression;
-}
-
-void check_stage(const Store& store, const CampaignInfo& campaign, const std::string& stage) {
-  if (stage.empty()) return;
-  const std::vector<std::string> stages = store.stages(campaign.id);
-  if (std::count(stages.begin(), stages.end(), stage) > 0) return;
-  std::string names;
-  for (const std::string& name : stages) {
-    if (!name.empty()) names += (names.empty() ? "" : ", ") + name;
-  }
-  throw InputError("--stage",
-                   {{"", 0, concat("there is no stage '", stage, "' in the results"),
-                     names.empty() ? "no case has a result yet" : "there are: " + names}});
 }
 
 std::string flag_of(const RankedCase& row) {
@@ -67,14 +55,7 @@ Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankReque
   Store::RankingQuery query;
   Ranking ranking{campaign, request, request.by == kDefaultMetric && !request.ascending, {}};
   if (!ranking.by_default) query.by = parse_number(request.by, symbols).sql();
-  if (!request.where.empty()) {
-    const Expression where = Expression::parse(request.where, symbols);
-    if (where.type().kind != Kind::boolean) {
-      throw InputError("--where", {{"", 0, concat("'", request.where, "' is no condition"),
-                                    "compare it with something: \"chi_bar > 0.8\""}});
-    }
-    query.where = where.sql();
-  }
+  query.where = parse_condition(request.where, symbols);
   query.stage = request.stage;
   query.ascending = request.ascending;
   query.limit = request.top;

@@ -90,6 +90,93 @@ TEST_F(Running, TheStarterSpecGoesFromInitToRanking) {
   EXPECT_EQ(nlohmann::json::parse(rank.out)["cases"].size(), 4u) << rank.err;
 }
 
+TEST_F(Running, TablesAndComparisonsAsAShellSeesThem) {
+  submit({"good", "crash", "good", "good"});
+  EXPECT_EQ(faultsweep({"run", "-w", "2"}).code, 1);
+  const auto table = faultsweep({"export"});
+  EXPECT_EQ(table.code, 0) << table.err;
+  EXPECT_EQ(std::count(table.out.begin(), table.out.end(), '\n'), 5);
+  EXPECT_THAT(table.out, HasSubstr("\n2,identity-1,failed,,,crashed: killed by SIGSEGV (11),"));
+  EXPECT_THAT(table.err, HasSubstr("4 cases of sweep, 1 without a result"));
+  const std::string file = folder_ / "cases.csv";
+  const auto to_file = faultsweep({"export", "sweep", "-o", file});
+  EXPECT_EQ(to_file.out, "");
+  std::ifstream written(file);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(written), {}), table.out);
+  EXPECT_EQ(faultsweep({"export", "--format", "salib", "-o", folder_ / "salib"}).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "salib" / "problem.json"));
+  EXPECT_EQ(faultsweep({"export", "--format", "salib"}).code, 2);
+  EXPECT_EQ(faultsweep({"export", "--format", "xls"}).code, 2);
+  EXPECT_EQ(faultsweep({"export", "-o", "/dev/full/x"}).code, 4);
+
+  EXPECT_EQ(faultsweep({"compare", "sweep"}).code, 2);
+  EXPECT_EQ(faultsweep({"compare", "sweep", "sweep"}).code, 5) << "compares nothing";
+  const std::filesystem::path other = folder_ / "other";
+  std::filesystem::create_directories(other);
+  EXPECT_EQ(faultsweep({"backup", other / "campaign.sqlite"}).code, 0);
+  const auto same = faultsweep({"compare", "sweep", "--other-store", other});
+  EXPECT_EQ(same.code, 0) << same.out << same.err;
+  EXPECT_THAT(same.out, HasSubstr("compared: 3; identical bit for bit"));
+  // The crashed case is tried again and gets a result, in one of the stores.
+  Store changed = Store::open_owner(other);
+  ASSERT_EQ(changed.retry(1, false, {}), 1);
+  RunRecord now_good;
+  now_good.case_id = 2;
+  now_good.status = RunStatus::completed;
+  now_good.result = changed.stored_result(1);
+  changed.record_runs(1, {now_good});
+  const auto differs = faultsweep({"compare", "sweep", "--other-store", other, "--json"});
+  EXPECT_EQ(differs.code, 5);
+  const auto document = nlohmann::json::parse(differs.out);
+  EXPECT_EQ(document["compared"], 4);
+  EXPECT_EQ(document["other_outcome"], 1);
+  EXPECT_EQ(document["worst"][0]["outcome_a"], "crashed");
+  EXPECT_EQ(document["worst"][0]["outcome_b"], "converged");
+}
+
+TEST_F(Running, CancelAndRetrySayWhatTheyDidAndHowToGoOn) {
+  Policy policy;
+  policy.time_limit = 1;
+  submit({"good", "hang", "good", "good", "good", "good", "good", "good"}, 0.5, policy);
+  const pid_t run = start({"run", "-w", "1"});
+  ASSERT_TRUE(wait_for_done(1));
+  // By hand: `out` and `err` are those of the run.
+  const std::string said = folder_ / "cancel";
+  const std::string cancel =
+      std::string(FAULTSWEEP) + " cancel --store " + store_.string() + " > " + said + " 2>&1";
+  ASSERT_EQ(std::system(cancel.c_str()), 0);
+  const auto end = wait(run);
+  const auto left = Store::open_reader(store_).campaign("");
+  EXPECT_GT(left.n_waiting, 0) << end.err;
+  EXPECT_EQ(left.n_done + left.n_failed + left.n_waiting, 8);
+  EXPECT_THAT(text("cancel"), HasSubstr("sweep is cancelled with "));
+  EXPECT_THAT(text("cancel"), HasSubstr("Its manager hands out nothing more"));
+  const auto again = faultsweep({"cancel"});
+  EXPECT_EQ(again.code, 0);
+  EXPECT_THAT(again.err, HasSubstr("sweep was already cancelled with " +
+                                   std::to_string(left.n_waiting) + " of 8 cases waiting"));
+  EXPECT_THAT(again.err, HasSubstr("faultsweep submit sweep.json reopens it"));
+  EXPECT_THAT(faultsweep({"explain", "8"}).out,
+              HasSubstr("will not run: the campaign is cancelled; `faultsweep submit sweep.json`"));
+  EXPECT_THAT(faultsweep({"explain", "1"}).out, HasSubstr("will not run: it has a result"));
+  EXPECT_EQ(faultsweep({"cancel", "other"}).code, 2);
+  submit({"good", "hang", "good", "good", "good", "good", "good", "good"}, 0.5, policy);
+  EXPECT_FALSE(Store::open_reader(store_).campaign("").cancelled) << "submitting reopens";
+  EXPECT_EQ(faultsweep({"run", "-w", "2"}).code, 1);
+
+  const auto full = faultsweep({"retry", "--case", "1"});
+  EXPECT_EQ(full.out, "0\n");
+  EXPECT_THAT(full.err, HasSubstr("case 1 has a full result (converged)"));
+  EXPECT_EQ(faultsweep({"retry", "--case", "99"}).code, 2);
+  const auto hung = faultsweep({"retry", "--case", "2"});
+  EXPECT_EQ(hung.out, "1\n");
+  EXPECT_THAT(hung.err, HasSubstr("1 case of sweep waits again. Next: faultsweep run sweep"));
+  EXPECT_THAT(faultsweep({"retry", "--case", "2"}).err, HasSubstr("case 2 waits already"));
+  EXPECT_EQ(faultsweep({"run", "-w", "1"}).code, 1);
+  EXPECT_THAT(faultsweep({"explain", "2"}).out, HasSubstr("attempt 2 hung"));
+  EXPECT_THAT(faultsweep({"retry"}).out, "1\n");
+}
+
 TEST_F(Trouble, EveryKindOfFailureIsARowAndTheOthersAreDone) {
   Policy policy;
   policy.time_limit = 1;

@@ -1,0 +1,133 @@
+#include "campaign/report/export.h"
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "campaign/report/parameters.h"
+#include "campaign/report/selection.h"
+#include "campaign/report/table_output.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+using faultsim::Dimension;
+using faultsim::InputError;
+
+namespace {
+
+/// A row of a CSV file; a column that is called like an earlier one is a "parameter_" or more.
+class CsvHeader {
+ public:
+  void add(std::string name) {
+    while (!names_.insert(name).second) name = "parameter_" + name;
+    line_ += (line_.empty() ? "" : ",") + csv_field(name);
+  }
+  std::string line() const { return line_ + "\n"; }
+
+ private:
+  std::set<std::string> names_;
+  std::string line_;
+};
+
+std::string header_line(const std::vector<StoredParameter>& parameters,
+                        const std::vector<MetricInfo>& metrics) {
+  CsvHeader header;
+  for (const char* name :
+       {"case", "identity", "state", "outcome", "rank_class", "reason", "activated_fault"}) {
+    header.add(name);
+  }
+  for (const MetricInfo& metric : metrics) header.add(column_name(metric.name, metric.dimension));
+  for (const StoredParameter& one : parameters) {
+    header.add(one.name);
+    if (one.dimension != Dimension::number) header.add(column_name(one.name, one.dimension));
+  }
+  return header.line();
+}
+
+/// Parameters as given and, where they have a unit, in SI.
+std::string parameter_fields(const std::vector<StoredParameter>& parameters, const CaseRow& row) {
+  const auto values = nlohmann::json::parse(row.parameter_values, nullptr, false);
+  std::vector<std::string> labels = labels_from_json(row.parameter_labels);
+  labels.resize(parameters.size());
+  std::string fields;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const bool has_number = k < values.size() && values[k].is_number();
+    const std::string number = has_number ? exact_number(values[k].get<double>()) : "";
+    const bool plain = !parameters[k].is_text && parameters[k].dimension == Dimension::number;
+    fields += "," + (plain ? number : csv_field(labels[k]));
+    if (parameters[k].dimension != Dimension::number) fields += "," + number;
+  }
+  return fields;
+}
+
+std::string reason_of(const CaseRow& row) {
+  if (!row.outcome.empty() || row.status.empty()) return row.reason;
+  return row.reason.empty() ? row.status : concat(row.status, ": ", row.reason);
+}
+
+std::string export_cases(const Store& store, const CampaignInfo& campaign,
+                         const ExportRequest& request, Store::TableQuery query) {
+  const auto parameters = parameters_from_json(campaign.parameters);
+  const std::vector<MetricInfo> metrics =
+      choose_metrics(request.metrics, true, creeps(store, campaign));
+  query.metrics = {"activated_fault"};
+  for (const MetricInfo& metric : metrics) query.metrics.push_back(metric.name);
+  TableOutput output(request.target);
+  output.write(header_line(parameters, metrics));
+  long n_rows = 0, n_without = 0, n_early = 0;
+  store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
+    ++n_rows;
+    n_without += row.rank_class ? 0 : 1;
+    n_early += row.rank_class && !row.complete() ? 1 : 0;
+    output.write(concat(row.position, ",", csv_field(row.identity), ",", row.state, ",",
+                        row.outcome, ",", row.rank_class ? std::to_string(*row.rank_class) : "",
+                        ",", csv_field(reason_of(row))));
+    for (const Cell& cell : row.metrics) output.write("," + csv_field(cell_text(cell)));
+    output.write(parameter_fields(parameters, row) + "\n");
+  });
+  output.finish();
+  return concat(n_rows, " cases of ", campaign.name, ", ", n_without, " without a result",
+                request.stage.empty() ? "" : " in the stage", ", ", n_early,
+                " with a history that ends early (rank_class 2 and 3)\n");
+}
+
+std::string export_histories(const Store& store, const CampaignInfo& campaign,
+                             const ExportRequest& request, const Store::TableQuery& query) {
+  TableOutput output(request.target);
+  CsvHeader header;
+  for (const std::string& name : Store::history_columns()) header.add(name);
+  output.write(header.line());
+  long n_rows = 0;
+  store.for_each_history_row(campaign.id, query, [&](const std::vector<Cell>& cells) {
+    ++n_rows;
+    const char* separator = "";
+    for (const Cell& cell : cells) {
+      output.write(separator + csv_field(cell_text(cell)));
+      separator = ",";
+    }
+    output.write("\n");
+  });
+  output.finish();
+  return concat(n_rows, " rows of chi histories of ", campaign.name,
+                ": one per case, fault and load step\n");
+}
+
+}  // namespace
+
+std::string export_campaign(const Store& store, const CampaignInfo& campaign,
+                            const ExportRequest& request) {
+  check_stage(store, campaign, request.stage);
+  if (request.histories && (request.format != ExportFormat::csv || !request.metrics.empty())) {
+    throw InputError("--histories", {{"", 0, "histories are written as CSV, with all their columns",
+                                      "leave out --format and --metrics"}});
+  }
+  if (request.format == ExportFormat::dakota) return export_dakota(store, campaign, request);
+  if (request.format == ExportFormat::salib) return export_salib(store, campaign, request);
+  Store::TableQuery query;
+  query.stage = request.stage;
+  query.where = parse_condition(request.where, result_symbols(campaign));
+  return request.histories ? export_histories(store, campaign, request, query)
+                           : export_cases(store, campaign, request, std::move(query));
+}
+
+}  // namespace faultsweep

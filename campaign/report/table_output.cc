@@ -1,0 +1,115 @@
+#include "campaign/report/table_output.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "simulator/common/errors.h"
+#include "simulator/output/atomic_file.h"
+
+namespace faultsweep {
+
+struct TableOutput::File {
+  explicit File(const std::filesystem::path& target) : pending(target) {}
+  faultsim::PendingFile pending;
+  std::size_t size = 0;
+};
+
+TableOutput::TableOutput(const std::filesystem::path& target)
+    : file_(target.empty() ? nullptr : std::make_unique<File>(target)) {}
+TableOutput::TableOutput(TableOutput&&) noexcept = default;
+TableOutput::~TableOutput() = default;
+
+void TableOutput::write(std::string_view text) {
+  constexpr std::size_t kFull = 1 << 16;
+  buffer_ += text;
+  if (buffer_.size() >= kFull) flush();
+}
+
+void TableOutput::flush() {
+  if (file_) {
+    file_->pending.write(buffer_.data(), buffer_.size(), file_->size);
+    file_->size += buffer_.size();
+  } else if (std::fwrite(buffer_.data(), 1, buffer_.size(), stdout) != buffer_.size()) {
+    throw faultsim::StorageError("the output could not be written completely (disk full?)");
+  }
+  buffer_.clear();
+}
+
+void TableOutput::finish() {
+  flush();
+  if (file_) {
+    file_->pending.commit();
+  } else if (std::fflush(stdout) != 0) {
+    throw faultsim::StorageError("the output could not be written completely (disk full?)");
+  }
+}
+
+std::string exact_number(double value) {
+  if (std::isnan(value)) return "nan";
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+std::string cell_text(const Cell& cell) {
+  if (const auto* number = std::get_if<double>(&cell)) return exact_number(*number);
+  if (const auto* whole = std::get_if<std::int64_t>(&cell)) return std::to_string(*whole);
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  return "";
+}
+
+double number_of(const Cell& cell) {
+  if (const auto* number = std::get_if<double>(&cell)) return *number;
+  if (const auto* whole = std::get_if<std::int64_t>(&cell)) return static_cast<double>(*whole);
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char letter : text) quoted += letter == '"' ? "\"\"" : std::string(1, letter);
+  return quoted + '"';
+}
+
+std::string one_word(const std::string& text) {
+  if (text.empty()) return "_";
+  std::string word = text;
+  for (char& letter : word) {
+    const bool plain = letter > ' ' && letter <= '~' && letter != '"' && letter != '\'';
+    if (!plain) letter = '_';
+  }
+  return word;
+}
+
+std::string column_name(const std::string& name, faultsim::Dimension dimension) {
+  using faultsim::Dimension;
+  switch (dimension) {
+    case Dimension::number:
+      return name.ends_with("magnitude") ? name + "_mw" : name;
+    case Dimension::length:
+      return name + "_m";
+    case Dimension::area:
+      return name + "_m2";
+    case Dimension::pressure:
+      return name + "_pa";
+    case Dimension::pressure_gradient:
+      return name + "_pa_per_m";
+    case Dimension::density:
+      return name + "_kg_per_m3";
+    case Dimension::angle:
+      return name + "_rad";
+    case Dimension::time:
+      return name + "_s";
+    case Dimension::viscosity:
+      return name + "_pa_s";
+    case Dimension::moment:
+      return name + "_nm";
+    case Dimension::potency:
+      return name + "_m3";
+  }
+  FAULTSIM_DEMAND(false, static_cast<int>(dimension));
+  return name;
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "campaign/store/records.h"
+#include "simulator/common/units.h"
+
+/// Tables for other programs, written row by row.
+namespace faultsweep {
+
+/// Text that goes to stdout, or to a file that gets its name when it is complete.
+class TableOutput {
+ public:
+  /// @param target  "" = stdout. Throws StorageError.
+  explicit TableOutput(const std::filesystem::path& target);
+  ~TableOutput();
+  TableOutput(TableOutput&&) noexcept;
+  void write(std::string_view text);
+  /// Throws StorageError when not everything could be written.
+  void finish();
+
+ private:
+  void flush();
+  struct File;
+  std::unique_ptr<File> file_;  ///< none = stdout.
+  std::string buffer_;
+};
+
+/// Fewest digits that read back as the same bits; "nan" for NaN.
+std::string exact_number(double value);
+/// A cell as text; missing = "".
+std::string cell_text(const Cell& cell);
+/// A cell as a number; NaN where it is missing or text.
+double number_of(const Cell& cell);
+/// A field of a CSV file, in quotes where RFC 4180 wants them.
+std::string csv_field(const std::string& text);
+/// Text as one word: what is no printable ASCII, and quotes, become "_"; "" becomes "_".
+std::string one_word(const std::string& text);
+/// "offset", length -> "offset_m": the unit as column names of the store's views have it.
+std::string column_name(const std::string& name, faultsim::Dimension dimension);
+
+}  // namespace faultsweep
