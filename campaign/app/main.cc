@@ -148,7 +148,8 @@ void add_export(CLI::App& app, Arguments& a, ExitCode& code) {
   const std::map<std::string, ExportFormat> formats = {
       {"csv", ExportFormat::csv}, {"dakota", ExportFormat::dakota}, {"salib", ExportFormat::salib}};
   command->add_option("--format", a.exporting.format, "csv (default), dakota or salib")
-      ->transform(CLI::CheckedTransformer(formats));
+      ->transform(CLI::CheckedTransformer(formats))
+      ->option_text("NAME");
   command->add_option("-o,--output", a.exporting.target,
                       "file, or folder for salib; default: stdout");
   command->add_option("--metrics", a.exporting.metrics,

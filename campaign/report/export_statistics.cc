@@ -56,15 +56,30 @@ class FactorValues {
   json values_;
 };
 
-/// Reads the parameters of the chosen cases once: their ranges and levels. Numbers come first.
+/// Names of what the designs vary. Derived parameters follow from these: they are no factors.
+std::set<std::string> varied_by_design(const Store& store, const CampaignInfo& campaign) {
+  const json spec = json::parse(store.spec_copies(campaign.id).resolved, nullptr, false);
+  const json groups = spec.is_object() ? spec.value("groups", json::array()) : json::array();
+  std::set<std::string> names;
+  for (const json& group : groups) {
+    for (const json& parameter : group.at("parameters")) names.insert(parameter.at("name"));
+  }
+  if (groups.size() > 1) names.insert("group");
+  return names;
+}
+
+/// Reads the parameters of the chosen cases once: their ranges and levels, in the spec's order,
+/// which is that of AB_1 .. AB_D of a Sobol' design.
 std::vector<Factor> survey(const Store& store, const CampaignInfo& campaign,
                            Store::TableQuery query) {
   std::vector<Factor> factors;
-  std::size_t index = 0;
-  for (const StoredParameter& one : parameters_from_json(campaign.parameters)) {
+  const std::set<std::string> names = varied_by_design(store, campaign);
+  const auto parameters = parameters_from_json(campaign.parameters);
+  for (std::size_t index = 0; index < parameters.size(); ++index) {
+    if (!names.contains(parameters[index].name)) continue;
     factors.push_back({});
-    factors.back().parameter = one;
-    factors.back().index = index++;
+    factors.back().parameter = parameters[index];
+    factors.back().index = index;
   }
   query.metrics.clear();
   store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
@@ -80,8 +95,6 @@ std::vector<Factor> survey(const Store& store, const CampaignInfo& campaign,
       }
     }
   });
-  std::stable_partition(factors.begin(), factors.end(),
-                        [](const Factor& one) { return !one.parameter.is_text; });
   return factors;
 }
 
@@ -144,6 +157,9 @@ std::string export_dakota(const Store& store, const CampaignInfo& campaign,
   const Store::TableQuery query = table_query(campaign, request, metrics);
   std::vector<Factor> factors = survey(store, campaign, query);
   std::erase_if(factors, [](const Factor& one) { return one.n_values == 0; });
+  // Dakota orders its variables by type.
+  std::stable_partition(factors.begin(), factors.end(),
+                        [](const Factor& one) { return !one.parameter.is_text; });
   TableOutput output(request.target);
   std::string line = "%eval_id interface";
   for (const Factor& one : factors) {

@@ -134,7 +134,13 @@ class ExportTest : public ::testing::Test {
     run.result = std::move(result);
     store_->record_runs(campaign_.id, {run});
   }
+  /// Of the parameters, those whose names begin with "derived" are not in the design.
   void submit() {
+    nlohmann::json varied = nlohmann::json::array();
+    for (const StoredParameter& one : parameters_from_json(s_.parameters)) {
+      if (!one.name.starts_with("derived")) varied.push_back({{"name", one.name}});
+    }
+    s_.spec_resolved = nlohmann::json{{"groups", {{{"parameters", varied}}}}}.dump();
     const std::int64_t id = store_->submit(s_).campaign;
     campaign_ = store_->campaign("");
     EXPECT_EQ(campaign_.id, id);
@@ -327,13 +333,13 @@ TEST_F(ExportTest, SalibGetsLevelsForWordsAndNanForWhatIsNoFullHistory) {
   EXPECT_THAT(said, HasSubstr("3 rows of the designs are excluded by the spec"));
   const auto problem = nlohmann::json::parse(text_of(folder_ / "salib" / "problem.json"));
   EXPECT_EQ(problem["num_vars"], 2);
-  EXPECT_EQ(problem["names"], nlohmann::json({"offset_m", "rule"}));
-  EXPECT_EQ(problem["bounds"], nlohmann::json({{0.0, 400.0 / 3}, {0, 2}}));
+  EXPECT_EQ(problem["names"], nlohmann::json({"rule", "offset_m"}));
+  EXPECT_EQ(problem["bounds"], nlohmann::json({{0, 2}, {0.0, 400.0 / 3}}));
   EXPECT_EQ(problem["levels"]["rule"], nlohmann::json({"mean", "-100 bar, \"low\"", "min"}));
   const auto x = column_of(folder_ / "salib" / "X.txt");
   ASSERT_EQ(x.size(), 10u);
-  EXPECT_EQ(x[2], 100.0 / 3);
-  EXPECT_EQ(x[3], 1);
+  EXPECT_EQ(x[2], 1) << "in the order of the spec, which decides whose indices they are";
+  EXPECT_EQ(x[3], 100.0 / 3);
   const auto y = column_of(folder_ / "salib" / "Y_chi_bar.txt");
   ASSERT_EQ(y.size(), 5u);
   EXPECT_EQ(y[0], 1.0 / 3);
@@ -380,12 +386,13 @@ std::vector<double> first_order(const std::filesystem::path& folder) {
 TEST_F(ExportTest, SobolIndicesFromTheFilesAreThoseOfTheFunction) {
   const auto f = [](const std::array<int, 3>& x) { return 4 * x[0] + 2 * x[1] + 3 * x[0] * x[2]; };
   s_.parameters = parameters_to_json({{"x1", Dimension::number, false},
+                                      {"derived_sum", Dimension::number, false},
                                       {"x2", Dimension::length, false},
                                       {"x3", Dimension::angle, false}});
   std::map<std::array<int, 3>, long> positions;
   for (int k = 63; k >= 0; --k) {
     const std::array<int, 3> x = {k / 16, k / 4 % 4, k % 4};
-    add_case(nlohmann::json(x).dump(), "[\"\", \"\", \"\"]");
+    add_case(nlohmann::json({x[0], x[0] + x[1], x[1], x[2]}).dump(), "[]");
     positions[x] = static_cast<long>(s_.cases.size());
   }
   std::mt19937 random(3);
