@@ -31,7 +31,7 @@ class Columns {
   std::map<std::string, std::size_t> places_;
 };
 
-/// Rows of designs whose rows are not simply their cases.
+/// Rows of sampled designs, and of others where rows were merged: see schemas/store_5.sql.
 std::vector<DesignRow> design_rows(const Expansion& expansion) {
   std::vector<long> n_cases(expansion.spec.groups.size(), 0);
   for (const Case& one : expansion.cases) ++n_cases[static_cast<std::size_t>(one.group)];
@@ -39,7 +39,10 @@ std::vector<DesignRow> design_rows(const Expansion& expansion) {
   for (std::size_t g = 0; g < expansion.case_of_row.size(); ++g) {
     const std::vector<int>& rows = expansion.case_of_row[g];
     const long n_kept = std::count_if(rows.begin(), rows.end(), [](int one) { return one >= 0; });
-    if (n_kept == n_cases[g]) continue;
+    const auto& designs = expansion.spec.groups[g].designs;
+    const bool sampled = std::any_of(designs.begin(), designs.end(),
+                                     [](const Design& one) { return is_sampled(one.kind); });
+    if (!sampled && n_kept == n_cases[g]) continue;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (rows[i] < 0) continue;
       result.push_back({static_cast<int>(g), static_cast<long>(i) + 1, rows[i] + 1});

@@ -41,6 +41,7 @@ CaseValues::Source CaseValues::source_of(const std::string& name) const {
     if (parameter.name != name) continue;
     source.parameter = static_cast<int>(p);
     for (const Choice& choice : parameter.choices) source.choices.push_back(as_value(choice));
+    source.drawn = &parameter.drawn;
     if (parameter.base.si || parameter.is_text) source.base = as_value(parameter.base);
     return source;
   }
@@ -79,6 +80,7 @@ CaseValues::Source CaseValues::source_of(const std::string& name) const {
     if (!touched) continue;
     source.parameter = static_cast<int>(p);
     source.choices = std::move(values);
+    source.drawn = &parameter.drawn;
     break;
   }
   return source;
@@ -89,7 +91,10 @@ Value CaseValues::value_of(const Source& source, const Row& row,
   if (source.derived >= 0) return derived[static_cast<std::size_t>(source.derived)];
   if (source.parameter < 0) return source.base;
   const int choice = row[static_cast<std::size_t>(source.parameter)];
-  return choice < 0 ? source.base : source.choices[static_cast<std::size_t>(choice)];
+  if (choice < 0) return source.base;
+  const auto index = static_cast<std::size_t>(choice);
+  if (index < source.choices.size()) return source.choices[index];
+  return (*source.drawn)[index - source.choices.size()].si;
 }
 
 void CaseValues::derive(const Row& row, std::vector<double>& derived) const {

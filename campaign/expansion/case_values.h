@@ -24,8 +24,9 @@ class CaseValues {
   struct Source {
     int derived = -1;            ///< index into CampaignSpec::derived, or
     int parameter = -1;          ///< index into the group's parameters, or neither:
-    std::vector<Value> choices;  ///< of that parameter: value per choice
-    Value base;                  ///< the value otherwise.
+    std::vector<Value> choices;  ///< of that parameter: value per choice, then
+    const std::vector<DrawnValue>* drawn = nullptr;
+    Value base;  ///< the value otherwise.
   };
   Source source_of(const std::string& name) const;
   std::vector<Source> sources_of(const Expression& expression) const;

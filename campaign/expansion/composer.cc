@@ -60,16 +60,16 @@ CanonicalPieces cut_at_values(const std::string& json_text) {
 }
 
 std::vector<int> sample_choices(const Parameter& parameter, std::size_t n) {
-  const auto size = static_cast<int>(parameter.choices.size());
+  const int size = parameter.n_values();
   std::set<int> sample;
-  if (parameter.choices.size() <= n) {
+  if (static_cast<std::size_t>(size) <= n) {
     for (int c = 0; c < size; ++c) sample.insert(c);
     return {sample.begin(), sample.end()};
   }
   const auto smaller = [](const Choice& a, const Choice& b) {
     return a.si.value_or(0) < b.si.value_or(0);
   };
-  const auto [least, most] =
+  const auto [least, most] =  // of a range: its ends
       std::minmax_element(parameter.choices.begin(), parameter.choices.end(), smaller);
   sample = {0, size - 1, static_cast<int>(least - parameter.choices.begin()),
             static_cast<int>(most - parameter.choices.begin())};
@@ -126,7 +126,7 @@ const std::optional<Composer::Difference>& Composer::difference(Template& one,
 void Composer::find_number_effects(Template& one) {
   for (std::size_t p = 0; p < group_.parameters.size(); ++p) {
     const Parameter& parameter = group_.parameters[p];
-    if (structural_[p] || parameter.choices.size() <= kAllChoices) continue;
+    if (structural_[p] || parameter.n_values() <= static_cast<int>(kAllChoices)) continue;
     std::set<std::size_t> leaves;
     bool is_number = true;
     for (const int choice : sample_choices(parameter, kAllChoices)) {
@@ -134,7 +134,7 @@ void Composer::find_number_effects(Template& one) {
       if (choice == one.reference[p]) continue;
       is_number = is_number && change && !change->empty();
       if (!is_number) break;
-      const auto si = parameter.choices[static_cast<std::size_t>(choice)].si;
+      const auto si = parameter.si(choice);
       if (leaves.empty()) leaves = leaves_of(*change);
       is_number = si && leaves == leaves_of(*change) &&
                   std::all_of(change->begin(), change->end(),
@@ -231,20 +231,20 @@ bool Composer::find_structure() {
       const bool meet = std::any_of(leaves[p].begin(), leaves[p].end(),
                                     [&](std::size_t leaf) { return leaves[q].count(leaf) != 0; });
       if (!meet || structural_[p] || structural_[q]) continue;
-      const bool q_smaller =
-          group_.parameters[q].choices.size() < group_.parameters[p].choices.size();
+      const bool q_smaller = group_.parameters[q].n_values() < group_.parameters[p].n_values();
       structural_[q_smaller ? q : p] = true;
     }
   }
   return true;
 }
 
-/// All combinations of extreme values of a grid, if not too many, and rows spread over the design.
+/// All combinations of extreme values of grids, if not too many, and rows spread over the design.
 std::vector<Row> Composer::rows_to_check() const {
-  std::vector<Row> rows;
-  if (group_.kind == DesignKind::grid) {
-    rows.push_back(reference_);
-    for (std::size_t p = 0; p < group_.parameters.size(); ++p) {
+  std::vector<Row> rows = {reference_};
+  std::size_t p = 0;
+  for (const Design& design : group_.designs) {
+    const std::size_t end = p + design.n_parameters;
+    for (; design.kind == DesignKind::grid && p < end; ++p) {
       const Parameter& parameter = group_.parameters[p];
       const std::vector<int> ends = sample_choices(parameter, parameter.is_text ? 4 : 2);
       std::vector<Row> next;
@@ -257,6 +257,7 @@ std::vector<Row> Composer::rows_to_check() const {
       }
       rows = std::move(next);
     }
+    p = end;
   }
   Row row;
   for (long i = 0; i < kSpreadRows; ++i) {
@@ -306,8 +307,7 @@ bool Composer::compose(const Row& row, const std::vector<double>& derived) {
     if (structural_[p] || row[p] == one->reference[p]) continue;
     const Effect& effect = one->effects[p];
     if (effect.is_number && row[p] >= 0) {
-      const Choice& choice = group_.parameters[p].choices[static_cast<std::size_t>(row[p])];
-      scratch_.push_back(number_text(*choice.si));
+      scratch_.push_back(number_text(*group_.parameters[p].si(row[p])));
       for (const std::size_t leaf : effect.leaves) leaves[leaf] = &scratch_.back();
       continue;
     }

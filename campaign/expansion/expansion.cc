@@ -9,6 +9,7 @@
 #include "campaign/expansion/case_values.h"
 #include "campaign/expansion/composer.h"
 #include "campaign/expansion/families.h"
+#include "campaign/expansion/sampled_rows.h"
 #include "campaign/expansion/scene_builder.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/scene/read_scene.h"
@@ -29,6 +30,7 @@ class Expander {
   explicit Expander(CampaignSpec spec) { result_.spec = std::move(spec); }
 
   Expansion run() {
+    for (Group& group : result_.spec.groups) draw_sampled_rows(group);
     for (const Group& group : result_.spec.groups) result_.n_designed += count_rows(group);
     for (const Exclusion& one : result_.spec.exclude) result_.excluded.push_back({one.text, 0});
     result_.case_of_row.resize(result_.spec.groups.size());
@@ -65,6 +67,24 @@ class Expander {
     return any;
   }
 
+  /// The design of a group whose estimators need every row, or null.
+  static const Design* whole_design(const Group& group) {
+    const auto found =
+        std::find_if(group.designs.begin(), group.designs.end(), [](const Design& one) {
+          return one.kind == DesignKind::sobol || one.kind == DesignKind::morris;
+        });
+    return found == group.designs.end() ? nullptr : &*found;
+  }
+
+  void refuse_exclusion(const Design& design, std::size_t exclusion, const std::string& row) {
+    const std::string& place = result_.spec.exclude[exclusion].pointer;
+    add({{place, result_.spec.document.line_of(place),
+          std::string("leaves out a row of the ") + to_string(design.kind) + " design " +
+              design.pointer + ", which needs all of them (where " + row + ")",
+          "narrow the ranges, or use latin-hypercube, whose excluded samples are left out and "
+          "counted"}});
+  }
+
   void expand_group(int index) {
     const Group& group = result_.spec.groups[static_cast<std::size_t>(index)];
     SceneBuilder builder(result_.spec, group);
@@ -82,6 +102,11 @@ class Expander {
     }
     std::vector<int>& case_of_row = result_.case_of_row[static_cast<std::size_t>(index)];
     case_of_row.assign(static_cast<std::size_t>(n_rows), -1);
+    for (const std::string& name : families.drawn()) {
+      result_.notes.push_back("\"" + name + "\" of " + group.pointer +
+                              " is drawn from a range and changes the operator: each of its values "
+                              "is a family of its own; a list of a few values shares operators");
+    }
     Row row;
     std::vector<double> derived;
     int n_wrong = 0;
@@ -90,6 +115,10 @@ class Expander {
       values.derive(row, derived);
       if (const int e = values.excluded_by(row, derived); e >= 0) {
         ++result_.excluded[static_cast<std::size_t>(e)].n_cases;
+        if (const Design* whole = whole_design(group)) {
+          refuse_exclusion(*whole, static_cast<std::size_t>(e), builder.describe(row));
+          return;
+        }
         continue;
       }
       std::vector<Problem> found;
@@ -112,25 +141,46 @@ class Expander {
   /// Tries every choice once, in the first row of the design with that choice put in, so that a
   /// wrong value is reported once and not in each of 10^5 cases.
   bool check_choices(const Group& group, SceneBuilder& builder, const CaseValues& values) {
-    if (group.kind != DesignKind::grid) return true;  // the others use each choice about once
+    std::vector<double> derived;
+    std::vector<Problem> found;
+    for (const Row& row : rows_to_try(group)) {
+      values.derive(row, derived);
+      if (values.excluded_by(row, derived) < 0) builder.scene(row, derived, found);
+    }
+    std::set<std::string> places;
+    for (const Problem& one : found) places.insert(one.pointer);
+    const bool ok = found.empty();
+    std::erase_if(found, [&](const Problem& one) {  // a drawn value, where an end is wrong already
+      return places.count(one.pointer + "/from") + places.count(one.pointer + "/to") > 0;
+    });
+    add(found);
+    return ok;
+  }
+
+  /// Any choice of a grid or a sampled design (of a range: its ends) goes with any other. The
+  /// values in a row of other designs may make sense only together; where such a design is all
+  /// there is, its rows use each choice about once.
+  static std::vector<Row> rows_to_try(const Group& group) {
+    std::vector<Row> rows;
     Row first;
     row_at(group, 0, first);
-    std::vector<double> derived;
-    bool ok = true;
-    for (std::size_t p = 0; p < group.parameters.size(); ++p) {
-      for (const int choice : sample_choices(group.parameters[p], kChoicesTried)) {
-        if (p > 0 && choice == first[p]) continue;  // the first row itself, tried already
-        Row row = first;
-        row[p] = choice;
-        values.derive(row, derived);
-        if (values.excluded_by(row, derived) >= 0) continue;
-        std::vector<Problem> found;
-        if (builder.scene(row, derived, found)) continue;
-        add(found);
-        ok = false;
+    std::size_t begin = 0;
+    for (const Design& design : group.designs) {
+      const std::size_t end = begin + design.n_parameters;
+      const bool free = design.kind == DesignKind::grid || is_sampled(design.kind);
+      for (std::size_t p = begin; free && p < end; ++p) {
+        const Parameter& parameter = group.parameters[p];
+        const auto tried =
+            parameter.range ? std::vector<int>{0, 1} : sample_choices(parameter, kChoicesTried);
+        for (const int choice : tried) {
+          if (!rows.empty() && choice == first[p]) continue;  // the first row itself
+          rows.push_back(first);
+          rows.back()[p] = choice;
+        }
       }
+      begin = end;
     }
-    return ok;
+    return rows;
   }
 
   /// The index of the row's case, or -1 where problems were found.
@@ -165,6 +215,13 @@ class Expander {
   }
 
   void write_notes() {
+    for (const Group& group : result_.spec.groups) {
+      for (const Design& design : group.designs) {
+        if (design.kind != DesignKind::sobol || (design.n & (design.n - 1)) == 0) continue;
+        result_.notes.push_back(std::to_string(design.n) + " samples of " + design.pointer +
+                                " are no power of two: the sequence is balanced only at those");
+      }
+    }
     if (result_.n_merged > 0) {
       result_.notes.push_back(
           std::to_string(result_.n_merged) + (result_.n_merged == 1 ? " case is" : " cases are") +
@@ -199,8 +256,7 @@ std::vector<ParameterValue> parameters_of(const Expansion& expansion, const Case
   for (std::size_t p = 0; p < group.parameters.size(); ++p) {
     const Parameter& parameter = group.parameters[p];
     const int c = one.choices[p];
-    const Choice& choice = c < 0 ? parameter.base : parameter.choices[static_cast<std::size_t>(c)];
-    values.push_back({parameter.name, choice.text, choice.si, parameter.dimension});
+    values.push_back({parameter.name, parameter.text(c), parameter.si(c), parameter.dimension});
   }
   for (std::size_t d = 0; d < one.derived.size(); ++d) {
     const Derived& derived = expansion.spec.derived[d];
@@ -213,8 +269,8 @@ std::vector<ParameterValue> parameters_of(const Expansion& expansion, const Case
 
 nlohmann::json changes_of(const Expansion& expansion, const Case& one) {
   json result = json::object();
-  const SceneBuilder builder(expansion.spec, group_of(expansion, one));
-  for (const Change& change : builder.changes(one.choices, one.derived)) {
+  for (const Change& change :
+       changes_of_row(expansion.spec, group_of(expansion, one), one.choices, one.derived)) {
     result[change.pointer] = change.value;
   }
   return result;

@@ -24,7 +24,7 @@ struct Case {
   int group = 0;                ///< into CampaignSpec::groups.
   int family = 0;               ///< into Expansion::families.
   std::string identity;         ///< faultsim::case_identity of its scene.
-  std::vector<int> choices;     ///< per parameter of the group; -1 = the base value.
+  std::vector<int> choices;     ///< per parameter of the group: its value, numbered as there.
   std::vector<double> derived;  ///< SI, per CampaignSpec::derived.
 };
 

@@ -33,6 +33,14 @@ void FamilyFinder::find_relevant() {
   }
 }
 
+std::vector<std::string> FamilyFinder::drawn() const {
+  std::vector<std::string> names;
+  for (std::size_t p = 0; p < relevant_.size(); ++p) {
+    if (relevant_[p] && group_.parameters[p].range) names.push_back(group_.parameters[p].name);
+  }
+  return names;
+}
+
 int FamilyFinder::family_of(const Row& row, const std::vector<double>& derived,
                             std::vector<faultsim::Problem>& problems) {
   std::vector<double> key;

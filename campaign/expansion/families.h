@@ -21,6 +21,8 @@ class FamilyFinder {
   /// The index of the row's family. Problems of the geometry are appended; then -1.
   int family_of(const Row& row, const std::vector<double>& derived,
                 std::vector<faultsim::Problem>& problems);
+  /// Names of parameters that may change the family and are drawn from ranges.
+  std::vector<std::string> drawn() const;
 
  private:
   void find_relevant();

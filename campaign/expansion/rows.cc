@@ -5,51 +5,85 @@
 #include "simulator/common/errors.h"
 
 namespace faultsweep {
+namespace {
 
-long count_rows(const Group& group) {
-  const auto size_of = [](const Parameter& one) { return static_cast<long>(one.choices.size()); };
+using Parameters = const Parameter*;  ///< those of one design.
+
+long size_of(const Parameter& one) { return static_cast<long>(one.choices.size()); }
+
+long count_rows(const Design& design, Parameters parameters) {
   long count = 1;
-  switch (group.kind) {
+  switch (design.kind) {
     case DesignKind::list:
-      return static_cast<long>(group.rows.size());
+    case DesignKind::latin_hypercube:
+    case DesignKind::sobol:
+    case DesignKind::morris:
+      return static_cast<long>(design.rows.size());
     case DesignKind::zip:
-      return group.parameters.empty() ? 0 : size_of(group.parameters.front());
+      return design.n_parameters == 0 ? 0 : size_of(parameters[0]);
     case DesignKind::one_at_a_time:
-      for (const Parameter& one : group.parameters) count += size_of(one);
+      for (std::size_t p = 0; p < design.n_parameters; ++p) count += size_of(parameters[p]);
       return count;
     case DesignKind::grid:
-      for (const Parameter& one : group.parameters) count *= size_of(one);
+      for (std::size_t p = 0; p < design.n_parameters; ++p) count *= size_of(parameters[p]);
       return count;
   }
   faultsim::throw_internal("known design", "", __FILE__, __LINE__);
 }
 
-void row_at(const Group& group, long i, Row& row) {
-  FAULTSIM_DEMAND(i >= 0 && i < count_rows(group), "row ", i);
-  const std::size_t n = group.parameters.size();
-  row.assign(n, -1);
-  switch (group.kind) {
+/// @param row  of the design's parameters, filled with -1.
+void row_at(const Design& design, Parameters parameters, long i, int* row) {
+  const std::size_t n = design.n_parameters;
+  switch (design.kind) {
     case DesignKind::list:
-      row = group.rows[static_cast<std::size_t>(i)];
+    case DesignKind::latin_hypercube:
+    case DesignKind::sobol:
+    case DesignKind::morris:
+      std::copy_n(design.rows[static_cast<std::size_t>(i)].begin(), n, row);
       return;
     case DesignKind::zip:
-      std::fill(row.begin(), row.end(), static_cast<int>(i));
+      std::fill_n(row, n, static_cast<int>(i));
       return;
-    case DesignKind::one_at_a_time:
-      for (std::size_t p = 0, first = 1; p < n; first += group.parameters[p++].choices.size()) {
-        const long choice = i - static_cast<long>(first);
-        if (choice >= 0 && choice < static_cast<long>(group.parameters[p].choices.size())) {
-          row[p] = static_cast<int>(choice);
-        }
+    case DesignKind::one_at_a_time: {
+      long first = 1;
+      for (std::size_t p = 0; p < n; first += size_of(parameters[p++])) {
+        const long choice = i - first;
+        if (choice >= 0 && choice < size_of(parameters[p])) row[p] = static_cast<int>(choice);
       }
       return;
+    }
     case DesignKind::grid:
       for (std::size_t p = n; p-- > 0;) {
-        const auto size = static_cast<long>(group.parameters[p].choices.size());
-        row[p] = static_cast<int>(i % size);
-        i /= size;
+        row[p] = static_cast<int>(i % size_of(parameters[p]));
+        i /= size_of(parameters[p]);
       }
       return;
+  }
+}
+
+}  // namespace
+
+long count_rows(const Group& group) {
+  long count = 1;
+  const Parameter* first = group.parameters.data();
+  for (const Design& design : group.designs) {
+    count *= count_rows(design, first);
+    first += design.n_parameters;
+  }
+  return count;
+}
+
+void row_at(const Group& group, long i, Row& row) {
+  FAULTSIM_DEMAND(i >= 0 && i < count_rows(group), "row ", i);
+  row.assign(group.parameters.size(), -1);
+  std::size_t end = row.size();
+  for (auto design = group.designs.rbegin(); design != group.designs.rend(); ++design) {
+    const std::size_t begin = end - design->n_parameters;
+    const Parameter* first = group.parameters.data() + begin;
+    const long n_rows = count_rows(*design, first);
+    row_at(*design, first, i % n_rows, row.data() + begin);
+    i /= n_rows;
+    end = begin;
   }
 }
 

@@ -1,6 +1,5 @@
 #include "campaign/expansion/scene_builder.h"
 
-#include <charconv>
 #include <cmath>
 
 #include "campaign/spec/pointers.h"
@@ -11,39 +10,30 @@ using faultsim::Problem;
 
 nlohmann::json spelled(double si, faultsim::Dimension dimension) {
   if (dimension == faultsim::Dimension::number) return si;
-  // Plain digits where a person would write them, else an exponent; the shortest exact text.
-  const bool plain = si == 0 || (std::abs(si) >= 1e-4 && std::abs(si) < 1e9);
-  char digits[64];
-  const auto [end, error] =
-      std::to_chars(digits, digits + sizeof digits, si,
-                    plain ? std::chars_format::fixed : std::chars_format::scientific);
-  FAULTSIM_DEMAND(error == std::errc(), si);
-  return std::string(digits, end) + " " + faultsim::si_unit(dimension);
+  return shortest_text(si) + " " + faultsim::si_unit(dimension);
 }
 
-SceneBuilder::SceneBuilder(const CampaignSpec& spec, const Group& group)
-    : spec_(spec), group_(group), document_{spec.scene_source, {}, spec.base.lines} {}
-
-std::vector<Change> SceneBuilder::changes(const Row& row,
-                                          const std::vector<double>& derived) const {
+std::vector<Change> changes_of_row(const CampaignSpec& spec, const Group& group, const Row& row,
+                                   const std::vector<double>& derived) {
   std::vector<Change> result;
   for (std::size_t p = 0; p < row.size(); ++p) {
-    if (row[p] < 0) continue;
-    const Choice& choice = group_.parameters[p].choices[static_cast<std::size_t>(row[p])];
-    result.insert(result.end(), choice.changes.begin(), choice.changes.end());
+    group.parameters[p].append_changes(row[p], result);
   }
   for (std::size_t d = 0; d < derived.size(); ++d) {
-    const Derived& one = spec_.derived[d];
+    const Derived& one = spec.derived[d];
     if (std::isnan(derived[d])) continue;
     result.push_back({one.scene_pointer, spelled(derived[d], one.dimension)});
   }
   return result;
 }
 
+SceneBuilder::SceneBuilder(const CampaignSpec& spec, const Group& group)
+    : spec_(spec), group_(group), document_{spec.scene_source, {}, spec.base.lines} {}
+
 const faultsim::JsonDocument& SceneBuilder::document(const Row& row,
                                                      const std::vector<double>& derived) {
   document_.value = group_.scene;
-  for (const Change& change : changes(row, derived)) {
+  for (const Change& change : changes_of_row(spec_, group_, row, derived)) {
     put_value(document_.value, change.pointer, change.value);
   }
   return document_;
@@ -61,7 +51,7 @@ std::optional<faultsim::Scene> SceneBuilder::scene(const Row& row,
                         "\"" + one.text + "\" has no value where " + describe(row),
                         "a name in it has no value in the scene, or a division is by zero"});
   }
-  for (const Change& change : changes(row, derived)) {
+  for (const Change& change : changes_of_row(spec_, group_, row, derived)) {
     nlohmann::json probe = group_.scene;
     if (put_value(probe, change.pointer, change.value)) continue;
     ok = false;
@@ -87,12 +77,12 @@ Problem SceneBuilder::in_spec(const Problem& problem, const Row& row) const {
   // The change that lies nearest: a problem of all of /friction is not that of one angle in it.
   for (const bool only_at_or_below : {true, false}) {
     for (std::size_t p = 0; p < row.size(); ++p) {
-      if (row[p] < 0) continue;
-      const Choice& choice = group_.parameters[p].choices[static_cast<std::size_t>(row[p])];
-      for (const Change& change : choice.changes) {
+      std::vector<Change> changes;
+      group_.parameters[p].append_changes(row[p], changes);
+      for (const Change& change : changes) {
         const bool below = problem.pointer.size() >= change.pointer.size();
         if (problem.pointer.empty() || (only_at_or_below && !below)) continue;
-        if (overlap(change.pointer, problem.pointer)) return at(choice.pointer);
+        if (overlap(change.pointer, problem.pointer)) return at(group_.parameters[p].place(row[p]));
       }
     }
     for (auto origin = group_.origins.rbegin(); origin != group_.origins.rend(); ++origin) {
@@ -113,9 +103,7 @@ std::string SceneBuilder::describe(const Row& row) const {
   std::string text;
   for (std::size_t p = 0; p < row.size(); ++p) {
     const Parameter& parameter = group_.parameters[p];
-    const Choice& choice =
-        row[p] < 0 ? parameter.base : parameter.choices[static_cast<std::size_t>(row[p])];
-    text += (text.empty() ? "" : ", ") + parameter.name + " = " + choice.text;
+    text += (text.empty() ? "" : ", ") + parameter.name + " = " + parameter.text(row[p]);
   }
   return text.empty() ? "nothing varies" : text;
 }

@@ -12,13 +12,15 @@ namespace faultsweep {
 /// A number as the scene spells it: 0.83, "20000000 Pa". Reading it back gives the same bits.
 nlohmann::json spelled(double si, faultsim::Dimension dimension);
 
+/// The changes of a row, parameters first, then derived.
+std::vector<Change> changes_of_row(const CampaignSpec& spec, const Group& group, const Row& row,
+                                   const std::vector<double>& derived);
+
 /// Turns rows of one group into scenes, and problems of a scene into problems of the spec.
 class SceneBuilder {
  public:
   SceneBuilder(const CampaignSpec& spec, const Group& group);
 
-  /// The changes of a row, parameters first, then derived.
-  std::vector<Change> changes(const Row& row, const std::vector<double>& derived) const;
   /// The scene document of a row; valid until the next call.
   const faultsim::JsonDocument& document(const Row& row, const std::vector<double>& derived);
   /// The checked scene of a row; problems (in terms of the spec) are appended, and then it is

@@ -39,11 +39,60 @@ json with_unit(long double number, const std::string& unit) {
   return decimal(number) + " " + unit;
 }
 
+const Choice* choice_of(const Parameter& parameter, int value) {
+  if (value < 0) return &parameter.base;
+  const auto index = static_cast<std::size_t>(value);
+  return index < parameter.choices.size() ? &parameter.choices[index] : nullptr;
+}
+
+const DrawnValue& drawn_of(const Parameter& parameter, int value) {
+  return parameter.drawn[static_cast<std::size_t>(value) - parameter.choices.size()];
+}
+
 }  // namespace
+
+std::string Parameter::text(int value) const {
+  if (const Choice* choice = choice_of(*this, value)) return choice->text;
+  return shortest_text(drawn_of(*this, value).number) + (range->unit.empty() ? "" : " ") +
+         range->unit;
+}
+
+std::optional<double> Parameter::si(int value) const {
+  if (const Choice* choice = choice_of(*this, value)) return choice->si;
+  return drawn_of(*this, value).si;
+}
+
+const std::string& Parameter::place(int value) const {
+  const Choice* choice = choice_of(*this, value);
+  return choice != nullptr ? choice->pointer : pointer;
+}
+
+void Parameter::append_changes(int value, std::vector<Change>& changes) const {
+  if (const Choice* choice = choice_of(*this, value)) {
+    changes.insert(changes.end(), choice->changes.begin(), choice->changes.end());
+    return;
+  }
+  const json spelled =
+      range->unit.empty() ? json(drawn_of(*this, value).number) : json(text(value));
+  for (const std::string& target : targets) changes.push_back({target, spelled});
+}
+
+void Parameter::draw(const std::vector<double>& positions) {
+  const SampledRange& r = *range;
+  for (const long double t : positions) {
+    DrawnValue one;
+    one.number = static_cast<double>(r.log ? r.from * std::pow(r.to / r.from, t)
+                                           : r.from + (r.to - r.from) * t);
+    drawn.push_back(one);
+    DrawnValue& value = drawn.back();
+    value.si = r.unit.empty() ? value.number
+                              : faultsim::parse_quantity(text(n_values() - 1), dimension).value;
+  }
+}
 
 std::optional<Parameter> SpecReader::read_parameter(const std::string& pointer,
                                                     const std::string& name,
-                                                    const SceneNames& names) {
+                                                    const SceneNames& names, DesignKind design) {
   Parameter parameter;
   parameter.name = name;
   parameter.pointer = pointer;
@@ -82,7 +131,7 @@ std::optional<Parameter> SpecReader::read_parameter(const std::string& pointer,
       if (found[0] == "values") {
         read_values(pointer + "/values", names, parameter);
       } else {
-        read_range(names, parameter);
+        read_range(names, parameter, design);
       }
     }
     check_stray_keys(pointer);
@@ -187,11 +236,12 @@ void SpecReader::unify_kind(Parameter& parameter) {
   parameter.base.si.reset();
 }
 
-void SpecReader::read_range(const SceneNames& names, Parameter& parameter) {
+void SpecReader::read_range(const SceneNames& names, Parameter& parameter, DesignKind design) {
   const std::string& pointer = parameter.pointer;
-  if (!has(pointer + "/to") || !has(pointer + "/count")) {
+  const bool drawn = is_sampled(design) && !has(pointer + "/count");
+  if (!has(pointer + "/to") || (!has(pointer + "/count") && !drawn)) {
     problem(pointer, "the range of \"" + parameter.name + "\" is incomplete",
-            "give from, to and count");
+            is_sampled(design) ? "give from and to" : "give from, to and count");
     return;
   }
   const auto from = make_choice(at(pointer + "/from"), pointer + "/from", names, parameter);
@@ -214,6 +264,11 @@ void SpecReader::read_range(const SceneNames& names, Parameter& parameter) {
   const bool log = has(pointer + "/spacing") && at(pointer + "/spacing") == "log";
   if (log && (first->number <= 0 || end <= 0)) {
     problem(pointer + "/spacing", "a log range needs values above zero", "write \"linear\"");
+    return;
+  }
+  if (drawn) {
+    parameter.choices = {*from, *to};
+    parameter.range = SampledRange{first->number, end, first->unit, log};
     return;
   }
   const int count = at(pointer + "/count").get<int>();

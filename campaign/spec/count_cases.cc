@@ -23,13 +23,16 @@ std::string digits(long double count) {
 long double SpecReader::count_cases(const std::string& design) {
   const auto kind = at(design + "/kind").get<std::string>();
   if (kind == "list") return static_cast<long double>(at(design + "/cases").size());
-  long double total = kind == "groups" ? 0 : 1;
-  if (kind == "groups") {
-    for (std::size_t i = 0; i < at(design + "/groups").size(); ++i) {
-      total += count_cases(design + "/groups/" + std::to_string(i) + "/design");
+  if (kind == "groups" || kind == "nested") {
+    const bool nested = kind == "nested";
+    long double total = nested ? 1 : 0;
+    for (const std::string& part : parts_of(design)) {
+      total = nested ? total * count_cases(part) : total + count_cases(part);
     }
     return total;
   }
+  if (const auto samples = count_samples(design)) return samples->first * samples->second;
+  long double total = 1;
   for (const std::string& name : keys(design + "/parameters")) {
     const long double count = count_values(at(design + "/parameters/" + escape_token(name)));
     if (kind == "zip") return count;
@@ -38,18 +41,47 @@ long double SpecReader::count_cases(const std::string& design) {
   return total;
 }
 
-/// "100 (offset) x 25 (friction_angle)", "12 + 1000000 in 2 groups".
+/// Pointers of the designs in groups or a nested design.
+std::vector<std::string> SpecReader::parts_of(const std::string& design) const {
+  const bool nested = at(design + "/kind") == "nested";
+  const std::string list = design + (nested ? "/designs" : "/groups");
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < at(list).size(); ++i) {
+    parts.push_back(list + "/" + std::to_string(i) + (nested ? "" : "/design"));
+  }
+  return parts;
+}
+
+/// Samples (or trajectories) of a sampled design and the rows that each has; nothing for others.
+std::optional<std::pair<long double, long double>> SpecReader::count_samples(
+    const std::string& design) const {
+  const auto kind = at(design + "/kind").get<std::string>();
+  const auto number = [&](const char* key) { return at(design + key).get<long double>(); };
+  const auto n_parameters = [&] {
+    return static_cast<long double>(keys(design + "/parameters").size());
+  };
+  if (kind == "latin-hypercube") return std::pair(number("/samples"), 1.0L);
+  if (kind == "morris") return std::pair(number("/trajectories"), n_parameters() + 1);
+  if (kind != "sobol") return std::nullopt;
+  const bool second_order = has(design + "/second_order") && at(design + "/second_order");
+  return std::pair(number("/samples"), (second_order ? 2 : 1) * n_parameters() + 2);
+}
+
+/// "100 (offset) x 25 (friction_angle)", "12 + 1000000 in 2 groups", "4096 x 8 rows".
 std::string SpecReader::describe_count(const std::string& design) {
   const auto kind = at(design + "/kind").get<std::string>();
   if (kind == "list") return "as listed";
   std::string text;
-  if (kind == "groups") {
-    const std::size_t n = at(design + "/groups").size();
-    for (std::size_t i = 0; i < n; ++i) {
-      text += (i == 0 ? "" : " + ") +
-              digits(count_cases(design + "/groups/" + std::to_string(i) + "/design"));
+  if (kind == "groups" || kind == "nested") {
+    const auto parts = parts_of(design);
+    for (const std::string& part : parts) {
+      text += (text.empty() ? "" : kind == "nested" ? " x " : " + ") + digits(count_cases(part));
     }
-    return text + " in " + std::to_string(n) + " groups";
+    return kind == "nested" ? text : text + " in " + std::to_string(parts.size()) + " groups";
+  }
+  if (const auto samples = count_samples(design)) {
+    return digits(samples->first) + (kind == "morris" ? " trajectories" : " samples") + " x " +
+           digits(samples->second) + (samples->second == 1 ? " row" : " rows");
   }
   for (const std::string& name : keys(design + "/parameters")) {
     const long double count = count_values(at(design + "/parameters/" + escape_token(name)));

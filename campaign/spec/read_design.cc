@@ -18,23 +18,63 @@ void SpecReader::read_designs(const std::string& pointer, const std::string& pre
   group.scene = scene;
   group.origins = origins;
   const SceneNames names(faultsim::JsonDocument{spec_.base.source, scene, spec_.base.lines});
-  if (kind == "list") {
-    group.kind = DesignKind::list;
-    read_list(pointer + "/cases", names, group);
-  } else {
-    group.kind = kind == "grid"  ? DesignKind::grid
-                 : kind == "zip" ? DesignKind::zip
-                                 : DesignKind::one_at_a_time;
-    for (const std::string& name : keys(pointer + "/parameters")) {
-      const std::string place = pointer + "/parameters/" + escape_token(name);
-      if (auto parameter = read_parameter(place, name, names)) {
-        group.parameters.push_back(std::move(*parameter));
-      }
+  if (kind == "nested") {
+    for (std::size_t i = 0; i < at(pointer + "/designs").size(); ++i) {
+      read_design(pointer + "/designs/" + std::to_string(i), names, group);
     }
-    if (group.kind == DesignKind::zip) check_zip(group);
+  } else {
+    read_design(pointer, names, group);
   }
   check_targets(group);
   spec_.groups.push_back(std::move(group));
+}
+
+void SpecReader::read_design(const std::string& pointer, const SceneNames& names, Group& group) {
+  Design design;
+  design.pointer = pointer;
+  const auto kind = at(pointer + "/kind").get<std::string>();
+  for (const DesignKind one :
+       {DesignKind::grid, DesignKind::list, DesignKind::zip, DesignKind::one_at_a_time,
+        DesignKind::latin_hypercube, DesignKind::sobol, DesignKind::morris}) {
+    if (kind == to_string(one)) design.kind = one;
+  }
+  std::vector<Parameter> parameters;
+  if (design.kind == DesignKind::list) {
+    read_list(pointer + "/cases", names, design, parameters);
+  } else {
+    for (const std::string& name : keys(pointer + "/parameters")) {
+      const std::string place = pointer + "/parameters/" + escape_token(name);
+      if (auto parameter = read_parameter(place, name, names, design.kind)) {
+        parameters.push_back(std::move(*parameter));
+      }
+    }
+  }
+  if (is_sampled(design.kind)) read_sampling(pointer, design);
+  if (design.kind == DesignKind::zip) check_zip(parameters);
+  if (design.kind == DesignKind::morris) check_morris(design, parameters);
+  design.n_parameters = parameters.size();
+  constexpr std::size_t kMostSobolParameters = 1000;  // two dimensions each of a sequence with 3667
+  if (design.kind == DesignKind::sobol && design.n_parameters > kMostSobolParameters) {
+    problem(pointer + "/parameters", std::to_string(design.n_parameters) + " parameters",
+            "a sobol design has at most " + std::to_string(kMostSobolParameters));
+  }
+  group.designs.push_back(std::move(design));
+  for (Parameter& one : parameters) group.parameters.push_back(std::move(one));
+}
+
+void SpecReader::read_sampling(const std::string& pointer, Design& design) {
+  const bool is_morris = design.kind == DesignKind::morris;
+  design.n = at(pointer + (is_morris ? "/trajectories" : "/samples")).get<long>();
+  constexpr int kUsualLevels = 4;
+  if (is_morris)
+    design.levels = has(pointer + "/levels") ? at(pointer + "/levels").get<int>() : kUsualLevels;
+  if (design.levels % 2 != 0) {
+    problem(pointer + "/levels", std::to_string(design.levels) + " levels are an odd number",
+            "write an even one: parameters move by half the levels");
+  }
+  if (has(pointer + "/seed")) design.seed = at(pointer + "/seed").get<std::int64_t>();
+  if (has(pointer + "/second_order"))
+    design.second_order = at(pointer + "/second_order").get<bool>();
 }
 
 void SpecReader::read_groups(const std::string& pointer, const std::string& prefix,
@@ -56,33 +96,33 @@ void SpecReader::read_groups(const std::string& pointer, const std::string& pref
   }
 }
 
-void SpecReader::read_list(const std::string& pointer, const SceneNames& names, Group& group) {
+void SpecReader::read_list(const std::string& pointer, const SceneNames& names, Design& design,
+                           std::vector<Parameter>& parameters) {
   std::map<std::string, int> columns;             // parameter -> column; -1 = unknown, reported
   std::vector<std::map<std::string, int>> known;  // per column: JSON text of a value -> choice
   const std::size_t n_cases = at(pointer).size();
   for (std::size_t i = 0; i < n_cases; ++i) {
     const std::string row_pointer = pointer + "/" + std::to_string(i);
-    std::vector<int> row(group.parameters.size(), -1);
+    std::vector<int> row(parameters.size(), -1);
     for (const std::string& name : keys(row_pointer)) {
       const std::string place = row_pointer + "/" + escape_token(name);
       auto column = columns.find(name);
       if (column == columns.end()) {
         const auto target = resolve(names, name, place);
-        column =
-            columns.emplace(name, target ? static_cast<int>(group.parameters.size()) : -1).first;
+        column = columns.emplace(name, target ? static_cast<int>(parameters.size()) : -1).first;
         if (!target) continue;
         Parameter parameter;
         parameter.name = name;
         parameter.pointer = place;
         parameter.targets = {*target};
         set_base_choice(names, parameter);
-        group.parameters.push_back(std::move(parameter));
+        parameters.push_back(std::move(parameter));
         known.emplace_back();
         row.push_back(-1);
       }
       if (column->second < 0) continue;
       const auto index = static_cast<std::size_t>(column->second);
-      Parameter& parameter = group.parameters[index];
+      Parameter& parameter = parameters[index];
       const json& value = at(place);
       auto choice = known[index].find(value.dump());
       if (choice == known[index].end()) {
@@ -95,10 +135,10 @@ void SpecReader::read_list(const std::string& pointer, const SceneNames& names, 
       }
       row[index] = choice->second;
     }
-    group.rows.push_back(std::move(row));
+    design.rows.push_back(std::move(row));
   }
-  for (auto& row : group.rows) row.resize(group.parameters.size(), -1);
-  for (Parameter& parameter : group.parameters) unify_kind(parameter);
+  for (auto& row : design.rows) row.resize(parameters.size(), -1);
+  for (Parameter& parameter : parameters) unify_kind(parameter);
 }
 
 void SpecReader::check_targets(const Group& group) {
@@ -117,15 +157,29 @@ void SpecReader::check_targets(const Group& group) {
   }
 }
 
-void SpecReader::check_zip(const Group& group) {
-  for (std::size_t i = 1; i < group.parameters.size(); ++i) {
-    const Parameter& first = group.parameters.front();
-    const Parameter& other = group.parameters[i];
+void SpecReader::check_zip(const std::vector<Parameter>& parameters) {
+  for (std::size_t i = 1; i < parameters.size(); ++i) {
+    const Parameter& first = parameters.front();
+    const Parameter& other = parameters[i];
     if (other.choices.size() == first.choices.size()) continue;
     problem(other.pointer,
             "\"" + other.name + "\" has " + std::to_string(other.choices.size()) + " values, \"" +
                 first.name + "\" has " + std::to_string(first.choices.size()),
             "a zip needs as many values of each parameter");
+  }
+}
+
+/// Values that are listed must be equally likely and change with every move.
+void SpecReader::check_morris(const Design& design, const std::vector<Parameter>& parameters) {
+  for (const Parameter& one : parameters) {
+    const auto n = static_cast<int>(one.choices.size());
+    if (one.range || (n > 1 && design.levels % n == 0)) continue;
+    problem(one.pointer,
+            "\"" + one.name + "\" has " + std::to_string(n) + (n == 1 ? " value" : " values") +
+                " on the " + std::to_string(design.levels) + " levels of morris",
+            n == 1 ? "give two values at least, or put the one into set"
+                   : "give a number of values that divides the levels, or set levels to " +
+                         std::to_string(n % 2 == 0 ? n : 2 * n));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -26,20 +27,6 @@ std::string unescape(const std::string& token) {
   return result;
 }
 
-const char* kind_name(DesignKind kind) {
-  switch (kind) {
-    case DesignKind::grid:
-      return "grid";
-    case DesignKind::list:
-      return "list";
-    case DesignKind::zip:
-      return "zip";
-    case DesignKind::one_at_a_time:
-      return "one-at-a-time";
-  }
-  faultsim::throw_internal("known design", "", __FILE__, __LINE__);
-}
-
 json choice_to_json(const Choice& choice) {
   json changes = json::object();
   for (const Change& change : choice.changes) changes[change.pointer] = change.value;
@@ -48,21 +35,57 @@ json choice_to_json(const Choice& choice) {
   return result;
 }
 
-json group_to_json(const Group& group) {
-  json parameters = json::array();
-  for (const Parameter& parameter : group.parameters) {
-    json choices = json::array();
-    for (const Choice& choice : parameter.choices) choices.push_back(choice_to_json(choice));
-    parameters.push_back({{"name", parameter.name},
-                          {"unit", faultsim::si_unit(parameter.dimension)},
-                          {"base", parameter.base.text},
-                          {"choices", choices}});
+json parameter_to_json(const Parameter& parameter) {
+  json result = {{"name", parameter.name},
+                 {"unit", faultsim::si_unit(parameter.dimension)},
+                 {"base", parameter.base.text}};
+  if (parameter.range) {
+    const Choice& from = parameter.choices.front();
+    const Choice& to = parameter.choices.back();
+    result["range"] = {{"from", from.text},
+                       {"to", to.text},
+                       {"from_si", *from.si},
+                       {"to_si", *to.si},
+                       {"spacing", parameter.range->log ? "log" : "linear"},
+                       {"pointers", parameter.targets}};
+    return result;
   }
-  json result = {{"name", group.name},
-                 {"kind", kind_name(group.kind)},
-                 {"scene", group.scene},
-                 {"parameters", parameters}};
-  if (group.kind == DesignKind::list) result["rows"] = group.rows;
+  result["choices"] = json::array();
+  for (const Choice& choice : parameter.choices) {
+    result["choices"].push_back(choice_to_json(choice));
+  }
+  return result;
+}
+
+/// What a design has besides its parameters.
+json design_to_json(const Design& design) {
+  json result = {{"kind", to_string(design.kind)}};
+  if (design.kind == DesignKind::list) result["rows"] = design.rows;
+  if (!is_sampled(design.kind)) return result;
+  result["seed"] = design.seed;
+  result[design.kind == DesignKind::morris ? "trajectories" : "samples"] = design.n;
+  if (design.kind == DesignKind::morris) result["levels"] = design.levels;
+  if (design.kind == DesignKind::sobol) result["second_order"] = design.second_order;
+  return result;
+}
+
+json group_to_json(const Group& group) {
+  json result;
+  if (group.designs.size() == 1) {
+    result = design_to_json(group.designs.front());
+  } else {
+    result["kind"] = "nested";
+    for (const Design& design : group.designs) {
+      result["designs"].push_back(design_to_json(design));
+      result["designs"].back()["n_parameters"] = design.n_parameters;
+    }
+  }
+  result["name"] = group.name;
+  result["scene"] = group.scene;
+  result["parameters"] = json::array();
+  for (const Parameter& parameter : group.parameters) {
+    result["parameters"].push_back(parameter_to_json(parameter));
+  }
   return result;
 }
 
@@ -76,6 +99,31 @@ json policy_to_json(const Policy& policy) {
 }
 
 }  // namespace
+
+const char* to_string(DesignKind kind) {
+  switch (kind) {
+    case DesignKind::grid:
+      return "grid";
+    case DesignKind::list:
+      return "list";
+    case DesignKind::zip:
+      return "zip";
+    case DesignKind::one_at_a_time:
+      return "one-at-a-time";
+    case DesignKind::latin_hypercube:
+      return "latin-hypercube";
+    case DesignKind::sobol:
+      return "sobol";
+    case DesignKind::morris:
+      return "morris";
+  }
+  faultsim::throw_internal("known design", "", __FILE__, __LINE__);
+}
+
+bool is_sampled(DesignKind kind) {
+  return kind == DesignKind::latin_hypercube || kind == DesignKind::sobol ||
+         kind == DesignKind::morris;
+}
 
 const char* to_string(KeepFields keep) {
   switch (keep) {
@@ -184,6 +232,16 @@ bool overlap(const std::string& a, const std::string& b) {
 
 std::string scalar_text(const nlohmann::json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+std::string shortest_text(double number) {
+  const bool plain = number == 0 || (std::abs(number) >= 1e-4 && std::abs(number) < 1e9);
+  char digits[64];
+  const auto [end, error] =
+      std::to_chars(digits, digits + sizeof digits, number,
+                    plain ? std::chars_format::fixed : std::chars_format::scientific);
+  FAULTSIM_DEMAND(error == std::errc(), number);
+  return {digits, end};
 }
 
 }  // namespace faultsweep

@@ -31,7 +31,21 @@ struct Choice {
   std::vector<Change> changes;
 };
 
-/// Something that varies between cases.
+/// A range from which a sampled design draws values; its ends are the parameter's two choices.
+struct SampledRange {
+  long double from = 0, to = 0;  ///< in `unit`.
+  std::string unit;              ///< as given for `from`; "" for plain numbers.
+  bool log = false;              ///< uniform in the logarithm.
+};
+
+/// A value drawn from a SampledRange. There may be 10^6 per parameter.
+struct DrawnValue {
+  double number = 0;  ///< in SampledRange::unit: what the scene gets, as its shortest decimal text.
+  double si = 0;
+};
+
+/// Something that varies between cases. A value is addressed by its number: -1 = base, then
+/// `choices`, then `drawn`.
 struct Parameter {
   std::string name;                  ///< alias, JSON Pointer or a name of the spec's own.
   std::string pointer;               ///< into the spec.
@@ -41,6 +55,16 @@ struct Parameter {
   bool has_own_values = false;  ///< factors or variants: its value is not that of its targets.
   Choice base;  ///< the value where a design leaves the parameter alone; no changes.
   std::vector<Choice> choices;
+  std::optional<SampledRange> range;  ///< of a sampled design: no row has one of the choices.
+  std::vector<DrawnValue> drawn;      ///< from `range`, made by `expand`.
+
+  int n_values() const { return static_cast<int>(choices.size() + drawn.size()); }
+  std::string text(int value) const;
+  std::optional<double> si(int value) const;
+  const std::string& place(int value) const;  ///< into the spec, for messages.
+  void append_changes(int value, std::vector<Change>& changes) const;
+  /// Draws values from the range: position 0 is `from`, 1 is `to`.
+  void draw(const std::vector<double>& positions);
 };
 
 /// Where a value of a group's scene that is not the base's comes from.
@@ -50,10 +74,30 @@ struct Origin {
 };
 
 enum class DesignKind {
-  grid,           ///< every combination; the last parameter varies fastest.
-  list,           ///< the rows as given.
-  zip,            ///< the i-th choice of every parameter together.
-  one_at_a_time,  ///< the base case, then each choice of each parameter alone.
+  grid,             ///< every combination; the last parameter varies fastest.
+  list,             ///< the rows as given.
+  zip,              ///< the i-th choice of every parameter together.
+  one_at_a_time,    ///< the base case, then each choice of each parameter alone.
+  latin_hypercube,  ///< n samples; each n-th part of every range has one.
+  sobol,   ///< n base samples in blocks A, AB_1 .. AB_D, (BA_1 .. BA_D,) B (Saltelli 2010).
+  morris,  ///< n trajectories of D + 1 rows; in each every parameter moves once, by half the
+           ///< levels.
+};
+const char* to_string(DesignKind kind);  ///< as in the spec: "one-at-a-time".
+/// True for those whose rows `expand` draws by their seed.
+bool is_sampled(DesignKind kind);
+
+/// The rows of consecutive parameters of a group.
+struct Design {
+  DesignKind kind = DesignKind::grid;
+  std::string pointer;  ///< into the spec.
+  std::size_t n_parameters = 0;
+  /// Value per parameter, -1 = its base. Of a list as read, of sampled designs made by `expand`.
+  std::vector<std::vector<int>> rows;
+  long n = 0;                 ///< sampled: samples, base samples (sobol) or trajectories (morris).
+  int levels = 0;             ///< morris: even.
+  bool second_order = false;  ///< sobol: blocks BA too.
+  std::int64_t seed = 1;
 };
 
 /// One design on one scene. A spec without groups has a single group named "".
@@ -62,9 +106,9 @@ struct Group {
   std::string pointer;          ///< of its design in the spec.
   nlohmann::json scene;         ///< the base with all `set` applied.
   std::vector<Origin> origins;  ///< what `set` put there, for messages.
-  DesignKind kind = DesignKind::grid;
-  std::vector<Parameter> parameters;   ///< in document order.
-  std::vector<std::vector<int>> rows;  ///< list: choice per parameter, -1 = its base value.
+  /// One, or those of a nested design: each row of a design with every row of the next.
+  std::vector<Design> designs;
+  std::vector<Parameter> parameters;  ///< in document order, those of designs[0] first.
 };
 
 /// `exclude`: cases for which the expression is true are left out.
@@ -133,7 +177,8 @@ struct CampaignSpec {
   bool base_is_inline = false;      ///< base is document's /base.
 
   /// The second of the three copies (design section 8): JSON text in which every alias is a
-  /// pointer, every range its values, and every group carries its scene.
+  /// pointer, every range its values (or, where values are drawn, its ends: design and seed make
+  /// the same values again), and every group carries its scene.
   std::string resolved() const;
 };
 

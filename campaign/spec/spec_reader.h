@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "campaign/spec/pointers.h"
@@ -53,23 +54,30 @@ class SpecReader {
   bool check_count();
   long double count_cases(const std::string& design);
   std::string describe_count(const std::string& design);
+  std::vector<std::string> parts_of(const std::string& design) const;
+  std::optional<std::pair<long double, long double>> count_samples(const std::string& design) const;
 
   // read_design.cc
   void read_designs(const std::string& pointer, const std::string& prefix, const json& scene,
                     const std::vector<Origin>& origins);
   void read_groups(const std::string& pointer, const std::string& prefix, const json& scene,
                    const std::vector<Origin>& origins);
-  void read_list(const std::string& pointer, const SceneNames& names, Group& group);
+  void read_design(const std::string& pointer, const SceneNames& names, Group& group);
+  /// Adds columns to parameters, which are empty.
+  void read_list(const std::string& pointer, const SceneNames& names, Design& design,
+                 std::vector<Parameter>& parameters);
+  void read_sampling(const std::string& pointer, Design& design);
   void check_targets(const Group& group);
-  void check_zip(const Group& group);
+  void check_zip(const std::vector<Parameter>& parameters);
+  void check_morris(const Design& design, const std::vector<Parameter>& parameters);
 
   // choices.cc
   std::optional<Parameter> read_parameter(const std::string& pointer, const std::string& name,
-                                          const SceneNames& names);
+                                          const SceneNames& names, DesignKind design);
   void check_stray_keys(const std::string& pointer);
   void read_targets(const SceneNames& names, Parameter& parameter);
   void read_values(const std::string& pointer, const SceneNames& names, Parameter& parameter);
-  void read_range(const SceneNames& names, Parameter& parameter);
+  void read_range(const SceneNames& names, Parameter& parameter, DesignKind design);
   void read_scale(const SceneNames& names, Parameter& parameter);
   void read_variants(const SceneNames& names, Parameter& parameter);
   /// One value for all targets; nothing (and a problem) when it is not what the scene wants.

@@ -315,6 +315,10 @@ TEST(Expansion, ExamplesExpand) {
   ASSERT_EQ(salt.families.size(), 1u) << "friction and fault pressure leave the operators alone";
   EXPECT_EQ(salt.families[0].plan.creep.rungs.size(), 6u);
   EXPECT_EQ(expand(read_campaign(folder + "small.json")).cases.size(), 12u);
+  const auto sampled = expand(read_campaign(folder + "latin-hypercube.json"));
+  EXPECT_EQ(sampled.cases.size(), 24u);
+  EXPECT_EQ(sampled.families.size(), 2u) << "as docs/campaign.md says";
+  EXPECT_EQ(expand(read_campaign(folder + "morris.json")).case_of_row[0].size(), 30u);
 }
 
 TEST(CutAtValues, KeysAreNoValues) {

@@ -111,7 +111,7 @@ TEST(Spec, ListsShareEqualValues) {
   const Group& group = spec.groups[0];
   ASSERT_EQ(group.parameters.size(), 2u);
   EXPECT_EQ(group.parameters[0].choices.size(), 1u);
-  EXPECT_EQ(group.rows, (std::vector<std::vector<int>>{{0, 0}, {-1, 1}, {0, -1}}));
+  EXPECT_EQ(group.designs[0].rows, (std::vector<std::vector<int>>{{0, 0}, {-1, 1}, {0, -1}}));
 }
 
 TEST(Spec, GroupsInGroupsInheritSet) {

@@ -1,0 +1,106 @@
+// Sampled designs from the spec to results in the store: the real faultsweep under the real mpirun
+// with the real faultsim, in plane strain.
+#include <nlohmann/json.hpp>
+
+#include "tests/campaign/campaign_fixture.h"
+
+namespace faultsweep {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class Designs : public testing::CampaignTest {
+ protected:
+  void SetUp() override {
+    CampaignTest::SetUp();
+    simulator_ = FAULTSIM;
+  }
+
+  /// Submits and runs a design of the small field; what submit says of it.
+  json run(const std::string& design) {
+    auto spec = nlohmann::ordered_json::parse(
+        std::ifstream(std::string(FAULTSIM_SOURCE_DIR) + "/docs/examples/campaigns/small.json"));
+    spec["base"] = std::string(FAULTSIM_SOURCE_DIR) + "/docs/examples/scenes/rotliegend.json";
+    spec["design"] = nlohmann::ordered_json::parse(design);
+    const std::string file = (folder_ / "spec.json").string();
+    std::ofstream(file) << spec.dump(1);
+    const auto submitted = faultsweep({"submit", file, "--json"});
+    EXPECT_EQ(submitted.code, 0) << submitted.err;
+    const auto end = wait(start({"run", "--workers", "2"}), 300);
+    EXPECT_EQ(end.code, 0) << end.err;
+    return json::parse(submitted.out);
+  }
+
+  /// Parameter vectors of the rows of the only design, and that each has a complete result.
+  std::vector<std::vector<double>> rows() {
+    const Store store = Store::open_reader(store_);
+    const CampaignInfo campaign = store.campaign("");
+    EXPECT_EQ(campaign.n_complete(), campaign.n_cases);
+    EXPECT_THAT(store.integrity_problems(), IsEmpty());
+    std::vector<std::vector<double>> result;
+    for (const DesignRow& row : store.design_rows(campaign.id)) {
+      EXPECT_EQ(row.design, 0);
+      EXPECT_EQ(row.row, static_cast<long>(result.size()) + 1);
+      const StoredCase one = store.stored_case(campaign.id, std::to_string(row.position));
+      EXPECT_TRUE(one.has_result);
+      result.push_back(json::parse(one.parameter_values).get<std::vector<double>>());
+    }
+    return result;
+  }
+};
+
+TEST_F(Designs, ALatinHypercubeSharesTheOperatorsOfItsLevels) {
+  const json submitted = run(R"({"kind": "latin-hypercube", "samples": 8, "parameters": {
+      "offset": ["0 m", "100 m"], "friction_angle": {"from": "15 deg", "to": "31 deg"}}})");
+  EXPECT_EQ(submitted["families"].size(), 2u);
+  std::vector<int> parts(8, 0);
+  for (const auto& row : rows()) {
+    ++parts.at(static_cast<std::size_t>((row[1] * 180 / M_PI - 15) / 2));
+  }
+  EXPECT_EQ(parts, std::vector<int>(8, 1)) << "one friction angle in each 2 deg";
+}
+
+TEST_F(Designs, EverySobolRowHasItsCase) {
+  const json submitted = run(R"({"kind": "sobol", "samples": 4, "parameters": {
+      "friction_angle": {"from": "15 deg", "to": "30 deg"}, "ratio_across": [0.5, 0.7]}})");
+  EXPECT_EQ(submitted["designed"], 16);
+  EXPECT_GT(submitted["merged"], 0) << "A and AB_2 have the same level somewhere";
+  const auto all = rows();
+  ASSERT_EQ(all.size(), 16u);
+  for (std::size_t i = 0; i < 16; i += 4) {
+    const auto &a = all[i], &b = all[i + 3];
+    EXPECT_EQ(all[i + 1], (std::vector<double>{b[0], a[1]}));
+    EXPECT_EQ(all[i + 2], (std::vector<double>{a[0], b[1]}));
+  }
+}
+
+TEST_F(Designs, MorrisTrajectoriesThatMeetAreWhole) {
+  const json submitted = run(R"({"kind": "morris", "trajectories": 4, "parameters": {
+      "friction_angle": {"from": "15 deg", "to": "30 deg"}, "ratio_across": [0.5, 0.7]}})");
+  const auto all = rows();
+  ASSERT_EQ(all.size(), 12u);
+  EXPECT_GT(submitted["merged"], 0) << "there are 8 cases";
+  for (std::size_t i = 0; i < 12; ++i) {
+    if (i % 3 == 0) continue;
+    const bool angle = all[i][0] != all[i - 1][0], ratio = all[i][1] != all[i - 1][1];
+    EXPECT_NE(angle, ratio) << "row " << i + 1;
+  }
+}
+
+TEST_F(Designs, NestedSamplesAreTheSameInEachOuterRow) {
+  run(R"({"kind": "nested", "designs": [
+      {"kind": "grid", "parameters": {"offset": ["0 m", "100 m"]}},
+      {"kind": "latin-hypercube", "samples": 3, "seed": 5, "parameters": {
+         "friction_angle": {"from": "15 deg", "to": "30 deg"}}}]})");
+  const auto all = rows();
+  ASSERT_EQ(all.size(), 6u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(all[i][0], 0);
+    EXPECT_EQ(all[i + 3], (std::vector<double>{100, all[i][1]}));
+  }
+}
+
+}  // namespace
+}  // namespace faultsweep

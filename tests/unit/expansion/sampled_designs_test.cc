@@ -1,0 +1,401 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "campaign/expansion/expansion.h"
+#include "campaign/expansion/rows.h"
+#include "campaign/expansion/unit_samples.h"
+#include "simulator/common/stopwatch.h"
+#include "simulator/scene/read_scene.h"
+
+/// Rows of Latin hypercube, Sobol' and Morris designs, checked by what defines each of them.
+namespace faultsweep {
+namespace {
+
+using ::testing::ElementsAre;
+
+constexpr const char* kThree = R"("parameters": {
+    "friction_angle": {"from": "15 deg", "to": "35 deg"},
+    "cohesion": {"from": "1 bar", "to": "4 MPa"},
+    "biot": {"from": 0.5, "to": 1}})";
+
+/// A campaign on the reference scene in plane strain.
+Expansion expand_design(const std::string& design, const std::string& more = "") {
+  const std::string text =
+      R"({"format": 1, "name": "test", "base": "docs/examples/scenes/rotliegend.json", )"
+      R"("set": {"/tier": "screening"}, )" +
+      more + R"("design": )" + design + "}";
+  return expand(parse_campaign(text, FAULTSIM_SOURCE_DIR "/test.json"));
+}
+
+Expansion expand_kind(const std::string& kind_and_numbers, const std::string& parameters = kThree) {
+  return expand_design(R"({"kind": )" + kind_and_numbers + ", " + parameters + "}");
+}
+
+/// Values of the rows of a group as positions in the ranges: [row][parameter].
+std::vector<std::vector<double>> positions(const Expansion& expansion, std::size_t group = 0) {
+  const Group& g = expansion.spec.groups.at(group);
+  std::vector<std::vector<double>> rows;
+  Row row;
+  for (long i = 0; i < count_rows(g); ++i) {
+    row_at(g, i, row);
+    rows.emplace_back();
+    for (std::size_t p = 0; p < row.size(); ++p) {
+      const Parameter& parameter = g.parameters[p];
+      const double from = *parameter.choices.front().si, to = *parameter.choices.back().si;
+      rows.back().push_back((*parameter.si(row[p]) - from) / (to - from));
+    }
+  }
+  return rows;
+}
+
+std::vector<double> column(const std::vector<std::vector<double>>& rows, std::size_t p) {
+  std::vector<double> result;
+  for (const auto& row : rows) result.push_back(row[p]);
+  return result;
+}
+
+/// How many points lie in each n-th part of [0, 1).
+std::vector<int> counts(const std::vector<double>& points, std::size_t n) {
+  std::vector<int> result(n, 0);
+  for (const double x : points) ++result.at(static_cast<std::size_t>(x * static_cast<double>(n)));
+  return result;
+}
+
+double correlation(const std::vector<double>& x, const std::vector<double>& y) {
+  double mx = 0, my = 0, xx = 0, yy = 0, xy = 0;
+  const auto n = static_cast<double>(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    mx += x[i] / n;
+    my += y[i] / n;
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    xx += (x[i] - mx) * (x[i] - mx);
+    yy += (y[i] - my) * (y[i] - my);
+    xy += (x[i] - mx) * (y[i] - my);
+  }
+  return xy / std::sqrt(xx * yy);
+}
+
+void expect_true_identities(const Expansion& expansion, std::size_t stride) {
+  for (std::size_t i = 0; i < expansion.cases.size(); i += stride) {
+    const auto scene = faultsim::read_scene({"test", scene_of(expansion, expansion.cases[i]), {}});
+    ASSERT_EQ(expansion.cases[i].identity, faultsim::case_identity(scene)) << i;
+  }
+}
+
+TEST(UnitSamples, LatinHypercubeHasOnePointInEveryPart) {
+  for (const std::size_t n : {1U, 7U, 1000U}) {
+    const UnitSamples samples = latin_hypercube(n, 3, 1);
+    for (const auto& one : samples) EXPECT_EQ(counts(one, n), std::vector<int>(n, 1));
+  }
+  const UnitSamples samples = latin_hypercube(10000, 2, 1);
+  EXPECT_LT(std::abs(correlation(samples[0], samples[1])), 0.04) << "four standard deviations";
+  std::vector<double> within = samples[0];
+  for (double& x : within) x = x * 10000 - std::floor(x * 10000);
+  for (const int n : counts(within, 10)) EXPECT_NEAR(n, 1000, 120) << "uniform within parts too";
+}
+
+TEST(UnitSamples, SobolSequenceIsADigitalNet) {
+  const UnitSamples samples = sobol_sequence(256, 12, 1);
+  for (const auto& one : samples) EXPECT_EQ(counts(one, 256), std::vector<int>(256, 1));
+  // Dimensions 0 and 1 are a (0, 8, 2)-net: one point in each box of 2^-k x 2^-(8-k).
+  for (const double k : {4.0, 16.0, 64.0}) {
+    std::set<std::pair<double, double>> boxes;
+    for (std::size_t i = 0; i < 256; ++i) {
+      boxes.emplace(std::floor(samples[0][i] * k), std::floor(samples[1][i] * 256 / k));
+    }
+    EXPECT_EQ(boxes.size(), 256u) << k;
+  }
+  for (const double x : {samples[0][0], samples[5][3]}) EXPECT_TRUE(x >= 0 && x < 1);
+}
+
+TEST(SampledDesigns, LatinHypercubeHasOneSampleInEveryPartOfARange) {
+  const auto all = expand_kind(R"("latin-hypercube", "samples": 50)");
+  ASSERT_EQ(all.cases.size(), 50u);
+  EXPECT_EQ(all.families.size(), 1u);
+  const auto rows = positions(all);
+  for (std::size_t p = 0; p < 3; ++p) {
+    EXPECT_EQ(counts(column(rows, p), 50), std::vector<int>(50, 1)) << p;
+  }
+  expect_true_identities(all, 1);
+}
+
+TEST(SampledDesigns, AValueIsExactlyWhatTheSceneGets) {
+  const auto all = expand_kind(R"("latin-hypercube", "samples": 20)");
+  for (const Case& one : all.cases) {
+    const auto values = parameters_of(all, one);
+    EXPECT_NE(values[0].text.find(" deg"), std::string::npos);
+    EXPECT_NE(values[1].text.find(" bar"), std::string::npos) << "the unit of from";
+    EXPECT_EQ(scene_of(all, one)["friction"]["friction_angle"], values[0].text);
+    EXPECT_EQ(*values[0].si, faultsim::parse_quantity(values[0].text, values[0].dimension).value);
+    EXPECT_EQ(*values[1].si, faultsim::parse_quantity(values[1].text, values[1].dimension).value);
+    EXPECT_EQ(std::stod(values[2].text), *values[2].si);
+  }
+}
+
+TEST(SampledDesigns, LogRangesAreUniformInTheLogarithm) {
+  const auto all =
+      expand_kind(R"("latin-hypercube", "samples": 30)",
+                  R"("parameters": {"caprock_viscosity": {"from": "1e17 Pa s", "to": "1e20 Pa s",
+                                              "spacing": "log"}})");
+  std::vector<double> logs;
+  for (const Case& one : all.cases) {
+    logs.push_back((std::log10(*parameters_of(all, one)[0].si) - 17) / 3);
+  }
+  EXPECT_EQ(counts(logs, 30), std::vector<int>(30, 1));
+}
+
+TEST(SampledDesigns, ListedValuesAreEquallyLikelyLevels) {
+  const auto all = expand_kind(R"("latin-hypercube", "samples": 60)", R"("parameters": {
+      "offset": ["0 m", "50 m", "100 m"],
+      "stiff": {"scale": "caprock_stiffness", "factors": [1, 2]},
+      "p": {"variants": {"mean": {"fault_pressure": "mean"}, "max": {"fault_pressure": "max"}}},
+      "friction_angle": {"from": "15 deg", "to": "35 deg"}})");
+  ASSERT_EQ(all.cases.size(), 60u);
+  EXPECT_EQ(all.families.size(), 6u) << "samples share the operators of the levels";
+  std::map<std::string, int> seen;
+  for (const Case& one : all.cases) {
+    const auto values = parameters_of(all, one);
+    for (std::size_t p = 0; p < 3; ++p) ++seen[values[p].name + " " + values[p].text];
+  }
+  for (const char* offset : {"offset 0 m", "offset 50 m", "offset 100 m"}) {
+    EXPECT_EQ(seen[offset], 20) << offset;
+  }
+  EXPECT_EQ(seen["stiff 1"], 30);
+  EXPECT_EQ(seen["p max"], 30);
+}
+
+/// Blocks as SALib's sobol.analyze takes them apart: A = Y[0::step], AB_j = Y[1+j::step],
+/// BA_j = Y[1+D+j::step], B = Y[step-1::step].
+TEST(SampledDesigns, SobolBlocksShareTheColumnsTheyShould) {
+  for (const bool second_order : {false, true}) {
+    const auto all = expand_kind(std::string(R"("sobol", "samples": 16, "second_order": )") +
+                                 (second_order ? "true" : "false"));
+    const auto rows = positions(all);
+    const std::size_t step = second_order ? 8 : 5;
+    ASSERT_EQ(rows.size(), 16 * step);
+    for (std::size_t i = 0; i < 16; ++i) {
+      const auto& a = rows[i * step];
+      const auto& b = rows[i * step + step - 1];
+      for (std::size_t j = 0; j < 3; ++j) {
+        EXPECT_NE(a[j], b[j]);
+        auto ab = a, ba = b;
+        ab[j] = b[j];
+        ba[j] = a[j];
+        EXPECT_EQ(rows[i * step + 1 + j], ab) << i;
+        if (second_order) {
+          EXPECT_EQ(rows[i * step + 4 + j], ba) << i;
+        }
+      }
+    }
+    for (std::size_t p = 0; p < 3; ++p) {
+      std::vector<double> a, b;
+      for (std::size_t i = 0; i < 16; ++i) {
+        a.push_back(rows[i * step][p]);
+        b.push_back(rows[i * step + step - 1][p]);
+      }
+      EXPECT_EQ(counts(a, 16), std::vector<int>(16, 1)) << "balanced";
+      EXPECT_EQ(counts(b, 16), std::vector<int>(16, 1)) << "balanced";
+    }
+  }
+}
+
+/// The indices of a function that is known give those of its formula: f = 4 x1 + 2 x2 + x1 x3.
+TEST(SampledDesigns, SobolRowsGiveTheIndicesOfAKnownFunction) {
+  const auto all = expand_kind(R"("sobol", "samples": 4096)");
+  const auto rows = positions(all);
+  std::vector<double> y;
+  for (const auto& x : rows) y.push_back(4 * x[0] + 2 * x[1] + x[0] * x[2]);
+  // Var(x) = 1/12; f = 4.5 u1 + 2 u2 + u3 / 2 + u1 u3 + constant with u = x - 1/2.
+  const double v1 = 4.5 * 4.5 / 12, v2 = 4.0 / 12, v3 = 0.25 / 12, v13 = 1.0 / 144;
+  const double v = v1 + v2 + v3 + v13;
+  const double first[] = {v1 / v, v2 / v, v3 / v};
+  const double total[] = {(v1 + v13) / v, v2 / v, (v3 + v13) / v};
+  for (std::size_t j = 0; j < 3; ++j) {
+    double s = 0, t = 0;  // Saltelli et al. (2010), table 2, (b) and (f)
+    for (std::size_t i = 0; i < 4096; ++i) {
+      const double a = y[5 * i], ab = y[5 * i + 1 + j], b = y[5 * i + 4];
+      s += b * (ab - a) / 4096;
+      t += (a - ab) * (a - ab) / 2 / 4096;
+    }
+    EXPECT_NEAR(s / v, first[j], 0.01) << j;
+    EXPECT_NEAR(t / v, total[j], 0.005) << j;
+  }
+}
+
+TEST(SampledDesigns, SobolSaysWhenSamplesAreNoPowerOfTwo) {
+  const auto odd = expand_kind(R"("sobol", "samples": 12)");
+  EXPECT_EQ(odd.notes, std::vector<std::string>{"12 samples of /design are no power of two: the "
+                                                "sequence is balanced only at those"});
+  EXPECT_THAT(expand_kind(R"("sobol", "samples": 8)").notes, ElementsAre());
+}
+
+TEST(SampledDesigns, MorrisMovesEveryParameterOncePerTrajectoryByDelta) {
+  const auto all = expand_kind(R"("morris", "trajectories": 40, "levels": 6)");
+  const auto rows = positions(all);
+  ASSERT_EQ(rows.size(), 160u);
+  std::map<int, int> levels;
+  std::set<std::vector<std::size_t>> orders;
+  int n_up = 0;
+  for (std::size_t t = 0; t < 40; ++t) {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 4 * t; i < 4 * t + 4; ++i) {
+      for (std::size_t p = 0; p < 3; ++p) {
+        const double level = rows[i][p] * 5;
+        EXPECT_NEAR(level, std::round(level), 1e-9);
+        ++levels[static_cast<int>(std::lround(level))];
+        if (i == 4 * t || rows[i][p] == rows[i - 1][p]) continue;
+        EXPECT_NEAR(std::abs(rows[i][p] - rows[i - 1][p]), 6 / (2 * 5.0), 1e-12);
+        n_up += rows[i][p] > rows[i - 1][p] ? 1 : 0;
+        order.push_back(p);
+      }
+    }
+    EXPECT_EQ(order.size(), 3u) << "one per row";
+    orders.insert(order);
+    EXPECT_EQ(std::set<std::size_t>(order.begin(), order.end()).size(), 3u) << "each once";
+  }
+  EXPECT_EQ(orders.size(), 6u) << "all orders occur";
+  EXPECT_EQ(levels.size(), 6u) << "all levels occur";
+  EXPECT_NEAR(n_up, 60, 22) << "up as often as down";
+}
+
+TEST(SampledDesigns, MorrisListsMoveToo) {
+  const auto all = expand_kind(R"("morris", "trajectories": 20, "levels": 6)", R"("parameters": {
+      "offset": ["0 m", "50 m", "100 m"],
+      "p": {"variants": {"mean": {"fault_pressure": "mean"}, "max": {"fault_pressure": "max"}}}})");
+  const Group& group = all.spec.groups[0];
+  Row before, row;
+  for (long i = 0; i < count_rows(group); ++i) {
+    row_at(group, i, row);
+    if (i % 3 != 0) {
+      EXPECT_EQ((row[0] != before[0]) + (row[1] != before[1]), 1) << i;
+    }
+    before = row;
+  }
+  // Six cases there are; 60 rows meet in them and are found again.
+  EXPECT_LE(all.cases.size(), 6u);
+  EXPECT_EQ(all.n_merged, 60 - static_cast<long>(all.cases.size()));
+  ASSERT_EQ(all.case_of_row[0].size(), 60u);
+  for (long i = 0; i < 60; ++i) {
+    row_at(group, i, row);
+    const auto place = static_cast<std::size_t>(all.case_of_row[0][static_cast<std::size_t>(i)]);
+    EXPECT_EQ(all.cases.at(place).choices, row);
+  }
+}
+
+TEST(SampledDesigns, TheSeedDecides) {
+  for (const char* kind : {R"("latin-hypercube", "samples": 16)", R"("sobol", "samples": 16)",
+                           R"("morris", "trajectories": 16)"}) {
+    const auto rows = positions(expand_kind(kind));
+    EXPECT_EQ(rows, positions(expand_kind(kind))) << kind;
+    EXPECT_EQ(rows, positions(expand_kind(std::string(kind) + R"(, "seed": 1)"))) << kind;
+    EXPECT_NE(rows, positions(expand_kind(std::string(kind) + R"(, "seed": 2)"))) << kind;
+    const auto beside = expand_design(
+        R"({"kind": "groups", "groups": [
+             {"name": "a", "design": {"kind": "latin-hypercube", "samples": 3, "seed": 7, )" +
+        std::string(kThree) + R"(}}, {"name": "b", "design": {"kind": )" + kind + ", " + kThree +
+        "}}]}");
+    EXPECT_EQ(rows, positions(beside, 1)) << "whatever stands beside it";
+  }
+}
+
+/// The numbers themselves, so that no library, compiler or later version changes a stored design
+/// unseen. The first output of std::mt19937_64 with its default seed is in the C++ standard; these
+/// are what this code made of it when the properties above were checked.
+TEST(SampledDesigns, StayTheSameForEver) {
+  const auto texts = [](const char* kind) {
+    const auto all = expand_kind(kind);
+    std::string text;
+    for (const auto& value : parameters_of(all, all.cases[1])) text += value.text + " ";
+    return text;
+  };
+  EXPECT_EQ(texts(R"("latin-hypercube", "samples": 4)"),
+            "26.754490568914598 deg 6.422744266443204 bar 0.6843242257106954 ");
+  EXPECT_EQ(texts(R"("sobol", "samples": 4)"),
+            "15.42048456833454 deg 6.3198744182816915 bar 0.725607451922269 ");
+  EXPECT_EQ(texts(R"("morris", "trajectories": 4)"), "15 deg 1 bar 0.8333333333333333 ");
+}
+
+TEST(SampledDesigns, NestedHasEveryInnerRowInEveryOuterOne) {
+  const auto all = expand_design(R"({"kind": "nested", "designs": [
+      {"kind": "list", "cases": [{"offset": "0 m"}, {"offset": "100 m", "biot": 0.8}]},
+      {"kind": "grid", "parameters": {"fault_pressure": ["mean", "max"]}},
+      {"kind": "latin-hypercube", "samples": 5, "parameters": {
+         "friction_angle": {"from": "15 deg", "to": "35 deg"},
+         "cohesion": {"from": "0 MPa", "to": "4 MPa"}}}]})");
+  ASSERT_EQ(all.cases.size(), 20u);
+  EXPECT_EQ(all.families.size(), 2u);
+  const auto texts = [&](std::size_t i) {
+    std::vector<std::string> result;
+    for (const auto& value : parameters_of(all, all.cases[i])) result.push_back(value.text);
+    return result;
+  };
+  std::set<std::string> samples;
+  for (std::size_t i = 0; i < 20; ++i) {
+    EXPECT_EQ(texts(i)[0], i < 10 ? "0 m" : "100 m");
+    EXPECT_EQ(texts(i)[1], i < 10 ? "1" : "0.8");
+    EXPECT_EQ(texts(i)[2], i / 5 % 2 == 0 ? "mean" : "max");
+    EXPECT_EQ(texts(i)[3], texts(i % 5)[3]) << "the same sample in each outer row";
+    samples.insert(texts(i)[3]);
+  }
+  EXPECT_EQ(samples.size(), 5u);
+  expect_true_identities(all, 1);
+}
+
+TEST(SampledDesigns, LatinHypercubeLeavesOutWhatIsExcluded) {
+  const auto all = expand_design(
+      R"({"kind": "latin-hypercube", "samples": 40, )" + std::string(kThree) + "}",
+      R"("exclude": ["friction_angle < 20 deg"], "derived": {"ratio_along": "biot / 2"}, )");
+  EXPECT_EQ(all.excluded[0].n_cases, 10) << "a quarter of the range";
+  EXPECT_EQ(all.cases.size(), 30u);
+  EXPECT_EQ(std::count(all.case_of_row[0].begin(), all.case_of_row[0].end(), -1), 10);
+  for (const Case& one : all.cases) EXPECT_GE(*parameters_of(all, one)[0].si, 20 * M_PI / 180);
+  expect_true_identities(all, 1);
+}
+
+TEST(SampledDesigns, ADrawnParameterOfTheOperatorIsPointedOut) {
+  const auto all = expand_kind(R"("latin-hypercube", "samples": 3)",
+                               R"("parameters": {"offset": {"from": "0 m", "to": "100 m"}})");
+  EXPECT_EQ(all.families.size(), 3u);
+  EXPECT_EQ(all.notes,
+            std::vector<std::string>{
+                "\"offset\" of /design is drawn from a range and changes the operator: each of its "
+                "values is a family of its own; a list of a few values shares operators"});
+}
+
+TEST(SampledDesigns, TheResolvedSpecSaysHowTheSampleIsMade) {
+  const auto all = expand_kind(R"("sobol", "samples": 8)");
+  const auto resolved = nlohmann::json::parse(all.spec.resolved());
+  const auto& group = resolved["groups"][0];
+  EXPECT_EQ(group["kind"], "sobol");
+  EXPECT_EQ(group["samples"], 8);
+  EXPECT_EQ(group["seed"], 1) << "the default is written out";
+  EXPECT_EQ(group["second_order"], false);
+  const auto& cohesion = group["parameters"][1];
+  EXPECT_EQ(cohesion["range"]["from"], "1 bar");
+  EXPECT_EQ(cohesion["range"]["to_si"], 4e6);
+  EXPECT_FALSE(cohesion.contains("choices"));
+}
+
+TEST(SampledDesigns, HundredThousandSamplesExpandInSeconds) {
+  const faultsim::Stopwatch watch;
+  const auto all = expand_kind(R"("latin-hypercube", "samples": 100000)", R"("parameters": {
+      "friction_angle": {"from": "15 deg", "to": "35 deg"},
+      "cohesion": {"from": "0 MPa", "to": "4 MPa"},
+      "overpressure": {"from": "25 bar", "to": "40 bar"},
+      "ratio_across": {"from": 0.5, "to": 0.9}})");
+  const double seconds = watch.seconds();
+  RecordProperty("seconds", std::to_string(seconds));
+  EXPECT_EQ(all.cases.size(), 100000u);
+  EXPECT_EQ(all.families.size(), 1u);
+  // Alone on a machine it is below 2 s; here only a guard against reading every scene.
+  EXPECT_LT(seconds, 20.0);
+  expect_true_identities(all, 9973);
+}
+
+}  // namespace
+}  // namespace faultsweep
