@@ -39,11 +39,17 @@ void draw_latin_hypercube(Design& design, Parameter* parameters) {
   }
 }
 
-/// Dimensions 0 .. D-1 are sample A, D .. 2D-1 are sample B.
+/// Dimensions 0 .. D-1 are sample A, D .. 2D-1 are sample B. Values that are listed are paired at
+/// random: the leading binary digits of two dimensions of the sequence may agree in all of the
+/// first points, and a parameter with two levels would then never change from A to B.
 void draw_sobol(Design& design, Parameter* parameters) {
   const auto n = static_cast<std::size_t>(design.n);
   const std::size_t d = design.n_parameters;
   auto columns = sobol_sequence(n, 2 * d, design.seed);
+  const auto paired_at_random = latin_hypercube(n, 2 * d, design.seed);
+  for (std::size_t k = 0; k < 2 * d; ++k) {
+    if (!parameters[k % d].range) columns[k] = paired_at_random[k];
+  }
   std::vector<Values> values;  // points 0 .. n-1 are those of A, the others those of B
   for (std::size_t p = 0; p < d; ++p) {
     columns[p].insert(columns[p].end(), columns[d + p].begin(), columns[d + p].end());

@@ -12,7 +12,7 @@ namespace faultsweep {
 ///   (McKay, Beckman & Conover 1979).
 /// - sobol: per base sample the rows A, AB_1 .. AB_D, with second_order also BA_1 .. BA_D, then B;
 ///   AB_j is A with parameter j of B (Saltelli et al. 2010), from a digitally shifted Sobol'
-///   sequence in 2 D dimensions.
+///   sequence in 2 D dimensions; listed values from a Latin hypercube.
 /// - morris: trajectories of D + 1 rows on `levels` positions (0, 1/(p-1), .. 1 of a range); one
 ///   parameter per row moves by p/2 positions, up or down (Morris 1991).
 ///

@@ -227,6 +227,25 @@ TEST(SampledDesigns, SobolRowsGiveTheIndicesOfAKnownFunction) {
   }
 }
 
+/// Two levels are told apart by the first binary digit alone. In the first 16 points it agrees in
+/// two of the pairs of dimensions (j, j + 5) of the sequence, so that two of five parameters would
+/// have the same level in A and B of every sample.
+TEST(SampledDesigns, SobolLevelsOfAAndBArePairedAtRandom) {
+  const auto all = expand_kind(R"("sobol", "samples": 16)", R"("parameters": {
+      "cohesion": ["0 MPa", "2 MPa"], "ratio_across": [0.5, 0.7], "ratio_along": [0.5, 0.7],
+      "friction_angle": ["15 deg", "35 deg"], "offset": ["0 m", "100 m"]})");
+  const auto rows = positions(all);
+  for (std::size_t p = 0; p < 5; ++p) {
+    int equal = 0, high = 0;
+    for (std::size_t i = 0; i < 16; ++i) {
+      equal += rows[7 * i][p] == rows[7 * i + 6][p] ? 1 : 0;
+      high += rows[7 * i][p] == 1 ? 1 : 0;
+    }
+    EXPECT_EQ(high, 8) << "balanced";
+    EXPECT_NEAR(equal, 8, 6) << p;
+  }
+}
+
 TEST(SampledDesigns, SobolSaysWhenSamplesAreNoPowerOfTwo) {
   const auto odd = expand_kind(R"("sobol", "samples": 12)");
   EXPECT_EQ(odd.notes, std::vector<std::string>{"12 samples of /design are no power of two: the "
