@@ -8,6 +8,7 @@
 #include "campaign/report/export.h"
 #include "campaign/report/ranking_report.h"
 #include "campaign/scheduler/ranks.h"
+#include "campaign/scheduler/slurm_script.h"
 #include "simulator/common/exit_code.h"
 
 /// The commands of faultsweep: each prints its data on stdout, its talk on stderr, and returns the
@@ -30,6 +31,8 @@ struct SubmitArguments {
 };
 ExitCode submit_command(const StoreArguments& common, const SubmitArguments& arguments);
 ExitCode run_command(const StoreArguments& common, RunOptions options, int argc, char** argv);
+/// Prints a script for sbatch that runs the campaign.
+ExitCode slurm_command(const StoreArguments& common, const SlurmRequest& request);
 ExitCode status_command(const StoreArguments& common);
 ExitCode rank_command(const StoreArguments& common, const RankRequest& request, bool list_metrics);
 /// @param name  case number, beginning of an identity, or CAMPAIGN/either.

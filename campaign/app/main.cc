@@ -16,6 +16,8 @@ constexpr const char* kFooter =
     "  faultsweep submit my-sweep/campaign.json --dry-run\n"
     "  faultsweep submit my-sweep/campaign.json      check, expand, store\n"
     "  faultsweep run --workers 2                    start, or go on where it stopped\n"
+    "  faultsweep run --hostfile hosts               on the hosts of a file, as mpirun takes it\n"
+    "  faultsweep slurm --workers 31 --nodes 2 | sbatch      as a job of a cluster\n"
     "  faultsweep status                             from another terminal: time left, failures\n"
     "  faultsweep rank --by moment --where \"friction_angle < 25 deg\" --top 10\n"
     "  faultsweep show 17                            one case: stages, chi history per fault\n"
@@ -68,6 +70,7 @@ struct Arguments {
   std::string init_folder = "campaign", case_name, cache_size = "20 GB", backup_target;
   SubmitArguments submit;
   RunOptions run;
+  SlurmRequest slurm;
   RankRequest rank;
   bool list_metrics = false;
   ExportRequest exporting;
@@ -90,8 +93,12 @@ void add_running(CLI::App& app, Arguments& a, ExitCode& code, int argc, char** a
   CLI::App* run = app.add_subcommand("run", "run a campaign, or continue it, under mpirun");
   add_campaign(run, a.common);
   run->add_option("-w,--workers", a.run.n_workers,
-                  "workers beside the manager; default: the cores available")
+                  "workers beside the manager; default: the cores available, or in a Slurm job\n"
+                  "its tasks less one")
       ->check(CLI::Range(1, 10000));
+  run->add_option("--hostfile", a.run.hostfile,
+                  "mpirun's list of hosts; without --workers as many ranks as it has slots")
+      ->check(CLI::ExistingFile);
   const std::map<std::string, ProgressDisplay::Style> styles = {
       {"none", ProgressDisplay::Style::silent},
       {"lines", ProgressDisplay::Style::lines},
@@ -103,10 +110,35 @@ void add_running(CLI::App& app, Arguments& a, ExitCode& code, int argc, char** a
   run->add_option("--simulator", a.run.simulator,
                   "the faultsim binary; default FAULTSIM_BINARY, or beside faultsweep");
   run->add_option("--memory", a.run.memory,
-                  "for operators that are built or held together: \"12 GB\", 0 = no limit;\n"
-                  "default: 0.9 of what is available");
+                  "of each host, for operators that are built or held together: \"12 GB\",\n"
+                  "0 = no limit; default: 0.9 of what is available");
+  run->add_option("--node-cache", a.run.node_cache,
+                  "copies of operators on each host's own disk, or none; default: none if the\n"
+                  "store is on a local disk, else a folder in SLURM_TMPDIR, TMPDIR or /tmp");
   run->add_option("--status-file", a.run.status_file)->group("");
   run->callback([&, argc, argv] { code = run_command(a.common, a.run, argc, argv); });
+}
+
+void add_slurm(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* slurm = app.add_subcommand("slurm", "print a script for sbatch that runs a campaign");
+  add_campaign(slurm, a.common);
+  slurm
+      ->add_option("-w,--workers", a.slurm.n_workers,
+                   "tasks beside the manager's; default: enough for half an hour, at most 15")
+      ->check(CLI::Range(1, 10000));
+  slurm->add_option("--nodes", a.slurm.nodes, "default 1")->check(CLI::Range(1, 10000));
+  slurm->add_option("--time", a.slurm.time,
+                    "as sbatch takes it: 12:00:00; default: twice the time predicted");
+  slurm->add_option("--memory-per-node", a.slurm.memory_per_node,
+                    "as sbatch takes it: 64G; default: as predicted");
+  slurm->add_option("--partition", a.slurm.partition, "default: the cluster's");
+  slurm->add_option("--account", a.slurm.account, "default: yours");
+  slurm
+      ->add_option("--resubmit", a.slurm.resubmit,
+                   "how often the job queues itself again when its time was over; default: never")
+      ->check(CLI::Range(0, 1000));
+  slurm->footer("Example: faultsweep slurm my-sweep --workers 31 --nodes 2 --resubmit 3 | sbatch");
+  slurm->callback([&] { code = slurm_command(a.common, a.slurm); });
 }
 
 void add_reading(CLI::App& app, Arguments& a, ExitCode& code) {
@@ -231,6 +263,7 @@ ExitCode faultsweep_main(int argc, char** argv) {
   arguments.common.store = default_store();
   ExitCode code = ExitCode::done;
   add_running(app, arguments, code, argc, argv);
+  add_slurm(app, arguments, code);
   add_reading(app, arguments, code);
   add_export(app, arguments, code);
   add_compare(app, arguments, code);

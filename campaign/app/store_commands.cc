@@ -86,6 +86,24 @@ ExitCode run_command(const StoreArguments& common, RunOptions options, int argc,
   return status;
 }
 
+ExitCode slurm_command(const StoreArguments& common, const SlurmRequest& request) {
+  const Store store = Store::open_reader(common.store);
+  const CampaignInfo campaign = store.campaign(common.campaign, false);
+  SlurmCampaign job;
+  job.name = campaign.name;
+  job.store = std::filesystem::absolute(common.store).lexically_normal();
+  job.program = std::filesystem::read_symlink("/proc/self/exe");
+  job.simulator = simulator_binary();
+  job.waiting = store.waiting_families(campaign.id);
+  print(slurm_script(job, request));
+  if (job.waiting.empty()) {
+    std::fprintf(stderr, "Nothing waits in %s\n", campaign.name.c_str());
+  } else {
+    std::fprintf(stderr, "Next: faultsweep slurm %s ... | sbatch\n", campaign.name.c_str());
+  }
+  return ExitCode::done;
+}
+
 ExitCode status_command(const StoreArguments& common) {
   const Store store = Store::open_reader(common.store);
   const StatusReport status = make_status(store, common.campaign);

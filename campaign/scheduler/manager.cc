@@ -1,6 +1,7 @@
 #include "campaign/scheduler/manager.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -27,6 +28,12 @@ FamilyWork work_of(const WaitingFamily& waiting, const std::filesystem::path& op
       !work.creeps && !waiting.operator_fingerprint.empty() &&
       std::filesystem::exists(operators / (waiting.operator_fingerprint + ".h5"));
   return work;
+}
+
+/// "; Slurm job 17", "" outside of Slurm.
+std::string slurm_text() {
+  const char* job = std::getenv("SLURM_JOB_ID");
+  return job != nullptr ? concat("; Slurm job ", job) : std::string();
 }
 
 }  // namespace
@@ -57,12 +64,13 @@ Manager::Manager(Store& store, WorkerLink& link, ProgressDisplay& display, const
   scenes_sent_.resize(n_workers);
   hosts_.resize(n_workers);
   if (campaign_.cancelled) plan_->stop();
-  store_.record_event(campaign_.id, "started",
-                      concat(campaign_.n_waiting, " cases in ", families_.size(), " families, ",
-                             n_workers, " workers",
-                             fields_only_.empty() ? std::string()
-                                                  : concat("; ", fields_only_.size(),
-                                                           " cases for their fields only")));
+  store_.record_event(
+      campaign_.id, "started",
+      concat(
+          campaign_.n_waiting, " cases in ", families_.size(), " families, ", n_workers, " workers",
+          fields_only_.empty() ? std::string()
+                               : concat("; ", fields_only_.size(), " cases for their fields only"),
+          slurm_text()));
 }
 
 Manager::~Manager() {
@@ -76,9 +84,8 @@ bool Manager::turn() {
   busy_ = false;
   while (auto received = link_.receive()) {
     busy_ = true;
-    const auto worker = static_cast<std::size_t>(received->worker);
     if (const auto* hello = std::get_if<message::Hello>(&received->message)) {
-      hosts_[worker] = hello->host;
+      greet(received->worker, hello->host);
     } else if (auto* events = std::get_if<message::Events>(&received->message)) {
       handle(received->worker, std::move(*events));
     } else if (const auto* trouble = std::get_if<message::Trouble>(&received->message)) {
@@ -102,6 +109,12 @@ bool Manager::turn() {
   if (!workers_are_drained() && since_drain_.seconds() < options_.patience) return true;
   commit();
   return false;
+}
+
+void Manager::greet(int worker, const std::string& host) {
+  hosts_[static_cast<std::size_t>(worker)] = host;
+  const int fresh = static_cast<int>(host_numbers_.size()) + 1;  // 0 = not known yet
+  plan_->place(worker, host_numbers_.try_emplace(host, fresh).first->second);
 }
 
 void Manager::begin_drain() {

@@ -35,7 +35,7 @@ class Manager {
  public:
   struct Options {
     std::string campaign;     ///< "" = the newest.
-    double memory_bytes = 0;  ///< for operators built and held together; 0 = not limited.
+    double memory_bytes = 0;  ///< for operators built and held together on a host; 0 = not limited.
     double patience = 10;     ///< s for cases under way once stopped.
   };
   /// Claims the store. Throws StorageError.
@@ -61,6 +61,7 @@ class Manager {
   static constexpr std::size_t kCommitRuns = 512;  ///< nor are more together in one transaction
 
  private:
+  void greet(int worker, const std::string& host);
   void handle(int worker, message::Events message);
   void handle_result(int worker, RunRecord run);
   /// A run for fields only must repeat the stored result bit for bit: the fields are those of that
@@ -88,6 +89,7 @@ class Manager {
   std::set<std::int64_t> fields_only_;        ///< cases that have a result and lack their fields
   std::vector<std::set<std::int64_t>> scenes_sent_;
   std::vector<std::string> hosts_;
+  std::map<std::string, int> host_numbers_;
   std::vector<RunRecord> uncommitted_;
   std::vector<std::pair<int, OperatorRecord>> operators_;
   faultsim::Stopwatch since_first_uncommitted_, since_beat_, since_look_, since_start_,

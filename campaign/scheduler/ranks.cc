@@ -1,6 +1,9 @@
 #include "campaign/scheduler/ranks.h"
 
+#include <linux/magic.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -93,8 +96,6 @@ ExitCode manage(Messenger& messenger, const RunOptions& options, bool& in_order)
   Store store = Store::open_owner(options.store);
   if (!store.remark().empty()) display.note(store.remark());
   MpiWorkers link(messenger);
-  constexpr double kMemoryShare =
-      0.9;  // of what is available now; the rest is for results and cache
   const double memory = options.memory_bytes.value_or(kMemoryShare * available_memory());
   Manager manager(store, link, display, {options.campaign, memory, Manager::Options{}.patience});
   IdleSleep idle(IdleSleep::kManagerLongest);
@@ -151,10 +152,17 @@ ExitCode manager_rank(Messenger& messenger, const RunOptions& options) {
   return options.status_file.empty() ? status : ExitCode::done;
 }
 
+std::filesystem::path node_cache(const RunOptions& options) {
+  if (options.node_cache.empty()) return default_node_cache(options.store);
+  if (options.node_cache == "none") return {};
+  return options.node_cache;
+}
+
 ExitCode worker_rank(Messenger& messenger, const RunOptions& options) {
   LocalRunner::Options runner_options;
   runner_options.process.binary = options.simulator;
   runner_options.process.cache = std::filesystem::absolute(options.store) / "operators";
+  runner_options.process.node_cache = node_cache(options);
   runner_options.host = host_name();
   runner_options.rank = messenger.rank();
   try {
@@ -169,7 +177,34 @@ ExitCode worker_rank(Messenger& messenger, const RunOptions& options) {
   return ExitCode::done;
 }
 
+long file_system_type(const std::filesystem::path& folder) {
+  struct statfs info = {};
+  return statfs(folder.c_str(), &info) == 0 ? static_cast<long>(info.f_type) : 0;
+}
+
 }  // namespace
+
+std::filesystem::path own_folder_on_disk() {
+  std::filesystem::path base = "/tmp";
+  for (const char* name : {"TMPDIR", "SLURM_TMPDIR"}) {
+    const char* value = std::getenv(name);
+    if (value != nullptr && *value != '\0') base = value;
+  }
+  const long type = file_system_type(base);
+  // What lies in tmpfs is memory, and counts as the job's.
+  if (type == 0 || type == TMPFS_MAGIC || is_network_file_system(type)) return {};
+  std::filesystem::path folder = base / concat("faultsweep-operators-", geteuid());
+  mkdir(folder.c_str(), S_IRWXU);
+  struct stat info = {};  // others may write in /tmp: they must not give us operators
+  const bool is_ours = lstat(folder.c_str(), &info) == 0 && S_ISDIR(info.st_mode) &&
+                       info.st_uid == geteuid() && (info.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+  return is_ours ? folder : std::filesystem::path();
+}
+
+std::filesystem::path default_node_cache(const std::filesystem::path& store) {
+  if (!is_network_file_system(file_system_type(store))) return {};
+  return own_folder_on_disk();
+}
 
 bool is_rank() {
   return std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMIX_RANK") != nullptr;

@@ -13,15 +13,25 @@ namespace faultsweep {
 struct RunOptions {
   std::filesystem::path store;
   std::string campaign;             ///< "" = the newest.
-  std::optional<int> n_workers;     ///< default: available_cores().
+  std::optional<int> n_workers;     ///< default: default_workers(), or the slots of the hostfile.
+  std::filesystem::path hostfile;   ///< mpirun's list of hosts; empty = this one, or Slurm's.
   std::filesystem::path simulator;  ///< the faultsim binary.
-  /// For operators that are built or held together, bytes, 0 = not limited; default: 0.9 of what is
-  /// available.
+  /// For operators that are built or held together on one host, bytes, 0 = not limited; default:
+  /// 0.9 of what is available to the manager's.
   std::optional<double> memory_bytes;
   std::string memory;  ///< the same as given: "12 GB".
+  /// For copies of operators on each host's own disk; "none", or "" = default_node_cache().
+  std::string node_cache;
   ProgressDisplay::Style progress = ProgressDisplay::Style::lines;
   std::filesystem::path status_file;  ///< of the ranks: where rank 0 leaves the campaign's status.
 };
+
+/// Where this host keeps copies of the operators of a store: nowhere ("") if the store is on a
+/// local disk; else faultsweep-operators-UID in SLURM_TMPDIR, TMPDIR or /tmp, which it makes,
+/// unless that is on the network, in memory, or somebody else's.
+std::filesystem::path default_node_cache(const std::filesystem::path& store);
+/// The same for a store that is known to be on a network file system.
+std::filesystem::path own_folder_on_disk();
 
 /// True in a process that mpirun (or srun with PMIx) started as a rank.
 bool is_rank();

@@ -86,7 +86,7 @@ std::optional<int> slurm_number(const char* text) {
   const long value = std::strtol(text, &end, 10);
   if (end == text || value <= 0 || (*end != '\0' && *end != '(' && *end != ','))
     return std::nullopt;
-  return static_cast<int>(std::min(value, 1000000L));
+  return static_cast<int>(std::min(value, 100000000L));
 }
 
 int available_cores() {
@@ -112,6 +112,25 @@ int available_cores() {
   return std::max(1, cores);
 }
 
+int default_workers() {
+  const auto tasks = slurm_number(std::getenv("SLURM_NTASKS"));
+  return tasks && *tasks > 1 ? *tasks - 1 : available_cores();
+}
+
+namespace {
+
+/// --mem and --mem-per-cpu in MB; a job's cgroup need not enforce them.
+std::optional<double> slurm_memory() {
+  constexpr double kMegabyte = 1024 * 1024;
+  if (const auto node = slurm_number(std::getenv("SLURM_MEM_PER_NODE"))) return kMegabyte * *node;
+  const auto per_core = slurm_number(std::getenv("SLURM_MEM_PER_CPU"));
+  const auto cores = slurm_number(std::getenv("SLURM_CPUS_ON_NODE"));
+  if (per_core && cores) return kMegabyte * *per_core * *cores;
+  return std::nullopt;
+}
+
+}  // namespace
+
 double available_memory() {
   std::optional<double> least;
   std::ifstream meminfo("/proc/meminfo");
@@ -128,6 +147,7 @@ double available_memory() {
         const auto used = number_in(folder / (is_v2 ? "memory.current" : "memory.usage_in_bytes"));
         if (limit) keep_least(least, *limit - used.value_or(0));
       });
+  keep_least(least, slurm_memory());
   return std::max(0.0, least.value_or(0));
 }
 

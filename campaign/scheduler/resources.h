@@ -10,9 +10,15 @@ namespace faultsweep {
 /// share of a Slurm job.
 /// At least 1.
 int available_cores();
-/// Bytes: the lesser of the host's available memory and the cgroup's limit less its use; 0 =
-/// unknown.
+/// Workers beside a manager that mostly sleeps: one per core. In a Slurm job of several tasks the
+/// manager is one of them.
+int default_workers();
+/// Bytes: the least of the host's available memory, the cgroup's limit less its use, and what Slurm
+/// gives the job on a node; 0 = unknown.
 double available_memory();
+/// Of what is available when a campaign starts, operators may have this; the rest is for results
+/// and cache.
+inline constexpr double kMemoryShare = 0.9;
 
 /// CPUs granted by the tightest cpu.max (cgroup v2) or cpu.cfs_quota_us (v1) on the way from the
 /// process's group to the root; none = not limited.

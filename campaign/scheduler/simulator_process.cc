@@ -133,6 +133,8 @@ SimulatorProcess::SimulatorProcess(const Options& options) {
       std::to_string(kChildRequests), "--replies", std::to_string(kChildReplies)};
   if (!options.cache.empty())
     arguments.insert(arguments.end(), {"--cache", options.cache.string()});
+  if (!options.node_cache.empty())
+    arguments.insert(arguments.end(), {"--node-cache", options.node_cache.string()});
   if (options.cache_bytes) {
     arguments.insert(arguments.end(), {"--cache-size", std::to_string(*options.cache_bytes)});
   }

@@ -32,6 +32,7 @@ class SimulatorProcess {
   struct Options {
     std::filesystem::path binary;
     std::filesystem::path cache;               ///< operator cache; empty = none.
+    std::filesystem::path node_cache;          ///< copies on the host's own disk; empty = none.
     std::optional<std::uint64_t> cache_bytes;  ///< cap of the cache.
     std::optional<double> memory_limit;        ///< bytes of private memory (RLIMIT_DATA).
   };

@@ -27,6 +27,8 @@ using faultsim::concat;
 using faultsim::ExitCode;
 using faultsim::ResourceError;
 
+constexpr int kTearDownSeconds = 2;  // a commit takes milliseconds, and is whole or not at all
+
 volatile std::sig_atomic_t n_signals = 0;
 
 extern "C" void count_signal(int) { n_signals = n_signals + 1; }
@@ -53,8 +55,8 @@ class StopSignals {
   struct sigaction before_[kCount];
 };
 
-/// A temporary folder for the status file and mpirun's session files, removed at the end: a killed
-/// mpirun leaves its files behind.
+/// A temporary folder for mpirun's session files, removed at the end: a killed mpirun leaves its
+/// files behind.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -71,15 +73,39 @@ class ScratchFolder {
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
   const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path status_file() const { return path_ / "status"; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Where the manager leaves the campaign's status, removed at the end. It lies in the store, as the
+/// manager may be on another host.
+class StatusFile {
+ public:
+  explicit StatusFile(const std::filesystem::path& store) {
+    std::string name = (std::filesystem::absolute(store) / ".status-XXXXXX").string();
+    const int descriptor = mkstemp(name.data());
+    if (descriptor < 0) {
+      throw faultsim::StorageError(concat("cannot make ", name, ": ", std::strerror(errno)));
+    }
+    close(descriptor);
+    path_ = name;
+  }
+  ~StatusFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  StatusFile(const StatusFile&) = delete;
+  StatusFile& operator=(const StatusFile&) = delete;
+  const std::filesystem::path& path() const { return path_; }
   /// What the manager left; none = it could not leave anything.
-  std::optional<ExitCode> read_status() const {
-    std::ifstream file(status_file());
+  std::optional<ExitCode> read() const {
+    std::ifstream file(path_);
     int code = 0;
     if (file >> code) return static_cast<ExitCode>(code);
     return std::nullopt;
   }
-  void clear_status() const { std::ofstream(status_file(), std::ios::trunc); }
+  void clear() const { std::ofstream(path_, std::ios::trunc); }
 
  private:
   std::filesystem::path path_;
@@ -97,11 +123,22 @@ const char* style_name(ProgressDisplay::Style style) {
   return "lines";
 }
 
-std::vector<std::string> mpirun_command(const RunOptions& options, int n_workers,
-                                        const ScratchFolder& scratch) {
+/// A manager and its workers; none = as many as the hostfile has slots.
+std::optional<int> wanted_ranks(const RunOptions& options) {
+  if (options.n_workers) return *options.n_workers + 1;
+  if (!options.hostfile.empty()) return std::nullopt;
+  return default_workers() + 1;
+}
+
+bool is_one_host(const RunOptions& options) {
+  return options.hostfile.empty() &&
+         slurm_number(std::getenv("SLURM_JOB_NUM_NODES")).value_or(1) == 1;
+}
+
+std::vector<std::string> mpirun_command(const RunOptions& options, const ScratchFolder& scratch,
+                                        const StatusFile& status) {
   const char* mpirun = std::getenv("FAULTSWEEP_MPIRUN");
-  std::vector<std::string> command = {mpirun != nullptr ? mpirun : "mpirun", "-n",
-                                      std::to_string(n_workers + 1),
+  std::vector<std::string> command = {mpirun != nullptr ? mpirun : "mpirun",
                                       // more ranks than cores, as the manager sleeps
                                       "--oversubscribe",
                                       // a bound rank would bind its simulator's threads to one core
@@ -109,22 +146,23 @@ std::vector<std::string> mpirun_command(const RunOptions& options, int n_workers
                                       // containers forbid process_vm_readv, which vader would use
                                       "--mca", "btl_vader_single_copy_mechanism", "none",
                                       // ranks have this long to commit after SIGTERM
-                                      "--mca", "odls_base_sigkill_timeout", "30", "--mca",
-                                      "orte_tmpdir_base", scratch.path().string()};
-  if (geteuid() == 0) command.push_back("--allow-run-as-root");
-  const std::vector<std::string> own = {std::filesystem::read_symlink("/proc/self/exe").string(),
-                                        "run",
-                                        options.campaign,
-                                        "--store",
-                                        std::filesystem::absolute(options.store).string(),
-                                        "--simulator",
-                                        options.simulator.string(),
-                                        "--progress",
-                                        style_name(options.progress),
-                                        "--status-file",
-                                        scratch.status_file().string()};
-  command.insert(command.end(), own.begin(), own.end());
-  if (options.memory_bytes) command.insert(command.end(), {"--memory", options.memory});
+                                      "--mca", "odls_base_sigkill_timeout",
+                                      std::to_string(kTearDownSeconds)};
+  const auto add = [&command](std::initializer_list<std::string> words) {
+    command.insert(command.end(), words);
+  };
+  if (const auto n_ranks = wanted_ranks(options)) add({"-n", std::to_string(*n_ranks)});
+  if (!options.hostfile.empty()) {
+    add({"--hostfile", std::filesystem::absolute(options.hostfile).string()});
+  }
+  // Only where all ranks are here: on other hosts nobody would remove the folder.
+  if (is_one_host(options)) add({"--mca", "orte_tmpdir_base", scratch.path().string()});
+  if (geteuid() == 0) add({"--allow-run-as-root"});
+  add({std::filesystem::read_symlink("/proc/self/exe").string(), "run", options.campaign, "--store",
+       std::filesystem::absolute(options.store).string(), "--simulator", options.simulator.string(),
+       "--progress", style_name(options.progress), "--status-file", status.path().string()});
+  if (options.memory_bytes) add({"--memory", options.memory});
+  if (!options.node_cache.empty()) add({"--node-cache", options.node_cache});
   return command;
 }
 
@@ -152,39 +190,44 @@ pid_t spawn(std::vector<std::string> command) {
   return child;
 }
 
-/// Children of the process that are not zombies: its ranks here, and its ways to other hosts.
-std::vector<pid_t> living_children(pid_t parent) {
+/// The process is ours by its program, and no zombie.
+bool is_rank_alive(pid_t pid, const std::filesystem::path& program) {
+  std::error_code error;  // a zombie has no program
+  return std::filesystem::read_symlink(concat("/proc/", pid, "/exe"), error) == program && !error;
+}
+
+/// mpirun's ranks on this host.
+std::vector<pid_t> living_ranks(pid_t mpirun) {
   std::vector<pid_t> living;
   std::error_code error;
-  const std::string tasks = concat("/proc/", parent, "/task");
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
+  const std::string tasks = concat("/proc/", mpirun, "/task");
   for (const auto& task : std::filesystem::directory_iterator(tasks, error)) {
     std::ifstream children(task.path() / "children");
     for (pid_t child = 0; children >> child;) {
-      std::ifstream file(concat("/proc/", child, "/stat"));
-      const std::string text((std::istreambuf_iterator<char>(file)), {});
-      const std::size_t end = text.rfind(')');
-      if (end != std::string::npos && end + 2 < text.size() && text[end + 2] != 'Z') {
-        living.push_back(child);
-      }
+      if (is_rank_alive(child, program)) living.push_back(child);
     }
   }
   return living;
 }
 
 /// Ends a job whose rank has died. Open MPI 4.1 would do so itself, but only after it has slept
-/// odls_base_sigkill_timeout before SIGTERM and again before SIGKILL: a minute for each restart. We
-/// tell the other ranks to leave, and end mpirun when nobody is left.
+/// odls_base_sigkill_timeout before SIGTERM and again before SIGKILL. We tell the other ranks to
+/// leave, and end mpirun when nobody is left. Where some ranks are on other hosts that is left to
+/// Open MPI, which alone knows when these have ended.
 class JobWatch {
  public:
+  /// @param n_ranks  none = not known: Open MPI's.
+  explicit JobWatch(std::optional<int> n_ranks) : n_ranks_(n_ranks) {}
   void look_after(pid_t mpirun) {
-    if (since_look_.seconds() < kLookSeconds) return;
+    if (!n_ranks_ || since_look_.seconds() < kLookSeconds) return;
     since_look_ = {};
-    const std::vector<pid_t> living = living_children(mpirun);
-    if (living.size() >= most_) {
-      most_ = living.size();
+    const std::vector<pid_t> living = living_ranks(mpirun);
+    if (living.size() == static_cast<std::size_t>(*n_ranks_)) {
+      all_were_here_ = true;
       since_loss_ = {};
     }
-    if (most_ == 0 || since_loss_.seconds() < kGraceSeconds) return;
+    if (!all_were_here_ || since_loss_.seconds() < kGraceSeconds) return;
     for (const pid_t rank : living) kill(rank, SIGTERM);
     if (living.empty()) kill(mpirun, SIGKILL);
     since_loss_ = {};
@@ -193,15 +236,16 @@ class JobWatch {
  private:
   static constexpr double kLookSeconds = 0.2;
   static constexpr double kGraceSeconds = 1;  // an ordinary end takes a tenth of that
-  std::size_t most_ = 0;
+  std::optional<int> n_ranks_;
+  bool all_were_here_ = false;
   faultsim::Stopwatch since_look_, since_loss_;
 };
 
 /// Waits for mpirun, passing on requests to stop. Returns waitpid's status.
-int wait_for(pid_t mpirun) {
+int wait_for(pid_t mpirun, std::optional<int> n_ranks) {
   int told = 0;
   faultsim::Stopwatch since_told;
-  JobWatch watch;
+  JobWatch watch(n_ranks);
   constexpr double kRepeatSeconds = 1;  // a signal that came before the ranks listened is lost
   for (;;) {
     int status = 0;
@@ -277,16 +321,17 @@ ExitCode status_without_manager(int status) {
 
 ExitCode start_ranks(const RunOptions& given) {
   RunOptions options = given;
+  const StopSignals stop_signals;  // first of all: a batch system's signal must not kill us
   check_before(options);
-  const int n_workers = options.n_workers.value_or(available_cores());
   const ScratchFolder scratch;
-  const StopSignals stop_signals;
+  const StatusFile status(options.store);
   int n_restarts = 0;
   long finished = finished_cases(options);
   for (;;) {
-    scratch.clear_status();
-    const int ended = wait_for(spawn(mpirun_command(options, n_workers, scratch)));
-    const auto left = scratch.read_status();
+    status.clear();
+    const int ended =
+        wait_for(spawn(mpirun_command(options, scratch, status)), wanted_ranks(options));
+    const auto left = status.read();
     if (n_signals > 0) {
       // In order, the campaign may even have been completed; else it can be resumed.
       return left && n_signals == 1 ? *left : ExitCode::interrupted;

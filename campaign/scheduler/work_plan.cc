@@ -57,12 +57,13 @@ bool WorkPlan::has_operator(int worker, int index) const {
 bool WorkPlan::fits_in_memory(int worker, int index) const {
   if (limits_.memory_bytes <= 0) return true;
   double used = 0;
-  for (const Family& other : families_) {
-    if (!other.work.creeps && other.state == State::building) used += other.work.memory_bytes;
-  }
-  for (const Worker& other : workers_) {
+  for (int k = 0; k < limits_.n_workers; ++k) {
     // The worker itself lets go of what it holds before it builds.
-    if (other.holds >= 0 && &other != &at(worker)) used += family(other.holds).work.memory_bytes;
+    if (k == worker || at(k).host != at(worker).host) continue;
+    if (is_building(k) && !family(at(k).family).work.creeps) {
+      used += family(at(k).family).work.memory_bytes;
+    }
+    if (at(k).holds >= 0) used += family(at(k).holds).work.memory_bytes;
   }
   // Alone it may always try: the prediction may be too careful.
   return used == 0 || used + family(index).work.memory_bytes <= limits_.memory_bytes;

@@ -36,7 +36,8 @@ struct Slice {
 /// Families are taken longest first, those whose operator is known before the others. One worker
 /// builds a family's operator while others take other families; once it is there the family's cases
 /// are shared out in slices that hold about kSliceSeconds of work, and less towards the end so that
-/// all workers end together. Two operators are not built at once unless both fit into memory.
+/// all workers end together. Two operators are not built at once on one host unless both fit into
+/// its memory.
 ///
 /// The operators of a family whose salt creeps are one worker's own. Another worker joins it only
 /// if a second set fits beside all that is held and being built, and if it pays: what waits keeps
@@ -45,12 +46,15 @@ class WorkPlan {
  public:
   struct Limits {
     int n_workers = 1;
-    double memory_bytes = 0;  ///< for all that is built or held together; 0 = not limited.
+    double memory_bytes = 0;  ///< of each host, for all that is built or held there together; 0 =
+                              ///< not limited.
     FailureAction on_failure = FailureAction::proceed;
     int retries = 0;  ///< further attempts of a failed case, of FailureAction::retry.
   };
   WorkPlan(std::vector<FamilyWork> families, const Limits& limits);
 
+  /// Says where the worker runs: a number per host. Until then all are taken to share one.
+  void place(int worker, int host) { at(worker).host = host; }
   /// What the worker (from 0) is to do in addition to what it has; nothing = have it wait.
   std::optional<Slice> next(int worker);
 
@@ -103,6 +107,7 @@ class WorkPlan {
     long measured_cases = 0;
   };
   struct Worker {
+    int host = 0;
     int family = -1;
     long n_cases = 0;
     int holds = -1;  ///< the creeping family whose operators its simulator builds or has.

@@ -38,7 +38,8 @@ struct WorkerArguments {
   int requests = 0;  ///< descriptor to read from.
   int replies = 1;   ///< descriptor to write to.
   std::filesystem::path cache;
-  double cache_size = 20e9;  ///< bytes.
+  std::filesystem::path node_cache;  ///< CachePolicy::node_folder.
+  double cache_size = 20e9;          ///< bytes.
 };
 
 /// What the outcome of a case is to a shell.

@@ -111,6 +111,8 @@ ExitCode faultsim_main(int argc, char** argv) {
   worker_app->add_option("--requests", worker.requests, "descriptor to read from")->required();
   worker_app->add_option("--replies", worker.replies, "descriptor to write to")->required();
   worker_app->add_option("--cache", worker.cache, "operator cache");
+  worker_app->add_option("--node-cache", worker.node_cache,
+                         "copies of cached operators on this host's own disk");
   worker_app->add_option("--cache-size", worker.cache_size, "bytes");
   worker_app->callback([&] { code = worker_command(worker); });
 

@@ -73,7 +73,8 @@ class Worker {
  public:
   Worker(const WorkerArguments& arguments)
       : channel_(arguments.requests, arguments.replies),
-        cache_{arguments.cache, static_cast<std::uint64_t>(arguments.cache_size)} {}
+        cache_{arguments.cache, static_cast<std::uint64_t>(arguments.cache_size),
+               arguments.node_cache} {}
 
   void serve() {
     channel_.say({{"event", "hello"},

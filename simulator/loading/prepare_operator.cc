@@ -40,6 +40,24 @@ void keep_operator(const FaultOperator& op, const CachePolicy& cache, std::strin
   }
 }
 
+/// The operator from the cache; where the host has a folder of its own, from a copy made there. One
+/// that cannot be copied is used where it is.
+std::optional<FaultOperator> find_operator(const std::string& name, const CachePolicy& cache,
+                                           std::string& remark) {
+  if (cache.node_folder.empty()) return read_operator(cache.folder, name, &remark);
+  if (auto near = read_operator(cache.node_folder, name, &remark)) return near;
+  auto found = read_operator(cache.folder, name, &remark);
+  if (!found) return found;
+  try {
+    write_operator(*found, cache.node_folder);
+    prune_operators(cache.node_folder, cache.max_bytes, name);
+    if (auto near = read_operator(cache.node_folder, name)) return near;
+  } catch (const StorageError& error) {
+    remark = concat("the operator is not copied to this host: ", error.what());
+  }
+  return found;
+}
+
 /// Every process needs the factors of a creeping family, so its operators are built, never read.
 PreparedOperator prepare_ladder(const Scene& scene, const Plan& plan, const BuildOptions& options,
                                 Monitor& monitor) {
@@ -73,7 +91,7 @@ PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const Ca
   PreparedOperator prepared;
   const std::string name = operator_fingerprint(scene, plan, blas_description());
   if (!cache.folder.empty() && !keep_bulk) {
-    if (auto found = read_operator(cache.folder, name, &prepared.remark)) {
+    if (auto found = find_operator(name, cache, prepared.remark)) {
       take_fault_names(scene, *found);
       prepared.op = std::make_shared<FaultOperator>(std::move(*found));
       prepared.from_cache = true;

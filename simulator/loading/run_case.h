@@ -24,7 +24,10 @@ BulkProblem bulk_problem(const Scene& scene, const Plan& plan);
 /// Where operators are kept; an empty folder = nowhere.
 struct CachePolicy {
   std::filesystem::path folder;
-  std::uint64_t max_bytes = 20'000'000'000;
+  std::uint64_t max_bytes = 20'000'000'000;  ///< of either folder.
+  /// If set, `folder` is on a network file system and this one on the host's own disk: operators
+  /// are mapped from copies in it, as a mapped file that another host removes is gone at once.
+  std::filesystem::path node_folder = {};
 };
 
 /// The operator of the scene: from the cache if it is there and sound, else built (and cached).

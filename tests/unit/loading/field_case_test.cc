@@ -188,6 +188,36 @@ TEST(FieldCase, TakesFaultNamesFromTheSceneNotFromTheOperator) {
   EXPECT_EQ(prepared.op->geometry.faults[0].name, "north_sea_fault");  // fields and messages
 }
 
+TEST(FieldCase, MapsTheHostsOwnCopyOfACachedOperator) {
+  const std::filesystem::path base = std::filesystem::path(testing::TempDir()) / "faultsim_copies";
+  std::filesystem::remove_all(base);
+  const std::filesystem::path shared = base / "shared", near = base / "near";
+  const Scene scene = read_scene(parse_json(field().dump(), "test"));
+  std::vector<Problem> problems;
+  const Plan plan = make_plan(scene, problems);
+  SilentMonitor monitor;
+  const auto prepare = [&](const CachePolicy& cache) {
+    return prepare_operator(scene, plan, cache, false, monitor);
+  };
+  const CachePolicy policy = {shared, CachePolicy{}.max_bytes, near};
+  const PreparedOperator built = prepare(policy);
+  EXPECT_FALSE(built.from_cache);
+  const std::string file = built.op->fingerprint + ".h5";
+  EXPECT_TRUE(std::filesystem::exists(shared / file)) << "for all hosts";
+  const PreparedOperator copied = prepare(policy);
+  EXPECT_TRUE(copied.from_cache);
+  EXPECT_EQ(copied.op->h, built.op->h);
+  ASSERT_TRUE(std::filesystem::exists(near / file));
+  std::filesystem::remove_all(shared);
+  EXPECT_TRUE(prepare(policy).from_cache) << "the copy is enough";
+  std::filesystem::remove_all(near);
+  EXPECT_FALSE(prepare(policy).from_cache);
+  const PreparedOperator uncopied = prepare({shared, CachePolicy{}.max_bytes, "/dev/null/near"});
+  EXPECT_TRUE(uncopied.from_cache);
+  EXPECT_NE(uncopied.remark.find("not copied"), std::string::npos) << uncopied.remark;
+  std::filesystem::remove_all(base);
+}
+
 TEST(FieldCase, RunsWithoutACacheThatCannotBeWritten) {
   const Scene scene = read_scene(parse_json(field().dump(), "test"));
   std::vector<Problem> problems;

@@ -1,10 +1,12 @@
 #include "campaign/scheduler/resources.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 
 #include "campaign/scheduler/progress.h"
+#include "campaign/scheduler/ranks.h"
 #include "campaign/store/clock.h"
 
 namespace faultsweep {
@@ -59,6 +61,48 @@ TEST(Resources, KnowsThisMachine) {
   setenv("SLURM_CPUS_PER_TASK", "1", 1);
   EXPECT_EQ(available_cores(), 1);
   unsetenv("SLURM_CPUS_PER_TASK");
+}
+
+TEST(Resources, TheManagerIsATaskOfASlurmJob) {
+  EXPECT_EQ(default_workers(), available_cores());
+  setenv("SLURM_NTASKS", "9", 1);
+  EXPECT_EQ(default_workers(), 8);
+  setenv("SLURM_NTASKS", "1", 1);
+  EXPECT_EQ(default_workers(), available_cores());
+  unsetenv("SLURM_NTASKS");
+}
+
+TEST(Resources, TheMemoryOfASlurmJobIsWhatItAskedFor) {
+  constexpr double kMegabyte = 1024 * 1024;
+  setenv("SLURM_MEM_PER_NODE", "7", 1);
+  EXPECT_EQ(available_memory(), 7 * kMegabyte);
+  unsetenv("SLURM_MEM_PER_NODE");
+  setenv("SLURM_MEM_PER_CPU", "3", 1);
+  setenv("SLURM_CPUS_ON_NODE", "4", 1);
+  EXPECT_EQ(available_memory(), 12 * kMegabyte);
+  unsetenv("SLURM_MEM_PER_CPU");
+  unsetenv("SLURM_CPUS_ON_NODE");
+}
+
+TEST(NodeCache, IsAFolderOfOurOwnOnADisk) {
+  const std::filesystem::path base = std::filesystem::path(FAULTSIM_BINARY_DIR) / "node_cache_test";
+  std::filesystem::remove_all(base);
+  std::filesystem::create_directory(base);
+  const char* before = std::getenv("TMPDIR");
+  const std::string kept = before != nullptr ? before : "";
+  setenv("TMPDIR", base.c_str(), 1);
+  const std::filesystem::path folder = own_folder_on_disk();
+  EXPECT_EQ(folder, base / ("faultsweep-operators-" + std::to_string(geteuid())));
+  EXPECT_TRUE(std::filesystem::is_directory(folder));
+  EXPECT_EQ(default_node_cache(base), "") << "the store is on a local disk";
+  std::filesystem::permissions(folder, std::filesystem::perms(0777));
+  EXPECT_EQ(own_folder_on_disk(), "") << "others may write there";
+  setenv("TMPDIR", "/dev/shm", 1);
+  EXPECT_EQ(own_folder_on_disk(), "") << "memory";
+  setenv("TMPDIR", "/no/such/folder", 1);
+  EXPECT_EQ(own_folder_on_disk(), "");
+  before != nullptr ? setenv("TMPDIR", kept.c_str(), 1) : unsetenv("TMPDIR");
+  std::filesystem::remove_all(base);
 }
 
 TEST(Progress, SaysHowFarAndHowLong) {

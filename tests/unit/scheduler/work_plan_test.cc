@@ -24,6 +24,13 @@ FamilyWork family(std::int64_t first_case, int n, double operator_seconds, bool 
   return work;
 }
 
+/// A family whose salt creeps: 1 GB of operators per worker.
+FamilyWork creeping(std::int64_t first_case, int n, double operator_seconds) {
+  FamilyWork work = family(first_case, n, operator_seconds);
+  work.creeps = true;
+  return work;
+}
+
 TEST(WorkPlan, TakesCachedFamiliesFirstThenTheLongest) {
   WorkPlan plan({family(100, 5, 1), family(200, 5, 50), family(300, 5, 9, true)}, {.n_workers = 3});
   EXPECT_EQ(plan.next(0)->family, 2);
@@ -86,6 +93,23 @@ TEST(WorkPlan, BuildsTwoOperatorsAtOnceOnlyIfBothFit) {
   EXPECT_TRUE(roomy.next(1));
 }
 
+TEST(WorkPlan, EachHostHasItsOwnMemory) {
+  WorkPlan plan({family(1, 3, 5), family(11, 3, 4), family(21, 3, 3)},
+                {.n_workers = 3, .memory_bytes = 1.5e9});
+  plan.place(0, 1);
+  plan.place(1, 2);
+  plan.place(2, 2);
+  EXPECT_EQ(plan.next(0)->family, 0);
+  EXPECT_EQ(plan.next(1)->family, 1);
+  EXPECT_FALSE(plan.next(2)) << "another operator is being built on its host";
+  WorkPlan creep({creeping(1, 20, 5), creeping(101, 20, 4)},
+                 {.n_workers = 2, .memory_bytes = 1.5e9});
+  creep.place(0, 1);
+  creep.place(1, 2);
+  EXPECT_TRUE(creep.next(0));
+  EXPECT_TRUE(creep.next(1)) << "what is held on another host takes nothing here";
+}
+
 TEST(WorkPlan, RetriesAsOftenAsAskedThenGivesUp) {
   WorkPlan plan({family(1, 1, 1, true)},
                 {.n_workers = 1, .on_failure = FailureAction::retry, .retries = 2});
@@ -138,13 +162,6 @@ TEST(WorkPlan, ARefusedBuilderLeavesTheFamilyToTheNextCase) {
   const auto slice = plan.next(1);
   ASSERT_TRUE(slice);
   EXPECT_TRUE(slice->builds_operator);
-}
-
-/// A family whose salt creeps: 1 GB of operators per worker.
-FamilyWork creeping(std::int64_t first_case, int n, double operator_seconds) {
-  FamilyWork work = family(first_case, n, operator_seconds);
-  work.creeps = true;
-  return work;
 }
 
 /// Has the worker build the operators of its family and end its first case after `seconds`.
