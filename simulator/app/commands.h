@@ -25,6 +25,12 @@ struct RunArguments {
   bool no_cache = false;
 };
 
+struct DiagnoseArguments {
+  SceneArguments scene;
+  std::filesystem::path cache;  ///< empty = the user's cache folder.
+  bool no_cache = false;
+};
+
 struct ExportArguments {
   SceneArguments scene;
   int step = 0;                  ///< load step whose contact problem is wanted.
@@ -51,6 +57,9 @@ ExitCode plan_command(const SceneArguments& arguments);
 ExitCode parameters_command(const SceneArguments& arguments);
 ExitCode mesh_command(const SceneArguments& arguments, const std::filesystem::path& output);
 ExitCode run_command(const RunArguments& arguments);
+/// Runs a scene, checks every step from outside the solver and runs it again with noise in its
+/// loads (loading/diagnosis.h). Ends with regress when a limit is not met.
+ExitCode diagnose_command(const DiagnoseArguments& arguments);
 /// Writes the contact problem of one load step, and our solution, as an FCLib file. Ends with
 /// no_convergence when the case does not reach the step, or the step has no solution to add.
 ExitCode export_contact_command(const ExportArguments& arguments);

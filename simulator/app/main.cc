@@ -15,6 +15,8 @@ constexpr const char* kFooter =
     "  faultsim plan my-field.json                what will be modelled, unknowns, memory, time\n"
     "  faultsim run my-field.json -o out          run it: table, result.json, faults.xmf\n"
     "  faultsim run my-field.json --tier screening --set friction_angle=\"20 deg\"\n"
+    "  faultsim diagnose my-field.json            check a run from outside the solver, and with "
+    "noise\n"
     "  faultsim export-contact my-field.json --step 10 -o step10.hdf5\n"
     "                                             a step's contact problem for other solvers\n"
     "  faultsim verify V1 V2                      meet the closed forms\n"
@@ -85,6 +87,21 @@ ExitCode faultsim_main(int argc, char** argv) {
   run_app->add_flag("--no-cache", run.no_cache, "neither read nor write cached operators");
   run_app->add_option("--path", path, "how to solve")->check(CLI::IsMember({"condensed"}));
   run_app->callback([&] { code = run_command(run); });
+
+  DiagnoseArguments diagnosed;
+  CLI::App* diagnose_app = app.add_subcommand(
+      "diagnose", "run a scene, check it from outside the solver, and again with noise");
+  add_scene(diagnose_app, diagnosed.scene);
+  diagnose_app->add_option("--cache", diagnosed.cache,
+                           "operator cache (default: the user's cache folder)");
+  diagnose_app->add_flag("--no-cache", diagnosed.no_cache,
+                         "neither read nor write cached operators");
+  diagnose_app->footer(
+      "Recomputes equilibrium, contact and energies of every load step in extended precision,\n"
+      "tests the operator, and runs the case again with noise of 1e-12 in its loads. Exit code 5\n"
+      "when a limit is not met; see docs/model.md, section 10.\n"
+      "Example: faultsim diagnose my-field.json --set offset_east=\"200 m\"");
+  diagnose_app->callback([&] { code = diagnose_command(diagnosed); });
 
   ExportArguments exported;
   CLI::App* export_app = app.add_subcommand(

@@ -1,14 +1,28 @@
 #include "simulator/loading/case_loads.h"
 
+#include <cstdint>
+
 #include "simulator/common/errors.h"
 
 namespace faultsim {
+namespace {
 
-CaseLoads::CaseLoads(const Scene& scene, const FaultOperator& op)
+/// ±1 without pattern: a bit of a mixed index (Steele, Lea and Flood, OOPSLA 2014).
+double sign_of(std::uint64_t index) {
+  std::uint64_t z = (index + 1) * 0x9e3779b97f4a7c15;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+  return (z >> 63) != 0 ? 1 : -1;
+}
+
+}  // namespace
+
+CaseLoads::CaseLoads(const Scene& scene, const FaultOperator& op, double noise)
     : scene_(scene),
       op_(op),
       load_factors_(scene, op),
-      initial_(initial_traction(scene, op.geometry)) {}
+      initial_(initial_traction(scene, op.geometry)),
+      noise_(noise) {}
 
 StepLoads CaseLoads::at(double time) const {
   StepLoads loads;
@@ -26,6 +40,11 @@ StepLoads CaseLoads::at(double time) const {
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
       loads.locked[op_.geometry.nodes[static_cast<std::size_t>(k)].dof[0]] +=
           scene_.faults[f].fault_biot * loads.fault_pressure_change[k];
+    }
+  }
+  if (noise_ != 0) {
+    for (Eigen::Index d = 0; d < loads.locked.size(); ++d) {
+      loads.locked[d] *= 1 + noise_ * sign_of(static_cast<std::uint64_t>(d));
     }
   }
   return loads;

@@ -22,7 +22,8 @@ struct StepLoads {
 class CaseLoads {
  public:
   /// @pre scene and op outlive this. Throws InputError as initial_traction() does.
-  CaseLoads(const Scene& scene, const FaultOperator& op);
+  /// @param noise  relative disturbance of every locked traction, to see what it does; 0 = none.
+  CaseLoads(const Scene& scene, const FaultOperator& op, double noise = 0);
   StepLoads at(double time) const;
   /// Throws InputError where a prescribed fault pressure falls below zero in that step.
   void check_fault_pressure(const LoadStep& step, const StepLoads& loads) const;
@@ -32,6 +33,7 @@ class CaseLoads {
   const FaultOperator& op_;
   LoadFactors load_factors_;
   InitialTraction initial_;
+  double noise_;
 };
 
 }  // namespace faultsim

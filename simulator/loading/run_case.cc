@@ -40,12 +40,13 @@ class CaseRun {
  public:
   /// @param ladder  of the family whose elastic operator op is; null = no creep.
   CaseRun(const Scene& scene, const FaultOperator& op, CreepLadder* ladder,
-          const StepObserver& observer)
+          const StepObserver& observer, const CaseProbe& probe)
       : scene_(scene),
         op_(op),
         observer_(observer),
+        probe_(probe),
         laws_(contact_laws(scene, op.geometry)),
-        loads_(scene, op),
+        loads_(scene, op, probe.noise),
         meter_(op, laws_, scene.numerics.slip_tolerance, scene.numerics.activation_length),
         solver_(op, laws_, contact_options(scene.numerics)),
         state_(initial_state(op)),
@@ -62,6 +63,8 @@ class CaseRun {
   ContactReport solve(const LoadStep& step, const StepLoads* before, const StepLoads& loads,
                       StepResult& result);
   bool advance(const LoadStep& step, const StepLoads* before, const StepLoads& loads);
+  void show(const StepLoads* before, const StepLoads& loads, const ContactReport& report,
+            const StepResult& result, AcceptedStep& step) const;
   void record_events(const LoadStep& step, const StepLoads* before, const StepLoads& loads,
                      const std::vector<ContactJump>& jumps);
   void record(const LoadStep& step, const StepLoads& loads, const Eigen::VectorXd& jump_before,
@@ -76,6 +79,7 @@ class CaseRun {
   const Scene& scene_;
   const FaultOperator& op_;
   const StepObserver& observer_;
+  const CaseProbe& probe_;
   ContactLaws laws_;
   CaseLoads loads_;
   FaultMeter meter_;
@@ -240,6 +244,19 @@ ContactReport CaseRun::solve(const LoadStep& step, const StepLoads* before, cons
   return report;
 }
 
+/// Gives the probe what was accepted. @param step  with the state before.
+void CaseRun::show(const StepLoads* before, const StepLoads& loads, const ContactReport& report,
+                   const StepResult& result, AcceptedStep& step) const {
+  step.locked = loads.locked;
+  step.locked_before =
+      before != nullptr ? before->locked : Eigen::VectorXd::Zero(op_.geometry.n_dofs);
+  step.after = state_;
+  step.elastic = !march_ || before == nullptr;
+  const bool one_time_step = !result.creep || result.creep->time_steps <= 1;
+  step.at_once = one_time_step && report.counts.sub_steps == 1 && report.jumps.empty();
+  probe_.accepted(result.step, laws_, step);
+}
+
 bool CaseRun::advance(const LoadStep& step, const StepLoads* before, const StepLoads& loads) {
   const Stopwatch watch;
   StepResult result;
@@ -248,6 +265,8 @@ bool CaseRun::advance(const LoadStep& step, const StepLoads* before, const StepL
   result.time = step.time;
   result.pressure_change = loads.pressure_change;
   const Eigen::VectorXd jump_before = state_.jump;
+  AcceptedStep accepted;
+  if (probe_.accepted) accepted.before = state_;
   const ContactReport report = solve(step, before, loads, result);
   result.outcome = report.outcome;
   result.reason = report.reason;
@@ -258,6 +277,7 @@ bool CaseRun::advance(const LoadStep& step, const StepLoads* before, const StepL
   result.seconds = watch.seconds();
   if (good) {
     record(step, loads, jump_before, result);
+    if (probe_.accepted) show(before, loads, report, result, accepted);
   } else {
     result_.outcome = report.outcome;
     result_.reason = concat("load step ", step.step, " (", step.stage, "): ", report.reason);
@@ -377,16 +397,16 @@ StepStart CaseRun::start_of(int step) {
 
 CaseResult run_case(const Scene& scene, const FaultOperator& op, Monitor& monitor,
                     const StepObserver& observer) {
-  return CaseRun(scene, op, nullptr, observer).run(monitor);
+  return CaseRun(scene, op, nullptr, observer, {}).run(monitor);
 }
 
 CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, Monitor& monitor,
-                    const StepObserver& observer) {
-  return CaseRun(scene, *prepared.op, prepared.ladder.get(), observer).run(monitor);
+                    const StepObserver& observer, const CaseProbe& probe) {
+  return CaseRun(scene, *prepared.op, prepared.ladder.get(), observer, probe).run(monitor);
 }
 
 StepStart start_of_step(const Scene& scene, const FaultOperator& op, int step) {
-  return CaseRun(scene, op, nullptr, {}).start_of(step);
+  return CaseRun(scene, op, nullptr, {}, {}).start_of(step);
 }
 
 }  // namespace faultsim

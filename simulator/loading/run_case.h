@@ -10,6 +10,7 @@
 #include "simulator/condensation/condensation.h"
 #include "simulator/condensation/creep_ladder.h"
 #include "simulator/contact/contact.h"
+#include "simulator/contact/step_check.h"
 #include "simulator/loading/history.h"
 #include "simulator/output/fault_operator.h"
 #include "simulator/output/result.h"
@@ -47,11 +48,20 @@ PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const Ca
 /// Called after each load step in equilibrium.
 using StepObserver = std::function<void(const StepResult&, const FaultFields&)>;
 
+/// What a diagnosis adds to a run: a look at each accepted step, and noise.
+struct CaseProbe {
+  /// Relative size of a disturbance of every locked traction at every time, with signs that depend
+  /// on nothing but the position of the entry; 0 = none.
+  double noise = 0;
+  /// Called after each load step in equilibrium, if set, with the number of the step.
+  std::function<void(int, const ContactLaws&, const AcceptedStep&)> accepted;
+};
+
 /// Runs one case on its operator: initial state, load steps, contact, metrics. Deterministic: the
 /// same scene and operator give the same bits whatever ran before. Never throws for
 /// non-convergence.
 CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, Monitor& monitor,
-                    const StepObserver& observer = {});
+                    const StepObserver& observer = {}, const CaseProbe& probe = {});
 /// The same without creep, whatever the scene says of viscosity.
 CaseResult run_case(const Scene& scene, const FaultOperator& op, Monitor& monitor,
                     const StepObserver& observer = {});

@@ -1,0 +1,120 @@
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "simulator/app/commands.h"
+#include "simulator/app/load_scene.h"
+#include "simulator/app/screen.h"
+#include "simulator/common/interrupt.h"
+#include "simulator/loading/diagnosis.h"
+#include "simulator/loading/run_case.h"
+
+namespace faultsim {
+namespace {
+
+using nlohmann::json;
+
+/// JSON has no infinity: null.
+json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+
+json to_json(const Diagnosis& d) {
+  json violations = json::array();
+  for (const Violation& v : d.violations) {
+    violations.push_back({{"what", v.what}, {"told_by_result", v.told}});
+  }
+  const StepCheck& w = d.worst;
+  return {{"identity", d.result.identity},
+          {"outcome", to_string(d.result.outcome)},
+          {"reason", d.result.reason},
+          {"warnings", d.result.warnings},
+          {"n_events", d.result.events.size()},
+          {"seconds", d.result.seconds},
+          {"n_steps", d.n_steps},
+          {"n_steps_with_equilibrium_recomputed", d.n_elastic},
+          {"n_steps_with_flow_rule_checked", d.n_at_once},
+          {"worst_step", d.worst_step},
+          {"residual",
+           {{"worst", number(w.largest_residual())},
+            {"equilibrium", number(w.equilibrium)},
+            {"tension", number(w.tension)},
+            {"penetration", number(w.penetration)},
+            {"over_limit", number(w.over_limit)},
+            {"slip_below_limit", number(w.below_limit)},
+            {"misaligned", number(w.misaligned)},
+            {"open_traction", number(w.open_traction)}}},
+          {"energy",
+           {{"worst", number(w.largest_energy())},
+            {"identity", number(w.energy)},
+            {"negative_dissipation", number(w.negative_dissipation)},
+            {"negative_strain_energy", number(w.negative_energy)}}},
+          {"operator",
+           {{"asymmetry", number(d.op.asymmetry)},
+            {"positive_definite", d.op.condition.has_value()},
+            {"condition", d.op.condition ? number(*d.op.condition) : json(nullptr)}}},
+          {"noise",
+           {{"relative_size", NoiseCheck::kNoise},
+            {"chi_bar_change", number(d.noise.chi_bar_change)},
+            {"slip_change", number(d.noise.slip_change)},
+            {"amplification", number(d.noise.amplification())},
+            {"changed", d.noise.changed}}},
+          {"sound", d.sound()},
+          {"violations", std::move(violations)}};
+}
+
+void print(const Diagnosis& d) {
+  const StepCheck& w = d.worst;
+  std::printf("outcome: %s%s%s, %d load steps in equilibrium, %zu slip events\n",
+              to_string(d.result.outcome), d.result.reason.empty() ? "" : ", ",
+              d.result.reason.c_str(), d.n_steps, d.result.events.size());
+  std::printf(
+      "residual: %.1e of the traction level at worst, in step %d (equilibrium recomputed in %d "
+      "steps, flow rule in %d)\n",
+      w.largest_residual(), d.worst_step, d.n_elastic, d.n_at_once);
+  std::printf(
+      "  equilibrium %.1e, tension %.1e, penetration %.1e, over the limit %.1e,\n"
+      "  slip below the limit %.1e, slip off the traction %.1e, traction of open nodes %.1e\n",
+      w.equilibrium, w.tension, w.penetration, w.over_limit, w.below_limit, w.misaligned,
+      w.open_traction);
+  std::printf("energy: identity missed by %.1e, negative dissipation %.1e, strain energy %.1e\n",
+              w.energy, w.negative_dissipation, w.negative_energy);
+  std::printf("operator: asymmetry %.1e, ", d.op.asymmetry);
+  if (d.op.condition) {
+    std::printf("positive definite, condition %.1e\n", *d.op.condition);
+  } else {
+    std::printf("NOT POSITIVE DEFINITE\n");
+  }
+  std::printf("noise of 1e-12 in the loads: changes chi_bar by %.1e, slip by %.1e of the largest\n",
+              d.noise.chi_bar_change, d.noise.slip_change);
+  for (const Violation& v : d.violations) {
+    std::printf("flag: %s%s\n", v.what.c_str(), v.told ? " (the result says so)" : "");
+  }
+  for (const std::string& warning : d.result.warnings)
+    std::printf("warning of the result: %s\n", warning.c_str());
+  std::printf("verdict: %s\n", d.sound() ? "sound" : "flagged");
+}
+
+}  // namespace
+
+ExitCode diagnose_command(const DiagnoseArguments& arguments) {
+  catch_interrupts();
+  const LoadedScene loaded = load_scene(arguments.scene);
+  ScreenMonitor monitor(arguments.scene.json);
+  const PreparedOperator prepared = prepare_operator(
+      loaded.scene, loaded.plan, cache_policy(arguments.cache, arguments.no_cache), false, monitor);
+  if (!prepared.remark.empty()) monitor.note(prepared.remark);
+  monitor.clear();
+  throw_if_interrupted("building the operator");
+  SilentMonitor silent;
+  const Diagnosis diagnosis = diagnose_case(loaded.scene, prepared, silent);
+  if (arguments.scene.json) {
+    std::cout << to_json(diagnosis).dump(2) << "\n";
+  } else {
+    print(diagnosis);
+  }
+  const ExitCode code = exit_code_of(diagnosis.result.outcome);
+  if (code != ExitCode::done) return code;
+  return diagnosis.sound() ? ExitCode::done : ExitCode::regress;
+}
+
+}  // namespace faultsim
