@@ -129,13 +129,13 @@ ExitCode rank_command(const StoreArguments& common, const RankRequest& request, 
     return ExitCode::done;
   }
   const Store store = Store::open_reader(common.store);
-  const Ranking ranking = make_ranking(store, store.campaign(common.campaign), request);
+  const CampaignInfo c = store.campaign(common.campaign, store.lacks_results());
+  const Ranking ranking = make_ranking(store, c, request);
   if (common.json) {
     print(ranking_to_json(ranking));
     return ExitCode::done;
   }
   print(ranking_to_text(ranking));
-  const CampaignInfo& c = ranking.campaign;
   const long n_failed = c.n_failed - c.n_fields_failed;
   const long n_waiting = c.n_waiting - c.n_fields_waiting;
   if (n_waiting + n_failed > 0) {

@@ -15,7 +15,10 @@ using nlohmann::json;
 StatusReport make_status(const Store& store, const std::string& campaign) {
   constexpr int kEvents = 10;
   StatusReport status;
-  status.campaign = store.campaign(campaign);
+  // Cases are counted once, by family: with 10^5 of them each pass takes some 50 ms.
+  status.campaign = store.campaign(campaign, false);
+  status.families = store.family_progress(status.campaign.id);
+  for (const auto& family : status.families) status.campaign += family;
   if (auto owner = store.owner()) {
     if (!owner->alive) {
       status.manager_died = true;
@@ -23,8 +26,10 @@ StatusReport make_status(const Store& store, const std::string& campaign) {
       status.manager = std::move(owner);
     }
   }
-  status.failures = store.failure_counts(status.campaign.id);
-  status.families = store.family_progress(status.campaign.id);
+  const CaseCounts& counts = status.campaign;
+  if (counts.n_failed > 0 || counts.n_done > counts.n_complete()) {
+    status.failures = store.failure_counts(status.campaign.id);
+  }
   status.events = store.events(status.campaign.id, kEvents);
   for (const CampaignInfo& other : store.campaigns()) {
     if (other.id != status.campaign.id) status.others.push_back(other.name);

@@ -92,6 +92,7 @@ void leave_status(const RunOptions& options, ExitCode status) {
 /// Runs the campaign; how it ended. Messages go to stderr.
 ExitCode manage(Messenger& messenger, const RunOptions& options, bool& in_order) {
   const faultsim::Stopwatch since_start;
+  const double cpu_before = cpu_seconds();  // of starting MPI
   ProgressDisplay display(options.progress);
   Store store = Store::open_owner(options.store);
   if (!store.remark().empty()) display.note(store.remark());
@@ -117,10 +118,11 @@ ExitCode manage(Messenger& messenger, const RunOptions& options, bool& in_order)
   display.finish({info.n_cases, info.n_done, info.n_failed, -1, ""});
   if (!manager.trouble().empty())
     std::fprintf(stderr, "faultsweep: %s\n", manager.trouble().c_str());
-  store.record_event(info.id, "stopped",
-                     concat(info.n_done, " done, ", info.n_failed, " failed, ", info.n_waiting,
-                            " waiting; the manager was at work for ", hundredths(cpu_seconds()),
-                            " of ", hundredths(since_start.seconds()), " s"));
+  store.record_event(
+      info.id, "stopped",
+      concat(info.n_done, " done, ", info.n_failed, " failed, ", info.n_waiting,
+             " waiting; the manager was at work for ", hundredths(cpu_seconds() - cpu_before),
+             " of ", hundredths(since_start.seconds()), " s"));
   store.checkpoint();
   return manager.status();
 }

@@ -1,6 +1,7 @@
 #include <ctime>
 
 #include "campaign/store/clock.h"
+#include "campaign/store/read_counts.h"
 #include "campaign/store/sqlite.h"
 #include "campaign/store/store.h"
 #include "simulator/common/fingerprint.h"
@@ -132,27 +133,6 @@ CampaignInfo read_info(const Statement& row) {
   return info;
 }
 
-void count_cases(Connection& db, CampaignInfo& info) {
-  Statement& query = db.prepared(
-      "SELECT count(*), total(state = 'done'), total(state = 'failed'),"
-      " total(state = 'done' AND outcome = 'converged'), total(lacks_only_fields),"
-      " total(lacks_only_fields AND fields = 'failed'),"
-      " total(state = 'done' AND outcome = 'event'),"
-      " total(state = 'done' AND outcome = 'unresolved_event')"
-      " FROM campaign_case_states WHERE campaign_id = ?");
-  query.bind(info.id).step();
-  info.n_cases = query.integer(0);
-  info.n_done = query.integer(1);
-  info.n_failed = query.integer(2);
-  info.n_waiting = info.n_cases - info.n_done - info.n_failed;
-  info.n_converged = query.integer(3);
-  info.n_fields_failed = query.integer(5);
-  info.n_fields_waiting = query.integer(4) - info.n_fields_failed;
-  info.n_event = query.integer(6);
-  info.n_unresolved = query.integer(7);
-  query.reset();
-}
-
 /// Of a campaign that is in the store: how many cases have a result, and of these lack fields.
 void count_known(Connection& db, SubmitOutcome& outcome) {
   Statement& query = db.prepared(
@@ -253,6 +233,52 @@ SubmitOutcome Store::submit(const Submission& submission) {
   return outcome;
 }
 
+std::map<std::int64_t, CaseCounts> count_by_family(Connection& connection, std::int64_t campaign) {
+  Statement& query = connection.prepared(
+      "SELECT family_id, state, coalesce(outcome, ''), lacks_only_fields FROM campaign_case_states"
+      " WHERE campaign_id = ?");
+  query.bind(campaign);
+  std::map<std::int64_t, CaseCounts> all;
+  while (query.step()) {
+    CaseCounts& counts = all[query.integer(0)];
+    const std::string state = query.text(1), outcome = query.text(2);
+    const bool done = state == "done", failed = state == "failed";
+    const bool lacks_only_fields = query.integer(3) != 0;
+    ++counts.n_cases;
+    counts.n_done += done;
+    counts.n_failed += failed;
+    counts.n_waiting += !done && !failed;
+    counts.n_converged += done && outcome == "converged";
+    counts.n_event += done && outcome == "event";
+    counts.n_unresolved += done && outcome == "unresolved_event";
+    counts.n_fields_failed += lacks_only_fields && failed;
+    counts.n_fields_waiting += lacks_only_fields && !failed;
+  }
+  return all;
+}
+
+CaseCounts& CaseCounts::operator+=(const CaseCounts& more) {
+  n_cases += more.n_cases;
+  n_done += more.n_done;
+  n_failed += more.n_failed;
+  n_waiting += more.n_waiting;
+  n_converged += more.n_converged;
+  n_event += more.n_event;
+  n_unresolved += more.n_unresolved;
+  n_fields_waiting += more.n_fields_waiting;
+  n_fields_failed += more.n_fields_failed;
+  return *this;
+}
+
+bool Store::lacks_results() const {
+  Statement& query =
+      connection_->prepared("SELECT EXISTS (SELECT 1 FROM cases WHERE state <> 'done')");
+  query.step();
+  const bool lacks = query.integer(0) != 0;
+  query.reset();
+  return lacks;
+}
+
 SubmitOutcome Store::preview(const Submission& submission) const {
   Connection& db = *connection_;
   const Place place = find_place(db, submission, faultsim::fingerprint(submission.spec_resolved),
@@ -289,7 +315,9 @@ CampaignInfo Store::campaign(const std::string& name, bool with_counts) const {
   }
   for (CampaignInfo& info : all) {
     if (info.name == name || (name.empty() && &info == &all.back())) {
-      if (with_counts) count_cases(*connection_, info);
+      if (with_counts) {
+        for (const auto& [family, counts] : count_by_family(*connection_, info.id)) info += counts;
+      }
       return info;
     }
   }

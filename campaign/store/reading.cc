@@ -2,6 +2,7 @@
 #include <charconv>
 #include <limits>
 
+#include "campaign/store/read_counts.h"
 #include "campaign/store/read_stage.h"
 #include "campaign/store/sqlite.h"
 #include "campaign/store/store.h"
@@ -384,18 +385,21 @@ std::vector<EventRecord> Store::events(std::int64_t campaign, int limit) const {
 std::vector<Store::FamilyProgress> Store::family_progress(std::int64_t campaign) const {
   std::vector<FamilyProgress> all;
   Statement& query = connection_->prepared(
-      "SELECT f.fingerprint, coalesce(f.operator, ''), g.n_cases, g.n_done, g.n_failed, o.build_s,"
-      " f.n_operators, f.predicted_memory_bytes"
-      " FROM (SELECT family_id, count(*) AS n_cases, total(state = 'done') AS n_done,"
-      "  total(state = 'failed') AS n_failed FROM campaign_case_states WHERE campaign_id = ?"
-      "  GROUP BY family_id) g JOIN families f ON f.id = g.family_id"
-      " LEFT JOIN operators o ON o.fingerprint = f.operator ORDER BY f.id");
-  query.bind(campaign);
-  while (query.step()) {
-    all.push_back({query.text(0), query.text(1), static_cast<long>(query.integer(2)),
-                   static_cast<long>(query.integer(3)), static_cast<long>(query.integer(4)),
-                   query.optional_real(5), static_cast<int>(query.integer(6)), query.real(7)});
+      "SELECT f.fingerprint, coalesce(f.operator, ''), o.build_s, f.n_operators,"
+      " f.predicted_memory_bytes FROM families f"
+      " LEFT JOIN operators o ON o.fingerprint = f.operator WHERE f.id = ?");
+  for (const auto& [family, counts] : count_by_family(*connection_, campaign)) {
+    FAULTSIM_DEMAND(query.bind(family).step(), family);
+    FamilyProgress one;
+    static_cast<CaseCounts&>(one) = counts;
+    one.fingerprint = query.text(0);
+    one.operator_fingerprint = query.text(1);
+    one.build_seconds = query.optional_real(2);
+    one.n_operators = static_cast<int>(query.integer(3));
+    one.memory_bytes = query.real(4);
+    all.push_back(std::move(one));
   }
+  query.reset();
   return all;
 }
 

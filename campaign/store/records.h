@@ -90,9 +90,22 @@ struct SubmitOutcome {
   long n_fields = 0;     ///< of these: to be run again, for their fields only.
 };
 
+/// How the cases of a campaign, or of one of its families, stand.
+struct CaseCounts {
+  long n_cases = 0, n_done = 0, n_failed = 0, n_waiting = 0;
+  long n_converged = 0;       ///< of done.
+  long n_event = 0;           ///< of done: complete, with slip events.
+  long n_unresolved = 0;      ///< of done: complete, but the size of the events is the mesh's.
+  long n_fields_waiting = 0;  ///< of waiting: those with a result, for their fields only.
+  long n_fields_failed = 0;   ///< of failed: those with a result.
+  /// Done with a history to its end.
+  long n_complete() const { return n_converged + n_event + n_unresolved; }
+  CaseCounts& operator+=(const CaseCounts& more);
+};
+
 /// A campaign in short. Counts are those of the campaign: a case whose fields it still wants waits,
 /// one whose fields could not be added has failed, although both have a result.
-struct CampaignInfo {
+struct CampaignInfo : CaseCounts {
   std::int64_t id = 0;
   std::string name;
   double submitted_at = 0;
@@ -103,14 +116,6 @@ struct CampaignInfo {
   long n_excluded = 0, n_merged = 0;
   Policy policy;
   KeepFields keep_fields = KeepFields::none;
-  long n_cases = 0, n_done = 0, n_failed = 0, n_waiting = 0;
-  long n_converged = 0;       ///< of done.
-  long n_event = 0;           ///< of done: complete, with slip events.
-  long n_unresolved = 0;      ///< of done: complete, but the size of the events is the mesh's.
-  long n_fields_waiting = 0;  ///< of waiting: those with a result, for their fields only.
-  long n_fields_failed = 0;   ///< of failed: those with a result.
-  /// Done with a history to its end.
-  long n_complete() const { return n_converged + n_event + n_unresolved; }
 };
 
 /// A family with cases that still wait.

@@ -139,14 +139,15 @@ class Store {
                             const std::function<void(const std::vector<Cell>&)>& visit) const;
   std::vector<FailureCount> failure_counts(std::int64_t campaign) const;
   std::vector<EventRecord> events(std::int64_t campaign, int limit) const;  ///< newest first.
-  struct FamilyProgress {
+  struct FamilyProgress : CaseCounts {
     std::string fingerprint, operator_fingerprint;
-    long n_cases = 0, n_done = 0, n_failed = 0;
     std::optional<double> build_seconds;
     int n_operators = 1;  ///< see FamilyRecord.
     double memory_bytes = 0;
   };
   std::vector<FamilyProgress> family_progress(std::int64_t campaign) const;
+  /// Whether some case of the store, of whatever campaign, has no result. Far cheaper than counts.
+  bool lacks_results() const;
   /// Other campaigns that have this case.
   std::vector<std::string> campaigns_with(std::int64_t case_id) const;
 

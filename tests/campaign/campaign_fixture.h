@@ -40,7 +40,8 @@ class CampaignTest : public ::testing::Test {
     Submission s;
     s.name = "sweep";
     s.source = "sweep.json";
-    s.spec_given = s.spec_resolved = "{}";
+    s.spec_given = "{}";
+    s.spec_resolved = R"({"groups": [{"parameters": [{"name": "strength"}]}]})";
     s.parameters = R"([{"name": "strength", "dimension": "number"}])";
     s.rank_by = "activated_area";
     s.policy = policy;
