@@ -81,8 +81,9 @@ void Parameter::draw(const std::vector<double>& positions) {
   const SampledRange& r = *range;
   for (const long double t : positions) {
     DrawnValue one;
-    one.number = static_cast<double>(r.log ? r.from * std::pow(r.to / r.from, t)
-                                           : r.from + (r.to - r.from) * t);
+    const long double number =
+        r.log ? r.from * std::pow(r.to / r.from, t) : r.from + (r.to - r.from) * t;
+    one.number = std::strtod(decimal(number).c_str(), nullptr);
     drawn.push_back(one);
     DrawnValue& value = drawn.back();
     value.si = r.unit.empty() ? value.number
