@@ -63,6 +63,9 @@ ExitCode diagnose_command(const DiagnoseArguments& arguments);
 /// Writes the contact problem of one load step, and our solution, as an FCLib file. Ends with
 /// no_convergence when the case does not reach the step, or the step has no solution to add.
 ExitCode export_contact_command(const ExportArguments& arguments);
+/// Prints what the bits of results depend on besides the scene: processor, BLAS, compiler, flags,
+/// libraries; and their fingerprint. No names of machines, no paths.
+ExitCode environment_command(bool json);
 /// Serves cases to a campaign; see schemas/worker_protocol.md.
 ExitCode worker_command(const WorkerArguments& arguments);
 

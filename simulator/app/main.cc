@@ -20,6 +20,7 @@ constexpr const char* kFooter =
     "  faultsim export-contact my-field.json --step 10 -o step10.hdf5\n"
     "                                             a step's contact problem for other solvers\n"
     "  faultsim verify V1 V2                      meet the closed forms\n"
+    "  faultsim environment                       processor, BLAS, compiler: for bug reports\n"
     "Exit codes: 0 done, 2 input, 3 no convergence, 4 disk or memory, 5 a comparison failed,\n"
     "            70 bug, 75 interrupted.";
 
@@ -132,6 +133,12 @@ ExitCode faultsim_main(int argc, char** argv) {
                          "copies of cached operators on this host's own disk");
   worker_app->add_option("--cache-size", worker.cache_size, "bytes");
   worker_app->callback([&] { code = worker_command(worker); });
+
+  bool environment_json = false;
+  CLI::App* environment = app.add_subcommand(
+      "environment", "what the last digits depend on: processor, BLAS, compiler, libraries");
+  environment->add_flag("--json", environment_json, "machine-readable output on stdout");
+  environment->callback([&] { code = environment_command(environment_json); });
 
   std::vector<std::string> names;
   bool list = false, json = false, slow = false, markdown = false;

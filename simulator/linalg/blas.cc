@@ -11,13 +11,17 @@
 
 namespace faultsim {
 
-std::string blas_description() {
+BlasInfo blas_info() {
   std::istringstream config(openblas_get_config());  // "OpenBLAS 0.3.21 NO_LAPACKE ..."
   std::string name, version;
   config >> name >> version;
-  const int n_threads = openblas_get_num_threads();
-  return concat(name, " ", version, " ", openblas_get_corename(), ", ", n_threads,
-                n_threads == 1 ? " thread" : " threads");
+  return {name + " " + version, openblas_get_corename(), openblas_get_num_threads()};
+}
+
+std::string blas_description() {
+  const BlasInfo info = blas_info();
+  return concat(info.library, " ", info.kernel, ", ", info.n_threads,
+                info.n_threads == 1 ? " thread" : " threads");
 }
 
 std::string blas_complaint() {

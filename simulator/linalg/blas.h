@@ -5,7 +5,14 @@
 
 namespace faultsim {
 
-/// Name, kernel and threads of the BLAS in use: "OpenBLAS 0.3.21 SkylakeX, 1 thread".
+/// The BLAS in use.
+struct BlasInfo {
+  std::string library;  ///< "OpenBLAS 0.3.21".
+  std::string kernel;   ///< what it chose for this processor, or OPENBLAS_CORETYPE: "SkylakeX".
+  int n_threads = 0;
+};
+BlasInfo blas_info();
+/// The same in words: "OpenBLAS 0.3.21 SkylakeX, 1 thread".
 std::string blas_description();
 /// Empty if the process computes with OpenBLAS; otherwise a loud sentence on how to get it.
 std::string blas_complaint();

@@ -238,4 +238,10 @@ Eigen::VectorXd TrailingCholesky::solve(const Eigen::VectorXd& f) {
   return impl_->unpermuted(y);
 }
 
+std::string cholmod_version_text() {
+  int version[3] = {};
+  cholmod_version(version);
+  return concat(version[0], ".", version[1], ".", version[2]);
+}
+
 }  // namespace faultsim

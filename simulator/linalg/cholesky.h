@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "simulator/linalg/blas.h"
@@ -61,5 +62,8 @@ class TrailingCholesky {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Version of the CHOLMOD in use: "3.0.14".
+std::string cholmod_version_text();
 
 }  // namespace faultsim

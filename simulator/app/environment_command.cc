@@ -1,0 +1,93 @@
+#include <gnu/libc-version.h>
+#include <sys/utsname.h>
+
+#include <Eigen/Core>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "simulator/app/commands.h"
+#include "simulator/common/errors.h"
+#include "simulator/common/fingerprint.h"
+#include "simulator/linalg/blas.h"
+#include "simulator/linalg/cholesky.h"
+
+namespace faultsim {
+namespace {
+
+using Fields = nlohmann::ordered_json;
+
+std::string machine() {
+  struct utsname names = {};
+  uname(&names);
+  return names.machine;
+}
+
+/// The C library, too, chooses its functions by the processor.
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t colon = line.find(": ");
+    if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
+      return line.substr(colon + 2);
+    }
+  }
+  return "unknown";
+}
+
+/// The compiler's flags without those that name files.
+std::string flags() {
+  std::istringstream words(FAULTSIM_FLAGS);
+  std::string kept;
+  for (std::string word; words >> word;) {
+    if (word.find('/') == std::string::npos) kept += (kept.empty() ? "" : " ") + word;
+  }
+  return kept;
+}
+
+/// Whatever may change bits.
+Fields environment() {
+  const BlasInfo blas = blas_info();
+  return {
+      {"processor", processor()},
+      {"machine", machine()},
+      {"blas", blas_complaint().empty() ? blas.library : "not OpenBLAS"},
+      {"blas_kernel", blas.kernel},
+      {"cholmod", cholmod_version_text()},
+      {"eigen", concat(EIGEN_WORLD_VERSION, ".", EIGEN_MAJOR_VERSION, ".", EIGEN_MINOR_VERSION)},
+      {"libc", concat("glibc ", gnu_get_libc_version())},
+      {"compiler", concat("g++ ", __VERSION__)},
+      {"build_type", FAULTSIM_BUILD_TYPE},
+      {"flags", flags()}};
+}
+
+}  // namespace
+
+ExitCode environment_command(bool json) {
+  const std::string complaint = blas_complaint();
+  if (!complaint.empty()) std::cerr << complaint << "\n";
+  const Fields fields = environment();
+  // Part of every identity, or set by scenes: not of the fingerprint.
+  const Fields others = {{"version", FAULTSIM_VERSION},
+                         {"numerics_version", kNumericsVersion},
+                         {"blas_threads_at_start", blas_info().n_threads}};
+  const std::string hash = fingerprint(fields.dump());
+  if (json) {
+    Fields document = {{"fingerprint", hash}, {"environment", fields}};
+    document.update(others);
+    std::cout << document.dump(2) << "\n";
+    return ExitCode::done;
+  }
+  for (const Fields& part : {fields, others}) {
+    for (const auto& [name, value] : part.items()) {
+      std::cout << name << std::string(name.size() < 24 ? 24 - name.size() : 1, ' ')
+                << (value.is_string() ? value.get<std::string>() : value.dump()) << "\n";
+    }
+  }
+  std::cout << "fingerprint             " << hash << "\n";
+  return ExitCode::done;
+}
+
+}  // namespace faultsim
