@@ -33,6 +33,8 @@ ExitCode submit_command(const StoreArguments& common, const SubmitArguments& arg
 ExitCode run_command(const StoreArguments& common, RunOptions options, int argc, char** argv);
 /// Prints a script for sbatch that runs the campaign.
 ExitCode slurm_command(const StoreArguments& common, const SlurmRequest& request);
+/// The faultsim binary: FAULTSIM_BINARY, or the one beside this program.
+std::filesystem::path simulator_binary();
 ExitCode status_command(const StoreArguments& common);
 ExitCode rank_command(const StoreArguments& common, const RankRequest& request, bool list_metrics);
 /// @param name  case number, beginning of an identity, or CAMPAIGN/either.
@@ -57,6 +59,21 @@ ExitCode cache_list_command(const StoreArguments& common);
 ExitCode cache_verify_command(const StoreArguments& common);
 /// @param size  "20 GB", "500 MB", "0".
 ExitCode cache_prune_command(const StoreArguments& common, const std::string& size);
+struct NightlyArguments {
+  std::string suite = "nightly.json";
+  std::filesystem::path baselines = "results/baselines";
+  std::filesystem::path store =
+      "faultsweep-nightly";  ///< of the nights, and of the last one's run.
+  std::optional<int> n_workers;
+  bool bless = false;
+  std::string reason;  ///< of bless.
+  bool json = false;
+};
+/// Runs a suite from scratch and compares it with its baseline (docs/nightly.md). Exit code 5 on
+/// any regress, and when nothing was compared.
+ExitCode nightly_command(const NightlyArguments& arguments);
+/// Prints the nights in the store.
+ExitCode nightly_history_command(const NightlyArguments& arguments);
 ExitCode backup_command(const StoreArguments& common, const std::filesystem::path& target);
 
 }  // namespace faultsweep

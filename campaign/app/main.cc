@@ -76,6 +76,8 @@ struct Arguments {
   ExportRequest exporting;
   CompareArguments compare;
   RetryArguments retry;
+  NightlyArguments nightly;
+  bool nightly_history = false;
 };
 
 void add_running(CLI::App& app, Arguments& a, ExitCode& code, int argc, char** argv) {
@@ -220,6 +222,27 @@ void add_compare(CLI::App& app, Arguments& a, ExitCode& code) {
   command->callback([&] { code = compare_command(a.common, a.compare); });
 }
 
+void add_nightly(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* nightly = app.add_subcommand(
+      "nightly", "run a suite from scratch and compare it with its baseline, bit for bit");
+  NightlyArguments& n = a.nightly;
+  nightly->add_option("suite", n.suite, "suite file (default nightly.json)");
+  nightly->add_option("--baselines", n.baselines,
+                      "folder of the baselines (default results/baselines)");
+  nightly->add_option("--store", n.store, "store of the nights (default ./faultsweep-nightly)");
+  nightly->add_option("-w,--workers", n.n_workers, "as for run")->check(CLI::Range(1, 10000));
+  CLI::Option* bless = nightly->add_flag("--bless", n.bless, "make tonight's results the baseline");
+  CLI::Option* reason = nightly->add_option("--reason", n.reason, "why; kept in the baseline");
+  bless->needs(reason);
+  reason->needs(bless);
+  nightly->add_flag("--history", a.nightly_history, "only print the nights so far")
+      ->excludes(bless);
+  nightly->add_flag("--json", n.json, "machine-readable output on stdout");
+  nightly->footer("Exit codes: 0 no regress, 5 a regress, or nothing was compared.");
+  nightly->callback(
+      [&] { code = a.nightly_history ? nightly_history_command(n) : nightly_command(n); });
+}
+
 void add_caring(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* retry = app.add_subcommand("retry", "let failed cases run again");
   add_campaign(retry, a.common);
@@ -267,6 +290,7 @@ ExitCode faultsweep_main(int argc, char** argv) {
   add_reading(app, arguments, code);
   add_export(app, arguments, code);
   add_compare(app, arguments, code);
+  add_nightly(app, arguments, code);
   add_caring(app, arguments, code);
   try {
     app.parse(argc, argv);

@@ -37,12 +37,6 @@ NamedCase find_case(const Store& store, const StoreArguments& common, const std:
   return found;
 }
 
-/// The faultsim binary: FAULTSIM_BINARY, or the one beside this program.
-std::filesystem::path simulator_binary() {
-  if (const char* given = std::getenv("FAULTSIM_BINARY")) return std::filesystem::absolute(given);
-  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "faultsim";
-}
-
 std::uint64_t parse_size(const std::string& option, const std::string& text) {
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
@@ -59,6 +53,11 @@ std::uint64_t parse_size(const std::string& option, const std::string& text) {
 }
 
 }  // namespace
+
+std::filesystem::path simulator_binary() {
+  if (const char* given = std::getenv("FAULTSIM_BINARY")) return std::filesystem::absolute(given);
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "faultsim";
+}
 
 ExitCode run_command(const StoreArguments& common, RunOptions options, int argc, char** argv) {
   options.store = common.store;

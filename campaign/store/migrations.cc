@@ -7,6 +7,7 @@
 #include "store_3_sql.h"
 #include "store_4_sql.h"
 #include "store_5_sql.h"
+#include "store_6_sql.h"
 #include "store_sql.h"
 
 namespace faultsweep {
@@ -72,6 +73,7 @@ const std::vector<Migration>& store_migrations() {
       {3, "2026-11-21 slip events and episodes", faultsim::embedded::store_3_sql},
       {4, "2026-11-21 creep of salt", faultsim::embedded::store_4_sql},
       {5, "2026-11-21 rows of designs", faultsim::embedded::store_5_sql},
+      {6, "2026-11-21 nights", faultsim::embedded::store_6_sql},
   };
   return migrations;
 }

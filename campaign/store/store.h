@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "campaign/expression/expression.h"
+#include "campaign/store/night_records.h"
 #include "campaign/store/records.h"
 
 namespace faultsweep {
@@ -150,6 +151,11 @@ class Store {
   bool lacks_results() const;
   /// Other campaigns that have this case.
   std::vector<std::string> campaigns_with(std::int64_t case_id) const;
+
+  // Nights -------------------------------------------------------------------------------------
+  void record_night(const NightRecord& night);
+  /// Nights of a suite ("" = of all), oldest first, at most the last `limit`.
+  std::vector<NightRecord> nights(const std::string& suite, int limit) const;
 
   // Care ------------------------------------------------------------------------------------------
   void backup_to(const std::filesystem::path& target) const;

@@ -1,0 +1,101 @@
+#include <algorithm>
+
+#include "campaign/store/sqlite.h"
+#include "campaign/store/store.h"
+
+namespace faultsweep {
+
+void Store::record_night(const NightRecord& night) {
+  Connection& db = *connection_;
+  Transaction transaction(db);
+  db.prepared(
+        "INSERT INTO nights (at, wall_s, suite, environment, environment_fields,"
+        " baseline_environment, program_version, numerics_version, n_compared, n_regressed,"
+        " exit_code, blessed) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+      .bind(night.at, night.wall_seconds, night.suite, night.environment, night.environment_fields,
+            night.baseline_environment, night.program_version, night.numerics_version,
+            night.n_compared, night.n_regressed, night.exit_code, night.blessed)
+      .run();
+  Statement last(db, "SELECT last_insert_rowid()");
+  last.step();
+  const std::int64_t id = last.integer(0);
+  for (const NightCaseRecord& one : night.cases) {
+    db.prepared(
+          "INSERT INTO night_cases (night_id, campaign, position, identity, label, verdict,"
+          " regressed, max_ulps, load_step, place, quantity, remark, digest, wall_s, outcome,"
+          " activated_area_m2, moment_nm, chi_bar)"
+          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+        .bind(id, one.campaign, one.position, one.identity, one.label, one.verdict, one.regressed,
+              one.max_ulps, one.load_step, one.place, one.quantity, one.remark, one.digest,
+              one.wall_seconds, one.outcome, one.activated_area, one.moment, one.chi_bar)
+        .run();
+  }
+  transaction.commit();
+}
+
+namespace {
+
+std::vector<NightCaseRecord> read_night_cases(Connection& db, std::int64_t night) {
+  std::vector<NightCaseRecord> cases;
+  Statement& rows = db.prepared(
+      "SELECT campaign, position, identity, label, verdict, regressed, max_ulps, load_step, place,"
+      " quantity, remark, digest, wall_s, outcome, activated_area_m2, moment_nm, chi_bar"
+      " FROM night_cases WHERE night_id = ? ORDER BY campaign, position");
+  rows.bind(night);
+  while (rows.step()) {
+    NightCaseRecord one;
+    one.campaign = rows.text(0);
+    one.position = static_cast<long>(rows.integer(1));
+    one.identity = rows.text(2);
+    one.label = rows.text(3);
+    one.verdict = rows.text(4);
+    one.regressed = rows.integer(5) != 0;
+    one.max_ulps = rows.real(6);
+    if (const auto step = rows.optional_integer(7)) one.load_step = static_cast<int>(*step);
+    one.place = rows.text(8);
+    one.quantity = rows.text(9);
+    one.remark = rows.text(10);
+    one.digest = rows.text(11);
+    one.wall_seconds = rows.optional_real(12);
+    one.outcome = rows.text(13);
+    one.activated_area = rows.optional_real(14);
+    one.moment = rows.optional_real(15);
+    one.chi_bar = rows.optional_real(16);
+    cases.push_back(std::move(one));
+  }
+  return cases;
+}
+
+}  // namespace
+
+std::vector<NightRecord> Store::nights(const std::string& suite, int limit) const {
+  Connection& db = *connection_;
+  std::vector<NightRecord> all;
+  Statement& rows = db.prepared(
+      "SELECT id, at, wall_s, suite, environment, environment_fields, baseline_environment,"
+      " program_version, numerics_version, n_compared, n_regressed, exit_code, blessed FROM nights"
+      " WHERE ?1 = '' OR suite = ?1 ORDER BY id DESC LIMIT ?2");
+  rows.bind(suite, limit);
+  while (rows.step()) {
+    NightRecord night;
+    night.id = rows.integer(0);
+    night.at = rows.real(1);
+    night.wall_seconds = rows.real(2);
+    night.suite = rows.text(3);
+    night.environment = rows.text(4);
+    night.environment_fields = rows.text(5);
+    night.baseline_environment = rows.text(6);
+    night.program_version = rows.text(7);
+    night.numerics_version = static_cast<int>(rows.integer(8));
+    night.n_compared = static_cast<long>(rows.integer(9));
+    night.n_regressed = static_cast<long>(rows.integer(10));
+    night.exit_code = static_cast<int>(rows.integer(11));
+    night.blessed = rows.optional_text(12);
+    all.push_back(std::move(night));
+  }
+  for (NightRecord& night : all) night.cases = read_night_cases(db, night.id);
+  std::reverse(all.begin(), all.end());
+  return all;
+}
+
+}  // namespace faultsweep
