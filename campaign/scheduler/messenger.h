@@ -53,14 +53,13 @@ class Messenger {
 /// looking costs less than 2 % of a core.
 class IdleSleep {
  public:
-  /// @param longest  µs. A worker's 2 ms are the most that a message waits for it; the manager may
-  /// sleep
-  ///                 longer, as workers have work ahead (WorkPlan::kSliceSeconds).
+  /// @param longest  µs, the most that a message waits. A manager may sleep longer than a worker,
+  ///                 as workers have work ahead (WorkPlan::kSliceSeconds).
   explicit IdleSleep(int longest = 2000) : longest_(longest) {}
   void reset() { microseconds_ = kShortest; }
   void sleep();
   static constexpr int kShortest = 50;
-  static constexpr int kManagerLongest = 20000;
+  static constexpr int kManagerLongest = 5000;
 
  private:
   int longest_;
