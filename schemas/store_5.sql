@@ -2,8 +2,8 @@
 
 -- Which case each row of a design became. Rows that are the same case share one position, so that
 -- statistics over the rows of a design (Sobol' indices, elementary effects) find all of them. Kept
--- for every latin-hypercube, sobol and morris design and nested ones with these; of other designs
--- only where rows were merged: elsewhere the cases of a design, by position, are its rows.
+-- of all designs of a campaign if one of them is sampled (latin-hypercube, sobol, morris, nested
+-- with these) or rows were merged; of other campaigns not: there the cases, by position, are the rows.
 -- Rows that were excluded are missing.
 CREATE TABLE design_rows (
   campaign_id INTEGER NOT NULL REFERENCES campaigns (id),

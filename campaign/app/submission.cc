@@ -31,24 +31,22 @@ class Columns {
   std::map<std::string, std::size_t> places_;
 };
 
-/// Rows of sampled designs, and of others where rows were merged: see schemas/store_5.sql.
+/// Rows of all designs, or none: see schemas/store_5.sql.
 std::vector<DesignRow> design_rows(const Expansion& expansion) {
-  std::vector<long> n_cases(expansion.spec.groups.size(), 0);
-  for (const Case& one : expansion.cases) ++n_cases[static_cast<std::size_t>(one.group)];
-  std::vector<DesignRow> result;
+  std::vector<DesignRow> all;
   for (std::size_t g = 0; g < expansion.case_of_row.size(); ++g) {
     const std::vector<int>& rows = expansion.case_of_row[g];
-    const long n_kept = std::count_if(rows.begin(), rows.end(), [](int one) { return one >= 0; });
-    const auto& designs = expansion.spec.groups[g].designs;
-    const bool sampled = std::any_of(designs.begin(), designs.end(),
-                                     [](const Design& one) { return is_sampled(one.kind); });
-    if (!sampled && n_kept == n_cases[g]) continue;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (rows[i] < 0) continue;
-      result.push_back({static_cast<int>(g), static_cast<long>(i) + 1, rows[i] + 1});
+      all.push_back({static_cast<int>(g), static_cast<long>(i) + 1, rows[i] + 1});
     }
   }
-  return result;
+  const auto& groups = expansion.spec.groups;
+  const bool sampled = std::any_of(groups.begin(), groups.end(), [](const Group& group) {
+    return std::any_of(group.designs.begin(), group.designs.end(),
+                       [](const Design& one) { return is_sampled(one.kind); });
+  });
+  return sampled || all.size() != expansion.cases.size() ? all : std::vector<DesignRow>();
 }
 
 }  // namespace

@@ -78,8 +78,9 @@ struct Submission {
   KeepFields keep_fields = KeepFields::none;
   std::vector<BaseScene> scenes;
   std::vector<FamilyRecord> families;
-  std::vector<CaseRecord> cases;       ///< in the order of the expansion.
-  std::vector<DesignRow> design_rows;  ///< of sampled designs, and of others with merged rows.
+  std::vector<CaseRecord> cases;  ///< in the order of the expansion.
+  std::vector<DesignRow>
+      design_rows;  ///< of all designs, if one is sampled or rows were merged; else none.
 };
 
 struct SubmitOutcome {

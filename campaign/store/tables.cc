@@ -46,8 +46,8 @@ CaseRow read_case(const Statement& row, std::size_t n_metrics) {
   return one;
 }
 
-/// @param source  what gives cc, with one parameter per campaign of its text.
-void visit_cases(Connection& db, const std::string& source, int n_campaigns, std::int64_t campaign,
+/// @param source  what gives cc; its text has one parameter, the campaign.
+void visit_cases(Connection& db, const std::string& source, std::int64_t campaign,
                  const Store::TableQuery& query, const char* order,
                  const std::function<void(const CaseRow&)>& visit) {
   std::string sql =
@@ -58,7 +58,7 @@ void visit_cases(Connection& db, const std::string& source, int n_campaigns, std
   Statement rows(db, (sql + source + where_sql(query.where) + order).c_str());
   int bound = 0;
   rows.bind_at(++bound, query.stage);
-  for (int k = 0; k < n_campaigns; ++k) rows.bind_at(++bound, campaign);
+  rows.bind_at(++bound, campaign);
   bind_values(rows, bound, query.where.parameters);
   while (rows.step()) visit(read_case(rows, query.metrics.size()));
 }
@@ -107,23 +107,21 @@ constexpr std::array<HistoryColumn, 31> kHistory = {{
 void Store::for_each_case(std::int64_t campaign, const TableQuery& query,
                           const std::function<void(const CaseRow&)>& visit) const {
   Connection& db = *connection_;
-  constexpr const char* kCases = " FROM campaign_cases cc";
-  if (!query.by_design_row) {
-    visit_cases(db, concat(kCases, kJoins, " WHERE cc.campaign_id = ?"), 1, campaign, query,
-                " ORDER BY cc.position", visit);
-    return;
+  Statement& any_rows =
+      db.prepared("SELECT EXISTS (SELECT 1 FROM design_rows WHERE campaign_id = ?)");
+  any_rows.bind(campaign).step();
+  const bool has_rows = any_rows.integer(0) != 0;  // else the rows of its designs are its cases
+  any_rows.reset();
+  if (query.by_design_row && has_rows) {
+    visit_cases(db,
+                concat(" FROM design_rows d CROSS JOIN campaign_cases cc"
+                       " ON cc.campaign_id = d.campaign_id AND cc.position = d.position",
+                       kJoins, " WHERE d.campaign_id = ?"),
+                campaign, query, " ORDER BY d.design, d.row", visit);
+  } else {
+    visit_cases(db, concat(" FROM campaign_cases cc", kJoins, " WHERE cc.campaign_id = ?"),
+                campaign, query, " ORDER BY cc.position", visit);
   }
-  visit_cases(db,
-              concat(" FROM design_rows d CROSS JOIN campaign_cases cc"
-                     " ON cc.campaign_id = d.campaign_id AND cc.position = d.position",
-                     kJoins, " WHERE d.campaign_id = ?"),
-              1, campaign, query, " ORDER BY d.design, d.row", visit);
-  // Designs whose rows are their cases.
-  visit_cases(db,
-              concat(kCases, kJoins,
-                     " WHERE cc.campaign_id = ? AND cc.position NOT IN"
-                     " (SELECT position FROM design_rows WHERE campaign_id = ?)"),
-              2, campaign, query, " ORDER BY cc.position", visit);
 }
 
 std::vector<std::string> Store::history_columns() {
