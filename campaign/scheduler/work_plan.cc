@@ -123,16 +123,23 @@ std::optional<Slice> WorkPlan::next(int worker) {
     // Keep the pipe full, but only with the family that is at hand.
     const Family& own = family(self.family);
     if (!has_operator(worker, self.family) || own.waiting.empty()) return std::nullopt;
-    const double ahead = static_cast<double>(self.n_cases) * case_seconds(own);
-    if (ahead > kSliceSeconds / 2 || own.measured_cases == 0 || self.n_cases > kLargestSlice) {
-      return std::nullopt;
-    }
-    return cut(worker, self.family);
+    if (own.measured_cases == 0 || self.n_cases > kLargestSlice) return std::nullopt;
+    return is_short_of_work(self) ? std::optional(cut(worker, self.family)) : std::nullopt;
   }
   const int index = choose_family(worker);
   if (index < 0) return std::nullopt;
   turn_to(worker, index);
   return cut(worker, index);
+}
+
+/// Less than half a slice ahead; or on its last case, where a next one at hand saves the way to the
+/// manager and back (~25 ms), unless the case is long or another worker may soon want for one.
+bool WorkPlan::is_short_of_work(const Worker& worker) const {
+  const Family& own = family(worker.family);
+  const double one = case_seconds(own);
+  if (static_cast<double>(worker.n_cases) * one <= kSliceSeconds / 2) return true;
+  return worker.n_cases == 1 && one < kLongCaseSeconds &&
+         own.waiting.size() > 2 * static_cast<std::size_t>(limits_.n_workers);
 }
 
 void WorkPlan::turn_to(int worker, int index) {

@@ -90,8 +90,9 @@ class WorkPlan {
   double seconds_left() const;
 
   static constexpr double kSliceSeconds =
-      0.25;                                    ///< long against a message (~2 ms), short for a tail
-  static constexpr int kLargestSlice = 256;    ///< bounds memory and what a kill may lose
+      0.25;  ///< long against a message (~2 ms), short for a tail
+  static constexpr double kLongCaseSeconds = 2;  ///< a message is nothing against it
+  static constexpr int kLargestSlice = 256;      ///< bounds memory and what a kill may lose
   static constexpr int kOperatorAttempts = 2;  ///< a second try tells bad luck from a bad operator
 
  private:
@@ -135,6 +136,7 @@ class WorkPlan {
   void let_go(Worker& worker);
   void update_state(int family);
   bool has_unclaimed_family() const;
+  bool is_short_of_work(const Worker& worker) const;
   Slice cut(int worker, int index);
   void leave_family(Worker& worker);
   void landed(int worker, std::int64_t case_id);

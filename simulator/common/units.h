@@ -1,9 +1,12 @@
 #pragma once
 
+#include <numbers>
 #include <string>
 #include <string_view>
 
 namespace faultsim {
+
+inline constexpr double kDegree = std::numbers::pi / 180;  ///< rad
 
 /// The physical dimensions that occur in scenes, campaign specs and expressions.
 enum class Dimension {

@@ -13,7 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kShearMargin = 2;  // cells beyond a patch that are still sheared with it
 constexpr std::array<const char*, 3> kAxisName = {"x", "y", "z"};
 
 void check_sizes(const BoxMeshSpec& spec, std::vector<Problem>& problems) {

@@ -14,8 +14,7 @@ namespace {
 constexpr double kMaxDip = 0.7854;       // 45 degrees, rounded up
 constexpr double kEdgeTolerance = 1e-5;  // m; ten times the distance below which lines are merged
 constexpr double kLeastRest = 0.1;       // of a cell; a thinner rest is spread over its neighbours
-constexpr int kEdgeCells = 2;       // cells of exactly sizes.dip on each side of a reservoir edge
-constexpr double kShearMargin = 2;  // cells beyond a fault's tips that are still sheared with it
+constexpr int kEdgeCells = 2;  // cells of exactly sizes.dip on each side of a reservoir edge
 
 struct DepthRange {
   double top, bottom;  // m, top < bottom

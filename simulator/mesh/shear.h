@@ -5,6 +5,9 @@
 
 namespace faultsim {
 
+/// Cells beyond a fault's rim that are still sheared with it.
+inline constexpr double kShearMargin = 2;
+
 /// A fault plane as a grid line of one axis that is bent onto the plane:
 ///
 ///   shift(b, c) = Σ_d slope_d (clamp(x_d, low_d, high_d) − pivot_d),   d the two other axes.

@@ -29,7 +29,7 @@ namespace {
 
 constexpr std::size_t kBlock = 4096;
 constexpr hsize_t kAlignment = 64;  ///< of H in the file and so, behind a whole block, in memory.
-constexpr int kFormat = 1;
+constexpr int kOperatorFormat = 1;
 constexpr const char* kH = "/h";
 
 /// What is wrong with a file that is there but cannot be believed.
@@ -90,14 +90,14 @@ class Mapping {
 };
 
 std::string first_line(const std::byte* bytes, std::size_t size) {
-  return concat("faultsim operator ", kFormat, " bytes ", size, " checksum ",
+  return concat("faultsim operator ", kOperatorFormat, " bytes ", size, " checksum ",
                 fingerprint(bytes + kBlock, size - kBlock), '\n');
 }
 
 /// Demands that the bytes are those that were written. Throws Damage or OtherVersion.
 void verify(const Mapping& file) {
   const std::string magic = "faultsim operator ";
-  const std::string this_format = concat(magic, kFormat, ' ');
+  const std::string this_format = concat(magic, kOperatorFormat, ' ');
   if (file.size() < kBlock) throw Damage(concat("it has only ", file.size(), " bytes"));
   const std::string start(reinterpret_cast<const char*>(file.bytes()), this_format.size());
   if (start.compare(0, magic.size(), magic) != 0) throw Damage("it is not an operator file");
@@ -197,7 +197,7 @@ FaultOperator decode(const std::shared_ptr<Mapping>& mapping) {
   const hdf5::Handle file(H5Fopen(mapping->own_path().c_str(), H5F_ACC_RDONLY, access), H5Fclose,
                           "operator file");
   const std::vector<int> versions = hdf5::read_ints(file, "/versions", 1);
-  if (versions != std::vector<int>{kFormat, kNumericsVersion}) {
+  if (versions != std::vector<int>{kOperatorFormat, kNumericsVersion}) {
     throw OtherVersion("it was made by another numerics version");
   }
   OperatorTables tables;
@@ -219,7 +219,7 @@ void encode(const FaultOperator& op, const OperatorTables& tables, const Pending
     hdf5::check(H5Pset_userblock(creation, kBlock), "user block");
     hdf5::Handle file(H5Fcreate(target.temporary().c_str(), H5F_ACC_TRUNC, creation, access),
                       H5Fclose, target.temporary().string());
-    const int versions[] = {kFormat, kNumericsVersion};
+    const int versions[] = {kOperatorFormat, kNumericsVersion};
     hdf5::write_array(file, "/versions", {2}, versions, {"", "file format, numerics"});
     for_each_table(tables, WriteTables{file});
     const auto n = static_cast<hsize_t>(op.geometry.n_dofs);

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kFormat = 1;
+constexpr int kResultFormat = 1;
 
 // One list of fields per struct, shared by writing and reading. Names carry the unit.
 
@@ -298,7 +298,7 @@ struct Reader {
 
 nlohmann::json result_to_json(const CaseResult& result) {
   json document = json::object();
-  document["format"] = kFormat;
+  document["format"] = kResultFormat;
   for_each_field(result, Writer{document});
   return document;
 }
@@ -309,9 +309,9 @@ CaseResult result_from_json(const nlohmann::json& document) {
                         if (!document.is_object()) throw StorageError("it is not a JSON object");
                         int format = 0;
                         Reader{document}("format", format);
-                        if (format != kFormat) {
+                        if (format != kResultFormat) {
                           throw StorageError(concat("it has format version ", format,
-                                                    "; this program reads ", kFormat));
+                                                    "; this program reads ", kResultFormat));
                         }
                         CaseResult result;
                         for_each_field(result, Reader{document});

@@ -43,7 +43,7 @@ double weight(const std::vector<Piece>& column, double gravity, double depth) {
   return sum * gravity;
 }
 
-struct DepthRange {
+struct DepthInterval {
   double top = 0;
   double bottom = 0;
   bool holds(double depth, DepthSide side) const {
@@ -53,7 +53,7 @@ struct DepthRange {
   }
 };
 
-DepthRange reservoir_range(const Scene& scene) {
+DepthInterval reservoir_range(const Scene& scene) {
   const FieldGeometry& field = scene.field;
   for (std::size_t i = 0; i < field.layers.size(); ++i) {
     if (field.layers[i].name != field.reservoir_layer) continue;
@@ -112,7 +112,7 @@ StressAtDepth one_sided(const Scene& scene, double depth, DepthSide side) {
 
 /// A block's column: reservoir at its offset, sideburden where the layer is left empty.
 std::vector<Piece> block_column(const Scene& scene, double offset, bool has_reservoir) {
-  const DepthRange layer = reservoir_range(scene);
+  const DepthInterval layer = reservoir_range(scene);
   const double reservoir_density = [&] {
     for (const Layer& each : scene.field.layers) {
       if (each.name == scene.field.reservoir_layer) {

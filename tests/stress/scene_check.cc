@@ -50,9 +50,9 @@ bool same_bits(const ContactState& a, const ContactState& b) {
 }
 
 /// Checks one step; what is wrong goes into `violations`.
-class StepCheck {
+class StepJudge {
  public:
-  StepCheck(const FaultOperator& op, const ContactLaws& laws, const ContactOptions& options,
+  StepJudge(const FaultOperator& op, const ContactLaws& laws, const ContactOptions& options,
             const StepRecord& record, std::string where, std::vector<std::string>& violations)
       : op_(op),
         laws_(laws),
@@ -114,7 +114,7 @@ class StepCheck {
 
 /// The solver promises ContactOptions::traction_tolerance of each node's level up to a factor of 4;
 /// here of the highest level on the faults.
-void StepCheck::set_tolerances() {
+void StepJudge::set_tolerances() {
   const double level = std::max(
       {step_.locked.lpNorm<Eigen::Infinity>(), step_.locked_before.lpNorm<Eigen::Infinity>(),
        step_.before.traction.lpNorm<Eigen::Infinity>(),
@@ -132,7 +132,7 @@ void StepCheck::set_tolerances() {
 /// Iterations of a step, thrown-away ones included: max_iterations, which ends the following of
 /// jumps; what one more damped step and a static try may take; and the tries without damping, one
 /// per part of a step and width, with at most three searches each.
-void StepCheck::check_counts() {
+void StepJudge::check_counts() {
   const SolveCounts& counts = step_.report.counts;
   const int cuts = std::max(options_.max_step_cuts,
                             static_cast<int>(std::ceil(std::log2(1 / options_.onset_tolerance))));
@@ -148,7 +148,7 @@ void StepCheck::check_counts() {
          "negative counts");
 }
 
-void StepCheck::check_failure() {
+void StepJudge::check_failure() {
   const ContactReport& report = step_.report;
   demand(report.outcome == Outcome::unstable || report.outcome == Outcome::unconverged,
          std::string("outcome ") + to_string(report.outcome));
@@ -157,7 +157,7 @@ void StepCheck::check_failure() {
          "the reason names no node: " + report.reason);
 }
 
-void StepCheck::check_equilibrium() {
+void StepJudge::check_equilibrium() {
   // Over a step that was cut only its end is compared: D3 in its rate form held per sub-step.
   const ContactViolation v = contact_violation(op_, laws_, step_.locked,
                                                at_once() ? step_.before : step_.after, step_.after);
@@ -186,7 +186,7 @@ void StepCheck::check_equilibrium() {
   }
 }
 
-void StepCheck::check_history() {
+void StepJudge::check_history() {
   const Eigen::VectorXd moved = step_.after.jump - step_.before.jump;
   for (std::size_t k = 0; k < step_.after.state.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
@@ -204,7 +204,7 @@ void StepCheck::check_history() {
 }
 
 /// Friction dissipates at every node, A t'_T · Δg_T >= 0, where the step was made at once.
-void StepCheck::check_energy() {
+void StepJudge::check_energy() {
   if (!at_once()) return;
   const Eigen::VectorXd moved = step_.after.jump - step_.before.jump;
   for (std::size_t k = 0; k < step_.after.state.size(); ++k) {
@@ -214,7 +214,7 @@ void StepCheck::check_energy() {
   }
 }
 
-void StepCheck::check_jumps() {
+void StepJudge::check_jumps() {
   const ContactReport& report = step_.report;
   demand(report.reason.empty(), "a reason although in equilibrium");
   demand((report.outcome == Outcome::event) == !report.jumps.empty(), "event without jump");
@@ -301,7 +301,7 @@ SceneReport check_scene(const RandomScene& scene, StressTally& tally) {
   SceneReport report;
   for (std::size_t i = 0; i < records.size(); ++i) {
     const std::string where = "step " + std::to_string(i) + ": ";
-    StepCheck(op, laws, options, records[i], where, report.violations).run();
+    StepJudge(op, laws, options, records[i], where, report.violations).run();
   }
   report.outcome = records.back().report.outcome;
   report.unsolved = records.back().report.reason;

@@ -1,17 +1,16 @@
 // V2 and V3: uniform compaction, the Geertsma disc, the initial state and the onset of slip.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "simulator/app/verify/elastic_solutions.h"
 #include "simulator/app/verify/friction_solutions.h"
 #include "simulator/app/verify/verify_cases.h"
 #include "simulator/common/errors.h"
+#include "simulator/common/units.h"
 
 namespace faultsim {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kExact = 1e-9;
 
 void compare_compaction(SceneRunner& runner, const std::string& biot, VerifyReport& report) {

@@ -2,16 +2,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "simulator/app/verify/elastic_solutions.h"
 #include "simulator/app/verify/verify_cases.h"
 #include "simulator/common/errors.h"
+#include "simulator/common/units.h"
 
 namespace faultsim {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kExact = 1e-10;
 const char kScene[] = "v1_patch_test.json";
 

@@ -7,12 +7,12 @@
 #include "simulator/app/verify/elastic_solutions.h"
 #include "simulator/app/verify/verify_cases.h"
 #include "simulator/common/errors.h"
+#include "simulator/common/units.h"
 
 namespace faultsim {
 namespace {
 
 const char kPenny[] = "v6_penny_crack.json";
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kRadius = 100;           // m, of the scene
 constexpr double kFarNormalStress = -20;  // MPa on every plane: the crack stays closed
 constexpr double kStressDrop = 5;         // MPa

@@ -2,18 +2,17 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "simulator/app/verify/friction_solutions.h"
 #include "simulator/app/verify/verify_cases.h"
 #include "simulator/common/errors.h"
+#include "simulator/common/units.h"
 #include "simulator/contact/contact.h"
 #include "simulator/fault/friction_law.h"
 
 namespace faultsim {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kTolerance = 1e-8;
 const char kScene[] = "v7_slider.json";
 

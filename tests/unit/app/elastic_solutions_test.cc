@@ -1,15 +1,14 @@
 // The closed forms against the numbers printed in the literature they are taken from.
 #include "simulator/app/verify/elastic_solutions.h"
+#include "simulator/common/units.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace faultsim {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kMegapascal = 1e6;
 
 TEST(PlaneTraction, MatchesThePatchTestTable) {

@@ -1,15 +1,13 @@
 // The closed forms of friction against the numbers printed with them.
 #include "simulator/app/verify/friction_solutions.h"
+#include "simulator/common/units.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace faultsim {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 TEST(InitialCriticalIndex, MatchesTheTable) {
   const double dips[] = {0, 5, 10, 15, 20, 25};

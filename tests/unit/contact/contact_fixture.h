@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <memory>
 #include <new>
 #include <random>
@@ -40,6 +41,11 @@ inline FaultOperator make_operator(int n_nodes, int n_shear, const Eigen::Vector
     op.geometry.nodes.push_back(node);
   }
   return op;
+}
+
+/// tan φ from 0.6 to 0.4 over d_c, linear in slip; no cohesion.
+inline CoulombLaw linear_weakening(double d_c) {
+  return {WeakeningLaw::coefficient, 0, std::atan(0.6), std::atan(0.4), d_c};
 }
 
 inline ContactLaws same_law(const FaultOperator& op, const CoulombLaw& law) {

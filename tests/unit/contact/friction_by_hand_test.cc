@@ -2,14 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "simulator/common/units.h"
 #include "tests/unit/contact/contact_fixture.h"
 
 namespace faultsim {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kMega = 1e6;
 
 /// k = 10 MPa/m, N = 20 MPa, loaded by a displacement u: locked shear traction k u.
@@ -51,9 +50,6 @@ class Slider {
   Eigen::VectorXd locked_;
 };
 
-CoulombLaw linear_weakening(double d_c) {
-  return {WeakeningLaw::coefficient, 0, std::atan(0.6), std::atan(0.4), d_c};
-}
 CoulombLaw constant(double coefficient) {
   return {WeakeningLaw::angle, 0, std::atan(coefficient), std::atan(coefficient), 1};
 }

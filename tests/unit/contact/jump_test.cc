@@ -42,10 +42,6 @@ ContactLaws following(const FaultOperator& op, const CoulombLaw& law) {
   return laws;
 }
 
-CoulombLaw linear_weakening(double d_c) {
-  return {WeakeningLaw::coefficient, 0, std::atan(0.6), std::atan(0.4), d_c};
-}
-
 /// N = 20 MPa, k = 10 MPa/m, u in m.
 Eigen::VectorXd pulled(double u, int n_dofs) {
   Eigen::VectorXd locked = Eigen::VectorXd::Zero(n_dofs);

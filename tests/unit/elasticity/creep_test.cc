@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <limits>
 #include <set>
@@ -15,6 +14,7 @@ namespace {
 
 using test::all_sides;
 using test::make_box;
+using test::solve;
 
 constexpr double kElastic = std::numeric_limits<double>::infinity();
 const MaxwellStep kInstant{};  // decay 1, shear factor 1
@@ -31,10 +31,6 @@ Mesh layered_mesh() {
 }
 const std::vector<ElasticMaterial> kMaterials = {{40e9, 0.3}, {11e9, 0.15}, {8e9, 0.25}};
 const std::vector<double> kViscosity = {1e17, kElastic, 1e15};
-
-Eigen::VectorXd solve(const SparseMatrix& lower, const Eigen::VectorXd& f) {
-  return Eigen::SimplicialLDLT<SparseMatrix>(lower).solve(f);
-}
 
 /// Unit steps of as many materials as creep.
 std::vector<MaxwellStep> steps(const CreepCells& cells, const MaxwellStep& step) {

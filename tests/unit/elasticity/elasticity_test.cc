@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-#include <Eigen/SparseCholesky>
 
 #include "simulator/elasticity/element.h"
 #include "tests/unit/elasticity/test_box.h"
@@ -13,6 +12,7 @@ namespace {
 
 using test::all_sides;
 using test::make_box;
+using test::solve;
 
 const std::vector<ElasticMaterial> kRock = {{11e9, 0.15}};
 
@@ -21,10 +21,6 @@ Eigen::Matrix3d hooke(const ElasticMaterial& material, const Eigen::Matrix3d& gr
   const double mu = shear_modulus(material);
   const double lambda = 2 * mu * material.poisson_ratio / (1 - 2 * material.poisson_ratio);
   return lambda * strain.trace() * Eigen::Matrix3d::Identity() + 2 * mu * strain;
-}
-
-Eigen::VectorXd solve(const SparseMatrix& lower, const Eigen::VectorXd& f) {
-  return Eigen::SimplicialLDLT<SparseMatrix>(lower).solve(f);
 }
 
 Eigen::Matrix3d some_gradient() {

@@ -1,6 +1,7 @@
 #include "tests/unit/elasticity/test_box.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -239,6 +240,10 @@ std::vector<MeshSide> all_sides() {
 Mesh without_faults(Mesh mesh) {
   mesh.faults.clear();
   return mesh;
+}
+
+Eigen::VectorXd solve(const SparseMatrix& lower, const Eigen::VectorXd& f) {
+  return Eigen::SimplicialLDLT<SparseMatrix>(lower).solve(f);
 }
 
 }  // namespace faultsim::test

@@ -44,6 +44,9 @@ std::vector<DisplacementCondition> affine(const Eigen::Vector3d& translation,
 
 std::vector<MeshSide> all_sides();
 
+/// Solves K u = f, given K's lower triangle.
+Eigen::VectorXd solve(const SparseMatrix& lower, const Eigen::VectorXd& f);
+
 /// The same mesh without faults: both copies of a node are independent.
 Mesh without_faults(Mesh mesh);
 

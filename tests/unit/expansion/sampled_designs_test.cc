@@ -10,6 +10,7 @@
 #include "campaign/expansion/unit_samples.h"
 #include "simulator/common/stopwatch.h"
 #include "simulator/scene/read_scene.h"
+#include "tests/unit/expansion/long_way.h"
 
 /// Rows of Latin hypercube, Sobol' and Morris designs, checked by what defines each of them.
 namespace faultsweep {
@@ -21,15 +22,6 @@ constexpr const char* kThree = R"("parameters": {
     "friction_angle": {"from": "15 deg", "to": "35 deg"},
     "cohesion": {"from": "1 bar", "to": "4 MPa"},
     "biot": {"from": 0.5, "to": 1}})";
-
-/// A campaign on the reference scene in plane strain.
-Expansion expand_design(const std::string& design, const std::string& more = "") {
-  const std::string text =
-      R"({"format": 1, "name": "test", "base": "docs/examples/scenes/rotliegend.json", )"
-      R"("set": {"/tier": "screening"}, )" +
-      more + R"("design": )" + design + "}";
-  return expand(parse_campaign(text, FAULTSIM_SOURCE_DIR "/test.json"));
-}
 
 Expansion expand_kind(const std::string& kind_and_numbers, const std::string& parameters = kThree) {
   return expand_design(R"({"kind": )" + kind_and_numbers + ", " + parameters + "}");
@@ -78,13 +70,6 @@ double correlation(const std::vector<double>& x, const std::vector<double>& y) {
     xy += (x[i] - mx) * (y[i] - my);
   }
   return xy / std::sqrt(xx * yy);
-}
-
-void expect_true_identities(const Expansion& expansion, std::size_t stride) {
-  for (std::size_t i = 0; i < expansion.cases.size(); i += stride) {
-    const auto scene = faultsim::read_scene({"test", scene_of(expansion, expansion.cases[i]), {}});
-    ASSERT_EQ(expansion.cases[i].identity, faultsim::case_identity(scene)) << i;
-  }
 }
 
 TEST(UnitSamples, LatinHypercubeHasOnePointInEveryPart) {

@@ -4,14 +4,12 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/units.h"
 
 namespace faultsim {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 CoulombLaw weakening_law(WeakeningLaw weakening) {
   return {weakening, 2e6, 30 * kDegree, 10 * kDegree, 0.8};

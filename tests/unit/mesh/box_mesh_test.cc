@@ -1,12 +1,10 @@
+#include "simulator/common/units.h"
 #include "tests/unit/mesh/mesh_checks.h"
 
 namespace faultsim {
 namespace {
 
 using namespace testing_mesh;
-using List = std::vector<std::string>;
-
-constexpr double kDegree = M_PI / 180;
 
 BoxMeshSpec box(std::array<double, 3> from, std::array<double, 3> to, double size,
                 double growth = 1) {

@@ -1,3 +1,4 @@
+#include "simulator/common/units.h"
 #include "tests/unit/mesh/mesh_checks.h"
 
 /// Patches of any orientation: they lie on the plane asked for, their edges on grid lines, and
@@ -6,8 +7,6 @@ namespace faultsim {
 namespace {
 
 using namespace testing_mesh;
-
-constexpr double kDegree = M_PI / 180;
 
 BoxMeshSpec body() {
   BoxMeshSpec spec;

@@ -1,5 +1,6 @@
 #include <map>
 
+#include "simulator/common/units.h"
 #include "tests/unit/mesh/mesh_checks.h"
 
 namespace faultsim {
@@ -8,7 +9,6 @@ namespace {
 using namespace testing_mesh;
 using ::testing::Test;
 
-constexpr double kDegree = M_PI / 180;
 enum Kind { overburden, salt, reservoir, underburden, sideburden };
 
 /// The reference scene, coarse along strike and away from the reservoir.
@@ -294,7 +294,6 @@ TEST(FieldMesh, RefusesImpossibleGeometryWithItsPlace) {
     change(spec);
     return problem_pointers(spec);
   };
-  using List = std::vector<std::string>;
   EXPECT_EQ(pointers([](FieldMeshSpec&) {}), List{});
   EXPECT_EQ(pointers([](FieldMeshSpec& s) { s.blocks[1].offset = 2700; }),
             List{"/geometry/blocks/1/offset"});

@@ -17,6 +17,8 @@
 /// What must hold for every mesh, and sums to compare.
 namespace faultsim::testing_mesh {
 
+using List = std::vector<std::string>;
+
 inline const Eigen::Vector3d& node(const Mesh& mesh, int n) {
   return mesh.nodes[static_cast<size_t>(n)];
 }

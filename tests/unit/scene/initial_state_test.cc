@@ -4,17 +4,13 @@
 
 #include <cmath>
 
+#include "simulator/common/units.h"
 #include "simulator/scene/pressure_history.h"
 #include "simulator/scene/read_scene.h"
+#include "tests/unit/scene/rotliegend.h"
 
 namespace faultsim {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
-
-JsonDocument rotliegend() {
-  return read_json_file(FAULTSIM_SOURCE_DIR "/docs/examples/scenes/rotliegend.json");
-}
 
 TEST(InitialState, WeighsTheReferenceColumnByHand) {
   const Scene scene = read_scene(rotliegend());

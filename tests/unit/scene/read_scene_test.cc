@@ -6,17 +6,14 @@
 #include <filesystem>
 #include <fstream>
 
+#include "simulator/common/units.h"
 #include "simulator/scene/initial_state.h"
+#include "tests/unit/scene/rotliegend.h"
 
 namespace faultsim {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kYear = 31557600;
-
-JsonDocument rotliegend() {
-  return read_json_file(FAULTSIM_SOURCE_DIR "/docs/examples/scenes/rotliegend.json");
-}
 
 /// Reads with some values set.
 Scene varied(JsonDocument document, const std::vector<std::pair<std::string, std::string>>& sets) {

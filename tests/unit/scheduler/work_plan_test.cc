@@ -82,6 +82,26 @@ TEST(WorkPlan, KeepsAWorkerAheadButDoesNotHoard) {
   EXPECT_TRUE(plan.next(0));
 }
 
+TEST(WorkPlan, KeepsOneCaseAheadOfCasesOfASecondWhileOthersHaveEnough) {
+  WorkPlan plan({family(1, 12, 1, true)}, {.n_workers = 2});
+  const auto first = plan.next(0);
+  plan.case_done(0, first->cases[0], 0.7);
+  ASSERT_EQ(plan.next(0)->cases.size(), 1u);
+  ASSERT_EQ(plan.next(0)->cases.size(), 1u);  // the one ahead
+  EXPECT_FALSE(plan.next(0));
+  for (std::int64_t id = 2; id <= 7; ++id) {
+    plan.case_done(0, id, 0.7);
+    EXPECT_EQ(plan.next(0).has_value(), id <= 6) << id;  // the last four are for whoever is free
+  }
+}
+
+TEST(WorkPlan, KeepsNoneAheadOfLongCases) {
+  WorkPlan plan({family(1, 100, 1, true)}, {.n_workers = 1});
+  plan.case_done(0, plan.next(0)->cases[0], 3);
+  EXPECT_TRUE(plan.next(0));
+  EXPECT_FALSE(plan.next(0));
+}
+
 TEST(WorkPlan, BuildsTwoOperatorsAtOnceOnlyIfBothFit) {
   WorkPlan plan({family(1, 3, 5), family(11, 3, 4)}, {.n_workers = 2, .memory_bytes = 1.5e9});
   EXPECT_TRUE(plan.next(0));
