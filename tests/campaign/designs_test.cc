@@ -1,5 +1,6 @@
 // Sampled designs from the spec to results in the store: the real faultsweep under the real mpirun
 // with the real faultsim, in plane strain.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tests/campaign/campaign_fixture.h"
@@ -18,8 +19,8 @@ class Designs : public testing::CampaignTest {
     simulator_ = FAULTSIM;
   }
 
-  /// Submits and runs a design of the small field; what submit says of it.
-  json run(const std::string& design) {
+  /// Submits a design of the small field; what submit says of it.
+  json submit(const std::string& design) {
     auto spec = nlohmann::ordered_json::parse(
         std::ifstream(std::string(FAULTSIM_SOURCE_DIR) + "/docs/examples/campaigns/small.json"));
     spec["base"] = std::string(FAULTSIM_SOURCE_DIR) + "/docs/examples/scenes/rotliegend.json";
@@ -28,9 +29,14 @@ class Designs : public testing::CampaignTest {
     std::ofstream(file) << spec.dump(1);
     const auto submitted = faultsweep({"submit", file, "--json"});
     EXPECT_EQ(submitted.code, 0) << submitted.err;
+    return json::parse(submitted.out);
+  }
+  /// The same, and runs it.
+  json run(const std::string& design) {
+    const json submitted = submit(design);
     const auto end = wait(start({"run", "--workers", "2"}), 300);
     EXPECT_EQ(end.code, 0) << end.err;
-    return json::parse(submitted.out);
+    return submitted;
   }
 
   /// Parameter vectors of the rows of the only design, and that each has a complete result.
@@ -100,6 +106,27 @@ TEST_F(Designs, NestedSamplesAreTheSameInEachOuterRow) {
     EXPECT_EQ(all[i][0], 0);
     EXPECT_EQ(all[i + 3], (std::vector<double>{100, all[i][1]}));
   }
+}
+
+/// A grid whose cases a sampled design hits too: the export has the rows of both, in order.
+TEST_F(Designs, AGridKeepsTheCasesThatASampleHits) {
+  const json submitted = submit(R"({"kind": "groups", "groups": [
+      {"name": "steps", "design": {"kind": "grid", "parameters": {
+         "friction_angle": ["15 deg", "20 deg", "30 deg"]}}},
+      {"name": "sample", "design": {"kind": "latin-hypercube", "samples": 4, "parameters": {
+         "friction_angle": ["15 deg", "30 deg"]}}}]})");
+  EXPECT_EQ(submitted["cases"], 3);
+  EXPECT_EQ(submitted["merged"], 4) << "all rows of the sample are cases of the grid";
+  const std::string folder = (folder_ / "salib").string();
+  const auto exported = faultsweep({"export", "--format", "salib", "-o", folder});
+  ASSERT_EQ(exported.code, 0) << exported.err;
+  std::ifstream file(folder + "/cases.txt");
+  std::vector<int> cases;
+  for (int one = 0; file >> one;) cases.push_back(one);
+  ASSERT_EQ(cases.size(), 7u);
+  EXPECT_EQ(std::vector<int>(cases.begin(), cases.begin() + 3), (std::vector<int>{1, 2, 3}));
+  std::sort(cases.begin() + 3, cases.end());
+  EXPECT_EQ(std::vector<int>(cases.begin() + 3, cases.end()), (std::vector<int>{1, 1, 3, 3}));
 }
 
 }  // namespace
