@@ -5,7 +5,6 @@
 
 #include "simulator/app/commands.h"
 #include "simulator/app/load_scene.h"
-#include "simulator/app/screen.h"
 #include "simulator/common/interrupt.h"
 #include "simulator/loading/diagnosis.h"
 #include "simulator/loading/run_case.h"
@@ -99,12 +98,8 @@ void print(const Diagnosis& d) {
 ExitCode diagnose_command(const DiagnoseArguments& arguments) {
   catch_interrupts();
   const LoadedScene loaded = load_scene(arguments.scene);
-  ScreenMonitor monitor(arguments.scene.json);
-  const PreparedOperator prepared = prepare_operator(
-      loaded.scene, loaded.plan, cache_policy(arguments.cache, arguments.no_cache), false, monitor);
-  if (!prepared.remark.empty()) monitor.note(prepared.remark);
-  monitor.clear();
-  throw_if_interrupted("building the operator");
+  const PreparedOperator prepared = prepare_on_screen(
+      loaded, cache_policy(arguments.cache, arguments.no_cache), arguments.scene.json);
   SilentMonitor silent;
   const Diagnosis diagnosis = diagnose_case(loaded.scene, prepared, silent);
   if (arguments.scene.json) {

@@ -5,7 +5,6 @@
 
 #include "simulator/app/commands.h"
 #include "simulator/app/load_scene.h"
-#include "simulator/app/screen.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/interrupt.h"
 #include "simulator/contact/contact_export.h"
@@ -108,12 +107,8 @@ ExitCode export_contact_command(const ExportArguments& arguments) {
                        "a load step with creeping salt is not one contact problem but several",
                        "export the elastic case: --set /numerics/creep=off"}});
   }
-  ScreenMonitor monitor(arguments.scene.json);
-  const PreparedOperator prepared = prepare_operator(
-      loaded.scene, loaded.plan, cache_policy(arguments.cache, arguments.no_cache), false, monitor);
-  if (!prepared.remark.empty()) monitor.note(prepared.remark);
-  monitor.clear();
-  throw_if_interrupted("building the operator");
+  const PreparedOperator prepared = prepare_on_screen(
+      loaded, cache_policy(arguments.cache, arguments.no_cache), arguments.scene.json);
   const FaultOperator& op = *prepared.op;
 
   ExportedStep exported;

@@ -2,6 +2,9 @@
 
 #include <cstdlib>
 
+#include "simulator/app/screen.h"
+#include "simulator/common/interrupt.h"
+
 namespace faultsim {
 namespace {
 
@@ -46,6 +49,16 @@ CachePolicy cache_policy(const std::filesystem::path& folder, bool no_cache) {
   CachePolicy policy;
   if (!no_cache) policy.folder = folder.empty() ? user_cache() : folder;
   return policy;
+}
+
+PreparedOperator prepare_on_screen(const LoadedScene& loaded, const CachePolicy& cache,
+                                   bool quiet) {
+  ScreenMonitor monitor(quiet);
+  PreparedOperator prepared = prepare_operator(loaded.scene, loaded.plan, cache, false, monitor);
+  if (!prepared.remark.empty()) monitor.note(prepared.remark);
+  monitor.clear();
+  throw_if_interrupted("building the operator");
+  return prepared;
 }
 
 }  // namespace faultsim

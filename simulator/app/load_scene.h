@@ -21,5 +21,8 @@ LoadedScene load_scene(JsonDocument document);
 
 /// Where a command keeps operators: the folder given, or the user's cache folder, or nowhere.
 CachePolicy cache_policy(const std::filesystem::path& folder, bool no_cache);
+/// prepare_operator with its progress and remarks on the screen, unless `quiet`. Throws when it was
+/// interrupted.
+PreparedOperator prepare_on_screen(const LoadedScene& loaded, const CachePolicy& cache, bool quiet);
 
 }  // namespace faultsim
