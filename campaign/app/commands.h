@@ -17,6 +17,9 @@ namespace faultsweep {
 
 using faultsim::ExitCode;
 
+/// Bytes of "20 GB", "500 MB", "0". Throws InputError that names the option.
+std::uint64_t parse_size(const std::string& option, const std::string& text);
+
 /// What all commands share.
 struct StoreArguments {
   std::filesystem::path store;  ///< --store, FAULTSWEEP_STORE or ./faultsweep-store.
@@ -74,6 +77,20 @@ struct NightlyArguments {
 ExitCode nightly_command(const NightlyArguments& arguments);
 /// Prints the nights in the store.
 ExitCode nightly_history_command(const NightlyArguments& arguments);
+struct TradeoffArguments {
+  std::string source;                 ///< a scene, or a campaign spec.
+  std::vector<std::string> settings;  ///< "/json/pointer=value" of a scene.
+  double wanted_chi = 0.02;           ///< error of χ̄ to recommend a mesh for.
+  double operator_seconds = 300;      ///< dearer choices, by prediction, are left out.
+  std::string memory;                 ///< the same: "12 GB"; "" = 0.8 of what is available.
+  long n_cases = 32;                  ///< of a spec: that are ranked at every tier.
+  std::vector<std::string> tiers = {"screening", "standard"};  ///< the last is the reference.
+  std::optional<int> n_workers = 1;  ///< one, so that times are not those of two side by side.
+  std::filesystem::path output;      ///< folder for report and figures; "" = none.
+  bool dry_run = false;
+};
+/// Measures what the choices of a scene cost, in accuracy and in time (docs/tradeoff.md).
+ExitCode tradeoff_command(const StoreArguments& common, const TradeoffArguments& arguments);
 ExitCode backup_command(const StoreArguments& common, const std::filesystem::path& target);
 
 }  // namespace faultsweep

@@ -23,6 +23,7 @@ constexpr const char* kFooter =
     "  faultsweep show 17                            one case: stages, chi history per fault\n"
     "  faultsweep export -o cases.csv                all cases, for pandas or a spreadsheet\n"
     "  faultsweep compare coarse fine                two campaigns, case by case\n"
+    "  faultsweep tradeoff scene.json                what each choice costs, in accuracy and time\n"
     "Campaigns are addressed by name, the newest by default; cases by number, or CAMPAIGN/NUMBER.\n"
     "Exit codes: 0 done, 1 done with some cases without a full result, 2 input, 4 disk or memory,\n"
     "            5 compared and different, or nothing compared, 70 bug,\n"
@@ -77,6 +78,7 @@ struct Arguments {
   CompareArguments compare;
   RetryArguments retry;
   NightlyArguments nightly;
+  TradeoffArguments tradeoff;
   bool nightly_history = false;
 };
 
@@ -243,6 +245,45 @@ void add_nightly(CLI::App& app, Arguments& a, ExitCode& code) {
       [&] { code = a.nightly_history ? nightly_history_command(n) : nightly_command(n); });
 }
 
+void add_tradeoff(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* command = app.add_subcommand(
+      "tradeoff", "measure on a scene what each choice costs in accuracy and in time");
+  TradeoffArguments& t = a.tradeoff;
+  command->add_option("source", t.source, "scene, or campaign spec (JSON)")->required();
+  command->add_option("--set", t.settings, "/json/pointer=value of the scene");
+  command
+      ->add_option("--error", t.wanted_chi,
+                   "of the critical index, to recommend a mesh for (default 0.02)")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--operator-limit", t.operator_seconds,
+                   "s; choices whose operator is predicted to take longer are left out\n"
+                   "(default 300)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--memory", t.memory,
+                      "the same for memory: \"12 GB\"; default: 0.8 of what is available");
+  command
+      ->add_option("--cases", t.n_cases, "of a spec: how many are ranked at each tier (default 32)")
+      ->check(CLI::Range(2, 100000));
+  command
+      ->add_option("--tiers", t.tiers,
+                   "with commas, the last is the reference (default screening,standard)")
+      ->delimiter(',');
+  command->add_option("-w,--workers", t.n_workers, "default 1: two disturb each other's times")
+      ->check(CLI::Range(1, 10000));
+  command->add_option("-o,--output", t.output, "folder for report.md, trade.json and figures");
+  command->add_flag("--dry-run", t.dry_run, "only show the choices and their predicted cost");
+  add_store(command, a.common);
+  add_json(command, a.common);
+  command->footer(
+      "Examples:\n"
+      "  faultsweep tradeoff scene.json --dry-run\n"
+      "  faultsweep tradeoff scene.json --error 0.01 -o trade\n"
+      "  faultsweep tradeoff campaign.json --cases 16 --tiers screening,demonstration\n"
+      "Interrupted, it goes on where it stopped: give the same command again.");
+  command->callback([&] { code = tradeoff_command(a.common, t); });
+}
+
 void add_caring(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* retry = app.add_subcommand("retry", "let failed cases run again");
   add_campaign(retry, a.common);
@@ -291,6 +332,7 @@ ExitCode faultsweep_main(int argc, char** argv) {
   add_export(app, arguments, code);
   add_compare(app, arguments, code);
   add_nightly(app, arguments, code);
+  add_tradeoff(app, arguments, code);
   add_caring(app, arguments, code);
   try {
     app.parse(argc, argv);

@@ -37,6 +37,8 @@ NamedCase find_case(const Store& store, const StoreArguments& common, const std:
   return found;
 }
 
+}  // namespace
+
 std::uint64_t parse_size(const std::string& option, const std::string& text) {
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
@@ -51,8 +53,6 @@ std::uint64_t parse_size(const std::string& option, const std::string& text) {
   }
   return static_cast<std::uint64_t>(number * factor);
 }
-
-}  // namespace
 
 std::filesystem::path simulator_binary() {
   if (const char* given = std::getenv("FAULTSIM_BINARY")) return std::filesystem::absolute(given);

@@ -8,6 +8,7 @@
 #include "store_4_sql.h"
 #include "store_5_sql.h"
 #include "store_6_sql.h"
+#include "store_7_sql.h"
 #include "store_sql.h"
 
 namespace faultsweep {
@@ -74,6 +75,7 @@ const std::vector<Migration>& store_migrations() {
       {4, "2026-11-21 creep of salt", faultsim::embedded::store_4_sql},
       {5, "2026-11-21 rows of designs", faultsim::embedded::store_5_sql},
       {6, "2026-11-21 nights", faultsim::embedded::store_6_sql},
+      {7, "2026-11-22 trades of accuracy for speed", faultsim::embedded::store_7_sql},
   };
   return migrations;
 }

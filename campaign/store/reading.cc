@@ -386,7 +386,7 @@ std::vector<Store::FamilyProgress> Store::family_progress(std::int64_t campaign)
   std::vector<FamilyProgress> all;
   Statement& query = connection_->prepared(
       "SELECT f.fingerprint, coalesce(f.operator, ''), o.build_s, f.n_operators,"
-      " f.predicted_memory_bytes FROM families f"
+      " f.predicted_memory_bytes, o.peak_bytes FROM families f"
       " LEFT JOIN operators o ON o.fingerprint = f.operator WHERE f.id = ?");
   for (const auto& [family, counts] : count_by_family(*connection_, campaign)) {
     FAULTSIM_DEMAND(query.bind(family).step(), family);
@@ -397,6 +397,7 @@ std::vector<Store::FamilyProgress> Store::family_progress(std::int64_t campaign)
     one.build_seconds = query.optional_real(2);
     one.n_operators = static_cast<int>(query.integer(3));
     one.memory_bytes = query.real(4);
+    one.peak_bytes = query.optional_integer(5);
     all.push_back(std::move(one));
   }
   query.reset();

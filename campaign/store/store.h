@@ -10,6 +10,7 @@
 #include "campaign/expression/expression.h"
 #include "campaign/store/night_records.h"
 #include "campaign/store/records.h"
+#include "campaign/store/trade_records.h"
 
 namespace faultsweep {
 
@@ -143,8 +144,9 @@ class Store {
   struct FamilyProgress : CaseCounts {
     std::string fingerprint, operator_fingerprint;
     std::optional<double> build_seconds;
-    int n_operators = 1;  ///< see FamilyRecord.
-    double memory_bytes = 0;
+    int n_operators = 1;                     ///< see FamilyRecord.
+    double memory_bytes = 0;                 ///< predicted.
+    std::optional<std::int64_t> peak_bytes;  ///< measured, of the process that built it.
   };
   std::vector<FamilyProgress> family_progress(std::int64_t campaign) const;
   /// Whether some case of the store, of whatever campaign, has no result. Far cheaper than counts.
@@ -156,6 +158,13 @@ class Store {
   void record_night(const NightRecord& night);
   /// Nights of a suite ("" = of all), oldest first, at most the last `limit`.
   std::vector<NightRecord> nights(const std::string& suite, int limit) const;
+
+  // Trades -------------------------------------------------------------------------------------
+  /// Its error bars replace those of the same campaign, tier and metric.
+  void record_trade(const TradeRecord& trade);
+  std::vector<ErrorBar> error_bars(const std::string& campaign) const;
+  /// The base scenes that the campaign's cases are changes of, as JSON text.
+  std::vector<std::string> base_documents(std::int64_t campaign) const;
 
   // Care ------------------------------------------------------------------------------------------
   void backup_to(const std::filesystem::path& target) const;

@@ -38,7 +38,7 @@ function(faultsim_test target label)
   target_link_libraries(${target} PRIVATE faultsim_options ${ARG_LIBS} GTest::gmock GTest::gtest_main)
   # Not timed, half of all code, mostly templates: -O1 compiles in two thirds of -O3's time.
   if(label MATCHES "unit|campaign")
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CONFIG:Debug>:-O0>
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>
                            -Wno-maybe-uninitialized)   # false alarms in Eigen below -O2
   endif()
   if(label STREQUAL unit)

@@ -1,0 +1,51 @@
+#include "campaign/store/sqlite.h"
+#include "campaign/store/store.h"
+
+namespace faultsweep {
+
+void Store::record_trade(const TradeRecord& trade) {
+  Connection& db = *connection_;
+  Transaction transaction(db);
+  db.prepared(
+        "INSERT INTO tradeoffs (at, source, campaign, program_version, report)"
+        " VALUES (?, ?, ?, ?, ?)")
+      .bind(trade.at, trade.source, trade.campaign, trade.program_version, trade.report)
+      .run();
+  Statement last(db, "SELECT last_insert_rowid()");
+  last.step();
+  const std::int64_t id = last.integer(0);
+  for (const ErrorBar& bar : trade.error_bars) {
+    db.prepared(
+          "INSERT OR REPLACE INTO error_bars (campaign, tier, metric, reference, n_cases, rms,"
+          " largest, tradeoff_id) VALUES (?, ?, ?, ?, ?, ?, ?, ?)")
+        .bind(bar.campaign, bar.tier, bar.metric, bar.reference, bar.n_cases, bar.rms, bar.largest,
+              id)
+        .run();
+  }
+  transaction.commit();
+}
+
+std::vector<ErrorBar> Store::error_bars(const std::string& campaign) const {
+  std::vector<ErrorBar> all;
+  Statement& rows = connection_->prepared(
+      "SELECT campaign, tier, metric, reference, n_cases, rms, largest FROM error_bars"
+      " WHERE campaign = ? ORDER BY tier, metric");
+  rows.bind(campaign);
+  while (rows.step()) {
+    all.push_back({rows.text(0), rows.text(1), rows.text(2), rows.text(3),
+                   static_cast<long>(rows.integer(4)), rows.real(5), rows.real(6)});
+  }
+  return all;
+}
+
+std::vector<std::string> Store::base_documents(std::int64_t campaign) const {
+  std::vector<std::string> all;
+  Statement& rows = connection_->prepared(
+      "SELECT document FROM scenes WHERE id IN (SELECT DISTINCT c.scene_id FROM campaign_cases cc"
+      " JOIN cases c ON c.id = cc.case_id WHERE cc.campaign_id = ?) ORDER BY id");
+  rows.bind(campaign);
+  while (rows.step()) all.push_back(rows.text(0));
+  return all;
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,288 @@
+#include "campaign/tradeoff/ladder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "simulator/plan/plan.h"
+#include "simulator/scene/read_scene.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+using faultsim::JsonDocument;
+using faultsim::Scene;
+using nlohmann::json;
+
+namespace {
+
+constexpr double kYear = 365.25 * 86400;
+constexpr double kScreeningCell = 10;    // m, of the tier
+constexpr double kStandardCell = 20;     // m, down dip and normal to the fault
+constexpr double kStandardStrike = 100;  // m
+
+/// Shortest text that reads back as the same number.
+std::string shortest(double value) {
+  const std::string text = json(value).dump();
+  return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
+}
+std::string metres(double value) { return shortest(value) + " m"; }
+std::string kilometres(double value) { return shortest(value / 1000) + " km"; }
+
+std::string duration(double seconds) {
+  const double years = seconds / kYear;
+  char text[32];
+  if (years >= 1) {
+    std::snprintf(text, sizeof text, "%.4g year%s", years, years == 1 ? "" : "s");
+  } else {
+    std::snprintf(text, sizeof text, "%.3g days", seconds / 86400);
+  }
+  return text;
+}
+
+JsonDocument changed(const JsonDocument& scene, const std::vector<Change>& changes) {
+  JsonDocument document = scene;
+  for (const Change& change : changes) put_value(document.value, change.pointer, change.value);
+  return document;
+}
+
+std::vector<Change> operator+(std::vector<Change> a, const std::vector<Change>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// Cells of these sizes, whatever the scene's own tier and mesh.
+std::vector<Change> cells(double strike, double dip, double normal) {
+  return {{"/tier", "custom"},
+          {"/mesh/strike", metres(strike)},
+          {"/mesh/dip", metres(dip)},
+          {"/mesh/normal", metres(normal)}};
+}
+
+std::vector<Change> in_plane(bool plane_strain) {
+  return {{"/numerics/plane_strain", plane_strain ? "on" : "off"}};
+}
+
+/// Makes the axes of one scene.
+class LadderMaker {
+ public:
+  LadderMaker(const JsonDocument& document, const LadderLimits& limits)
+      : document_(document), limits_(limits), scene_(faultsim::read_scene(document)) {
+    std::vector<faultsim::Problem> problems;
+    const faultsim::Plan plan = faultsim::make_plan(scene_, problems);
+    if (!problems.empty()) throw faultsim::InputError(document.source, problems);
+    is_field_ = scene_.geometry_kind == faultsim::GeometryKind::field;
+    is_3d_ = !plan.plane_strain;
+    creeps_ = plan.creep.active;
+    plane_cell_ = is_field_ ? kScreeningCell : scene_.mesh.dip;
+    plane_ = cells(scene_.mesh.strike, plane_cell_, plane_cell_) + in_plane(true);
+    const bool from_tier = is_field_ && scene_.tier != "custom";
+    dip_ = from_tier ? kStandardCell : scene_.mesh.dip;
+    strike_ = from_tier ? kStandardStrike : scene_.mesh.strike;
+    normal_ = from_tier ? kStandardCell : scene_.mesh.normal;
+    coarse_3d_ = cells(4 * strike_, 4 * dip_, 4 * normal_) + in_plane(false);
+  }
+
+  std::vector<TradeAxis> all() {
+    plane_cells();
+    if (is_3d_) space_cells();
+    if (is_3d_ && is_field_) half_domain();
+    if (is_field_) domain_size();
+    load_steps();
+    if (creeps_) salt_steps();
+    tolerance();
+    b_bar();
+    activation_length();
+    for (TradeAxis& axis : axes_) {
+      for (TradeChoice& choice : axis.choices) judge(choice);
+    }
+    return std::move(axes_);
+  }
+
+ private:
+  TradeAxis& axis(const std::string& name, const std::string& question) {
+    axes_.push_back({name, question, false, false, "", {}});
+    return axes_.back();
+  }
+
+  static void add(TradeAxis& axis, const std::string& name, const std::vector<Change>& base,
+                  const std::vector<Change>& changes, double size = 0) {
+    TradeChoice choice;
+    choice.name = name;
+    choice.changes = base + changes;
+    choice.size = size;
+    axis.choices.push_back(choice);
+  }
+
+  void plane_cells() {
+    TradeAxis& one = axis("cells, plane strain", "How fine must the cells be in plane strain?");
+    one.converges = one.is_mesh = true;
+    for (const double factor : {8.0, 4.0, 2.0, 1.0, 0.5, 0.25}) {
+      const double cell = factor * plane_cell_;
+      add(one, metres(cell) + (is_field_ && factor == 1 ? " (screening)" : ""),
+          cells(scene_.mesh.strike, cell, cell), in_plane(true), cell);
+    }
+  }
+
+  void space_cells() {
+    TradeAxis& one = axis("cells, 3D", "How fine must the cells be in 3D?");
+    one.converges = one.is_mesh = true;
+    const bool is_tier = dip_ == kStandardCell && strike_ == kStandardStrike && normal_ == dip_;
+    for (const double factor : {4.0, 2.0, 1.0, 0.5}) {
+      std::string name = concat(shortest(factor * strike_), " x ", shortest(factor * dip_), " x ",
+                                metres(factor * normal_));
+      if (is_tier && factor == 1) name += " (standard)";
+      if (is_tier && factor == 0.5) name += " (reference)";
+      add(one, name, cells(factor * strike_, factor * dip_, factor * normal_), in_plane(false),
+          factor * dip_);
+    }
+  }
+
+  void half_domain() {
+    TradeAxis& one = axis("half domain", "What does half of the domain by symmetry cost?");
+    add(one, "half", coarse_3d_, {{"/numerics/half_domain", "on"}});
+    add(one, "full", coarse_3d_, {{"/numerics/half_domain", "off"}});
+  }
+
+  /// One dimension of the model, by factors of what is given.
+  void extents(const std::string& name, const std::string& question, const std::string& pointer,
+               double given, const std::vector<double>& factors, const std::vector<Change>& base) {
+    TradeAxis& one = axis(name, question);
+    for (const double factor : factors) {
+      add(one, kilometres(factor * given) + (factor == 1 ? " (as given)" : ""), base,
+          {{pointer, metres(factor * given)}});
+    }
+  }
+
+  void domain_size() {
+    const faultsim::FieldGeometry& field = scene_.field;
+    extents("width of the model", "Are the sides far enough?", "/geometry/width", field.width,
+            {0.5, 1, 2, 4}, plane_);
+    extents("depth of the model", "Is the base deep enough?", "/geometry/depth", field.depth,
+            {1, 1.5, 2, 4}, plane_);
+    if (!is_3d_) return;
+    extents("length of the model", "Are the ends along strike far enough?", "/geometry/length",
+            field.length, {0.5, 1, 2}, coarse_3d_);
+  }
+
+  void load_steps() {
+    TradeAxis& one = axis("load steps", "Are the load steps short enough?");
+    for (const int factor : {1, 2, 4, 8}) {
+      std::vector<Change> changes;
+      for (std::size_t k = 0; k < scene_.stages.size(); ++k) {
+        changes.push_back({concat("/stages/", k, "/steps"), factor * scene_.stages[k].n_steps});
+      }
+      add(one, factor == 1 ? "as given" : concat("1/", factor), plane_, changes);
+    }
+  }
+
+  /// What error control does, a long step of the first order, then fixed steps.
+  void salt_steps() {
+    double longest = 0;
+    for (const faultsim::Stage& stage : scene_.stages)
+      longest = std::max(longest, stage.duration / stage.n_steps);
+    const auto fixed = [](double step) {
+      return std::vector<Change>{{"/numerics/creep_time_step", shortest(step) + " s"}};
+    };
+    TradeAxis& one = axis("salt steps", "How long may the time steps of the salt be?");
+    one.converges = true;
+    add(one, "error control (as given)", plane_, {});
+    add(one, duration(longest) + ", backward Euler", plane_,
+        fixed(longest) + std::vector<Change>{{"/numerics/creep_scheme", "backward_euler"}});
+    for (const double factor : {1.0, 0.5, 0.25, 0.125, 0.0625}) {
+      add(one, duration(factor * longest), plane_, fixed(factor * longest), factor * longest);
+    }
+  }
+
+  void tolerance() {
+    TradeAxis& one = axis("tolerance of contact", "How exactly must contact be solved?");
+    for (const double value : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10}) {
+      add(one, shortest(value) + (value == 1e-8 ? " (default)" : ""), plane_,
+          {{"/numerics/traction_tolerance", value}});
+    }
+  }
+
+  void b_bar() {
+    TradeAxis& one = axis("B-bar", "What does the mean dilatation of cells change?");
+    add(one, "off", plane_, {{"/numerics/b_bar", false}});
+    add(one, "on (default)", plane_, {{"/numerics/b_bar", true}});
+  }
+
+  void activation_length() {
+    TradeAxis& one =
+        axis("activation length", "How much hangs on the length that must slip to count?");
+    one.reference = metres(scene_.numerics.activation_length);
+    for (const double factor : {0.5, 1.0, 2.0}) {
+      const std::string length = metres(factor * scene_.numerics.activation_length);
+      add(one, length, plane_, {{"/numerics/activation_length", length}});
+    }
+  }
+
+  /// Plans the choice: what it costs, or why it is left out.
+  void judge(TradeChoice& choice) const {
+    try {
+      const Scene scene = faultsim::read_scene(changed(document_, choice.changes));
+      std::vector<faultsim::Problem> problems;
+      const faultsim::Plan plan = faultsim::make_plan(scene, problems);
+      if (!problems.empty()) throw faultsim::InputError(document_.source, problems);
+      choice.plane_strain = plan.plane_strain;
+      choice.n_unknowns = plan.n_unknowns;
+      choice.n_jump = plan.n_jump;
+      choice.predicted_seconds = plan.operator_seconds;
+      choice.predicted_bytes = plan.memory_bytes;
+    } catch (const faultsim::InputError& error) {
+      const auto& problem = error.problems().front();
+      choice.left_out = concat("refused: ", problem.pointer, ": ", problem.what);
+      return;
+    }
+    char text[96];
+    if (limits_.memory_bytes > 0 && choice.predicted_bytes > limits_.memory_bytes) {
+      std::snprintf(text, sizeof text, "not affordable: %.3g GB predicted",
+                    choice.predicted_bytes / 1e9);
+      choice.left_out = text;
+    } else if (choice.predicted_seconds > limits_.operator_seconds) {
+      std::snprintf(text, sizeof text, "not affordable: %.3g s predicted",
+                    choice.predicted_seconds);
+      choice.left_out = text;
+    }
+  }
+
+  const JsonDocument& document_;
+  LadderLimits limits_;
+  Scene scene_;
+  bool is_field_ = false, is_3d_ = false, creeps_ = false;
+  double plane_cell_ = 0, strike_ = 0, dip_ = 0, normal_ = 0;  ///< m
+  std::vector<Change> plane_, coarse_3d_;  ///< where the other axes are measured.
+  std::vector<TradeAxis> axes_;
+};
+
+}  // namespace
+
+std::vector<TradeAxis> make_ladder(const JsonDocument& scene, const LadderLimits& limits) {
+  return LadderMaker(scene, limits).all();
+}
+
+json ladder_spec(const std::string& name, const JsonDocument& scene,
+                 const std::vector<TradeAxis>& axes) {
+  json groups = json::array();
+  for (const TradeAxis& axis : axes) {
+    json variants = json::object();
+    for (const TradeChoice& choice : axis.choices) {
+      if (!choice.left_out.empty()) continue;
+      json& changes = variants[choice.name] = json::object();
+      for (const Change& change : choice.changes) changes[change.pointer] = change.value;
+    }
+    if (variants.empty()) continue;
+    json parameters;
+    parameters["choice"]["variants"] = variants;
+    groups.push_back(
+        {{"name", axis.name}, {"design", {{"kind", "grid"}, {"parameters", parameters}}}});
+  }
+  return {{"format", 1},
+          {"name", name},
+          {"base", scene.value},
+          {"design", {{"kind", "groups"}, {"groups", groups}}},
+          {"policy", {{"on_failure", "continue"}}}};
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "campaign/tradeoff/trade.h"
+
+namespace faultsweep {
+
+/// All that `faultsweep tradeoff` found.
+struct TradeReport {
+  std::string title;   ///< of the scene.
+  std::string source;  ///< its file.
+  double wanted_chi = 0.02;
+  std::vector<TradeTable> tables;
+  std::vector<RankingTrade> rankings;
+};
+
+/// One sentence per question: plane strain, each tier in the ranking, steps of salt, and so on.
+std::vector<std::string> trade_answers(const TradeReport& report);
+
+std::string trade_to_text(const TradeReport& report);      ///< for the screen.
+std::string trade_to_markdown(const TradeReport& report);  ///< for a file beside the figures.
+nlohmann::json trade_to_json(const TradeReport& report);   ///< SI; null where unknown.
+
+/// Data and script of the figures, for gnuplot: pareto.svg, convergence.svg.
+std::string trade_figure_data(const TradeReport& report);
+std::string trade_figure_script(const TradeReport& report);
+
+}  // namespace faultsweep
