@@ -44,6 +44,37 @@ std::string activation_of(const faultsim::StageMetrics& m) {
   return text;
 }
 
+/// The tier that all base scenes have, without sizes of their own; "" = there is no such.
+std::string common_tier(const std::vector<std::string>& documents) {
+  std::string tier;
+  for (const std::string& text : documents) {
+    const json scene = json::parse(text);
+    const std::string own = scene.value("tier", std::string());
+    if (own.empty() || (scene.contains("mesh") && !scene["mesh"].empty())) return "";
+    if (!tier.empty() && own != tier) return "";
+    tier = own;
+  }
+  return tier;
+}
+
+std::vector<ErrorBar> error_bars_of(const Store& store, const CampaignInfo& campaign) {
+  std::vector<ErrorBar> bars = store.error_bars(campaign.name);
+  if (bars.empty()) return bars;
+  const std::string tier = common_tier(store.base_documents(campaign.id));
+  std::erase_if(bars, [&](const ErrorBar& bar) { return bar.tier != tier; });
+  return bars;
+}
+
+/// "0.83 ± 0.02" where the metric has an error bar.
+std::string with_error(double value, const std::string& metric,
+                       const std::vector<ErrorBar>& error_bars) {
+  for (const ErrorBar& bar : error_bars) {
+    if (bar.metric == metric)
+      return concat(format_number(value, 3), " ± ", format_number(bar.rms, 1));
+  }
+  return format_number(value, 3);
+}
+
 json optional_json(const std::optional<double>& value) { return value ? json(*value) : json(); }
 
 }  // namespace
@@ -53,13 +84,14 @@ Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankReque
   check_stage(store, campaign, request.stage);
   const Symbols symbols = result_symbols(campaign);
   Store::RankingQuery query;
-  Ranking ranking{campaign, request, request.by == kDefaultMetric && !request.ascending, {}};
+  Ranking ranking{campaign, request, request.by == kDefaultMetric && !request.ascending, {}, {}};
   if (!ranking.by_default) query.by = parse_number(request.by, symbols).sql();
   query.where = parse_condition(request.where, symbols);
   query.stage = request.stage;
   query.ascending = request.ascending;
   query.limit = request.top;
   ranking.rows = store.ranking(campaign.id, query);
+  if (request.stage.empty()) ranking.error_bars = error_bars_of(store, campaign);
   return ranking;
 }
 
@@ -78,7 +110,8 @@ class PlaceNames {
   int complete_ = 0, unresolved_ = 0;
 };
 
-std::string footnotes(const std::vector<RankedCase>& rows) {
+std::string footnotes(const Ranking& ranking) {
+  const std::vector<RankedCase>& rows = ranking.rows;
   const auto any = [&](auto&& holds) { return std::any_of(rows.begin(), rows.end(), holds); };
   std::string text;
   if (any([](const RankedCase& row) { return row.rank_class == 1; })) {
@@ -91,6 +124,11 @@ std::string footnotes(const std::vector<RankedCase>& rows) {
   }
   if (any([](const RankedCase& row) { return row.unexpected; })) {
     text += "UNEXPECTED: activated again as pressure recovers\n";
+  }
+  for (const ErrorBar& bar : ranking.error_bars) {
+    text += concat("± of ", bar.metric, " is its rms error at ", bar.tier, " against ",
+                   bar.reference, " over ", bar.n_cases, " cases of the campaign, at most ",
+                   format_number(bar.largest, 2), " (faultsweep tradeoff)\n");
   }
   return text;
 }
@@ -116,19 +154,19 @@ std::string ranking_to_text(const Ranking& ranking) {
     labels.resize(parameters.size());
     cells.insert(cells.end(), labels.begin(), labels.end());
     constexpr double kBar = 1e5;
-    cells.insert(
-        cells.end(),
-        {flag_of(row), activation_of(m), format_number(m.activated_area),
-         format_number(m.moment, 3), m.magnitude ? format_number(*m.magnitude, 2) : "",
-         m.n_events > 0 ? std::to_string(m.n_events) : "",
-         m.n_events > 0 ? format_number(m.event_moment, 3) : "", format_number(m.chi_bar, 3),
-         row.pressure_margin ? format_number(*row.pressure_margin / kBar, 3) : "",
-         format_number(m.max_slip, 3),
-         has_score ? (row.score ? format_number(*row.score) : "-") : ""});
+    cells.insert(cells.end(),
+                 {flag_of(row), activation_of(m), format_number(m.activated_area),
+                  format_number(m.moment, 3), m.magnitude ? format_number(*m.magnitude, 2) : "",
+                  m.n_events > 0 ? std::to_string(m.n_events) : "",
+                  m.n_events > 0 ? format_number(m.event_moment, 3) : "",
+                  with_error(m.chi_bar, "chi_bar", ranking.error_bars),
+                  row.pressure_margin ? format_number(*row.pressure_margin / kBar, 3) : "",
+                  with_error(m.max_slip, "max_slip", ranking.error_bars),
+                  has_score ? (row.score ? format_number(*row.score) : "-") : ""});
     table.add_row(std::move(cells));
   }
   if (table.empty()) return "no case of " + ranking.campaign.name + " matches\n";
-  return table.text() + footnotes(ranking.rows);
+  return table.text() + footnotes(ranking);
 }
 
 json ranking_to_json(const Ranking& ranking) {
@@ -176,11 +214,18 @@ json ranking_to_json(const Ranking& ranking) {
     if (!ranking.by_default) entry["score"] = optional_json(row.score);
     cases.push_back(std::move(entry));
   }
-  return {{"campaign", ranking.campaign.name},
-          {"by", ranking.request.by},
-          {"stage", ranking.request.stage},
-          {"where", ranking.request.where},
-          {"cases", std::move(cases)}};
+  json bars = json::array();
+  for (const ErrorBar& bar : ranking.error_bars) {
+    bars.push_back({{"metric", bar.metric},
+                    {"tier", bar.tier},
+                    {"reference", bar.reference},
+                    {"n_cases", bar.n_cases},
+                    {"rms", bar.rms},
+                    {"largest", bar.largest}});
+  }
+  return {{"campaign", ranking.campaign.name}, {"error_bars", std::move(bars)},
+          {"by", ranking.request.by},          {"stage", ranking.request.stage},
+          {"where", ranking.request.where},    {"cases", std::move(cases)}};
 }
 
 std::string metrics_to_text() {

@@ -23,6 +23,9 @@ struct Ranking {
   RankRequest request;
   bool by_default = false;  ///< activated area, M0, pressure margin, χ̄.
   std::vector<RankedCase> rows;
+  /// Measured by `faultsweep tradeoff` for this campaign at its tier; empty where it was not, or
+  /// where the campaign has several tiers or meshes of its own.
+  std::vector<ErrorBar> error_bars;
 };
 
 /// Asks the store. Throws InputError on a wrong expression or an unknown stage.

@@ -89,9 +89,9 @@ struct TradeTable {
   std::vector<TradeRow> rows;
   std::string reference;  ///< in words: "extrapolated from 10 m, 5 m, 2.5 m".
   ChiHistory reference_history;
-  HistoryLimit chi;            ///< where it was extrapolated.
-  TradeMetrics limits;         ///< of the reference.
-  double chi_uncertainty = 0;  ///< of the reference.
+  HistoryLimit chi;                   ///< where it was extrapolated.
+  TradeMetrics limits;                ///< of the reference.
+  double chi_uncertainty = kUnknown;  ///< of the reference.
 };
 
 /// Errors of every axis, Pareto front of the meshes. @param runs  per axis and choice.

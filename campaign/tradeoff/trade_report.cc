@@ -162,14 +162,18 @@ std::string sentence(const TradeReport& report, const std::string& axis, std::si
 std::string plane_strain_sentence(const TradeReport& report) {
   const auto cost = plane_strain_cost(report.tables);
   if (!cost) return "";
-  std::string text =
-      concat("Plane strain costs up to ", number(cost->error.chi, 2),
-             " in χ̄: ", number(cost->plane, 3), " instead of ", number(cost->space, 3), " in 3D (",
-             cost->error.where, "; both extrapolated in cell size, ", "uncertain by ",
-             number(cost->uncertainty, 2), " together)");
-  if (!std::isnan(cost->error.activation_pressure)) {
-    text += concat("; the fault activates ", in_bar(std::abs(cost->error.activation_pressure)),
-                   cost->error.activation_pressure > 0 ? " bar earlier" : " bar later");
+  std::string text = concat("Plane strain costs up to ", number(cost->error.chi, 2),
+                            " in χ̄: ", number(cost->plane, 3), " instead of ",
+                            number(cost->space, 3), " in 3D (", cost->error.where);
+  text += std::isnan(cost->uncertainty)
+              ? std::string("; the meshes of one of them are too few to know its own error)")
+              : concat("; cells as fine as they go, uncertain by ", number(cost->uncertainty, 2),
+                       " together)");
+  const double earlier = cost->error.activation_pressure;
+  if (earlier == 0) text += "; activation at the same pressure";
+  if (std::abs(earlier) > 0) {
+    text += concat("; the first fault activates ", in_bar(std::abs(earlier)),
+                   earlier > 0 ? " bar earlier" : " bar later");
   }
   if (cost->error.activation_flips) text += "; activation flips";
   return text + ".";
@@ -275,7 +279,7 @@ json trade_to_json(const TradeReport& report) {
                     {"reference_metrics", metrics_json(table.limits)},
                     {"order", known(table.chi.order)},
                     {"extrapolated", table.chi.extrapolated},
-                    {"uncertainty_chi", table.chi_uncertainty},
+                    {"uncertainty_chi", known(table.chi_uncertainty)},
                     {"choices", rows}});
   }
   json rankings = json::array();
