@@ -4,6 +4,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "campaign/app/child_output.h"
 #include "campaign/app/commands.h"
@@ -77,15 +78,24 @@ json at_tier(const json& base, json scene, const std::string& tier) {
   return changes;
 }
 
+/// A step through n cases that visits all and keeps away from the strides of a grid: near the
+/// golden section of n and coprime to it.
+long scattering_stride(long n) {
+  long stride = std::max(1L, std::lround(0.6180339887 * static_cast<double>(n)));
+  while (std::gcd(stride, n) != 1) ++stride;
+  return stride;
+}
+
 /// Adds a group per tier with the same sample of the campaign's cases.
 void add_sample(const Question& question, const TradeoffArguments& arguments, json& spec) {
   const Expansion& all = *question.cases;
   const auto n = static_cast<long>(all.cases.size());
   const long n_sampled = std::min(n, arguments.n_cases);
+  const long stride = scattering_stride(n);
   for (const std::string& tier : arguments.tiers) {
     json variants = json::object();
     for (long k = 0; k < n_sampled; ++k) {
-      const auto index = static_cast<std::size_t>(k * n / n_sampled);
+      const auto index = static_cast<std::size_t>(k * stride % n);
       variants[concat("case ", index + 1)] =
           at_tier(question.scene.value, scene_of(all, all.cases[index]), tier);
     }
@@ -254,8 +264,7 @@ void write_report(const std::filesystem::path& folder, const TradeReport& report
     throw faultsim::StorageError(concat("cannot make ", folder.string(), ": ", error.message()));
   write_file(folder / "report.md", trade_to_markdown(report));
   write_file(folder / "trade.json", trade_to_json(report).dump(1) + "\n");
-  write_file(folder / "figures.dat", trade_figure_data(report));
-  write_file(folder / "figures.gp", trade_figure_script(report));
+  write_file(folder / "figures.gp", trade_figures(report));
   const std::string draw = concat("cd '", folder.string(), "' && gnuplot figures.gp");
   if (run_child({"/bin/sh", "-c", draw}).code != 0) {
     std::fprintf(stderr,

@@ -44,14 +44,15 @@ std::string activation_of(const faultsim::StageMetrics& m) {
   return text;
 }
 
-/// The tier that all base scenes have, without sizes of their own; "" = there is no such.
-std::string common_tier(const std::vector<std::string>& documents) {
+/// The tier that all groups of a resolved spec have, without sizes of their own; "" = no such.
+std::string common_tier(const std::string& resolved_spec) {
   std::string tier;
-  for (const std::string& text : documents) {
-    const json scene = json::parse(text);
+  const json spec = json::parse(resolved_spec);
+  for (const json& group : spec.at("groups")) {
+    const json& scene = group.at("scene");
     const std::string own = scene.value("tier", std::string());
-    if (own.empty() || (scene.contains("mesh") && !scene["mesh"].empty())) return "";
-    if (!tier.empty() && own != tier) return "";
+    const bool has_sizes = scene.contains("mesh") && !scene["mesh"].empty();
+    if (own.empty() || has_sizes || (!tier.empty() && own != tier)) return "";
     tier = own;
   }
   return tier;
@@ -60,7 +61,7 @@ std::string common_tier(const std::vector<std::string>& documents) {
 std::vector<ErrorBar> error_bars_of(const Store& store, const CampaignInfo& campaign) {
   std::vector<ErrorBar> bars = store.error_bars(campaign.name);
   if (bars.empty()) return bars;
-  const std::string tier = common_tier(store.base_documents(campaign.id));
+  const std::string tier = common_tier(store.spec_copies(campaign.id).resolved);
   std::erase_if(bars, [&](const ErrorBar& bar) { return bar.tier != tier; });
   return bars;
 }

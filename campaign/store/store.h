@@ -163,8 +163,6 @@ class Store {
   /// Its error bars replace those of the same campaign, tier and metric.
   void record_trade(const TradeRecord& trade);
   std::vector<ErrorBar> error_bars(const std::string& campaign) const;
-  /// The base scenes that the campaign's cases are changes of, as JSON text.
-  std::vector<std::string> base_documents(std::int64_t campaign) const;
 
   // Care ------------------------------------------------------------------------------------------
   void backup_to(const std::filesystem::path& target) const;

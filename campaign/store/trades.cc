@@ -38,14 +38,4 @@ std::vector<ErrorBar> Store::error_bars(const std::string& campaign) const {
   return all;
 }
 
-std::vector<std::string> Store::base_documents(std::int64_t campaign) const {
-  std::vector<std::string> all;
-  Statement& rows = connection_->prepared(
-      "SELECT document FROM scenes WHERE id IN (SELECT DISTINCT c.scene_id FROM campaign_cases cc"
-      " JOIN cases c ON c.id = cc.case_id WHERE cc.campaign_id = ?) ORDER BY id");
-  rows.bind(campaign);
-  while (rows.step()) all.push_back(rows.text(0));
-  return all;
-}
-
 }  // namespace faultsweep

@@ -24,8 +24,7 @@ std::string trade_to_text(const TradeReport& report);      ///< for the screen.
 std::string trade_to_markdown(const TradeReport& report);  ///< for a file beside the figures.
 nlohmann::json trade_to_json(const TradeReport& report);   ///< SI; null where unknown.
 
-/// Data and script of the figures, for gnuplot: pareto.svg, convergence.svg.
-std::string trade_figure_data(const TradeReport& report);
-std::string trade_figure_script(const TradeReport& report);
+/// A gnuplot script, with its data, that draws pareto.svg and convergence.svg.
+std::string trade_figures(const TradeReport& report);
 
 }  // namespace faultsweep
