@@ -85,7 +85,8 @@ ExitCode exit_code_of(Outcome outcome) {
 
 ExitCode run_command(const RunArguments& arguments) {
   catch_interrupts();
-  const LoadedScene loaded = load_scene(arguments.scene);
+  LoadedScene loaded = load_scene(arguments.scene);
+  add_savings(loaded.scene, loaded.plan);
   const Scene& scene = loaded.scene;
   const bool json = arguments.scene.json;
   if (const std::string complaint = blas_complaint(); !complaint.empty())

@@ -45,7 +45,8 @@ ExitCode validate_command(const SceneArguments& arguments) {
 }
 
 ExitCode plan_command(const SceneArguments& arguments) {
-  const LoadedScene loaded = load_scene(arguments);
+  LoadedScene loaded = load_scene(arguments);
+  add_savings(loaded.scene, loaded.plan);
   if (arguments.json) {
     std::cout << plan_to_json(loaded.plan).dump(2) << "\n";
   } else {

@@ -58,7 +58,7 @@ Reduction plan_creep_off(const Scene& scene, const CreepEstimate& estimate) {
   const Switch creep = scene.numerics.creep;
   const bool is_small = estimate.bound && *estimate.bound < limit;
   const std::string tenth = "a tenth of creep_tolerance, " + megapascals(limit);
-  Reduction r{"creep_off", false, relaxation_text(estimate), "", "/numerics/creep"};
+  Reduction r{"creep_off", false, relaxation_text(estimate), "", "/numerics/creep", {}};
   r.applied = creep == Switch::off || (creep == Switch::automatic && is_small);
   r.bound = !estimate.bound ? "not bounded, as a face is translated"
                             : "moves fault tractions by less than " + megapascals(*estimate.bound);

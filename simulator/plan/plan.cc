@@ -7,6 +7,7 @@
 #include <set>
 
 #include "simulator/common/fingerprint.h"
+#include "simulator/plan/cost.h"
 #include "simulator/plan/creep_plan.h"
 
 namespace faultsim {
@@ -27,17 +28,21 @@ std::string ending_patches(const Scene& scene) {
 }
 
 Reduction plan_plane_strain(const Scene& scene) {
-  Reduction r{"plane_strain", scene.numerics.plane_strain == Switch::on, "", "",
-              "/numerics/plane_strain"};
+  Reduction r{"plane_strain",
+              scene.numerics.plane_strain == Switch::on,
+              "",
+              "",
+              "/numerics/plane_strain",
+              {}};
+  if (scene.geometry_kind == GeometryKind::field) {
+    r.bound = "ignores the ends of blocks and faults; measure it with a 3D tier";
+  } else if (const std::string names = ending_patches(scene); !names.empty()) {
+    r.bound = "ignores the ends along y of " + names;
+  } else {
+    r.bound = "exact when nothing varies along y";
+  }
   if (r.applied) {
     r.reason = "asked for: one row of cells, front and back tied, no motion along strike";
-    if (scene.geometry_kind == GeometryKind::field) {
-      r.bound = "ignores the ends of blocks and faults; measure it with a 3D tier";
-    } else if (const std::string names = ending_patches(scene); !names.empty()) {
-      r.bound = "ignores the ends along y of " + names;
-    } else {
-      r.bound = "exact when nothing varies along y";
-    }
   } else {
     r.reason = scene.geometry_kind == GeometryKind::field ? "blocks and faults end along strike"
                                                           : "not asked for";
@@ -46,29 +51,49 @@ Reduction plan_plane_strain(const Scene& scene) {
 }
 
 Reduction plan_half_domain(const Scene& scene, bool plane_strain) {
-  Reduction r{"half_domain", false, "", "exact by symmetry: areas, potency and M0 are doubled",
-              "/numerics/half_domain"};
+  Reduction r{"half_domain", false, "", "", "/numerics/half_domain", {}};
+  const std::string exact = "exact by symmetry: areas, potency and M0 are doubled";
   if (scene.geometry_kind != GeometryKind::field) {
     r.reason = "a box is modelled as given";
   } else if (plane_strain) {
     r.reason = "plane strain has no extent along strike";
   } else if (scene.numerics.half_domain == Switch::off) {
     r.reason = "switched off";
+    r.bound = exact;
   } else {
     r.applied = true;
+    r.bound = exact;
     r.reason = "layers, blocks, faults, pressure and stress are symmetric about y = 0";
   }
   return r;
 }
 
-/// Unknowns on the faults of a plan, from the grid lines: z lines inside the fault's depth range
-/// times y lines inside its length times the components kept.
-long count_between(const std::vector<double>& lines, double from, double to) {
-  return std::count_if(lines.begin(), lines.end(),
-                       [&](double v) { return v > from + 1e-6 && v < to - 1e-6; });
+/// Lines strictly between two coordinates, as a range [first, second).
+std::pair<int, int> lines_between(const std::vector<double>& lines, double from, double to) {
+  const auto first = std::upper_bound(lines.begin(), lines.end(), from + 1e-6);
+  const auto last = std::lower_bound(first, lines.end(), to - 1e-6);
+  return {static_cast<int>(first - lines.begin()), static_cast<int>(last - lines.begin())};
 }
 
-long field_jumps(const Scene& scene, const Plan& plan, const GridLines& lines) {
+/// The line at a coordinate, or next to it: where a fault lies on the grid before it is sheared.
+std::pair<int, int> line_at(const std::vector<double>& lines, double at) {
+  const auto first = std::lower_bound(lines.begin(), lines.end(), at - 1e-6);
+  const int line =
+      std::min(static_cast<int>(first - lines.begin()), static_cast<int>(lines.size()) - 1);
+  return {line, line + 1};
+}
+
+FaultWindow window(const std::array<std::pair<int, int>, 3>& ranges) {
+  FaultWindow w;
+  for (std::size_t a = 0; a < 3; ++a) {
+    w.from[a] = ranges[a].first;
+    w.to[a] = ranges[a].second;
+  }
+  return w;
+}
+
+std::vector<FaultWindow> field_faults(const Scene& scene, const Plan& plan,
+                                      const GridLines& lines) {
   const FieldGeometry& field = scene.field;
   double top = 0, base = 0;
   for (std::size_t i = 0; i < field.layers.size(); ++i) {
@@ -78,58 +103,73 @@ long field_jumps(const Scene& scene, const Plan& plan, const GridLines& lines) {
   }
   const bool has_ends = field.fault_length < field.length;  // else the model's ends cut it
   const double reach = has_ends ? field.fault_length / 2 : field.length;
-  const long columns = plan.plane_strain ? 1 : count_between(lines.y, -reach, reach);
-  long jumps = 0;
+  const auto columns = plan.plane_strain ? std::pair{0, 1} : lines_between(lines.y, -reach, reach);
+  std::vector<FaultWindow> faults;
   for (std::size_t f = 0; f <= field.blocks.size(); ++f) {
     double shallow = 1e300, deep = -1e300;
     for (std::size_t b = f == 0 ? 0 : f - 1; b < std::min(f + 1, field.blocks.size()); ++b) {
       shallow = std::min(shallow, top + field.blocks[b].offset);
       deep = std::max(deep, base + field.blocks[b].offset);
     }
-    jumps += columns * count_between(lines.z, -(deep + field.fault_overshoot),
-                                     -(shallow - field.fault_overshoot));
+    const double x = f < field.blocks.size() ? field.blocks[f].from : field.blocks[f - 1].to;
+    faults.push_back(window({line_at(lines.x, x), columns,
+                             lines_between(lines.z, -(deep + field.fault_overshoot),
+                                           -(shallow - field.fault_overshoot))}));
   }
-  return jumps * (plan.plane_strain ? 2 : 3);
+  return faults;
 }
 
-long box_jumps(const Scene& scene, const Plan& plan, const GridLines& lines) {
-  long jumps = 0;
-  for (const PatchGeometry& patch : scene.box.patches) {
-    const bool horizontal = patch.dip_from_vertical > 1.0;
-    const double run = patch.width / 2 * std::cos(horizontal ? 0.0 : patch.dip_from_vertical);
-    const auto& down = horizontal ? lines.x : lines.z;
-    const double centre = horizontal ? patch.center[0] : patch.center[2];
-    const long rows = count_between(down, centre - run, centre + run);
-    const long columns = plan.plane_strain
-                             ? 1
-                             : count_between(lines.y, patch.center[1] - patch.length / 2,
-                                             patch.center[1] + patch.length / 2);
-    jumps += std::max(rows, 1L) * std::max(columns, 1L);
+/// A patch covers the grid plane nearest to its own, from edge to edge.
+FaultWindow box_fault(const PatchGeometry& patch, const Plan& plan, const GridLines& lines) {
+  constexpr double kQuarter = 0.78539816339744831;  // pi/4
+  const std::array<const std::vector<double>*, 3> line = {&lines.x, &lines.y, &lines.z};
+  const bool is_flat = patch.dip_from_vertical > kQuarter || patch.dip_from_vertical < -kQuarter;
+  const bool strikes_along_x = std::abs(std::sin(patch.strike)) > std::abs(std::cos(patch.strike));
+  const std::size_t column_axis = strikes_along_x ? 0 : 1;
+  const std::size_t row_axis = is_flat ? 1 - column_axis : 2;
+  const std::size_t axis = 3 - column_axis - row_axis;
+  const double dip = patch.dip_from_vertical;
+  const double along = strikes_along_x ? std::sin(patch.strike) : std::cos(patch.strike);
+  std::array<double, 3> half{};
+  half[column_axis] = patch.length / 2 * std::abs(along);
+  half[row_axis] = patch.width / 2 * std::abs(is_flat ? std::sin(dip) : std::cos(dip));
+  std::array<std::pair<int, int>, 3> ranges;
+  for (std::size_t a = 0; a < 3; ++a) {
+    ranges[a] = a == axis
+                    ? line_at(*line[a], patch.center[a])
+                    : lines_between(*line[a], patch.center[a] - half[a], patch.center[a] + half[a]);
   }
-  return jumps * (plan.plane_strain ? 2 : 3);
+  if (plan.plane_strain) ranges[1] = {0, 1};
+  FaultWindow w = window(ranges);
+  if (patch.shape == PatchShape::ellipse && !plan.plane_strain) w.share = kQuarter;
+  return w;
 }
 
-/// Fits to operator builds on one core of a 2020s server (results/benchmarks): sparse Cholesky with
-/// nested dissection has factors of O(n^4/3) entries and O(n^2) flops in 3D, O(n log n) and
-/// O(n^3/2) in a plane. The dense block of the jumps comes on top. Memory is meant to err upwards:
-/// it was 0 to 25 % above the measured peak of seven plane and 3D builds up to 390,000 unknowns.
-void predict_cost(Plan& plan) {
-  const auto n = static_cast<double>(std::max(plan.n_unknowns, 1L));
-  const auto g = static_cast<double>(plan.n_jump);
-  const double program = 30e6;                              // bytes
-  const double per_cell = plan.plane_strain ? 2e3 : 1.2e4;  // lists, pattern, two copies of K
-  const double factor =
-      plan.plane_strain ? 8 * 6.0 * n * std::log2(n + 2) : 2.8e9 * std::pow(n / 260e3, 4.0 / 3.0);
-  // A viscous family keeps the factor, H and mesh of every step length beside the build of the last
-  // one, and runs in it: 2 to 13 % above the measured peaks of 4 and 7 operators.
+GridShape grid_shape(const Scene& scene, const Plan& plan, const GridLines& lines) {
+  GridShape shape;
+  const int n_y = plan.plane_strain ? 1 : static_cast<int>(lines.y.size());
+  shape.n_lines = {static_cast<int>(lines.x.size()), n_y, static_cast<int>(lines.z.size())};
+  shape.unknowns_per_node = plan.plane_strain ? 2 : 3;
+  shape.n_loads = static_cast<int>(scene.pressure.size() + scene.box.boundary.size() +
+                                   3 * scene.output.observation_points.size());
+  if (scene.geometry_kind == GeometryKind::field) {
+    shape.faults = field_faults(scene, plan, lines);
+  } else {
+    for (const PatchGeometry& patch : scene.box.patches) {
+      shape.faults.push_back(box_fault(patch, plan, lines));
+    }
+  }
+  return shape;
+}
+
+/// The program, and the build of the last operator beside what the others keep.
+void predict_cost(const GridShape& shape, Plan& plan) {
+  const OperatorCost cost = operator_cost(shape);
   const auto rungs = static_cast<double>(plan.creep.rungs.size());
-  const double kept_per_cell = plan.plane_strain ? 1.2e3 : 300;
-  const auto cells = static_cast<double>(plan.n_cells);
-  plan.memory_bytes = program + factor + per_cell * cells + 3 * 8 * g * g +
-                      rungs * (factor + 8 * g * g + kept_per_cell * cells);
-  const double bulk =
-      plan.plane_strain ? 1.2 * std::pow(n / 50e3, 1.3) : 30.0 * std::pow(n / 260e3, 1.8);
-  plan.operator_seconds = (1 + rungs) * (bulk + g * g * g / 3e10);
+  plan.factor_bytes = cost.factor_bytes;
+  plan.operator_seconds = (1 + rungs) * cost.seconds;
+  plan.memory_bytes =
+      kProgramBytes + cost.peak_bytes + rungs * (cost.factor_bytes + cost.kept_bytes);
 }
 
 nlohmann::json numbers(const std::vector<double>& values) { return nlohmann::json(values); }
@@ -225,6 +265,34 @@ CellSizes cell_sizes(const MeshSizes& sizes) {
   return {sizes.strike, sizes.dip, sizes.normal, sizes.growth, sizes.fine_margin, sizes.largest};
 }
 
+/// The figures of a saving, or none.
+nlohmann::json saving_to_json(const std::optional<Reduction::Saving>& saving) {
+  if (!saving) return nullptr;
+  const auto figures = [](const PlannedSize& size) {
+    return nlohmann::json{{"n_unknowns", size.n_unknowns},
+                          {"predicted_operator_s", size.operator_seconds},
+                          {"predicted_memory_bytes", size.memory_bytes}};
+  };
+  return {{"text", saving_text(*saving)},
+          {"with", figures(saving->with)},
+          {"without", figures(saving->without)}};
+}
+
+/// The switch of a reduction in a scene. @pre the name is one of make_plan's.
+Switch& switch_of(const std::string& reduction, Numerics& numerics) {
+  if (reduction == "plane_strain") return numerics.plane_strain;
+  if (reduction == "half_domain") return numerics.half_domain;
+  FAULTSIM_DEMAND(reduction == "creep_off", "reduction ", reduction);
+  return numerics.creep;
+}
+
+/// The scene with the decision about one reduction turned round.
+Scene turned_round(Scene scene, const Reduction& reduction) {
+  const bool switch_is_on = reduction.name == "creep_off" ? reduction.applied : !reduction.applied;
+  switch_of(reduction.name, scene.numerics) = switch_is_on ? Switch::on : Switch::off;
+  return scene;
+}
+
 std::string human_bytes(double bytes) {
   char text[32];
   std::snprintf(text, sizeof text, bytes >= 1e9 ? "%.1f GB" : "%.0f MB",
@@ -317,15 +385,36 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
   const GridLines lines = is_field ? grid_lines(field_mesh_spec(scene, plan), problems)
                                    : grid_lines(box_mesh_spec(scene, plan), problems);
   if (lines.x.size() < 2 || lines.y.size() < 2 || lines.z.size() < 2) return plan;
-  const auto nx = static_cast<long>(lines.x.size()), ny = static_cast<long>(lines.y.size()),
-             nz = static_cast<long>(lines.z.size());
-  plan.n_cells = (nx - 1) * (ny - 1) * (nz - 1);
-  plan.n_jump = is_field ? field_jumps(scene, plan, lines) : box_jumps(scene, plan, lines);
-  plan.n_unknowns = (plan.plane_strain ? 2 * nx * nz : 3 * nx * ny * nz) + plan.n_jump;
+  const GridShape shape = grid_shape(scene, plan, lines);
+  plan.n_cells =
+      static_cast<long>((lines.x.size() - 1) * (lines.y.size() - 1) * (lines.z.size() - 1));
+  plan.n_jump = std::lround(shape.n_jump());
+  plan.n_unknowns = std::lround(shape.unknowns_per_node * shape.n_nodes()) + plan.n_jump;
   for (const Stage& stage : scene.stages) plan.n_steps += stage.n_steps;
-  predict_cost(plan);
+  predict_cost(shape, plan);
   plan.family = fingerprint(family_of(scene, plan).dump());
   return plan;
+}
+
+void add_savings(const Scene& scene, Plan& plan) {
+  for (Reduction& reduction : plan.reductions) {
+    if (reduction.bound.empty()) continue;
+    std::vector<Problem> problems;
+    const Plan other = make_plan(turned_round(scene, reduction), problems);
+    if (!problems.empty()) continue;
+    reduction.saving =
+        reduction.applied ? Reduction::Saving{plan, other} : Reduction::Saving{other, plan};
+  }
+}
+
+std::string saving_text(const Reduction::Saving& saving) {
+  const PlannedSize &with = saving.with, &without = saving.without;
+  const double share = 100 * (1 - with.memory_bytes / without.memory_bytes);
+  const double times = without.operator_seconds / with.operator_seconds;
+  char text[96];
+  std::snprintf(text, sizeof text, "%.*f %% of the memory, %.*f times less operator time",
+                share < 99 ? 0 : 1, share, times < 10 ? 1 : 0, times);
+  return text;
 }
 
 std::string operator_fingerprint(const Scene& scene, const Plan& plan, const std::string& blas) {
@@ -357,7 +446,8 @@ nlohmann::json plan_to_json(const Plan& plan) {
     j["reductions"].push_back({{"name", r.name},
                                {"applied", r.applied},
                                {"reason", r.reason},
-                               {"bound", r.applied ? r.bound : ""},
+                               {"bound", r.bound},
+                               {"saving", saving_to_json(r.saving)},
                                {"switch", r.switch_}});
   }
   return j;
@@ -366,9 +456,11 @@ nlohmann::json plan_to_json(const Plan& plan) {
 std::string plan_to_text(const Plan& plan) {
   std::string text;
   for (const Reduction& r : plan.reductions) {
-    text += r.name + ": " + (r.applied ? "yes" : "no") + ", " + r.reason;
-    if (r.applied && !r.bound.empty()) text += " (" + r.bound + ")";
-    text += "  [switch: " + r.switch_ + "]\n";
+    text += r.name + ": " + (r.applied ? "yes" : "no") + ", " + r.reason + "\n";
+    if (!r.bound.empty()) text += "  bound: " + r.bound + "\n";
+    if (r.saving)
+      text += (r.applied ? "  saves " : "  would save ") + saving_text(*r.saving) + "\n";
+    if (!r.bound.empty()) text += "  switch: " + r.switch_ + "\n";
   }
   char line[256];
   std::snprintf(line, sizeof line, "cells %ld, unknowns %ld (of which jumps %ld), load steps %d\n",

@@ -208,6 +208,17 @@ TEST(FieldWriter, WithoutStepsShowsTheGeometry) {
   EXPECT_THAT(read_bytes(folder.path() / "faults.xmf"), Not(HasSubstr("Temporal")));
 }
 
+TEST(FieldWriter, TakesASceneWithoutFaults) {
+  const ScratchFolder folder;
+  FieldWriter writer(folder.path(), FaultGeometry());
+  FaultFields none;
+  none.traction.resize(3, 0);
+  none.jump.resize(3, 0);
+  EXPECT_NO_THROW(writer.add_step(StepResult(), none));
+  writer.finish();
+  EXPECT_EQ(check_xml(read_bytes(folder.path() / "faults.xmf")), "");
+}
+
 TEST(FieldWriter, PlaneStrainDrawsLines) {
   const ScratchFolder folder;
   FaultGeometry geometry;

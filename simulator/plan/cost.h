@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "simulator/mesh/mesh_spec.h"
+
+namespace faultsim {
+
+/// The part of a grid plane on which a fault splits nodes, in numbers of grid lines.
+struct FaultWindow {
+  std::array<int, 3> from, to;  ///< lines [from, to) per axis; one line on the axis across it.
+  double share = 1;             ///< of its nodes that split: π/4 for an ellipse.
+};
+
+/// What a linear bulk is to the factorisation: a block of grid nodes and the faults in it.
+struct GridShape {
+  std::array<int, 3> n_lines = {1, 1, 1};  ///< nodes per axis; plane strain has 1 in y.
+  int unknowns_per_node = 3;               ///< 2 in plane strain.
+  std::vector<FaultWindow> faults;
+  int n_loads = 0;  ///< right-hand sides: unit loads, and components of observation points.
+
+  double n_nodes() const { return 1.0 * n_lines[0] * n_lines[1] * n_lines[2]; }
+  double n_cells() const;
+  double n_jump() const;  ///< unknowns on the faults.
+};
+
+/// Size of the sparse Cholesky factor with the jumps ordered last (D6).
+struct FactorSize {
+  double entries = 0;         ///< as stored: a supernode is a full rectangle.
+  double flops = 0;           ///< additions and multiplications.
+  double largest_update = 0;  ///< entries of the largest block that a front adds to those above.
+};
+
+/// Counts the factor of a grid under nested dissection: a block of nodes is cut in two by its
+/// smallest grid plane until a few nodes are left. With s unknowns on the cut, and below them the r
+/// of the planes around the block and of the jumps that touch it,
+///
+///   entries += s (s + r),   flops += ((s + r)³ − r³)/3
+///
+/// and last the dense block of the jumps. Takes 0.1 ms for 10^5 nodes.
+FactorSize dissected_factor(const GridShape& shape);
+
+/// Predicted cost of one operator.
+struct OperatorCost {
+  double seconds = 0;       ///< on one core of the calibration machine (results/plan).
+  double factor_bytes = 0;  ///< stays where the bulk must (creep).
+  double kept_bytes = 0;    ///< mesh and lists that stay with it.
+  double peak_bytes = 0;    ///< while it is built, the factor included, the program not.
+};
+OperatorCost operator_cost(const GridShape& shape);
+
+inline constexpr double kProgramBytes = 23e6;  ///< the program and its libraries.
+
+}  // namespace faultsim
