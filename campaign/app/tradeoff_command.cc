@@ -325,7 +325,7 @@ ExitCode tradeoff_command(const StoreArguments& common, const TradeoffArguments&
   report.wanted_chi = arguments.wanted_chi;
   std::vector<std::vector<TradeRun>> runs;
   for (const TradeAxis& axis : axes) runs.push_back(answers.runs(axis));
-  report.tables = make_trade(axes, runs);
+  report.trade = make_trade(axes, runs);
   TradeRecord record{seconds_since_1970(), report.source, submitted.name, FAULTSIM_VERSION, "", {}};
   if (question.cases) {
     for (std::size_t k = 0; k + 1 < arguments.tiers.size(); ++k) {

@@ -77,6 +77,10 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
   return std::abs(a[k] - b[k]);
 }
 
+std::string in_words(const ChiHistory::Place& place) {
+  return concat(place.fault, ", ", place.stage, ", step ", place.step);
+}
+
 TradeMetrics metrics_of(const CaseResult& result) {
   const faultsim::StageMetrics& whole = result.whole;
   return {whole.activation_pressure.value_or(kUnknown), whole.activated_area, whole.max_slip,
@@ -163,8 +167,7 @@ class TableMaker {
     const std::vector<double> own = chi(row);
     const std::size_t k = place_of_largest_difference(own, table_.reference_history.chi);
     row.error.chi = std::abs(own[k] - table_.reference_history.chi[k]);
-    row.error.where =
-        concat(places()[k].fault, ", ", places()[k].stage, ", step ", places()[k].step);
+    row.error.where = in_words(places()[k]);
     row.error.activation_flips = std::isnan(row.metrics.activation_pressure) !=
                                  std::isnan(table_.limits.activation_pressure);
     row.error.activation_pressure =
@@ -211,18 +214,80 @@ const TradeTable* dearest_meshes(const std::vector<TradeTable>& tables) {
   return dearest;
 }
 
-void judge_meshes(std::vector<TradeTable>& tables) {
-  const TradeTable* dearest = dearest_meshes(tables);
-  if (dearest == nullptr) return;
-  const ChiHistory reference = dearest->reference_history;
+const TradeTable* mesh_table(const std::vector<TradeTable>& tables, bool plane_strain) {
+  for (const TradeTable& table : tables) {
+    const bool is_one = table.axis.is_mesh && !table.reference.empty();
+    if (is_one && is_plane_strain(table) == plane_strain) return &table;
+  }
+  return nullptr;
+}
+
+ChiHistory history_of(const TradeTable& table, const TradeRow& row) {
+  const auto& places = table.reference_history.places;
+  return {places, chi_of(*row.run.result, places)};
+}
+
+/// From the cells that both axes have, finest last.
+std::optional<PlaneStrainCost> compare_dimensions(const TradeTable& plane,
+                                                  const TradeTable& space) {
+  PlaneStrainCost cost;
+  std::vector<double> previous;
+  for (const TradeRow& in_space : space.rows) {
+    for (const TradeRow& in_plane : plane.rows) {
+      const double size = in_space.choice.size;
+      if (std::abs(in_plane.choice.size - size) > 1e-6 * size) continue;
+      if (!in_plane.run.result || !in_space.run.result) continue;
+      const CommonHistory common =
+          common_history(history_of(plane, in_plane), history_of(space, in_space));
+      if (common.places.empty()) continue;
+      const std::size_t k = place_of_largest_difference(common.a, common.b);
+      previous = std::move(cost.difference.chi);
+      cost.difference = {common.places, {}};
+      for (std::size_t i = 0; i < common.a.size(); ++i)
+        cost.difference.chi.push_back(common.b[i] - common.a[i]);
+      cost.cells = size;
+      cost.plane = common.a[k];
+      cost.space = common.b[k];
+      cost.where = in_words(common.places[k]);
+      cost.activation_pressure =
+          in_plane.metrics.activation_pressure - in_space.metrics.activation_pressure;
+      cost.activation_flips = std::isnan(in_plane.metrics.activation_pressure) !=
+                              std::isnan(in_space.metrics.activation_pressure);
+      if (previous.size() == common.a.size())
+        cost.uncertainty = largest_difference(previous, cost.difference.chi);
+    }
+  }
+  if (std::isnan(cost.cells)) return std::nullopt;
+  return cost;
+}
+
+MeshReference reference_of_meshes(const Trade& trade) {
+  const TradeTable* dearest = dearest_meshes(trade.tables);
+  if (dearest == nullptr) return {};
+  MeshReference own{concat(dearest->axis.name, ": ", dearest->reference),
+                    dearest->reference_history, dearest->chi_uncertainty};
+  const TradeTable* plane = mesh_table(trade.tables, true);
+  if (!trade.plane_strain || plane == nullptr) return own;
+  const double uncertainty = plane->chi_uncertainty + trade.plane_strain->uncertainty;
+  if (std::isnan(uncertainty) || own.uncertainty <= uncertainty) return own;
+  const CommonHistory common =
+      common_history(plane->reference_history, trade.plane_strain->difference);
+  MeshReference composed{
+      concat("plane strain (", plane->reference, ") plus the difference of 3D at ", "cells of ",
+             trade.plane_strain->cells, " m"),
+      {common.places, common.a},
+      uncertainty};
+  for (std::size_t k = 0; k < common.a.size(); ++k) composed.history.chi[k] += common.b[k];
+  return composed;
+}
+
+void judge_meshes(Trade& trade) {
   std::vector<TradeRow*> meshes;
-  for (TradeTable& table : tables) {
+  for (TradeTable& table : trade.tables) {
     if (!table.axis.is_mesh) continue;
     for (TradeRow& row : table.rows) {
       if (!row.run.result) continue;
-      ChiHistory own{table.reference_history.places, {}};
-      own.chi = chi_of(*row.run.result, own.places);
-      const CommonHistory common = common_history(own, reference);
+      const CommonHistory common = common_history(history_of(table, row), trade.reference.history);
       row.total_chi = largest_difference(common.a, common.b);
       if (!std::isnan(row.total_chi) && !std::isnan(row.seconds())) meshes.push_back(&row);
     }
@@ -269,45 +334,23 @@ HistoryLimit limit_of(const std::vector<double>& coarse, const std::vector<doubl
   return limit;
 }
 
-std::vector<TradeTable> make_trade(const std::vector<TradeAxis>& axes,
-                                   const std::vector<std::vector<TradeRun>>& runs) {
-  std::vector<TradeTable> tables;
+Trade make_trade(const std::vector<TradeAxis>& axes,
+                 const std::vector<std::vector<TradeRun>>& runs) {
+  Trade trade;
   for (std::size_t a = 0; a < axes.size(); ++a) {
-    tables.push_back(TableMaker(axes[a], runs.at(a)).make());
+    trade.tables.push_back(TableMaker(axes[a], runs.at(a)).make());
   }
-  judge_meshes(tables);
-  return tables;
+  const TradeTable* plane = mesh_table(trade.tables, true);
+  const TradeTable* space = mesh_table(trade.tables, false);
+  if (plane != nullptr && space != nullptr) trade.plane_strain = compare_dimensions(*plane, *space);
+  trade.reference = reference_of_meshes(trade);
+  judge_meshes(trade);
+  return trade;
 }
 
-std::optional<PlaneStrainCost> plane_strain_cost(const std::vector<TradeTable>& tables) {
-  const TradeTable* plane = nullptr;
-  const TradeTable* space = nullptr;
-  for (const TradeTable& table : tables) {
-    if (!table.axis.is_mesh || table.reference.empty()) continue;
-    (is_plane_strain(table) ? plane : space) = &table;
-  }
-  if (plane == nullptr || space == nullptr) return std::nullopt;
-  const CommonHistory common = common_history(plane->reference_history, space->reference_history);
-  if (common.places.empty()) return std::nullopt;
-  PlaneStrainCost cost;
-  const std::size_t k = place_of_largest_difference(common.a, common.b);
-  cost.plane = common.a[k];
-  cost.space = common.b[k];
-  cost.error.chi = std::abs(cost.plane - cost.space);
-  cost.error.where = concat(common.places[k].fault, ", ", common.places[k].stage, ", step ",
-                            common.places[k].step);
-  cost.error.activation_flips = std::isnan(plane->limits.activation_pressure) !=
-                                std::isnan(space->limits.activation_pressure);
-  cost.error.activation_pressure =
-      plane->limits.activation_pressure - space->limits.activation_pressure;
-  cost.error.slip = relative(plane->limits.slip, space->limits.slip);
-  cost.uncertainty = plane->chi_uncertainty + space->chi_uncertainty;
-  return cost;
-}
-
-const TradeRow* recommended(const std::vector<TradeTable>& tables, double wanted_chi) {
+const TradeRow* recommended(const Trade& trade, double wanted_chi) {
   const TradeRow* best = nullptr;
-  for (const TradeTable& table : tables) {
+  for (const TradeTable& table : trade.tables) {
     for (const TradeRow& row : table.rows) {
       if (!(row.total_chi <= wanted_chi)) continue;
       if (best == nullptr || row.seconds() < best->seconds()) best = &row;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -77,8 +78,7 @@ struct TradeRow {
   TradeRun run;
   TradeMetrics metrics;
   TradeError error;
-  /// χ̄ against the reference of the dearest kind of model (3D where the scene is): of axes of
-  /// meshes only.
+  /// χ̄ against Trade::reference: of axes of meshes only.
   double total_chi = kUnknown;
   bool on_front = false;  ///< no other mesh is as cheap and as accurate.
   double seconds() const { return run.operator_seconds + run.case_seconds; }
@@ -94,20 +94,39 @@ struct TradeTable {
   double chi_uncertainty = kUnknown;  ///< of the reference.
 };
 
-/// Errors of every axis, Pareto front of the meshes. @param runs  per axis and choice.
-std::vector<TradeTable> make_trade(const std::vector<TradeAxis>& axes,
-                                   const std::vector<std::vector<TradeRun>>& runs);
-
-/// What plane strain changes: the difference of the two references.
+/// What plane strain changes, as plane strain minus 3D with the same cells: errors of the cells
+/// cancel for the most part. Areas and moments do not compare.
 struct PlaneStrainCost {
-  TradeError error;  ///< plane strain minus 3D; areas and moments do not compare.
-  double plane = kUnknown, space = kUnknown;  ///< χ̄ at that place.
-  double uncertainty = kUnknown;              ///< of both references together.
+  double cells = kUnknown;                    ///< m, the finest that both were run with.
+  double plane = kUnknown, space = kUnknown;  ///< χ̄ where they differ most.
+  std::string where;
+  bool activation_flips = false;
+  double activation_pressure = kUnknown;  ///< Pa.
+  double uncertainty = kUnknown;  ///< how much the difference changed at the last refinement.
+  ChiHistory difference;          ///< 3D minus plane strain.
+  double chi() const { return std::abs(plane - space); }
 };
-std::optional<PlaneStrainCost> plane_strain_cost(const std::vector<TradeTable>& tables);
+
+/// What all meshes are measured against: of the reference in 3D, and the limit in plane strain
+/// plus the difference of 3D at equal cells, the less uncertain one.
+struct MeshReference {
+  std::string text;
+  ChiHistory history;
+  double uncertainty = kUnknown;
+};
+
+struct Trade {
+  std::vector<TradeTable> tables;
+  std::optional<PlaneStrainCost> plane_strain;  ///< of a scene in 3D.
+  MeshReference reference;
+};
+
+/// Errors of every axis, Pareto front of the meshes. @param runs  per axis and choice.
+Trade make_trade(const std::vector<TradeAxis>& axes,
+                 const std::vector<std::vector<TradeRun>>& runs);
 
 /// The cheapest mesh whose χ̄ is within the wanted error of the reference; null = none is.
-const TradeRow* recommended(const std::vector<TradeTable>& tables, double wanted_chi);
+const TradeRow* recommended(const Trade& trade, double wanted_chi);
 
 /// Two ways to model the same cases, as a ranking.
 struct RankingTrade {

@@ -55,7 +55,7 @@ std::string plot(const std::string& file, const std::string& label,
 
 std::string trade_figures(const TradeReport& report) {
   std::vector<Series> pareto, convergence;
-  for (const TradeTable& table : report.tables) {
+  for (const TradeTable& table : report.trade.tables) {
     if (table.axis.is_mesh) {
       add_series(
           table, [](const TradeRow& row) { return row.seconds(); },

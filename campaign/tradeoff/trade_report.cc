@@ -72,6 +72,16 @@ Cells cells_of(const TradeTable& table) {
   return cells;
 }
 
+/// What `χ̄ in all` is measured against.
+std::string reference_of_meshes(const TradeReport& report) {
+  const MeshReference& reference = report.trade.reference;
+  if (reference.text.empty()) return "";
+  return concat("`χ̄ in all` is measured against ", reference.text, "; uncertain by ",
+                std::isnan(reference.uncertainty) ? std::string("an unknown amount")
+                                                  : number(reference.uncertainty, 2),
+                ".\n");
+}
+
 std::string reference_of(const TradeTable& table) {
   if (table.reference.empty()) return "nothing to compare with";
   std::string text = "reference: " + table.reference;
@@ -124,7 +134,15 @@ std::string markdown_table(const Cells& cells) {
 }
 
 std::string recommendation(const TradeReport& report) {
-  const TradeRow* row = recommended(report.tables, report.wanted_chi);
+  const MeshReference& reference = report.trade.reference;
+  if (!(reference.uncertainty <= report.wanted_chi)) {
+    return concat("No mesh can be recommended for χ̄ within ", number(report.wanted_chi),
+                  ": what they are measured against is itself uncertain by ",
+                  std::isnan(reference.uncertainty) ? std::string("an unknown amount")
+                                                    : number(reference.uncertainty, 2),
+                  "; allow finer cells (--operator-limit, --memory).");
+  }
+  const TradeRow* row = recommended(report.trade, report.wanted_chi);
   if (row == nullptr) {
     return concat("No mesh that was run keeps χ̄ within ", number(report.wanted_chi),
                   " of the reference.");
@@ -142,7 +160,7 @@ namespace {
 /// What the choice of that axis costs, in one sentence; "" where it was not run.
 std::string sentence(const TradeReport& report, const std::string& axis, std::size_t choice,
                      const std::string& subject) {
-  for (const TradeTable& table : report.tables) {
+  for (const TradeTable& table : report.trade.tables) {
     if (table.axis.name != axis || choice >= table.rows.size()) continue;
     const TradeRow& row = table.rows[choice];
     if (std::isnan(row.error.chi)) return "";
@@ -160,22 +178,22 @@ std::string sentence(const TradeReport& report, const std::string& axis, std::si
 }
 
 std::string plane_strain_sentence(const TradeReport& report) {
-  const auto cost = plane_strain_cost(report.tables);
+  const auto& cost = report.trade.plane_strain;
   if (!cost) return "";
-  std::string text = concat("Plane strain costs up to ", number(cost->error.chi, 2),
-                            " in χ̄: ", number(cost->plane, 3), " instead of ",
-                            number(cost->space, 3), " in 3D (", cost->error.where);
-  text += std::isnan(cost->uncertainty)
-              ? std::string("; the meshes of one of them are too few to know its own error)")
-              : concat("; cells as fine as they go, uncertain by ", number(cost->uncertainty, 2),
-                       " together)");
-  const double earlier = cost->error.activation_pressure;
+  std::string text =
+      concat("Plane strain costs up to ", number(cost->chi(), 2), " in χ̄: ", number(cost->plane, 3),
+             " instead of ", number(cost->space, 3), " in 3D (", cost->where, ", cells of ",
+             number(cost->cells), " m in both; ");
+  text += std::isnan(cost->uncertainty) ? std::string("no finer pair says how certain that is)")
+                                        : concat("the last refinement changed that by up to ",
+                                                 number(cost->uncertainty, 2), ")");
+  const double earlier = cost->activation_pressure;
   if (earlier == 0) text += "; activation at the same pressure";
   if (std::abs(earlier) > 0) {
     text += concat("; the first fault activates ", in_bar(std::abs(earlier)),
                    earlier > 0 ? " bar earlier" : " bar later");
   }
-  if (cost->error.activation_flips) text += "; activation flips";
+  if (cost->activation_flips) text += "; activation flips";
   return text + ".";
 }
 
@@ -205,13 +223,14 @@ std::vector<std::string> trade_answers(const TradeReport& report) {
 
 std::string trade_to_text(const TradeReport& report) {
   std::string text;
-  for (const TradeTable& table : report.tables) {
+  for (const TradeTable& table : report.trade.tables) {
     text += concat("== ", table.axis.name, ": ", table.axis.question, "\n",
                    screen_table(cells_of(table)), reference_of(table), "\n\n");
   }
   if (!report.rankings.empty()) {
     text += concat("== ranking\n", screen_table(cells_of(report.rankings)), "\n");
   }
+  text += reference_of_meshes(report);
   for (const std::string& answer : trade_answers(report)) text += answer + "\n";
   return text;
 }
@@ -220,10 +239,11 @@ std::string trade_to_markdown(const TradeReport& report) {
   std::string text = concat("# The trade: ", report.title, "\n\n");
   for (const std::string& answer : trade_answers(report)) text += "* " + answer + "\n";
   text += "\n![Error against cost](pareto.svg) ![Error against size](convergence.svg)\n";
+  text += "\n" + reference_of_meshes(report);
   if (!report.rankings.empty()) {
     text += concat("\n## Ranking\n\n", markdown_table(cells_of(report.rankings)));
   }
-  for (const TradeTable& table : report.tables) {
+  for (const TradeTable& table : report.trade.tables) {
     text += concat("\n## ", table.axis.name, "\n\n", table.axis.question, "\n\n",
                    markdown_table(cells_of(table)), "\n", reference_of(table), "\n");
   }
@@ -270,7 +290,7 @@ json row_json(const TradeRow& row) {
 
 json trade_to_json(const TradeReport& report) {
   json axes = json::array();
-  for (const TradeTable& table : report.tables) {
+  for (const TradeTable& table : report.trade.tables) {
     json rows = json::array();
     for (const TradeRow& row : table.rows) rows.push_back(row_json(row));
     axes.push_back({{"axis", table.axis.name},
@@ -301,6 +321,8 @@ json trade_to_json(const TradeReport& report) {
           {"scene", report.source},
           {"wanted_chi", report.wanted_chi},
           {"answers", trade_answers(report)},
+          {"reference", report.trade.reference.text},
+          {"reference_uncertainty_chi", known(report.trade.reference.uncertainty)},
           {"axes", axes},
           {"rankings", rankings}};
 }

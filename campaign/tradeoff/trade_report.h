@@ -13,7 +13,7 @@ struct TradeReport {
   std::string title;   ///< of the scene.
   std::string source;  ///< its file.
   double wanted_chi = 0.02;
-  std::vector<TradeTable> tables;
+  Trade trade;
   std::vector<RankingTrade> rankings;
 };
 
