@@ -16,6 +16,7 @@
 #include "campaign/scheduler/starter.h"
 #include "campaign/store/clock.h"
 #include "campaign/tradeoff/trade_report.h"
+#include "simulator/scene/read_scene.h"
 
 namespace faultsweep {
 
@@ -58,11 +59,25 @@ Question read_question(const TradeoffArguments& arguments) {
     apply(arguments.settings, question.scene);
     return question;
   }
+  if (arguments.tiers.size() < 2) {
+    throw InputError(
+        "--tiers", {{"", 0, "one tier is nothing to compare", "write --tiers screening,standard"}});
+  }
   if (!arguments.settings.empty()) {
     throw InputError("--set", {{"", 0, "a spec has its own \"set\"", "put it there"}});
   }
   question.cases = expand(read_campaign(arguments.source));
   question.scene = {question.cases->spec.scene_source, question.cases->spec.groups[0].scene, {}};
+  for (const std::string& tier : arguments.tiers) {
+    JsonDocument at_it = question.scene;
+    at_it.value["tier"] = tier;
+    std::vector<faultsim::Problem> problems;
+    faultsim::read_scene(at_it, problems);
+    if (!problems.empty()) {
+      throw InputError("--tiers", {{"", 0, concat("'", tier, "': ", problems.front().what),
+                                    problems.front().cure}});
+    }
+  }
   return question;
 }
 
