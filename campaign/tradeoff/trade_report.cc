@@ -1,5 +1,6 @@
 #include "campaign/tradeoff/trade_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -133,8 +134,28 @@ std::string markdown_table(const Cells& cells) {
   return text;
 }
 
+/// True where some fault comes near its strength at all.
+bool chi_says_something(const ChiHistory& history) {
+  constexpr double kNothing = 1e-3;
+  return std::any_of(history.chi.begin(), history.chi.end(),
+                     [](double chi) { return chi > kNothing; });
+}
+
+/// True where the scene is in 3D but no mesh of it was run in 3D.
+bool lacks_space(const TradeReport& report) {
+  const auto& tables = report.trade.tables;
+  const bool is_3d = std::any_of(tables.begin(), tables.end(), [](const TradeTable& table) {
+    return table.axis.name == "cells, 3D";
+  });
+  return is_3d && !report.trade.plane_strain;
+}
+
 std::string recommendation(const TradeReport& report) {
   const MeshReference& reference = report.trade.reference;
+  if (!chi_says_something(reference.history)) {
+    return "No mesh is recommended: χ̄ is nowhere above 0.001, or there is none; judge by slip and "
+           "M0.";
+  }
   if (!(reference.uncertainty <= report.wanted_chi)) {
     return concat("No mesh can be recommended for χ̄ within ", number(report.wanted_chi),
                   ": what they are measured against is itself uncertain by ",
@@ -147,10 +168,11 @@ std::string recommendation(const TradeReport& report) {
     return concat("No mesh that was run keeps χ̄ within ", number(report.wanted_chi),
                   " of the reference.");
   }
-  return concat("For χ̄ within ", number(report.wanted_chi), ": ", row->choice.name,
-                row->choice.plane_strain ? ", plane strain" : ", 3D", ", which is off by ",
-                number(row->total_chi, 2), " and takes ", number(row->seconds()),
-                " s with its operator.");
+  return concat(
+      "For χ̄ within ", number(report.wanted_chi), ": ", row->choice.name,
+      row->choice.plane_strain ? ", plane strain" : ", 3D", ", which is off by ",
+      number(row->total_chi, 2), " and takes ", number(row->seconds()), " s with its operator",
+      lacks_space(report) ? "; 3D was not run, what plane strain costs is not in that." : ".");
 }
 
 }  // namespace

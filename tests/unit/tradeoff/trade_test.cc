@@ -180,6 +180,25 @@ TEST(Trade, SaysWhereActivationFlips) {
   EXPECT_THAT(trade_to_text(report), HasSubstr("ACTIVATION FLIPS"));
 }
 
+TEST(Trade, RecommendsOnlyWhatWasMeasured) {
+  auto axes = made_up_axes();
+  const auto answer = [&] {
+    TradeReport report;
+    report.trade = made_up_trade(axes);
+    return trade_answers(report).back();
+  };
+  EXPECT_THAT(answer(), HasSubstr("For χ̄ within 0.02: 40 m, 3D"));
+  for (TradeRun& run : axes[1].runs) run = TradeRun();
+  EXPECT_THAT(answer(), HasSubstr("uncertain by 0.04"));
+  axes[0].add("5 m", 5, 20, 0.72, true);
+  axes[0].add("2 m", 2.5, 20, 0.71, true);
+  EXPECT_THAT(answer(), HasSubstr("3D was not run"));
+  for (TradeRun& run : axes[0].runs) {
+    for (auto& step : run.result->steps) step.faults = {{}, {}};
+  }
+  EXPECT_THAT(answer(), HasSubstr("judge by slip"));
+}
+
 TEST(Trade, SurvivesChoicesWithoutResult) {
   auto axes = made_up_axes();
   axes[1].runs[2] = TradeRun();
