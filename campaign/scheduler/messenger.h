@@ -59,7 +59,7 @@ class IdleSleep {
   void reset() { microseconds_ = kShortest; }
   void sleep();
   static constexpr int kShortest = 50;
-  static constexpr int kManagerLongest = 5000;
+  static constexpr int kManagerLongest = 10000;
 
  private:
   int longest_;
