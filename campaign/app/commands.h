@@ -89,7 +89,8 @@ struct TradeoffArguments {
   std::filesystem::path output;      ///< folder for report and figures; "" = none.
   bool dry_run = false;
 };
-/// Measures what the choices of a scene cost, in accuracy and in time (docs/tradeoff.md).
+/// Measures what the choices of a scene cost, in accuracy and in time (docs/tradeoff.md). The exit
+/// code is that of running them: `incomplete` where a choice has no history to its end.
 ExitCode tradeoff_command(const StoreArguments& common, const TradeoffArguments& arguments);
 ExitCode backup_command(const StoreArguments& common, const std::filesystem::path& target);
 

@@ -173,7 +173,7 @@ ExitCode tradeoff_command(const StoreArguments& common, const TradeoffArguments&
   if (!arguments.output.empty()) write_report(arguments.output, report);
   std::fputs(common.json ? (document.dump(2) + "\n").c_str() : trade_to_text(report).c_str(),
              stdout);
-  return ExitCode::done;
+  return status;
 }
 
 }  // namespace faultsweep

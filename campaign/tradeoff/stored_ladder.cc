@@ -14,10 +14,6 @@ namespace {
 
 constexpr long kTop = 10;  // of a ranking, at most a third of it
 
-bool is_complete(const TradeRun& run) {
-  return run.result && faultsim::in_equilibrium(run.result->outcome);
-}
-
 /// Kendall's τ and how many of the first are the same.
 void compare_places(const std::vector<std::pair<long, long>>& places, RankingTrade& trade) {
   std::vector<long> first, second;
@@ -81,7 +77,10 @@ TradeRun StoredLadder::run(long position) const {
     run.operator_seconds = family->second.build_seconds.value_or(kUnknown);
     if (family->second.peak_bytes) run.peak_bytes = static_cast<double>(*family->second.peak_bytes);
   }
-  if (stored.has_result) {
+  if (stored.has_result && !faultsim::in_equilibrium(stored.result.outcome)) {
+    // Its history ends early: the axis would be compared up to there only.
+    run.trouble = concat(faultsim::to_string(stored.result.outcome), ": ", stored.result.reason);
+  } else if (stored.has_result) {
     run.result = stored.result;
     run.case_seconds = stored.result.seconds;
   } else if (!stored.runs.empty()) {
@@ -124,7 +123,7 @@ RankingTrade StoredLadder::rank(const std::string& tier, const std::string& refe
     const TradeRun one = run(position), other = run(b.at(name));
     add_cost(position, one, operators_a, trade.seconds);
     add_cost(b.at(name), other, operators_b, trade.reference_seconds);
-    if (!is_complete(one) || !is_complete(other)) continue;
+    if (!one.result || !other.result) continue;
     places.emplace_back(place_.at(position), place_.at(b.at(name)));
     chi[name] = one.result->whole.chi_bar - other.result->whole.chi_bar;
     slip[name] = one.result->whole.max_slip - other.result->whole.max_slip;

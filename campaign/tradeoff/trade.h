@@ -16,11 +16,11 @@ inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A choice as it was run.
 struct TradeRun {
-  std::optional<faultsim::CaseResult> result;
-  std::string trouble;                 ///< why there is no result.
-  double operator_seconds = kUnknown;  ///< measured, of all operators of the case.
-  double case_seconds = kUnknown;      ///< measured, without the operator.
-  double peak_bytes = kUnknown;        ///< measured, of the process.
+  std::optional<faultsim::CaseResult> result;  ///< a history to its end.
+  std::string trouble;                         ///< why there is no result.
+  double operator_seconds = kUnknown;          ///< measured, of all operators of the case.
+  double case_seconds = kUnknown;              ///< measured, without the operator.
+  double peak_bytes = kUnknown;                ///< measured, of the process.
 };
 
 /// Critical indices χ̄ at load steps and faults that all choices of an axis have.
@@ -107,8 +107,9 @@ struct PlaneStrainCost {
   double chi() const { return std::abs(plane - space); }
 };
 
-/// What all meshes are measured against: of the reference in 3D, and the limit in plane strain
-/// plus the difference of 3D at equal cells, the less uncertain one.
+/// What all meshes are measured against. In plane strain: its own reference. In 3D the less
+/// uncertain of two: the reference in 3D; the limit in plane strain plus (3D minus plane strain) at
+/// the finest cells that both have, uncertain by the sum of what each is.
 struct MeshReference {
   std::string text;
   ChiHistory history;
