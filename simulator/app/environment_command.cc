@@ -12,6 +12,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/linalg/blas.h"
+#include "simulator/linalg/blas_kernel.h"
 #include "simulator/linalg/cholesky.h"
 
 namespace faultsim {
@@ -72,6 +73,7 @@ ExitCode environment_command(bool json) {
   // Part of every identity, or set by scenes: not of the fingerprint.
   const Fields others = {{"version", FAULTSIM_VERSION},
                          {"numerics_version", kNumericsVersion},
+                         {"blas_kernel_reason", blas_kernel_reason()},
                          {"blas_threads_at_start", blas_info().n_threads}};
   const std::string hash = fingerprint(fields.dump());
   if (json) {

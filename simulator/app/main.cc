@@ -5,6 +5,7 @@
 #include "simulator/app/commands.h"
 #include "simulator/app/verify/verify.h"
 #include "simulator/common/errors.h"
+#include "simulator/linalg/blas_kernel.h"
 
 namespace faultsim {
 namespace {
@@ -48,6 +49,7 @@ void demand_known_command(const CLI::App& app, int argc, char** argv) {
 
 /// Reads the command line and returns the chosen command's exit code.
 ExitCode faultsim_main(int argc, char** argv) {
+  choose_blas_kernel(argv);
   CLI::App app{"faultsim: 3D fault reactivation in compartmentalised gas reservoirs", "faultsim"};
   app.require_subcommand(1);
   app.footer(kFooter);

@@ -6,7 +6,8 @@
 #include "simulator/app/load_scene.h"
 #include "simulator/app/screen.h"
 #include "simulator/common/interrupt.h"
-#include "simulator/linalg/cholesky.h"
+#include "simulator/linalg/blas.h"
+#include "simulator/linalg/blas_kernel.h"
 #include "simulator/loading/history.h"
 #include "simulator/loading/run_case.h"
 #include "simulator/output/write_result.h"
@@ -100,7 +101,10 @@ ExitCode run_command(const RunArguments& arguments) {
   write_text(folder / "scene.json", loaded.document.value.dump(2) + "\n");
 
   ScreenMonitor monitor(json);
-  if (!json) std::cerr << plan_to_text(loaded.plan);
+  if (!json) {
+    std::cerr << plan_to_text(loaded.plan) << "linear algebra: " << blas_description() << " ("
+              << blas_kernel_reason() << ")\n";
+  }
   const CachePolicy cache = cache_policy(arguments.cache, arguments.no_cache);
   const PreparedOperator prepared =
       prepare_operator(scene, loaded.plan, cache, scene.output.volume_fields, monitor);
