@@ -44,7 +44,7 @@ ExitCode rank_command(const StoreArguments& common, const RankRequest& request, 
 ExitCode show_command(const StoreArguments& common, const std::string& name);
 ExitCode explain_command(const StoreArguments& common, const std::string& name);
 /// Prints the table unless it goes to a file; says on stderr what is in it and what is missing.
-ExitCode export_command(const StoreArguments& common, const ExportRequest& request);
+ExitCode export_command(const StoreArguments& common, ExportRequest request);
 struct CompareArguments {
   std::string a, b;                   ///< campaigns; b "" = of a's name, in the other store.
   std::filesystem::path other_store;  ///< where b is; "" = in the same store.

@@ -10,6 +10,7 @@
 #include "campaign/scheduler/starter.h"
 #include "campaign/store/clock.h"
 #include "simulator/output/operator_cache.h"
+#include "simulator/output/output_target.h"
 
 namespace faultsweep {
 
@@ -156,7 +157,10 @@ ExitCode show_command(const StoreArguments& common, const std::string& name) {
   return ExitCode::done;
 }
 
-ExitCode export_command(const StoreArguments& common, const ExportRequest& request) {
+ExitCode export_command(const StoreArguments& common, ExportRequest request) {
+  if (faultsim::is_standard_output(request.target) && request.format != ExportFormat::salib) {
+    request.target.clear();
+  }
   const Store store = Store::open_reader(common.store);
   const CampaignInfo campaign = store.campaign(common.campaign, false);
   std::fputs(export_campaign(store, campaign, request).c_str(), stderr);
@@ -298,7 +302,9 @@ ExitCode cache_prune_command(const StoreArguments& common, const std::string& si
 }
 
 ExitCode backup_command(const StoreArguments& common, const std::filesystem::path& target) {
-  Store::open_reader(common.store).backup_to(target);
+  const Store store = Store::open_reader(common.store);
+  faultsim::demand_writable_file("file", target, faultsim::FileKind::database, {});
+  store.backup_to(target);
   std::fprintf(stderr, "backup written to %s\n", target.c_str());
   return ExitCode::done;
 }

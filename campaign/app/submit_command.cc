@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "campaign/app/commands.h"
@@ -10,6 +9,9 @@
 #include "campaign/report/text_table.h"
 #include "campaign/scheduler/resources.h"
 #include "campaign/store/clock.h"
+#include "simulator/output/atomic_file.h"
+#include "simulator/output/output_target.h"
+#include "simulator/output/write_result.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsweep {
@@ -44,16 +46,11 @@ constexpr const char* kStarterSpec = R"({
 }
 )";
 
-void write_new(const std::filesystem::path& path, const std::string& text) {
-  if (std::filesystem::exists(path)) {
+void demand_new(const std::filesystem::path& path) {
+  if (std::filesystem::exists(std::filesystem::symlink_status(path))) {
     throw InputError(path.string(),
                      {{"", 0, "the file is there already", "choose another folder"}});
   }
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  if (!file) throw faultsim::StorageError(concat("cannot write ", path.string()));
-  std::printf("%s\n", path.c_str());
 }
 
 /// What a submission would do, or did.
@@ -175,12 +172,14 @@ SubmitOutcome preview(const std::filesystem::path& store, const Submission& subm
 }  // namespace
 
 ExitCode init_command(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error)
-    throw faultsim::StorageError(concat("cannot make ", folder.string(), ": ", error.message()));
-  write_new(folder / "scene.json", faultsim::starter_scene("field"));
-  write_new(folder / "campaign.json", kStarterSpec);
+  faultsim::demand_writable_folder("folder", folder);
+  const std::filesystem::path scene = folder / "scene.json", spec = folder / "campaign.json";
+  demand_new(scene);
+  demand_new(spec);
+  faultsim::create_folders(folder);
+  faultsim::write_text(scene, faultsim::starter_scene("field"));
+  faultsim::write_text(spec, kStarterSpec);
+  std::printf("%s\n%s\n", scene.c_str(), spec.c_str());
   std::fprintf(stderr, "Next: faultsweep submit %s --dry-run\n",
                (folder / "campaign.json").c_str());
   return ExitCode::done;

@@ -1,5 +1,5 @@
 #include <cstdio>
-#include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "campaign/app/child_output.h"
@@ -12,6 +12,9 @@
 #include "campaign/tradeoff/sample.h"
 #include "campaign/tradeoff/stored_ladder.h"
 #include "campaign/tradeoff/trade_report.h"
+#include "simulator/output/output_target.h"
+#include "simulator/output/result_folder.h"
+#include "simulator/output/write_result.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsweep {
@@ -81,27 +84,34 @@ double memory_limit(const TradeoffArguments& arguments) {
   return static_cast<double>(parse_size("--memory", arguments.memory));
 }
 
-void write_file(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  if (!file) throw faultsim::StorageError(concat("cannot write ", path.string()));
+void write_report(faultsim::ResultFolder& folder, const std::filesystem::path& output,
+                  const TradeReport& report) {
+  faultsim::write_text(folder.path() / "report.md", trade_to_markdown(report));
+  faultsim::write_text(folder.path() / "trade.json", trade_to_json(report).dump(1) + "\n");
+  faultsim::write_text(folder.path() / "figures.gp", trade_figures(report));
+  const char* draw = "cd \"$0\" && gnuplot figures.gp";
+  if (run_child({"/bin/sh", "-c", draw, folder.path().string()}).code != 0) {
+    std::fprintf(stderr,
+                 "faultsweep: no figures: gnuplot did not run; install gnuplot-nox, then "
+                 "`gnuplot figures.gp` in %s\n",
+                 output.c_str());
+  }
+  folder.commit();
 }
 
-void write_report(const std::filesystem::path& folder, const TradeReport& report) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error)
-    throw faultsim::StorageError(concat("cannot make ", folder.string(), ": ", error.message()));
-  write_file(folder / "report.md", trade_to_markdown(report));
-  write_file(folder / "trade.json", trade_to_json(report).dump(1) + "\n");
-  write_file(folder / "figures.gp", trade_figures(report));
-  const std::string draw = concat("cd '", folder.string(), "' && gnuplot figures.gp");
-  if (run_child({"/bin/sh", "-c", draw}).code != 0) {
-    std::fprintf(stderr,
-                 "faultsweep: no figures: gnuplot did not run; install gnuplot-nox, then %s\n",
-                 draw.c_str());
-  }
+/// The folder that was asked for, before anything is run.
+std::unique_ptr<faultsim::ResultFolder> open_output(const TradeoffArguments& arguments,
+                                                    const Question& question) {
+  if (arguments.output.empty() || arguments.dry_run) return nullptr;
+  std::vector<std::filesystem::path> inputs =
+      faultsim::files_named_in(question.scene.value, question.scene.source);
+  inputs.emplace_back(arguments.source);
+  return std::make_unique<faultsim::ResultFolder>(faultsim::ResultFolder::Request{
+      .option = "-o",
+      .folder = arguments.output,
+      .made_by = "faultsweep tradeoff",
+      .names = {"report.md", "trade.json", "figures.gp", "pareto.svg", "convergence.svg"},
+      .inputs = std::move(inputs)});
 }
 
 /// The ladder before anything is run.
@@ -131,6 +141,7 @@ ExitCode run_ladder(const StoreArguments& common, const TradeoffArguments& argum
 
 ExitCode tradeoff_command(const StoreArguments& common, const TradeoffArguments& arguments) {
   const Question question = read_question(arguments);
+  const std::unique_ptr<faultsim::ResultFolder> output = open_output(arguments, question);
   const std::vector<TradeAxis> axes =
       make_ladder(question.scene, {arguments.operator_seconds, memory_limit(arguments)});
   json spec = ladder_spec(question.name, question.scene, axes);
@@ -170,7 +181,7 @@ ExitCode tradeoff_command(const StoreArguments& common, const TradeoffArguments&
   const json document = trade_to_json(report);
   record.report = document.dump();
   store.record_trade(record);
-  if (!arguments.output.empty()) write_report(arguments.output, report);
+  if (output) write_report(*output, arguments.output, report);
   std::fputs(common.json ? (document.dump(2) + "\n").c_str() : trade_to_text(report).c_str(),
              stdout);
   return status;

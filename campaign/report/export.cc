@@ -6,6 +6,7 @@
 #include "campaign/report/parameters.h"
 #include "campaign/report/selection.h"
 #include "campaign/report/table_output.h"
+#include "simulator/output/output_target.h"
 
 namespace faultsweep {
 
@@ -117,6 +118,9 @@ std::string export_histories(const Store& store, const CampaignInfo& campaign,
 std::string export_campaign(const Store& store, const CampaignInfo& campaign,
                             const ExportRequest& request) {
   check_stage(store, campaign, request.stage);
+  if (request.format != ExportFormat::salib && !request.target.empty()) {
+    faultsim::demand_writable_file("-o", request.target, faultsim::FileKind::text, {});
+  }
   if (request.histories && (request.format != ExportFormat::csv || !request.metrics.empty())) {
     throw InputError("--histories", {{"", 0, "histories are written as CSV, with all their columns",
                                       "leave out --format and --metrics"}});

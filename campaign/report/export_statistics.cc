@@ -8,6 +8,7 @@
 #include "campaign/report/parameters.h"
 #include "campaign/report/selection.h"
 #include "campaign/report/table_output.h"
+#include "simulator/output/result_folder.h"
 
 namespace faultsweep {
 
@@ -304,15 +305,23 @@ std::string export_salib(const Store& store, const CampaignInfo& campaign,
         "--format", {{"", 0, concat("no parameter varies over the cases chosen of ", campaign.name),
                       "choose more cases, or export csv"}});
   }
-  SalibFolder folder(request.target, metrics);
+  std::vector<std::string> names = {"problem.json", "X.txt", "cases.txt"};
+  for (const MetricInfo& metric : metrics) names.push_back(SalibFolder::y_name(metric));
+  faultsim::ResultFolder output({.option = "-o",
+                                 .folder = request.target,
+                                 .made_by = "faultsweep export --format salib",
+                                 .names = std::move(names),
+                                 .inputs = {}});
+  SalibFolder folder(output.path(), metrics);
   Losses losses;
   store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
     folder.write(row, factors, losses.metrics_of(row));
   });
   folder.finish();
-  TableOutput problem(request.target / "problem.json");
+  TableOutput problem(output.path() / "problem.json");
   problem.write(problem_json(campaign, request, factors, metrics, losses).dump(2) + "\n");
   problem.finish();
+  output.commit();
   return concat(
       losses.n_rows, " rows of ", campaign.name, " in the order of the design, ", factors.size(),
       " parameters, ", metrics.size(), " metrics; NaN in Y: ", losses.text(metrics), "\n",

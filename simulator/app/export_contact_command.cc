@@ -8,6 +8,7 @@
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/interrupt.h"
 #include "simulator/contact/contact_export.h"
+#include "simulator/output/output_target.h"
 
 namespace faultsim {
 namespace {
@@ -101,6 +102,7 @@ void report(const ExportArguments& arguments, const ExportedStep& exported) {
 ExitCode export_contact_command(const ExportArguments& arguments) {
   catch_interrupts();
   const LoadedScene loaded = load_scene(arguments.scene);
+  demand_writable_file("-o", arguments.output, FileKind::hdf5, input_files(loaded));
   if (loaded.plan.creep.active) {
     throw InputError(loaded.document.source,
                      {{"/numerics/creep", 0,

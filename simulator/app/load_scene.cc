@@ -4,6 +4,7 @@
 
 #include "simulator/app/screen.h"
 #include "simulator/common/interrupt.h"
+#include "simulator/output/output_target.h"
 
 namespace faultsim {
 namespace {
@@ -43,6 +44,10 @@ LoadedScene load_scene(const SceneArguments& arguments) {
               change.substr(equals + 1));
   }
   return load_scene(std::move(document));
+}
+
+std::vector<std::filesystem::path> input_files(const LoadedScene& loaded) {
+  return files_named_in(loaded.document.value, loaded.document.source);
 }
 
 CachePolicy cache_policy(const std::filesystem::path& folder, bool no_cache) {

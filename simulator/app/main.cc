@@ -1,6 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <iostream>
 
 #include "simulator/app/commands.h"
 #include "simulator/app/verify/verify.h"
@@ -159,9 +157,6 @@ ExitCode faultsim_main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const int status = app.exit(error);
     return status == 0 ? ExitCode::done : ExitCode::input;
-  }
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout.flush()) {
-    throw StorageError("the output could not be written completely (disk full?)");
   }
   return code;
 }

@@ -10,6 +10,7 @@
 #include "simulator/linalg/blas_kernel.h"
 #include "simulator/loading/history.h"
 #include "simulator/loading/run_case.h"
+#include "simulator/output/result_folder.h"
 #include "simulator/output/write_result.h"
 
 namespace faultsim {
@@ -97,8 +98,14 @@ ExitCode run_command(const RunArguments& arguments) {
           ? std::filesystem::path(std::filesystem::path(arguments.scene.file).stem().string() +
                                   "-result")
           : arguments.output;
-  write_text(folder / "plan.json", plan_to_json(loaded.plan).dump(2) + "\n");
-  write_text(folder / "scene.json", loaded.document.value.dump(2) + "\n");
+  ResultFolder output({.option = "-o",
+                       .folder = folder,
+                       .made_by = "faultsim run",
+                       .names = {"plan.json", "scene.json", "result.json", "faults.h5",
+                                 "faults.xmf", "volume.h5", "volume.xmf"},
+                       .inputs = input_files(loaded)});
+  write_text(output.path() / "plan.json", plan_to_json(loaded.plan).dump(2) + "\n");
+  write_text(output.path() / "scene.json", loaded.document.value.dump(2) + "\n");
 
   ScreenMonitor monitor(json);
   if (!json) {
@@ -119,7 +126,7 @@ ExitCode run_command(const RunArguments& arguments) {
 
   std::optional<FieldWriter> writer;
   if (scene.output.fault_fields) {
-    writer.emplace(folder, prepared.op->geometry, prepared.ladder != nullptr);
+    writer.emplace(output.path(), prepared.op->geometry, prepared.ladder != nullptr);
   }
   std::optional<VolumeRecorder> volume;
   if (scene.output.volume_fields) volume.emplace(scene, prepared);
@@ -137,15 +144,25 @@ ExitCode run_command(const RunArguments& arguments) {
         if (volume) volume->add(step, fields);
       });
   if (writer) writer->finish();
-  if (volume) write_volume_fields(folder, loaded, *volume);
+  if (volume) write_volume_fields(output.path(), loaded, *volume);
   const std::string text = result_to_json(result).dump(2) + "\n";
-  write_text(folder / "result.json", text);
+  write_text(output.path() / "result.json", text);
+  const bool finished = result.outcome != Outcome::interrupted;
+  if (finished) {
+    output.commit();
+  } else {
+    output.keep_unfinished();
+  }
   if (json) {
     std::cout << text;
   } else {
     if (result.failed_step) std::cout << step_table_row(result.steps.back());
     std::cout << case_summary(result);
-    std::cerr << "results in " << folder.string() << "/ (result.json, faults.xmf for ParaView)\n";
+    if (finished) {
+      std::cerr << "results in " << folder.string() << "/ (result.json, faults.xmf for ParaView)\n";
+    } else {
+      std::cerr << "interrupted: what was reached is in " << output.path().string() << "/\n";
+    }
   }
   return exit_code_of(result.outcome);
 }

@@ -2,11 +2,14 @@
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "simulator/app/commands.h"
 #include "simulator/app/load_scene.h"
 #include "simulator/app/screen.h"
 #include "simulator/loading/run_case.h"
+#include "simulator/output/output_target.h"
+#include "simulator/output/result_folder.h"
 #include "simulator/output/write_result.h"
 
 namespace faultsim {
@@ -15,6 +18,7 @@ ExitCode init_command(const std::string& kind, const std::filesystem::path& file
   if (std::filesystem::exists(file)) {
     throw InputError(file.string(), {{"", 0, "the file exists already", "choose another name"}});
   }
+  demand_writable_file("file", file, FileKind::json, {});
   write_text(file, starter_scene(kind));
   std::cerr << "wrote " << file.string() << "\nnext: faultsim plan " << file.string()
             << "   or   faultsim run " << file.string() << "\n";
@@ -85,6 +89,14 @@ ExitCode parameters_command(const SceneArguments& arguments) {
 
 ExitCode mesh_command(const SceneArguments& arguments, const std::filesystem::path& output) {
   const LoadedScene loaded = load_scene(arguments);
+  std::optional<ResultFolder> folder;
+  if (!output.empty()) {
+    folder.emplace(ResultFolder::Request{.option = "-o",
+                                         .folder = output,
+                                         .made_by = "faultsim mesh",
+                                         .names = {"volume.h5", "volume.xmf"},
+                                         .inputs = input_files(loaded)});
+  }
   const BulkProblem problem = bulk_problem(loaded.scene, loaded.plan);
   const MeshQuality quality = check_quality(problem.mesh);
   std::size_t n_pairs = 0;
@@ -105,11 +117,12 @@ ExitCode mesh_command(const SceneArguments& arguments, const std::filesystem::pa
         quality.max_aspect, quality.worst_position.x(), quality.worst_position.y(),
         quality.worst_position.z());
   }
-  if (!output.empty()) {
+  if (folder) {
     Eigen::Matrix3Xd nodes(3, static_cast<Eigen::Index>(problem.mesh.nodes.size()));
     for (Eigen::Index i = 0; i < nodes.cols(); ++i)
       nodes.col(i) = problem.mesh.nodes[static_cast<std::size_t>(i)];
-    write_volume(output, nodes, problem.mesh.cells, problem.mesh.material, {});
+    write_volume(folder->path(), nodes, problem.mesh.cells, problem.mesh.material, {});
+    folder->commit();
     std::cerr << "wrote " << (output / "volume.xmf").string() << " (open it in ParaView)\n";
   }
   return ExitCode::done;

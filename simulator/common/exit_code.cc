@@ -1,6 +1,7 @@
 #include "simulator/common/exit_code.h"
 
 #include <cstdio>
+#include <iostream>
 #include <new>
 
 #include "simulator/common/errors.h"
@@ -14,11 +15,19 @@ ExitCode say(const char* program, const char* text, ExitCode code) {
   return code;
 }
 
+/// Output that was lost is no success: what was buffered is written now, or it is said.
+bool all_is_written() {
+  const bool flushed = std::fflush(stdout) == 0;
+  return flushed && std::ferror(stdout) == 0 && !std::cout.flush().fail();
+}
+
 }  // namespace
 
 ExitCode run_program(const char* program, ExitCode (*body)(int, char**), int argc, char** argv) {
   try {
-    return body(argc, argv);
+    const ExitCode code = body(argc, argv);
+    if (all_is_written()) return code;
+    return say(program, "the output could not be written completely (disk full?)", ExitCode::world);
   } catch (const InputError& error) {
     const std::string count =
         concat("the input has ", error.problems().size(), " problem",

@@ -15,7 +15,8 @@ enum class ExitCode : int {
 };
 
 /// Runs body (which returns an ExitCode) and turns what it throws into text on stderr and a code:
-/// the one place where exceptions become text. @param program  printed before each message.
+/// the one place where exceptions become text. Standard output that could not be written whole ends
+/// with `world`, whatever body returned. @param program  printed before each message.
 ExitCode run_program(const char* program, ExitCode (*body)(int, char**), int argc, char** argv);
 
 }  // namespace faultsim

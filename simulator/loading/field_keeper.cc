@@ -13,6 +13,7 @@ FieldSteps field_steps_from_string(const std::string& text) {
 FieldKeeper::FieldKeeper(const std::filesystem::path& folder, FieldSteps which, const Scene& scene,
                          const FaultGeometry& geometry, bool creep)
     : which_(which), history_(load_steps(scene)), writer_(folder, geometry, creep) {
+  create_folders(folder);
   remove_abandoned_temporaries(folder);
 }
 

@@ -49,6 +49,16 @@ void sync_folder(const std::filesystem::path& folder) {
   close(descriptor);
 }
 
+/// The file that a name stands for: a rename would replace the link, or the device.
+std::filesystem::path where_it_leads(const std::filesystem::path& target) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_status link = fs::symlink_status(target, error);
+  if (!fs::exists(link) || fs::is_regular_file(link)) return target;
+  if (fs::is_regular_file(fs::status(target, error))) return fs::canonical(target, error);
+  throw StorageError(concat("cannot write ", target.string(), ": it is no regular file"));
+}
+
 /// Cuts the last part after a '.' off the text; "" when there is none.
 std::string cut_last(std::string& text) {
   const std::size_t dot = text.rfind('.');
@@ -67,15 +77,7 @@ bool is_number(const std::string& text) {
 }  // namespace
 
 PendingFile::PendingFile(std::filesystem::path target)
-    : target_(std::move(target)), temporary_(temporary_name(target_)) {
-  if (target_.has_parent_path()) {
-    std::error_code error;
-    std::filesystem::create_directories(target_.parent_path(), error);
-    if (error) {
-      throw StorageError(concat("cannot create the folder ", target_.parent_path().string(), ": ",
-                                error.message()));
-    }
-  }
+    : target_(where_it_leads(target)), temporary_(temporary_name(target_)) {
   descriptor_ = open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail(errno);
 }
@@ -112,6 +114,14 @@ void PendingFile::commit() {
   const int descriptor = std::exchange(descriptor_, -1);
   if (close(descriptor) != 0 && errno != EINTR) fail(errno);
   sync_folder(target_.parent_path());
+}
+
+void create_folders(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw StorageError(concat("cannot create the folder ", folder.string(), ": ", error.message()));
+  }
 }
 
 bool is_abandoned_temporary(const std::filesystem::path& path) {

@@ -13,7 +13,8 @@ namespace faultsim {
 /// progress (is_abandoned_temporary).
 class PendingFile {
  public:
-  /// Creates the temporary file, and the folder when it is missing. Throws StorageError.
+  /// Creates the temporary file. A target that is a link is written where it leads. Throws
+  /// StorageError, also when the target is there and no regular file.
   explicit PendingFile(std::filesystem::path target);
   ~PendingFile();
   PendingFile(const PendingFile&) = delete;
@@ -35,6 +36,9 @@ class PendingFile {
   std::filesystem::path temporary_;
   int descriptor_ = -1;
 };
+
+/// Creates the folder and those above it where they are missing. Throws StorageError.
+void create_folders(const std::filesystem::path& folder);
 
 /// True if the name is a PendingFile's temporary one whose process is gone: a dead process of this
 /// host, or untouched for a day on another host.

@@ -294,6 +294,7 @@ std::string move_aside(const std::filesystem::path& path, const char* why) {
 void write_operator(const FaultOperator& op, const std::filesystem::path& folder) {
   const OperatorTables tables = to_tables(op);
   check_content(op, tables);
+  create_folders(folder);
   PendingFile target(file_of(folder, op.fingerprint));
   encode(op, tables, target);
   const auto map_back = [&] {

@@ -112,6 +112,7 @@ TEST_F(FieldKeeperTest, KeepsTheOldFilesUntilTheNewOnesAreComplete) {
 }
 
 TEST_F(FieldKeeperTest, RemovesWhatAKilledProcessLeftAndNothingElse) {
+  create_folders(folder());
   const pid_t child = fork();
   if (child == 0) {
     PendingFile half(folder() / "faults.h5");

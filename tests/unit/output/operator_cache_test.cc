@@ -245,7 +245,7 @@ TEST(OperatorCache, WorksWhileOthersPruneAndWrite) {
 
 TEST(WriteText, ReplacesTheFileAndLeavesNothingElse) {
   const ScratchFolder folder;
-  const auto path = folder.path() / "new" / "result.json";
+  const auto path = folder.path() / "result.json";
   write_text(path, "first");
   write_text(path, "second");
   EXPECT_EQ(read_bytes(path), "second");

@@ -244,7 +244,7 @@ TEST_F(ExportTest, AFailedExportLeavesNoFile) {
   EXPECT_THROW(run(request), InputError);
   request.metrics = "";
   request.target = folder_ / "store" / "campaign.sqlite" / "cases.csv";
-  EXPECT_THROW(run(request), faultsim::StorageError);
+  EXPECT_THROW(run(request), InputError);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "cases.csv"));
 }
 
