@@ -6,7 +6,8 @@ build_packages="g++ cmake ninja-build pkg-config libeigen3-dev libsuitesparse-de
   libopenmpi-dev openmpi-bin libcli11-dev libxxhash-dev libboost-dev"
 test_packages="libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev"
 plot_packages="gnuplot-nox"
-peer_packages="slurmctld slurmd slurm-client iproute2 procps libfclib-dev libsiconos-numerics-dev paraview"
+peer_packages="slurmctld slurmd slurm-client iproute2 procps libfclib-dev libsiconos-numerics-dev
+  paraview python3-paraview"
 
 install_packages() {  # package names
   missing=""

@@ -1,4 +1,5 @@
 #include <cctype>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -18,6 +19,9 @@ struct FaultPoints {
   std::string topology;          ///< "Quadrilateral", plane strain: "Polyline".
   std::vector<int> source;       ///< node of the point; unsplit: of the nearest split one or -1.
   std::vector<int> split;        ///< 1 where the point is split.
+  std::vector<char> mirrored;    ///< 1: its values are the mirror image of its node's.
+  std::vector<double> share;     ///< area of the point over that of its node: 2 on the plane that
+                                 ///< halves the domain, else 1.
   std::vector<double> position;  ///< x 3
   std::vector<int> cells;
   std::size_t points_per_cell = 4;
@@ -35,6 +39,29 @@ std::string plain_name(const std::string& name, std::set<std::string>& taken) {
   return unique;
 }
 
+constexpr double kOnPlane = 1e-6;  // m, of y = 0
+
+bool is_on_plane(const Eigen::Vector3d& position) { return std::abs(position.y()) < kOnPlane; }
+
+/// A position, or a vector of the bulk such as a force, seen in the plane y = 0.
+Eigen::Vector3d mirror(const Eigen::Vector3d& vector) {
+  return {vector.x(), -vector.y(), vector.z()};
+}
+
+/// A node seen in the plane y = 0. Its frame stays right-handed, as that of the whole domain is:
+/// normal and dip are mirrored, strike is mirrored and turned around.
+OperatorNode mirror(OperatorNode node) {
+  node.normal = mirror(node.normal);
+  node.dip = mirror(node.dip);
+  node.strike = -mirror(node.strike);
+  return node;
+}
+
+/// Components along normal, strike and dip of a node, in the frame of its mirror image.
+Eigen::Vector3d mirror_local(const Eigen::Vector3d& local) {
+  return {local[0], -local[1], local[2]};
+}
+
 /// The split point nearest to a position; -1 when the fault has none.
 int nearest_node(const OperatorFault& fault, const Eigen::Vector3d& position) {
   int nearest = -1;
@@ -50,30 +77,62 @@ int nearest_node(const OperatorFault& fault, const Eigen::Vector3d& position) {
   return nearest;
 }
 
-FaultPoints collect_points(const OperatorFault& fault, const std::string& plain,
-                           bool plane_strain) {
-  FaultPoints points;
-  points.group = "/faults/" + plain;
-  points.topology = plane_strain ? "Polyline" : "Quadrilateral";
-  points.points_per_cell = plane_strain ? 2 : 4;
-  std::vector<int> number(fault.grid_position.size(), -1);
-  for (std::size_t i = 0; i < number.size(); ++i) {
-    if (fault.grid_used[i] == 0) continue;
-    number[i] = static_cast<int>(points.source.size());
-    const Eigen::Vector3d& position = fault.grid_position[i];
-    const bool is_split = fault.grid_node[i] >= 0;
-    points.split.push_back(is_split ? 1 : 0);
-    points.source.push_back(is_split ? fault.grid_node[i] : nearest_node(fault, position));
-    points.position.insert(points.position.end(), position.data(), position.data() + 3);
-  }
+/// Adds a grid point, or its image in the plane y = 0; returns its number.
+int add_point(const OperatorFault& fault, std::size_t i, bool mirrored, FaultPoints& points) {
+  const Eigen::Vector3d& position = fault.grid_position[i];
+  const Eigen::Vector3d place = mirrored ? mirror(position) : position;
+  const bool is_split = fault.grid_node[i] >= 0;
+  points.source.push_back(is_split ? fault.grid_node[i] : nearest_node(fault, position));
+  points.split.push_back(is_split ? 1 : 0);
+  points.mirrored.push_back(mirrored ? 1 : 0);
+  points.share.push_back(1);
+  points.position.insert(points.position.end(), place.data(), place.data() + 3);
+  return static_cast<int>(points.source.size()) - 1;
+}
+
+/// The faces, or their images: those have their corners in reverse order, so that all faces turn
+/// the same way.
+void add_faces(const OperatorFault& fault, const std::vector<int>& number, bool mirrored,
+               FaultPoints& points) {
   for (const auto& face : fault.faces) {
     // In plane strain the two sides of a face along strike are one: corners (a, b, b, a).
     for (std::size_t c = 0; c < points.points_per_cell; ++c) {
-      const int corner = number[static_cast<std::size_t>(face[c])];
-      FAULTSIM_DEMAND(corner >= 0, "fault ", fault.name, ": corner ", face[c], " is not used");
+      const int at = face[mirrored ? points.points_per_cell - 1 - c : c];
+      const int corner = number[static_cast<std::size_t>(at)];
+      FAULTSIM_DEMAND(corner >= 0, "fault ", fault.name, ": corner ", at, " is not used");
       points.cells.push_back(corner);
     }
   }
+}
+
+/// All points of a fault: where only y ≥ 0 is modelled, the other half as its mirror image, from
+/// the far end towards the plane, as the whole domain has its columns.
+FaultPoints collect_points(const OperatorFault& fault, const std::string& plain,
+                           const FaultGeometry& geometry) {
+  FaultPoints points;
+  points.group = "/faults/" + plain;
+  points.topology = geometry.plane_strain ? "Polyline" : "Quadrilateral";
+  points.points_per_cell = geometry.plane_strain ? 2 : 4;
+  const std::size_t n = fault.grid_position.size();
+  std::vector<int> number(n, -1), image(n, -1);
+  const auto n_rows = static_cast<std::size_t>(fault.n_rows);
+  if (geometry.half_domain) {  // from the far end towards the plane, as the whole domain has its
+                               // columns
+    for (std::size_t column = n / n_rows; column-- > 0;) {
+      for (std::size_t i = column * n_rows; i < (column + 1) * n_rows; ++i) {
+        if (fault.grid_used[i] == 0 || is_on_plane(fault.grid_position[i])) continue;
+        image[i] = add_point(fault, i, true, points);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (fault.grid_used[i] == 0) continue;
+    number[i] = add_point(fault, i, false, points);
+    if (image[i] < 0) image[i] = number[i];
+    if (geometry.half_domain && is_on_plane(fault.grid_position[i])) points.share.back() = 2;
+  }
+  add_faces(fault, number, false, points);
+  if (geometry.half_domain) add_faces(fault, image, true, points);
   return points;
 }
 
@@ -104,14 +163,18 @@ constexpr const char* kState = "state";
 constexpr const char* kStateLegend = "0 = stick, 1 = slip, 2 = open";
 
 /// The values of the fields at a node, in the order of kFields, all components.
+/// @param node  its frame: of a mirrored point that of the image.
 std::vector<double> values_at(const OperatorNode& node, const FaultFields& fields, int k,
-                              bool is_split) {
+                              bool is_split, bool mirrored) {
+  const auto seen = [&](const Eigen::Vector3d& local) -> Eigen::Vector3d {
+    return mirrored ? mirror_local(local) : local;
+  };
   const auto to_global = [&](const Eigen::Vector3d& local) -> Eigen::Vector3d {
     return local[0] * node.normal + local[1] * node.strike + local[2] * node.dip;
   };
-  const Eigen::Vector3d traction = fields.traction.col(k);
+  const Eigen::Vector3d traction = seen(fields.traction.col(k));
   const Eigen::Vector3d jump =
-      is_split ? Eigen::Vector3d(fields.jump.col(k)) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+      is_split ? seen(fields.jump.col(k)) : Eigen::Vector3d(Eigen::Vector3d::Zero());
   std::vector<double> values;
   for (const auto& vector : {traction, to_global(traction), jump, to_global(jump)}) {
     values.insert(values.end(), vector.data(), vector.data() + 3);
@@ -119,7 +182,7 @@ std::vector<double> values_at(const OperatorNode& node, const FaultFields& field
   values.insert(values.end(), {fields.critical_index[k], fields.static_critical_index[k],
                                fields.fault_pressure_change[k]});
   if (fields.creep_traction.cols() > 0) {
-    const Eigen::Vector3d creep = fields.creep_traction.col(k);
+    const Eigen::Vector3d creep = seen(fields.creep_traction.col(k));
     values.insert(values.end(), creep.data(), creep.data() + 3);
   }
   return values;
@@ -139,25 +202,31 @@ struct FieldWriter::Impl {
   std::vector<int> steps;
   std::vector<std::string> stages, outcomes;
 
+  OperatorNode node_of(const FaultPoints& fault, std::size_t point) const;
   void write_geometry(const FaultPoints& fault, const std::string& name);
   void open_fields(const FaultPoints& fault);
   void append(std::size_t f, const FaultFields& fields);
   XdmfGrid grid(std::size_t f) const;
 };
 
+OperatorNode FieldWriter::Impl::node_of(const FaultPoints& fault, std::size_t point) const {
+  const OperatorNode& node = nodes[static_cast<std::size_t>(fault.source[point])];
+  return fault.mirrored[point] != 0 ? mirror(node) : node;
+}
+
 void FieldWriter::Impl::write_geometry(const FaultPoints& fault, const std::string& name) {
   const std::size_t n = fault.source.size();
   std::vector<double> normal(3 * n, 0.0), strike = normal, dip = normal, area(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
     if (fault.source[i] < 0) continue;
-    const OperatorNode& node = nodes[static_cast<std::size_t>(fault.source[i])];
+    const OperatorNode node = node_of(fault, i);
     for (std::size_t c = 0; c < 3; ++c) {
       const auto component = static_cast<Eigen::Index>(c);
       normal[3 * i + c] = node.normal[component];
       strike[3 * i + c] = node.strike[component];
       dip[3 * i + c] = node.dip[component];
     }
-    if (fault.split[i] != 0) area[i] = node.area;
+    if (fault.split[i] != 0) area[i] = fault.share[i] * node.area;
   }
   const std::string at = fault.group + "/geometry/";
   hdf5::write_array(*file, at + "points", {n, 3}, fault.position.data(), {"m", "grid points"});
@@ -198,7 +267,7 @@ void FieldWriter::Impl::append(std::size_t f, const FaultFields& step) {
     const int k = fault.source[i];
     if (k < 0) continue;
     const std::vector<double> values =
-        values_at(nodes[static_cast<std::size_t>(k)], step, k, fault.split[i] != 0);
+        values_at(node_of(fault, i), step, k, fault.split[i] != 0, fault.mirrored[i] != 0);
     auto value = values.begin();
     for (std::size_t t = 0; t < tables.size(); ++t) {
       for (std::size_t c = 0; c < infos[t].n_components; ++c) {
@@ -215,7 +284,7 @@ void FieldWriter::Impl::append(std::size_t f, const FaultFields& step) {
 
 XdmfGrid FieldWriter::Impl::grid(std::size_t f) const {
   const FaultPoints& fault = faults[f];
-  const std::size_t n = fault.source.size(), n_steps = times.size();
+  const std::size_t n = fault.source.size();
   const std::string at = fault.group + "/geometry/";
   XdmfGrid grid{
       names[f],
@@ -224,21 +293,27 @@ XdmfGrid FieldWriter::Impl::grid(std::size_t f) const {
       {at + "points", {n, 3}},
       {}};
   grid.attributes.push_back({"split", {at + "split", {n}, true}});
+  grid.attributes.push_back({"area", {at + "area", {n}}});
   for (const char* direction : {"normal", "strike", "dip"}) {
     grid.attributes.push_back({direction, {at + direction, {n, 3}}, false, true});
   }
-  if (n_steps == 0) return grid;
+  if (times.empty()) return grid;
+  auto array = fields[f].begin();
   for (const FieldInfo& info : infos) {
-    std::vector<std::size_t> shape = {n_steps, n};
+    std::vector<std::size_t> shape = {n};
     if (info.n_components > 1) shape.push_back(info.n_components);
     grid.attributes.push_back({info.name,
-                               {fault.group + "/steps/" + info.name, shape},
+                               {.path = fault.group + "/steps/" + info.name,
+                                .shape = shape,
+                                .offsets = (array++)->offsets()},
                                false,
-                               info.n_components > 1,
-                               true});
+                               info.n_components > 1});
   }
-  grid.attributes.push_back(
-      {kState, {fault.group + "/steps/" + kState, {n_steps, n}, true}, false, false, true});
+  grid.attributes.push_back({kState,
+                             {.path = fault.group + "/steps/" + kState,
+                              .shape = {n},
+                              .integer = true,
+                              .offsets = array->offsets()}});
   return grid;
 }
 
@@ -252,8 +327,7 @@ FieldWriter::FieldWriter(const std::filesystem::path& folder, const FaultGeometr
   impl_->file.emplace(hdf5::create_in_memory());
   std::set<std::string> taken;
   for (const OperatorFault& fault : geometry.faults) {
-    FaultPoints points =
-        collect_points(fault, plain_name(fault.name, taken), geometry.plane_strain);
+    FaultPoints points = collect_points(fault, plain_name(fault.name, taken), geometry);
     if (points.cells.empty()) continue;  // nothing to draw
     impl_->write_geometry(points, fault.name);
     impl_->open_fields(points);

@@ -221,8 +221,6 @@ GrowingArray::GrowingArray(hid_t file, const std::string& path, hid_t type, hsiz
         const Handle space(H5Screate_simple(rank, start.data(), limit.data()), H5Sclose, path);
         const Handle creation = dataset_creation();
         check(H5Pset_chunk(creation, rank, chunk.data()), path);
-        check(H5Pset_shuffle(creation), path);
-        check(H5Pset_deflate(creation, 4), path);
         check(H5Pset_fletcher32(creation), path);
         return {H5Dcreate2(file, path.c_str(), type, space, link_creation(), creation, H5P_DEFAULT),
                 H5Dclose, path};
@@ -243,6 +241,22 @@ void GrowingArray::append(hid_t memory_type, const void* values) {
   const Handle source(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr),
                       H5Sclose, "step's shape");
   check(H5Dwrite(dataset_, memory_type, source, target, H5P_DEFAULT, values), "writing a step");
+}
+
+std::vector<std::uint64_t> GrowingArray::offsets() const {
+  check(H5Fflush(dataset_, H5F_SCOPE_LOCAL), "flushing a dataset");
+  std::vector<std::uint64_t> offsets(sizes_[0]);
+  std::vector<hsize_t> start(sizes_.size(), 0);
+  for (start[0] = 0; start[0] < sizes_[0]; ++start[0]) {
+    unsigned skipped_filters = 0;
+    haddr_t address = HADDR_UNDEF;
+    hsize_t n_bytes = 0;
+    check(H5Dget_chunk_info_by_coord(dataset_, start.data(), &skipped_filters, &address, &n_bytes),
+          "place of a step");
+    FAULTSIM_DEMAND(address != HADDR_UNDEF, "step ", start[0], " is nowhere in the file");
+    offsets[start[0]] = address;
+  }
+  return offsets;
 }
 
 }  // namespace faultsim::hdf5

@@ -3,6 +3,7 @@
 #include <hdf5.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -75,14 +76,17 @@ std::vector<double> read_doubles(hid_t file, const std::string& path, hsize_t co
 std::vector<int> read_ints(hid_t file, const std::string& path, hsize_t columns);
 std::vector<std::string> read_texts(hid_t file, const std::string& path);
 
-/// A dataset (step, point, component) that grows by a step, one compressed chunk per step: gzip 4,
-/// shuffle, fletcher32. n_components = 1 drops the last dimension.
+/// A dataset (step, point, component) that grows by a step. A step is one chunk, uncompressed with
+/// a fletcher32 checksum behind it, so that its numbers stand in the file as they are (offsets()).
+/// n_components = 1 drops the last dimension.
 class GrowingArray {
  public:
   GrowingArray(hid_t file, const std::string& path, hid_t type, hsize_t n_points,
                hsize_t n_components, const About& about);
   /// @param values  n_points x n_components, the component fastest; of the memory type given.
   void append(hid_t memory_type, const void* values);
+  /// Where each step's numbers begin in the file, bytes. Flushes the file.
+  std::vector<std::uint64_t> offsets() const;
   hid_t id() const { return dataset_; }
 
  private:

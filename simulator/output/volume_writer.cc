@@ -58,7 +58,10 @@ void write_volume(const std::filesystem::path& folder, const Eigen::Matrix3Xd& n
       displacement.append(H5T_NATIVE_DOUBLE, snapshot.displacement.data());
     }
     grid.attributes.push_back(
-        {"displacement", {"/displacement", {snapshots.size(), n_nodes, 3}}, false, true, true});
+        {"displacement",
+         {.path = "/displacement", .shape = {n_nodes, 3}, .offsets = displacement.offsets()},
+         false,
+         true});
   }
   write_file_pair(folder, "volume", file, {grid}, times);
 }

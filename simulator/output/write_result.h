@@ -20,7 +20,8 @@ CaseResult result_from_json(const nlohmann::json& json);
 /// Writes fault fields as they come: FOLDER/faults.h5 (chunked by step, gzip, units as attributes)
 /// and FOLDER/faults.xmf that ParaView opens: one surface grid per fault and step with traction and
 /// slip in the fault frame and globally, χ, χ_s, state, Δp_f and, where salt creeps, t'_creep. Only
-/// base names are referenced.
+/// base names are referenced. Of a half domain the whole faults are written: the other half is the
+/// mirror image, with strike components of the other sign.
 /// Files get a temporary name until finish(); an abandoned writer leaves nothing.
 class FieldWriter {
  public:

@@ -41,16 +41,13 @@ std::string item(const std::string& h5_name, const XdmfData& data) {
                 "\">", escape(h5_name), ":", data.path, "</DataItem>");
 }
 
-/// One step of a dataset in time, by a hyperslab: start, stride and count of each dimension.
-std::string slab(const std::string& h5_name, const XdmfData& data, std::size_t step) {
-  std::vector<std::size_t> start(data.shape.size(), 0), stride(data.shape.size(), 1);
-  std::vector<std::size_t> count = data.shape;
-  start[0] = step;
-  count[0] = 1;
-  return concat("<DataItem ItemType=\"HyperSlab\" Type=\"HyperSlab\" Dimensions=\"", join(count),
-                "\"><DataItem Format=\"XML\" NumberType=\"Int\" Dimensions=\"3 ", data.shape.size(),
-                "\">", join(start), " ", join(stride), " ", join(count), "</DataItem>",
-                item(h5_name, data), "</DataItem>");
+/// One step of a dataset in time, by its place in the file.
+std::string step_item(const std::string& h5_name, const XdmfData& data, std::size_t step) {
+  FAULTSIM_DEMAND(step < data.offsets.size(), data.path, " has no step ", step);
+  return concat("<DataItem Format=\"Binary\" NumberType=\"", data.integer ? "Int" : "Float",
+                "\" Precision=\"", data.integer ? 4 : 8, "\" Endian=\"Little\" Seek=\"",
+                data.offsets[step], "\" Dimensions=\"", join(data.shape), "\">", escape(h5_name),
+                "</DataItem>");
 }
 
 void write_grid(std::string& out, const std::string& h5_name, const XdmfGrid& grid,
@@ -64,12 +61,12 @@ void write_grid(std::string& out, const std::string& h5_name, const XdmfGrid& gr
   out += concat("        <Geometry GeometryType=\"XYZ\">", item(h5_name, grid.points),
                 "</Geometry>\n");
   for (const XdmfAttribute& attribute : grid.attributes) {
-    out += concat(
-        "        <Attribute Name=\"", escape(attribute.name), "\" AttributeType=\"",
-        attribute.vector ? "Vector" : "Scalar", "\" Center=\"",
-        attribute.on_cells ? "Cell" : "Node", "\">",
-        attribute.in_time ? slab(h5_name, attribute.data, step) : item(h5_name, attribute.data),
-        "</Attribute>\n");
+    out += concat("        <Attribute Name=\"", escape(attribute.name), "\" AttributeType=\"",
+                  attribute.vector ? "Vector" : "Scalar", "\" Center=\"",
+                  attribute.on_cells ? "Cell" : "Node", "\">",
+                  attribute.data.offsets.empty() ? item(h5_name, attribute.data)
+                                                 : step_item(h5_name, attribute.data, step),
+                  "</Attribute>\n");
   }
   out += "      </Grid>\n";
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -8,13 +9,19 @@ namespace faultsim {
 
 /// Text of an XDMF 3 file beside an HDF5 file: what ParaView needs to draw the datasets.
 /// Only the base name of the HDF5 file is referenced, so that the pair can be moved.
+///
+/// A step of a field is referenced by its place in the file (Binary with Seek): of ParaView 5.11's
+/// readers only "XDMF Reader" takes a hyperslab of a dataset, the two Xdmf3 ones, of which one is
+/// the default, drop the array. See docs/decisions/0009-fields-in-paraview.md.
 
-/// A dataset of the HDF5 file by path and shape; the shape of a field in time starts with the
-/// number of steps.
+/// A dataset of the HDF5 file by path and shape.
 struct XdmfData {
   std::string path;
   std::vector<std::size_t> shape;
-  bool integer = false;
+  bool integer = false;  ///< 4 bytes, else 8.
+  /// Of a field in time: where the numbers of each step begin in the file, bytes; the shape is that
+  /// of a step.
+  std::vector<std::uint64_t> offsets = {};
 };
 
 struct XdmfAttribute {
@@ -22,7 +29,6 @@ struct XdmfAttribute {
   XdmfData data;
   bool on_cells = false;
   bool vector = false;
-  bool in_time = false;  ///< the first dimension is the step.
 };
 
 struct XdmfGrid {

@@ -3,10 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 #include "simulator/loading/run_case.h"
+#include "simulator/output/write_result.h"
 #include "simulator/scene/read_scene.h"
+#include "tests/unit/output/example_operator.h"
+#include "tests/unit/output/h5_file.h"
 
 namespace faultsim {
 namespace {
@@ -105,6 +111,66 @@ TEST(Reductions, HalfDomainKeepsTractionAndSlipOfEveryNode) {
   EXPECT_GT(d.largest_jump, 0.01);
   EXPECT_LT(d.traction, 1e-8);
   EXPECT_LT(d.jump, 1e-8);
+}
+
+struct FieldFile {
+  explicit FieldFile(const Fields& fields) {
+    FieldWriter writer(folder.path(), fields.geometry);
+    for (const FaultFields& step : fields.steps) writer.add_step(StepResult(), step);
+    writer.finish();
+  }
+  /// All components of a dataset, over all steps, of the points in the order of their y, x, z.
+  std::vector<double> sorted(const std::string& fault, const std::string& dataset) const {
+    const H5File file(folder.path() / "faults.h5");
+    const Dataset points = file.read("/faults/" + fault + "/geometry/points");
+    const std::size_t n = points.shape[0];
+    std::vector<std::size_t> order(n);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto place = [&](std::size_t k) {
+      const double* p = &points.values[3 * k];
+      return std::tuple(std::lround(1e3 * p[1]), std::lround(1e3 * p[0]), std::lround(1e3 * p[2]));
+    };
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+    const std::vector<double> all = file.read("/faults/" + fault + "/" + dataset).values;
+    const bool in_time = dataset.rfind("steps/", 0) == 0;
+    const std::size_t n_steps = in_time ? file.read("/time").shape[0] : 1;
+    const std::size_t n_components = all.size() / n / n_steps;
+    std::vector<double> values;
+    for (std::size_t s = 0; s < n_steps; ++s) {
+      for (const std::size_t k : order) {
+        const double* from = &all[(s * n + k) * n_components];
+        values.insert(values.end(), from, from + n_components);
+      }
+    }
+    return values;
+  }
+  ScratchFolder folder;
+};
+
+/// faults.h5 holds whole faults, whichever half was modelled.
+TEST(Reductions, HalfDomainWritesTheFieldsOfTheWhole) {
+  Settings coarse = kSlipping;
+  coarse.emplace_back("/mesh",
+                      R"({"strike": "600 m", "dip": "80 m", "normal": "150 m", "growth": 2})");
+  const FieldFile half(run(coarse, {{"/numerics/half_domain", "on"}}));
+  const FieldFile whole(run(coarse, {{"/numerics/half_domain", "off"}}));
+  for (const char* fault : {"F1", "F2", "F3"}) {
+    for (const char* dataset :
+         {"geometry/points", "geometry/area", "geometry/split", "geometry/normal",
+          "geometry/strike", "geometry/dip", "steps/traction_fault", "steps/traction_global",
+          "steps/slip_fault", "steps/slip_global", "steps/critical_index", "steps/state",
+          "steps/static_critical_index", "steps/fault_pressure_change"}) {
+      const std::vector<double> a = half.sorted(fault, dataset), b = whole.sorted(fault, dataset);
+      ASSERT_EQ(a.size(), b.size()) << fault << " " << dataset;
+      double size = 1e-12, difference = 0;
+      for (std::size_t i = 0; i < a.size(); ++i) {
+        size = std::max(size, std::abs(b[i]));
+        difference = std::max(difference, std::abs(a[i] - b[i]));
+      }
+      EXPECT_LT(difference, 1e-8 * size) << fault << " " << dataset;
+    }
+  }
 }
 
 /// Blocks and faults as long as the model, between rollers: nothing varies along strike.

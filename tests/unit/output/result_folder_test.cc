@@ -274,6 +274,14 @@ TEST_F(OutputTarget, ALinkIsWrittenWhereItLeads) {
   EXPECT_EQ(read_bytes(data), "new");
 }
 
+TEST_F(OutputTarget, StandardOutputHasItsNames) {
+  for (const char* name : {"-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}) {
+    EXPECT_TRUE(is_standard_output(name)) << name;
+    EXPECT_THAT(refused(name), HasSubstr("names no file")) << name;
+  }
+  EXPECT_FALSE(is_standard_output("./-"));
+}
+
 TEST_F(OutputTarget, FilesThatADocumentNamesAreKnown) {
   const fs::path table = file("table.csv", "x"), scene = file("scene.json", "{}");
   const auto document = nlohmann::json::parse(
