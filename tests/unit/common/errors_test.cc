@@ -53,5 +53,20 @@ TEST(Demand, PrintsConditionValuesAndPlace) {
   }
 }
 
+TEST(Demand, NamesTheFileAsTheRepositoryDoes) {
+  try {
+    throw_internal("x", "", "/home/somebody/build/simulator/mesh/split.cc", 7);
+    FAIL();
+  } catch (const InternalError& error) {
+    EXPECT_STREQ(error.what(), "internal error: x does not hold () at simulator/mesh/split.cc:7");
+  }
+}
+
+TEST(InputError, SpellsOutControlCharactersAndEndsAtNoNul) {
+  const InputError error("a\nb",
+                         {{"/\x1b", 1, std::string("has \0 in it", 11), "write\ntwo lines"}});
+  EXPECT_STREQ(error.what(), "a\\u000ab:1: /\\u001b: has \\u0000 in it; write\ntwo lines");
+}
+
 }  // namespace
 }  // namespace faultsim
