@@ -211,6 +211,30 @@ void check_column(SceneReader& reader, const Scene& scene) {
   }
 }
 
+/// Stiffnesses this far apart leave no digits of the softer one in a sum of both.
+void check_contrast(SceneReader& reader, const Scene& scene) {
+  constexpr double kMost = 1e6;
+  const std::set<std::string> used = used_materials(scene);
+  const Material* softest = nullptr;
+  const Material* stiffest = nullptr;
+  for (const Material& material : scene.materials) {
+    if (used.count(material.name) == 0 || std::isnan(material.youngs_modulus)) continue;
+    if (softest == nullptr || material.youngs_modulus < softest->youngs_modulus) {
+      softest = &material;
+    }
+    if (stiffest == nullptr || material.youngs_modulus > stiffest->youngs_modulus) {
+      stiffest = &material;
+    }
+  }
+  if (softest == nullptr || stiffest->youngs_modulus <= kMost * softest->youngs_modulus) return;
+  const std::string at = "/materials/" + pointer_token(softest->name) + "/youngs_modulus";
+  reader.problem(
+      at,
+      reader.as_given(at) + " is less than a millionth of that of \"" + stiffest->name + "\", " +
+          reader.as_given("/materials/" + pointer_token(stiffest->name) + "/youngs_modulus"),
+      "bring the two closer: the numbers cannot hold both");
+}
+
 void check_observation_points(SceneReader& reader, const Scene& scene) {
   const bool is_field = scene.geometry_kind == GeometryKind::field;
   const FieldGeometry& field = scene.field;
@@ -288,11 +312,25 @@ std::string below_zero_cure(double initial) {
   return std::string("let it fall by at most ") + text;
 }
 
+/// The least of factor times the values, and of 0: what a change never falls below.
+double least_of(const std::vector<double>& values, double factor) {
+  double least = 0;
+  for (const double value : values) least = std::fmin(least, factor * value);
+  return least;
+}
+
 void check_region(SceneReader& reader, const Scene& scene, std::size_t region) {
   const PressureHistory& history = scene.pressure[region];
+  // Most histories never get there; only the others are followed step by step.
+  const double least = least_of(history.pressure_change, history.scale);
+  const std::vector<Place> places = lowest_places(scene, region);
+  const bool safe = std::all_of(places.begin(), places.end(), [&](const Place& place) {
+    return initial_state(scene, -place.depth, place.side).pressure + least >= 0;
+  });
+  if (safe) return;
   const std::vector<double> times = step_times(scene);
   for (std::size_t step = 0; step < times.size(); ++step) {
-    for (const Place& place : lowest_places(scene, region)) {
+    for (const Place& place : places) {
       const double initial = initial_state(scene, -place.depth, place.side).pressure;
       const double pressure = initial + pressure_change_at(history, times[step]);
       constexpr double kRounding = 1;  // Pa: "fall to zero" is written in decimal units
@@ -321,6 +359,9 @@ void check_prescribed(SceneReader& reader, const Scene& scene, std::size_t fault
   }
   if (std::isnan(depth)) return;
   const double initial = initial_state(scene, -depth, DepthSide::below).pressure;
+  const std::vector<double> once = {1};
+  const std::vector<double>& factors = rule.table.factor.empty() ? once : rule.table.factor;
+  if (initial + least_of(factors, rule.prescribed) >= 0) return;
   const std::vector<double> times = step_times(scene);
   for (std::size_t step = 0; step < times.size(); ++step) {
     const double pressure = initial + rule.prescribed * factor_at(rule.table, times[step]);
@@ -345,6 +386,7 @@ void check_geometry(SceneReader& reader, const Scene& scene) {
   } else {
     check_box(reader, scene);
   }
+  check_contrast(reader, scene);
   check_column(reader, scene);
   check_observation_points(reader, scene);
 }

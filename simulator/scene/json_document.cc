@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <sstream>
 #include <string>
 
+#include "simulator/common/input_file.h"
+#include "simulator/common/printable.h"
 #include "simulator/scene/schema_walk.h"
 
 namespace faultsim {
@@ -17,8 +17,11 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMaxBytes = 64'000'000;  // A scene is some kB; more is a wrong file.
-constexpr std::size_t kMaxDepth = 64;          // Ours nest to 8; more is an attack or a mistake.
+constexpr std::size_t kMaxDepth = 64;  // Ours nest to 8; more is an attack or a mistake.
+// The place of every value is kept, so places are short and values not without number: 1 GB at
+// most.
+constexpr std::size_t kMaxPointer = 500;       // bytes; ours have 100
+constexpr std::size_t kMaxValues = 2'000'000;  // 10^5 cases of 10 values are 10^6
 
 /// Reads characters and tells through `position` how many the parser has taken.
 class CountingIterator {
@@ -80,6 +83,13 @@ class Builder final : public json::json_sax_t {
     Frame& frame = stack_.back();
     frame.key = name;
     const std::string pointer = frame.pointer + "/" + pointer_token(name);
+    if (pointer.size() > kMaxPointer) {
+      problems_.push_back({frame.pointer, line_at(-2),
+                           concat("the key \"", shortened(name, 40), "\" and those above it have ",
+                                  pointer.size(), " bytes, more than ", kMaxPointer),
+                           "use shorter names"});
+      return false;
+    }
     if (frame.node->contains(name)) {
       problems_.push_back(
           {pointer, line_at(-2),
@@ -93,10 +103,11 @@ class Builder final : public json::json_sax_t {
     if (error.id == kOverflow) {
       const std::string text = error.what();
       const auto quote = text.find('\'');
-      problems_.push_back(
-          {next_pointer(), line_at(-2),
-           "number " + text.substr(quote + 1, text.rfind('\'') - quote - 1) + " overflows",
-           "write a finite number"});
+      problems_.push_back({next_pointer(), line_at(-2),
+                           "number " +
+                               shortened(text.substr(quote + 1, text.rfind('\'') - quote - 1), 40) +
+                               " overflows",
+                           "write a finite number"});
     } else {
       problems_.push_back(syntax_problem(error.what()));
     }
@@ -141,7 +152,13 @@ class Builder final : public json::json_sax_t {
   }
   bool add(json value) {
     place(std::move(value), -2);
-    return true;
+    return has_room();
+  }
+  bool has_room() {
+    if (document_.lines.size() <= kMaxValues) return true;
+    problems_.push_back({"", line_at(-2), concat("there are more than ", kMaxValues, " values"),
+                         "this is not a file for this program"});
+    return false;
   }
   bool open(json value, bool is_array) {
     if (stack_.size() >= kMaxDepth) {
@@ -170,7 +187,8 @@ class Builder final : public json::json_sax_t {
     }
     const std::string noise = "syntax error ";
     if (const auto at = detail.find(noise); at != std::string::npos) detail.erase(at, noise.size());
-    problem.what = "not valid JSON, " + detail;
+    constexpr std::size_t kLongest = 200;  // the parser repeats what it read last, be it megabytes
+    problem.what = "not valid JSON, " + shortened(detail, kLongest);
     problem.cure = "look here and just before for a comma, quote or bracket too many or too few";
     return problem;
   }
@@ -239,9 +257,9 @@ int JsonDocument::line_of(const std::string& pointer) const {
 JsonDocument parse_json(std::string_view text, const std::string& source) {
   JsonDocument document;
   document.source = source;
-  if (text.size() > kMaxBytes) {
+  if (text.size() > kMostJsonBytes) {
     throw InputError(source, {{"", 0, concat("has ", text.size(), " bytes"),
-                               concat("at most ", kMaxBytes, " are read")}});
+                               concat("at most ", kMostJsonBytes, " are read")}});
   }
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     throw InputError(source, {{"", 1, "the file is empty", "start from `faultsim init`"}});
@@ -256,17 +274,7 @@ JsonDocument parse_json(std::string_view text, const std::string& source) {
 }
 
 JsonDocument read_json_file(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    throw InputError(path, {{"", 0, "this is a folder", "name a scene file in it"}});
-  }
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file) {
-    throw InputError(path, {{"", 0, "the file cannot be read", "check name and permissions"}});
-  }
-  return parse_json(text.str(), path);
+  return parse_json(read_input_or_throw(path, kMostJsonBytes), path);
 }
 
 void set_value(JsonDocument& document, const std::string& pointer, const std::string& value) {
@@ -279,6 +287,10 @@ void set_value(JsonDocument& document, const std::string& pointer, const std::st
     new_value = parse_json(value, "").value;
   } catch (const InputError&) {
     // Not JSON: a plain text such as 25 deg.
+    if (const std::string bad = first_unprintable(value); !bad.empty()) {
+      refuse(document, pointer, "the value holds the control character or stray byte " + bad,
+             "remove it");
+    }
   }
   json* node = &document.value;
   std::string parent;

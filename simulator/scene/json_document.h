@@ -21,9 +21,10 @@ struct JsonDocument {
 };
 
 /// Parses text. Refuses with InputError (line and column): syntax errors, duplicate keys, depth
-/// > 64, more than 64 MB, numbers that overflow a double.
+/// > 64, more than 64 MB, pointers of more than 500 bytes, more than 2 million values, numbers that
+/// overflow a double.
 JsonDocument parse_json(std::string_view text, const std::string& source);
-/// Reads and parses a file; a missing or unreadable file is an InputError too.
+/// Reads and parses a regular file; a missing or unreadable file is an InputError too.
 JsonDocument read_json_file(const std::string& path);
 
 /// Replaces the value at pointer by value, as `--set /json/pointer=value` does: text that parses as
@@ -33,7 +34,8 @@ JsonDocument read_json_file(const std::string& path);
 void set_value(JsonDocument& document, const std::string& pointer, const std::string& value);
 
 /// Validates against a draft-07 schema (valijson) and returns one problem per mistake: the deepest
-/// error per pointer, with "did you mean" for unknown keys and enum values.
+/// error per pointer, with "did you mean" for unknown keys and enum values. Texts and keys that a
+/// terminal would obey (common/printable.h) are problems wherever they stand, except in comments.
 std::vector<Problem> check_schema(const JsonDocument& document, const nlohmann::json& schema);
 
 }  // namespace faultsim

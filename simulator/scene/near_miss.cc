@@ -40,11 +40,20 @@ std::size_t distance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string near_miss(const std::string& word, const std::vector<std::string>& candidates) {
+  // Nobody mistypes a word of this length, and the distance takes the product of both.
+  constexpr std::size_t kLongestWord = 100;
+  constexpr std::size_t kMostCandidates = 300;
+  if (word.size() > kLongestWord) return "";
+  const std::string wanted = folded(word);
   std::string best;
   std::size_t best_distance = 0;
-  for (const std::string& candidate : candidates) {
-    const std::size_t d = distance(folded(word), folded(candidate));
+  const std::size_t n = std::min(candidates.size(), kMostCandidates);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::string& candidate = candidates[i];
     const std::size_t limit = std::max(word.size(), candidate.size()) / 3;
+    const std::size_t longer = std::max(word.size(), candidate.size());
+    if (longer - std::min(word.size(), candidate.size()) > limit) continue;  // d is at least that
+    const std::size_t d = distance(wanted, folded(candidate));
     if (d > limit) continue;
     if (best.empty() || d < best_distance) {
       best = candidate;
@@ -58,11 +67,12 @@ std::string suggest(const std::string& word, const std::vector<std::string>& can
   const std::string near = near_miss(word, candidates);
   if (!near.empty()) return "did you mean \"" + near + "\"?";
   if (candidates.empty()) return "remove it";
+  constexpr std::size_t kMostListed = 60;
   std::string text = candidates.size() == 1 ? "write " : "write one of ";
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
+  for (std::size_t i = 0; i < std::min(candidates.size(), kMostListed); ++i) {
     text += (i == 0 ? "\"" : ", \"") + candidates[i] + "\"";
   }
-  return text;
+  return candidates.size() > kMostListed ? text + ", ..." : text;
 }
 
 }  // namespace faultsim

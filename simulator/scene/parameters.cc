@@ -51,15 +51,7 @@ class Aliases {
     const auto found = first_.find(pointer);
     return found == first_.end() ? "" : found->second;
   }
-  std::string pointer(const std::string& alias) const {
-    const auto found = pointers_.find(alias);
-    return found == pointers_.end() ? "" : found->second;
-  }
-  std::vector<std::string> names() const {
-    std::vector<std::string> names;
-    for (const auto& [alias, pointer] : pointers_) names.push_back(alias);
-    return names;
-  }
+  const std::map<std::string, std::string>& pointers() const { return pointers_; }
 
  private:
   void add(const std::string& alias, const std::string& pointer) {
@@ -330,13 +322,19 @@ std::vector<ParameterInfo> parameters(const JsonDocument& document) {
   return std::move(collector).rows();
 }
 
+std::map<std::string, std::string> parameter_aliases(const JsonDocument& document) {
+  return Aliases(document.value).pointers();
+}
+
 std::string resolve_parameter(const JsonDocument& document, const std::string& alias_or_pointer) {
   if (!alias_or_pointer.empty() && alias_or_pointer[0] == '/') return alias_or_pointer;
-  const Aliases aliases(document.value);
-  const std::string pointer = aliases.pointer(alias_or_pointer);
-  if (!pointer.empty()) return pointer;
+  const auto aliases = parameter_aliases(document);
+  const auto found = aliases.find(alias_or_pointer);
+  if (found != aliases.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [alias, pointer] : aliases) names.push_back(alias);
   throw InputError(document.source, {{"", 0, "there is no parameter \"" + alias_or_pointer + "\"",
-                                      suggest(alias_or_pointer, aliases.names())}});
+                                      suggest(alias_or_pointer, names)}});
 }
 
 }  // namespace faultsim

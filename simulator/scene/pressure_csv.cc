@@ -1,9 +1,9 @@
 #include "simulator/scene/pressure_csv.h"
 
-#include <fstream>
 #include <sstream>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/input_file.h"
 #include "simulator/common/units.h"
 
 namespace faultsim {
@@ -27,6 +27,8 @@ std::vector<std::string> cells_of(const std::string& line) {
 constexpr const char* kHeaderCure =
     "the first line names columns and units: time [year], west [bar], east [bar]";
 
+constexpr std::size_t kMostColumns = 1000;  // a scene has 200 regions at most
+
 class CsvReader {
  public:
   explicit CsvReader(std::string given) : given_(std::move(given)) {}
@@ -36,7 +38,12 @@ class CsvReader {
       return refuse("the columns are separated by semicolons",
                     "separate them by commas, with decimal points in the numbers");
     }
-    for (const std::string& cell : cells_of(line)) {
+    const std::vector<std::string> cells = cells_of(line);
+    if (cells.size() > kMostColumns) {
+      return refuse(concat("has ", cells.size(), " columns"),
+                    concat("write at most ", kMostColumns));
+    }
+    for (const std::string& cell : cells) {
       const auto open = cell.find('[');
       if (open == std::string::npos || cell.back() != ']') {
         return refuse("column \"" + cell + "\" has no unit in brackets", kHeaderCure);
@@ -110,14 +117,17 @@ class CsvReader {
 
 PressureCsv read_pressure_csv(const std::string& path, const std::string& given) {
   CsvReader reader(given);
-  std::ifstream file(path);
-  if (!file) {
-    reader.refuse("the file cannot be read",
-                  "check the name; it is taken from the folder of the scene");
+  constexpr std::size_t kMostBytes = 16'000'000;  // 10^5 rows of ten columns
+  const InputText file = read_input_file(path, kMostBytes);
+  if (!file.what.empty()) {
+    const bool relative = !given.empty() && given[0] != '/';
+    reader.refuse(file.what,
+                  relative ? file.cure + "; it is taken from the folder of the scene" : file.cure);
     return std::move(reader).result();
   }
+  std::istringstream lines(file.text);
   std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
+  for (int number = 1; std::getline(lines, line); ++number) {
     if (number == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0)
       line.erase(0, 3);  // of spreadsheets
     const std::string text = trimmed(line);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
@@ -42,16 +43,21 @@ class LoadingReader {
     const int cycles = reader_.integer(at + "cycles", 1);
     check_keys(at, stage, cycles);
     const bool between = reader_.has(at + "pressure_between");
-    const int n_halves = between ? 2 * cycles : 1;
-    for (int half = 1; half <= n_halves; ++half) {
-      const double time = start_ + stage.duration * half / n_halves;
-      for (std::size_t region = 0; region < regions_.size(); ++region) {
-        add_point(region, time, target(at, region, half));
+    // More half cycles than steps are a problem already, and may be millions.
+    const int n_halves = between && 2 * cycles <= stage.n_steps ? 2 * cycles : 1;
+    for (std::size_t region = 0; region < regions_.size(); ++region) {
+      const std::array<double, 2> targets = {target(at, region, 1), target(at, region, 2)};
+      for (int half = 1; half <= n_halves; ++half) {
+        const double time = start_ + stage.duration * half / n_halves;
+        add_point(region, time, targets[half % 2 == 1 ? 0 : 1]);
       }
     }
     start_ += stage.duration;
     scene_.stages.push_back(stage);
+    count_steps(at, stage);
   }
+  /// False once there are too many steps; no more stages are read then.
+  bool has_room() const { return n_steps_ <= kMostSteps; }
 
   void read_csv_files() {
     if (const std::string file = reader_.text("/pressure_csv"); !file.empty()) {
@@ -87,11 +93,25 @@ class LoadingReader {
   }
 
  private:
+  static constexpr long kMostSteps = 100'000;  ///< a step is a row of every table
+
+  void count_steps(const std::string& at, const Stage& stage) {
+    n_steps_ += stage.n_steps;
+    if (has_room()) return;
+    const std::string pointer = at + (reader_.has(at + "steps") ? "steps" : "name");
+    reader_.problem(pointer, concat("the stages up to this one have ", n_steps_, " load steps"),
+                    concat("a scene has at most ", kMostSteps, "; write fewer"));
+  }
+
   /// Silent when a mistake in the geometry may have hidden the region.
   void demand_region(const std::string& pointer, const std::string& region) {
     const bool certain = reader_.sound("/geometry/kind") && reader_.sound("/geometry/blocks") &&
                          reader_.sound("/geometry/regions");
-    if (certain) reader_.demand_known(pointer, region, "pressure region", regions_);
+    if (certain && region.empty()) {
+      reader_.problem(pointer, "a pressure region has no empty name", suggest(region, regions_));
+    } else if (certain) {
+      reader_.demand_known(pointer, region, "pressure region", regions_);
+    }
   }
 
   void check_keys(const std::string& at, const Stage& stage, int cycles) {
@@ -189,6 +209,7 @@ class LoadingReader {
   Scene& scene_;
   std::vector<std::string> regions_;
   double start_ = 0;
+  long n_steps_ = 0;
 };
 
 }  // namespace
@@ -196,7 +217,7 @@ class LoadingReader {
 void read_loading(SceneReader& reader, Scene& scene) {
   LoadingReader loading(reader, scene);
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < reader.size("/stages"); ++i) {
+  for (std::size_t i = 0; i < reader.size("/stages") && loading.has_room(); ++i) {
     loading.read_stage(i);
     names.push_back(scene.stages.back().name);
   }

@@ -132,6 +132,11 @@ void read_mesh(SceneReader& reader, Scene& scene) {
   mesh.growth = reader.number("/mesh/growth", mesh.growth);
   mesh.fine_margin = reader.quantity("/mesh/fine_margin", mesh.fine_margin);
   mesh.largest = reader.quantity("/mesh/largest", mesh.largest);
+  constexpr double kSmallestCap = 1e-3;  // m, as of the other sizes; 0 is none
+  if (mesh.largest > 0 && mesh.largest < kSmallestCap) {
+    reader.problem("/mesh/largest", reader.as_given("/mesh/largest") + " is below 1 mm",
+                   "write the largest size of a cell, at least 1 mm, or 0 m for no limit");
+  }
   apply_tier_switches(reader, scene);
   default_creep_refinements(reader, scene.numerics);
   if (scene.tier != "custom") return;
@@ -144,6 +149,10 @@ void read_mesh(SceneReader& reader, Scene& scene) {
 void read_materials(SceneReader& reader, Scene& scene) {
   for (const std::string& name : reader.keys("/materials")) {
     const std::string at = "/materials/" + pointer_token(name) + "/";
+    if (name.empty()) {
+      reader.problem("/materials/", "a material has an empty name", "give it a name");
+      continue;
+    }
     Material material;
     material.name = name;
     material.density = reader.quantity(at + "density", 0);

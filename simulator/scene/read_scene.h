@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -45,6 +46,10 @@ struct ParameterInfo {
 /// All numbers and words of this scene that can be varied, in document order; optional ones that it
 /// does not give too, with their defaults (set_value can set them).
 std::vector<ParameterInfo> parameters(const JsonDocument& document);
+
+/// The short names of a document: alias -> pointer ("offset" -> "/geometry/blocks/1/offset"). A
+/// pointer may have several.
+std::map<std::string, std::string> parameter_aliases(const JsonDocument& document);
 
 /// The pointer of an alias in this document ("offset" -> "/geometry/blocks/1/offset"), or the text
 /// itself when it starts with '/'. Throws InputError with near misses.

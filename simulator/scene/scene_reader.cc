@@ -67,10 +67,11 @@ std::string range_cure(const SchemaViews& views) {
   return "write a value of at least " + least + (most.empty() ? "" : ", at most " + most);
 }
 
-bool is_at_or_below(const std::string& pointer, const std::string& place) {
-  return pointer.rfind(place, 0) == 0 &&
-         (pointer.size() == place.size() || pointer[place.size()] == '/');
-}
+/// Of lengths, pressures, times, ... in SI as of plain numbers: whatever is smaller was meant to be
+/// zero, and its square or reciprocal would leave the range of numbers.
+constexpr double kSmallest = 1e-20;
+
+bool is_vanishing(double value) { return value != 0 && std::abs(value) < kSmallest; }
 
 }  // namespace
 
@@ -104,27 +105,51 @@ SceneReader::SceneReader(const JsonDocument& document, std::vector<Problem>& pro
     : document_(document), problems_(problems) {
   const std::vector<Problem> found = check_schema(document, scene_schema());
   problems_.insert(problems_.end(), found.begin(), found.end());
+  for (const Problem& one : problems_) {
+    unsound_.add(one.pointer);
+    said_.insert(one.pointer + "\n" + one.what);
+  }
   read_quantities();
 }
 
 void SceneReader::read_quantities() {
   walk_schema(scene_schema(), document_.value,
               [this](const std::string& pointer, const json& value, const SchemaViews& views) {
-                const std::string dimension = keyword_text(views, "x-dimension");
-                if (dimension.empty() || !(value.is_string() || value.is_number())) return;
-                const ParsedQuantity parsed =
-                    parse_schema_quantity(value, dimension, keyword_text(views, "x-unit"));
-                if (!parsed.ok) {
-                  problem(pointer, parsed.what, parsed.cure);
-                  return;
-                }
-                const std::string outside = out_of_range(parsed, views, dimension);
-                if (outside.empty()) {
-                  quantities_[pointer] = parsed.value;
-                } else {
-                  problem(pointer, as_text(value) + " " + outside, range_cure(views));
+                if (value.is_array()) {
+                  const json* most = keyword(views, "maxItems");
+                  if (most != nullptr && value.size() > most->get<std::size_t>()) {
+                    too_long_.insert(pointer);
+                  }
+                } else if (value.is_string() || value.is_number()) {
+                  read_quantity(pointer, value, views);
                 }
               });
+}
+
+void SceneReader::read_quantity(const std::string& pointer, const json& value,
+                                const SchemaViews& views) {
+  const auto refuse_vanishing = [&] {
+    problem(pointer, as_text(value) + " is not zero, but too small to mean anything", "write 0");
+  };
+  const std::string dimension = keyword_text(views, "x-dimension");
+  if (dimension.empty()) {
+    if (value.is_number() && is_vanishing(value.get<double>())) refuse_vanishing();
+    return;
+  }
+  const ParsedQuantity parsed =
+      parse_schema_quantity(value, dimension, keyword_text(views, "x-unit"));
+  if (!parsed.ok) {
+    problem(pointer, parsed.what, parsed.cure);
+    return;
+  }
+  const std::string outside = out_of_range(parsed, views, dimension);
+  if (!outside.empty()) {
+    problem(pointer, as_text(value) + " " + outside, range_cure(views));
+  } else if (is_vanishing(parsed.value)) {
+    refuse_vanishing();
+  } else {
+    quantities_[pointer] = parsed.value;
+  }
 }
 
 const json* SceneReader::find(const std::string& pointer) const {
@@ -133,15 +158,10 @@ const json* SceneReader::find(const std::string& pointer) const {
   return &document_.value.at(place);
 }
 
-bool SceneReader::sound(const std::string& pointer) const {
-  return std::none_of(problems_.begin(), problems_.end(), [&](const Problem& problem) {
-    return is_at_or_below(problem.pointer, pointer);
-  });
-}
-
 std::size_t SceneReader::size(const std::string& pointer) const {
   const json* value = find(pointer);
-  return value != nullptr && value->is_array() ? value->size() : 0;
+  const bool usable = value != nullptr && value->is_array() && too_long_.count(pointer) == 0;
+  return usable ? value->size() : 0;
 }
 
 std::vector<std::string> SceneReader::keys(const std::string& pointer) const {
@@ -212,25 +232,28 @@ TimeTable SceneReader::table(const std::string& pointer) {
   for (std::size_t i = 0; i < size(pointer + "/factor"); ++i) {
     table.factor.push_back(number(concat(pointer, "/factor/", i)));
   }
-  if (table.time.size() != table.factor.size() && sound(pointer)) {
+  if (table.time.size() == table.factor.size()) return table;
+  if (sound(pointer)) {
     problem(pointer,
             concat("has ", table.time.size(), " times but ", table.factor.size(), " factors"),
             "write one factor per time");
   }
-  return table;
+  return {};
 }
 
 void SceneReader::problem(const std::string& pointer, const std::string& what,
                           const std::string& cure) {
-  const auto same = [&](const Problem& old) { return old.pointer == pointer && old.what == what; };
-  if (std::any_of(problems_.begin(), problems_.end(), same)) return;
+  if (!said_.insert(pointer + "\n" + what).second) return;
+  unsound_.add(pointer);
   problems_.push_back({pointer, document_.line_of(pointer), what, cure});
 }
 
 void SceneReader::demand_known(const std::string& pointer, const std::string& name,
                                const std::string& what, const std::vector<std::string>& known) {
   if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
-  problem(pointer, "there is no " + what + " \"" + name + "\"", suggest(name, known));
+  problem(
+      pointer, "there is no " + what + " \"" + name + "\"",
+      problems_.size() < kMostSuggestions ? suggest(name, known) : "write a name that is there");
 }
 
 void SceneReader::demand_unique(const std::string& list, const std::string& suffix,

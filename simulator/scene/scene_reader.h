@@ -4,11 +4,13 @@
 #include <limits>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "simulator/common/units.h"
 #include "simulator/scene/json_document.h"
 #include "simulator/scene/scene.h"
+#include "simulator/scene/schema_walk.h"
 
 /// Inside of read_scene. A value that is missing or wrong has been reported once and reads as NaN
 /// (numbers) or "" (texts); checks are written such that NaN and "" never cause a second report.
@@ -32,8 +34,8 @@ class SceneReader {
   const nlohmann::json* find(const std::string& pointer) const;
   bool has(const std::string& pointer) const { return find(pointer) != nullptr; }
   /// No problem at the value or below it (a parent that lacks a key leaves its children sound).
-  bool sound(const std::string& pointer) const;
-  /// Elements of a list, 0 if it is none.
+  bool sound(const std::string& pointer) const { return !unsound_.contains(pointer); }
+  /// Elements of a list, 0 if it is none or has more than the schema allows.
   std::size_t size(const std::string& pointer) const;
   /// Keys of an object without "comment".
   std::vector<std::string> keys(const std::string& pointer) const;
@@ -45,6 +47,7 @@ class SceneReader {
   bool boolean(const std::string& pointer, bool fallback) const;
   std::array<double, 3> point(const std::string& pointer, double fallback = kNaN) const;
   std::array<double, 9> tensor(const std::string& pointer) const;
+  /// Empty unless there is one factor per time.
   TimeTable table(const std::string& pointer);
 
   /// Adds a problem unless the same was said before.
@@ -60,9 +63,14 @@ class SceneReader {
 
  private:
   void read_quantities();
+  void read_quantity(const std::string& pointer, const nlohmann::json& value,
+                     const SchemaViews& views);
 
   const JsonDocument& document_;
   std::vector<Problem>& problems_;
+  Ancestry unsound_;                          ///< where the problems are.
+  std::unordered_set<std::string> said_;      ///< pointer and text of each.
+  std::unordered_set<std::string> too_long_;  ///< lists.
   std::unordered_map<std::string, double> quantities_;
 };
 

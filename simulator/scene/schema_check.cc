@@ -4,12 +4,15 @@
 #include <mutex>
 #include <set>
 #include <string>
+#include <unordered_map>
+#include <unordered_set>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
 #include "simulator/common/fingerprint.h"
+#include "simulator/common/printable.h"
 #include "simulator/scene/json_document.h"
 #include "simulator/scene/near_miss.h"
 #include "simulator/scene/schema_walk.h"
@@ -21,16 +24,34 @@ namespace {
 
 using nlohmann::json;
 
+/// valijson compares each element with each other: fine for the lists that make sense, minutes for
+/// 10^5 elements. Beyond this length equal elements are looked for here.
+constexpr std::size_t kPairsUpTo = 64;
+
+bool has_long_array(const json& value) {
+  if (value.is_array() && value.size() > kPairsUpTo) return true;
+  return value.is_structured() && std::any_of(value.begin(), value.end(), has_long_array);
+}
+
+json without_unique_items(json schema) {
+  if (schema.is_object()) schema.erase("uniqueItems");
+  if (schema.is_structured()) {
+    for (json& part : schema) part = without_unique_items(std::move(part));
+  }
+  return schema;
+}
+
 /// Schemas as valijson wants them, made once per process and text.
-const valijson::Schema& compiled(const json& schema) {
+const valijson::Schema& compiled(const json& schema, bool unique_items) {
   static std::mutex mutex;
   static std::map<std::string, std::unique_ptr<valijson::Schema>> cache;
   const std::lock_guard lock(mutex);
-  auto& entry = cache[fingerprint(schema.dump())];
+  auto& entry = cache[fingerprint(schema.dump()) + (unique_items ? "" : " without unique items")];
   if (!entry) {
+    const json used = unique_items ? schema : without_unique_items(schema);
     entry = std::make_unique<valijson::Schema>();
     valijson::SchemaParser parser(valijson::SchemaParser::kDraft7);
-    parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(schema), *entry);
+    parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(used), *entry);
   }
   return *entry;
 }
@@ -49,8 +70,8 @@ struct Place {
   SchemaViews views;
 };
 
-std::map<std::string, Place> places_of(const JsonDocument& document, const json& schema) {
-  std::map<std::string, Place> places;
+std::unordered_map<std::string, Place> places_of(const JsonDocument& document, const json& schema) {
+  std::unordered_map<std::string, Place> places;
   walk_schema(schema, document.value,
               [&](const std::string& pointer, const json& value, const SchemaViews& views) {
                 places[pointer] = {&value, views};
@@ -119,7 +140,7 @@ class Explainer {
       if (const json* only = keyword(views, "const")) allowed = {only->dump()};
       const std::string word = value.is_string() ? value.get<std::string>() : "";
       add(pointer, as_text(value) + " is not known here",
-          example_cure(views, suggest(word, allowed)));
+          example_cure(views, may_suggest() ? suggest(word, allowed) : "write a word it knows"));
     } else if (says("Expected number")) {
       add(pointer, as_text(value) + " is " + range_words(views),
           example_cure(views, "write a number in the range"));
@@ -128,9 +149,15 @@ class Explainer {
       add(pointer, concat("has ", value.size(), " elements"),
           concat("write ", says("no more") ? "at most " : "at least ", *wanted));
     } else if (description.rfind("Failed to validate", 0) == 0) {
-      wrappers_.emplace_back(pointer, description);
+      wrappers_.push_back(pointer);
     } else if (says("no fewer than")) {
       add(pointer, as_text(value) + " is too short", example_cure(views, "fill it in"));
+    } else if (says("no more than") && value.is_string()) {
+      add(pointer, as_text(value) + " is too long",
+          "write at most " + keyword_text(views, "maxLength") + " characters");
+    } else if (says("no more than")) {
+      add(pointer, concat("has ", value.size(), " entries"),
+          "write at most " + keyword_text(views, "maxProperties"));
     } else if (says("Elements at indexes")) {
       add(pointer, as_text(value) + " has equal elements", "remove one of them");
     } else {
@@ -140,12 +167,10 @@ class Explainer {
 
   std::vector<Problem> finish() {
     for (const auto& [pointer, keys] : missing_) explain_missing(pointer, keys);
-    for (const auto& [pointer, description] : wrappers_) {
-      const std::string below = pointer + "/";
-      const auto is_reason = [&](const Problem& problem) {
-        return problem.pointer == pointer || problem.pointer.rfind(below, 0) == 0;
-      };
-      if (std::none_of(problems_.begin(), problems_.end(), is_reason)) {
+    Ancestry explained;
+    for (const Problem& problem : problems_) explained.add(problem.pointer);
+    for (const std::string& pointer : wrappers_) {
+      if (!explained.contains(pointer)) {
         add(pointer, as_text(*places_.at(pointer).value) + " does not fit the schema",
             "see the schema");
       }
@@ -159,19 +184,23 @@ class Explainer {
     problems_.push_back({pointer, document_.line_of(pointer), what, cure});
   }
 
+  /// Once per object: valijson tells of every such key.
   void explain_unknown_keys(const std::string& pointer, const Place& place) {
+    if (!keys_explained_.insert(pointer).second) return;
     const std::vector<std::string> known = known_keys(place.views);
+    std::vector<std::string> free;
+    for (const std::string& name : known) {
+      if (!place.value->contains(name)) free.push_back(name);
+    }
     for (const auto& [key, inner] : place.value->items()) {
       if (key == "comment" || std::binary_search(known.begin(), known.end(), key)) continue;
-      std::vector<std::string> free;
-      for (const std::string& name : known) {
-        if (!place.value->contains(name)) free.push_back(name);
-      }
-      misspelt_[pointer].insert(near_miss(key, free));
+      if (may_suggest()) misspelt_[pointer].insert(near_miss(key, free));
       add(pointer + "/" + pointer_token(key), "\"" + key + "\" is not a key of this object",
-          suggest(key, free));
+          may_suggest() ? suggest(key, free) : "remove it");
     }
   }
+  /// After so many problems nobody reads near misses, and looking for them takes time.
+  bool may_suggest() const { return problems_.size() < kMostSuggestions; }
 
   /// Keys that are there but misspelt are one mistake, reported where they stand.
   void explain_missing(const std::string& pointer, const std::set<std::string>& keys) {
@@ -193,13 +222,66 @@ class Explainer {
 
   const JsonDocument& document_;
   const json& schema_;
-  std::map<std::string, Place> places_;
+  std::unordered_map<std::string, Place> places_;
   std::map<std::string, std::set<std::string>> missing_;
   std::map<std::string, std::set<std::string>> misspelt_;
-  std::vector<std::pair<std::string, std::string>> wrappers_;
+  std::vector<std::string> wrappers_;
+  std::unordered_set<std::string> keys_explained_;
   std::set<std::string> reported_;
   std::vector<Problem> problems_;
 };
+
+}  // namespace
+
+namespace {
+
+/// Texts and keys that a terminal would obey, except comments, which go nowhere.
+void check_characters(const JsonDocument& document, const json& value, const std::string& pointer,
+                      std::vector<Problem>& problems) {
+  const auto refuse = [&](const char* what, const std::string& place, const std::string& bad) {
+    problems.push_back({place, document.line_of(place),
+                        concat(what, " holds the control character or stray byte ", bad),
+                        "remove it"});
+  };
+  if (value.is_string()) {
+    const auto& text = value.get_ref<const std::string&>();
+    if (const std::string bad = first_unprintable(text); !bad.empty()) {
+      refuse("the text", pointer, bad);
+    }
+  } else if (value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      if (!value[i].is_string() && !value[i].is_structured()) continue;
+      check_characters(document, value[i], pointer + "/" + std::to_string(i), problems);
+    }
+  } else if (value.is_object()) {
+    for (const auto& [key, inner] : value.items()) {
+      if (key == "comment") continue;
+      const std::string place = pointer + "/" + pointer_token(key);
+      const std::string bad = first_unprintable(key);
+      if (!bad.empty()) refuse("the key", place, bad);
+      check_characters(document, inner, place, problems);
+    }
+  }
+}
+
+/// Lists that must not repeat themselves, where valijson would compare all pairs.
+void check_unique_items(const JsonDocument& document, const json& schema,
+                        std::vector<Problem>& problems) {
+  walk_schema(
+      schema, document.value,
+      [&](const std::string& pointer, const json& value, const SchemaViews& views) {
+        const json* unique = keyword(views, "uniqueItems");
+        if (unique == nullptr || !value.is_array()) return;
+        std::unordered_set<std::string> seen;
+        for (const json& one : value) {
+          if (seen.insert(one.dump(-1, ' ', false, json::error_handler_t::replace)).second)
+            continue;
+          problems.push_back({pointer, document.line_of(pointer),
+                              as_text(value) + " has equal elements", "remove one of them"});
+          return;
+        }
+      });
+}
 
 }  // namespace
 
@@ -207,11 +289,19 @@ std::vector<Problem> check_schema(const JsonDocument& document, const json& sche
   valijson::Validator validator(valijson::Validator::kStrongTypes);
   valijson::ValidationResults results;
   const valijson::adapters::NlohmannJsonAdapter target(document.value);
-  if (validator.validate(compiled(schema), target, &results)) return {};
-  Explainer explainer(document, schema);
-  for (const auto& error : results) explainer.explain(pointer_of(error.context), error.description);
-  std::vector<Problem> problems = explainer.finish();
-  FAULTSIM_DEMAND(!problems.empty(), "invalid without a reason: ", document.source);
+  const bool in_pairs = !has_long_array(document.value);
+  const bool valid = validator.validate(compiled(schema, in_pairs), target, &results);
+  std::vector<Problem> problems;
+  if (!valid) {
+    Explainer explainer(document, schema);
+    for (const auto& error : results) {
+      explainer.explain(pointer_of(error.context), error.description);
+    }
+    problems = explainer.finish();
+    FAULTSIM_DEMAND(!problems.empty(), "invalid without a reason: ", document.source);
+  }
+  if (!in_pairs) check_unique_items(document, schema, problems);
+  check_characters(document, document.value, "", problems);
   std::stable_sort(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) {
     return a.line != b.line ? a.line < b.line : a.pointer < b.pointer;
   });

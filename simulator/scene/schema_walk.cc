@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "simulator/common/printable.h"
+
 namespace faultsim {
 namespace {
 
@@ -137,6 +139,13 @@ void walk_schema(const json& root, const json& value, const SchemaVisitor& visit
   walk(root, value, schema_views(root, root, value), "", visit);
 }
 
+void Ancestry::add(std::string pointer) {
+  while (places_.insert(pointer).second && !pointer.empty()) {
+    const std::size_t slash = pointer.rfind('/');
+    pointer.resize(slash == std::string::npos ? 0 : slash);
+  }
+}
+
 std::string pointer_token(const std::string& key) {
   std::string token;
   for (const char letter : key) {
@@ -153,9 +162,7 @@ std::string pointer_token(const std::string& key) {
 
 std::string as_text(const json& value) {
   constexpr std::size_t kLongest = 40;
-  std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
-  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
-  return text;
+  return shortened(value.dump(-1, ' ', false, json::error_handler_t::replace), kLongest);
 }
 
 }  // namespace faultsim

@@ -3,6 +3,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 namespace faultsim {
@@ -34,6 +35,17 @@ using SchemaVisitor = std::function<void(const std::string& pointer, const nlohm
                                          const SchemaViews& views)>;
 void walk_schema(const nlohmann::json& root, const nlohmann::json& value,
                  const SchemaVisitor& visit);
+
+/// The pointers of problems, in which it takes one look to see whether there is one at or below a
+/// place, however many there are.
+class Ancestry {
+ public:
+  void add(std::string pointer);
+  bool contains(const std::string& pointer) const { return places_.count(pointer) != 0; }
+
+ private:
+  std::unordered_set<std::string> places_;  ///< the pointers and all above them.
+};
 
 /// Key as one token of a JSON Pointer ('~' and '/' escaped).
 std::string pointer_token(const std::string& key);

@@ -146,7 +146,7 @@ TEST(CreepEstimate, CountsTheLoadsOfFaces) {
   const double confined = 11e9 * 0.85 / (1.15 * 0.7);  // E (1−ν)/((1+ν)(1−2ν))
   const CreepEstimate strained = estimate_creep(viscous_box(
       R"({"sides": ["z+"], "kind": "displacement", "components": ["x"],
-          "gradient": [[1e-4, 0, 0], [0, 0, 0], [9, 9, 9]]})"));
+          "gradient": [[1e-4, 0, 0], [0, 0, 0], [0.9, 0.9, 0.9]]})"));
   EXPECT_NEAR(*strained.stress, 1e-4 * confined, 1e-3);
   // u_z = 1e-4 z is 0.3 m at 3000 m depth: the smallest extent, 1000 m, may take it all
   const CreepEstimate distant = estimate_creep(viscous_box(

@@ -94,7 +94,7 @@ TEST(Parameters, TellValueDefaultRangeAndFamily) {
   EXPECT_EQ(rows.count("/format"), 0U);
   const ParameterInfo& viscosity = rows.at("/materials/salt/viscosity");
   EXPECT_EQ(viscosity.alias, "caprock_viscosity");
-  EXPECT_EQ(viscosity.range, "(0 Pa s, )");
+  EXPECT_EQ(viscosity.range, "[1 Pa s, 1e30 Pa s]");
   EXPECT_EQ(viscosity.value, "elastic");
   EXPECT_TRUE(viscosity.new_family);
   EXPECT_EQ(rows.count("/output/observation_points/0/position/0"), 0U);

@@ -81,5 +81,26 @@ TEST(SceneSchema, GivesEveryTextOrNumberADimension) {
   EXPECT_GE(n_quantities, 8);
 }
 
+TEST(CheckSchema, RefusesControlCharactersExceptInComments) {
+  const json schema = json::parse(R"({"type": "object", "additionalProperties": {}})");
+  EXPECT_EQ(
+      problems_of("{\"a\": \"x\\u001b\",\n\"b\\r\": [{\"comment\": \"\\n\"}, \"\\n\"]}", schema),
+      "f:1: /a: the text holds the control character or stray byte \\u001b; remove it\n"
+      "f:2: /b\\u000d: the key holds the control character or stray byte \\u000d; remove it\n"
+      "f:2: /b\\u000d/1: the text holds the control character or stray byte \\u000a; remove it");
+}
+
+/// Up to 64 elements valijson compares all pairs; beyond that it would take minutes.
+TEST(CheckSchema, FindsEqualElementsInLongListsToo) {
+  const json schema = json::parse(
+      R"({"type": "object", "properties": {"list": {"type": "array", "uniqueItems": true}}})");
+  std::string list;
+  for (int i = 0; i < 20'000; ++i) list += std::to_string(i) + ",";
+  EXPECT_EQ(problems_of("{\"list\": [" + list + "-1]}", schema), "");
+  EXPECT_EQ(problems_of("{\"list\": [" + list + "7]}", schema),
+            "f:1: /list: [0,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,1... has equal elements; "
+            "remove one of them");
+}
+
 }  // namespace
 }  // namespace faultsim
