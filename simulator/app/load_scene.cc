@@ -5,6 +5,7 @@
 #include "simulator/app/screen.h"
 #include "simulator/common/interrupt.h"
 #include "simulator/output/output_target.h"
+#include "simulator/plan/geometry_check.h"
 
 namespace faultsim {
 namespace {
@@ -17,6 +18,15 @@ std::filesystem::path user_cache() {
   return {};
 }
 
+/// Throws them, if there are any, with the lines of what they are about.
+void throw_problems(const JsonDocument& document, std::vector<Problem> problems) {
+  if (problems.empty()) return;
+  for (Problem& problem : problems) {
+    if (problem.line == 0) problem.line = document.line_of(problem.pointer);
+  }
+  throw InputError(document.source, std::move(problems));
+}
+
 }  // namespace
 
 LoadedScene load_scene(JsonDocument document) {
@@ -24,11 +34,12 @@ LoadedScene load_scene(JsonDocument document) {
   std::vector<Problem> problems;
   loaded.scene = read_scene(loaded.document, problems);
   if (problems.empty()) loaded.plan = make_plan(loaded.scene, problems);
-  for (Problem& problem : problems) {
-    if (problem.line == 0) problem.line = loaded.document.line_of(problem.pointer);
-  }
-  if (!problems.empty()) throw InputError(loaded.document.source, problems);
+  throw_problems(loaded.document, std::move(problems));
   return loaded;
+}
+
+void check_geometry(const LoadedScene& loaded) {
+  throw_problems(loaded.document, geometry_problems(loaded.scene, loaded.plan));
 }
 
 LoadedScene load_scene(const SceneArguments& arguments) {

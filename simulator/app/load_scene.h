@@ -22,6 +22,10 @@ LoadedScene load_scene(JsonDocument document);
 /// The files that the scene was read from: its own and those that it names.
 std::vector<std::filesystem::path> input_files(const LoadedScene& loaded);
 
+/// What a run would refuse once it has the mesh (plan/geometry_check.h), thrown as InputError with
+/// its place in the file. Makes the mesh, unless that is large.
+void check_geometry(const LoadedScene& loaded);
+
 /// Where a command keeps operators: the folder given, or the user's cache folder, or nowhere.
 CachePolicy cache_policy(const std::filesystem::path& folder, bool no_cache);
 /// prepare_operator with its progress and remarks on the screen, unless `quiet`. Throws when it was

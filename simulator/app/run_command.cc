@@ -88,6 +88,7 @@ ExitCode exit_code_of(Outcome outcome) {
 ExitCode run_command(const RunArguments& arguments) {
   catch_interrupts();
   LoadedScene loaded = load_scene(arguments.scene);
+  check_geometry(loaded);
   add_savings(loaded.scene, loaded.plan);
   const Scene& scene = loaded.scene;
   const bool json = arguments.scene.json;

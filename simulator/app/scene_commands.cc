@@ -28,6 +28,7 @@ ExitCode init_command(const std::string& kind, const std::filesystem::path& file
 ExitCode validate_command(const SceneArguments& arguments) {
   try {
     const LoadedScene loaded = load_scene(arguments);
+    check_geometry(loaded);
     if (arguments.json) {
       std::cout << nlohmann::json{{"valid", true}, {"identity", case_identity(loaded.scene)}}.dump()
                 << "\n";
@@ -43,13 +44,16 @@ ExitCode validate_command(const SceneArguments& arguments) {
       problems.push_back(
           {{"pointer", p.pointer}, {"line", p.line}, {"what", p.what}, {"cure", p.cure}});
     }
-    std::cout << nlohmann::json{{"valid", false}, {"problems", problems}}.dump(2) << "\n";
+    const nlohmann::json report = {{"valid", false}, {"problems", problems}};
+    // A name may hold bytes that are no UTF-8: they are replaced.
+    std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
     return ExitCode::input;
   }
 }
 
 ExitCode plan_command(const SceneArguments& arguments) {
   LoadedScene loaded = load_scene(arguments);
+  check_geometry(loaded);
   add_savings(loaded.scene, loaded.plan);
   if (arguments.json) {
     std::cout << plan_to_json(loaded.plan).dump(2) << "\n";

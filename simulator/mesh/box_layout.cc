@@ -443,7 +443,13 @@ BoxLayout box_layout(const BoxMeshSpec& spec, std::vector<Problem>& problems) {
     check_layers(spec, found);
     check_regions(spec, found);
   }
-  if (found.empty()) layout = LayoutBuilder(spec, found).build();
+  if (found.empty()) {
+    try {
+      layout = LayoutBuilder(spec, found).build();
+    } catch (const InputError& error) {  // too many lines on an axis
+      found = error.problems();
+    }
+  }
   problems.insert(problems.end(), found.begin(), found.end());
   return layout;
 }

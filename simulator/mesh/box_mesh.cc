@@ -81,18 +81,22 @@ GridFault box_fault(const BoxMeshSpec& spec, const BoxLayout& layout, const Stru
 }  // namespace
 
 GridLines grid_lines(const BoxMeshSpec& spec, std::vector<Problem>& problems) {
-  return box_layout(spec, problems).lines;
+  std::vector<Problem> found;
+  GridLines lines = box_layout(spec, found).lines;
+  if (found.empty()) found = grid_size_problems({lines.x, lines.y, lines.z});
+  problems.insert(problems.end(), found.begin(), found.end());
+  return found.empty() ? lines : GridLines{};
 }
 
 Mesh make_mesh(const BoxMeshSpec& spec) {
   std::vector<Problem> problems;
   BoxLayout layout = box_layout(spec, problems);
-  if (!problems.empty()) throw InputError("scene", problems);
   StructuredGrid grid;
   grid.lines = {std::move(layout.lines.x), std::move(layout.lines.y), std::move(layout.lines.z)};
+  if (problems.empty()) problems = grid_size_problems(grid.lines);
+  if (!problems.empty()) throw InputError("scene", problems);
   grid.tied = spec.tied;
   grid.plane_strain = spec.plane_strain;
-  check_grid_size(grid.lines);
   place_points(layout, grid);
   fill_cells(spec, grid);
   for (size_t i = 0; i < spec.patches.size(); ++i)

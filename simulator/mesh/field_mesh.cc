@@ -335,9 +335,17 @@ GridLines grid_lines(const FieldMeshSpec& spec, std::vector<Problem>& problems) 
   check_blocks(spec, found);
   if (found.empty()) check_faults(spec, found);
   if (found.empty()) check_shear(spec, found);
+  GridLines lines;
+  if (found.empty()) {
+    try {
+      lines = {field_x(spec), field_y(spec), field_z(spec)};
+      found = grid_size_problems({lines.x, lines.y, lines.z});
+    } catch (const InputError& error) {  // too many on an axis
+      found = error.problems();
+    }
+  }
   problems.insert(problems.end(), found.begin(), found.end());
-  if (!found.empty()) return {};
-  return {field_x(spec), field_y(spec), field_z(spec)};
+  return found.empty() ? lines : GridLines{};
 }
 
 Mesh make_mesh(const FieldMeshSpec& spec) {
@@ -347,7 +355,6 @@ Mesh make_mesh(const FieldMeshSpec& spec) {
   StructuredGrid grid;
   grid.lines = {std::move(lines.x), std::move(lines.y), std::move(lines.z)};
   grid.plane_strain = spec.plane_strain;
-  check_grid_size(grid.lines);
   place_points(spec, grid);
   fill_cells(spec, grid);
   for (size_t i = 0; i <= spec.blocks.size(); ++i)

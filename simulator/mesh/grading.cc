@@ -16,8 +16,20 @@ constexpr double kStretch = 0.1;          // share of a cell that may be spread 
 constexpr double kRatioTolerance = 1e-9;  // rounding of a length divided by a size
 constexpr int kMaxSmoothing = 40;  // passes that smooth sizes across lines that must be there
 
+/// Called with counts that are still doubles: a length over a size may be beyond every integer.
+void demand_few(double n_cells) {
+  if (n_cells <= kMostCellsOnAxis) return;
+  throw InputError(
+      "scene",
+      {{"/mesh", 0,
+        concat("the mesh would have more than ", kMostCellsOnAxis, " cells along one axis"),
+        "use larger cells, more growth, or a larger \"largest\""}});
+}
+
 int even_count(double length, double size) {
-  return std::max(1, static_cast<int>(std::ceil(length / size - kStretch)));
+  const double count = std::ceil(length / size - kStretch);
+  demand_few(count);
+  return std::max(1, static_cast<int>(count));
 }
 
 /// s_k = min(first r^k, last r^(n−1−k), largest) for k = 0 … n−1.
@@ -54,7 +66,7 @@ int fewest_cells(double length, double first, double last, double growth, double
     return sum(two_sided(n, growth, first, last, largest)) >= length * (1 - kRatioTolerance);
   };
   int high = 1;
-  while (!reaches(high)) high *= 2;
+  while (!reaches(high)) demand_few(high *= 2);
   int low = high / 2;  // does not reach (0 for high = 1)
   while (high - low > 1) {
     const int middle = low + (high - low) / 2;
@@ -138,6 +150,10 @@ std::vector<double> LineBuilder::build() const {
   Pieces pieces = even_pieces();
   for (int pass = 0; pass < kMaxSmoothing; ++pass) {
     grade(pieces);
+    double n_cells = 0;
+    for (const std::vector<double>& piece : pieces.cells)
+      n_cells += static_cast<double>(piece.size());
+    demand_few(n_cells);
     if (!lower_at_jumps(pieces)) break;
   }
   std::vector<double> result;

@@ -5,13 +5,16 @@
 
 namespace faultsim {
 
+inline constexpr double kMostCellsOnAxis = 50'000;  ///< 20 km in cells of 0.4 m.
+
 /// Grid lines of one axis: lines that must be there, windows of even spacing, growth elsewhere.
 ///
 /// Windows are cut at the lines in them and each piece is divided evenly into
 /// max(1, ceil(length / size − 0.1)) cells, so a cell is stretched by at most a tenth (a piece of
 /// one cell) and otherwise never larger than asked. Between windows the cells grow by at most
 /// `growth` from both ends; where a line that must be there leaves no room for that, the ratio next
-/// to it may be larger. Deterministic; cost linear in the number of lines.
+/// to it may be larger. Deterministic; cost linear in the number of lines, of which there are at
+/// most kMostCellsOnAxis.
 class LineBuilder {
  public:
   /// @param largest  cap of graded cells, m; 0 = none. @pre from < to, growth ≥ 1.
@@ -25,6 +28,8 @@ class LineBuilder {
   void add_window(double window_from, double window_to, double size);
   /// Distance below which two lines are one, m: 1e-6, or less on a body shorter than a kilometre.
   double tolerance() const;
+  /// Throws InputError about "/mesh" when there would be more cells than kMostCellsOnAxis, before
+  /// it makes them.
   std::vector<double> build() const;
 
  private:
@@ -57,7 +62,7 @@ class LineBuilder {
 
 /// Sizes of the cells of a piece of this length that begin at first_size and last_size (infinity =
 /// free) and grow towards the middle by a common ratio ≤ growth, the fewest that fit, capped by
-/// `largest` (infinity = none). They add up to length.
+/// `largest` (infinity = none). They add up to length. Throws as LineBuilder::build.
 std::vector<double> graded_sizes(double length, double first_size, double last_size, double growth,
                                  double largest);
 

@@ -73,8 +73,8 @@ struct GridLines {
 
 /// Grid lines of a spec; cheap, used by `plan`. Problems (impossible geometry) are appended, with
 /// pointers into the scene document ("/geometry/blocks/1/offset"; a box's patches are its
-/// "/faults"), and the lines are then empty. What needs the mesh itself (quality, ties, too many
-/// cells) is left to make_mesh.
+/// "/faults"), and the lines are then empty. Too many cells are a problem that is found before they
+/// are made; what needs the mesh itself (quality, ties) is left to make_mesh.
 ///
 /// Box: fine in the plane of the patches within their bounds and fine_margin; without patches
 /// within those of the regions in all directions; without either even. Edges of patches, regions

@@ -314,12 +314,12 @@ class SurfaceBuilder {
 
 }  // namespace
 
-void check_grid_size(const std::array<std::vector<double>, 3>& lines) {
+std::vector<Problem> grid_size_problems(const std::array<std::vector<double>, 3>& lines) {
   double n_cells = 1;
-  for (const std::vector<double>& axis : lines) n_cells *= static_cast<double>(axis.size() - 1);
-  if (n_cells > kMaxCells)
-    refuse("/mesh", concat("the mesh would have ", n_cells, " cells, more than ", kMaxCells),
-           "use larger cells, more growth, the half domain or plane strain");
+  for (const std::vector<double>& axis : lines) n_cells *= static_cast<double>(axis.size()) - 1;
+  if (n_cells <= kMaxCells) return {};
+  return {{"/mesh", 0, concat("the mesh would have ", n_cells, " cells, more than ", kMaxCells),
+           "use larger cells, more growth, the half domain or plane strain"}};
 }
 
 Mesh cut_faults(StructuredGrid grid) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/common/errors.h"
 #include "simulator/mesh/mesh.h"
 
 namespace faultsim {
@@ -56,8 +57,8 @@ struct StructuredGrid {
 /// only) or a fault splits no node.
 Mesh cut_faults(StructuredGrid grid);
 
-/// Throws InputError when more than kMaxCells cells are asked for.
-void check_grid_size(const std::array<std::vector<double>, 3>& lines);
+/// A problem when more than kMaxCells cells are asked for.
+std::vector<Problem> grid_size_problems(const std::array<std::vector<double>, 3>& lines);
 
 inline constexpr double kMaxCells = 1e8;  ///< far beyond what a direct factor holds; ints suffice.
 

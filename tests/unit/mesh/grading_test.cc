@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "simulator/common/errors.h"
 #include "simulator/mesh/mesh_spec.h"
 
 namespace faultsim {
@@ -112,6 +113,14 @@ TEST(LineBuilder, MergesLinesCloserThanAMicrometre) {
   EXPECT_TRUE(contains(line, 100));
   EXPECT_FALSE(contains(line, 100 + 4e-7));
   EXPECT_TRUE(contains(line, 200.001));
+}
+
+/// Found before they are made: the lists would take all memory.
+TEST(LineBuilder, RefusesMoreCellsThanAnAxisMayHave) {
+  EXPECT_THROW(graded_line(0, 1e4, 0, 10, 1, 1.3, 1e-6, {}), InputError);
+  EXPECT_THROW(graded_line(0, 1e7, 0, 1e7, 1e-3, 1.3, 0, {}), InputError) << "beyond an int";
+  EXPECT_THROW(graded_sizes(1e9, 1, 1, 1, 1), InputError);
+  EXPECT_EQ(graded_line(0, 5e4, 0, 5e4, 1, 1.3, 0, {}).size(), 50'001U) << "as many as allowed";
 }
 
 }  // namespace

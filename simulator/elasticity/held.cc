@@ -1,0 +1,72 @@
+#include "simulator/elasticity/held.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+#include "simulator/common/errors.h"
+#include "simulator/elasticity/rigid_modes.h"
+
+namespace faultsim {
+namespace {
+
+std::string rounded(double value) {
+  std::ostringstream text;
+  text << std::setprecision(7) << (value == 0 ? 0.0 : value);  // no -0
+  return text.str();
+}
+
+}  // namespace
+
+std::string extent_text(const Mesh& mesh, const std::function<bool(int)>& member) {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector3d high = -low;
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+    if (!member(static_cast<int>(i))) continue;
+    low = low.cwiseMin(mesh.nodes[i]);
+    high = high.cwiseMax(mesh.nodes[i]);
+  }
+  const auto n_cells = std::count_if(mesh.cells.begin(), mesh.cells.end(),
+                                     [&](const auto& cell) { return member(cell[0]); });
+  std::string text = "the block ";
+  for (int c = 0; c < 3; ++c) {
+    text +=
+        concat(c == 0 ? "" : ", ", "xyz"[c], " ", rounded(low[c]), " to ", rounded(high[c]), " m");
+  }
+  return text + concat(" (", n_cells, n_cells == 1 ? " cell)" : " cells)");
+}
+
+void throw_loose(const std::string& what) {
+  throw InputError(
+      "scene",
+      {{"/geometry/boundary", 0, what,
+        "fix displacement components on a side that the block touches (a roller or "
+        "\"displacement\"), or prescribe no displacement anywhere: the body is then pinned at "
+        "three points"}});
+}
+
+void demand_held(const Mesh& mesh, const DofMap& dofs) {
+  if (dofs.n_unknowns() == 0) {
+    throw InputError("scene", {{"/geometry/boundary", 0,
+                                "the displacement of every node is prescribed: nothing is left to "
+                                "compute",
+                                "free a side or a component, or use smaller cells"}});
+  }
+  const Pieces pieces = find_pieces(mesh);
+  const auto is_fixed = [&](int node, int c) {
+    const auto [first, last] = dofs.terms(node, c);
+    return first == last;
+  };
+  for (int body = 0; body < pieces.n_bodies; ++body) {
+    const auto member = [&](int node) {
+      return pieces
+                 .body[static_cast<std::size_t>(pieces.of_node[static_cast<std::size_t>(node)])] ==
+             body;
+    };
+    const std::string freedom = describe(rigid_modes(mesh, member, is_fixed));
+    if (!freedom.empty()) throw_loose(extent_text(mesh, member) + " can " + freedom);
+  }
+}
+
+}  // namespace faultsim

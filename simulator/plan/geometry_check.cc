@@ -1,0 +1,26 @@
+#include "simulator/plan/geometry_check.h"
+
+#include <algorithm>
+
+#include "simulator/elasticity/held.h"
+#include "simulator/plan/boundary_conditions.h"
+
+namespace faultsim {
+
+std::vector<Problem> geometry_problems(const Scene& scene, const Plan& plan) {
+  if (plan.n_cells > kMostCellsChecked) return {};
+  try {
+    const bool is_field = scene.geometry_kind == GeometryKind::field;
+    const Mesh mesh =
+        is_field ? make_mesh(field_mesh_spec(scene, plan)) : make_mesh(box_mesh_spec(scene, plan));
+    const auto n_loads = std::count_if(scene.box.boundary.begin(), scene.box.boundary.end(),
+                                       [](const auto& one) { return is_load(one.kind); });
+    const DofMap dofs(mesh, displacement_conditions(scene, 0), static_cast<int>(n_loads));
+    demand_held(mesh, dofs);
+  } catch (const InputError& error) {
+    return error.problems();
+  }
+  return {};
+}
+
+}  // namespace faultsim

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "simulator/plan/plan.h"
+
+namespace faultsim {
+
+/// Meshes larger than this are not made only to be looked at: a fraction of a second.
+inline constexpr long kMostCellsChecked = 100'000;
+
+/// What a run would refuse once it has the mesh: a fault that splits no node, tied faces that do
+/// not match, cells that are too distorted, a body that nothing holds. Makes the mesh, no matrix;
+/// silent about more than kMostCellsChecked cells. @pre the scene and plan had no problems.
+std::vector<Problem> geometry_problems(const Scene& scene, const Plan& plan);
+
+}  // namespace faultsim
