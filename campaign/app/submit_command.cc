@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "campaign/app/commands.h"
@@ -186,7 +187,10 @@ ExitCode init_command(const std::filesystem::path& folder) {
 }
 
 ExitCode submit_command(const StoreArguments& common, const SubmitArguments& arguments) {
-  SubmitReport report = make_report(expand(read_campaign(arguments.spec)));
+  constexpr std::size_t kPlannedForALook = 500;  // a millisecond each
+  const std::size_t most_planned =
+      arguments.dry_run ? kPlannedForALook : std::numeric_limits<std::size_t>::max();
+  SubmitReport report = make_report(expand(read_campaign(arguments.spec), most_planned));
   if (report.submission.cases.empty()) {
     throw InputError(arguments.spec,
                      {{"/exclude", 0, "every case is excluded", "relax a condition"}});

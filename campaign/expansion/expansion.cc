@@ -27,7 +27,9 @@ constexpr std::size_t kMaximumProblems = 100;
 
 class Expander {
  public:
-  explicit Expander(CampaignSpec spec) { result_.spec = std::move(spec); }
+  Expander(CampaignSpec spec, std::size_t most_planned) : most_planned_(most_planned) {
+    result_.spec = std::move(spec);
+  }
 
   Expansion run() {
     for (Group& group : result_.spec.groups) draw_sampled_rows(group);
@@ -90,7 +92,8 @@ class Expander {
     SceneBuilder builder(result_.spec, group);
     const CaseValues values(result_.spec, group);
     if (!check_choices(group, builder, values)) return;
-    FamilyFinder families(result_.spec, group, builder, result_.families, by_fingerprint_);
+    FamilyFinder families(result_.spec, group, builder, result_.families, by_fingerprint_,
+                          {cells_to_check_, most_planned_});
     const long n_rows = count_rows(group);
     std::optional<Composer> composer;
     if (n_rows > kRowsReadOneByOne) {
@@ -215,6 +218,13 @@ class Expander {
   }
 
   void write_notes() {
+    if (result_.families.size() > most_planned_) {
+      result_.notes.push_back("the first " + std::to_string(most_planned_) + " of " +
+                              std::to_string(result_.families.size()) +
+                              " families were planned; the others are counted by their parameters, "
+                              "at most as many as there are, and their sizes are taken to be those "
+                              "of the last one planned");
+    }
     for (const Group& group : result_.spec.groups) {
       for (const Design& design : group.designs) {
         if (design.kind != DesignKind::sobol || (design.n & (design.n - 1)) == 0) continue;
@@ -238,6 +248,8 @@ class Expander {
   std::vector<Problem> problems_;
   std::set<std::string> said_;
   std::map<std::string, int> by_fingerprint_;
+  std::size_t most_planned_;
+  long cells_to_check_ = 300'000;  ///< half a second
   std::unordered_map<std::string, int> by_identity_;
   std::string first_merged_;
 };
@@ -248,7 +260,9 @@ const Group& group_of(const Expansion& expansion, const Case& one) {
 
 }  // namespace
 
-Expansion expand(CampaignSpec spec) { return Expander(std::move(spec)).run(); }
+Expansion expand(CampaignSpec spec, std::size_t most_planned) {
+  return Expander(std::move(spec), most_planned).run();
+}
 
 std::vector<ParameterValue> parameters_of(const Expansion& expansion, const Case& one) {
   const Group& group = group_of(expansion, one);

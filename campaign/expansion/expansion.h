@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -17,7 +19,7 @@ struct ParameterValue {
   faultsim::Dimension dimension = faultsim::Dimension::number;
 };
 
-/// One case: small, because there may be 10^6. Its parameter vector and its scene are made on
+/// One case: small, because there may be 10^5. Its parameter vector and its scene are made on
 /// demand by the functions below.
 struct Case {
   int index = 0;                ///< from 0, in design order, without gaps.
@@ -62,7 +64,12 @@ struct Expansion {
 /// (composer.h, about 10 us per case): there each value is tried, of a parameter with more than 64
 /// the extremes and a spread; of a grid also every combination of extremes. A case that is wrong in
 /// a way that none of these shows is found when it runs, and is then a failed case with its reason.
-Expansion expand(CampaignSpec spec);
+///
+/// @param most_planned  families to plan, a millisecond each; further ones are counted by their
+///                      parameters, have the plan of the last one planned and no fingerprint of
+///                      use: for a look at a campaign, not for a store. A note says so.
+Expansion expand(CampaignSpec spec,
+                 std::size_t most_planned = std::numeric_limits<std::size_t>::max());
 
 /// The parameter vector of a case: the group's parameters in order, then the derived ones.
 std::vector<ParameterValue> parameters_of(const Expansion& expansion, const Case& one);

@@ -2,16 +2,19 @@
 
 #include <algorithm>
 
+#include "simulator/plan/geometry_check.h"
+
 namespace faultsweep {
 
 FamilyFinder::FamilyFinder(const CampaignSpec& spec, const Group& group, SceneBuilder& builder,
                            std::vector<Family>& families,
-                           std::map<std::string, int>& by_fingerprint)
+                           std::map<std::string, int>& by_fingerprint, Budget budget)
     : spec_(spec),
       group_(group),
       builder_(builder),
       families_(families),
-      by_fingerprint_(by_fingerprint) {
+      by_fingerprint_(by_fingerprint),
+      budget_(budget) {
   find_relevant();
 }
 
@@ -52,6 +55,12 @@ int FamilyFinder::family_of(const Row& row, const std::vector<double>& derived,
   }
   const auto known = by_key_.find(key);
   if (known != by_key_.end()) return known->second;
+  if (families_.size() >= budget_.most_planned) {
+    const auto family = static_cast<int>(families_.size());
+    families_.push_back({"not planned", families_.back().plan, {}});
+    by_key_.emplace(std::move(key), family);
+    return family;
+  }
   const int family = plan_row(row, derived, problems);
   if (family >= 0 && !may_creep_) by_key_.emplace(std::move(key), family);
   return family;
@@ -65,6 +74,11 @@ int FamilyFinder::plan_row(const Row& row, const std::vector<double>& derived,
   faultsim::Plan plan = faultsim::make_plan(*scene, found);
   may_creep_ =
       faultsim::has_viscous_material(*scene) && scene->numerics.creep != faultsim::Switch::off;
+  const bool is_known = by_fingerprint_.count(plan.family) != 0;
+  if (found.empty() && !is_known && plan.n_cells <= budget_.cells_to_check) {
+    budget_.cells_to_check -= plan.n_cells;
+    found = faultsim::geometry_problems(*scene, plan);
+  }
   for (const auto& one : found) problems.push_back(builder_.in_spec(one, row));
   if (!found.empty()) return -1;
   const auto [place, is_new] =

@@ -15,8 +15,14 @@ namespace faultsweep {
 class FamilyFinder {
  public:
   /// @param families  those found so far, in all groups; new ones are added.
+  struct Budget {
+    long& cells_to_check;      ///< of meshes that may still be made to look at them
+                               ///< (plan/geometry_check.h); counted down.
+    std::size_t most_planned;  ///< families; see expand.
+  };
   FamilyFinder(const CampaignSpec& spec, const Group& group, SceneBuilder& builder,
-               std::vector<Family>& families, std::map<std::string, int>& by_fingerprint);
+               std::vector<Family>& families, std::map<std::string, int>& by_fingerprint,
+               Budget budget);
 
   /// The index of the row's family. Problems of the geometry are appended; then -1.
   int family_of(const Row& row, const std::vector<double>& derived,
@@ -34,6 +40,7 @@ class FamilyFinder {
   SceneBuilder& builder_;
   std::vector<Family>& families_;
   std::map<std::string, int>& by_fingerprint_;
+  Budget budget_;
   std::vector<bool> relevant_;          ///< per parameter: may change the family.
   std::vector<bool> derived_relevant_;  ///< per derived parameter.
   bool may_creep_ = false;              ///< the row planned last: its family takes more than a key.

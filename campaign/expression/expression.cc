@@ -58,16 +58,27 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return previous[b.size()];
 }
 
-/// The text on its own line and a caret below; columns are counted in characters, not bytes.
+/// The text on its own line and a caret below; columns are counted in characters, not bytes. Of a
+/// long text what stands around the place.
 std::string caret_lines(const std::string& text, std::size_t position) {
-  std::string shown = text;
+  constexpr std::size_t kAround = 100;
+  const auto continues = [&](std::size_t i) {
+    return i < text.size() && (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U;
+  };
+  std::size_t begin = position > kAround ? position - kAround : 0;
+  std::size_t end = std::min(text.size(), position + kAround);
+  while (begin > 0 && continues(begin)) --begin;
+  while (continues(end)) ++end;
+  std::string shown = text.substr(begin, end - begin);
   std::replace_if(
       shown.begin(), shown.end(), [](char c) { return c == '\n' || c == '\t' || c == '\r'; }, ' ');
-  std::size_t column = 0;
-  for (std::size_t i = 0; i < std::min(position, text.size()); ++i) {
-    if ((static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U) ++column;
+  const std::string left = begin > 0 ? "..." : "";
+  std::size_t column = left.size();
+  for (std::size_t i = begin; i < std::min(position, text.size()); ++i) {
+    if (!continues(i)) ++column;
   }
-  return "\n    " + shown + "\n    " + std::string(column, ' ') + "^";
+  return "\n    " + left + shown + (end < text.size() ? "..." : "") + "\n    " +
+         std::string(column, ' ') + "^";
 }
 
 }  // namespace
@@ -123,12 +134,16 @@ Type Expression::type() const { return root_->type; }
 
 std::optional<std::string> nearest(std::string_view word,
                                    const std::vector<std::string>& candidates) {
+  constexpr std::size_t kLongestWord = 100;  // nobody mistypes one; the distance takes its square
+  if (word.size() > kLongestWord) return std::nullopt;
   const std::string wanted = lower(word);
   std::optional<std::string> best;
   std::size_t best_distance = std::max<std::size_t>(1, wanted.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     const std::string other = lower(candidate);
-    std::size_t distance = edit_distance(wanted, other);
+    const std::size_t shorter = std::min(wanted.size(), other.size());
+    const std::size_t least = std::max(wanted.size(), other.size()) - shorter;
+    std::size_t distance = least < best_distance ? edit_distance(wanted, other) : least;
     // "salt.youngs_modulus" for "youngs_modulus": the right word without its owner.
     const std::size_t dot = other.find_last_of("./");
     if (dot != std::string::npos && other.substr(dot + 1) == wanted) {

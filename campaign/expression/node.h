@@ -53,7 +53,8 @@ struct ParsedText {
   std::vector<std::string> names;  ///< each once, in order of appearance.
 };
 
-/// Text to tree. Throws ExpressionError on syntax only; known_names serve suggestions.
+/// Text to tree. Throws ExpressionError on syntax and on names that are not among known_names,
+/// which are in ascending order.
 ParsedText parse_expression(const std::string& text, const std::vector<std::string>& known_names);
 
 /// Fills in every Node::type. Throws ExpressionError. name_types: per name of the tree.

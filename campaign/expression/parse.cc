@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <unordered_map>
 #include <utility>
 
 #include "campaign/expression/node.h"
@@ -334,7 +335,7 @@ class Parser {
       return make_literal(start, quantity->value, quantity->type);
     }
     const std::string unit = text_.substr(position_, end_of_unit(position_, true) - position_);
-    const bool is_name = std::find(known_.begin(), known_.end(), word) != known_.end();
+    const bool is_name = is_known(std::string(word));
     fail(position_, "unknown unit \"" + unit + "\"",
          is_name ? "write " + digits + " * " + std::string(word)
                  : "known are for example m, km, m2, bar, MPa, GPa, deg, year");
@@ -355,16 +356,19 @@ class Parser {
     node->operation = Operation::name;
     node->position = start;
     node->end = start + word.size();
-    const auto found = std::find(names_.begin(), names_.end(), word);
-    node->name = static_cast<std::size_t>(found - names_.begin());
-    if (found == names_.end()) {
+    const auto [place, is_new] = name_places_.emplace(word, names_.size());
+    node->name = place->second;
+    if (is_new) {
       require_known(start, word);
       names_.push_back(word);
     }
     return node;
   }
+  bool is_known(const std::string& word) const {
+    return std::binary_search(known_.begin(), known_.end(), word);
+  }
   void require_known(std::size_t start, const std::string& word) const {
-    if (std::find(known_.begin(), known_.end(), word) != known_.end()) return;
+    if (is_known(word)) return;
     std::string cure;
     if (const auto near = nearest(word, known_)) {
       cure = "did you mean " + *near + "?";
@@ -416,6 +420,7 @@ class Parser {
   std::size_t position_ = 0;
   int depth_ = 0;
   std::vector<std::string> names_;
+  std::unordered_map<std::string, std::size_t> name_places_;  ///< in names_.
 };
 
 }  // namespace

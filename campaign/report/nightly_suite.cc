@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "campaign/spec/spec.h"
 #include "nightly_schema.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/scene/json_document.h"
+#include "simulator/scene/schema_walk.h"
 
 namespace faultsweep {
 
@@ -43,14 +45,18 @@ void check(const JsonDocument& document, const NightlySuite& suite,
                            const std::string& cure) {
     problems.push_back({pointer, document.line_of(pointer), what, cure});
   };
+  if (!is_plain_name(suite.name)) {
+    problem("/name", concat("\"", suite.name, "\" is no name for a folder"), kPlainNameCure);
+  }
+  std::error_code ignored;  // a name that is too long is no file either
   for (std::size_t k = 0; k < suite.campaigns.size(); ++k) {
-    if (!std::filesystem::is_regular_file(suite.campaigns[k])) {
+    if (!std::filesystem::is_regular_file(suite.campaigns[k], ignored)) {
       problem(concat("/campaigns/", k), concat("there is no file ", suite.campaigns[k]),
               "give a campaign spec, relative to the suite");
     }
   }
   for (std::size_t k = 0; k < suite.samples.size(); ++k) {
-    if (!std::filesystem::exists(suite.samples[k].store + "/campaign.sqlite")) {
+    if (!std::filesystem::exists(suite.samples[k].store + "/campaign.sqlite", ignored)) {
       problem(concat("/samples/", k, "/store"),
               concat("there is no store ", suite.samples[k].store),
               "give the folder of one, relative to the suite");
@@ -59,7 +65,8 @@ void check(const JsonDocument& document, const NightlySuite& suite,
   const std::vector<std::string> known = quantities();
   for (const auto& [name, tolerance] : suite.tolerances.of_quantity) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      problem("/tolerances/" + name, concat("\"", name, "\" is no quantity that is compared"),
+      problem("/tolerances/" + faultsim::pointer_token(name),
+              concat("\"", name, "\" is no quantity that is compared"),
               "name it as schemas/result.schema.json does");
     }
   }

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/printable.h"
 
 namespace faultsweep {
 namespace {
@@ -38,6 +39,8 @@ std::string format_number(double value, int digits) {
 void TextTable::add_row(std::vector<std::string> cells) {
   FAULTSIM_DEMAND(cells.size() == header_.size(), cells.size(), " cells, ", header_.size(),
                   " columns");
+  // Names in a store may come from before they were checked.
+  for (std::string& cell : cells) cell = faultsim::printable(cell);
   rows_.push_back(std::move(cells));
 }
 

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "campaign/spec/spec_reader.h"
+#include "simulator/scene/schema_walk.h"
 
 namespace faultsweep {
 namespace {
@@ -99,6 +100,10 @@ std::optional<Parameter> SpecReader::read_parameter(const std::string& pointer,
   parameter.pointer = pointer;
   const std::size_t n_problems = problems_.size();
   const json& value = at(pointer);
+  if (name.empty()) {
+    problem(pointer, "a parameter has an empty name", "name it after what it varies");
+    return std::nullopt;
+  }
   if (value.is_object() && (value.contains("scale") || value.contains("variants"))) {
     parameter.has_own_values = true;
     const bool taken = value.contains("scale") &&
@@ -168,7 +173,26 @@ void SpecReader::read_targets(const SceneNames& names, Parameter& parameter) {
   } else if (auto target = resolve(names, parameter.name, parameter.pointer)) {
     parameter.targets.push_back(*target);
   }
-  if (!parameter.targets.empty()) set_base_choice(names, parameter);
+  if (parameter.targets.empty()) return;
+  check_change_count(parameter);
+  set_base_choice(names, parameter);
+}
+
+/// Each value is kept with all places that it changes.
+void SpecReader::check_change_count(Parameter& parameter) {
+  constexpr std::size_t kMost = 1'000'000;
+  const json& value = at(parameter.pointer);
+  std::size_t n_values = value.is_array() ? value.size() : 0;
+  for (const char* list : {"values", "factors"}) {
+    if (value.is_object() && value.contains(list)) n_values = value[list].size();
+  }
+  if (value.is_object() && value.contains("count")) n_values = value["count"].get<std::size_t>();
+  if (n_values * parameter.targets.size() <= kMost) return;
+  problem(parameter.pointer,
+          std::to_string(n_values) + " values for " + std::to_string(parameter.targets.size()) +
+              " places",
+          "their product may be " + std::to_string(kMost) + "; use fewer of one of them");
+  parameter.targets.clear();
 }
 
 void SpecReader::set_base_choice(const SceneNames& names, Parameter& parameter) {
@@ -213,15 +237,14 @@ std::optional<Choice> SpecReader::make_choice(const json& value, const std::stri
 void SpecReader::read_values(const std::string& pointer, const SceneNames& names,
                              Parameter& parameter) {
   const json& values = at(pointer);
-  std::vector<json> seen;
+  std::unordered_set<std::string> seen;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::string place = pointer + "/" + std::to_string(i);
-    const auto twice = std::find(seen.begin(), seen.end(), values[i]);
-    if (twice != seen.end()) {
-      problem(place, "the value " + values[i].dump() + " is given twice", "remove one");
+    // 1 and 1.0 are one value: whole numbers are read as such however they are written.
+    if (!seen.insert(values[i].dump()).second) {
+      problem(place, "the value " + faultsim::as_text(values[i]) + " is given twice", "remove one");
       continue;
     }
-    seen.push_back(values[i]);
     auto choice = make_choice(values[i], place, names, parameter);
     if (!choice) continue;
     if (!choice->si) parameter.is_text = true;
@@ -315,7 +338,8 @@ void SpecReader::read_scale(const SceneNames& names, Parameter& parameter) {
     scaled.push_back({*target, *parts});
     parameter.targets.push_back(*target);
   }
-  if (scaled.empty()) return;
+  check_change_count(parameter);
+  if (parameter.targets.empty()) return;
   parameter.base = {"1", 1.0, "/base", {}};
   const json& factors = at(parameter.pointer + "/factors");
   for (std::size_t i = 0; i < factors.size(); ++i) {
@@ -335,6 +359,7 @@ void SpecReader::read_variants(const SceneNames& names, Parameter& parameter) {
   const std::string place = parameter.pointer + "/variants";
   parameter.is_text = true;
   parameter.base = {"base", std::nullopt, "/base", {}};
+  std::unordered_set<std::string> known;
   for (const std::string& variant : keys(place)) {
     Choice choice{variant, std::nullopt, place + "/" + escape_token(variant), {}};
     for (const std::string& key : keys(choice.pointer)) {
@@ -342,10 +367,7 @@ void SpecReader::read_variants(const SceneNames& names, Parameter& parameter) {
       const auto target = resolve(names, key, here);
       if (!target) continue;
       choice.changes.push_back({*target, at(here)});
-      if (std::find(parameter.targets.begin(), parameter.targets.end(), *target) ==
-          parameter.targets.end()) {
-        parameter.targets.push_back(*target);
-      }
+      if (known.insert(*target).second) parameter.targets.push_back(*target);
     }
     parameter.choices.push_back(std::move(choice));
   }

@@ -91,8 +91,28 @@ std::string SpecReader::describe_count(const std::string& design) {
   return text;
 }
 
+/// Designs that have a scene of their own.
+std::size_t SpecReader::count_groups(const std::string& design) const {
+  if (at(design + "/kind") != "groups") return 1;
+  std::size_t count = 0;
+  for (const std::string& part : parts_of(design)) count += count_groups(part);
+  return count;
+}
+
+/// The scene of each group is read and planned by itself, which takes milliseconds.
+bool SpecReader::check_group_count() {
+  constexpr std::size_t kMost = 250;
+  const std::size_t count = count_groups("/design");
+  if (count <= kMost) return true;
+  problem("/design", std::to_string(count) + " groups",
+          "a campaign has at most " + std::to_string(kMost) +
+              " groups; make a parameter with variants of what they set");
+  return false;
+}
+
 bool SpecReader::check_count() {
   const long double count = count_cases("/design");
+  n_cases_ = count;
   if (count <= static_cast<long double>(kMaximumCases)) return true;
   problem("/design", digits(count) + " cases (" + describe_count("/design") + ")",
           "a campaign has at most " + std::to_string(kMaximumCases) +

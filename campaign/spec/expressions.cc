@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <set>
+#include <cctype>
 
 #include "campaign/spec/metrics.h"
 #include "campaign/spec/spec_reader.h"
@@ -21,40 +21,36 @@ Type type_of(const ParameterInfo& info) {
 
 }  // namespace
 
+void SpecReader::add_identifier(SpecIdentifier one) {
+  if (!symbols_.emplace(one.name, Symbol{"", one.type}).second) return;
+  spec_.identifiers.push_back(std::move(one));
+}
+
 /// Names of the designs' parameters first, then the aliases of every scene that a group has.
 void SpecReader::collect_identifiers() {
-  std::set<std::string> seen;
-  const auto add = [&](const std::string& name, const std::string& pointer, const Type& type) {
-    if (is_name(name) && seen.insert(name).second) {
-      spec_.identifiers.push_back({name, pointer, type});
-    }
-  };
   for (const Group& group : spec_.groups) {
     for (const Parameter& parameter : group.parameters) {
+      if (!is_name(parameter.name)) continue;
       const Type type = parameter.is_text ? Type{Kind::text, {}} : number_type(parameter.dimension);
       const bool own = parameter.has_own_values || parameter.targets.empty();
-      add(parameter.name, own ? "" : parameter.targets.front(), type);
-      for (const SpecIdentifier& one : spec_.identifiers) {
-        if (one.name != parameter.name || one.type == type) continue;
-        problem(parameter.pointer,
-                "\"" + parameter.name + "\" is another kind of value in another group",
-                "give one of the two another name");
-      }
+      add_identifier({parameter.name, own ? "" : parameter.targets.front(), type});
+      if (symbols_.at(parameter.name).type == type) continue;
+      problem(parameter.pointer,
+              "\"" + parameter.name + "\" is another kind of value in another group",
+              "give one of the two another name");
     }
   }
   for (const Group& group : spec_.groups) {
-    for (const ParameterInfo& info :
-         faultsim::parameters({spec_.base.source, group.scene, spec_.base.lines})) {
-      add(info.alias, info.pointer, type_of(info));
+    for (const ParameterInfo& info : names_of(group.scene).infos) {
+      if (is_name(info.alias)) add_identifier({info.alias, info.pointer, type_of(info)});
     }
   }
-  add("group", "", Type{Kind::text, {}});
+  add_identifier({"group", "", Type{Kind::text, {}}});
 }
 
 /// A scene parameter may have more aliases than the one that is listed; those used are added.
 void SpecReader::add_other_aliases(const std::string& text) {
-  const SceneNames names(
-      faultsim::JsonDocument{spec_.base.source, spec_.groups.front().scene, spec_.base.lines});
+  const SceneNames& names = names_of(spec_.groups.front().scene);
   const auto in_name = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
   };
@@ -63,24 +59,34 @@ void SpecReader::add_other_aliases(const std::string& text) {
     const auto end = std::find_if_not(begin, text.end(), in_name);
     const std::string word(begin, end);
     begin = end;
-    const bool known = std::any_of(spec_.identifiers.begin(), spec_.identifiers.end(),
-                                   [&](const SpecIdentifier& one) { return one.name == word; });
-    if (known || word.empty()) continue;
-    try {
-      const std::string pointer = faultsim::resolve_parameter(names.document, word);
-      if (const auto* info = names.find(pointer)) {
-        spec_.identifiers.push_back({word, pointer, type_of(*info)});
-      }
-    } catch (const faultsim::InputError&) {
-      // Not an alias: a unit, a function, or a mistake that the parser will explain.
+    // Not an alias: a unit, a function, or a mistake that the parser will explain.
+    const auto alias = names.aliases.find(word);
+    if (alias == names.aliases.end()) continue;
+    if (const auto* info = names.find(alias->second)) {
+      add_identifier({word, alias->second, type_of(*info)});
     }
   }
 }
 
-Symbols SpecReader::symbols() const {
-  Symbols result;
-  for (const SpecIdentifier& one : spec_.identifiers) result[one.name] = {"", one.type};
-  return result;
+/// Conditions are evaluated for each case: what they cost is the product of both.
+bool SpecReader::check_expression_length() {
+  constexpr long double kMost = 3e8L;  // characters; seconds
+  constexpr std::size_t kMostText = 100'000;
+  std::size_t length = 0;
+  for (const char* section : {"/exclude", "/derived"}) {
+    if (!is_usable(section)) continue;
+    for (const auto& text : at(section)) {
+      if (text.is_string()) length += text.get_ref<const std::string&>().size();
+    }
+  }
+  const long double work = static_cast<long double>(length) * n_cases_;
+  if (length <= kMostText && work <= kMost) return true;
+  problem(has("/exclude") ? "/exclude" : "/derived",
+          "exclude and derived have " + std::to_string(length) +
+              " characters, to be evaluated for " +
+              std::to_string(static_cast<long long>(n_cases_)) + " cases",
+          "they may have 100000, and 3e8 times the number of cases; exclude by shorter conditions");
+  return false;
 }
 
 std::optional<Expression> SpecReader::parse(const std::string& pointer, const Symbols& known) {
@@ -94,13 +100,12 @@ std::optional<Expression> SpecReader::parse(const std::string& pointer, const Sy
 
 void SpecReader::read_derived() {
   if (!has("/derived")) return;
-  const SceneNames names(
-      faultsim::JsonDocument{spec_.base.source, spec_.groups.front().scene, spec_.base.lines});
+  const SceneNames& names = names_of(spec_.groups.front().scene);
   for (const std::string& key : keys("/derived")) {
     const std::string place = "/derived/" + escape_token(key);
     const auto target = resolve(names, key, place);
     add_other_aliases(at(place).get<std::string>());
-    auto expression = parse(place, symbols());
+    auto expression = parse(place, symbols_);
     if (!target || !expression) continue;
     const auto* info = names.find(*target);
     if (info == nullptr || info->is_text) {
@@ -168,7 +173,7 @@ void SpecReader::read_exclusions() {
   for (std::size_t i = 0; i < at("/exclude").size(); ++i) {
     const std::string place = "/exclude/" + std::to_string(i);
     add_other_aliases(at(place).get<std::string>());
-    auto expression = parse(place, symbols());
+    auto expression = parse(place, symbols_);
     if (!expression) continue;
     if (expression->type().kind != Kind::boolean) {
       problem(place, "the expression is not a condition",

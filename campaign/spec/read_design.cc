@@ -1,9 +1,22 @@
 #include <algorithm>
 #include <map>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "campaign/spec/spec_reader.h"
 
 namespace faultsweep {
+namespace {
+
+/// The target itself, or the part of it that the other parameter changes.
+std::string deeper_target(const Parameter& other, const std::string& target) {
+  for (const std::string& one : other.targets) {
+    if (overlap(one, target)) return one.size() > target.size() ? one : target;
+  }
+  return target;
+}
+
+}  // namespace
 
 void SpecReader::read_designs(const std::string& pointer, const std::string& prefix,
                               const json& scene, const std::vector<Origin>& origins) {
@@ -17,7 +30,7 @@ void SpecReader::read_designs(const std::string& pointer, const std::string& pre
   group.pointer = pointer;
   group.scene = scene;
   group.origins = origins;
-  const SceneNames names(faultsim::JsonDocument{spec_.base.source, scene, spec_.base.lines});
+  const SceneNames& names = names_of(scene);
   if (kind == "nested") {
     for (std::size_t i = 0; i < at(pointer + "/designs").size(); ++i) {
       read_design(pointer + "/designs/" + std::to_string(i), names, group);
@@ -141,18 +154,36 @@ void SpecReader::read_list(const std::string& pointer, const SceneNames& names, 
   for (Parameter& parameter : parameters) unify_kind(parameter);
 }
 
+/// No two parameters may change the same place, or one a part of what another changes.
 void SpecReader::check_targets(const Group& group) {
+  std::unordered_map<std::string, std::size_t> owner;  // of targets, and of all places above them
+  const auto above = [](const std::string& pointer) {
+    std::vector<std::string> places;
+    for (std::size_t slash = pointer.rfind('/'); slash != std::string::npos && slash > 0;
+         slash = pointer.rfind('/', slash - 1)) {
+      places.push_back(pointer.substr(0, slash));
+    }
+    return places;
+  };
+  std::unordered_set<std::string> changed;  // the targets alone
   for (std::size_t i = 0; i < group.parameters.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      for (const std::string& mine : group.parameters[i].targets) {
-        for (const std::string& other : group.parameters[j].targets) {
-          if (!overlap(mine, other)) continue;
-          problem(group.parameters[i].pointer,
-                  "\"" + group.parameters[i].name + "\" and \"" + group.parameters[j].name +
-                      "\" both change " + (mine.size() < other.size() ? other : mine),
-                  "vary it with one of them");
-        }
+    const Parameter& mine = group.parameters[i];
+    for (const std::string& target : mine.targets) {
+      const std::vector<std::string> places = above(target);
+      std::optional<std::size_t> other;
+      if (const auto found = owner.find(target); found != owner.end()) other = found->second;
+      for (const std::string& place : places) {
+        if (!other && changed.count(place) != 0) other = owner.at(place);
       }
+      if (other && *other != i) {
+        problem(mine.pointer,
+                "\"" + mine.name + "\" and \"" + group.parameters[*other].name + "\" both change " +
+                    deeper_target(group.parameters[*other], target),
+                "vary it with one of them");
+      }
+      changed.insert(target);
+      owner.emplace(target, i);
+      for (const std::string& place : places) owner.emplace(place, i);
     }
   }
 }

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "campaign/spec/spec_reader.h"
 #include "campaign_schema.h"
+#include "simulator/common/input_file.h"
 
 namespace faultsweep {
 namespace {
@@ -164,16 +163,17 @@ std::string CampaignSpec::resolved() const {
 }
 
 CampaignSpec read_campaign(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  // A directory opens but does not read, so both are asked.
-  if (!file || text.fail()) {
-    throw faultsim::InputError(path, {{"", 0, "the file cannot be read",
-                                       "give the name of a campaign file; faultsweep init writes "
-                                       "a first one"}});
-  }
-  return parse_campaign(text.str(), path);
+  return parse_campaign(faultsim::read_input_or_throw(path, faultsim::kMostJsonBytes), path);
+}
+
+bool is_plain_name(const std::string& name) {
+  const auto is_letter_or_digit = [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+  };
+  return !name.empty() && is_letter_or_digit(name[0]) &&
+         std::all_of(name.begin(), name.end(), [&](char c) {
+           return is_letter_or_digit(c) || c == '.' || c == '-' || c == '_';
+         });
 }
 
 CampaignSpec parse_campaign(const std::string& text, const std::string& source) {

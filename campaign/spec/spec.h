@@ -15,7 +15,7 @@ namespace faultsweep {
 
 /// The largest number of cases that one campaign may have before exclusions. More are refused by
 /// their number, before any is made.
-inline constexpr long kMaximumCases = 1'000'000;
+inline constexpr long kMaximumCases = 100'000;
 
 /// One value put into the scene document.
 struct Change {
@@ -38,7 +38,7 @@ struct SampledRange {
   bool log = false;              ///< uniform in the logarithm.
 };
 
-/// A value drawn from a SampledRange. There may be 10^6 per parameter.
+/// A value drawn from a SampledRange. There may be 10^5 per parameter.
 struct DrawnValue {
   double number = 0;  ///< in SampledRange::unit: what the scene gets, as its shortest decimal text.
   double si = 0;
@@ -191,6 +191,12 @@ CampaignSpec parse_campaign(const std::string& text, const std::string& source);
 
 /// The schema of specs, embedded from schemas/campaign.schema.json.
 const nlohmann::json& campaign_schema();
+
+/// Whether a name can stand in commands and as a folder: letters, digits, dots, dashes and
+/// underscores, beginning with none of the last three.
+bool is_plain_name(const std::string& name);
+inline constexpr const char* kPlainNameCure =
+    "use letters, digits, dots, dashes and underscores, beginning with a letter or digit";
 
 /// Puts value at pointer; missing objects on the way are made. False if the pointer runs into
 /// something that is neither an object nor an existing array element.

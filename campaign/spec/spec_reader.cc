@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <utility>
+
+#include "simulator/scene/near_miss.h"
 
 namespace faultsweep {
 
@@ -14,12 +15,13 @@ using faultsim::Problem;
 
 SceneNames::SceneNames(JsonDocument scene) : document(std::move(scene)) {
   infos = faultsim::parameters(document);
+  aliases = faultsim::parameter_aliases(document);
+  for (std::size_t i = 0; i < infos.size(); ++i) places_.emplace(infos[i].pointer, i);
 }
 
 const faultsim::ParameterInfo* SceneNames::find(const std::string& scene_pointer) const {
-  const auto found = std::find_if(infos.begin(), infos.end(),
-                                  [&](const auto& info) { return info.pointer == scene_pointer; });
-  return found == infos.end() ? nullptr : &*found;
+  const auto found = places_.find(scene_pointer);
+  return found == places_.end() ? nullptr : &infos[found->second];
 }
 
 SpecReader::SpecReader(const std::string& text, const std::string& source) {
@@ -32,19 +34,22 @@ SpecReader::SpecReader(const std::string& text, const std::string& source) {
 CampaignSpec SpecReader::read() {
   check_schema();
   read_name();
-  if (is_sound("/policy")) read_policy();
-  if (is_sound("/base")) read_base();
-  if (spec_.base.value.is_object() && is_sound("/set") && is_sound("/design") && check_count()) {
+  if (is_usable("/policy")) read_policy();
+  if (is_usable("/base")) read_base();
+  if (spec_.base.value.is_object() && is_sound("/set") && is_usable("/design") &&
+      check_group_count() && check_count()) {
     json scene = spec_.base.value;
     std::vector<Origin> origins;
     if (has("/set")) apply_set("/set", scene, origins);
     read_designs("/design", "", scene, origins);
     collect_identifiers();
-    if (is_sound("/derived")) read_derived();
-    if (is_sound("/exclude")) read_exclusions();
+    if (check_expression_length()) {
+      if (is_usable("/derived")) read_derived();
+      if (is_usable("/exclude")) read_exclusions();
+    }
   }
-  if (is_sound("/metrics")) read_rank_by();
-  if (has("/keep_fields") && is_sound("/keep_fields")) {
+  if (is_usable("/metrics")) read_rank_by();
+  if (is_usable("/keep_fields")) {
     spec_.keep_fields = keep_fields_named(at("/keep_fields").get<std::string>()).value();
   }
   if (!problems_.empty()) throw faultsim::InputError(spec_.source, problems_);
@@ -52,9 +57,10 @@ CampaignSpec SpecReader::read() {
 }
 
 /// The rest of the reader relies on the shape that the schema promises, so it looks only at
-/// sections that are sound.
+/// sections that are there and sound: a key that is misspelt is missing too.
 void SpecReader::check_schema() {
   problems_ = faultsim::check_schema(spec_.document, campaign_schema());
+  for (const Problem& one : problems_) said_.insert(one.pointer + "\n" + one.what);
   const bool is_incomplete = std::any_of(problems_.begin(), problems_.end(),
                                          [](const Problem& one) { return one.pointer.empty(); });
   if (is_incomplete) throw faultsim::InputError(spec_.source, problems_);
@@ -65,12 +71,14 @@ bool SpecReader::is_sound(const std::string& pointer) const {
                       [&](const Problem& one) { return overlap(pointer, one.pointer); });
 }
 
+bool SpecReader::is_usable(const std::string& pointer) const {
+  return has(pointer) && is_sound(pointer);
+}
+
 void SpecReader::problem(const std::string& pointer, const std::string& what,
                          const std::string& cure) {
-  const bool known = std::any_of(problems_.begin(), problems_.end(), [&](const Problem& other) {
-    return other.pointer == pointer && other.what == what;
-  });
-  if (!known) problems_.push_back({pointer, spec_.document.line_of(pointer), what, cure});
+  if (!said_.insert(pointer + "\n" + what).second) return;
+  problems_.push_back({pointer, spec_.document.line_of(pointer), what, cure});
 }
 
 const nlohmann::json& SpecReader::at(const std::string& pointer) const {
@@ -91,16 +99,13 @@ std::vector<std::string> SpecReader::keys(const std::string& pointer) const {
 }
 
 void SpecReader::read_name() {
-  if (!is_sound("/name") || !is_sound("/title")) return;
-  spec_.name = at("/name").get<std::string>();
-  const bool plain = std::all_of(spec_.name.begin(), spec_.name.end(), [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '_';
-  });
-  if (!plain || spec_.name.front() == '-' || spec_.name.front() == '.') {
-    problem("/name", "\"" + spec_.name + "\" is no name for a campaign",
-            "use letters, digits, dots, dashes and underscores, beginning with a letter or digit");
+  if (is_usable("/name")) {
+    spec_.name = at("/name").get<std::string>();
+    if (!is_plain_name(spec_.name)) {
+      problem("/name", "\"" + spec_.name + "\" is no name for a campaign", kPlainNameCure);
+    }
   }
-  if (has("/title")) spec_.title = at("/title").get<std::string>();
+  if (is_usable("/title")) spec_.title = at("/title").get<std::string>();
 }
 
 void SpecReader::read_base() {
@@ -197,13 +202,14 @@ void SpecReader::read_policy() {
 }
 
 void SpecReader::apply_set(const std::string& pointer, json& scene, std::vector<Origin>& origins) {
+  // Each alias is looked up in the scene as the keys before it left it: "/friction" may come first.
+  std::optional<std::map<std::string, std::string>> aliases;
   for (const std::string& key : keys(pointer)) {
     const std::string place = pointer + "/" + escape_token(key);
-    // Each key is looked up in the scene as the keys before it left it: "/friction" may come first.
-    const JsonDocument document{spec_.base.source, scene, {}};
     std::string target = key;
     if (key.empty() || key[0] != '/') {
-      const auto resolved = resolve(SceneNames(document), key, place);
+      if (!aliases) aliases = faultsim::parameter_aliases({spec_.base.source, scene, {}});
+      const auto resolved = resolve(*aliases, key, place);
       if (!resolved) continue;
       target = *resolved;
     }
@@ -212,25 +218,34 @@ void SpecReader::apply_set(const std::string& pointer, json& scene, std::vector<
               "faultsim parameters lists what can be set");
       continue;
     }
+    aliases.reset();
     origins.push_back({target, place});
   }
 }
 
-std::optional<std::string> SpecReader::resolve(const SceneNames& names, const std::string& alias,
+std::optional<std::string> SpecReader::resolve(const std::map<std::string, std::string>& aliases,
+                                               const std::string& alias,
                                                const std::string& spec_pointer) {
-  try {
-    return faultsim::resolve_parameter(names.document, alias);
-  } catch (const faultsim::InputError& error) {
-    for (const Problem& one : error.problems()) {
-      // A list of every alias of the scene would bury the other problems.
-      const bool is_list = one.cure.size() > 300;
-      problem(spec_pointer, one.what,
-              is_list ? "faultsim parameters SCENE.json lists them; a name of your own needs "
-                        "pointers, scale or variants"
-                      : one.cure);
-    }
-  }
+  if (!alias.empty() && alias[0] == '/') return alias;
+  const auto found = aliases.find(alias);
+  if (found != aliases.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& [name, pointer] : aliases) known.push_back(name);
+  std::string near;
+  if (problems_.size() < faultsim::kMostSuggestions) near = faultsim::near_miss(alias, known);
+  // A list of every alias of the scene would bury the other problems.
+  problem(spec_pointer, "there is no parameter \"" + alias + "\"",
+          near.empty() ? "faultsim parameters SCENE.json lists them; a name of your own needs "
+                         "pointers, scale or variants"
+                       : "did you mean \"" + near + "\"?");
   return std::nullopt;
+}
+
+const SceneNames& SpecReader::names_of(const json& scene) {
+  if (!names_ || names_->document.value != scene) {
+    names_.emplace(JsonDocument{spec_.base.source, scene, spec_.base.lines});
+  }
+  return *names_;
 }
 
 }  // namespace faultsweep

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -18,9 +21,13 @@ namespace faultsweep {
 struct SceneNames {
   faultsim::JsonDocument document;             ///< the group's scene.
   std::vector<faultsim::ParameterInfo> infos;  ///< of faultsim::parameters.
+  std::map<std::string, std::string> aliases;  ///< of faultsim::parameter_aliases.
 
   explicit SceneNames(faultsim::JsonDocument scene);
   const faultsim::ParameterInfo* find(const std::string& scene_pointer) const;
+
+ private:
+  std::unordered_map<std::string, std::size_t> places_;  ///< of pointers in infos.
 };
 
 class SpecReader {
@@ -36,6 +43,8 @@ class SpecReader {
   void check_schema();
   /// No problem in this section so far.
   bool is_sound(const std::string& pointer) const;
+  /// There, and no problem in it.
+  bool is_usable(const std::string& pointer) const;
   void read_name();
   void read_base();
   void read_policy();
@@ -47,8 +56,15 @@ class SpecReader {
   /// Applies the `set` object at pointer to a scene and notes where each value came from.
   void apply_set(const std::string& pointer, json& scene, std::vector<Origin>& origins);
   /// Pointer of an alias in the scene; nothing (and a problem) when unknown.
+  std::optional<std::string> resolve(const std::map<std::string, std::string>& aliases,
+                                     const std::string& alias, const std::string& spec_pointer);
   std::optional<std::string> resolve(const SceneNames& names, const std::string& alias,
-                                     const std::string& spec_pointer);
+                                     const std::string& spec_pointer) {
+    return resolve(names.aliases, alias, spec_pointer);
+  }
+  /// The names in a scene. Groups without a `set` of their own share them: making them takes
+  /// milliseconds. Valid until the next call.
+  const SceneNames& names_of(const json& scene);
 
   // count_cases.cc: from the document alone; 10^30 must be counted to be refused.
   bool check_count();
@@ -68,6 +84,8 @@ class SpecReader {
                  std::vector<Parameter>& parameters);
   void read_sampling(const std::string& pointer, Design& design);
   void check_targets(const Group& group);
+  bool check_group_count();
+  std::size_t count_groups(const std::string& design) const;
   void check_zip(const std::vector<Parameter>& parameters);
   void check_morris(const Design& design, const std::vector<Parameter>& parameters);
 
@@ -75,6 +93,7 @@ class SpecReader {
   std::optional<Parameter> read_parameter(const std::string& pointer, const std::string& name,
                                           const SceneNames& names, DesignKind design);
   void check_stray_keys(const std::string& pointer);
+  void check_change_count(Parameter& parameter);
   void read_targets(const SceneNames& names, Parameter& parameter);
   void read_values(const std::string& pointer, const SceneNames& names, Parameter& parameter);
   void read_range(const SceneNames& names, Parameter& parameter, DesignKind design);
@@ -88,17 +107,22 @@ class SpecReader {
 
   // expressions.cc
   void collect_identifiers();
+  void add_identifier(SpecIdentifier one);
   void add_other_aliases(const std::string& text);
+  bool check_expression_length();
   void read_derived();
   void sort_derived();
   void read_exclusions();
   void read_rank_by();
-  Symbols symbols() const;
   std::optional<Expression> parse(const std::string& pointer, const Symbols& symbols);
 
   CampaignSpec spec_;
   nlohmann::ordered_json ordered_;  ///< the document with its keys in order.
   std::vector<faultsim::Problem> problems_;
+  std::unordered_set<std::string> said_;  ///< pointer and text of each.
+  std::optional<SceneNames> names_;       ///< those that names_of gave last.
+  Symbols symbols_;                       ///< of spec_.identifiers.
+  long double n_cases_ = 0;               ///< before exclusions.
 };
 
 }  // namespace faultsweep
