@@ -1,6 +1,6 @@
 -- The store of faultsweep as created: campaign.sqlite, user_version 1.
 -- Later changes are the named migrations in campaign/store/migrations.cc: store_2.sql to
--- store_6.sql.
+-- store_8.sql.
 -- Units are part of column names; times are seconds since 1970 (_at) or durations (_s).
 
 CREATE TABLE migrations (

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "campaign/report/case_report.h"
 #include "campaign/report/compare.h"
 #include "campaign/report/export.h"
 #include "campaign/report/ranking_report.h"
@@ -39,9 +40,12 @@ ExitCode slurm_command(const StoreArguments& common, const SlurmRequest& request
 /// The faultsim binary: FAULTSIM_BINARY, or the one beside this program.
 std::filesystem::path simulator_binary();
 ExitCode status_command(const StoreArguments& common);
+/// Whether the store is sound; exit code 4 with all problems and the cure if it is not.
+ExitCode verify_store_command(const StoreArguments& common);
 ExitCode rank_command(const StoreArguments& common, const RankRequest& request, bool list_metrics);
 /// @param name  case number, beginning of an identity, or CAMPAIGN/either.
-ExitCode show_command(const StoreArguments& common, const std::string& name);
+ExitCode show_command(const StoreArguments& common, const std::string& name,
+                      const ShowRequest& request);
 ExitCode explain_command(const StoreArguments& common, const std::string& name);
 /// Prints the table unless it goes to a file; says on stderr what is in it and what is missing.
 ExitCode export_command(const StoreArguments& common, ExportRequest request);

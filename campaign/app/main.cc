@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <map>
+#include <new>
 
 #include "campaign/app/commands.h"
 #include "simulator/common/errors.h"
@@ -20,7 +21,9 @@ constexpr const char* kFooter =
     "  faultsweep slurm --workers 31 --nodes 2 | sbatch      as a job of a cluster\n"
     "  faultsweep status                             from another terminal: time left, failures\n"
     "  faultsweep rank --by moment --where \"friction_angle < 25 deg\" --top 10\n"
-    "  faultsweep show 17                            one case: stages, chi history per fault\n"
+    "  faultsweep rank --fault F2 --stage gas_storage --by slip\n"
+    "  faultsweep rank --where \"F2.slides in gas_storage and not F1.slides\"\n"
+    "  faultsweep show 17                            one case: stages, faults, chi history\n"
     "  faultsweep export -o cases.csv                all cases, for pandas or a spreadsheet\n"
     "  faultsweep compare coarse fine                two campaigns, case by case\n"
     "  faultsweep tradeoff scene.json                what each choice costs, in accuracy and time\n"
@@ -73,7 +76,8 @@ struct Arguments {
   RunOptions run;
   SlurmRequest slurm;
   RankRequest rank;
-  bool list_metrics = false;
+  ShowRequest show;
+  bool list_metrics = false, verify = false;
   ExportRequest exporting;
   CompareArguments compare;
   RetryArguments retry;
@@ -150,17 +154,24 @@ void add_reading(CLI::App& app, Arguments& a, ExitCode& code) {
       app.add_subcommand("status", "how a campaign stands: counts, time left, failures");
   add_campaign(status, a.common);
   add_json(status, a.common);
-  status->callback([&] { code = status_command(a.common); });
+  status->add_flag("--verify", a.verify,
+                   "read the whole store instead and check it: structure, references, checksums");
+  status->callback(
+      [&] { code = a.verify ? verify_store_command(a.common) : status_command(a.common); });
 
   CLI::App* rank = app.add_subcommand("rank", "the riskiest configurations first");
   add_campaign(rank, a.common);
   rank->add_option(
       "--by", a.rank.by,
-      "metric or expression; default: the spec's, or activated area, then M0, then the\n"
-      "pressure margin of inactive cases, then chi");
+      "metric or expression; default: the spec's, or the area that slides, then the area that\n"
+      "is open, M0, the pressure margin of inactive cases, and chi");
   rank->add_option("--stage", a.rank.stage, "metrics of this stage; default: the whole history");
-  rank->add_option("--where", a.rank.where,
-                   "condition on metrics and parameters: \"offset > 50 m and activated\"");
+  rank->add_option(
+      "--where", a.rank.where,
+      "condition on metrics and parameters: \"offset > 50 m and slides\"; of a fault,\n"
+      "a stage, or both: \"F2.max_slip in gas_storage > 10 mm\"");
+  rank->add_option("--fault", a.rank.fault,
+                   "metrics of this fault; default: of all faults of a case together");
   rank->add_option("--top", a.rank.top, "how many rows; 0 = all")->check(CLI::NonNegativeNumber);
   rank->add_flag("--ascending", a.rank.ascending, "smallest first");
   rank->add_flag("--list-metrics", a.list_metrics, "what can be ranked by");
@@ -170,8 +181,10 @@ void add_reading(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* show =
       app.add_subcommand("show", "one case: parameters, outcome, stages, slip events, chi history");
   add_case(show, a.common, a.case_name);
+  show->add_option("--stage", a.show.stage, "only this stage");
+  show->add_option("--fault", a.show.fault, "only this fault");
   add_json(show, a.common);
-  show->callback([&] { code = show_command(a.common, a.case_name); });
+  show->callback([&] { code = show_command(a.common, a.case_name, a.show); });
 
   CLI::App* explain = app.add_subcommand("explain", "why a case will run, or will not");
   add_case(explain, a.common, a.case_name);
@@ -189,11 +202,14 @@ void add_export(CLI::App& app, Arguments& a, ExitCode& code) {
   command->add_option("-o,--output", a.exporting.target,
                       "file, or folder for salib; default: stdout");
   command->add_option("--metrics", a.exporting.metrics,
-                      "names of `rank --list-metrics`, with commas; default: all, for dakota and\n"
-                      "salib those that every full history has");
+                      "names of `rank --list-metrics`, with commas, also of a fault and stage:\n"
+                      "F2.max_slip in gas_storage; default: all, for dakota and salib those that\n"
+                      "every full history has");
   command->add_option("--where", a.exporting.where, "condition on metrics and parameters");
   command->add_option("--stage", a.exporting.stage,
                       "metrics of this stage; default: the whole history");
+  command->add_option("--fault", a.exporting.fault,
+                      "metrics of this fault; default: of all faults of a case together");
   command->add_flag("--histories", a.exporting.histories,
                     "the chi histories instead: a row per case, fault and load step");
   command->footer(kExportFooter);
@@ -338,6 +354,17 @@ ExitCode faultsweep_main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? ExitCode::done : ExitCode::input;
+  } catch (const faultsim::Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {  // impossible: unless what was read had been damaged
+    for (const auto& store : {arguments.common.store, arguments.compare.other_store,
+                              std::filesystem::path(arguments.nightly.store)}) {
+      if (store.empty()) continue;
+      if (const auto damage = Store::damage_of(store)) throw faultsim::StorageError(*damage);
+    }
+    throw;
   }
   return code;
 }

@@ -11,6 +11,7 @@
 #include "campaign/store/clock.h"
 #include "simulator/output/operator_cache.h"
 #include "simulator/output/output_target.h"
+#include "simulator/plan/plan.h"
 
 namespace faultsweep {
 
@@ -123,6 +124,21 @@ ExitCode status_command(const StoreArguments& common) {
   return ExitCode::done;
 }
 
+ExitCode verify_store_command(const StoreArguments& common) {
+  const std::vector<std::string> problems = Store::open_reader(common.store).integrity_problems();
+  if (common.json) {
+    print(json{{"sound", problems.empty()}, {"problems", problems}});
+  } else if (problems.empty()) {
+    print(std::string("the store is sound: structure, references, checksums\n"));
+  } else {
+    for (const std::string& problem : problems) print(problem + "\n");
+  }
+  if (problems.empty()) return ExitCode::done;
+  throw faultsim::StorageError(concat("the store ", common.store.string(), " has ", problems.size(),
+                                      problems.size() == 1 ? " problem" : " problems", "; ",
+                                      kDamageCure));
+}
+
 ExitCode rank_command(const StoreArguments& common, const RankRequest& request, bool list_metrics) {
   if (list_metrics) {
     common.json ? print(metrics_to_json()) : print(metrics_to_text());
@@ -149,11 +165,19 @@ ExitCode rank_command(const StoreArguments& common, const RankRequest& request, 
   return ExitCode::done;
 }
 
-ExitCode show_command(const StoreArguments& common, const std::string& name) {
+ExitCode show_command(const StoreArguments& common, const std::string& name,
+                      const ShowRequest& request) {
   const Store store = Store::open_reader(common.store);
   const NamedCase found = find_case(store, common, name);
-  common.json ? print(case_to_json(found.campaign, found.stored))
-              : print(case_to_text(found.campaign, found.stored));
+  const std::vector<faultsim::InitialRegion> initial = initial_state_of(store, found.stored);
+  if (common.json) {
+    nlohmann::json document = case_to_json(found.campaign, found.stored);
+    document["initial_state"] = faultsim::initial_state_to_json(initial);
+    print(document);
+  } else {
+    print(case_to_text(found.campaign, found.stored, request) +
+          (initial.empty() ? "" : "\n" + faultsim::initial_state_to_text(initial)));
+  }
   return ExitCode::done;
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
@@ -10,6 +11,7 @@
 #include "campaign/report/text_table.h"
 #include "campaign/scheduler/resources.h"
 #include "campaign/store/clock.h"
+#include "simulator/common/process_memory.h"
 #include "simulator/output/atomic_file.h"
 #include "simulator/output/output_target.h"
 #include "simulator/output/write_result.h"
@@ -165,6 +167,34 @@ json report_to_json(const SubmitReport& report) {
           {"notes", report.notes}};
 }
 
+/// Operators that the memory limit leaves no room for: all of them is a problem, some are a note.
+void check_memory_limit(const std::string& spec, SubmitReport& report) {
+  const auto& limit = report.submission.policy.memory_limit;
+  if (!limit) return;
+  long n_too_large = 0;
+  double least = 0, most = 0;  // bytes
+  for (const FamilyRecord& family : report.submission.families) {
+    const double needed = family.memory_bytes + faultsim::kBlasBufferBytes;
+    if (needed > *limit) ++n_too_large;
+    least = least == 0 ? needed : std::min(least, needed);
+    most = std::max(most, needed);
+  }
+  if (n_too_large == 0) return;
+  constexpr double kMegabyte = 1e6;
+  const auto megabytes = [](double bytes) { return std::lround(std::ceil(bytes / kMegabyte)); };
+  if (n_too_large == static_cast<long>(report.submission.families.size())) {
+    throw InputError(
+        spec, {{"/policy/memory_limit", 0,
+                concat("no operator of this campaign can be built in ", megabytes(*limit), " MB"),
+                concat("the smallest is predicted to need ", megabytes(least), " MB, the largest ",
+                       megabytes(most), " MB")}});
+  }
+  report.notes.push_back(concat("/policy/memory_limit: ", n_too_large, " of ",
+                                report.submission.families.size(),
+                                " families are predicted to need more, up to ", megabytes(most),
+                                " MB, and their cases to fail"));
+}
+
 SubmitOutcome preview(const std::filesystem::path& store, const Submission& submission) {
   if (!std::filesystem::exists(store / "campaign.sqlite")) return {};
   return Store::open_reader(store).preview(submission);
@@ -195,6 +225,7 @@ ExitCode submit_command(const StoreArguments& common, const SubmitArguments& arg
     throw InputError(arguments.spec,
                      {{"/exclude", 0, "every case is excluded", "relax a condition"}});
   }
+  check_memory_limit(arguments.spec, report);
   json document;
   if (arguments.dry_run) {
     const SubmitOutcome outcome = preview(common.store, report.submission);

@@ -112,10 +112,11 @@ ExpressionError::ExpressionError(const std::string& text, std::size_t position,
       position_(position),
       message_(what + "; " + cure + caret_lines(text, position)) {}
 
-Expression Expression::parse(const std::string& text, const Symbols& symbols) {
+Expression Expression::parse(const std::string& text, const Symbols& symbols,
+                             const Scopes& scopes) {
   std::vector<std::string> known;
   for (const auto& [name, symbol] : symbols) known.push_back(name);
-  ParsedText parsed = parse_expression(text, known);
+  ParsedText parsed = parse_expression(text, known, scopes);
   Expression expression;
   expression.text_ = text;
   expression.names_ = std::move(parsed.names);
@@ -131,6 +132,16 @@ Expression Expression::parse(const std::string& text, const Symbols& symbols) {
 }
 
 Type Expression::type() const { return root_->type; }
+
+std::string cure_of_name(std::string_view word, const std::vector<std::string>& candidates) {
+  std::string cure;
+  if (const auto meant = nearest(word, candidates)) cure = "did you mean " + *meant + "? ";
+  cure += candidates.empty() ? "there are none" : "there are: ";
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    cure += (i == 0 ? "" : ", ") + candidates[i];
+  }
+  return cure;
+}
 
 std::optional<std::string> nearest(std::string_view word,
                                    const std::vector<std::string>& candidates) {

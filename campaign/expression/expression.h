@@ -25,8 +25,14 @@
 ///   product    := unary (("*" | "/") unary)*
 ///   unary      := "-" unary | power
 ///   power      := primary ("^" unary)?
-///   primary    := number unit? | "quoted" | name | function "(" or ("," or)* ")" | "(" or ")"
+///   primary    := number unit? | "quoted" | name | of_fault | function "(" or ("," or)* ")" | "("
+///   or ")"
 ///               | "true" | "false"
+///   of_fault   := (fault "." name | name) ("in" stage)?
+///
+/// `F2.max_slip in gas_storage` is the metric max_slip of fault F2 in that stage; without fault
+/// that of all faults together, without stage that of the stage asked for. Names of faults and
+/// stages that are no words stand in quotes: `"Fault 2".slides in "gas storage"`.
 ///
 /// A number may carry a unit: `30 deg`, `200 bar`, `2.5e3 kg/m3`; a unit that is not one word plus
 /// "/" and words stands in quotes: `"1 Pa s"`. Quoted text that is not a number with a unit is a
@@ -64,6 +70,12 @@ struct Symbol {
 };
 using Symbols = std::map<std::string, Symbol>;
 
+/// Names of faults and stages, for messages. Symbols spell what is of them "F2.max_slip",
+/// "max_slip in gas_storage" and "F2.max_slip in gas_storage", whatever was in quotes.
+struct Scopes {
+  std::vector<std::string> faults, stages;
+};
+
 /// The grammar was not met, or the types do not fit. what() carries the line, a caret and the cure.
 class ExpressionError : public faultsim::InputError {
  public:
@@ -92,7 +104,8 @@ class Expression {
  public:
   /// Parses and checks. Throws ExpressionError: syntax, unknown names (with the nearest), types,
   /// dimensions ("offset is a length, 15 deg an angle").
-  static Expression parse(const std::string& text, const Symbols& symbols);
+  static Expression parse(const std::string& text, const Symbols& symbols,
+                          const Scopes& scopes = {});
 
   const std::string& text() const { return text_; }
   Type type() const;
@@ -111,6 +124,9 @@ class Expression {
   std::vector<std::string> columns_;  ///< Symbol::sql per name.
   std::shared_ptr<const Node> root_;
 };
+
+/// What there is and which of it was meant: "did you mean F2? There are: F1, F2".
+std::string cure_of_name(std::string_view word, const std::vector<std::string>& candidates);
 
 /// The candidate nearest to word, if near enough to be meant: at most a third of its letters wrong.
 std::optional<std::string> nearest(std::string_view word,

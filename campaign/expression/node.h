@@ -54,8 +54,9 @@ struct ParsedText {
 };
 
 /// Text to tree. Throws ExpressionError on syntax and on names that are not among known_names,
-/// which are in ascending order.
-ParsedText parse_expression(const std::string& text, const std::vector<std::string>& known_names);
+/// which are in ascending order; scopes serve messages.
+ParsedText parse_expression(const std::string& text, const std::vector<std::string>& known_names,
+                            const Scopes& scopes);
 
 /// Fills in every Node::type. Throws ExpressionError. name_types: per name of the tree.
 void check_types(Node& root, const std::string& text, const std::vector<std::string>& names,

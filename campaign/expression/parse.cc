@@ -51,8 +51,8 @@ std::optional<Quantity> read_quantity(const std::string& text) {
 
 class Parser {
  public:
-  Parser(const std::string& text, const std::vector<std::string>& known)
-      : text_(text), known_(known) {}
+  Parser(const std::string& text, const std::vector<std::string>& known, const Scopes& scopes)
+      : text_(text), known_(known), scopes_(scopes) {}
 
   ParsedText parse() {
     if (text_.size() > kMaximumLength) fail(0, "the expression is too long", "split it");
@@ -236,7 +236,10 @@ class Parser {
     if (at_end()) fail_unexpected();
     const char c = text_[position_];
     if (c == '(') return parse_parentheses();
-    if (c == '"' || c == '\'') return parse_quoted();
+    if (c == '"' || c == '\'') {
+      if (auto quoted_fault = parse_quoted_fault()) return quoted_fault;
+      return parse_quoted();
+    }
     if (is_digit(c) || (c == '.' && position_ + 1 < text_.size() && is_digit(text_[position_ + 1])))
       return parse_number();
     if (is_letter(c)) return parse_word();
@@ -261,6 +264,22 @@ class Parser {
     node->type = type;
     skip_blanks();
     return node;
+  }
+
+  /// `"Fault 2".slides`; nothing where the quotes are followed by something else.
+  NodePointer parse_quoted_fault() {
+    const std::size_t start = position_;
+    const std::size_t close = text_.find(text_[start], start + 1);
+    if (close == std::string::npos || close + 2 >= text_.size() || text_[close + 1] != '.' ||
+        !is_letter(text_[close + 2])) {
+      return nullptr;
+    }
+    const std::string fault = text_.substr(start + 1, close - start - 1);
+    position_ = close + 2;
+    const std::string metric(peek_word());
+    position_ += metric.size();
+    skip_blanks();
+    return make_name(start, fault + "." + metric);
   }
 
   NodePointer parse_quoted() {
@@ -352,10 +371,24 @@ class Parser {
     position_ += word.size();
     skip_blanks();
     if (!at_end() && text_[position_] == '(') return parse_function(start, word);
+    return make_name(start, word);
+  }
+  /// A name with what may follow it: in a stage.
+  NodePointer make_name(std::size_t start, std::string word) {
     auto node = std::make_unique<Node>();
     node->operation = Operation::name;
     node->position = start;
     node->end = start + word.size();
+    if (accept_word("in")) {
+      const std::size_t place = position_;
+      const std::string stage = parse_stage();
+      if (std::find(scopes_.stages.begin(), scopes_.stages.end(), stage) == scopes_.stages.end()) {
+        fail(place, "there is no stage \"" + stage + "\" in the results",
+             cure_of_name(stage, scopes_.stages));
+      }
+      word += " in " + stage;
+      node->end = position_;
+    }
     const auto [place, is_new] = name_places_.emplace(word, names_.size());
     node->name = place->second;
     if (is_new) {
@@ -367,8 +400,28 @@ class Parser {
   bool is_known(const std::string& word) const {
     return std::binary_search(known_.begin(), known_.end(), word);
   }
+  std::string parse_stage() {
+    if (at_end()) fail(position_, "a stage is missing after \"in\"", "name one");
+    const char quote = text_[position_];
+    std::string stage;
+    if (quote == '"' || quote == '\'') {
+      const std::size_t close = text_.find(quote, position_ + 1);
+      if (close == std::string::npos)
+        fail(position_, "this quote is not closed", "add the closing quote");
+      stage = text_.substr(position_ + 1, close - position_ - 1);
+      position_ = close + 1;
+    } else {
+      stage = peek_word();
+      if (stage.empty()) fail(position_, "a stage is missing after \"in\"", "name one");
+      position_ += stage.size();
+    }
+    skip_blanks();
+    return stage;
+  }
+
   void require_known(std::size_t start, const std::string& word) const {
     if (is_known(word)) return;
+    require_fault(start, word);
     std::string cure;
     if (const auto near = nearest(word, known_)) {
       cure = "did you mean " + *near + "?";
@@ -380,6 +433,19 @@ class Parser {
       if (known_.size() > 12) cure += ", ...";
     }
     fail(start, "unknown name \"" + word + "\"", cure);
+  }
+
+  /// Where faults are known, what stands before a dot in an unknown name should be one.
+  void require_fault(std::size_t start, const std::string& word) const {
+    const std::vector<std::string>& faults = scopes_.faults;
+    const std::size_t dot = word.rfind('.', word.find(" in "));
+    if (faults.empty() || dot == std::string::npos) return;
+    const std::string fault = word.substr(0, dot);
+    if (std::find(faults.begin(), faults.end(), fault) != faults.end()) return;
+    const auto near = nearest(word, known_);
+    if (near && near->find('.') != std::string::npos && near->substr(0, near->rfind('.')) == fault)
+      return;  // a parameter with a dot in its name, spelled wrong behind it
+    fail(start, "there is no fault \"" + fault + "\" in the results", cure_of_name(fault, faults));
   }
 
   NodePointer parse_function(std::size_t start, const std::string& word) {
@@ -417,6 +483,7 @@ class Parser {
 
   const std::string& text_;
   const std::vector<std::string>& known_;
+  const Scopes& scopes_;
   std::size_t position_ = 0;
   int depth_ = 0;
   std::vector<std::string> names_;
@@ -425,8 +492,9 @@ class Parser {
 
 }  // namespace
 
-ParsedText parse_expression(const std::string& text, const std::vector<std::string>& known_names) {
-  return Parser(text, known_names).parse();
+ParsedText parse_expression(const std::string& text, const std::vector<std::string>& known_names,
+                            const Scopes& scopes) {
+  return Parser(text, known_names, scopes).parse();
 }
 
 }  // namespace faultsweep

@@ -42,6 +42,7 @@ bool is_compared(const std::string& key) {
                                                  "whole",
                                                  "creep",
                                                  "magnitude_mw",
+                                                 "magnitude_if_released_at_once_mw",
                                                  "event_magnitude_mw"};
   return left_out.count(key) == 0;
 }
@@ -60,7 +61,7 @@ void find_scales(const json& value, const std::string& key, std::map<std::string
 
 Verdict verdict_on(const std::string& quantity) {
   static const std::set<std::string> activation = {"activated", "activation_step",
-                                                   "activated_fault"};
+                                                   "activated_fault", "activation"};
   static const std::set<std::string> course = {"outcome", "failed_step", "number"};
   if (activation.count(quantity) > 0) return Verdict::activation_flipped;
   return course.count(quantity) > 0 ? Verdict::outcome_changed : Verdict::beyond_tier;
@@ -75,8 +76,12 @@ class Walk {
     steps(baseline.at("steps"), tonight.at("steps"));
     list("slip event", baseline.at("events"), tonight.at("events"));
     list("episode", baseline.at("episodes"), tonight.at("episodes"));
-    list("stage", baseline.at("stages"), tonight.at("stages"));
-    object("the whole history", baseline.at("whole"), tonight.at("whole"));
+    const json &before = baseline.at("stages"), &now = tonight.at("stages");
+    for (std::size_t k = 0; k < std::min(before.size(), now.size()); ++k) {
+      stage(concat("stage ", k + 1), before[k], now[k]);
+    }
+    count("stage", before, now);
+    stage("the whole history", baseline.at("whole"), tonight.at("whole"));
     object("the case", baseline, tonight);
   }
   std::vector<Difference> differences;
@@ -111,6 +116,10 @@ class Walk {
     }
     count(name, baseline, tonight);
   }
+  void stage(const std::string& place, const json& baseline, const json& tonight) {
+    object(place, baseline, tonight);
+    list(place + ", fault", baseline.at("faults"), tonight.at("faults"));
+  }
   void count(const std::string& of, const json& baseline, const json& tonight) {
     if (baseline.size() == tonight.size()) return;
     note("number of " + of, "number", baseline.size(), tonight.size(), 0,
@@ -118,7 +127,13 @@ class Walk {
   }
   void object(const std::string& place, const json& baseline, const json& tonight) {
     for (const auto& [key, value] : baseline.items()) {
-      if (is_compared(key)) leaf(place, key, value, tonight.at(key));
+      if (!is_compared(key)) continue;
+      const json& other = tonight.at(key);
+      if (value.is_object() && other.is_object()) {
+        object(concat(place, ", ", key), value, other);
+      } else {
+        leaf(place, key, value, other);
+      }
     }
   }
   void leaf(const std::string& place, const std::string& key, const json& baseline,
@@ -178,7 +193,10 @@ std::vector<std::string> quantities() {
   std::map<std::string, double> scales;
   json document = faultsim::result_to_json(full);
   document["pressure_margin_pa"] = 0;
-  document["whole"]["activation_pressure_pa"] = 0;
+  for (const char* key :
+       {"change_minus_pa", "change_plus_pa", "absolute_minus_pa", "absolute_plus_pa"}) {
+    document["episodes"][0]["pressures"][key] = 0;
+  }
   find_scales(document, "", scales);
   std::vector<std::string> names;
   for (const auto& [name, scale] : scales) {
@@ -228,19 +246,20 @@ Agreement compare_results(const CaseResult& baseline, const CaseResult& tonight,
 namespace {
 
 /// What the default order compares, each the larger the earlier; see store/ranking.cc.
-std::array<double, 5> sort_key(const CaseResult& r) {
+std::array<double, 6> sort_key(const CaseResult& r) {
   const double outcome_class = faultsim::in_equilibrium(r.outcome)
                                    ? (r.outcome == Outcome::unresolved_event ? 1 : 0)
                                    : (r.outcome == Outcome::unstable ? 2 : 3);
   constexpr double kNoMargin = 9e99;  // as in the store: after those that have one
   const double margin = std::isnan(r.pressure_margin) ? kNoMargin : r.pressure_margin;
-  return {-outcome_class, r.whole.activated_area, r.whole.moment, -margin, r.whole.chi_bar};
+  return {-outcome_class, r.whole.activated_area, r.whole.open_area, r.whole.moment,
+          -margin,        r.whole.chi_bar};
 }
 
 /// 1: a is before b, -1: behind, 0: alike within the tolerances.
 int order(const CaseResult& a, const CaseResult& b, const Tolerances& tolerances) {
-  static constexpr std::array<const char*, 5> kQuantities = {
-      "outcome", "activated_area_m2", "moment_nm", "pressure_margin_pa", "chi_bar"};
+  static constexpr std::array<const char*, 6> kQuantities = {
+      "outcome", "activated_area_m2", "open_area_m2", "moment_nm", "pressure_margin_pa", "chi_bar"};
   const auto x = sort_key(a), y = sort_key(b);
   for (std::size_t k = 0; k < x.size(); ++k) {
     const double scale = std::max(std::abs(x[k]), std::abs(y[k]));

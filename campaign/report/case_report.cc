@@ -6,12 +6,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "campaign/expansion/expansion.h"
 #include "campaign/report/parameters.h"
+#include "campaign/report/selection.h"
 #include "campaign/report/text_table.h"
 #include "campaign/store/clock.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/output/write_result.h"
+#include "simulator/scene/read_scene.h"
 
 namespace faultsweep {
 
@@ -35,23 +38,107 @@ std::string parameters_text(const CampaignInfo& campaign, const StoredCase& one)
   return text;
 }
 
-void add_stage(TextTable& table, const std::string& name, const StageMetrics& m) {
-  table.add_row({name, concat(m.first_step, "-", m.last_step),
-                 m.activated ? (m.activated_fault.empty() ? "yes" : m.activated_fault) : "no",
-                 m.activation_step ? std::to_string(*m.activation_step) : "",
-                 m.activation_pressure ? format_number(*m.activation_pressure / kBar) : "",
-                 format_number(m.chi_bar, 3), format_number(m.chi_max, 3),
-                 format_number(m.area_chi_080), format_number(m.activated_area),
-                 format_number(m.max_slip, 3), format_number(m.moment, 3),
-                 m.magnitude ? format_number(*m.magnitude, 2) : ""});
+/// "m2" or, of plane strain, "(m2/m)".
+std::string unit(const char* si, const CaseResult& result) {
+  return result.plane_strain ? concat("(", si, "/m)") : si;
 }
 
-std::string stages_text(const CaseResult& result) {
-  TextTable table({"stage", "steps", "activated", "at step", "Δp/bar", "χ̄", "χ max",
-                   "area χ>0.8/m2", "activated/m2", "slip/m", "M0/Nm", "Mw"});
-  for (const StageMetrics& stage : result.stages) add_stage(table, stage.stage, stage);
-  add_stage(table, "whole history", result.whole);
+bool is_asked(const std::string& asked, const std::string& name) {
+  return asked.empty() || asked == name;
+}
+
+std::string first_of(bool any, const std::string& fault, const std::optional<int>& step) {
+  if (!any) return "";
+  return concat(fault.empty() ? "yes" : fault, step ? concat(" at step ", *step) : "");
+}
+
+void add_stage(TextTable& table, const std::string& name, const StageMetrics& m) {
+  const std::string sliding = first_of(m.activated, m.activated_fault, m.activation_step);
+  table.add_row(
+      {name, concat(m.first_step, "-", m.last_step),
+       m.activated ? sliding
+       : m.slips   ? "no, slips"
+                   : "no",
+       m.n_events > 0 ? std::to_string(m.n_events) : "",
+       first_of(m.opens, m.opened_fault, m.opening_step), m.opens ? format_number(m.open_area) : "",
+       format_number(m.chi_bar, 3), format_number(m.chi_max, 3), format_number(m.area_chi_080),
+       format_number(m.activated_area), format_number(m.max_slip, 3), format_number(m.moment, 3)});
+}
+
+std::string stages_text(const CaseResult& result, const ShowRequest& request) {
+  const std::string area = unit("m2", result);
+  TextTable table({"stage", "steps", "slides", "jumps", "opens", "open/" + area, "χ̄", "χ max",
+                   "area χ>0.8/" + area, "sliding/" + area, "slip/m", "M0/" + unit("Nm", result)});
+  for (const StageMetrics& stage : result.stages) {
+    if (is_asked(request.stage, stage.stage)) add_stage(table, stage.stage, stage);
+  }
+  if (request.stage.empty()) add_stage(table, "whole history", result.whole);
   return table.text();
+}
+
+/// "west: -57 bar, 164 bar": change and absolute pressure of the region on one side.
+std::string side_text(const std::string& region, const std::optional<double>& change,
+                      const std::optional<double>& absolute) {
+  if (!change || !absolute) return "no region";
+  return concat(region, ": ", format_number(*change / kBar, 4), ", ",
+                format_number(*absolute / kBar, 4));
+}
+std::string minus_text(const faultsim::SidePressures& p) {
+  return side_text(p.region_minus, p.change_minus, p.absolute_minus);
+}
+std::string plus_text(const faultsim::SidePressures& p) {
+  return side_text(p.region_plus, p.change_plus, p.absolute_plus);
+}
+std::string in_fault_text(const faultsim::SidePressures& p) {
+  return std::isnan(p.change_in_fault) ? "" : format_number(p.change_in_fault / kBar, 4);
+}
+
+void add_fault(TextTable& table, const std::string& stage, const faultsim::FaultStageMetrics& m) {
+  const auto add = [&](const std::string& does, const std::optional<faultsim::FaultOnset>& onset,
+                       double area) {
+    std::vector<std::string> cells = {m.fault, stage, does, "", "", "", "", ""};
+    if (onset) {
+      cells = {m.fault,
+               stage,
+               does,
+               std::to_string(onset->step),
+               format_number(onset->depth),
+               minus_text(onset->pressures),
+               plus_text(onset->pressures),
+               in_fault_text(onset->pressures)};
+    }
+    for (std::string& cell :
+         std::vector<std::string>{format_number(area), format_number(m.max_slip, 3),
+                                  format_number(m.moment, 3), format_number(m.chi_bar, 3)}) {
+      cells.push_back(std::move(cell));
+    }
+    table.add_row(std::move(cells));
+  };
+  const std::string jumps = m.n_events > 0 ? concat(", jumps ", m.n_events, "x") : "";
+  add((m.activated ? "slides"
+       : m.slips   ? "slips"
+                   : "sticks") +
+          jumps,
+      m.activation, m.activated_area);
+  if (m.opens) add("opens", m.opening, m.open_area);
+}
+
+/// What each fault does in each stage; "" for results from before metrics per fault.
+std::string faults_text(const CaseResult& result, const ShowRequest& request) {
+  TextTable table({"fault", "stage", "does", "from step", "depth/m", "minus side: Δp, p/bar",
+                   "plus side: Δp, p/bar", "in fault: Δp/bar", "area/" + unit("m2", result),
+                   "slip/m", "M0/" + unit("Nm", result), "χ̄"});
+  for (std::size_t f = 0; f < result.whole.faults.size(); ++f) {
+    if (!is_asked(request.fault, result.whole.faults[f].fault)) continue;
+    for (const StageMetrics& stage : result.stages) {
+      if (f < stage.faults.size() && is_asked(request.stage, stage.stage))
+        add_fault(table, stage.stage, stage.faults[f]);
+    }
+    if (request.stage.empty()) add_fault(table, "whole history", result.whole.faults[f]);
+  }
+  if (table.empty()) return "";
+  return "\nfaults (change and absolute pressure of the regions beside them, at that depth):\n" +
+         table.text();
 }
 
 /// What the salt did to one fault up to a load step; empty where nothing creeps.
@@ -103,11 +190,13 @@ std::string creep_text(const CaseResult& result) {
   return text;
 }
 
-std::string history_text(const CaseResult& result, std::size_t fault) {
-  TextTable table({"step", "stage", "year", "Δp/bar", "χ̄", "χ max", "area χ>0.8/m2", "slipping/m2",
-                   "activated/m2", "slip/m", "M0/Nm", "creep ΔtN/bar", "creep |ΔtT|/bar",
-                   "time steps"});
+std::string history_text(const CaseResult& result, std::size_t fault, const std::string& stage) {
+  const std::string area = unit("m2", result);
+  TextTable table({"step", "stage", "year", "Δp/bar", "χ̄", "χ max", "area χ>0.8/" + area,
+                   "slipping/" + area, "sliding/" + area, "open/" + area, "slip/m",
+                   "M0/" + unit("Nm", result), "creep ΔtN/bar", "creep |ΔtT|/bar", "time steps"});
   for (const faultsim::StepResult& step : result.steps) {
+    if (!is_asked(stage, step.stage)) continue;
     std::string pressure;
     for (const double change : step.pressure_change) {
       pressure += (pressure.empty() ? "" : " ") + format_number(change / kBar);
@@ -115,7 +204,7 @@ std::string history_text(const CaseResult& result, std::size_t fault) {
     if (fault >= step.faults.size()) {
       table.add_row({std::to_string(step.step), step.stage, format_number(step.time / kYear),
                      pressure, faultsim::to_string(step.outcome), "", "", "", "", "", "", "", "",
-                     ""});
+                     "", ""});
       continue;
     }
     const faultsim::FaultMetrics& m = step.faults[fault];
@@ -123,47 +212,64 @@ std::string history_text(const CaseResult& result, std::size_t fault) {
     table.add_row({std::to_string(step.step), step.stage, format_number(step.time / kYear),
                    pressure, format_number(m.chi_bar, 3), format_number(m.chi_max, 3),
                    format_number(m.area_chi_080), format_number(m.slipping_area),
-                   format_number(m.activated_area), format_number(m.max_slip, 3),
+                   format_number(m.activated_area),
+                   m.open_area > 0 ? format_number(m.open_area) : "", format_number(m.max_slip, 3),
                    format_number(m.moment, 3), creep.normal, creep.shear, creep.time_steps});
   }
   return table.text();
 }
 
-/// M0 with its Mw, which plane strain has none of.
-std::string size_text(double moment, const std::optional<double>& magnitude) {
-  const std::string m0 = concat("M0 ", format_number(moment, 3));
-  return magnitude ? concat("Mw ", format_number(*magnitude, 2), " (", m0, ")") : m0;
-}
-
-std::string events_text(const CaseResult& result) {
-  if (result.events.empty()) return "";
-  TextTable table({"event", "step", "stage", "Δp/bar", "fault", "depth/m", "nucleus/m", "area/m2",
-                   "slip/m", "drop/bar", "size/Nm", "resolved", "evidence"});
+std::string events_text(const CaseResult& result, const ShowRequest& request) {
+  TextTable table({"event", "step", "stage", "fault", "depth/m", "minus side: Δp, p/bar",
+                   "plus side: Δp, p/bar", "in fault: Δp/bar", "nucleus/m",
+                   "area/" + unit("m2", result), "slip/m", "drop/bar", "M0/" + unit("Nm", result),
+                   "Mw", "resolved", "evidence"});
   int number = 0;
   for (const faultsim::SlipEvent& e : result.events) {
-    table.add_row({std::to_string(++number), std::to_string(e.step), e.stage,
-                   format_number(e.pressure_change / kBar), e.fault, format_number(e.depth),
-                   format_number(e.nucleation_length, 3), format_number(e.slipped_area),
-                   format_number(e.max_slip, 3), format_number(e.stress_drop / kBar, 3),
-                   size_text(e.moment, e.magnitude), e.resolved ? "yes" : "NO, mesh too coarse",
-                   e.evidence_holds ? "holds" : "DOES NOT HOLD"});
+    ++number;
+    if (!is_asked(request.stage, e.stage) || !is_asked(request.fault, e.fault)) continue;
+    table.add_row(
+        {std::to_string(number), std::to_string(e.step), e.stage, e.fault, format_number(e.depth),
+         minus_text(e.pressures), plus_text(e.pressures), in_fault_text(e.pressures),
+         format_number(e.nucleation_length, 3), format_number(e.slipped_area),
+         format_number(e.max_slip, 3), format_number(e.stress_drop / kBar, 3),
+         format_number(e.moment, 3), e.magnitude ? format_number(*e.magnitude, 2) : "",
+         e.resolved ? "yes" : "NO, mesh too coarse", e.evidence_holds ? "holds" : "DOES NOT HOLD"});
   }
-  return "\nslip events:\n" + table.text();
+  return table.empty() ? "" : "\nslip events:\n" + table.text();
 }
 
-std::string episodes_text(const CaseResult& result) {
-  if (result.episodes.empty()) return "";
-  TextTable table({"episode", "stage", "steps", "fault", "from Δp/bar", "pressure", "activated/m2",
-                   "slip/m", "size/Nm"});
+std::string episodes_text(const CaseResult& result, const ShowRequest& request) {
+  TextTable table({"episode", "stage", "steps", "fault", "pressure", "depth/m",
+                   "minus side: Δp, p/bar", "plus side: Δp, p/bar", "in fault: Δp/bar",
+                   "sliding/" + unit("m2", result), "slip/m", "M0/" + unit("Nm", result)});
   int number = 0;
   for (const faultsim::Episode& e : result.episodes) {
-    table.add_row({std::to_string(++number), e.stage, concat(e.first_step, "-", e.last_step),
-                   e.fault, format_number(e.pressure_change / kBar),
-                   e.after_recovery ? "had been lower" : "the lowest so far",
+    ++number;
+    if (!is_asked(request.stage, e.stage) || !is_asked(request.fault, e.fault)) continue;
+    table.add_row({std::to_string(number), e.stage, concat(e.first_step, "-", e.last_step), e.fault,
+                   e.after_recovery ? "has recovered" : "not recovered", format_number(e.depth),
+                   minus_text(e.pressures), plus_text(e.pressures), in_fault_text(e.pressures),
                    format_number(e.activated_area), format_number(e.max_slip, 3),
-                   size_text(e.moment, e.magnitude)});
+                   format_number(e.moment, 3)});
   }
-  return "\nactivation episodes:\n" + table.text();
+  return table.empty() ? "" : "\nepisodes (pressures at their first step):\n" + table.text();
+}
+
+/// The evidence of an unexpected reactivation; "" = none.
+std::string unexpected_text(const CaseResult& result) {
+  if (!result.unexpected) return "";
+  const std::size_t n = result.episodes.size();
+  const auto again = static_cast<std::size_t>(result.unexpected->episode - 1);
+  const auto before = static_cast<std::size_t>(result.unexpected->after - 1);
+  if (again >= n || before >= n) return "UNEXPECTED REACTIVATION\n";
+  const auto when = [&](std::size_t k) {
+    const faultsim::Episode& e = result.episodes[k];
+    return concat(e.stage, ", steps ", e.first_step, "-", e.last_step, " (episode ", k + 1, ")");
+  };
+  return concat("UNEXPECTED REACTIVATION: fault ", result.episodes[again].fault,
+                " slides again in ", when(again), " after its pressure has recovered, having slid",
+                " in ", when(before), "\n");
 }
 
 std::string runs_text(const StoredCase& one) {
@@ -223,6 +329,14 @@ std::string last_fields_failure(const StoredCase& one) {
   return reason;
 }
 
+void check_request(const CaseResult& result, const ShowRequest& request) {
+  if (!request.fault.empty()) require_name("--fault", "fault", request.fault, result.fault_names);
+  if (request.stage.empty()) return;
+  std::vector<std::string> stages;
+  for (const StageMetrics& stage : result.stages) stages.push_back(stage.stage);
+  require_name("--stage", "stage", request.stage, stages);
+}
+
 json fields_to_json(const CampaignInfo& campaign, const StoredCase& one) {
   if (one.fields == FieldsState::none) return {};
   const bool gone = one.fields == FieldsState::kept && !fields_are_there(one);
@@ -233,7 +347,9 @@ json fields_to_json(const CampaignInfo& campaign, const StoredCase& one) {
 
 }  // namespace
 
-std::string case_to_text(const CampaignInfo& campaign, const StoredCase& one) {
+std::string case_to_text(const CampaignInfo& campaign, const StoredCase& one,
+                         const ShowRequest& request) {
+  if (one.has_result) check_request(one.result, request);
   std::string text = concat("case ", one.position, " of ", campaign.name, ", ", one.state, "\n");
   text += concat("identity ", one.identity, ", family ", one.family, "\n");
   text += parameters_text(campaign, one);
@@ -244,7 +360,7 @@ std::string case_to_text(const CampaignInfo& campaign, const StoredCase& one) {
   text += concat("\n", faultsim::to_string(result.outcome),
                  result.reason.empty() ? "" : ": " + result.reason, "; ", result.steps.size(),
                  " load steps, ", result.counts.newton_iterations, " Newton iterations\n");
-  if (result.unexpected) text += "UNEXPECTED REACTIVATION: activated again as pressure recovers\n";
+  text += unexpected_text(result);
   if (result.outcome == faultsim::Outcome::unresolved_event) {
     text += result.weakening_resolved
                 ? "UNRESOLVED: the evidence of a slip event does not hold\n"
@@ -252,13 +368,16 @@ std::string case_to_text(const CampaignInfo& campaign, const StoredCase& one) {
   }
   for (const std::string& warning : result.warnings) text += "warning: " + warning + "\n";
   if (std::isfinite(result.pressure_margin)) {
-    text += concat("activates after ", format_number(result.pressure_margin / kBar),
+    text += concat("reaches χ̄ = 1 after ", format_number(result.pressure_margin / kBar),
                    " bar more depletion, extrapolated\n");
   }
   text += creep_text(result);
-  text += "\n" + stages_text(result) + events_text(result) + episodes_text(result);
+  text += "\n" + stages_text(result, request) + faults_text(result, request) +
+          events_text(result, request) + episodes_text(result, request);
   for (std::size_t fault = 0; fault < result.fault_names.size(); ++fault) {
-    text += concat("\nfault ", result.fault_names[fault], ":\n", history_text(result, fault));
+    if (!is_asked(request.fault, result.fault_names[fault])) continue;
+    text += concat("\nfault ", result.fault_names[fault], ":\n",
+                   history_text(result, fault, request.stage));
   }
   return text;
 }
@@ -338,6 +457,15 @@ std::string verdict_of(const CampaignInfo& campaign, const StoredCase& one) {
 }
 
 }  // namespace
+
+std::vector<faultsim::InitialRegion> initial_state_of(const Store& store, const StoredCase& one) {
+  const BaseScene base = store.base_scene(one.scene);
+  std::vector<faultsim::Problem> problems;
+  const faultsim::Scene scene = faultsim::read_scene(
+      {base.source, scene_from_changes(base.document, one.changes), {}}, problems);
+  return problems.empty() ? faultsim::initial_regions(scene)
+                          : std::vector<faultsim::InitialRegion>();
+}
 
 std::string explain_case(const Store& store, const CampaignInfo& campaign, const StoredCase& one) {
   std::string text = concat("case ", one.position, " of ", campaign.name, " (identity ",

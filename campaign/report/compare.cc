@@ -46,7 +46,7 @@ struct Side {
   std::string key;  ///< values of the shared parameters; "" = none are shared.
   std::string labels;
   std::string outcome;  ///< or status of the failed run; "" = not run.
-  bool has_result = false, complete = false, activated = false;
+  bool has_result = false, complete = false, activated = false, plane_strain = false;
   std::vector<double> metrics;  ///< NaN = missing.
 };
 
@@ -73,12 +73,14 @@ std::string key_of(const std::string& parameter_values, const std::vector<std::s
   return key;
 }
 
+/// @param metrics  of that campaign, in the order of comparison.metrics.
 std::vector<Side> read_side(const Store& store, const CampaignInfo& campaign,
+                            const std::vector<ScopedMetric>& metrics,
                             const Comparison& comparison) {
   Store::TableQuery query;
   query.stage = comparison.request.stage;
-  query.metrics = {"activated"};
-  for (const MetricDifference& one : comparison.metrics) query.metrics.push_back(one.metric.name);
+  query.columns = {metric_sql("slides"), metric_sql("plane_strain")};
+  for (const ScopedMetric& metric : metrics) query.columns.push_back(metric.sql);
   const std::vector<std::size_t> places = places_of(comparison.shared_parameters, campaign);
   std::vector<Side> cases;
   store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
@@ -92,7 +94,8 @@ std::vector<Side> read_side(const Store& store, const CampaignInfo& campaign,
     side.complete = row.complete();
     side.outcome = side.has_result ? row.outcome : row.state == "failed" ? row.status : "";
     side.activated = number_of(row.metrics[0]) > 0;
-    for (std::size_t k = 1; k < row.metrics.size(); ++k) {
+    side.plane_strain = number_of(row.metrics[1]) > 0;
+    for (std::size_t k = 2; k < row.metrics.size(); ++k) {
       side.metrics.push_back(number_of(row.metrics[k]));
     }
     cases.push_back(std::move(side));
@@ -208,6 +211,24 @@ ComparedPair compare_pair(const Side& a, const Side& b, Comparison& comparison) 
   return pair;
 }
 
+/// A plane-strain result beside one in 3D: areas, potency and moments would compare a number per
+/// metre of strike with a total.
+void refuse_other_kind(const Side& a, const Side& b, const Comparison& comparison) {
+  if (!a.has_result || !b.has_result || a.plane_strain == b.plane_strain) return;
+  const auto dimension = [](const Side& side) {
+    return side.plane_strain ? "plane strain, per metre of strike" : "3D, a total";
+  };
+  for (const MetricDifference& one : comparison.metrics) {
+    if (!one.metric.is_extensive()) continue;
+    throw faultsim::InputError(
+        "--metrics",
+        {{"", 0,
+          concat(one.metric.name, " cannot be compared: case ", a.position, " of A is ",
+                 dimension(a), "; case ", b.position, " of B is ", dimension(b)),
+          "name metrics without areas, potencies and moments: --metrics chi_bar,max_slip"}});
+  }
+}
+
 /// Places in the default order by case number, from 0; equal ones share theirs.
 std::unordered_map<long, long> places(const Store& store, const CampaignInfo& campaign,
                                       const std::string& stage) {
@@ -217,8 +238,8 @@ std::unordered_map<long, long> places(const Store& store, const CampaignInfo& ca
   long place = -1;
   const auto order_of = [](const RankedCase& row) {
     const double margin = row.pressure_margin.value_or(std::numeric_limits<double>::infinity());
-    return std::tuple(row.rank_class, row.metrics.activated_area, row.metrics.moment, margin,
-                      row.metrics.chi_bar);
+    return std::tuple(row.rank_class, row.metrics.activated_area, row.metrics.open_area,
+                      row.metrics.moment, margin, row.metrics.chi_bar);
   };
   const std::vector<RankedCase> rows = store.ranking(campaign.id, query);
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -265,20 +286,22 @@ bool is_same_store(const Store& a, const Store& b) {
 
 Comparison compare_campaigns(const Store& store_a, const CampaignInfo& a, const Store& store_b,
                              const CampaignInfo& b, const CompareRequest& request) {
-  check_stage(store_a, a, request.stage);
-  check_stage(store_b, b, request.stage);
+  const Selection selection_a = make_selection(store_a, a, request.stage, "");
+  const Selection selection_b = make_selection(store_b, b, request.stage, "");
   Comparison comparison;
   comparison.a = a;
   comparison.b = b;
   comparison.request = request;
   comparison.shared_parameters = shared_parameters(a, b);
   const bool creep = creeps(store_a, a) || creeps(store_b, b);
-  for (const MetricInfo& metric : choose_metrics(request.metrics, true, creep)) {
+  const auto metrics_a = choose_metrics(selection_a, request.metrics, true, creep);
+  const auto metrics_b = choose_metrics(selection_b, request.metrics, true, creep);
+  for (const ScopedMetric& metric : metrics_a) {
     comparison.metrics.emplace_back();
     comparison.metrics.back().metric = metric;
   }
-  const std::vector<Side> cases_a = read_side(store_a, a, comparison);
-  const std::vector<Side> cases_b = read_side(store_b, b, comparison);
+  const std::vector<Side> cases_a = read_side(store_a, a, metrics_a, comparison);
+  const std::vector<Side> cases_b = read_side(store_b, b, metrics_b, comparison);
   const bool same_store = is_same_store(store_a, store_b);
   Matches ranked;
   for (const auto& [one, other] : match(cases_a, cases_b, comparison)) {
@@ -288,7 +311,9 @@ Comparison compare_campaigns(const Store& store_a, const CampaignInfo& a, const 
     } else if (same_store && one->id == other->id) {
       ++comparison.n_same_result;
     } else {
+      refuse_other_kind(*one, *other, comparison);
       comparison.pairs.push_back(compare_pair(*one, *other, comparison));
+      (one->plane_strain ? comparison.kinds.plane_strain : comparison.kinds.total) = true;
       if (one->complete && other->complete) ranked.emplace_back(one, other);
     }
   }

@@ -55,6 +55,7 @@ struct Comparison {
   long n_without = 0;      ///< matched, but neither has a result, or one has not been run.
   std::vector<ComparedPair> pairs;  ///< compared, the worst first.
   std::vector<MetricDifference> metrics;
+  Store::Kinds kinds;                ///< of the pairs compared.
   std::optional<double> tau_b;       ///< of the places of compared pairs with full histories.
   long n_ranked = 0;                 ///< such pairs.
   long n_top = 0, n_top_shared = 0;  ///< highest of each, at most 10, and how many are in both.
@@ -66,7 +67,8 @@ struct Comparison {
 };
 
 /// Matches cases by identity, then by the values of the parameters that both campaigns have, and
-/// compares their outcome and metrics. Throws InputError (stage, metrics).
+/// compares their outcome and metrics. Throws InputError (stage, metrics), also where an area,
+/// potency or moment per metre of strike would be compared with a total.
 Comparison compare_campaigns(const Store& store_a, const CampaignInfo& a, const Store& store_b,
                              const CampaignInfo& b, const CompareRequest& request);
 

@@ -13,11 +13,19 @@ using nlohmann::json;
 
 namespace {
 
-std::string unit_of(const MetricInfo& metric) { return faultsim::si_unit(metric.dimension); }
+/// "m2", or "m2/m" of plane strain; "m2 or m2/m" where pairs of both kinds were compared.
+std::string unit_of(const MetricInfo& metric, const Comparison& c) {
+  const std::string unit = metric_unit(metric, c.kinds.plane_strain);
+  return c.kinds.mixed() && metric.is_extensive() ? concat(metric_unit(metric, false), " or ", unit)
+                                                  : unit;
+}
 
-/// "chi_bar" or "moment/N m".
-std::string name_with_unit(const MetricInfo& metric) {
-  return unit_of(metric).empty() ? metric.name : concat(metric.name, "/", unit_of(metric));
+/// "chi_bar" or "moment/(N m)".
+std::string name_with_unit(const MetricInfo& metric, const Comparison& c) {
+  const std::string unit = unit_of(metric, c);
+  if (unit.empty()) return metric.name;
+  const bool one_word = unit.find_first_of(" /") == std::string::npos;
+  return one_word ? concat(metric.name, "/", unit) : concat(metric.name, "/(", unit, ")");
 }
 
 std::string matched_text(const Comparison& c) {
@@ -47,7 +55,7 @@ std::string verdict_text(const Comparison& c) {
       "; identical bit for bit in outcome and all metrics: ", c.count(&ComparedPair::identical),
       "; beyond the tolerance of ", format_number(c.request.tolerance), ": ", c.n_beyond(), "\n");
   text += concat("other outcome: ", c.count(&ComparedPair::outcome_differs),
-                 "; activated in one only: ", c.count(&ComparedPair::flipped), "\n");
+                 "; sliding in one only: ", c.count(&ComparedPair::flipped), "\n");
   if (c.n_ranked > 1) {
     text += concat("ranking of ", c.n_ranked, " full histories: Kendall's τ-b ",
                    c.tau_b ? format_number(*c.tau_b) : "none (all tied)", "; ", c.n_top_shared,
@@ -62,7 +70,7 @@ std::string metrics_text(const Comparison& c) {
   for (const MetricDifference& m : c.metrics) {
     if (m.n_compared + m.n_one_missing == 0) continue;
     table.add_row(
-        {name_with_unit(m.metric), std::to_string(m.n_compared), std::to_string(m.n_beyond),
+        {name_with_unit(m.metric, c), std::to_string(m.n_compared), std::to_string(m.n_beyond),
          m.n_one_missing > 0 ? std::to_string(m.n_one_missing) : "", format_number(m.max_absolute),
          format_number(m.max_relative, 3), m.worst_a > 0 ? std::to_string(m.worst_a) : "",
          m.worst_b > 0 ? std::to_string(m.worst_b) : ""});
@@ -96,7 +104,7 @@ std::string worst_text(const Comparison& c) {
     const bool has_metric = p.worst > 0;
     cells.insert(cells.end(),
                  {p.outcome_a, p.outcome_differs ? p.outcome_b : "", p.flipped ? "in one only" : "",
-                  has_metric ? name_with_unit(c.metrics[p.worst_metric].metric) : "",
+                  has_metric ? name_with_unit(c.metrics[p.worst_metric].metric, c) : "",
                   has_metric ? format_number(p.worst_a, 6) : "",
                   has_metric ? format_number(p.worst_b, 6) : "",
                   has_metric && std::isfinite(p.worst) ? format_number(p.worst, 3) : ""});
@@ -107,9 +115,9 @@ std::string worst_text(const Comparison& c) {
 
 json number_or_null(double value) { return std::isfinite(value) ? json(value) : json(); }
 
-json metric_json(const MetricDifference& m) {
+json metric_json(const Comparison& c, const MetricDifference& m) {
   return {{"name", m.metric.name},
-          {"unit", unit_of(m.metric)},
+          {"unit", unit_of(m.metric, c)},
           {"compared", m.n_compared},
           {"in_one_only", m.n_one_missing},
           {"beyond_tolerance", m.n_beyond},
@@ -129,7 +137,7 @@ json pair_json(const Comparison& c, const ComparedPair& p) {
   if (p.worst > 0) {
     const MetricInfo& metric = c.metrics[p.worst_metric].metric;
     one["worst"] = {{"metric", metric.name},
-                    {"unit", unit_of(metric)},
+                    {"unit", unit_of(metric, c)},
                     {"a", number_or_null(p.worst_a)},
                     {"b", number_or_null(p.worst_b)},
                     {"relative", number_or_null(p.worst)}};
@@ -145,7 +153,7 @@ std::string comparison_to_text(const Comparison& c) {
 
 json comparison_to_json(const Comparison& c) {
   json metrics = json::array(), worst = json::array();
-  for (const MetricDifference& one : c.metrics) metrics.push_back(metric_json(one));
+  for (const MetricDifference& one : c.metrics) metrics.push_back(metric_json(c, one));
   for (std::size_t k = 0; k < n_shown(c); ++k) worst.push_back(pair_json(c, c.pairs[k]));
   return {{"a", c.a.name},
           {"b", c.b.name},

@@ -30,14 +30,33 @@ class CsvHeader {
   std::string line_;
 };
 
+/// A metric as a column: of mixed results what is per metre of strike stands apart.
+struct Column {
+  std::string name, sql;
+};
+std::vector<Column> columns_of(const std::vector<ScopedMetric>& metrics, Store::Kinds kinds) {
+  std::vector<Column> columns;
+  for (const ScopedMetric& metric : metrics) {
+    if (!metric.is_extensive() || !kinds.mixed()) {
+      columns.push_back({column_name(metric, kinds.plane_strain), metric.sql});
+      continue;
+    }
+    columns.push_back(
+        {column_name(metric, false), concat("iif(m.plane_strain, NULL, ", metric.sql, ")")});
+    columns.push_back(
+        {column_name(metric, true), concat("iif(m.plane_strain, ", metric.sql, ", NULL)")});
+  }
+  return columns;
+}
+
 std::string header_line(const std::vector<StoredParameter>& parameters,
-                        const std::vector<MetricInfo>& metrics) {
+                        const std::vector<Column>& columns) {
   CsvHeader header;
   for (const char* name :
        {"case", "identity", "state", "outcome", "rank_class", "reason", "activated_fault"}) {
     header.add(name);
   }
-  for (const MetricInfo& metric : metrics) header.add(column_name(metric.name, metric.dimension));
+  for (const Column& column : columns) header.add(column.name);
   for (const StoredParameter& one : parameters) {
     header.add(one.name);
     if (one.dimension != Dimension::number) header.add(column_name(one.name, one.dimension));
@@ -67,14 +86,16 @@ std::string reason_of(const CaseRow& row) {
 }
 
 std::string export_cases(const Store& store, const CampaignInfo& campaign,
-                         const ExportRequest& request, Store::TableQuery query) {
+                         const ExportRequest& request, const Selection& selection,
+                         Store::TableQuery query) {
   const auto parameters = parameters_from_json(campaign.parameters);
-  const std::vector<MetricInfo> metrics =
-      choose_metrics(request.metrics, true, creeps(store, campaign));
-  query.metrics = {"activated_fault"};
-  for (const MetricInfo& metric : metrics) query.metrics.push_back(metric.name);
+  const std::vector<Column> columns =
+      columns_of(choose_metrics(selection, request.metrics, true, creeps(store, campaign)),
+                 store.kinds(campaign.id, {}));
+  query.columns = {metric_sql("activated_fault")};
+  for (const Column& column : columns) query.columns.push_back(column.sql);
   TableOutput output(request.target);
-  output.write(header_line(parameters, metrics));
+  output.write(header_line(parameters, columns));
   long n_rows = 0, n_without = 0, n_early = 0;
   store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
     ++n_rows;
@@ -96,10 +117,11 @@ std::string export_histories(const Store& store, const CampaignInfo& campaign,
                              const ExportRequest& request, const Store::TableQuery& query) {
   TableOutput output(request.target);
   CsvHeader header;
-  for (const std::string& name : Store::history_columns()) header.add(name);
+  const Store::Kinds kinds = store.kinds(campaign.id, {});
+  for (const std::string& name : Store::history_columns(kinds)) header.add(name);
   output.write(header.line());
   long n_rows = 0;
-  store.for_each_history_row(campaign.id, query, [&](const std::vector<Cell>& cells) {
+  store.for_each_history_row(campaign.id, query, kinds, [&](const std::vector<Cell>& cells) {
     ++n_rows;
     const char* separator = "";
     for (const Cell& cell : cells) {
@@ -117,7 +139,7 @@ std::string export_histories(const Store& store, const CampaignInfo& campaign,
 
 std::string export_campaign(const Store& store, const CampaignInfo& campaign,
                             const ExportRequest& request) {
-  check_stage(store, campaign, request.stage);
+  const Selection selection = make_selection(store, campaign, request.stage, request.fault);
   if (request.format != ExportFormat::salib && !request.target.empty()) {
     faultsim::demand_writable_file("-o", request.target, faultsim::FileKind::text, {});
   }
@@ -125,13 +147,16 @@ std::string export_campaign(const Store& store, const CampaignInfo& campaign,
     throw InputError("--histories", {{"", 0, "histories are written as CSV, with all their columns",
                                       "leave out --format and --metrics"}});
   }
-  if (request.format == ExportFormat::dakota) return export_dakota(store, campaign, request);
-  if (request.format == ExportFormat::salib) return export_salib(store, campaign, request);
+  if (request.format == ExportFormat::dakota)
+    return export_dakota(store, campaign, selection, request);
+  if (request.format == ExportFormat::salib)
+    return export_salib(store, campaign, selection, request);
   Store::TableQuery query;
   query.stage = request.stage;
-  query.where = parse_condition(request.where, result_symbols(campaign));
+  if (selection.fault) query.fault = selection.fault->id;
+  query.where = parse_condition(request.where, campaign, selection);
   return request.histories ? export_histories(store, campaign, request, query)
-                           : export_cases(store, campaign, request, std::move(query));
+                           : export_cases(store, campaign, request, selection, std::move(query));
 }
 
 }  // namespace faultsweep

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "campaign/report/selection.h"
 #include "campaign/store/store.h"
 
 /// `faultsweep export`: a campaign's cases as tables for other programs (docs/campaign.md).
@@ -20,6 +21,7 @@ struct ExportRequest {
   std::string metrics;           ///< names with commas; "" = all that fit the format.
   std::string where;             ///< condition; "" = all cases.
   std::string stage;             ///< "" = the whole history.
+  std::string fault;             ///< "" = all faults of a case together.
   bool histories = false;        ///< csv: χ histories instead, a row per case, fault and step.
 };
 
@@ -30,8 +32,8 @@ std::string export_campaign(const Store& store, const CampaignInfo& campaign,
 
 /// The formats that statistics programs read (export_statistics.cc).
 std::string export_dakota(const Store& store, const CampaignInfo& campaign,
-                          const ExportRequest& request);
+                          const Selection& selection, const ExportRequest& request);
 std::string export_salib(const Store& store, const CampaignInfo& campaign,
-                         const ExportRequest& request);
+                         const Selection& selection, const ExportRequest& request);
 
 }  // namespace faultsweep

@@ -82,7 +82,7 @@ std::vector<Factor> survey(const Store& store, const CampaignInfo& campaign,
     factors.back().parameter = parameters[index];
     factors.back().index = index;
   }
-  query.metrics.clear();
+  query.columns.clear();
   store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
     const FactorValues values(row);
     for (Factor& one : factors) {
@@ -99,13 +99,35 @@ std::vector<Factor> survey(const Store& store, const CampaignInfo& campaign,
   return factors;
 }
 
-Store::TableQuery table_query(const CampaignInfo& campaign, const ExportRequest& request,
-                              const std::vector<MetricInfo>& metrics) {
+Store::TableQuery table_query(const CampaignInfo& campaign, const Selection& selection,
+                              const ExportRequest& request,
+                              const std::vector<ScopedMetric>& metrics) {
   Store::TableQuery query;
   query.stage = request.stage;
-  query.where = parse_condition(request.where, result_symbols(campaign));
-  for (const MetricInfo& metric : metrics) query.metrics.push_back(metric.name);
+  if (selection.fault) query.fault = selection.fault->id;
+  query.where = parse_condition(request.where, campaign, selection);
+  for (const ScopedMetric& metric : metrics) query.columns.push_back(metric.sql);
   return query;
+}
+
+/// Metrics of one kind: per metre of strike or in total.
+struct StatisticsMetrics {
+  std::vector<ScopedMetric> metrics;
+  bool plane_strain = false;
+};
+StatisticsMetrics choose(const Store& store, const CampaignInfo& campaign,
+                         const Selection& selection, const ExportRequest& request) {
+  StatisticsMetrics chosen{choose_metrics(selection, request.metrics, false, false)};
+  Store::RankingQuery query;
+  query.stage = request.stage;
+  query.where = parse_condition(request.where, campaign, selection);
+  if (selection.fault) query.fault = selection.fault->id;
+  const Store::Kinds kinds = store.kinds(campaign.id, query);
+  for (const ScopedMetric& metric : chosen.metrics) {
+    if (metric.is_extensive()) refuse_mixed(kinds, "--metrics", metric.name);
+  }
+  chosen.plane_strain = kinds.plane_strain;
+  return chosen;
 }
 
 /// What the rows of a statistics file lack, counted.
@@ -126,7 +148,7 @@ struct Losses {
     return numbers;
   }
   long n_incomplete() const { return n_without_result + n_early; }
-  std::string text(const std::vector<MetricInfo>& metrics) const {
+  std::string text(const std::vector<ScopedMetric>& metrics) const {
     std::string text =
         concat(n_without_result, " without a result, ", n_early, " whose history ends early");
     for (std::size_t k = 0; k < n_without_metric.size(); ++k) {
@@ -153,9 +175,10 @@ void check_words(const Factor& factor) {
 }  // namespace
 
 std::string export_dakota(const Store& store, const CampaignInfo& campaign,
-                          const ExportRequest& request) {
-  const std::vector<MetricInfo> metrics = choose_metrics(request.metrics, false, false);
-  const Store::TableQuery query = table_query(campaign, request, metrics);
+                          const Selection& selection, const ExportRequest& request) {
+  const StatisticsMetrics chosen = choose(store, campaign, selection, request);
+  const std::vector<ScopedMetric>& metrics = chosen.metrics;
+  const Store::TableQuery query = table_query(campaign, selection, request, metrics);
   std::vector<Factor> factors = survey(store, campaign, query);
   std::erase_if(factors, [](const Factor& one) { return one.n_values == 0; });
   // Dakota orders its variables by type.
@@ -167,7 +190,7 @@ std::string export_dakota(const Store& store, const CampaignInfo& campaign,
     check_words(one);
     line += " " + one.name();
   }
-  for (const MetricInfo& metric : metrics) line += " " + column_name(metric.name, metric.dimension);
+  for (const ScopedMetric& metric : metrics) line += " " + column_name(metric, chosen.plane_strain);
   output.write(line + "\n");
   Losses losses;
   long n_written = 0, n_without_parameter = 0;
@@ -202,11 +225,13 @@ namespace {
 /// The files of a SALib export.
 class SalibFolder {
  public:
-  SalibFolder(const std::filesystem::path& folder, const std::vector<MetricInfo>& metrics)
+  SalibFolder(const std::filesystem::path& folder, const std::vector<ScopedMetric>& metrics)
       : x_(folder / "X.txt"), cases_(folder / "cases.txt") {
-    for (const MetricInfo& metric : metrics) y_.emplace_back(folder / y_name(metric));
+    for (const ScopedMetric& metric : metrics) y_.emplace_back(folder / y_name(metric));
   }
-  static std::string y_name(const MetricInfo& metric) { return concat("Y_", metric.name, ".txt"); }
+  static std::string y_name(const MetricInfo& metric) {
+    return concat("Y_", one_word(metric.name), ".txt");
+  }
 
   void write(const CaseRow& row, const std::vector<Factor>& factors,
              const std::vector<double>& metrics) {
@@ -240,8 +265,8 @@ class SalibFolder {
 };
 
 json problem_json(const CampaignInfo& campaign, const ExportRequest& request,
-                  const std::vector<Factor>& factors, const std::vector<MetricInfo>& metrics,
-                  const Losses& losses) {
+                  const std::vector<Factor>& factors, const std::vector<ScopedMetric>& metrics,
+                  bool plane_strain, const Losses& losses) {
   json names = json::array(), bounds = json::array(), units = json::array();
   json levels = json::object(), outputs = json::array();
   for (const Factor& one : factors) {
@@ -257,7 +282,7 @@ json problem_json(const CampaignInfo& campaign, const ExportRequest& request,
   for (std::size_t k = 0; k < metrics.size(); ++k) {
     const long n_lost = k < losses.n_without_metric.size() ? losses.n_without_metric[k] : 0;
     outputs.push_back({{"name", metrics[k].name},
-                       {"unit", faultsim::si_unit(metrics[k].dimension)},
+                       {"unit", metric_unit(metrics[k], plane_strain)},
                        {"file", SalibFolder::y_name(metrics[k])},
                        {"n_nan", losses.n_incomplete() + n_lost}});
   }
@@ -265,7 +290,8 @@ json problem_json(const CampaignInfo& campaign, const ExportRequest& request,
           {"bounds", bounds},           {"units", units},
           {"levels", levels},           {"outputs", outputs},
           {"n_rows", losses.n_rows},    {"campaign", campaign.name},
-          {"stage", request.stage},     {"where", request.where}};
+          {"stage", request.stage},     {"fault", request.fault},
+          {"where", request.where}};
 }
 
 std::string salib_advice(const Losses& losses, long n_holes, bool filtered, long n_excluded) {
@@ -291,12 +317,13 @@ std::string salib_advice(const Losses& losses, long n_holes, bool filtered, long
 }  // namespace
 
 std::string export_salib(const Store& store, const CampaignInfo& campaign,
-                         const ExportRequest& request) {
+                         const Selection& selection, const ExportRequest& request) {
   if (request.target.empty()) {
     throw InputError("--format", {{"", 0, "salib is a folder of files", "name one: -o FOLDER"}});
   }
-  const std::vector<MetricInfo> metrics = choose_metrics(request.metrics, false, false);
-  Store::TableQuery query = table_query(campaign, request, metrics);
+  const StatisticsMetrics chosen = choose(store, campaign, selection, request);
+  const std::vector<ScopedMetric>& metrics = chosen.metrics;
+  Store::TableQuery query = table_query(campaign, selection, request, metrics);
   query.by_design_row = true;
   std::vector<Factor> factors = survey(store, campaign, query);
   std::erase_if(factors, [](const Factor& one) { return !one.varies(); });
@@ -319,7 +346,9 @@ std::string export_salib(const Store& store, const CampaignInfo& campaign,
   });
   folder.finish();
   TableOutput problem(output.path() / "problem.json");
-  problem.write(problem_json(campaign, request, factors, metrics, losses).dump(2) + "\n");
+  problem.write(
+      problem_json(campaign, request, factors, metrics, chosen.plane_strain, losses).dump(2) +
+      "\n");
   problem.finish();
   output.commit();
   return concat(

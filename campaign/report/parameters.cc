@@ -4,8 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "campaign/spec/metrics.h"
-#include "campaign/store/store.h"
+#include "simulator/common/errors.h"
 
 namespace faultsweep {
 
@@ -79,24 +78,6 @@ std::vector<std::string> labels_from_json(const std::string& text) {
   if (!all.is_array()) return labels;
   for (const json& one : all) labels.push_back(one.is_string() ? one.get<std::string>() : "");
   return labels;
-}
-
-Symbols result_symbols(const CampaignInfo& campaign) {
-  Symbols symbols;
-  int index = 0;
-  for (const StoredParameter& parameter : parameters_from_json(campaign.parameters)) {
-    const Type type = parameter.is_text ? Type{Kind::text, {}} : number_type(parameter.dimension);
-    symbols[parameter.name] = {parameter_sql(index++), type};
-  }
-  // After the parameters: a parameter that is called like a metric does not hide it.
-  for (const MetricInfo& metric : metric_catalogue()) {
-    const Type type = metric.is_flag ? Type{Kind::boolean, {}} : number_type(metric.dimension);
-    symbols[metric.name] = {metric_sql(metric.name), type};
-  }
-  for (const char* name : {"outcome", "activated_fault"}) {
-    symbols[name] = {metric_sql(name), Type{Kind::text, {}}};
-  }
-  return symbols;
 }
 
 }  // namespace faultsweep

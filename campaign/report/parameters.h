@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "campaign/expression/expression.h"
 #include "campaign/store/records.h"
 #include "simulator/common/units.h"
 
@@ -25,9 +24,5 @@ std::string parameters_to_json(const std::vector<StoredParameter>& parameters);
 std::vector<StoredParameter> parameters_from_json(const std::string& text);
 /// The labels of a case (RankedCase::parameter_labels); "" where it has no such parameter.
 std::vector<std::string> labels_from_json(const std::string& text);
-
-/// What expressions over the results of a campaign may name: all metrics, "outcome",
-/// "activated_fault", and the campaign's parameters.
-Symbols result_symbols(const CampaignInfo& campaign);
 
 }  // namespace faultsweep

@@ -20,8 +20,10 @@ namespace {
 
 constexpr const char* kDefaultMetric = "activated_area";
 
-Expression parse_number(const std::string& text, const Symbols& symbols) {
-  Expression expression = Expression::parse(text, symbols);
+Expression parse_number(const std::string& text, const CampaignInfo& campaign,
+                        const Selection& selection) {
+  Expression expression =
+      Expression::parse(text, result_symbols(campaign, selection), scopes_of(selection));
   if (expression.type().kind == Kind::text) {
     throw InputError("--by", {{"", 0, concat("'", text, "' is a word, not a number"),
                                "rank by a metric of --list-metrics"}});
@@ -29,19 +31,69 @@ Expression parse_number(const std::string& text, const Symbols& symbols) {
   return expression;
 }
 
+/// The first area, potency or moment that an expression is made of; "" = none.
+std::string first_extensive(const Expression& expression, const Selection& selection) {
+  const auto known = known_metrics(selection);
+  for (const std::string& name : expression.names()) {
+    const auto found = known.find(name);
+    if (found != known.end() && found->second.is_extensive()) return name;
+  }
+  return "";
+}
+
+/// What the row is about: the case, or the fault that was asked for.
+faultsim::StageMetrics shown(const RankedCase& row) {
+  faultsim::StageMetrics m = row.metrics;
+  if (!row.fault_metrics) return m;
+  const faultsim::FaultStageMetrics& f = *row.fault_metrics;
+  m.faults = {f};
+  m.slips = f.slips;
+  m.activated = f.activated;
+  m.opens = f.opens;
+  m.activation_step = f.activation ? std::optional(f.activation->step) : std::nullopt;
+  m.opening_step = f.opening ? std::optional(f.opening->step) : std::nullopt;
+  m.activated_fault = f.activated ? f.fault : "";
+  m.opened_fault = f.opens ? f.fault : "";
+  m.chi_bar = f.chi_bar;
+  m.chi_max = f.chi_max;
+  m.area_chi_080 = f.area_chi_080;
+  m.thickness_chi_080 = f.thickness_chi_080;
+  m.activated_area = f.activated_area;
+  m.slipping_area = f.slipping_area;
+  m.open_area = f.open_area;
+  m.max_slip = f.max_slip;
+  m.potency = f.potency;
+  m.moment = f.moment;
+  m.n_events = f.n_events;
+  m.event_moment = f.event_moment;
+  m.event_magnitude = f.event_magnitude;
+  return m;
+}
+
+/// A ranking of one fault says nothing of what another one does.
+bool is_unexpected(const RankedCase& row) {
+  return !row.unexpected_fault.empty() &&
+         (!row.fault_metrics || row.fault_metrics->fault == row.unexpected_fault);
+}
+
 std::string flag_of(const RankedCase& row) {
   std::string flag = row.outcome;
   if (!row.weakening_resolved) flag += ", mesh too coarse for its weakening";
   if (row.weakening_resolved && row.rank_class == 1) flag += ", evidence of an event does not hold";
-  if (row.unexpected) flag += ", UNEXPECTED";
+  if (is_unexpected(row)) flag += concat(", UNEXPECTED (", row.unexpected_fault, ")");
   return flag;
 }
 
-std::string activation_of(const faultsim::StageMetrics& m) {
-  if (!m.activated) return "no";
-  std::string text = m.activated_fault.empty() ? "yes" : m.activated_fault;
-  if (m.activation_step) text += concat(" at step ", *m.activation_step);
+std::string first_of(bool any, const std::string& fault, const std::optional<int>& step) {
+  if (!any) return "";
+  std::string text = fault.empty() ? "yes" : fault;
+  if (step) text += concat(" at step ", *step);
   return text;
+}
+
+std::string sliding_of(const faultsim::StageMetrics& m) {
+  if (!m.activated) return m.slips ? "no, slips" : "no";
+  return first_of(true, m.activated_fault, m.activation_step);
 }
 
 /// The tier that all groups of a resolved spec have, without sizes of their own; "" = no such.
@@ -82,17 +134,26 @@ json optional_json(const std::optional<double>& value) { return value ? json(*va
 
 Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankRequest request) {
   if (request.by.empty()) request.by = campaign.rank_by.empty() ? kDefaultMetric : campaign.rank_by;
-  check_stage(store, campaign, request.stage);
-  const Symbols symbols = result_symbols(campaign);
+  const Selection selection = make_selection(store, campaign, request.stage, request.fault);
   Store::RankingQuery query;
-  Ranking ranking{campaign, request, request.by == kDefaultMetric && !request.ascending, {}, {}};
-  if (!ranking.by_default) query.by = parse_number(request.by, symbols).sql();
-  query.where = parse_condition(request.where, symbols);
+  Ranking ranking{campaign, request, request.by == kDefaultMetric && !request.ascending,
+                  {},       {},      {}};
+  query.where = parse_condition(request.where, campaign, selection);
   query.stage = request.stage;
+  if (selection.fault) query.fault = selection.fault->id;
   query.ascending = request.ascending;
   query.limit = request.top;
+  std::string extensive = kDefaultMetric;
+  if (!ranking.by_default) {
+    const Expression by = parse_number(request.by, campaign, selection);
+    query.by = by.sql();
+    extensive = first_extensive(by, selection);
+  }
+  ranking.kinds = store.kinds(campaign.id, query);
+  if (!extensive.empty()) refuse_mixed(ranking.kinds, "--by", extensive);
   ranking.rows = store.ranking(campaign.id, query);
-  if (request.stage.empty()) ranking.error_bars = error_bars_of(store, campaign);
+  if (request.stage.empty() && request.fault.empty())
+    ranking.error_bars = error_bars_of(store, campaign);
   return ranking;
 }
 
@@ -123,9 +184,17 @@ std::string footnotes(const Ranking& ranking) {
   if (any([](const RankedCase& row) { return row.rank_class > 1; })) {
     text += "* history ends early: listed apart, not ranked\n";
   }
-  if (any([](const RankedCase& row) { return row.unexpected; })) {
-    text += "UNEXPECTED: activated again as pressure recovers\n";
+  if (any(is_unexpected)) {
+    text +=
+        "UNEXPECTED: a fault slides after its pressure has recovered that slid before; "
+        "`faultsweep show CASE` says where\n";
   }
+  if (any([](const RankedCase& row) { return shown(row).activated; })) {
+    text +=
+        "Δp, p: change, and absolute pressure at the depth beside, of the region next to the "
+        "fault where it slides first\n";
+  }
+  if (ranking.kinds.mixed()) text += "/m: per metre of strike, of plane-strain cases\n";
   for (const ErrorBar& bar : ranking.error_bars) {
     text += concat("± of ", bar.metric, " is its rms error at ", bar.tier, " against ",
                    bar.reference, " over ", bar.n_cases, " cases of the campaign, at most ",
@@ -136,46 +205,99 @@ std::string footnotes(const Ranking& ranking) {
 
 }  // namespace
 
+namespace {
+
+/// "area/m2", "area/(m2/m)" where all rows are per metre of strike.
+std::string heading(const std::string& what, const char* unit, const Ranking& ranking) {
+  const bool per_metre = ranking.kinds.plane_strain && !ranking.kinds.total;
+  return per_metre ? concat(what, "/(", unit, "/m)") : concat(what, "/", unit);
+}
+
+/// Of mixed kinds each number says what it is.
+std::string extensive(double value, int digits, const RankedCase& row, const Ranking& ranking) {
+  return format_number(value, digits) + (ranking.kinds.mixed() && row.plane_strain ? " /m" : "");
+}
+
+std::vector<std::string> metric_cells(const RankedCase& row, const Ranking& ranking) {
+  constexpr double kBar = 1e5;
+  const faultsim::StageMetrics m = shown(row);
+  const faultsim::FaultOnset* onset = first_activation(m);
+  const auto change = onset != nullptr ? leading_change(onset->pressures) : std::nullopt;
+  const auto absolute = onset != nullptr ? leading_absolute(onset->pressures) : std::nullopt;
+  const bool jumps = m.n_events > 0;
+  return {flag_of(row),
+          sliding_of(m),
+          change ? format_number(*change / kBar, 4) : "",
+          absolute ? format_number(*absolute / kBar, 4) : "",
+          onset != nullptr ? format_number(onset->depth, 4) : "",
+          first_of(m.opens, m.opened_fault, m.opening_step),
+          m.opens ? extensive(m.open_area, 4, row, ranking) : "",
+          extensive(m.activated_area, 4, row, ranking),
+          extensive(m.moment, 3, row, ranking),
+          jumps ? std::to_string(m.n_events) : "",
+          jumps ? extensive(m.event_moment, 3, row, ranking) : "",
+          m.event_magnitude ? format_number(*m.event_magnitude, 2) : "",
+          with_error(m.chi_bar, "chi_bar", ranking.error_bars),
+          row.pressure_margin ? format_number(*row.pressure_margin / kBar, 3) : "",
+          with_error(m.max_slip, "max_slip", ranking.error_bars)};
+}
+
+}  // namespace
+
 std::string ranking_to_text(const Ranking& ranking) {
   const auto parameters = parameters_from_json(ranking.campaign.parameters);
   std::vector<std::string> header = {"rank", "case"};
   for (const StoredParameter& parameter : parameters) header.push_back(parameter.name);
-  for (const char* name : {"outcome", "activated", "area/m2", "M0/Nm", "Mw", "events",
-                           "event M0/Nm", "χ̄", "margin/bar", "slip/m"}) {
-    header.push_back(name);
+  for (std::string name :
+       {std::string("outcome"), std::string("slides"), std::string("Δp/bar"), std::string("p/bar"),
+        std::string("depth/m"), std::string("opens"), heading("open", "m2", ranking),
+        heading("area", "m2", ranking), heading("M0", "Nm", ranking), std::string("events"),
+        heading("event M0", "Nm", ranking), std::string("event Mw"), std::string("χ̄"),
+        std::string("margin/bar"), std::string("slip/m")}) {
+    header.push_back(std::move(name));
   }
   const bool has_score = !ranking.by_default;
   header.push_back(has_score ? ranking.request.by : "");
   TextTable table(header);
   PlaceNames places;
   for (const RankedCase& row : ranking.rows) {
-    const faultsim::StageMetrics& m = row.metrics;
     std::vector<std::string> cells = {places.next(row.rank_class), std::to_string(row.position)};
     std::vector<std::string> labels = labels_from_json(row.parameter_labels);
     labels.resize(parameters.size());
     cells.insert(cells.end(), labels.begin(), labels.end());
-    constexpr double kBar = 1e5;
-    cells.insert(cells.end(),
-                 {flag_of(row), activation_of(m), format_number(m.activated_area),
-                  format_number(m.moment, 3), m.magnitude ? format_number(*m.magnitude, 2) : "",
-                  m.n_events > 0 ? std::to_string(m.n_events) : "",
-                  m.n_events > 0 ? format_number(m.event_moment, 3) : "",
-                  with_error(m.chi_bar, "chi_bar", ranking.error_bars),
-                  row.pressure_margin ? format_number(*row.pressure_margin / kBar, 3) : "",
-                  with_error(m.max_slip, "max_slip", ranking.error_bars),
-                  has_score ? (row.score ? format_number(*row.score) : "-") : ""});
+    for (std::string& cell : metric_cells(row, ranking)) cells.push_back(std::move(cell));
+    cells.push_back(has_score ? (row.score ? format_number(*row.score) : "-") : "");
     table.add_row(std::move(cells));
   }
   if (table.empty()) return "no case of " + ranking.campaign.name + " matches\n";
   return table.text() + footnotes(ranking);
 }
 
+namespace {
+
+json onset_json(const faultsim::FaultOnset* onset) {
+  if (onset == nullptr) return {};
+  const faultsim::SidePressures& p = onset->pressures;
+  return {{"step", onset->step},
+          {"depth_m", onset->depth},
+          {"region_minus", p.region_minus},
+          {"change_minus_pa", optional_json(p.change_minus)},
+          {"absolute_minus_pa", optional_json(p.absolute_minus)},
+          {"region_plus", p.region_plus},
+          {"change_plus_pa", optional_json(p.change_plus)},
+          {"absolute_plus_pa", optional_json(p.absolute_plus)},
+          {"change_in_fault_pa", p.change_in_fault}};
+}
+
+}  // namespace
+
 json ranking_to_json(const Ranking& ranking) {
   const auto parameters = parameters_from_json(ranking.campaign.parameters);
   json cases = json::array();
   int rank = 0;
   for (const RankedCase& row : ranking.rows) {
-    const faultsim::StageMetrics& m = row.metrics;
+    const faultsim::StageMetrics m = shown(row);
+    const std::string per_m = row.plane_strain ? "_per_m" : "";
     json values = json::object();
     const json stored = json::parse(row.parameter_values, nullptr, false);
     const std::vector<std::string> labels = labels_from_json(row.parameter_labels);
@@ -191,26 +313,32 @@ json ranking_to_json(const Ranking& ranking) {
                   {"parameters", values},
                   {"outcome", row.outcome},
                   {"rank_class", row.rank_class},
-                  {"unexpected", row.unexpected},
+                  {"unexpected", is_unexpected(row)},
+                  {"unexpected_fault", is_unexpected(row) ? row.unexpected_fault : ""},
                   {"weakening_resolved", row.weakening_resolved},
-                  {"activated", m.activated},
+                  {"plane_strain", row.plane_strain},
+                  {"slips", m.slips},
+                  {"slides", m.activated},
+                  {"jumps", m.n_events > 0},
+                  {"opens", m.opens},
                   {"activated_fault", m.activated_fault},
                   {"activation_step", m.activation_step ? json(*m.activation_step) : json()},
-                  {"activation_pressure_pa", optional_json(m.activation_pressure)},
-                  {"activated_area_m2", m.activated_area},
-                  {"moment_nm", m.moment},
-                  {"magnitude_mw", optional_json(m.magnitude)},
+                  {"activation", onset_json(first_activation(m))},
+                  {"opened_fault", m.opened_fault},
+                  {"opening", onset_json(first_opening(m))},
+                  {"activated_area_m2" + per_m, m.activated_area},
+                  {"moment_nm" + per_m, m.moment},
                   {"n_events", m.n_events},
-                  {"event_moment_nm", m.event_moment},
+                  {"event_moment_nm" + per_m, m.event_moment},
                   {"event_magnitude_mw", optional_json(m.event_magnitude)},
                   {"chi_bar", m.chi_bar},
                   {"chi_max", m.chi_max},
-                  {"area_chi_080_m2", m.area_chi_080},
+                  {"area_chi_080_m2" + per_m, m.area_chi_080},
                   {"thickness_chi_080_m", m.thickness_chi_080},
-                  {"slipping_area_m2", m.slipping_area},
-                  {"open_area_m2", m.open_area},
+                  {"slipping_area_m2" + per_m, m.slipping_area},
+                  {"open_area_m2" + per_m, m.open_area},
                   {"max_slip_m", m.max_slip},
-                  {"potency_m3", m.potency},
+                  {"potency_m3" + per_m, m.potency},
                   {"pressure_margin_pa", optional_json(row.pressure_margin)}};
     if (!ranking.by_default) entry["score"] = optional_json(row.score);
     cases.push_back(std::move(entry));
@@ -226,24 +354,34 @@ json ranking_to_json(const Ranking& ranking) {
   }
   return {{"campaign", ranking.campaign.name}, {"error_bars", std::move(bars)},
           {"by", ranking.request.by},          {"stage", ranking.request.stage},
-          {"where", ranking.request.where},    {"cases", std::move(cases)}};
+          {"fault", ranking.request.fault},    {"where", ranking.request.where},
+          {"cases", std::move(cases)}};
 }
 
 std::string metrics_to_text() {
-  TextTable table({"metric", "unit", "meaning"});
+  TextTable table({"metric", "unit", "per fault", "meaning"});
   for (const MetricInfo& metric : metric_catalogue()) {
-    table.add_row({metric.name, metric.is_flag ? "yes/no" : faultsim::si_unit(metric.dimension),
-                   metric.description});
+    const std::string unit = metric_unit(metric, false);
+    table.add_row({metric.name + (metric.synonym.empty() ? "" : ", " + metric.synonym),
+                   metric.is_flag          ? "yes/no"
+                   : metric.is_extensive() ? concat(unit, " or ", metric_unit(metric, true))
+                                           : unit,
+                   has_faults(metric.name) ? "yes" : "", metric.description});
   }
-  return table.text();
+  return table.text() +
+         "per fault and stage: F2.max_slip in gas_storage; a unit per m is that of plane strain\n";
 }
 
 json metrics_to_json() {
   json all = json::array();
   for (const MetricInfo& metric : metric_catalogue()) {
     all.push_back({{"name", metric.name},
-                   {"unit", faultsim::si_unit(metric.dimension)},
+                   {"synonym", metric.synonym},
+                   {"unit", metric_unit(metric, false)},
+                   {"unit_of_plane_strain", metric_unit(metric, true)},
                    {"is_flag", metric.is_flag},
+                   {"per_stage", has_stages(metric.name)},
+                   {"per_fault", has_faults(metric.name)},
                    {"description", metric.description}});
   }
   return all;

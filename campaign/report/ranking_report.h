@@ -11,6 +11,7 @@ namespace faultsweep {
 struct RankRequest {
   std::string by;          ///< metric or expression of numbers; "" = the campaign's own.
   std::string stage;       ///< "" = the whole history.
+  std::string fault;       ///< "" = all faults of a case together.
   std::string where;       ///< condition; "" = all cases.
   bool ascending = false;  ///< smallest first.
   long top = 20;           ///< 0 = all.
@@ -21,14 +22,16 @@ struct RankRequest {
 struct Ranking {
   CampaignInfo campaign;
   RankRequest request;
-  bool by_default = false;  ///< activated area, M0, pressure margin, χ̄.
+  bool by_default = false;  ///< activated area, open area, M0, pressure margin, χ̄.
+  Store::Kinds kinds;       ///< of the cases that `where` selects.
   std::vector<RankedCase> rows;
   /// Measured by `faultsweep tradeoff` for this campaign at its tier; empty where it was not, or
   /// where the campaign has several tiers or meshes of its own.
   std::vector<ErrorBar> error_bars;
 };
 
-/// Asks the store. Throws InputError on a wrong expression or an unknown stage.
+/// Asks the store. Throws InputError on a wrong expression, an unknown stage or fault, and where
+/// areas, potencies or moments per metre of strike and in total would be put in one order.
 Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankRequest request);
 
 std::string ranking_to_text(const Ranking& ranking);

@@ -4,28 +4,119 @@
 #include <sstream>
 
 #include "campaign/expression/expression.h"
+#include "campaign/report/parameters.h"
 
 namespace faultsweep {
 
 using faultsim::concat;
 using faultsim::InputError;
 
-void check_stage(const Store& store, const CampaignInfo& campaign, const std::string& stage) {
-  if (stage.empty()) return;
-  const std::vector<std::string> stages = store.stages(campaign.id);
-  if (std::count(stages.begin(), stages.end(), stage) > 0) return;
-  std::string names;
-  for (const std::string& name : stages) {
-    if (!name.empty()) names += (names.empty() ? "" : ", ") + name;
+namespace {
+
+constexpr const char* kWholeHistory = "whole_history";
+
+std::vector<std::string> names_of(const std::vector<NamedId>& all) {
+  std::vector<std::string> names;
+  for (const NamedId& one : all) {
+    if (!one.name.empty()) names.push_back(one.name);
   }
-  throw InputError("--stage",
-                   {{"", 0, concat("there is no stage '", stage, "' in the results"),
-                     names.empty() ? "no case has a result yet" : "there are: " + names}});
+  return names;
 }
 
-SqlFragment parse_condition(const std::string& where, const Symbols& symbols) {
+const NamedId* find(const std::vector<NamedId>& all, const std::string& name) {
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const NamedId& one) { return one.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+void require_name(const std::string& option, const std::string& what, const std::string& name,
+                  const std::vector<std::string>& names) {
+  if (std::count(names.begin(), names.end(), name) > 0) return;
+  throw InputError(option,
+                   {{"", 0, concat("there is no ", what, " '", name, "' in the results"),
+                     names.empty() ? concat("no case has a result with a ", what, " of its own yet")
+                                   : cure_of_name(name, names)}});
+}
+
+Selection make_selection(const Store& store, const CampaignInfo& campaign, const std::string& stage,
+                         const std::string& fault) {
+  Selection selection;
+  selection.stages = store.stages(campaign.id);
+  selection.faults = store.faults(campaign.id);
+  if (!stage.empty()) require_name("--stage", "stage", stage, names_of(selection.stages));
+  if (const NamedId* found = find(selection.stages, stage)) selection.stage = *found;
+  if (fault.empty()) return selection;
+  require_name("--fault", "fault", fault, names_of(selection.faults));
+  selection.fault = *find(selection.faults, fault);
+  return selection;
+}
+
+std::map<std::string, ScopedMetric> known_metrics(const Selection& selection) {
+  std::map<std::string, ScopedMetric> known;
+  const auto add = [&known](MetricInfo info, std::string name, std::string sql) {
+    info.name = name;
+    known.insert_or_assign(std::move(name), ScopedMetric{info, std::move(sql)});
+  };
+  std::vector<std::pair<std::string, std::int64_t>> stages;  // as expressions name them
+  for (const NamedId& stage : selection.stages) {
+    stages.emplace_back(stage.name.empty() ? kWholeHistory : stage.name, stage.id);
+  }
+  for (const MetricInfo& metric : metric_catalogue()) {
+    const bool of_fault = selection.fault && has_faults(metric.name);
+    for (const std::string& name : {metric.name, metric.synonym}) {
+      if (name.empty()) continue;
+      const auto sql = [&](MetricScope scope) {
+        return metric_sql(metric.name, scope, selection.stage.id);
+      };
+      add(metric, name, metric_sql(metric.name, of_fault));
+      if (!has_stages(metric.name)) continue;
+      for (const auto& [stage, id] : stages) {
+        const auto fault = of_fault ? std::optional(selection.fault->id) : std::nullopt;
+        add(metric, concat(name, " in ", stage), sql({fault, id}));
+      }
+      if (!has_faults(metric.name)) continue;
+      for (const NamedId& fault : selection.faults) {
+        add(metric, concat(fault.name, ".", name), sql({fault.id, std::nullopt}));
+        for (const auto& [stage, id] : stages) {
+          add(metric, concat(fault.name, ".", name, " in ", stage), sql({fault.id, id}));
+        }
+      }
+    }
+  }
+  return known;
+}
+
+Symbols result_symbols(const CampaignInfo& campaign, const Selection& selection) {
+  Symbols symbols;
+  int index = 0;
+  for (const StoredParameter& parameter : parameters_from_json(campaign.parameters)) {
+    const Type type = parameter.is_text ? Type{Kind::text, {}} : number_type(parameter.dimension);
+    symbols[parameter.name] = {parameter_sql(index++), type};
+  }
+  // After the parameters: a parameter that is called like a metric does not hide it.
+  for (const auto& [name, metric] : known_metrics(selection)) {
+    const Type type = metric.is_flag ? Type{Kind::boolean, {}} : number_type(metric.dimension);
+    symbols[name] = {metric.sql, type};
+  }
+  for (const char* name : {"outcome", "activated_fault", "opened_fault", "unexpected_fault"}) {
+    symbols[name] = {metric_sql(name), Type{Kind::text, {}}};
+  }
+  return symbols;
+}
+
+Scopes scopes_of(const Selection& selection) {
+  Scopes scopes{names_of(selection.faults), names_of(selection.stages)};
+  scopes.stages.emplace_back(kWholeHistory);
+  return scopes;
+}
+
+SqlFragment parse_condition(const std::string& where, const CampaignInfo& campaign,
+                            const Selection& selection) {
   if (where.empty()) return {};
-  const Expression condition = Expression::parse(where, symbols);
+  const Expression condition =
+      Expression::parse(where, result_symbols(campaign, selection), scopes_of(selection));
   if (condition.type().kind != Kind::boolean) {
     throw InputError("--where", {{"", 0, concat("'", where, "' is no condition"),
                                   "compare it with something: \"chi_bar > 0.8\""}});
@@ -33,46 +124,63 @@ SqlFragment parse_condition(const std::string& where, const Symbols& symbols) {
   return condition.sql();
 }
 
-namespace {
-
-MetricInfo metric_named(const std::string& name) {
-  std::vector<std::string> names;
-  for (const MetricInfo& metric : metric_catalogue()) {
-    if (metric.name == name) return metric;
-    names.push_back(metric.name);
-  }
-  const auto meant = nearest(name, names);
-  throw InputError("--metrics", {{"", 0, concat("there is no metric '", name, "'"),
-                                  meant ? concat("did you mean '", *meant, "'?")
-                                        : "`faultsweep rank --list-metrics` lists them"}});
-}
-
-}  // namespace
-
 bool creeps(const Store& store, const CampaignInfo& campaign) {
   const auto families = store.family_progress(campaign.id);
   return std::any_of(families.begin(), families.end(),
                      [](const auto& family) { return family.n_operators > 1; });
 }
 
-std::vector<MetricInfo> choose_metrics(const std::string& list, bool with_missing,
-                                       bool with_creep) {
-  std::vector<MetricInfo> chosen;
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(' ');
+  const std::size_t last = text.find_last_not_of(' ');
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+ScopedMetric metric_named(const std::string& name,
+                          const std::map<std::string, ScopedMetric>& known) {
+  const auto found = known.find(name);
+  if (found != known.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [one, metric] : known) names.push_back(one);
+  const auto meant = nearest(name, names);
+  throw InputError("--metrics", {{"", 0, concat("there is no metric '", name, "'"),
+                                  meant ? concat("did you mean '", *meant, "'?")
+                                        : "`faultsweep rank --list-metrics` lists them; of a fault "
+                                          "or stage: F2.max_slip in gas_storage"}});
+}
+
+}  // namespace
+
+std::vector<ScopedMetric> choose_metrics(const Selection& selection, const std::string& list,
+                                         bool with_missing, bool with_creep) {
+  const auto known = known_metrics(selection);
+  std::vector<ScopedMetric> chosen;
   if (list.empty()) {
     for (const MetricInfo& metric : metric_catalogue()) {
       const bool fits = with_creep || !metric.name.starts_with("creep_");
-      if (fits && (with_missing || !metric.may_be_missing)) chosen.push_back(metric);
+      if (fits && (with_missing || !metric.may_be_missing)) chosen.push_back(known.at(metric.name));
     }
     return chosen;
   }
   std::istringstream names(list);
   for (std::string name; std::getline(names, name, ',');) {
-    const std::size_t first = name.find_first_not_of(' ');
-    const std::size_t last = name.find_last_not_of(' ');
-    chosen.push_back(
-        metric_named(first == std::string::npos ? "" : name.substr(first, last - first + 1)));
+    chosen.push_back(metric_named(trimmed(name), known));
   }
   return chosen;
+}
+
+void refuse_mixed(const Store::Kinds& kinds, const std::string& option, const std::string& what) {
+  if (!kinds.mixed()) return;
+  throw InputError(
+      option,
+      {{"", 0,
+        concat(what,
+               " is per metre of strike in the plane-strain cases and a total in the others:"
+               " the two cannot be compared"),
+        "choose one kind, --where plane_strain or --where \"not plane_strain\", or what is no area,"
+        " potency or moment, such as chi_bar or max_slip"}});
 }
 
 }  // namespace faultsweep

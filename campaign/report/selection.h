@@ -1,23 +1,55 @@
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "campaign/spec/metrics.h"
 #include "campaign/store/store.h"
 
-/// Which cases, stages and metrics a command is about.
+/// Which cases, stages, faults and metrics a command is about.
 namespace faultsweep {
 
-/// Throws InputError naming the stages there are. "" is the whole history.
-void check_stage(const Store& store, const CampaignInfo& campaign, const std::string& stage);
+/// What is asked about, of what there is in a campaign's results.
+struct Selection {
+  NamedId stage;                 ///< "" = the whole history.
+  std::optional<NamedId> fault;  ///< none = all faults of a case together.
+  std::vector<NamedId> stages, faults;
+};
+/// Throws InputError that names what there is, and the nearest, where stage or fault is unknown.
+/// @param stage, fault  "" = the whole history, all faults.
+Selection make_selection(const Store& store, const CampaignInfo& campaign, const std::string& stage,
+                         const std::string& fault);
+/// The option's InputError unless name is one of those.
+void require_name(const std::string& option, const std::string& what, const std::string& name,
+                  const std::vector<std::string>& names);
+
+/// A metric as SQL. Its name says of what it is: "max_slip", "F2.max_slip in gas_storage".
+struct ScopedMetric : MetricInfo {
+  std::string sql;
+};
+/// All metrics by name, synonyms too; those of faults and stages as the expressions spell them (see
+/// Scopes). The whole history is the stage `whole_history`.
+std::map<std::string, ScopedMetric> known_metrics(const Selection& selection);
+/// What expressions over the results of a campaign may name: known_metrics, "outcome",
+/// "activated_fault", "opened_fault", "unexpected_fault" and the campaign's parameters.
+Symbols result_symbols(const CampaignInfo& campaign, const Selection& selection);
+Scopes scopes_of(const Selection& selection);
+
 /// --where as SQL; "" gives the empty fragment. Throws InputError.
-SqlFragment parse_condition(const std::string& where, const Symbols& symbols);
+SqlFragment parse_condition(const std::string& where, const CampaignInfo& campaign,
+                            const Selection& selection);
 /// Whether the salt of any of its cases creeps.
 bool creeps(const Store& store, const CampaignInfo& campaign);
-/// "moment,max_slip" as metrics, in this order; "" gives all (those of creep only with_creep: they
-/// are slow to read), or, unless with_missing, those that every full history has. Throws InputError
-/// with the nearest name.
-std::vector<MetricInfo> choose_metrics(const std::string& list, bool with_missing, bool with_creep);
+/// "moment, F2.max_slip in gas_storage" as metrics, in this order; "" gives all (those of creep
+/// only with_creep: they are slow to read), or, unless with_missing, those that every full history
+/// has. Throws InputError with the nearest name.
+std::vector<ScopedMetric> choose_metrics(const Selection& selection, const std::string& list,
+                                         bool with_missing, bool with_creep);
+
+/// Throws the option's InputError where `what`, an area, a potency or a moment, would be compared
+/// between results per metre of strike and in total.
+void refuse_mixed(const Store::Kinds& kinds, const std::string& option, const std::string& what);
 
 }  // namespace faultsweep

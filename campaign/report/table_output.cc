@@ -1,5 +1,6 @@
 #include "campaign/report/table_output.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -82,11 +83,13 @@ std::string one_word(const std::string& text) {
   return word;
 }
 
-std::string column_name(const std::string& name, faultsim::Dimension dimension) {
+std::string column_name(const std::string& given, faultsim::Dimension dimension) {
   using faultsim::Dimension;
+  std::string name = given;
+  std::replace(name.begin(), name.end(), ' ', '_');
   switch (dimension) {
     case Dimension::number:
-      return name.ends_with("magnitude") ? name + "_mw" : name;
+      return name.find("magnitude") == std::string::npos ? name : name + "_mw";
     case Dimension::length:
       return name + "_m";
     case Dimension::area:
@@ -110,6 +113,11 @@ std::string column_name(const std::string& name, faultsim::Dimension dimension) 
   }
   FAULTSIM_DEMAND(false, static_cast<int>(dimension));
   return name;
+}
+
+std::string column_name(const MetricInfo& metric, bool plane_strain) {
+  const std::string name = column_name(metric.name, metric.dimension);
+  return plane_strain && metric.is_extensive() ? name + "_per_m" : name;
 }
 
 }  // namespace faultsweep

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "campaign/spec/metrics.h"
 #include "campaign/store/records.h"
 #include "simulator/common/units.h"
 
@@ -39,7 +40,10 @@ double number_of(const Cell& cell);
 std::string csv_field(const std::string& text);
 /// Text as one word: what is no printable ASCII, and quotes, become "_"; "" becomes "_".
 std::string one_word(const std::string& text);
-/// "offset", length -> "offset_m": the unit as column names of the store's views have it.
+/// "offset", length -> "offset_m": the unit as column names of the store's views have it. Blanks of
+/// "F2.max_slip in gas_storage" become "_".
 std::string column_name(const std::string& name, faultsim::Dimension dimension);
+/// The same of a metric: of plane strain "moment_nm_per_m".
+std::string column_name(const MetricInfo& metric, bool plane_strain);
 
 }  // namespace faultsweep

@@ -14,13 +14,15 @@ struct Job {
   std::string scene;          ///< JSON text, one line.
   std::string source;         ///< for messages and relative paths: "sweep/scene.json#case 17".
   std::string fields_folder;  ///< where its fault fields go; "" = they are not kept.
+  std::string identity = "";  ///< the simulator refuses a scene with another one; "" = any.
 };
 
 /// What a JobRunner is given besides jobs: one family at a time.
 struct FamilyTask {
-  int family = 0;                    ///< the manager's index.
-  std::optional<double> time_limit;  ///< s per case.
-  double operator_seconds = 0;       ///< predicted.
+  int family = 0;                             ///< the manager's index.
+  std::optional<double> time_limit;           ///< s per case.
+  std::optional<double> operator_time_limit;  ///< s; none = by the prediction.
+  double operator_seconds = 0;                ///< predicted.
   std::optional<double> memory_limit;
   KeepFields keep_fields = KeepFields::none;
   std::string fields_folder;  ///< of the campaign, absolute; a case's is the one in it named CASE.

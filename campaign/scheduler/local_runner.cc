@@ -1,6 +1,7 @@
 #include "campaign/scheduler/local_runner.h"
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
 
@@ -35,6 +36,7 @@ std::string shortened(const std::string& text) {
 
 bool mentions_memory(const std::string& text) {
   return text.find("out of memory") != std::string::npos ||
+         text.find("not enough memory") != std::string::npos ||
          text.find("bad_alloc") != std::string::npos;
 }
 
@@ -104,6 +106,7 @@ void LocalRunner::start() {
 void LocalRunner::send(const Job& job) {
   std::string line = concat("{\"run\":", job.case_id, ",\"scene\":", job.scene,
                             ",\"source\":", json(job.source).dump());
+  if (!job.identity.empty()) line += concat(",\"identity\":\"", job.identity, "\"");
   if (!job.fields_folder.empty()) {
     const json fields = {{"folder", job.fields_folder}, {"steps", to_string(task_.keep_fields)}};
     line += ",\"fields\":" + fields.dump();
@@ -142,24 +145,25 @@ JobEvents LocalRunner::work(int timeout_ms) {
     process_.reset();
   } else if (process_->is_silent()) {
     process_ended(events);
-  } else if (is_over_time()) {
+  } else if (const auto limit = time_limit(); limit && since_.seconds() > *limit) {
     process_->kill();
     const ProcessEnd end = process_->wait(0);
-    process_failed(RunStatus::hung, concat("over its time limit of ", *task_.time_limit, " s"), end,
-                   events);
+    process_failed(RunStatus::hung, concat("over its time limit of ", *limit, " s"), end, events);
   }
   return events;
 }
 
 void LocalRunner::drain() { draining_ = true; }
 
-bool LocalRunner::is_over_time() const {
-  if (!task_.time_limit || jobs_.empty()) return false;
-  double limit = *task_.time_limit;
-  if (!started_ && !operator_known_) {
-    limit += std::max(kOperatorLeast, kOperatorFactor * task_.operator_seconds);
-  }
-  return since_.seconds() > limit;
+std::optional<double> LocalRunner::time_limit() const {
+  if (jobs_.empty()) return std::nullopt;
+  if (started_ || operator_known_) return task_.time_limit;
+  return task_.operator_time_limit.value_or(
+      std::max(kOperatorLeast, kOperatorFactor * task_.operator_seconds));
+}
+
+std::string LocalRunner::under_limit() const {
+  return concat("; /policy/memory_limit is ", std::llround(*task_.memory_limit / 1e6), " MB");
 }
 
 RunRecord LocalRunner::blank_run(std::int64_t case_id) const {
@@ -235,6 +239,7 @@ void LocalRunner::handle_done(const json& reply, JobEvents& events) {
       events.returned.push_back(run.case_id);
     } else {
       run.status = status_of(exit_code, run.reason);
+      if (run.status == RunStatus::memory && task_.memory_limit) run.reason += under_limit();
       run.exit_code = exit_code;
       run.log_tail = process_->log_tail();
       const bool in_operator = !started_ && !operator_known_ && run.status != RunStatus::refused;
@@ -268,9 +273,8 @@ void LocalRunner::process_ended(JobEvents& events) {
     reason += ", as the kernel does when memory runs out";
   } else if (mentions_memory(tail)) {
     status = RunStatus::memory;
-    reason += task_.memory_limit
-                  ? concat(", out of memory under the limit of ", *task_.memory_limit, " bytes")
-                  : std::string(", out of memory");
+    reason += ", out of memory";
+    if (task_.memory_limit) reason += under_limit();
   } else if (end.exit_code) {
     status = status_of(*end.exit_code, tail);
   }

@@ -32,7 +32,8 @@ class LocalRunner final : public JobRunner {
   void drain() override;
   bool is_idle() const override { return jobs_.empty(); }
 
-  /// What the operator may take on top of the time limit of a case: at least this, s, ...
+  /// Unless the campaign says so, what a process may take until it has its operator, also where
+  /// cases have no time limit: at least this, s, ...
   static constexpr double kOperatorLeast = 600;
   /// ... or so many times the prediction, which is from another machine.
   static constexpr double kOperatorFactor = 20;
@@ -47,7 +48,9 @@ class LocalRunner final : public JobRunner {
   void process_failed(RunStatus status, std::string reason, const ProcessEnd& end,
                       JobEvents& events);
   void process_ended(JobEvents& events);
-  bool is_over_time() const;
+  /// Of the present phase: the operator, or a case; none = not limited, or nothing is under way.
+  std::optional<double> time_limit() const;
+  std::string under_limit() const;
   RunRecord blank_run(std::int64_t case_id) const;
 
   Options options_;

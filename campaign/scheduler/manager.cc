@@ -26,7 +26,7 @@ FamilyWork work_of(const WaitingFamily& waiting, const std::filesystem::path& op
   work.creeps = waiting.predicted.creeps();
   work.operator_cached =
       !work.creeps && !waiting.operator_fingerprint.empty() &&
-      std::filesystem::exists(operators / (waiting.operator_fingerprint + ".h5"));
+      std::filesystem::is_regular_file(operators / (waiting.operator_fingerprint + ".h5"));
   return work;
 }
 
@@ -251,6 +251,7 @@ void Manager::send_work(int worker, const Slice& slice) {
   message::Work work;
   work.task.family = slice.family;
   work.task.time_limit = campaign_.policy.time_limit;
+  work.task.operator_time_limit = campaign_.policy.operator_time_limit;
   work.task.memory_limit = campaign_.policy.memory_limit;
   work.task.keep_fields = campaign_.keep_fields;
   work.task.fields_folder = fields_folder_;
@@ -260,7 +261,8 @@ void Manager::send_work(int worker, const Slice& slice) {
   for (const std::int64_t id : slice.cases) {
     CaseInput input = store_.case_input(campaign_.id, id);
     if (sent.insert(input.scene).second) work.scenes[input.scene] = store_.base_scene(input.scene);
-    work.items.push_back({id, input.scene, input.position, std::move(input.changes)});
+    work.items.push_back(
+        {id, input.scene, input.position, std::move(input.changes), std::move(input.identity)});
     inputs_[id] = {id, input.scene, input.position, {}};
   }
   link_.send(worker, work);

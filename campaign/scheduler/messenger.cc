@@ -87,17 +87,27 @@ std::optional<Messenger::Received> Messenger::receive() {
   return Received{incoming->from, decode(incoming->bytes)};
 }
 
-void Messenger::finish() {
+bool Messenger::finish(double patience) {
   IdleSleep idle;
-  while (!is_flushed()) idle.sleep();
+  const faultsim::Stopwatch watch;
+  // Nobody reads any more, but what is never received is never sent either: it is thrown away.
+  const auto wait = [&] {
+    while (receive()) idle.reset();
+    idle.sleep();
+    return watch.seconds() < patience;
+  };
+  while (!is_flushed()) {
+    if (!wait()) return false;
+  }
   MPI_Request barrier = MPI_REQUEST_NULL;
   MPI_Ibarrier(MPI_COMM_WORLD, &barrier);
   for (int done = 0; done == 0;) {
     MPI_Test(&barrier, &done, MPI_STATUS_IGNORE);
-    if (done == 0) idle.sleep();
+    if (done == 0 && !wait()) return false;
   }
   finished_ = true;
   MPI_Finalize();
+  return true;
 }
 
 void Messenger::abort(int code) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <limits>
 #include <list>
 #include <memory>
 #include <optional>
@@ -33,8 +34,9 @@ class Messenger {
   std::optional<Received> receive();
   /// Everything that was sent has left.
   bool is_flushed();
-  /// Ends MPI in order: every rank must call it. Waits, asleep, for what was sent.
-  void finish();
+  /// Ends MPI in order: every rank must call it. Waits, asleep, for what was sent; what arrives is
+  /// thrown away. False if the others were not there after `patience` seconds.
+  bool finish(double patience = std::numeric_limits<double>::infinity());
   /// Ends all ranks now.
   [[noreturn]] void abort(int code);
 

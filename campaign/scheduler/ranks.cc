@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <new>
 
 #include "campaign/scheduler/local_runner.h"
 #include "campaign/scheduler/manager.h"
@@ -84,9 +85,13 @@ std::string hundredths(double value) {
   return text;
 }
 
-void leave_status(const RunOptions& options, ExitCode status) {
-  if (options.status_file.empty()) return;
-  std::ofstream(options.status_file) << static_cast<int>(status) << '\n';
+/// Overwrites what the starter has put there to keep the place: the disk may be full. False if
+/// there is no starter, or it could not be told.
+bool leave_status(const RunOptions& options, ExitCode status, const std::string& reason) {
+  if (options.status_file.empty()) return false;
+  std::fstream file(options.status_file, std::ios::in | std::ios::out | std::ios::binary);
+  file << static_cast<int>(status) << '\n' << reason.substr(0, kLongestReason) << '\n';
+  return static_cast<bool>(file.flush());
 }
 
 /// Runs the campaign; how it ended. Messages go to stderr.
@@ -127,31 +132,47 @@ ExitCode manage(Messenger& messenger, const RunOptions& options, bool& in_order)
   return manager.status();
 }
 
-ExitCode manager_rank(Messenger& messenger, const RunOptions& options) {
-  bool in_order = true;
+/// What the manager's life came to.
+struct ManagerEnd {
   ExitCode status = ExitCode::bug;
+  std::string reason;  ///< of a failure, for the user.
+  bool in_order = false;
+};
+
+ManagerEnd run_manager(Messenger& messenger, const RunOptions& options) {
+  ManagerEnd end;
   try {
-    status = manage(messenger, options, in_order);
+    end.status = manage(messenger, options, end.in_order);
   } catch (const faultsim::InputError& error) {
-    std::fprintf(stderr, "faultsweep: %s\n", error.what());
-    status = ExitCode::input;
-    in_order = false;
+    end = {ExitCode::input, error.what(), false};
   } catch (const faultsim::Error& error) {
-    std::fprintf(stderr, "faultsweep: %s\n", error.what());
-    status = ExitCode::world;
-    in_order = false;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "faultsweep: %s\n", error.what());
-    in_order = false;
+    end = {ExitCode::world, error.what(), false};
+  } catch (const std::bad_alloc&) {
+    end = {ExitCode::world, "out of memory", false};
+  } catch (const std::exception& error) {  // impossible: unless what was read had been damaged
+    const auto damage = Store::damage_of(options.store);
+    end = {damage ? ExitCode::world : ExitCode::bug, damage.value_or(error.what()), false};
   }
-  leave_status(options, status);
+  return end;
+}
+
+ExitCode manager_rank(Messenger& messenger, const RunOptions& options) {
+  const ManagerEnd end = run_manager(messenger, options);
+  // The starter has the last word, so that nothing of MPI's stands below the reason.
+  if (!leave_status(options, end.status, end.reason) && !end.reason.empty())
+    std::fprintf(stderr, "faultsweep: %s\n", end.reason.c_str());
   // mpirun, which would be asked by MPI_Abort, is tearing us down already.
-  if (torn_down != 0) std::_Exit(static_cast<int>(status));
-  if (!in_order) messenger.abort(static_cast<int>(status));
+  if (torn_down != 0) std::_Exit(static_cast<int>(end.status));
+  // Workers leave at once when they are told to, whatever they have under way.
   for (int rank = 1; rank < messenger.size(); ++rank) messenger.send(rank, message::Quit{});
-  messenger.finish();
+  constexpr double kPatience = 10;  // s; an idle worker takes 2 ms, a stopped one for ever
+  if (end.in_order) {
+    messenger.finish();
+  } else if (!messenger.finish(kPatience)) {
+    messenger.abort(static_cast<int>(end.status));
+  }
   // Under somebody else's mpirun there is no starter to tell.
-  return options.status_file.empty() ? status : ExitCode::done;
+  return options.status_file.empty() ? end.status : ExitCode::done;
 }
 
 std::filesystem::path node_cache(const RunOptions& options) {

@@ -33,6 +33,9 @@ std::filesystem::path default_node_cache(const std::filesystem::path& store);
 /// The same for a store that is known to be on a network file system.
 std::filesystem::path own_folder_on_disk();
 
+/// Bytes of a reason that fit into the status file: "CODE\nREASON\n", then blanks.
+inline constexpr std::size_t kLongestReason = 3000;
+
 /// True in a process that mpirun (or srun with PMIx) started as a rank.
 bool is_rank();
 

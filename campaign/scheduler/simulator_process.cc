@@ -3,13 +3,13 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <ctime>
@@ -138,6 +138,10 @@ SimulatorProcess::SimulatorProcess(const Options& options) {
   if (options.cache_bytes) {
     arguments.insert(arguments.end(), {"--cache-size", std::to_string(*options.cache_bytes)});
   }
+  if (options.memory_limit) {  // set by the child itself, once its linear algebra has what it takes
+    arguments.insert(arguments.end(),
+                     {"--memory-limit", std::to_string(std::llround(*options.memory_limit))});
+  }
   std::vector<std::string> environment = clean_environment();
   const SpawnSetup setup(requests.read, replies.write, log.write);
   const int error = posix_spawn(&pid_, options.binary.c_str(), &setup.actions, &setup.attributes,
@@ -146,13 +150,8 @@ SimulatorProcess::SimulatorProcess(const Options& options) {
     throw ResourceError(
         concat("cannot start the simulator ", options.binary.string(), ": ", std::strerror(error)));
   }
-  // Both fail only if the child is gone already, which the pipes will tell.
+  // Fails only if the child is gone already, which the pipes will tell.
   std::ofstream(concat("/proc/", pid_, "/oom_score_adj")) << 1000;
-  if (options.memory_limit) {
-    const rlimit limit = {static_cast<rlim_t>(*options.memory_limit),
-                          static_cast<rlim_t>(*options.memory_limit)};
-    prlimit(pid_, RLIMIT_DATA, &limit, nullptr);
-  }
   requests_ = std::exchange(requests.write, -1);
   replies_ = std::exchange(replies.read, -1);
   log_ = std::exchange(log.read, -1);

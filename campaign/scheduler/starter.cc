@@ -13,6 +13,7 @@
 #include <cstring>
 #include <ctime>
 #include <fstream>
+#include <set>
 #include <vector>
 
 #include "campaign/scheduler/resources.h"
@@ -41,7 +42,11 @@ class StopSignals {
     struct sigaction action = {};
     action.sa_handler = count_signal;
     sigemptyset(&action.sa_mask);
-    for (int k = 0; k < kCount; ++k) sigaction(kSignals[k], &action, &before_[k]);
+    for (int k = 0; k < kCount; ++k) {
+      sigaction(kSignals[k], nullptr, &before_[k]);
+      if (kSignals[k] == SIGHUP && before_[k].sa_handler == SIG_IGN) continue;  // nohup
+      sigaction(kSignals[k], &action, nullptr);
+    }
   }
   ~StopSignals() {
     for (int k = 0; k < kCount; ++k) sigaction(kSignals[k], &before_[k], nullptr);
@@ -90,6 +95,7 @@ class StatusFile {
     }
     close(descriptor);
     path_ = name;
+    clear();
   }
   ~StatusFile() {
     std::error_code ignored;
@@ -105,7 +111,20 @@ class StatusFile {
     if (file >> code) return static_cast<ExitCode>(code);
     return std::nullopt;
   }
-  void clear() const { std::ofstream(path_, std::ios::trunc); }
+  /// Why the campaign failed, in the manager's words; "" if it did not.
+  std::string reason() const {
+    std::ifstream file(path_);
+    std::string code, text;
+    std::getline(file, code);
+    for (std::string line; std::getline(file, line) && line.find_first_not_of(' ') < line.size();)
+      text += (text.empty() ? "" : "\n") + line;
+    return text;
+  }
+  /// Blanks, over which the manager can write when the disk is full.
+  void clear() const {
+    std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
+    file << std::string(kLongestReason + 16, ' ');
+  }
 
  private:
   std::filesystem::path path_;
@@ -190,6 +209,11 @@ pid_t spawn(std::vector<std::string> command) {
   return child;
 }
 
+void pause_shortly() {
+  const timespec pause = {0, 20'000'000};
+  nanosleep(&pause, nullptr);
+}
+
 /// The process is ours by its program, and no zombie.
 bool is_rank_alive(pid_t pid, const std::filesystem::path& program) {
   std::error_code error;  // a zombie has no program
@@ -220,9 +244,11 @@ class JobWatch {
   /// @param n_ranks  none = not known: Open MPI's.
   explicit JobWatch(std::optional<int> n_ranks) : n_ranks_(n_ranks) {}
   void look_after(pid_t mpirun) {
-    if (!n_ranks_ || since_look_.seconds() < kLookSeconds) return;
+    if (since_look_.seconds() < kLookSeconds) return;
     since_look_ = {};
     const std::vector<pid_t> living = living_ranks(mpirun);
+    seen_.insert(living.begin(), living.end());
+    if (!n_ranks_) return;
     if (living.size() == static_cast<std::size_t>(*n_ranks_)) {
       all_were_here_ = true;
       since_loss_ = {};
@@ -232,24 +258,54 @@ class JobWatch {
     if (living.empty()) kill(mpirun, SIGKILL);
     since_loss_ = {};
   }
+  /// Ends the ranks on this host that have outlived their mpirun, as when that was killed: they
+  /// commit what they have when asked to, and have kTearDownSeconds for it.
+  void end_orphans() const {
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
+    const faultsim::Stopwatch watch;
+    bool any = true;
+    for (int number = SIGTERM; any; number = watch.seconds() > kTearDownSeconds ? SIGKILL : 0) {
+      any = false;
+      for (const pid_t rank : seen_) {
+        if (!is_rank_alive(rank, program)) continue;
+        any = true;
+        kill(rank, number);  // 0 only asks
+      }
+      if (any) pause_shortly();
+    }
+  }
 
  private:
   static constexpr double kLookSeconds = 0.2;
   static constexpr double kGraceSeconds = 1;  // an ordinary end takes a tenth of that
   std::optional<int> n_ranks_;
   bool all_were_here_ = false;
+  std::set<pid_t> seen_;
   faultsim::Stopwatch since_look_, since_loss_;
 };
 
+/// A manager on another host may live on for a while after its mpirun was killed. Returns when the
+/// store is free, or after a minute: then the next manager says whose it is.
+void wait_for_store(const RunOptions& options) {
+  constexpr double kLongest = 75;  // a silent manager on another host counts as dead after 60 s
+  const faultsim::Stopwatch watch;
+  while (n_signals == 0 && watch.seconds() < kLongest) {
+    const auto owner = Store::open_reader(options.store).owner();
+    if (!owner || !owner->alive) return;
+    pause_shortly();
+  }
+}
+
 /// Waits for mpirun, passing on requests to stop. Returns waitpid's status.
-int wait_for(pid_t mpirun, std::optional<int> n_ranks) {
+int wait_for(pid_t mpirun, JobWatch& watch) {
   int told = 0;
   faultsim::Stopwatch since_told;
-  JobWatch watch(n_ranks);
-  constexpr double kRepeatSeconds = 1;  // a signal that came before the ranks listened is lost
+  constexpr double kRepeatSeconds = 1;   // a signal that came before the ranks listened is lost
+  constexpr double kTearDownLimit = 10;  // mpirun may hang, and nobody need ask a third time
   for (;;) {
     int status = 0;
     if (waitpid(mpirun, &status, WNOHANG) == mpirun) return status;
+    if (told == 2 && since_told.seconds() > kTearDownLimit) kill(-mpirun, SIGKILL);
     const int wanted = std::min(int{n_signals}, 3);
     if (wanted > told || (wanted == 1 && since_told.seconds() > kRepeatSeconds)) {
       told = wanted;
@@ -259,8 +315,7 @@ int wait_for(pid_t mpirun, std::optional<int> n_ranks) {
       if (wanted == 3) kill(-mpirun, SIGKILL);
     }
     watch.look_after(mpirun);
-    const timespec pause = {0, 20'000'000};
-    nanosleep(&pause, nullptr);
+    pause_shortly();
   }
 }
 
@@ -288,8 +343,9 @@ void note_restart(const RunOptions& options, const std::string& text) {
 }
 
 void check_before(RunOptions& options) {
-  if (!std::filesystem::exists(options.store / "campaign.sqlite"))
-    Store::open_reader(options.store);
+  std::error_code error;
+  if (std::filesystem::file_size(options.store / "campaign.sqlite", error) == 0 || error)
+    Store::open_reader(options.store);  // says what is missing
   Store store = Store::open_writer(options.store);
   const CampaignInfo info = store.campaign(options.campaign);
   options.campaign = info.name;  // "the newest" stays the same one through restarts
@@ -329,9 +385,12 @@ ExitCode start_ranks(const RunOptions& given) {
   long finished = finished_cases(options);
   for (;;) {
     status.clear();
-    const int ended =
-        wait_for(spawn(mpirun_command(options, scratch, status)), wanted_ranks(options));
+    JobWatch watch(wanted_ranks(options));
+    const int ended = wait_for(spawn(mpirun_command(options, scratch, status)), watch);
+    watch.end_orphans();
     const auto left = status.read();
+    if (const std::string reason = status.reason(); !reason.empty())
+      std::fprintf(stderr, "faultsweep: %s\n", reason.c_str());
     if (n_signals > 0) {
       // In order, the campaign may even have been completed; else it can be resumed.
       return left && n_signals == 1 ? *left : ExitCode::interrupted;
@@ -347,6 +406,7 @@ ExitCode start_ranks(const RunOptions& given) {
           concat("the job died ", kMostRestarts + 1,
                  " times in a row without finishing a case; what is stored is intact"));
     }
+    wait_for_store(options);
     note_restart(options, concat("a process of the job died (mpirun status ", ended, "); restart ",
                                  n_restarts, " of ", kMostRestarts));
   }

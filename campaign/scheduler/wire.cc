@@ -131,24 +131,43 @@ void fields(Archive& a, StepResult& s) {
       s.n_open, s.faults, s.observed, s.creep, s.counts, s.seconds);
 }
 template <typename Archive>
+void fields(Archive& a, faultsim::SidePressures& s) {
+  all(a, s.region_minus, s.region_plus, s.change_minus, s.change_plus, s.absolute_minus,
+      s.absolute_plus, s.change_in_fault);
+}
+template <typename Archive>
+void fields(Archive& a, faultsim::FaultOnset& o) {
+  all(a, o.step, o.depth, o.pressures);
+}
+template <typename Archive>
+void fields(Archive& a, faultsim::FaultStageMetrics& m) {
+  all(a, m.fault, m.slips, m.activated, m.opens, m.activation, m.opening, m.chi_bar, m.chi_max,
+      m.area_chi_080, m.thickness_chi_080, m.activated_area, m.slipping_area, m.open_area,
+      m.max_slip, m.potency, m.moment, m.n_events, m.event_moment, m.event_magnitude);
+}
+template <typename Archive>
 void fields(Archive& a, StageMetrics& m) {
-  all(a, m.stage, m.first_step, m.last_step, m.activated, m.activation_step, m.activation_pressure,
-      m.activated_fault, m.chi_bar, m.chi_max, m.area_chi_080, m.thickness_chi_080,
-      m.activated_area, m.slipping_area, m.open_area, m.max_slip, m.potency, m.moment, m.magnitude,
-      m.n_events, m.event_moment, m.event_magnitude);
+  all(a, m.stage, m.first_step, m.last_step, m.slips, m.activated, m.opens, m.activation_step,
+      m.activated_fault, m.opening_step, m.opened_fault, m.chi_bar, m.chi_max, m.area_chi_080,
+      m.thickness_chi_080, m.activated_area, m.slipping_area, m.open_area, m.max_slip, m.potency,
+      m.moment, m.magnitude_if_at_once, m.n_events, m.event_moment, m.event_magnitude, m.faults);
+}
+template <typename Archive>
+void fields(Archive& a, faultsim::Reactivation& r) {
+  all(a, r.episode, r.after);
 }
 template <typename Archive>
 void fields(Archive& a, faultsim::SlipEvent& e) {
-  all(a, e.step, e.stage, e.load_factor_before, e.load_factor_after, e.time, e.pressure_change,
-      e.fault, e.depth, e.nucleation_length, e.slipped_area, e.max_slip, e.mean_slip, e.stress_drop,
+  all(a, e.step, e.stage, e.load_factor_before, e.load_factor_after, e.time, e.fault, e.depth,
+      e.pressures, e.nucleation_length, e.slipped_area, e.max_slip, e.mean_slip, e.stress_drop,
       e.potency, e.moment, e.magnitude, e.duration, e.resolved, e.negative_pivots,
       e.n_lost_cohesion, e.residual_before, e.residual_after, e.energy_released,
       e.energy_dissipated, e.evidence_holds);
 }
 template <typename Archive>
 void fields(Archive& a, faultsim::Episode& e) {
-  all(a, e.stage, e.fault, e.first_step, e.last_step, e.pressure_change, e.after_recovery,
-      e.activated_area, e.max_slip, e.moment, e.magnitude);
+  all(a, e.stage, e.fault, e.first_step, e.last_step, e.depth, e.pressures, e.after_recovery,
+      e.activated_area, e.max_slip, e.moment, e.magnitude_if_at_once);
 }
 template <typename Archive>
 void fields(Archive& a, CaseResult& r) {
@@ -178,7 +197,7 @@ void fields(Archive& a, BaseScene& s) {
 }
 template <typename Archive>
 void fields(Archive& a, message::Work::Item& i) {
-  all(a, i.case_id, i.scene, i.position, i.changes);
+  all(a, i.case_id, i.scene, i.position, i.changes, i.identity);
 }
 template <typename Archive>
 void fields(Archive& a, message::Hello& m) {
@@ -196,8 +215,8 @@ template <typename Archive>
 void fields(Archive&, message::Drained&) {}
 template <typename Archive>
 void fields(Archive& a, message::Work& m) {
-  all(a, m.task.family, m.task.time_limit, m.task.operator_seconds, m.task.memory_limit,
-      m.task.keep_fields, m.task.fields_folder, m.scenes, m.items);
+  all(a, m.task.family, m.task.time_limit, m.task.operator_time_limit, m.task.operator_seconds,
+      m.task.memory_limit, m.task.keep_fields, m.task.fields_folder, m.scenes, m.items);
 }
 template <typename Archive>
 void fields(Archive&, message::Drain&) {}

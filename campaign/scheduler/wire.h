@@ -37,6 +37,7 @@ struct Work {
     std::int64_t scene = 0;  ///< key of a base scene sent with this or an earlier message.
     long position = 0;
     std::string changes;
+    std::string identity = "";
   };
   FamilyTask task;
   std::map<std::int64_t, BaseScene> scenes;

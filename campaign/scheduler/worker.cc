@@ -84,6 +84,7 @@ void Worker::take(const message::Work& work) {
       const BaseScene& base = scenes_.at(item.scene);
       Job job;
       job.case_id = item.case_id;
+      job.identity = item.identity;
       job.scene = scene_from_changes(base.document, item.changes).dump();
       job.source = faultsim::concat(base.source, "#case ", item.position);
       if (work.task.keep_fields != KeepFields::none) {

@@ -188,8 +188,9 @@ void SpecReader::read_rank_by() {
   if (!has("/metrics/rank_by")) return;
   Symbols metrics;
   for (const MetricInfo& metric : metric_catalogue()) {
-    metrics[metric.name] = {
-        "", metric.is_flag ? Type{Kind::boolean, {}} : number_type(metric.dimension)};
+    const Type type = metric.is_flag ? Type{Kind::boolean, {}} : number_type(metric.dimension);
+    metrics[metric.name] = {"", type};
+    if (!metric.synonym.empty()) metrics[metric.synonym] = {"", type};
   }
   if (const auto expression = parse("/metrics/rank_by", metrics)) {
     if (expression->type().kind == Kind::text) {

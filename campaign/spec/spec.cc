@@ -93,6 +93,7 @@ json policy_to_json(const Policy& policy) {
   json result = {{"on_failure", kActions[static_cast<int>(policy.on_failure)]},
                  {"retries", policy.retries}};
   if (policy.time_limit) result["time_limit_s"] = *policy.time_limit;
+  if (policy.operator_time_limit) result["operator_time_limit_s"] = *policy.operator_time_limit;
   if (policy.memory_limit) result["memory_limit_bytes"] = *policy.memory_limit;
   return result;
 }

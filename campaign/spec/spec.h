@@ -144,8 +144,9 @@ enum class FailureAction {
 struct Policy {
   FailureAction on_failure = FailureAction::proceed;
   int retries = 1;
-  std::optional<double> time_limit;    ///< s per case.
-  std::optional<double> memory_limit;  ///< bytes per simulator process.
+  std::optional<double> time_limit;           ///< s per case.
+  std::optional<double> operator_time_limit;  ///< s per build; none = by its prediction.
+  std::optional<double> memory_limit;         ///< bytes per simulator process.
 };
 
 /// `keep_fields`: the load steps whose fault fields are written for each case. No part of a case's

@@ -2,9 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
+#include "campaign/spec/pointers.h"
+#include "simulator/common/process_memory.h"
+#include "simulator/scene/csv_tables.h"
 #include "simulator/scene/near_miss.h"
 
 namespace faultsweep {
@@ -47,6 +52,7 @@ CampaignSpec SpecReader::read() {
       if (is_usable("/derived")) read_derived();
       if (is_usable("/exclude")) read_exclusions();
     }
+    embed_tables();
   }
   if (is_usable("/metrics")) read_rank_by();
   if (is_usable("/keep_fields")) {
@@ -54,6 +60,32 @@ CampaignSpec SpecReader::read() {
   }
   if (!problems_.empty()) throw faultsim::InputError(spec_.source, problems_);
   return std::move(spec_);
+}
+
+/// The text of the CSV files of a scene becomes part of it: what is read now is what the cases are.
+void SpecReader::embed_tables() {
+  const auto names_a_table = [](const Change& change) {
+    return overlap(change.pointer, "/pressure_csv") || overlap(change.pointer, "/compartments");
+  };
+  for (Group& group : spec_.groups) {
+    const auto embed = [&](const json& scene) {
+      for (const std::string& name : faultsim::table_names(scene)) {
+        faultsim::embed_table(group.scene, spec_.scene_source, name);
+      }
+    };
+    embed(json(group.scene));
+    for (const Parameter& parameter : group.parameters) {
+      for (const Choice& choice : parameter.choices) {
+        json scene;
+        for (const Change& change : choice.changes) {
+          if (!names_a_table(change)) continue;
+          if (scene.is_null()) scene = group.scene;
+          put_value(scene, change.pointer, change.value);
+        }
+        embed(scene);
+      }
+    }
+  }
 }
 
 /// The rest of the reader relies on the shape that the schema promises, so it looks only at
@@ -164,6 +196,18 @@ std::optional<double> parse_bytes(const std::string& text) {
 
 }  // namespace
 
+std::optional<double> SpecReader::read_time_limit(const std::string& pointer) {
+  if (!has(pointer)) return std::nullopt;
+  const auto text = at(pointer).get<std::string>();
+  const auto parsed = faultsim::parse_quantity(text, Dimension::time);
+  if (!parsed.ok) {
+    problem(pointer, parsed.what, "write for example \"10 min\"");
+  } else if (parsed.value <= 0) {
+    problem(pointer, "\"" + text + "\" is not above zero", "write for example \"10 min\"");
+  }
+  return parsed.value;
+}
+
 void SpecReader::read_policy() {
   if (!has("/policy")) return;
   Policy& policy = spec_.policy;
@@ -180,23 +224,19 @@ void SpecReader::read_policy() {
               "write \"on_failure\": \"retry\" or remove retries");
     }
   }
-  if (has("/policy/time_limit")) {
-    const auto text = at("/policy/time_limit").get<std::string>();
-    const auto parsed = faultsim::parse_quantity(text, Dimension::time);
-    if (!parsed.ok) {
-      problem("/policy/time_limit", parsed.what, "write for example \"10 min\"");
-    } else if (parsed.value <= 0) {
-      problem("/policy/time_limit", "\"" + text + "\" is not above zero",
-              "write for example \"10 min\"");
-    }
-    policy.time_limit = parsed.value;
-  }
+  policy.time_limit = read_time_limit("/policy/time_limit");
+  policy.operator_time_limit = read_time_limit("/policy/operator_time_limit");
   if (has("/policy/memory_limit")) {
     const auto text = at("/policy/memory_limit").get<std::string>();
     policy.memory_limit = parse_bytes(text);
     if (!policy.memory_limit) {
       problem("/policy/memory_limit", "\"" + text + "\" is not an amount of memory",
               "write for example \"8 GB\"");
+    } else if (*policy.memory_limit < faultsim::kLeastMemoryLimit) {
+      problem("/policy/memory_limit",
+              "\"" + text + "\" is less than a simulator process needs before its first case",
+              "write at least \"" + std::to_string(std::lround(faultsim::kLeastMemoryLimit / 1e6)) +
+                  " MB\"");
     }
   }
 }

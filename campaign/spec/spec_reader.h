@@ -48,6 +48,7 @@ class SpecReader {
   void read_name();
   void read_base();
   void read_policy();
+  std::optional<double> read_time_limit(const std::string& pointer);
   void problem(const std::string& pointer, const std::string& what, const std::string& cure);
   const json& at(const std::string& pointer) const;
   bool has(const std::string& pointer) const;
@@ -113,6 +114,7 @@ class SpecReader {
   void read_derived();
   void sort_derived();
   void read_exclusions();
+  void embed_tables();
   void read_rank_by();
   std::optional<Expression> parse(const std::string& pointer, const Symbols& symbols);
 

@@ -1,5 +1,6 @@
 #include <ctime>
 
+#include "campaign/store/checksums.h"
 #include "campaign/store/clock.h"
 #include "campaign/store/read_counts.h"
 #include "campaign/store/sqlite.h"
@@ -110,7 +111,8 @@ std::vector<std::int64_t> add_families(Connection& db, const Submission& submiss
 
 constexpr const char* kInfoColumns =
     "SELECT id, name, submitted_at, state, source, parameters, rank_by, n_excluded, n_merged,"
-    " on_failure, retries, case_time_limit_s, case_memory_limit_bytes, keep_fields FROM campaigns ";
+    " on_failure, retries, case_time_limit_s, case_memory_limit_bytes, keep_fields,"
+    " operator_time_limit_s FROM campaigns ";
 
 CampaignInfo read_info(const Statement& row) {
   CampaignInfo info;
@@ -127,6 +129,7 @@ CampaignInfo read_info(const Statement& row) {
   info.policy.retries = static_cast<int>(row.integer(10));
   info.policy.time_limit = row.optional_real(11);
   info.policy.memory_limit = row.optional_real(12);
+  info.policy.operator_time_limit = row.optional_real(14);
   const auto keep = keep_fields_named(row.text(13));
   if (!keep) throw StorageError(concat("unknown keep_fields '", row.text(13), "' in the store"));
   info.keep_fields = *keep;
@@ -213,8 +216,9 @@ SubmitOutcome Store::submit(const Submission& submission) {
     db.prepared(
           "INSERT INTO campaigns (name, submitted_at, source, spec_given, spec_given_hash,"
           " spec_resolved, spec_resolved_hash, spec_expanded_hash, parameters, rank_by, n_excluded,"
-          " n_merged, on_failure, retries, case_time_limit_s, case_memory_limit_bytes, keep_fields)"
-          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+          " n_merged, on_failure, retries, case_time_limit_s, case_memory_limit_bytes, keep_fields,"
+          " operator_time_limit_s)"
+          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
         .bind(place.name, seconds_since_1970(), submission.source, submission.spec_given,
               faultsim::fingerprint(submission.spec_given), submission.spec_resolved, resolved_hash,
               expanded, submission.parameters, submission.rank_by, submission.n_excluded,
@@ -223,10 +227,11 @@ SubmitOutcome Store::submit(const Submission& submission) {
               submission.policy.memory_limit
                   ? std::optional(static_cast<std::int64_t>(*submission.policy.memory_limit))
                   : std::nullopt,
-              to_string(submission.keep_fields))
+              to_string(submission.keep_fields), submission.policy.operator_time_limit)
         .run();
     outcome.campaign = db.last_insert_id();
     add_cases(outcome.campaign, submission);
+    checksums_->seal_campaign(outcome.campaign);
   }
   count_known(db, outcome);
   transaction.commit();

@@ -9,6 +9,8 @@
 #include "store_5_sql.h"
 #include "store_6_sql.h"
 #include "store_7_sql.h"
+#include "store_8_sql.h"
+#include "store_9_sql.h"
 #include "store_sql.h"
 
 namespace faultsweep {
@@ -17,24 +19,34 @@ namespace {
 using faultsim::concat;
 using faultsim::StorageError;
 
+std::int64_t number(Connection& connection, const char* query) {
+  Statement statement(connection, query);
+  statement.step();
+  return statement.integer(0);
+}
+
 /// Reads version and application; throws when the file is not ours to touch.
 int usable_version(Connection& connection, int newest) {
-  Statement application(connection, "PRAGMA application_id");
-  application.step();
-  Statement user(connection, "PRAGMA user_version");
-  user.step();
-  const int version = static_cast<int>(user.integer(0));
-  const auto id = application.integer(0);
-  if (id != kStoreApplicationId && (id != 0 || version != 0)) {
-    throw StorageError(concat("the database is not a faultsweep store (application id ", id,
-                              "); choose another --store"));
+  const std::string file = connection.path().string();
+  const auto id = number(connection, "PRAGMA application_id");
+  const auto version = number(connection, "PRAGMA user_version");
+  const auto n_tables = number(connection, "SELECT count(*) FROM sqlite_schema");
+  const bool is_fresh = id == 0 && version == 0 && n_tables == 0;
+  if (id != kStoreApplicationId && !is_fresh) {
+    throw StorageError(concat(file, " is another program's database, not a faultsweep store",
+                              " (application id ", id, ", ", n_tables,
+                              " tables and indices); choose another --store, nothing was changed"));
   }
   if (version > newest) {
-    throw StorageError(concat("the store has schema version ", version,
+    throw StorageError(concat("the store ", file, " has schema version ", version,
                               ", this faultsweep knows up to ", newest,
                               "; use the newer faultsweep, nothing was changed"));
   }
-  return version;
+  if (!is_fresh && number(connection, "SELECT max(version) FROM migrations") != version) {
+    throw StorageError(concat("the store ", file, " is damaged: its header and its table of ",
+                              "migrations name different schema versions; ", kDamageCure));
+  }
+  return static_cast<int>(version);
 }
 
 /// Foreign keys off as long as it lives, for a table that is made anew under its name. A pragma
@@ -76,8 +88,14 @@ const std::vector<Migration>& store_migrations() {
       {5, "2026-11-21 rows of designs", faultsim::embedded::store_5_sql},
       {6, "2026-11-21 nights", faultsim::embedded::store_6_sql},
       {7, "2026-11-22 trades of accuracy for speed", faultsim::embedded::store_7_sql},
+      {8, "2026-11-22 checksums and operator time limits", faultsim::embedded::store_8_sql},
+      {9, "2026-11-22 metrics and pressures per fault", faultsim::embedded::store_9_sql},
   };
   return migrations;
+}
+
+int stored_version(Connection& connection, const std::vector<Migration>& migrations) {
+  return usable_version(connection, migrations.back().version);
 }
 
 void migrate(Connection& connection, const std::vector<Migration>& migrations) {
@@ -105,6 +123,11 @@ void migrate(Connection& connection, const std::vector<Migration>& migrations) {
 void check_version(Connection& connection, const std::vector<Migration>& migrations) {
   const int newest = migrations.back().version;
   const int version = usable_version(connection, newest);
+  if (version == 0) {
+    throw StorageError(concat("the store ", connection.path().string(),
+                              " is empty: a submit was interrupted, or the file is damaged; submit "
+                              "again, or restore a backup (faultsweep backup)"));
+  }
   if (version < newest) {
     throw StorageError(concat("the store has schema version ", version, ", this faultsweep reads ",
                               newest,

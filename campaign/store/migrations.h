@@ -19,6 +19,8 @@ const std::vector<Migration>& store_migrations();
 
 inline constexpr int kStoreApplicationId = 0x46535750;  // "FSWP"
 
+/// The file's schema version, 0 = nothing is in it yet. Throws StorageError as migrate().
+int stored_version(Connection& connection, const std::vector<Migration>& migrations);
 /// Brings the file to the last version, each step in a transaction of its own with its row in
 /// `migrations`; foreign keys are off meanwhile and checked before each step is committed. An empty
 /// file is created. Throws StorageError on a file of another application or of a newer version;

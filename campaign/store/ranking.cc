@@ -1,6 +1,7 @@
-#include <map>
+#include <algorithm>
 
 #include "campaign/store/bind_values.h"
+#include "campaign/store/fault_rows.h"
 #include "campaign/store/read_stage.h"
 #include "campaign/store/sqlite.h"
 #include "campaign/store/store.h"
@@ -8,61 +9,14 @@
 namespace faultsweep {
 namespace {
 
-/// Metrics of spec/metrics.h (fields of StageMetrics and CaseResult) -> columns.
-const std::map<std::string, std::string>& metric_columns() {
-  // Creep is kept per load step only: few ask for it, and a case's steps lie together.
-  const auto creep = [](const char* aggregate, const char* table) {
-    return faultsim::concat("(SELECT ", aggregate, " FROM ", table, " WHERE case_id = s.case_id",
-                            " AND step BETWEEN s.first_step AND s.last_step)");
-  };
-  static const std::map<std::string, std::string> columns = {
-      {"creep_normal_min", creep("min(creep_normal_min_pa)", "chi_history")},
-      {"creep_normal_max", creep("max(creep_normal_max_pa)", "chi_history")},
-      {"creep_shear_max", creep("max(creep_shear_max_pa)", "chi_history")},
-      {"creep_time_steps", creep("sum(time_steps)", "load_steps")},
-      {"creep_time_error", creep("max(time_error_pa)", "load_steps")},
-      {"creep_time_resolved", creep("min(time_resolved)", "load_steps")},
-      {"outcome", "m.outcome"},
-      {"rank_class", "s.rank_class"},
-      {"activated", "s.activated"},
-      {"activation_step", "s.activation_step"},
-      {"activation_pressure", "s.activation_pressure_pa"},
-      {"activated_fault", "f.name"},
-      {"chi_bar", "s.chi_bar"},
-      {"chi_max", "s.chi_max"},
-      {"area_chi_080", "s.area_chi_080_m2"},
-      {"thickness_chi_080", "s.thickness_chi_080_m"},
-      {"activated_area", "s.activated_area_m2"},
-      {"slipping_area", "s.slipping_area_m2"},
-      {"open_area", "s.open_area_m2"},
-      {"max_slip", "s.max_slip_m"},
-      {"potency", "s.potency_m3"},
-      {"moment", "s.moment_nm"},
-      {"magnitude", "s.magnitude_mw"},
-      {"n_events", "s.n_events"},
-      {"event_moment", "s.event_moment_nm"},
-      {"event_magnitude", "s.event_magnitude_mw"},
-      {"pressure_margin", "m.pressure_margin_pa"},
-      {"failed_step", "m.failed_step"},
-      {"plane_strain", "m.plane_strain"},
-      {"weakening_resolved", "m.weakening_resolved"},
-      {"max_nucleation_ratio", "m.max_nucleation_ratio"},
-      {"unexpected", "coalesce(m.unexpected, 0)"},
-      {"n_episodes", "m.n_episodes"},
-      {"max_penetration", "m.max_penetration_m"},
-      {"newton_iterations", "m.newton_iterations"},
-      {"active_set_passes", "m.active_set_passes"},
-      {"sub_steps", "m.sub_steps"},
-      {"wasted_newton_iterations", "m.wasted_newton_iterations"},
-      {"seconds", "(SELECT wall_s FROM runs WHERE id = m.run_id)"},
-  };
-  return columns;
-}
-
 /// The default order is the index stage_metrics_default_order: the text must match it.
 constexpr const char* kDefaultOrder =
-    "s.rank_class, s.activated_area_m2 DESC, s.moment_nm DESC,"
+    "s.rank_class, s.activated_area_m2 DESC, s.open_area_m2 DESC, s.moment_nm DESC,"
     " coalesce(s.pressure_margin_pa, 9e99), s.chi_bar DESC, s.case_id";
+/// The same of one fault, which has no margin of its own.
+constexpr const char* kDefaultFaultOrder =
+    "q.rank_class, q.activated_area_m2 DESC, q.open_area_m2 DESC, q.moment_nm DESC,"
+    " q.chi_bar DESC, cc.position";
 
 }  // namespace
 
@@ -81,40 +35,60 @@ void bind_values(Statement& statement, int& position, const std::vector<Value>& 
   }
 }
 
-std::string metric_sql(const std::string& metric) {
-  const auto found = metric_columns().find(metric);
-  FAULTSIM_DEMAND(found != metric_columns().end(), metric);
-  return found->second;
-}
-
 std::string parameter_sql(int index) {
   return faultsim::concat("json_extract(cc.parameter_values, '$[", index, "]')");
 }
 
 namespace {
 
-/// The cases in order: case_id, position, score. Only the tables that the expressions use are
-/// joined, which for 10^5 cases is what the time goes into. CROSS JOIN fixes the order of the
-/// loops: along the index of the default order, so that LIMIT stops early.
+bool uses(const Store::RankingQuery& query, const char* alias) {
+  return query.by.text.find(alias) != std::string::npos ||
+         query.where.text.find(alias) != std::string::npos;
+}
+
+/// Which cases: "FROM ... WHERE ...", with the campaign, the stage and the values of `where` to be
+/// bound. Only the tables that the expressions use are joined, which for 10^5 cases is what the
+/// time goes into. CROSS JOIN fixes the order of the loops: along the index of the default order,
+/// so that LIMIT stops early, or along the rows of one fault and stage.
+std::string selection_sql(const Store::RankingQuery& query, bool needs_dimension) {
+  const char* row = query.fault ? "q" : "s";
+  std::string sql = faultsim::concat(" FROM ", query.fault ? "fault_metrics q" : "stage_metrics s",
+                                     " CROSS JOIN campaign_cases cc ON cc.case_id = ", row,
+                                     ".case_id AND cc.campaign_id = ?");
+  if (query.fault && (uses(query, "s.") || uses(query, "f."))) {
+    sql += " CROSS JOIN stage_metrics s ON s.stage_id = q.stage_id AND s.case_id = q.case_id";
+  }
+  if (needs_dimension || uses(query, "m.")) {
+    sql += faultsim::concat(" CROSS JOIN case_metrics m ON m.case_id = ", row, ".case_id");
+  }
+  if (uses(query, "f.")) sql += " LEFT JOIN names f ON f.id = s.activated_fault_id";
+  sql += faultsim::concat(" WHERE ", row, ".stage_id = (SELECT id FROM names WHERE name = ?)");
+  if (query.fault) sql += faultsim::concat(" AND q.fault_id = ", *query.fault);
+  if (!query.where.text.empty()) sql += " AND coalesce((" + query.where.text + "), 0)";
+  return sql;
+}
+
+/// The cases in order: case_id, position, score.
 std::string order_sql(const Store::RankingQuery& query) {
   const bool by_default = query.by.text.empty();
-  const std::string used = query.by.text + " " + query.where.text;
-  std::string sql = faultsim::concat(
-      "SELECT s.case_id, cc.position, ", by_default ? "NULL" : "(" + query.by.text + ")",
-      " AS score FROM stage_metrics s"
-      " CROSS JOIN campaign_cases cc ON cc.case_id = s.case_id AND cc.campaign_id = ?");
-  if (used.find("m.") != std::string::npos) {
-    sql += " CROSS JOIN case_metrics m ON m.case_id = s.case_id";
+  const char* row = query.fault ? "q" : "s";
+  std::string sql = faultsim::concat("SELECT ", row, ".case_id, cc.position, ",
+                                     by_default ? "NULL" : "(" + query.by.text + ")", " AS score",
+                                     selection_sql(query, false));
+  if (by_default) {
+    sql += faultsim::concat(" ORDER BY ", query.fault ? kDefaultFaultOrder : kDefaultOrder);
+  } else {
+    sql += faultsim::concat(" ORDER BY ", row, ".rank_class, score IS NULL, score",
+                            query.ascending ? "" : " DESC", ", cc.position");
   }
-  if (used.find("f.") != std::string::npos) {
-    sql += " LEFT JOIN names f ON f.id = s.activated_fault_id";
-  }
-  sql += " WHERE s.stage_id = (SELECT id FROM names WHERE name = ?)";
-  if (!query.where.text.empty()) sql += " AND coalesce((" + query.where.text + "), 0)";
-  sql += by_default ? faultsim::concat(" ORDER BY ", kDefaultOrder)
-                    : faultsim::concat(" ORDER BY s.rank_class, score IS NULL, score",
-                                       query.ascending ? "" : " DESC", ", cc.position");
   return query.limit > 0 ? sql + faultsim::concat(" LIMIT ", query.limit) : sql;
+}
+
+void bind_selection(Statement& statement, int& bound, std::int64_t campaign,
+                    const Store::RankingQuery& query) {
+  statement.bind_at(++bound, campaign);
+  statement.bind_at(++bound, query.stage);
+  bind_values(statement, bound, query.where.parameters);
 }
 
 struct OrderedCase {
@@ -129,9 +103,7 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
   Statement order(*connection_, order_sql(query).c_str());
   int bound = 0;
   bind_values(order, bound, query.by.parameters);
-  order.bind_at(++bound, campaign);
-  order.bind_at(++bound, query.stage);
-  bind_values(order, bound, query.where.parameters);
+  bind_selection(order, bound, campaign, query);
   std::vector<OrderedCase> cases;
   while (order.step()) {
     cases.push_back(
@@ -140,14 +112,19 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
   Statement& rows = connection_->prepared(
       "SELECT cc.parameter_values, cc.parameter_labels, s.rank_class, m.outcome,"
       " m.weakening_resolved, m.pressure_margin_pa, s.activated, s.activation_step,"
-      " s.activation_pressure_pa, coalesce(f.name, ''), s.chi_bar, s.chi_max, s.area_chi_080_m2,"
+      " coalesce(f.name, ''), s.opening_step, s.chi_bar, s.chi_max, s.area_chi_080_m2,"
       " s.thickness_chi_080_m, s.activated_area_m2, s.slipping_area_m2, s.open_area_m2, "
       "s.max_slip_m,"
-      " s.potency_m3, s.moment_nm, s.magnitude_mw, s.n_events, s.event_moment_nm,"
-      " s.event_magnitude_mw, s.first_step, s.last_step, coalesce(m.unexpected, 0)"
+      " s.potency_m3, s.moment_nm, s.magnitude_if_released_at_once_mw, s.n_events, "
+      "s.event_moment_nm,"
+      " s.event_magnitude_mw, s.first_step, s.last_step, coalesce(o.name, ''),"
+      " (SELECT n.name FROM episodes e JOIN names n ON n.id = e.fault_id WHERE e.case_id = s.case_id"
+      " AND e.number = m.unexpected_episode), m.plane_strain, s.stage_id, s.activated_fault_id,"
+      " s.opened_fault_id"
       " FROM stage_metrics s JOIN case_metrics m ON m.case_id = s.case_id"
       " JOIN campaign_cases cc ON cc.campaign_id = ?1 AND cc.position = ?2"
       " LEFT JOIN names f ON f.id = s.activated_fault_id"
+      " LEFT JOIN names o ON o.id = s.opened_fault_id"
       " WHERE s.stage_id = (SELECT id FROM names WHERE name = ?3) AND s.case_id = ?4");
   std::vector<RankedCase> ranked;
   ranked.reserve(cases.size());
@@ -165,22 +142,82 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
     row.pressure_margin = rows.optional_real(5);
     row.metrics = read_stage_metrics(rows, 6);
     row.metrics.stage = query.stage;
-    row.unexpected = rows.integer(26) != 0;
+    row.unexpected_fault = rows.text(27);
+    row.plane_strain = rows.integer(28) != 0;
+    for (const int column : {30, 31}) {  // the faults that slide and open first
+      const auto fault = rows.optional_integer(column);
+      if (!fault || query.fault || (column == 31 && fault == rows.optional_integer(30))) continue;
+      row.metrics.faults.push_back(read_fault_row(*connection_, one.id, rows.integer(29), *fault));
+    }
+    if (query.fault) {
+      row.fault_metrics = read_fault_row(*connection_, one.id, rows.integer(29), *query.fault);
+    }
     ranked.push_back(std::move(row));
   }
   rows.reset();
   return ranked;
 }
 
-std::vector<std::string> Store::stages(std::int64_t campaign) const {
-  std::vector<std::string> names;
-  Statement& query = connection_->prepared(
-      "SELECT n.name FROM names n WHERE EXISTS (SELECT 1 FROM campaign_cases cc JOIN stage_metrics "
-      "s"
-      " ON s.stage_id = n.id AND s.case_id = cc.case_id WHERE cc.campaign_id = ?) ORDER BY n.id");
+namespace {
+
+/// Whether any case of the campaign that the query selects is plane strain, or is not.
+bool has_kind(Connection& db, std::int64_t campaign, const Store::RankingQuery& query,
+              bool plane_strain) {
+  std::string sql;
+  if (query.where.text.empty()) {
+    sql =
+        "SELECT 1 FROM case_metrics m CROSS JOIN campaign_cases cc ON cc.case_id = m.case_id"
+        " AND cc.campaign_id = ? WHERE m.plane_strain = ";
+  } else {
+    sql = "SELECT 1" + selection_sql(query, true) + " AND m.plane_strain = ";
+  }
+  Statement found(db, (sql + (plane_strain ? "1" : "0") + " LIMIT 1").c_str());
+  int bound = 0;
+  if (query.where.text.empty()) {
+    found.bind_at(++bound, campaign);
+  } else {
+    bind_selection(found, bound, campaign, query);
+  }
+  return found.step();
+}
+
+/// The names that some row of a case of the campaign has, in the order in which they came up.
+std::vector<NamedId> names_with(Connection& db, const char* sql, std::int64_t campaign) {
+  std::vector<NamedId> names;
+  Statement query(db, sql);
   query.bind(campaign);
-  while (query.step()) names.push_back(query.text(0));
+  while (query.step()) names.push_back({query.integer(0), query.text(1)});
   return names;
+}
+
+}  // namespace
+
+Store::Kinds Store::kinds(std::int64_t campaign, const RankingQuery& query) const {
+  Kinds kinds;
+  kinds.plane_strain = has_kind(*connection_, campaign, {}, true);
+  kinds.total = has_kind(*connection_, campaign, {}, false);
+  if (kinds.plane_strain && kinds.total && !query.where.text.empty()) {
+    kinds.plane_strain = has_kind(*connection_, campaign, query, true);
+    kinds.total = has_kind(*connection_, campaign, query, false);
+  }
+  return kinds;
+}
+
+std::vector<NamedId> Store::stages(std::int64_t campaign) const {
+  return names_with(*connection_,
+                    "SELECT n.id, n.name FROM names n WHERE EXISTS (SELECT 1 FROM stage_metrics s"
+                    " CROSS JOIN campaign_cases cc ON cc.case_id = s.case_id"
+                    " AND cc.campaign_id = ?1 WHERE s.stage_id = n.id) ORDER BY n.id",
+                    campaign);
+}
+
+std::vector<NamedId> Store::faults(std::int64_t campaign) const {
+  return names_with(*connection_,
+                    "SELECT n.id, n.name FROM names n WHERE EXISTS (SELECT 1 FROM fault_metrics q"
+                    " CROSS JOIN campaign_cases cc ON cc.case_id = q.case_id"
+                    " AND cc.campaign_id = ?1 WHERE q.stage_id = (SELECT id FROM names WHERE"
+                    " name = '') AND q.fault_id = n.id) ORDER BY n.id",
+                    campaign);
 }
 
 }  // namespace faultsweep

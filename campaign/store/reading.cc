@@ -2,6 +2,7 @@
 #include <charconv>
 #include <limits>
 
+#include "campaign/store/fault_rows.h"
 #include "campaign/store/read_counts.h"
 #include "campaign/store/read_stage.h"
 #include "campaign/store/sqlite.h"
@@ -17,8 +18,9 @@ faultsim::StageMetrics read_stage_metrics(const Statement& row, int first) {
   m.activated = row.integer(first) != 0;
   if (const auto step = row.optional_integer(first + 1))
     m.activation_step = static_cast<int>(*step);
-  m.activation_pressure = row.optional_real(first + 2);
-  m.activated_fault = row.text(first + 3);
+  m.activated_fault = row.text(first + 2);
+  if (const auto step = row.optional_integer(first + 3)) m.opening_step = static_cast<int>(*step);
+  m.opened_fault = row.text(first + 20);
   m.chi_bar = row.real(first + 4);
   m.chi_max = row.real(first + 5);
   m.area_chi_080 = row.real(first + 6);
@@ -26,10 +28,12 @@ faultsim::StageMetrics read_stage_metrics(const Statement& row, int first) {
   m.activated_area = row.real(first + 8);
   m.slipping_area = row.real(first + 9);
   m.open_area = row.real(first + 10);
+  m.opens = m.open_area > 0;
   m.max_slip = row.real(first + 11);
+  m.slips = m.max_slip > 0;
   m.potency = row.real(first + 12);
   m.moment = row.real(first + 13);
-  m.magnitude = row.optional_real(first + 14);
+  m.magnitude_if_at_once = row.optional_real(first + 14);
   m.n_events = static_cast<int>(row.integer(first + 15));
   m.event_moment = row.real(first + 16);
   m.event_magnitude = row.optional_real(first + 17);
@@ -39,6 +43,8 @@ faultsim::StageMetrics read_stage_metrics(const Statement& row, int first) {
 }
 
 namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> numbers_of(const std::string& json_array) {
   std::vector<double> numbers;
@@ -161,19 +167,21 @@ void read_steps(Connection& db, std::int64_t case_id, CaseResult& result) {
 
 void read_stages(Connection& db, std::int64_t case_id, CaseResult& result) {
   Statement& query = db.prepared(
-      "SELECT n.name, s.activated, s.activation_step, s.activation_pressure_pa, coalesce(f.name, "
-      "''),"
+      "SELECT n.name, s.activated, s.activation_step, coalesce(f.name, ''), s.opening_step,"
       " s.chi_bar, s.chi_max, s.area_chi_080_m2, s.thickness_chi_080_m, s.activated_area_m2,"
-      " s.slipping_area_m2, s.open_area_m2, s.max_slip_m, s.potency_m3, s.moment_nm, "
-      "s.magnitude_mw,"
+      " s.slipping_area_m2, s.open_area_m2, s.max_slip_m, s.potency_m3, s.moment_nm,"
+      " s.magnitude_if_released_at_once_mw,"
       " s.n_events, s.event_moment_nm, s.event_magnitude_mw,"
-      " s.first_step, s.last_step FROM names n CROSS JOIN stage_metrics s ON s.stage_id = n.id"
-      " LEFT JOIN names f ON f.id = s.activated_fault_id WHERE s.case_id = ? ORDER BY "
+      " s.first_step, s.last_step, coalesce(o.name, ''), n.id"
+      " FROM names n CROSS JOIN stage_metrics s ON s.stage_id = n.id"
+      " LEFT JOIN names f ON f.id = s.activated_fault_id"
+      " LEFT JOIN names o ON o.id = s.opened_fault_id WHERE s.case_id = ? ORDER BY "
       "s.first_step");
   query.bind(case_id);
   while (query.step()) {
     faultsim::StageMetrics stage = read_stage_metrics(query, 1);
     stage.stage = query.text(0);
+    stage.faults = read_fault_rows(db, case_id, query.integer(22));
     if (stage.stage.empty()) {
       result.whole = std::move(stage);
     } else {
@@ -185,12 +193,17 @@ void read_stages(Connection& db, std::int64_t case_id, CaseResult& result) {
 void read_slip_events(Connection& db, std::int64_t case_id, CaseResult& result) {
   Statement& query = db.prepared(
       "SELECT e.step, g.name, e.load_factor_before, e.load_factor_after, e.time_s,"
-      " e.pressure_change_pa, coalesce(f.name, ''), e.depth_m, e.nucleation_length_m,"
+      " coalesce(f.name, ''), e.depth_m, e.nucleation_length_m,"
       " e.slipped_area_m2, e.max_slip_m, e.mean_slip_m, e.stress_drop_pa, e.potency_m3,"
       " e.moment_nm, e.magnitude_mw, e.duration_s, e.resolved, e.negative_pivots,"
       " e.n_lost_cohesion, e.residual_before, e.residual_after, e.energy_released_j,"
-      " e.energy_dissipated_j, e.evidence_holds FROM slip_events e JOIN names g ON g.id ="
-      " e.stage_id LEFT JOIN names f ON f.id = e.fault_id WHERE e.case_id = ? ORDER BY e.number");
+      " e.energy_dissipated_j, e.evidence_holds, coalesce(rm.name, ''), coalesce(rp.name, ''),"
+      " e.change_minus_pa, e.change_plus_pa, e.absolute_minus_pa, e.absolute_plus_pa, "
+      "e.change_in_fault_pa"
+      " FROM slip_events e JOIN names g ON g.id ="
+      " e.stage_id LEFT JOIN names f ON f.id = e.fault_id"
+      " LEFT JOIN names rm ON rm.id = e.region_minus_id"
+      " LEFT JOIN names rp ON rp.id = e.region_plus_id WHERE e.case_id = ? ORDER BY e.number");
   query.bind(case_id);
   while (query.step()) {
     faultsim::SlipEvent event;
@@ -199,35 +212,39 @@ void read_slip_events(Connection& db, std::int64_t case_id, CaseResult& result) 
     event.load_factor_before = query.real(2);
     event.load_factor_after = query.real(3);
     event.time = query.real(4);
-    event.pressure_change = query.real(5);
-    event.fault = query.text(6);
-    event.depth = query.real(7);
-    event.nucleation_length = query.real(8);
-    event.slipped_area = query.real(9);
-    event.max_slip = query.real(10);
-    event.mean_slip = query.real(11);
-    event.stress_drop = query.real(12);
-    event.potency = query.real(13);
-    event.moment = query.real(14);
-    event.magnitude = query.optional_real(15);
-    event.duration = query.real(16);
-    event.resolved = query.integer(17) != 0;
-    event.negative_pivots = static_cast<int>(query.integer(18));
-    event.n_lost_cohesion = static_cast<int>(query.integer(19));
-    event.residual_before = query.real(20);
-    event.residual_after = query.real(21);
-    event.energy_released = query.real(22);
-    event.energy_dissipated = query.real(23);
-    event.evidence_holds = query.integer(24) != 0;
+    event.fault = query.text(5);
+    event.depth = query.real(6);
+    event.nucleation_length = query.real(7);
+    event.slipped_area = query.real(8);
+    event.max_slip = query.real(9);
+    event.mean_slip = query.real(10);
+    event.stress_drop = query.real(11);
+    event.potency = query.real(12);
+    event.moment = query.real(13);
+    event.magnitude = query.optional_real(14);
+    event.duration = query.real(15);
+    event.resolved = query.integer(16) != 0;
+    event.negative_pivots = static_cast<int>(query.integer(17));
+    event.n_lost_cohesion = static_cast<int>(query.integer(18));
+    event.residual_before = query.real(19);
+    event.residual_after = query.real(20);
+    event.energy_released = query.real(21);
+    event.energy_dissipated = query.real(22);
+    event.evidence_holds = query.integer(23) != 0;
+    event.pressures = read_side_pressures(query, 24);
     result.events.push_back(std::move(event));
   }
 }
 
 void read_episodes(Connection& db, std::int64_t case_id, CaseResult& result) {
   Statement& query = db.prepared(
-      "SELECT g.name, f.name, e.first_step, e.last_step, e.pressure_change_pa, e.after_recovery,"
-      " e.activated_area_m2, e.max_slip_m, e.moment_nm, e.magnitude_mw FROM episodes e"
+      "SELECT g.name, f.name, e.first_step, e.last_step, e.depth_m, e.after_recovery,"
+      " e.activated_area_m2, e.max_slip_m, e.moment_nm, e.magnitude_if_released_at_once_mw,"
+      " coalesce(rm.name, ''), coalesce(rp.name, ''), e.change_minus_pa, e.change_plus_pa,"
+      " e.absolute_minus_pa, e.absolute_plus_pa, e.change_in_fault_pa FROM episodes e"
       " JOIN names g ON g.id = e.stage_id JOIN names f ON f.id = e.fault_id"
+      " LEFT JOIN names rm ON rm.id = e.region_minus_id"
+      " LEFT JOIN names rp ON rp.id = e.region_plus_id"
       " WHERE e.case_id = ? ORDER BY e.number");
   query.bind(case_id);
   while (query.step()) {
@@ -236,12 +253,13 @@ void read_episodes(Connection& db, std::int64_t case_id, CaseResult& result) {
     episode.fault = query.text(1);
     episode.first_step = static_cast<int>(query.integer(2));
     episode.last_step = static_cast<int>(query.integer(3));
-    episode.pressure_change = query.real(4);
+    episode.depth = query.optional_real(4).value_or(kUnknown);
     episode.after_recovery = query.integer(5) != 0;
     episode.activated_area = query.real(6);
     episode.max_slip = query.real(7);
     episode.moment = query.real(8);
-    episode.magnitude = query.optional_real(9);
+    episode.magnitude_if_at_once = query.optional_real(9);
+    episode.pressures = read_side_pressures(query, 10);
     result.episodes.push_back(std::move(episode));
   }
 }
@@ -261,8 +279,8 @@ bool read_case_metrics(Connection& db, std::int64_t case_id, CaseResult& result)
       "SELECT m.outcome, m.reason, m.failed_step, m.plane_strain, m.weakening_resolved,"
       " m.max_nucleation_ratio, m.pressure_margin_pa, m.newton_iterations, m.active_set_passes,"
       " m.sub_steps, m.wasted_newton_iterations, m.warnings, coalesce(r.operator, ''),"
-      " coalesce(r.numerics_version, 0), r.wall_s, coalesce(m.unexpected, 0),"
-      " m.max_penetration_m FROM case_metrics m JOIN runs r ON r.id = "
+      " coalesce(r.numerics_version, 0), r.wall_s, m.unexpected_episode,"
+      " m.max_penetration_m, m.unexpected_after FROM case_metrics m JOIN runs r ON r.id = "
       "m.run_id"
       " WHERE m.case_id = ?");
   if (!query.bind(case_id).step()) return false;
@@ -279,8 +297,10 @@ bool read_case_metrics(Connection& db, std::int64_t case_id, CaseResult& result)
   result.operator_fingerprint = query.text(12);
   result.numerics_version = static_cast<int>(query.integer(13));
   result.seconds = query.real(14);
-  result.unexpected = query.integer(15) != 0;
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  if (const auto episode = query.optional_integer(15)) {
+    result.unexpected =
+        faultsim::Reactivation{static_cast<int>(*episode), static_cast<int>(query.integer(17))};
+  }
   result.max_penetration = query.optional_real(16).value_or(kUnknown);
   query.reset();
   return true;

@@ -10,6 +10,7 @@ namespace faultsweep {
 using faultsim::CaseResult;
 using faultsim::concat;
 using faultsim::Outcome;
+using faultsim::SidePressures;
 using faultsim::StageMetrics;
 
 namespace {
@@ -59,11 +60,14 @@ void Store::forget_result(std::int64_t case_id) {
   if (!stored) return;
   db.prepared("DELETE FROM slip_events WHERE case_id = ?").bind(case_id).run();
   db.prepared("DELETE FROM episodes WHERE case_id = ?").bind(case_id).run();
+  db.prepared("DELETE FROM fault_onsets WHERE case_id = ?").bind(case_id).run();
+  forget_fault_metrics(case_id);
   db.prepared("DELETE FROM chi_history WHERE case_id = ?").bind(case_id).run();
   db.prepared("DELETE FROM load_steps WHERE case_id = ?").bind(case_id).run();
   db.prepared("DELETE FROM stage_metrics WHERE stage_id IN (SELECT id FROM names) AND case_id = ?")
       .bind(case_id)
       .run();
+  db.prepared("DELETE FROM result_checksums WHERE case_id = ?").bind(case_id).run();
   db.prepared("DELETE FROM case_metrics WHERE case_id = ?").bind(case_id).run();
   // Fields that campaigns kept are those of the result that goes.
   db.prepared("UPDATE campaign_cases SET fields = 'wanted' WHERE case_id = ? AND fields = 'kept'")
@@ -77,14 +81,16 @@ void Store::record_result(std::int64_t case_id, std::int64_t run_id, const CaseR
           "INSERT INTO case_metrics (case_id, run_id, outcome, reason, n_steps, failed_step,"
           " plane_strain, weakening_resolved, max_nucleation_ratio, pressure_margin_pa,"
           " newton_iterations, active_set_passes, sub_steps, wasted_newton_iterations, warnings,"
-          " unexpected, n_episodes, max_penetration_m)"
-          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+          " unexpected_episode, unexpected_after, n_episodes, max_penetration_m)"
+          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
       .bind(case_id, run_id, faultsim::to_string(result.outcome), result.reason,
             result.steps.size(), result.failed_step, result.plane_strain, result.weakening_resolved,
             finite(result.max_nucleation_ratio), finite(result.pressure_margin),
             result.counts.newton_iterations, result.counts.active_set_passes,
             result.counts.sub_steps, result.counts.wasted_newton_iterations, join(result.warnings),
-            result.unexpected, result.episodes.size(), finite(result.max_penetration))
+            result.unexpected ? std::optional(result.unexpected->episode) : std::nullopt,
+            result.unexpected ? std::optional(result.unexpected->after) : std::nullopt,
+            result.episodes.size(), finite(result.max_penetration))
       .run();
   record_stage(case_id, result.whole, result);
   for (const StageMetrics& stage : result.stages) record_stage(case_id, stage, result);
@@ -95,23 +101,24 @@ void Store::record_result(std::int64_t case_id, std::int64_t run_id, const CaseR
 void Store::record_stage(std::int64_t case_id, const StageMetrics& stage,
                          const CaseResult& result) {
   const std::int64_t stage_id = name_id(stage.stage);
-  std::optional<std::int64_t> fault;
-  if (!stage.activated_fault.empty()) fault = name_id(stage.activated_fault);
+  const std::optional<std::int64_t> activated = optional_name_id(stage.activated_fault);
+  const std::optional<std::int64_t> opened = optional_name_id(stage.opened_fault);
   connection_
       ->prepared(
           "INSERT INTO stage_metrics (stage_id, case_id, rank_class, activated, activation_step,"
-          " activation_pressure_pa, activated_fault_id, chi_bar, chi_max, area_chi_080_m2,"
+          " activated_fault_id, opening_step, opened_fault_id, chi_bar, chi_max, area_chi_080_m2,"
           " thickness_chi_080_m, activated_area_m2, slipping_area_m2, open_area_m2, max_slip_m,"
-          " potency_m3, moment_nm, magnitude_mw, n_events, event_moment_nm, event_magnitude_mw,"
-          " pressure_margin_pa, first_step, last_step)"
-          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+          " potency_m3, moment_nm, magnitude_if_released_at_once_mw, n_events, event_moment_nm,"
+          " event_magnitude_mw, pressure_margin_pa, first_step, last_step)"
+          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
       .bind(stage_id, case_id, rank_class(result.outcome), stage.activated, stage.activation_step,
-            stage.activation_pressure, fault, stage.chi_bar, stage.chi_max, stage.area_chi_080,
+            activated, stage.opening_step, opened, stage.chi_bar, stage.chi_max, stage.area_chi_080,
             stage.thickness_chi_080, stage.activated_area, stage.slipping_area, stage.open_area,
-            stage.max_slip, stage.potency, stage.moment, stage.magnitude, stage.n_events,
+            stage.max_slip, stage.potency, stage.moment, stage.magnitude_if_at_once, stage.n_events,
             stage.event_moment, stage.event_magnitude, finite(result.pressure_margin),
             stage.first_step, stage.last_step)
       .run();
+  record_faults(case_id, stage_id, rank_class(result.outcome), stage);
 }
 
 void Store::record_histories(std::int64_t case_id, const CaseResult& result) {
@@ -163,20 +170,25 @@ void Store::record_histories(std::int64_t case_id, const CaseResult& result) {
 void Store::record_slip_events(std::int64_t case_id, const CaseResult& result) {
   Statement& add = connection_->prepared(
       "INSERT INTO slip_events (case_id, number, step, stage_id, load_factor_before,"
-      " load_factor_after, time_s, pressure_change_pa, fault_id, depth_m, nucleation_length_m,"
+      " load_factor_after, time_s, fault_id, depth_m, nucleation_length_m,"
       " slipped_area_m2, max_slip_m, mean_slip_m, stress_drop_pa, potency_m3, moment_nm,"
       " magnitude_mw, duration_s, resolved, negative_pivots, n_lost_cohesion, residual_before,"
-      " residual_after, energy_released_j, energy_dissipated_j, evidence_holds)"
-      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+      " residual_after, energy_released_j, energy_dissipated_j, evidence_holds, region_minus_id,"
+      " region_plus_id, change_minus_pa, change_plus_pa, absolute_minus_pa, absolute_plus_pa,"
+      " change_in_fault_pa)"
+      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
+      "?, "
+      "?, ?, ?, ?, ?)");
   int number = 0;
   for (const faultsim::SlipEvent& e : result.events) {
-    std::optional<std::int64_t> fault;
-    if (!e.fault.empty()) fault = name_id(e.fault);
+    const SidePressures& p = e.pressures;
     add.bind(case_id, ++number, e.step, name_id(e.stage), e.load_factor_before, e.load_factor_after,
-             e.time, e.pressure_change, fault, e.depth, e.nucleation_length, e.slipped_area,
+             e.time, optional_name_id(e.fault), e.depth, e.nucleation_length, e.slipped_area,
              e.max_slip, e.mean_slip, e.stress_drop, e.potency, e.moment, e.magnitude, e.duration,
              e.resolved, e.negative_pivots, e.n_lost_cohesion, e.residual_before, e.residual_after,
-             e.energy_released, e.energy_dissipated, e.evidence_holds)
+             e.energy_released, e.energy_dissipated, e.evidence_holds,
+             optional_name_id(p.region_minus), optional_name_id(p.region_plus), p.change_minus,
+             p.change_plus, p.absolute_minus, p.absolute_plus, finite(p.change_in_fault))
         .run();
   }
 }
@@ -184,13 +196,19 @@ void Store::record_slip_events(std::int64_t case_id, const CaseResult& result) {
 void Store::record_episodes(std::int64_t case_id, const CaseResult& result) {
   Statement& add = connection_->prepared(
       "INSERT INTO episodes (case_id, number, stage_id, fault_id, first_step, last_step,"
-      " pressure_change_pa, after_recovery, activated_area_m2, max_slip_m, moment_nm,"
-      " magnitude_mw) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+      " depth_m, after_recovery, activated_area_m2, max_slip_m, moment_nm,"
+      " magnitude_if_released_at_once_mw, region_minus_id, region_plus_id, change_minus_pa,"
+      " change_plus_pa, absolute_minus_pa, absolute_plus_pa,"
+      " change_in_fault_pa)"
+      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   int number = 0;
   for (const faultsim::Episode& e : result.episodes) {
+    const SidePressures& p = e.pressures;
     add.bind(case_id, ++number, name_id(e.stage), name_id(e.fault), e.first_step, e.last_step,
-             e.pressure_change, e.after_recovery, e.activated_area, e.max_slip, e.moment,
-             e.magnitude)
+             finite(e.depth), e.after_recovery, e.activated_area, e.max_slip, e.moment,
+             e.magnitude_if_at_once, optional_name_id(p.region_minus),
+             optional_name_id(p.region_plus), p.change_minus, p.change_plus, p.absolute_minus,
+             p.absolute_plus, finite(p.change_in_fault))
         .run();
   }
 }

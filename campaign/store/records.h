@@ -135,6 +135,7 @@ struct CaseInput {
   std::int64_t scene = 0;
   long position = 0;  ///< in the campaign asked for.
   std::string changes;
+  std::string identity = "";
 };
 
 /// How a run ended; only `completed` has a result.
@@ -175,6 +176,10 @@ struct OperatorRecord {
   double seconds = 0;
   std::int64_t unknowns = 0, jump_unknowns = 0, bytes = 0, peak_bytes = 0;
 };
+
+/// What to do about a damaged store.
+inline constexpr const char* kDamageCure =
+    "restore a backup (faultsweep backup), or move the file away and submit again";
 
 /// Who manages the store.
 struct OwnerInfo {
@@ -218,6 +223,12 @@ struct StoredCase {
       result;  ///< without observations and fields; identity, steps, stages, whole.
 };
 
+/// A name in the store, of a stage or a fault.
+struct NamedId {
+  std::int64_t id = 0;
+  std::string name;
+};
+
 /// One row of a ranking: a case and its metrics of one stage ("" = whole history).
 struct RankedCase {
   std::int64_t id = 0;
@@ -229,9 +240,11 @@ struct RankedCase {
                        ///< early otherwise.
   std::string outcome;
   bool weakening_resolved = true;
-  bool unexpected = false;                ///< reactivation as pressure recovers.
+  std::string unexpected_fault;  ///< slides again after its pressure has recovered; "" = none.
+  bool plane_strain = false;  ///< areas, potency and moments are per metre of strike.
   std::optional<double> pressure_margin;  ///< Pa.
-  faultsim::StageMetrics metrics;
+  faultsim::StageMetrics metrics;         ///< of its faults those that slide and open first.
+  std::optional<faultsim::FaultStageMetrics> fault_metrics;  ///< where one fault is ranked.
 };
 
 /// A value of a table that is read row by row: missing, whole number (flags: 0, 1), number, text.
@@ -248,7 +261,7 @@ struct CaseRow {
   std::optional<int> rank_class;  ///< see RankedCase; none without a result in the stage.
   std::string parameter_values;   ///< JSON array.
   std::string parameter_labels;   ///< JSON array.
-  std::vector<Cell> metrics;      ///< in the order asked for.
+  std::vector<Cell> metrics;      ///< the columns asked for.
   /// A history to its end: what statistics may take.
   bool complete() const { return rank_class && *rank_class < 2; }
 };

@@ -1,3 +1,4 @@
+#include "campaign/store/checksums.h"
 #include "campaign/store/clock.h"
 #include "campaign/store/name_cache.h"
 #include "campaign/store/sqlite.h"
@@ -93,10 +94,11 @@ long Store::want_lost_fields(const CampaignInfo& campaign) {
 
 CaseInput Store::case_input(std::int64_t campaign, std::int64_t case_id) const {
   Statement& query = connection_->prepared(
-      "SELECT c.scene_id, cc.position, c.changes FROM cases c JOIN campaign_cases cc"
+      "SELECT c.scene_id, cc.position, c.changes, c.identity FROM cases c JOIN campaign_cases cc"
       " ON cc.case_id = c.id AND cc.campaign_id = ?2 WHERE c.id = ?1");
   FAULTSIM_DEMAND(query.bind(case_id, campaign).step(), case_id);
-  CaseInput input{case_id, query.integer(0), static_cast<long>(query.integer(1)), query.text(2)};
+  CaseInput input{case_id, query.integer(0), static_cast<long>(query.integer(1)), query.text(2),
+                  query.text(3)};
   query.reset();
   return input;
 }
@@ -156,6 +158,7 @@ void Store::decide_case(const RunRecord& run, std::int64_t run_id) {
     forget_result(run.case_id);
     record_result(run.case_id, run_id, *result);
     record_histories(run.case_id, *result);
+    checksums_->seal_result(run.case_id);
   }
   if (!run.final) return;
   connection_->prepared("UPDATE cases SET state = ?, outcome = ?, run_id = ? WHERE id = ?")

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstring>
 
 namespace faultsweep {
 namespace {
@@ -32,9 +33,14 @@ constexpr int kBusyTimeoutMs = 10000;  // a commit takes milliseconds; 10 s mean
           concat(text, "; check the folder's permissions or choose another --store"));
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
-      throw StorageError(concat(text, "; restore a backup (faultsweep backup) or move the file"));
+      throw StorageError(concat(text, "; the file is damaged: ", kDamageCure));
+    case SQLITE_IOERR:
+      throw StorageError(concat(text, ": ", std::strerror(sqlite3_system_errno(handle)),
+                                "; free space, or see to the disk, and run again, what is stored "
+                                "is intact"));
     default:
-      throw StorageError(text);
+      throw StorageError(
+          concat(text, "; `faultsweep status --verify` says whether the file is damaged"));
   }
 }
 
@@ -117,17 +123,11 @@ void Connection::checkpoint() {
   sqlite3_wal_checkpoint_v2(handle_, nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
 }
 
-void Connection::backup_to(const std::filesystem::path& target) {
-  if (std::filesystem::exists(target)) {
-    throw StorageError(
-        concat("the backup ", target.string(), " exists already; choose another name"));
-  }
-  const std::string temporary = target.string() + ".tmp";
-  std::filesystem::remove(temporary);
+void Connection::copy_to(const std::filesystem::path& target) {
   sqlite3* copy = nullptr;
-  if (sqlite3_open(temporary.c_str(), &copy) != SQLITE_OK) {
+  if (sqlite3_open(target.c_str(), &copy) != SQLITE_OK) {
     sqlite3_close_v2(copy);
-    throw StorageError(concat("cannot write the backup ", temporary));
+    throw StorageError(concat("cannot write ", target.string()));
   }
   sqlite3_backup* backup = sqlite3_backup_init(copy, "main", handle_, "main");
   int code = SQLITE_ERROR;
@@ -135,13 +135,14 @@ void Connection::backup_to(const std::filesystem::path& target) {
     code = sqlite3_backup_step(backup, -1);
     sqlite3_backup_finish(backup);
   }
+  const int system_error = sqlite3_system_errno(copy);
   sqlite3_close_v2(copy);
   if (code != SQLITE_DONE) {
-    std::filesystem::remove(temporary);
     throw StorageError(
-        concat("the backup to ", target.string(), " failed: ", sqlite3_errstr(code)));
+        concat("cannot copy the store ", path_.string(), " to ", target.string(), ": ",
+               sqlite3_errstr(code),
+               system_error != 0 ? concat(" (", std::strerror(system_error), ")") : std::string()));
   }
-  std::filesystem::rename(temporary, target);
 }
 
 Statement::Statement(Connection& connection, const char* sql) : connection_(connection) {
@@ -217,6 +218,8 @@ std::optional<std::string> Statement::optional_text(int column) const {
   if (sqlite3_column_type(statement_, column) == SQLITE_NULL) return std::nullopt;
   return text(column);
 }
+
+int Statement::n_columns() const { return sqlite3_column_count(statement_); }
 
 Cell Statement::cell(int column) const {
   switch (sqlite3_column_type(statement_, column)) {

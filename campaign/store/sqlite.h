@@ -49,8 +49,10 @@ class Connection {
   int changes() const;
   /// Moves the whole WAL into the database file. No effect under another journal mode.
   void checkpoint();
-  /// Copies the database, consistent while it is being written, to a new file.
-  void backup_to(const std::filesystem::path& target);
+  /// Copies the database as this connection sees it, also while others write, to a file that it
+  /// makes. Throws StorageError, leaving the file to the caller.
+  void copy_to(const std::filesystem::path& target);
+  const std::filesystem::path& path() const { return path_; }
 
  private:
   friend class Statement;
@@ -93,6 +95,7 @@ class Statement {
   std::optional<double> optional_real(int column) const;  ///< NULL reads as none.
   std::optional<std::string> optional_text(int column) const;
   Cell cell(int column) const;  ///< whatever is there.
+  int n_columns() const;
 
  private:
   template <std::integral Value>

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <ctime>
 
+#include "campaign/store/checksums.h"
 #include "campaign/store/migrations.h"
 #include "campaign/store/name_cache.h"
 #include "campaign/store/sqlite.h"
@@ -58,6 +59,7 @@ Store::Store(std::filesystem::path folder, std::unique_ptr<Connection> connectio
              std::string remark)
     : folder_(std::move(folder)),
       connection_(std::move(connection)),
+      checksums_(std::make_unique<Checksums>(*connection_)),
       remark_(std::move(remark)),
       names_(std::make_unique<NameCache>()) {}
 Store::Store(Store&&) noexcept = default;
@@ -65,11 +67,22 @@ Store::~Store() = default;
 
 namespace {
 
+/// A migration makes the checksums anew: what they are to find must be found before.
+void demand_sound_checksums(Connection& connection) {
+  if (!Checksums::exist(connection)) return;
+  const std::vector<std::string> problems = Checksums(connection).problems();
+  if (problems.empty()) return;
+  throw StorageError(concat("the store ", connection.path().string(), " is damaged: ",
+                            problems.front(), "; ", kDamageCure, ", nothing was changed"));
+}
+
 std::unique_ptr<Connection> open_for_writing(const std::filesystem::path& folder,
                                              Connection::Mode mode, bool assume_network,
                                              std::string& remark) {
   make_folder(folder);
   auto connection = std::make_unique<Connection>(folder / kFileName, mode);
+  const int version =
+      stored_version(*connection, store_migrations());  // before anything is changed
   if (assume_network || on_network(folder)) {
     connection->execute("PRAGMA journal_mode = DELETE; PRAGMA synchronous = FULL");
     remark =
@@ -79,7 +92,14 @@ std::unique_ptr<Connection> open_for_writing(const std::filesystem::path& folder
   } else {
     connection->execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL");
   }
+  if (version > 0 && version < store_migrations().back().version)
+    demand_sound_checksums(*connection);
   migrate(*connection, store_migrations());
+  if (!Checksums(*connection).are_current()) {
+    Transaction transaction(*connection);
+    Checksums(*connection).seal_all();
+    transaction.commit();
+  }
   return connection;
 }
 
@@ -111,22 +131,6 @@ Store Store::open_reader(const std::filesystem::path& folder) {
 }
 
 void Store::checkpoint() { connection_->checkpoint(); }
-
-void Store::backup_to(const std::filesystem::path& target) const { connection_->backup_to(target); }
-
-std::vector<std::string> Store::integrity_problems() const {
-  std::vector<std::string> problems;
-  Statement integrity(*connection_, "PRAGMA integrity_check");
-  while (integrity.step()) {
-    if (integrity.text(0) != "ok") problems.push_back(integrity.text(0));
-  }
-  Statement keys(*connection_, "PRAGMA foreign_key_check");
-  while (keys.step()) {
-    problems.push_back(concat("row ", keys.integer(1), " of ", keys.text(0),
-                              " refers to a missing row of ", keys.text(2)));
-  }
-  return problems;
-}
 
 std::int64_t Store::name_id(const std::string& name) {
   const auto known = names_->ids.find(name);

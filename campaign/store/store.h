@@ -14,11 +14,25 @@
 
 namespace faultsweep {
 
+class Checksums;
 class Connection;
 
-/// The SQL of a metric of spec/metrics.h (or "outcome", "rank_class") for Symbol::sql of
-/// expressions given to Store::ranking. @pre the metric is in metric_catalogue().
-std::string metric_sql(const std::string& metric);
+/// What a metric is of. Ids are those of Store::stages and Store::faults.
+struct MetricScope {
+  std::optional<std::int64_t> fault = std::nullopt;  ///< none = all faults of the case together.
+  std::optional<std::int64_t> stage = std::nullopt;  ///< none = the stage of the query.
+};
+/// The SQL of a metric of spec/metrics.h (or "outcome", "rank_class", ...) for Symbol::sql of
+/// expressions and for columns, given to Store::ranking and Store::for_each_case. Of the row that
+/// the query goes along: of its stage and, with `of_fault`, of its fault where the metric is one of
+/// faults. @pre the metric is in metric_catalogue().
+std::string metric_sql(const std::string& metric, bool of_fault = false);
+/// Whether stages have values of their own of it, and faults.
+bool has_stages(const std::string& metric);
+bool has_faults(const std::string& metric);
+/// The same of another fault or stage. @pre has_stages(metric), and has_faults for that of a fault.
+std::string metric_sql(const std::string& metric, const MetricScope& scope,
+                       std::int64_t stage_of_query);
 /// The same for the index-th of a campaign's parameters.
 std::string parameter_sql(int index);
 
@@ -113,31 +127,43 @@ class Store {
   StoredCase stored_case(std::int64_t campaign, const std::string& name) const;
   /// What to list and how to order it.
   struct RankingQuery {
-    std::string stage;       ///< "" = the whole history.
+    std::string stage;                                 ///< "" = the whole history.
+    std::optional<std::int64_t> fault = std::nullopt;  ///< see faults(); none = all together.
     SqlFragment by;          ///< number, largest first; empty = default order.
     bool ascending = false;  ///< smallest first instead.
     SqlFragment where;       ///< condition; empty = all.
     long limit = 0;          ///< 0 = all.
   };
   /// Cases of the campaign with metrics of the stage; rank classes stay apart, complete histories
-  /// first, of these the ones with unresolved events last. Default order: activated area, M0, then
-  /// inactive cases by pressure margin, χ̄.
+  /// first, of these the ones with unresolved events last. Default order: activated area, open
+  /// area, M0, then inactive cases by pressure margin, χ̄; of a fault the same without the margin.
   std::vector<RankedCase> ranking(std::int64_t campaign, const RankingQuery& query) const;
-  std::vector<std::string> stages(std::int64_t campaign) const;  ///< names that have metrics.
+  /// Whether there are results per metre of strike, and in total.
+  struct Kinds {
+    bool plane_strain = false, total = false;
+    bool mixed() const { return plane_strain && total; }
+  };
+  /// Of the campaign's cases that `where` of the query selects.
+  Kinds kinds(std::int64_t campaign, const RankingQuery& query) const;
+  /// Stages that have metrics; "" is the whole history.
+  std::vector<NamedId> stages(std::int64_t campaign) const;
+  std::vector<NamedId> faults(std::int64_t campaign) const;  ///< that have metrics.
   /// Which cases to read, and what of them.
   struct TableQuery {
-    std::string stage;                 ///< "" = the whole history.
-    std::vector<std::string> metrics;  ///< names that metric_sql knows.
-    SqlFragment where;                 ///< condition; empty = all.
-    bool by_design_row = false;        ///< order of design_rows: merged rows repeat their case.
+    std::string stage;                                 ///< "" = the whole history.
+    std::optional<std::int64_t> fault = std::nullopt;  ///< whose metrics `of_fault` are.
+    std::vector<std::string> columns;                  ///< SQL, of metric_sql.
+    SqlFragment where;                                 ///< condition; empty = all.
+    bool by_design_row = false;  ///< order of design_rows: merged rows repeat their case.
   };
   /// Visits the campaign's cases by position, one in memory at a time.
   void for_each_case(std::int64_t campaign, const TableQuery& query,
                      const std::function<void(const CaseRow&)>& visit) const;
-  /// Columns of the χ histories, units in their names as in the view chi_history_wide.
-  static std::vector<std::string> history_columns();
+  /// Columns of the χ histories, units in their names as in the view chi_history_wide; what is per
+  /// metre of strike in plane strain has a column for each kind of result.
+  static std::vector<std::string> history_columns(Kinds kinds);
   /// Visits the histories by position, fault and step; cells in the order of history_columns().
-  void for_each_history_row(std::int64_t campaign, const TableQuery& query,
+  void for_each_history_row(std::int64_t campaign, const TableQuery& query, Kinds kinds,
                             const std::function<void(const std::vector<Cell>&)>& visit) const;
   std::vector<FailureCount> failure_counts(std::int64_t campaign) const;
   std::vector<EventRecord> events(std::int64_t campaign, int limit) const;  ///< newest first.
@@ -165,9 +191,16 @@ class Store {
   std::vector<ErrorBar> error_bars(const std::string& campaign) const;
 
   // Care ------------------------------------------------------------------------------------------
+  /// Copies the database to a new file, also while it is being written, and checks the copy: sound,
+  /// checksums included, and as many rows in every table. Throws StorageError, leaving no file.
   void backup_to(const std::filesystem::path& target) const;
-  /// Problems that PRAGMA integrity_check and foreign_key_check find; empty = sound.
+  /// What PRAGMA integrity_check, foreign_key_check and the checksums of campaigns and results
+  /// find; empty = sound. Linear in the size of the store.
   std::vector<std::string> integrity_problems() const;
+  /// The same of the store in a folder, in one sentence with the cure, also where it cannot even be
+  /// opened; none = it is sound, or there is none. Tells damage from a bug when something
+  /// impossible was read.
+  static std::optional<std::string> damage_of(const std::filesystem::path& folder);
 
  private:
   Store(std::filesystem::path folder, std::unique_ptr<Connection> connection, std::string remark);
@@ -180,15 +213,22 @@ class Store {
   void record_histories(std::int64_t case_id, const faultsim::CaseResult& result);
   void record_slip_events(std::int64_t case_id, const faultsim::CaseResult& result);
   void record_episodes(std::int64_t case_id, const faultsim::CaseResult& result);
+  void record_faults(std::int64_t case_id, std::int64_t stage_id, int rank_class,
+                     const faultsim::StageMetrics& stage);
+  void record_onset(std::int64_t case_id, std::int64_t stage_id, bool opening,
+                    std::int64_t fault_id, const std::optional<faultsim::FaultOnset>& onset);
+  void forget_fault_metrics(std::int64_t case_id);
   void record_stage(std::int64_t case_id, const faultsim::StageMetrics& stage,
                     const faultsim::CaseResult& result);
   void forget_result(std::int64_t case_id);
   std::int64_t name_id(const std::string& name);
+  std::optional<std::int64_t> optional_name_id(const std::string& name);  ///< "" = none.
   std::int64_t add_scene(const BaseScene& scene);
   void add_cases(std::int64_t campaign, const Submission& submission);
 
   std::filesystem::path folder_;
   std::unique_ptr<Connection> connection_;
+  std::unique_ptr<Checksums> checksums_;
   std::string remark_;
   struct NameCache;
   std::unique_ptr<NameCache> names_;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "campaign/store/bind_values.h"
 #include "campaign/store/sqlite.h"
@@ -20,6 +21,12 @@ constexpr const char* kJoins =
     " LEFT JOIN stage_metrics s ON s.case_id = cc.case_id"
     " AND s.stage_id = (SELECT id FROM names WHERE name = ?)"
     " LEFT JOIN names f ON f.id = s.activated_fault_id";
+
+std::string joins(const Store::TableQuery& query) {
+  if (!query.fault) return kJoins;
+  return concat(kJoins, " LEFT JOIN fault_metrics q ON q.stage_id = s.stage_id AND q.fault_id = ",
+                *query.fault, " AND q.case_id = cc.case_id");
+}
 
 std::string where_sql(const SqlFragment& where) {
   return where.text.empty() ? "" : " AND coalesce((" + where.text + "), 0)";
@@ -54,17 +61,18 @@ void visit_cases(Connection& db, const std::string& source, std::int64_t campaig
       "SELECT cc.case_id, cc.position, c.identity, c.state, coalesce(m.outcome, ''),"
       " coalesce(r.status, ''), coalesce(m.reason, r.reason, ''), s.rank_class,"
       " cc.parameter_values, cc.parameter_labels";
-  for (const std::string& metric : query.metrics) sql += ", " + metric_sql(metric);
+  for (const std::string& column : query.columns) sql += ", " + column;
   Statement rows(db, (sql + source + where_sql(query.where) + order).c_str());
   int bound = 0;
   rows.bind_at(++bound, query.stage);
   rows.bind_at(++bound, campaign);
   bind_values(rows, bound, query.where.parameters);
-  while (rows.step()) visit(read_case(rows, query.metrics.size()));
+  while (rows.step()) visit(read_case(rows, query.columns.size()));
 }
 
 struct HistoryColumn {
   const char *name, *sql;
+  bool per_metre = false;  ///< in plane strain.
 };
 
 /// Joined as in the view chi_history_wide.
@@ -79,20 +87,20 @@ constexpr std::array<HistoryColumn, 31> kHistory = {{
     {"chi_bar", "h.chi_bar"},
     {"chi_max", "h.chi_max"},
     {"chi_static_max", "h.chi_static_max"},
-    {"area_chi_080_m2", "h.area_chi_080_m2"},
+    {"area_chi_080_m2", "h.area_chi_080_m2", true},
     {"thickness_chi_080_max_m", "h.thickness_chi_080_max_m"},
     {"thickness_chi_080_mean_m", "h.thickness_chi_080_mean_m"},
-    {"slipping_area_m2", "h.slipping_area_m2"},
-    {"open_area_m2", "h.open_area_m2"},
-    {"activated_area_m2", "h.activated_area_m2"},
+    {"slipping_area_m2", "h.slipping_area_m2", true},
+    {"open_area_m2", "h.open_area_m2", true},
+    {"activated_area_m2", "h.activated_area_m2", true},
     {"activated_length_m", "h.activated_length_m"},
     {"activated", "h.activated"},
     {"activated_at_edge", "h.activated_at_edge"},
     {"max_slip_m", "h.max_slip_m"},
     {"mean_slip_m", "h.mean_slip_m"},
-    {"potency_m3", "h.potency_m3"},
-    {"moment_nm", "h.moment_nm"},
-    {"moment_step_nm", "h.moment_step_nm"},
+    {"potency_m3", "h.potency_m3", true},
+    {"moment_nm", "h.moment_nm", true},
+    {"moment_step_nm", "h.moment_step_nm", true},
     {"newton_iterations", "l.newton_iterations"},
     {"creep_normal_min_pa", "h.creep_normal_min_pa"},
     {"creep_normal_max_pa", "h.creep_normal_max_pa"},
@@ -116,38 +124,60 @@ void Store::for_each_case(std::int64_t campaign, const TableQuery& query,
     visit_cases(db,
                 concat(" FROM design_rows d CROSS JOIN campaign_cases cc"
                        " ON cc.campaign_id = d.campaign_id AND cc.position = d.position",
-                       kJoins, " WHERE d.campaign_id = ?"),
+                       joins(query), " WHERE d.campaign_id = ?"),
                 campaign, query, " ORDER BY d.design, d.row", visit);
   } else {
-    visit_cases(db, concat(" FROM campaign_cases cc", kJoins, " WHERE cc.campaign_id = ?"),
+    visit_cases(db, concat(" FROM campaign_cases cc", joins(query), " WHERE cc.campaign_id = ?"),
                 campaign, query, " ORDER BY cc.position", visit);
   }
 }
 
-std::vector<std::string> Store::history_columns() {
+namespace {
+
+/// Each column of kHistory as SQL under its name; of mixed results what is per metre apart.
+std::vector<std::pair<std::string, std::string>> history_sql(Store::Kinds kinds) {
+  std::vector<std::pair<std::string, std::string>> columns;
+  for (const HistoryColumn& one : kHistory) {
+    const std::string name = one.name;
+    if (!one.per_metre || !kinds.plane_strain) {
+      columns.emplace_back(name, one.sql);
+    } else if (!kinds.total) {
+      columns.emplace_back(name + "_per_m", one.sql);
+    } else {
+      columns.emplace_back(name, concat("iif(m.plane_strain, NULL, ", one.sql, ")"));
+      columns.emplace_back(name + "_per_m", concat("iif(m.plane_strain, ", one.sql, ", NULL)"));
+    }
+  }
+  return columns;
+}
+
+}  // namespace
+
+std::vector<std::string> Store::history_columns(Kinds kinds) {
   std::vector<std::string> names;
-  for (const HistoryColumn& column : kHistory) names.emplace_back(column.name);
+  for (const auto& [name, sql] : history_sql(kinds)) names.push_back(name);
   return names;
 }
 
-void Store::for_each_history_row(std::int64_t campaign, const TableQuery& query,
+void Store::for_each_history_row(std::int64_t campaign, const TableQuery& query, Kinds kinds,
                                  const std::function<void(const std::vector<Cell>&)>& visit) const {
   std::string sql;
-  for (const HistoryColumn& column : kHistory)
-    sql += (sql.empty() ? "SELECT " : ", ") + std::string(column.sql);
-  sql += concat(" FROM campaign_cases cc", kJoins,
+  const auto columns = history_sql(kinds);
+  for (const auto& [name, column] : columns) sql += (sql.empty() ? "SELECT " : ", ") + column;
+  sql += concat(" FROM campaign_cases cc", joins(query),
                 " CROSS JOIN chi_history h ON h.case_id = cc.case_id"
                 " CROSS JOIN load_steps l ON l.case_id = h.case_id AND l.step = h.step"
                 " CROSS JOIN names g ON g.id = l.stage_id CROSS JOIN names hf ON hf.id = h.fault_id"
                 " WHERE cc.campaign_id = ?",
                 query.stage.empty() ? "" : " AND h.step BETWEEN s.first_step AND s.last_step",
+                query.fault ? concat(" AND h.fault_id = ", *query.fault) : "",
                 where_sql(query.where), " ORDER BY cc.position, h.fault, h.step");
   Statement rows(*connection_, sql.c_str());
   int bound = 0;
   rows.bind_at(++bound, query.stage);
   rows.bind_at(++bound, campaign);
   bind_values(rows, bound, query.where.parameters);
-  std::vector<Cell> cells(kHistory.size());
+  std::vector<Cell> cells(columns.size());
   while (rows.step()) {
     for (std::size_t k = 0; k < cells.size(); ++k) cells[k] = rows.cell(static_cast<int>(k));
     visit(cells);

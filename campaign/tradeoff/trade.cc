@@ -83,7 +83,9 @@ std::string in_words(const ChiHistory::Place& place) {
 
 TradeMetrics metrics_of(const CaseResult& result) {
   const faultsim::StageMetrics& whole = result.whole;
-  return {whole.activation_pressure.value_or(kUnknown), whole.activated_area, whole.max_slip,
+  const faultsim::FaultOnset* onset = first_activation(whole);
+  const auto change = onset != nullptr ? leading_change(onset->pressures) : std::nullopt;
+  return {whole.activated ? change.value_or(0) : kUnknown, whole.activated_area, whole.max_slip,
           whole.moment};
 }
 

@@ -57,7 +57,8 @@ HistoryLimit limit_of(const std::vector<double>& coarse, const std::vector<doubl
 
 /// Metrics of the whole history.
 struct TradeMetrics {
-  double activation_pressure = kUnknown;  ///< Pa; unknown where no fault activates.
+  double activation_pressure = kUnknown;  ///< Pa, change beside the first fault that slides, there
+                                          ///< and then; unknown where none does.
   double area = kUnknown;                 ///< m2, activated (plane strain: m2 per metre).
   double slip = kUnknown;                 ///< m, largest.
   double moment = kUnknown;               ///< N m (plane strain: per metre of strike).

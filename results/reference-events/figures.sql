@@ -40,12 +40,14 @@ FROM slip_events JOIN the_case USING (case_id);
 .print
 .print '## Onset at half the load step'
 .print
+CREATE TEMP VIEW onsets AS
+SELECT *, min(coalesce(change_minus_pa, change_plus_pa), coalesce(change_plus_pa, change_minus_pa)) AS change_pa FROM slip_events;
 CREATE TEMP VIEW moved AS
 SELECT a.position, a.labels, e.number,
-       (SELECT min(abs(f.pressure_change_pa - e.pressure_change_pa)) FROM slip_events f
-        WHERE f.case_id = b.case_id AND abs(f.time_s - e.time_s) <= 0.25 * 31557600) / abs(e.pressure_change_pa) AS move
+       (SELECT min(abs(f.change_pa - e.change_pa)) FROM onsets f
+        WHERE f.case_id = b.case_id AND abs(f.time_s - e.time_s) <= 0.25 * 31557600) / abs(e.change_pa) AS move
 FROM the_case a JOIN the_case b
-  ON b.position = a.position + (SELECT max(position) / 2 FROM the_case) JOIN slip_events e ON e.case_id = a.case_id
+  ON b.position = a.position + (SELECT max(position) / 2 FROM the_case) JOIN onsets e ON e.case_id = a.case_id
 WHERE NOT a.half;
 SELECT count(*) AS events, sum(move IS NULL) AS "none within a quarter of a year", sum(move > 0.01) AS "moved by > 1 %",
        sum(move > 0.0001) AS "moved by > 0.01 %", printf('%.2g %%', 100 * max(move)) AS "largest move"

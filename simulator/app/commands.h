@@ -46,6 +46,7 @@ struct WorkerArguments {
   std::filesystem::path cache;
   std::filesystem::path node_cache;  ///< CachePolicy::node_folder.
   double cache_size = 20e9;          ///< bytes.
+  double memory_limit = 0;           ///< bytes of private memory; 0 = not limited.
 };
 
 /// What the outcome of a case is to a shell.

@@ -1,11 +1,14 @@
 #include "simulator/app/load_scene.h"
 
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "simulator/app/screen.h"
 #include "simulator/common/interrupt.h"
+#include "simulator/loading/pressure_warnings.h"
 #include "simulator/output/output_target.h"
 #include "simulator/plan/geometry_check.h"
+#include "simulator/scene/csv_tables.h"
 
 namespace faultsim {
 namespace {
@@ -54,11 +57,34 @@ LoadedScene load_scene(const SceneArguments& arguments) {
     set_value(document, resolve_parameter(document, change.substr(0, equals)),
               change.substr(equals + 1));
   }
-  return load_scene(std::move(document));
+  embed_tables(document);  // what is read now is what runs, and what is written beside the result
+  LoadedScene loaded = load_scene(std::move(document));
+  loaded.plan.warnings = pressure_warnings(loaded.scene);
+  return loaded;
 }
 
 std::vector<std::filesystem::path> input_files(const LoadedScene& loaded) {
   return files_named_in(loaded.document.value, loaded.document.source);
+}
+
+nlohmann::json remarks_to_json(const LoadedScene& loaded) {
+  nlohmann::json remarks = nlohmann::json::array();
+  for (const Remark& remark : loaded.scene.remarks) {
+    remarks.push_back({{"pointer", remark.pointer},
+                       {"line", loaded.document.line_of(remark.pointer)},
+                       {"what", remark.what}});
+  }
+  return remarks;
+}
+
+std::string remarks_to_text(const LoadedScene& loaded) {
+  std::string text;
+  for (const Remark& remark : loaded.scene.remarks) {
+    const int line = loaded.document.line_of(remark.pointer);
+    text += "warning: " + loaded.document.source + (line > 0 ? concat(":", line) : std::string()) +
+            ": " + remark_text(remark) + "\n";
+  }
+  return text;
 }
 
 CachePolicy cache_policy(const std::filesystem::path& folder, bool no_cache) {

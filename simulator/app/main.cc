@@ -3,7 +3,7 @@
 #include "simulator/app/commands.h"
 #include "simulator/app/verify/verify.h"
 #include "simulator/common/errors.h"
-#include "simulator/linalg/blas_kernel.h"
+#include "simulator/linalg/blas_start.h"
 
 namespace faultsim {
 namespace {
@@ -47,7 +47,7 @@ void demand_known_command(const CLI::App& app, int argc, char** argv) {
 
 /// Reads the command line and returns the chosen command's exit code.
 ExitCode faultsim_main(int argc, char** argv) {
-  choose_blas_kernel(argv);
+  start_blas(argv);
   CLI::App app{"faultsim: 3D fault reactivation in compartmentalised gas reservoirs", "faultsim"};
   app.require_subcommand(1);
   app.footer(kFooter);
@@ -132,6 +132,7 @@ ExitCode faultsim_main(int argc, char** argv) {
   worker_app->add_option("--node-cache", worker.node_cache,
                          "copies of cached operators on this host's own disk");
   worker_app->add_option("--cache-size", worker.cache_size, "bytes");
+  worker_app->add_option("--memory-limit", worker.memory_limit, "bytes of private memory");
   worker_app->callback([&] { code = worker_command(worker); });
 
   bool environment_json = false;

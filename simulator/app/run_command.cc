@@ -111,7 +111,8 @@ ExitCode run_command(const RunArguments& arguments) {
   ScreenMonitor monitor(json);
   if (!json) {
     std::cerr << plan_to_text(loaded.plan) << "linear algebra: " << blas_description() << " ("
-              << blas_kernel_reason() << ")\n";
+              << blas_kernel_reason() << ")\n"
+              << remarks_to_text(loaded);
   }
   const CachePolicy cache = cache_policy(arguments.cache, arguments.no_cache);
   const PreparedOperator prepared =

@@ -30,11 +30,15 @@ ExitCode validate_command(const SceneArguments& arguments) {
     const LoadedScene loaded = load_scene(arguments);
     check_geometry(loaded);
     if (arguments.json) {
-      std::cout << nlohmann::json{{"valid", true}, {"identity", case_identity(loaded.scene)}}.dump()
+      std::cout << nlohmann::json{{"valid", true},
+                                  {"identity", case_identity(loaded.scene)},
+                                  {"warnings", remarks_to_json(loaded)}}
+                       .dump()
                 << "\n";
     } else {
       std::cout << arguments.file << ": valid, case " << case_identity(loaded.scene).substr(0, 12)
-                << "\n";
+                << "\n"
+                << remarks_to_text(loaded);
     }
     return ExitCode::done;
   } catch (const InputError& error) {
@@ -56,9 +60,11 @@ ExitCode plan_command(const SceneArguments& arguments) {
   check_geometry(loaded);
   add_savings(loaded.scene, loaded.plan);
   if (arguments.json) {
-    std::cout << plan_to_json(loaded.plan).dump(2) << "\n";
+    nlohmann::json plan = plan_to_json(loaded.plan);
+    plan["warnings"] = remarks_to_json(loaded);
+    std::cout << plan.dump(2) << "\n";
   } else {
-    std::cout << plan_to_text(loaded.plan);
+    std::cout << plan_to_text(loaded.plan) << remarks_to_text(loaded);
   }
   return ExitCode::done;
 }

@@ -11,7 +11,7 @@ namespace faultsim {
 namespace {
 
 [[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  char text[512];
+  char text[1024];
   va_list arguments;
   va_start(arguments, pattern);
   std::vsnprintf(text, sizeof text, pattern, arguments);
@@ -96,8 +96,24 @@ std::string step_table_row(const StepResult& step) {
 
 namespace {
 
-std::string size_text(double moment, const std::optional<double>& magnitude) {
-  return magnitude ? format("Mw %.1f", *magnitude) : format("M0 %.3g N m/m", moment);
+/// Units of what is per metre of strike in plane strain.
+const char* area_unit(const CaseResult& result) { return result.plane_strain ? "m2/m" : "m2"; }
+const char* moment_unit(const CaseResult& result) { return result.plane_strain ? "N m/m" : "N m"; }
+
+/// "west -57 bar (to 164 bar), east -200 bar (to 21 bar) at 2012 m depth": change and absolute.
+std::string pressures_text(const SidePressures& sides, double depth) {
+  std::string text;
+  const auto add = [&text](const std::string& region, const std::optional<double>& change,
+                           const std::optional<double>& absolute) {
+    if (!change || !absolute) return;
+    text += format("%s%s %s bar (to %s bar)", text.empty() ? "" : ", ", region.c_str(),
+                   bar(*change).c_str(), bar(*absolute).c_str());
+  };
+  add(sides.region_minus, sides.change_minus, sides.absolute_minus);
+  add(sides.region_plus, sides.change_plus, sides.absolute_plus);
+  if (text.empty()) text = "no pressure region beside it";
+  return text + format(", in the fault %s bar, at %.0f m depth", bar(sides.change_in_fault).c_str(),
+                       depth);
 }
 
 std::string events_text(const CaseResult& result) {
@@ -106,10 +122,10 @@ std::string events_text(const CaseResult& result) {
   constexpr std::size_t kShown = 20;
   for (const SlipEvent& e :
        std::span(result.events).first(std::min(result.events.size(), kShown))) {
-    text += format("  step %d at %s bar: fault %s at %.0f m depth, nucleus %.3g m, slip %.1f mm, ",
-                   e.step, bar(e.pressure_change).c_str(), e.fault.c_str(), e.depth,
-                   e.nucleation_length, e.max_slip * 1e3);
-    text += size_text(e.moment, e.magnitude);
+    text += format("  step %d: fault %s jumps at %s, nucleus %.3g m, slip %.1f mm, M0 %.3g %s",
+                   e.step, e.fault.c_str(), pressures_text(e.pressures, e.depth).c_str(),
+                   e.nucleation_length, e.max_slip * 1e3, e.moment, moment_unit(result));
+    if (e.magnitude) text += format(", Mw %.1f", *e.magnitude);
     if (!e.resolved) text += ", NOT RESOLVED: its size is the mesh's";
     if (!e.evidence_holds) text += ", EVIDENCE DOES NOT HOLD";
     text += "\n";
@@ -118,17 +134,28 @@ std::string events_text(const CaseResult& result) {
   return text;
 }
 
+std::string steps_text(const Episode& e) {
+  return format("%s, steps %d-%d", e.stage.c_str(), e.first_step, e.last_step);
+}
+
 std::string episodes_text(const CaseResult& result) {
   std::string text;
+  int number = 0;
   for (const Episode& e : result.episodes) {
-    text += format("episode: fault %s, steps %d-%d of %s, from %s bar%s, slip %.1f mm, ",
-                   e.fault.c_str(), e.first_step, e.last_step, e.stage.c_str(),
-                   bar(e.pressure_change).c_str(), e.after_recovery ? " as pressure recovered" : "",
-                   e.max_slip * 1e3);
-    text += size_text(e.moment, e.magnitude) + "\n";
+    text +=
+        format("episode %d: fault %s slides in %s, from %s%s, slip %.1f mm, M0 %.3g %s\n", ++number,
+               e.fault.c_str(), steps_text(e).c_str(), pressures_text(e.pressures, e.depth).c_str(),
+               e.after_recovery ? ", its pressure having recovered" : "", e.max_slip * 1e3,
+               e.moment, moment_unit(result));
   }
-  if (result.unexpected) text += "UNEXPECTED REACTIVATION: activated again as pressure recovers\n";
-  return text;
+  if (!result.unexpected) return text;
+  const Episode& again = result.episodes.at(result.unexpected->episode - 1);
+  const Episode& before = result.episodes.at(result.unexpected->after - 1);
+  return text + format(
+                    "UNEXPECTED REACTIVATION: fault %s slides again in %s (episode %d) after "
+                    "its pressure has recovered, having slid in %s (episode %d)\n",
+                    again.fault.c_str(), steps_text(again).c_str(), result.unexpected->episode,
+                    steps_text(before).c_str(), result.unexpected->after);
 }
 
 /// How creep was stepped and the most that it changed on each fault.
@@ -159,34 +186,72 @@ std::string creep_text(const CaseResult& result) {
 
 }  // namespace
 
-std::string case_summary(const CaseResult& result) {
-  std::string text = std::string("outcome: ") + to_string(result.outcome);
-  if (!result.reason.empty()) text += ", " + result.reason;
-  text += "\n";
+namespace {
+
+/// What a fault does first and where: "slides: fault F2 from load step 7 (gas_storage), west …".
+std::string onset_text(const CaseResult& result, const char* what, const std::string& fault,
+                       const FaultOnset& onset) {
+  std::string stage;
+  for (const StepResult& step : result.steps) {
+    if (step.step == onset.step) stage = step.stage;
+  }
+  return format("%s: fault %s from load step %d (%s), %s", what, fault.c_str(), onset.step,
+                stage.c_str(), pressures_text(onset.pressures, onset.depth).c_str());
+}
+
+/// Whether any fault slips, slides, jumps or opens (docs/words.md).
+std::string whole_text(const CaseResult& result) {
   const StageMetrics& whole = result.whole;
-  if (whole.activated) {
-    text += format(
-        "activated: fault %s in load step %d at a pressure change of %s bar (* in the table)\n",
-        whole.activated_fault.c_str(), *whole.activation_step,
-        bar(*whole.activation_pressure).c_str());
+  std::string text;
+  if (const FaultOnset* onset = first_activation(whole)) {
+    text = onset_text(result, "slides", whole.activated_fault, *onset) + " (* in the table)\n";
   } else {
-    text += "activated: no fault";
+    text = whole.slips ? "slides: no fault; nodes slip, over less than the activation length"
+                       : "slides: no fault";
     if (result.pressure_margin > 0)
       text += format(", about %s bar more depletion to a window index of 1",
                      bar(result.pressure_margin).c_str());
     text += "\n";
   }
-  const char* area_unit = result.plane_strain ? "m2/m" : "m2";
-  const char* moment_unit = result.plane_strain ? "N m/m" : "N m";
-  for (const StageMetrics& stage : result.stages) {
-    text += format(
-        "  %-22.22s steps %d-%d: window chi %.3f, slip within the stage %.2f mm, activated area "
-        "%.4g %s, M0 %.3g %s",
-        stage.stage.c_str(), stage.first_step, stage.last_step, stage.chi_bar, stage.max_slip * 1e3,
-        stage.activated_area, area_unit, stage.moment, moment_unit);
-    if (stage.magnitude) text += format(" (Mw %.1f)", *stage.magnitude);
-    text += stage.activated ? format(", activated in step %d\n", *stage.activation_step) : "\n";
+  if (const FaultOnset* onset = first_opening(whole)) {
+    text += onset_text(result, "OPENS", whole.opened_fault, *onset) +
+            format(", up to %.4g %s\n", whole.open_area, area_unit(result));
   }
+  return text;
+}
+
+/// "F2 slides from step 7, slip 12.3 mm; ", per fault that does anything in the stage.
+std::string stage_text(const CaseResult& result, const StageMetrics& stage) {
+  std::string text = format(
+      "  %-22.22s steps %d-%d: window chi %.3f, slip within the stage %.2f mm, sliding area "
+      "%.4g %s, M0 %.3g %s\n",
+      stage.stage.c_str(), stage.first_step, stage.last_step, stage.chi_bar, stage.max_slip * 1e3,
+      stage.activated_area, area_unit(result), stage.moment, moment_unit(result));
+  for (const FaultStageMetrics& fault : stage.faults) {
+    if (!fault.slips && !fault.opens) continue;
+    text += format("    %s %s, %.2f mm", fault.fault.c_str(), fault.activated ? "slides" : "slips",
+                   fault.max_slip * 1e3);
+    if (fault.activation) {
+      text += format(", from step %d, %s", fault.activation->step,
+                     pressures_text(fault.activation->pressures, fault.activation->depth).c_str());
+    }
+    if (fault.n_events > 0) text += format(", jumps %d times", fault.n_events);
+    if (fault.opening) {
+      text += format(", opens from step %d, up to %.4g %s", fault.opening->step, fault.open_area,
+                     area_unit(result));
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string case_summary(const CaseResult& result) {
+  std::string text = std::string("outcome: ") + to_string(result.outcome);
+  if (!result.reason.empty()) text += ", " + result.reason;
+  text += "\n" + whole_text(result);
+  for (const StageMetrics& stage : result.stages) text += stage_text(result, stage);
   text += events_text(result) + episodes_text(result) + creep_text(result);
   for (const std::string& warning : result.warnings) text += "warning: " + warning + "\n";
   return text;

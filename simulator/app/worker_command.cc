@@ -10,7 +10,9 @@
 #include "simulator/app/commands.h"
 #include "simulator/app/load_scene.h"
 #include "simulator/common/fingerprint.h"
+#include "simulator/common/process_memory.h"
 #include "simulator/common/stopwatch.h"
+#include "simulator/linalg/blas_start.h"
 #include "simulator/loading/field_keeper.h"
 #include "simulator/loading/run_case.h"
 #include "simulator/output/write_result.h"
@@ -88,6 +90,7 @@ class Worker {
       try {
         JsonDocument document{request.value("source", "case"), request.at("scene"), {}};
         const LoadedScene loaded = load_scene(std::move(document));
+        demand_identity(request, loaded.scene);
         need_operator(run, loaded);
         channel_.say({{"event", "started"}, {"run", run}});
         run_one(request, loaded.scene, reply);
@@ -104,6 +107,19 @@ class Worker {
   }
 
  private:
+  /// Refuses a scene that is not the case's: its result would be stored under another's name.
+  static void demand_identity(const json& request, const Scene& scene) {
+    if (!request.contains("identity")) return;
+    const auto wanted = request["identity"].get<std::string>();
+    if (has_identity(scene, wanted)) return;
+    throw InputError(
+        request.value("source", "case"),
+        {{"", 0,
+          concat("the scene has the identity ", case_identity(scene).substr(0, 12), ", its case ",
+                 wanted.substr(0, 12)),
+          "a file that it names has changed since it was submitted; submit the campaign again"}});
+  }
+
   /// A result goes out only with the fields that were asked for.
   void run_one(const json& request, const Scene& scene, json& reply) {
     SilentMonitor silent;
@@ -160,7 +176,9 @@ ExitCode worker_command(const WorkerArguments& arguments) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // a worker never outlives its rank, however that dies
   if (getppid() == 1) return ExitCode::interrupted;  // the parent died before the line above
   std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit shows as a full disk
+  std::signal(SIGTERM, SIG_DFL);  // who ended it shows in the campaign
+  take_blas_buffer();             // the limit counts it, and must not keep it from being had
+  if (arguments.memory_limit > 0) limit_memory(arguments.memory_limit);
   Worker(arguments).serve();
   return ExitCode::done;
 }

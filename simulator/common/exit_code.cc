@@ -5,6 +5,7 @@
 #include <new>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/interrupt.h"
 
 namespace faultsim {
 namespace {
@@ -24,6 +25,7 @@ bool all_is_written() {
 }  // namespace
 
 ExitCode run_program(const char* program, ExitCode (*body)(int, char**), int argc, char** argv) {
+  end_on_signals();
   try {
     const ExitCode code = body(argc, argv);
     if (all_is_written()) return code;

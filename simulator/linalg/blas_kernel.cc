@@ -8,6 +8,7 @@
 #include <array>
 #include <cctype>
 #include <cstdlib>
+#include <filesystem>
 
 #include "simulator/common/errors.h"
 #include "simulator/linalg/blas.h"
@@ -123,6 +124,13 @@ std::optional<std::string> wider_kernel(const std::string& taken, VectorSet proc
   return std::nullopt;
 }
 
+void start_anew(char** argv) {
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error) execv(program.c_str(), argv);
+  execv("/proc/self/exe", argv);  // the file has another name by now, or none
+}
+
 void choose_blas_kernel(char** argv) {
   std::string asked = variable(kCoreType);
   const std::string instead_of = variable(kInsteadOf);
@@ -139,7 +147,7 @@ void choose_blas_kernel(char** argv) {
     setenv(kCoreType, wanted.c_str(), 1);
     setenv(kInsteadOf, taken.c_str(), 1);
   }
-  execv("/proc/self/exe", argv);
+  start_anew(argv);
   unsetenv(kCoreType);  // not started anew: what was taken stays, and the reason says so
   unsetenv(kInsteadOf);
 }

@@ -26,9 +26,13 @@ std::optional<VectorSet> vector_set_of_kernel(const std::string& name);
 std::optional<std::string> wider_kernel(const std::string& taken, VectorSet processor,
                                         const std::function<bool(const std::string&)>& has);
 
-/// To be called first in main. Starts the program anew (execv, same process id, descriptors and
-/// arguments) where OpenBLAS took a kernel that is less than it could be; returns otherwise, also
-/// where that fails. An OPENBLAS_CORETYPE that the user has set is never touched.
+/// Executes this program again: same process id, descriptors, arguments and, for people who look
+/// with ps, name. Returns where that fails.
+void start_anew(char** argv);
+
+/// Called by start_blas (blas_start.h). Starts the program anew (execv, same process id,
+/// descriptors and arguments) where OpenBLAS took a kernel that is less than it could be; returns
+/// otherwise, also where that fails. An OPENBLAS_CORETYPE that the user has set is never touched.
 /// @throws ResourceError where that one needs instructions that the processor has not.
 void choose_blas_kernel(char** argv);
 

@@ -21,7 +21,7 @@ CaseLoads::CaseLoads(const Scene& scene, const FaultOperator& op, double noise)
     : scene_(scene),
       op_(op),
       load_factors_(scene, op),
-      initial_(initial_traction(scene, op.geometry)),
+      initial_(initial_traction(scene, op.geometry, load_factors_.region_of_load())),
       noise_(noise) {}
 
 StepLoads CaseLoads::at(double time) const {

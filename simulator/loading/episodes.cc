@@ -1,51 +1,58 @@
 #include "simulator/loading/episodes.h"
 
 #include <algorithm>
-#include <utility>
+#include <tuple>
 
 namespace faultsim {
 
-EpisodeTracker::EpisodeTracker(const FaultMeter& meter, std::vector<std::string> fault_names,
-                               bool plane_strain)
-    : meter_(meter), names_(std::move(fault_names)), plane_strain_(plane_strain) {
-  running_.resize(names_.size());
-}
+EpisodeTracker::EpisodeTracker(const FaultMeter& meter, const FaultNeighbours& neighbours,
+                               std::vector<std::string> fault_names, bool plane_strain)
+    : meter_(meter),
+      neighbours_(neighbours),
+      names_(std::move(fault_names)),
+      plane_strain_(plane_strain),
+      lowest_(names_.size(), 0),
+      running_(names_.size()) {}
 
-void EpisodeTracker::close(std::optional<Running>& running) {
-  if (running && running->activated) {
+void EpisodeTracker::close(std::size_t fault) {
+  std::optional<Running>& running = running_[fault];
+  if (running && running->place >= 0) {
     Episode& episode = running->episode;
-    if (!plane_strain_) episode.magnitude = moment_magnitude(episode.moment);
-    done_.push_back(std::move(episode));
+    episode.depth = neighbours_.depth(running->place);
+    episode.pressures =
+        neighbours_.at(running->place, episode.depth, running->pressure_change, running->in_fault);
+    if (!plane_strain_) episode.magnitude_if_at_once = moment_magnitude(episode.moment);
+    done_.emplace_back(fault, std::move(episode));
   }
   running.reset();
 }
 
 void EpisodeTracker::add(const StepResult& step, const ContactState& state,
-                         const Eigen::VectorXd& before) {
+                         const Eigen::VectorXd& before,
+                         const Eigen::VectorXd& fault_pressure_change) {
   if (step.stage != stage_) {
-    for (auto& running : running_) close(running);
+    for (std::size_t f = 0; f < running_.size(); ++f) close(f);
     stage_ = step.stage;
   }
-  const auto& dp = step.pressure_change;
-  const double pressure = dp.empty() ? 0 : *std::min_element(dp.begin(), dp.end());
   constexpr double kSame = 1.0;  // Pa
-  const bool recovered = pressure > lowest_pressure_ + kSame;
-  lowest_pressure_ = std::min(lowest_pressure_, pressure);
   for (std::size_t f = 0; f < running_.size(); ++f) {
+    const double pressure = neighbours_.lowest(static_cast<int>(f), step.pressure_change);
+    const bool recovered = lowest_[f] < -kSame && pressure > lowest_[f] + kSame;
+    lowest_[f] = std::min(lowest_[f], pressure);
     const FaultMetrics& fault = step.faults[f];
     auto& running = running_[f];
-    if (fault.slipping_area == 0 && fault.open_area == 0) {
-      close(running);
-      continue;
-    }
+    const bool is_quiet = fault.slipping_area == 0 && fault.open_area == 0;
+    if (is_quiet || (running && running->episode.after_recovery != recovered)) close(f);
+    if (is_quiet) continue;
     if (!running) {
       running.emplace();
       running->episode.stage = step.stage;
       running->episode.fault = names_[f];
       running->episode.first_step = step.step;
-      running->episode.pressure_change = pressure;
       running->episode.after_recovery = recovered;
       running->reference = before;
+      running->pressure_change = step.pressure_change;
+      running->in_fault = fault_pressure_change;
     }
     Episode& episode = running->episode;
     episode.last_step = step.step;
@@ -53,24 +60,31 @@ void EpisodeTracker::add(const StepResult& step, const ContactState& state,
     const FaultMeter::Activation slip = meter_.activation(state, &running->reference)[f];
     episode.activated_area = std::max(episode.activated_area, slip.area);
     episode.max_slip = std::max(episode.max_slip, slip.max_slip);
-    running->activated = running->activated || slip.activated;
+    if (slip.activated) running->place = slip.place;
   }
 }
 
 std::vector<Episode> EpisodeTracker::finish() {
-  for (auto& running : running_) close(running);
-  std::stable_sort(done_.begin(), done_.end(),
-                   [](const Episode& a, const Episode& b) { return a.first_step < b.first_step; });
-  return std::exchange(done_, {});
+  for (std::size_t f = 0; f < running_.size(); ++f) close(f);
+  std::sort(done_.begin(), done_.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.second.first_step, a.first) < std::tie(b.second.first_step, b.first);
+  });
+  std::vector<Episode> episodes;
+  for (auto& [fault, episode] : done_) episodes.push_back(std::move(episode));
+  done_.clear();
+  return episodes;
 }
 
-bool unexpected_reactivation(std::span<const Episode> episodes) {
-  bool seen = false;
-  for (const Episode& episode : episodes) {
-    if (episode.after_recovery && seen) return true;
-    seen = seen || !episode.after_recovery;
+std::optional<Reactivation> unexpected_reactivation(std::span<const Episode> episodes) {
+  for (std::size_t k = 0; k < episodes.size(); ++k) {
+    if (!episodes[k].after_recovery) continue;
+    for (std::size_t i = k; i-- > 0;) {
+      const Episode& earlier = episodes[i];
+      if (earlier.fault == episodes[k].fault && !earlier.after_recovery)
+        return Reactivation{static_cast<int>(k) + 1, static_cast<int>(i) + 1};
+    }
   }
-  return false;
+  return std::nullopt;
 }
 
 }  // namespace faultsim

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "simulator/common/errors.h"
+#include "simulator/scene/initial_state.h"
+#include "simulator/scene/load_times.h"
 
 namespace faultsim {
 namespace {
@@ -51,6 +53,14 @@ double by_rule(const FaultPressure& law, double minus, double plus) {
   throw_internal("known fault pressure rule", "", __FILE__, __LINE__);
 }
 
+/// Of one region's value beside a node: its share, 0 where there is none.
+double share_of(const std::vector<int>& region_of_load, const std::vector<double>& per_region,
+                int load, double fraction) {
+  if (load < 0) return 0;
+  const int region = region_of_load[static_cast<std::size_t>(load)];
+  return fraction * per_region[static_cast<std::size_t>(region)];
+}
+
 bool in_window(const FaultPressure& law, const OperatorNode& node, const PressurePair& pair) {
   if (!law.depth_window) {
     return pair.minus_fraction > 0 || pair.plus_fraction > 0;
@@ -59,23 +69,12 @@ bool in_window(const FaultPressure& law, const OperatorNode& node, const Pressur
   return depth >= (*law.depth_window)[0] && depth <= (*law.depth_window)[1];
 }
 
-double prescribed_now(const Scene& scene, const FaultPressure& law, double time) {
-  if (!law.table.time.empty()) return law.prescribed * table_value(law.table, time);
-  const double ramp = scene.stages.empty() ? 0 : scene.stages.front().duration;
-  return law.prescribed * (ramp > 0 ? std::clamp(time / ramp, 0.0, 1.0) : 1.0);
-}
-
 }  // namespace
 
 std::vector<LoadStep> load_steps(const Scene& scene) {
   std::vector<LoadStep> steps{{0, "initial", 0}};
-  double start = 0;
-  for (const Stage& stage : scene.stages) {
-    for (int i = 1; i <= stage.n_steps; ++i) {
-      steps.push_back(
-          {static_cast<int>(steps.size()), stage.name, start + stage.duration * i / stage.n_steps});
-    }
-    start += stage.duration;
+  for (const StepEnd& end : step_ends(scene)) {
+    steps.push_back({static_cast<int>(steps.size()), scene.stages[end.stage].name, end.time});
   }
   return steps;
 }
@@ -144,20 +143,61 @@ std::vector<double> LoadFactors::at(double time, const std::vector<double>& pres
   return factors;
 }
 
+double prescribed_pressure_change(const Scene& scene, const FaultPressure& law, double time) {
+  if (!law.table.time.empty()) return law.prescribed * table_value(law.table, time);
+  const double ramp = scene.stages.empty() ? 0 : scene.stages.front().duration;
+  return law.prescribed * (ramp > 0 ? std::clamp(time / ramp, 0.0, 1.0) : 1.0);
+}
+
+bool prescribed_pressure_acts(const Scene& scene, const FaultGeometry& geometry,
+                              std::size_t fault) {
+  const FaultPressure& law = scene.faults[fault].pressure;
+  const OperatorFault& grid = geometry.faults[fault];
+  for (int k = grid.first_node; k < grid.first_node + grid.n_nodes; ++k) {
+    const OperatorNode& node = geometry.nodes[static_cast<std::size_t>(k)];
+    for (const PressurePair& pair : node.pressure) {
+      if (in_window(law, node, pair)) return true;
+    }
+  }
+  return false;
+}
+
+Eigen::VectorXd initial_pressure_excess(const Scene& scene, const FaultGeometry& geometry,
+                                        const std::vector<int>& region_of_load) {
+  Eigen::VectorXd excess = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(geometry.nodes.size()));
+  std::vector<double> per_region(scene.pressure.size());
+  for (std::size_t f = 0; f < geometry.faults.size(); ++f) {
+    const FaultPressure& law = scene.faults[f].pressure;
+    const OperatorFault& fault = geometry.faults[f];
+    for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
+      const OperatorNode& node = geometry.nodes[static_cast<std::size_t>(k)];
+      for (std::size_t r = 0; r < per_region.size(); ++r) {
+        per_region[r] = own_pressure_excess(scene, r, node.position.z());
+      }
+      for (const PressurePair& pair : node.pressure) {
+        excess[k] +=
+            pair.weight *
+            by_rule(law,
+                    share_of(region_of_load, per_region, pair.minus_region, pair.minus_fraction),
+                    share_of(region_of_load, per_region, pair.plus_region, pair.plus_fraction));
+      }
+    }
+  }
+  return excess;
+}
+
 Eigen::VectorXd fault_pressure_change(const Scene& scene, const FaultGeometry& geometry,
                                       const std::vector<int>& region_of_load, double time,
                                       const std::vector<double>& pressure_change) {
   Eigen::VectorXd change = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(geometry.nodes.size()));
   const auto cell_change = [&](int load, double fraction) {
-    if (load < 0) return 0.0;
-    const int region = region_of_load[static_cast<std::size_t>(load)];
-    return fraction * pressure_change[static_cast<std::size_t>(region)];
+    return share_of(region_of_load, pressure_change, load, fraction);
   };
   for (std::size_t f = 0; f < geometry.faults.size(); ++f) {
     const FaultPressure& law = scene.faults[f].pressure;
     if (law.rule == FaultPressureRule::none) continue;
     const bool prescribed = law.rule == FaultPressureRule::prescribed;
-    const double given = prescribed ? prescribed_now(scene, law, time) : 0;
+    const double given = prescribed ? prescribed_pressure_change(scene, law, time) : 0;
     const OperatorFault& fault = geometry.faults[f];
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
       const OperatorNode& node = geometry.nodes[static_cast<std::size_t>(k)];

@@ -16,7 +16,7 @@ struct LoadStep {
   double time = 0;  ///< s.
 };
 
-/// Step 0, then every step of every stage at its end time.
+/// Step 0, then every step of every stage at its end time: step_ends() of scene/load_times.h.
 std::vector<LoadStep> load_steps(const Scene& scene);
 /// True for step 0 and for the last step of each stage. @pre i < steps.size().
 bool is_stage_end(const std::vector<LoadStep>& steps, std::size_t i);
@@ -52,6 +52,19 @@ class LoadFactors {
   std::vector<int> region_of_load_;    // −1 for boundary loads
   std::vector<int> boundary_of_load_;  // −1 for pressure loads
 };
+
+/// The change that rule `prescribed` gives at time t, Pa, where it acts.
+double prescribed_pressure_change(const Scene& scene, const FaultPressure& law, double time);
+
+/// Whether a prescribed change reaches any node of the fault: its window, or the cells beside it.
+bool prescribed_pressure_acts(const Scene& scene, const FaultGeometry& geometry, std::size_t fault);
+
+/// What blocks with an overpressure of their own add to the initial pressure in the faults, Pa
+/// (n_nodes): per pair of neighbouring cells by the fault's rule from what they have beyond the
+/// column, then the area-weighted mean. 0 for the rules prescribed and none, whose faults keep the
+/// pressure of the column.
+Eigen::VectorXd initial_pressure_excess(const Scene& scene, const FaultGeometry& geometry,
+                                        const std::vector<int>& region_of_load);
 
 /// Δp_f of every fault node at a time, Pa (n_nodes): per pair of neighbouring cells by the fault's
 /// rule, then the area-weighted mean (design section 2). A prescribed change without a table is

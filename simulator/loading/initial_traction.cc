@@ -3,19 +3,23 @@
 #include <cmath>
 
 #include "simulator/common/errors.h"
+#include "simulator/loading/history.h"
 #include "simulator/scene/initial_state.h"
 
 namespace faultsim {
 
-InitialTraction initial_traction(const Scene& scene, const FaultGeometry& geometry) {
+InitialTraction initial_traction(const Scene& scene, const FaultGeometry& geometry,
+                                 const std::vector<int>& region_of_load) {
   const auto n_nodes = static_cast<Eigen::Index>(geometry.nodes.size());
   InitialTraction initial{Eigen::VectorXd::Zero(geometry.n_dofs), Eigen::VectorXd::Zero(n_nodes)};
+  const Eigen::VectorXd excess = initial_pressure_excess(scene, geometry, region_of_load);
   for (std::size_t f = 0; f < geometry.faults.size(); ++f) {
     const OperatorFault& fault = geometry.faults[f];
     const double fault_biot = scene.faults[f].fault_biot;
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
       const OperatorNode& node = geometry.nodes[static_cast<std::size_t>(k)];
-      const StressAtDepth at = initial_state(scene, node.position.z());
+      StressAtDepth at = initial_state(scene, node.position.z());
+      at.pressure += excess[k];
       const Eigen::Matrix3d sigma =
           Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(at.sigma.data());
       const Eigen::Vector3d total = sigma * node.normal;

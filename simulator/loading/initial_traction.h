@@ -12,11 +12,14 @@ namespace faultsim {
 /// Initial effective traction on the faults and the initial pressure there.
 struct InitialTraction {
   Eigen::VectorXd traction;  ///< t'_0 = σ0 n + α_f p0 n, n_dofs, Pa.
-  Eigen::VectorXd pressure;  ///< p0, n_nodes, Pa.
+  Eigen::VectorXd pressure;  ///< p0 of the fault: the column's and what blocks of their own
+                             ///< overpressure add, n_nodes, Pa.
 };
 
 /// Throws InputError when a removed traction component (half domain, plane strain, rollers) is not
 /// zero: the reduction would then hide a load.
-InitialTraction initial_traction(const Scene& scene, const FaultGeometry& geometry);
+/// @param region_of_load  LoadFactors::region_of_load().
+InitialTraction initial_traction(const Scene& scene, const FaultGeometry& geometry,
+                                 const std::vector<int>& region_of_load);
 
 }  // namespace faultsim

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/process_memory.h"
 
 namespace faultsim {
 namespace {
@@ -45,9 +46,13 @@ std::optional<double> left_in_group(const std::filesystem::path& folder, bool v2
   return *limit - *used + droppable.value_or(0);
 }
 
-std::string gigabytes(double bytes) {
+std::string size_text(double bytes) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.1f GB", bytes / 1e9);
+  if (bytes < 1e9) {
+    std::snprintf(text, sizeof text, "%.0f MB", bytes / 1e6);
+  } else {
+    std::snprintf(text, sizeof text, "%.1f GB", bytes / 1e9);
+  }
   return text;
 }
 
@@ -56,6 +61,7 @@ std::string gigabytes(double bytes) {
 std::optional<double> available_memory(const std::filesystem::path& proc,
                                        const std::filesystem::path& cgroup) {
   std::optional<double> least = entry_in(proc / "meminfo", "MemAvailable:", 1024);
+  if (const auto left = left_in_limits(proc)) keep_least(least, *left);
   std::ifstream groups(proc / "self" / "cgroup");
   for (std::string line; std::getline(groups, line);) {  // "0::/a/b" or "7:memory:/a/b"
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
@@ -80,12 +86,12 @@ void demand_memory(const Plan& plan, std::optional<double> available) {
       creeps ? concat("the ", 1 + plan.creep.rungs.size(),
                       " operators of this scene, one per step length of creep and the elastic one, "
                       "need about ",
-                      gigabytes(plan.memory_bytes), " together (")
-             : concat("the operator of this scene needs about ", gigabytes(plan.memory_bytes),
+                      size_text(plan.memory_bytes), " together (")
+             : concat("the operator of this scene needs about ", size_text(plan.memory_bytes),
                       " while it is built (");
   throw ResourceError(
       concat("not enough memory: ", what, plan.n_unknowns, " unknowns, ", plan.n_jump,
-             " of them jumps), ", gigabytes(*available), " are available; ",
+             " of them jumps), ", size_text(*available), " are available; ",
              plan.plane_strain ? "choose larger cells (/mesh)"
                                : "choose a coarser tier or larger cells (/mesh), or plane strain "
                                  "(for a field the tier \"screening\")",

@@ -303,17 +303,24 @@ std::vector<FaultMetrics> FaultMeter::measure(const NodalState& nodal, const Con
 std::vector<FaultMeter::Activation> FaultMeter::activation(const ContactState& state,
                                                            const Eigen::VectorXd* reference) const {
   std::vector<Activation> result(op_.geometry.faults.size());
+  std::vector<double> place_slip(result.size(), 0);
   for (const Column& column : columns_) {
     Activation& a = result[static_cast<std::size_t>(column.fault)];
     ExtentFinder finder;
     const std::size_t n = column.nodes.size();
     double last = 0;
     bool any = false, first = false;
+    int place = -1;
+    double largest = 0;
     for (std::size_t i = 0; i < n; ++i) {
       const double slip = slip_norm(column.nodes[i], state.jump, reference);
       first = first || (i == 0 && slip > slip_tolerance_);
       any = any || slip > slip_tolerance_;
       a.max_slip = std::max(a.max_slip, slip);
+      if (slip > largest) {
+        largest = slip;
+        place = column.nodes[i];
+      }
       const double from = i > 0 ? column.position[i - 1] : column.tip_before;
       if (!std::isnan(from))
         finder.add(i > 0 ? last : 0.0, slip, column.position[i] - from, slip_tolerance_);
@@ -327,6 +334,10 @@ std::vector<FaultMeter::Activation> FaultMeter::activation(const ContactState& s
     a.length = std::max(a.length, extent.longest);
     if (extent.longest >= activation_length_) {
       a.activated = true;
+      if (largest > place_slip[column.fault]) {
+        place_slip[column.fault] = largest;
+        a.place = place;
+      }
       a.at_edge = a.at_edge || column.strike_edge || (first && !std::isnan(column.tip_before)) ||
                   (last > slip_tolerance_ && !std::isnan(column.tip_after));
       a.area += multiplicity_ * extent.total * column.width;

@@ -50,6 +50,7 @@ class FaultMeter {
     double max_slip = 0;  ///< m.
     bool activated = false;
     bool at_edge = false;  ///< an activated extent reaches a node next to an edge of the fault.
+    int place = -1;        ///< node of largest slip in the columns that satisfy it; -1 = none does.
   };
   /// @param reference  jump at the reference time; nullptr = zero.
   std::vector<Activation> activation(const ContactState& state,

@@ -1,4 +1,5 @@
 #include "simulator/common/errors.h"
+#include "simulator/linalg/blas_start.h"
 #include "simulator/linalg/cholesky.h"
 #include "simulator/loading/memory.h"
 #include "simulator/loading/run_case.h"
@@ -85,6 +86,7 @@ PreparedOperator prepare_ladder(const Scene& scene, const Plan& plan, const Buil
 
 PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const CachePolicy& cache,
                                   bool keep_bulk, Monitor& monitor) {
+  take_blas_buffer();
   const BuildOptions options;
   set_blas_threads(options.blas_threads);
   if (plan.creep.active) return prepare_ladder(scene, plan, options, monitor);

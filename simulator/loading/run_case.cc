@@ -12,6 +12,7 @@
 #include "simulator/loading/case_loads.h"
 #include "simulator/loading/creep_march.h"
 #include "simulator/loading/episodes.h"
+#include "simulator/loading/fault_neighbours.h"
 #include "simulator/loading/history.h"
 #include "simulator/loading/metrics.h"
 #include "simulator/loading/slip_events.h"
@@ -50,7 +51,8 @@ class CaseRun {
         meter_(op, laws_, scene.numerics.slip_tolerance, scene.numerics.activation_length),
         solver_(op, laws_, contact_options(scene.numerics)),
         state_(initial_state(op)),
-        episodes_(meter_, fault_names(scene), op.geometry.plane_strain),
+        neighbours_(scene, op),
+        episodes_(meter_, neighbours_, fault_names(scene), op.geometry.plane_strain),
         whole_("", 0, nullptr, true, op.geometry.plane_strain) {
     if (ladder != nullptr) march_.emplace(scene, loads_, *ladder, laws_);
   }
@@ -67,6 +69,7 @@ class CaseRun {
             const StepResult& result, AcceptedStep& step) const;
   void record_events(const LoadStep& step, const StepLoads* before, const StepLoads& loads,
                      const std::vector<ContactJump>& jumps);
+  int nucleus_node(const ContactJump& jump, double depth) const;
   void record(const LoadStep& step, const StepLoads& loads, const Eigen::VectorXd& jump_before,
               StepResult& result);
   void record_creep(const StepLoads& loads, StepCreep& creep);
@@ -87,6 +90,7 @@ class CaseRun {
   ContactState state_;
   NodalState nodal_;
   CaseResult result_;
+  FaultNeighbours neighbours_;
   EpisodeTracker episodes_;
   StageSummary whole_;
   std::optional<StageSummary> stage_;
@@ -197,15 +201,27 @@ void CaseRun::record(const LoadStep& step, const StepLoads& loads,
   const auto first = std::find_if(result_.events.begin(), result_.events.end(),
                                   [&](const SlipEvent& e) { return e.step == step.step; });
   const std::span<const SlipEvent> events(first, result_.events.end());
-  whole_.add(result, meter_, state_, result_.fault_names, events);
+  whole_.add(result, meter_, neighbours_, state_, loads.fault_pressure_change, result_.fault_names,
+             events);
   if (step.step > 0) {
-    episodes_.add(result, state_, jump_before);
+    episodes_.add(result, state_, jump_before, loads.fault_pressure_change);
     if (!stage_) {
       stage_.emplace(step.stage, step.step, &jump_before, false, op_.geometry.plane_strain);
     }
-    stage_->add(result, meter_, state_, result_.fault_names, events);
+    stage_->add(result, meter_, neighbours_, state_, loads.fault_pressure_change,
+                result_.fault_names, events);
   }
   if (observer_) observer_(result, fields(loads));
+}
+
+/// The node of the nucleus next to the depth of its centre; -1 without nucleus.
+int CaseRun::nucleus_node(const ContactJump& jump, double depth) const {
+  const auto distance = [&](int node) { return std::abs(neighbours_.depth(node) - depth); };
+  int nearest = -1;
+  for (const int k : jump.nucleus) {
+    if (nearest < 0 || distance(k) < distance(nearest)) nearest = k;
+  }
+  return nearest;
 }
 
 /// Loads are linear within a step, so onset lies where its load factor says.
@@ -217,11 +233,15 @@ void CaseRun::record_events(const LoadStep& step, const StepLoads* before, const
     event.stage = step.stage;
     const double share = jump.load_before;
     event.time = last_time_ + share * (step.time - last_time_);
-    for (std::size_t r = 0; r < loads.pressure_change.size(); ++r) {
+    std::vector<double> onset = loads.pressure_change;
+    for (std::size_t r = 0; r < onset.size(); ++r) {
       const double start = before != nullptr ? before->pressure_change[r] : 0;
-      const double onset = start + share * (loads.pressure_change[r] - start);
-      if (r == 0 || onset < event.pressure_change) event.pressure_change = onset;
+      onset[r] = start + share * (onset[r] - start);
     }
+    Eigen::VectorXd in_fault = loads.fault_pressure_change * share;
+    if (before != nullptr) in_fault += before->fault_pressure_change * (1 - share);
+    if (const int node = nucleus_node(jump, event.depth); node >= 0)
+      event.pressures = neighbours_.at(node, event.depth, onset, in_fault);
     result_.events.push_back(std::move(event));
   }
 }
@@ -343,7 +363,7 @@ CaseResult CaseRun::run(Monitor& monitor) {
   result_.whole = whole_.finish();
   result_.episodes = episodes_.finish();
   result_.unexpected = unexpected_reactivation(result_.episodes);
-  if (!result_.whole.activated) {
+  if (!result_.whole.activated && !result_.whole.opens) {
     const std::span<const StepResult> all(result_.steps);
     result_.pressure_margin =
         pressure_margin(all.first(all.size() - (result_.failed_step ? 1 : 0)));

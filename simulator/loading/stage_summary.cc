@@ -29,15 +29,60 @@ StageSummary::StageSummary(std::string name, int first_step, const Eigen::Vector
   if (reference != nullptr) reference_ = *reference;
 }
 
-void StageSummary::add(const StepResult& step, const FaultMeter& meter, const ContactState& state,
+void StageSummary::add_fault(const FaultMetrics& fault, const FaultMeter::Activation& slip,
+                             FaultStageMetrics& sum) const {
+  sum.slips = sum.slips || slip.max_slip > 0;
+  sum.activated = sum.activated || slip.activated;
+  sum.opens = sum.opens || fault.open_area > 0;
+  sum.chi_bar = std::max(sum.chi_bar, fault.chi_bar);
+  sum.chi_max = std::max(sum.chi_max, fault.chi_max);
+  sum.area_chi_080 = std::max(sum.area_chi_080, fault.area_chi_080);
+  sum.thickness_chi_080 = std::max(sum.thickness_chi_080, fault.thickness_chi_080_max);
+  sum.activated_area = std::max(sum.activated_area, slip.area);
+  sum.slipping_area = std::max(sum.slipping_area, fault.slipping_area);
+  sum.open_area = std::max(sum.open_area, fault.open_area);
+  sum.max_slip = std::max(sum.max_slip, slip.max_slip);
+  sum.potency = fault.potency;
+  sum.moment = whole_ ? fault.moment : sum.moment + fault.moment_step;
+}
+
+void StageSummary::count(const SlipEvent& event) {
+  const auto add = [&event](auto& sum) {
+    ++sum.n_events;
+    if (event.moment <= sum.event_moment) return;
+    sum.event_moment = event.moment;
+    sum.event_magnitude = event.magnitude;
+  };
+  add(metrics_);
+  for (FaultStageMetrics& fault : metrics_.faults) {
+    if (fault.fault == event.fault) add(fault);
+  }
+}
+
+void StageSummary::add(const StepResult& step, const FaultMeter& meter,
+                       const FaultNeighbours& neighbours, const ContactState& state,
+                       const Eigen::VectorXd& fault_pressure_change,
                        const std::vector<std::string>& fault_names,
                        std::span<const SlipEvent> events) {
   StageMetrics& m = metrics_;
   m.last_step = step.step;
+  m.faults.resize(fault_names.size());
   const auto activations = meter.activation(state, reference_ ? &*reference_ : nullptr);
+  const auto onset_at = [&](int node) {
+    const double depth = neighbours.depth(node);
+    return FaultOnset{step.step, depth,
+                      neighbours.at(node, depth, step.pressure_change, fault_pressure_change)};
+  };
   double area = 0, slipping = 0, open = 0, activated_area = 0, moment = 0, potency = 0;
   for (std::size_t f = 0; f < step.faults.size(); ++f) {
     const FaultMetrics& fault = step.faults[f];
+    FaultStageMetrics& own = m.faults[f];
+    own.fault = fault_names[f];
+    if (activations[f].activated && !own.activated) own.activation = onset_at(activations[f].place);
+    if (fault.open_area > 0 && !own.opens) {
+      own.opening = onset_at(neighbours.widest_gap(static_cast<int>(f), state.jump, state.state));
+    }
+    add_fault(fault, activations[f], own);
     m.chi_bar = std::max(m.chi_bar, fault.chi_bar);
     m.chi_max = std::max(m.chi_max, fault.chi_max);
     m.thickness_chi_080 = std::max(m.thickness_chi_080, fault.thickness_chi_080_max);
@@ -48,11 +93,17 @@ void StageSummary::add(const StepResult& step, const FaultMeter& meter, const Co
     moment += whole_ ? fault.moment : fault.moment_step;
     activated_area += activations[f].area;
     m.max_slip = std::max(m.max_slip, activations[f].max_slip);
-    if (!activations[f].activated || m.activated) continue;
-    m.activated = true;
-    m.activation_step = step.step;
-    m.activation_pressure = lowest(step.pressure_change);
-    m.activated_fault = fault_names[f];
+    m.slips = m.slips || own.slips;
+    if (own.opens && !m.opens) {
+      m.opens = true;
+      m.opening_step = step.step;
+      m.opened_fault = own.fault;
+    }
+    if (own.activated && !m.activated) {
+      m.activated = true;
+      m.activation_step = step.step;
+      m.activated_fault = own.fault;
+    }
   }
   m.area_chi_080 = std::max(m.area_chi_080, area);
   m.slipping_area = std::max(m.slipping_area, slipping);
@@ -60,16 +111,11 @@ void StageSummary::add(const StepResult& step, const FaultMeter& meter, const Co
   m.activated_area = std::max(m.activated_area, activated_area);
   m.potency = potency;
   m.moment = whole_ ? moment : m.moment + moment;
-  for (const SlipEvent& event : events) {
-    ++m.n_events;
-    if (event.moment <= m.event_moment) continue;
-    m.event_moment = event.moment;
-    m.event_magnitude = event.magnitude;
-  }
+  for (const SlipEvent& event : events) count(event);
 }
 
 StageMetrics StageSummary::finish() {
-  if (!plane_strain_) metrics_.magnitude = moment_magnitude(metrics_.moment);
+  if (!plane_strain_) metrics_.magnitude_if_at_once = moment_magnitude(metrics_.moment);
   return metrics_;
 }
 

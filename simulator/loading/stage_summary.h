@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/loading/fault_neighbours.h"
 #include "simulator/loading/metrics.h"
 #include "simulator/output/result.h"
 
@@ -16,21 +17,28 @@ class StageSummary {
   /// @param reference  jump at the start of the stage; nullptr = the start of the case.
   StageSummary(std::string name, int first_step, const Eigen::VectorXd* reference, bool whole,
                bool plane_strain);
-  /// @param fault_names  to name the first fault activated.
+  /// @param fault_pressure_change  Δp_f per fault node, Pa.
+  /// @param fault_names  in the order of the scene.
   /// @param events  of this step.
-  void add(const StepResult& step, const FaultMeter& meter, const ContactState& state,
+  void add(const StepResult& step, const FaultMeter& meter, const FaultNeighbours& neighbours,
+           const ContactState& state, const Eigen::VectorXd& fault_pressure_change,
            const std::vector<std::string>& fault_names, std::span<const SlipEvent> events);
   StageMetrics finish();
 
  private:
+  void add_fault(const FaultMetrics& fault, const FaultMeter::Activation& slip,
+                 FaultStageMetrics& sum) const;
+  void count(const SlipEvent& event);
+
   StageMetrics metrics_;
   std::optional<Eigen::VectorXd> reference_;
   bool whole_;
   bool plane_strain_;
 };
 
-/// Pa of further depletion to χ̄ = 1 for a case that never activated: χ̄ extrapolated linearly in Δp
-/// of the most depleted region from step 0 through the step of largest χ̄. NaN when χ̄ does not grow.
+/// Pa of further depletion to χ̄ = 1 for a case in which no fault slides or opens: χ̄ extrapolated
+/// linearly in Δp of the most depleted region from step 0 through the step of largest χ̄. NaN when χ̄
+/// does not grow.
 double pressure_margin(std::span<const StepResult> steps);
 
 }  // namespace faultsim

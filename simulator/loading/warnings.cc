@@ -4,6 +4,8 @@
 #include <cstdio>
 
 #include "simulator/common/errors.h"
+#include "simulator/loading/history.h"
+#include "simulator/loading/pressure_warnings.h"
 #include "simulator/scene/initial_state.h"
 
 namespace faultsim {
@@ -27,7 +29,10 @@ class Warnings {
       : scene_(scene), op_(op), meter_(meter), result_(result) {}
 
   std::vector<std::string> all() {
+    for (const Remark& remark : scene_.remarks) texts_.push_back(remark_text(remark));
+    prescribed_nowhere();
     neglected_weight();
+    for (std::string& text : pressure_warnings(scene_)) texts_.push_back(std::move(text));
     held_closed();
     moved_observations();
     short_faults();
@@ -42,6 +47,24 @@ class Warnings {
   }
 
  private:
+  /// A window, or the region beside a fault, that falls between its nodes.
+  void prescribed_nowhere() {
+    for (std::size_t f = 0; f < scene_.faults.size(); ++f) {
+      const FaultPressure& law = scene_.faults[f].pressure;
+      if (law.rule != FaultPressureRule::prescribed || law.prescribed == 0) continue;
+      if (prescribed_pressure_acts(scene_, op_.geometry, f) || said_of_pressure()) continue;
+      texts_.push_back("the prescribed pressure of fault " + scene_.faults[f].name +
+                       " has no effect: it acts on none of the fault's nodes");
+    }
+  }
+
+  /// The scene itself told that a prescribed pressure reaches no fault.
+  bool said_of_pressure() const {
+    return std::any_of(scene_.remarks.begin(), scene_.remarks.end(), [](const Remark& remark) {
+      return remark.pointer.ends_with("/prescribed") || remark.pointer.ends_with("/depth_window");
+    });
+  }
+
   void neglected_weight() {
     const double difference = neglected_weight_difference(scene_);
     if (difference <= 0) return;
@@ -83,7 +106,7 @@ class Warnings {
       if (length >= needed) continue;
       texts_.push_back("fault " + scene_.faults[f].name + " extends " + brief(length) +
                        " m down dip, less than the activation_length of " + brief(needed) +
-                       " m: it cannot be counted as activated");
+                       " m: it cannot be counted as sliding");
     }
   }
 
@@ -119,11 +142,10 @@ class Warnings {
       for (std::size_t f = 0; f < step.faults.size(); ++f) {
         if (!step.faults[f].activated_at_edge || told[f]) continue;
         told[f] = 1;
-        texts_.push_back(concat("fault ", result_.fault_names[f],
-                                " is activated up to its edge in load step ", step.step, " (",
-                                brief(step.faults[f].activated_area),
-                                result_.plane_strain ? " m2/m" : " m2",
-                                "): slip might go on beyond; make the fault longer"));
+        texts_.push_back(concat(
+            "fault ", result_.fault_names[f], " slides up to its edge in load step ", step.step,
+            " (", brief(step.faults[f].activated_area), result_.plane_strain ? " m2/m" : " m2",
+            "): slip might go on beyond; make the fault longer"));
       }
     }
   }

@@ -45,7 +45,7 @@ class OtherVersion : public StorageError {
 class Mapping {
  public:
   explicit Mapping(const std::filesystem::path& path)
-      : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+      : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
     struct stat info = {};
     if (descriptor_ < 0 || fstat(descriptor_, &info) != 0) {
       error_ = errno;
@@ -330,9 +330,10 @@ std::optional<FaultOperator> read_operator(const std::filesystem::path& folder,
   const auto mapping = std::make_shared<Mapping>(path);
   if (mapping->error() == ENOENT || mapping->error() == ENOTDIR) return std::nullopt;
   if (mapping->error() == ENOMEM) throw ResourceError(concat("no memory to map ", path.string()));
+  if (mapping->error() == EISDIR) return say(move_aside(path, "it is no regular file"));
   if (mapping->error() != 0) {
-    throw StorageError(
-        concat("cannot read ", path.string(), ": ", std::strerror(mapping->error())));
+    return say(concat("the operator file ", path.string(),
+                      " is not used: it cannot be read: ", std::strerror(mapping->error())));
   }
   try {
     verify_once(path, *mapping);

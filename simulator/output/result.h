@@ -97,6 +97,32 @@ struct StepResult {
   double seconds = 0;  ///< wall; not compared.
 };
 
+/// Pressures of a fault at one of its places: of the regions (compartments) on either side, that
+/// is, of the region that touches the fault on that side nearest to the place, none where no region
+/// does; and of the fluid in the fault itself.
+struct SidePressures {
+  std::string region_minus, region_plus;                ///< "" = none.
+  std::optional<double> change_minus, change_plus;      ///< Pa, Δp since the start.
+  std::optional<double> absolute_minus, absolute_plus;  ///< Pa, p0 + Δp, p0 of the region's fluid
+                                                        ///< at the depth of the place.
+  double change_in_fault = 0;                           ///< Pa, Δp_f at the place.
+
+  bool operator==(const SidePressures&) const = default;  ///< the very same numbers.
+};
+/// Δp, or absolute pressure, of the side that changed more (the minus side if alike); none where no
+/// region touches the fault.
+std::optional<double> leading_change(const SidePressures& sides);
+std::optional<double> leading_absolute(const SidePressures& sides);
+
+/// When and where something happens first on a fault.
+struct FaultOnset {
+  int step = 0;
+  double depth = 0;         ///< m, where it is largest then; datum of the absolute pressures.
+  SidePressures pressures;  ///< at the end of the step.
+
+  bool operator==(const FaultOnset&) const = default;  ///< the very same numbers.
+};
+
 /// A jump of equilibrium within a load step, followed to the next equilibrium (design section 4),
 /// with its evidence. Values cover all faults that moved; plane strain: per metre of strike.
 struct SlipEvent {
@@ -105,9 +131,9 @@ struct SlipEvent {
   double load_factor_before = 0;    ///< of the load step, where the last equilibrium was found;
   double load_factor_after = 0;     ///< the load at which the jump was followed.
   double time = 0;                  ///< s, of onset.
-  double pressure_change = 0;       ///< Pa, Δp of the most depleted region at onset.
   std::string fault;                ///< where it nucleated.
   double depth = 0;                 ///< m, of the centre of the nucleus.
+  SidePressures pressures;          ///< beside the nucleus at onset.
   double nucleation_length = 0;     ///< m, down-dip, slipping and weakening as stability is lost.
   double slipped_area = 0;          ///< m2.
   double max_slip = 0;              ///< m, of the event.
@@ -130,19 +156,32 @@ struct SlipEvent {
   bool operator==(const SlipEvent&) const = default;  ///< the very same numbers.
 };
 
-/// A run of load steps of one stage in which a fault slips far enough to count as activated.
+/// A run of consecutive load steps of one stage, all before or all after the recovery of the
+/// fault's pressure, in which the fault slips or is open, and slides (meets the activation
+/// criterion).
 struct Episode {
   std::string stage;
   std::string fault;
   int first_step = 0, last_step = 0;
-  double pressure_change = 0;       ///< Pa, Δp of the most depleted region at the first step.
-  bool after_recovery = false;      ///< pressure had been lower before: cushion gas, storage.
-  double activated_area = 0;        ///< m2, by the slip of the episode.
-  double max_slip = 0;              ///< m, of the episode.
-  double moment = 0;                ///< M0, N m, summed over its steps.
-  std::optional<double> magnitude;  ///< Mw; none in plane strain.
+  double depth = 0;             ///< m, where its slip is largest.
+  SidePressures pressures;      ///< there, at the end of its first step.
+  bool after_recovery = false;  ///< the fault's pressure was depleted, and had been lower.
+  double activated_area = 0;    ///< m2, by the slip of the episode.
+  double max_slip = 0;          ///< m, of the episode.
+  double moment = 0;            ///< M0, N m, summed over its steps.
+  std::optional<double> magnitude_if_at_once;  ///< Mw if all of it were one event: slow slip has no
+                                               ///< magnitude. None in plane strain.
 
   bool operator==(const Episode&) const = default;  ///< the very same numbers.
+};
+
+/// The evidence of an unexpected reactivation (docs/words.md): a fault slides after its pressure
+/// has recovered that slid before the recovery.
+struct Reactivation {
+  int episode = 0;  ///< number from 1 of the first such one in CaseResult::episodes.
+  int after = 0;    ///< that of the last one of the same fault before the recovery.
+
+  bool operator==(const Reactivation&) const = default;
 };
 
 /// Fault fields of one load step, per fault node of FaultGeometry (fault frame).
@@ -158,32 +197,65 @@ struct FaultFields {
   const Eigen::Matrix3Xd* displacement = nullptr;
 };
 
+/// Metrics of one fault over one stage, or over the whole case. Words: docs/words.md.
+struct FaultStageMetrics {
+  std::string fault;
+  bool slips = false;      ///< some node has slipped within the stage: mesh-dependent, a bound.
+  bool activated = false;  ///< it *slides*: slip within the stage meets the activation criterion.
+  bool opens = false;      ///< some node is open in one of its steps.
+  std::optional<FaultOnset> activation;  ///< iff activated: first step, place of largest slip.
+  std::optional<FaultOnset> opening;     ///< iff opens: first step, place of largest gap.
+  double chi_bar = 0;                    ///< maxima over steps, as in StageMetrics.
+  double chi_max = 0;
+  double area_chi_080 = 0;
+  double thickness_chi_080 = 0;
+  double activated_area = 0;
+  double slipping_area = 0;
+  double open_area = 0;
+  double max_slip = 0;      ///< m, within the stage.
+  double potency = 0;       ///< m3, at the end, since the start.
+  double moment = 0;        ///< N m, at the end (stage: summed over its steps).
+  int n_events = 0;         ///< that nucleated on this fault: it *jumps*.
+  double event_moment = 0;  ///< N m, of the largest of these; covers all faults that moved.
+  std::optional<double> event_magnitude;
+
+  bool operator==(const FaultStageMetrics&) const = default;  ///< the very same numbers.
+};
+
 /// Metrics of one stage (its steps together); the same fields per case are the "whole" stage.
 struct StageMetrics {
   std::string stage;  ///< "" for the whole case.
   int first_step = 0, last_step = 0;
-  bool activated = false;  ///< slip since the *start of the stage* reaches the criterion
-                           ///< (whole case: since start).
-  std::optional<int> activation_step;         ///< first step with the criterion met.
-  std::optional<double> activation_pressure;  ///< Pa, Δp of the most depleted region then.
-  std::string activated_fault;                ///< the first fault activated; "" if none.
-  double chi_bar = 0;                         ///< maximum over faults and steps.
-  double chi_max = 0;                         ///< mesh-dependent.
-  double area_chi_080 = 0;                    ///< m2, maximum over steps of the sum over faults.
-  double thickness_chi_080 = 0;               ///< m, maximum over faults and steps.
-  double activated_area = 0;                  ///< m2, at its maximum over steps, sum over faults.
-  double slipping_area = 0;                   ///< m2, maximum over steps.
-  double open_area = 0;                       ///< m2, maximum over steps.
+  bool slips = false;      ///< some node of some fault: mesh-dependent, a bound.
+  bool activated = false;  ///< a fault *slides*: slip since the *start of the stage* reaches the
+                           ///< criterion (whole case: since start).
+  bool opens = false;      ///< some node of some fault is open in one of its steps.
+  std::optional<int> activation_step;  ///< first step with the criterion met.
+  std::string activated_fault;         ///< the first fault that slides; "" if none.
+  std::optional<int> opening_step;     ///< first step with an open node.
+  std::string opened_fault;            ///< the first fault that opens; "" if none.
+  double chi_bar = 0;                  ///< maximum over faults and steps.
+  double chi_max = 0;                  ///< mesh-dependent.
+  double area_chi_080 = 0;             ///< m2, maximum over steps of the sum over faults.
+  double thickness_chi_080 = 0;        ///< m, maximum over faults and steps.
+  double activated_area = 0;           ///< m2, at its maximum over steps, sum over faults.
+  double slipping_area = 0;            ///< m2, maximum over steps.
+  double open_area = 0;                ///< m2, maximum over steps.
   double max_slip = 0;  ///< m, at most over faults and steps (stage: slip within the stage).
   double potency = 0;   ///< m3, at the end.
   double moment = 0;    ///< N m, at the end (stage: summed over its steps).
-  std::optional<double> magnitude;  ///< Mw of moment; none where moment = 0 or plane strain.
+  std::optional<double> magnitude_if_at_once;  ///< Mw if all its slip were one event; none where
+                                               ///< moment = 0 or plane strain.
   int n_events = 0;
   double event_moment = 0;                ///< N m, of the largest event; 0 without events.
   std::optional<double> event_magnitude;  ///< its Mw.
+  std::vector<FaultStageMetrics> faults;  ///< in the order of the scene.
 
   bool operator==(const StageMetrics&) const = default;  ///< the very same numbers.
 };
+/// Onset on the first fault that slides, or opens; nullptr if none does.
+const FaultOnset* first_activation(const StageMetrics& stage);
+const FaultOnset* first_opening(const StageMetrics& stage);
 
 struct CaseResult {
   std::string title;
@@ -200,7 +272,7 @@ struct CaseResult {
   double max_penetration = 0;       ///< m, largest −g_N of any step; 0 up to the tolerance.
   double pressure_margin = std::numeric_limits<double>::quiet_NaN();
   ///< Pa of further depletion scale to χ̄ = 1 by linear
-  ///< extrapolation for inactive cases; NaN = null.
+  ///< extrapolation for cases in which no fault slides or opens; NaN = null.
   std::vector<std::string> region_names;
   std::vector<std::string> fault_names;
   std::vector<std::string> observation_names;
@@ -209,9 +281,9 @@ struct CaseResult {
               ///< (outcome != converged, metrics of the last iterate not given).
   std::vector<StageMetrics> stages;
   StageMetrics whole;
-  std::vector<SlipEvent> events;  ///< in order of time.
-  std::vector<Episode> episodes;  ///< in order of time.
-  bool unexpected = false;        ///< an episode after recovery follows one on the way down.
+  std::vector<SlipEvent> events;           ///< in order of time.
+  std::vector<Episode> episodes;           ///< in order of time.
+  std::optional<Reactivation> unexpected;  ///< the first unexpected reactivation.
   SolveCounts counts;
   std::vector<std::string> warnings;
   double seconds = 0;  ///< wall; not compared.

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kResultFormat = 1;
+constexpr int kResultFormat = 2;
 
 // One list of fields per struct, shared by writing and reading. Names carry the unit.
 
@@ -78,15 +78,32 @@ void for_each_field_of_step(Step& s, Visit&& visit) {
   visit("wall_s", s.seconds);
 }
 
+template <typename Sides, typename Visit>
+void for_each_field_of_sides(Sides& s, Visit&& visit) {
+  visit("region_minus", s.region_minus);
+  visit("region_plus", s.region_plus);
+  visit("change_minus_pa", s.change_minus);
+  visit("change_plus_pa", s.change_plus);
+  visit("absolute_minus_pa", s.absolute_minus);
+  visit("absolute_plus_pa", s.absolute_plus);
+  visit("change_in_fault_pa", s.change_in_fault);
+}
+
+template <typename Onset, typename Visit>
+void for_each_field_of_onset(Onset& o, Visit&& visit) {
+  visit("step", o.step);
+  visit("depth_m", o.depth);
+  visit("pressures", o.pressures);
+}
+
 template <typename Stage, typename Visit>
-void for_each_field_of_stage(Stage& s, Visit&& visit) {
-  visit("stage", s.stage);
-  visit("first_step", s.first_step);
-  visit("last_step", s.last_step);
+void for_each_field_of_fault_stage(Stage& s, Visit&& visit) {
+  visit("fault", s.fault);
+  visit("slips", s.slips);
   visit("activated", s.activated);
-  visit("activation_step", s.activation_step);
-  visit("activation_pressure_pa", s.activation_pressure);
-  visit("activated_fault", s.activated_fault);
+  visit("opens", s.opens);
+  visit("activation", s.activation);
+  visit("opening", s.opening);
   visit("chi_bar", s.chi_bar);
   visit("chi_max", s.chi_max);
   visit("area_chi_080_m2", s.area_chi_080);
@@ -97,10 +114,38 @@ void for_each_field_of_stage(Stage& s, Visit&& visit) {
   visit("max_slip_m", s.max_slip);
   visit("potency_m3", s.potency);
   visit("moment_nm", s.moment);
-  visit("magnitude_mw", s.magnitude);
   visit("n_events", s.n_events);
   visit("event_moment_nm", s.event_moment);
   visit("event_magnitude_mw", s.event_magnitude);
+}
+
+template <typename Stage, typename Visit>
+void for_each_field_of_stage(Stage& s, Visit&& visit) {
+  visit("stage", s.stage);
+  visit("first_step", s.first_step);
+  visit("last_step", s.last_step);
+  visit("slips", s.slips);
+  visit("activated", s.activated);
+  visit("opens", s.opens);
+  visit("activation_step", s.activation_step);
+  visit("activated_fault", s.activated_fault);
+  visit("opening_step", s.opening_step);
+  visit("opened_fault", s.opened_fault);
+  visit("chi_bar", s.chi_bar);
+  visit("chi_max", s.chi_max);
+  visit("area_chi_080_m2", s.area_chi_080);
+  visit("thickness_chi_080_m", s.thickness_chi_080);
+  visit("activated_area_m2", s.activated_area);
+  visit("slipping_area_m2", s.slipping_area);
+  visit("open_area_m2", s.open_area);
+  visit("max_slip_m", s.max_slip);
+  visit("potency_m3", s.potency);
+  visit("moment_nm", s.moment);
+  visit("magnitude_if_released_at_once_mw", s.magnitude_if_at_once);
+  visit("n_events", s.n_events);
+  visit("event_moment_nm", s.event_moment);
+  visit("event_magnitude_mw", s.event_magnitude);
+  visit("faults", s.faults);
 }
 
 template <typename Event, typename Visit>
@@ -110,9 +155,9 @@ void for_each_field_of_event(Event& e, Visit&& visit) {
   visit("load_factor_before", e.load_factor_before);
   visit("load_factor_after", e.load_factor_after);
   visit("time_s", e.time);
-  visit("pressure_change_pa", e.pressure_change);
   visit("fault", e.fault);
   visit("depth_m", e.depth);
+  visit("pressures", e.pressures);
   visit("nucleation_length_m", e.nucleation_length);
   visit("slipped_area_m2", e.slipped_area);
   visit("max_slip_m", e.max_slip);
@@ -138,12 +183,19 @@ void for_each_field_of_episode(Part& e, Visit&& visit) {
   visit("fault", e.fault);
   visit("first_step", e.first_step);
   visit("last_step", e.last_step);
-  visit("pressure_change_pa", e.pressure_change);
+  visit("depth_m", e.depth);
+  visit("pressures", e.pressures);
   visit("after_recovery", e.after_recovery);
   visit("activated_area_m2", e.activated_area);
   visit("max_slip_m", e.max_slip);
   visit("moment_nm", e.moment);
-  visit("magnitude_mw", e.magnitude);
+  visit("magnitude_if_released_at_once_mw", e.magnitude_if_at_once);
+}
+
+template <typename Evidence, typename Visit>
+void for_each_field_of_reactivation(Evidence& r, Visit&& visit) {
+  visit("episode", r.episode);
+  visit("after_episode", r.after);
 }
 
 template <typename Case, typename Visit>
@@ -183,6 +235,11 @@ void for_each_field(Struct& value, Visit&& visit) {
   if constexpr (std::is_same_v<Plain, StepResult>) for_each_field_of_step(value, visit);
   if constexpr (std::is_same_v<Plain, FaultCreep>) for_each_field_of_fault_creep(value, visit);
   if constexpr (std::is_same_v<Plain, StepCreep>) for_each_field_of_creep(value, visit);
+  if constexpr (std::is_same_v<Plain, SidePressures>) for_each_field_of_sides(value, visit);
+  if constexpr (std::is_same_v<Plain, FaultOnset>) for_each_field_of_onset(value, visit);
+  if constexpr (std::is_same_v<Plain, FaultStageMetrics>)
+    for_each_field_of_fault_stage(value, visit);
+  if constexpr (std::is_same_v<Plain, Reactivation>) for_each_field_of_reactivation(value, visit);
   if constexpr (std::is_same_v<Plain, StageMetrics>) for_each_field_of_stage(value, visit);
   if constexpr (std::is_same_v<Plain, SlipEvent>) for_each_field_of_event(value, visit);
   if constexpr (std::is_same_v<Plain, Episode>) for_each_field_of_episode(value, visit);

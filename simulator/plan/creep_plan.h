@@ -13,6 +13,9 @@ namespace faultsim {
 /// when `automatic` and the bound is below a tenth of creep_tolerance.
 Reduction plan_creep_off(const Scene& scene, const CreepEstimate& estimate);
 
+/// Lengths of the load steps, s, descending; two that agree to 1e-9 are one.
+std::vector<double> load_step_lengths(const Scene& scene);
+
 /// The step lengths that creep needs, see CreepPlan::rungs.
 std::vector<double> creep_rungs(const Scene& scene);
 

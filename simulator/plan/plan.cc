@@ -9,6 +9,7 @@
 #include "simulator/common/fingerprint.h"
 #include "simulator/plan/cost.h"
 #include "simulator/plan/creep_plan.h"
+#include "simulator/scene/load_times.h"
 
 namespace faultsim {
 namespace {
@@ -368,6 +369,7 @@ BoxMeshSpec box_mesh_spec(const Scene& scene, const Plan& plan) {
 
 Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
   Plan plan;
+  plan.initial = initial_regions(scene);
   plan.reductions.push_back(plan_plane_strain(scene));
   plan.plane_strain = plan.reductions.back().applied;
   plan.reductions.push_back(plan_half_domain(scene, plan.plane_strain));
@@ -390,7 +392,10 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
       static_cast<long>((lines.x.size() - 1) * (lines.y.size() - 1) * (lines.z.size() - 1));
   plan.n_jump = std::lround(shape.n_jump());
   plan.n_unknowns = std::lround(shape.unknowns_per_node * shape.n_nodes()) + plan.n_jump;
-  for (const Stage& stage : scene.stages) plan.n_steps += stage.n_steps;
+  for (const StepEnd& step : step_ends(scene)) {
+    ++plan.n_steps;
+    plan.n_added_steps += step.added;
+  }
   predict_cost(shape, plan);
   plan.family = fingerprint(family_of(scene, plan).dump());
   return plan;
@@ -433,6 +438,7 @@ nlohmann::json plan_to_json(const Plan& plan) {
                       {"n_unknowns", plan.n_unknowns},
                       {"n_jump_unknowns", plan.n_jump},
                       {"n_load_steps", plan.n_steps},
+                      {"n_added_steps", plan.n_added_steps},
                       {"predicted_operator_s", plan.operator_seconds},
                       {"predicted_memory_bytes", plan.memory_bytes},
                       {"family", plan.family},
@@ -440,6 +446,8 @@ nlohmann::json plan_to_json(const Plan& plan) {
                        {{"active", plan.creep.active},
                         {"rungs_s", numbers(plan.creep.rungs)},
                         {"bound_pa", nullptr}}},
+                      {"initial_state", initial_state_to_json(plan.initial)},
+                      {"warnings", plan.warnings},
                       {"reductions", nlohmann::json::array()}};
   if (plan.creep.bound) j["creep"]["bound_pa"] = *plan.creep.bound;
   for (const Reduction& r : plan.reductions) {
@@ -462,14 +470,21 @@ std::string plan_to_text(const Plan& plan) {
       text += (r.applied ? "  saves " : "  would save ") + saving_text(*r.saving) + "\n";
     if (!r.bound.empty()) text += "  switch: " + r.switch_ + "\n";
   }
+  text += initial_state_to_text(plan.initial);
   char line[256];
-  std::snprintf(line, sizeof line, "cells %ld, unknowns %ld (of which jumps %ld), load steps %d\n",
+  std::snprintf(line, sizeof line, "cells %ld, unknowns %ld (of which jumps %ld), load steps %d",
                 plan.n_cells, plan.n_unknowns, plan.n_jump, plan.n_steps);
-  text += line + creep_text(plan.creep);
+  text += line;
+  if (plan.n_added_steps > 0) {
+    text += concat(" (", plan.n_added_steps, " added where histories turn)");
+  }
+  text += "\n" + creep_text(plan.creep);
   std::snprintf(line, sizeof line, "operator: about %s and %s at its peak; family %.12s\n",
                 human_time(plan.operator_seconds).c_str(), human_bytes(plan.memory_bytes).c_str(),
                 plan.family.c_str());
-  return text + line;
+  text += line;
+  for (const std::string& warning : plan.warnings) text += "warning: " + warning + "\n";
+  return text;
 }
 
 }  // namespace faultsim

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "simulator/mesh/mesh_spec.h"
+#include "simulator/scene/initial_state.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {
@@ -36,7 +37,8 @@ struct Reduction {
 struct CreepPlan {
   bool active = false;
   /// Distinct step lengths Δt, s, descending; two that agree to 1e-9 are one. Error-controlled:
-  /// D/2^k, k = 0 to creep_refinements, of each length D of a load step (duration / n_steps);
+  /// D/2^k, k = 0 to creep_refinements, of each length D of a load step (those cut at
+  /// turning points too);
   /// fixed: D/n with the least n that makes it at most creep_time_step. Empty when not active.
   std::vector<double> rungs;
   /// What creep may change of a fault traction, Pa (docs/model.md, section 9); nothing where no
@@ -53,7 +55,10 @@ struct Plan : PlannedSize {
   long n_cells = 0;
   long n_jump = 0;
   double factor_bytes = 0;  ///< predicted, of one operator's factor.
-  int n_steps = 0;
+  int n_steps = 0;          ///< load steps after step 0.
+  int n_added_steps = 0;    ///< of these, those that end at turning points between a stage's own.
+  std::vector<InitialRegion> initial;  ///< the initial state per pressure region.
+  std::vector<std::string> warnings;  ///< of the input, for who reads the plan; one sentence each.
   std::string family;  ///< fingerprint of what defines the linear bulk (without BLAS).
 };
 
@@ -74,6 +79,11 @@ BoxMeshSpec box_mesh_spec(const Scene& scene, const Plan& plan);
 
 /// Name of the operator file: fingerprint of family, observation points, numerics version and BLAS.
 std::string operator_fingerprint(const Scene& scene, const Plan& plan, const std::string& blas);
+
+/// [{"region", "depth_m", "sigma_v_pa", "sigma_across_pa", "sigma_along_pa", "pressure_pa"}].
+nlohmann::json initial_state_to_json(const std::vector<InitialRegion>& regions);
+/// A line per region, bar, for the screen.
+std::string initial_state_to_text(const std::vector<InitialRegion>& regions);
 
 nlohmann::json plan_to_json(const Plan& plan);
 std::string plan_to_text(const Plan& plan);  ///< for the screen, with reasons.

@@ -45,6 +45,7 @@ json field(const FieldGeometry& field) {
                       {"from", plain(block.from)},
                       {"to", plain(block.to)},
                       {"offset", plain(block.offset)}});
+    if (block.overpressure) blocks.back()["overpressure"] = plain(*block.overpressure);
   }
   return {{"kind", "field"},
           {"width", plain(field.width)},
@@ -179,18 +180,21 @@ json fault(const Fault& fault) {
 }
 
 json numerics(const Numerics& numerics) {
-  return {{"slip_tolerance", plain(numerics.slip_tolerance)},
-          {"activation_length", plain(numerics.activation_length)},
-          {"traction_tolerance", plain(numerics.traction_tolerance)},
-          {"max_newton_iterations", numerics.max_newton_iterations},
-          {"max_active_set_passes", numerics.max_active_set_passes},
-          {"max_step_cuts", numerics.max_step_cuts},
-          {"follow_events", numerics.follow_events},
-          {"onset_tolerance", plain(numerics.onset_tolerance)},
-          {"max_events", numerics.max_events},
-          {"b_bar", numerics.b_bar},
-          {"half_domain", static_cast<int>(numerics.half_domain)},
-          {"plane_strain", static_cast<int>(numerics.plane_strain)}};
+  json result = {{"slip_tolerance", plain(numerics.slip_tolerance)},
+                 {"activation_length", plain(numerics.activation_length)},
+                 {"traction_tolerance", plain(numerics.traction_tolerance)},
+                 {"max_newton_iterations", numerics.max_newton_iterations},
+                 {"max_active_set_passes", numerics.max_active_set_passes},
+                 {"max_step_cuts", numerics.max_step_cuts},
+                 {"follow_events", numerics.follow_events},
+                 {"onset_tolerance", plain(numerics.onset_tolerance)},
+                 {"max_events", numerics.max_events},
+                 {"b_bar", numerics.b_bar},
+                 {"half_domain", static_cast<int>(numerics.half_domain)},
+                 {"plane_strain", static_cast<int>(numerics.plane_strain)}};
+  // The added steps follow from stages and histories, which are there.
+  if (numerics.turning_points == TurningPoints::report) result["turning_points"] = "report";
+  return result;
 }
 
 json creep(const Numerics& numerics) {
@@ -241,8 +245,24 @@ std::string canonical_scene(const Scene& scene) {
   return result.dump();
 }
 
+namespace {
+
+std::string identity_under(int numerics_version, const std::string& canonical) {
+  return fingerprint(concat("numerics ", numerics_version, "\n", canonical));
+}
+
+}  // namespace
+
 std::string case_identity(const Scene& scene) {
-  return fingerprint(concat("numerics ", kNumericsVersion, "\n", canonical_scene(scene)));
+  return identity_under(kNumericsVersion, canonical_scene(scene));
+}
+
+bool has_identity(const Scene& scene, const std::string& identity) {
+  const std::string canonical = canonical_scene(scene);
+  for (int version = kNumericsVersion; version >= 1; --version) {
+    if (identity_under(version, canonical) == identity) return true;
+  }
+  return false;
 }
 
 }  // namespace faultsim

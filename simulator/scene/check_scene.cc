@@ -5,6 +5,7 @@
 #include <string>
 
 #include "simulator/scene/initial_state.h"
+#include "simulator/scene/load_times.h"
 #include "simulator/scene/pressure_history.h"
 #include "simulator/scene/scene_reader.h"
 #include "simulator/scene/schema_walk.h"
@@ -263,8 +264,10 @@ std::vector<Place> lowest_places(const Scene& scene, std::size_t region) {
   if (scene.geometry_kind == GeometryKind::field) {
     const DepthRange reservoir = reservoir_of(scene.field);
     const double offset = scene.field.blocks[region].offset;
+    const bool is_uniform = scene.field.blocks[region].overpressure.has_value();
     std::vector<Place> places = {{reservoir.top + offset, DepthSide::below}};
     for (const double jump : {reservoir.top, reservoir.bottom}) {
+      if (is_uniform) continue;
       if (jump > reservoir.top + offset && jump < reservoir.bottom + offset) {
         places.push_back({jump, DepthSide::below});
       }
@@ -277,6 +280,13 @@ std::vector<Place> lowest_places(const Scene& scene, std::size_t region) {
   const double bottom = disc ? box.center[2] - 0.5 * box.thickness : box.from[2];
   return {{-std::min(top, scene.box.to[2]), DepthSide::below},
           {-std::max(bottom, scene.box.from[2]), DepthSide::above}};
+}
+
+double pressure_at(const Scene& scene, std::size_t region, const Place& place) {
+  if (scene.geometry_kind == GeometryKind::field && scene.field.blocks[region].overpressure) {
+    return initial_region_pressure(scene, region, place.depth);
+  }
+  return initial_state(scene, -place.depth, place.side).pressure;
 }
 
 /// What in the document made the pressure of a region at a step.
@@ -325,17 +335,17 @@ void check_region(SceneReader& reader, const Scene& scene, std::size_t region) {
   const double least = least_of(history.pressure_change, history.scale);
   const std::vector<Place> places = lowest_places(scene, region);
   const bool safe = std::all_of(places.begin(), places.end(), [&](const Place& place) {
-    return initial_state(scene, -place.depth, place.side).pressure + least >= 0;
+    return pressure_at(scene, region, place) + least >= 0;
   });
   if (safe) return;
-  const std::vector<double> times = step_times(scene);
-  for (std::size_t step = 0; step < times.size(); ++step) {
+  const std::vector<StepEnd> steps = step_ends(scene);
+  for (std::size_t step = 0; step < steps.size(); ++step) {
     for (const Place& place : places) {
-      const double initial = initial_state(scene, -place.depth, place.side).pressure;
-      const double pressure = initial + pressure_change_at(history, times[step]);
+      const double initial = pressure_at(scene, region, place);
+      const double pressure = initial + pressure_change_at(history, steps[step].time);
       constexpr double kRounding = 1;  // Pa: "fall to zero" is written in decimal units
       if (!(pressure < -kRounding)) continue;
-      const std::size_t stage = stage_of_step(scene, step);
+      const std::size_t stage = steps[step].stage;
       reader.problem(cause(reader, history, stage),
                      below_zero("in \"" + history.region + "\"", place.depth, pressure, step,
                                 scene.stages[stage]),
@@ -362,20 +372,37 @@ void check_prescribed(SceneReader& reader, const Scene& scene, std::size_t fault
   const std::vector<double> once = {1};
   const std::vector<double>& factors = rule.table.factor.empty() ? once : rule.table.factor;
   if (initial + least_of(factors, rule.prescribed) >= 0) return;
-  const std::vector<double> times = step_times(scene);
-  for (std::size_t step = 0; step < times.size(); ++step) {
-    const double pressure = initial + rule.prescribed * factor_at(rule.table, times[step]);
+  const std::vector<StepEnd> steps = step_ends(scene);
+  for (std::size_t step = 0; step < steps.size(); ++step) {
+    const double pressure = initial + rule.prescribed * factor_at(rule.table, steps[step].time);
     if (!(pressure < -1)) continue;
     const std::string own = concat("/faults/", fault, "/fault_pressure/prescribed");
     reader.problem(reader.has(own) ? own : "/fault_pressure/prescribed",
                    below_zero("in fault \"" + scene.faults[fault].name + "\"", depth, pressure,
-                              step, scene.stages[stage_of_step(scene, step)]),
+                              step, scene.stages[steps[step].stage]),
                    below_zero_cure(initial));
     return;
   }
 }
 
 }  // namespace
+
+void check_turning_points(SceneReader& reader, const Scene& scene) {
+  if (!reader.sound("/stages") || !reader.sound("/numerics")) return;
+  const std::vector<StepEnd> steps = step_ends(scene);
+  const auto n_added =
+      std::count_if(steps.begin(), steps.end(), [](const StepEnd& step) { return step.added; });
+  if (n_added <= scene.numerics.max_added_steps) return;
+  const auto first =
+      std::find_if(steps.begin(), steps.end(), [](const StepEnd& step) { return step.added; });
+  const bool given = reader.has("/numerics/max_added_steps");
+  reader.problem(given ? "/numerics/max_added_steps" : "/stages",
+                 concat("the loads turn at ", n_added, " places between load steps, the first ",
+                        in_unit(first->time, Dimension::time, "year"),
+                        "; steps are added for at most ", scene.numerics.max_added_steps),
+                 "take steps that meet them, raise /numerics/max_added_steps, or skip them with "
+                 "\"turning_points\": \"report\" there");
+}
 
 void check_geometry(SceneReader& reader, const Scene& scene) {
   if (!reader.sound("/geometry/kind") || !reader.has("/geometry/kind")) return;

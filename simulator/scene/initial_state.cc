@@ -142,6 +142,17 @@ std::vector<Piece> block_column(const Scene& scene, double offset, bool has_rese
   return column;
 }
 
+/// What a block's own overpressure has beyond the column's at that depth, Pa; 0 without one.
+double own_excess(const Scene& scene, std::size_t region, double depth, DepthSide side) {
+  const std::vector<Block>& blocks = scene.field.blocks;
+  if (scene.geometry_kind != GeometryKind::field || region >= blocks.size()) return 0;
+  const std::optional<double>& own = blocks[region].overpressure;
+  if (!own) return 0;
+  const bool is_column = scene.initial.kind == InitialStressKind::column;
+  const bool column_has = is_column && reservoir_range(scene).holds(depth, side);
+  return *own - (column_has ? scene.initial.overpressure : 0);
+}
+
 }  // namespace
 
 StressAtDepth initial_state(const Scene& scene, double z, DepthSide side) {
@@ -154,6 +165,58 @@ StressAtDepth initial_state(const Scene& scene, double z, DepthSide side) {
   for (std::size_t i = 0; i < 9; ++i) mean.sigma[i] = 0.5 * (above.sigma[i] + below.sigma[i]);
   mean.pressure = 0.5 * (above.pressure + below.pressure);
   return mean;
+}
+
+double region_top(const Scene& scene, std::size_t region) {
+  if (scene.geometry_kind == GeometryKind::field) {
+    return reservoir_range(scene).top + scene.field.blocks[region].offset;
+  }
+  const PressureRegion& box = scene.box.regions[region];
+  if (box.shape == RegionShape::disc) return -(box.center[2] + 0.5 * box.thickness);
+  return -std::min(box.to[2], scene.box.to[2]);
+}
+
+double initial_region_pressure(const Scene& scene, std::size_t region, double depth) {
+  const InitialState& state = scene.initial;
+  const double top = region_top(scene, region);
+  const double gradient = state.kind == InitialStressKind::profile
+                              ? state.pressure_gradient
+                              : state.water_density * state.gravity;
+  return initial_state(scene, -top, DepthSide::below).pressure +
+         own_excess(scene, region, top, DepthSide::below) + gradient * (depth - top);
+}
+
+double own_pressure_excess(const Scene& scene, std::size_t region, double z) {
+  return 0.5 * (own_excess(scene, region, -z, DepthSide::above) +
+                own_excess(scene, region, -z, DepthSide::below));
+}
+
+std::vector<InitialRegion> initial_regions(const Scene& scene) {
+  std::vector<InitialRegion> rows;
+  const auto add = [&](const std::string& name, double depth, double excess) {
+    const StressAtDepth at = initial_state(scene, -depth);
+    rows.push_back({name, depth, at.sigma[8], at.sigma[0], at.sigma[4], at.pressure + excess});
+  };
+  if (scene.geometry_kind == GeometryKind::field) {
+    const DepthInterval layer = reservoir_range(scene);
+    for (std::size_t i = 0; i < scene.field.blocks.size(); ++i) {
+      const Block& block = scene.field.blocks[i];
+      const double depth = 0.5 * (layer.top + layer.bottom) + block.offset;
+      add(block.name, depth, own_pressure_excess(scene, i, -depth));
+    }
+    return rows;
+  }
+  for (const PressureRegion& region : scene.box.regions) {
+    const bool disc = region.shape == RegionShape::disc;
+    const double top = std::min(region.to[2], scene.box.to[2]);
+    const double base = std::max(region.from[2], scene.box.from[2]);
+    add(region.name, disc ? -region.center[2] : -0.5 * (top + base), 0);
+  }
+  if (!rows.empty()) return rows;
+  for (std::size_t i = 0; i < scene.box.patches.size(); ++i) {
+    add(scene.faults[i].name, -scene.box.patches[i].center[2], 0);
+  }
+  return rows;
 }
 
 bool has_viscous_layer(const Scene& scene) {

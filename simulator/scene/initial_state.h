@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <string>
+#include <vector>
 
 #include "simulator/scene/scene.h"
 
@@ -33,6 +35,32 @@ enum class DepthSide {
 /// its material is viscous). Above the surface of a column both are zero.
 /// @pre the scene comes from read_scene without problems.
 StressAtDepth initial_state(const Scene& scene, double z, DepthSide side = DepthSide::mean);
+
+/// Depth of the top of a pressure region, m: of a block's reservoir at its offset, or of a box
+/// region (cut at the top of the box).
+double region_top(const Scene& scene, std::size_t region);
+
+/// p0 of the fluid of a pressure region (index in Scene::pressure) referred to a depth, Pa: that of
+/// its top, with a block's own overpressure if it has one, and from there the fluid's own gradient,
+/// also above and below the region, so that pressures of one region are compared at one datum.
+double initial_region_pressure(const Scene& scene, std::size_t region, double depth);
+
+/// What a block's own overpressure adds to the pressure of the column at height z (m), Pa; 0 for
+/// regions without one. It acts in the block's reservoir and on the faults beside it; the total
+/// stress stays that of the column, so that the start stays in equilibrium.
+double own_pressure_excess(const Scene& scene, std::size_t region, double z);
+
+/// The initial state of one pressure region, for reports.
+struct InitialRegion {
+  std::string name;
+  double depth = 0;     ///< m, mid-depth of the region.
+  double vertical = 0;  ///< σ_v, total, Pa, tension > 0.
+  double across = 0;    ///< total horizontal stress across the faults (x), Pa.
+  double along = 0;     ///< total horizontal stress along the faults (y), Pa.
+  double pressure = 0;  ///< p0 of the region, Pa.
+};
+/// Per pressure region; of a box without regions per fault, at its centre.
+std::vector<InitialRegion> initial_regions(const Scene& scene);
 
 /// Whether a layer at zero offset (of a box without layers: the box) is of a viscous material.
 bool has_viscous_layer(const Scene& scene);

@@ -89,6 +89,7 @@ class Aliases {
     for (std::size_t i = 0; i < n; ++i) {
       const std::string name = text_at(document_, concat(list, "/", i, "/name"));
       if (is_field) add("offset_" + as_word(name), concat(list, "/", i, "/offset"));
+      if (is_field) add("overpressure_" + as_word(name), concat(list, "/", i, "/overpressure"));
       const std::string compartment = "/compartments/" + pointer_token(name);
       add("scale_" + as_word(name), compartment + "/scale");
       add("lag_" + as_word(name), compartment + "/lag");
@@ -249,8 +250,11 @@ class Collector {
   }
   /// Creep takes the steps of the stages, and each length of a step has an operator.
   bool makes_creep_steps(const std::string& pointer) const {
-    if (!may_creep_ || pointer.rfind("/stages/", 0) != 0) return false;
+    if (!may_creep_) return false;
     const std::string key = pointer.substr(pointer.rfind('/') + 1);
+    // Histories turn where they lag to, and steps end there.
+    if (key == "lag" || key == "turning_points") return true;
+    if (pointer.rfind("/stages/", 0) != 0) return false;
     return key == "duration" || key == "steps";
   }
   static const json& null() {
@@ -266,7 +270,7 @@ class Collector {
         return true;
     }
     return pointer == "/format" || pointer == "/title" || pointer == "/output" ||
-           (!field && pointer == "/tier");
+           pointer == "/tables" || (!field && pointer == "/tier");
   }
   static bool is_leaf(const SchemaViews& views) {
     if (keyword(views, "x-dimension") != nullptr || keyword(views, "enum") != nullptr) return true;

@@ -1,22 +1,34 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "simulator/scene/scene.h"
-
 namespace faultsim {
+
+/// A column of a pressure CSV.
+struct PressureColumn {
+  std::string region;
+  bool is_absolute = false;      ///< "west [bar] absolute"; else the change since time 0.
+  std::vector<double> pressure;  ///< Pa, per row.
+};
 
 /// What a pressure CSV holds, or why it could not be read.
 struct PressureCsv {
-  std::vector<PressureHistory> columns;  ///< one per column after the first, named by the header.
-  std::string what;                      ///< "" = read; else what is wrong, with the line.
+  std::vector<double> time;             ///< s since the start, strictly increasing, first >= 0.
+  std::vector<PressureColumn> columns;  ///< named by the header, each name once.
+  bool has_dates = false;               ///< rows begin with dates.
+  std::optional<double> start;          ///< s since 1970, of time 0; the first date unless given.
+  std::string what;                     ///< "" = read; else what is wrong, with the line.
   std::string cure;
 };
 
-/// Reads "time [year], west [bar], east [bar]" and rows of numbers; times strictly increasing, at
-/// time 0 only 0. Empty lines and lines that begin with # are skipped.
-/// @param path   where the file is; @param given  its name for messages.
-PressureCsv read_pressure_csv(const std::string& path, const std::string& given);
+/// Reads "time [year], west [bar], east [MPa]" and rows of numbers, or "date, west [bar] absolute"
+/// and rows that begin with ISO 8601 dates. A change at time 0 must be 0. Empty lines and lines
+/// that begin with # are skipped.
+/// @param given  its name for messages.
+/// @param start  s since 1970, the date of time 0; none = the date of the first row.
+PressureCsv parse_pressure_csv(const std::string& text, const std::string& given,
+                               std::optional<double> start);
 
 }  // namespace faultsim

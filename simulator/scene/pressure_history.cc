@@ -1,9 +1,7 @@
 #include "simulator/scene/pressure_history.h"
 
 #include <algorithm>
-#include <cstddef>
-
-#include "simulator/common/errors.h"
+#include <vector>
 
 namespace faultsim {
 namespace {
@@ -31,27 +29,6 @@ double pressure_change_at(const PressureHistory& history, double time) {
 
 double factor_at(const TimeTable& table, double time) {
   return table.time.empty() ? 1 : interpolated(table.time, table.factor, time);
-}
-
-std::vector<double> step_times(const Scene& scene) {
-  std::vector<double> times;
-  double start = 0;
-  for (const Stage& stage : scene.stages) {
-    for (int k = 1; k <= stage.n_steps; ++k) {
-      times.push_back(start + stage.duration * k / stage.n_steps);
-    }
-    start += stage.duration;
-  }
-  return times;
-}
-
-std::size_t stage_of_step(const Scene& scene, std::size_t step) {
-  std::size_t first = 0;
-  for (std::size_t i = 0; i < scene.stages.size(); ++i) {
-    first += static_cast<std::size_t>(scene.stages[i].n_steps);
-    if (step < first) return i;
-  }
-  throw_internal("step is one of the scene's", std::to_string(step), __FILE__, __LINE__);
 }
 
 }  // namespace faultsim

@@ -43,8 +43,9 @@ void read_blocks(SceneReader& reader, FieldGeometry& field) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < reader.size(list); ++i) {
     const std::string at = concat(list, "/", i, "/");
-    const Block block{reader.text(at + "name"), reader.quantity(at + "from"),
-                      reader.quantity(at + "to"), reader.quantity(at + "offset", 0)};
+    Block block{reader.text(at + "name"), reader.quantity(at + "from"), reader.quantity(at + "to"),
+                reader.quantity(at + "offset", 0)};
+    if (reader.has(at + "overpressure")) block.overpressure = reader.quantity(at + "overpressure");
     if (block.to <= block.from) {
       reader.problem(at + "to", "block \"" + block.name + "\" ends west of where it begins",
                      "write \"to\" larger than \"from\" (x grows eastwards)");

@@ -1,33 +1,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <string>
 
 #include "simulator/scene/initial_state.h"
 #include "simulator/scene/near_miss.h"
-#include "simulator/scene/pressure_csv.h"
 #include "simulator/scene/scene_reader.h"
 #include "simulator/scene/schema_walk.h"
 
-/// Stages, compartments and CSV files become one pressure history per region.
+/// Stages and compartments, and CSV tables (read_csv_histories.cc), become one pressure history per
+/// region.
 namespace faultsim {
 namespace {
-
-/// Depth of the top of a region, m: of a block's shifted reservoir, or of a box region.
-double region_top(const Scene& scene, std::size_t region) {
-  if (scene.geometry_kind == GeometryKind::box) {
-    const PressureRegion& box = scene.box.regions[region];
-    if (box.shape == RegionShape::disc) return -(box.center[2] + 0.5 * box.thickness);
-    return -std::min(box.to[2], scene.box.to[2]);
-  }
-  for (const Layer& layer : scene.field.layers) {
-    if (layer.name == scene.field.reservoir_layer) {
-      return layer.top_depth + scene.field.blocks[region].offset;
-    }
-  }
-  return kNaN;
-}
 
 class LoadingReader {
  public:
@@ -58,27 +42,6 @@ class LoadingReader {
   }
   /// False once there are too many steps; no more stages are read then.
   bool has_room() const { return n_steps_ <= kMostSteps; }
-
-  void read_csv_files() {
-    if (const std::string file = reader_.text("/pressure_csv"); !file.empty()) {
-      const PressureCsv csv = open(file, "/pressure_csv");
-      for (const PressureHistory& column : csv.columns) take_column(column, "/pressure_csv");
-    }
-    for (const std::string& region : reader_.keys("/compartments")) {
-      const std::string pointer = "/compartments/" + pointer_token(region) + "/csv";
-      const std::string file = reader_.text(pointer);
-      if (file.empty() || std::count(regions_.begin(), regions_.end(), region) == 0) continue;
-      const PressureCsv csv = open(file, pointer);
-      const auto column = std::find_if(csv.columns.begin(), csv.columns.end(),
-                                       [&](const auto& each) { return each.region == region; });
-      if (column != csv.columns.end()) {
-        take_column(*column, pointer);
-      } else if (csv.what.empty()) {
-        reader_.problem(pointer, "\"" + file + "\" has no column \"" + region + "\"",
-                        "name a column like the compartment");
-      }
-    }
-  }
 
   void read_compartments() {
     for (const std::string& region : reader_.keys("/compartments")) {
@@ -169,7 +132,7 @@ class LoadingReader {
                          reader_.sound("/materials");
       if (!ready) return kNaN;
       const double top = region_top(scene_, region);
-      return reader_.quantity(pointer) - initial_state(scene_, -top, DepthSide::below).pressure;
+      return reader_.quantity(pointer) - initial_region_pressure(scene_, region, top);
     }
     return history.empty() ? 0 : history.back();
   }
@@ -177,32 +140,6 @@ class LoadingReader {
   void add_point(std::size_t region, double time, double change) {
     scene_.pressure[region].time.push_back(time);
     scene_.pressure[region].pressure_change.push_back(change);
-  }
-
-  /// Relative paths count from the folder of the scene file.
-  PressureCsv open(const std::string& file, const std::string& pointer) {
-    const std::string& source = reader_.document().source;
-    const auto slash = source.rfind('/', source.find('#'));
-    const bool relative = file[0] != '/' && slash != std::string::npos;
-    const PressureCsv csv =
-        read_pressure_csv(relative ? source.substr(0, slash + 1) + file : file, file);
-    if (!csv.what.empty()) {
-      reader_.problem(pointer, csv.what, csv.cure);
-      return {{}, csv.what, csv.cure};
-    }
-    return csv;
-  }
-
-  void take_column(const PressureHistory& column, const std::string& pointer) {
-    for (PressureHistory& history : scene_.pressure) {
-      if (history.region != column.region) continue;
-      history.time = column.time;
-      history.pressure_change = column.pressure_change;
-      history.from_csv = true;
-      return;
-    }
-    reader_.problem(pointer, "its column \"" + column.region + "\" is no pressure region",
-                    suggest(column.region, regions_));
   }
 
   SceneReader& reader_;
@@ -222,7 +159,7 @@ void read_loading(SceneReader& reader, Scene& scene) {
     names.push_back(scene.stages.back().name);
   }
   reader.demand_unique("/stages", "/name", names);
-  loading.read_csv_files();
+  read_csv_histories(reader, scene);
   loading.read_compartments();
 }
 

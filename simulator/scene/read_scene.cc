@@ -47,6 +47,10 @@ void read_numerics(const SceneReader& reader, Numerics& numerics) {
   numerics.follow_events = reader.boolean(at + "follow_events", numerics.follow_events);
   numerics.onset_tolerance = reader.number(at + "onset_tolerance", numerics.onset_tolerance);
   numerics.max_events = reader.integer(at + "max_events", numerics.max_events);
+  if (reader.text(at + "turning_points") == "report") {
+    numerics.turning_points = TurningPoints::report;
+  }
+  numerics.max_added_steps = reader.integer(at + "max_added_steps", numerics.max_added_steps);
   numerics.b_bar = reader.boolean(at + "b_bar", numerics.b_bar);
   numerics.half_domain = switch_at(reader, at + "half_domain", numerics.half_domain);
   numerics.plane_strain = switch_at(reader, at + "plane_strain", numerics.plane_strain);
@@ -230,6 +234,8 @@ Scene read_scene(const JsonDocument& document, std::vector<Problem>& problems) {
   check_geometry(reader, scene);
   check_pressures(reader, scene);
   check_creep(reader, scene);
+  check_turning_points(reader, scene);
+  if (problems.empty()) add_remarks(reader, scene);
   std::stable_sort(problems.begin(), problems.end(),
                    [](const Problem& a, const Problem& b) { return a.line < b.line; });
   return scene;
@@ -240,6 +246,10 @@ Scene read_scene(const JsonDocument& document) {
   Scene scene = read_scene(document, problems);
   if (!problems.empty()) throw InputError(document.source, problems);
   return scene;
+}
+
+std::string remark_text(const Remark& remark) {
+  return remark.pointer.empty() ? remark.what : remark.pointer + " " + remark.what;
 }
 
 const Material& material_named(const Scene& scene, const std::string& name) {

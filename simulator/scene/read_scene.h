@@ -29,6 +29,8 @@ std::string canonical_scene(const Scene& scene);
 
 /// Identity of a case: fingerprint of canonical_scene and kNumericsVersion (design section 8).
 std::string case_identity(const Scene& scene);
+/// Whether identity is the scene's, under this or an earlier version of the numerics.
+bool has_identity(const Scene& scene, const std::string& identity);
 
 /// One row of `faultsim parameters`.
 struct ParameterInfo {

@@ -34,6 +34,9 @@ struct Block {
   double from = 0;    ///< m.
   double to = 0;      ///< m.
   double offset = 0;  ///< m, > 0 is down.
+  /// Pa, of its own: what its initial pressure is above hydrostatic (profile: above the profile),
+  /// at all depths of its reservoir. None = that of the column at the same depth.
+  std::optional<double> overpressure = std::nullopt;
 };
 
 /// The conceptual Dutch field of design section 7: layers, a row of contiguous reservoir blocks, a
@@ -220,6 +223,12 @@ struct OutputRequest {
   std::vector<ObservationPoint> observation_points;
 };
 
+/// What becomes of the turning points of histories that lie within the steps of a stage.
+enum class TurningPoints {
+  steps,   ///< each becomes the end of a load step.
+  report,  ///< they are skipped, and the case is warned about.
+};
+
 /// How the viscous strain of a step follows from the stresses (D5).
 enum class CreepScheme {
   exponential,     ///< exact for a strain rate that is constant in the step.
@@ -238,6 +247,8 @@ struct Numerics {
   bool follow_events = true;        ///< false: a case ends where equilibrium jumps.
   double onset_tolerance = 2.5e-4;  ///< of a load step, to which the onset of an event is located.
   int max_events = 256;             ///< per load step.
+  TurningPoints turning_points = TurningPoints::steps;
+  int max_added_steps = 1000;  ///< more than that at turning points are refused.
   bool b_bar = true;
   Switch half_domain = Switch::automatic;  ///< field: symmetry about y = 0.
   Switch plane_strain = Switch::off;       ///< one cell in y, front and back tied, u_y = 0.
@@ -248,6 +259,13 @@ struct Numerics {
   double creep_tolerance = 2e4;  ///< Pa, largest difference of fault traction between one step of
                                  ///< creep and two of half its length that is accepted.
   CreepScheme creep_scheme = CreepScheme::exponential;
+};
+
+/// Something that the user of a scene should know before running it: what has no effect, what is
+/// left out. No problem: the scene can be run.
+struct Remark {
+  std::string pointer;  ///< JSON Pointer of what it is about; may be empty.
+  std::string what;     ///< continues the pointer: "has no effect: ...".
 };
 
 struct Scene {
@@ -264,7 +282,11 @@ struct Scene {
   std::vector<PressureHistory> pressure;
   Numerics numerics;
   OutputRequest output;
+  std::vector<Remark> remarks;  ///< never part of a case's identity.
 };
+
+/// "/compartments/east/lag has no effect: ...".
+std::string remark_text(const Remark& remark);
 
 /// The material of that name. @pre it exists.
 const Material& material_named(const Scene& scene, const std::string& name);

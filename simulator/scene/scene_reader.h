@@ -84,11 +84,17 @@ void read_mesh(SceneReader& reader, Scene& scene);
 void read_faults(SceneReader& reader, Scene& scene);
 void read_initial_state(SceneReader& reader, Scene& scene);
 void read_loading(SceneReader& reader, Scene& scene);
+void read_csv_histories(SceneReader& reader, Scene& scene);  ///< part of read_loading.
 void read_output(SceneReader& reader, Scene& scene);
 /// Relations between parts: geometry of faults, observation points, pressures below zero, creep.
 void check_geometry(SceneReader& reader, const Scene& scene);
 void check_pressures(SceneReader& reader, const Scene& scene);
 void check_creep(SceneReader& reader, const Scene& scene);
+/// No more load steps are added at turning points than /numerics/max_added_steps.
+void check_turning_points(SceneReader& reader, const Scene& scene);
+
+/// Fills Scene::remarks. @pre the scene has no problems.
+void add_remarks(const SceneReader& reader, Scene& scene);
 
 /// Names of the pressure regions: the field's blocks or the box's regions.
 std::vector<std::string> region_names(const Scene& scene);

@@ -3,6 +3,7 @@
 // for a result whose strength is the scene's number "strength" (default: from the number in the
 // title).
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 #include <csignal>
 #include <cstdio>
@@ -94,6 +95,7 @@ void serve(const Channel& channel, const json& request, bool& has_operator) {
   const double operator_seconds = has_operator ? 0 : 7;
   if (!has_operator) {
     if (title == "operator crash") std::abort();
+    if (title == "operator hang") pause();
     const std::string fingerprint = faultsim::fingerprint(family);
     bool cached = false;
     if (!channel.cache.empty()) {
@@ -141,6 +143,11 @@ int main(int argc, char** argv) {
     if (std::strcmp(argv[k], "--requests") == 0) channel.requests = std::atoi(argv[k + 1]);
     if (std::strcmp(argv[k], "--replies") == 0) channel.replies = std::atoi(argv[k + 1]);
     if (std::strcmp(argv[k], "--cache") == 0) channel.cache = argv[k + 1];
+    if (std::strcmp(argv[k], "--memory-limit") == 0) {
+      const auto bytes = static_cast<rlim_t>(std::atoll(argv[k + 1]));
+      const rlimit limit = {bytes, bytes};
+      setrlimit(RLIMIT_DATA, &limit);
+    }
   }
   if (argc < 2 || std::strcmp(argv[1], "worker") != 0) return 2;
   if (const char* failure = std::getenv("FAKE_SIMULATOR_START")) return std::atoi(failure);

@@ -7,6 +7,7 @@ namespace faultsweep {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class Running : public testing::CampaignTest {};
 class Trouble : public testing::CampaignTest {};
@@ -248,6 +249,10 @@ TEST_F(Trouble, AFullDiskEndsWithFourAndKeepsWhatWasStored) {
   ASSERT_EQ(prlimit(static_cast<pid_t>(owner->pid), RLIMIT_FSIZE, &limit, nullptr), 0);
   const auto end = wait(starter);
   EXPECT_EQ(end.code, 4) << end.err;
+  EXPECT_THAT(end.err, Not(HasSubstr("MPI_ABORT")));
+  const std::string last_line = end.err.substr(end.err.rfind('\n', end.err.size() - 2) + 1);
+  EXPECT_THAT(last_line, HasSubstr("faultsweep: the store "));
+  EXPECT_THAT(last_line, HasSubstr("what is stored is intact"));
   EXPECT_THAT(Store::open_reader(store_).integrity_problems(), ::testing::IsEmpty());
   EXPECT_EQ(faultsweep({"run", "-w", "2"}).code, 0);
   expect_each_case_completed_once(campaign, 400);
@@ -307,6 +312,48 @@ TEST_F(Killing, AKilledWorkerIsReplacedAndLeavesNoSimulator) {
   const auto end = wait(starter);
   EXPECT_EQ(end.code, 0) << end.err;
   expect_each_case_completed_once(campaign, 200);
+}
+
+TEST_F(Killing, AKilledMpirunIsReplacedAndItsManagerLeavesTheStore) {
+  const std::int64_t campaign = submit(std::vector<std::string>(400, "good"), 0.01);
+  const pid_t starter = start({"run", "--workers", "2"});
+  for (long wanted : {20, 80, 140}) {
+    ASSERT_TRUE(wait_for_done(wanted));
+    for (const pid_t mpirun : children_of(starter)) kill(mpirun, SIGKILL);
+  }
+  const auto end = wait(starter);
+  EXPECT_EQ(end.code, 0) << end.err;
+  EXPECT_THAT(end.err, Not(HasSubstr("is managed by process")));
+  EXPECT_THAT(end.err, Not(HasSubstr("MPI_ABORT")));
+  expect_each_case_completed_once(campaign, 400);
+}
+
+TEST_F(Killing, TheSecondSignalEndsARunWhoseRanksAreStopped) {
+  submit(std::vector<std::string>(200, "good"), 0.05);
+  const pid_t starter = start({"run", "--workers", "1"});
+  ASSERT_TRUE(wait_for_done(5));
+  for (const pid_t mpirun : children_of(starter)) {
+    for (const pid_t rank : children_of(mpirun)) kill(rank, SIGSTOP);
+    kill(mpirun, SIGSTOP);
+  }
+  kill(starter, SIGTERM);
+  usleep(100000);
+  kill(starter, SIGTERM);
+  const auto end = wait(starter, 30);
+  EXPECT_EQ(end.code, 75) << end.err;
+  EXPECT_EQ(faultsweep({"run", "--workers", "2"}).code, 0);
+}
+
+TEST_F(Killing, AClosedTerminalStopsInOrderUnlessNohupWasAsked) {
+  submit(std::vector<std::string>(300, "good"), 0.01);
+  pid_t starter = start({"run", "--workers", "2"});
+  ASSERT_TRUE(wait_for_done(20));
+  kill(starter, SIGHUP);
+  EXPECT_EQ(wait(starter).code, 75);
+  starter = start({"run", "--workers", "2"}, [] { std::signal(SIGHUP, SIG_IGN); });
+  ASSERT_TRUE(wait_for_done(150));
+  kill(starter, SIGHUP);
+  EXPECT_EQ(wait(starter).code, 0);
 }
 
 TEST_F(Killing, AfterEverythingWasKilledTheNextRunCompletesTheCampaign) {

@@ -419,7 +419,7 @@ double onset_of(const SceneRun& run, VerifyReport& report, const std::string& wh
   const auto& events = run.result.events;
   report.holds("one event, its evidence holds" + where,
                events.size() == 1 && events.front().evidence_holds);
-  return events.empty() ? 0 : events.front().pressure_change / 1e6;
+  return events.empty() ? 0 : leading_change(events.front().pressures).value_or(0) / 1e6;
 }
 
 void study_onset(SceneRunner& runner, VerifyReport& report) {

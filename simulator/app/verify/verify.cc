@@ -9,6 +9,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/common/interrupt.h"
 #include "simulator/common/stopwatch.h"
+#include "simulator/linalg/blas_start.h"
 
 namespace faultsim {
 
@@ -107,6 +108,7 @@ ExitCode verify_command(const std::vector<std::string>& names, bool list, bool j
     return ExitCode::done;
   }
   catch_interrupts();
+  take_blas_buffer();
   StderrMonitor monitor;
   nlohmann::json reports = nlohmann::json::array();
   std::size_t passed = 0, compared = 0;

@@ -51,6 +51,62 @@ std::string error_of(const std::string& text) {
   return "no error";
 }
 
+/// Metrics of faults and stages, as campaign/report spells them.
+Symbols scoped_symbols() {
+  Symbols all = symbols();
+  const Type length = number_type(Dimension::length), flag{Kind::boolean, {}};
+  all["slip"] = {"c_slip", length};
+  all["slip in storage"] = {"c_slip_storage", length};
+  all["F2.slip"] = {"c_f2", length};
+  all["F2.slip in storage"] = {"c_f2_storage", length};
+  all["F2.slides in the last stage"] = {"c_slides", flag};
+  all["Fault 3.slip in storage"] = {"c_f3", length};
+  return all;
+}
+const Scopes kScopes = {{"F2", "Fault 3"}, {"storage", "the last stage"}};
+
+std::string scoped_sql(const std::string& text) {
+  return Expression::parse(text, scoped_symbols(), kScopes).sql().text;
+}
+std::string scoped_error(const std::string& text) {
+  try {
+    Expression::parse(text, scoped_symbols(), kScopes);
+  } catch (const ExpressionError& error) {
+    return error.message();
+  }
+  return "no error";
+}
+
+TEST(Expression, NamesMayBeOfAFaultAndInAStage) {
+  EXPECT_EQ(scoped_sql("slip in storage > 5 mm"), "(c_slip_storage > ?)");
+  EXPECT_EQ(scoped_sql("F2.slip > slip in storage"), "(c_f2 > c_slip_storage)");
+  EXPECT_EQ(scoped_sql("F2.slip in storage * 2 > F2.slip"), "((c_f2_storage * ?) > c_f2)");
+  EXPECT_EQ(scoped_sql("not F2.slides in \"the last stage\" and activated"),
+            "((NOT c_slides) AND c_activated)");
+  EXPECT_EQ(scoped_sql("'Fault 3'.slip in 'storage' < 1 in"), "(c_f3 < ?)")
+      << "a number may still be in inches";
+  EXPECT_EQ(scoped_sql("rule = \"F2\""), "(c_rule = ?)") << "quoted text is text";
+}
+
+TEST(Expression, WrongFaultsAndStagesAreSaid) {
+  EXPECT_EQ(scoped_error("F3.slip > 1 m"),
+            "there is no fault \"F3\" in the results; did you mean F2? there are: F2, Fault 3\n"
+            "    F3.slip > 1 m\n"
+            "    ^");
+  EXPECT_EQ(scoped_error("F2.slip in strage > 1 m"),
+            "there is no stage \"strage\" in the results; did you mean storage? there are: "
+            "storage, the last stage\n"
+            "    F2.slip in strage > 1 m\n"
+            "               ^");
+  EXPECT_EQ(scoped_error("F2.slop in storage > 1 m").substr(0, 70),
+            "unknown name \"F2.slop in storage\"; did you mean F2.slip in storage?\n");
+  EXPECT_EQ(scoped_error("slip in").substr(0, 34), "a stage is missing after \"in\"; nam");
+  EXPECT_EQ(scoped_error("slip in 3").substr(0, 34), "a stage is missing after \"in\"; nam");
+  EXPECT_EQ(scoped_error("slip in 'storage").substr(0, 28), "this quote is not closed; ad");
+  EXPECT_EQ(scoped_error("salt.youngs_modules > 1 Pa").substr(0, 36),
+            "unknown name \"salt.youngs_modules\"; ");
+}
+
 TEST(Expression, Precedence) {
   EXPECT_EQ(evaluate("1 + 2 * 3"), Value(7.0));
   EXPECT_EQ(evaluate("(1 + 2) * 3"), Value(9.0));

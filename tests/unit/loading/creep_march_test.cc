@@ -115,6 +115,36 @@ TEST(CreepMarch, HalvesNothingWithoutRefinements) {
   EXPECT_EQ(one.creep(2).time_steps, 2);
 }
 
+/// A load that turns within a load step: the step is cut there, its two lengths have rungs of their
+/// own, and the salt ends as if the stages had been cut by hand.
+TEST(CreepMarch, TakesTheStepsOfTurningPoints) {
+  const auto column_with = [](const std::string& stages, const std::string& turning_points) {
+    return scene_of(
+        "v8_column.json",
+        {{"/stages", stages},
+         {"/geometry/boundary/1/table",
+          R"({"time": ["0 s", "1.95e6 s", "6.5e6 s"], "factor": [0, 1, 0.2]})"},
+         {"/numerics", R"({"creep": "on", "traction_tolerance": 1e-12, "creep_refinements": 1,
+                           "creep_tolerance": "1e-3 Pa", "turning_points": ")" +
+                           turning_points + "\"}"}});
+  };
+  const std::string one = R"([{"name": "one", "duration": "6.5e6 s"}])";
+  const Case cut(column_with(one, "steps"));
+  const Case by_hand(column_with(R"([{"name": "up", "duration": "1.95e6 s"},
+                                     {"name": "down", "duration": "4.55e6 s"}])",
+                                 "steps"));
+  const Case across(column_with(one, "report"));
+  ASSERT_EQ(cut.fields.size(), 3U);
+  ASSERT_EQ(by_hand.fields.size(), 3U);
+  EXPECT_EQ(cut.prepared.ladder->n_rungs(), 1 + 4);
+  for (const std::size_t step : {1U, 2U}) {
+    EXPECT_LT(difference(cut.fields[step], by_hand.fields[step]), 1e-3) << step;
+    EXPECT_EQ(cut.creep(step).time_steps, 2);
+  }
+  ASSERT_EQ(across.fields.size(), 2U);
+  EXPECT_GT(difference(across.fields[1], cut.fields[2]), 1e4) << "Pa: what it would have missed";
+}
+
 /// Creep is fast at first: the halves of the load step are divided each as far as it needs.
 TEST(CreepMarch, TakesShortStepsWhereCreepIsFast) {
   const Case controlled(scene_of(

@@ -113,5 +113,31 @@ TEST_F(FaultPressureRules, PrescribedRampsOverTheFirstStageAndRespectsItsWindow)
   EXPECT_DOUBLE_EQ(change(FaultPressureRule::prescribed, 12.0), -1.5e6);
 }
 
+/// West has 60 bar of its own at 2100 m, where the column has 25 bar: 35 bar more.
+TEST_F(FaultPressureRules, CombineWhatBlocksHaveBeyondTheColumnAtTheStart) {
+  scene_.geometry_kind = GeometryKind::field;
+  scene_.materials[0].name = "rock";
+  scene_.materials[0].density = 2400;
+  scene_.field.depth = 5000;
+  scene_.field.layers = {{"over", "rock", 0}, {"reservoir", "rock", 2000}, {"under", "rock", 2200}};
+  scene_.field.reservoir_layer = "reservoir";
+  scene_.field.blocks = {{"west", -1000, 0}, {"east", 0, 1000}};
+  scene_.initial.overpressure = 25e5;
+  const auto excess = [&](FaultPressureRule rule) {
+    scene_.faults[0].pressure.rule = rule;
+    return initial_pressure_excess(scene_, geometry_, {0, 1})[0];
+  };
+  EXPECT_EQ(excess(FaultPressureRule::mean), 0) << "no block has its own";
+  scene_.field.blocks[0].overpressure = 60e5;
+  EXPECT_DOUBLE_EQ(excess(FaultPressureRule::mean), 0.5 * 35e5);
+  EXPECT_DOUBLE_EQ(excess(FaultPressureRule::max), 35e5);
+  EXPECT_DOUBLE_EQ(excess(FaultPressureRule::min), 0);
+  EXPECT_DOUBLE_EQ(excess(FaultPressureRule::minus), 35e5);
+  EXPECT_EQ(excess(FaultPressureRule::none), 0);
+  EXPECT_EQ(excess(FaultPressureRule::prescribed), 0);
+  geometry_.nodes[0].position.z() = -2300;  // of a block at an offset: the column has none here
+  EXPECT_DOUBLE_EQ(excess(FaultPressureRule::minus), 60e5);
+}
+
 }  // namespace
 }  // namespace faultsim

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <chrono>
@@ -167,10 +168,26 @@ TEST(DamagedOperator, OtherFormatVersionIsLeftAlone) {
   EXPECT_TRUE(std::filesystem::exists(path));
 }
 
-TEST(DamagedOperator, UnreadableIsAStorageError) {
+TEST(DamagedOperator, WhatIsNoFileIsMovedAsideAndBuiltAgain) {
   const ScratchFolder folder;
-  std::filesystem::create_directory(folder.path() / "folder.h5");
-  EXPECT_THROW(read_operator(folder.path(), "folder"), StorageError);
+  const FaultOperator op = example_operator();
+  const std::filesystem::path path = folder.path() / (op.fingerprint + ".h5");
+  const std::filesystem::path aside = path.string() + ".damaged";
+  for (const bool is_folder : {true, false}) {
+    if (is_folder) {
+      std::filesystem::create_directories(path / "within");
+    } else {
+      ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);  // must not be waited for
+    }
+    std::string remark;
+    EXPECT_FALSE(read_operator(folder.path(), op.fingerprint, &remark).has_value());
+    EXPECT_THAT(remark, AllOf(HasSubstr("it is no regular file"), HasSubstr(".damaged")));
+    EXPECT_TRUE(std::filesystem::exists(aside));
+    write_operator(op, folder.path());
+    EXPECT_TRUE(read_operator(folder.path(), op.fingerprint).has_value());
+    std::filesystem::remove(path);
+    std::filesystem::remove_all(aside);
+  }
 }
 
 }  // namespace

@@ -43,9 +43,20 @@ StageMetrics example_stage(const char* name, bool active) {
   s.activated = active;
   if (active) {
     s.activation_step = 2;
-    s.activation_pressure = -1.234567890123e7;
     s.activated_fault = "F1";
-    s.magnitude = 2.5;
+    s.magnitude_if_at_once = 2.5;
+    FaultStageMetrics fault;
+    fault.fault = "F1";
+    fault.activated = true;
+    fault.activation =
+        FaultOnset{2, next(), {"centre", "", -1.234567890123e7, {}, next(), {}, next()}};
+    for (double* value :
+         {&fault.chi_bar, &fault.chi_max, &fault.area_chi_080, &fault.thickness_chi_080,
+          &fault.activated_area, &fault.slipping_area, &fault.open_area, &fault.max_slip,
+          &fault.potency, &fault.moment, &fault.event_moment}) {
+      *value = next();
+    }
+    s.faults = {fault, FaultStageMetrics{}};
   }
   for (double* value :
        {&s.chi_bar, &s.chi_max, &s.area_chi_080, &s.thickness_chi_080, &s.activated_area,
@@ -89,6 +100,7 @@ CaseResult example_result() {
   r.steps[2].reason = "worst node 3";
   r.stages = {example_stage("primary_production", true), example_stage("gas_storage", false)};
   r.whole = example_stage("", true);
+  r.unexpected = Reactivation{2, 1};
   r.counts = {9, 6, 3, 1};
   r.warnings = {"a", "b"};
   r.seconds = 1.5;
@@ -134,8 +146,9 @@ TEST(ResultJson, ComesBackComplete) {
             result.steps[1].faults[0].thickness_chi_080_mean);
   EXPECT_EQ(copy.steps[1].faults[0].moment_step, result.steps[1].faults[0].moment_step);
   EXPECT_EQ(copy.steps[2].counts.wasted_newton_iterations, 2);
-  EXPECT_EQ(copy.whole.activation_pressure, result.whole.activation_pressure);
-  EXPECT_FALSE(copy.stages[1].magnitude.has_value());
+  EXPECT_EQ(copy.whole, result.whole);
+  EXPECT_EQ(copy.unexpected, result.unexpected);
+  EXPECT_FALSE(copy.stages[1].magnitude_if_at_once.has_value());
   EXPECT_FALSE(copy.weakening_resolved);
   EXPECT_EQ(copy.pressure_margin, result.pressure_margin);
 }
@@ -147,7 +160,9 @@ TEST(ResultJson, NamesCarryUnits) {
   EXPECT_EQ(document.at("/steps/1/outcome"_json_pointer), "converged");
   EXPECT_TRUE(document.at("/steps/1/faults/0/area_chi_080_m2"_json_pointer).is_number());
   EXPECT_TRUE(document.at("/stages/0/moment_nm"_json_pointer).is_number());
-  EXPECT_TRUE(document.at("/stages/1/activation_pressure_pa"_json_pointer).is_null());
+  EXPECT_EQ(document.at("/stages/0/faults/0/activation/pressures/change_minus_pa"_json_pointer),
+            -1.234567890123e7);
+  EXPECT_TRUE(document.at("/stages/0/faults/1/activation"_json_pointer).is_null());
 }
 
 TEST(ResultJson, SameResultGivesSameText) {
@@ -217,8 +232,8 @@ void expect_refused(const json& document, const char* why) {
 TEST(ResultJson, ReadingRefusesWhatItDoesNotKnow) {
   const json good = result_to_json(example_result());
   json document = good;
-  document["format"] = 2;
-  expect_refused(document, "format version 2");
+  document["format"] = 1;
+  expect_refused(document, "format version 1");
   document = good;
   document.erase("format");
   expect_refused(document, "\"format\" is missing");

@@ -50,6 +50,42 @@ void expect_rungs(const Scene& scene, const std::vector<double>& expected) {
   }
 }
 
+TEST(CreepRungs, ContainTheStepsThatEndAtTurningPoints) {
+  // storage in half-yearly steps; the cycles of east turn a tenth of a year later
+  const Changes lag = {{"/numerics/creep_refinements", "0"},
+                       {"/compartments/east/lag", "0.1 year"}};
+  expect_rungs(viscous(lag), {kYear, 0.9 * kYear, 0.4 * kYear, 0.1 * kYear});
+  Changes report = lag;
+  report.emplace_back("/numerics/turning_points", "report");
+  expect_rungs(viscous(report), {kYear, 0.5 * kYear});
+  EXPECT_NE(planned(viscous(lag)).family, planned(viscous(report)).family);
+  // half the step: no length that is not there
+  expect_rungs(viscous({{"/compartments/east/lag", "0.25 year"}}),
+               {kYear, 0.75 * kYear, 0.5 * kYear, 0.375 * kYear, 0.25 * kYear, 0.125 * kYear});
+}
+
+TEST(Plan, CountsAndNamesWhatTurningPointsAdd) {
+  const Plan without = planned(elastic({}));
+  EXPECT_EQ(without.n_added_steps, 0);
+  EXPECT_EQ(plan_to_text(without).find("added"), std::string::npos);
+  const Plan with = planned(elastic({{"/compartments/east/lag", "0.25 year"}}));
+  EXPECT_GT(with.n_added_steps, 0);
+  EXPECT_EQ(with.n_steps, without.n_steps + with.n_added_steps);
+  EXPECT_NE(plan_to_text(with).find("added where histories turn)"), std::string::npos);
+  EXPECT_EQ(with.family, without.family) << "elastic: no operator changes";
+}
+
+TEST(Plan, ReportsTheInitialStateOfEachBlock) {
+  const nlohmann::json plan =
+      plan_to_json(planned(elastic({{"/geometry/blocks/1/offset", "100 m"}})));
+  const nlohmann::json& rows = plan["initial_state"];
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0]["region"], "west");
+  EXPECT_EQ(double(rows[1]["depth_m"]) - double(rows[0]["depth_m"]), 100);
+  EXPECT_LT(rows[0]["sigma_v_pa"], -40e6);
+  EXPECT_NE(plan_to_text(planned(elastic({}))).find("west"), std::string::npos);
+}
+
 TEST(CreepRungs, AreTheLoadStepsAndTheirHalves) {
   // yearly and half-yearly steps, each halved once: the half years are one rung
   expect_rungs(viscous({}), {kYear, 0.5 * kYear, 0.25 * kYear});

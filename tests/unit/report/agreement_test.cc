@@ -98,11 +98,15 @@ TEST(Agreement, EveryNumberCounts) {
        [&](CaseResult& r) { nudge(r.episodes[0].moment); }},
       {"stage 2", "moment_nm", Verdict::last_bits,
        [&](CaseResult& r) { nudge(r.stages[1].moment); }},
+      {"stage 2, fault 1", "moment_nm", Verdict::last_bits,
+       [&](CaseResult& r) { nudge(r.stages[1].faults[0].moment); }},
+      {"the whole history, fault 2, activation, pressures", "change_plus_pa", Verdict::last_bits,
+       [&](CaseResult& r) { nudge(*r.whole.faults[1].activation->pressures.change_plus); }},
       {"the whole history", "max_slip_m", Verdict::last_bits,
        [&](CaseResult& r) { nudge(r.whole.max_slip); }},
       {"the case", "max_penetration_m", Verdict::last_bits,
        [&](CaseResult& r) { nudge(r.max_penetration); }},
-      {"the case", "unexpected", Verdict::beyond_tier, [](CaseResult& r) { r.unexpected = false; }},
+      {"the case", "unexpected", Verdict::beyond_tier, [](CaseResult& r) { r.unexpected.reset(); }},
       {"the case", "pressure_margin_pa", Verdict::beyond_tier,
        [](CaseResult& r) { r.pressure_margin = 1; }},
       {"the case", "reason", Verdict::last_bits, [](CaseResult& r) { r.reason = "other"; }},
@@ -162,7 +166,7 @@ TEST(Agreement, QuantitiesAreTheKeysOfAResult) {
   const auto names = quantities();
   EXPECT_THAT(names,
               ::testing::IsSupersetOf({"moment_nm", "chi_bar", "pressure_margin_pa", "shear_max_pa",
-                                       "stress_drop_pa", "n_slip", "activation_pressure_pa"}));
+                                       "stress_drop_pa", "n_slip", "change_minus_pa"}));
   EXPECT_THAT(names, ::testing::Not(::testing::Contains("wall_s")));
 }
 

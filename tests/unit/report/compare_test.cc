@@ -71,6 +71,7 @@ class CompareTest : public ::testing::Test {
     std::string identity;
     double offset;
     double strength;  ///< < 0: not run; > 9: crashed.
+    bool plane_strain = false;
   };
   void SetUp() override {
     std::string name = ::testing::TempDir() + "compare_XXXXXX";
@@ -105,6 +106,7 @@ class CompareTest : public ::testing::Test {
       if (cases[k].strength < 9) {
         run.status = RunStatus::completed;
         run.result = testing::made_up_result(cases[k].strength);
+        run.result->plane_strain = cases[k].plane_strain;
       }
       target.record_runs(id, {run});
     }
@@ -134,6 +136,27 @@ TEST_F(CompareTest, TheSameNumbersInAnotherStoreAgree) {
   EXPECT_TRUE(c.agrees());
   EXPECT_THAT(comparison_to_text(c), HasSubstr("identical bit for bit in outcome and all metrics: "
                                                "4; beyond the tolerance of 1e-09: 0"));
+}
+
+TEST_F(CompareTest, RefusesToMixPerMetreWithTotals) {
+  auto plane = base_;
+  for (Made& one : plane) one.plane_strain = true;
+  const CampaignInfo a = submit(0, "sweep", base_), b = submit(1, "sweep", plane);
+  try {
+    compare(a, 1, b);
+    FAIL() << "a number per metre was compared with a total";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("activated_area cannot be compared: case 1 of A is 3D, a "
+                                        "total; case 1 of B is plane strain, per metre of strike"));
+  }
+  CompareRequest request;
+  request.metrics = "chi_bar,max_slip";
+  EXPECT_TRUE(compare_campaigns(*stores_[0], a, *stores_[1], b, request).agrees());
+  const CampaignInfo c = submit(0, "plane", plane);
+  const Comparison same = compare(c, 1, b);
+  EXPECT_THAT(comparison_to_text(same), HasSubstr("moment/(N m/m)"));
+  EXPECT_THAT(comparison_to_text(compare(a, 1, submit(1, "again", base_))),
+              HasSubstr("moment/(N m) "));
 }
 
 TEST_F(CompareTest, FindsTheCaseThatDiffersAndByHowMuch) {
@@ -180,7 +203,7 @@ TEST_F(CompareTest, CountsFlipsOutcomesAndWhatIsMissing) {
   EXPECT_FALSE(compare(c.a, 1, c.b, 1e9).agrees()) << "an outcome is beyond every tolerance";
   EXPECT_EQ(compare(c.a, 1, c.b, 1e9).n_beyond(), 2) << "a flip is, too";
   const std::string text = comparison_to_text(c);
-  EXPECT_THAT(text, HasSubstr("other outcome: 1; activated in one only: 1\n"));
+  EXPECT_THAT(text, HasSubstr("other outcome: 1; sliding in one only: 1\n"));
   EXPECT_THAT(text, HasSubstr("only in B: 1"));
 }
 

@@ -56,20 +56,26 @@ TEST(ColumnName, HasTheUnitThatTheViewsHave) {
   EXPECT_EQ(column_name("event_magnitude", Dimension::number), "event_magnitude_mw");
   EXPECT_EQ(column_name("friction_angle", Dimension::angle), "friction_angle_rad");
   EXPECT_EQ(column_name("chi_bar", Dimension::number), "chi_bar");
+  EXPECT_EQ(column_name("F2.max_slip in gas_storage", Dimension::length),
+            "F2.max_slip_in_gas_storage_m");
+  const MetricInfo moment{"moment", Dimension::moment, false, ""};
+  const MetricInfo slip{"max_slip", Dimension::length, false, ""};
+  EXPECT_EQ(column_name(moment, true), "moment_nm_per_m");
+  EXPECT_EQ(column_name(slip, true), "max_slip_m");
 }
 
 TEST(ChooseMetrics, KeepsTheOrderAndNamesTheNearest) {
-  const auto chosen = choose_metrics("max_slip, moment", false, false);
+  const auto chosen = choose_metrics(Selection{}, "max_slip, moment", false, false);
   ASSERT_EQ(chosen.size(), 2u);
   EXPECT_EQ(chosen[0].name, "max_slip");
   EXPECT_EQ(chosen[1].name, "moment");
   try {
-    choose_metrics("momemt", true, true);
+    choose_metrics(Selection{}, "momemt", true, true);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("did you mean 'moment'?"));
   }
-  EXPECT_EQ(choose_metrics("", true, true).size(), metric_catalogue().size());
+  EXPECT_EQ(choose_metrics(Selection{}, "", true, true).size(), metric_catalogue().size());
 }
 
 /// Lines of a CSV file as fields, as RFC 4180 has it.

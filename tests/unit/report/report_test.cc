@@ -301,7 +301,7 @@ class EventReportTest : public ReportTest {
     run.case_id = ids.at(1);
     run.result->outcome = faultsim::Outcome::event;
     run.result->weakening_resolved = true;
-    run.result->unexpected = false;
+    run.result->unexpected.reset();
     for (faultsim::SlipEvent& event : run.result->events) event.resolved = true;
     store_->record_runs(id_, {run});
     events_ = store_->campaign("events");
@@ -353,7 +353,7 @@ TEST_F(EventReportTest, TheRankingKeepsUnresolvedOnesApart) {
   EXPECT_THAT(text, HasSubstr("   1     3  event "));
   EXPECT_THAT(text, HasSubstr("   2     1  converged"));
   EXPECT_THAT(text, HasSubstr("  +1     2  unresolved_event, mesh too coarse for its weakening, "
-                              "UNEXPECTED  "));
+                              "UNEXPECTED (F1)  "));
   EXPECT_THAT(text, HasSubstr("+ complete, but the size of its slip events depends on the mesh"));
   EXPECT_THAT(text, Not(HasSubstr("ends early")));
   const auto json = ranking_to_json(make_ranking(*store_, events_, {}));
@@ -380,12 +380,13 @@ TEST_F(EventReportTest, EventsOrderAndFilter) {
 
 TEST_F(EventReportTest, ShowListsEventsAndEpisodes) {
   const std::string text = show("2");
-  EXPECT_THAT(text, HasSubstr("UNEXPECTED REACTIVATION: activated again as pressure recovers\n"));
+  EXPECT_THAT(text,
+              HasSubstr("UNEXPECTED REACTIVATION: fault F1 slides again in gas_storage, steps "));
   EXPECT_THAT(text, HasSubstr("UNRESOLVED: the size of its slip events depends on the mesh\n"));
   EXPECT_THAT(text, HasSubstr("\nslip events:\nevent  step  stage "));
   EXPECT_THAT(text, HasSubstr("NO, mesh too coarse  holds\n"));
-  EXPECT_THAT(text, HasSubstr("\nactivation episodes:\nepisode  stage "));
-  EXPECT_THAT(text, HasSubstr("had been lower"));
+  EXPECT_THAT(text, HasSubstr("\nepisodes (pressures at their first step):\nepisode  stage "));
+  EXPECT_THAT(text, HasSubstr("has recovered"));
   EXPECT_THAT(show("3"), Not(HasSubstr("UN")));
   EXPECT_THAT(show("1"), Not(HasSubstr("slip events")));
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "simulator/common/units.h"
+#include "simulator/scene/load_times.h"
 #include "simulator/scene/pressure_history.h"
 #include "simulator/scene/read_scene.h"
 #include "tests/unit/scene/rotliegend.h"
@@ -176,8 +177,10 @@ TEST(PressureHistory, IsLinearScaledAndDelayed) {
 
 TEST(PressureHistory, FollowsTheStagesOfTheReferenceScene) {
   const Scene scene = read_scene(rotliegend());
-  const std::vector<double> times = step_times(scene);
-  ASSERT_EQ(times.size(), 24U);
+  const std::vector<StepEnd> steps = step_ends(scene);
+  ASSERT_EQ(steps.size(), 24U);
+  std::vector<double> times;
+  for (const StepEnd& step : steps) times.push_back(step.time);
   constexpr double kYear = 31557600;
   EXPECT_DOUBLE_EQ(times[9], 10 * kYear);
   EXPECT_DOUBLE_EQ(times[23], 18 * kYear);
@@ -189,9 +192,9 @@ TEST(PressureHistory, FollowsTheStagesOfTheReferenceScene) {
   for (std::size_t k = 12; k < 24; ++k) {
     EXPECT_DOUBLE_EQ(pressure_change_at(west, times[k]), k % 2 == 0 ? -12e6 : -6e6);
   }
-  EXPECT_EQ(stage_of_step(scene, 9), 0U);
-  EXPECT_EQ(stage_of_step(scene, 10), 1U);
-  EXPECT_EQ(stage_of_step(scene, 23), 2U);
+  EXPECT_EQ(steps[9].stage, 0U);
+  EXPECT_EQ(steps[10].stage, 1U);
+  EXPECT_EQ(steps[23].stage, 2U);
 }
 
 /// A stage without a pressure key keeps the pressures that it finds, in all of its steps.
@@ -202,7 +205,8 @@ TEST(PressureHistory, HoldsInAStageThatNamesNoPressure) {
       {"name": "shut_in", "duration": "9 year", "steps": 3},
       {"name": "storage", "duration": "1 year", "pressure_change": "-50 bar"}])");
   const Scene scene = read_scene(document);
-  const std::vector<double> times = step_times(scene);
+  std::vector<double> times;
+  for (const StepEnd& step : step_ends(scene)) times.push_back(step.time);
   const double expected[] = {-5e6, -10e6, -10e6, -10e6, -10e6, -5e6};
   ASSERT_EQ(times.size(), 6U);
   for (const PressureHistory& history : scene.pressure) {

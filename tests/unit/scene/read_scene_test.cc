@@ -137,12 +137,13 @@ TEST(ReadScene, ReadsPressuresFromCsv) {
                                      "0, 0, 0\n1, -10, -2\n 2.5 , -20,-3\n";
   JsonDocument document = rotliegend();
   document.source = (folder / "scene.json").string();
-  const Scene all = varied(document, {{"/pressure_csv", "p.csv"}});
+  const Scene all = varied(document, {{"/pressure_csv", "p.csv"}, {"/pressure_csv_end", "hold"}});
   EXPECT_EQ(all.pressure[0].pressure_change, (std::vector<double>{0, -1e6, -2e6}));
   EXPECT_EQ(all.pressure[1].pressure_change, (std::vector<double>{0, -2e6, -3e6}));
   EXPECT_EQ(all.pressure[1].time[2], 2.5 * kYear);
-  const Scene one =
-      varied(document, {{"/compartments/west/csv", "p.csv"}, {"/compartments/west/scale", "0.5"}});
+  const Scene one = varied(document, {{"/compartments/west/csv", "p.csv"},
+                                      {"/compartments/west/scale", "0.5"},
+                                      {"/pressure_csv_end", "hold"}});
   EXPECT_EQ(one.pressure[0].pressure_change, (std::vector<double>{0, -1e6, -2e6}));
   EXPECT_EQ(one.pressure[0].scale, 0.5);
   EXPECT_EQ(one.pressure[1].time.size(), 14U) << "the stages'";
@@ -154,7 +155,7 @@ TEST(ReadScene, ReadsCsvAsSpreadsheetsWriteIt) {
   std::ofstream(folder / "q.csv") << "\xEF\xBB\xBFtime [year],\"west [bar]\"\r\n0,0\r\n1,-10\r\n";
   JsonDocument document = rotliegend();
   document.source = (folder / "scene.json").string();
-  const Scene scene = varied(document, {{"/pressure_csv", "q.csv"}});
+  const Scene scene = varied(document, {{"/pressure_csv", "q.csv"}, {"/pressure_csv_end", "hold"}});
   EXPECT_EQ(scene.pressure[0].pressure_change, (std::vector<double>{0, -1e6}));
 }
 

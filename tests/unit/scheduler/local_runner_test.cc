@@ -120,6 +120,21 @@ TEST_F(LocalRunnerTest, AHangEndsAtTheTimeLimit) {
   EXPECT_THAT(completed(events), ElementsAre(1, 3));
 }
 
+TEST_F(LocalRunnerTest, AnOperatorHasATimeLimitOfItsOwn) {
+  FamilyTask task;
+  task.operator_time_limit = 0.3;  // and none for cases
+  const JobEvents events = run({"operator hang", "b"}, task);
+  ASSERT_EQ(events.failed.size(), 1u);
+  EXPECT_TRUE(events.failed[0].in_operator);
+  EXPECT_EQ(events.failed[0].run.status, RunStatus::hung);
+  EXPECT_THAT(events.failed[0].run.reason,
+              HasSubstr("while building the operator: over its time limit of 0.2999"));
+  EXPECT_THAT(events.returned, ElementsAre(2));
+  task.time_limit = 0.3;
+  task.operator_time_limit = 60;
+  EXPECT_EQ(run({"hang"}, task).failed.at(0).run.status, RunStatus::hung);
+}
+
 TEST_F(LocalRunnerTest, TheMemoryLimitEndsAGluttonAlone) {
   FamilyTask task;
   task.memory_limit = 3e8;

@@ -110,7 +110,7 @@ TEST_F(EventsTest, PlaneStrainHasNoMagnitudeAndAnEventNeedNotBeLocated) {
   CaseResult result = made_up_result_with_events(0.8);
   result.events[0].magnitude.reset();
   result.events[0].fault.clear();
-  result.episodes[0].magnitude.reset();
+  result.episodes[0].magnitude_if_at_once.reset();
   Store store = Store::open_owner(folder_);
   store.record_runs(submit(store, 1), {run_of(1, result)});
   EXPECT_EQ(store.stored_result(1)->events, result.events);
@@ -165,8 +165,14 @@ TEST_F(EventsTest, ViewsShowThemWithUnits) {
   EXPECT_EQ(count("SELECT count(*) FROM case_events WHERE depth_m > 0 AND NOT resolved"
                   " AND stage = 'gas_storage' AND fault = 'F2'"),
             1);
-  EXPECT_EQ(count("SELECT count(*) FROM case_episodes WHERE unexpected AND pressure_change_pa < 0"),
+  EXPECT_EQ(count("SELECT count(*) FROM case_episodes WHERE change_minus_pa < 0 AND"
+                  " absolute_plus_pa > 0 AND region_minus = 'west' AND depth_m > 0"),
             2);
+  EXPECT_EQ(count("SELECT episode FROM case_episodes WHERE unexpected AND after_episode = 1"), 2);
+  EXPECT_EQ(count("SELECT count(*) FROM ranking WHERE opens AND opened_fault = 'F2' AND"
+                  " opening_depth_m > 0 AND activation_pressure_change_pa = -1e6 AND"
+                  " activation_pressure_absolute_pa = 1.9e7 AND activation_depth_m = 2000"),
+            1);
   EXPECT_EQ(count("SELECT n_events FROM ranking WHERE unexpected AND n_episodes = 2"), 2);
   EXPECT_EQ(count("SELECT n_events FROM stage_ranking WHERE stage = 'primary_production'"), 1);
   EXPECT_EQ(count("SELECT sum(activated_at_edge) FROM chi_history_wide"), 1);
@@ -216,7 +222,7 @@ TEST_F(EventsTest, AnOlderStoreIsBroughtUpToDateWithAllItsRows) {
     EXPECT_EQ(row.metrics.n_events, 0);
     EXPECT_EQ(row.metrics.activated_fault, "F1");
     EXPECT_EQ(row.metrics.max_slip, 6);
-    EXPECT_EQ(row.metrics.magnitude, 9);
+    EXPECT_EQ(row.metrics.magnitude_if_at_once, 9);
     EXPECT_EQ(row.metrics.last_step, 1);
   }
   EXPECT_THAT(classes, ElementsAre(0, 2, 3));
@@ -231,7 +237,9 @@ TEST_F(EventsTest, AnOlderStoreIsBroughtUpToDateWithAllItsRows) {
   EXPECT_EQ(third.runs[0].log_tail, "tail");
   EXPECT_TRUE(third.runs[1].fields_only);
   EXPECT_EQ(store.events(1, 5).at(0).text, "long ago");
-  EXPECT_EQ(count("SELECT count(*) FROM case_metrics WHERE unexpected IS NULL"), 3);
+  EXPECT_EQ(count("SELECT count(*) FROM case_metrics WHERE unexpected_episode IS NULL"), 3);
+  EXPECT_TRUE(first.result.whole.faults.empty()) << "faults were not written down then";
+  EXPECT_EQ(first_activation(first.result.whole), nullptr);
   // The constraints are in force again, and the new outcomes pass them.
   store.record_runs(1, {run_of(4, made_up_result_with_events(0.8))});
   EXPECT_EQ(store.stored_case(1, "4").result.events.size(), 2u);
@@ -260,7 +268,10 @@ TEST_F(EventsTest, ForeignKeysAndOutcomesAreGuardedAfterTheMigration) {
   Connection connection(folder_ / "campaign.sqlite", Connection::Mode::owner);
   migrate(connection, store_migrations());
   EXPECT_THROW(
-      connection.execute("INSERT INTO episodes VALUES (9, 1, 9, 9, 1, 2, 0, 0, 1, 1, 1, 1)"),
+      connection.execute(
+          "INSERT INTO episodes (case_id, number, stage_id, fault_id, first_step, last_step,"
+          " after_recovery, activated_area_m2, max_slip_m, moment_nm)"
+          " VALUES (9, 1, 9, 9, 1, 2, 0, 1, 1, 1)"),
       StorageError);
   EXPECT_THROW(connection.execute("INSERT INTO stage_metrics (stage_id) VALUES (1)"), StorageError);
 }

@@ -66,13 +66,29 @@ TEST(StoreSpeed, SlowHundredThousandCases) {
   query.by = {};
   query.where = {parameter_sql(0) + " < ?", {Value(1000.0)}};
   timed("rank where", 0.5, [&] { reader.ranking(campaign, query); });
+  const std::int64_t f2 = reader.faults(campaign).at(1).id;
+  const std::int64_t storage = reader.stages(campaign).at(3).id;
+  query.fault = f2;
+  query.stage = "gas_storage";
+  query.where = {};
+  timed("rank of a fault and stage, default order", 0.5, [&] { reader.ranking(campaign, query); });
+  query.by = {metric_sql("max_slip", true), {}};
+  timed("rank of a fault and stage by slip", 0.5, [&] { reader.ranking(campaign, query); });
+  query.fault.reset();
+  query.stage.clear();
+  query.by = {};
+  query.where = {metric_sql("slides", {.fault = f2, .stage = storage}, 0), {}};
+  timed("rank where a fault slides in a stage", 1, [&] { reader.ranking(campaign, query); });
+  query.where = {"NOT " + query.where.text, {}};
+  timed("kinds", 0.5, [&] { reader.kinds(campaign, {}); });
+  timed("faults", 0.5, [&] { reader.faults(campaign); });
   timed("show", 0.5, [&] { reader.stored_case(campaign, "77777"); });
   timed("failures", 0.5, [&] { reader.failure_counts(campaign); });
   timed("families", 0.5, [&] { reader.family_progress(campaign); });
   timed("stages", 0.5, [&] { reader.stages(campaign); });
   Store::TableQuery table;
   for (const MetricInfo& metric : metric_catalogue()) {
-    if (!metric.name.starts_with("creep_")) table.metrics.push_back(metric.name);
+    if (!metric.name.starts_with("creep_")) table.columns.push_back(metric_sql(metric.name));
   }
   long n_rows = 0;
   timed("all cases as a table", 5,

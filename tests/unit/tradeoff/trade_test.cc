@@ -70,7 +70,13 @@ CaseResult made_up(double chi, bool plane_strain, std::optional<double> activati
     result.steps.push_back(one);
   }
   result.whole.activated = activation_pressure.has_value();
-  result.whole.activation_pressure = activation_pressure;
+  if (activation_pressure) {
+    result.whole.activated_fault = "F1";
+    result.whole.faults.resize(1);
+    result.whole.faults[0].fault = "F1";
+    result.whole.faults[0].activation.emplace();
+    result.whole.faults[0].activation->pressures.change_minus = activation_pressure;
+  }
   result.whole.max_slip = 0.1 * chi;
   return result;
 }

@@ -1,0 +1,80 @@
+#include "simulator/linalg/blas_start.h"
+
+#include <cblas.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "simulator/common/errors.h"
+#include "simulator/common/process_memory.h"
+#include "simulator/linalg/blas.h"
+#include "simulator/linalg/blas_kernel.h"
+
+namespace faultsim {
+namespace {
+
+constexpr double kWanted = kBlasBufferBytes + kLeastWorkingBytes;
+
+/// Throws if a limit of the process leaves less than kWanted of what it counts.
+void demand_room(int resource, double used, const char* option, const char* what) {
+  struct rlimit limit = {};
+  if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
+  const double bytes = static_cast<double>(limit.rlim_cur);
+  if (bytes - used >= kWanted) return;
+  constexpr double kStep = 10000;  // kB, what ulimit counts in: a round number
+  const double least = kStep * std::ceil((used + kWanted) / 1024 / kStep);
+  throw ResourceError(concat("not enough memory: this process may have ", std::llround(bytes / 1e6),
+                             " MB of ", what, " (ulimit ", option, "), has ",
+                             std::llround(used / 1e6), " MB already, and needs ",
+                             std::llround(kWanted / 1e6),
+                             " MB more for the linear algebra and a small scene; run: ulimit ",
+                             option, " ", std::llround(least), ", or more"));
+}
+
+/// The limits above say nothing of a machine that does not overcommit.
+void demand_mapping() {
+  void* probe = mmap(nullptr, static_cast<std::size_t>(kWanted), PROT_READ | PROT_WRITE,
+                     MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (probe == MAP_FAILED) {
+    throw ResourceError(concat("not enough memory: the system gives this process no ",
+                               std::llround(kWanted / 1e6),
+                               " MB, which the linear algebra and a small scene need; close other "
+                               "programs"));
+  }
+  munmap(probe, static_cast<std::size_t>(kWanted));
+}
+
+}  // namespace
+
+void start_blas(char** argv) {
+  constexpr const char* kThreads = "OPENBLAS_NUM_THREADS";
+  const char* given = std::getenv(kThreads);
+  const bool was_one = given != nullptr && std::string(given) == "1";
+  setenv(kThreads, "1", 1);
+  choose_blas_kernel(argv);
+  // A library that does not listen to the variable must not keep us from starting.
+  if (!was_one && blas_info().n_threads != 1) start_anew(argv);
+}
+
+void take_blas_buffer() {
+  static bool taken = false;
+  if (taken) return;
+  const ProcessMemory used = process_memory();
+  demand_room(RLIMIT_AS, used.address_space, "-v", "address space");
+  demand_room(RLIMIT_DATA, used.data, "-d", "data");
+  demand_mapping();
+  set_blas_threads(1);
+  // Small products do without a buffer; this one, of a millisecond, does not.
+  constexpr int kOrder = 128;
+  const std::vector<double> a(kOrder * kOrder, 1.0);
+  std::vector<double> product(a.size());
+  cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, kOrder, kOrder, 1.0, a.data(), kOrder, 0.0,
+              product.data(), kOrder);
+  taken = true;
+}
+
+}  // namespace faultsim

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "simulator/scene/json_document.h"
+
+/// A scene names CSV files; where it travels (a campaign's store, a result folder) their text goes
+/// with it in "tables": {"file name": [lines]}, and the files are looked at no more.
+namespace faultsim {
+
+/// The names of the CSV files that a scene uses, each once: of /pressure_csv and
+/// /compartments/*/csv.
+std::vector<std::string> table_names(const nlohmann::json& scene);
+
+/// Puts the lines of a CSV file into the scene's "tables", unless it is there. A file that cannot
+/// be read is left to read_scene, which says so.
+/// @param source  relative names are taken from the folder of this file (JsonDocument::source).
+void embed_table(nlohmann::json& scene, const std::string& source, const std::string& name);
+/// The same for all that the scene uses.
+void embed_tables(JsonDocument& document);
+
+/// The text of a table: from the scene's "tables", else from its file; or why there is none.
+struct TableText {
+  std::string text;
+  std::string what;  ///< "" = read.
+  std::string cure;
+};
+TableText table_text(const nlohmann::json& scene, const std::string& source,
+                     const std::string& name);
+
+}  // namespace faultsim

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace faultsim {
+
+/// Seconds from 1970-01-01 to an ISO 8601 date, "1990-01-31", with or without a time of day,
+/// "1990-01-31T12:00:00" (UTC; a final Z is allowed). None = it is no such thing.
+std::optional<double> parse_date(const std::string& text);
+
+}  // namespace faultsim

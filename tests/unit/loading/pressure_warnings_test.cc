@@ -1,0 +1,57 @@
+#include "simulator/loading/pressure_warnings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "simulator/scene/read_scene.h"
+
+namespace faultsim {
+namespace {
+
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// The starter field, whose east block lies 100 m lower, with one stage.
+std::vector<std::string> warnings(const json& change, const json& fault_pressure = nullptr) {
+  json scene = json::parse(starter_scene("field"));
+  scene["stages"] = {
+      {{"name", "storage"}, {"duration", "2 year"}, {"steps", 2}, {"pressure_change", change}}};
+  scene.erase("compartments");
+  if (!fault_pressure.is_null()) scene["fault_pressure"] = fault_pressure;
+  return pressure_warnings(read_scene(parse_json(scene.dump(), "test")));
+}
+
+TEST(PressureWarnings, SayNothingOfDepletion) {
+  EXPECT_THAT(warnings("-100 bar"), IsEmpty());
+  EXPECT_THAT(warnings("0 bar"), IsEmpty());
+}
+
+TEST(PressureWarnings, SayWhereItRisesAboveTheInitialOne) {
+  EXPECT_THAT(warnings({{"west", "20 bar"}, {"east", "-20 bar"}}),
+              ElementsAre("the pressure of west rises to 20.0 bar above the initial one in load "
+                          "step 2 (storage)"));
+}
+
+/// At 2000 m: σ_v = 1500 m x 2200 + 500 m x 2100 kg/m3 = 426.7 bar, p0 = 196.2 + 25 bar, M1 = 0.74:
+/// σ_h = 0.74 (426.7 − 221.2) + 221.2 = 373.3 bar, so that 152.1 bar of rise reach it.
+TEST(PressureWarnings, SayWhereItIsAboveTheLeastTotalStress) {
+  EXPECT_EQ(warnings({{"west", "152 bar"}, {"east", "0 bar"}}).size(), 1u);
+  EXPECT_THAT(warnings({{"west", "153 bar"}, {"east", "0 bar"}}),
+              ElementsAre(HasSubstr("153.0 bar above the initial one"),
+                          HasSubstr("the pressure of west reaches 374.2 bar at 2000 m depth in "
+                                    "load step 2 (storage), above the least total principal "
+                                    "stress of 373.3 bar there before production")));
+}
+
+TEST(PressureWarnings, OfAPrescribedFaultPressureToo) {
+  const auto all = warnings("-50 bar", {{"rule", "prescribed"}, {"prescribed", "30 bar"}});
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_THAT(all[1], HasSubstr("the prescribed pressure of fault F2 rises to 30.0 bar above"));
+}
+
+}  // namespace
+}  // namespace faultsim
