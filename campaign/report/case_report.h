@@ -11,8 +11,8 @@ namespace faultsweep {
 
 /// What of a case `faultsweep show` was asked for.
 struct ShowRequest {
-  std::string stage;  ///< "" = all and the whole history.
-  std::string fault;  ///< "" = all.
+  std::string stage = {};  ///< "" = all and the whole history.
+  std::string fault = {};  ///< "" = all.
 };
 /// `faultsweep show CASE`: parameters, outcome, stages, what each fault does in each, the χ history
 /// per fault. Throws InputError on a stage or fault that its result does not have.

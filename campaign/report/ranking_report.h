@@ -9,10 +9,10 @@ namespace faultsweep {
 
 /// What `faultsweep rank` was asked.
 struct RankRequest {
-  std::string by;          ///< metric or expression of numbers; "" = the campaign's own.
-  std::string stage;       ///< "" = the whole history.
-  std::string fault;       ///< "" = all faults of a case together.
-  std::string where;       ///< condition; "" = all cases.
+  std::string by = {};     ///< metric or expression of numbers; "" = the campaign's own.
+  std::string stage = {};  ///< "" = the whole history.
+  std::string fault = {};  ///< "" = all faults of a case together.
+  std::string where = {};  ///< condition; "" = all cases.
   bool ascending = false;  ///< smallest first.
   long top = 20;           ///< 0 = all.
 };

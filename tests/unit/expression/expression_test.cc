@@ -98,7 +98,7 @@ TEST(Expression, WrongFaultsAndStagesAreSaid) {
             "storage, the last stage\n"
             "    F2.slip in strage > 1 m\n"
             "               ^");
-  EXPECT_EQ(scoped_error("F2.slop in storage > 1 m").substr(0, 70),
+  EXPECT_EQ(scoped_error("F2.slop in storage > 1 m").substr(0, 68),
             "unknown name \"F2.slop in storage\"; did you mean F2.slip in storage?\n");
   EXPECT_EQ(scoped_error("slip in").substr(0, 34), "a stage is missing after \"in\"; nam");
   EXPECT_EQ(scoped_error("slip in 3").substr(0, 34), "a stage is missing after \"in\"; nam");

@@ -341,7 +341,7 @@ TEST(FieldCase, EventsInCoarseCellsAreNotCalledResolved) {
     EXPECT_TRUE(event.evidence_holds);
     EXPECT_GE(event.time, time);
     time = event.time;
-    EXPECT_LT(event.pressure_change, 0);
+    EXPECT_LT(leading_change(event.pressures).value_or(1), 0);
     EXPECT_GT(event.moment, 0);
     EXPECT_LE(event.moment, result.whole.event_moment);
     EXPECT_GT(event.energy_released, event.energy_dissipated);

@@ -170,7 +170,7 @@ TEST(DamagedOperator, OtherFormatVersionIsLeftAlone) {
 
 TEST(DamagedOperator, WhatIsNoFileIsMovedAsideAndBuiltAgain) {
   const ScratchFolder folder;
-  const FaultOperator op = example_operator();
+  const FaultOperator op = example_operator("a");
   const std::filesystem::path path = folder.path() / (op.fingerprint + ".h5");
   const std::filesystem::path aside = path.string() + ".damaged";
   for (const bool is_folder : {true, false}) {
