@@ -47,7 +47,7 @@ class World:
     def command(self, program, *words):
         return [os.path.join(self.bin, program), *map(str, words)]
 
-    def run(self, program, *words, limit=None, patience=120, cwd=None):
+    def run(self, program, *words, limit=None, patience=300, cwd=None):
         """Ends with (exit code, 128 + n for signal n, None = had to be killed; stdout; stderr)."""
         with open(self.path("out"), "w+b") as out, open(self.path("err"), "w+b") as err:
             child = subprocess.Popen(self.command(program, *words), stdout=out, stderr=err,
