@@ -147,7 +147,9 @@ ExitCode run_command(const RunArguments& arguments) {
       });
   if (writer) writer->finish();
   if (volume) write_volume_fields(output.path(), loaded, *volume);
-  const std::string text = result_to_json(result).dump(2) + "\n";
+  nlohmann::json document = result_to_json(result);
+  document["initial_state"] = initial_state_to_json(loaded.plan.initial);
+  const std::string text = document.dump(2) + "\n";
   write_text(output.path() / "result.json", text);
   const bool finished = result.outcome != Outcome::interrupted;
   if (finished) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -241,26 +242,38 @@ class IdleInputs {
     return reader_.has(own) ? own : "/fault_pressure/" + key;
   }
 
-  /// A prescribed pressure must meet its fault. What only the cells know is found when it runs.
+  /// A prescribed pressure must meet a fault of those that take it from one place. What only the
+  /// cells know is found when it runs.
   void windows() {
+    std::map<std::string, std::string> missed;  // place -> why, of each fault
+    std::set<std::string> met;
     for (std::size_t f = 0; f < scene_.faults.size(); ++f) {
-      const Fault& fault = scene_.faults[f];
-      if (!prescribes(fault)) continue;
-      if (!fault.pressure.depth_window) {
-        if (is_field_ || !scene_.box.regions.empty()) continue;
-        idle(place(f, "prescribed"),
-             "on fault " + fault.name +
-                 " it acts where a pressure region lies on either side, and there is none: give a "
-                 "\"depth_window\"");
-        continue;
-      }
-      const auto [top, base] = depths_of(f);
-      const std::array<double, 2>& window = *fault.pressure.depth_window;
-      if (window[0] <= base && window[1] >= top) continue;
-      idle(place(f, "depth_window"), "fault " + fault.name + " lies between " +
-                                         in_unit(top, Dimension::length, "m") + " and " +
-                                         in_unit(base, Dimension::length, "m") + " depth");
+      if (!prescribes(scene_.faults[f])) continue;
+      const bool has_window = scene_.faults[f].pressure.depth_window.has_value();
+      const std::string at = place(f, has_window ? "depth_window" : "prescribed");
+      const std::string why = why_missed(f);
+      if (why.empty()) met.insert(at);
+      if (!why.empty()) missed[at] += (missed[at].empty() ? "" : "; ") + why;
     }
+    for (const auto& [at, why] : missed) {
+      if (met.count(at) == 0) idle(at, why);
+    }
+  }
+
+  /// Why the prescribed pressure of a fault acts nowhere; "" where it may act.
+  std::string why_missed(std::size_t f) const {
+    const Fault& fault = scene_.faults[f];
+    if (!fault.pressure.depth_window) {
+      if (is_field_ || !scene_.box.regions.empty()) return "";
+      return "on fault " + fault.name +
+             " it acts where a pressure region lies on either side, and there is none: give a "
+             "\"depth_window\"";
+    }
+    const auto [top, base] = depths_of(f);
+    const std::array<double, 2>& window = *fault.pressure.depth_window;
+    if (window[0] <= base && window[1] >= top) return "";
+    return "fault " + fault.name + " lies between " + in_unit(top, Dimension::length, "m") +
+           " and " + in_unit(base, Dimension::length, "m") + " depth";
   }
 
   /// Top and base of a fault, m.
