@@ -45,7 +45,7 @@ std::optional<std::pair<std::string, std::string>> identities_of_neighbours(
     return identity_with(document, {{row.pointer, exact_text(value, row.dimension)}});
   };
   const ParsedQuantity given = parse_quantity(row.value, row.dimension);
-  for (const double value : {given.ok ? given.value : 0.3, 1.0, 1e7}) {
+  for (const double value : {given.ok ? given.value : 0.3, 1.0, 1000.0, 1e7}) {
     const auto here = with(value);
     if (!here) continue;
     for (const double neighbour :
