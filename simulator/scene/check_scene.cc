@@ -214,7 +214,7 @@ void check_column(SceneReader& reader, const Scene& scene) {
 
 /// Stiffnesses this far apart leave no digits of the softer one in a sum of both.
 void check_contrast(SceneReader& reader, const Scene& scene) {
-  constexpr double kMost = 1e6;
+  constexpr double kMost = 1e10;
   const std::set<std::string> used = used_materials(scene);
   const Material* softest = nullptr;
   const Material* stiffest = nullptr;
@@ -231,7 +231,7 @@ void check_contrast(SceneReader& reader, const Scene& scene) {
   const std::string at = "/materials/" + pointer_token(softest->name) + "/youngs_modulus";
   reader.problem(
       at,
-      reader.as_given(at) + " is less than a millionth of that of \"" + stiffest->name + "\", " +
+      reader.as_given(at) + " is less than 1e-10 of that of \"" + stiffest->name + "\", " +
           reader.as_given("/materials/" + pointer_token(stiffest->name) + "/youngs_modulus"),
       "bring the two closer: the numbers cannot hold both");
 }

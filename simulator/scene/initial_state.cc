@@ -178,10 +178,14 @@ double region_top(const Scene& scene, std::size_t region) {
 
 double initial_region_pressure(const Scene& scene, std::size_t region, double depth) {
   const InitialState& state = scene.initial;
+  const bool is_profile = state.kind == InitialStressKind::profile;
+  const double gradient =
+      is_profile ? state.pressure_gradient : state.water_density * state.gravity;
+  if (is_profile || scene.geometry_kind == GeometryKind::box) {
+    return (is_profile ? state.pressure : 0) + gradient * depth +
+           own_excess(scene, region, depth, DepthSide::below);
+  }
   const double top = region_top(scene, region);
-  const double gradient = state.kind == InitialStressKind::profile
-                              ? state.pressure_gradient
-                              : state.water_density * state.gravity;
   return initial_state(scene, -top, DepthSide::below).pressure +
          own_excess(scene, region, top, DepthSide::below) + gradient * (depth - top);
 }
