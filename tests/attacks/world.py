@@ -90,7 +90,7 @@ class World:
         print("FAILED:", what, flush=True)
 
     def row(self, *cells):
-        self.rows.append([str(cell) for cell in cells])
+        self.rows.append([str(cell).replace(self.bin + "/", "").replace(self.folder, "") for cell in cells])
         print(" | ".join(self.rows[-1]), flush=True)
 
     def finish(self, title, columns, summary):

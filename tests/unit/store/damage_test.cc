@@ -71,9 +71,7 @@ class Damage : public ::testing::Test {
     store.record_runs(campaign, runs);
     store.checkpoint();
   }
-  void change(const char* sql) const {
-    Connection(file_, Connection::Mode::owner).execute(sql);
-  }
+  void change(const char* sql) const { Connection(file_, Connection::Mode::owner).execute(sql); }
   std::vector<std::string> problems() const {
     return Store::open_reader(folder_).integrity_problems();
   }
@@ -88,12 +86,10 @@ TEST_F(Damage, ChecksumsNoticeAChangedNumberInEveryTableOfAResult) {
                           "UPDATE stage_metrics SET chi_bar = chi_bar + 1e-15",
                           "UPDATE load_steps SET time_s = time_s + 1",
                           "UPDATE chi_history SET max_slip_m = -max_slip_m - 1e-9",
-                          "UPDATE runs SET reason = 'another'",
-                          "DELETE FROM load_steps"}) {
+                          "UPDATE runs SET reason = 'another'", "DELETE FROM load_steps"}) {
     const std::string before = bytes_of(file_);
     change((std::string(sql) + " WHERE case_id = 2").c_str());
-    EXPECT_THAT(problems(),
-                ElementsAre("the result of case identity-1 differs from its checksum"))
+    EXPECT_THAT(problems(), ElementsAre("the result of case identity-1 differs from its checksum"))
         << sql;
     std::filesystem::remove(folder_ / "campaign.sqlite-wal");
     std::filesystem::remove(folder_ / "campaign.sqlite-shm");
@@ -143,7 +139,8 @@ TEST_F(Damage, ABackupIsCheckedAndOneOfADamagedStoreIsRefused) {
   change("UPDATE chi_history SET chi_bar = chi_bar + 1e-9 WHERE case_id = 3 AND step = 2");
   const std::string flipped =
       error_of([&] { Store::open_reader(folder_).backup_to(folder_ / "flipped"); });
-  EXPECT_THAT(flipped, HasSubstr("no backup was made, as the store is damaged: the result of case"));
+  EXPECT_THAT(flipped,
+              HasSubstr("no backup was made, as the store is damaged: the result of case"));
   std::string bytes = bytes_of(file_);
   bytes.replace(bytes.size() / 2, 4096, 4096, '\0');
   std::filesystem::remove(folder_ / "campaign.sqlite-wal");

@@ -10,6 +10,7 @@
 #include "campaign/store/migrations.h"
 #include "campaign/store/sqlite.h"
 #include "campaign/store/store.h"
+#include "simulator/common/fingerprint.h"
 #include "simulator/output/write_result.h"
 #include "tests/campaign/made_up_result.h"
 
@@ -211,6 +212,12 @@ TEST_F(EventsTest, AnOlderStoreIsBroughtUpToDateWithAllItsRows) {
     Connection connection(folder_ / "campaign.sqlite", Connection::Mode::owner);
     migrate(connection, {store_migrations()[0], store_migrations()[1]});
     connection.execute(kVersion2);
+    const std::string spec = faultsim::fingerprint("{}");
+    const std::string scene = faultsim::fingerprint("scene.json\n{}");
+    connection.execute(("UPDATE scenes SET hash = '" + scene +
+                        "'; UPDATE campaigns SET spec_given_hash = '" + spec +
+                        "', spec_resolved_hash = '" + spec + "'")
+                           .c_str());
   }
   Store store = Store::open_writer(folder_);
   EXPECT_THAT(store.integrity_problems(), IsEmpty());
