@@ -419,7 +419,7 @@ TEST(FieldCase, RunsWithoutACacheThatCannotBeWritten) {
 
 TEST(FieldCase, RefusesWhatNoMachineHolds) {
   json document = field();
-  document["mesh"]["dip"] = "0.03 m";
+  document["mesh"]["dip"] = "0.015 m";
   const Scene scene = read_scene(parse_json(document.dump(), "test"));
   std::vector<Problem> problems;
   const Plan plan = make_plan(scene, problems);
