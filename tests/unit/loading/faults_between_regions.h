@@ -18,12 +18,17 @@ struct FaultsBetweenRegions {
 
   FaultsBetweenRegions() {
     scene.geometry_kind = GeometryKind::box;
+    scene.box.from = {-2000, -2000, -3000};
+    scene.box.to = {2000, 2000, 0};
     scene.materials.resize(1);
     scene.initial.kind = InitialStressKind::profile;
     scene.initial.pressure_gradient = 1e4;
     for (const char* region : {"west", "east"}) {
       scene.pressure.emplace_back();
       scene.pressure.back().region = region;
+      scene.box.regions.emplace_back();
+      scene.box.regions.back().from = {-1000, -1000, -2070};
+      scene.box.regions.back().to = {1000, 1000, -2030};
     }
     op.load_names = {"pressure:0:0", "pressure:1:0"};
     add_fault("F1", -1, 0);

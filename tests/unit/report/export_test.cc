@@ -211,7 +211,7 @@ TEST_F(ExportTest, CsvHasEveryCaseWithItsBitsAndGapsAreEmpty) {
   EXPECT_EQ(std::strtod(rows[1].at("moment_nm").c_str(), nullptr),
             testing::made_up_result(0.9).whole.moment);
   EXPECT_EQ(rows[1].at("activated_fault"), "F1");
-  EXPECT_EQ(rows[1].at("activated"), "1");
+  EXPECT_EQ(rows[1].at("slides"), "1");
   EXPECT_EQ(rows[0].at("activation_step"), "");
   EXPECT_EQ(rows[2].at("outcome"), "unstable");
   EXPECT_EQ(rows[2].at("rank_class"), "2");
