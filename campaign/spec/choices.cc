@@ -173,9 +173,8 @@ void SpecReader::read_targets(const SceneNames& names, Parameter& parameter) {
   } else if (auto target = resolve(names, parameter.name, parameter.pointer)) {
     parameter.targets.push_back(*target);
   }
-  if (parameter.targets.empty()) return;
-  check_change_count(parameter);
-  set_base_choice(names, parameter);
+  if (!parameter.targets.empty()) check_change_count(parameter);
+  if (!parameter.targets.empty()) set_base_choice(names, parameter);
 }
 
 /// Each value is kept with all places that it changes.

@@ -29,10 +29,38 @@ const faultsim::ParameterInfo* SceneNames::find(const std::string& scene_pointer
   return found == places_.end() ? nullptr : &infos[found->second];
 }
 
+namespace {
+
+/// nlohmann's ordered objects look at every key to add one: 10^5 would take minutes.
+void demand_small_objects(const JsonDocument& document, const nlohmann::json& value,
+                          const std::string& pointer) {
+  constexpr std::size_t kMost = 2000;
+  if (value.is_object() && value.size() > kMost) {
+    throw faultsim::InputError(
+        document.source,
+        {{pointer, document.line_of(pointer), faultsim::concat("has ", value.size(), " entries"),
+          faultsim::concat("write at most ", kMost)}});
+  }
+  if (value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      if (!value[i].is_structured()) continue;
+      demand_small_objects(document, value[i], pointer + "/" + std::to_string(i));
+    }
+  } else if (value.is_object()) {
+    for (const auto& [key, inner] : value.items()) {
+      if (!inner.is_structured()) continue;
+      demand_small_objects(document, inner, pointer + "/" + escape_token(key));
+    }
+  }
+}
+
+}  // namespace
+
 SpecReader::SpecReader(const std::string& text, const std::string& source) {
   spec_.source = source;
   spec_.given = text;
   spec_.document = faultsim::parse_json(text, source);
+  demand_small_objects(spec_.document, spec_.document.value, "");
   ordered_ = nlohmann::ordered_json::parse(text);
 }
 
