@@ -2,11 +2,14 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
+#include <limits>
 #include <map>
 #include <new>
 
 #include "campaign/app/commands.h"
+#include "campaign/report/text_table.h"
 #include "simulator/common/errors.h"
+#include "simulator/common/version.h"
 
 namespace faultsweep {
 namespace {
@@ -68,6 +71,12 @@ void add_json(CLI::App* command, StoreArguments& common) {
   command->add_flag("--json", common.json, "machine-readable output on stdout");
 }
 
+void add_wide(CLI::App* command) {
+  command->add_flag_callback(
+      "--wide", [] { TextTable::set_screen_width(std::numeric_limits<std::size_t>::max()); },
+      "tables in one piece, however wide");
+}
+
 /// All arguments of all commands; CLI11 fills them.
 struct Arguments {
   StoreArguments common;
@@ -89,6 +98,8 @@ struct Arguments {
 void add_running(CLI::App& app, Arguments& a, ExitCode& code, int argc, char** argv) {
   CLI::App* init = app.add_subcommand("init", "write a starter spec and its scene");
   init->add_option("folder", a.init_folder, "where (default ./campaign)");
+  init->footer(
+      "Example: faultsweep init my-sweep    my-sweep/campaign.json and my-sweep/scene.json");
   init->callback([&] { code = init_command(a.init_folder); });
 
   CLI::App* submit = app.add_subcommand("submit", "check and expand a spec and store its cases");
@@ -96,6 +107,12 @@ void add_running(CLI::App& app, Arguments& a, ExitCode& code, int argc, char** a
   submit->add_flag("--dry-run", a.submit.dry_run, "only show what it would be");
   add_store(submit, a.common);
   add_json(submit, a.common);
+  add_wide(submit);
+  submit->footer(
+      "Examples:\n"
+      "  faultsweep submit my-sweep/campaign.json --dry-run    cases, families, time; nothing is "
+      "stored\n"
+      "  faultsweep submit my-sweep/campaign.json --store runs/store");
   submit->callback([&] { code = submit_command(a.common, a.submit); });
 
   CLI::App* run = app.add_subcommand("run", "run a campaign, or continue it, under mpirun");
@@ -124,6 +141,12 @@ void add_running(CLI::App& app, Arguments& a, ExitCode& code, int argc, char** a
                   "copies of operators on each host's own disk, or none; default: none if the\n"
                   "store is on a local disk, else a folder in SLURM_TMPDIR, TMPDIR or /tmp");
   run->add_option("--status-file", a.run.status_file)->group("");
+  run->footer(
+      "Examples:\n"
+      "  faultsweep run                       the newest campaign, on all cores\n"
+      "  faultsweep run my-sweep --workers 2\n"
+      "  faultsweep run --hostfile hosts --memory \"12 GB\"\n"
+      "Interrupted, it goes on where it stopped: give the same command again.");
   run->callback([&, argc, argv] { code = run_command(a.common, a.run, argc, argv); });
 }
 
@@ -154,17 +177,23 @@ void add_reading(CLI::App& app, Arguments& a, ExitCode& code) {
       app.add_subcommand("status", "how a campaign stands: counts, time left, failures");
   add_campaign(status, a.common);
   add_json(status, a.common);
+  add_wide(status);
   status->add_flag("--verify", a.verify,
-                   "read the whole store instead and check it: structure, references, checksums");
+                   "read the whole store instead and check it: structure, references,\n"
+                   "checksums");
+  status->footer(
+      "Examples:\n"
+      "  faultsweep status my-sweep\n"
+      "  faultsweep status --verify\n"
+      "  faultsweep status --json");
   status->callback(
       [&] { code = a.verify ? verify_store_command(a.common) : status_command(a.common); });
 
   CLI::App* rank = app.add_subcommand("rank", "the riskiest configurations first");
   add_campaign(rank, a.common);
-  rank->add_option(
-      "--by", a.rank.by,
-      "metric or expression; default: the spec's, or the area that slides, then the area that\n"
-      "is open, M0, the pressure margin of inactive cases, and chi");
+  rank->add_option("--by", a.rank.by,
+                   "metric or expression; default: the spec's, or the area that slides, then\n"
+                   "the area that is open, M0, the pressure margin of inactive cases, and chi");
   rank->add_option("--stage", a.rank.stage, "metrics of this stage; default: the whole history");
   rank->add_option(
       "--where", a.rank.where,
@@ -176,6 +205,13 @@ void add_reading(CLI::App& app, Arguments& a, ExitCode& code) {
   rank->add_flag("--ascending", a.rank.ascending, "smallest first");
   rank->add_flag("--list-metrics", a.list_metrics, "what can be ranked by");
   add_json(rank, a.common);
+  add_wide(rank);
+  rank->footer(
+      "Examples:\n"
+      "  faultsweep rank --by moment --top 10\n"
+      "  faultsweep rank my-sweep --where \"friction_angle < 25 deg and activated\" --stage "
+      "gas_storage\n"
+      "  faultsweep rank --list-metrics");
   rank->callback([&] { code = rank_command(a.common, a.rank, a.list_metrics); });
 
   CLI::App* show =
@@ -184,10 +220,18 @@ void add_reading(CLI::App& app, Arguments& a, ExitCode& code) {
   show->add_option("--stage", a.show.stage, "only this stage");
   show->add_option("--fault", a.show.fault, "only this fault");
   add_json(show, a.common);
+  add_wide(show);
+  show->footer(
+      "Examples:\n"
+      "  faultsweep show 17\n"
+      "  faultsweep show my-sweep/17 --fault F2 --stage gas_storage\n"
+      "  faultsweep show 17 --json");
   show->callback([&] { code = show_command(a.common, a.case_name, a.show); });
 
   CLI::App* explain = app.add_subcommand("explain", "why a case will run, or will not");
   add_case(explain, a.common, a.case_name);
+  add_json(explain, a.common);
+  explain->footer("Example: faultsweep explain my-sweep/17");
   explain->callback([&] { code = explain_command(a.common, a.case_name); });
 }
 
@@ -236,6 +280,7 @@ void add_compare(CLI::App& app, Arguments& a, ExitCode& code) {
       ->check(CLI::NonNegativeNumber);
   add_store(command, a.common);
   add_json(command, a.common);
+  add_wide(command);
   command->footer(kCompareFooter);
   command->callback([&] { code = compare_command(a.common, a.compare); });
 }
@@ -256,7 +301,12 @@ void add_nightly(CLI::App& app, Arguments& a, ExitCode& code) {
   nightly->add_flag("--history", a.nightly_history, "only print the nights so far")
       ->excludes(bless);
   nightly->add_flag("--json", n.json, "machine-readable output on stdout");
-  nightly->footer("Exit codes: 0 no regress, 5 a regress, or nothing was compared.");
+  add_wide(nightly);
+  nightly->footer(
+      "Examples:\n"
+      "  faultsweep nightly nightly.json\n"
+      "  faultsweep nightly --bless --reason \"finer cells at the corners\"\n"
+      "Exit codes: 0 no regress, 5 a regress, or nothing was compared.");
   nightly->callback(
       [&] { code = a.nightly_history ? nightly_history_command(n) : nightly_command(n); });
 }
@@ -291,6 +341,7 @@ void add_tradeoff(CLI::App& app, Arguments& a, ExitCode& code) {
   command->add_flag("--dry-run", t.dry_run, "only show the choices and their predicted cost");
   add_store(command, a.common);
   add_json(command, a.common);
+  add_wide(command);
   command->footer(
       "Examples:\n"
       "  faultsweep tradeoff scene.json --dry-run\n"
@@ -305,31 +356,46 @@ void add_caring(CLI::App& app, Arguments& a, ExitCode& code) {
   add_campaign(retry, a.common);
   retry->add_option("--case", a.retry.position, "only this case number");
   retry->add_flag("--unconverged", a.retry.unconverged, "also cases whose history ended early");
+  add_json(retry, a.common);
+  retry->footer(
+      "Examples:\n"
+      "  faultsweep retry my-sweep\n"
+      "  faultsweep retry --case 17 --unconverged");
   retry->callback([&] { code = retry_command(a.common, a.retry); });
 
   CLI::App* cancel = app.add_subcommand("cancel", "hand out no more cases of a campaign");
   add_campaign(cancel, a.common);
+  add_json(cancel, a.common);
+  cancel->footer(
+      "Example: faultsweep cancel my-sweep    results stay; submit the spec again to reopen it");
   cancel->callback([&] { code = cancel_command(a.common); });
 
   CLI::App* cache = app.add_subcommand("cache", "the operators kept in STORE/operators");
+  cache->footer("Example: faultsweep cache list");
   cache->require_subcommand(1);
   CLI::App* list = cache->add_subcommand("list", "operators, most recently used first");
   add_store(list, a.common);
   add_json(list, a.common);
+  list->footer("Example: faultsweep cache list --json");
   list->callback([&] { code = cache_list_command(a.common); });
   CLI::App* verify =
       cache->add_subcommand("verify", "checksums of the operators and integrity of the store");
   add_store(verify, a.common);
+  add_json(verify, a.common);
+  verify->footer("Example: faultsweep cache verify --store runs/store");
   verify->callback([&] { code = cache_verify_command(a.common); });
   CLI::App* prune = cache->add_subcommand("prune", "remove least recently used operators");
   prune->add_option("--max-size", a.cache_size, "what may stay (default 20 GB)");
   add_store(prune, a.common);
+  add_json(prune, a.common);
+  prune->footer("Example: faultsweep cache prune --max-size \"5 GB\"");
   prune->callback([&] { code = cache_prune_command(a.common, a.cache_size); });
 
   CLI::App* backup =
       app.add_subcommand("backup", "copy the store's database, also while it is in use");
   backup->add_option("file", a.backup_target, "new file")->required();
   add_store(backup, a.common);
+  backup->footer("Example: faultsweep backup before.sqlite");
   backup->callback([&] { code = backup_command(a.common, a.backup_target); });
 }
 
@@ -337,8 +403,9 @@ void add_caring(CLI::App& app, Arguments& a, ExitCode& code) {
 ExitCode faultsweep_main(int argc, char** argv) {
   CLI::App app{"faultsweep: campaigns of fault reactivation cases", "faultsweep"};
   app.require_subcommand(1);
+  app.get_formatter()->column_width(24);  // texts of up to 76 columns stand beside it
   app.footer(kFooter);
-  app.set_version_flag("--version", std::string("faultsweep ") + FAULTSIM_VERSION);
+  app.set_version_flag("--version", faultsim::version_text("faultsweep"));
   Arguments arguments;
   arguments.common.store = default_store();
   ExitCode code = ExitCode::done;

@@ -17,6 +17,7 @@
 #include "campaign/store/clock.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/stopwatch.h"
+#include "simulator/output/json_text.h"
 
 namespace faultsweep {
 
@@ -139,7 +140,7 @@ class Night {
     store.record_night(record_);
     store.checkpoint();
     const std::string text = arguments_.json
-                                 ? night_to_json(record_, remarks(), advice).dump(2) + "\n"
+                                 ? faultsim::json_text(night_to_json(record_, remarks(), advice))
                                  : night_to_text(record_, remarks(), advice);
     std::fputs(text.c_str(), stdout);
     return code;
@@ -365,7 +366,7 @@ ExitCode nightly_history_command(const NightlyArguments& arguments) {
   const Store store = Store::open_reader(arguments.store);
   const std::vector<NightRecord> nights = store.nights("", kNightsShown);
   const std::string text =
-      arguments.json ? history_to_json(nights).dump(2) + "\n" : history_to_text(nights);
+      arguments.json ? faultsim::json_text(history_to_json(nights)) : history_to_text(nights);
   std::fputs(text.c_str(), stdout);
   return ExitCode::done;
 }

@@ -9,6 +9,7 @@
 #include "campaign/report/text_table.h"
 #include "campaign/scheduler/starter.h"
 #include "campaign/store/clock.h"
+#include "simulator/output/json_text.h"
 #include "simulator/output/operator_cache.h"
 #include "simulator/output/output_target.h"
 #include "simulator/plan/plan.h"
@@ -22,7 +23,7 @@ using nlohmann::json;
 namespace {
 
 void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
-void print(const json& document) { print(document.dump(2) + "\n"); }
+void print(const json& document) { print(faultsim::json_text(document)); }
 
 /// A case addressed as CASE or CAMPAIGN/CASE.
 struct NamedCase {
@@ -141,7 +142,7 @@ ExitCode verify_store_command(const StoreArguments& common) {
 
 ExitCode rank_command(const StoreArguments& common, const RankRequest& request, bool list_metrics) {
   if (list_metrics) {
-    common.json ? print(metrics_to_json()) : print(metrics_to_text());
+    common.json ? print(json{{"metrics", metrics_to_json()}}) : print(metrics_to_text());
     return ExitCode::done;
   }
   const Store store = Store::open_reader(common.store);
@@ -209,7 +210,8 @@ ExitCode compare_command(const StoreArguments& common, const CompareArguments& a
 ExitCode explain_command(const StoreArguments& common, const std::string& name) {
   const Store store = Store::open_reader(common.store);
   const NamedCase found = find_case(store, common, name);
-  print(explain_case(store, found.campaign, found.stored));
+  common.json ? print(explanation_to_json(store, found.campaign, found.stored))
+              : print(explain_case(store, found.campaign, found.stored));
   return ExitCode::done;
 }
 
@@ -248,7 +250,11 @@ ExitCode retry_command(const StoreArguments& common, const RetryArguments& argum
   // Throws where there is no such case.
   if (arguments.position) store.stored_case(campaign.id, std::to_string(*arguments.position));
   const long count = store.retry(campaign.id, arguments.unconverged, arguments.position);
-  std::printf("%ld\n", count);
+  if (common.json) {
+    print(json{{"campaign", campaign.name}, {"retried", count}});
+  } else {
+    std::printf("%ld\n", count);
+  }
   if (count == 0) {
     std::fprintf(stderr, "%s\n", nothing_to_retry(store, campaign, arguments).c_str());
     return ExitCode::done;
@@ -271,6 +277,12 @@ ExitCode cancel_command(const StoreArguments& common) {
   std::fprintf(stderr, "%s %s cancelled with %ld of %ld cases waiting; results stay\n",
                campaign.name.c_str(), was_cancelled ? "was already" : "is", campaign.n_waiting,
                campaign.n_cases);
+  if (common.json) {
+    print(json{{"campaign", campaign.name},
+               {"was_cancelled", was_cancelled},
+               {"cases", campaign.n_cases},
+               {"waiting", campaign.n_waiting}});
+  }
   const auto owner = store.owner();
   if (owner && owner->alive && owner->campaign == campaign.id) {
     std::fprintf(stderr, "Its manager hands out nothing more and ends with the cases at work.\n");
@@ -292,7 +304,7 @@ ExitCode cache_list_command(const StoreArguments& common) {
                    format_time(static_cast<double>(entry.last_used))});
   }
   if (common.json) {
-    print(document);
+    print(json{{"operators", document}});
   } else {
     print(table.empty() ? std::string("the cache is empty\n") : table.text());
   }
@@ -302,24 +314,33 @@ ExitCode cache_list_command(const StoreArguments& common) {
 ExitCode cache_verify_command(const StoreArguments& common) {
   const std::filesystem::path folder = common.store / "operators";
   bool sound = true;
+  json checked = json::array();
+  const auto report = [&](const std::string& name, const std::string& problem) {
+    sound = sound && problem.empty();
+    checked.push_back({{"name", name}, {"sound", problem.empty()}, {"problem", problem}});
+    if (!common.json) print(concat(name, "  ", problem.empty() ? "sound" : problem, "\n"));
+  };
   for (const faultsim::CacheEntry& entry : faultsim::list_operators(folder)) {
     std::string remark;
     const bool good = faultsim::read_operator(folder, entry.fingerprint, &remark).has_value();
-    sound = sound && good;
-    std::printf("%s  %s\n", entry.fingerprint.c_str(), good ? "sound" : remark.c_str());
+    report(entry.fingerprint, good ? "" : remark.empty() ? "it is gone" : remark);
   }
   if (std::filesystem::exists(common.store / "campaign.sqlite")) {
     for (const std::string& problem : Store::open_reader(common.store).integrity_problems()) {
-      sound = false;
-      std::printf("campaign.sqlite  %s\n", problem.c_str());
+      report("campaign.sqlite", problem);
     }
   }
+  if (common.json) print(json{{"sound", sound}, {"checked", checked}});
   return sound ? ExitCode::done : ExitCode::world;
 }
 
 ExitCode cache_prune_command(const StoreArguments& common, const std::string& size) {
   const auto freed =
       faultsim::prune_operators(common.store / "operators", parse_size("--max-size", size), "");
+  if (common.json) {
+    print(json{{"bytes_freed", freed}});
+    return ExitCode::done;
+  }
   std::printf("%llu\n", static_cast<unsigned long long>(freed));
   std::fprintf(stderr, "bytes freed; what is missing is built again when it is needed\n");
   return ExitCode::done;

@@ -13,6 +13,7 @@
 #include "campaign/store/clock.h"
 #include "simulator/common/process_memory.h"
 #include "simulator/output/atomic_file.h"
+#include "simulator/output/json_text.h"
 #include "simulator/output/output_target.h"
 #include "simulator/output/write_result.h"
 #include "simulator/scene/read_scene.h"
@@ -250,7 +251,7 @@ ExitCode submit_command(const StoreArguments& common, const SubmitArguments& arg
     document = report_to_json(report);
   }
   for (const std::string& note : report.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
-  const std::string text = common.json ? document.dump(2) + "\n" : report_to_text(report);
+  const std::string text = common.json ? faultsim::json_text(document) : report_to_text(report);
   std::fputs(text.c_str(), stdout);
   if (arguments.dry_run) {
     std::fprintf(stderr, "Nothing was stored. Next: faultsweep submit %s\n",

@@ -12,6 +12,7 @@
 #include "campaign/tradeoff/sample.h"
 #include "campaign/tradeoff/stored_ladder.h"
 #include "campaign/tradeoff/trade_report.h"
+#include "simulator/output/json_text.h"
 #include "simulator/output/output_target.h"
 #include "simulator/output/result_folder.h"
 #include "simulator/output/write_result.h"
@@ -87,7 +88,7 @@ double memory_limit(const TradeoffArguments& arguments) {
 void write_report(faultsim::ResultFolder& folder, const std::filesystem::path& output,
                   const TradeReport& report) {
   faultsim::write_text(folder.path() / "report.md", trade_to_markdown(report));
-  faultsim::write_text(folder.path() / "trade.json", trade_to_json(report).dump(1) + "\n");
+  faultsim::write_text(folder.path() / "trade.json", faultsim::json_text(trade_to_json(report)));
   faultsim::write_text(folder.path() / "figures.gp", trade_figures(report));
   const char* draw = "cd \"$0\" && gnuplot figures.gp";
   if (run_child({"/bin/sh", "-c", draw, folder.path().string()}).code != 0) {
@@ -127,6 +128,24 @@ std::string ladder_to_text(const std::vector<TradeAxis>& axes) {
   return table.text();
 }
 
+json ladder_to_json(const std::vector<TradeAxis>& axes, const Expansion& expansion) {
+  json choices = json::array();
+  for (const TradeAxis& axis : axes) {
+    for (const TradeChoice& choice : axis.choices) {
+      choices.push_back({{"axis", axis.name},
+                         {"choice", choice.name},
+                         {"unknowns", choice.n_unknowns},
+                         {"jump_unknowns", choice.n_jump},
+                         {"predicted_operator_s", choice.predicted_seconds},
+                         {"predicted_memory_bytes", choice.predicted_bytes},
+                         {"left_out", choice.left_out}});
+    }
+  }
+  return {{"choices", std::move(choices)},
+          {"cases", expansion.cases.size()},
+          {"families", expansion.families.size()}};
+}
+
 ExitCode run_ladder(const StoreArguments& common, const TradeoffArguments& arguments,
                     const std::string& campaign) {
   RunOptions options;
@@ -150,7 +169,9 @@ ExitCode tradeoff_command(const StoreArguments& common, const TradeoffArguments&
   }
   const Expansion expansion = expand(parse_campaign(spec.dump(), question.scene.source));
   if (arguments.dry_run) {
-    std::fputs(ladder_to_text(axes).c_str(), stdout);
+    const std::string text =
+        common.json ? faultsim::json_text(ladder_to_json(axes, expansion)) : ladder_to_text(axes);
+    std::fputs(text.c_str(), stdout);
     std::fprintf(stderr, "%zu cases in %zu families\n", expansion.cases.size(),
                  expansion.families.size());
     return ExitCode::done;
@@ -182,7 +203,7 @@ ExitCode tradeoff_command(const StoreArguments& common, const TradeoffArguments&
   record.report = document.dump();
   store.record_trade(record);
   if (output) write_report(*output, arguments.output, report);
-  std::fputs(common.json ? (document.dump(2) + "\n").c_str() : trade_to_text(report).c_str(),
+  std::fputs(common.json ? faultsim::json_text(document).c_str() : trade_to_text(report).c_str(),
              stdout);
   return status;
 }

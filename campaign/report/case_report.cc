@@ -33,7 +33,8 @@ std::string parameters_text(const CampaignInfo& campaign, const StoredCase& one)
   const auto labels = labels_from_json(one.parameter_labels);
   std::string text;
   for (std::size_t k = 0; k < parameters.size() && k < labels.size(); ++k) {
-    if (!labels[k].empty()) text += concat("  ", parameters[k].name, " = ", labels[k], "\n");
+    if (!labels[k].empty())
+      text += concat("  ", parameters[k].name, " = ", short_number(labels[k]), "\n");
   }
   return text;
 }
@@ -424,7 +425,7 @@ json case_to_json(const CampaignInfo& campaign, const StoredCase& one) {
 namespace {
 
 /// Whether an open campaign computes the case, and why: "will run..." or "will not run...".
-std::string verdict_of(const CampaignInfo& campaign, const StoredCase& one) {
+std::string verdict_if_open(const CampaignInfo& campaign, const StoredCase& one) {
   const StoredRun* last = one.runs.empty() ? nullptr : &one.runs.back();
   if (one.state == "done" && one.fields == FieldsState::wanted) {
     return concat("will run, for its fault fields only: it has a result (",
@@ -456,6 +457,13 @@ std::string verdict_of(const CampaignInfo& campaign, const StoredCase& one) {
                 last->status, last->reason.empty() ? "" : ": " + last->reason, "\n");
 }
 
+std::string verdict_of(const CampaignInfo& campaign, const StoredCase& one) {
+  const std::string verdict = verdict_if_open(campaign, one);
+  if (!campaign.cancelled || !verdict.starts_with("will run")) return verdict;
+  return concat("will not run: the campaign is cancelled; `faultsweep submit ", campaign.source,
+                "` reopens it\n");
+}
+
 }  // namespace
 
 std::vector<faultsim::InitialRegion> initial_state_of(const Store& store, const StoredCase& one) {
@@ -470,11 +478,7 @@ std::vector<faultsim::InitialRegion> initial_state_of(const Store& store, const 
 std::string explain_case(const Store& store, const CampaignInfo& campaign, const StoredCase& one) {
   std::string text = concat("case ", one.position, " of ", campaign.name, " (identity ",
                             one.identity, ", numerics version ", faultsim::kNumericsVersion, ")\n");
-  const std::string verdict = verdict_of(campaign, one);
-  text += campaign.cancelled && verdict.starts_with("will run")
-              ? concat("will not run: the campaign is cancelled; `faultsweep submit ",
-                       campaign.source, "` reopens it\n")
-              : verdict;
+  text += verdict_of(campaign, one);
   for (const Store::FamilyProgress& family : store.family_progress(campaign.id)) {
     if (family.fingerprint != one.family) continue;
     text += concat(
@@ -485,6 +489,28 @@ std::string explain_case(const Store& store, const CampaignInfo& campaign, const
   std::string names;
   for (const std::string& name : store.campaigns_with(one.id)) names += " " + name;
   return text + "campaigns with this case:" + names + "\n";
+}
+
+json explanation_to_json(const Store& store, const CampaignInfo& campaign, const StoredCase& one) {
+  std::string verdict = verdict_of(campaign, one);
+  if (!verdict.empty() && verdict.back() == '\n') verdict.pop_back();
+  const std::size_t colon = verdict.find(": ");
+  json document = {{"campaign", campaign.name},
+                   {"case", one.position},
+                   {"identity", one.identity},
+                   {"numerics_version", faultsim::kNumericsVersion},
+                   {"will_run", verdict.starts_with("will run")},
+                   {"why", colon == std::string::npos ? verdict : verdict.substr(colon + 2)},
+                   {"family", nullptr},
+                   {"campaigns", store.campaigns_with(one.id)}};
+  for (const Store::FamilyProgress& family : store.family_progress(campaign.id)) {
+    if (family.fingerprint != one.family) continue;
+    document["family"] = {{"fingerprint", family.fingerprint},
+                          {"cases", family.n_cases},
+                          {"done", family.n_done},
+                          {"operator", family.operator_fingerprint}};
+  }
+  return document;
 }
 
 }  // namespace faultsweep

@@ -26,5 +26,8 @@ std::vector<faultsim::InitialRegion> initial_state_of(const Store& store, const 
 
 /// `faultsweep explain CASE`: whether `faultsweep run` will compute it, and why.
 std::string explain_case(const Store& store, const CampaignInfo& campaign, const StoredCase& one);
+/// The same for programs: "will_run", "why", the case, its family and the campaigns that have it.
+nlohmann::json explanation_to_json(const Store& store, const CampaignInfo& campaign,
+                                   const StoredCase& one);
 
 }  // namespace faultsweep

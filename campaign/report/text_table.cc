@@ -1,8 +1,11 @@
 #include "campaign/report/text_table.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <utility>
 
 #include "simulator/common/errors.h"
 #include "simulator/common/printable.h"
@@ -12,6 +15,74 @@ namespace {
 
 bool looks_like_number(const std::string& text) {
   return !text.empty() && text.find_first_not_of("0123456789.+-e%*") == std::string::npos;
+}
+
+constexpr std::size_t kGap = 2;         // blanks between columns
+constexpr std::size_t kNarrowest = 20;  // of a column whose texts are broken
+
+struct Column {
+  std::size_t index, width;
+  bool to_the_right;
+};
+
+std::vector<Column> used_columns(const std::vector<std::string>& header,
+                                 const std::vector<std::vector<std::string>>& rows) {
+  std::vector<Column> columns;
+  for (std::size_t k = 0; k < header.size(); ++k) {
+    Column column{k, display_width(header[k]), true};
+    bool used = false;
+    for (const auto& row : rows) {
+      column.width = std::max(column.width, display_width(row[k]));
+      used = used || !row[k].empty();
+      column.to_the_right = column.to_the_right && (row[k].empty() || looks_like_number(row[k]));
+    }
+    if (used) columns.push_back(column);
+  }
+  return columns;
+}
+
+/// Takes so many columns of the screen from the widest text of a block.
+void narrow(std::vector<Column>& block, std::size_t surplus) {
+  const auto widest =
+      std::max_element(block.begin(), block.end(), [](const Column& a, const Column& b) {
+        return (a.to_the_right ? 0 : a.width) < (b.to_the_right ? 0 : b.width);
+      });
+  if (widest->to_the_right || widest->width <= kNarrowest) return;
+  widest->width = std::max(kNarrowest, widest->width - std::min(widest->width, surplus));
+}
+
+/// The beginning of a text that is at most so wide, up to a blank where there is one, and what is
+/// left of it.
+std::string cut_line(std::string& rest, std::size_t width) {
+  if (display_width(rest) <= width) return std::exchange(rest, "");
+  std::size_t end = 0, blank = std::string::npos;
+  while (end < rest.size() && display_width(rest.substr(0, end + 1)) <= width) {
+    if (rest[end] == ' ' && end > 0) blank = end;
+    ++end;
+  }
+  while (end < rest.size() && (static_cast<unsigned char>(rest[end]) & 0xC0) == 0x80) ++end;
+  if (blank != std::string::npos && rest[end] != ' ') end = blank;
+  const std::string line = rest.substr(0, end);
+  rest.erase(0, rest.find_first_not_of(' ', end));
+  return line;
+}
+
+/// A row, in as many lines as its texts need.
+void add_lines(const std::vector<Column>& block, std::vector<std::string> cells,
+               std::string& text) {
+  for (bool more = true; more;) {
+    std::string line;
+    more = false;
+    for (const Column& column : block) {
+      const std::string cell = cut_line(cells[column.index], column.width);
+      more = more || !cells[column.index].empty();
+      const std::string fill(column.width - std::min(column.width, display_width(cell)), ' ');
+      const std::string gap(line.empty() ? 0 : kGap, ' ');
+      line += gap + (column.to_the_right ? fill + cell : cell + fill);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + '\n';
+  }
 }
 
 }  // namespace
@@ -36,43 +107,43 @@ std::string format_number(double value, int digits) {
   return text;
 }
 
+std::string short_number(const std::string& text) {
+  constexpr std::ptrdiff_t kDigits = 6;
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  const std::string number(text.c_str(), static_cast<const char*>(end));
+  const auto n_digits = std::count_if(number.begin(), number.end(),
+                                      [](unsigned char c) { return std::isdigit(c) != 0; });
+  const bool alone = *end == '\0' || *end == ' ';
+  if (!alone || n_digits <= kDigits || number.find('.') == std::string::npos) return text;
+  return format_number(value, kDigits) + end;
+}
+
 void TextTable::add_row(std::vector<std::string> cells) {
   FAULTSIM_DEMAND(cells.size() == header_.size(), cells.size(), " cells, ", header_.size(),
                   " columns");
   // Names in a store may come from before they were checked.
-  for (std::string& cell : cells) cell = faultsim::printable(cell);
+  for (std::string& cell : cells) cell = short_number(faultsim::printable(cell));
   rows_.push_back(std::move(cells));
 }
 
-std::string TextTable::text() const {
-  struct Column {
-    std::size_t index, width;
-    bool to_the_right;
-  };
-  std::vector<Column> columns;
-  for (std::size_t k = 0; k < header_.size(); ++k) {
-    Column column{k, display_width(header_[k]), true};
-    bool used = false;
-    for (const auto& row : rows_) {
-      column.width = std::max(column.width, display_width(row[k]));
-      used = used || !row[k].empty();
-      column.to_the_right = column.to_the_right && (row[k].empty() || looks_like_number(row[k]));
-    }
-    if (used) columns.push_back(column);
-  }
+std::string TextTable::text(std::size_t width) const {
+  const std::vector<Column> columns = used_columns(header_, rows_);
+  if (columns.empty()) return "";
   std::string text;
-  const auto add_line = [&](const std::vector<std::string>& cells) {
-    std::string line;
-    for (const Column& column : columns) {
-      const std::string& cell = cells[column.index];
-      const std::string fill(column.width - display_width(cell), ' ');
-      line += (line.empty() ? "" : "  ") + (column.to_the_right ? fill + cell : cell + fill);
+  for (std::size_t first = 1, last = 1; text.empty() || first < columns.size(); first = last) {
+    std::vector<Column> block = {columns[0]};
+    std::size_t taken = columns[0].width;
+    for (last = first; last < columns.size(); ++last) {
+      if (last > first && taken + kGap + columns[last].width > width) break;
+      block.push_back(columns[last]);
+      taken += kGap + columns[last].width;
     }
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + '\n';
-  };
-  add_line(header_);
-  for (const auto& row : rows_) add_line(row);
+    if (taken > width) narrow(block, taken - width);
+    if (!text.empty()) text += '\n';
+    add_lines(block, header_, text);
+    for (const auto& row : rows_) add_lines(block, row, text);
+  }
   return text;
 }
 

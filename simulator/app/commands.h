@@ -23,6 +23,7 @@ struct RunArguments {
   std::filesystem::path output;  ///< empty = <scene name>-result beside the current folder.
   std::filesystem::path cache;   ///< empty = the user's cache folder.
   bool no_cache = false;
+  bool wide = false;  ///< the step table with all its columns.
 };
 
 struct DiagnoseArguments {

@@ -8,6 +8,7 @@
 #include "simulator/common/interrupt.h"
 #include "simulator/loading/diagnosis.h"
 #include "simulator/loading/run_case.h"
+#include "simulator/output/json_text.h"
 
 namespace faultsim {
 namespace {
@@ -103,7 +104,7 @@ ExitCode diagnose_command(const DiagnoseArguments& arguments) {
   SilentMonitor silent;
   const Diagnosis diagnosis = diagnose_case(loaded.scene, prepared, silent);
   if (arguments.scene.json) {
-    std::cout << to_json(diagnosis).dump(2) << "\n";
+    std::cout << json_text(to_json(diagnosis));
   } else {
     print(diagnosis);
   }

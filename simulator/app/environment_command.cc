@@ -14,6 +14,7 @@
 #include "simulator/linalg/blas.h"
 #include "simulator/linalg/blas_kernel.h"
 #include "simulator/linalg/cholesky.h"
+#include "simulator/output/json_text.h"
 
 namespace faultsim {
 namespace {
@@ -79,7 +80,7 @@ ExitCode environment_command(bool json) {
   if (json) {
     Fields document = {{"fingerprint", hash}, {"environment", fields}};
     document.update(others);
-    std::cout << document.dump(2) << "\n";
+    std::cout << json_text(std::move(document));
     return ExitCode::done;
   }
   for (const Fields& part : {fields, others}) {

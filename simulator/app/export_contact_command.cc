@@ -8,6 +8,7 @@
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/interrupt.h"
 #include "simulator/contact/contact_export.h"
+#include "simulator/output/json_text.h"
 #include "simulator/output/output_target.h"
 
 namespace faultsim {
@@ -84,7 +85,7 @@ void report(const ExportArguments& arguments, const ExportedStep& exported) {
                          {"natural_map_error", exported.natural_map},
                          {"equilibrium_error", exported.equilibrium}};
     }
-    std::cout << out.dump(2) << "\n";
+    std::cout << json_text(std::move(out));
     return;
   }
   std::printf("%s: load step %d (%s), %d contacts in %dD, units %g m and %g N\n",

@@ -3,6 +3,7 @@
 #include "simulator/app/commands.h"
 #include "simulator/app/verify/verify.h"
 #include "simulator/common/errors.h"
+#include "simulator/common/version.h"
 #include "simulator/linalg/blas_start.h"
 
 namespace faultsim {
@@ -45,113 +46,177 @@ void demand_known_command(const CLI::App& app, int argc, char** argv) {
                                  "choose one of " + names}});
 }
 
+/// All arguments of all commands; CLI11 fills them.
+struct Arguments {
+  std::string init_kind = "field", init_file, mesh_output, path = "condensed";
+  SceneArguments scene;
+  RunArguments run;
+  DiagnoseArguments diagnosed;
+  ExportArguments exported;
+  WorkerArguments worker;
+  bool environment_json = false;
+  std::vector<std::string> problems;
+  bool list = false, json = false, slow = false, markdown = false;
+};
+
+template <typename Cached>
+void add_cache(CLI::App* command, Cached& arguments) {
+  command->add_option("--cache", arguments.cache,
+                      "operator cache (default: the user's cache folder)");
+  command->add_flag("--no-cache", arguments.no_cache, "neither read nor write cached operators");
+}
+
+void add_init(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* init = app.add_subcommand("init", "write a starter scene");
+  init->add_option("kind", a.init_kind, "field or box")->check(CLI::IsMember({"field", "box"}));
+  init->add_option("file", a.init_file, "where to write it (default KIND.json)");
+  init->footer(
+      "Examples:\n"
+      "  faultsim init field my-field.json    two blocks and three faults between layers\n"
+      "  faultsim init box slider.json        a box with patches of fault, for tests of the model");
+  init->callback([&] {
+    code = init_command(a.init_kind, a.init_file.empty() ? a.init_kind + ".json" : a.init_file);
+  });
+}
+
+void add_looking(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* validate = app.add_subcommand("validate", "check a scene and list all its problems");
+  add_scene(validate, a.scene);
+  validate->footer(
+      "Examples:\n"
+      "  faultsim validate my-field.json\n"
+      "  faultsim validate my-field.json --set friction_angle=\"20 deg\" --json");
+  validate->callback([&] { code = validate_command(a.scene); });
+
+  CLI::App* plan = app.add_subcommand("plan", "what will be modelled and why, sizes and cost");
+  add_scene(plan, a.scene);
+  plan->footer(
+      "Examples:\n"
+      "  faultsim plan my-field.json --tier standard\n"
+      "  faultsim plan my-field.json --set /numerics/half_domain=off --json");
+  plan->callback([&] { code = plan_command(a.scene); });
+
+  CLI::App* parameters =
+      app.add_subcommand("parameters", "what can be varied, with aliases and ranges");
+  add_scene(parameters, a.scene);
+  parameters->footer(
+      "Examples:\n"
+      "  faultsim parameters my-field.json | grep east     what the block \"east\" has\n"
+      "  faultsim parameters my-field.json --json          with units and descriptions");
+  parameters->callback([&] { code = parameters_command(a.scene); });
+
+  CLI::App* mesh =
+      app.add_subcommand("mesh", "make the mesh, report its quality, write it for ParaView");
+  add_scene(mesh, a.scene);
+  mesh->add_option("-o,--output", a.mesh_output, "folder for volume.h5 and volume.xmf");
+  mesh->footer(
+      "Examples:\n"
+      "  faultsim mesh my-field.json --tier screening\n"
+      "  faultsim mesh my-field.json -o mesh               then open mesh/volume.xmf");
+  mesh->callback([&] { code = mesh_command(a.scene, a.mesh_output); });
+}
+
+void add_run(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* command = app.add_subcommand("run", "run a scene");
+  add_scene(command, a.run.scene);
+  command->add_option("-o,--output", a.run.output, "result folder (default SCENE-result)");
+  add_cache(command, a.run);
+  command->add_flag("--wide", a.run.wide, "the table with all its columns, however wide");
+  command->add_option("--path", a.path, "how to solve")->check(CLI::IsMember({"condensed"}));
+  command->footer(
+      "Examples:\n"
+      "  faultsim run my-field.json -o out\n"
+      "  faultsim run my-field.json --tier screening --set offset_east=\"150 m\" -o offset-150\n"
+      "The folder holds one run: an earlier one is replaced when the new one is complete. Open\n"
+      "out/faults.xmf in ParaView; see docs/commands.md.");
+  command->callback([&] { code = run_command(a.run); });
+}
+
+void add_diagnose(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* command = app.add_subcommand(
+      "diagnose", "run a scene, check it from outside the solver, and again with noise");
+  add_scene(command, a.diagnosed.scene);
+  add_cache(command, a.diagnosed);
+  command->footer(
+      "Examples:\n"
+      "  faultsim diagnose my-field.json --set offset_east=\"200 m\"\n"
+      "  faultsim diagnose my-field.json --tier screening --json\n"
+      "Recomputes equilibrium, contact and energies of every load step in extended precision,\n"
+      "tests the operator, and runs the case again with noise of 1e-12 in its loads. Exit code 5\n"
+      "when a limit is not met; see docs/model.md, section 10.");
+  command->callback([&] { code = diagnose_command(a.diagnosed); });
+}
+
+void add_export_contact(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* command = app.add_subcommand(
+      "export-contact", "write the contact problem of a load step as an FCLib HDF5 file");
+  add_scene(command, a.exported.scene);
+  command->add_option("--step", a.exported.step, "load step; 0 = the initial equilibrium")
+      ->required();
+  command->add_option("-o,--output", a.exported.output, "file to write")->required();
+  command->add_flag("--freeze-strength", a.exported.freeze_strength,
+                    "friction that weakens keeps its value at the start of the step");
+  add_cache(command, a.exported);
+  command->footer(
+      "Examples:\n"
+      "  faultsim export-contact my-field.json --step 10 -o step10.hdf5\n"
+      "  faultsim export-contact my-field.json --step 10 --freeze-strength -o step10.hdf5\n"
+      "Runs the scene up to the step before, and writes u = W r + q, friction coefficients and\n"
+      "our solution. The step must have no cohesion; see docs/contact-export.md.");
+  command->callback([&] { code = export_contact_command(a.exported); });
+}
+
+void add_worker(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* command =
+      app.add_subcommand("worker", "serve cases to faultsweep (schemas/worker_protocol.md)");
+  command->add_option("--requests", a.worker.requests, "descriptor to read from")->required();
+  command->add_option("--replies", a.worker.replies, "descriptor to write to")->required();
+  command->add_option("--cache", a.worker.cache, "operator cache");
+  command->add_option("--node-cache", a.worker.node_cache,
+                      "copies of cached operators on this host's own disk");
+  command->add_option("--cache-size", a.worker.cache_size, "bytes");
+  command->add_option("--memory-limit", a.worker.memory_limit, "bytes of private memory");
+  command->footer("Example: faultsim worker --requests 0 --replies 1 <requests >replies");
+  command->callback([&] { code = worker_command(a.worker); });
+}
+
+void add_environment(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* command = app.add_subcommand(
+      "environment", "what the last digits depend on: processor, BLAS, compiler, libraries");
+  command->add_flag("--json", a.environment_json, "machine-readable output on stdout");
+  command->footer("Example: faultsim environment --json");
+  command->callback([&] { code = environment_command(a.environment_json); });
+}
+
+void add_verify(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* command =
+      app.add_subcommand("verify", "run the verification problems against closed forms");
+  command->add_option("names", a.problems, "V1 V2 … (default: all)");
+  command->add_flag("--list", a.list, "list the problems");
+  command->add_flag("--json", a.json, "machine-readable output on stdout");
+  command->add_flag("--slow", a.slow, "also the members that take minutes");
+  command->add_flag("--markdown", a.markdown, "tables as in docs/verification.md");
+  command->footer(
+      "Examples:\n"
+      "  faultsim verify                  all, under a minute\n"
+      "  faultsim verify V4 V5 --json     these two, with expected and computed values");
+  command->callback([&] { code = verify_command(a.problems, a.list, a.json, a.slow, a.markdown); });
+}
+
 /// Reads the command line and returns the chosen command's exit code.
 ExitCode faultsim_main(int argc, char** argv) {
   start_blas(argv);
   CLI::App app{"faultsim: 3D fault reactivation in compartmentalised gas reservoirs", "faultsim"};
   app.require_subcommand(1);
+  app.get_formatter()->column_width(24);  // texts of up to 76 columns stand beside it
   app.footer(kFooter);
-  app.set_version_flag("--version", std::string("faultsim ") + FAULTSIM_VERSION);
+  app.set_version_flag("--version", version_text("faultsim"));
+  Arguments arguments;
   ExitCode code = ExitCode::done;
-
-  std::string kind = "field", init_file;
-  CLI::App* init = app.add_subcommand("init", "write a starter scene");
-  init->add_option("kind", kind, "field or box")->check(CLI::IsMember({"field", "box"}));
-  init->add_option("file", init_file, "where to write it (default KIND.json)");
-  init->callback(
-      [&] { code = init_command(kind, init_file.empty() ? kind + ".json" : init_file); });
-
-  SceneArguments scene;
-  CLI::App* validate = app.add_subcommand("validate", "check a scene and list all its problems");
-  add_scene(validate, scene);
-  validate->callback([&] { code = validate_command(scene); });
-  CLI::App* plan = app.add_subcommand("plan", "what will be modelled and why, sizes and cost");
-  add_scene(plan, scene);
-  plan->callback([&] { code = plan_command(scene); });
-  CLI::App* parameters =
-      app.add_subcommand("parameters", "what can be varied, with aliases and ranges");
-  add_scene(parameters, scene);
-  parameters->callback([&] { code = parameters_command(scene); });
-  std::string mesh_output;
-  CLI::App* mesh =
-      app.add_subcommand("mesh", "make the mesh, report its quality, write it for ParaView");
-  add_scene(mesh, scene);
-  mesh->add_option("-o,--output", mesh_output, "folder for volume.h5 and volume.xmf");
-  mesh->callback([&] { code = mesh_command(scene, mesh_output); });
-
-  RunArguments run;
-  std::string path = "condensed";
-  CLI::App* run_app = app.add_subcommand("run", "run a scene");
-  add_scene(run_app, run.scene);
-  run_app->add_option("-o,--output", run.output, "result folder (default SCENE-result)");
-  run_app->add_option("--cache", run.cache, "operator cache (default: the user's cache folder)");
-  run_app->add_flag("--no-cache", run.no_cache, "neither read nor write cached operators");
-  run_app->add_option("--path", path, "how to solve")->check(CLI::IsMember({"condensed"}));
-  run_app->callback([&] { code = run_command(run); });
-
-  DiagnoseArguments diagnosed;
-  CLI::App* diagnose_app = app.add_subcommand(
-      "diagnose", "run a scene, check it from outside the solver, and again with noise");
-  add_scene(diagnose_app, diagnosed.scene);
-  diagnose_app->add_option("--cache", diagnosed.cache,
-                           "operator cache (default: the user's cache folder)");
-  diagnose_app->add_flag("--no-cache", diagnosed.no_cache,
-                         "neither read nor write cached operators");
-  diagnose_app->footer(
-      "Recomputes equilibrium, contact and energies of every load step in extended precision,\n"
-      "tests the operator, and runs the case again with noise of 1e-12 in its loads. Exit code 5\n"
-      "when a limit is not met; see docs/model.md, section 10.\n"
-      "Example: faultsim diagnose my-field.json --set offset_east=\"200 m\"");
-  diagnose_app->callback([&] { code = diagnose_command(diagnosed); });
-
-  ExportArguments exported;
-  CLI::App* export_app = app.add_subcommand(
-      "export-contact", "write the contact problem of a load step as an FCLib HDF5 file");
-  add_scene(export_app, exported.scene);
-  export_app->add_option("--step", exported.step, "load step; 0 = the initial equilibrium")
-      ->required();
-  export_app->add_option("-o,--output", exported.output, "file to write")->required();
-  export_app->add_flag("--freeze-strength", exported.freeze_strength,
-                       "friction that weakens keeps its value at the start of the step");
-  export_app->add_option("--cache", exported.cache,
-                         "operator cache (default: the user's cache folder)");
-  export_app->add_flag("--no-cache", exported.no_cache, "neither read nor write cached operators");
-  export_app->footer(
-      "Runs the scene up to the step before, and writes u = W r + q, friction coefficients and "
-      "our\n"
-      "solution. The step must have no cohesion; see docs/contact-export.md.\n"
-      "Example: faultsim export-contact my-field.json --step 10 -o step10.hdf5");
-  export_app->callback([&] { code = export_contact_command(exported); });
-
-  WorkerArguments worker;
-  CLI::App* worker_app =
-      app.add_subcommand("worker", "serve cases to faultsweep (schemas/worker_protocol.md)");
-  worker_app->add_option("--requests", worker.requests, "descriptor to read from")->required();
-  worker_app->add_option("--replies", worker.replies, "descriptor to write to")->required();
-  worker_app->add_option("--cache", worker.cache, "operator cache");
-  worker_app->add_option("--node-cache", worker.node_cache,
-                         "copies of cached operators on this host's own disk");
-  worker_app->add_option("--cache-size", worker.cache_size, "bytes");
-  worker_app->add_option("--memory-limit", worker.memory_limit, "bytes of private memory");
-  worker_app->callback([&] { code = worker_command(worker); });
-
-  bool environment_json = false;
-  CLI::App* environment = app.add_subcommand(
-      "environment", "what the last digits depend on: processor, BLAS, compiler, libraries");
-  environment->add_flag("--json", environment_json, "machine-readable output on stdout");
-  environment->callback([&] { code = environment_command(environment_json); });
-
-  std::vector<std::string> names;
-  bool list = false, json = false, slow = false, markdown = false;
-  CLI::App* verify =
-      app.add_subcommand("verify", "run the verification problems against closed forms");
-  verify->add_option("names", names, "V1 V2 … (default: all)");
-  verify->add_flag("--list", list, "list the problems");
-  verify->add_flag("--json", json, "machine-readable output");
-  verify->add_flag("--slow", slow, "also the members that take minutes");
-  verify->add_flag("--markdown", markdown, "tables as in docs/verification.md");
-  verify->callback([&] { code = verify_command(names, list, json, slow, markdown); });
-
+  for (auto* add : {add_init, add_looking, add_run, add_diagnose, add_export_contact, add_worker,
+                    add_environment, add_verify}) {
+    add(app, arguments, code);
+  }
   try {
     demand_known_command(app, argc, argv);
     app.parse(argc, argv);

@@ -10,6 +10,7 @@
 #include "simulator/linalg/blas_kernel.h"
 #include "simulator/loading/history.h"
 #include "simulator/loading/run_case.h"
+#include "simulator/output/json_text.h"
 #include "simulator/output/result_folder.h"
 #include "simulator/output/write_result.h"
 
@@ -105,7 +106,7 @@ ExitCode run_command(const RunArguments& arguments) {
                        .names = {"plan.json", "scene.json", "result.json", "faults.h5",
                                  "faults.xmf", "volume.h5", "volume.xmf"},
                        .inputs = input_files(loaded)});
-  write_text(output.path() / "plan.json", plan_to_json(loaded.plan).dump(2) + "\n");
+  write_text(output.path() / "plan.json", json_text(plan_to_json(loaded.plan)));
   write_text(output.path() / "scene.json", loaded.document.value.dump(2) + "\n");
 
   ScreenMonitor monitor(json);
@@ -137,11 +138,11 @@ ExitCode run_command(const RunArguments& arguments) {
     names.region_names.push_back(history.region);
   for (const Fault& fault : scene.faults) names.fault_names.push_back(fault.name);
   names.plane_strain = loaded.plan.plane_strain;
-  if (!json) std::cout << step_table_header(names);
+  if (!json) std::cout << step_table_header(names, arguments.wide);
   SilentMonitor silent;
   const CaseResult result =
       run_case(scene, prepared, silent, [&](const StepResult& step, const FaultFields& fields) {
-        if (!json) std::cout << step_table_row(step) << std::flush;
+        if (!json) std::cout << step_table_row(step, arguments.wide) << std::flush;
         if (writer) writer->add_step(step, fields);
         if (volume) volume->add(step, fields);
       });
@@ -149,7 +150,7 @@ ExitCode run_command(const RunArguments& arguments) {
   if (volume) write_volume_fields(output.path(), loaded, *volume);
   nlohmann::json document = result_to_json(result);
   document["initial_state"] = initial_state_to_json(loaded.plan.initial);
-  const std::string text = document.dump(2) + "\n";
+  const std::string text = json_text(std::move(document));
   write_text(output.path() / "result.json", text);
   const bool finished = result.outcome != Outcome::interrupted;
   if (finished) {
@@ -160,7 +161,7 @@ ExitCode run_command(const RunArguments& arguments) {
   if (json) {
     std::cout << text;
   } else {
-    if (result.failed_step) std::cout << step_table_row(result.steps.back());
+    if (result.failed_step) std::cout << step_table_row(result.steps.back(), arguments.wide);
     std::cout << case_summary(result);
     if (finished) {
       std::cerr << "results in " << folder.string() << "/ (result.json, faults.xmf for ParaView)\n";

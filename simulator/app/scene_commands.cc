@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -8,11 +9,37 @@
 #include "simulator/app/load_scene.h"
 #include "simulator/app/screen.h"
 #include "simulator/loading/run_case.h"
+#include "simulator/output/json_text.h"
 #include "simulator/output/output_target.h"
 #include "simulator/output/result_folder.h"
 #include "simulator/output/write_result.h"
 
 namespace faultsim {
+namespace {
+
+/// Which part of the scene a pointer leads into: 'block "east"'; "" where it is none with a name.
+std::string owner_of(const nlohmann::json& document, const std::string& pointer) {
+  const std::map<std::string, std::string> kinds = {
+      {"blocks", "block"}, {"regions", "region"}, {"layers", "layer"},
+      {"faults", "fault"}, {"stages", "stage"},   {"observation_points", "point"}};
+  nlohmann::json::json_pointer place(pointer);
+  for (; !place.empty(); place.pop_back()) {
+    const nlohmann::json::json_pointer above = place.parent_pointer();
+    if (above.empty()) break;
+    if (above.back() == "materials" || above.back() == "compartments") {
+      return concat(above.back() == "materials" ? "material" : "compartment", " \"", place.back(),
+                    "\"");
+    }
+    const auto kind = kinds.find(above.back());
+    if (kind == kinds.end() || !document.contains(place)) continue;
+    const nlohmann::json& part = document.at(place);
+    const std::string name = part.is_object() ? part.value("name", "") : "";
+    if (!name.empty()) return concat(kind->second, " \"", name, "\"");
+  }
+  return "";
+}
+
+}  // namespace
 
 ExitCode init_command(const std::string& kind, const std::filesystem::path& file) {
   if (std::filesystem::exists(file)) {
@@ -30,11 +57,9 @@ ExitCode validate_command(const SceneArguments& arguments) {
     const LoadedScene loaded = load_scene(arguments);
     check_geometry(loaded);
     if (arguments.json) {
-      std::cout << nlohmann::json{{"valid", true},
-                                  {"identity", case_identity(loaded.scene)},
-                                  {"warnings", remarks_to_json(loaded)}}
-                       .dump()
-                << "\n";
+      std::cout << json_text(nlohmann::json{{"valid", true},
+                                            {"identity", case_identity(loaded.scene)},
+                                            {"warnings", remarks_to_json(loaded)}});
     } else {
       std::cout << arguments.file << ": valid, case " << case_identity(loaded.scene).substr(0, 12)
                 << "\n"
@@ -48,9 +73,7 @@ ExitCode validate_command(const SceneArguments& arguments) {
       problems.push_back(
           {{"pointer", p.pointer}, {"line", p.line}, {"what", p.what}, {"cure", p.cure}});
     }
-    const nlohmann::json report = {{"valid", false}, {"problems", problems}};
-    // A name may hold bytes that are no UTF-8: they are replaced.
-    std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+    std::cout << json_text(nlohmann::json{{"valid", false}, {"problems", problems}});
     return ExitCode::input;
   }
 }
@@ -62,7 +85,7 @@ ExitCode plan_command(const SceneArguments& arguments) {
   if (arguments.json) {
     nlohmann::json plan = plan_to_json(loaded.plan);
     plan["warnings"] = remarks_to_json(loaded);
-    std::cout << plan.dump(2) << "\n";
+    std::cout << json_text(std::move(plan));
   } else {
     std::cout << plan_to_text(loaded.plan) << remarks_to_text(loaded);
   }
@@ -77,6 +100,7 @@ ExitCode parameters_command(const SceneArguments& arguments) {
     for (const ParameterInfo& p : rows) {
       out.push_back({{"pointer", p.pointer},
                      {"alias", p.alias},
+                     {"of", owner_of(loaded.document.value, p.pointer)},
                      {"unit", si_unit(p.dimension)},
                      {"value", p.value},
                      {"default", p.default_value},
@@ -84,15 +108,20 @@ ExitCode parameters_command(const SceneArguments& arguments) {
                      {"new_family", p.new_family},
                      {"description", p.description}});
     }
-    std::cout << out.dump(2) << "\n";
+    std::cout << json_text(nlohmann::json{{"parameters", std::move(out)}});
     return ExitCode::done;
   }
-  std::printf("%-52s %-26s %-16s %-14s %-20s %s\n", "pointer", "alias", "value", "default", "range",
-              "new operator?");
+  std::printf("%-50s %-20s %s\n", "pointer", "value", "default");
   for (const ParameterInfo& p : rows) {
-    std::printf("%-52s %-26s %-16s %-14s %-20s %s\n", p.pointer.c_str(), p.alias.c_str(),
-                p.value.c_str(), p.default_value.c_str(), p.range.c_str(),
-                p.new_family ? "yes" : "no");
+    std::printf("%-50s %-20s %s\n", p.pointer.c_str(), p.value.c_str(), p.default_value.c_str());
+    const std::string owner = owner_of(loaded.document.value, p.pointer);
+    std::string more;
+    for (const std::string& part :
+         {p.alias, owner.empty() ? "" : "of the " + owner, p.range.empty() ? "" : "in " + p.range,
+          std::string(p.new_family ? "new operator" : "")}) {
+      if (!part.empty()) more += (more.empty() ? "" : "; ") + part;
+    }
+    if (!more.empty()) std::printf("    %s\n", more.c_str());
   }
   return ExitCode::done;
 }
@@ -112,13 +141,11 @@ ExitCode mesh_command(const SceneArguments& arguments, const std::filesystem::pa
   std::size_t n_pairs = 0;
   for (const FaultSurface& fault : problem.mesh.faults) n_pairs += fault.nodes.size();
   if (arguments.json) {
-    std::cout << nlohmann::json{{"n_nodes", problem.mesh.nodes.size()},
-                                {"n_cells", problem.mesh.cells.size()},
-                                {"n_fault_node_pairs", n_pairs},
-                                {"min_scaled_jacobian", quality.min_scaled_jacobian},
-                                {"max_aspect", quality.max_aspect}}
-                     .dump(2)
-              << "\n";
+    std::cout << json_text(nlohmann::json{{"n_nodes", problem.mesh.nodes.size()},
+                                          {"n_cells", problem.mesh.cells.size()},
+                                          {"n_fault_node_pairs", n_pairs},
+                                          {"min_scaled_jacobian", quality.min_scaled_jacobian},
+                                          {"max_aspect", quality.max_aspect}});
   } else {
     std::printf(
         "nodes %zu, cells %zu, fault node pairs %zu\nsmallest scaled Jacobian %.3f, largest aspect "

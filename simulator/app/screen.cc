@@ -58,40 +58,88 @@ void ScreenMonitor::note(const std::string& text) {
   std::fprintf(stderr, "note: %s\n", text.c_str());
 }
 
-std::string step_table_header(const CaseResult& names) {
-  std::string line = format("%4s  %-22s %7s", "step", "stage", "year");
-  for (const std::string& region : names.region_names)
-    line += format(" %9.9s", ("dp " + region).c_str());
-  line += format("  %6s %6s %6s", "stick", "slip", "open");
-  for (const std::string& fault : names.fault_names)
-    line += format(" %8.8s", ("chi " + fault).c_str());
-  line += format(" %11s %10s %5s %8s\n", "chi>0.8", "max slip", "iter", "time");
-  line += format("%4s  %-22s %7s", "", "", "");
-  for (std::size_t i = 0; i < names.region_names.size(); ++i) line += format(" %9s", "bar");
-  line += format("  %6s %6s %6s", "nodes", "nodes", "nodes");
-  for (std::size_t i = 0; i < names.fault_names.size(); ++i) line += format(" %8s", "window");
-  return line + format(" %11s %10s %5s %8s\n", names.plane_strain ? "m2/m" : "m2", "mm", "", "ms");
+namespace {
+
+constexpr std::size_t kScreenWidth = 100;
+constexpr std::size_t kRegionWidth = 8, kFaultWidth = 8;
+
+/// The columns that stay beside those of regions and faults.
+std::size_t fixed_width(bool wide) { return wide ? 82 : 60; }
+
+/// As many faults as fit; of more, the column after them has the largest index of the others.
+std::size_t n_fault_columns(std::size_t n_regions, std::size_t n_faults, bool wide) {
+  const std::size_t taken = fixed_width(wide) + n_regions * kRegionWidth;
+  if (wide || taken + n_faults * kFaultWidth <= kScreenWidth) return n_faults;
+  return taken + 2 * kFaultWidth > kScreenWidth ? 0 : (kScreenWidth - taken) / kFaultWidth - 1;
 }
 
-std::string step_table_row(const StepResult& step) {
+/// One column, the most depleted region, where they would take the faults' place.
+bool shows_regions(std::size_t n_regions, bool wide) { return wide || n_regions <= 4; }
+
+}  // namespace
+
+std::string step_table_header(const CaseResult& names, bool wide) {
+  const bool regions = shows_regions(names.region_names.size(), wide);
+  const std::size_t n_regions = regions ? names.region_names.size() : 1;
+  const std::size_t n_faults = names.fault_names.size();
+  const std::size_t n_shown = n_fault_columns(n_regions, n_faults, wide);
+  std::string line = format("%4s  %-18s%7s", "step", "stage", "year");
+  std::string units = format("%4s  %-18s%7s", "", "", "");
+  for (std::size_t r = 0; r < n_regions; ++r) {
+    line += format(" %7.7s", regions ? ("dp " + names.region_names[r]).c_str() : "dp min");
+    units += format(" %7s", "bar");
+  }
+  if (wide) line += format(" %6s", "stick"), units += format(" %6s", "nodes");
+  line += format(" %5s %4s", "slip", "open");
+  units += format(" %5s %4s", "nodes", "");
+  for (std::size_t f = 0; f < n_shown; ++f) {
+    line += format(" %7.7s", ("chi " + names.fault_names[f]).c_str());
+    units += format(" %7s", "window");
+  }
+  if (n_shown < n_faults) {
+    line += format(" %7s", n_shown == 0 ? "chi max" : "others");
+    units += format(" %7s", "window");
+  }
+  line += format(" %8s %8s", "chi>0.8", "max slip");
+  units += format(" %8s %8s", names.plane_strain ? "m2/m" : "m2", "mm");
+  if (wide) line += format(" %5s %8s", "iter", "time"), units += format(" %5s %8s", "", "ms");
+  return line + "\n" + units + "\n";
+}
+
+std::string step_table_row(const StepResult& step, bool wide) {
   constexpr double kYear = 31557600.0;
   const bool has_event =
       step.outcome == Outcome::event || step.outcome == Outcome::unresolved_event;
-  std::string line = format("%4d%c %-22.22s %7.2f", step.step, has_event ? '!' : ' ',
+  std::string line = format("%4d%c %-18.18s%7.2f", step.step, has_event ? '!' : ' ',
                             step.stage.c_str(), step.time / kYear);
-  for (const double dp : step.pressure_change) line += format(" %9s", bar(dp).c_str());
+  const bool regions = shows_regions(step.pressure_change.size(), wide);
+  std::vector<double> shown = step.pressure_change;
+  if (!regions) shown = {*std::min_element(shown.begin(), shown.end())};
+  for (const double dp : shown) line += format(" %7s", bar(dp).c_str());
   if (!in_equilibrium(step.outcome)) {
     return line + "  " + to_string(step.outcome) + ": " + step.reason + "\n";
   }
-  line += format("  %6d %6d %6d", step.n_stick, step.n_slip, step.n_open);
-  double area = 0, slip = 0;
-  for (const FaultMetrics& fault : step.faults) {
-    line += format(" %7.3f%s", fault.chi_bar, fault.activated ? "*" : " ");
+  if (wide) line += format(" %6d", step.n_stick);
+  line += format(" %5d %4d", step.n_slip, step.n_open);
+  const std::size_t n_shown = n_fault_columns(shown.size(), step.faults.size(), wide);
+  double area = 0, slip = 0, others = 0;
+  bool others_activated = false;
+  for (std::size_t f = 0; f < step.faults.size(); ++f) {
+    const FaultMetrics& fault = step.faults[f];
     area += fault.area_chi_080;
     slip = std::max(slip, fault.max_slip);
+    if (f < n_shown) {
+      line += format(" %6.3f%s", fault.chi_bar, fault.activated ? "*" : " ");
+    } else {
+      others = std::max(others, fault.chi_bar);
+      others_activated = others_activated || fault.activated;
+    }
   }
-  return line + format(" %11.4g %10.3f %5d %8.2f\n", area, slip * 1e3,
-                       step.counts.newton_iterations, step.seconds * 1e3);
+  if (n_shown < step.faults.size())
+    line += format(" %6.3f%s", others, others_activated ? "*" : " ");
+  line += format(" %8.4g %8.3f", area, slip * 1e3);
+  if (wide) line += format(" %5d %8.2f", step.counts.newton_iterations, step.seconds * 1e3);
+  return line + "\n";
 }
 
 namespace {

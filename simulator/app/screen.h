@@ -26,9 +26,11 @@ class ScreenMonitor final : public Monitor {
   Stopwatch watch_;
 };
 
-/// The table per load step that `faultsim run` prints; ! marks steps with slip events.
-std::string step_table_header(const CaseResult& names);
-std::string step_table_row(const StepResult& step);
+/// The table per load step that `faultsim run` prints; ! marks steps with slip events. It keeps
+/// within 100 columns: faults that do not fit share one, with the largest index of them.
+/// @param wide  all faults and regions, sticking nodes, iterations and times, however wide.
+std::string step_table_header(const CaseResult& names, bool wide);
+std::string step_table_row(const StepResult& step, bool wide);
 /// The closing lines: outcome, activation, stages, slip events, episodes, warnings.
 std::string case_summary(const CaseResult& result);
 

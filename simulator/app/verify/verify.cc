@@ -10,6 +10,7 @@
 #include "simulator/common/interrupt.h"
 #include "simulator/common/stopwatch.h"
 #include "simulator/linalg/blas_start.h"
+#include "simulator/output/json_text.h"
 
 namespace faultsim {
 
@@ -95,7 +96,7 @@ void print_list(const std::vector<const VerifyCase*>& cases, bool json) {
                 << c->title << (c->slow ? "  (slow)" : "") << "\n";
     }
   }
-  if (json) std::cout << list.dump(2) << "\n";
+  if (json) std::cout << json_text(nlohmann::json{{"problems", std::move(list)}});
 }
 
 }  // namespace
@@ -129,8 +130,8 @@ ExitCode verify_command(const std::vector<std::string>& names, bool list, bool j
   const std::string summary =
       concat(passed, " of ", cases.size(), " cases passed, ", compared, " comparisons");
   if (json) {
-    std::cout << nlohmann::json{{"cases", reports}, {"passed", good}, {"summary", summary}}.dump(2)
-              << "\n";
+    std::cout << json_text(
+        nlohmann::json{{"cases", reports}, {"passed", good}, {"summary", summary}});
   } else if (!markdown) {
     std::cout << summary << (compared == 0 ? ": nothing was compared" : "") << "\n";
   }

@@ -34,6 +34,36 @@ TEST(TextTable, AlignsNumbersRightWordsLeftAndDropsEmptyColumns) {
   EXPECT_EQ(format_number(std::nan("")), "-");
 }
 
+TEST(TextTable, KeepsWithinTheScreen) {
+  TextTable table({"case", "first metric", "second metric", "reason"});
+  table.add_row(
+      {"17", "0.123456", "12.5", "the history ends in step 9: no convergence of the contact"});
+  table.add_row({"8", "0.9", "3", ""});
+  EXPECT_EQ(table.text(40),
+            "case  first metric  second metric\n"
+            "  17      0.123456           12.5\n"
+            "   8           0.9              3\n"
+            "\n"
+            "case  reason\n"
+            "  17  the history ends in step 9: no\n"
+            "      convergence of the contact\n"
+            "   8\n");
+  EXPECT_THAT(table.text(1000), HasSubstr("case  first metric  second metric  reason\n"));
+  EXPECT_EQ(TextTable({"nothing"}).text(), "");
+}
+
+TEST(TextTable, ShowsTheDigitsThatAScreenNeeds) {
+  EXPECT_EQ(short_number("18.9238690858494 deg"), "18.9239 deg");
+  EXPECT_EQ(short_number("-1.23456789e-07"), "-1.23457e-07");
+  for (const char* kept :
+       {"20 deg", "0.125", "12345678", "min", "", "F1.12345678", "1.5.2345678"}) {
+    EXPECT_EQ(short_number(kept), kept);
+  }
+  TextTable table({"angle"});
+  table.add_row({"18.9238690858494 deg"});
+  EXPECT_EQ(table.text(), "angle\n18.9239 deg\n");
+}
+
 TEST(Parameters, TravelThroughTheStore) {
   const std::vector<StoredParameter> parameters = {{"offset", Dimension::length, false},
                                                    {"rule", Dimension::number, true}};
@@ -379,6 +409,7 @@ TEST_F(EventReportTest, EventsOrderAndFilter) {
 }
 
 TEST_F(EventReportTest, ShowListsEventsAndEpisodes) {
+  TextTable::set_screen_width(1000);
   const std::string text = show("2");
   EXPECT_THAT(text,
               HasSubstr("UNEXPECTED REACTIVATION: fault F1 slides again in gas_storage, steps "));
@@ -389,6 +420,7 @@ TEST_F(EventReportTest, ShowListsEventsAndEpisodes) {
   EXPECT_THAT(text, HasSubstr("has recovered"));
   EXPECT_THAT(show("3"), Not(HasSubstr("UN")));
   EXPECT_THAT(show("1"), Not(HasSubstr("slip events")));
+  TextTable::set_screen_width(kScreenWidth);
 }
 
 TEST_F(EventReportTest, StatusCountsThemAsDoneButNotAsConverged) {
