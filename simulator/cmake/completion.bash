@@ -12,9 +12,9 @@ _faultsim_complete() {
     --progress) COMPREPLY=($(compgen -W "none lines bar" -- "$word")); return ;;
   esac
   if [[ $word == -* ]]; then
-    COMPREPLY=($(compgen -W "$(grep -oE -- '(^| |,)--?[a-zA-Z][a-z-]*' <<<"$help" | tr -d ' ,')" -- "$word"))
+    COMPREPLY=($(compgen -W "$(grep -oE -- '(^| |,)--?[a-zA-Z][a-z-]*' <<<"$help" | tr -d ' ,' | sort -u)" -- "$word"))
   elif [[ -z $command || $command == cache ]]; then
-    COMPREPLY=($(compgen -W "$(awk '/^Subcommands:/ { on = 1; next } on && /^  [a-z]/ { print $1 }' <<<"$help")" -- "$word"))
+    COMPREPLY=($(compgen -W "$(awk '/^Subcommands:/ { on = 1; next } /^[^ ]/ { on = 0 } on && /^  [a-z]/ { print $1 }' <<<"$help")" -- "$word"))
   else
     COMPREPLY=($(compgen -f -- "$word"))
   fi
