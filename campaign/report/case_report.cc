@@ -57,9 +57,10 @@ void add_stage(TextTable& table, const std::string& name, const StageMetrics& m)
   const std::string sliding = first_of(m.activated, m.activated_fault, m.activation_step);
   table.add_row(
       {name, concat(m.first_step, "-", m.last_step),
-       m.activated ? sliding
-       : m.slips   ? "no, slips"
-                   : "no",
+       (m.activated ? sliding
+        : m.slips   ? "no, slips"
+                    : "no") +
+           (m.activation_resolved ? std::string() : ", unresolved"),
        m.n_events > 0 ? std::to_string(m.n_events) : "",
        first_of(m.opens, m.opened_fault, m.opening_step), m.opens ? format_number(m.open_area) : "",
        format_number(m.chi_bar, 3), format_number(m.chi_max, 3), format_number(m.area_chi_080),
@@ -194,7 +195,7 @@ std::string creep_text(const CaseResult& result) {
 std::string history_text(const CaseResult& result, std::size_t fault, const std::string& stage) {
   const std::string area = unit("m2", result);
   TextTable table({"step", "stage", "year", "Δp/bar", "χ̄", "χ max", "area χ>0.8/" + area,
-                   "slipping/" + area, "sliding/" + area, "open/" + area, "slip/m",
+                   "slipping/" + area, "slides", "sliding/" + area, "open/" + area, "slip/m",
                    "M0/" + unit("Nm", result), "creep ΔtN/bar", "creep |ΔtT|/bar", "time steps"});
   for (const faultsim::StepResult& step : result.steps) {
     if (!is_asked(stage, step.stage)) continue;
@@ -205,7 +206,7 @@ std::string history_text(const CaseResult& result, std::size_t fault, const std:
     if (fault >= step.faults.size()) {
       table.add_row({std::to_string(step.step), step.stage, format_number(step.time / kYear),
                      pressure, faultsim::to_string(step.outcome), "", "", "", "", "", "", "", "",
-                     "", ""});
+                     "", "", ""});
       continue;
     }
     const faultsim::FaultMetrics& m = step.faults[fault];
@@ -213,6 +214,7 @@ std::string history_text(const CaseResult& result, std::size_t fault, const std:
     table.add_row({std::to_string(step.step), step.stage, format_number(step.time / kYear),
                    pressure, format_number(m.chi_bar, 3), format_number(m.chi_max, 3),
                    format_number(m.area_chi_080), format_number(m.slipping_area),
+                   concat(m.activated ? "yes" : "no", m.activation_resolved ? "" : "?"),
                    format_number(m.activated_area),
                    m.open_area > 0 ? format_number(m.open_area) : "", format_number(m.max_slip, 3),
                    format_number(m.moment, 3), creep.normal, creep.shear, creep.time_steps});
@@ -366,6 +368,9 @@ std::string case_to_text(const CampaignInfo& campaign, const StoredCase& one,
     text += result.weakening_resolved
                 ? "UNRESOLVED: the evidence of a slip event does not hold\n"
                 : "UNRESOLVED: the size of its slip events depends on the mesh\n";
+  }
+  if (!result.whole.activation_resolved) {
+    text += "UNRESOLVED: whether a fault slides hangs on the mesh (? below)\n";
   }
   for (const std::string& warning : result.warnings) text += "warning: " + warning + "\n";
   if (std::isfinite(result.pressure_margin)) {

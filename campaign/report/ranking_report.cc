@@ -49,6 +49,7 @@ faultsim::StageMetrics shown(const RankedCase& row) {
   m.faults = {f};
   m.slips = f.slips;
   m.activated = f.activated;
+  m.activation_resolved = f.activation_resolved;
   m.opens = f.opens;
   m.activation_step = f.activation ? std::optional(f.activation->step) : std::nullopt;
   m.opening_step = f.opening ? std::optional(f.opening->step) : std::nullopt;
@@ -79,7 +80,8 @@ bool is_unexpected(const RankedCase& row) {
 std::string flag_of(const RankedCase& row) {
   std::string flag = row.outcome;
   if (!row.weakening_resolved) flag += ", mesh too coarse for its weakening";
-  if (row.weakening_resolved && row.rank_class == 1) flag += ", evidence of an event does not hold";
+  const bool unresolved_event = row.outcome == to_string(faultsim::Outcome::unresolved_event);
+  if (row.weakening_resolved && unresolved_event) flag += ", evidence of an event does not hold";
   if (is_unexpected(row)) flag += concat(", UNEXPECTED (", row.unexpected_fault, ")");
   return flag;
 }
@@ -92,8 +94,10 @@ std::string first_of(bool any, const std::string& fault, const std::optional<int
 }
 
 std::string sliding_of(const faultsim::StageMetrics& m) {
-  if (!m.activated) return m.slips ? "no, slips" : "no";
-  return first_of(true, m.activated_fault, m.activation_step);
+  const std::string text = m.activated ? first_of(true, m.activated_fault, m.activation_step)
+                           : m.slips   ? "no, slips"
+                                       : "no";
+  return text + (m.activation_resolved ? "" : ", unresolved");
 }
 
 /// The tier that all groups of a resolved spec have, without sizes of their own; "" = no such.
@@ -178,8 +182,9 @@ std::string footnotes(const Ranking& ranking) {
   std::string text;
   if (any([](const RankedCase& row) { return row.rank_class == 1; })) {
     text +=
-        "+ complete, but the size of its slip events depends on the mesh or is not evident: "
-        "ranked apart\n";
+        "+ complete, but whether a fault slides (unresolved) or how large its slip events are "
+        "hangs "
+        "on the mesh, or events are not evident: ranked apart\n";
   }
   if (any([](const RankedCase& row) { return row.rank_class > 1; })) {
     text += "* history ends early: listed apart, not ranked\n";
@@ -319,6 +324,7 @@ json ranking_to_json(const Ranking& ranking) {
                   {"plane_strain", row.plane_strain},
                   {"slips", m.slips},
                   {"slides", m.activated},
+                  {"activation_resolved", m.activation_resolved},
                   {"jumps", m.n_events > 0},
                   {"opens", m.opens},
                   {"activated_fault", m.activated_fault},

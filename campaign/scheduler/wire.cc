@@ -110,8 +110,8 @@ template <typename Archive>
 void fields(Archive& a, faultsim::FaultMetrics& m) {
   all(a, m.chi_bar, m.chi_max, m.chi_static_max, m.area_chi_080, m.thickness_chi_080_max,
       m.thickness_chi_080_mean, m.slipping_area, m.open_area, m.activated_area, m.activated_length,
-      m.activated, m.activated_at_edge, m.max_slip, m.mean_slip, m.potency, m.moment,
-      m.moment_step);
+      m.activated, m.activation_resolved, m.activated_at_edge, m.max_slip, m.mean_slip, m.potency,
+      m.moment, m.moment_step);
 }
 template <typename Archive>
 void fields(Archive& a, faultsim::SolveCounts& c) {
@@ -141,16 +141,17 @@ void fields(Archive& a, faultsim::FaultOnset& o) {
 }
 template <typename Archive>
 void fields(Archive& a, faultsim::FaultStageMetrics& m) {
-  all(a, m.fault, m.slips, m.activated, m.opens, m.activation, m.opening, m.chi_bar, m.chi_max,
-      m.area_chi_080, m.thickness_chi_080, m.activated_area, m.slipping_area, m.open_area,
-      m.max_slip, m.potency, m.moment, m.n_events, m.event_moment, m.event_magnitude);
+  all(a, m.fault, m.slips, m.activated, m.activation_resolved, m.opens, m.activation, m.opening,
+      m.chi_bar, m.chi_max, m.area_chi_080, m.thickness_chi_080, m.activated_area, m.slipping_area,
+      m.open_area, m.max_slip, m.potency, m.moment, m.n_events, m.event_moment, m.event_magnitude);
 }
 template <typename Archive>
 void fields(Archive& a, StageMetrics& m) {
-  all(a, m.stage, m.first_step, m.last_step, m.slips, m.activated, m.opens, m.activation_step,
-      m.activated_fault, m.opening_step, m.opened_fault, m.chi_bar, m.chi_max, m.area_chi_080,
-      m.thickness_chi_080, m.activated_area, m.slipping_area, m.open_area, m.max_slip, m.potency,
-      m.moment, m.magnitude_if_at_once, m.n_events, m.event_moment, m.event_magnitude, m.faults);
+  all(a, m.stage, m.first_step, m.last_step, m.slips, m.activated, m.activation_resolved, m.opens,
+      m.activation_step, m.activated_fault, m.opening_step, m.opened_fault, m.chi_bar, m.chi_max,
+      m.area_chi_080, m.thickness_chi_080, m.activated_area, m.slipping_area, m.open_area,
+      m.max_slip, m.potency, m.moment, m.magnitude_if_at_once, m.n_events, m.event_moment,
+      m.event_magnitude, m.faults);
 }
 template <typename Archive>
 void fields(Archive& a, faultsim::Reactivation& r) {

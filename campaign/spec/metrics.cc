@@ -7,6 +7,8 @@ const std::vector<MetricInfo>& metric_catalogue() {
   static const std::vector<MetricInfo> catalogue = {
       {"slides", Dimension::number, true, "slip reached the activation criterion", false,
        "activated"},
+      {"activation_resolved", Dimension::number, true,
+       "cells are small enough to tell whether slip reaches the criterion"},
       {"slips", Dimension::number, true, "some node slipped; mesh-dependent, a bound"},
       {"jumps", Dimension::number, true, "there are slip events"},
       {"opens", Dimension::number, true, "some node is open; open_area says how far"},

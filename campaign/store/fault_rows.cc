@@ -40,6 +40,7 @@ FaultStageMetrics read_metrics(const Statement& row) {
   m.n_events = static_cast<int>(row.integer(12));
   m.event_moment = row.real(13);
   m.event_magnitude = row.optional_real(14);
+  m.activation_resolved = row.optional_integer(15).value_or(0) != 0;  // NULL: not known
   m.slips = m.max_slip > 0;
   m.opens = m.open_area > 0;
   return m;
@@ -85,7 +86,8 @@ FaultStageMetrics read_fault_row(Connection& db, std::int64_t case_id, std::int6
   Statement& query = db.prepared(
       "SELECT f.name, q.activated, q.chi_bar, q.chi_max, q.area_chi_080_m2, q.thickness_chi_080_m,"
       " q.activated_area_m2, q.slipping_area_m2, q.open_area_m2, q.max_slip_m, q.potency_m3,"
-      " q.moment_nm, q.n_events, q.event_moment_nm, q.event_magnitude_mw FROM fault_metrics q"
+      " q.moment_nm, q.n_events, q.event_moment_nm, q.event_magnitude_mw,"
+      " q.activation_resolved FROM fault_metrics q"
       " JOIN names f ON f.id = q.fault_id"
       " WHERE q.stage_id = ? AND q.fault_id = ? AND q.case_id = ?");
   FaultStageMetrics fault;
@@ -97,24 +99,22 @@ FaultStageMetrics read_fault_row(Connection& db, std::int64_t case_id, std::int6
   return fault;
 }
 
-void Store::record_faults(std::int64_t case_id, std::int64_t stage_id, int rank_class,
-                          const faultsim::StageMetrics& stage) {
+void Store::record_fault(std::int64_t case_id, std::int64_t stage_id, std::size_t position,
+                         int rank_class, const FaultStageMetrics& m) {
   Statement& add = connection_->prepared(
       "INSERT INTO fault_metrics (stage_id, fault_id, case_id, fault, rank_class, activated,"
       " chi_bar, chi_max, area_chi_080_m2, thickness_chi_080_m, activated_area_m2,"
       " slipping_area_m2, open_area_m2, max_slip_m, potency_m3, moment_nm, n_events,"
-      " event_moment_nm, event_magnitude_mw)"
-      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  for (std::size_t f = 0; f < stage.faults.size(); ++f) {
-    const FaultStageMetrics& m = stage.faults[f];
-    const std::int64_t fault_id = name_id(m.fault);
-    add.bind(stage_id, fault_id, case_id, f, rank_class, m.activated, m.chi_bar, m.chi_max,
-             m.area_chi_080, m.thickness_chi_080, m.activated_area, m.slipping_area, m.open_area,
-             m.max_slip, m.potency, m.moment, m.n_events, m.event_moment, m.event_magnitude)
-        .run();
-    record_onset(case_id, stage_id, false, fault_id, m.activation);
-    record_onset(case_id, stage_id, true, fault_id, m.opening);
-  }
+      " event_moment_nm, event_magnitude_mw, activation_resolved)"
+      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  const std::int64_t fault_id = name_id(m.fault);
+  add.bind(stage_id, fault_id, case_id, position, rank_class, m.activated, m.chi_bar, m.chi_max,
+           m.area_chi_080, m.thickness_chi_080, m.activated_area, m.slipping_area, m.open_area,
+           m.max_slip, m.potency, m.moment, m.n_events, m.event_moment, m.event_magnitude,
+           m.activation_resolved)
+      .run();
+  record_onset(case_id, stage_id, false, fault_id, m.activation);
+  record_onset(case_id, stage_id, true, fault_id, m.opening);
 }
 
 void Store::record_onset(std::int64_t case_id, std::int64_t stage_id, bool opening,

@@ -44,6 +44,7 @@ const std::map<std::string, MetricColumn>& metric_columns() {
       {"rank_class", {"$.rank_class", true}},
       {"slips", {"($.max_slip_m > 0)", true}},
       {"slides", {"$.activated", true}},
+      {"activation_resolved", {"coalesce($.activation_resolved, 0)", true}},
       {"jumps", {"($.n_events > 0)", true}},
       {"opens", {"($.open_area_m2 > 0)", true}},
       {"activation_step", {onset("step", false).sql, true, "$.activation_step"}},

@@ -3,6 +3,7 @@
 #include <ctime>
 
 #include "campaign/store/sqlite.h"
+#include "store_10_sql.h"
 #include "store_2_sql.h"
 #include "store_3_sql.h"
 #include "store_4_sql.h"
@@ -90,6 +91,7 @@ const std::vector<Migration>& store_migrations() {
       {7, "2026-11-22 trades of accuracy for speed", faultsim::embedded::store_7_sql},
       {8, "2026-11-22 checksums and operator time limits", faultsim::embedded::store_8_sql},
       {9, "2026-11-22 metrics and pressures per fault", faultsim::embedded::store_9_sql},
+      {10, "2026-11-22 flags that hang on the mesh", faultsim::embedded::store_10_sql},
   };
   return migrations;
 }

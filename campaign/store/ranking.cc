@@ -118,9 +118,11 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
       " s.potency_m3, s.moment_nm, s.magnitude_if_released_at_once_mw, s.n_events, "
       "s.event_moment_nm,"
       " s.event_magnitude_mw, s.first_step, s.last_step, coalesce(o.name, ''),"
-      " (SELECT n.name FROM episodes e JOIN names n ON n.id = e.fault_id WHERE e.case_id = s.case_id"
+      " s.activation_resolved, (SELECT n.name FROM episodes e JOIN names n ON n.id = e.fault_id "
+      "WHERE e.case_id = s.case_id"
       " AND e.number = m.unexpected_episode), m.plane_strain, s.stage_id, s.activated_fault_id,"
-      " s.opened_fault_id"
+      " s.opened_fault_id, (SELECT q.rank_class FROM fault_metrics q WHERE q.stage_id = s.stage_id"
+      " AND q.fault_id = ?5 AND q.case_id = s.case_id)"
       " FROM stage_metrics s JOIN case_metrics m ON m.case_id = s.case_id"
       " JOIN campaign_cases cc ON cc.campaign_id = ?1 AND cc.position = ?2"
       " LEFT JOIN names f ON f.id = s.activated_fault_id"
@@ -129,7 +131,8 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
   std::vector<RankedCase> ranked;
   ranked.reserve(cases.size());
   for (const OrderedCase& one : cases) {
-    FAULTSIM_DEMAND(rows.bind(campaign, one.position, query.stage, one.id).step(), one.id);
+    FAULTSIM_DEMAND(rows.bind(campaign, one.position, query.stage, one.id, query.fault).step(),
+                    one.id);
     RankedCase row;
     row.id = one.id;
     row.position = one.position;
@@ -142,15 +145,16 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
     row.pressure_margin = rows.optional_real(5);
     row.metrics = read_stage_metrics(rows, 6);
     row.metrics.stage = query.stage;
-    row.unexpected_fault = rows.text(27);
-    row.plane_strain = rows.integer(28) != 0;
-    for (const int column : {30, 31}) {  // the faults that slide and open first
+    row.unexpected_fault = rows.text(28);
+    row.plane_strain = rows.integer(29) != 0;
+    for (const int column : {31, 32}) {  // the faults that slide and open first
       const auto fault = rows.optional_integer(column);
-      if (!fault || query.fault || (column == 31 && fault == rows.optional_integer(30))) continue;
-      row.metrics.faults.push_back(read_fault_row(*connection_, one.id, rows.integer(29), *fault));
+      if (!fault || query.fault || (column == 32 && fault == rows.optional_integer(31))) continue;
+      row.metrics.faults.push_back(read_fault_row(*connection_, one.id, rows.integer(30), *fault));
     }
     if (query.fault) {
-      row.fault_metrics = read_fault_row(*connection_, one.id, rows.integer(29), *query.fault);
+      row.fault_metrics = read_fault_row(*connection_, one.id, rows.integer(30), *query.fault);
+      row.rank_class = static_cast<int>(rows.integer(33));
     }
     ranked.push_back(std::move(row));
   }

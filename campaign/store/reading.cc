@@ -39,6 +39,7 @@ faultsim::StageMetrics read_stage_metrics(const Statement& row, int first) {
   m.event_magnitude = row.optional_real(first + 17);
   m.first_step = static_cast<int>(row.integer(first + 18));
   m.last_step = static_cast<int>(row.integer(first + 19));
+  m.activation_resolved = row.optional_integer(first + 21).value_or(0) != 0;
   return m;
 }
 
@@ -89,6 +90,7 @@ faultsim::FaultMetrics read_fault_metrics(const Statement& row) {
   m.moment = row.real(17);
   m.moment_step = row.real(18);
   m.activated_at_edge = row.integer(19) != 0;
+  m.activation_resolved = row.optional_integer(23).value_or(0) != 0;  // NULL: not known
   return m;
 }
 
@@ -149,7 +151,8 @@ void read_steps(Connection& db, std::int64_t case_id, CaseResult& result) {
       " thickness_chi_080_max_m, thickness_chi_080_mean_m, slipping_area_m2, open_area_m2,"
       " activated_area_m2, activated_length_m, activated, max_slip_m, mean_slip_m, potency_m3,"
       " moment_nm, moment_step_nm, activated_at_edge, creep_normal_min_pa, creep_normal_max_pa,"
-      " creep_shear_max_pa FROM chi_history h JOIN names n ON n.id = h.fault_id"
+      " creep_shear_max_pa, activation_resolved FROM chi_history h JOIN names n ON n.id = "
+      "h.fault_id"
       " WHERE h.case_id = ? ORDER BY h.fault, h.step");
   faults.bind(case_id);
   while (faults.step()) {
@@ -172,7 +175,7 @@ void read_stages(Connection& db, std::int64_t case_id, CaseResult& result) {
       " s.slipping_area_m2, s.open_area_m2, s.max_slip_m, s.potency_m3, s.moment_nm,"
       " s.magnitude_if_released_at_once_mw,"
       " s.n_events, s.event_moment_nm, s.event_magnitude_mw,"
-      " s.first_step, s.last_step, coalesce(o.name, ''), n.id"
+      " s.first_step, s.last_step, coalesce(o.name, ''), s.activation_resolved, n.id"
       " FROM names n CROSS JOIN stage_metrics s ON s.stage_id = n.id"
       " LEFT JOIN names f ON f.id = s.activated_fault_id"
       " LEFT JOIN names o ON o.id = s.opened_fault_id WHERE s.case_id = ? ORDER BY "
@@ -181,7 +184,7 @@ void read_stages(Connection& db, std::int64_t case_id, CaseResult& result) {
   while (query.step()) {
     faultsim::StageMetrics stage = read_stage_metrics(query, 1);
     stage.stage = query.text(0);
-    stage.faults = read_fault_rows(db, case_id, query.integer(22));
+    stage.faults = read_fault_rows(db, case_id, query.integer(23));
     if (stage.stage.empty()) {
       result.whole = std::move(stage);
     } else {

@@ -15,12 +15,12 @@ using faultsim::StageMetrics;
 
 namespace {
 
-/// See stage_metrics in schemas/store_3.sql.
-int rank_class(Outcome outcome) {
+/// See stage_metrics in schemas/store_3.sql and store_10.sql.
+int rank_class(Outcome outcome, bool activation_resolved) {
   switch (outcome) {
     case Outcome::converged:
     case Outcome::event:
-      return 0;
+      return activation_resolved ? 0 : 1;
     case Outcome::unresolved_event:
       return 1;
     case Outcome::unstable:
@@ -109,16 +109,21 @@ void Store::record_stage(std::int64_t case_id, const StageMetrics& stage,
           " activated_fault_id, opening_step, opened_fault_id, chi_bar, chi_max, area_chi_080_m2,"
           " thickness_chi_080_m, activated_area_m2, slipping_area_m2, open_area_m2, max_slip_m,"
           " potency_m3, moment_nm, magnitude_if_released_at_once_mw, n_events, event_moment_nm,"
-          " event_magnitude_mw, pressure_margin_pa, first_step, last_step)"
-          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
-      .bind(stage_id, case_id, rank_class(result.outcome), stage.activated, stage.activation_step,
-            activated, stage.opening_step, opened, stage.chi_bar, stage.chi_max, stage.area_chi_080,
-            stage.thickness_chi_080, stage.activated_area, stage.slipping_area, stage.open_area,
-            stage.max_slip, stage.potency, stage.moment, stage.magnitude_if_at_once, stage.n_events,
+          " event_magnitude_mw, pressure_margin_pa, first_step, last_step, activation_resolved)"
+          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+      .bind(stage_id, case_id, rank_class(result.outcome, stage.activation_resolved),
+            stage.activated, stage.activation_step, activated, stage.opening_step, opened,
+            stage.chi_bar, stage.chi_max, stage.area_chi_080, stage.thickness_chi_080,
+            stage.activated_area, stage.slipping_area, stage.open_area, stage.max_slip,
+            stage.potency, stage.moment, stage.magnitude_if_at_once, stage.n_events,
             stage.event_moment, stage.event_magnitude, finite(result.pressure_margin),
-            stage.first_step, stage.last_step)
+            stage.first_step, stage.last_step, stage.activation_resolved)
       .run();
-  record_faults(case_id, stage_id, rank_class(result.outcome), stage);
+  for (std::size_t f = 0; f < stage.faults.size(); ++f) {
+    const faultsim::FaultStageMetrics& fault = stage.faults[f];
+    record_fault(case_id, stage_id, f, rank_class(result.outcome, fault.activation_resolved),
+                 fault);
+  }
 }
 
 void Store::record_histories(std::int64_t case_id, const CaseResult& result) {
@@ -132,8 +137,8 @@ void Store::record_histories(std::int64_t case_id, const CaseResult& result) {
       " area_chi_080_m2, thickness_chi_080_max_m, thickness_chi_080_mean_m, slipping_area_m2,"
       " open_area_m2, activated_area_m2, activated_length_m, activated, max_slip_m, mean_slip_m,"
       " potency_m3, moment_nm, moment_step_nm, activated_at_edge, creep_normal_min_pa,"
-      " creep_normal_max_pa, creep_shear_max_pa)"
-      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+      " creep_normal_max_pa, creep_shear_max_pa, activation_resolved)"
+      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (const faultsim::StepResult& step : result.steps) {
     const std::optional<faultsim::StepCreep>& creep = step.creep;
     add_step
@@ -161,7 +166,7 @@ void Store::record_histories(std::int64_t case_id, const CaseResult& result) {
                 m.chi_static_max, m.area_chi_080, m.thickness_chi_080_max, m.thickness_chi_080_mean,
                 m.slipping_area, m.open_area, m.activated_area, m.activated_length, m.activated,
                 m.max_slip, m.mean_slip, m.potency, m.moment, m.moment_step, m.activated_at_edge,
-                normal_min, normal_max, shear_max)
+                normal_min, normal_max, shear_max, m.activation_resolved)
           .run();
     }
   }

@@ -236,12 +236,12 @@ struct RankedCase {
   std::string parameter_values;  ///< JSON array.
   std::string parameter_labels;  ///< JSON array.
   std::optional<double> score;   ///< what it was ranked by; none in the default order.
-  int rank_class = 0;  ///< 0 complete, 1 complete with unresolved events, 2 unstable, 3 ended
-                       ///< early otherwise.
+  int rank_class = 0;  ///< 0 complete, 1 complete with an unresolved activation or events, 2
+                       ///< unstable, 3 ended early otherwise.
   std::string outcome;
   bool weakening_resolved = true;
   std::string unexpected_fault;  ///< slides again after its pressure has recovered; "" = none.
-  bool plane_strain = false;  ///< areas, potency and moments are per metre of strike.
+  bool plane_strain = false;     ///< areas, potency and moments are per metre of strike.
   std::optional<double> pressure_margin;  ///< Pa.
   faultsim::StageMetrics metrics;         ///< of its faults those that slide and open first.
   std::optional<faultsim::FaultStageMetrics> fault_metrics;  ///< where one fault is ranked.

@@ -213,8 +213,8 @@ class Store {
   void record_histories(std::int64_t case_id, const faultsim::CaseResult& result);
   void record_slip_events(std::int64_t case_id, const faultsim::CaseResult& result);
   void record_episodes(std::int64_t case_id, const faultsim::CaseResult& result);
-  void record_faults(std::int64_t case_id, std::int64_t stage_id, int rank_class,
-                     const faultsim::StageMetrics& stage);
+  void record_fault(std::int64_t case_id, std::int64_t stage_id, std::size_t position,
+                    int rank_class, const faultsim::FaultStageMetrics& fault);
   void record_onset(std::int64_t case_id, std::int64_t stage_id, bool opening,
                     std::int64_t fault_id, const std::optional<faultsim::FaultOnset>& onset);
   void forget_fault_metrics(std::int64_t case_id);

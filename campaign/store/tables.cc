@@ -76,7 +76,7 @@ struct HistoryColumn {
 };
 
 /// Joined as in the view chi_history_wide.
-constexpr std::array<HistoryColumn, 31> kHistory = {{
+constexpr std::array<HistoryColumn, 32> kHistory = {{
     {"case", "cc.position"},
     {"fault", "hf.name"},
     {"step", "h.step"},
@@ -95,6 +95,7 @@ constexpr std::array<HistoryColumn, 31> kHistory = {{
     {"activated_area_m2", "h.activated_area_m2", true},
     {"activated_length_m", "h.activated_length_m"},
     {"activated", "h.activated"},
+    {"activation_resolved", "h.activation_resolved"},
     {"activated_at_edge", "h.activated_at_edge"},
     {"max_slip_m", "h.max_slip_m"},
     {"mean_slip_m", "h.mean_slip_m"},

@@ -106,6 +106,16 @@ std::string step_table_header(const CaseResult& names, bool wide) {
   return line + "\n" + units + "\n";
 }
 
+namespace {
+
+/// '*' where the fault slides, '?' where that hangs on the cells.
+char mark(const FaultMetrics& fault) {
+  if (!fault.activation_resolved) return '?';
+  return fault.activated ? '*' : ' ';
+}
+
+}  // namespace
+
 std::string step_table_row(const StepResult& step, bool wide) {
   constexpr double kYear = 31557600.0;
   const bool has_event =
@@ -123,20 +133,20 @@ std::string step_table_row(const StepResult& step, bool wide) {
   line += format(" %5d %4d", step.n_slip, step.n_open);
   const std::size_t n_shown = n_fault_columns(shown.size(), step.faults.size(), wide);
   double area = 0, slip = 0, others = 0;
-  bool others_activated = false;
+  char others_mark = ' ';
   for (std::size_t f = 0; f < step.faults.size(); ++f) {
     const FaultMetrics& fault = step.faults[f];
     area += fault.area_chi_080;
     slip = std::max(slip, fault.max_slip);
     if (f < n_shown) {
-      line += format(" %6.3f%s", fault.chi_bar, fault.activated ? "*" : " ");
+      line += format(" %6.3f%c", fault.chi_bar, mark(fault));
     } else {
       others = std::max(others, fault.chi_bar);
-      others_activated = others_activated || fault.activated;
+      if (others_mark != '*' && mark(fault) != ' ') others_mark = mark(fault);
     }
   }
   if (n_shown < step.faults.size())
-    line += format(" %6.3f%s", others, others_activated ? "*" : " ");
+    line += format(" %6.3f%c", others, others_mark);
   line += format(" %8.4g %8.3f", area, slip * 1e3);
   if (wide) line += format(" %5d %8.2f", step.counts.newton_iterations, step.seconds * 1e3);
   return line + "\n";
@@ -261,6 +271,11 @@ std::string whole_text(const CaseResult& result) {
                      bar(result.pressure_margin).c_str());
     text += "\n";
   }
+  if (!whole.activation_resolved) {
+    text +=
+        "UNRESOLVED: that hangs on the mesh (? in the table: slip ends within a cell of the "
+        "activation length, or the window index is 1 within its error)\n";
+  }
   if (const FaultOnset* onset = first_opening(whole)) {
     text += onset_text(result, "OPENS", whole.opened_fault, *onset) +
             format(", up to %.4g %s\n", whole.open_area, area_unit(result));
@@ -279,6 +294,7 @@ std::string stage_text(const CaseResult& result, const StageMetrics& stage) {
     if (!fault.slips && !fault.opens) continue;
     text += format("    %s %s, %.2f mm", fault.fault.c_str(), fault.activated ? "slides" : "slips",
                    fault.max_slip * 1e3);
+    if (!fault.activation_resolved) text += " (whether it slides is unresolved)";
     if (fault.activation) {
       text += format(", from step %d, %s", fault.activation->step,
                      pressures_text(fault.activation->pressures, fault.activation->depth).c_str());

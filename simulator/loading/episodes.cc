@@ -27,7 +27,7 @@ void EpisodeTracker::close(std::size_t fault) {
   running.reset();
 }
 
-void EpisodeTracker::add(const StepResult& step, const ContactState& state,
+void EpisodeTracker::add(const StepResult& step, const NodalState& nodal, const ContactState& state,
                          const Eigen::VectorXd& before,
                          const Eigen::VectorXd& fault_pressure_change) {
   if (step.stage != stage_) {
@@ -57,7 +57,7 @@ void EpisodeTracker::add(const StepResult& step, const ContactState& state,
     Episode& episode = running->episode;
     episode.last_step = step.step;
     episode.moment += fault.moment_step;
-    const FaultMeter::Activation slip = meter_.activation(state, &running->reference)[f];
+    const FaultMeter::Activation slip = meter_.activation(nodal, state, &running->reference)[f];
     episode.activated_area = std::max(episode.activated_area, slip.area);
     episode.max_slip = std::max(episode.max_slip, slip.max_slip);
     if (slip.activated) running->place = slip.place;

@@ -25,10 +25,11 @@ class EpisodeTracker {
   /// @pre meter and neighbours outlive this.
   EpisodeTracker(const FaultMeter& meter, const FaultNeighbours& neighbours,
                  std::vector<std::string> fault_names, bool plane_strain);
+  /// @param nodal  of this state.
   /// @param before  jump at the start of the step.
   /// @param fault_pressure_change  Δp_f per fault node, Pa.
-  void add(const StepResult& step, const ContactState& state, const Eigen::VectorXd& before,
-           const Eigen::VectorXd& fault_pressure_change);
+  void add(const StepResult& step, const NodalState& nodal, const ContactState& state,
+           const Eigen::VectorXd& before, const Eigen::VectorXd& fault_pressure_change);
   /// Ends the episodes under way. @returns all, in order of their first step, then of faults.
   std::vector<Episode> finish();
 

@@ -2,166 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "simulator/common/errors.h"
 
 namespace faultsim {
 namespace {
 
-constexpr double kStrengthFloor = 1e3;  // Pa; keeps χ finite, never enters D3 (design section 2)
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-Column make_column(const OperatorFault& fault, int fault_index, int j) {
-  Column column{
-      fault_index, fault.column_width[static_cast<std::size_t>(j)], {}, {}, {}, kNaN, kNaN, false};
-  double s = 0;
-  const Eigen::Vector3d* last = nullptr;
-  for (int row = 0; row < fault.n_rows; ++row) {
-    const auto point = static_cast<std::size_t>(j * fault.n_rows + row);
-    if (fault.grid_used[point] == 0) continue;
-    if (last != nullptr) s += (fault.grid_position[point] - *last).norm();
-    last = &fault.grid_position[point];
-    if (fault.grid_node[point] >= 0) {
-      column.nodes.push_back(fault.grid_node[point]);
-      column.position.push_back(s);
-    } else if (column.nodes.empty()) {
-      column.tip_before = s;
-    } else if (std::isnan(column.tip_after)) {
-      column.tip_after = s;
-    }
-  }
-  const std::size_t n = column.nodes.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const double before = i > 0 ? column.position[i - 1] : column.tip_before;
-    const double after = i + 1 < n ? column.position[i + 1] : column.tip_after;
-    column.share.push_back((std::isnan(before) ? 0 : (column.position[i] - before) / 2) +
-                           (std::isnan(after) ? 0 : (after - column.position[i]) / 2));
-  }
-  return column;
-}
+constexpr double kStrengthFloor = 1e3;  // Pa; keeps χ finite, never enters the law
+// χ̄ is off by about this over the number of cells in its window (results/measures).
+constexpr double kWindowError = 0.2;
 
 bool has_nodes(const OperatorFault& fault, int j) {
   const auto first = fault.grid_node.begin() + j * fault.n_rows;
   return std::any_of(first, first + fault.n_rows, [](int node) { return node >= 0; });
 }
 
-double start_of(const Column& c) {
-  return std::isnan(c.tip_before) ? c.position.front() : (c.tip_before + c.position.front()) / 2;
-}
-double end_of(const Column& c) {
-  return std::isnan(c.tip_after) ? c.position.back() : (c.tip_after + c.position.back()) / 2;
-}
-
-/// Length of [0, width] where the line from a to b lies above the threshold.
-double part_above(double a, double b, double width, double threshold) {
-  if (a > threshold && b > threshold) return width;
-  if (a <= threshold && b <= threshold) return 0;
-  return width * (std::max(a, b) - threshold) / std::abs(a - b);
-}
-
-/// Running integrals of a nodal profile over a column's profile: linear between nodes, constant
-/// over the end half cells.
-class Integral {
- public:
-  Integral(const Column& column, const Eigen::VectorXd& profile, double floor)
-      : column_(column), profile_(profile), floor_(floor) {
-    const std::size_t n = column.nodes.size();
-    sum_.resize(n);
-    sum_[0] = value(0) * (column.position[0] - start_of(column));
-    for (std::size_t i = 1; i < n; ++i) {
-      sum_[i] = sum_[i - 1] +
-                0.5 * (value(i - 1) + value(i)) * (column.position[i] - column.position[i - 1]);
-    }
-  }
-  /// Integral from the start to s, s in segment i (between nodes i−1 and i; i = 0: before the
-  /// first).
-  double to(double s, std::size_t i) const {
-    const auto& x = column_.position;
-    if (i == 0) return value(0) * (s - start_of(column_));
-    if (i == x.size()) return sum_.back() + value(i - 1) * (s - x.back());
-    const double share = (s - x[i - 1]) / (x[i] - x[i - 1]);
-    const double here = value(i - 1) + share * (value(i) - value(i - 1));
-    return sum_[i - 1] + 0.5 * (value(i - 1) + here) * (s - x[i - 1]);
-  }
-
- private:
-  double value(std::size_t i) const { return std::max(profile_[column_.nodes[i]], floor_); }
-  const Column& column_;
-  const Eigen::VectorXd& profile_;
-  double floor_;
-  std::vector<double> sum_;
-};
-
-/// Longest stretch and total length of slip above the tolerance, linear to 0 at unsplit ends.
-struct Extent {
-  double longest = 0, total = 0;
-};
-class ExtentFinder {
- public:
-  void add(double a, double b, double width, double tolerance) {
-    const double above = part_above(a, b, width, tolerance);
-    const bool enters = a <= tolerance;
-    if (enters) run_ = 0;
-    run_ += above;
-    extent_.total += above;
-    extent_.longest = std::max(extent_.longest, run_);
-    if (b <= tolerance) run_ = 0;
-  }
-  Extent extent() const { return extent_; }
-
- private:
-  Extent extent_;
-  double run_ = 0;
-};
-
 }  // namespace
-
-double length_above(const Column& column, const Eigen::VectorXd& profile, double threshold) {
-  const auto& x = column.position;
-  const std::size_t n = x.size();
-  if (n == 0) return 0;
-  double length = 0;
-  if (profile[column.nodes.front()] > threshold) length += x.front() - start_of(column);
-  if (profile[column.nodes.back()] > threshold) length += end_of(column) - x.back();
-  for (std::size_t i = 1; i < n; ++i) {
-    length += part_above(profile[column.nodes[i - 1]], profile[column.nodes[i]], x[i] - x[i - 1],
-                         threshold);
-  }
-  return length;
-}
-
-double window_critical_index(const Column& column, const NodalState& nodal, double length) {
-  const std::size_t n = column.nodes.size();
-  if (n == 0) return 0;
-  const Integral load(column, nodal.shear, 0.0), strength(column, nodal.strength, kStrengthFloor);
-  const double begin = start_of(column), end = end_of(column);
-  const double window = std::min(length, end - begin);
-  // The ratio is largest with one window edge at a node (or at the column's end) up to O(h²).
-  double best = 0;
-  std::size_t ia = 0, ib = 0;  // segments of the two window edges, moving down dip together
-  const auto& x = column.position;
-  const auto try_at = [&](double a) {
-    const double b = a + window;
-    while (ia < n && x[ia] < a) ++ia;
-    while (ib < n && x[ib] < b) ++ib;
-    const double over = strength.to(b, ib) - strength.to(a, ia);
-    if (over > 0) best = std::max(best, (load.to(b, ib) - load.to(a, ia)) / over);
-  };
-  std::size_t i = 0, k = 0;  // next node at the upper and at the lower window edge
-  double a = begin;
-  while (true) {
-    try_at(a);
-    while (i < n && x[i] <= a) ++i;
-    while (k < n && x[k] - window <= a) ++k;
-    const double last = end - window;
-    const double next = std::min(i < n ? x[i] : last, k < n ? x[k] - window : last);
-    if (a >= last) break;
-    a = std::min(std::max(next, a), last);
-    if (i >= n && k >= n) a = last;
-  }
-  return best;
-}
 
 FaultMeter::FaultMeter(const FaultOperator& op, const ContactLaws& laws, double slip_tolerance,
                        double activation_length)
@@ -197,10 +53,7 @@ FaultMeter::FaultMeter(const FaultOperator& op, const ContactLaws& laws, double 
 double FaultMeter::down_dip_length(int fault) const {
   double longest = 0;
   for (const Column& c : columns_) {
-    if (c.fault != fault) continue;
-    const double first = std::isnan(c.tip_before) ? c.position.front() : c.tip_before;
-    const double last = std::isnan(c.tip_after) ? c.position.back() : c.tip_after;
-    longest = std::max(longest, last - first);
+    if (c.fault == fault) longest = std::max(longest, c.length());
   }
   return longest;
 }
@@ -247,17 +100,23 @@ void FaultMeter::evaluate(const ContactState& state, NodalState& nodal) const {
       strength = limit_shear_traction(current, normal, slip).value;
     }
     nodal.shear[k] = shear;
-    nodal.strength[k] = strength;
-    nodal.critical_index[k] = shear / std::max(strength, kStrengthFloor);
+    nodal.strength[k] = std::max(strength, kStrengthFloor);
+    nodal.critical_index[k] = shear / nodal.strength[k];
     nodal.static_critical_index[k] = shear / std::max(static_strength, kStrengthFloor);
+  }
+  nodal.window.clear();
+  for (const Column& column : columns_) {
+    nodal.window.push_back(
+        window_critical_index(column, nodal.shear, nodal.strength, activation_length_));
   }
 }
 
 void FaultMeter::measure_columns(const NodalState& nodal, std::vector<FaultMetrics>& faults) const {
   constexpr double kThreshold = 0.8;
-  for (const Column& column : columns_) {
+  for (std::size_t j = 0; j < columns_.size(); ++j) {
+    const Column& column = columns_[j];
     FaultMetrics& m = faults[static_cast<std::size_t>(column.fault)];
-    m.chi_bar = std::max(m.chi_bar, window_critical_index(column, nodal, activation_length_));
+    m.chi_bar = std::max(m.chi_bar, nodal.window[j].critical_index);
     const double thickness = length_above(column, nodal.critical_index, kThreshold);
     m.thickness_chi_080_max = std::max(m.thickness_chi_080_max, thickness);
     m.thickness_chi_080_mean +=
@@ -290,59 +149,76 @@ std::vector<FaultMetrics> FaultMeter::measure(const NodalState& nodal, const Con
     m.mean_slip = fault_area_[f] > 0 ? m.potency / (multiplicity_ * fault_area_[f]) : 0;
   }
   measure_columns(nodal, faults);
-  const auto activations = activation(state, nullptr);
+  const auto activations = activation(nodal, state, nullptr);
   for (std::size_t f = 0; f < faults.size(); ++f) {
     faults[f].activated_area = activations[f].area;
     faults[f].activated_length = activations[f].length;
     faults[f].activated = activations[f].activated;
+    faults[f].activation_resolved = activations[f].resolved;
     faults[f].activated_at_edge = activations[f].at_edge;
   }
   return faults;
 }
 
-std::vector<FaultMeter::Activation> FaultMeter::activation(const ContactState& state,
+SlipExtent FaultMeter::extent_of(const Column& column, const ContactState& state,
+                                 const Eigen::VectorXd* reference) const {
+  std::vector<double> slip;
+  for (const int node : column.nodes) slip.push_back(slip_norm(node, state.jump, reference));
+  return slip_extent(column, slip, slip_tolerance_, activation_length_);
+}
+
+/// Whether slip may reach the activation length on a finer mesh although it does not on this one.
+/// Where it did before, the mesh has shown that it can tell. Where it is open over that length, it
+/// carries no shear to slide under.
+bool FaultMeter::near_activation(const Column& column, const WindowIndex& window,
+                                 const ContactState& state) const {
+  double open = 0;
+  for (std::size_t i = 0; i < column.nodes.size(); ++i) {
+    if (state.state[column.nodes[i]] == FaultState::open) open += column.share(i);
+  }
+  return column.length() >= activation_length_ && open < activation_length_ &&
+         window.critical_index + kWindowError / window.n_cells >= 1 &&
+         !extent_of(column, state, nullptr).surely;
+}
+
+std::vector<FaultMeter::Activation> FaultMeter::activation(const NodalState& nodal,
+                                                           const ContactState& state,
                                                            const Eigen::VectorXd* reference) const {
   std::vector<Activation> result(op_.geometry.faults.size());
+  std::vector<char> surely(result.size(), 0);
   std::vector<double> place_slip(result.size(), 0);
-  for (const Column& column : columns_) {
-    Activation& a = result[static_cast<std::size_t>(column.fault)];
-    ExtentFinder finder;
-    const std::size_t n = column.nodes.size();
-    double last = 0;
-    bool any = false, first = false;
-    int place = -1;
+  for (std::size_t j = 0; j < columns_.size(); ++j) {
+    const Column& column = columns_[j];
+    Activation& a = result[column.fault];
     double largest = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double slip = slip_norm(column.nodes[i], state.jump, reference);
-      first = first || (i == 0 && slip > slip_tolerance_);
-      any = any || slip > slip_tolerance_;
-      a.max_slip = std::max(a.max_slip, slip);
-      if (slip > largest) {
-        largest = slip;
-        place = column.nodes[i];
-      }
-      const double from = i > 0 ? column.position[i - 1] : column.tip_before;
-      if (!std::isnan(from))
-        finder.add(i > 0 ? last : 0.0, slip, column.position[i] - from, slip_tolerance_);
-      last = slip;
+    int place = -1;
+    for (const int node : column.nodes) {
+      const double slip = slip_norm(node, state.jump, reference);
+      if (slip > largest) place = node;
+      largest = std::max(largest, slip);
     }
-    if (!any) continue;
-    if (!std::isnan(column.tip_after)) {
-      finder.add(last, 0.0, column.tip_after - column.position.back(), slip_tolerance_);
-    }
-    const Extent extent = finder.extent();
+    a.max_slip = std::max(a.max_slip, largest);
+    const SlipExtent extent = extent_of(column, state, reference);
+    surely[column.fault] |= extent.surely;
+    a.resolved = a.resolved && extent.resolved &&
+                 (extent.reaches || !near_activation(column, nodal.window[j], state));
     a.length = std::max(a.length, extent.longest);
-    if (extent.longest >= activation_length_) {
-      a.activated = true;
-      if (largest > place_slip[column.fault]) {
-        place_slip[column.fault] = largest;
-        a.place = place;
-      }
-      a.at_edge = a.at_edge || column.strike_edge || (first && !std::isnan(column.tip_before)) ||
-                  (last > slip_tolerance_ && !std::isnan(column.tip_after));
-      a.area += multiplicity_ * extent.total * column.width;
+    if (!extent.reaches) continue;
+    const auto slips = [&](int node) {
+      return slip_norm(node, state.jump, reference) > slip_tolerance_;
+    };
+    a.activated = true;
+    if (largest > place_slip[column.fault]) {
+      place_slip[column.fault] = largest;
+      a.place = place;
     }
+    a.at_edge = a.at_edge || column.strike_edge ||
+                (slips(column.nodes.front()) && !std::isnan(column.tip_before)) ||
+                (slips(column.nodes.back()) && !std::isnan(column.tip_after));
+    a.area += multiplicity_ * extent.total * column.width;
   }
+  // One column that is surely activated is enough.
+  for (std::size_t f = 0; f < result.size(); ++f) result[f].resolved |= surely[f] != 0;
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "simulator/contact/contact.h"
+#include "simulator/loading/column_profile.h"
 #include "simulator/output/fault_operator.h"
 #include "simulator/output/result.h"
 
@@ -12,26 +13,14 @@ namespace faultsim {
 /// Point values of one load step, per fault node.
 struct NodalState {
   Eigen::VectorXd shear;           ///< |t'_T|, Pa.
-  Eigen::VectorXd strength;        ///< τ_L, current, Pa.
+  Eigen::VectorXd strength;        ///< τ_L, current, Pa; at least 1 kPa.
   Eigen::VectorXd critical_index;  ///< χ; 1 where open.
   Eigen::VectorXd static_critical_index;
-  Eigen::VectorXd slip;  ///< |g_T|, m.
+  Eigen::VectorXd slip;             ///< |g_T|, m.
+  std::vector<WindowIndex> window;  ///< χ̄ per column of FaultMeter::columns().
 };
 
-/// A strike column of a fault as profiles down dip, prepared once per operator.
-struct Column {
-  int fault;
-  double width;                  ///< m.
-  std::vector<int> nodes;        ///< fault nodes down dip.
-  std::vector<double> position;  ///< s of each node, m from the column's first grid point.
-  std::vector<double> share;     ///< tributary length of each node, m.
-  double tip_before, tip_after;  ///< s of the unsplit ends (slip 0); NaN where the column is cut by
-                                 ///< the body's boundary instead.
-  bool strike_edge = false;      ///< the fault ends next to it along strike, inside the rock.
-};
-
-/// Metrics on the faults (design section 2). Profiles down dip are piecewise linear between nodes,
-/// so that extents do not jump by cells; slip falls to 0 at unsplit edges.
+/// Metrics on the faults (docs/model.md, section 7).
 class FaultMeter {
  public:
   FaultMeter(const FaultOperator& op, const ContactLaws& laws, double slip_tolerance,
@@ -49,11 +38,16 @@ class FaultMeter {
     double area = 0;      ///< m2, of the extents in columns that satisfy the criterion.
     double max_slip = 0;  ///< m.
     bool activated = false;
+    /// The flag does not hang on the mesh. Not resolved: extents that reach the activation length
+    /// or not depending on where in a cell slip ends, and faults that do not reach it but where χ̄
+    /// may be 1 within its error.
+    bool resolved = true;
     bool at_edge = false;  ///< an activated extent reaches a node next to an edge of the fault.
     int place = -1;        ///< node of largest slip in the columns that satisfy it; -1 = none does.
   };
+  /// @param nodal  of this state.
   /// @param reference  jump at the reference time; nullptr = zero.
-  std::vector<Activation> activation(const ContactState& state,
+  std::vector<Activation> activation(const NodalState& nodal, const ContactState& state,
                                      const Eigen::VectorXd* reference) const;
 
   const std::vector<Column>& columns() const { return columns_; }
@@ -63,6 +57,10 @@ class FaultMeter {
  private:
   double slip_norm(int node, const Eigen::VectorXd& jump, const Eigen::VectorXd* reference) const;
   void measure_columns(const NodalState& nodal, std::vector<FaultMetrics>& faults) const;
+  SlipExtent extent_of(const Column& column, const ContactState& state,
+                       const Eigen::VectorXd* reference) const;
+  bool near_activation(const Column& column, const WindowIndex& window,
+                       const ContactState& state) const;
 
   const FaultOperator& op_;
   const ContactLaws& laws_;
@@ -75,13 +73,5 @@ class FaultMeter {
   std::vector<double> fault_area_;      ///< per fault, m2 (not doubled).
   std::vector<double> fault_width_;     ///< per fault, Σ column widths, m.
 };
-
-/// χ̄ of one column: max over windows of `length` of ∫|t'_T| ds / ∫τ_L ds, both linear between
-/// nodes; the whole column when it is shorter.
-double window_critical_index(const Column& column, const NodalState& nodal, double length);
-
-/// Down-dip length of the column where the nodal profile exceeds a threshold, linear between nodes,
-/// constant over the end half cells.
-double length_above(const Column& column, const Eigen::VectorXd& profile, double threshold);
 
 }  // namespace faultsim

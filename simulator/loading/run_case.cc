@@ -201,14 +201,14 @@ void CaseRun::record(const LoadStep& step, const StepLoads& loads,
   const auto first = std::find_if(result_.events.begin(), result_.events.end(),
                                   [&](const SlipEvent& e) { return e.step == step.step; });
   const std::span<const SlipEvent> events(first, result_.events.end());
-  whole_.add(result, meter_, neighbours_, state_, loads.fault_pressure_change, result_.fault_names,
-             events);
+  whole_.add(result, meter_, neighbours_, nodal_, state_, loads.fault_pressure_change,
+             result_.fault_names, events);
   if (step.step > 0) {
-    episodes_.add(result, state_, jump_before, loads.fault_pressure_change);
+    episodes_.add(result, nodal_, state_, jump_before, loads.fault_pressure_change);
     if (!stage_) {
       stage_.emplace(step.stage, step.step, &jump_before, false, op_.geometry.plane_strain);
     }
-    stage_->add(result, meter_, neighbours_, state_, loads.fault_pressure_change,
+    stage_->add(result, meter_, neighbours_, nodal_, state_, loads.fault_pressure_change,
                 result_.fault_names, events);
   }
   if (observer_) observer_(result, fields(loads));

@@ -17,7 +17,7 @@ double longest_run(const FaultMeter& meter, const std::vector<char>& inside) {
   for (const Column& column : meter.columns()) {
     double run = 0;
     for (std::size_t i = 0; i < column.nodes.size(); ++i) {
-      run = inside[static_cast<std::size_t>(column.nodes[i])] ? run + column.share[i] : 0;
+      run = inside[static_cast<std::size_t>(column.nodes[i])] ? run + column.share(i) : 0;
       longest = std::max(longest, run);
     }
   }

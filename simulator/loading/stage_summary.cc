@@ -60,14 +60,16 @@ void StageSummary::count(const SlipEvent& event) {
 }
 
 void StageSummary::add(const StepResult& step, const FaultMeter& meter,
-                       const FaultNeighbours& neighbours, const ContactState& state,
-                       const Eigen::VectorXd& fault_pressure_change,
+                       const FaultNeighbours& neighbours, const NodalState& nodal,
+                       const ContactState& state, const Eigen::VectorXd& fault_pressure_change,
                        const std::vector<std::string>& fault_names,
                        std::span<const SlipEvent> events) {
   StageMetrics& m = metrics_;
   m.last_step = step.step;
   m.faults.resize(fault_names.size());
-  const auto activations = meter.activation(state, reference_ ? &*reference_ : nullptr);
+  surely_.resize(fault_names.size());
+  doubtful_.resize(fault_names.size());
+  const auto activations = meter.activation(nodal, state, reference_ ? &*reference_ : nullptr);
   const auto onset_at = [&](int node) {
     const double depth = neighbours.depth(node);
     return FaultOnset{step.step, depth,
@@ -83,6 +85,8 @@ void StageSummary::add(const StepResult& step, const FaultMeter& meter,
       own.opening = onset_at(neighbours.widest_gap(static_cast<int>(f), state.jump, state.state));
     }
     add_fault(fault, activations[f], own);
+    surely_[f] |= activations[f].activated && activations[f].resolved;
+    doubtful_[f] |= !activations[f].resolved;
     m.chi_bar = std::max(m.chi_bar, fault.chi_bar);
     m.chi_max = std::max(m.chi_max, fault.chi_max);
     m.thickness_chi_080 = std::max(m.thickness_chi_080, fault.thickness_chi_080_max);
@@ -115,6 +119,13 @@ void StageSummary::add(const StepResult& step, const FaultMeter& meter,
 }
 
 StageMetrics StageSummary::finish() {
+  bool any_surely = false, any_doubtful = false;
+  for (std::size_t f = 0; f < metrics_.faults.size(); ++f) {
+    metrics_.faults[f].activation_resolved = surely_[f] || !doubtful_[f];
+    any_surely |= surely_[f] != 0;
+    any_doubtful |= doubtful_[f] != 0;
+  }
+  metrics_.activation_resolved = any_surely || !any_doubtful;
   if (!plane_strain_) metrics_.magnitude_if_at_once = moment_magnitude(metrics_.moment);
   return metrics_;
 }

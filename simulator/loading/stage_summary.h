@@ -17,11 +17,13 @@ class StageSummary {
   /// @param reference  jump at the start of the stage; nullptr = the start of the case.
   StageSummary(std::string name, int first_step, const Eigen::VectorXd* reference, bool whole,
                bool plane_strain);
+  /// @param nodal  of this state.
   /// @param fault_pressure_change  Δp_f per fault node, Pa.
   /// @param fault_names  in the order of the scene.
   /// @param events  of this step.
   void add(const StepResult& step, const FaultMeter& meter, const FaultNeighbours& neighbours,
-           const ContactState& state, const Eigen::VectorXd& fault_pressure_change,
+           const NodalState& nodal, const ContactState& state,
+           const Eigen::VectorXd& fault_pressure_change,
            const std::vector<std::string>& fault_names, std::span<const SlipEvent> events);
   StageMetrics finish();
 
@@ -34,6 +36,7 @@ class StageSummary {
   std::optional<Eigen::VectorXd> reference_;
   bool whole_;
   bool plane_strain_;
+  std::vector<char> surely_, doubtful_;  ///< per fault: activated for certain, in doubt, in a step.
 };
 
 /// Pa of further depletion to χ̄ = 1 for a case in which no fault slides or opens: χ̄ extrapolated

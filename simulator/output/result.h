@@ -46,12 +46,13 @@ struct FaultMetrics {
                                 ///< the activation length.
   double activated_length = 0;  ///< m, longest down-dip extent with slip > slip_tolerance.
   bool activated = false;       ///< activated_length ≥ activation_length.
-  bool activated_at_edge = false;  ///< activated next to an edge of the fault: it might go on.
-  double max_slip = 0;             ///< m, |g_T| since start.
-  double mean_slip = 0;            ///< m, over the fault's area.
-  double potency = 0;              ///< m3 (plane strain: per metre of strike, m3/m).
-  double moment = 0;               ///< M0, N m (plane strain: N m per metre of strike).
-  double moment_step = 0;          ///< ∫ G_eff |Δg_T| dA of this step alone, N m.
+  bool activation_resolved = true;  ///< that flag does not hang on the cells (docs/model.md).
+  bool activated_at_edge = false;   ///< activated next to an edge of the fault: it might go on.
+  double max_slip = 0;              ///< m, |g_T| since start.
+  double mean_slip = 0;             ///< m, over the fault's area.
+  double potency = 0;               ///< m3 (plane strain: per metre of strike, m3/m).
+  double moment = 0;                ///< M0, N m (plane strain: N m per metre of strike).
+  double moment_step = 0;           ///< ∫ G_eff |Δg_T| dA of this step alone, N m.
 
   bool operator==(const FaultMetrics&) const = default;  ///< the very same numbers.
 };
@@ -202,7 +203,8 @@ struct FaultStageMetrics {
   std::string fault;
   bool slips = false;      ///< some node has slipped within the stage: mesh-dependent, a bound.
   bool activated = false;  ///< it *slides*: slip within the stage meets the activation criterion.
-  bool opens = false;      ///< some node is open in one of its steps.
+  bool activation_resolved = true;       ///< for certain, or certainly not: as in StageMetrics.
+  bool opens = false;                    ///< some node is open in one of its steps.
   std::optional<FaultOnset> activation;  ///< iff activated: first step, place of largest slip.
   std::optional<FaultOnset> opening;     ///< iff opens: first step, place of largest gap.
   double chi_bar = 0;                    ///< maxima over steps, as in StageMetrics.
@@ -229,7 +231,9 @@ struct StageMetrics {
   bool slips = false;      ///< some node of some fault: mesh-dependent, a bound.
   bool activated = false;  ///< a fault *slides*: slip since the *start of the stage* reaches the
                            ///< criterion (whole case: since start).
-  bool opens = false;      ///< some node of some fault is open in one of its steps.
+  bool activation_resolved = true;  ///< some fault slides for certain, or certainly none does: that
+                                    ///< does not hang on the cells.
+  bool opens = false;               ///< some node of some fault is open in one of its steps.
   std::optional<int> activation_step;  ///< first step with the criterion met.
   std::string activated_fault;         ///< the first fault that slides; "" if none.
   std::optional<int> opening_step;     ///< first step with an open node.

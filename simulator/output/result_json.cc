@@ -29,6 +29,7 @@ void for_each_field_of_metrics(Metrics& m, Visit&& visit) {
   visit("activated_area_m2", m.activated_area);
   visit("activated_length_m", m.activated_length);
   visit("activated", m.activated);
+  visit("activation_resolved", m.activation_resolved);
   visit("activated_at_edge", m.activated_at_edge);
   visit("max_slip_m", m.max_slip);
   visit("mean_slip_m", m.mean_slip);
@@ -101,6 +102,7 @@ void for_each_field_of_fault_stage(Stage& s, Visit&& visit) {
   visit("fault", s.fault);
   visit("slips", s.slips);
   visit("activated", s.activated);
+  visit("activation_resolved", s.activation_resolved);
   visit("opens", s.opens);
   visit("activation", s.activation);
   visit("opening", s.opening);
@@ -126,6 +128,7 @@ void for_each_field_of_stage(Stage& s, Visit&& visit) {
   visit("last_step", s.last_step);
   visit("slips", s.slips);
   visit("activated", s.activated);
+  visit("activation_resolved", s.activation_resolved);
   visit("opens", s.opens);
   visit("activation_step", s.activation_step);
   visit("activated_fault", s.activated_fault);

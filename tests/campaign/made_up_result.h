@@ -105,6 +105,9 @@ inline faultsim::CaseResult made_up_result_with_events(double strength) {
   result.unexpected = faultsim::Reactivation{2, 1};
   result.steps[3].outcome = faultsim::Outcome::unresolved_event;
   result.steps[3].faults[1].activated_at_edge = true;
+  result.steps[3].faults[1].activation_resolved = false;
+  result.whole.activation_resolved = result.stages[1].activation_resolved = false;
+  result.stages[1].faults[1].activation_resolved = false;
   result.whole.n_events = 2;
   result.whole.event_moment = 2e13 / 3;
   result.whole.event_magnitude = faultsim::moment_magnitude(2e13 / 3);

@@ -69,7 +69,10 @@ class EpisodesTest : public ::testing::Test {
       step.faults[fault].moment_step = std::abs(slip) * 1e12;
       ++fault;
     }
-    tracker_.add(step, faults_.state, before, Eigen::VectorXd::Constant(18, west * 1e5 + number_));
+    NodalState nodal;
+    meter_.evaluate(faults_.state, nodal);
+    tracker_.add(step, nodal, faults_.state, before,
+                 Eigen::VectorXd::Constant(18, west * 1e5 + number_));
   }
   std::vector<Episode> episodes() { return tracker_.finish(); }
 

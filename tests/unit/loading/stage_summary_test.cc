@@ -18,7 +18,7 @@ class StageSummaryTest : public ::testing::Test {
     NodalState nodal;
     meter_.evaluate(faults_.state, nodal);
     step.faults = meter_.measure(nodal, faults_.state, before_);
-    summary.add(step, meter_, neighbours_, faults_.state, in_fault_, {"F1", "F2"}, events);
+    summary.add(step, meter_, neighbours_, nodal, faults_.state, in_fault_, {"F1", "F2"}, events);
     before_ = faults_.state.jump;
   }
   FaultsBetweenRegions faults_;
@@ -72,6 +72,26 @@ TEST_F(StageSummaryTest, SlipsSlidesAndOpensPerFaultWithPlaceAndPressures) {
   EXPECT_DOUBLE_EQ(m.moment, f1.moment + f2.moment);
 }
 
+TEST_F(StageSummaryTest, SaysWhatHangsOnTheCellsPerFaultAndOfAll) {
+  StageSummary summary("production", 1, nullptr, false, false);
+  step(summary, -50, -20);
+  EXPECT_TRUE(summary.finish().activation_resolved);
+  faults_.slip(0, 1e-3, 3, 5);  // 37 m, with ends that may be half a cell further out
+  step(summary, -80, -30);
+  StageMetrics m = summary.finish();
+  EXPECT_FALSE(m.activated);
+  EXPECT_FALSE(m.activation_resolved);
+  EXPECT_FALSE(m.faults[0].activation_resolved);
+  EXPECT_TRUE(m.faults[1].activation_resolved);
+  faults_.slip(1, 5e-3);
+  step(summary, -100, -40);
+  m = summary.finish();
+  EXPECT_TRUE(m.activated);
+  EXPECT_TRUE(m.activation_resolved) << "one fault slides for certain";
+  EXPECT_FALSE(m.faults[0].activation_resolved);
+  EXPECT_TRUE(m.faults[1].activation_resolved);
+}
+
 TEST_F(StageSummaryTest, AWhollyOpenFaultOpensAndDoesNotSlide) {
   StageSummary summary("injection", 1, nullptr, false, false);
   for (int k = 0; k < FaultsBetweenRegions::kNodes; ++k) {
@@ -81,6 +101,7 @@ TEST_F(StageSummaryTest, AWhollyOpenFaultOpensAndDoesNotSlide) {
   step(summary, 200, 0);
   const StageMetrics m = summary.finish();
   EXPECT_FALSE(m.activated);
+  EXPECT_TRUE(m.activation_resolved);
   EXPECT_TRUE(m.opens);
   EXPECT_EQ(m.opened_fault, "F1");
   EXPECT_EQ(first_activation(m), nullptr);

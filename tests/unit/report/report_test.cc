@@ -332,6 +332,7 @@ class EventReportTest : public ReportTest {
     run.result->outcome = faultsim::Outcome::event;
     run.result->weakening_resolved = true;
     run.result->unexpected.reset();
+    run.result->whole.activation_resolved = true;
     for (faultsim::SlipEvent& event : run.result->events) event.resolved = true;
     store_->record_runs(id_, {run});
     events_ = store_->campaign("events");
@@ -384,7 +385,8 @@ TEST_F(EventReportTest, TheRankingKeepsUnresolvedOnesApart) {
   EXPECT_THAT(text, HasSubstr("   2     1  converged"));
   EXPECT_THAT(text, HasSubstr("  +1     2  unresolved_event, mesh too coarse for its weakening, "
                               "UNEXPECTED (F1)  "));
-  EXPECT_THAT(text, HasSubstr("+ complete, but the size of its slip events depends on the mesh"));
+  EXPECT_THAT(text,
+              HasSubstr("+ complete, but whether a fault slides (unresolved) or how large its"));
   EXPECT_THAT(text, Not(HasSubstr("ends early")));
   const auto json = ranking_to_json(make_ranking(*store_, events_, {}));
   EXPECT_EQ(json["cases"][0]["n_events"], 2);
@@ -392,6 +394,25 @@ TEST_F(EventReportTest, TheRankingKeepsUnresolvedOnesApart) {
   EXPECT_EQ(json["cases"][2]["rank_class"], 1);
   EXPECT_EQ(json["cases"][2]["unexpected"], true);
   EXPECT_TRUE(json["cases"][2]["rank"].is_null());
+}
+
+TEST_F(EventReportTest, ActivationThatHangsOnTheMeshIsSaid) {
+  EXPECT_THAT(ranking_to_text(make_ranking(*store_, events_, {})),
+              ContainsRegex("[+]1     2 .*F1 at step 1, unresolved"));
+  EXPECT_THAT(ranking_to_text(make_ranking(*store_, events_, {})),
+              Not(ContainsRegex(" 1     3 .*unresolved")));
+  const auto json = ranking_to_json(make_ranking(*store_, events_, {}));
+  EXPECT_EQ(json["cases"][0]["activation_resolved"], true);
+  EXPECT_EQ(json["cases"][2]["activation_resolved"], false);
+  std::vector<long> found;
+  for (const auto& row :
+       make_ranking(*store_, events_, request("chi_bar", "not activation_resolved")).rows)
+    found.push_back(row.position);
+  EXPECT_THAT(found, ElementsAre(2));
+  const std::string text = show("2");
+  EXPECT_THAT(text, HasSubstr("UNRESOLVED: whether a fault slides hangs on the mesh"));
+  EXPECT_THAT(text, ContainsRegex("cushion_gas_injection +5-8 +F1 at step 1, unresolved"));
+  EXPECT_THAT(text, ContainsRegex("\n3 +primary_production .* (yes|no)[?] "));
 }
 
 TEST_F(EventReportTest, EventsOrderAndFilter) {

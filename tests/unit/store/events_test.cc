@@ -160,6 +160,36 @@ TEST_F(EventsTest, AreCompleteHistoriesCountedApart) {
   EXPECT_EQ(store.retry(campaign, true, std::nullopt), 3) << "nothing complete runs again";
 }
 
+TEST_F(EventsTest, ActivationThatHangsOnTheMeshIsRankedApartInTheStageThatItIsOf) {
+  Store store = Store::open_owner(folder_);
+  const std::int64_t campaign = submit(store, 3);
+  faultsim::CaseResult in_doubt = made_up_result(0.9), sure = made_up_result(0.6);
+  in_doubt.whole.activation_resolved = in_doubt.stages[2].activation_resolved = false;
+  faultsim::CaseResult quiet = made_up_result(0.2);
+  quiet.whole.activation_resolved = quiet.stages[2].activation_resolved = false;
+  store.record_runs(campaign, {run_of(1, in_doubt), run_of(2, sure), run_of(3, quiet)});
+  const auto places = [&](const char* stage) {
+    std::vector<std::pair<long, int>> rows;
+    Store::RankingQuery query;
+    query.stage = stage;
+    for (const RankedCase& row : store.ranking(campaign, query)) {
+      rows.emplace_back(row.position, row.rank_class);
+      EXPECT_EQ(row.metrics.activation_resolved, row.rank_class == 0);
+    }
+    return rows;
+  };
+  EXPECT_THAT(places(""), ElementsAre(std::pair(2L, 0), std::pair(1L, 1), std::pair(3L, 1)));
+  EXPECT_THAT(places("gas_storage"),
+              ElementsAre(std::pair(2L, 0), std::pair(1L, 1), std::pair(3L, 1)));
+  EXPECT_THAT(places("primary_production"),
+              ElementsAre(std::pair(1L, 0), std::pair(2L, 0), std::pair(3L, 0)));
+  EXPECT_EQ(store.retry(campaign, true, std::nullopt), 0) << "the histories are complete";
+  EXPECT_EQ(count("SELECT sum(activation_resolved) FROM ranking"), 1);
+  EXPECT_EQ(count("SELECT sum(activation_resolved) FROM stage_ranking WHERE stage <> ''"), 7);
+  EXPECT_EQ(count("SELECT count(*) FROM chi_history_wide WHERE NOT activation_resolved"), 0);
+  EXPECT_EQ(count("SELECT count(*) FROM fault_ranking WHERE NOT activation_resolved"), 0);
+}
+
 TEST_F(EventsTest, ViewsShowThemWithUnits) {
   Store store = Store::open_owner(folder_);
   store.record_runs(submit(store, 1), {run_of(1, made_up_result_with_events(0.8))});
@@ -228,6 +258,7 @@ TEST_F(EventsTest, AnOlderStoreIsBroughtUpToDateWithAllItsRows) {
     indices.push_back(row.metrics.chi_bar);
     EXPECT_EQ(row.metrics.n_events, 0);
     EXPECT_EQ(row.metrics.activated_fault, "F1");
+    EXPECT_FALSE(row.metrics.activation_resolved);  // nobody looked
     EXPECT_EQ(row.metrics.max_slip, 6);
     EXPECT_EQ(row.metrics.magnitude_if_at_once, 9);
     EXPECT_EQ(row.metrics.last_step, 1);
