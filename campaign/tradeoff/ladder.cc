@@ -6,20 +6,20 @@
 
 #include "simulator/plan/plan.h"
 #include "simulator/scene/read_scene.h"
+#include "simulator/scene/tiers.h"
 
 namespace faultsweep {
 
 using faultsim::concat;
+using faultsim::find_tier;
 using faultsim::JsonDocument;
+using faultsim::MeshSizes;
 using faultsim::Scene;
 using nlohmann::json;
 
 namespace {
 
 constexpr double kYear = 365.25 * 86400;
-constexpr double kScreeningCell = 10;    // m, of the tier
-constexpr double kStandardCell = 20;     // m, down dip and normal to the fault
-constexpr double kStandardStrike = 100;  // m
 
 /// Shortest text that reads back as the same number.
 std::string shortest(double value) {
@@ -51,12 +51,33 @@ std::vector<Change> operator+(std::vector<Change> a, const std::vector<Change>& 
   return a;
 }
 
+/// All sizes times a factor, and ratios of neighbours to its power: graded cells are then divided
+/// like even ones.
+MeshSizes scaled(MeshSizes sizes, double factor) {
+  constexpr double kMostGrowth = 2, kMostCornerGrowth = 3;  // that a scene may have
+  for (double* size : {&sizes.strike, &sizes.dip, &sizes.normal, &sizes.corner}) *size *= factor;
+  if (!sizes.grades_corners()) return sizes;
+  sizes.growth = std::min(kMostGrowth, std::pow(sizes.growth, factor));
+  sizes.corner_growth = std::min(kMostCornerGrowth, std::pow(sizes.corner_growth, factor));
+  return sizes;
+}
+
 /// Cells of these sizes, whatever the scene's own tier and mesh.
-std::vector<Change> cells(double strike, double dip, double normal) {
-  return {{"/tier", "custom"},
-          {"/mesh/strike", metres(strike)},
-          {"/mesh/dip", metres(dip)},
-          {"/mesh/normal", metres(normal)}};
+std::vector<Change> cells(const MeshSizes& sizes) {
+  std::vector<Change> changes = {{"/tier", "custom"},
+                                 {"/mesh/strike", metres(sizes.strike)},
+                                 {"/mesh/dip", metres(sizes.dip)},
+                                 {"/mesh/normal", metres(sizes.normal)}};
+  if (!sizes.grades_corners()) return changes;
+  changes.push_back({"/mesh/corner", metres(sizes.corner)});
+  changes.push_back({"/mesh/corner_growth", sizes.corner_growth});
+  changes.push_back({"/mesh/growth", sizes.growth});
+  return changes;
+}
+
+/// "10", or "5 to 10" where cells are graded.
+std::string dip_text(const MeshSizes& sizes) {
+  return (sizes.grades_corners() ? shortest(sizes.corner) + " to " : "") + shortest(sizes.dip);
 }
 
 std::vector<Change> in_plane(bool plane_strain) {
@@ -74,13 +95,13 @@ class LadderMaker {
     is_field_ = scene_.geometry_kind == faultsim::GeometryKind::field;
     is_3d_ = !plan.plane_strain;
     creeps_ = plan.creep.active;
-    plane_cell_ = is_field_ ? kScreeningCell : scene_.mesh.dip;
-    plane_ = cells(scene_.mesh.strike, plane_cell_, plane_cell_) + in_plane(true);
-    const bool from_tier = is_field_ && scene_.tier != "custom";
-    dip_ = from_tier ? kStandardCell : scene_.mesh.dip;
-    strike_ = from_tier ? kStandardStrike : scene_.mesh.strike;
-    normal_ = from_tier ? kStandardCell : scene_.mesh.normal;
-    coarse_3d_ = cells(4 * strike_, 4 * dip_, 4 * normal_) + in_plane(false);
+    plane_sizes_ = is_field_ ? find_tier("screening")->sizes : scene_.mesh;
+    plane_sizes_.strike = scene_.mesh.strike;
+    if (!is_field_) plane_sizes_.normal = plane_sizes_.dip;
+    plane_ = cells(plane_sizes_) + in_plane(true);
+    from_tier_ = is_field_ && scene_.tier != "custom";
+    sizes_ = from_tier_ ? find_tier("standard")->sizes : scene_.mesh;
+    coarse_3d_ = cells(scaled(sizes_, 4)) + in_plane(false);
   }
 
   std::vector<TradeAxis> all() {
@@ -118,23 +139,24 @@ class LadderMaker {
     TradeAxis& one = axis("cells, plane strain", "How fine must the cells be in plane strain?");
     one.converges = one.is_mesh = true;
     for (const double factor : {8.0, 4.0, 2.0, 1.0, 0.5, 0.25}) {
-      const double cell = factor * plane_cell_;
-      add(one, metres(cell) + (is_field_ && factor == 1 ? " (screening)" : ""),
-          cells(scene_.mesh.strike, cell, cell), in_plane(true), cell);
+      MeshSizes sizes = scaled(plane_sizes_, factor);
+      sizes.strike = scene_.mesh.strike;
+      add(one, dip_text(sizes) + " m" + (is_field_ && factor == 1 ? " (screening)" : ""),
+          cells(sizes), in_plane(true), sizes.dip);
     }
   }
 
   void space_cells() {
     TradeAxis& one = axis("cells, 3D", "How fine must the cells be in 3D?");
     one.converges = one.is_mesh = true;
-    const bool is_tier = dip_ == kStandardCell && strike_ == kStandardStrike && normal_ == dip_;
     for (const double factor : {4.0, 2.0, 1.0, 0.5}) {
-      std::string name = concat(shortest(factor * strike_), " x ", shortest(factor * dip_), " x ",
-                                metres(factor * normal_));
-      if (is_tier && factor == 1) name += " (standard)";
-      if (is_tier && factor == 0.5) name += " (reference)";
-      add(one, name, cells(factor * strike_, factor * dip_, factor * normal_), in_plane(false),
-          factor * dip_);
+      const bool is_reference = from_tier_ && factor == 0.5;
+      const MeshSizes sizes = is_reference ? find_tier("reference")->sizes : scaled(sizes_, factor);
+      std::string name =
+          concat(shortest(sizes.strike), " x ", dip_text(sizes), " x ", metres(sizes.normal));
+      if (from_tier_ && factor == 1) name += " (standard)";
+      if (is_reference) name += " (reference)";
+      add(one, name, cells(sizes), in_plane(false), sizes.dip);
     }
   }
 
@@ -251,7 +273,8 @@ class LadderMaker {
   LadderLimits limits_;
   Scene scene_;
   bool is_field_ = false, is_3d_ = false, creeps_ = false;
-  double plane_cell_ = 0, strike_ = 0, dip_ = 0, normal_ = 0;  ///< m
+  bool from_tier_ = false;                 ///< then the 3D meshes are those of tiers.
+  MeshSizes plane_sizes_, sizes_;          ///< of the middle choice in plane strain and in 3D.
   std::vector<Change> plane_, coarse_3d_;  ///< where the other axes are measured.
   std::vector<TradeAxis> axes_;
 };

@@ -74,6 +74,9 @@ void check_sizes(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
   positive(spec.depth, "/geometry/depth");
   positive(spec.sizes.dip, "/mesh/dip");
   positive(spec.sizes.normal, "/mesh/normal");
+  if (!(spec.sizes.corner_growth >= 1))
+    problems.push_back({"/mesh/corner_growth", 0, concat(spec.sizes.corner_growth, " is below 1"),
+                        "use 1.5, say"});
   if (!(spec.sizes.growth >= 1))
     problems.push_back(
         {"/mesh/growth", 0, concat(spec.sizes.growth, " is below 1"), "use 1.3, say"});
@@ -81,7 +84,8 @@ void check_sizes(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
     problems.push_back({"/geometry/fault_overshoot", 0, "is negative", "use 0 or more"});
   const double most = 1e6;  // lines per axis
   if (problems.empty() &&
-      (spec.depth / spec.sizes.dip > most || spec.width / spec.sizes.normal > most ||
+      (spec.depth / (spec.sizes.grades_corners() ? spec.sizes.corner : spec.sizes.dip) > most ||
+       spec.width / spec.sizes.normal > most ||
        (along_strike_is_grid(spec) && spec.length / spec.sizes.strike > most)))
     problems.push_back({"/mesh", 0, "cells are a millionth of the model", "use larger cells"});
 }
@@ -225,7 +229,21 @@ bool is_reservoir_edge(const FieldMeshSpec& spec, double z) {
                      });
 }
 
-/// Compartment corners carry logarithmic stress peaks, so cells there are sizes.dip high in all
+/// Cells of sizes.corner at the reservoir edges, which carry logarithmic stress peaks, growing to
+/// sizes.dip between them: the same heights at the edges in all members of an offset sweep. Two
+/// edges that leave no room for that are evenly divided between.
+std::vector<double> graded_fault_range(const FieldMeshSpec& spec, const DepthRange& range) {
+  LineBuilder builder(-range.bottom, -range.top, spec.sizes.corner_growth, spec.sizes.dip);
+  for (const double z : must_lines(spec)) {
+    if (is_reservoir_edge(spec, z))
+      builder.add_line(z, spec.sizes.corner);
+    else
+      builder.add_line(z);
+  }
+  return builder.build();
+}
+
+/// Without graded corners: cells are sizes.dip high in all
 /// members of an offset sweep: kEdgeCells of exactly that height on both sides of each reservoir
 /// edge. Where two lines leave no room for that, or would leave a rest thinner than kLeastRest of
 /// a cell, the gap between them is divided evenly. The rest of the faults' range has cells of about
@@ -234,6 +252,13 @@ std::vector<double> field_z(const FieldMeshSpec& spec) {
   LineBuilder builder(-spec.depth, 0, spec.sizes.growth, spec.sizes.largest);
   const double dip = spec.sizes.dip, edge_height = kEdgeCells * dip;
   const std::vector<double> z = must_lines(spec);
+  const DepthRange all = all_faults_range(spec);
+  if (spec.sizes.grades_corners()) {
+    for (const double must : z) builder.add_line(must);
+    for (const double line : graded_fault_range(spec, all)) builder.add_line(line);
+    builder.add_window(-all.bottom, -all.top, 2 * dip);  // a cell from line to line
+    return builder.build();
+  }
   for (size_t i = 0; i + 1 < z.size(); ++i) {
     builder.add_line(z[i]);
     const bool low = is_reservoir_edge(spec, z[i]), high = is_reservoir_edge(spec, z[i + 1]);
@@ -243,7 +268,6 @@ std::vector<double> field_z(const FieldMeshSpec& spec) {
     if (low) builder.add_window(z[i], z[i] + edge_height, dip);
     if (high) builder.add_window(z[i + 1] - edge_height, z[i + 1], dip);
   }
-  const DepthRange all = all_faults_range(spec);
   builder.add_window(-all.bottom, -all.top, dip);
   return builder.build();
 }

@@ -19,6 +19,11 @@ struct CellSizes {
   double growth;
   double fine_margin = 0;
   double largest = 0;  ///< 0 = no cap.
+  double corner = 0;   ///< field: height of the cells at the edges of the reservoir, from which
+                      ///< cells grow by corner_growth to `dip` within the faults' range; 0 or ≥
+                      ///< dip: cells of about `dip` all over that range.
+  double corner_growth = 1.5;
+  bool grades_corners() const { return corner > 0 && corner < dip; }
 };
 
 /// The conceptual field (design section 7) in numbers; materials are indices.

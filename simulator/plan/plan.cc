@@ -245,6 +245,7 @@ nlohmann::json family_of(const Scene& scene, const Plan& plan) {
   }
   j["sizes"] = {sizes.strike, sizes.dip,         sizes.normal,
                 sizes.growth, sizes.fine_margin, sizes.largest};
+  if (sizes.grades_corners()) j["corners"] = {sizes.corner, sizes.corner_growth};
   j["plane_strain"] = plan.plane_strain;
   j["b_bar"] = scene.numerics.b_bar;
   for (const Material& m : scene.materials) {
@@ -263,7 +264,14 @@ int material_index(const Scene& scene, const std::string& name) {
 }
 
 CellSizes cell_sizes(const MeshSizes& sizes) {
-  return {sizes.strike, sizes.dip, sizes.normal, sizes.growth, sizes.fine_margin, sizes.largest};
+  return {.strike = sizes.strike,
+          .dip = sizes.dip,
+          .normal = sizes.normal,
+          .growth = sizes.growth,
+          .fine_margin = sizes.fine_margin,
+          .largest = sizes.largest,
+          .corner = sizes.corner,
+          .corner_growth = sizes.corner_growth};
 }
 
 /// The figures of a saving, or none.

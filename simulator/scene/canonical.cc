@@ -240,6 +240,11 @@ std::string canonical_scene(const Scene& scene) {
                  {"stages", stages},
                  {"pressure", pressure},
                  {"numerics", numerics(scene.numerics)}};
+  // Cells of one size down dip keep the identity from before they could be graded.
+  if (mesh.grades_corners()) {
+    result["mesh"]["corner"] = plain(mesh.corner);
+    result["mesh"]["corner_growth"] = plain(mesh.corner_growth);
+  }
   // An elastic scene has no creep to speak of: it keeps the identity from before there was any.
   if (has_viscous_material(scene)) result["creep"] = creep(scene.numerics);
   return result.dump();

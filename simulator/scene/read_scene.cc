@@ -6,6 +6,7 @@
 #include "scene_schema_json.h"
 #include "simulator/scene/scene_reader.h"
 #include "simulator/scene/schema_walk.h"
+#include "simulator/scene/tiers.h"
 #include "starter_box_json.h"
 #include "starter_field_json.h"
 
@@ -13,17 +14,6 @@ namespace faultsim {
 namespace {
 
 using nlohmann::json;
-
-struct TierSizes {
-  const char* name;
-  double strike, dip, normal;  ///< m
-};
-constexpr TierSizes kTiers[] = {
-    {"screening", 100, 10, 10},  // plane strain: the strike size is not used
-    {"demonstration", 200, 50, 100},
-    {"standard", 100, 20, 20},
-    {"reference", 50, 10, 10},
-};
 
 Switch switch_at(const SceneReader& reader, const std::string& pointer, Switch fallback) {
   const std::string text = reader.text(pointer);
@@ -66,17 +56,21 @@ void read_numerics(const SceneReader& reader, Numerics& numerics) {
 /// What a tier says beyond cell sizes; contradicting it is refused rather than renamed.
 void apply_tier_switches(SceneReader& reader, Scene& scene) {
   Numerics& numerics = scene.numerics;
-  if (scene.tier == "screening") {
+  const Tier* tier = find_tier(scene.tier);
+  if (tier == nullptr) return;
+  if (tier->plane_strain) {
     if (reader.has("/numerics/plane_strain") && numerics.plane_strain == Switch::off) {
-      reader.problem("/numerics/plane_strain", "the tier \"screening\" is plane strain",
+      reader.problem("/numerics/plane_strain",
+                     concat("the tier \"", tier->name, "\" is plane strain"),
                      "remove this line or choose the tier \"standard\"");
     }
     numerics.plane_strain = Switch::on;
   }
-  if (scene.tier == "reference" && numerics.plane_strain != Switch::on) {
+  if (tier->half_domain && numerics.plane_strain != Switch::on) {
     if (numerics.half_domain == Switch::off) {
       reader.problem("/numerics/half_domain",
-                     "the tier \"reference\" is made for half the domain; all of it does not fit",
+                     concat("the tier \"", tier->name,
+                            "\" is made for half the domain; all of it does not fit"),
                      "remove this line or choose the tier \"standard\"");
     }
     numerics.half_domain = Switch::on;
@@ -126,20 +120,32 @@ void read_mesh(SceneReader& reader, Scene& scene) {
                    "remove this line; for half a box put a roller on its plane of symmetry");
   }
   MeshSizes& mesh = scene.mesh;
-  mesh = {kNaN, kNaN, kNaN, 1.3, 0, 0};
-  for (const TierSizes& tier : kTiers) {
-    if (scene.tier == tier.name) mesh = {tier.strike, tier.dip, tier.normal, 1.3, 0, 0};
-  }
+  mesh = {.strike = kNaN, .dip = kNaN, .normal = kNaN};
+  const Tier* tier = find_tier(scene.tier);
+  if (tier != nullptr) mesh = tier->sizes;
   mesh.strike = reader.quantity("/mesh/strike", mesh.strike);
   mesh.dip = reader.quantity("/mesh/dip", mesh.dip);
   mesh.normal = reader.quantity("/mesh/normal", mesh.normal);
   mesh.growth = reader.number("/mesh/growth", mesh.growth);
   mesh.fine_margin = reader.quantity("/mesh/fine_margin", mesh.fine_margin);
   mesh.largest = reader.quantity("/mesh/largest", mesh.largest);
-  constexpr double kSmallestCap = 1e-3;  // m, as of the other sizes; 0 is none
-  if (mesh.largest > 0 && mesh.largest < kSmallestCap) {
+  mesh.corner = reader.quantity("/mesh/corner", mesh.corner);
+  mesh.corner_growth = reader.number("/mesh/corner_growth", mesh.corner_growth);
+  for (const char* key : {"corner", "corner_growth"}) {
+    const std::string at = std::string("/mesh/") + key;
+    if (is_box && reader.has(at)) {
+      reader.problem(at, "has no effect in a box, which has no compartment corners",
+                     "remove it and give fine_margin, or a smaller dip");
+    }
+  }
+  constexpr double kSmallest = 1e-3;  // m, as of the other sizes; 0 is none
+  if (mesh.largest > 0 && mesh.largest < kSmallest) {
     reader.problem("/mesh/largest", reader.as_given("/mesh/largest") + " is below 1 mm",
                    "write the largest size of a cell, at least 1 mm, or 0 m for no limit");
+  }
+  if (mesh.corner > 0 && mesh.corner < kSmallest) {
+    reader.problem("/mesh/corner", reader.as_given("/mesh/corner") + " is below 1 mm",
+                   "write a size of at least 1 mm, or 0 m for cells of `dip` all over");
   }
   apply_tier_switches(reader, scene);
   default_creep_refinements(reader, scene.numerics);
@@ -147,7 +153,7 @@ void read_mesh(SceneReader& reader, Scene& scene) {
   const bool plane_strain = scene.numerics.plane_strain == Switch::on;
   demand_cell_sizes(reader, is_box, plane_strain);
   // One cell along y: its size says nothing and must not tell equal cases apart.
-  if (plane_strain && !reader.has("/mesh/strike")) mesh.strike = kTiers[0].strike;
+  if (plane_strain && !reader.has("/mesh/strike")) mesh.strike = tiers().front().sizes.strike;
 }
 
 void read_materials(SceneReader& reader, Scene& scene) {

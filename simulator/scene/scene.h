@@ -127,11 +127,15 @@ enum class Switch { automatic, on, off };
 /// Cell sizes. A `tier` fills them; explicit values win.
 struct MeshSizes {
   double strike = 0;       ///< m, along y at the faults (box: y).
-  double dip = 0;          ///< m, down dip at reservoir level (box: z in the fine window).
+  double dip = 0;          ///< m, down dip at reservoir level (box: z in the fine window); with
+                           ///< `corner` the largest there.
   double normal = 0;       ///< m, first cell beside a fault.
   double growth = 1.3;     ///< largest ratio of neighbouring cell sizes away from the faults.
   double fine_margin = 0;  ///< m, box: how far beyond patches and regions the fine size is kept.
   double largest = 0;      ///< m, cap of graded cells; 0 = none.
+  double corner = 0;  ///< m, field: down dip at the corners of compartments; 0 or ≥ dip: as dip.
+  double corner_growth = 1.5;  ///< largest ratio of neighbouring cells between corners and `dip`.
+  bool grades_corners() const { return corner > 0 && corner < dip; }
 };
 
 enum class InitialStressKind { column, profile };

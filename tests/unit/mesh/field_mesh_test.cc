@@ -184,6 +184,47 @@ TEST(FieldMesh, CornersHaveEqualCellHeightsThroughAnOffsetSweep) {
     }
 }
 
+TEST(FieldMesh, GradedCornersAreTheSameThroughAnOffsetSweep) {
+  for (const double offset : {0.0, 20.0, 37.0, 100.0, 150.0, 200.0, 250.0, -100.0}) {
+    FieldMeshSpec spec = plane_strain(offset);
+    spec.sizes.dip = 20;
+    spec.sizes.corner = 5;
+    spec.sizes.corner_growth = 1.5;
+    std::vector<Problem> problems;
+    const std::vector<double> z = grid_lines(spec, problems).z;
+    ASSERT_TRUE(problems.empty());
+    SCOPED_TRACE(offset);
+    for (const double edge : {2000.0, 2200.0, 2000 + offset, 2200 + offset}) {
+      const std::vector<double> heights = heights_around(z, edge);
+      ASSERT_EQ(heights.size(), 4u);
+      EXPECT_NEAR(heights[1], 5, 1e-9);
+      EXPECT_NEAR(heights[2], 5, 1e-9);
+    }
+    const double top = std::min(1850.0, 1850 + offset), bottom = std::max(2350.0, 2350 + offset);
+    double largest = 0;
+    for (size_t k = 1; k < z.size(); ++k) {
+      if (z[k - 1] < -bottom - 1e-6 || z[k] > -top + 1e-6) continue;
+      const double height = z[k] - z[k - 1];
+      largest = std::max(largest, height);
+      if (z[k + 1] > -top + 1e-6) continue;
+      const double ratio = (z[k + 1] - z[k]) / height;
+      EXPECT_LE(std::max(ratio, 1 / ratio), 1.5 + 1e-9) << z[k];
+    }
+    EXPECT_LE(largest, 20 + 1e-9);
+    EXPECT_GT(largest, 15);
+  }
+}
+
+TEST(FieldMesh, CornersNotBelowDipChangeNothing) {
+  FieldMeshSpec spec = plane_strain(37);
+  std::vector<Problem> problems;
+  const std::vector<double> z = grid_lines(spec, problems).z;
+  for (const double corner : {spec.sizes.dip, 2 * spec.sizes.dip}) {
+    spec.sizes.corner = corner;
+    EXPECT_EQ(grid_lines(spec, problems).z, z);
+  }
+}
+
 TEST(FieldMesh, BeginsWithTheNormalSizeBesideEachFaultAndGrows) {
   FieldMeshSpec spec = plane_strain(50);
   std::vector<Problem> problems;

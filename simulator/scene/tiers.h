@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "simulator/scene/scene.h"
+
+namespace faultsim {
+
+/// A named choice of cells of a field. The only place where sizes of tiers stand; errors are those
+/// of its cells in plane strain against the limit of small ones (results/measures).
+struct Tier {
+  const char* name;
+  MeshSizes sizes;
+  bool plane_strain;   ///< else 3D.
+  bool half_domain;    ///< made for half of the domain, refused for all of it.
+  const char* errors;  ///< measured, in words.
+};
+
+const std::vector<Tier>& tiers();
+/// nullptr where there is none: "custom".
+const Tier* find_tier(const std::string& name);
+
+/// "100 m along strike; 5 m at compartment corners, growing by 1.3 to 20 m down dip; ...".
+std::string cells_text(const MeshSizes& sizes, bool plane_strain);
+
+}  // namespace faultsim
