@@ -13,6 +13,7 @@
 #include "simulator/output/output_target.h"
 #include "simulator/output/result_folder.h"
 #include "simulator/output/write_result.h"
+#include "simulator/scene/tiers.h"
 
 namespace faultsim {
 namespace {
@@ -82,11 +83,14 @@ ExitCode plan_command(const SceneArguments& arguments) {
   LoadedScene loaded = load_scene(arguments);
   check_geometry(loaded);
   add_savings(loaded.scene, loaded.plan);
+  const bool is_field = loaded.scene.geometry_kind == GeometryKind::field;
   if (arguments.json) {
     nlohmann::json plan = plan_to_json(loaded.plan);
     plan["warnings"] = remarks_to_json(loaded);
+    if (is_field) plan["cells"] = mesh_text(loaded.scene);
     std::cout << json_text(std::move(plan));
   } else {
+    if (is_field) std::cout << mesh_text(loaded.scene) << "\n";
     std::cout << plan_to_text(loaded.plan) << remarks_to_text(loaded);
   }
   return ExitCode::done;

@@ -24,4 +24,7 @@ const Tier* find_tier(const std::string& name);
 /// "100 m along strike; 5 m at compartment corners, growing by 1.3 to 20 m down dip; ...".
 std::string cells_text(const MeshSizes& sizes, bool plane_strain);
 
+/// The cells of a field and the errors of its tier, for the screen.
+std::string mesh_text(const Scene& scene);
+
 }  // namespace faultsim

@@ -64,7 +64,9 @@ void run_cases(benchmark::State& state, const PlannedScene& planned_scene) {
 
 void plane_strain_case(benchmark::State& state) {
   static const PlannedScene scene =
-      planned("rotliegend.json", {{"/tier", "screening"},
+      planned("rotliegend.json", {{"/tier", "custom"},
+                                  {"/mesh", kEven10},
+                                  {"/numerics/plane_strain", "on"},
                                   {"/mesh/dip", "7 m"},
                                   {"/geometry/blocks/1/offset", "200 m"},
                                   {"/friction/friction_angle", "18 deg"},
@@ -75,7 +77,8 @@ BENCHMARK(plane_strain_case)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->Use
 
 void standard_case(benchmark::State& state) {
   static const PlannedScene scene =
-      planned("rotliegend.json", {{"/tier", "standard"},
+      planned("rotliegend.json", {{"/tier", "custom"},
+                                  {"/mesh", kEven20},
                                   {"/geometry/blocks/1/offset", "100 m"},
                                   {"/friction/friction_angle", "20 deg"}});
   run_cases(state, scene);

@@ -73,14 +73,17 @@ void elastic(benchmark::State& state, const Prepared& prepared) {
 
 const Prepared& plane_strain_scene() {
   static const Prepared prepared(
-      planned("rotliegend-salt.json", {{"/tier", "screening"},
+      planned("rotliegend-salt.json", {{"/tier", "custom"},
+                                       {"/mesh", kEven10},
+                                       {"/numerics/plane_strain", "on"},
                                        {"/geometry/blocks/1/offset", "200 m"},
                                        {"/friction/friction_angle", "20 deg"}}));
   return prepared;
 }
 const Prepared& standard_scene() {
-  static const Prepared prepared(planned(
-      "rotliegend-salt.json", {{"/tier", "standard"}, {"/friction/friction_angle", "20 deg"}}));
+  static const Prepared prepared(
+      planned("rotliegend-salt.json",
+              {{"/tier", "custom"}, {"/mesh", kEven20}, {"/friction/friction_angle", "20 deg"}}));
   return prepared;
 }
 

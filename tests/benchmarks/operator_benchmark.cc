@@ -22,13 +22,14 @@ double peak_gigabytes() {
 /// The standard tier with faster growth away from the faults: about 260 thousand unknowns, 3600
 /// jumps.
 const PlannedScene& ratio_scene() {
-  static const PlannedScene scene =
-      planned("rotliegend.json",
-              {{"/tier", "standard"}, {"/mesh/growth", "1.5"}, {"/mesh/strike", "80 m"}});
+  static const PlannedScene scene = planned(
+      "rotliegend.json",
+      {{"/tier", "custom"}, {"/mesh", kEven20}, {"/mesh/growth", "1.5"}, {"/mesh/strike", "80 m"}});
   return scene;
 }
 const PlannedScene& standard_scene() {
-  static const PlannedScene scene = planned("rotliegend.json", {{"/tier", "standard"}});
+  static const PlannedScene scene =
+      planned("rotliegend.json", {{"/tier", "custom"}, {"/mesh", kEven20}});
   return scene;
 }
 

@@ -181,12 +181,16 @@ void bulk() {
 
 /// Cases in plane strain, where campaigns have most of theirs.
 void cases() {
-  const PlannedScene elastic = planned("rotliegend.json", {{"/tier", "screening"},
+  const PlannedScene elastic = planned("rotliegend.json", {{"/tier", "custom"},
+                                                           {"/mesh", kEven10},
+                                                           {"/numerics/plane_strain", "on"},
                                                            {"/mesh/dip", "7 m"},
                                                            {"/geometry/blocks/1/offset", "200 m"},
                                                            {"/friction/friction_angle", "18 deg"}});
   const PlannedScene weakening =
-      planned("rotliegend-weakening.json", {{"/tier", "screening"},
+      planned("rotliegend-weakening.json", {{"/tier", "custom"},
+                                            {"/mesh", kEven10},
+                                            {"/numerics/plane_strain", "on"},
                                             {"/mesh/dip", "7 m"},
                                             {"/geometry/blocks/1/offset", "200 m"},
                                             {"/friction/friction_angle", "25 deg"}});
@@ -211,7 +215,9 @@ void cases() {
 /// what other processes leave of the memory's speed.
 void creep() {
   const PlannedScene scene =
-      planned("rotliegend-salt.json", {{"/tier", "screening"},
+      planned("rotliegend-salt.json", {{"/tier", "custom"},
+                                       {"/mesh", kEven10},
+                                       {"/numerics/plane_strain", "on"},
                                        {"/geometry/blocks/1/offset", "200 m"},
                                        {"/friction/friction_angle", "20 deg"}});
   const PreparedOperator op = prepared(scene);

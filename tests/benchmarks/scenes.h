@@ -8,6 +8,10 @@
 
 namespace faultsim::benchmarks {
 
+/// Even cells, so that records stay comparable when a tier changes.
+inline constexpr const char* kEven10 = R"({"dip": "10 m", "normal": "10 m"})";
+inline constexpr const char* kEven20 = R"({"strike": "100 m", "dip": "20 m", "normal": "20 m"})";
+
 struct PlannedScene {
   Scene scene;
   Plan plan;

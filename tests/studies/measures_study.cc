@@ -3,8 +3,8 @@
 //
 // STUDY.json: {"meshes": {NAME: {POINTER: VALUE}}, "families": [{...}], "cases": [{...}]}; every
 // mesh × family (changes that need an operator) × case (changes that do not) is run, and a line
-// written per load step and fault; with "flags": true one per case, of its flag of activation.
-// Plane strain, cohesion 0, constant friction.
+// written per load step and fault; with "flags": true one per case, of its flag of activation; with
+// "rules": false without the rules, which are for plane strain, cohesion 0 and constant friction.
 
 #include <algorithm>
 #include <cmath>
@@ -178,8 +178,8 @@ const std::vector<Rule>& rules() {
 /// Writes the lines of one step.
 class StepWriter {
  public:
-  StepWriter(const FaultOperator& op, const Scene& scene, std::string prefix)
-      : scene_(scene), prefix_(std::move(prefix)) {
+  StepWriter(const FaultOperator& op, const Scene& scene, std::string prefix, bool with_rules)
+      : scene_(scene), prefix_(std::move(prefix)), with_rules_(with_rules) {
     for (std::size_t f = 0; f < op.geometry.faults.size(); ++f) {
       const OperatorFault& fault = op.geometry.faults[f];
       for (int j = 0; j < fault.n_columns; ++j)
@@ -194,7 +194,8 @@ class StepWriter {
       std::printf("%s,%d,%s,%.3f,%d,%d,%.9g,%.6g,%.6g", prefix_.c_str(), step.step,
                   scene_.faults[f].name.c_str(), m.activated_length, m.activated ? 1 : 0,
                   m.activation_resolved ? 1 : 0, m.chi_bar, m.max_slip, m.thickness_chi_080_max);
-      for (const Rule& rule : rules()) write_rule(rule, static_cast<int>(f), fields);
+      if (with_rules_)
+        for (const Rule& rule : rules()) write_rule(rule, static_cast<int>(f), fields);
       std::printf("\n");
     }
   }
@@ -219,6 +220,7 @@ class StepWriter {
 
   const Scene& scene_;
   std::string prefix_;
+  bool with_rules_;
   std::vector<Column> columns_;
 };
 
@@ -249,7 +251,7 @@ void write_flag(const std::string& prefix, const CaseResult& result) {
 }
 
 void run_family(const JsonDocument& document, const std::string& prefix, const json& cases,
-                bool flags) {
+                bool flags, bool with_rules) {
   std::optional<PreparedOperator> prepared;
   SilentMonitor monitor;
   for (const json& changes : cases) {
@@ -265,7 +267,7 @@ void run_family(const JsonDocument& document, const std::string& prefix, const j
     if (flags) {
       write_flag(start, run_case(scene, *prepared, monitor));
     } else {
-      const StepWriter writer(*prepared->op, scene, start);
+      const StepWriter writer(*prepared->op, scene, start, with_rules);
       run_case(scene, *prepared, monitor, [&](const StepResult& step, const FaultFields& fields) {
         writer.write(step, fields);
       });
@@ -277,20 +279,21 @@ void run_family(const JsonDocument& document, const std::string& prefix, const j
 void run(const std::string& scene_file, const std::string& study_file) {
   const JsonDocument scene = read_json_file(scene_file);
   const json study = read_json_file(study_file).value;
-  const bool flags = study.value("flags", false);
+  const bool flags = study.value("flags", false), with_rules = study.value("rules", true);
   std::printf("mesh,family,unknowns,jumps,case,");
   if (flags) {
     std::printf("outcome,activated,resolved,length_m,chi,slip_m\n");
   } else {
     std::printf("step,fault,length_m,activated,resolved,chi,slip_m,thickness_m");
-    for (const Rule& rule : rules()) std::printf(",chi_%s,thickness_%s_m", rule.name, rule.name);
+    for (const Rule& rule : with_rules ? rules() : std::vector<Rule>())
+      std::printf(",chi_%s,thickness_%s_m", rule.name, rule.name);
     std::printf("\n");
   }
   for (const auto& [name, mesh] : study.at("meshes").items()) {
     for (const json& family : study.at("families")) {
       std::fprintf(stderr, "%s: %s\n", name.c_str(), label(family).c_str());
       run_family(with(with(scene, mesh), family), name + "," + label(family), study.at("cases"),
-                 flags);
+                 flags, with_rules);
     }
   }
 }

@@ -17,7 +17,8 @@ CaseResult run_reference(const std::string& offset, const std::string& angle,
                          const std::string& cell) {
   JsonDocument document =
       read_json_file(std::string(FAULTSIM_SOURCE_DIR) + "/docs/examples/scenes/rotliegend.json");
-  set_value(document, "/tier", "screening");
+  set_value(document, "/tier", "custom");
+  set_value(document, "/numerics/plane_strain", "on");
   set_value(document, "/mesh/dip", cell);
   set_value(document, "/mesh/normal", cell);
   set_value(document, resolve_parameter(document, "offset_east"), offset);
@@ -64,6 +65,53 @@ TEST(ActivationMesh, StepMovesByAtMostOneWhileNodalPeaksGrow) {
   EXPECT_GT(peaks[2].nodal, 1.08 * peaks[1].nodal);
   EXPECT_NEAR(peaks[1].window, peaks[0].window, 0.05 * peaks[0].window);
   EXPECT_NEAR(peaks[2].window, peaks[1].window, 0.03 * peaks[1].window);
+}
+
+/// A tier's cells in plane strain.
+CaseResult run_tier(const std::string& tier, const std::string& offset, const std::string& angle) {
+  JsonDocument document =
+      read_json_file(std::string(FAULTSIM_SOURCE_DIR) + "/docs/examples/scenes/rotliegend.json");
+  set_value(document, "/tier", tier);
+  set_value(document, "/numerics/plane_strain", "on");
+  set_value(document, resolve_parameter(document, "offset_east"), offset);
+  set_value(document, resolve_parameter(document, "friction_angle"), angle);
+  const Scene scene = read_scene(document);
+  std::vector<Problem> problems;
+  const Plan plan = make_plan(scene, problems);
+  SilentMonitor monitor;
+  return run_case(scene, *prepare_operator(scene, plan, {}, false, monitor).op, monitor);
+}
+
+/// At 50 m one slipping node at a corner counts as a hundred metres.
+TEST(ActivationMesh, CellsThatCannotTellSaySo) {
+  const CaseResult fine = run_reference("0 m", "30 deg", "5 m");
+  EXPECT_FALSE(fine.whole.activated);
+  EXPECT_TRUE(fine.whole.activation_resolved);
+  const CaseResult coarse = run_reference("0 m", "30 deg", "50 m");
+  EXPECT_TRUE(coarse.whole.activated);
+  EXPECT_FALSE(coarse.whole.activation_resolved);
+  EXPECT_FALSE(coarse.stages[0].activation_resolved);
+  const CaseResult large = run_reference("200 m", "15 deg", "5 m");
+  EXPECT_TRUE(large.whole.activated && large.whole.activation_resolved);
+}
+
+/// What the tiers claim (results/measures has all steps and faults), here of one case against 2.5
+/// m.
+TEST(ActivationMesh, TiersAreAsCloseAsTheySay) {
+  const CaseResult fine = run_reference("100 m", "20 deg", "2.5 m");
+  for (const auto& [tier, chi_off] :
+       {std::pair{"screening", 0.013}, std::pair{"standard", 0.020},
+        std::pair{"demonstration", 0.028}, std::pair{"reference", 0.013}}) {
+    const CaseResult result = run_tier(tier, "100 m", "20 deg");
+    ASSERT_EQ(result.steps.size(), fine.steps.size());
+    double worst = 0;
+    for (std::size_t k = 0; k < fine.steps.size(); ++k)
+      for (std::size_t f = 0; f < 3; ++f)
+        worst = std::max(
+            worst, std::abs(result.steps[k].faults[f].chi_bar - fine.steps[k].faults[f].chi_bar));
+    EXPECT_LT(worst, chi_off) << tier;
+    EXPECT_NEAR(result.whole.max_slip, fine.whole.max_slip, 0.06 * fine.whole.max_slip) << tier;
+  }
 }
 
 }  // namespace
