@@ -15,7 +15,7 @@ const std::vector<Tier>& tiers() {
        false,
        "χ̄ within 0.011 (rms 0.003), largest slip within 6 % above 11 mm"},
       {"demonstration",
-       {.strike = 200, .dip = 30, .normal = 10, .growth = 1.7, .corner = 10, .corner_growth = 1.5},
+       {.strike = 200, .dip = 30, .normal = 10, .growth = 2, .corner = 10, .corner_growth = 1.5},
        false,
        false,
        "χ̄ within 0.026 (rms 0.008), largest slip within 12 % above 11 mm"},
