@@ -18,7 +18,7 @@ const std::vector<Tier>& tiers() {
        {.strike = 200, .dip = 30, .normal = 10, .growth = 2, .corner = 10, .corner_growth = 1.5},
        false,
        false,
-       "χ̄ within 0.026 (rms 0.008), largest slip within 12 % above 11 mm"},
+       "χ̄ within 0.025 (rms 0.008), largest slip within 11 % above 11 mm"},
       {"standard",
        {.strike = 100, .dip = 15, .normal = 5, .growth = 1.7, .corner = 5, .corner_growth = 1.3},
        false,
@@ -28,7 +28,7 @@ const std::vector<Tier>& tiers() {
        {.strike = 50, .dip = 10, .normal = 2.5, .growth = 2, .corner = 2.5, .corner_growth = 2},
        false,
        true,
-       "χ̄ within 0.011 (rms 0.003), largest slip within 6 % above 11 mm"},
+       "χ̄ within 0.010 (rms 0.004), largest slip within 5 % above 11 mm"},
   };
   return all;
 }
