@@ -398,9 +398,9 @@ TEST_F(EventReportTest, TheRankingKeepsUnresolvedOnesApart) {
 
 TEST_F(EventReportTest, ActivationThatHangsOnTheMeshIsSaid) {
   EXPECT_THAT(ranking_to_text(make_ranking(*store_, events_, {})),
-              ContainsRegex("[+]1     2 .*F1 at step 1, unresolved"));
+              ::testing::ContainsRegex("[+]1     2 .*F1 at step 1, unresolved"));
   EXPECT_THAT(ranking_to_text(make_ranking(*store_, events_, {})),
-              Not(ContainsRegex(" 1     3 .*unresolved")));
+              Not(::testing::ContainsRegex(" 1     3 .*unresolved")));
   const auto json = ranking_to_json(make_ranking(*store_, events_, {}));
   EXPECT_EQ(json["cases"][0]["activation_resolved"], true);
   EXPECT_EQ(json["cases"][2]["activation_resolved"], false);
@@ -411,8 +411,9 @@ TEST_F(EventReportTest, ActivationThatHangsOnTheMeshIsSaid) {
   EXPECT_THAT(found, ElementsAre(2));
   const std::string text = show("2");
   EXPECT_THAT(text, HasSubstr("UNRESOLVED: whether a fault slides hangs on the mesh"));
-  EXPECT_THAT(text, ContainsRegex("cushion_gas_injection +5-8 +F1 at step 1, unresolved"));
-  EXPECT_THAT(text, ContainsRegex("\n3 +primary_production .* (yes|no)[?] "));
+  EXPECT_THAT(text,
+              ::testing::ContainsRegex("cushion_gas_injection +5-8 +F1 at step 1, unresolved"));
+  EXPECT_THAT(text, ::testing::ContainsRegex("\n3 +primary_production .* (yes|no)[?] "));
 }
 
 TEST_F(EventReportTest, EventsOrderAndFilter) {
