@@ -177,7 +177,7 @@ struct CampaignSpec {
   faultsim::JsonDocument base;      ///< the base scene as given.
   bool base_is_inline = false;      ///< base is document's /base.
 
-  /// The second of the three copies (design section 8): JSON text in which every alias is a
+  /// The second of the three copies: JSON text in which every alias is a
   /// pointer, every range its values (or, where values are drawn, its ends: design and seed make
   /// the same values again), and every group carries its scene.
   std::string resolved() const;

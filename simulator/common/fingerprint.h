@@ -6,7 +6,7 @@
 
 namespace faultsim {
 
-/// Bumped by hand when a change may alter a result; part of every identity (design section 8).
+/// Bumped by hand when a change may alter a result; part of every identity.
 inline constexpr int kNumericsVersion = 3;
 
 /// The 128-bit XXH3 hash of the bytes as 32 hexadecimal digits. Not cryptographic: it tells inputs

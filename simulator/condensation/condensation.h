@@ -37,7 +37,7 @@ struct BulkProblem {
 int observed_node(const Mesh& mesh, const Eigen::Vector3d& point);
 
 struct BuildOptions {
-  int blas_threads = 1;  ///< a policy value, never a function of the machine (design section 9).
+  int blas_threads = 1;  ///< a policy value, never a function of the machine.
 };
 
 /// The factorised bulk of one family: kept while displacement fields, or the creep of salt, still

@@ -19,7 +19,7 @@ struct BulkState {
 /// ... have the durations asked for. Over a step of a rung, with the history s of the salt,
 ///
 ///   A (t_{n+1} − t_n) = f_g − K_gr K_rr⁻¹ f_r − H_Δt (g_{n+1} − g_n),
-///   f = Σ_k Δc_k f_k + Pᵀ ∫ ε(v):(1 − decay) s_n                         (design section 3)
+///   f = Σ_k Δc_k f_k + Pᵀ ∫ ε(v):(1 − decay) s_n                         (docs/model.md, 14)
 ///
 /// costs one forward substitution for the history, before contact is solved, and one backward
 /// substitution for the displacement, after: together one back-solve, and never a factorisation.

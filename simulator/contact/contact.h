@@ -53,7 +53,7 @@ struct ContactJump {
                              ///< is first lost.
   int n_lost_cohesion = 0;   ///< nodes whose cohesion was lost by slip.
   int negative_pivots = 0;   ///< of the undamped tangent, most seen; 0 before and after.
-  double residual_before = 0;  ///< largest violation of D2-D3 in units of the tolerance.
+  double residual_before = 0;  ///< largest violation of (3)–(5) in units of the tolerance.
   double residual_after = 0;
   double released = 0;    ///< energy released by bulk and loads, ½ Σ A (t'_0 + t'_1)·Δg, J.
   double dissipated = 0;  ///< by friction, Σ A τ_L |Δg_T|, J; the rest is radiated.
@@ -70,8 +70,8 @@ struct ContactReport {
   std::vector<ContactJump> jumps;  ///< in order of load.
 };
 
-/// Solves the frictional contact problem on the faults, load step by load step (D2, D3, D4):
-/// given the locked effective traction t_L (n_dofs), find g with
+/// Solves the frictional contact problem on the faults, load step by load step (docs/model.md, 3 to
+/// 6): given the locked effective traction t_L (n_dofs), find g with
 ///
 ///   t' = t_L − A⁻¹ H g,   t'_N ≤ 0, g_N ≥ 0, t'_N g_N = 0,
 ///   |t'_T| ≤ τ_L(t'_N, s),   Δg_T = α t'_T/|t'_T|, α ≥ 0, α(|t'_T| − τ_L) = 0,   Δg_T over the
@@ -80,7 +80,7 @@ struct ContactReport {
 /// Load step → sub-step (t_L linear in between) → active set → Newton; every loop is bounded. Only
 /// active nodes are unknowns and only their columns of H are touched; scratch memory is kept
 /// between calls. The result does not depend on earlier cases (scratch never carries values).
-/// When a step is cut, D3 holds over each sub-step, not over the step as a whole.
+/// When a step is cut, (5) holds over each sub-step, not over the step as a whole.
 ///
 /// A step with weakening is accepted only when every state on the way was shown stable
 /// (stability.h). Where that fails at the smallest sub-step, the jump is followed to the next
@@ -103,7 +103,7 @@ class ContactSolver {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Largest violation of D2–D3 by a state, in Pa and m, measured independently of the solver.
+/// Largest violation of (3)–(5) by a state, in Pa and m, measured independently of the solver.
 /// Misalignment of slips below 1e-6 |t'_T| A/H_TT counts in proportion: their direction is
 /// round-off. A step that was cut (sub_steps > 1) need not pass the last two of slip: see
 /// ContactSolver.

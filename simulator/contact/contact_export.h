@@ -24,7 +24,7 @@ enum class Weakening { refuse, freeze };
 ContactLaws frozen_laws(const FaultOperator& op, const ContactLaws& laws, const ContactState& start,
                         Weakening weakening);
 
-/// The contact problem of a whole load step (D2, D3 without sub-steps) as u = W r + q. With the
+/// The contact problem of a whole load step ((3)–(5) without sub-steps) as u = W r + q. With the
 /// areas A, the traction if nothing moves t = start.traction + after − before and the start's gap
 /// g_0,
 ///

@@ -278,7 +278,7 @@ bool ContactNewton::finish(SubStep& sub_step) {
 }
 
 /// Whether slip follows traction. The natural residual weighs a wrong direction by the size of the
-/// slip, so where a node has moved little it is satisfied long before D3 is.
+/// slip, so where a node has moved little it is satisfied long before (5) is.
 bool ContactNewton::aligned(const SubStep& sub_step) const {
   for (int k = 0; k < problem_.n_nodes(); ++k) {
     const auto i = static_cast<std::size_t>(k);

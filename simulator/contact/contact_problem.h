@@ -91,7 +91,7 @@ struct NodeViolation {
   double open_traction = 0;
   double worst() const;
 };
-/// Checks D2–D3 at one node straight from their definition, with nothing from the solver's
+/// Checks (3)–(5) at one node straight from their definition, with nothing from the solver's
 /// residual.
 NodeViolation check_node(const ContactProblem& problem, const SubStep& sub_step, int node);
 

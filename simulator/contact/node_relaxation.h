@@ -10,7 +10,7 @@ struct LocalSolution {
   Eigen::Vector3d increment = Eigen::Vector3d::Zero();  ///< Δg (n, shear, shear), m.
 };
 
-/// Nonlinear block Gauss-Seidel: solves D2-D3 node by node, in order, sweeps times. Slow but hard
+/// Nonlinear block Gauss-Seidel: solves (3)–(5) node by node, in order, sweeps times. Slow but hard
 /// to stop, as it needs no good start: what the Newton loop starts from when it failed from rest.
 /// Strength weakens with the slip of the last visit. Cost per sweep: 6 n_dofs per moving node.
 /// @returns the largest change of traction in the last sweep, in units of the node's tolerance.

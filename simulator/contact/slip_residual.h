@@ -27,7 +27,7 @@ struct SlipResidual {
   double excess = 0;         ///< |y| − τ_L: slips iff > 0, Pa.
 };
 
-/// The slip branch of D3 in the form of Alart and Curnier (1991), with its consistent tangent:
+/// The slip branch of (5) in the form of Alart and Curnier (1991), with its consistent tangent:
 ///
 ///   R = t'_T − τ_L(t'_N, s) y/|y|,   y = t'_T + r Δg_T.
 ///

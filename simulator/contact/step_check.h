@@ -11,16 +11,16 @@ namespace faultsim {
 struct AcceptedStep {
   Eigen::VectorXd locked_before, locked;  ///< t_L at its start and end, Pa; before step 0: zero.
   ContactState before, after;
-  /// In one sub-step without a jump: then D3 holds from start to end of the step. Else only what
+  /// In one sub-step without a jump: then (5) holds from start to end of the step. Else only what
   /// the last state shows by itself is checked.
   bool at_once = true;
   /// The elastic operator relates locked traction and jump; not so where salt creeps.
   bool elastic = true;
 };
 
-/// How far an accepted step is from D2, D3 and D6, computed anew in extended precision from H, the
-/// locked traction and the jumps: tractions are recomputed, t' = t_L − A⁻¹ H g (without `elastic`
-/// they are taken as given). Tractions are relative to the level of the node,
+/// How far an accepted step is from (3)–(5) and (9), computed anew in extended precision from H,
+/// the locked traction and the jumps: tractions are recomputed, t' = t_L − A⁻¹ H g (without
+/// `elastic` they are taken as given). Tractions are relative to the level of the node,
 ///
 ///   S_k = max(m_k, max_k m_k / 1000),   m_k = max of |t_L|, |t'| before and after and of the
 ///                                             traction if nothing had moved, over its components,

@@ -23,7 +23,7 @@ struct SubStepRange {
 };
 
 /// Solves one sub-step: rest if it will do, the fast road of plane strain, Newton from rest, Newton
-/// after relaxation. Every solution is checked against D2–D3 node by node. A damped sub-step lets
+/// after relaxation. Every solution is checked against (3)–(5) node by node. A damped sub-step lets
 /// the limit shear traction grow with the slip rate, |t'_T| = τ_L + η |Δg_T|/Δt: for small Δt it
 /// always has a solution.
 class SubStepSolver {
@@ -43,7 +43,7 @@ class SubStepSolver {
 
   /// Pivots of the undamped tangent of what slips, with the weakening at the end of the sub-step.
   int negative_pivots() { return stability_.negative_pivots(sub_step_); }
-  /// Largest violation of D2–D3 in units of the node's tolerance.
+  /// Largest violation of (3)–(5) in units of the node's tolerance.
   double residual() const;
   /// The same of the start of the sub-step, as if nothing moved.
   double residual_at_rest() {

@@ -31,8 +31,8 @@ class CreepCells {
   const std::vector<int>& materials() const { return materials_; }
   CreepStress at_rest() const;
 
-  /// s := decay s + 2 G shear_factor Δe at every Gauss point (D5), and the forces of the new s.
-  /// Δe is the deviator of the strain at the point, as in the stiffness with B-bar.
+  /// s := decay s + 2 G shear_factor Δe at every Gauss point (docs/model.md, 13), and the forces of
+  /// the new s. Δe is the deviator of the strain at the point, as in the stiffness with B-bar.
   /// @param displacement  increment over the step, 3 x n_nodes, m.
   /// @param step          per viscous material (materials()).
   void advance(const Eigen::Matrix3Xd& displacement, const std::vector<MaxwellStep>& step,

@@ -31,17 +31,17 @@ struct DisplacementCondition {
 /// Instantaneous shear modulus G = E/2(1 + ν), Pa.
 double shear_modulus(const ElasticMaterial& material);
 
-/// The linear map from unknowns to nodal displacements, u = P x + Σ_k c_k d_k (D6):
+/// The linear map from unknowns to nodal displacements, u = P x + Σ_k c_k d_k (docs/model.md, 8):
 /// x = (r, g): r all independent displacements (ū on duplicated nodes), g the jumps in the local
 /// frame, *last*; u± = ū ± ½ R g. Ties, plane strain and prescribed displacements are in P and d.
 class DofMap {
  public:
-  /// Rules (design section 2): a jump component along a direction that is fixed on both sides is
-  /// removed; a node where a fixed direction is not one of (n, strike, dip), or is n, is locked,
-  /// and so is one that is fixed on one side only. Where sides share an edge, the condition listed
-  /// first gives the value of a component. If no component is prescribed at all, the rigid motions
-  /// of the body (6; fewer with ties or in plane strain) are pinned at three nodes off the faults:
-  /// reactions there must vanish.
+  /// Rules (docs/model.md, section 3): a jump component along a direction that is fixed on both
+  /// sides is removed; a node where a fixed direction is not one of (n, strike, dip), or is n, is
+  /// locked, and so is one that is fixed on one side only. Where sides share an edge, the condition
+  /// listed first gives the value of a component. If no component is prescribed at all, the rigid
+  /// motions of the body (6; fewer with ties or in plane strain) are pinned at three nodes off the
+  /// faults: reactions there must vanish.
   DofMap(const Mesh& mesh, const std::vector<DisplacementCondition>& conditions, int n_loads);
 
   struct Term {

@@ -20,7 +20,7 @@ struct LimitShearTraction {
   double d_slip;  ///< ∂τ_L/∂s ≤ 0, Pa/m; the right-hand derivative at s = d_c (0).
 };
 
-/// The largest shear traction that a closed fault point carries (D3, D4):
+/// The largest shear traction that a closed fault point carries (docs/model.md, 4 and 6):
 ///
 ///   τ_L(t'_N, s) = c − t'_N tan φ(s),   φ(s) = φ_s + (φ_d − φ_s) min(s/d_c, 1)
 ///
@@ -31,7 +31,7 @@ struct LimitShearTraction {
 /// @pre both signs; otherwise InternalError: whether the point is closed is for the active set.
 LimitShearTraction limit_shear_traction(const CoulombLaw& law, double normal_traction, double slip);
 
-/// χ = |t'_T| / max(τ_L, 1 kPa); the floor only here, never in D3.
+/// χ = |t'_T| / max(τ_L, 1 kPa); the floor only here, never in (5).
 double critical_index(double shear_traction_norm, double limit_shear_traction);
 
 /// Nucleation length of Uenishi and Rice: h_n = 1.157773883699 G*/W, W = −∂τ_L/∂s at onset, m;

@@ -20,7 +20,8 @@ struct FactorStatistics {
 /// Sparse supernodal Cholesky P K Pᵀ = L Lᵀ (CHOLMOD, 64-bit indices) that keeps a chosen set of
 /// unknowns last, so that the trailing block of L is the factor of their Schur complement:
 ///
-///   K = [[K_rr, K_rg], [K_gr, K_gg]],   H = K_gg − K_gr K_rr⁻¹ K_rg = L_gg L_ggᵀ.          (D6)
+///   K = [[K_rr, K_rg], [K_gr, K_gg]],   H = K_gg − K_gr K_rr⁻¹ K_rg = L_gg L_ggᵀ. (docs/model.md,
+///   8)
 class TrailingCholesky {
  public:
   using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, long>;

@@ -67,8 +67,8 @@ Eigen::VectorXd initial_pressure_excess(const Scene& scene, const FaultGeometry&
                                         const std::vector<int>& region_of_load);
 
 /// Δp_f of every fault node at a time, Pa (n_nodes): per pair of neighbouring cells by the fault's
-/// rule, then the area-weighted mean (design section 2). A prescribed change without a table is
-/// reached linearly over the first stage and held.
+/// rule, then the area-weighted mean (docs/model.md, section 5). A prescribed change without a
+/// table is reached linearly over the first stage and held.
 Eigen::VectorXd fault_pressure_change(const Scene& scene, const FaultGeometry& geometry,
                                       const std::vector<int>& region_of_load, double time,
                                       const std::vector<double>& pressure_change);

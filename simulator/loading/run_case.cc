@@ -132,7 +132,7 @@ FaultFields CaseRun::fields(const StepLoads& loads) const {
   return f;
 }
 
-/// Cell edges against the nucleation length (design section 4) where it slips; with a trial
+/// Cell edges against the nucleation length (docs/model.md, section 8) where it slips; with a trial
 /// traction, where that would make it slip.
 void CaseRun::note_weakening(const Eigen::VectorXd& traction, bool trial) {
   for (std::size_t k = 0; k < op_.geometry.nodes.size(); ++k) {

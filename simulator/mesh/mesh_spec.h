@@ -20,13 +20,13 @@ struct CellSizes {
   double fine_margin = 0;
   double largest = 0;  ///< 0 = no cap.
   double corner = 0;   ///< field: height of the cells at the edges of the reservoir, from which
-                      ///< cells grow by corner_growth to `dip` within the faults' range; 0 or ≥
-                      ///< dip: cells of about `dip` all over that range.
+                       ///< cells grow by corner_growth to `dip` within the faults' range; 0 or ≥
+                       ///< dip: cells of about `dip` all over that range.
   double corner_growth = 1.5;
   bool grades_corners() const { return corner > 0 && corner < dip; }
 };
 
-/// The conceptual field (design section 7) in numbers; materials are indices.
+/// The conceptual field in numbers; materials are indices.
 struct FieldMeshSpec {
   double width, length, depth;     ///< m.
   std::vector<double> layer_tops;  ///< depths, m, ascending, first 0.

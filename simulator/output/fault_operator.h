@@ -63,7 +63,7 @@ struct ObservationRow {
   Eigen::Vector3d position;  ///< of the node used.
 };
 
-/// The linear bulk condensed onto the faults (design D6), all in the local fault frame:
+/// The linear bulk condensed onto the faults (docs/model.md, 8), all in the local fault frame:
 ///
 ///   t'(step) = t'_0 + Σ_k c_k(step) L_k + α_f Δp_f n − A⁻¹ H g,      u_obs = Σ_k c_k U_k + V g.
 struct FaultOperator {

@@ -32,7 +32,7 @@ Outcome outcome_from_string(const std::string& text);  ///< throws StorageError 
 
 enum class FaultState : int { stick = 0, slip = 1, open = 2 };
 
-/// Metrics of one fault at one load step. Definitions: docs/model.md (design section 2).
+/// Metrics of one fault at one load step. Definitions: docs/model.md, section 7.
 struct FaultMetrics {
   double chi_bar = 0;         ///< χ̄, window maximum of ∫|t'_T| / ∫τ_L; mesh-independent.
   double chi_max = 0;         ///< nodal max χ: mesh-dependent.
@@ -124,8 +124,9 @@ struct FaultOnset {
   bool operator==(const FaultOnset&) const = default;  ///< the very same numbers.
 };
 
-/// A jump of equilibrium within a load step, followed to the next equilibrium (design section 4),
-/// with its evidence. Values cover all faults that moved; plane strain: per metre of strike.
+/// A jump of equilibrium within a load step, followed to the next equilibrium (docs/model.md,
+/// section 2), with its evidence. Values cover all faults that moved; plane strain: per metre of
+/// strike.
 struct SlipEvent {
   int step = 0;
   std::string stage;
@@ -147,7 +148,7 @@ struct SlipEvent {
   bool resolved = true;             ///< cell edges ≤ h_n / 3 where it slipped.
   int negative_pivots = 0;          ///< of the tangent on the way; 0 before and after.
   int n_lost_cohesion = 0;          ///< nodes that lost their cohesion by slipping.
-  double residual_before = 0;       ///< largest violation of D2-D3, in units of the tolerance.
+  double residual_before = 0;       ///< largest violation of (3)–(5), in units of the tolerance.
   double residual_after = 0;
   double energy_released = 0;    ///< J, by bulk and loads.
   double energy_dissipated = 0;  ///< J, by friction; the rest is radiated.

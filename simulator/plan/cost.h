@@ -25,7 +25,7 @@ struct GridShape {
   double n_jump() const;  ///< unknowns on the faults.
 };
 
-/// Size of the sparse Cholesky factor with the jumps ordered last (D6).
+/// Size of the sparse Cholesky factor with the jumps ordered last (docs/model.md, 8).
 struct FactorSize {
   double entries = 0;         ///< as stored: a supernode is a full rectangle.
   double flops = 0;           ///< additions and multiplications.

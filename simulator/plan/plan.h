@@ -18,7 +18,7 @@ struct PlannedSize {
   double memory_bytes = 0;      ///< peak while the operator is built.
 };
 
-/// One decision about what is modelled (design section 6).
+/// One decision about what is modelled.
 struct Reduction {
   std::string name;  ///< "half_domain", "plane_strain", "creep_off".
   bool applied = false;
@@ -33,7 +33,7 @@ struct Reduction {
 };
 
 /// The steps of creep of viscous materials. Each needs a fault operator of its own besides the
-/// elastic one, as the stiffness that a step sees depends on its length (D5, design section 3).
+/// elastic one, as the stiffness that a step sees depends on its length (docs/model.md, 14).
 struct CreepPlan {
   bool active = false;
   /// Distinct step lengths Δt, s, descending; two that agree to 1e-9 are one. Error-controlled:
@@ -58,7 +58,7 @@ struct Plan : PlannedSize {
   int n_steps = 0;          ///< load steps after step 0.
   int n_added_steps = 0;    ///< of these, those that end at turning points between a stage's own.
   std::vector<InitialRegion> initial;  ///< the initial state per pressure region.
-  std::vector<std::string> warnings;  ///< of the input, for who reads the plan; one sentence each.
+  std::vector<std::string> warnings;   ///< of the input, for who reads the plan; one sentence each.
   std::string family;  ///< fingerprint of what defines the linear bulk (without BLAS).
 };
 

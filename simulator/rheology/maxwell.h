@@ -3,14 +3,14 @@
 namespace faultsim {
 
 enum class MaxwellScheme {
-  exponential,     ///< exact for a constant strain rate within the step (D5).
+  exponential,     ///< exact for a constant strain rate within the step (docs/model.md, 13).
   backward_euler,  ///< first order; kept to measure what the other gains.
 };
 
 /// A Maxwell material over one time step Δt: deviatoric stress s and strain e (tensor components)
 /// obey ė = ṡ/2G + s/2η (factor convention ε̇_v = s/2η), with τ = η/G and x = Δt/τ as
 ///
-///   s_{n+1} = decay s_n + 2 G shear_factor (e_{n+1} − e_n).                                   (D5)
+///   s_{n+1} = decay s_n + 2 G shear_factor (e_{n+1} − e_n). (docs/model.md, 13)
 ///
 /// exponential: decay = e^{−x}, shear_factor = (1 − e^{−x})/x; backward Euler: both 1/(1 + x).
 /// Source: the exponential integrator of linear viscoelasticity with one relaxation time, Simo &

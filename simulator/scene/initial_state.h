@@ -23,7 +23,7 @@ enum class DepthSide {
   below,  ///< as seen from larger depths.
 };
 
-/// Initial state at height z (m, depth = −z), a function of depth only (design section 2):
+/// Initial state at height z (m, depth = −z), a function of depth only (docs/model.md, section 6):
 ///
 ///   column:   σ_v = −g ∫ ρ d(depth) over the layers at zero offset;  p0 = ρ_w g depth, plus the
 ///             overpressure within the depth range of the reservoir layer at zero offset

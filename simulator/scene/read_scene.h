@@ -27,7 +27,7 @@ Scene read_scene(const JsonDocument& document, std::vector<Problem>& problems);
 /// added later appears only when it differs from the value that reproduces the old behaviour.
 std::string canonical_scene(const Scene& scene);
 
-/// Identity of a case: fingerprint of canonical_scene and kNumericsVersion (design section 8).
+/// Identity of a case: fingerprint of canonical_scene and kNumericsVersion.
 std::string case_identity(const Scene& scene);
 /// Whether identity is the scene's, under this or an earlier version of the numerics.
 bool has_identity(const Scene& scene, const std::string& identity);

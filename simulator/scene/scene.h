@@ -39,7 +39,7 @@ struct Block {
   std::optional<double> overpressure = std::nullopt;
 };
 
-/// The conceptual Dutch field of design section 7: layers, a row of contiguous reservoir blocks, a
+/// The conceptual Dutch field: layers, a row of contiguous reservoir blocks, a
 /// fault at every block boundary (n_blocks + 1 faults, from west to east, see Scene::faults).
 struct FieldGeometry {
   double width = 0;             ///< m, extent in x, centred on 0.
@@ -140,7 +140,7 @@ struct MeshSizes {
 
 enum class InitialStressKind { column, profile };
 
-/// Initial stress and pressure, functions of depth only (design section 2).
+/// Initial stress and pressure, functions of depth only (docs/model.md, section 6).
 /// column: σ_v and p0 from the reference column of the field (zero offset).
 /// profile: σ_v(z) = vertical + vertical_gradient (−z), p0 likewise; or a uniform full tensor.
 struct InitialState {
@@ -163,7 +163,7 @@ struct InitialState {
 };
 
 enum class FrictionLaw {
-  angle,        ///< φ(s) = φ_s + (φ_d − φ_s) min(s/d_c, 1)           (D4)
+  angle,        ///< φ(s) = φ_s + (φ_d − φ_s) min(s/d_c, 1)           (docs/model.md, 6)
   coefficient,  ///< tan φ weakens linearly instead.
 };
 enum class SlipMeasure { current, cumulated };
@@ -233,7 +233,7 @@ enum class TurningPoints {
   report,  ///< they are skipped, and the case is warned about.
 };
 
-/// How the viscous strain of a step follows from the stresses (D5).
+/// How the viscous strain of a step follows from the stresses (docs/model.md, 13).
 enum class CreepScheme {
   exponential,     ///< exact for a strain rate that is constant in the step.
   backward_euler,  ///< first order: what many codes do, to measure the difference.

@@ -1,4 +1,4 @@
-// Random small scenes on real operators: nothing ends in a state that violates D2-D3, friction
+// Random small scenes on real operators: nothing ends in a state that violates (3)–(5), friction
 // never gives energy, and nothing ends unsolved but what has no solution.
 //
 //   RC_PARAMS="seed=7 max_success=10000"   other and more scenes; a failure is shrunk and printed

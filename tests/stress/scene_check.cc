@@ -158,7 +158,7 @@ void StepJudge::check_failure() {
 }
 
 void StepJudge::check_equilibrium() {
-  // Over a step that was cut only its end is compared: D3 in its rate form held per sub-step.
+  // Over a step that was cut only its end is compared: (5) in its rate form held per sub-step.
   const ContactViolation v = contact_violation(op_, laws_, step_.locked,
                                                at_once() ? step_.before : step_.after, step_.after);
   double softest = std::numeric_limits<double>::infinity();

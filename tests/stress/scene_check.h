@@ -28,7 +28,7 @@ struct SceneReport {
 };
 
 /// Runs a scene load step by load step, twice, and checks after each step, from definitions and not
-/// from the solver's residual: D2–D3, finite numbers, friction that never gives energy, the
+/// from the solver's residual: (3)–(5), finite numbers, friction that never gives energy, the
 /// evidence of jumps, a bound on the work, states left alone by steps that failed, and equal bits
 /// of both runs (one scene in four).
 ///

@@ -1,4 +1,4 @@
-// Activation must not depend on the mesh, while nodal max χ is known to grow (design section 2).
+// Activation must not depend on the mesh, while nodal max χ is known to grow.
 
 #include <gtest/gtest.h>
 

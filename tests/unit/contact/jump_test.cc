@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMPa = 1e6;
 
-/// Runs load steps; every accepted state is checked against D2-D3 from their definition.
+/// Runs load steps; every accepted state is checked against (3)–(5) from their definition.
 struct History {
   History(FaultOperator o, ContactLaws l, ContactOptions options = {})
       : op(std::move(o)), laws(std::move(l)), solver(op, laws, options), state(initial_state(op)) {
