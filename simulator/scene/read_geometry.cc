@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -98,11 +99,14 @@ void read_field(SceneReader& reader, Scene& scene) {
   field.pivot_depth = reader.quantity(at + "pivot_depth", middle);
 }
 
-Side side_named(const std::string& name) {
+/// None for an unknown word, which only a condition without a (known) kind can have: its other keys
+/// are not checked, and it is a problem already.
+std::optional<Side> side_named(const std::string& name) {
   static const std::map<std::string, Side> sides = {{"x-", Side::x_min}, {"x+", Side::x_max},
                                                     {"y-", Side::y_min}, {"y+", Side::y_max},
                                                     {"z-", Side::z_min}, {"z+", Side::z_max}};
-  return sides.at(name);
+  const auto found = sides.find(name);
+  return found == sides.end() ? std::nullopt : std::optional(found->second);
 }
 
 BoundaryKind boundary_kind_named(const std::string& name) {
@@ -119,7 +123,9 @@ void read_motion(SceneReader& reader, const std::string& at, BoundaryCondition& 
     condition.components = {false, false, false};
     for (std::size_t i = 0; i < reader.size(at + "components"); ++i) {
       const std::string axis = reader.text(concat(at, "components/", i));
-      if (!axis.empty()) condition.components[static_cast<std::size_t>(axis[0] - 'x')] = true;
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (axis == std::string(1, "xyz"[c])) condition.components[c] = true;
+      }
     }
   }
   condition.translation = reader.point(at + "translation", 0);
@@ -154,8 +160,9 @@ void read_boundary(SceneReader& reader, BoxGeometry& box) {
     for (std::size_t k = 0; k < reader.size(at + "sides"); ++k) {
       const std::string place = concat(at, "sides/", k);
       const std::string name = reader.text(place);
-      if (name.empty()) continue;
-      condition.sides.push_back(side_named(name));
+      const std::optional<Side> side = side_named(name);
+      if (!side) continue;
+      condition.sides.push_back(*side);
       if (!taken.insert(name).second && reader.sound(place)) {
         reader.problem(place, "side " + name + " has a condition already",
                        "give each side one condition");
