@@ -25,7 +25,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double kBar = 1e5;        // Pa
 constexpr double kYear = 31557600;  // s, 365.25 d
 
 std::string parameters_text(const CampaignInfo& campaign, const StoredCase& one) {
@@ -48,23 +47,19 @@ bool is_asked(const std::string& asked, const std::string& name) {
   return asked.empty() || asked == name;
 }
 
-std::string first_of(bool any, const std::string& fault, const std::optional<int>& step) {
-  if (!any) return "";
-  return concat(fault.empty() ? "yes" : fault, step ? concat(" at step ", *step) : "");
-}
-
 void add_stage(TextTable& table, const std::string& name, const StageMetrics& m) {
-  const std::string sliding = first_of(m.activated, m.activated_fault, m.activation_step);
-  table.add_row(
-      {name, concat(m.first_step, "-", m.last_step),
-       (m.activated ? sliding
-        : m.slips   ? "no, slips"
-                    : "no") +
-           (m.activation_resolved ? std::string() : ", unresolved"),
-       m.n_events > 0 ? std::to_string(m.n_events) : "",
-       first_of(m.opens, m.opened_fault, m.opening_step), m.opens ? format_number(m.open_area) : "",
-       format_number(m.chi_bar, 3), format_number(m.chi_max, 3), format_number(m.area_chi_080),
-       format_number(m.activated_area), format_number(m.max_slip, 3), format_number(m.moment, 3)});
+  const std::string sliding = first_fault(m.activated, m.activated_fault, m.activation_step);
+  table.add_row({name, concat(m.first_step, "-", m.last_step),
+                 (m.activated ? sliding
+                  : m.slips   ? "no, slips"
+                              : "no") +
+                     (m.activation_resolved ? std::string() : ", unresolved"),
+                 m.n_events > 0 ? std::to_string(m.n_events) : "",
+                 first_fault(m.opens, m.opened_fault, m.opening_step),
+                 m.opens ? format_number(m.open_area) : "", format_number(m.chi_bar, 3),
+                 format_number(m.chi_max, 3), format_number(m.area_chi_080),
+                 format_number(m.activated_area), format_number(m.max_slip, 3),
+                 format_number(m.moment, 3)});
 }
 
 std::string stages_text(const CaseResult& result, const ShowRequest& request) {

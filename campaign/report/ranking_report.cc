@@ -86,15 +86,8 @@ std::string flag_of(const RankedCase& row) {
   return flag;
 }
 
-std::string first_of(bool any, const std::string& fault, const std::optional<int>& step) {
-  if (!any) return "";
-  std::string text = fault.empty() ? "yes" : fault;
-  if (step) text += concat(" at step ", *step);
-  return text;
-}
-
 std::string sliding_of(const faultsim::StageMetrics& m) {
-  const std::string text = m.activated ? first_of(true, m.activated_fault, m.activation_step)
+  const std::string text = m.activated ? first_fault(true, m.activated_fault, m.activation_step)
                            : m.slips   ? "no, slips"
                                        : "no";
   return text + (m.activation_resolved ? "" : ", unresolved");
@@ -224,7 +217,6 @@ std::string extensive(double value, int digits, const RankedCase& row, const Ran
 }
 
 std::vector<std::string> metric_cells(const RankedCase& row, const Ranking& ranking) {
-  constexpr double kBar = 1e5;
   const faultsim::StageMetrics m = shown(row);
   const faultsim::FaultOnset* onset = first_activation(m);
   const auto change = onset != nullptr ? leading_change(onset->pressures) : std::nullopt;
@@ -235,7 +227,7 @@ std::vector<std::string> metric_cells(const RankedCase& row, const Ranking& rank
           change ? format_number(*change / kBar, 4) : "",
           absolute ? format_number(*absolute / kBar, 4) : "",
           onset != nullptr ? format_number(onset->depth, 4) : "",
-          first_of(m.opens, m.opened_fault, m.opening_step),
+          first_fault(m.opens, m.opened_fault, m.opening_step),
           m.opens ? extensive(m.open_area, 4, row, ranking) : "",
           extensive(m.activated_area, 4, row, ranking),
           extensive(m.moment, 3, row, ranking),

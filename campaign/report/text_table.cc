@@ -147,4 +147,10 @@ std::string TextTable::text(std::size_t width) const {
   return text;
 }
 
+std::string first_fault(bool any, const std::string& fault, const std::optional<int>& step) {
+  if (!any) return "";
+  return faultsim::concat(fault.empty() ? "yes" : fault,
+                          step ? faultsim::concat(" at step ", *step) : "");
+}
+
 }  // namespace faultsweep

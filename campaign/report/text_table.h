@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,10 @@ std::string format_number(double value, int digits = 4);
 /// "18.9238690858494 deg" -> "18.9239 deg": a number, or one with a unit, of more than six
 /// significant digits has six; whole numbers and other texts stay as they are.
 std::string short_number(const std::string& text);
+inline constexpr double kBar = 1e5;  // Pa
+/// The first fault that did something, and when: "F2 at step 7", "yes" where it has no name; ""
+/// where none did.
+std::string first_fault(bool any, const std::string& fault, const std::optional<int>& step);
 /// Columns that the text takes on a screen: code points without combining ones, as all that we
 /// print are one wide.
 std::size_t display_width(const std::string& text);

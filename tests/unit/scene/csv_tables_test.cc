@@ -17,9 +17,6 @@
 namespace faultsim {
 namespace {
 
-constexpr double kDay = 86400;
-constexpr double kYear = 365.25 * kDay;
-
 class CsvTables : public ::testing::Test {
  protected:
   void SetUp() override {

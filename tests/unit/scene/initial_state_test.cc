@@ -181,7 +181,6 @@ TEST(PressureHistory, FollowsTheStagesOfTheReferenceScene) {
   ASSERT_EQ(steps.size(), 24U);
   std::vector<double> times;
   for (const StepEnd& step : steps) times.push_back(step.time);
-  constexpr double kYear = 31557600;
   EXPECT_DOUBLE_EQ(times[9], 10 * kYear);
   EXPECT_DOUBLE_EQ(times[23], 18 * kYear);
   const PressureHistory& west = scene.pressure[0];

@@ -10,11 +10,10 @@
 
 #include "simulator/scene/pressure_history.h"
 #include "simulator/scene/read_scene.h"
+#include "tests/unit/scene/rotliegend.h"
 
 namespace faultsim {
 namespace {
-
-constexpr double kYear = 31557600;
 
 /// A box with the regions west and east, one stage of 6 years in yearly steps, and no loads yet.
 JsonDocument six_years() {
@@ -30,12 +29,6 @@ JsonDocument six_years() {
   document.value.erase("pressure_csv");
   document.value.erase("compartments");
   return document;
-}
-
-Scene varied(JsonDocument document,
-             const std::vector<std::pair<std::string, std::string>>& changes = {}) {
-  for (const auto& [pointer, text] : changes) set_value(document, pointer, text);
-  return read_scene(document);
 }
 
 /// Ends of the steps of a scene with this history (years, bar) of west, years.

@@ -15,14 +15,6 @@
 namespace faultsim {
 namespace {
 
-constexpr double kYear = 31557600;
-
-/// Reads with some values set.
-Scene varied(JsonDocument document, const std::vector<std::pair<std::string, std::string>>& sets) {
-  for (const auto& [pointer, value] : sets) set_value(document, pointer, value);
-  return read_scene(document);
-}
-
 TEST(ReadScene, ReadsTheReferenceScene) {
   const Scene scene = read_scene(rotliegend());
   EXPECT_EQ(scene.geometry_kind, GeometryKind::field);
