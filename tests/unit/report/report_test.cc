@@ -381,10 +381,10 @@ TEST_F(EventReportTest, ShowAndRankTellWhatTheSaltDid) {
 
 TEST_F(EventReportTest, TheRankingKeepsUnresolvedOnesApart) {
   const std::string text = ranking_to_text(make_ranking(*store_, events_, {}));
-  EXPECT_THAT(text, HasSubstr("   1     3  event "));
+  EXPECT_THAT(text, HasSubstr("   1     3  event\n"));
   EXPECT_THAT(text, HasSubstr("   2     1  converged"));
   EXPECT_THAT(text, HasSubstr("  +1     2  unresolved_event, mesh too coarse for its weakening, "
-                              "UNEXPECTED (F1)  "));
+                              "UNEXPECTED (F1)\n"));
   EXPECT_THAT(text,
               HasSubstr("+ complete, but whether a fault slides (unresolved) or how large its"));
   EXPECT_THAT(text, Not(HasSubstr("ends early")));
@@ -398,9 +398,9 @@ TEST_F(EventReportTest, TheRankingKeepsUnresolvedOnesApart) {
 
 TEST_F(EventReportTest, ActivationThatHangsOnTheMeshIsSaid) {
   EXPECT_THAT(ranking_to_text(make_ranking(*store_, events_, {})),
-              ::testing::ContainsRegex("[+]1     2 .*F1 at step 1, unresolved"));
+              ::testing::ContainsRegex("[+]1  F1 at step 1, unresolved"));
   EXPECT_THAT(ranking_to_text(make_ranking(*store_, events_, {})),
-              Not(::testing::ContainsRegex(" 1     3 .*unresolved")));
+              Not(HasSubstr("   1  F1 at step 1, unresolved")));
   const auto json = ranking_to_json(make_ranking(*store_, events_, {}));
   EXPECT_EQ(json["cases"][0]["activation_resolved"], true);
   EXPECT_EQ(json["cases"][2]["activation_resolved"], false);
@@ -413,7 +413,7 @@ TEST_F(EventReportTest, ActivationThatHangsOnTheMeshIsSaid) {
   EXPECT_THAT(text, HasSubstr("UNRESOLVED: whether a fault slides hangs on the mesh"));
   EXPECT_THAT(text,
               ::testing::ContainsRegex("cushion_gas_injection +5-8 +F1 at step 1, unresolved"));
-  EXPECT_THAT(text, ::testing::ContainsRegex("\n3 +primary_production .* (yes|no)[?] "));
+  EXPECT_THAT(text, ::testing::ContainsRegex("\n +3  primary_production .* yes[?]\n"));
 }
 
 TEST_F(EventReportTest, EventsOrderAndFilter) {

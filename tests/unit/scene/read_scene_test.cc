@@ -32,7 +32,7 @@ TEST(ReadScene, ReadsTheReferenceScene) {
   EXPECT_EQ(scene.stages[0].duration, 10 * kYear);
   EXPECT_EQ(scene.pressure[1].region, "east");
   EXPECT_EQ(scene.output.observation_points[0].name, "above_centre");
-  EXPECT_EQ(scene.mesh.growth, 1.3);
+  EXPECT_EQ(scene.mesh.growth, 1.7);
 }
 
 TEST(ReadScene, ReadsWeakeningAndStarters) {
