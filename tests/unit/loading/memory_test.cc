@@ -1,6 +1,7 @@
 #include "simulator/loading/memory.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -44,7 +45,8 @@ TEST(DemandMemory, SaysWhatIsNeededWhatThereIsAndTheCure) {
 /// A made-up /proc and /sys/fs/cgroup.
 class AvailableMemory : public testing::Test {
  protected:
-  AvailableMemory() : root_(std::filesystem::path(testing::TempDir()) / "faultsim_memory") {
+  AvailableMemory()
+      : root_(std::filesystem::path(testing::TempDir()) / concat("faultsim_memory_", getpid())) {
     std::filesystem::remove_all(root_);
   }
   void file(const std::string& path, const std::string& text) const {
