@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "simulator/common/errors.h"
+#include "simulator/linalg/nested_dissection.h"
 
 namespace faultsim {
 namespace {
@@ -13,11 +14,6 @@ using Index = SuiteSparse_long;
 // Below this nested dissection has nothing to gain on minimum degree.
 constexpr int kSmallGraph = 500;
 constexpr Index kNoParent = -1;  // CHOLMOD's EMPTY
-
-/// Pattern of the groups' graph, lower triangle, sorted, without diagonal.
-struct GroupGraph {
-  std::vector<Index> begin, rows;
-};
 
 GroupGraph group_graph(const cholmod_sparse& a, const std::vector<int>& group, int n_groups) {
   const Index* begin = static_cast<const Index*>(a.p);
@@ -57,6 +53,9 @@ std::vector<Index> order_groups(GroupGraph graph, CholmodCommon& common) {
   std::vector<Index> order(n);
   std::iota(order.begin(), order.end(), Index{0});
   if (graph.rows.empty()) return order;
+  if (n >= kSmallGraph) {
+    if (std::optional<std::vector<Index>> dissected = nested_dissection(graph)) return *dissected;
+  }
   cholmod_sparse a{};
   a.nrow = a.ncol = n;
   a.nzmax = graph.rows.size();
@@ -67,10 +66,6 @@ std::vector<Index> order_groups(GroupGraph graph, CholmodCommon& common) {
   a.xtype = CHOLMOD_PATTERN;
   a.dtype = CHOLMOD_DOUBLE;
   a.sorted = a.packed = 1;
-  if (n >= kSmallGraph) {
-    if (cholmod_l_metis(&a, nullptr, 0, 0, order.data(), common.get()) == 1) return order;
-    common.get()->status = CHOLMOD_OK;  // CHOLMOD keeps METIS from running out of memory
-  }
   const int done = cholmod_l_amd(&a, nullptr, 0, order.data(), common.get());
   FAULTSIM_DEMAND(done == 1, "AMD failed, CHOLMOD status ", common.get()->status);
   return order;
