@@ -130,11 +130,12 @@ json optional_json(const std::optional<double>& value) { return value ? json(*va
 }  // namespace
 
 Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankRequest request) {
-  if (request.by.empty()) request.by = campaign.rank_by.empty() ? kDefaultMetric : campaign.rank_by;
+  const bool own_choice = request.by.empty();
+  if (own_choice) request.by = campaign.rank_by.empty() ? kDefaultMetric : campaign.rank_by;
   const Selection selection = make_selection(store, campaign, request.stage, request.fault);
   Store::RankingQuery query;
-  Ranking ranking{campaign, request, request.by == kDefaultMetric && !request.ascending,
-                  {},       {},      {}};
+  Ranking ranking{campaign, request, request.by == kDefaultMetric && !request.ascending, {}, false,
+                  {},       {}};
   query.where = parse_condition(request.where, campaign, selection);
   query.stage = request.stage;
   if (selection.fault) query.fault = selection.fault->id;
@@ -147,6 +148,14 @@ Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankReque
     extensive = first_extensive(by, selection);
   }
   ranking.kinds = store.kinds(campaign.id, query);
+  if (own_choice && !extensive.empty() && ranking.kinds.mixed()) {
+    ranking.plane_strain_apart = true;
+    const std::string totals = "not plane_strain";
+    query.where = parse_condition(
+        request.where.empty() ? totals : concat("(", request.where, ") and ", totals), campaign,
+        selection);
+    ranking.kinds = store.kinds(campaign.id, query);
+  }
   if (!extensive.empty()) refuse_mixed(ranking.kinds, "--by", extensive);
   ranking.rows = store.ranking(campaign.id, query);
   if (request.stage.empty() && request.fault.empty())
@@ -191,6 +200,11 @@ std::string footnotes(const Ranking& ranking) {
     text +=
         "Δp, p: change, and absolute pressure at the depth beside, of the region next to the "
         "fault where it slides first\n";
+  }
+  if (ranking.plane_strain_apart) {
+    text +=
+        "plane-strain cases have no place here, their areas and moments are per metre of strike: "
+        "--where plane_strain\n";
   }
   if (ranking.kinds.mixed()) text += "/m: per metre of strike, of plane-strain cases\n";
   for (const ErrorBar& bar : ranking.error_bars) {
@@ -350,9 +364,13 @@ json ranking_to_json(const Ranking& ranking) {
                     {"rms", bar.rms},
                     {"largest", bar.largest}});
   }
-  return {{"campaign", ranking.campaign.name}, {"error_bars", std::move(bars)},
-          {"by", ranking.request.by},          {"stage", ranking.request.stage},
-          {"fault", ranking.request.fault},    {"where", ranking.request.where},
+  return {{"campaign", ranking.campaign.name},
+          {"error_bars", std::move(bars)},
+          {"by", ranking.request.by},
+          {"stage", ranking.request.stage},
+          {"fault", ranking.request.fault},
+          {"where", ranking.request.where},
+          {"plane_strain_apart", ranking.plane_strain_apart},
           {"cases", std::move(cases)}};
 }
 

@@ -23,7 +23,10 @@ struct Ranking {
   CampaignInfo campaign;
   RankRequest request;
   bool by_default = false;  ///< activated area, open area, M0, pressure margin, χ̄.
-  Store::Kinds kinds;       ///< of the cases that `where` selects.
+  Store::Kinds kinds;       ///< of the cases that are ranked.
+  /// The campaign has cases of both kinds and its own order compares areas or moments: only those
+  /// in total are ranked.
+  bool plane_strain_apart = false;
   std::vector<RankedCase> rows;
   /// Measured by `faultsweep tradeoff` for this campaign at its tier; empty where it was not, or
   /// where the campaign has several tiers or meshes of its own.
@@ -31,7 +34,8 @@ struct Ranking {
 };
 
 /// Asks the store. Throws InputError on a wrong expression, an unknown stage or fault, and where
-/// areas, potencies or moments per metre of strike and in total would be put in one order.
+/// `by` would put areas, potencies or moments per metre of strike and in total in one order. Where
+/// the campaign's own order would, plane-strain cases are left out.
 Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankRequest request);
 
 std::string ranking_to_text(const Ranking& ranking);

@@ -20,15 +20,15 @@ const std::vector<Tier>& tiers() {
        false,
        "χ̄ within 0.025 (rms 0.008), largest slip within 11 % above 11 mm"},
       {"standard",
-       {.strike = 100, .dip = 15, .normal = 5, .growth = 1.7, .corner = 5, .corner_growth = 1.3},
+       {.strike = 100, .dip = 15, .normal = 0.5, .growth = 2, .corner = 0.5, .corner_growth = 1.5},
        false,
        false,
-       "χ̄ within 0.018 (rms 0.006), largest slip within 6 % above 11 mm"},
+       "χ̄ within 0.018 (rms 0.005), largest slip within 6 % above 10 mm"},
       {"reference",
-       {.strike = 50, .dip = 10, .normal = 2.5, .growth = 2, .corner = 2.5, .corner_growth = 2},
+       {.strike = 75, .dip = 10, .normal = 0.5, .growth = 2, .corner = 0.5, .corner_growth = 1.7},
        false,
        true,
-       "χ̄ within 0.010 (rms 0.004), largest slip within 5 % above 11 mm"},
+       "χ̄ within 0.010 (rms 0.003), largest slip within 6 % above 10 mm"},
   };
   return all;
 }

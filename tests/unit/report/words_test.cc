@@ -290,13 +290,20 @@ TEST_F(MixedTest, WhatIsPerMetreSaysSo) {
 }
 
 TEST_F(MixedTest, NumbersPerMetreAndTotalsAreNotRankedTogether) {
-  EXPECT_THAT(refusal({}), HasSubstr("activated_area is per metre of strike in the plane-strain "
-                                     "cases and a total in the others"));
+  EXPECT_THAT(
+      refusal({.by = "activated_area"}),
+      HasSubstr("activated_area is per metre of strike in the plane-strain cases and a total"));
   EXPECT_THAT(refusal({.by = "moment / 1e9"}), HasSubstr("moment is per metre of strike"));
   EXPECT_THAT(refusal({.by = "F2.moment in production"}), HasSubstr("per metre of strike"));
   EXPECT_THAT(order({.by = "slip"}), ElementsAre(2, 1));
   EXPECT_THAT(ranking_to_text(ranking({.by = "slip"})), HasSubstr("2e+09 /m"));
   EXPECT_THAT(order({.where = "plane_strain"}), ElementsAre(1));
+  // The campaign's own order, as `faultsweep rank` asks for it, is that of the totals.
+  EXPECT_THAT(order({}), ElementsAre(2));
+  EXPECT_THAT(order({.where = "max_slip > 1 m or plane_strain"}), ElementsAre(1));
+  EXPECT_THAT(ranking_to_text(ranking({})), HasSubstr("plane-strain cases have no place here"));
+  EXPECT_EQ(ranking_to_json(ranking({})).at("plane_strain_apart"), true);
+  EXPECT_EQ(ranking_to_json(ranking({.where = "plane_strain"})).at("plane_strain_apart"), false);
   EXPECT_THAT(order({.by = "moment", .where = "not plane_strain"}), ElementsAre(2));
 }
 

@@ -33,9 +33,9 @@ std::string family(const faultsim::JsonDocument& scene) {
 TEST(Ladder, OfTheReferenceSceneNamesItsTiers) {
   const auto ladder = make_ladder(example("scenes/rotliegend"), {600, 20e9});
   const TradeAxis& space = axis(ladder, "cells, 3D");
-  EXPECT_EQ(space.choices[2].name, "100 x 5 to 15 x 5 m (standard)");
+  EXPECT_EQ(space.choices[2].name, "100 x 0.5 to 15 x 0.5 m (standard)");
   EXPECT_EQ(space.choices[2].left_out, "");
-  EXPECT_EQ(space.choices[3].name, "50 x 2.5 to 10 x 2.5 m (reference)");
+  EXPECT_EQ(space.choices[3].name, "75 x 0.5 to 10 x 0.5 m (reference)");
   EXPECT_EQ(space.choices[3].left_out, "") << "it fits 20 GB";
   EXPECT_EQ(axis(ladder, "cells, plane strain").choices[3].name, "2.5 to 10 m (screening)");
   // The choice that is named after the tier has the tier's operator.
