@@ -2,7 +2,7 @@
 # Works as root and as a user with sudo; does nothing (and needs no rights) when all are there.
 
 build_packages="g++ cmake ninja-build pkg-config libeigen3-dev libsuitesparse-dev libmetis-dev
-  libopenblas-dev libhdf5-dev libsqlite3-dev sqlite3 nlohmann-json3-dev libvalijson-dev libudunits2-dev
+  libopenblas-dev libhypre-dev libhdf5-dev libsqlite3-dev sqlite3 nlohmann-json3-dev libvalijson-dev libudunits2-dev
   libopenmpi-dev openmpi-bin libcli11-dev libxxhash-dev libboost-dev"
 test_packages="libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev python3"
 plot_packages="gnuplot-nox"

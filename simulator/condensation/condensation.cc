@@ -16,17 +16,6 @@
 namespace faultsim {
 namespace {
 
-Eigen::VectorXd load_vector(const BulkProblem& problem, const DofMap& dofs, int index) {
-  const LoadCase& load = problem.loads[static_cast<std::size_t>(index)];
-  const int n_kinds = (load.region >= 0) + !load.stress_sides.empty() + load.displacement;
-  FAULTSIM_DEMAND(n_kinds == 1, "load ", load.name, " is of ", n_kinds, " kinds");
-  if (load.region >= 0) return pressure_load(problem.mesh, dofs, load.region, problem.b_bar);
-  if (load.displacement) {
-    return displacement_load(problem.mesh, problem.materials, dofs, index, problem.b_bar);
-  }
-  return stress_load(problem.mesh, dofs, load.stress_sides, load.stress);
-}
-
 /// Remarks when a stress load leaves a net force or moment on a body that is only pinned: the pins
 /// would have to carry it.
 void check_balance(const BulkProblem& problem, const LoadCase& load, Monitor& monitor) {
@@ -133,7 +122,7 @@ void CondensedBulk::Impl::factorise(Monitor& monitor) {
 
 void CondensedBulk::Impl::make_loads(Monitor& monitor) {
   for (std::size_t k = 0; k < problem.loads.size(); ++k) {
-    loads.push_back(load_vector(problem, dofs, static_cast<int>(k)));
+    loads.push_back(unit_load(problem, dofs, static_cast<int>(k)));
     if (dofs.pinned() && !problem.loads[k].stress_sides.empty()) {
       check_balance(problem, problem.loads[k], monitor);
     }

@@ -1,0 +1,10 @@
+# Debian's hypre 2.26 ships no CMake package, so this makes HYPRE::HYPRE.
+find_path(HYPRE_INCLUDE_DIR HYPRE.h PATH_SUFFIXES hypre)
+find_library(HYPRE_LIBRARY HYPRE)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(HYPRE REQUIRED_VARS HYPRE_LIBRARY HYPRE_INCLUDE_DIR)
+if(HYPRE_FOUND AND NOT TARGET HYPRE::HYPRE)
+  add_library(HYPRE::HYPRE UNKNOWN IMPORTED)
+  set_target_properties(HYPRE::HYPRE PROPERTIES
+    IMPORTED_LOCATION ${HYPRE_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${HYPRE_INCLUDE_DIR})
+endif()

@@ -1,0 +1,237 @@
+#include "simulator/coupled/coupled_contact.h"
+
+#include <algorithm>
+
+#include "simulator/common/errors.h"
+#include "simulator/common/interrupt.h"
+
+namespace faultsim {
+namespace {
+
+/// Components strike and dip of a vector over fault dofs; missing ones are 0.
+Eigen::Vector2d shear_of(const std::array<int, 2>& dof, const Eigen::VectorXd& values) {
+  return {dof[0] >= 0 ? values[dof[0]] : 0, dof[1] >= 0 ? values[dof[1]] : 0};
+}
+
+void set_shear(const std::array<int, 2>& dof, const Eigen::Vector2d& value,
+               Eigen::VectorXd& values) {
+  for (int c = 0; c < 2; ++c) {
+    if (dof[c] >= 0) values[dof[c]] = value[c];
+  }
+}
+
+}  // namespace
+
+/// Where Newton stands within a load step.
+struct CoupledContact::Iterate {
+  Eigen::VectorXd u, increment, traction;  ///< displacements; Δg, t' over fault dofs.
+  std::vector<FaultState> state;           ///< per node that may jump.
+  bool changed = true;                     ///< some state, at the last classify().
+  /// t' of the next iterate: `fixed` + D Δg + d t'_N where a node slips, with the multiplier
+  /// elsewhere.
+  Eigen::VectorXd fixed;
+  std::vector<NodeLinearisation> how;  ///< per node of the bulk.
+};
+
+CoupledContact::CoupledContact(const TwoSidedBulk& bulk, const ContactLaws& laws,
+                               const CoupledContactOptions& options)
+    : bulk_(bulk), laws_(laws), options_(options), all_held_(make_saddle_point(bulk)) {
+  inverse_area_.resize(n_dofs());
+  const Eigen::VectorXd diagonal = bulk.stiffness().diagonal();
+  for (int k = 0; k < static_cast<int>(bulk.fault_nodes().size()); ++k) {
+    const TwoSidedNode& two = bulk.fault_nodes()[k];
+    if (!two.may_jump[0]) continue;
+    Node node{k, all_held_.node_begin[k], 1, {-1, -1}, two.area, 0};
+    for (int c = 0; c < 2; ++c) {
+      if (two.may_jump[1 + c]) node.shear[c] = node.first + node.n_dofs++;
+    }
+    inverse_area_.segment(node.first, node.n_dofs).setConstant(1 / two.area);
+    // H_dd/A of the commutator's approximation, (CᵀKC)_dd A/(CᵀC)²: any positive number would do.
+    for (int c = 0; c < 3; ++c) {
+      const double plus = two.plus[c] >= 0 ? diagonal[two.plus[c]] : 0;
+      const double minus = two.minus[c] >= 0 ? diagonal[two.minus[c]] : 0;
+      node.stiffness = std::max(node.stiffness, (plus + minus) / (4 * two.area));
+    }
+    nodes_.push_back(node);
+  }
+  FAULTSIM_DEMAND(laws.node.size() == nodes_.size() && laws.cumulated.size() == nodes_.size() &&
+                      laws.keep_cohesion.size() == nodes_.size(),
+                  "laws for ", laws.node.size(), " of ", nodes_.size(), " nodes");
+  FAULTSIM_DEMAND(laws.lose_cohesion_slipping.empty(), "loss of cohesion by slip");
+  for (int k = 0; k < bulk.n_loads(); ++k) loads_.push_back(bulk.load(k));
+}
+
+ContactState CoupledContact::start(const Eigen::VectorXd& background) const {
+  ContactState state;
+  state.jump = Eigen::VectorXd::Zero(n_dofs());
+  state.traction = background;
+  state.state.assign(nodes_.size(), FaultState::stick);
+  state.slip_path = Eigen::VectorXd::Zero(static_cast<int>(nodes_.size()));
+  state.cohesion_lost.assign(nodes_.size(), 0);
+  return state;
+}
+
+CoulombLaw CoupledContact::law_of(const ContactState& before, int k) const {
+  CoulombLaw law = laws_.node[k];
+  if (before.cohesion_lost[k]) law.cohesion = 0;
+  return law;
+}
+
+/// The node at the slip that its augmented traction promises; none where that stays below the
+/// strength.
+SlippingPoint CoupledContact::point_of(const ContactState& before, const Iterate& at, int k) const {
+  const Node& node = nodes_[k];
+  SlippingPoint point;
+  point.normal_traction = std::min(at.traction[node.first], 0.0);
+  point.slip_before = shear_of(node.shear, before.jump);
+  point.path_before = before.slip_path[k];
+  point.cumulated = laws_.cumulated[k] != 0;
+  const Eigen::Vector2d slip = shear_of(node.shear, at.increment);
+  const Eigen::Vector2d y = shear_of(node.shear, at.traction) + node.stiffness * slip;
+  const double norm = y.norm();
+  if (norm > 0) point.traction_direction = y / norm;
+  point.slip_increment = slip;
+  const double limit = slip_tangent(law_of(before, k), point).traction.norm();
+  point.slip_increment = std::max(norm - limit, 0.0) / node.stiffness * point.traction_direction;
+  return point;
+}
+
+/// States from the augmented tractions. Leaving stick takes more than the tolerance, going back
+/// nothing, so that round-off changes no state for ever.
+void CoupledContact::classify(const ContactState& before, Iterate& at, double tolerance) const {
+  at.changed = false;
+  for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {
+    const Node& node = nodes_[k];
+    const double gap = before.jump[node.first] + at.increment[node.first];
+    const double normal = at.traction[node.first] + node.stiffness * gap;
+    FaultState state = FaultState::stick;
+    if (normal > (at.state[k] == FaultState::open ? 0 : tolerance)) {
+      state = FaultState::open;
+    } else if (node.n_dofs > 1) {
+      const double excess = node.stiffness * point_of(before, at, k).slip_increment.norm();
+      if (excess > (at.state[k] == FaultState::slip ? 0 : tolerance)) state = FaultState::slip;
+    }
+    at.changed = at.changed || state != at.state[k];
+    at.state[k] = state;
+  }
+}
+
+void CoupledContact::linearise(const ContactState& before, Iterate& at) const {
+  at.fixed.setZero(n_dofs());
+  at.how.assign(bulk_.fault_nodes().size(), {});
+  for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {
+    const Node& node = nodes_[k];
+    NodeLinearisation& how = at.how[node.fault_node];
+    how.state = at.state[k];
+    if (how.state != FaultState::slip) continue;
+    const SlippingPoint point = point_of(before, at, k);
+    how.tangent = slip_tangent(law_of(before, k), point);
+    if (at.traction[node.first] > 0) how.tangent.d_normal.setZero();
+    set_shear(node.shear,
+              how.tangent.traction - how.tangent.d_slip * point.slip_increment -
+                  how.tangent.d_normal * point.normal_traction,
+              at.fixed);
+  }
+}
+
+/// One linear step, as a correction. @returns the largest change of a traction, or of r times a
+/// jump, Pa.
+double CoupledContact::improve(const Eigen::VectorXd& force, const ContactState& before,
+                               Iterate& at, CoupledStepReport& report) const {
+  linearise(before, at);
+  const SaddlePoint j = make_saddle_point(bulk_, at.how);
+  // The traction that this linearisation gives the iterate: what is held keeps its own.
+  Eigen::VectorXd traction = at.traction, wanted = before.jump;
+  for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {
+    const Node& node = nodes_[k];
+    wanted[node.first] = 0;
+    if (at.state[k] == FaultState::open) traction.segment(node.first, node.n_dofs).setZero();
+    if (at.state[k] != FaultState::slip) continue;
+    const SlipTangent& tangent = at.how[node.fault_node].tangent;
+    set_shear(node.shear,
+              shear_of(node.shear, at.fixed) + tangent.d_slip * shear_of(node.shear, at.increment) +
+                  tangent.d_normal * at.traction[node.first],
+              traction);
+  }
+  const SparseMatrix& c = all_held_.constraint;
+  const Eigen::VectorXd r_u = force - bulk_.stiffness() * at.u - c * traction;
+  const Eigen::VectorXd jump = inverse_area_.cwiseProduct(c.transpose() * at.u);
+  Eigen::VectorXd r_l(j.n_multipliers()), du, lambda;
+  const auto held = [&](int k) {
+    return at.state[k] == FaultState::stick  ? nodes_[k].n_dofs
+           : at.state[k] == FaultState::slip ? 1
+                                             : 0;
+  };
+  for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {
+    const Node& node = nodes_[k];
+    r_l.segment(j.node_begin[node.fault_node], held(k)) =
+        node.area * (wanted - jump).segment(node.first, held(k));
+  }
+  const CoupledReport solved =
+      CoupledSolver(j, options_.solver)
+          .solve(r_u, r_l, options_.krylov_tolerance, options_.max_krylov_iterations, du, lambda);
+  const int n_krylov = static_cast<int>(solved.residuals.size()) - 1;
+  report.krylov_iterations += n_krylov;
+  report.most_krylov_iterations = std::max(report.most_krylov_iterations, n_krylov);
+  at.u += du;
+  const Eigen::VectorXd next = inverse_area_.cwiseProduct(c.transpose() * at.u) - before.jump;
+  double change = 0;
+  for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {
+    const Node& node = nodes_[k];
+    traction.segment(node.first, held(k)) += lambda.segment(j.node_begin[node.fault_node], held(k));
+    if (at.state[k] == FaultState::slip) {
+      const SlipTangent& tangent = at.how[node.fault_node].tangent;
+      set_shear(node.shear,
+                shear_of(node.shear, at.fixed) + tangent.d_slip * shear_of(node.shear, next) +
+                    tangent.d_normal * traction[node.first],
+                traction);
+    }
+    for (int d = node.first; d < node.first + node.n_dofs; ++d) {
+      change = std::max({change, std::abs(traction[d] - at.traction[d]),
+                         node.stiffness * std::abs(next[d] - at.increment[d])});
+    }
+  }
+  at.traction = traction;
+  at.increment = next;
+  return solved.converged ? change : std::numeric_limits<double>::infinity();
+}
+
+CoupledStepReport CoupledContact::advance(const CoupledLoad& load, ContactState& state,
+                                          Eigen::VectorXd& u) const {
+  FAULTSIM_DEMAND(load.factors.size() == loads_.size() && load.background.size() == n_dofs() &&
+                      state.jump.size() == n_dofs() && u.size() == bulk_.n_displacements(),
+                  load.factors.size(), " factors, ", load.background.size(), " tractions");
+  Eigen::VectorXd force = all_held_.constraint * load.background;
+  for (int k = 0; k < static_cast<int>(loads_.size()); ++k) force += load.factors[k] * loads_[k];
+  CoupledStepReport report;
+  Iterate at;
+  at.u = u;
+  at.increment = Eigen::VectorXd::Zero(n_dofs());
+  at.traction = state.traction;
+  for (const FaultState s : state.state) {
+    at.state.push_back(s == FaultState::open ? s : FaultState::stick);
+  }
+  while (!report.converged) {
+    throw_if_interrupted("solving a load step");
+    if (report.newton_iterations++ == options_.max_newton_iterations) return report;
+    const double change = improve(force, state, at, report);
+    const double largest = std::max(at.traction.cwiseAbs().maxCoeff(), 1.0);
+    const double tolerance = options_.traction_tolerance * largest;
+    classify(state, at, tolerance);
+    report.converged = !at.changed && change <= tolerance;
+  }
+  for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {
+    const Node& node = nodes_[k];  // what is held moves by what the last linear step left over
+    if (at.state[k] != FaultState::open) at.increment[node.first] = -state.jump[node.first];
+    if (at.state[k] == FaultState::stick) set_shear(node.shear, {0, 0}, at.increment);
+    if (at.state[k] == FaultState::open && !laws_.keep_cohesion[k]) state.cohesion_lost[k] = 1;
+    state.slip_path[k] += shear_of(node.shear, at.increment).norm();
+  }
+  state.jump += at.increment;
+  state.traction = at.traction;
+  state.state = at.state;
+  u = at.u;
+  return report;
+}
+
+}  // namespace faultsim

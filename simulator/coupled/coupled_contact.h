@@ -1,0 +1,83 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "simulator/contact/contact.h"
+#include "simulator/coupled/coupled_solver.h"
+
+namespace faultsim {
+
+struct CoupledContactOptions {
+  SolverChoice solver = {};
+  /// Of tractions, relative to the largest: a Newton step that changes less is the last one.
+  double traction_tolerance = 1e-9;
+  double krylov_tolerance = 1e-4;  ///< of each linear step, relative to its right-hand side.
+  int max_krylov_iterations = 500;
+  int max_newton_iterations = 60;
+};
+
+/// What drives a load step; both count from the start of the history.
+struct CoupledLoad {
+  std::vector<double> factors;  ///< c_k, one per unit load of the bulk.
+  Eigen::VectorXd
+      background;  ///< t'_0 + α_f Δp_f n over fault dofs, Pa: t' if the bulk were rigid.
+};
+
+struct CoupledStepReport {
+  bool converged = false;
+  int newton_iterations = 0;
+  int krylov_iterations = 0;       ///< of all linear steps.
+  int most_krylov_iterations = 0;  ///< of one linear step.
+};
+
+/// Frictional contact without condensation (model section 11), load step by load step: Newton with
+/// an active set over displacements of both sides and tractions,
+///
+///   K u + C (t' − t'_b) = Σ_k c_k f_k,      g = A⁻¹ Cᵀ u,
+///
+/// with (3)–(5) at the nodes, each linear step solved only as far as krylov_tolerance. Fault dofs
+/// are those of the operator that condensation makes of the same bulk: one per component that may
+/// jump, node by node. A node that is to slip is linearised at the slip that its augmented traction
+/// y = t'_T + r Δg_T promises, (|y| − τ_L)/r along y, which stays finite when slip begins.
+///
+/// A load step is taken at once; instabilities are not followed: a step without solution next to
+/// the last one does not converge.
+class CoupledContact {
+ public:
+  /// @param laws  over the nodes that may jump; damping and loss of cohesion by slip are not taken
+  /// (InternalError).
+  CoupledContact(const TwoSidedBulk& bulk, const ContactLaws& laws,
+                 const CoupledContactOptions& options);
+
+  int n_dofs() const { return all_held_.n_multipliers(); }
+  /// Rest: no displacement, and the traction of the background.
+  ContactState start(const Eigen::VectorXd& background) const;
+  /// Takes `state` and the displacements `u` (n_u, zero at first) to the end of a load step. Not
+  /// converged: both are left as they were.
+  CoupledStepReport advance(const CoupledLoad& load, ContactState& state, Eigen::VectorXd& u) const;
+
+ private:
+  struct Node {
+    int fault_node, first, n_dofs;  ///< of bulk.fault_nodes(); fault dofs, n first.
+    std::array<int, 2> shear;       ///< dofs of strike and dip; −1 = none.
+    double area, stiffness;         ///< m2; r, Pa/m.
+  };
+  struct Iterate;
+  void classify(const ContactState& before, Iterate& at, double tolerance) const;
+  void linearise(const ContactState& before, Iterate& at) const;
+  double improve(const Eigen::VectorXd& force, const ContactState& before, Iterate& at,
+                 CoupledStepReport& report) const;
+  CoulombLaw law_of(const ContactState& before, int node) const;
+  SlippingPoint point_of(const ContactState& before, const Iterate& at, int node) const;
+
+  const TwoSidedBulk& bulk_;
+  const ContactLaws& laws_;
+  CoupledContactOptions options_;
+  SaddlePoint all_held_;  ///< its C is that of all fault dofs.
+  std::vector<Node> nodes_;
+  Eigen::VectorXd inverse_area_;  ///< per fault dof.
+  std::vector<Eigen::VectorXd> loads_;
+};
+
+}  // namespace faultsim

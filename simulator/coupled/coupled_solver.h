@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "simulator/coupled/leading_block.h"
+#include "simulator/coupled/schur.h"
+
+namespace faultsim {
+
+/// Which factors of J = L U the preconditioner takes: both (two leading solves per iteration, the
+/// seed's) or the upper one (one leading solve).
+enum class BlockForm { full, upper };
+
+struct SolverChoice {
+  LeadingKind leading = LeadingKind::exact;
+  SchurKind schur = SchurKind::lsc;
+  BlockForm form = BlockForm::upper;
+  FsaiOptions fsai = {};
+  IluOptions ilu = {};
+};
+
+/// Names on the command line and in tables: "fsai", "ic".
+const char* to_string(LeadingKind kind);
+const char* to_string(SchurKind kind);
+const char* to_string(BlockForm form);
+const std::vector<LeadingKind>& all_leading_kinds();
+const std::vector<SchurKind>& all_schur_kinds();
+
+struct CoupledReport {
+  bool converged = false;
+  /// |b − J x| / |b| after 0, 1, 2 … iterations, by the recurrence of GMRES, in scaled rows.
+  std::vector<double> residuals;
+  double true_residual = 1;  ///< the same at the end, computed.
+  double seconds = 0;        ///< of the processor.
+  /// Iterations to a relative residual; −1 = never reached.
+  int iterations_to(double tolerance) const;
+};
+
+/// Solves J (u, λ) = (f, g) by right-preconditioned GMRES without restart (hypre's FlexGMRES, which
+/// keeps the preconditioned vectors), from zero. With M ≈ K + E and S̃ ≈ S,
+///
+///   full:   λ = S̃⁻¹ (Cᵀ M⁻¹ r_u − r_λ),  u = M⁻¹ r_u − M⁻¹ (C − F) λ
+///   upper:  λ = −S̃⁻¹ r_λ,                u = M⁻¹ (r_u − (C − F) λ).
+///
+/// Rows and columns of multipliers are scaled by one number, mean |diag K| / mean |column of C|,
+/// so that residuals of both kinds count alike whatever the units.
+class CoupledSolver {
+ public:
+  /// Sets the preconditioner up; `j` is kept by reference.
+  CoupledSolver(const SaddlePoint& j, const SolverChoice& choice);
+  ~CoupledSolver();
+  CoupledSolver(const CoupledSolver&) = delete;
+  CoupledSolver& operator=(const CoupledSolver&) = delete;
+
+  /// @param f  n_u, N.  @param g  n_λ, m3: wanted Cᵀu = A g.
+  CoupledReport solve(const Eigen::VectorXd& f, const Eigen::VectorXd& g, double tolerance,
+                      int max_iterations, Eigen::VectorXd& u, Eigen::VectorXd& lambda);
+  double setup_seconds() const;         ///< of the processor, for the preconditioner.
+  double preconditioner_bytes() const;  ///< on the heap, kept by the preconditioner.
+  /// The number that scales multipliers, Pa per scaled one.
+  double multiplier_scale() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace faultsim

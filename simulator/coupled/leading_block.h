@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+
+#include "simulator/coupled/saddle_point.h"
+
+namespace faultsim {
+
+/// How (K + E)⁻¹ is approximated.
+enum class LeadingKind { exact, fsai, incomplete_cholesky, ilu, amg };
+
+/// Adaptive factored sparse approximate inverse (Janna, Ferronato, Sartoretto and Gambolati, ACM
+/// TOMS 41, 2015): per row of G, at most `steps` times the `step_size` entries that lower the row's
+/// factor ψ_i of the Kaporin number most, until ψ_i ≤ `tolerance` a_ii, from ψ_i = a_ii of the
+/// diagonal alone.
+struct FsaiOptions {
+  int steps = 5;
+  int step_size = 1;
+  double tolerance = 0.01;
+};
+
+struct IluOptions {
+  double drop_tolerance = 1e-3;  ///< relative to the row's norm.
+  int max_row = 200;             ///< entries kept per row of L and of U.
+};
+
+/// z ≈ (K + E)⁻¹ r, a fixed linear map.
+class LeadingBlock {
+ public:
+  virtual ~LeadingBlock() = default;
+  virtual void apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) = 0;
+};
+
+/// exact: sparse Cholesky, or LU where K + E is not symmetric positive definite. The others take
+/// the symmetric part of K + E. ilu and amg are hypre's; incomplete_cholesky is Lin and
+/// Moré's (as many entries per column as K has, the largest ones, and a shift where a pivot fails).
+/// Throws ResourceError when memory is short or K + E is singular.
+std::unique_ptr<LeadingBlock> make_leading_block(LeadingKind kind, const SaddlePoint& j,
+                                                 const FsaiOptions& fsai, const IluOptions& ilu);
+
+/// G of the adaptive FSAI: lower triangular, A⁻¹ ≈ GᵀG, diag(G A Gᵀ) = 1.
+/// @param a  symmetric positive definite, both triangles, sorted columns; ResourceError when it is
+///           not.
+SparseMatrix fsai_factor(const SparseMatrix& a, const FsaiOptions& options);
+
+/// A direct solver for a square sparse matrix: Cholesky if `symmetric` and positive definite, else
+/// LU. Throws ResourceError when it is singular.
+class DirectSolver {
+ public:
+  DirectSolver(const SparseMatrix& a, bool symmetric);
+  ~DirectSolver();
+  Eigen::VectorXd solve(const Eigen::VectorXd& r);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace faultsim

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "simulator/coupled/slip_tangent.h"
+#include "simulator/coupled/two_sided_bulk.h"
+#include "simulator/output/result.h"
+
+namespace faultsim {
+
+/// How a fault node enters the linearisation.
+struct NodeLinearisation {
+  FaultState state = FaultState::stick;
+  SlipTangent tangent = {};  ///< where it slips.
+};
+
+/// The Jacobian of the coupled path (model section 11),
+///
+///   J = [[K + E, C − F], [Cᵀ, 0]],
+///
+/// over displacements of both sides (n_u, m) and multipliers (n_λ, Pa): tractions of the components
+/// that are held closed. A node that sticks has its n, strike and dip, one that slips its n, an
+/// open one none. C_k = A_k R_k [I, −I]ᵀ: plus side positive, minus side negative, so that Cᵀu = A
+/// g.
+///
+/// The shear of a slipping node is t*_T(Δg_T, t'_N) instead of a multiplier. With C_T its two
+/// columns of A_k R_k [I, −I]ᵀ,
+///
+///   E = Σ C_T ∂t*_T/∂Δg_T A⁻¹ C_Tᵀ,      F = −Σ C_T ∂t*_T/∂t'_N   in the column of its t'_N.
+struct SaddlePoint {
+  SparseMatrix leading;         ///< K + E, both triangles.
+  SparseMatrix constraint;      ///< C, n_u x n_λ. CᵀC is diagonal.
+  SparseMatrix coupling;        ///< C − F, n_u x n_λ; the same as C where nothing slips.
+  std::vector<int> node_begin;  ///< multipliers of fault node k: node_begin[k] … node_begin[k+1]−1.
+  bool symmetric = true;        ///< K + E = (K + E)ᵀ and F = 0.
+  Eigen::MatrixXd rigid_motions;  ///< n_u x 6: the near-null space of K.
+
+  int n_displacements() const { return static_cast<int>(leading.rows()); }
+  int n_multipliers() const { return static_cast<int>(constraint.cols()); }
+  /// Diagonal of CᵀC, m4.
+  Eigen::VectorXd gram() const;
+  /// (K + E + (K + E)ᵀ)/2, for preconditioners that need symmetry.
+  SparseMatrix symmetric_leading() const;
+};
+
+/// @param nodes  one per node of bulk.fault_nodes(); empty = all stick.
+SaddlePoint make_saddle_point(const TwoSidedBulk& bulk,
+                              const std::vector<NodeLinearisation>& nodes = {});
+
+}  // namespace faultsim

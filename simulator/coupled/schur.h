@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "simulator/coupled/leading_block.h"
+
+namespace faultsim {
+
+/// How S = Cᵀ (K + E)⁻¹ (C − F) is approximated (model section 11).
+enum class SchurKind {
+  exact,        ///< S itself: one solve with K + E per multiplier, dense LU.
+  fsai_direct,  ///< Cᵀ GᵀG (C − F), factorised.
+  fsai_fsai,    ///< Cᵀ GᵀG C, inverted by a second FSAI.
+  bds,          ///< block diagonal: per node Cᵀ K_k⁻¹ (C − F), K_k on the cells around it.
+  lsc  ///< S⁻¹ ≈ (CᵀC)⁻¹ Cᵀ (K + E)(C − F) (CᵀC)⁻¹, nothing to factorise.
+};
+
+/// z ≈ S⁻¹ r, a fixed linear map.
+class SchurComplement {
+ public:
+  virtual ~SchurComplement() = default;
+  virtual void apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) = 0;
+};
+
+/// @param fsai  of K + E, and of the second one.
+/// Throws ResourceError when memory is short or the approximation is singular.
+std::unique_ptr<SchurComplement> make_schur_complement(SchurKind kind, const SaddlePoint& j,
+                                                       const FsaiOptions& fsai);
+
+}  // namespace faultsim

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "simulator/elasticity/bulk_problem.h"
+
+namespace faultsim {
+
+/// A duplicated node as the coupled path sees it.
+struct TwoSidedNode {
+  std::array<int, 3> minus, plus;  ///< displacement dofs of x, y, z; −1 = prescribed.
+  Eigen::Matrix3d frame;           ///< R_k: columns n, strike, dip.
+  double area;                     ///< A_k, m2.
+  std::array<bool, 3> may_jump;    ///< per n, strike, dip; all false on a node that stays closed.
+};
+
+/// The linear bulk over displacements of both sides of every fault (model section 11):
+/// K (n_u x n_u), unit loads, and where the fault nodes are in it.
+///
+/// Dofs are 3 i + c for component c of the i-th node that is no other's copy by a tie. Prescribed
+/// displacements stay dofs: their rows and columns of K are those of the identity times the mean
+/// diagonal, so that every node has three dofs, which algebraic multigrid wants. Fault nodes that
+/// the condensed path keeps closed (DofMap) are tied here.
+class TwoSidedBulk {
+ public:
+  /// Throws InputError when a piece that faults cut loose is not held: K is singular then.
+  explicit TwoSidedBulk(const BulkProblem& problem);
+
+  int n_displacements() const { return static_cast<int>(stiffness_.rows()); }
+  /// K, both triangles, sorted columns.
+  const SparseMatrix& stiffness() const { return stiffness_; }
+  int n_loads() const { return static_cast<int>(problem_.loads.size()); }
+  /// Right-hand side of unit load k: nodal forces, and in prescribed rows mean diagonal times the
+  /// prescribed displacement.
+  Eigen::VectorXd load(int k) const;
+  const std::vector<TwoSidedNode>& fault_nodes() const { return fault_nodes_; }
+  /// Dof of component c of a mesh node, prescribed ones included.
+  int dof(int node, int component) const;
+  bool is_prescribed(int dof) const { return prescribed_[dof]; }
+  /// Displacements of the six rigid motions, orthonormal over all dofs, n_u x 6; prescribed dofs
+  /// move with them.
+  Eigen::MatrixXd rigid_motions() const;
+  double mean_diagonal() const { return mean_diagonal_; }
+
+ private:
+  void place_fault_nodes(const DofMap& condensed);
+  void demand_held() const;
+  void assemble();
+
+  BulkProblem problem_;  ///< without faults in its mesh: both copies of a node are independent.
+  std::vector<FaultSurface> faults_;
+  std::unique_ptr<DofMap> dofs_;
+  std::vector<int> rank_;         ///< per mesh node: place among the independent nodes.
+  std::vector<char> prescribed_;  ///< per dof.
+  SparseMatrix stiffness_;
+  double mean_diagonal_ = 0;
+  std::vector<TwoSidedNode> fault_nodes_;
+};
+
+}  // namespace faultsim

@@ -1,0 +1,18 @@
+#include "simulator/elasticity/bulk_problem.h"
+
+#include "simulator/common/errors.h"
+
+namespace faultsim {
+
+Eigen::VectorXd unit_load(const BulkProblem& problem, const DofMap& dofs, int index) {
+  const LoadCase& load = problem.loads[static_cast<std::size_t>(index)];
+  const int n_kinds = (load.region >= 0) + !load.stress_sides.empty() + load.displacement;
+  FAULTSIM_DEMAND(n_kinds == 1, "load ", load.name, " is of ", n_kinds, " kinds");
+  if (load.region >= 0) return pressure_load(problem.mesh, dofs, load.region, problem.b_bar);
+  if (load.displacement) {
+    return displacement_load(problem.mesh, problem.materials, dofs, index, problem.b_bar);
+  }
+  return stress_load(problem.mesh, dofs, load.stress_sides, load.stress);
+}
+
+}  // namespace faultsim

@@ -1,0 +1,143 @@
+#include "simulator/coupled/schur.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <set>
+
+#include "tests/unit/coupled/coupled_problem.h"
+
+namespace faultsim {
+namespace {
+
+using test::CoupledExample;
+using test::dense_schur;
+using test::matrix_of;
+
+constexpr FsaiOptions kSchurFsai{.steps = 5, .step_size = 2, .tolerance = 0.01};
+
+Eigen::MatrixXd inverse_by(SchurKind kind, const SaddlePoint& j) {
+  const auto schur = make_schur_complement(kind, j, kSchurFsai);
+  return matrix_of(*schur, j.n_multipliers());
+}
+
+double relative_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return (a - b).norm() / b.norm();
+}
+
+TEST(Schur, ExactIsTheInverse) {
+  const CoupledExample example;
+  for (const SaddlePoint& j : example.both()) {
+    EXPECT_LT(relative_difference(inverse_by(SchurKind::exact, j), dense_schur(j).inverse()), 1e-8);
+  }
+}
+
+TEST(Schur, LscIsItsDefinition) {
+  const CoupledExample example;
+  for (const SaddlePoint& j : example.both()) {
+    const Eigen::MatrixXd c = j.constraint;
+    const Eigen::MatrixXd gram = (c.transpose() * c).inverse();
+    const Eigen::MatrixXd expected =
+        gram * c.transpose() * Eigen::MatrixXd(j.leading) * Eigen::MatrixXd(j.coupling) * gram;
+    EXPECT_LT(relative_difference(inverse_by(SchurKind::lsc, j), expected), 1e-12);
+  }
+}
+
+TEST(Schur, LscHasNoEigenvalueBelowOne) {
+  const CoupledExample example;
+  const SaddlePoint& j = example.stick;
+  const Eigen::MatrixXd s = dense_schur(j);
+  const Eigen::MatrixXd approximation = inverse_by(SchurKind::lsc, j).inverse();
+  // S v = μ S_LSC v
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      (s + s.transpose()) / 2, (approximation + approximation.transpose()) / 2);
+  EXPECT_GT(eigen.eigenvalues().minCoeff(), 1 - 1e-9);
+  EXPECT_GT(eigen.eigenvalues().maxCoeff(), 1.2) << "or the bound would say nothing";
+}
+
+/// K + E restricted to the dofs of all cells that touch either side of a node, from the mesh.
+Eigen::MatrixXd block_from_cells(const CoupledExample& example, const FaultNode& node,
+                                 const SaddlePoint& j, int first, int last) {
+  const Mesh& mesh = example.problem.mesh;
+  std::set<int> dofs;
+  for (const auto& cell : mesh.cells) {
+    const bool touches = std::any_of(cell.begin(), cell.end(), [&](int corner) {
+      return corner == node.minus_node || corner == node.plus_node;
+    });
+    if (!touches) continue;
+    for (const int corner : cell) {
+      for (int c = 0; c < 3; ++c) {
+        const int dof = example.bulk.dof(corner, c);
+        if (!example.bulk.is_prescribed(dof)) dofs.insert(dof);
+      }
+    }
+  }
+  const std::vector<int> list(dofs.begin(), dofs.end());
+  const int n = static_cast<int>(list.size());
+  Eigen::MatrixXd k(n, n), c(n, last - first), coupling(n, last - first);
+  for (int a = 0; a < n; ++a) {
+    for (int b = 0; b < n; ++b) k(a, b) = j.leading.coeff(list[a], list[b]);
+    for (int m = first; m < last; ++m) {
+      c(a, m - first) = j.constraint.coeff(list[a], m);
+      coupling(a, m - first) = j.coupling.coeff(list[a], m);
+    }
+  }
+  return c.transpose() * k.partialPivLu().solve(coupling);
+}
+
+TEST(Schur, BdsIsItsDefinition) {
+  const CoupledExample example;
+  for (const SaddlePoint& j : example.both()) {
+    Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(j.n_multipliers(), j.n_multipliers());
+    int k = 0;
+    for (const FaultSurface& fault : example.problem.mesh.faults) {
+      for (const FaultNode& node : fault.nodes) {
+        const int first = j.node_begin[k], last = j.node_begin[k + 1];
+        ++k;
+        if (last == first) continue;
+        expected.block(first, first, last - first, last - first) =
+            block_from_cells(example, node, j, first, last);
+      }
+    }
+    EXPECT_LT(relative_difference(inverse_by(SchurKind::bds, j), expected.inverse()), 1e-9);
+  }
+}
+
+TEST(Schur, FsaiDirectIsItsDefinition) {
+  const CoupledExample example;
+  for (const SaddlePoint& j : example.both()) {
+    const Eigen::MatrixXd g = fsai_factor(j.symmetric_leading(), kSchurFsai);
+    const Eigen::MatrixXd s =
+        Eigen::MatrixXd(j.constraint).transpose() * g.transpose() * g * Eigen::MatrixXd(j.coupling);
+    EXPECT_LT(relative_difference(inverse_by(SchurKind::fsai_direct, j), s.inverse()), 1e-9);
+  }
+}
+
+TEST(Schur, FsaiTwiceIsItsDefinition) {
+  const CoupledExample example;
+  for (const SaddlePoint& j : example.both()) {
+    const Eigen::MatrixXd gc = Eigen::MatrixXd(fsai_factor(j.symmetric_leading(), kSchurFsai)) *
+                               Eigen::MatrixXd(j.constraint);
+    const SparseMatrix s = Eigen::MatrixXd(gc.transpose() * gc).sparseView();
+    const Eigen::MatrixXd g = fsai_factor(s, kSchurFsai);
+    EXPECT_LT(relative_difference(inverse_by(SchurKind::fsai_fsai, j), g.transpose() * g), 1e-9);
+  }
+}
+
+TEST(Schur, MoreStepsOfFsaiComeCloserToS) {
+  const CoupledExample example;
+  const SaddlePoint& j = example.stick;
+  const Eigen::MatrixXd s = dense_schur(j);
+  const auto error = [&](int steps) {
+    const FsaiOptions fsai{.steps = steps, .step_size = 3, .tolerance = 1e-6};
+    const auto schur = make_schur_complement(SchurKind::fsai_direct, j, fsai);
+    const Eigen::MatrixXd product = matrix_of(*schur, j.n_multipliers()) * s;
+    return (product - Eigen::MatrixXd::Identity(s.rows(), s.cols())).norm();
+  };
+  const double few = error(2), more = error(10), most = error(40);
+  EXPECT_LT(more, 0.8 * few);
+  EXPECT_LT(most, 0.5 * more);
+}
+
+}  // namespace
+}  // namespace faultsim
