@@ -50,6 +50,16 @@ struct WorkerArguments {
   double memory_limit = 0;           ///< bytes of private memory; 0 = not limited.
 };
 
+struct SolverStudyArguments {
+  std::vector<std::string> cell_sizes = {"1/2", "1/4"};                              ///< h, "1/8".
+  std::vector<std::string> leading = {"exact"}, schur = {"fsai+dir", "bds", "lsc"};  ///< or "all".
+  std::string form = "upper";
+  int fsai_steps = 0, fsai_step_size = 0;  ///< 0 = as FsaiOptions.
+  double fsai_tolerance = 0;
+  int max_iterations = 500;
+  bool json = false;
+};
+
 /// What the outcome of a case is to a shell.
 ExitCode exit_code_of(Outcome outcome);
 
@@ -68,6 +78,9 @@ ExitCode export_contact_command(const ExportArguments& arguments);
 /// Prints what the bits of results depend on besides the scene: processor, BLAS, compiler, flags,
 /// libraries; and their fingerprint. No names of machines, no paths.
 ExitCode environment_command(bool json);
+/// Iterations, time and memory of the coupled path's preconditioners on the box of the seed's
+/// mesh-refinement study. Throws InputError with all names that are none.
+ExitCode solver_study_command(const SolverStudyArguments& arguments);
 /// Serves cases to a campaign; see schemas/worker_protocol.md.
 ExitCode worker_command(const WorkerArguments& arguments);
 

@@ -20,6 +20,7 @@ constexpr const char* kFooter =
     "  faultsim export-contact my-field.json --step 10 -o step10.hdf5\n"
     "                                             a step's contact problem for other solvers\n"
     "  faultsim verify V1 V2                      meet the closed forms\n"
+    "  faultsim solver-study --h 1/8              preconditioners of the coupled path\n"
     "  faultsim environment                       processor, BLAS, compiler: for bug reports\n"
     "Exit codes: 0 done, 2 input, 3 no convergence, 4 disk or memory, 5 a comparison failed,\n"
     "            70 bug, 75 interrupted.";
@@ -54,6 +55,7 @@ struct Arguments {
   DiagnoseArguments diagnosed;
   ExportArguments exported;
   WorkerArguments worker;
+  SolverStudyArguments study;
   bool environment_json = false;
   std::vector<std::string> problems;
   bool list = false, json = false, slow = false, markdown = false;
@@ -180,6 +182,42 @@ void add_worker(CLI::App& app, Arguments& a, ExitCode& code) {
   command->callback([&] { code = worker_command(a.worker); });
 }
 
+void add_solver_study(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* command = app.add_subcommand(
+      "solver-study", "preconditioners of the coupled path on the seed's cracked box");
+  command->add_option("--h", a.study.cell_sizes, "cell sizes: 1/2,1/4,1/8,1/16 … (default 1/2,1/4)")
+      ->delimiter(',');
+  command
+      ->add_option("--leading", a.study.leading,
+                   "for K + E: exact,fsai,ic,ilu,amg or all (default exact)")
+      ->delimiter(',');
+  command
+      ->add_option("--schur", a.study.schur,
+                   "for S: exact,fsai+dir,fsai+fsai,bds,lsc or all (default: three)")
+      ->delimiter(',');
+  command
+      ->add_option("--form", a.study.form,
+                   "upper (default) or full: two leading solves an iteration")
+      ->check(CLI::IsMember({"full", "upper"}));
+  command->add_option("--fsai-steps", a.study.fsai_steps, "growth steps of FSAI (default 5)")
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--fsai-step-size", a.study.fsai_step_size, "entries per step (default 1)")
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--fsai-tolerance", a.study.fsai_tolerance, "of a step (default 0.01)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--max-iterations", a.study.max_iterations, "of GMRES (default 500)")
+      ->check(CLI::Range(1, 100000));
+  command->add_flag("--json", a.study.json, "machine-readable output on stdout");
+  command->footer(
+      "Examples:\n"
+      "  faultsim solver-study --h 1/2 --leading all --schur all\n"
+      "  faultsim solver-study --h 1/8 --leading exact,amg --json\n"
+      "Right-preconditioned GMRES without restart on J = [[K + E, C - F], [C^T, 0]], all nodes in\n"
+      "stick; iterations to 1e-6 and 1e-8 of a random and a physical right-hand side. See\n"
+      "docs/model.md, section 11.");
+  command->callback([&] { code = solver_study_command(a.study); });
+}
+
 void add_environment(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* command = app.add_subcommand(
       "environment", "what the last digits depend on: processor, BLAS, compiler, libraries");
@@ -214,7 +252,7 @@ ExitCode faultsim_main(int argc, char** argv) {
   Arguments arguments;
   ExitCode code = ExitCode::done;
   for (auto* add : {add_init, add_looking, add_run, add_diagnose, add_export_contact, add_worker,
-                    add_environment, add_verify}) {
+                    add_solver_study, add_environment, add_verify}) {
     add(app, arguments, code);
   }
   try {
