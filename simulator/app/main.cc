@@ -193,7 +193,7 @@ void add_solver_study(CLI::App& app, Arguments& a, ExitCode& code) {
       ->delimiter(',');
   command
       ->add_option("--schur", a.study.schur,
-                   "for S: exact,fsai+dir,fsai+fsai,bds,lsc or all (default: three)")
+                   "for S: exact,fsai+dir,fsai+fsai,bds,lsc,rac or all (default: three)")
       ->delimiter(',');
   command
       ->add_option("--form", a.study.form,

@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "simulator/common/errors.h"
+#include "simulator/coupled/augmented.h"
 #include "simulator/coupled/hypre_objects.h"
 
 namespace faultsim {
@@ -51,7 +52,8 @@ struct Preconditioner {
   BlockForm form;
   double scale;
   std::unique_ptr<LeadingBlock> leading;
-  std::unique_ptr<SchurComplement> schur;
+  std::unique_ptr<SchurComplement> schur;  ///< none: RAC, `leading` is of S_u.
+  Eigen::VectorXd springs = {};            ///< D of RAC.
   std::vector<double> residuals = {};
   std::exception_ptr error = {};  ///< exceptions must not cross hypre's C.
 
@@ -59,7 +61,10 @@ struct Preconditioner {
     const int n_u = j.n_displacements(), n_l = j.n_multipliers();
     const Eigen::VectorXd r_u = r.head(n_u), r_l = r.tail(n_l) / scale;
     Eigen::VectorXd u, lambda, correction;
-    if (form == BlockForm::full) {
+    if (!schur) {
+      leading->apply(r_u + j.coupling * springs.cwiseProduct(r_l), u);
+      lambda = springs.cwiseProduct(j.constraint.transpose() * u - r_l);
+    } else if (form == BlockForm::full) {
       leading->apply(r_u, u);
       schur->apply(j.constraint.transpose() * u - r_l, lambda);
       leading->apply(j.coupling * lambda, correction);
@@ -163,6 +168,8 @@ const char* to_string(SchurKind kind) {
       return "bds";
     case SchurKind::lsc:
       return "lsc";
+    case SchurKind::rac:
+      return "rac";
   }
   FAULTSIM_DEMAND(false, "Schur complement ", static_cast<int>(kind));
 }
@@ -177,9 +184,9 @@ const std::vector<LeadingKind>& all_leading_kinds() {
 }
 
 const std::vector<SchurKind>& all_schur_kinds() {
-  static const std::vector<SchurKind> kinds = {SchurKind::exact, SchurKind::fsai_direct,
+  static const std::vector<SchurKind> kinds = {SchurKind::exact,     SchurKind::fsai_direct,
                                                SchurKind::fsai_fsai, SchurKind::bds,
-                                               SchurKind::lsc};
+                                               SchurKind::lsc,       SchurKind::rac};
   return kinds;
 }
 
@@ -197,8 +204,15 @@ struct CoupledSolver::Impl {
         jacobian(scaled_jacobian(j, scale)),
         preconditioner{j, choice.form, scale, nullptr, nullptr} {
     const double start = processor_seconds(), before = heap_bytes();
-    preconditioner.leading = make_leading_block(choice.leading, j, choice.fsai, choice.ilu);
-    preconditioner.schur = make_schur_complement(choice.schur, j, choice.fsai);
+    if (choice.schur == SchurKind::rac) {
+      const AugmentedJacobian augmented = augment(j);
+      preconditioner.springs = augmented.springs;
+      preconditioner.leading =
+          make_leading_block(choice.leading, augmented.regular, choice.fsai, choice.ilu);
+    } else {
+      preconditioner.leading = make_leading_block(choice.leading, j, choice.fsai, choice.ilu);
+      preconditioner.schur = make_schur_complement(choice.schur, j, choice.fsai);
+    }
     setup_seconds = processor_seconds() - start;
     bytes = heap_bytes() - before;
   }

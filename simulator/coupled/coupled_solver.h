@@ -44,6 +44,8 @@ struct CoupledReport {
 ///   full:   λ = S̃⁻¹ (Cᵀ M⁻¹ r_u − r_λ),  u = M⁻¹ r_u − M⁻¹ (C − F) λ
 ///   upper:  λ = −S̃⁻¹ r_λ,                u = M⁻¹ (r_u − (C − F) λ).
 ///
+/// SchurKind::rac replaces both by augmented.h's elimination with one leading solve.
+///
 /// Rows and columns of multipliers are scaled by one number, mean |diag K| / mean |column of C|,
 /// so that residuals of both kinds count alike whatever the units.
 class CoupledSolver {

@@ -161,6 +161,8 @@ std::unique_ptr<SchurComplement> make_schur_complement(SchurKind kind, const Sad
       return std::make_unique<BlockDiagonalSchur>(j);
     case SchurKind::lsc:
       return std::make_unique<LeastSquaresCommutator>(j);
+    case SchurKind::rac:
+      break;
   }
   FAULTSIM_DEMAND(false, "Schur complement ", static_cast<int>(kind));
 }

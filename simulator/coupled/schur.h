@@ -13,7 +13,8 @@ enum class SchurKind {
   fsai_direct,  ///< Cᵀ GᵀG (C − F), factorised.
   fsai_fsai,    ///< Cᵀ GᵀG C, inverted by a second FSAI.
   bds,          ///< block diagonal: per node Cᵀ K_k⁻¹ (C − F), K_k on the cells around it.
-  lsc  ///< S⁻¹ ≈ (CᵀC)⁻¹ Cᵀ (K + E)(C − F) (CᵀC)⁻¹, nothing to factorise.
+  lsc,  ///< S⁻¹ ≈ (CᵀC)⁻¹ Cᵀ (K + E)(C − F) (CᵀC)⁻¹, nothing to factorise.
+  rac   ///< not S, but multipliers with springs in series: see augmented.h.
 };
 
 /// z ≈ S⁻¹ r, a fixed linear map.
@@ -23,7 +24,7 @@ class SchurComplement {
   virtual void apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) = 0;
 };
 
-/// @param fsai  of K + E, and of the second one.
+/// @param kind  any but rac (InternalError). @param fsai  of K + E, and of the second one.
 /// Throws ResourceError when memory is short or the approximation is singular.
 std::unique_ptr<SchurComplement> make_schur_complement(SchurKind kind, const SaddlePoint& j,
                                                        const FsaiOptions& fsai);

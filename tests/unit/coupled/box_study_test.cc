@@ -59,6 +59,16 @@ TEST(BoxStudy, TakesNoMoreIterationsThanTheSeedAtAnEighthSlow) {
   }
 }
 
+TEST(BoxStudy, SpringsMakeCountsIndependentOfTheCells) {
+  const SolverChoice choice{LeadingKind::exact, SchurKind::rac};
+  for (const int cells_per_metre : {2, 4}) {
+    const TwoSidedBulk bulk(box_study(cells_per_metre));
+    const StudyRow row = study(bulk, make_saddle_point(bulk), choice, 100);
+    EXPECT_NEAR(row.random.to_1e6, 9, 1) << cells_per_metre;
+    EXPECT_NEAR(row.physical.to_1e8, 11, 1) << cells_per_metre;
+  }
+}
+
 /// Counts of today's preconditioners to 1e-6: a change that costs iterations is seen here.
 TEST(BoxStudy, CountsAreWhatTheyWere) {
   struct Row {
@@ -70,6 +80,7 @@ TEST(BoxStudy, CountsAreWhatTheyWere) {
   const SaddlePoint j_half = make_saddle_point(half), j_quarter = make_saddle_point(quarter);
   for (const Row& row : {Row{LeadingKind::exact, SchurKind::lsc, 22, 26},
                          Row{LeadingKind::amg, SchurKind::lsc, 20, 26},
+                         Row{LeadingKind::amg, SchurKind::rac, 13, 12},
                          Row{LeadingKind::incomplete_cholesky, SchurKind::bds, 28, 32}}) {
     const SolverChoice choice{row.leading, row.schur};
     EXPECT_NEAR(study(half, j_half, choice, 100).random.to_1e6, row.half, 1)

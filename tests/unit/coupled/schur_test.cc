@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <set>
 
+#include "simulator/coupled/augmented.h"
 #include "tests/unit/coupled/coupled_problem.h"
 
 namespace faultsim {
@@ -121,6 +122,46 @@ TEST(Schur, FsaiTwiceIsItsDefinition) {
     const SparseMatrix s = Eigen::MatrixXd(gc.transpose() * gc).sparseView();
     const Eigen::MatrixXd g = fsai_factor(s, kSchurFsai);
     EXPECT_LT(relative_difference(inverse_by(SchurKind::fsai_fsai, j), g.transpose() * g), 1e-9);
+  }
+}
+
+/// Eliminating u or λ from [[K + E, C − F], [Cᵀ, −D⁻¹]] must give the same inverse.
+TEST(Augmented, IsTheJacobianWithSpringsInSeries) {
+  const CoupledExample example;
+  for (const SaddlePoint& j : example.both()) {
+    const AugmentedJacobian augmented = augment(j);
+    ASSERT_GT(augmented.springs.minCoeff(), 0);
+    const int n_u = j.n_displacements(), n_l = j.n_multipliers();
+    Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n_u + n_l, n_u + n_l);
+    whole.topLeftCorner(n_u, n_u) = j.leading;
+    whole.topRightCorner(n_u, n_l) = j.coupling;
+    whole.bottomLeftCorner(n_l, n_u) = Eigen::MatrixXd(j.constraint).transpose();
+    whole.bottomRightCorner(n_l, n_l).diagonal() = -augmented.springs.cwiseInverse();
+    const Eigen::VectorXd u = Eigen::VectorXd::Random(n_u);
+    const Eigen::VectorXd lambda = Eigen::VectorXd::Random(n_l) * j.leading.norm();
+    Eigen::VectorXd x(n_u + n_l);
+    x << u, lambda;
+    const Eigen::VectorXd r = whole * x;
+    DirectSolver solver(augmented.regular.leading, j.symmetric);
+    const Eigen::VectorXd found =
+        solver.solve(r.head(n_u) + j.coupling * augmented.springs.cwiseProduct(r.tail(n_l)));
+    EXPECT_LT((found - u).norm(), 1e-7 * u.norm());
+  }
+}
+
+TEST(Augmented, SpringsAreAsStiffAsTheCellsAtTheNode) {
+  const CoupledExample example;
+  const SaddlePoint& j = example.stick;
+  const AugmentedJacobian augmented = augment(j);
+  for (int k = 0; k < j.n_multipliers(); ++k) {
+    const Eigen::VectorXd c = Eigen::VectorXd(j.constraint.col(k));
+    double square = 0;
+    for (int a = 0; a < c.size(); ++a) {
+      for (int b = 0; b < c.size(); ++b) {
+        if (c[a] != 0 && c[b] != 0) square += std::pow(j.leading.coeff(a, b), 2);
+      }
+    }
+    EXPECT_NEAR(augmented.springs[k] * c.squaredNorm() / std::sqrt(square), 1, 1e-12);
   }
 }
 

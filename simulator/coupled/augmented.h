@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "simulator/coupled/saddle_point.h"
+
+namespace faultsim {
+
+/// What the reverse augmented constraint preconditioner inverts instead of J (model section 11): a
+/// fault that is held not rigidly but by springs D, so that multipliers can be eliminated,
+///
+///   [[K + E, C − F], [Cᵀ, −D⁻¹]]:   S_u u = r_u + (C − F) D r_λ,   λ = D (Cᵀ u − r_λ),
+///
+/// with S_u = K + E + (C − F) D Cᵀ, which stays regular where a fault cuts a piece loose and K is
+/// singular. d_k = |K_k| / (c_k·c_k), |K_k| the Frobenius norm of K + E on the dofs of column c_k.
+struct AugmentedJacobian {
+  Eigen::VectorXd springs;  ///< D, n_λ, Pa/m3.
+  SaddlePoint regular;      ///< leading = S_u, no multipliers.
+};
+
+AugmentedJacobian augment(const SaddlePoint& j);
+
+}  // namespace faultsim
