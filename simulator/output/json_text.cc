@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/printable.h"
 
 namespace faultsim {
 namespace {
@@ -17,7 +18,10 @@ std::string text_of(Json document) {
     with_format.update(document);
     document = std::move(with_format);
   }
-  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  // JSON leaves DEL, C1 and what turns the direction of writing as they are; here \uXXXX stands in
+  // their place, which reads the same.
+  const std::string text = document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return printable(text, Keep::line_ends);
 }
 
 }  // namespace
