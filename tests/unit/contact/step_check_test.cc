@@ -120,6 +120,13 @@ TEST_F(PlantedErrors, ShearOverTheLimit) {
   EXPECT_GT(check().over_limit, kWrong);
 }
 
+TEST_F(PlantedErrors, CohesionThatIsLostIsNotCounted) {
+  for (CoulombLaw& law : laws_.node) law.cohesion = 1e6;
+  EXPECT_GT(check().below_limit, kWrong) << "with cohesion it would not slip yet";
+  step_.after.cohesion_lost.assign(kNodes, 1);
+  EXPECT_LE(check().largest_residual(), kRight);
+}
+
 TEST_F(PlantedErrors, OpenNodeThatIsPressedTogether) {
   const int k = first(FaultState::open);
   step_.after.jump[3 * k] *= 0.99;

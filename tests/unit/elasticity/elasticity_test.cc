@@ -140,6 +140,29 @@ TEST(Elasticity, ConfinedLayerCompactsExactly) {
   }
 }
 
+TEST(Elasticity, PressureLoadsACellByTheShareOfItThatLiesInTheRegion) {
+  Mesh mesh = distorted_box();
+  const DofMap dofs(mesh, {}, 1);
+  mesh.region[13] = 0;
+  mesh.region_fraction[13] = 1;
+  const Eigen::VectorXd whole = pressure_load(mesh, dofs, 0, true);
+  mesh.region_fraction[13] = 0.25;
+  const Eigen::VectorXd quarter = pressure_load(mesh, dofs, 0, true);
+  EXPECT_GT(whole.norm(), 0);
+  EXPECT_LT((quarter - 0.25 * whole).norm(), 1e-12 * whole.norm());
+}
+
+// Front and back of a slice are not the outside of the body: what its neighbours pull is no load.
+TEST(Elasticity, NothingPullsAtFrontAndBackOfASlice) {
+  Mesh mesh = make_box({4, 1, 4}, {40, 5, 40}, {}, test::shear_to_dip(70));
+  const Eigen::Matrix3d stress = hooke(kRock[0], some_gradient());
+  const std::vector<MeshSide> sides = {MeshSide::y_min, MeshSide::y_max};
+  EXPECT_GT(nodal_stress_forces(mesh, sides, stress).norm(), 0) << "a body of its own";
+  test::make_plane_strain(mesh, 5);
+  EXPECT_EQ(nodal_stress_forces(mesh, sides, stress).norm(), 0);
+  EXPECT_GT(nodal_stress_forces(mesh, {MeshSide::x_max}, stress).norm(), 0);
+}
+
 TEST(Elasticity, BBarDoesNotLockWhenNearlyIncompressible) {
   // Bending of a cantilever: plain elements lock at ν → ½, mean dilatation does not.
   const Mesh mesh = make_box({10, 1, 3}, {10, 1, 1.5}, {});

@@ -157,6 +157,17 @@ TEST(CreepMarch, TakesShortStepsWhereCreepIsFast) {
   EXPECT_LT(controlled.creep(1).time_steps, 40) << "of 64";
 }
 
+/// Early quarters too long for the tolerance are not made good by late ones, when creep is over.
+TEST(CreepMarch, IsNotResolvedWhereItsFirstStepsAreNot) {
+  const Case whole(scene_of(
+      "v8_column.json",
+      {{"/stages", R"([{"name": "one", "duration": "130e6 s"}])"},
+       {"/numerics", R"({"creep": "on", "creep_refinements": 2, "creep_tolerance": "20 kPa"})"}}));
+  EXPECT_EQ(whole.creep(1).time_steps, 4);
+  EXPECT_GT(whole.creep(1).time_error, 2e4);
+  EXPECT_FALSE(whole.creep(1).time_resolved);
+}
+
 /// The length of a step is the difference of its times, of which few digits are left here; and it
 /// is very much shorter than the longest step allowed.
 TEST(CreepMarch, FindsAShortStepAfterALongOne) {

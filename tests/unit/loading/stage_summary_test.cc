@@ -125,6 +125,7 @@ TEST_F(StageSummaryTest, AStageCountsItsOwnSlipAndItsOwnEvents) {
   step(summary, -60, -60, {small, large});
   const StageMetrics m = summary.finish();
   EXPECT_FALSE(m.slips || m.activated) << "all of it slipped before";
+  EXPECT_EQ(m.faults[1].moment, 0);
   EXPECT_EQ(m.faults[1].n_events, 2);
   EXPECT_EQ(m.faults[1].event_moment, 3e10);
   EXPECT_EQ(m.faults[1].event_magnitude, 0.9);

@@ -137,6 +137,17 @@ TEST(Trade, MeasuresEachAxisAgainstItsLimitAndMeshesAgainst3D) {
   EXPECT_NEAR(trade.reference.uncertainty, 0.004, 1e-9);
 }
 
+TEST(Trade, TooLittleIsAsMuchOfAnErrorAsTooMuch) {
+  std::vector<MadeUpAxis> axes = made_up_axes();
+  MadeUpAxis below;
+  below.axis = {"cells, plane strain", "?", true, true, "", {}};
+  for (const double size : {40.0, 20.0, 10.0}) {
+    below.add(metres(size), size, 10 / size, 0.7 - 0.004 * size, true);
+  }
+  axes[0] = below;
+  EXPECT_NEAR(made_up_trade(axes).tables.at(0).rows[0].error.chi, 0.16, 1e-9);
+}
+
 TEST(Trade, ComparesPlaneStrainWith3DAtEqualCells) {
   const Trade trade = made_up_trade(made_up_axes());
   ASSERT_TRUE(trade.plane_strain);
