@@ -68,9 +68,9 @@ Submission make_submission(const Expansion& expansion) {
       std::filesystem::absolute(spec.scene_source).lexically_normal().string();
   for (const Group& group : spec.groups) submission.scenes.push_back({source, group.scene.dump()});
   for (const Family& family : expansion.families) {
-    submission.families.push_back({family.fingerprint, family.plan.n_unknowns, family.plan.n_jump,
-                                   family.plan.operator_seconds, family.plan.memory_bytes,
-                                   1 + static_cast<int>(family.plan.creep.rungs.size())});
+    submission.families.push_back({family.fingerprint, family.plan->n_unknowns, family.plan->n_jump,
+                                   family.plan->operator_seconds, family.plan->memory_bytes,
+                                   1 + static_cast<int>(family.plan->creep.rungs.size())});
   }
   Columns columns;
   const bool has_groups = spec.groups.size() > 1;

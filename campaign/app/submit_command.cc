@@ -77,7 +77,7 @@ SubmitReport make_report(const Expansion& expansion) {
   report.n_designed = expansion.n_designed;
   for (const Family& family : expansion.families) {
     report.cases_per_family.push_back(static_cast<long>(family.cases.size()));
-    report.operator_seconds += family.plan.operator_seconds;
+    report.operator_seconds += family.plan->operator_seconds;
   }
   return report;
 }
@@ -227,12 +227,10 @@ ExitCode submit_command(const StoreArguments& common, const SubmitArguments& arg
                      {{"/exclude", 0, "every case is excluded", "relax a condition"}});
   }
   check_memory_limit(arguments.spec, report);
-  json document;
   if (arguments.dry_run) {
     const SubmitOutcome outcome = preview(common.store, report.submission);
     report.n_cached = outcome.n_cached;
     report.n_fields = outcome.n_fields;
-    document = report_to_json(report);
   } else {
     Store store = Store::open_writer(common.store);
     if (!store.remark().empty()) std::fprintf(stderr, "%s\n", store.remark().c_str());
@@ -248,10 +246,10 @@ ExitCode submit_command(const StoreArguments& common, const SubmitArguments& arg
     report.submission.name = outcome.name;
     report.n_cached = outcome.n_cached;
     report.n_fields = outcome.n_fields;
-    document = report_to_json(report);
   }
   for (const std::string& note : report.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
-  const std::string text = common.json ? faultsim::json_text(document) : report_to_text(report);
+  const std::string text =
+      common.json ? faultsim::json_text(report_to_json(report)) : report_to_text(report);
   std::fputs(text.c_str(), stdout);
   if (arguments.dry_run) {
     std::fprintf(stderr, "Nothing was stored. Next: faultsweep submit %s\n",

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -33,8 +34,9 @@ struct Case {
 /// The cases that share a linear bulk, hence an operator.
 struct Family {
   std::string fingerprint;  ///< faultsim::Plan::family.
-  faultsim::Plan plan;      ///< of its first case: sizes and predicted cost.
-  std::vector<int> cases;   ///< indices into Expansion::cases, ascending.
+  /// Of its first case: sizes and predicted cost; families that were not planned share one.
+  std::shared_ptr<const faultsim::Plan> plan;
+  std::vector<int> cases;  ///< indices into Expansion::cases, ascending.
 };
 
 /// Cases left out by one `exclude` expression. A case counts for the first that is true.

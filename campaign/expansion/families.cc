@@ -83,7 +83,8 @@ int FamilyFinder::plan_row(const Row& row, const std::vector<double>& derived,
   if (!found.empty()) return -1;
   const auto [place, is_new] =
       by_fingerprint_.emplace(plan.family, static_cast<int>(families_.size()));
-  if (is_new) families_.push_back({plan.family, std::move(plan), {}});
+  if (is_new)
+    families_.push_back({plan.family, std::make_shared<const faultsim::Plan>(std::move(plan)), {}});
   return place->second;
 }
 

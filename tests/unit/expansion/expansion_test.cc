@@ -45,8 +45,8 @@ TEST(Expansion, ViscosityAndItsStepsMakeFamilies) {
   EXPECT_EQ(all.families[0].cases, (std::vector<int>{0, 1}));
   EXPECT_EQ(all.families[1].cases, (std::vector<int>{2, 3}));
   EXPECT_EQ(all.families[4].cases, (std::vector<int>{8, 9, 10, 11}));
-  EXPECT_EQ(all.families[0].plan.creep.rungs.size(), 6u) << "a year and a half, halved four times";
-  EXPECT_FALSE(all.families[4].plan.creep.active);
+  EXPECT_EQ(all.families[0].plan->creep.rungs.size(), 6u) << "a year and a half, halved four times";
+  EXPECT_FALSE(all.families[4].plan->creep.active);
   expect_true_identities(all, 1);
 }
 
@@ -64,8 +64,8 @@ TEST(Expansion, LoadsMayDecideWhetherSaltCreeps) {
   const auto all = expand(parse_campaign(text, FAULTSIM_SOURCE_DIR "/test.json"));
   ASSERT_EQ(all.families.size(), 2u);
   EXPECT_EQ(all.families[0].cases, (std::vector<int>{0, 2}));
-  EXPECT_FALSE(all.families[0].plan.creep.active);
-  EXPECT_TRUE(all.families[1].plan.creep.active);
+  EXPECT_FALSE(all.families[0].plan->creep.active);
+  EXPECT_TRUE(all.families[1].plan->creep.active);
   expect_true_identities(all, 1);
 }
 
@@ -79,7 +79,7 @@ TEST(Expansion, GridLastParameterFastest) {
   EXPECT_EQ(all.cases[2].index, 2);
   ASSERT_EQ(all.families.size(), 2u);
   EXPECT_EQ(all.families[1].cases, (std::vector<int>{2, 3}));
-  EXPECT_GT(all.families[0].plan.n_unknowns, 0);
+  EXPECT_GT(all.families[0].plan->n_unknowns, 0);
   expect_true_identities(all, 1);
 }
 
@@ -280,7 +280,7 @@ TEST(Expansion, ExamplesExpand) {
   const auto salt = expand(read_campaign(folder + "rotliegend-salt.json"));
   EXPECT_EQ(salt.cases.size(), 32u);
   ASSERT_EQ(salt.families.size(), 1u) << "friction and fault pressure leave the operators alone";
-  EXPECT_EQ(salt.families[0].plan.creep.rungs.size(), 6u);
+  EXPECT_EQ(salt.families[0].plan->creep.rungs.size(), 6u);
   EXPECT_EQ(expand(read_campaign(folder + "small.json")).cases.size(), 12u);
   const auto sampled = expand(read_campaign(folder + "latin-hypercube.json"));
   EXPECT_EQ(sampled.cases.size(), 24u);
