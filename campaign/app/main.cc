@@ -137,6 +137,10 @@ void add_running(CLI::App& app, Arguments& a, ExitCode& code, int argc, char** a
   run->add_option("--memory", a.run.memory,
                   "of each host, for operators that are built or held together: \"12 GB\",\n"
                   "0 = no limit; default: 0.9 of what is available");
+  run->add_option("--threads", a.run.threads,
+                  "for building an operator; default: the cores of its host that are idle.\n"
+                  "Results are the same with any number")
+      ->check(CLI::Range(1, 1024));
   run->add_option("--node-cache", a.run.node_cache,
                   "copies of operators on each host's own disk, or none; default: none if the\n"
                   "store is on a local disk, else a folder in SLURM_TMPDIR, TMPDIR or /tmp");

@@ -20,7 +20,7 @@ namespace {
 using faultsim::Problem;
 using nlohmann::json;
 
-constexpr long kRowsReadOneByOne = 400;    ///< beyond, identities are composed (composer.h).
+constexpr long kRowsReadOneByOne = 2000;   ///< beyond, identities are composed (composer.h).
 constexpr std::size_t kChoicesTried = 64;  ///< per parameter; the extremes are among them.
 constexpr int kMaximumWrongCases = 20;     ///< of cases wrong only as a combination.
 constexpr std::size_t kMaximumProblems = 100;
@@ -291,8 +291,12 @@ nlohmann::json changes_of(const Expansion& expansion, const Case& one) {
 }
 
 nlohmann::json scene_of(const Expansion& expansion, const Case& one) {
-  SceneBuilder builder(expansion.spec, group_of(expansion, one));
-  return builder.document(one.choices, one.derived).value;
+  const Group& group = group_of(expansion, one);
+  json scene = group.scene;
+  for (Change& change : changes_of_row(expansion.spec, group, one.choices, one.derived)) {
+    faultsim::put_value(scene, change.pointer, std::move(change.value));
+  }
+  return scene;
 }
 
 std::string base_fingerprint(const Expansion& expansion, int group) {
@@ -304,7 +308,7 @@ nlohmann::json scene_from_changes(const std::string& base, const std::string& ch
   json scene = json::parse(base);
   const json changed = json::parse(changes);
   for (const auto& [pointer, value] : changed.items()) {
-    FAULTSIM_DEMAND(put_value(scene, pointer, value), pointer);
+    FAULTSIM_DEMAND(faultsim::put_value(scene, pointer, value), pointer);
   }
   return scene;
 }

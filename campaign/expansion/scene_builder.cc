@@ -7,6 +7,7 @@
 namespace faultsweep {
 
 using faultsim::Problem;
+using nlohmann::json;
 
 nlohmann::json spelled(double si, faultsim::Dimension dimension) {
   if (dimension == faultsim::Dimension::number) return si;
@@ -28,15 +29,17 @@ std::vector<Change> changes_of_row(const CampaignSpec& spec, const Group& group,
 }
 
 SceneBuilder::SceneBuilder(const CampaignSpec& spec, const Group& group)
-    : spec_(spec), group_(group), document_{spec.scene_source, {}, spec.base.lines} {}
+    : spec_(spec), group_(group), document_{spec.scene_source, group.scene, spec.base.lines} {}
 
-const faultsim::JsonDocument& SceneBuilder::document(const Row& row,
-                                                     const std::vector<double>& derived) {
-  document_.value = group_.scene;
-  for (const Change& change : changes_of_row(spec_, group_, row, derived)) {
-    put_value(document_.value, change.pointer, change.value);
+void SceneBuilder::take_back_changes() {
+  for (const std::string& name : changed_) {
+    if (const json* before = faultsim::value_at(group_.scene, name)) {
+      faultsim::put_value(document_.value, name, *before);
+    } else if (document_.value.is_object()) {
+      document_.value.erase(json::json_pointer(name).back());
+    }
   }
-  return document_;
+  changed_.clear();
 }
 
 std::optional<faultsim::Scene> SceneBuilder::scene(const Row& row,
@@ -51,9 +54,10 @@ std::optional<faultsim::Scene> SceneBuilder::scene(const Row& row,
                         "\"" + one.text + "\" has no value where " + describe(row),
                         "a name in it has no value in the scene, or a division is by zero"});
   }
-  for (const Change& change : changes_of_row(spec_, group_, row, derived)) {
-    nlohmann::json probe = group_.scene;
-    if (put_value(probe, change.pointer, change.value)) continue;
+  take_back_changes();
+  for (Change& change : changes_of_row(spec_, group_, row, derived)) {
+    changed_.insert(change.pointer.substr(0, change.pointer.find('/', 1)));
+    if (faultsim::put_value(document_.value, change.pointer, std::move(change.value))) continue;
     ok = false;
     problems.push_back(in_spec({change.pointer, 0, "the base scene has no place " + change.pointer,
                                 "faultsim parameters lists what can be varied"},
@@ -61,7 +65,7 @@ std::optional<faultsim::Scene> SceneBuilder::scene(const Row& row,
   }
   if (!ok) return std::nullopt;
   std::vector<Problem> found;
-  faultsim::Scene scene = faultsim::read_scene(document(row, derived), found);
+  faultsim::Scene scene = faultsim::read_scene(document_, found);
   for (const Problem& one : found) problems.push_back(in_spec(one, row));
   if (!found.empty()) return std::nullopt;
   return scene;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,6 @@ class SceneBuilder {
  public:
   SceneBuilder(const CampaignSpec& spec, const Group& group);
 
-  /// The scene document of a row; valid until the next call.
-  const faultsim::JsonDocument& document(const Row& row, const std::vector<double>& derived);
   /// The checked scene of a row; problems (in terms of the spec) are appended, and then it is
   /// empty.
   std::optional<faultsim::Scene> scene(const Row& row, const std::vector<double>& derived,
@@ -34,9 +33,12 @@ class SceneBuilder {
   std::string describe(const Row& row) const;
 
  private:
+  void take_back_changes();
+
   const CampaignSpec& spec_;
   const Group& group_;
-  faultsim::JsonDocument document_;
+  faultsim::JsonDocument document_;  ///< the group's scene with the changes of the last row.
+  std::set<std::string> changed_;    ///< members of it that hold changes.
 };
 
 }  // namespace faultsweep

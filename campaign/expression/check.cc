@@ -93,13 +93,11 @@ class Checker {
     std::string cure = "both sides need the same dimension";
     for (const auto& [bare, other] : {std::pair(&left, &right), std::pair(&right, &left)}) {
       if (bare->operation != Operation::literal || bare->type.units != Units{}) continue;
-      for (const Dimension dimension :
-           {Dimension::length, Dimension::area, Dimension::pressure, Dimension::pressure_gradient,
-            Dimension::density, Dimension::angle, Dimension::time, Dimension::viscosity,
-            Dimension::moment, Dimension::potency}) {
-        if (units_of(dimension) != other->type.units) continue;
+      for (const faultsim::DimensionInfo& one : faultsim::dimensions()) {
+        if (one.dimension == Dimension::number) continue;
+        if (one.powers != other->type.units.exponents) continue;
         const std::string number = text_.substr(bare->position, bare->end - bare->position);
-        const std::string unit = faultsim::usual_unit(dimension);
+        const std::string unit = one.usual;
         const bool quote = unit.find(' ') != std::string::npos;
         cure = "write " + (quote ? '"' + number + " " + unit + '"' : number + " " + unit);
       }

@@ -4,58 +4,17 @@
 #include <cctype>
 
 #include "campaign/expression/node.h"
+#include "simulator/common/near_miss.h"
 
 namespace faultsweep {
 namespace {
 
 using faultsim::Dimension;
 
-struct NamedUnits {
-  Dimension dimension;
-  Units units;  // length, mass, time, angle
-  const char* name;
-};
-
-const std::vector<NamedUnits>& named_units() {
-  static const std::vector<NamedUnits> table = {
-      {Dimension::number, {{0, 0, 0, 0}}, "a plain number"},
-      {Dimension::length, {{1, 0, 0, 0}}, "a length"},
-      {Dimension::area, {{2, 0, 0, 0}}, "an area"},
-      {Dimension::pressure, {{-1, 1, -2, 0}}, "a pressure"},
-      {Dimension::pressure_gradient, {{-2, 1, -2, 0}}, "a pressure gradient"},
-      {Dimension::density, {{-3, 1, 0, 0}}, "a density"},
-      {Dimension::angle, {{0, 0, 0, 1}}, "an angle"},
-      {Dimension::time, {{0, 0, 1, 0}}, "a time"},
-      {Dimension::viscosity, {{-1, 1, -1, 0}}, "a viscosity"},
-      {Dimension::moment, {{2, 1, -2, 0}}, "a moment"},
-      {Dimension::potency, {{3, 0, 0, 0}}, "a volume"},
-  };
-  return table;
-}
-
 std::string lower(std::string_view word) {
   std::string result(word);
   for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return result;
-}
-
-/// Edit distance in which swapping two neighbours counts one.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> before, previous(b.size() + 1), current(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) previous[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    current[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = previous[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-      current[j] = std::min({change, previous[j] + 1, current[j - 1] + 1});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
-        current[j] = std::min(current[j], before[j - 2] + 1);
-      }
-    }
-    before = previous;
-    previous = current;
-  }
-  return previous[b.size()];
 }
 
 /// The text on its own line and a caret below; columns are counted in characters, not bytes. Of a
@@ -83,16 +42,11 @@ std::string caret_lines(const std::string& text, std::size_t position) {
 
 }  // namespace
 
-Units units_of(Dimension dimension) {
-  for (const auto& row : named_units()) {
-    if (row.dimension == dimension) return row.units;
-  }
-  faultsim::throw_internal("known dimension", "", __FILE__, __LINE__);
-}
+Units units_of(Dimension dimension) { return {faultsim::info_of(dimension).powers}; }
 
 std::string describe(const Units& units) {
-  for (const auto& row : named_units()) {
-    if (row.units == units) return row.name;
+  for (const faultsim::DimensionInfo& one : faultsim::dimensions()) {
+    if (one.powers == units.exponents) return one.noun;
   }
   static constexpr std::array kBase = {"m", "kg", "s", "rad"};
   std::string text = "in";
@@ -154,7 +108,7 @@ std::optional<std::string> nearest(std::string_view word,
     const std::string other = lower(candidate);
     const std::size_t shorter = std::min(wanted.size(), other.size());
     const std::size_t least = std::max(wanted.size(), other.size()) - shorter;
-    std::size_t distance = least < best_distance ? edit_distance(wanted, other) : least;
+    std::size_t distance = least < best_distance ? faultsim::edit_distance(wanted, other) : least;
     // "salt.youngs_modulus" for "youngs_modulus": the right word without its owner.
     const std::size_t dot = other.find_last_of("./");
     if (dot != std::string::npos && other.substr(dot + 1) == wanted) {

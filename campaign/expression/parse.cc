@@ -14,11 +14,6 @@ using faultsim::Dimension;
 constexpr std::size_t kMaximumLength = 10'000;
 constexpr int kMaximumDepth = 200;
 
-constexpr std::array kDimensions = {
-    Dimension::length,  Dimension::area,   Dimension::pressure, Dimension::pressure_gradient,
-    Dimension::density, Dimension::angle,  Dimension::time,     Dimension::viscosity,
-    Dimension::moment,  Dimension::potency};
-
 const std::array<std::pair<const char*, Operation>, 7> kFunctions = {{
     {"min", Operation::minimum},
     {"max", Operation::maximum},
@@ -42,9 +37,10 @@ struct Quantity {
   Type type;
 };
 std::optional<Quantity> read_quantity(const std::string& text) {
-  for (const Dimension dimension : kDimensions) {
-    const auto parsed = faultsim::parse_quantity(text, dimension);
-    if (parsed.ok) return Quantity{parsed.value, number_type(dimension)};
+  for (const faultsim::DimensionInfo& one : faultsim::dimensions()) {
+    if (one.dimension == Dimension::number) continue;
+    const auto parsed = faultsim::parse_quantity(text, one.dimension);
+    if (parsed.ok) return Quantity{parsed.value, number_type(one.dimension)};
   }
   return std::nullopt;
 }

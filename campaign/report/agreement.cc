@@ -47,6 +47,19 @@ bool is_compared(const std::string& key) {
   return left_out.count(key) == 0;
 }
 
+/// Measures that were added after baselines had been written, which then have none.
+const std::set<std::string>& later_measures() {
+  static const std::set<std::string> keys = [] {
+    std::set<std::string> later;
+    const faultsim::Measures measures;
+    faultsim::for_each_measure(measures, [&later](const faultsim::Field& field, const auto&) {
+      if (field.since > 0) later.emplace(field.key);
+    });
+    return later;
+  }();
+  return keys;
+}
+
 /// The largest magnitude that each quantity takes in a document.
 void find_scales(const json& value, const std::string& key, std::map<std::string, double>& scales) {
   if (value.is_object()) {
@@ -127,7 +140,7 @@ class Walk {
   }
   void object(const std::string& place, const json& baseline, const json& tonight) {
     for (const auto& [key, value] : baseline.items()) {
-      if (!is_compared(key)) continue;
+      if (!is_compared(key) || (value.is_null() && later_measures().contains(key))) continue;
       const json& other = tonight.at(key);
       if (value.is_object() && other.is_object()) {
         object(concat(place, ", ", key), value, other);

@@ -7,8 +7,7 @@
 #include "campaign/spec/spec.h"
 #include "nightly_schema.h"
 #include "simulator/common/fingerprint.h"
-#include "simulator/scene/json_document.h"
-#include "simulator/scene/schema_walk.h"
+#include "simulator/scene/schema.h"
 
 namespace faultsweep {
 
@@ -75,7 +74,7 @@ void check(const JsonDocument& document, const NightlySuite& suite,
 }  // namespace
 
 NightlySuite read_nightly_suite(const std::string& path) {
-  static const json schema = json::parse(faultsim::embedded::nightly_schema);
+  static const faultsim::Schema schema(json::parse(faultsim::embedded::nightly_schema));
   const JsonDocument document = faultsim::read_json_file(path);
   std::vector<Problem> problems = faultsim::check_schema(document, schema);
   if (!problems.empty()) throw faultsim::InputError(path, problems);

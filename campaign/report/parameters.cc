@@ -1,55 +1,18 @@
 #include "campaign/report/parameters.h"
 
-#include <array>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "simulator/common/errors.h"
 
 namespace faultsweep {
 
-using faultsim::Dimension;
 using nlohmann::json;
-
-namespace {
-
-constexpr std::array<std::pair<Dimension, const char*>, 11> kDimensions = {{
-    {Dimension::number, "number"},
-    {Dimension::length, "length"},
-    {Dimension::area, "area"},
-    {Dimension::pressure, "pressure"},
-    {Dimension::pressure_gradient, "pressure_gradient"},
-    {Dimension::density, "density"},
-    {Dimension::angle, "angle"},
-    {Dimension::time, "time"},
-    {Dimension::viscosity, "viscosity"},
-    {Dimension::moment, "moment"},
-    {Dimension::potency, "potency"},
-}};
-
-}  // namespace
-
-std::string dimension_name(Dimension dimension) {
-  for (const auto& [one, name] : kDimensions) {
-    if (one == dimension) return name;
-  }
-  FAULTSIM_DEMAND(false, static_cast<int>(dimension));
-  return "";
-}
-
-Dimension dimension_named(const std::string& text) {
-  for (const auto& [one, name] : kDimensions) {
-    if (text == name) return one;
-  }
-  throw faultsim::StorageError(
-      faultsim::concat("unknown dimension '", text, "' in the store's parameters"));
-}
 
 std::string parameters_to_json(const std::vector<StoredParameter>& parameters) {
   json all = json::array();
   for (const StoredParameter& one : parameters) {
-    all.push_back(
-        {{"name", one.name}, {"dimension", one.is_text ? "text" : dimension_name(one.dimension)}});
+    all.push_back({{"name", one.name},
+                   {"dimension", one.is_text ? "text" : faultsim::info_of(one.dimension).key}});
   }
   return all.dump();
 }
@@ -62,7 +25,12 @@ std::vector<StoredParameter> parameters_from_json(const std::string& text) {
       StoredParameter parameter;
       parameter.name = one.at("name");
       parameter.is_text = dimension == "text";
-      if (!parameter.is_text) parameter.dimension = dimension_named(dimension);
+      const auto* known = faultsim::dimension_named(dimension);
+      if (!parameter.is_text && known == nullptr) {
+        throw faultsim::StorageError("unknown dimension '" + dimension +
+                                     "' in the store's parameters");
+      }
+      if (!parameter.is_text) parameter.dimension = known->dimension;
       parameters.push_back(std::move(parameter));
     }
   } catch (const json::exception& error) {

@@ -15,10 +15,6 @@ struct StoredParameter {
   bool is_text = false;
 };
 
-/// Names of dimensions in the store: "length", "pressure", ...
-std::string dimension_name(faultsim::Dimension dimension);
-faultsim::Dimension dimension_named(const std::string& name);
-
 std::string parameters_to_json(const std::vector<StoredParameter>& parameters);
 /// Throws StorageError when the text is not what parameters_to_json writes.
 std::vector<StoredParameter> parameters_from_json(const std::string& text);

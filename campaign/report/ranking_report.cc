@@ -46,28 +46,12 @@ faultsim::StageMetrics shown(const RankedCase& row) {
   faultsim::StageMetrics m = row.metrics;
   if (!row.fault_metrics) return m;
   const faultsim::FaultStageMetrics& f = *row.fault_metrics;
+  static_cast<faultsim::Measures&>(m) = f;
   m.faults = {f};
-  m.slips = f.slips;
-  m.activated = f.activated;
-  m.activation_resolved = f.activation_resolved;
-  m.opens = f.opens;
   m.activation_step = f.activation ? std::optional(f.activation->step) : std::nullopt;
   m.opening_step = f.opening ? std::optional(f.opening->step) : std::nullopt;
   m.activated_fault = f.activated ? f.fault : "";
   m.opened_fault = f.opens ? f.fault : "";
-  m.chi_bar = f.chi_bar;
-  m.chi_max = f.chi_max;
-  m.area_chi_080 = f.area_chi_080;
-  m.thickness_chi_080 = f.thickness_chi_080;
-  m.activated_area = f.activated_area;
-  m.slipping_area = f.slipping_area;
-  m.open_area = f.open_area;
-  m.max_slip = f.max_slip;
-  m.potency = f.potency;
-  m.moment = f.moment;
-  m.n_events = f.n_events;
-  m.event_moment = f.event_moment;
-  m.event_magnitude = f.event_magnitude;
   return m;
 }
 
@@ -300,6 +284,19 @@ json onset_json(const faultsim::FaultOnset* onset) {
           {"change_in_fault_pa", p.change_in_fault}};
 }
 
+void add_measures(json& entry, const faultsim::Measures& measures, bool plane_strain) {
+  faultsim::for_each_measure(measures, [&](const faultsim::Field& field, const auto& value) {
+    const std::string_view key = field.called.empty() ? field.key : field.called;
+    const bool per_metre = plane_strain && faultsim::is_extensive(field.key);
+    json& cell = entry[concat(key, per_metre ? "_per_m" : "")];
+    if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>) {
+      cell = value;
+    } else {
+      cell = optional_json(value);
+    }
+  });
+}
+
 }  // namespace
 
 json ranking_to_json(const Ranking& ranking) {
@@ -308,7 +305,6 @@ json ranking_to_json(const Ranking& ranking) {
   int rank = 0;
   for (const RankedCase& row : ranking.rows) {
     const faultsim::StageMetrics m = shown(row);
-    const std::string per_m = row.plane_strain ? "_per_m" : "";
     json values = json::object();
     const json stored = json::parse(row.parameter_values, nullptr, false);
     const std::vector<std::string> labels = labels_from_json(row.parameter_labels);
@@ -328,30 +324,14 @@ json ranking_to_json(const Ranking& ranking) {
                   {"unexpected_fault", is_unexpected(row) ? row.unexpected_fault : ""},
                   {"weakening_resolved", row.weakening_resolved},
                   {"plane_strain", row.plane_strain},
-                  {"slips", m.slips},
-                  {"slides", m.activated},
-                  {"activation_resolved", m.activation_resolved},
                   {"jumps", m.n_events > 0},
-                  {"opens", m.opens},
                   {"activated_fault", m.activated_fault},
                   {"activation_step", m.activation_step ? json(*m.activation_step) : json()},
                   {"activation", onset_json(first_activation(m))},
                   {"opened_fault", m.opened_fault},
                   {"opening", onset_json(first_opening(m))},
-                  {"activated_area_m2" + per_m, m.activated_area},
-                  {"moment_nm" + per_m, m.moment},
-                  {"n_events", m.n_events},
-                  {"event_moment_nm" + per_m, m.event_moment},
-                  {"event_magnitude_mw", optional_json(m.event_magnitude)},
-                  {"chi_bar", m.chi_bar},
-                  {"chi_max", m.chi_max},
-                  {"area_chi_080_m2" + per_m, m.area_chi_080},
-                  {"thickness_chi_080_m", m.thickness_chi_080},
-                  {"slipping_area_m2" + per_m, m.slipping_area},
-                  {"open_area_m2" + per_m, m.open_area},
-                  {"max_slip_m", m.max_slip},
-                  {"potency_m3" + per_m, m.potency},
                   {"pressure_margin_pa", optional_json(row.pressure_margin)}};
+    add_measures(entry, m, row.plane_strain);
     if (!ranking.by_default) entry["score"] = optional_json(row.score);
     cases.push_back(std::move(entry));
   }

@@ -84,35 +84,11 @@ std::string one_word(const std::string& text) {
 }
 
 std::string column_name(const std::string& given, faultsim::Dimension dimension) {
-  using faultsim::Dimension;
   std::string name = given;
   std::replace(name.begin(), name.end(), ' ', '_');
-  switch (dimension) {
-    case Dimension::number:
-      return name.find("magnitude") == std::string::npos ? name : name + "_mw";
-    case Dimension::length:
-      return name + "_m";
-    case Dimension::area:
-      return name + "_m2";
-    case Dimension::pressure:
-      return name + "_pa";
-    case Dimension::pressure_gradient:
-      return name + "_pa_per_m";
-    case Dimension::density:
-      return name + "_kg_per_m3";
-    case Dimension::angle:
-      return name + "_rad";
-    case Dimension::time:
-      return name + "_s";
-    case Dimension::viscosity:
-      return name + "_pa_s";
-    case Dimension::moment:
-      return name + "_nm";
-    case Dimension::potency:
-      return name + "_m3";
-  }
-  FAULTSIM_DEMAND(false, static_cast<int>(dimension));
-  return name;
+  const bool magnitude =
+      dimension == faultsim::Dimension::number && name.find("magnitude") != std::string::npos;
+  return name + (magnitude ? "_mw" : faultsim::info_of(dimension).suffix);
 }
 
 std::string column_name(const MetricInfo& metric, bool plane_strain) {

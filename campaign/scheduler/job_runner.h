@@ -11,7 +11,8 @@ namespace faultsweep {
 /// One case to run.
 struct Job {
   std::int64_t case_id = 0;
-  std::string scene;          ///< JSON text, one line.
+  std::int64_t base = 0;      ///< its base scene, which the runner holds.
+  std::string changes;        ///< of the base scene: a JSON object, pointer -> value.
   std::string source;         ///< for messages and relative paths: "sweep/scene.json#case 17".
   std::string fields_folder;  ///< where its fault fields go; "" = they are not kept.
   std::string identity = "";  ///< the simulator refuses a scene with another one; "" = any.
@@ -24,6 +25,7 @@ struct FamilyTask {
   std::optional<double> operator_time_limit;  ///< s; none = by the prediction.
   double operator_seconds = 0;                ///< predicted.
   std::optional<double> memory_limit;
+  int threads = 1;  ///< of building the operator.
   KeepFields keep_fields = KeepFields::none;
   std::string fields_folder;  ///< of the campaign, absolute; a case's is the one in it named CASE.
 };
@@ -34,7 +36,11 @@ struct JobEvents {
     RunRecord run;
     bool in_operator = false;  ///< the family's operator was under way, no case had started.
   };
-  std::vector<RunRecord> completed;
+  struct Completed {
+    RunRecord run;       ///< without reason and result, which are in the bytes.
+    std::string result;  ///< of simulator/output/result_bytes.h; whoever needs it reads it.
+  };
+  std::vector<Completed> completed;
   std::vector<Failure> failed;
   std::vector<std::int64_t> returned;  ///< handed back untried.
   std::vector<OperatorRecord> operators;
@@ -52,6 +58,9 @@ class JobRunner {
   virtual void begin_family(const FamilyTask& task) = 0;
   /// Lets go of the family: when it returns, the simulator's memory is free. @pre no jobs are left.
   virtual void end_family() = 0;
+  /// Holds a base scene (JSON text) for the jobs that name it, as long as it lives.
+  virtual void hold(std::int64_t base, const std::string& scene) = 0;
+  /// @pre its base scene is held.
   virtual void add(Job job) = 0;
   /// Works for at most about timeout_ms and tells what happened. Throws ResourceError when the
   /// simulator cannot be run at all.

@@ -7,7 +7,7 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/common/exit_code.h"
-#include "simulator/output/write_result.h"
+#include "simulator/output/result_bytes.h"
 
 namespace faultsweep {
 
@@ -18,7 +18,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int kProtocolVersion = 2;
+constexpr int kProtocolVersion = 3;
 
 /// A reply that is not what the protocol allows.
 struct Garbled {
@@ -82,6 +82,10 @@ void LocalRunner::end_family() {
   process_.reset();
 }
 
+void LocalRunner::hold(std::int64_t base, const std::string& scene) {
+  bases_[base] = json::parse(scene).dump();  // one line
+}
+
 void LocalRunner::add(Job job) {
   jobs_.push_back(std::move(job));
   if (!process_) {
@@ -95,17 +99,23 @@ void LocalRunner::add(Job job) {
 void LocalRunner::start() {
   SimulatorProcess::Options options = options_.process;
   options.memory_limit = task_.memory_limit;
+  options.threads = task_.threads;
   process_ = std::make_unique<SimulatorProcess>(options);
   greeted_ = operator_known_ = started_ = false;
   operator_seconds_ = 0;
   since_ = {};
   n_sent_ = 0;
+  bases_sent_.clear();
+  result_.reset();
   for (const Job& job : jobs_) send(job);
 }
 
 void LocalRunner::send(const Job& job) {
-  std::string line = concat("{\"run\":", job.case_id, ",\"scene\":", job.scene,
-                            ",\"source\":", json(job.source).dump());
+  if (bases_sent_.insert(job.base).second) {
+    process_->send(concat("{\"base\":", job.base, ",\"scene\":", bases_.at(job.base), "}"));
+  }
+  std::string line = concat("{\"run\":", job.case_id, ",\"base\":", job.base,
+                            ",\"changes\":", job.changes, ",\"source\":", json(job.source).dump());
   if (!job.identity.empty()) line += concat(",\"identity\":\"", job.identity, "\"");
   if (!job.fields_folder.empty()) {
     const json fields = {{"folder", job.fields_folder}, {"steps", to_string(task_.keep_fields)}};
@@ -130,10 +140,7 @@ JobEvents LocalRunner::work(int timeout_ms) {
   process_->exchange(timeout_ms);
   try {
     // A drained process may be ahead of us with a case that was handed back.
-    while (!(draining_ && jobs_.empty())) {
-      const auto reply = process_->next_reply();
-      if (!reply) break;
-      handle(*reply, events);
+    while (!(draining_ && jobs_.empty()) && handle_next(events)) {
     }
   } catch (const Garbled& garbled) {
     process_->kill();
@@ -175,6 +182,25 @@ RunRecord LocalRunner::blank_run(std::int64_t case_id) const {
   return run;
 }
 
+bool LocalRunner::handle_next(JobEvents& events) {
+  if (!result_) {
+    const auto reply = process_->next_reply();
+    if (reply) handle(*reply, events);
+    return reply.has_value();
+  }
+  auto bytes = process_->next_bytes(result_->at("result_bytes").get<std::size_t>());
+  if (!bytes) return false;
+  const json reply = std::move(*result_);
+  result_.reset();
+  try {
+    faultsim::demand_sound_result(*bytes);
+  } catch (const faultsim::StorageError& error) {
+    throw Garbled{concat("sent a result that cannot be read: ", error.what())};
+  }
+  handle_done(reply, std::move(*bytes), events);
+  return true;
+}
+
 void LocalRunner::handle(const std::string& line, JobEvents& events) {
   const json reply = json::parse(line, nullptr, false);
   if (!reply.is_object() || !reply.contains("event") || !reply["event"].is_string()) {
@@ -184,10 +210,16 @@ void LocalRunner::handle(const std::string& line, JobEvents& events) {
   try {
     if (event == "hello") {
       const int version = reply.at("version").get<int>();
+      const std::string program = options_.process.binary.string();
       if (version != kProtocolVersion) {
-        throw ResourceError(concat("the simulator ", options_.process.binary.string(),
-                                   " speaks protocol version ", version, ", faultsweep ",
-                                   kProtocolVersion, "; install both from the same source"));
+        throw ResourceError(concat("the simulator ", program, " speaks protocol version ", version,
+                                   ", faultsweep ", kProtocolVersion,
+                                   "; install both from the same source"));
+      }
+      if (reply.at("result_layout") != faultsim::result_layout()) {
+        throw ResourceError(concat("the simulator ", program,
+                                   " is of another build than faultsweep: its results have other",
+                                   " fields; install both from the same source"));
       }
       greeted_ = true;
       return;
@@ -204,8 +236,12 @@ void LocalRunner::handle(const std::string& line, JobEvents& events) {
     } else if (event == "started") {
       started_ = true;
       since_ = {};
+    } else if (event == "done" && reply.contains("result_bytes")) {
+      if (reply["result_bytes"].get<std::size_t>() > SimulatorProcess::kLongestReply)
+        throw Garbled{"announced a result that is too long"};
+      result_ = reply;
     } else if (event == "done") {
-      handle_done(reply, events);
+      handle_done(reply, "", events);
     } else {
       throw Garbled{concat("sent the unknown event '", shortened(event), "'")};
     }
@@ -214,24 +250,18 @@ void LocalRunner::handle(const std::string& line, JobEvents& events) {
   }
 }
 
-void LocalRunner::handle_done(const json& reply, JobEvents& events) {
+void LocalRunner::handle_done(const json& reply, std::string result, JobEvents& events) {
   RunRecord run = blank_run(jobs_.front().case_id);
-  if (reply.contains("result")) {
+  if (!result.empty()) {
     run.has_fields = !jobs_.front().fields_folder.empty();
     if (run.has_fields && !reply.contains("fields")) {
       throw Garbled{"sent a result without the fault fields that it was asked for"};
     }
     run.status = RunStatus::completed;
-    try {
-      run.result = faultsim::result_from_json(reply.at("result"));
-    } catch (const faultsim::Error& error) {
-      throw Garbled{concat("sent a result that cannot be read: ", error.what())};
-    }
-    run.reason = run.result->reason;
     // The first case's time has the operator in it, which is no part of what a case takes.
     run.wall_seconds = std::max(0.0, reply.at("seconds").get<double>() - operator_seconds_);
     operator_known_ = true;
-    events.completed.push_back(std::move(run));
+    events.completed.push_back({std::move(run), std::move(result)});
   } else {
     const int exit_code = reply.at("exit_code").get<int>();
     run.reason = reply.at("error").get<std::string>();

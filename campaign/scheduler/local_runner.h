@@ -1,8 +1,10 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
+#include <set>
 
 #include "campaign/scheduler/job_runner.h"
 #include "campaign/scheduler/simulator_process.h"
@@ -27,6 +29,7 @@ class LocalRunner final : public JobRunner {
 
   void begin_family(const FamilyTask& task) override;
   void end_family() override;
+  void hold(std::int64_t base, const std::string& scene) override;
   void add(Job job) override;
   JobEvents work(int timeout_ms) override;
   void drain() override;
@@ -44,7 +47,9 @@ class LocalRunner final : public JobRunner {
   void start();
   void send(const Job& job);
   void handle(const std::string& reply, JobEvents& events);
-  void handle_done(const nlohmann::json& reply, JobEvents& events);
+  void handle_done(const nlohmann::json& reply, std::string result, JobEvents& events);
+  /// The next reply, or the result that the last one announced, is handled; false = not there yet.
+  bool handle_next(JobEvents& events);
   void process_failed(RunStatus status, std::string reason, const ProcessEnd& end,
                       JobEvents& events);
   void process_ended(JobEvents& events);
@@ -56,11 +61,14 @@ class LocalRunner final : public JobRunner {
   Options options_;
   FamilyTask task_;
   std::unique_ptr<SimulatorProcess> process_;
-  std::deque<Job> jobs_;         ///< in the order sent; the first is in flight or next.
-  std::size_t n_sent_ = 0;       ///< of jobs_, to the present process.
-  bool greeted_ = false;         ///< the present process said hello.
-  bool operator_known_ = false;  ///< the present process has its operator.
-  bool started_ = false;         ///< jobs_.front() has started.
+  std::deque<Job> jobs_;    ///< in the order sent; the first is in flight or next.
+  std::size_t n_sent_ = 0;  ///< of jobs_, to the present process.
+  std::map<std::int64_t, std::string> bases_;
+  std::set<std::int64_t> bases_sent_;     ///< to the present process.
+  std::optional<nlohmann::json> result_;  ///< the reply whose result is to follow.
+  bool greeted_ = false;                  ///< the present process said hello.
+  bool operator_known_ = false;           ///< the present process has its operator.
+  bool started_ = false;                  ///< jobs_.front() has started.
   bool draining_ = false;
   double operator_seconds_ = 0;  ///< of the operator made for jobs_.front().
   faultsim::Stopwatch since_;    ///< of the present phase: start-up and operator, or a case.

@@ -7,6 +7,7 @@
 
 #include "campaign/store/same_numbers.h"
 #include "simulator/common/errors.h"
+#include "simulator/output/result_bytes.h"
 
 namespace faultsweep {
 
@@ -63,6 +64,7 @@ Manager::Manager(Store& store, WorkerLink& link, ProgressDisplay& display, const
   const auto n_workers = static_cast<std::size_t>(link.n_workers());
   scenes_sent_.resize(n_workers);
   hosts_.resize(n_workers);
+  cores_.resize(n_workers, 1);
   if (campaign_.cancelled) plan_->stop();
   store_.record_event(
       campaign_.id, "started",
@@ -85,7 +87,7 @@ bool Manager::turn() {
   while (auto received = link_.receive()) {
     busy_ = true;
     if (const auto* hello = std::get_if<message::Hello>(&received->message)) {
-      greet(received->worker, hello->host);
+      greet(received->worker, *hello);
     } else if (auto* events = std::get_if<message::Events>(&received->message)) {
       handle(received->worker, std::move(*events));
     } else if (const auto* trouble = std::get_if<message::Trouble>(&received->message)) {
@@ -111,10 +113,11 @@ bool Manager::turn() {
   return false;
 }
 
-void Manager::greet(int worker, const std::string& host) {
-  hosts_[static_cast<std::size_t>(worker)] = host;
+void Manager::greet(int worker, const message::Hello& hello) {
+  hosts_[worker] = hello.host;
+  cores_[worker] = hello.cores;
   const int fresh = static_cast<int>(host_numbers_.size()) + 1;  // 0 = not known yet
-  plan_->place(worker, host_numbers_.try_emplace(host, fresh).first->second);
+  plan_->place(worker, host_numbers_.try_emplace(hello.host, fresh).first->second);
 }
 
 void Manager::begin_drain() {
@@ -141,7 +144,7 @@ void Manager::handle(int worker, message::Events message) {
     plan_->operator_ready(worker, record.seconds, record.from_cache);
     operators_.emplace_back(family, record);
   }
-  for (RunRecord& run : message.events.completed) handle_result(worker, std::move(run));
+  for (JobEvents::Completed& one : message.events.completed) handle_result(worker, std::move(one));
   for (const JobEvents::Failure& failure : message.events.failed) handle_failure(worker, failure);
   if (!message.events.returned.empty()) {
     plan_->returned(worker, message.events.returned);
@@ -150,7 +153,18 @@ void Manager::handle(int worker, message::Events message) {
   fail_hopeless();
 }
 
-void Manager::handle_result(int worker, RunRecord run) {
+void Manager::handle_result(int worker, JobEvents::Completed completed) {
+  RunRecord& run = completed.run;
+  try {
+    run.result = faultsim::result_from_bytes(completed.result);
+    run.reason = run.result->reason;
+  } catch (const faultsim::StorageError& error) {
+    run.status = RunStatus::garbled;
+    run.reason = concat("sent a result that cannot be read: ", error.what());
+    run.has_fields = false;
+    handle_failure(worker, {std::move(run), false});
+    return;
+  }
   if (fields_only_.count(run.case_id) > 0) {
     if (const auto failure = refuse_fields(run)) {
       handle_failure(worker, *failure);
@@ -253,6 +267,7 @@ void Manager::send_work(int worker, const Slice& slice) {
   work.task.time_limit = campaign_.policy.time_limit;
   work.task.operator_time_limit = campaign_.policy.operator_time_limit;
   work.task.memory_limit = campaign_.policy.memory_limit;
+  work.task.threads = options_.threads.value_or(plan_->build_threads(worker, cores_[worker]));
   work.task.keep_fields = campaign_.keep_fields;
   work.task.fields_folder = fields_folder_;
   work.task.operator_seconds =

@@ -37,6 +37,7 @@ class Manager {
     std::string campaign;     ///< "" = the newest.
     double memory_bytes = 0;  ///< for operators built and held together on a host; 0 = not limited.
     double patience = 10;     ///< s for cases under way once stopped.
+    std::optional<int> threads = {};  ///< of building an operator; none = WorkPlan::build_threads.
   };
   /// Claims the store. Throws StorageError.
   Manager(Store& store, WorkerLink& link, ProgressDisplay& display, const Options& options);
@@ -61,9 +62,9 @@ class Manager {
   static constexpr std::size_t kCommitRuns = 512;  ///< nor are more together in one transaction
 
  private:
-  void greet(int worker, const std::string& host);
+  void greet(int worker, const message::Hello& hello);
   void handle(int worker, message::Events message);
-  void handle_result(int worker, RunRecord run);
+  void handle_result(int worker, JobEvents::Completed completed);
   /// A run for fields only must repeat the stored result bit for bit: the fields are those of that
   /// result or they are removed. With the same operator a difference is our bug, with another one
   /// (another BLAS kernel, hence other last bits) the world's doing. Nothing = they are kept.
@@ -89,6 +90,7 @@ class Manager {
   std::set<std::int64_t> fields_only_;        ///< cases that have a result and lack their fields
   std::vector<std::set<std::int64_t>> scenes_sent_;
   std::vector<std::string> hosts_;
+  std::vector<int> cores_;
   std::map<std::string, int> host_numbers_;
   std::vector<RunRecord> uncommitted_;
   std::vector<std::pair<int, OperatorRecord>> operators_;

@@ -20,6 +20,8 @@ struct RunOptions {
   /// 0.9 of what is available to the manager's.
   std::optional<double> memory_bytes;
   std::string memory;  ///< the same as given: "12 GB".
+  /// Threads of building an operator; default: the cores that cases and other builds leave.
+  std::optional<int> threads;
   /// For copies of operators on each host's own disk; "none", or "" = default_node_cache().
   std::string node_cache;
   ProgressDisplay::Style progress = ProgressDisplay::Style::lines;

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
-#include <string>
 
 namespace faultsweep {
 
@@ -20,11 +18,6 @@ double available_memory();
 /// and cache.
 inline constexpr double kMemoryShare = 0.9;
 
-/// CPUs granted by the tightest cpu.max (cgroup v2) or cpu.cfs_quota_us (v1) on the way from the
-/// process's group to the root; none = not limited.
-/// @param root     usually /sys/fs/cgroup.
-/// @param groups   text of /proc/self/cgroup.
-std::optional<double> cgroup_cpus(const std::filesystem::path& root, const std::string& groups);
 /// The number in a Slurm variable: "8", "8(x2)" -> 8; none when absent or odd.
 std::optional<int> slurm_number(const char* text);
 

@@ -128,9 +128,14 @@ SimulatorProcess::SimulatorProcess(const Options& options) {
   requests.open();
   replies.open();
   log.open();
-  std::vector<std::string> arguments = {
-      options.binary.string(),        "worker",    "--requests",
-      std::to_string(kChildRequests), "--replies", std::to_string(kChildReplies)};
+  std::vector<std::string> arguments = {options.binary.string(),
+                                        "worker",
+                                        "--requests",
+                                        std::to_string(kChildRequests),
+                                        "--replies",
+                                        std::to_string(kChildReplies),
+                                        "--threads",
+                                        std::to_string(options.threads)};
   if (!options.cache.empty())
     arguments.insert(arguments.end(), {"--cache", options.cache.string()});
   if (!options.node_cache.empty())
@@ -249,6 +254,14 @@ std::optional<std::string> SimulatorProcess::next_reply() {
   inbox_.erase(0, end + 1);
   scanned_ = 0;
   return line;
+}
+
+std::optional<std::string> SimulatorProcess::next_bytes(std::size_t n) {
+  if (inbox_.size() < n) return std::nullopt;
+  std::string bytes = inbox_.substr(0, n);
+  inbox_.erase(0, n);
+  scanned_ = 0;
+  return bytes;
 }
 
 ProcessEnd SimulatorProcess::wait(double grace_seconds) {

@@ -35,6 +35,7 @@ class SimulatorProcess {
     std::filesystem::path node_cache;          ///< copies on the host's own disk; empty = none.
     std::optional<std::uint64_t> cache_bytes;  ///< cap of the cache.
     std::optional<double> memory_limit;        ///< bytes of private memory (RLIMIT_DATA).
+    int threads = 1;                           ///< of building an operator.
   };
   /// Starts it. Throws ResourceError when that is not possible.
   explicit SimulatorProcess(const Options& options);
@@ -51,6 +52,8 @@ class SimulatorProcess {
   void exchange(int timeout_ms);
   /// The next whole reply line; nothing = none is there.
   std::optional<std::string> next_reply();
+  /// The next n bytes, which are no line; nothing = they are not all there.
+  std::optional<std::string> next_bytes(std::size_t n);
   /// The reply pipe is at its end: no more replies, the process is ending or gone.
   bool is_silent() const { return replies_ < 0; }
   /// Takes the process's end, killing it if it has not ended after grace_seconds.

@@ -181,6 +181,7 @@ std::vector<std::string> mpirun_command(const RunOptions& options, const Scratch
        std::filesystem::absolute(options.store).string(), "--simulator", options.simulator.string(),
        "--progress", style_name(options.progress), "--status-file", status.path().string()});
   if (options.memory_bytes) add({"--memory", options.memory});
+  if (options.threads) add({"--threads", std::to_string(*options.threads)});
   if (!options.node_cache.empty()) add({"--node-cache", options.node_cache});
   return command;
 }

@@ -8,10 +8,6 @@
 namespace faultsweep {
 namespace {
 
-using faultsim::CaseResult;
-using faultsim::StageMetrics;
-using faultsim::StepResult;
-
 /// Appends values; the same `fields` functions drive writing and reading, so they cannot differ.
 class Writer {
  public:
@@ -107,86 +103,18 @@ void all(Archive& archive, Values&... values) {
 }
 
 template <typename Archive>
-void fields(Archive& a, faultsim::FaultMetrics& m) {
-  all(a, m.chi_bar, m.chi_max, m.chi_static_max, m.area_chi_080, m.thickness_chi_080_max,
-      m.thickness_chi_080_mean, m.slipping_area, m.open_area, m.activated_area, m.activated_length,
-      m.activated, m.activation_resolved, m.activated_at_edge, m.max_slip, m.mean_slip, m.potency,
-      m.moment, m.moment_step);
-}
-template <typename Archive>
-void fields(Archive& a, faultsim::SolveCounts& c) {
-  all(a, c.newton_iterations, c.active_set_passes, c.sub_steps, c.wasted_newton_iterations);
-}
-template <typename Archive>
-void fields(Archive& a, faultsim::FaultCreep& c) {
-  all(a, c.normal_min, c.normal_max, c.shear_max);
-}
-template <typename Archive>
-void fields(Archive& a, faultsim::StepCreep& c) {
-  all(a, c.time_steps, c.time_error, c.time_resolved, c.faults);
-}
-template <typename Archive>
-void fields(Archive& a, StepResult& s) {
-  all(a, s.step, s.stage, s.time, s.pressure_change, s.outcome, s.reason, s.n_stick, s.n_slip,
-      s.n_open, s.faults, s.observed, s.creep, s.counts, s.seconds);
-}
-template <typename Archive>
-void fields(Archive& a, faultsim::SidePressures& s) {
-  all(a, s.region_minus, s.region_plus, s.change_minus, s.change_plus, s.absolute_minus,
-      s.absolute_plus, s.change_in_fault);
-}
-template <typename Archive>
-void fields(Archive& a, faultsim::FaultOnset& o) {
-  all(a, o.step, o.depth, o.pressures);
-}
-template <typename Archive>
-void fields(Archive& a, faultsim::FaultStageMetrics& m) {
-  all(a, m.fault, m.slips, m.activated, m.activation_resolved, m.opens, m.activation, m.opening,
-      m.chi_bar, m.chi_max, m.area_chi_080, m.thickness_chi_080, m.activated_area, m.slipping_area,
-      m.open_area, m.max_slip, m.potency, m.moment, m.n_events, m.event_moment, m.event_magnitude);
-}
-template <typename Archive>
-void fields(Archive& a, StageMetrics& m) {
-  all(a, m.stage, m.first_step, m.last_step, m.slips, m.activated, m.activation_resolved, m.opens,
-      m.activation_step, m.activated_fault, m.opening_step, m.opened_fault, m.chi_bar, m.chi_max,
-      m.area_chi_080, m.thickness_chi_080, m.activated_area, m.slipping_area, m.open_area,
-      m.max_slip, m.potency, m.moment, m.magnitude_if_at_once, m.n_events, m.event_moment,
-      m.event_magnitude, m.faults);
-}
-template <typename Archive>
-void fields(Archive& a, faultsim::Reactivation& r) {
-  all(a, r.episode, r.after);
-}
-template <typename Archive>
-void fields(Archive& a, faultsim::SlipEvent& e) {
-  all(a, e.step, e.stage, e.load_factor_before, e.load_factor_after, e.time, e.fault, e.depth,
-      e.pressures, e.nucleation_length, e.slipped_area, e.max_slip, e.mean_slip, e.stress_drop,
-      e.potency, e.moment, e.magnitude, e.duration, e.resolved, e.negative_pivots,
-      e.n_lost_cohesion, e.residual_before, e.residual_after, e.energy_released,
-      e.energy_dissipated, e.evidence_holds);
-}
-template <typename Archive>
-void fields(Archive& a, faultsim::Episode& e) {
-  all(a, e.stage, e.fault, e.first_step, e.last_step, e.depth, e.pressures, e.after_recovery,
-      e.activated_area, e.max_slip, e.moment, e.magnitude_if_at_once);
-}
-template <typename Archive>
-void fields(Archive& a, CaseResult& r) {
-  all(a, r.title, r.identity, r.operator_fingerprint, r.numerics_version, r.outcome, r.reason,
-      r.failed_step, r.plane_strain, r.weakening_resolved, r.max_nucleation_ratio,
-      r.max_penetration, r.pressure_margin, r.region_names, r.fault_names, r.observation_names,
-      r.steps, r.stages, r.whole, r.events, r.episodes, r.unexpected, r.counts, r.warnings,
-      r.seconds);
-}
-template <typename Archive>
 void fields(Archive& a, RunRecord& r) {
   all(a, r.case_id, r.status, r.reason, r.signal, r.exit_code, r.log_tail, r.host, r.rank,
-      r.wall_seconds, r.final, r.has_fields, r.fields_only, r.result);
+      r.wall_seconds, r.final, r.has_fields, r.fields_only);
 }
 template <typename Archive>
 void fields(Archive& a, OperatorRecord& r) {
   all(a, r.fingerprint, r.from_cache, r.seconds, r.unknowns, r.jump_unknowns, r.bytes,
       r.peak_bytes);
+}
+template <typename Archive>
+void fields(Archive& a, JobEvents::Completed& c) {
+  all(a, c.run, c.result);
 }
 template <typename Archive>
 void fields(Archive& a, JobEvents::Failure& f) {
@@ -202,7 +130,7 @@ void fields(Archive& a, message::Work::Item& i) {
 }
 template <typename Archive>
 void fields(Archive& a, message::Hello& m) {
-  all(a, m.host);
+  all(a, m.host, m.cores);
 }
 template <typename Archive>
 void fields(Archive& a, message::Events& m) {
@@ -217,7 +145,8 @@ void fields(Archive&, message::Drained&) {}
 template <typename Archive>
 void fields(Archive& a, message::Work& m) {
   all(a, m.task.family, m.task.time_limit, m.task.operator_time_limit, m.task.operator_seconds,
-      m.task.memory_limit, m.task.keep_fields, m.task.fields_folder, m.scenes, m.items);
+      m.task.memory_limit, m.task.threads, m.task.keep_fields, m.task.fields_folder, m.scenes,
+      m.items);
 }
 template <typename Archive>
 void fields(Archive&, message::Drain&) {}

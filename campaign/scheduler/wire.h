@@ -18,6 +18,7 @@ namespace message {
 // From worker to manager.
 struct Hello {
   std::string host;
+  int cores = 1;  ///< that the worker may use there; other workers may have the same.
 };
 struct Events {
   JobEvents events;

@@ -311,6 +311,23 @@ bool WorkPlan::is_building(int worker) const {
   return index >= 0 && at(worker).n_cases > 0 && !has_operator(worker, index);
 }
 
+int WorkPlan::build_threads(int worker, int cores) const {
+  int n_building = 1, n_idle = 0, n_running = 0;
+  for (int other = 0; other < static_cast<int>(workers_.size()); ++other) {
+    if (other == worker || at(other).host != at(worker).host) continue;
+    if (is_building(other)) {
+      ++n_building;
+    } else {
+      ++(at(other).n_cases > 0 ? n_running : n_idle);
+    }
+  }
+  const auto n_cold = std::count_if(families_.begin(), families_.end(), [](const Family& family) {
+    return family.state == State::cold && !family.waiting.empty();
+  });
+  const int sharers = n_building + static_cast<int>(std::min<long>(n_idle, n_cold));
+  return std::max(1, (cores - n_running) / sharers);
+}
+
 int WorkPlan::family_index(std::int64_t case_id) const {
   const auto flight = in_flight_.find(case_id);
   FAULTSIM_DEMAND(flight != in_flight_.end(), case_id);

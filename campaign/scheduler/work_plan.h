@@ -55,6 +55,9 @@ class WorkPlan {
 
   /// Says where the worker runs: a number per host. Until then all are taken to share one.
   void place(int worker, int host) { at(worker).host = host; }
+  /// Threads with which the worker may build its operator: the cores that cases on its host leave,
+  /// shared by those that build there or have a family to build. At least 1.
+  int build_threads(int worker, int cores) const;
   /// What the worker (from 0) is to do in addition to what it has; nothing = have it wait.
   std::optional<Slice> next(int worker);
 

@@ -1,11 +1,10 @@
 #include "campaign/scheduler/worker.h"
 
 #include <iterator>
-#include <nlohmann/json.hpp>
 
-#include "campaign/expansion/expansion.h"
 #include "campaign/scheduler/messenger.h"
 #include "simulator/common/errors.h"
+#include "simulator/common/machine.h"
 
 namespace faultsweep {
 
@@ -70,7 +69,10 @@ bool Worker::turn(int timeout_ms) {
 }
 
 void Worker::take(const message::Work& work) {
-  for (const auto& [id, scene] : work.scenes) scenes_[id] = scene;
+  for (const auto& [id, scene] : work.scenes) {
+    sources_[id] = scene.source;
+    runner_.hold(id, scene.document);
+  }
   if (draining_ || in_trouble_) {
     for (const auto& item : work.items) pending_.returned.push_back(item.case_id);
     return;
@@ -81,12 +83,12 @@ void Worker::take(const message::Work& work) {
       family_ = work.task.family;
     }
     for (const auto& item : work.items) {
-      const BaseScene& base = scenes_.at(item.scene);
       Job job;
       job.case_id = item.case_id;
       job.identity = item.identity;
-      job.scene = scene_from_changes(base.document, item.changes).dump();
-      job.source = faultsim::concat(base.source, "#case ", item.position);
+      job.base = item.scene;
+      job.changes = item.changes;
+      job.source = faultsim::concat(sources_.at(item.scene), "#case ", item.position);
       if (work.task.keep_fields != KeepFields::none) {
         job.fields_folder = faultsim::concat(work.task.fields_folder, '/', item.position);
       }
@@ -128,7 +130,7 @@ void Worker::report(bool now) {
 void run_worker(Messenger& messenger, JobRunner& runner, const std::string& host,
                 const std::function<bool()>& must_leave) {
   MpiLink link(messenger);
-  link.send(message::Hello{host});
+  link.send(message::Hello{host, faultsim::usable_cores()});
   Worker worker(link, runner);
   IdleSleep idle;
   constexpr int kWaitMs =

@@ -43,7 +43,7 @@ class Worker {
   int family_ = -1;
   bool draining_ = false, said_drained_ = false, quit_ = false, busy_ = false;
   bool in_trouble_ = false;
-  std::map<std::int64_t, BaseScene> scenes_;
+  std::map<std::int64_t, std::string> sources_;  ///< of base scenes, which the runner holds.
   JobEvents pending_;
   faultsim::Stopwatch since_report_;
 };

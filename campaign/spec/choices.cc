@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "campaign/spec/spec_reader.h"
-#include "simulator/scene/schema_walk.h"
+#include "simulator/scene/schema.h"
 
 namespace faultsweep {
 namespace {
@@ -206,11 +206,10 @@ void SpecReader::set_base_choice(const SceneNames& names, Parameter& parameter) 
     if (parsed.ok) parameter.base.si = parsed.value;
     return;
   }
-  const json::json_pointer place(target);
-  if (!names.document.value.contains(place)) return;
-  const json& value = names.document.value.at(place);
-  parameter.base.text = scalar_text(value);
-  if (value.is_number()) parameter.base.si = value.get<double>();
+  const json* value = faultsim::value_at(names.document.value, target);
+  if (value == nullptr) return;
+  parameter.base.text = scalar_text(*value);
+  if (value->is_number()) parameter.base.si = value->get<double>();
 }
 
 std::optional<Choice> SpecReader::make_choice(const json& value, const std::string& pointer,
@@ -324,9 +323,9 @@ void SpecReader::read_scale(const SceneNames& names, Parameter& parameter) {
     const std::string here = many ? place + "/" + std::to_string(i) : place;
     const auto target = resolve(names, at(here).get<std::string>(), here);
     if (!target) continue;
-    const json::json_pointer where(*target);
+    const json* given = faultsim::value_at(names.document.value, *target);
     const auto* info = names.find(*target);
-    json base = names.document.value.contains(where) ? names.document.value.at(where) : json();
+    json base = given != nullptr ? *given : json();
     if (base.is_null() && info != nullptr) base = info->value;
     const auto parts = base.is_primitive() && !base.is_null() ? split(base) : std::nullopt;
     if (!parts) {
@@ -360,9 +359,9 @@ void SpecReader::read_variants(const SceneNames& names, Parameter& parameter) {
   parameter.base = {"base", std::nullopt, "/base", {}};
   std::unordered_set<std::string> known;
   for (const std::string& variant : keys(place)) {
-    Choice choice{variant, std::nullopt, place + "/" + escape_token(variant), {}};
+    Choice choice{variant, std::nullopt, place + "/" + faultsim::pointer_token(variant), {}};
     for (const std::string& key : keys(choice.pointer)) {
-      const std::string here = choice.pointer + "/" + escape_token(key);
+      const std::string here = choice.pointer + "/" + faultsim::pointer_token(key);
       const auto target = resolve(names, key, here);
       if (!target) continue;
       choice.changes.push_back({*target, at(here)});

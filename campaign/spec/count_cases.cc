@@ -34,7 +34,8 @@ long double SpecReader::count_cases(const std::string& design) {
   if (const auto samples = count_samples(design)) return samples->first * samples->second;
   long double total = 1;
   for (const std::string& name : keys(design + "/parameters")) {
-    const long double count = count_values(at(design + "/parameters/" + escape_token(name)));
+    const long double count =
+        count_values(at(design + "/parameters/" + faultsim::pointer_token(name)));
     if (kind == "zip") return count;
     total = kind == "grid" ? total * count : total + count;
   }
@@ -84,7 +85,8 @@ std::string SpecReader::describe_count(const std::string& design) {
            digits(samples->second) + (samples->second == 1 ? " row" : " rows");
   }
   for (const std::string& name : keys(design + "/parameters")) {
-    const long double count = count_values(at(design + "/parameters/" + escape_token(name)));
+    const long double count =
+        count_values(at(design + "/parameters/" + faultsim::pointer_token(name)));
     if (!text.empty()) text += kind == "grid" ? " x " : kind == "zip" ? ", " : " + ";
     text += digits(count) + " (" + name + ")";
   }

@@ -102,7 +102,7 @@ void SpecReader::read_derived() {
   if (!has("/derived")) return;
   const SceneNames& names = names_of(spec_.groups.front().scene);
   for (const std::string& key : keys("/derived")) {
-    const std::string place = "/derived/" + escape_token(key);
+    const std::string place = "/derived/" + faultsim::pointer_token(key);
     const auto target = resolve(names, key, place);
     add_other_aliases(at(place).get<std::string>());
     auto expression = parse(place, symbols_);

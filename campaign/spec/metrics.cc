@@ -1,26 +1,38 @@
 #include "campaign/spec/metrics.h"
 
+#include <type_traits>
+
+#include "simulator/output/measures.h"
+
 namespace faultsweep {
 
-const std::vector<MetricInfo>& metric_catalogue() {
-  using faultsim::Dimension;
-  static const std::vector<MetricInfo> catalogue = {
-      {"slides", Dimension::number, true, "slip reached the activation criterion", false,
-       "activated"},
-      {"activation_resolved", Dimension::number, true,
-       "cells are small enough to tell whether slip reaches the criterion"},
-      {"slips", Dimension::number, true, "some node slipped; mesh-dependent, a bound"},
+namespace {
+
+using faultsim::Dimension;
+using faultsim::Field;
+
+/// What stands in the one list of fields.
+void add_measures(std::vector<MetricInfo>& catalogue) {
+  const faultsim::Measures measures;
+  faultsim::for_each_measure(measures, [&](const Field& field, const auto& value) {
+    using Value = std::remove_cvref_t<decltype(value)>;
+    MetricInfo info;
+    info.name = field.metric();
+    info.dimension = faultsim::dimension_of(field.key);
+    info.is_flag = std::is_same_v<Value, bool>;
+    info.description = field.meaning;
+    info.may_be_missing = !std::is_arithmetic_v<Value>;
+    info.synonym = field.synonym;
+    catalogue.push_back(std::move(info));
+  });
+}
+
+/// What follows from several fields, or is of the case.
+const std::vector<MetricInfo>& other_metrics() {
+  static const std::vector<MetricInfo> metrics = {
       {"jumps", Dimension::number, true, "there are slip events"},
-      {"opens", Dimension::number, true, "some node is open; open_area says how far"},
-      {"activated_area", Dimension::area, false, "area that slides"},
-      {"moment", Dimension::moment, false, "seismic moment M0, of slow slip and events"},
       {"magnitude_if_released_at_once", Dimension::number, false,
        "Mw that M0 would have as one event; none in plane strain", true},
-      {"n_events", Dimension::number, false,
-       "slip events: jumps of equilibrium that were followed"},
-      {"event_moment", Dimension::moment, false, "M0 of the largest slip event; 0 without"},
-      {"event_magnitude", Dimension::number, false,
-       "Mw of the largest slip event; none without, or in plane strain", true},
       {"n_episodes", Dimension::number, false,
        "activation episodes of the case: runs of load steps in which a fault slips far enough"},
       {"unexpected", Dimension::number, true,
@@ -29,16 +41,6 @@ const std::vector<MetricInfo>& metric_catalogue() {
        "areas, potency and moments are per metre of strike"},
       {"weakening_resolved", Dimension::number, true,
        "cells at most a third of the nucleation length where it slips: sizes of events hold"},
-      {"chi_bar", Dimension::number, false,
-       "critical index averaged over the activation length; mesh-independent"},
-      {"chi_max", Dimension::number, false, "largest nodal critical index; mesh-dependent"},
-      {"area_chi_080", Dimension::area, false, "area with critical index above 0.8"},
-      {"thickness_chi_080", Dimension::length, false,
-       "down-dip length with critical index above 0.8"},
-      {"slipping_area", Dimension::area, false, "area slipping in one step"},
-      {"open_area", Dimension::area, false, "area that is open"},
-      {"max_slip", Dimension::length, false, "largest slip", false, "slip"},
-      {"potency", Dimension::potency, false, "slip integrated over area"},
       {"activation_step", Dimension::number, false, "first load step in which it slides", true},
       {"activation_depth", Dimension::length, false, "where it slides first", true},
       {"activation_pressure_change", Dimension::pressure, false,
@@ -70,6 +72,18 @@ const std::vector<MetricInfo>& metric_catalogue() {
       {"creep_time_resolved", Dimension::number, true,
        "creeping salt: that change is within creep_tolerance in every step", true},
   };
+  return metrics;
+}
+
+}  // namespace
+
+const std::vector<MetricInfo>& metric_catalogue() {
+  static const std::vector<MetricInfo> catalogue = [] {
+    std::vector<MetricInfo> all;
+    add_measures(all);
+    all.insert(all.end(), other_metrics().begin(), other_metrics().end());
+    return all;
+  }();
   return catalogue;
 }
 

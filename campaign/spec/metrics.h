@@ -9,8 +9,8 @@ namespace faultsweep {
 
 /// A number (or flag) per case and stage that `rank` can order and filter by.
 struct MetricInfo {
-  std::string name;  ///< field of faultsim::StageMetrics or CaseResult.
-  faultsim::Dimension dimension;
+  std::string name;
+  faultsim::Dimension dimension = faultsim::Dimension::number;
   bool is_flag = false;
   std::string description;
   bool may_be_missing = false;  ///< cases with a full history may have no value.
@@ -22,7 +22,8 @@ struct MetricInfo {
   }
 };
 
-/// All metrics of `rank --list-metrics`, in the order shown.
+/// All metrics of `rank --list-metrics`, in the order shown: those of simulator/output/measures.h,
+/// then what follows from more than one field.
 const std::vector<MetricInfo>& metric_catalogue();
 /// Its unit: "m2", "m2/m" where it is per metre of strike, "" for numbers.
 std::string metric_unit(const MetricInfo& metric, bool plane_strain);

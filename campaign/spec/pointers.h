@@ -5,8 +5,6 @@
 
 namespace faultsweep {
 
-/// Key as one token of a JSON Pointer.
-std::string escape_token(const std::string& key);
 /// True if one pointer is the other or lies below it.
 bool overlap(const std::string& a, const std::string& b);
 /// A JSON scalar as the user reads it: text without quotes, shortest number.

@@ -56,7 +56,7 @@ void SpecReader::read_design(const std::string& pointer, const SceneNames& names
     read_list(pointer + "/cases", names, design, parameters);
   } else {
     for (const std::string& name : keys(pointer + "/parameters")) {
-      const std::string place = pointer + "/parameters/" + escape_token(name);
+      const std::string place = pointer + "/parameters/" + faultsim::pointer_token(name);
       if (auto parameter = read_parameter(place, name, names, design.kind)) {
         parameters.push_back(std::move(*parameter));
       }
@@ -118,7 +118,7 @@ void SpecReader::read_list(const std::string& pointer, const SceneNames& names, 
     const std::string row_pointer = pointer + "/" + std::to_string(i);
     std::vector<int> row(parameters.size(), -1);
     for (const std::string& name : keys(row_pointer)) {
-      const std::string place = row_pointer + "/" + escape_token(name);
+      const std::string place = row_pointer + "/" + faultsim::pointer_token(name);
       auto column = columns.find(name);
       if (column == columns.end()) {
         const auto target = resolve(names, name, place);

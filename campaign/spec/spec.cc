@@ -13,19 +13,6 @@ namespace {
 
 using nlohmann::json;
 
-/// "~1" and "~0" back to "/" and "~".
-std::string unescape(const std::string& token) {
-  std::string result;
-  for (std::size_t i = 0; i < token.size(); ++i) {
-    if (token[i] != '~' || i + 1 == token.size()) {
-      result += token[i];
-      continue;
-    }
-    result += token[++i] == '1' ? '/' : '~';
-  }
-  return result;
-}
-
 json choice_to_json(const Choice& choice) {
   json changes = json::object();
   for (const Change& change : choice.changes) changes[change.pointer] = change.value;
@@ -181,47 +168,9 @@ CampaignSpec parse_campaign(const std::string& text, const std::string& source) 
   return SpecReader(text, source).read();
 }
 
-const nlohmann::json& campaign_schema() {
-  static const json schema = json::parse(faultsim::embedded::campaign_schema);
+const faultsim::Schema& campaign_schema() {
+  static const faultsim::Schema schema(json::parse(faultsim::embedded::campaign_schema));
   return schema;
-}
-
-bool put_value(nlohmann::json& document, const std::string& pointer, const nlohmann::json& value) {
-  json* place = &document;
-  for (std::size_t begin = 1; begin <= pointer.size();) {
-    const std::size_t end = std::min(pointer.find('/', begin), pointer.size());
-    const std::string key = unescape(pointer.substr(begin, end - begin));
-    begin = end + 1;
-    if (place->is_object()) {
-      place = &(*place)[key];
-      if (place->is_null() && begin <= pointer.size()) *place = json::object();
-    } else if (place->is_array()) {
-      std::size_t index = 0;
-      const auto [rest, error] = std::from_chars(key.data(), key.data() + key.size(), index);
-      if (error != std::errc() || rest != key.data() + key.size() || index >= place->size()) {
-        return false;
-      }
-      place = &(*place)[index];
-    } else {
-      return false;
-    }
-  }
-  *place = value;
-  return true;
-}
-
-std::string escape_token(const std::string& key) {
-  std::string result;
-  for (const char c : key) {
-    if (c == '~') {
-      result += "~0";
-    } else if (c == '/') {
-      result += "~1";
-    } else {
-      result += c;
-    }
-  }
-  return result;
 }
 
 bool overlap(const std::string& a, const std::string& b) {

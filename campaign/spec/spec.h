@@ -8,6 +8,7 @@
 #include "campaign/expression/expression.h"
 #include "simulator/common/units.h"
 #include "simulator/scene/json_document.h"
+#include "simulator/scene/schema.h"
 
 /// A campaign's specification: what to vary, checked and resolved against its base scene. The JSON
 /// spelling is in schemas/campaign.schema.json, the meaning of each key in its descriptions.
@@ -191,16 +192,12 @@ CampaignSpec read_campaign(const std::string& path);
 CampaignSpec parse_campaign(const std::string& text, const std::string& source);
 
 /// The schema of specs, embedded from schemas/campaign.schema.json.
-const nlohmann::json& campaign_schema();
+const faultsim::Schema& campaign_schema();
 
 /// Whether a name can stand in commands and as a folder: letters, digits, dots, dashes and
 /// underscores, beginning with none of the last three.
 bool is_plain_name(const std::string& name);
 inline constexpr const char* kPlainNameCure =
     "use letters, digits, dots, dashes and underscores, beginning with a letter or digit";
-
-/// Puts value at pointer; missing objects on the way are made. False if the pointer runs into
-/// something that is neither an object nor an existing array element.
-bool put_value(nlohmann::json& document, const std::string& pointer, const nlohmann::json& value);
 
 }  // namespace faultsweep

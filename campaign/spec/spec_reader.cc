@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "campaign/spec/pointers.h"
+#include "simulator/common/near_miss.h"
 #include "simulator/common/process_memory.h"
 #include "simulator/scene/csv_tables.h"
-#include "simulator/scene/near_miss.h"
 
 namespace faultsweep {
 
@@ -49,7 +49,7 @@ void demand_small_objects(const JsonDocument& document, const nlohmann::json& va
   } else if (value.is_object()) {
     for (const auto& [key, inner] : value.items()) {
       if (!inner.is_structured()) continue;
-      demand_small_objects(document, inner, pointer + "/" + escape_token(key));
+      demand_small_objects(document, inner, pointer + "/" + faultsim::pointer_token(key));
     }
   }
 }
@@ -108,7 +108,7 @@ void SpecReader::embed_tables() {
         for (const Change& change : choice.changes) {
           if (!names_a_table(change)) continue;
           if (scene.is_null()) scene = group.scene;
-          put_value(scene, change.pointer, change.value);
+          faultsim::put_value(scene, change.pointer, change.value);
         }
         embed(scene);
       }
@@ -142,11 +142,13 @@ void SpecReader::problem(const std::string& pointer, const std::string& what,
 }
 
 const nlohmann::json& SpecReader::at(const std::string& pointer) const {
-  return spec_.document.value.at(json::json_pointer(pointer));
+  const json* value = faultsim::value_at(spec_.document.value, pointer);
+  FAULTSIM_DEMAND(value != nullptr, pointer);
+  return *value;
 }
 
 bool SpecReader::has(const std::string& pointer) const {
-  return spec_.document.value.contains(json::json_pointer(pointer));
+  return faultsim::value_at(spec_.document.value, pointer) != nullptr;
 }
 
 std::vector<std::string> SpecReader::keys(const std::string& pointer) const {
@@ -273,7 +275,7 @@ void SpecReader::apply_set(const std::string& pointer, json& scene, std::vector<
   // Each alias is looked up in the scene as the keys before it left it: "/friction" may come first.
   std::optional<std::map<std::string, std::string>> aliases;
   for (const std::string& key : keys(pointer)) {
-    const std::string place = pointer + "/" + escape_token(key);
+    const std::string place = pointer + "/" + faultsim::pointer_token(key);
     std::string target = key;
     if (key.empty() || key[0] != '/') {
       if (!aliases) aliases = faultsim::parameter_aliases({spec_.base.source, scene, {}});
@@ -281,7 +283,7 @@ void SpecReader::apply_set(const std::string& pointer, json& scene, std::vector<
       if (!resolved) continue;
       target = *resolved;
     }
-    if (!put_value(scene, target, at(place))) {
+    if (!faultsim::put_value(scene, target, at(place))) {
       problem(place, "the base scene has no place " + target,
               "faultsim parameters lists what can be set");
       continue;

@@ -21,7 +21,7 @@ std::map<std::string, std::int64_t> rows_of_tables(Connection& connection) {
   Statement tables(connection, "SELECT name FROM sqlite_schema WHERE type = 'table'");
   while (tables.step()) {
     const std::string name = tables.text(0);
-    Statement count(connection, concat("SELECT count(*) FROM \"", name, '"').c_str());
+    Statement count(connection, concat("SELECT count(*) FROM \"", name, '"'));
     count.step();
     counts[name] = count.integer(0);
   }

@@ -2,7 +2,7 @@
 
 #include "campaign/store/checksums.h"
 #include "campaign/store/clock.h"
-#include "campaign/store/read_counts.h"
+#include "campaign/store/queries.h"
 #include "campaign/store/sqlite.h"
 #include "campaign/store/store.h"
 #include "simulator/common/fingerprint.h"
@@ -79,7 +79,7 @@ struct Place {
 Place find_place(Connection& db, const Submission& submission, const std::string& resolved_hash,
                  const std::string& expanded) {
   constexpr int kMostRevisions = 100000;  // names NAME-2, NAME-3, ...: far beyond use
-  Statement& query = db.prepared(
+  Statement query = db.prepared(
       "SELECT id, spec_resolved_hash, spec_expanded_hash FROM campaigns WHERE name = ?");
   for (int revision = 1; revision < kMostRevisions; ++revision) {
     const std::string name =
@@ -101,10 +101,9 @@ std::vector<std::int64_t> add_families(Connection& db, const Submission& submiss
         .bind(family.fingerprint, family.unknowns, family.jump_unknowns, family.operator_seconds,
               family.memory_bytes, family.n_operators)
         .run();
-    Statement& query = db.prepared("SELECT id FROM families WHERE fingerprint = ?");
+    Statement query = db.prepared("SELECT id FROM families WHERE fingerprint = ?");
     query.bind(family.fingerprint).step();
     ids.push_back(query.integer(0));
-    query.reset();
   }
   return ids;
 }
@@ -138,13 +137,12 @@ CampaignInfo read_info(const Statement& row) {
 
 /// Of a campaign that is in the store: how many cases have a result, and of these lack fields.
 void count_known(Connection& db, SubmitOutcome& outcome) {
-  Statement& query = db.prepared(
+  Statement query = db.prepared(
       "SELECT total(state = 'done' OR lacks_only_fields), total(lacks_only_fields)"
       " FROM campaign_case_states WHERE campaign_id = ?");
   query.bind(outcome.campaign).step();
   outcome.n_cached = query.integer(0);
   outcome.n_fields = query.integer(1);
-  query.reset();
 }
 
 }  // namespace
@@ -155,10 +153,9 @@ std::int64_t Store::add_scene(const BaseScene& scene) {
   db.prepared("INSERT INTO scenes (hash, source, document) VALUES (?, ?, ?) ON CONFLICT DO NOTHING")
       .bind(hash, scene.source, scene.document)
       .run();
-  Statement& query = db.prepared("SELECT id FROM scenes WHERE hash = ?");
+  Statement query = db.prepared("SELECT id FROM scenes WHERE hash = ?");
   query.bind(hash).step();
   const std::int64_t id = query.integer(0);
-  query.reset();
   return id;
 }
 
@@ -167,11 +164,11 @@ void Store::add_cases(std::int64_t campaign, const Submission& submission) {
   std::vector<std::int64_t> scenes;
   for (const BaseScene& scene : submission.scenes) scenes.push_back(add_scene(scene));
   const std::vector<std::int64_t> families = add_families(db, submission);
-  Statement& insert = db.prepared(
+  Statement insert = db.prepared(
       "INSERT INTO cases (identity, family_id, scene_id, changes) VALUES (?, ?, ?, ?)"
       " ON CONFLICT (identity) DO NOTHING");
-  Statement& find = db.prepared("SELECT id FROM cases WHERE identity = ?");
-  Statement& link = db.prepared(
+  Statement find = db.prepared("SELECT id FROM cases WHERE identity = ?");
+  Statement link = db.prepared(
       "INSERT INTO campaign_cases (campaign_id, position, case_id, parameter_values,"
       " parameter_labels, fields) VALUES (?, ?, ?, ?, ?, ?)");
   const char* fields = to_string(submission.keep_fields == KeepFields::none ? FieldsState::none
@@ -186,11 +183,10 @@ void Store::add_cases(std::int64_t campaign, const Submission& submission) {
     if (db.changes() == 0) {
       find.bind(one.identity).step();
       id = find.integer(0);
-      find.reset();
     }
     link.bind(campaign, ++position, id, one.parameter_values, one.parameter_labels, fields).run();
   }
-  Statement& add_row = db.prepared(
+  Statement add_row = db.prepared(
       "INSERT INTO design_rows (campaign_id, design, row, position) VALUES (?, ?, ?, ?)");
   for (const DesignRow& one : submission.design_rows) {
     add_row.bind(campaign, one.design, one.row, one.position).run();
@@ -239,7 +235,7 @@ SubmitOutcome Store::submit(const Submission& submission) {
 }
 
 std::map<std::int64_t, CaseCounts> count_by_family(Connection& connection, std::int64_t campaign) {
-  Statement& query = connection.prepared(
+  Statement query = connection.prepared(
       "SELECT family_id, state, coalesce(outcome, ''), lacks_only_fields FROM campaign_case_states"
       " WHERE campaign_id = ?");
   query.bind(campaign);
@@ -276,11 +272,10 @@ CaseCounts& CaseCounts::operator+=(const CaseCounts& more) {
 }
 
 bool Store::lacks_results() const {
-  Statement& query =
+  Statement query =
       connection_->prepared("SELECT EXISTS (SELECT 1 FROM cases WHERE state <> 'done')");
   query.step();
   const bool lacks = query.integer(0) != 0;
-  query.reset();
   return lacks;
 }
 
@@ -296,18 +291,17 @@ SubmitOutcome Store::preview(const Submission& submission) const {
     count_known(db, outcome);
     return outcome;
   }
-  Statement& query = db.prepared("SELECT 1 FROM cases WHERE identity = ? AND state = 'done'");
+  Statement query = db.prepared("SELECT 1 FROM cases WHERE identity = ? AND state = 'done'");
   for (const CaseRecord& one : submission.cases) {
     outcome.n_cached += query.bind(one.identity).step() ? 1 : 0;
   }
-  query.reset();
   if (submission.keep_fields != KeepFields::none) outcome.n_fields = outcome.n_cached;
   return outcome;
 }
 
 std::vector<CampaignInfo> Store::campaigns() const {
   std::vector<CampaignInfo> all;
-  Statement query(*connection_, concat(kInfoColumns, "ORDER BY submitted_at, id").c_str());
+  Statement query(*connection_, concat(kInfoColumns, "ORDER BY submitted_at, id"));
   while (query.step()) all.push_back(read_info(query));
   return all;
 }
@@ -342,17 +336,15 @@ void Store::cancel(std::int64_t campaign) {
 }
 
 bool Store::is_cancelled(std::int64_t campaign) const {
-  Statement& query =
-      connection_->prepared("SELECT state = 'cancelled' FROM campaigns WHERE id = ?");
+  Statement query = connection_->prepared("SELECT state = 'cancelled' FROM campaigns WHERE id = ?");
   FAULTSIM_DEMAND(query.bind(campaign).step(), campaign);
   const bool cancelled = query.integer(0) != 0;
-  query.reset();
   return cancelled;
 }
 
 long Store::retry(std::int64_t campaign, bool unconverged_too, std::optional<long> position) {
   Transaction transaction(*connection_);
-  Statement& update = connection_->prepared(
+  Statement update = connection_->prepared(
       "UPDATE cases SET state = 'waiting' WHERE id IN"
       " (SELECT c.id FROM campaign_cases cc JOIN cases c ON c.id = cc.case_id"
       "  JOIN campaign_case_states s ON s.campaign_id = ?1 AND s.position = cc.position"
@@ -374,24 +366,22 @@ long Store::retry(std::int64_t campaign, bool unconverged_too, std::optional<lon
 }
 
 BaseScene Store::base_scene(std::int64_t scene) const {
-  Statement& query = connection_->prepared("SELECT source, document FROM scenes WHERE id = ?");
+  Statement query = connection_->prepared("SELECT source, document FROM scenes WHERE id = ?");
   FAULTSIM_DEMAND(query.bind(scene).step(), scene);
   BaseScene base{query.text(0), query.text(1)};
-  query.reset();
   return base;
 }
 
 Store::SpecCopies Store::spec_copies(std::int64_t campaign) const {
-  Statement& query = connection_->prepared(
+  Statement query = connection_->prepared(
       "SELECT spec_given, spec_resolved, spec_expanded_hash FROM campaigns WHERE id = ?");
   FAULTSIM_DEMAND(query.bind(campaign).step(), campaign);
   SpecCopies copies{query.text(0), query.text(1), query.text(2)};
-  query.reset();
   return copies;
 }
 
 std::vector<DesignRow> Store::design_rows(std::int64_t campaign) const {
-  Statement& query = connection_->prepared(
+  Statement query = connection_->prepared(
       "SELECT design, row, position FROM design_rows WHERE campaign_id = ? ORDER BY design, row");
   query.bind(campaign);
   std::vector<DesignRow> rows;

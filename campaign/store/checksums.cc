@@ -1,6 +1,7 @@
 #include "campaign/store/checksums.h"
 
 #include <bit>
+#include <charconv>
 
 #include "campaign/store/sqlite.h"
 #include "simulator/common/fingerprint.h"
@@ -16,9 +17,10 @@ class Digest {
  public:
   void add(const Cell& cell) {
     text_ += static_cast<char>('0' + cell.index());  // 1, 1.0 and "1" differ
-    if (const auto* whole = std::get_if<std::int64_t>(&cell)) text_ += std::to_string(*whole);
-    if (const auto* real = std::get_if<double>(&cell))
-      text_ += std::to_string(std::bit_cast<std::uint64_t>(*real));
+    if (const auto* whole = std::get_if<std::int64_t>(&cell)) add_number(*whole);
+    if (const auto* real = std::get_if<double>(&cell)) {
+      add_number(std::bit_cast<std::uint64_t>(*real));
+    }
     if (const auto* words = std::get_if<std::string>(&cell))
       text_ += concat(words->size(), ':', *words);
     text_ += '\n';
@@ -29,11 +31,15 @@ class Digest {
     while (query.step()) {
       for (int column = 0; column < query.n_columns(); ++column) add(query.cell(column));
     }
-    query.reset();
   }
   std::string finish() const { return faultsim::fingerprint(text_); }
 
  private:
+  template <typename Integer>
+  void add_number(Integer number) {
+    char digits[24];
+    text_.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+  }
   std::string text_;
 };
 

@@ -1,6 +1,7 @@
 #include <map>
 
 #include "campaign/store/store.h"
+#include "simulator/output/measures.h"
 
 /// Metrics of spec/metrics.h as SQL.
 namespace faultsweep {
@@ -32,8 +33,17 @@ MetricColumn creep(const char* aggregate, const char* table) {
                  " AND step BETWEEN s.first_step AND s.last_step)")};
 }
 
-const std::map<std::string, MetricColumn>& metric_columns() {
-  static const std::map<std::string, MetricColumn> columns = {
+/// Measures have a column of their own, of stages as of faults.
+void add_measures(std::map<std::string, MetricColumn>& columns) {
+  const faultsim::Measures measures;
+  faultsim::for_each_measure(measures, [&](const faultsim::Field& field, const auto&) {
+    columns[std::string(field.metric())] = {
+        field.sql.empty() ? concat("$.", field.key) : std::string(field.sql), true};
+  });
+}
+
+std::map<std::string, MetricColumn> all_columns() {
+  std::map<std::string, MetricColumn> columns = {
       {"creep_normal_min", creep("min(creep_normal_min_pa)", "chi_history")},
       {"creep_normal_max", creep("max(creep_normal_max_pa)", "chi_history")},
       {"creep_shear_max", creep("max(creep_shear_max_pa)", "chi_history")},
@@ -42,11 +52,7 @@ const std::map<std::string, MetricColumn>& metric_columns() {
       {"creep_time_resolved", creep("min(time_resolved)", "load_steps")},
       {"outcome", {"m.outcome"}},
       {"rank_class", {"$.rank_class", true}},
-      {"slips", {"($.max_slip_m > 0)", true}},
-      {"slides", {"$.activated", true}},
-      {"activation_resolved", {"coalesce($.activation_resolved, 0)", true}},
       {"jumps", {"($.n_events > 0)", true}},
-      {"opens", {"($.open_area_m2 > 0)", true}},
       {"activation_step", {onset("step", false).sql, true, "$.activation_step"}},
       {"activation_depth", onset("depth_m", false)},
       {"activation_pressure_change", onset("change_pa", false)},
@@ -59,20 +65,7 @@ const std::map<std::string, MetricColumn>& metric_columns() {
       {"opening_pressure_absolute", onset("absolute_pa", true)},
       {"activated_fault", {"(SELECT name FROM names WHERE id = $.activated_fault_id)"}},
       {"opened_fault", {"(SELECT name FROM names WHERE id = $.opened_fault_id)"}},
-      {"chi_bar", {"$.chi_bar", true}},
-      {"chi_max", {"$.chi_max", true}},
-      {"area_chi_080", {"$.area_chi_080_m2", true}},
-      {"thickness_chi_080", {"$.thickness_chi_080_m", true}},
-      {"activated_area", {"$.activated_area_m2", true}},
-      {"slipping_area", {"$.slipping_area_m2", true}},
-      {"open_area", {"$.open_area_m2", true}},
-      {"max_slip", {"$.max_slip_m", true}},
-      {"potency", {"$.potency_m3", true}},
-      {"moment", {"$.moment_nm", true}},
       {"magnitude_if_released_at_once", {"$.magnitude_if_released_at_once_mw"}},
-      {"n_events", {"$.n_events", true}},
-      {"event_moment", {"$.event_moment_nm", true}},
-      {"event_magnitude", {"$.event_magnitude_mw", true}},
       {"pressure_margin", {"m.pressure_margin_pa"}},
       {"failed_step", {"m.failed_step"}},
       {"plane_strain", {"m.plane_strain"}},
@@ -90,12 +83,14 @@ const std::map<std::string, MetricColumn>& metric_columns() {
       {"wasted_newton_iterations", {"m.wasted_newton_iterations"}},
       {"seconds", {"(SELECT wall_s FROM runs WHERE id = m.run_id)"}},
   };
+  add_measures(columns);
   return columns;
 }
 
 const MetricColumn& column_of(const std::string& metric) {
-  const auto found = metric_columns().find(metric);
-  FAULTSIM_DEMAND(found != metric_columns().end(), metric);
+  static const std::map<std::string, MetricColumn> columns = all_columns();
+  const auto found = columns.find(metric);
+  FAULTSIM_DEMAND(found != columns.end(), metric);
   return found->second;
 }
 

@@ -1,9 +1,13 @@
 #include "campaign/store/migrations.h"
 
 #include <ctime>
+#include <deque>
+#include <type_traits>
 
 #include "campaign/store/sqlite.h"
+#include "simulator/output/measures.h"
 #include "store_10_sql.h"
+#include "store_11_sql.h"
 #include "store_2_sql.h"
 #include "store_3_sql.h"
 #include "store_4_sql.h"
@@ -13,6 +17,7 @@
 #include "store_8_sql.h"
 #include "store_9_sql.h"
 #include "store_sql.h"
+#include "views_sql.h"
 
 namespace faultsweep {
 namespace {
@@ -78,21 +83,87 @@ void demand_sound_references(Connection& connection, const Migration& migration)
                             broken.text(2), "; nothing was changed"));
 }
 
+/// The measures that a store of the version has, as columns of a view on the row.
+std::string measure_columns(const std::string& row, int version) {
+  std::string columns;
+  const faultsim::Measures measures;
+  faultsim::for_each_measure(measures, [&](const faultsim::Field& field, const auto&) {
+    if (field.since > version) return;
+    std::string value = field.sql.empty() ? concat("$.", field.key) : std::string(field.sql);
+    for (std::size_t at = value.find('$'); at != std::string::npos; at = value.find('$', at)) {
+      value.replace(at, 1, row);
+    }
+    if (!columns.empty()) columns += ", ";
+    if (faultsim::is_extensive(field.key)) {
+      columns += concat("iif(m.plane_strain, NULL, ", value, ") AS ", field.key,
+                        ", iif(m.plane_strain, ", value, ", NULL) AS ", field.key, "_per_m");
+    } else {
+      columns += concat(value, " AS ", field.key);
+    }
+  });
+  return columns;
+}
+
+/// schemas/views.sql for a store of the version.
+std::string views(int version) {
+  std::string sql(faultsim::embedded::views_sql);
+  constexpr std::string_view kPlace = "MEASURES(";
+  // Not in the comment that explains it, which is a line.
+  for (std::size_t at = sql.find(kPlace); at != std::string::npos; at = sql.find(kPlace, at + 1)) {
+    const std::size_t line = sql.rfind('\n', at) + 1, end = sql.find(')', at);
+    if (sql.compare(line, 2, "--") == 0) continue;
+    const std::size_t row = at + kPlace.size();
+    sql.replace(at, end + 1 - at, measure_columns(sql.substr(row, end - row), version));
+  }
+  return sql;
+}
+
+/// The migration that adds the columns of the measures that came with the version; "" = none did.
+std::string new_measures(int version) {
+  std::string sql;
+  const faultsim::Measures measures;
+  faultsim::for_each_measure(measures, [&](const faultsim::Field& field, const auto& value) {
+    if (field.since != version) return;
+    // Results from before have none, so that it can be no plain number.
+    constexpr bool may_be_missing =
+        std::is_same_v<std::remove_cvref_t<decltype(value)>, std::optional<double>>;
+    FAULTSIM_DEMAND(may_be_missing, field.key);
+    for (const char* table : {"stage_metrics", "fault_metrics"}) {
+      sql += concat("ALTER TABLE ", table, " ADD COLUMN ", field.key, " REAL;\n");
+    }
+  });
+  return sql;
+}
+
 }  // namespace
 
 const std::vector<Migration>& store_migrations() {
-  static const std::vector<Migration> migrations = {
-      {1, "created", faultsim::embedded::store_sql},
-      {2, "2026-11-21 fields of cases", faultsim::embedded::store_2_sql},
-      {3, "2026-11-21 slip events and episodes", faultsim::embedded::store_3_sql},
-      {4, "2026-11-21 creep of salt", faultsim::embedded::store_4_sql},
-      {5, "2026-11-21 rows of designs", faultsim::embedded::store_5_sql},
-      {6, "2026-11-21 nights", faultsim::embedded::store_6_sql},
-      {7, "2026-11-22 trades of accuracy for speed", faultsim::embedded::store_7_sql},
-      {8, "2026-11-22 checksums and operator time limits", faultsim::embedded::store_8_sql},
-      {9, "2026-11-22 metrics and pressures per fault", faultsim::embedded::store_9_sql},
-      {10, "2026-11-22 flags that hang on the mesh", faultsim::embedded::store_10_sql},
-  };
+  static std::deque<std::string> texts;  // of migrations that are written here
+  static const std::vector<Migration> migrations = [] {
+    std::vector<Migration> all = {
+        {1, "created", faultsim::embedded::store_sql},
+        {2, "2026-11-21 fields of cases", faultsim::embedded::store_2_sql},
+        {3, "2026-11-21 slip events and episodes", faultsim::embedded::store_3_sql},
+        {4, "2026-11-21 creep of salt", faultsim::embedded::store_4_sql},
+        {5, "2026-11-21 rows of designs", faultsim::embedded::store_5_sql},
+        {6, "2026-11-21 nights", faultsim::embedded::store_6_sql},
+        {7, "2026-11-22 trades of accuracy for speed", faultsim::embedded::store_7_sql},
+        {8, "2026-11-22 checksums and operator time limits", faultsim::embedded::store_8_sql},
+        {9, "2026-11-22 metrics and pressures per fault", faultsim::embedded::store_9_sql},
+        {10, "2026-11-22 flags that hang on the mesh", faultsim::embedded::store_10_sql},
+        {11, "2026-11-22 views of the list of measures", faultsim::embedded::store_11_sql},
+    };
+    constexpr int kFirstWithViews = 11;
+    for (Migration& one : all) {
+      if (one.version < kFirstWithViews) continue;
+      one.sql = texts.emplace_back(std::string(one.sql) + views(one.version));
+    }
+    for (int version = all.back().version + 1;; ++version) {
+      const std::string sql = new_measures(version);
+      if (sql.empty()) return all;
+      all.push_back({version, "measures added", texts.emplace_back(sql + views(version))});
+    }
+  }();
   return migrations;
 }
 

@@ -37,7 +37,7 @@ namespace {
 
 std::vector<NightCaseRecord> read_night_cases(Connection& db, std::int64_t night) {
   std::vector<NightCaseRecord> cases;
-  Statement& rows = db.prepared(
+  Statement rows = db.prepared(
       "SELECT campaign, position, identity, label, verdict, regressed, max_ulps, load_step, place,"
       " quantity, remark, digest, wall_s, outcome, activated_area_m2, moment_nm, chi_bar"
       " FROM night_cases WHERE night_id = ? ORDER BY campaign, position");
@@ -71,7 +71,7 @@ std::vector<NightCaseRecord> read_night_cases(Connection& db, std::int64_t night
 std::vector<NightRecord> Store::nights(const std::string& suite, int limit) const {
   Connection& db = *connection_;
   std::vector<NightRecord> all;
-  Statement& rows = db.prepared(
+  Statement rows = db.prepared(
       "SELECT id, at, wall_s, suite, environment, environment_fields, baseline_environment,"
       " program_version, numerics_version, n_compared, n_regressed, exit_code, blessed FROM nights"
       " WHERE ?1 = '' OR suite = ?1 ORDER BY id DESC LIMIT ?2");

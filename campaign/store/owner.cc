@@ -46,13 +46,12 @@ bool is_alive(const std::string& host, std::int64_t pid, std::int64_t started, d
 
 void Store::claim_ownership(std::int64_t campaign, int n_workers) {
   Transaction transaction(*connection_);
-  Statement& query =
+  Statement query =
       connection_->prepared("SELECT host, pid, pid_started, heartbeat_at FROM owner WHERE id = 1");
   if (query.bind().step()) {
     const std::string host = query.text(0);
     const std::int64_t pid = query.integer(1);
     const bool alive = is_alive(host, pid, query.integer(2), query.real(3));
-    query.reset();
     if (alive) {
       throw StorageError(concat("the store ", folder_.string(), " is managed by process ", pid,
                                 " on ", host, "; wait for it, stop it, or use another --store"));
@@ -60,7 +59,6 @@ void Store::claim_ownership(std::int64_t campaign, int n_workers) {
     record_event(campaign, "takeover",
                  concat("the manager with process id ", pid, " on ", host, " died; taken over"));
   }
-  query.reset();
   connection_
       ->prepared(
           "INSERT OR REPLACE INTO owner (id, host, pid, pid_started, heartbeat_at, campaign_id,"
@@ -84,7 +82,7 @@ void Store::release_ownership() {
 }
 
 std::optional<OwnerInfo> Store::owner() const {
-  Statement& query = connection_->prepared(
+  Statement query = connection_->prepared(
       "SELECT host, pid, pid_started, heartbeat_at, coalesce(campaign_id, 0), n_workers, progress"
       " FROM owner WHERE id = 1");
   if (!query.bind().step()) return std::nullopt;
@@ -95,7 +93,6 @@ std::optional<OwnerInfo> Store::owner() const {
                  static_cast<int>(query.integer(5)),
                  query.text(6),
                  is_alive(query.text(0), query.integer(1), query.integer(2), query.real(3))};
-  query.reset();
   return info;
 }
 

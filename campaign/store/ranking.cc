@@ -1,9 +1,6 @@
 #include <algorithm>
 
-#include "campaign/store/bind_values.h"
-#include "campaign/store/fault_rows.h"
-#include "campaign/store/read_stage.h"
-#include "campaign/store/sqlite.h"
+#include "campaign/store/queries.h"
 #include "campaign/store/store.h"
 
 namespace faultsweep {
@@ -100,7 +97,7 @@ struct OrderedCase {
 }  // namespace
 
 std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery& query) const {
-  Statement order(*connection_, order_sql(query).c_str());
+  Statement order(*connection_, order_sql(query));
   int bound = 0;
   bind_values(order, bound, query.by.parameters);
   bind_selection(order, bound, campaign, query);
@@ -109,25 +106,19 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
     cases.push_back(
         {order.integer(0), static_cast<long>(order.integer(1)), order.optional_real(2)});
   }
-  Statement& rows = connection_->prepared(
+  const ResultTables& tables = result_tables();
+  constexpr int kFirstMetric = 12;
+  Statement rows = connection_->prepared(faultsim::concat(
       "SELECT cc.parameter_values, cc.parameter_labels, s.rank_class, m.outcome,"
-      " m.weakening_resolved, m.pressure_margin_pa, s.activated, s.activation_step,"
-      " coalesce(f.name, ''), s.opening_step, s.chi_bar, s.chi_max, s.area_chi_080_m2,"
-      " s.thickness_chi_080_m, s.activated_area_m2, s.slipping_area_m2, s.open_area_m2, "
-      "s.max_slip_m,"
-      " s.potency_m3, s.moment_nm, s.magnitude_if_released_at_once_mw, s.n_events, "
-      "s.event_moment_nm,"
-      " s.event_magnitude_mw, s.first_step, s.last_step, coalesce(o.name, ''),"
-      " s.activation_resolved, (SELECT n.name FROM episodes e JOIN names n ON n.id = e.fault_id "
-      "WHERE e.case_id = s.case_id"
-      " AND e.number = m.unexpected_episode), m.plane_strain, s.stage_id, s.activated_fault_id,"
-      " s.opened_fault_id, (SELECT q.rank_class FROM fault_metrics q WHERE q.stage_id = s.stage_id"
-      " AND q.fault_id = ?5 AND q.case_id = s.case_id)"
+      " m.weakening_resolved, m.pressure_margin_pa, (SELECT n.name FROM episodes e JOIN names n"
+      " ON n.id = e.fault_id WHERE e.case_id = s.case_id AND e.number = m.unexpected_episode),"
+      " m.plane_strain, s.stage_id, s.activated_fault_id, s.opened_fault_id,"
+      " (SELECT q.rank_class FROM fault_metrics q WHERE q.stage_id = s.stage_id"
+      " AND q.fault_id = ?5 AND q.case_id = s.case_id)",
+      tables.stage.selected("s"),
       " FROM stage_metrics s JOIN case_metrics m ON m.case_id = s.case_id"
       " JOIN campaign_cases cc ON cc.campaign_id = ?1 AND cc.position = ?2"
-      " LEFT JOIN names f ON f.id = s.activated_fault_id"
-      " LEFT JOIN names o ON o.id = s.opened_fault_id"
-      " WHERE s.stage_id = (SELECT id FROM names WHERE name = ?3) AND s.case_id = ?4");
+      " WHERE s.stage_id = (SELECT id FROM names WHERE name = ?3) AND s.case_id = ?4"));
   std::vector<RankedCase> ranked;
   ranked.reserve(cases.size());
   for (const OrderedCase& one : cases) {
@@ -143,22 +134,23 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
     row.outcome = rows.text(3);
     row.weakening_resolved = rows.integer(4) != 0;
     row.pressure_margin = rows.optional_real(5);
-    row.metrics = read_stage_metrics(rows, 6);
-    row.metrics.stage = query.stage;
-    row.unexpected_fault = rows.text(28);
-    row.plane_strain = rows.integer(29) != 0;
-    for (const int column : {31, 32}) {  // the faults that slide and open first
-      const auto fault = rows.optional_integer(column);
-      if (!fault || query.fault || (column == 32 && fault == rows.optional_integer(31))) continue;
-      row.metrics.faults.push_back(read_fault_row(*connection_, one.id, rows.integer(30), *fault));
-    }
+    row.unexpected_fault = rows.text(6);
+    row.plane_strain = rows.integer(7) != 0;
+    int column = kFirstMetric;
+    tables.stage.read(rows, column, row.metrics);
+    const auto fault_row = [&](std::int64_t fault) {
+      return read_fault_row(*connection_, tables, one.id, rows.integer(8), fault);
+    };
+    const auto slides = rows.optional_integer(9), opens = rows.optional_integer(10);
     if (query.fault) {
-      row.fault_metrics = read_fault_row(*connection_, one.id, rows.integer(30), *query.fault);
-      row.rank_class = static_cast<int>(rows.integer(33));
+      row.fault_metrics = fault_row(*query.fault);
+      row.rank_class = static_cast<int>(rows.integer(11));
+    } else {  // the faults that slide and open first
+      if (slides) row.metrics.faults.push_back(fault_row(*slides));
+      if (opens && opens != slides) row.metrics.faults.push_back(fault_row(*opens));
     }
     ranked.push_back(std::move(row));
   }
-  rows.reset();
   return ranked;
 }
 
@@ -175,7 +167,7 @@ bool has_kind(Connection& db, std::int64_t campaign, const Store::RankingQuery& 
   } else {
     sql = "SELECT 1" + selection_sql(query, true) + " AND m.plane_strain = ";
   }
-  Statement found(db, (sql + (plane_strain ? "1" : "0") + " LIMIT 1").c_str());
+  Statement found(db, (sql + (plane_strain ? "1" : "0") + " LIMIT 1"));
   int bound = 0;
   if (query.where.text.empty()) {
     found.bind_at(++bound, campaign);

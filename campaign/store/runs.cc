@@ -34,7 +34,7 @@ const char* to_string(RunStatus status) {
 
 std::vector<WaitingFamily> Store::waiting_families(std::int64_t campaign) const {
   std::vector<WaitingFamily> families;
-  Statement& query = connection_->prepared(
+  Statement query = connection_->prepared(
       "SELECT f.id, f.fingerprint, f.predicted_unknowns, f.predicted_jump_unknowns,"
       " f.predicted_operator_s, f.predicted_memory_bytes, coalesce(f.operator, ''), s.case_id,"
       " s.lacks_only_fields, f.n_operators FROM campaign_case_states s JOIN families f ON f.id = "
@@ -57,20 +57,19 @@ std::vector<WaitingFamily> Store::waiting_families(std::int64_t campaign) const 
     families.back().cases.push_back(query.integer(7));
     if (query.integer(8) != 0) families.back().fields_only.push_back(query.integer(7));
   }
-  Statement& cost = connection_->prepared(
+  Statement cost = connection_->prepared(
       "SELECT avg(r.wall_s) FROM cases c JOIN runs r ON r.id = c.run_id"
       " WHERE c.family_id = ? AND r.status = 'completed'");
   for (WaitingFamily& family : families) {
     if (cost.bind(family.family).step()) family.seconds_per_case = cost.optional_real(0);
   }
-  cost.reset();
   return families;
 }
 
 long Store::want_lost_fields(const CampaignInfo& campaign) {
   if (campaign.keep_fields == KeepFields::none) return 0;
   Transaction transaction(*connection_);
-  Statement& query = connection_->prepared(
+  Statement query = connection_->prepared(
       "SELECT position FROM campaign_cases WHERE campaign_id = ? AND fields = 'kept'");
   query.bind(campaign.id);
   std::vector<long> lost;
@@ -93,13 +92,12 @@ long Store::want_lost_fields(const CampaignInfo& campaign) {
 }
 
 CaseInput Store::case_input(std::int64_t campaign, std::int64_t case_id) const {
-  Statement& query = connection_->prepared(
+  Statement query = connection_->prepared(
       "SELECT c.scene_id, cc.position, c.changes, c.identity FROM cases c JOIN campaign_cases cc"
       " ON cc.case_id = c.id AND cc.campaign_id = ?2 WHERE c.id = ?1");
   FAULTSIM_DEMAND(query.bind(case_id, campaign).step(), case_id);
   CaseInput input{case_id, query.integer(0), static_cast<long>(query.integer(1)), query.text(2),
                   query.text(3)};
-  query.reset();
   return input;
 }
 
@@ -120,13 +118,12 @@ void Store::record_runs(std::int64_t campaign, const std::vector<RunRecord>& run
 void Store::record_run(std::int64_t campaign, const RunRecord& run, double now) {
   FAULTSIM_DEMAND((run.status == RunStatus::completed) == run.result.has_value(), run.case_id);
   FAULTSIM_DEMAND(run.result || !run.has_fields, run.case_id);
-  Statement& state = connection_->prepared(
+  Statement state = connection_->prepared(
       "SELECT state, (SELECT coalesce(max(attempt), 0) FROM runs WHERE case_id = c.id)"
       " FROM cases c WHERE id = ?");
   FAULTSIM_DEMAND(state.bind(run.case_id).step(), run.case_id);
   const bool waiting = state.text(0) == "waiting";
   const std::int64_t attempt = state.integer(1) + 1;
-  state.reset();
   if (!waiting && !run.fields_only) return;
   const std::int64_t run_id = add_run(campaign, run, attempt, now);
   if (!run.fields_only) decide_case(run, run_id);

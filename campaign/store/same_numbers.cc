@@ -1,6 +1,8 @@
 #include "campaign/store/same_numbers.h"
 
+#include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "simulator/common/errors.h"
 
@@ -8,6 +10,7 @@ namespace faultsweep {
 
 using faultsim::CaseResult;
 using faultsim::concat;
+using faultsim::StageMetrics;
 using faultsim::StepResult;
 
 namespace {
@@ -31,6 +34,32 @@ bool same_step(const StepResult& a, const StepResult& b) {
          (!faultsim::in_equilibrium(a.outcome) || (a.faults == b.faults && same_creep(a, b)));
 }
 
+std::vector<std::optional<double>*> later_measures(faultsim::Measures& measures) {
+  std::vector<std::optional<double>*> later;
+  faultsim::for_each_measure(measures, [&later](const faultsim::Field& field, auto& value) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, std::optional<double>>) {
+      if (field.since > 0) later.push_back(&value);
+    }
+  });
+  return later;
+}
+
+/// A result from before a measure was added has none, which is no difference.
+void forget_unknown(faultsim::Measures stored, faultsim::Measures& again) {
+  const auto before = later_measures(stored), now = later_measures(again);
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    if (!before[k]->has_value()) now[k]->reset();
+  }
+}
+
+bool same_stage(const StageMetrics& stored, StageMetrics again) {
+  forget_unknown(stored, again);
+  for (std::size_t f = 0; f < std::min(stored.faults.size(), again.faults.size()); ++f) {
+    forget_unknown(stored.faults[f], again.faults[f]);
+  }
+  return stored == again;
+}
+
 }  // namespace
 
 std::string first_difference(const CaseResult& stored, const CaseResult& again) {
@@ -44,7 +73,9 @@ std::string first_difference(const CaseResult& stored, const CaseResult& again) 
       return concat("load step ", stored.steps[k].step, " (", stored.steps[k].stage, ")");
     }
   }
-  if (stored.stages != again.stages || stored.whole != again.whole) {
+  if (!std::equal(stored.stages.begin(), stored.stages.end(), again.stages.begin(),
+                  again.stages.end(), same_stage) ||
+      !same_stage(stored.whole, again.whole)) {
     return "the metrics of the stages";
   }
   if (stored.events != again.events) return "the slip events";

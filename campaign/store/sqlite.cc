@@ -99,7 +99,9 @@ Connection::Connection(const std::filesystem::path& path, Mode mode) : path_(pat
 }
 
 Connection::~Connection() {
-  statements_.clear();
+  for (const auto& [sql, statements] : idle_) {
+    for (sqlite3_stmt* statement : statements) sqlite3_finalize(statement);
+  }
   sqlite3_close_v2(handle_);
 }
 
@@ -107,18 +109,27 @@ void Connection::execute(const char* sql) {
   if (sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail(handle_, path_, sql);
 }
 
-Statement& Connection::prepared(const char* sql) {
-  std::unique_ptr<Statement>& statement = statements_[sql];
-  if (!statement) statement = std::make_unique<Statement>(*this, sql);
-  statement->reset();
-  return *statement;
+Statement Connection::prepared(const std::string& sql) {
+  std::vector<sqlite3_stmt*>& home = idle_[sql];
+  if (home.empty()) home.push_back(prepare(sql));
+  sqlite3_stmt* statement = home.back();
+  home.pop_back();
+  return {*this, statement, home};
+}
+
+sqlite3_stmt* Connection::prepare(const std::string& sql) {
+  sqlite3_stmt* statement = nullptr;
+  if (sqlite3_prepare_v3(handle_, sql.c_str(), -1, SQLITE_PREPARE_PERSISTENT, &statement,
+                         nullptr) != SQLITE_OK) {
+    fail(handle_, path_, sql.c_str());
+  }
+  return statement;
 }
 
 std::int64_t Connection::last_insert_id() const { return sqlite3_last_insert_rowid(handle_); }
 int Connection::changes() const { return sqlite3_changes(handle_); }
 
 void Connection::checkpoint() {
-  for (auto& [sql, statement] : statements_) statement->reset();
   // Busy readers only make it incomplete, which is no failure.
   sqlite3_wal_checkpoint_v2(handle_, nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
 }
@@ -145,14 +156,17 @@ void Connection::copy_to(const std::filesystem::path& target) {
   }
 }
 
-Statement::Statement(Connection& connection, const char* sql) : connection_(connection) {
-  if (sqlite3_prepare_v3(connection.handle_, sql, -1, SQLITE_PREPARE_PERSISTENT, &statement_,
-                         nullptr) != SQLITE_OK) {
-    fail(connection.handle_, connection.path_, sql);
+Statement::Statement(Connection& connection, const std::string& sql)
+    : connection_(connection), statement_(connection.prepare(sql)) {}
+
+Statement::~Statement() {
+  if (home_ == nullptr) {
+    sqlite3_finalize(statement_);
+  } else {
+    reset();
+    home_->push_back(statement_);  // there is room: it was taken from there
   }
 }
-
-Statement::~Statement() { sqlite3_finalize(statement_); }
 
 bool Statement::step() {
   const int code = sqlite3_step(statement_);
@@ -187,6 +201,11 @@ void Statement::bind_text(int position, std::string_view value) {
   const char* data = value.data() != nullptr ? value.data() : "";
   FAULTSIM_DEMAND(sqlite3_bind_text64(statement_, position, data, value.size(), SQLITE_STATIC,
                                       SQLITE_UTF8) == SQLITE_OK,
+                  position);
+}
+void Statement::bind_copy(int position, const std::string& text) {
+  FAULTSIM_DEMAND(sqlite3_bind_text64(statement_, position, text.data(), text.size(),
+                                      SQLITE_TRANSIENT, SQLITE_UTF8) == SQLITE_OK,
                   position);
 }
 void Statement::bind_null(int position) {

@@ -3,11 +3,11 @@
 #include <concepts>
 #include <cstdint>
 #include <filesystem>
-#include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <vector>
 
 #include "campaign/store/records.h"
 #include "simulator/common/errors.h"
@@ -43,8 +43,8 @@ class Connection {
 
   /// Runs one or more statements without parameters or results.
   void execute(const char* sql);
-  /// A prepared statement, kept for the life of the connection and reset; sql must be a literal.
-  Statement& prepared(const char* sql);
+  /// A prepared statement that is kept for the next one who asks for the same text.
+  Statement prepared(const std::string& sql);
   std::int64_t last_insert_id() const;
   int changes() const;
   /// Moves the whole WAL into the database file. No effect under another journal mode.
@@ -56,16 +56,18 @@ class Connection {
 
  private:
   friend class Statement;
+  sqlite3_stmt* prepare(const std::string& sql);
+
   sqlite3* handle_ = nullptr;
   std::filesystem::path path_;
-  std::map<const char*, std::unique_ptr<Statement>> statements_;
+  std::unordered_map<std::string, std::vector<sqlite3_stmt*>> idle_;  ///< by their text.
 };
 
 /// A prepared statement. bind(...) resets it and binds all parameters in order; step() is true
-/// while there is a row; columns are read by position from 0.
+/// while there is a row; columns are read by position from 0. It holds no lock once it is gone.
 class Statement {
  public:
-  Statement(Connection& connection, const char* sql);
+  Statement(Connection& connection, const std::string& sql);
   ~Statement();
   Statement(const Statement&) = delete;
   Statement& operator=(const Statement&) = delete;
@@ -83,6 +85,8 @@ class Statement {
   void bind_at(int position, const Value& value) {
     bind_one(position, value);
   }
+  /// The same of a text that does not live as long.
+  void bind_copy(int position, const std::string& text);
   bool step();
   /// Runs to the end; for statements without rows.
   void run();
@@ -98,6 +102,9 @@ class Statement {
   int n_columns() const;
 
  private:
+  friend class Connection;
+  Statement(Connection& connection, sqlite3_stmt* statement, std::vector<sqlite3_stmt*>& home)
+      : connection_(connection), statement_(statement), home_(&home) {}
   template <std::integral Value>
   void bind_one(int position, Value value) {
     bind_integer(position, static_cast<std::int64_t>(value));
@@ -121,6 +128,8 @@ class Statement {
 
   Connection& connection_;
   sqlite3_stmt* statement_ = nullptr;
+  std::vector<sqlite3_stmt*>* home_ =
+      nullptr;  ///< where it goes when it is done with; none = ours.
 };
 
 /// BEGIN IMMEDIATE ... COMMIT; rolled back unless committed.

@@ -11,6 +11,7 @@
 #include "campaign/store/checksums.h"
 #include "campaign/store/migrations.h"
 #include "campaign/store/name_cache.h"
+#include "campaign/store/result_rows.h"
 #include "campaign/store/sqlite.h"
 
 namespace faultsweep {
@@ -137,10 +138,9 @@ std::int64_t Store::name_id(const std::string& name) {
   if (known != names_->ids.end()) return known->second;
   Connection& db = *connection_;
   db.prepared("INSERT INTO names (name) VALUES (?) ON CONFLICT DO NOTHING").bind(name).run();
-  Statement& query = db.prepared("SELECT id FROM names WHERE name = ?").bind(name);
-  query.step();
+  Statement query = db.prepared("SELECT id FROM names WHERE name = ?");
+  query.bind(name).step();
   const std::int64_t id = query.integer(0);
-  query.reset();
   names_->fresh.push_back(name);
   names_->ids.emplace(name, id);
   return id;

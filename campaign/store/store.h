@@ -16,6 +16,9 @@ namespace faultsweep {
 
 class Checksums;
 class Connection;
+struct ResultTables;
+template <typename Struct>
+class RowFields;
 
 /// What a metric is of. Ids are those of Store::stages and Store::faults.
 struct MetricScope {
@@ -211,24 +214,25 @@ class Store {
   void decide_fields(std::int64_t campaign, const RunRecord& run);
   void record_result(std::int64_t case_id, std::int64_t run_id, const faultsim::CaseResult& result);
   void record_histories(std::int64_t case_id, const faultsim::CaseResult& result);
-  void record_slip_events(std::int64_t case_id, const faultsim::CaseResult& result);
-  void record_episodes(std::int64_t case_id, const faultsim::CaseResult& result);
-  void record_fault(std::int64_t case_id, std::int64_t stage_id, std::size_t position,
-                    int rank_class, const faultsim::FaultStageMetrics& fault);
+  template <typename Struct>
+  void record_list(std::int64_t case_id, const std::string& sql, const RowFields<Struct>& fields,
+                   const std::vector<Struct>& list);
   void record_onset(std::int64_t case_id, std::int64_t stage_id, bool opening,
-                    std::int64_t fault_id, const std::optional<faultsim::FaultOnset>& onset);
+                    const std::string& fault, const std::optional<faultsim::FaultOnset>& onset);
   void forget_fault_metrics(std::int64_t case_id);
   void record_stage(std::int64_t case_id, const faultsim::StageMetrics& stage,
                     const faultsim::CaseResult& result);
   void forget_result(std::int64_t case_id);
   std::int64_t name_id(const std::string& name);
-  std::optional<std::int64_t> optional_name_id(const std::string& name);  ///< "" = none.
+  std::function<std::int64_t(const std::string&)> name_ids();  ///< name_id as a function.
+  const ResultTables& result_tables() const;
   std::int64_t add_scene(const BaseScene& scene);
   void add_cases(std::int64_t campaign, const Submission& submission);
 
   std::filesystem::path folder_;
   std::unique_ptr<Connection> connection_;
   std::unique_ptr<Checksums> checksums_;
+  mutable std::unique_ptr<ResultTables> tables_;  ///< made when first asked for.
   std::string remark_;
   struct NameCache;
   std::unique_ptr<NameCache> names_;

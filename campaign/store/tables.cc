@@ -2,7 +2,7 @@
 #include <array>
 #include <utility>
 
-#include "campaign/store/bind_values.h"
+#include "campaign/store/queries.h"
 #include "campaign/store/sqlite.h"
 #include "campaign/store/store.h"
 
@@ -62,7 +62,7 @@ void visit_cases(Connection& db, const std::string& source, std::int64_t campaig
       " coalesce(r.status, ''), coalesce(m.reason, r.reason, ''), s.rank_class,"
       " cc.parameter_values, cc.parameter_labels";
   for (const std::string& column : query.columns) sql += ", " + column;
-  Statement rows(db, (sql + source + where_sql(query.where) + order).c_str());
+  Statement rows(db, (sql + source + where_sql(query.where) + order));
   int bound = 0;
   rows.bind_at(++bound, query.stage);
   rows.bind_at(++bound, campaign);
@@ -116,11 +116,10 @@ constexpr std::array<HistoryColumn, 32> kHistory = {{
 void Store::for_each_case(std::int64_t campaign, const TableQuery& query,
                           const std::function<void(const CaseRow&)>& visit) const {
   Connection& db = *connection_;
-  Statement& any_rows =
+  Statement any_rows =
       db.prepared("SELECT EXISTS (SELECT 1 FROM design_rows WHERE campaign_id = ?)");
   any_rows.bind(campaign).step();
   const bool has_rows = any_rows.integer(0) != 0;  // else the rows of its designs are its cases
-  any_rows.reset();
   if (query.by_design_row && has_rows) {
     visit_cases(db,
                 concat(" FROM design_rows d CROSS JOIN campaign_cases cc"
@@ -173,7 +172,7 @@ void Store::for_each_history_row(std::int64_t campaign, const TableQuery& query,
                 query.stage.empty() ? "" : " AND h.step BETWEEN s.first_step AND s.last_step",
                 query.fault ? concat(" AND h.fault_id = ", *query.fault) : "",
                 where_sql(query.where), " ORDER BY cc.position, h.fault, h.step");
-  Statement rows(*connection_, sql.c_str());
+  Statement rows(*connection_, sql);
   int bound = 0;
   rows.bind_at(++bound, query.stage);
   rows.bind_at(++bound, campaign);

@@ -27,7 +27,7 @@ void Store::record_trade(const TradeRecord& trade) {
 
 std::vector<ErrorBar> Store::error_bars(const std::string& campaign) const {
   std::vector<ErrorBar> all;
-  Statement& rows = connection_->prepared(
+  Statement rows = connection_->prepared(
       "SELECT campaign, tier, metric, reference, n_cases, rms, largest FROM error_bars"
       " WHERE campaign = ? ORDER BY tier, metric");
   rows.bind(campaign);

@@ -42,7 +42,8 @@ std::string duration(double seconds) {
 
 JsonDocument changed(const JsonDocument& scene, const std::vector<Change>& changes) {
   JsonDocument document = scene;
-  for (const Change& change : changes) put_value(document.value, change.pointer, change.value);
+  for (const Change& change : changes)
+    faultsim::put_value(document.value, change.pointer, change.value);
   return document;
 }
 

@@ -15,7 +15,6 @@ using nlohmann::json;
 
 namespace {
 
-
 std::string number(double value, int digits = 3) {
   return std::isnan(value) ? "" : format_number(value, digits);
 }

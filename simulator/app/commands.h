@@ -18,27 +18,38 @@ struct SceneArguments {
   bool json = false;
 };
 
+/// Where a command's operator is kept, and what may be spent on building it.
+struct OperatorArguments {
+  std::filesystem::path cache;  ///< empty = the user's cache folder.
+  bool no_cache = false;
+  int threads = 0;  ///< of the factorisation; 0 = every core that this process may use.
+};
+
 struct RunArguments {
   SceneArguments scene;
+  OperatorArguments op;
   std::filesystem::path output;  ///< empty = <scene name>-result beside the current folder.
-  std::filesystem::path cache;   ///< empty = the user's cache folder.
-  bool no_cache = false;
-  bool wide = false;  ///< the step table with all its columns.
+  bool wide = false;             ///< the step table with all its columns.
 };
 
 struct DiagnoseArguments {
   SceneArguments scene;
-  std::filesystem::path cache;  ///< empty = the user's cache folder.
-  bool no_cache = false;
+  OperatorArguments op;
 };
 
 struct ExportArguments {
   SceneArguments scene;
+  OperatorArguments op;
   int step = 0;                  ///< load step whose contact problem is wanted.
   std::filesystem::path output;  ///< the HDF5 file.
-  std::filesystem::path cache;   ///< empty = the user's cache folder.
-  bool no_cache = false;
   bool freeze_strength = false;  ///< weakening friction keeps its value at the start of the step.
+};
+
+struct InfluenceArguments {
+  SceneArguments scene;
+  std::vector<std::string> regions;  ///< names of compartments; empty = all.
+  OperatorArguments op;
+  std::filesystem::path output;  ///< the HDF5 file.
 };
 
 struct WorkerArguments {
@@ -48,6 +59,7 @@ struct WorkerArguments {
   std::filesystem::path node_cache;  ///< CachePolicy::node_folder.
   double cache_size = 20e9;          ///< bytes.
   double memory_limit = 0;           ///< bytes of private memory; 0 = not limited.
+  int threads = 1;                   ///< of a factorisation.
 };
 
 struct SolverStudyArguments {
@@ -75,6 +87,8 @@ ExitCode diagnose_command(const DiagnoseArguments& arguments);
 /// Writes the contact problem of one load step, and our solution, as an FCLib file. Ends with
 /// no_convergence when the case does not reach the step, or the step has no solution to add.
 ExitCode export_contact_command(const ExportArguments& arguments);
+/// Writes what a pressure change in each reservoir cell does to the faults (model/influence.h).
+ExitCode influence_command(const InfluenceArguments& arguments);
 /// Prints what the bits of results depend on besides the scene: processor, BLAS, compiler, flags,
 /// libraries; and their fingerprint. No names of machines, no paths.
 ExitCode environment_command(bool json);

@@ -99,8 +99,7 @@ void print(const Diagnosis& d) {
 ExitCode diagnose_command(const DiagnoseArguments& arguments) {
   catch_interrupts();
   const LoadedScene loaded = load_scene(arguments.scene);
-  const PreparedOperator prepared = prepare_on_screen(
-      loaded, cache_policy(arguments.cache, arguments.no_cache), arguments.scene.json);
+  const PreparedOperator prepared = prepare_on_screen(loaded, arguments.op, arguments.scene.json);
   SilentMonitor silent;
   const Diagnosis diagnosis = diagnose_case(loaded.scene, prepared, silent);
   if (arguments.scene.json) {

@@ -110,8 +110,7 @@ ExitCode export_contact_command(const ExportArguments& arguments) {
                        "a load step with creeping salt is not one contact problem but several",
                        "export the elastic case: --set /numerics/creep=off"}});
   }
-  const PreparedOperator prepared = prepare_on_screen(
-      loaded, cache_policy(arguments.cache, arguments.no_cache), arguments.scene.json);
+  const PreparedOperator prepared = prepare_on_screen(loaded, arguments.op, arguments.scene.json);
   const FaultOperator& op = *prepared.op;
 
   ExportedStep exported;

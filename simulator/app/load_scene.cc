@@ -5,6 +5,7 @@
 
 #include "simulator/app/screen.h"
 #include "simulator/common/interrupt.h"
+#include "simulator/common/machine.h"
 #include "simulator/loading/pressure_warnings.h"
 #include "simulator/output/output_target.h"
 #include "simulator/plan/geometry_check.h"
@@ -87,16 +88,23 @@ std::string remarks_to_text(const LoadedScene& loaded) {
   return text;
 }
 
-CachePolicy cache_policy(const std::filesystem::path& folder, bool no_cache) {
+CachePolicy cache_policy(const OperatorArguments& arguments) {
   CachePolicy policy;
-  if (!no_cache) policy.folder = folder.empty() ? user_cache() : folder;
+  if (!arguments.no_cache) {
+    policy.folder = arguments.cache.empty() ? user_cache() : arguments.cache;
+  }
   return policy;
 }
 
-PreparedOperator prepare_on_screen(const LoadedScene& loaded, const CachePolicy& cache,
+BuildOptions build_options(const OperatorArguments& arguments) {
+  return {.n_threads = arguments.threads > 0 ? arguments.threads : usable_cores()};
+}
+
+PreparedOperator prepare_on_screen(const LoadedScene& loaded, const OperatorArguments& arguments,
                                    bool quiet) {
   ScreenMonitor monitor(quiet);
-  PreparedOperator prepared = prepare_operator(loaded.scene, loaded.plan, cache, false, monitor);
+  PreparedOperator prepared = prepare_operator(loaded.scene, loaded.plan, cache_policy(arguments),
+                                               false, monitor, build_options(arguments));
   if (!prepared.remark.empty()) monitor.note(prepared.remark);
   monitor.clear();
   throw_if_interrupted("building the operator");

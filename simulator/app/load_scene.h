@@ -31,9 +31,12 @@ std::string remarks_to_text(const LoadedScene& loaded);
 void check_geometry(const LoadedScene& loaded);
 
 /// Where a command keeps operators: the folder given, or the user's cache folder, or nowhere.
-CachePolicy cache_policy(const std::filesystem::path& folder, bool no_cache);
+CachePolicy cache_policy(const OperatorArguments& arguments);
+/// Threads as asked for; as many as the process may use cores where nothing was.
+BuildOptions build_options(const OperatorArguments& arguments);
 /// prepare_operator with its progress and remarks on the screen, unless `quiet`. Throws when it was
 /// interrupted.
-PreparedOperator prepare_on_screen(const LoadedScene& loaded, const CachePolicy& cache, bool quiet);
+PreparedOperator prepare_on_screen(const LoadedScene& loaded, const OperatorArguments& arguments,
+                                   bool quiet);
 
 }  // namespace faultsim

@@ -19,6 +19,8 @@ constexpr const char* kFooter =
     "noise\n"
     "  faultsim export-contact my-field.json --step 10 -o step10.hdf5\n"
     "                                             a step's contact problem for other solvers\n"
+    "  faultsim influence my-field.json -o influence.h5\n"
+    "                                             what pressure in each reservoir cell does\n"
     "  faultsim verify V1 V2                      meet the closed forms\n"
     "  faultsim solver-study --h 1/8              preconditioners of the coupled path\n"
     "  faultsim environment                       processor, BLAS, compiler: for bug reports\n"
@@ -54,6 +56,7 @@ struct Arguments {
   RunArguments run;
   DiagnoseArguments diagnosed;
   ExportArguments exported;
+  InfluenceArguments influence;
   WorkerArguments worker;
   SolverStudyArguments study;
   bool environment_json = false;
@@ -61,11 +64,18 @@ struct Arguments {
   bool list = false, json = false, slow = false, markdown = false;
 };
 
-template <typename Cached>
-void add_cache(CLI::App* command, Cached& arguments) {
+void add_threads(CLI::App* command, int& threads, const std::string& unless_given) {
+  command
+      ->add_option("--threads", threads,
+                   "for building an operator (default: " + unless_given + "); same bits with any")
+      ->check(CLI::Range(1, 1024));
+}
+
+void add_operator(CLI::App* command, OperatorArguments& arguments) {
   command->add_option("--cache", arguments.cache,
                       "operator cache (default: the user's cache folder)");
   command->add_flag("--no-cache", arguments.no_cache, "neither read nor write cached operators");
+  add_threads(command, arguments.threads, "all cores");
 }
 
 void add_init(CLI::App& app, Arguments& a, ExitCode& code) {
@@ -122,7 +132,7 @@ void add_run(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* command = app.add_subcommand("run", "run a scene");
   add_scene(command, a.run.scene);
   command->add_option("-o,--output", a.run.output, "result folder (default SCENE-result)");
-  add_cache(command, a.run);
+  add_operator(command, a.run.op);
   command->add_flag("--wide", a.run.wide, "the table with all its columns, however wide");
   command->add_option("--path", a.path, "how to solve")->check(CLI::IsMember({"condensed"}));
   command->footer(
@@ -138,7 +148,7 @@ void add_diagnose(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* command = app.add_subcommand(
       "diagnose", "run a scene, check it from outside the solver, and again with noise");
   add_scene(command, a.diagnosed.scene);
-  add_cache(command, a.diagnosed);
+  add_operator(command, a.diagnosed.op);
   command->footer(
       "Examples:\n"
       "  faultsim diagnose my-field.json --set offset_east=\"200 m\"\n"
@@ -158,7 +168,7 @@ void add_export_contact(CLI::App& app, Arguments& a, ExitCode& code) {
   command->add_option("-o,--output", a.exported.output, "file to write")->required();
   command->add_flag("--freeze-strength", a.exported.freeze_strength,
                     "friction that weakens keeps its value at the start of the step");
-  add_cache(command, a.exported);
+  add_operator(command, a.exported.op);
   command->footer(
       "Examples:\n"
       "  faultsim export-contact my-field.json --step 10 -o step10.hdf5\n"
@@ -166,6 +176,26 @@ void add_export_contact(CLI::App& app, Arguments& a, ExitCode& code) {
       "Runs the scene up to the step before, and writes u = W r + q, friction coefficients and\n"
       "our solution. The step must have no cohesion; see docs/contact-export.md.");
   command->callback([&] { code = export_contact_command(a.exported); });
+}
+
+void add_influence(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* command = app.add_subcommand(
+      "influence", "what a pressure change in each reservoir cell does to the faults");
+  add_scene(command, a.influence.scene);
+  command->add_option("-o,--output", a.influence.output, "HDF5 file to write")->required();
+  command
+      ->add_option("--region", a.influence.regions,
+                   "a compartment whose cells are wanted; may be repeated (default: all)")
+      ->allow_extra_args(false);
+  add_operator(command, a.influence.op);
+  command->footer(
+      "Examples:\n"
+      "  faultsim influence my-field.json -o influence.h5\n"
+      "  faultsim influence my-field.json --region west --region east -o both.h5 --json\n"
+      "With Biot coefficient b and a pressure change per cell, traction^T (b dp) is the change of "
+      "the\n"
+      "locked effective traction on every fault node: see docs/commands.md, influence.");
+  command->callback([&] { code = influence_command(a.influence); });
 }
 
 void add_worker(CLI::App& app, Arguments& a, ExitCode& code) {
@@ -178,6 +208,7 @@ void add_worker(CLI::App& app, Arguments& a, ExitCode& code) {
                       "copies of cached operators on this host's own disk");
   command->add_option("--cache-size", a.worker.cache_size, "bytes");
   command->add_option("--memory-limit", a.worker.memory_limit, "bytes of private memory");
+  add_threads(command, a.worker.threads, "1");
   command->footer("Example: faultsim worker --requests 0 --replies 1 <requests >replies");
   command->callback([&] { code = worker_command(a.worker); });
 }
@@ -251,8 +282,8 @@ ExitCode faultsim_main(int argc, char** argv) {
   app.set_version_flag("--version", version_text("faultsim"));
   Arguments arguments;
   ExitCode code = ExitCode::done;
-  for (auto* add : {add_init, add_looking, add_run, add_diagnose, add_export_contact, add_worker,
-                    add_solver_study, add_environment, add_verify}) {
+  for (auto* add : {add_init, add_looking, add_run, add_diagnose, add_export_contact, add_influence,
+                    add_worker, add_solver_study, add_environment, add_verify}) {
     add(app, arguments, code);
   }
   try {

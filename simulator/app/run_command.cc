@@ -115,9 +115,9 @@ ExitCode run_command(const RunArguments& arguments) {
               << blas_kernel_reason() << ")\n"
               << remarks_to_text(loaded);
   }
-  const CachePolicy cache = cache_policy(arguments.cache, arguments.no_cache);
   const PreparedOperator prepared =
-      prepare_operator(scene, loaded.plan, cache, scene.output.volume_fields, monitor);
+      prepare_operator(scene, loaded.plan, cache_policy(arguments.op), scene.output.volume_fields,
+                       monitor, build_options(arguments.op));
   if (!prepared.remark.empty()) monitor.note(prepared.remark);
   monitor.clear();
   if (!json) {

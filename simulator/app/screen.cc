@@ -145,8 +145,7 @@ std::string step_table_row(const StepResult& step, bool wide) {
       if (others_mark != '*' && mark(fault) != ' ') others_mark = mark(fault);
     }
   }
-  if (n_shown < step.faults.size())
-    line += format(" %6.3f%c", others, others_mark);
+  if (n_shown < step.faults.size()) line += format(" %6.3f%c", others, others_mark);
   line += format(" %8.4g %8.3f", area, slip * 1e3);
   if (wide) line += format(" %5d %8.2f", step.counts.newton_iterations, step.seconds * 1e3);
   return line + "\n";

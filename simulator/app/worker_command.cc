@@ -4,6 +4,7 @@
 
 #include <array>
 #include <csignal>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -15,14 +16,14 @@
 #include "simulator/linalg/blas_start.h"
 #include "simulator/loading/field_keeper.h"
 #include "simulator/loading/run_case.h"
-#include "simulator/output/write_result.h"
+#include "simulator/output/result_bytes.h"
 
 namespace faultsim {
 namespace {
 
 using nlohmann::json;
 
-constexpr int kProtocolVersion = 2;  // schemas/worker_protocol.md
+constexpr int kProtocolVersion = 3;  // schemas/worker_protocol.md
 
 /// JSON lines over two descriptors.
 class Channel {
@@ -47,8 +48,9 @@ class Channel {
     }
   }
 
-  void say(const json& message) {
-    const std::string line = message.dump() + "\n";
+  /// @param bytes  what follows the line as it is.
+  void say(const json& message, const std::string& bytes = "") {
+    const std::string line = message.dump() + "\n" + bytes;
     std::size_t sent = 0;
     while (sent < line.size()) {
       const ssize_t n = write(replies_, line.data() + sent, line.size() - sent);
@@ -76,37 +78,61 @@ class Worker {
   Worker(const WorkerArguments& arguments)
       : channel_(arguments.requests, arguments.replies),
         cache_{arguments.cache, static_cast<std::uint64_t>(arguments.cache_size),
-               arguments.node_cache} {}
+               arguments.node_cache},
+        build_{.n_threads = arguments.threads} {}
 
   void serve() {
     channel_.say({{"event", "hello"},
                   {"version", kProtocolVersion},
+                  {"result_layout", result_layout()},
                   {"numerics_version", kNumericsVersion}});
     while (const auto line = channel_.next()) {
-      const json request = json::parse(*line);
-      const json& run = request.at("run");
-      const Stopwatch watch;
-      json reply = {{"event", "done"}, {"run", run}};
-      try {
-        JsonDocument document{request.value("source", "case"), request.at("scene"), {}};
-        const LoadedScene loaded = load_scene(std::move(document));
-        demand_identity(request, loaded.scene);
-        need_operator(run, loaded);
-        channel_.say({{"event", "started"}, {"run", run}});
-        run_one(request, loaded.scene, reply);
-      } catch (const InputError& error) {
-        reply["error"] = error.what();
-        reply["exit_code"] = static_cast<int>(ExitCode::input);
-      } catch (const Error& error) {  // disk or memory: the next case may well fit
-        reply["error"] = error.what();
-        reply["exit_code"] = static_cast<int>(ExitCode::world);
+      json request = json::parse(*line);
+      if (request.contains("scene")) {
+        bases_[request.at("base").get<std::int64_t>()] = std::move(request["scene"]);
+      } else {
+        answer(request);
       }
-      reply["seconds"] = watch.seconds();
-      channel_.say(reply);
     }
   }
 
  private:
+  void answer(const json& request) {
+    const json& run = request.at("run");
+    const Stopwatch watch;
+    json reply = {{"event", "done"}, {"run", run}};
+    std::string result;
+    try {
+      const LoadedScene loaded = load_scene(scene_of(request));
+      demand_identity(request, loaded.scene);
+      need_operator(run, loaded);
+      channel_.say({{"event", "started"}, {"run", run}});
+      result = result_to_bytes(run_one(request, loaded.scene, reply));
+      reply["result_bytes"] = result.size();
+    } catch (const InputError& error) {
+      reply["error"] = error.what();
+      reply["exit_code"] = static_cast<int>(ExitCode::input);
+    } catch (const Error& error) {  // disk or memory: the next case may well fit
+      reply["error"] = error.what();
+      reply["exit_code"] = static_cast<int>(ExitCode::world);
+    }
+    reply["seconds"] = watch.seconds();
+    channel_.say(reply, result);
+  }
+
+  /// The base scene with the request's changes put in.
+  JsonDocument scene_of(const json& request) const {
+    JsonDocument document{request.value("source", "case"), bases_.at(request.at("base")), {}};
+    for (const auto& [pointer, value] : request.at("changes").items()) {
+      try {
+        document.value[json::json_pointer(pointer)] = value;
+      } catch (const json::exception&) {
+        throw InputError(document.source, {{pointer, 0, "the base scene has no place for it", ""}});
+      }
+    }
+    return document;
+  }
+
   /// Refuses a scene that is not the case's: its result would be stored under another's name.
   static void demand_identity(const json& request, const Scene& scene) {
     if (!request.contains("identity")) return;
@@ -121,21 +147,18 @@ class Worker {
   }
 
   /// A result goes out only with the fields that were asked for.
-  void run_one(const json& request, const Scene& scene, json& reply) {
+  CaseResult run_one(const json& request, const Scene& scene, json& reply) {
     SilentMonitor silent;
-    if (!request.contains("fields")) {
-      reply["result"] = result_to_json(run_case(scene, prepared_, silent));
-      return;
-    }
+    if (!request.contains("fields")) return run_case(scene, prepared_, silent);
     const json& wanted = request["fields"];
     FieldKeeper keeper(wanted.at("folder").get<std::string>(),
                        field_steps_from_string(wanted.at("steps").get<std::string>()), scene,
                        prepared_.op->geometry, prepared_.ladder != nullptr);
-    const CaseResult result = run_case(
+    CaseResult result = run_case(
         scene, prepared_, silent,
         [&](const StepResult& step, const FaultFields& fields) { keeper.add(step, fields); });
     reply["fields"] = {{"steps", keeper.finish()}};
-    reply["result"] = result_to_json(result);
+    return result;
   }
 
   void need_operator(const json& run, const LoadedScene& loaded) {
@@ -149,7 +172,7 @@ class Worker {
     const Stopwatch watch;
     prepared_ = {};  // frees the old operator before the new one is built
     SilentMonitor silent;
-    prepared_ = prepare_operator(loaded.scene, loaded.plan, cache_, false, silent);
+    prepared_ = prepare_operator(loaded.scene, loaded.plan, cache_, false, silent, build_);
     key_ = key;
     const FaultOperator& op = *prepared_.op;
     channel_.say({{"event", "operator"},
@@ -159,15 +182,17 @@ class Worker {
                   {"seconds", watch.seconds()},
                   {"unknowns", op.n_unknowns},
                   {"jump_unknowns", op.geometry.n_dofs},
-                  {"bytes", 8.0 * static_cast<double>(op.h.size())},
+                  {"bytes", 8.0 * op.geometry.n_dofs * op.geometry.n_dofs},
                   {"peak_bytes", peak_bytes()},
                   {"remark", prepared_.remark}});
   }
 
   Channel channel_;
   CachePolicy cache_;
+  BuildOptions build_;
   PreparedOperator prepared_;
   std::string key_;
+  std::map<std::int64_t, json> bases_;  ///< base scenes by the number that the campaign gave them.
 };
 
 }  // namespace

@@ -78,6 +78,10 @@ std::string printable(std::string_view text, Keep keep) {
 
 std::string first_unprintable(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
+    if (text[i] >= ' ' && text[i] <= '~') {  // nearly always
+      ++i;
+      continue;
+    }
     const Character one = character_at(text, i);
     if (!one.valid || is_obeyed(one.code)) return spelled(text, i, one);
     i += one.size;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <numbers>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -21,12 +23,27 @@ enum class Dimension {
   viscosity,          ///< Pa s
   moment,             ///< N m
   potency,            ///< m3
+  acceleration,       ///< m/s2
 };
 
-/// The SI unit of a dimension as udunits writes it: "m", "Pa", "rad", "" for number.
-const char* si_unit(Dimension dimension);
-/// A usual unit to suggest in messages: "deg" for angle, "bar" for pressure, ...
-const char* usual_unit(Dimension dimension);
+/// All there is to say about a dimension. A new one is a value above and a line in units.cc.
+struct DimensionInfo {
+  Dimension dimension;
+  const char* key;            ///< in schemas and stores: "pressure_gradient"
+  const char* noun;           ///< in messages: "a pressure gradient"
+  const char* si;             ///< unit as udunits writes it: "Pa/m"; "" for number
+  const char* usual;          ///< unit to suggest: "bar/m"
+  const char* suffix;         ///< of columns in SI: "_pa_per_m"
+  std::array<int, 4> powers;  ///< of length, mass, time, angle
+};
+/// In the order of Dimension.
+std::span<const DimensionInfo> dimensions();
+const DimensionInfo& info_of(Dimension dimension);
+/// By DimensionInfo::key; nullptr if there is none.
+const DimensionInfo* dimension_named(std::string_view key);
+
+inline const char* si_unit(Dimension dimension) { return info_of(dimension).si; }
+inline const char* usual_unit(Dimension dimension) { return info_of(dimension).usual; }
 
 /// The outcome of reading one quantity; on failure value is NaN and what/cure say why.
 struct ParsedQuantity {

@@ -11,6 +11,7 @@
 #include "simulator/common/stopwatch.h"
 #include "simulator/condensation/fault_geometry.h"
 #include "simulator/condensation/loose_pieces.h"
+#include "simulator/elasticity/element.h"
 #include "simulator/linalg/blas.h"
 
 namespace faultsim {
@@ -39,8 +40,8 @@ void check_balance(const BulkProblem& problem, const LoadCase& load, Monitor& mo
   const double total = forces.colwise().norm().sum();
   const double size = (high - low).norm();
   if (force.norm() <= kBalanced * total && moment.norm() <= kBalanced * total * size) return;
-  monitor.note(concat("load ", load.name, " alone is not in balance (net force ", force.norm(),
-                      " N, moment ", moment.norm(),
+  monitor.note(concat("load ", to_string(load.key), " alone is not in balance (net force ",
+                      force.norm(), " N, moment ", moment.norm(),
                       " N m per unit): no displacement is prescribed, so the loads must balance "
                       "together, or three pinned points carry the difference"));
 }
@@ -57,6 +58,20 @@ void check_problem(const BulkProblem& problem) {
     FAULTSIM_DEMAND(material.youngs_modulus > 0 && nu > -1 && nu < 0.5, "E ",
                     material.youngs_modulus, " Pa, nu ", nu);
   }
+}
+
+InfluenceCell influence_cell(const BulkProblem& problem, int cell) {
+  const Mesh& mesh = problem.mesh;
+  FAULTSIM_DEMAND(cell >= 0 && cell < static_cast<int>(mesh.cells.size()), "cell ", cell, " of ",
+                  mesh.cells.size());
+  InfluenceCell result;
+  result.cell = cell;
+  result.material = mesh.material[cell];
+  result.region = pressure_region(problem, cell);
+  if (result.region >= 0) result.fraction = mesh.region_fraction[cell];
+  result.volume = make_element(mesh, cell).volume / (mesh.plane_strain ? mesh.thickness : 1);
+  for (const int node : mesh.cells[cell]) result.centroid += mesh.nodes[node] / 8;
+  return result;
 }
 
 }  // namespace
@@ -79,27 +94,22 @@ struct CondensedBulk::Impl {
       : problem(bulk_problem),
         options(build_options),
         dofs(problem.mesh, problem.conditions, static_cast<int>(problem.loads.size())),
-        geometry(fault_geometry(problem.mesh, problem.materials, dofs, problem.half_domain)),
-        dof_area(geometry.n_dofs) {
-    for (const OperatorNode& node : geometry.nodes) {
-      for (int dof : node.dof) {
-        if (dof >= 0) dof_area[dof] = node.area;
-      }
-    }
-  }
+        geometry(fault_geometry(problem.mesh, problem.materials, dofs, problem.half_domain)) {}
 
   void factorise(Monitor& monitor);
   void make_loads(Monitor& monitor);
   Eigen::MatrixXd condensed_matrix() const;
   void set_locked(FaultOperator& op);
   void observe(FaultOperator& op);
+  /// q: u = q·x of a component of the displacement of an observation point (n_unknowns); zero where
+  /// it is prescribed or held for good.
+  Eigen::VectorXd observation(const Eigen::Vector3d& point, int component) const;
 
   BulkProblem problem;
   BuildOptions options;
   DofMap dofs;
   FaultGeometry geometry;
-  Eigen::VectorXd dof_area;  // A per jump, m2
-  Eigen::VectorXd springs;   // D
+  Eigen::VectorXd springs;  // D
   std::unique_ptr<TrailingCholesky> factor;
   std::vector<Eigen::VectorXd> loads;
   std::vector<Eigen::VectorXd> forward_loads;  // L⁻¹ P f_k, made when first wanted
@@ -114,8 +124,15 @@ void CondensedBulk::Impl::factorise(Monitor& monitor) {
     k.valuePtr()[k.outerIndexPtr()[dofs.n_bulk() + g]] += springs[g];  // the diagonal comes first
   }
   throw_if_interrupted("condensing the bulk");
-  monitor.progress(0.1, concat("factorising ", dofs.n_unknowns(), " unknowns"));
-  factor = std::make_unique<TrailingCholesky>(k, dofs.n_jump(), dofs.bulk_group(), dofs.n_groups());
+  constexpr double kBegin = 0.1, kEnd = 0.9;
+  const std::string what = concat("factorising ", dofs.n_unknowns(), " unknowns");
+  monitor.progress(kBegin, what);
+  const FactorRun run = {
+      .n_threads = options.n_threads,
+      .progress = [&](double done) { monitor.progress(kBegin + (kEnd - kBegin) * done, what); },
+      .stop = interrupted};
+  factor =
+      std::make_unique<TrailingCholesky>(k, dofs.n_jump(), dofs.bulk_group(), dofs.n_groups(), run);
   if (factor->failed_column() >= 0) throw_not_held(problem, dofs, factor->failed_column());
   throw_if_interrupted("condensing the bulk");
 }
@@ -142,56 +159,61 @@ Eigen::MatrixXd CondensedBulk::Impl::condensed_matrix() const {
 }
 
 void CondensedBulk::Impl::set_locked(FaultOperator& op) {
-  op.dof_area = dof_area;
-  op.locked.resize(geometry.n_dofs, static_cast<Eigen::Index>(loads.size()));
+  op.loads.traction.resize(geometry.n_dofs, static_cast<Eigen::Index>(loads.size()));
   for (std::size_t k = 0; k < loads.size(); ++k) {
     throw_if_interrupted("condensing the loads");
     if (forward_loads.size() == k) forward_loads.push_back(factor->forward(loads[k]));
-    op.load_names.push_back(problem.loads[k].name);
-    op.locked.col(static_cast<Eigen::Index>(k)) =
-        factor->condensed(forward_loads[k]).cwiseQuotient(op.dof_area);
+    op.loads.keys.push_back(problem.loads[k].key);
+    op.loads.traction.col(static_cast<Eigen::Index>(k)) =
+        factor->condensed(forward_loads[k]).cwiseQuotient(geometry.dof_area);
   }
-  FAULTSIM_DEMAND(op.locked.allFinite(), "locked tractions are not finite");
+  FAULTSIM_DEMAND(op.loads.traction.allFinite(), "locked tractions are not finite");
 }
 
 /// One adjoint back-solve per component: with q the row of P, u = q·x gives V = q_g − K_gr K_rr⁻¹
 /// q_r and U_k = q_r·K_rr⁻¹ f_k,r + the prescribed part.
 void CondensedBulk::Impl::observe(FaultOperator& op) {
   const Eigen::Index n_rows = 3 * static_cast<Eigen::Index>(problem.observation_points.size());
-  op.observed_load.setZero(n_rows, static_cast<Eigen::Index>(loads.size()));
-  op.observed_jump.setZero(n_rows, geometry.n_dofs);
+  op.observed.per_load.setZero(n_rows, static_cast<Eigen::Index>(loads.size()));
+  op.observed.per_jump.setZero(n_rows, geometry.n_dofs);
   Eigen::Index row = 0;
   for (const auto& [name, point] : problem.observation_points) {
     const int node = observed_node(problem.mesh, point);
     for (int c = 0; c < 3; ++c, ++row) {
       throw_if_interrupted("condensing the observation points");
-      op.observations.push_back(
+      op.observed.rows.push_back(
           {concat(name, ".", "xyz"[c]), problem.mesh.nodes[static_cast<std::size_t>(node)]});
       for (std::size_t k = 0; k < loads.size(); ++k) {
-        op.observed_load(row, static_cast<Eigen::Index>(k)) =
+        op.observed.per_load(row, static_cast<Eigen::Index>(k)) =
             dofs.prescribed(static_cast<int>(k), node, c);
       }
-      const auto [first, last] = dofs.terms(node, c);
-      if (first == last) continue;  // prescribed or held for good
-      Eigen::VectorXd q = Eigen::VectorXd::Zero(dofs.n_unknowns());
-      for (const DofMap::Term* term = first; term != last; ++term) {
-        q[term->unknown] += term->coefficient;
-      }
+      const Eigen::VectorXd q = observation(point, c);
+      if (q.isZero(0)) continue;
       const Eigen::VectorXd y = factor->forward(q);
-      op.observed_jump.row(row) = factor->condensed(y).transpose();
+      op.observed.per_jump.row(row) = factor->condensed(y).transpose();
       for (std::size_t k = 0; k < loads.size(); ++k) {
-        op.observed_load(row, static_cast<Eigen::Index>(k)) +=
+        op.observed.per_load(row, static_cast<Eigen::Index>(k)) +=
             y.head(dofs.n_bulk()).dot(forward_loads[k].head(dofs.n_bulk()));
       }
     }
   }
 }
 
+Eigen::VectorXd CondensedBulk::Impl::observation(const Eigen::Vector3d& point,
+                                                 int component) const {
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(dofs.n_unknowns());
+  const auto [first, last] = dofs.terms(observed_node(problem.mesh, point), component);
+  for (const DofMap::Term* term = first; term != last; ++term) {
+    q[term->unknown] += term->coefficient;
+  }
+  return q;
+}
+
 CondensedBulk::CondensedBulk(const BulkProblem& problem, const BuildOptions& options,
                              Monitor& monitor) {
   check_problem(problem);
   Stopwatch stopwatch;
-  set_blas_threads(options.blas_threads);
+  set_blas_threads(1);
   impl_ = std::make_unique<Impl>(problem, options);
   impl_->factorise(monitor);
   impl_->make_loads(monitor);
@@ -204,10 +226,9 @@ CondensedBulk::~CondensedBulk() = default;
 FaultOperator CondensedBulk::condense() {
   Impl& self = *impl_;
   Stopwatch stopwatch;
-  set_blas_threads(self.options.blas_threads);
   FaultOperator op;
   op.geometry = self.geometry;
-  own_h(op, self.condensed_matrix());
+  op.compliance = std::make_shared<DenseCompliance>(self.condensed_matrix());
   self.set_locked(op);
   self.observe(op);
   op.n_unknowns = self.dofs.n_unknowns();
@@ -217,12 +238,45 @@ FaultOperator CondensedBulk::condense() {
   return op;
 }
 
+InfluenceBlock CondensedBulk::influence(const std::vector<int>& cells, Monitor& monitor) {
+  Impl& self = *impl_;
+  const Mesh& mesh = self.problem.mesh;
+  Stopwatch stopwatch;
+  InfluenceBlock block;
+  std::vector<SparseLoad> loads;
+  for (const int cell : cells) {
+    block.cells.push_back(influence_cell(self.problem, cell));
+    loads.push_back(dilatation_load(mesh, self.dofs, cell));
+  }
+  Eigen::MatrixXd traction = self.factor->condense(loads, [&](double share) {
+    monitor.progress(share, concat("influence of ", cells.size(), " cells"));
+    throw_if_interrupted("condensing the influence of cells");
+  });
+  traction.array().colwise() /= self.geometry.dof_area.array();
+  FAULTSIM_DEMAND(traction.allFinite(), "influences are not finite");
+  block.traction = StoredMatrix(std::move(traction));
+  block.observed.resize(3 * self.problem.observation_points.size(), cells.size());
+  const Eigen::VectorXd locked = Eigen::VectorXd::Zero(self.geometry.n_dofs);
+  Eigen::Index row = 0;
+  for (const auto& [name, point] : self.problem.observation_points) {
+    for (int c = 0; c < 3; ++c, ++row) {
+      const Eigen::VectorXd z = self.factor->expand(self.observation(point, c), locked);
+      for (std::size_t k = 0; k < cells.size(); ++k) {
+        double sum = 0;
+        for (const auto& [unknown, force] : loads[k]) sum += z[unknown] * force;
+        block.observed(row, k) = sum;
+      }
+    }
+  }
+  block.build_seconds = stopwatch.seconds();
+  return block;
+}
+
 Eigen::Matrix3Xd CondensedBulk::displacement(const std::vector<double>& load_factors,
                                              const Eigen::VectorXd& jump) {
   Impl& self = *impl_;
   FAULTSIM_DEMAND(load_factors.size() == self.loads.size(), load_factors.size(), " factors for ",
                   self.loads.size(), " loads");
-  set_blas_threads(self.options.blas_threads);
   Eigen::VectorXd f = Eigen::VectorXd::Zero(self.dofs.n_unknowns());
   for (std::size_t k = 0; k < self.loads.size(); ++k) f += load_factors[k] * self.loads[k];
   return nodal_displacement(self.problem.mesh, self.dofs, self.factor->expand(f, jump),
@@ -230,12 +284,11 @@ Eigen::Matrix3Xd CondensedBulk::displacement(const std::vector<double>& load_fac
 }
 
 Eigen::VectorXd CondensedBulk::forward(const Eigen::VectorXd& force) {
-  set_blas_threads(impl_->options.blas_threads);
   return impl_->factor->forward(force);
 }
 
 Eigen::VectorXd CondensedBulk::locked_traction(const Eigen::VectorXd& forward) const {
-  return impl_->factor->condensed(forward).cwiseQuotient(impl_->dof_area);
+  return impl_->factor->condensed(forward).cwiseQuotient(impl_->geometry.dof_area);
 }
 
 Eigen::Matrix3Xd CondensedBulk::displacement(Eigen::VectorXd forward,
@@ -244,7 +297,6 @@ Eigen::Matrix3Xd CondensedBulk::displacement(Eigen::VectorXd forward,
   Impl& self = *impl_;
   FAULTSIM_DEMAND(load_factors.size() == self.forward_loads.size(), load_factors.size(),
                   " factors for ", self.forward_loads.size(), " loads");
-  set_blas_threads(self.options.blas_threads);
   for (std::size_t k = 0; k < load_factors.size(); ++k) {
     if (load_factors[k] != 0) forward += load_factors[k] * self.forward_loads[k];
   }

@@ -8,7 +8,8 @@
 #include "simulator/common/monitor.h"
 #include "simulator/elasticity/bulk_problem.h"
 #include "simulator/linalg/cholesky.h"
-#include "simulator/output/fault_operator.h"
+#include "simulator/model/fault_operator.h"
+#include "simulator/model/influence.h"
 
 namespace faultsim {
 
@@ -16,7 +17,7 @@ namespace faultsim {
 int observed_node(const Mesh& mesh, const Eigen::Vector3d& point);
 
 struct BuildOptions {
-  int blas_threads = 1;  ///< a policy value, never a function of the machine.
+  int n_threads = 1;  ///< of the factorisation; bits do not depend on it.
 };
 
 /// The factorised bulk of one family: kept while displacement fields, or the creep of salt, still
@@ -32,6 +33,11 @@ class CondensedBulk {
   /// left empty. One right-hand side at a time, so that the bits do not depend on what else is
   /// asked.
   FaultOperator condense();
+  /// The influence of cells of the mesh, names left empty: f_c = Pᵀ ∫_c div v, one forward
+  /// substitution per cell, P_c = A⁻¹ (f_g − K_gr K_rr⁻¹ f_r); one back-solve per observation row,
+  /// K_rr z = q_r, O_c = z·f_c. The bits of a cell do not depend on the others. May throw
+  /// Interrupted.
+  InfluenceBlock influence(const std::vector<int>& cells, Monitor& monitor);
   /// Displacement of all mesh nodes for given load factors and jumps: 3 x n_nodes, m.
   Eigen::Matrix3Xd displacement(const std::vector<double>& load_factors,
                                 const Eigen::VectorXd& jump);

@@ -151,6 +151,12 @@ FaultGeometry fault_geometry(const Mesh& mesh, const std::vector<ElasticMaterial
     average_over_faces(mesh, materials, fault, geometry.nodes.data() + first_node);
     drop_locked_nodes(geometry, geometry.faults.back());
   }
+  geometry.dof_area.resize(geometry.n_dofs);
+  for (const OperatorNode& node : geometry.nodes) {
+    for (const int dof : node.dof) {
+      if (dof >= 0) geometry.dof_area[dof] = node.area;
+    }
+  }
   return geometry;
 }
 

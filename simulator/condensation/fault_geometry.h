@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "simulator/elasticity/elasticity.h"
-#include "simulator/output/fault_operator.h"
+#include "simulator/model/fault_operator.h"
 
 namespace faultsim {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simulator/common/errors.h"
 #include "simulator/contact/contact_problem.h"
@@ -22,13 +23,19 @@ ContactState initial_state(const FaultOperator& op) {
   return state;
 }
 
+FrictionState friction_state(const OperatorNode& node, const ContactState& state, int k) {
+  const auto [normal, strike, dip] = node.dof;
+  return {{strike >= 0 ? state.jump[strike] : 0, dip >= 0 ? state.jump[dip] : 0},
+          state.slip_path[k],
+          state.cohesion_lost[k] == 0};
+}
+
 /// A load step in halves of halves. Position and width are in units of the smallest sub-step.
 struct ContactSolver::Impl {
   Impl(const FaultOperator& op, const ContactLaws& laws, const ContactOptions& given)
       : options(given), solver(op, laws, options), follower(solver) {
-    FAULTSIM_DEMAND(laws.damping.size() == 0 || laws.damping.size() == solver.problem().n_nodes(),
-                    "damping of ", laws.damping.size(), " nodes");
-    follows = laws.damping.size() > 0;
+    follows = std::any_of(laws.begin(), laws.end(),
+                          [](const CoulombLaw& law) { return law.damping > 0; });
     most_cuts = options.max_step_cuts;
     // An onset is a matter of the load factor; other trouble is not helped by ever smaller steps.
     if (follows && solver.problem().may_jump) {
@@ -37,11 +44,10 @@ struct ContactSolver::Impl {
     }
   }
 
-  void walk(const Eigen::VectorXd& before, const Eigen::VectorXd& after, ContactReport& report);
-  bool sub_step(const Eigen::VectorXd& before, const Eigen::VectorXd& after, int position,
-                int width, SolveCounts& counts);
-  bool jump(const Eigen::VectorXd& before, const Eigen::VectorXd& after, int position,
-            ContactReport& report);
+  double factor(int position) const { return position * (1.0 / (1 << most_cuts)); }
+  void walk(const LoadPath& path, ContactReport& report);
+  bool sub_step(const LoadPath& path, int position, int width, SolveCounts& counts);
+  bool jump(const LoadPath& path, int position, ContactReport& report);
   void explain(int position, ContactReport& report) const;
 
   ContactOptions options;
@@ -65,7 +71,8 @@ ContactReport ContactSolver::solve_step(const Eigen::VectorXd& before, const Eig
   FAULTSIM_DEMAND(before.size() == n && after.size() == n && state.jump.size() == n, "n_dofs ", n,
                   " before ", before.size(), " after ", after.size());
   ContactReport report;
-  impl.solver.begin(before, after, {}, state);
+  const LoadPath path{before, after};
+  impl.solver.begin(path, {}, state);
   const bool rests = impl.solver.rest();
   if (rests || impl.solver.attempt(impl.most_cuts == 0) == Attempt::converged) {
     impl.solver.commit(state);
@@ -76,7 +83,7 @@ ContactReport ContactSolver::solve_step(const Eigen::VectorXd& before, const Eig
   report.counts.active_set_passes = impl.solver.passes();
   report.counts.wasted_newton_iterations = impl.solver.iterations();
   impl.rolling = state;
-  impl.walk(before, after, report);
+  impl.walk(path, report);
   if (in_equilibrium(report.outcome)) {
     std::swap(state, impl.rolling);
   }
@@ -84,10 +91,9 @@ ContactReport ContactSolver::solve_step(const Eigen::VectorXd& before, const Eig
 }
 
 /// One sub-step of the cut step. @returns whether rolling advanced.
-bool ContactSolver::Impl::sub_step(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
-                                   int position, int width, SolveCounts& counts) {
-  const double unit = 1.0 / (1 << most_cuts);
-  solver.begin(before, after, {position * unit, (position + width) * unit, 0}, rolling);
+bool ContactSolver::Impl::sub_step(const LoadPath& path, int position, int width,
+                                   SolveCounts& counts) {
+  solver.begin(path, {factor(position), factor(position + width), 0}, rolling);
   if (!solver.rest()) {
     const bool last = width == 1 && !follows;
     failure = solver.attempt(last);
@@ -103,20 +109,19 @@ bool ContactSolver::Impl::sub_step(const Eigen::VectorXd& before, const Eigen::V
 
 /// Halves the step where it fails, doubles again where it works, and follows a jump where even the
 /// smallest sub-step fails.
-void ContactSolver::Impl::walk(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
-                               ContactReport& report) {
+void ContactSolver::Impl::walk(const LoadPath& path, ContactReport& report) {
   const int units = 1 << most_cuts;
   int position = 0;
   int width = std::max(units / 2, 1);
   while (position < units) {
-    if (sub_step(before, after, position, width, report.counts)) {
+    if (sub_step(path, position, width, report.counts)) {
       position += width;
       // One doubling per success, and only onto the grid of the doubled width.
       if (position % (2 * width) == 0 && position + 2 * width <= units) width *= 2;
     } else if (width > 1) {
       width /= 2;
     } else {
-      if (!follows || !jump(before, after, position, report)) {
+      if (!follows || !jump(path, position, report)) {
         explain(position, report);
         return;
       }
@@ -128,14 +133,12 @@ void ContactSolver::Impl::walk(const Eigen::VectorXd& before, const Eigen::Vecto
 
 /// Follows the jump in the smallest sub-step at position. A jump that starts where the last one
 /// ended belongs to it.
-bool ContactSolver::Impl::jump(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
-                               int position, ContactReport& report) {
+bool ContactSolver::Impl::jump(const LoadPath& path, int position, ContactReport& report) {
   if (static_cast<int>(report.jumps.size()) >= options.max_jumps) return false;
   const int budget = options.max_iterations - report.counts.newton_iterations -
                      report.counts.wasted_newton_iterations;
-  const double unit = 1.0 / (1 << most_cuts);
   JumpFollower::Report followed =
-      follower.follow(before, after, position * unit, (position + 1) * unit, budget, rolling);
+      follower.follow(path, factor(position), factor(position + 1), budget, rolling);
   report.counts.newton_iterations += followed.counts.newton_iterations;
   report.counts.active_set_passes += followed.counts.active_set_passes;
   report.counts.wasted_newton_iterations += followed.counts.wasted_newton_iterations;
@@ -150,8 +153,8 @@ bool ContactSolver::Impl::jump(const Eigen::VectorXd& before, const Eigen::Vecto
 }
 
 void ContactSolver::Impl::explain(int position, ContactReport& report) const {
-  const double from = static_cast<double>(position) / (1 << most_cuts);
-  const double to = static_cast<double>(position + 1) / (1 << most_cuts);
+  const double from = factor(position);
+  const double to = factor(position + 1);
   const StabilityReport& stable = solver.stability_report();
   const ContactProblem& problem = solver.problem();
   const bool loses_cohesion = !follows && failure == Attempt::lost_cohesion;
@@ -166,6 +169,8 @@ void ContactSolver::Impl::explain(int position, ContactReport& report) const {
   } else {
     report.reason = failure_text(problem, solver.sub_step(), report.counts, from, to);
   }
+  const std::string search = trace_summary(solver.trace());
+  if (!search.empty()) report.reason += "; last search: " + search;
 }
 
 void ContactJump::append(const ContactJump& next) {
@@ -184,14 +189,14 @@ void ContactJump::append(const ContactJump& next) {
 ContactViolation contact_violation(const FaultOperator& op, const ContactLaws& laws,
                                    const Eigen::VectorXd& locked, const ContactState& before,
                                    const ContactState& after) {
-  const ContactProblem problem(op, laws);
+  ContactProblem problem(op, laws);
   SubStep s;
   s.start = &before;
   s.locked = locked;
   s.increment = after.jump - before.jump;
   s.traction = after.traction;
   s.state = after.state;
-  s.cohesive.resize(laws.node.size());
+  s.cohesive.resize(laws.size());
   ContactViolation violation;
   for (int k = 0; k < problem.n_nodes(); ++k) {
     const auto i = static_cast<std::size_t>(k);
@@ -205,8 +210,9 @@ ContactViolation contact_violation(const FaultOperator& op, const ContactLaws& l
     violation.open_traction = std::max(violation.open_traction, at.open_traction);
     violation.penetration = std::max(violation.penetration, -after.jump[node.dof[0]]);
   }
-  const Eigen::VectorXd product = (op.h * after.jump).cwiseQuotient(op.dof_area);
-  violation.equilibrium = (after.traction - locked + product).lpNorm<Eigen::Infinity>();
+  Eigen::VectorXd balanced = locked;
+  problem.subtract_product(after.jump, balanced);
+  violation.equilibrium = (after.traction - balanced).lpNorm<Eigen::Infinity>();
   return violation;
 }
 

@@ -6,20 +6,14 @@
 #include <vector>
 
 #include "simulator/fault/friction_law.h"
-#include "simulator/output/fault_operator.h"
+#include "simulator/model/fault_operator.h"
 #include "simulator/output/result.h"
 
 namespace faultsim {
 
-/// What the contact solve needs besides the operator; per case, constant over its steps.
-struct ContactLaws {
-  std::vector<CoulombLaw> node;     ///< one per operator node.
-  std::vector<char> cumulated;      ///< per node: slip measure is the cumulated path.
-  std::vector<char> keep_cohesion;  ///< per node: cohesion survives opening.
-  std::vector<char> lose_cohesion_slipping =
-      {};                        ///< per node: the first slip ends cohesion; empty: no.
-  Eigen::VectorXd damping = {};  ///< η = G/2c_s per node, Pa s/m; empty = jumps are not followed.
-};
+/// What the contact solve needs besides the operator: the law of each operator node, constant over
+/// the steps of a case. Jumps are followed where the laws have damping.
+using ContactLaws = std::vector<CoulombLaw>;
 
 struct ContactOptions {
   double traction_tolerance = 1e-8;  ///< relative to the local traction level; too tight: cycling.
@@ -41,6 +35,9 @@ struct ContactState {
   std::vector<char> cohesion_lost;  ///< per node: by opening or, where the law says so, by slip.
 };
 ContactState initial_state(const FaultOperator& op);
+/// What the friction of a node remembers at the end of a step. @param node  number k of the
+/// operator.
+FrictionState friction_state(const OperatorNode& node, const ContactState& state, int k);
 
 /// Equilibrium jumped: between two load factors there is no stable equilibrium next to the last
 /// one. The jump was followed at fixed load to the next one (jump_follower.h).
@@ -84,7 +81,7 @@ struct ContactReport {
 ///
 /// A step with weakening is accepted only when every state on the way was shown stable
 /// (stability.h). Where that fails at the smallest sub-step, the jump is followed to the next
-/// stable equilibrium (jump_follower.h) and reported; without ContactLaws::damping the outcome is
+/// stable equilibrium (jump_follower.h) and reported; without damping in the laws the outcome is
 /// `unstable`.
 class ContactSolver {
  public:

@@ -45,9 +45,9 @@ double power_of_ten(double value) {
 }
 
 Eigen::MatrixXd inverse(const FaultOperator& op) {
-  const Eigen::LLT<Eigen::MatrixXd> factor(op.h);
+  const Eigen::LLT<Eigen::MatrixXd> factor(op.h());
   FAULTSIM_DEMAND(factor.info() == Eigen::Success, "H is not positive definite");
-  Eigen::MatrixXd w = Eigen::MatrixXd::Identity(op.h.rows(), op.h.cols());
+  Eigen::MatrixXd w = Eigen::MatrixXd::Identity(op.h().rows(), op.h().cols());
   factor.solveInPlace(w);
   return 0.5 * (w + w.transpose());
 }
@@ -59,27 +59,24 @@ ContactLaws frozen_laws(const FaultOperator& op, const ContactLaws& laws, const 
   const ContactProblem problem(op, laws);
   ContactLaws frozen = laws;
   Obstacle cohesion, change;
-  for (std::size_t i = 0; i < laws.node.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    const bool cohesive = !start.cohesion_lost[i];
-    CoulombLaw& law = frozen.node[i];
-    if (law.cohesion > 0 && cohesive) cohesion.note(i);
-    law.cohesion = 0;
-    if (!problem.nodes[i].weakens) continue;
-    const double slip =
-        laws.cumulated[i] ? start.slip_path[k] : shear_part(problem.nodes[i], start.jump).norm();
-    const bool spent = laws.cumulated[i] && slip >= law.slip_weakening_distance;
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    const NodeLaw& law = problem.nodes[i].law;
+    const FrictionState state = friction_state(op.geometry.nodes[i], start, static_cast<int>(i));
+    if (law.cohesion(state.cohesive) > 0) cohesion.note(i);
+    frozen[i].cohesion = 0;
+    if (!law.weakens()) continue;
+    const bool spent = laws[i].cumulated && law.is_fully_weakened(state);
     if (!spent && weakening == Weakening::refuse) change.note(i);
     const double unit_traction = -1;  // μ = −∂τ_L/∂t'_N is the same at any
-    const double friction = -limit_shear_traction(law, unit_traction, slip).d_normal_traction;
-    law.static_friction_angle = law.dynamic_friction_angle = std::atan(friction);
+    const double friction = -law.strength(unit_traction, {0, 0}, 0, state).d_normal;
+    frozen[i].static_friction_angle = frozen[i].dynamic_friction_angle = std::atan(friction);
   }
   std::vector<Problem> problems;
   const auto refuse = [&](const Obstacle& obstacle, const std::string& what,
                           const std::string& cure) {
     if (obstacle.count == 0) return;
     problems.push_back({"", 0,
-                        concat(what, " at ", obstacle.count, " of ", laws.node.size(),
+                        concat(what, " at ", obstacle.count, " of ", laws.size(),
                                " nodes (first: ", place(problem, static_cast<int>(obstacle.first)),
                                "), and a friction cone has none"),
                         cure});
@@ -111,7 +108,7 @@ FrictionalContactProblem frictional_contact_problem(const FaultOperator& op,
   }
   const Eigen::MatrixXd w = inverse(op);
   const Eigen::VectorXd trial = step.start.traction + (step.after - step.before);
-  const Eigen::VectorXd free_motion = w * trial.cwiseProduct(op.dof_area);
+  const Eigen::VectorXd free_motion = w * trial.cwiseProduct(op.geometry.dof_area);
   const std::vector<int> dofs = component_dofs(op.geometry, problem.dimension);
   problem.w.setZero(n, n);
   problem.q.setZero(n);
@@ -131,7 +128,7 @@ FrictionalContactProblem frictional_contact_problem(const FaultOperator& op,
     problem.q[b] = free_motion[column];
     if (b % problem.dimension == 0) {
       problem.q[b] += step.start.jump[column];
-      problem.friction[node] = contact.nodes[static_cast<std::size_t>(node)].friction;
+      problem.friction[node] = contact.nodes[static_cast<std::size_t>(node)].law.static_friction();
     }
   }
   problem.displacement_unit = power_of_ten(problem.q.lpNorm<Eigen::Infinity>());
@@ -155,7 +152,7 @@ FrictionalContactSolution frictional_contact_solution(const FaultOperator& op,
     const bool normal = a % problem.dimension == 0;
     const double motion = normal ? end.jump[dof] : end.jump[dof] - step.start.jump[dof];
     solution.u[a] = motion / problem.displacement_unit;
-    solution.r[a] = -op.dof_area[dof] * end.traction[dof] / problem.force_unit;
+    solution.r[a] = -op.geometry.dof_area[dof] * end.traction[dof] / problem.force_unit;
   }
   return solution;
 }

@@ -6,6 +6,30 @@
 #include "simulator/linalg/gmres.h"
 
 namespace faultsim {
+namespace {
+
+/// How long a search has gone on without its residual falling by half.
+struct Progress {
+  double best = std::numeric_limits<double>::infinity();
+  int idle = 0;  ///< iterations.
+  /// @returns idle with this residual (Σ of squares) counted in.
+  int idle_after(double residual) {
+    constexpr double kProgress = 0.5;
+    idle = residual < kProgress * best ? 0 : idle + 1;
+    best = std::min(best, residual);
+    return idle;
+  }
+};
+
+SearchIteration iteration_of(const SubStep& sub_step, double residual, double length,
+                             int n_changed) {
+  const auto count = [&](FaultState state) {
+    return static_cast<int>(std::count(sub_step.state.begin(), sub_step.state.end(), state));
+  };
+  return {residual, length, count(FaultState::slip), count(FaultState::open), n_changed};
+}
+
+}  // namespace
 
 ContactNewton::ContactNewton(ContactProblem& problem, const ContactOptions& options)
     : problem_(problem), options_(options) {}
@@ -18,28 +42,24 @@ SlipPoint ContactNewton::slip_point(const SubStep& sub_step, const Eigen::Vector
   point.normal_traction = traction[node.dof[0]];
   point.shear_traction = shear_part(node, traction);
   point.slip_increment = shear_part(node, increment);
-  if (node.weakens) {
-    point.slip_before = shear_part(node, sub_step.start->jump);
-    point.path_before = sub_step.start->slip_path[k];
-  }
+  point.before = friction_before(node, sub_step, k);
   // A node at rest needs no r, and its column of H stays unread.
   if (point.slip_increment[0] != 0 || point.slip_increment[1] != 0 ||
       sub_step.state[i] == FaultState::slip) {
     point.stiffness = problem_.stiffness(node, 1);
     if (node.n_dofs > 2) point.stiffness = std::max(point.stiffness, problem_.stiffness(node, 2));
   }
-  point.cohesive = sub_step.cohesive[i] != 0;
-  point.damping = sub_step.damping_per_second * problem_.damping(k);
+  point.per_second = sub_step.per_second;
   // With damping in r, |y| − τ_L of a node that slips along its traction does not depend on Δt;
   // without, a first guess that slips too far would look like rest, and the set would cycle.
-  point.stiffness += point.damping;
+  point.stiffness += node.law.drag(sub_step.per_second);
   return point;
 }
 
 /// Sets each node's state from the augmented tractions. Hysteresis: leaving stick needs a violation
-/// beyond the tolerance, going back none.
-bool ContactNewton::classify(SubStep& sub_step) {
-  bool changed = false;
+/// beyond the tolerance, going back none. @returns how many changed.
+int ContactNewton::classify(SubStep& sub_step) {
+  int n_changed = 0;
   for (int k = 0; k < problem_.n_nodes(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     const ContactNode& node = problem_.nodes[i];
@@ -53,23 +73,23 @@ bool ContactNewton::classify(SubStep& sub_step) {
       state = FaultState::open;
     } else if (node.n_dofs > 1) {
       const double excess =
-          slip_excess(problem_, k, slip_point(sub_step, sub_step.traction, sub_step.increment, k));
+          slip_excess(node.law, slip_point(sub_step, sub_step.traction, sub_step.increment, k));
       const bool slips = sub_step.state[i] == FaultState::slip;
       if (excess > (slips ? 0 : tolerance)) state = FaultState::slip;
     }
     if (state == FaultState::open) was_open_[i] = 1;
-    changed = changed || state != sub_step.state[i];
+    n_changed += state != sub_step.state[i];
     sub_step.state[i] = state;
   }
-  return changed;
+  return n_changed;
 }
 
 /// Σ (F_k / tolerance_k)² of the natural residual F: t'_N − min(0, t'_N + r g_N) and
 /// t'_T − projection of t'_T + r Δg_T on the disc of radius τ_L (t'_T itself when open).
-double ContactNewton::natural_residual(const SubStep& sub_step, const Eigen::VectorXd& traction,
-                                       const Eigen::VectorXd& increment, double& worst) const {
-  double sum = 0;
-  worst = 0;
+ContactNewton::Residual ContactNewton::natural_residual(const SubStep& sub_step,
+                                                        const Eigen::VectorXd& traction,
+                                                        const Eigen::VectorXd& increment) const {
+  Residual residual;
   for (int k = 0; k < problem_.n_nodes(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     const ContactNode& node = problem_.nodes[i];
@@ -79,11 +99,11 @@ double ContactNewton::natural_residual(const SubStep& sub_step, const Eigen::Vec
     double square = normal - std::min(0.0, augmented);
     square *= square;
     if (augmented > (sub_step.state[i] == FaultState::open ? 0 : sub_step.tolerance[k])) {
-      const double damping = sub_step.damping_per_second * problem_.damping(k);
-      square += (shear_part(node, traction) - damping * shear_part(node, increment)).squaredNorm();
+      const double drag = node.law.drag(sub_step.per_second);
+      square += (shear_part(node, traction) - drag * shear_part(node, increment)).squaredNorm();
     } else if (node.n_dofs > 1) {
       const SlipPoint point = slip_point(sub_step, traction, increment, k);
-      const double excess = slip_excess(problem_, k, point);
+      const double excess = slip_excess(node.law, point);
       const Eigen::Vector2d y = point.shear_traction + point.stiffness * point.slip_increment;
       const double norm = y.norm();
       Eigen::Vector2d shear = point.shear_traction - y;
@@ -91,12 +111,12 @@ double ContactNewton::natural_residual(const SubStep& sub_step, const Eigen::Vec
       square += shear.squaredNorm();
     }
     square /= sub_step.tolerance[k] * sub_step.tolerance[k];
-    sum += square;
-    worst = std::max(worst, square);
-    if (!std::isfinite(square)) worst = std::numeric_limits<double>::infinity();
+    residual.square_sum += square;
+    residual.worst = std::max(residual.worst, square);
+    if (!std::isfinite(square)) residual.worst = std::numeric_limits<double>::infinity();
   }
-  worst = std::sqrt(worst);
-  return sum;
+  residual.worst = std::sqrt(residual.worst);
+  return residual;
 }
 
 /// direction_ := what eliminated components must still move: to Δg_T = 0 and g_N = 0.
@@ -122,12 +142,12 @@ void ContactNewton::collect_node(const SubStep& sub_step, int k) {
   std::array<double, 3> response{};
   for (std::size_t c = 0; c < n; ++c) response[c] = response_[node.dof[c]];
   if (sub_step.state[i] == FaultState::open) {
-    const double damping = sub_step.damping_per_second * problem_.damping(k);
+    const double drag = node.law.drag(sub_step.per_second);
     for (std::size_t c = 0; c < n; ++c) {
       Unknown unknown{k, static_cast<int>(c), node.dof[c], {0, 0, 0}, {0, 0}};
       unknown.weight[c] = -node.inverse_area[c];
-      const double carried = c > 0 ? damping * sub_step.increment[node.dof[c]] : 0;
-      if (c > 0) unknown.own[c - 1] = -damping;
+      const double carried = c > 0 ? drag * sub_step.increment[node.dof[c]] : 0;
+      if (c > 0) unknown.own[c - 1] = -drag;
       right_[static_cast<Eigen::Index>(unknowns_.size())] =
           carried - sub_step.traction[node.dof[c]] - response[c];
       unknowns_.push_back(unknown);
@@ -135,7 +155,7 @@ void ContactNewton::collect_node(const SubStep& sub_step, int k) {
     return;
   }
   const SlipResidual r =
-      slip_residual(problem_, k, slip_point(sub_step, sub_step.traction, sub_step.increment, k));
+      slip_residual(node.law, slip_point(sub_step, sub_step.traction, sub_step.increment, k));
   for (std::size_t c = 1; c < n; ++c) {
     const auto row = static_cast<Eigen::Index>(c - 1);
     const std::array<double, 3> d_traction = {r.d_normal[row], r.d_shear(row, 0),
@@ -153,7 +173,8 @@ void ContactNewton::collect_node(const SubStep& sub_step, int k) {
 }
 
 /// Linearises the equations of the moving nodes about the current iterate.
-void ContactNewton::collect(const SubStep& sub_step) {
+void ContactNewton::linearise(const SubStep& sub_step) {
+  prescribe(sub_step);
   response_.setZero(problem_.n_dofs());
   problem_.subtract_product(direction_, response_);
   right_.resize(problem_.n_dofs());
@@ -168,7 +189,7 @@ void ContactNewton::assemble_tangent() {
   tangent_.resize(n, n);
   for (Eigen::Index v = 0; v < n; ++v) {
     const Unknown& column = unknowns_[static_cast<std::size_t>(v)];
-    const double* h = problem_.op.h.col(column.dof).data();
+    const double* h = problem_.compliance.column(column.dof).data();
     for (Eigen::Index u = 0; u < n; ++u) {
       const Unknown& row = unknowns_[static_cast<std::size_t>(u)];
       const ContactNode& node = problem_.nodes[static_cast<std::size_t>(row.node)];
@@ -187,8 +208,8 @@ void ContactNewton::assemble_tangent() {
 /// the last factor is then a preconditioner that needs a few products instead of n³ operations.
 bool ContactNewton::solve_tangent(Eigen::VectorXd& solution) {
   constexpr Eigen::Index kSmall = 100;  // factorising anew is cheaper
-  constexpr double kTolerance = 1e-13;
-  constexpr int kIterations = 15;
+  constexpr double kTolerance = 1e-13;  // that of a factorisation
+  constexpr int kIterations = 15;       // 15 n² products against 2/3 n³ of a factorisation
   const auto n = static_cast<Eigen::Index>(unknowns_.size());
   const auto same = [&] {
     return std::equal(unknowns_.begin(), unknowns_.end(), factored_.begin(), factored_.end(),
@@ -228,17 +249,17 @@ bool ContactNewton::solve_linear() {
 }
 
 /// Goes along direction_; tractions are linear in the step length, so trying lengths is cheap.
-void ContactNewton::advance(SubStep& sub_step, bool damped) {
+/// @returns the length.
+double ContactNewton::advance(SubStep& sub_step, bool line_search) {
   response_.setZero(problem_.n_dofs());
   problem_.subtract_product(direction_, response_);
   double length = 1;
-  if (damped) {
+  if (line_search) {
     double best = std::numeric_limits<double>::infinity();
-    double worst = 0;
     for (const double candidate : {1.0, 0.5, 0.25, 0.125, 0.0625}) {
       trial_increment_ = sub_step.increment + candidate * direction_;
       trial_traction_ = sub_step.traction + candidate * response_;
-      const double merit = natural_residual(sub_step, trial_traction_, trial_increment_, worst);
+      const double merit = natural_residual(sub_step, trial_traction_, trial_increment_).square_sum;
       if (merit < best) {
         best = merit;
         length = candidate;
@@ -247,10 +268,12 @@ void ContactNewton::advance(SubStep& sub_step, bool damped) {
   }
   sub_step.increment += length * direction_;
   sub_step.traction += length * response_;
+  return length;
 }
 
 /// Rounds noise to rest, computes the tractions afresh and checks the residual again.
 bool ContactNewton::finish(SubStep& sub_step) {
+  constexpr double kNoise = 0.01;  // of the slip that moves the traction by the tolerance
   for (int k = 0; k < problem_.n_nodes(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     const ContactNode& node = problem_.nodes[i];
@@ -261,8 +284,8 @@ bool ContactNewton::finish(SubStep& sub_step) {
       sub_step.state[i] = FaultState::stick;
       continue;
     }
-    const double damping = sub_step.damping_per_second * problem_.damping(k);
-    const double noise = 0.01 * sub_step.tolerance[k] / (problem_.stiffness(node, 1) + damping);
+    const double drag = node.law.drag(sub_step.per_second);
+    const double noise = kNoise * sub_step.tolerance[k] / (problem_.stiffness(node, 1) + drag);
     if (sub_step.state[i] == FaultState::stick || slip.norm() < noise) {
       for (std::size_t c = 1; c < static_cast<std::size_t>(node.n_dofs); ++c) {
         sub_step.increment[node.dof[c]] = 0;
@@ -272,9 +295,8 @@ bool ContactNewton::finish(SubStep& sub_step) {
   }
   sub_step.traction = sub_step.trial;
   problem_.subtract_product(sub_step.increment, sub_step.traction);
-  double worst = 0;
-  natural_residual(sub_step, sub_step.traction, sub_step.increment, worst);
-  return worst <= 1.5;  // the tolerance with a margin for what was rounded to rest
+  constexpr double kAccepted = 1.5;  // the tolerance with a margin for what was rounded to rest
+  return natural_residual(sub_step).worst <= kAccepted;
 }
 
 /// Whether slip follows traction. The natural residual weighs a wrong direction by the size of the
@@ -304,66 +326,67 @@ bool ContactNewton::seen_before(const SubStep& sub_step) {
 /// static sub-step knows no hopping and then has no solution.
 /// @returns whether some node lost it just now.
 bool ContactNewton::lose_cohesion(SubStep& sub_step) {
-  const bool hops = sub_step.damping_per_second > 0;
+  const bool hops = sub_step.per_second > 0;
   bool any = false;
   for (std::size_t i = 0; i < was_open_.size(); ++i) {
-    if (!was_open_[i] || !sub_step.cohesive[i] || problem_.laws.node[i].cohesion == 0) continue;
-    if (problem_.laws.keep_cohesion[i] && !hops) continue;
+    const CoulombLaw& law = problem_.nodes[i].law.constants();
+    if (!was_open_[i] || !sub_step.cohesive[i] || law.cohesion == 0) continue;
+    if (law.cohesion_after_opening && !hops) continue;
     sub_step.cohesive[i] = 0;
     any = true;
   }
   return any;
 }
 
-NewtonReport ContactNewton::solve(SubStep& sub_step, int patience) {
-  NewtonReport report;
-  constexpr double kProgress = 0.5;
-  double best = std::numeric_limits<double>::infinity();
-  int idle = 0;
+void ContactNewton::begin(const SubStep& sub_step) {
   seen_.clear();
   // A history starts with no jump: no factor of an earlier one has a say in its digits.
   if (sub_step.start->jump.isZero(0)) lu_.clear();
   was_open_.assign(static_cast<std::size_t>(problem_.n_nodes()), 0);
-  bool damped = false;
-  int same_set = 0;
+}
+
+SearchHistory ContactNewton::solve(SubStep& sub_step, int patience) {
+  SearchHistory history;
+  history.passes = 1;
+  const auto stop = [&](SearchEnd end) {
+    history.end = end;
+    return std::move(history);
+  };
+  bool line_search = false;
+  int on_this_set = 0;  // iterations
+  Progress progress;
+  begin(sub_step);
   classify(sub_step);
   seen_before(sub_step);
-  report.passes = 1;
   const int bound = options_.max_active_set_passes + options_.max_newton_iterations;
-  while (report.iterations < bound) {
-    prescribe(sub_step);
-    collect(sub_step);
-    if (!solve_linear()) return report;
-    advance(sub_step, damped);
-    ++report.iterations;
-    const bool changed = classify(sub_step);
-    same_set = changed ? 0 : same_set + 1;
-    if (patience > 0) {
-      double worst = 0;
-      const double merit = natural_residual(sub_step, sub_step.traction, sub_step.increment, worst);
-      idle = merit < kProgress * best ? 0 : idle + 1;
-      best = std::min(best, merit);
-      if (idle >= patience) return report;
+  while (history.iterations < bound) {
+    linearise(sub_step);
+    if (!solve_linear()) return stop(SearchEnd::singular_tangent);
+    const double length = advance(sub_step, line_search);
+    const int n_changed = classify(sub_step);
+    Residual residual = natural_residual(sub_step);
+    history.add(iteration_of(sub_step, residual.worst, length, n_changed));
+    on_this_set = n_changed > 0 ? 0 : on_this_set + 1;
+    if (patience > 0 && progress.idle_after(residual.square_sum) >= patience) {
+      return stop(SearchEnd::no_progress);
     }
-    if (changed) {
-      if (++report.passes > options_.max_active_set_passes) return report;
-      if (!seen_before(sub_step)) continue;
+    if (n_changed > 0) {
+      if (++history.passes > options_.max_active_set_passes) return stop(SearchEnd::too_many_sets);
+      const bool comes_back = seen_before(sub_step);
+      if (!comes_back) continue;
       // Sets that repeat may differ by nodes whose slip is round-off: both are solutions then.
-      damped = true;
+      line_search = true;
       if (lose_cohesion(sub_step)) {
-        idle = 0;
-        best = std::numeric_limits<double>::infinity();
+        progress = {};
+        residual = natural_residual(sub_step);
       }
     }
-    double worst = 0;
-    natural_residual(sub_step, sub_step.traction, sub_step.increment, worst);
-    if (worst <= 1 && finish(sub_step) && aligned(sub_step)) {
-      report.converged = true;
-      return report;
+    if (residual.within_tolerance() && finish(sub_step) && aligned(sub_step)) {
+      return stop(SearchEnd::balanced);
     }
-    if (same_set > options_.max_newton_iterations) return report;
+    if (on_this_set > options_.max_newton_iterations) return stop(SearchEnd::set_does_not_settle);
   }
-  return report;
+  return stop(SearchEnd::too_many_iterations);
 }
 
 }  // namespace faultsim

@@ -4,16 +4,11 @@
 #include <vector>
 
 #include "simulator/contact/contact_problem.h"
+#include "simulator/contact/search_record.h"
 #include "simulator/contact/slip_residual.h"
 #include "simulator/linalg/dense_lu.h"
 
 namespace faultsim {
-
-struct NewtonReport {
-  bool converged = false;
-  int iterations = 0;  ///< linear solves.
-  int passes = 0;      ///< active sets tried.
-};
 
 /// Semismooth Newton with an active set that is revised at each iteration: unknowns are Δg_T of
 /// slipping nodes and all of Δg of open ones; stick nodes are eliminated. The tangent is the
@@ -26,7 +21,7 @@ class ContactNewton {
   /// @param patience  gives up after so many iterations without progress of the natural residual:
   /// where strength falls with slip there may be nothing to find, and a smaller sub-step is better
   /// than a long search. 0 = only the bounds of ContactOptions.
-  NewtonReport solve(SubStep& sub_step, int patience = 0);
+  SearchHistory solve(SubStep& sub_step, int patience = 0);
 
  private:
   struct Unknown {
@@ -34,18 +29,27 @@ class ContactNewton {
     std::array<double, 3> weight;  ///< −∂R/∂t' A⁻¹ per dof of the node.
     std::array<double, 2> own;     ///< ∂R/∂Δg_T of the node's own slip.
   };
-  bool classify(SubStep& sub_step);
+  /// The natural residual over all nodes, in units of their tolerances.
+  struct Residual {
+    double square_sum = 0, worst = 0;
+    bool within_tolerance() const { return worst <= 1; }
+  };
+  void begin(const SubStep& sub_step);
+  int classify(SubStep& sub_step);
   SlipPoint slip_point(const SubStep& sub_step, const Eigen::VectorXd& traction,
                        const Eigen::VectorXd& increment, int node) const;
-  double natural_residual(const SubStep& sub_step, const Eigen::VectorXd& traction,
-                          const Eigen::VectorXd& increment, double& worst) const;
+  Residual natural_residual(const SubStep& sub_step, const Eigen::VectorXd& traction,
+                            const Eigen::VectorXd& increment) const;
+  Residual natural_residual(const SubStep& sub_step) const {
+    return natural_residual(sub_step, sub_step.traction, sub_step.increment);
+  }
   void prescribe(const SubStep& sub_step);
-  void collect(const SubStep& sub_step);
+  void linearise(const SubStep& sub_step);
   void collect_node(const SubStep& sub_step, int node);
   void assemble_tangent();
   bool solve_tangent(Eigen::VectorXd& solution);
   bool solve_linear();
-  void advance(SubStep& sub_step, bool damped);
+  double advance(SubStep& sub_step, bool line_search);
   bool finish(SubStep& sub_step);
   bool aligned(const SubStep& sub_step) const;
   bool seen_before(const SubStep& sub_step);
@@ -53,7 +57,6 @@ class ContactNewton {
 
   ContactProblem& problem_;
   const ContactOptions& options_;
-  std::vector<double> shear_stiffness_;
   std::vector<Unknown> unknowns_;
   std::vector<std::uint64_t> seen_;
   std::vector<char> was_open_;

@@ -14,8 +14,7 @@ struct ContactNode {
   std::array<int, 3> dof = {-1, -1, -1};  ///< n, then the shear dofs that exist.
   int n_dofs = 0;                         ///< 1 + number of shear dofs.
   std::array<double, 3> inverse_area{};   ///< 1/A per dof, 1/m2.
-  double friction = 0;                    ///< tan φ_s.
-  bool weakens = false;                   ///< φ_d < φ_s.
+  NodeLaw law;
 };
 
 /// The constants of one case: operator, laws, and both flattened per node.
@@ -26,10 +25,6 @@ class ContactProblem {
 
   int n_nodes() const { return static_cast<int>(nodes.size()); }
   int n_dofs() const { return static_cast<int>(inverse_area.size()); }
-  /// τ_L and derivatives; normal tractions > 0 count as 0 (with derivative 0).
-  LimitShearTraction strength(int node, bool cohesive, double normal_traction, double slip) const;
-  /// η of a node, Pa s/m; 0 where the laws give none.
-  double damping(int node) const { return laws.damping.size() > 0 ? laws.damping[node] : 0; }
   /// H_dd / A, Pa/m, of component c of a node. Read on demand: columns of nodes at rest stay
   /// unread.
   double stiffness(const ContactNode& node, int component) const;
@@ -37,7 +32,7 @@ class ContactProblem {
   void subtract_product(const Eigen::VectorXd& jump, Eigen::VectorXd& traction);
 
   const FaultOperator& op;
-  const ContactLaws& laws;
+  const Compliance& compliance;  ///< op's H.
   std::vector<ContactNode> nodes;
   Eigen::VectorXd inverse_area;  ///< per dof.
   bool any_weakening = false;
@@ -45,7 +40,6 @@ class ContactProblem {
   bool scalar = true;     ///< at most one shear dof per node and no weakening anywhere.
 
  private:
-  Eigen::VectorXd product_;
   std::vector<int> columns_;
 };
 
@@ -59,8 +53,7 @@ struct SubStep {
   std::vector<FaultState> state;
   std::vector<char> cohesive;  ///< cohesion counts at this node.
   Eigen::VectorXd tolerance;   ///< per node, Pa.
-  /// 1/Δt of a damped sub-step, 1/s: τ_L grows by η |Δg_T|/Δt; 0 = static.
-  double damping_per_second = 0;
+  double per_second = 0;       ///< 1/Δt of a damped sub-step, 1/s; 0 = static.
 };
 
 /// Shear components of a dof vector at a node; missing ones are 0.
@@ -68,15 +61,17 @@ inline Eigen::Vector2d shear_part(const ContactNode& node, const Eigen::VectorXd
   return {node.n_dofs > 1 ? values[node.dof[1]] : 0, node.n_dofs > 2 ? values[node.dof[2]] : 0};
 }
 
-/// The slip measure s at the end of a sub-step and its gradient with respect to Δg_T.
-struct SlipMeasure {
-  double value;
-  Eigen::Vector2d gradient;
-};
-/// s = |g_T0 + Δg_T|, or path0 + |Δg_T| when cumulated. @param direction  the gradient where s has
-/// none.
-SlipMeasure slip_measure(bool cumulated, double path_before, const Eigen::Vector2d& slip_before,
-                         const Eigen::Vector2d& slip_increment, const Eigen::Vector2d& direction);
+/// What the friction of a node remembers at the start of a sub-step, its cohesion as it is now.
+inline FrictionState friction_before(const ContactNode& node, const SubStep& sub_step, int k) {
+  return {shear_part(node, sub_step.start->jump), sub_step.start->slip_path[k],
+          sub_step.cohesive[k] != 0};
+}
+/// The strength of a node at the end of a sub-step.
+inline Strength strength_after(const ContactNode& node, const SubStep& sub_step, int k) {
+  const Eigen::Vector2d slip = shear_part(node, sub_step.increment);
+  return node.law.strength(sub_step.traction[node.dof[0]], slip, sub_step.per_second,
+                           friction_before(node, sub_step, k), slip);
+}
 
 /// Whether a node slips in the sub-step that still has cohesion and loses it by slip.
 bool loses_cohesion(const ContactProblem& problem, const SubStep& sub_step, int node);

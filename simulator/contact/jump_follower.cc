@@ -13,10 +13,10 @@ namespace {
 // a cell.
 constexpr double kLargestShare = 0.25;  // of d_c that a node may slip in one damped step
 constexpr double kLargestHop = 0.02;  // −t'_N/c of a node that hops, at the end of a damped step
-constexpr double kGrowth = 1.6;       // of Δt after a good damped step
-constexpr int kMaxDampedSteps = 4000;
-constexpr int kMaxHalvings = 60;
-constexpr int kStaticInterval = 4;  // damped steps between two tries at the static end
+constexpr double kGrowth = 1.6;  // of Δt after a good damped step; twice would often be too much
+constexpr int kMaxDampedSteps = 4000;  // a bound on the work; reached, the jump has not arrived
+constexpr int kMaxHalvings = 60;       // of Δt: more change nothing in double precision
+constexpr int kStaticInterval = 4;     // damped steps between two tries at the static end
 
 }  // namespace
 
@@ -27,7 +27,7 @@ double JumpFollower::first_duration() const {
   for (int k = 0; k < problem.n_nodes(); ++k) {
     const ContactNode& node = problem.nodes[static_cast<std::size_t>(k)];
     if (node.n_dofs < 2) continue;
-    duration = std::min(duration, problem.damping(k) / problem.stiffness(node, 1));
+    duration = std::min(duration, node.law.constants().damping / problem.stiffness(node, 1));
   }
   return std::isfinite(duration) ? duration : 1;
 }
@@ -38,10 +38,8 @@ bool JumpFollower::still_weakens(int k) const {
   const SubStep& s = solver_.sub_step();
   const auto i = static_cast<std::size_t>(k);
   const ContactNode& node = problem.nodes[i];
-  if (!node.weakens || s.state[i] != FaultState::slip) return false;
-  const double before =
-      problem.laws.cumulated[i] ? s.start->slip_path[k] : shear_part(node, s.start->jump).norm();
-  return before < problem.laws.node[i].slip_weakening_distance;
+  return node.law.weakens() && s.state[i] == FaultState::slip &&
+         !node.law.is_fully_weakened(friction_before(node, s, k));
 }
 
 /// Largest slip of the sub-step in units of d_c among nodes that still weaken.
@@ -52,7 +50,7 @@ double JumpFollower::weakening_share() const {
     if (!still_weakens(k)) continue;
     const auto i = static_cast<std::size_t>(k);
     const double slip = shear_part(problem.nodes[i], solver_.sub_step().increment).norm();
-    share = std::max(share, slip / problem.laws.node[i].slip_weakening_distance);
+    share = std::max(share, slip / problem.nodes[i].law.constants().slip_weakening_distance);
   }
   return share;
 }
@@ -65,9 +63,10 @@ double JumpFollower::hop_share() const {
   const SubStep& s = solver_.sub_step();
   double share = 0;
   for (std::size_t i = 0; i < problem.nodes.size(); ++i) {
-    const bool hops = problem.laws.keep_cohesion[i] && !s.cohesive[i] && !s.start->cohesion_lost[i];
+    const CoulombLaw& law = problem.nodes[i].law.constants();
+    const bool hops = law.cohesion_after_opening && !s.cohesive[i] && !s.start->cohesion_lost[i];
     if (!hops || s.state[i] != FaultState::slip) continue;
-    share = std::max(share, -s.traction[problem.nodes[i].dof[0]] / problem.laws.node[i].cohesion);
+    share = std::max(share, -s.traction[problem.nodes[i].dof[0]] / law.cohesion);
   }
   return share;
 }
@@ -102,27 +101,20 @@ void JumpFollower::add_energy() {
     const ContactNode& node = problem.nodes[i];
     if (s.state[i] != FaultState::slip || node.n_dofs < 2) continue;
     const Eigen::Vector2d slip = shear_part(node, s.increment);
-    const Eigen::Vector2d before = shear_part(node, s.start->jump);
-    const bool cumulated = problem.laws.cumulated[i] != 0;
-    const double path = s.start->slip_path[k];
     const double length = slip.norm();
     if (length == 0) continue;
     // Trapezoidal rule: exact while strength falls linearly with slip.
-    const auto strength = [&](double normal, double measure) {
-      return problem.strength(k, s.cohesive[i] != 0, normal, measure).value;
-    };
+    const FrictionState before = friction_before(node, s, k);
     const double friction =
-        0.5 * (strength(s.start->traction[node.dof[0]], cumulated ? path : before.norm()) +
-               strength(s.traction[node.dof[0]],
-                        slip_measure(cumulated, path, before, slip, slip).value));
+        0.5 * (node.law.limit(s.start->traction[node.dof[0]], before) +
+               node.law.strength(s.traction[node.dof[0]], slip, 0, before).value);
     evidence_.dissipated += friction * length / node.inverse_area[1];
   }
 }
 
-bool JumpFollower::damped_step(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
-                               double from, ContactState& state) {
+bool JumpFollower::damped_step(const LoadPath& path, double from, ContactState& state) {
   for (int halving = 0; halving < kMaxHalvings; ++halving) {
-    solver_.begin(before, after, {from, load_, duration_}, state);
+    solver_.begin(path, {from, load_, duration_}, state);
     if (solver_.rest()) break;
     const Attempt attempt = solver_.attempt(false);
     report_.counts.active_set_passes += solver_.passes();
@@ -145,9 +137,8 @@ bool JumpFollower::damped_step(const Eigen::VectorXd& before, const Eigen::Vecto
   return true;
 }
 
-bool JumpFollower::try_static(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
-                              ContactState& state) {
-  solver_.begin(before, after, {load_, load_, 0}, state);
+bool JumpFollower::try_static(const LoadPath& path, ContactState& state) {
+  solver_.begin(path, {load_, load_, 0}, state);
   if (!solver_.rest()) {
     const Attempt attempt = solver_.attempt(false);
     report_.counts.active_set_passes += solver_.passes();
@@ -163,25 +154,24 @@ bool JumpFollower::try_static(const Eigen::VectorXd& before, const Eigen::Vector
   return true;
 }
 
-JumpFollower::Report JumpFollower::follow(const Eigen::VectorXd& before,
-                                          const Eigen::VectorXd& after, double from, double to,
-                                          int budget, ContactState& state) {
+JumpFollower::Report JumpFollower::follow(const LoadPath& path, double from, double to, int budget,
+                                          ContactState& state) {
   report_ = {};
   evidence_ = {};
   evidence_.load_before = from;
   evidence_.load_after = load_ = to;
   evidence_.jump_before = state.jump;
   evidence_.traction_before = state.traction;
-  solver_.begin(before, after, {from, from, 0}, state);
+  solver_.begin(path, {from, from, 0}, state);
   evidence_.residual_before = solver_.residual_at_rest();
   duration_ = first_duration();
   int until_static = kStaticInterval;
   const SolveCounts& counts = report_.counts;
   while (evidence_.damped_steps < kMaxDampedSteps &&
          counts.newton_iterations + counts.wasted_newton_iterations < budget) {
-    if (!damped_step(before, after, evidence_.damped_steps == 0 ? from : load_, state)) break;
+    if (!damped_step(path, evidence_.damped_steps == 0 ? from : load_, state)) break;
     if (--until_static > 0 || negative_now_ > 0) continue;
-    if (try_static(before, after, state)) {
+    if (try_static(path, state)) {
       report_.arrived = true;
       break;
     }

@@ -31,14 +31,12 @@ class JumpFollower {
   /// @param from, to  load factors: state is the last equilibrium, at `from`; the load is held at
   /// `to`. @param budget  Newton iterations after which it gives up. @param state  moved to the new
   /// equilibrium; undefined when not arrived.
-  Report follow(const Eigen::VectorXd& before, const Eigen::VectorXd& after, double from, double to,
-                int budget, ContactState& state);
+  Report follow(const LoadPath& path, double from, double to, int budget, ContactState& state);
 
  private:
   double first_duration() const;
-  bool damped_step(const Eigen::VectorXd& before, const Eigen::VectorXd& after, double from,
-                   ContactState& state);
-  bool try_static(const Eigen::VectorXd& before, const Eigen::VectorXd& after, ContactState& state);
+  bool damped_step(const LoadPath& path, double from, ContactState& state);
+  bool try_static(const LoadPath& path, ContactState& state);
   bool still_weakens(int node) const;
   double weakening_share() const;
   double hop_share() const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace faultsim {
 
@@ -23,8 +24,7 @@ bool ScalarSlip::add_violators(const SubStep& sub_step, bool& opens) {
     opens = opens || normal > tolerance;
     if (wanted_[i] != 0 || node.n_dofs < 2) continue;
     const double shear = sub_step.traction[node.dof[1]];
-    const double cohesion = sub_step.cohesive[i] ? problem_.laws.node[i].cohesion : 0;
-    const double limit = cohesion - std::min(normal, 0.0) * node.friction;
+    const double limit = node.law.static_limit(normal, sub_step.cohesive[i] != 0);
     if (std::abs(shear) - limit > tolerance) {
       wanted_[i] = shear > 0 ? 1 : -1;
       any = true;
@@ -44,8 +44,8 @@ bool ScalarSlip::add_neighbours(const SubStep& sub_step) {
     const auto i = static_cast<std::size_t>(k);
     if (wanted_[i] != 0) continue;
     const ContactNode& node = problem_.nodes[i];
-    const double* shear_row = problem_.op.h.col(node.dof[1]).data();
-    const double* normal_row = problem_.op.h.col(node.dof[0]).data();
+    const double* shear_row = problem_.compliance.column(node.dof[1]).data();
+    const double* normal_row = problem_.compliance.column(node.dof[0]).data();
     double shear_sum = 0;
     double normal_sum = 0;
     for (std::size_t j = 0; j < m; ++j) {
@@ -54,8 +54,7 @@ bool ScalarSlip::add_neighbours(const SubStep& sub_step) {
     }
     const double shear = sub_step.trial[node.dof[1]] - shear_sum * node.inverse_area[1];
     const double normal = sub_step.trial[node.dof[0]] - normal_sum * node.inverse_area[0];
-    const double cohesion = sub_step.cohesive[i] ? problem_.laws.node[i].cohesion : 0;
-    const double limit = cohesion - std::min(normal, 0.0) * node.friction;
+    const double limit = node.law.static_limit(normal, sub_step.cohesive[i] != 0);
     if (!(std::abs(shear) - limit > sub_step.tolerance[k])) continue;
     wanted_[i] = shear > 0 ? 1 : -1;
     any = true;
@@ -82,10 +81,10 @@ void ScalarSlip::synchronise() {
 bool ScalarSlip::append(int k) {
   const auto i = static_cast<std::size_t>(k);
   const ContactNode& node = problem_.nodes[i];
-  const double* shear = problem_.op.h.col(node.dof[1]).data();
-  const double* normal = problem_.op.h.col(node.dof[0]).data();
+  const double* shear = problem_.compliance.column(node.dof[1]).data();
+  const double* normal = problem_.compliance.column(node.dof[0]).data();
   const auto coupling = [](const ContactNode& at, int sign) {
-    return sign * at.friction * at.inverse_area[0] / at.inverse_area[1];
+    return sign * at.law.static_friction() * at.inverse_area[0] / at.inverse_area[1];
   };
   const double own = coupling(node, wanted_[i]);
   double* row = lu_.row();
@@ -116,9 +115,9 @@ bool ScalarSlip::solve_set(const SubStep& sub_step) {
   for (std::size_t j = 0; j < order_.size(); ++j) {
     const auto i = static_cast<std::size_t>(order_[j]);
     const ContactNode& node = problem_.nodes[i];
-    const double cohesion = sub_step.cohesive[i] ? problem_.laws.node[i].cohesion : 0;
-    const double excess = signs_[j] * sub_step.trial[node.dof[1]] - cohesion +
-                          node.friction * sub_step.trial[node.dof[0]];
+    const double excess = signs_[j] * sub_step.trial[node.dof[1]] -
+                          node.law.cohesion(sub_step.cohesive[i] != 0) +
+                          node.law.static_friction() * sub_step.trial[node.dof[0]];
     slip_[j] = signs_[j] * excess / node.inverse_area[1];
   }
   lu_.solve(slip_.data());
@@ -145,28 +144,45 @@ bool ScalarSlip::seen_before() {
   return false;
 }
 
-NewtonReport ScalarSlip::solve(SubStep& sub_step) {
-  NewtonReport report;
+/// Sets are solved exactly, so no residual is formed.
+void ScalarSlip::note(SearchHistory& history) {
+  int n_changed = 0;
+  for (std::size_t i = 0; i < wanted_.size(); ++i) {
+    n_changed += (wanted_[i] != 0) != (placed_[i] != 0);
+  }
+  history.add({.residual = std::numeric_limits<double>::quiet_NaN(),
+               .n_slip = static_cast<int>(order_.size()),
+               .n_changed = n_changed});
+}
+
+SearchHistory ScalarSlip::solve(SubStep& sub_step) {
+  SearchHistory history;
+  history.end = SearchEnd::too_many_sets;
   seen_.clear();
   std::fill(wanted_.begin(), wanted_.end(), 0);
   // A history starts with no jump: nothing of an earlier one, not even the order of nodes, stays.
   if (sub_step.start->jump.isZero(0)) synchronise();
   bool opens = false;
   bool changed = add_violators(sub_step, opens);
-  while (!opens && report.passes < options_.max_active_set_passes) {
+  while (!opens && history.passes < options_.max_active_set_passes) {
     if (!changed) {
-      report.converged = true;
+      history.end = SearchEnd::balanced;
       break;
     }
-    if (seen_before()) break;
-    ++report.passes;
+    if (seen_before()) {
+      history.end = SearchEnd::set_comes_back;
+      break;
+    }
+    ++history.passes;
     if (!solve_set(sub_step)) {
-      // What was appended so far is a valid factor; it stays.
+      history.end = SearchEnd::singular_tangent;  // what was appended so far is a valid factor
       break;
     }
-    ++report.iterations;
     // A set that already fails in its own rows is revised before all rows are looked at.
-    if (release_wrong_way() || add_neighbours(sub_step)) continue;
+    if (release_wrong_way() || add_neighbours(sub_step)) {
+      note(history);
+      continue;
+    }
     sub_step.increment.setZero();
     for (std::size_t j = 0; j < order_.size(); ++j) {
       const auto i = static_cast<std::size_t>(order_[j]);
@@ -175,11 +191,13 @@ NewtonReport ScalarSlip::solve(SubStep& sub_step) {
     sub_step.traction = sub_step.trial;
     problem_.subtract_product(sub_step.increment, sub_step.traction);
     changed = add_violators(sub_step, opens);
+    note(history);
   }
+  if (opens) history.end = SearchEnd::opens;
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     sub_step.state[i] = wanted_[i] != 0 ? FaultState::slip : FaultState::stick;
   }
-  return report;
+  return history;
 }
 
 }  // namespace faultsim

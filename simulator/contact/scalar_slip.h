@@ -23,7 +23,7 @@ class ScalarSlip {
   ScalarSlip(ContactProblem& problem, const ContactOptions& options);
   /// @pre problem.scalar, no gap at the start, sub_step.traction = trial.
   /// @returns not converged when the set cycles or a node would open: take ContactNewton.
-  NewtonReport solve(SubStep& sub_step);
+  SearchHistory solve(SubStep& sub_step);
 
  private:
   bool add_violators(const SubStep& sub_step, bool& opens);
@@ -33,6 +33,7 @@ class ScalarSlip {
   bool solve_set(const SubStep& sub_step);
   bool release_wrong_way();
   bool seen_before();
+  void note(SearchHistory& history);
 
   ContactProblem& problem_;
   const ContactOptions& options_;

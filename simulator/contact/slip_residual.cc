@@ -3,53 +3,39 @@
 namespace faultsim {
 namespace {
 
-struct Strength {
-  Eigen::Vector2d direction;
-  double norm;  ///< |y|
-  LimitShearTraction limit;
-  Eigen::Vector2d d_slip;  ///< ∂τ_L/∂Δg_T
+struct Pull {
+  Eigen::Vector2d direction;  ///< y/|y|
+  double norm;                ///< |y|
+  Strength limit;
 };
 
-Strength strength_at(const ContactProblem& problem, int k, const SlipPoint& point) {
-  const auto i = static_cast<std::size_t>(k);
+Pull pull_at(const NodeLaw& law, const SlipPoint& point) {
   const Eigen::Vector2d y = point.shear_traction + point.stiffness * point.slip_increment;
   const double norm = y.norm();
-  Strength at{norm > 0 ? Eigen::Vector2d(y / norm) : Eigen::Vector2d(0, 0), norm, {}, {0, 0}};
-  if (problem.nodes[i].weakens) {
-    const SlipMeasure measure = slip_measure(problem.laws.cumulated[i] != 0, point.path_before,
-                                             point.slip_before, point.slip_increment, at.direction);
-    at.limit = problem.strength(k, point.cohesive, point.normal_traction, measure.value);
-    at.d_slip = at.limit.d_slip * measure.gradient;
-  } else {
-    at.limit = problem.strength(k, point.cohesive, point.normal_traction, 0);
-  }
-  if (point.damping > 0) {
-    const double slip = point.slip_increment.norm();
-    at.limit.value += point.damping * slip;
-    at.d_slip +=
-        point.damping * (slip > 0 ? Eigen::Vector2d(point.slip_increment / slip) : at.direction);
-  }
-  return at;
+  const Eigen::Vector2d m = norm > 0 ? Eigen::Vector2d(y / norm) : Eigen::Vector2d(0, 0);
+  return {
+      m, norm,
+      law.strength(point.normal_traction, point.slip_increment, point.per_second, point.before, m)};
 }
 
 }  // namespace
 
-SlipResidual slip_residual(const ContactProblem& problem, int k, const SlipPoint& point) {
-  const Strength at = strength_at(problem, k, point);
+SlipResidual slip_residual(const NodeLaw& law, const SlipPoint& point) {
+  const Pull at = pull_at(law, point);
   const Eigen::Vector2d& m = at.direction;
   const Eigen::Matrix2d across = Eigen::Matrix2d::Identity() - m * m.transpose();
   const double ratio = at.norm > 0 ? at.limit.value / at.norm : 0;
   SlipResidual residual;
   residual.value = point.shear_traction - at.limit.value * m;
-  residual.d_normal = -at.limit.d_normal_traction * m;
+  residual.d_normal = -at.limit.d_normal * m;
   residual.d_shear = Eigen::Matrix2d::Identity() - ratio * across;
-  residual.d_slip = -m * at.d_slip.transpose() - ratio * point.stiffness * across;
+  residual.d_slip = -m * at.limit.d_slip.transpose() - ratio * point.stiffness * across;
   residual.excess = at.norm - at.limit.value;
   return residual;
 }
 
-double slip_excess(const ContactProblem& problem, int k, const SlipPoint& point) {
-  const Strength at = strength_at(problem, k, point);
+double slip_excess(const NodeLaw& law, const SlipPoint& point) {
+  const Pull at = pull_at(law, point);
   return at.norm - at.limit.value;
 }
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "simulator/contact/contact_problem.h"
+#include "simulator/fault/friction_law.h"
 
 namespace faultsim {
 
@@ -11,11 +11,9 @@ struct SlipPoint {
   double normal_traction = 0;
   Eigen::Vector2d shear_traction{0, 0};
   Eigen::Vector2d slip_increment{0, 0};  ///< Δg_T, m.
-  Eigen::Vector2d slip_before{0, 0};     ///< g_T at the start of the sub-step, m.
-  double path_before = 0;                ///< slip path at the start, m.
+  FrictionState before;                  ///< at the start of the sub-step.
   double stiffness = 0;                  ///< r > 0, Pa/m: any value gives the same solutions.
-  double damping = 0;                    ///< η/Δt, Pa/m: τ_L grows by η |Δg_T|/Δt.
-  bool cohesive = true;
+  double per_second = 0;                 ///< 1/Δt; 0 = static.
 };
 
 /// The slip equation and its derivatives.
@@ -32,10 +30,10 @@ struct SlipResidual {
 ///   R = t'_T − τ_L(t'_N, s) y/|y|,   y = t'_T + r Δg_T.
 ///
 /// R = 0 with |y| > τ_L means |t'_T| = τ_L and Δg_T = (|y| − τ_L)/r · t'_T/|t'_T|. While Δg_T = 0
-/// the direction is that of the traction.
-SlipResidual slip_residual(const ContactProblem& problem, int node, const SlipPoint& point);
+/// the direction is that of the traction. τ_L is all that NodeLaw::strength gives, rate included.
+SlipResidual slip_residual(const NodeLaw& law, const SlipPoint& point);
 
 /// |y| − τ_L alone, for the choice between stick and slip.
-double slip_excess(const ContactProblem& problem, int node, const SlipPoint& point);
+double slip_excess(const NodeLaw& law, const SlipPoint& point);
 
 }  // namespace faultsim

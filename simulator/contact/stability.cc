@@ -5,48 +5,12 @@
 
 namespace faultsim {
 
-/// W ≥ −dτ_L/d|Δg_T| over the straight way from rest to slip: both laws weaken fastest at the
-/// smallest s met on the way, and more under more pressure.
-double StabilityCheck::fastest_weakening(const SubStep& sub_step, int k,
-                                         const Eigen::Vector2d& slip) const {
-  const auto i = static_cast<std::size_t>(k);
-  const ContactNode& node = problem_.nodes[i];
-  const ContactState& start = *sub_step.start;
-  const double length = slip.norm();
-  const double normal =
-      std::min({0.0, sub_step.traction[node.dof[0]], start.traction[node.dof[0]]});
-  const bool cohesive = sub_step.cohesive[i] != 0;
-  if (problem_.laws.cumulated[i]) {
-    return -problem_.strength(k, cohesive, normal, start.slip_path[k]).d_slip;
-  }
-  const Eigen::Vector2d before = shear_part(node, start.jump);
-  const Eigen::Vector2d after = before + slip;
-  const double outward = after.dot(slip);
-  if (outward <= 0) return 0;  // s shrinks all the way: the node heals
-  const double nearest = std::clamp(-before.dot(slip) / (length * length), 0.0, 1.0);
-  const double smallest = (before + nearest * slip).norm();
-  const double rate = after.norm() > 0 ? outward / (length * after.norm()) : 1;
-  return -problem_.strength(k, cohesive, normal, smallest).d_slip * rate;
-}
-
-/// −dτ_L/d|Δg_T| where the sub-step ends.
-double StabilityCheck::weakening_at_the_end(const SubStep& sub_step, int k,
-                                            const Eigen::Vector2d& slip) const {
-  const auto i = static_cast<std::size_t>(k);
-  const ContactNode& node = problem_.nodes[i];
-  const SlipMeasure s = slip_measure(problem_.laws.cumulated[i] != 0, sub_step.start->slip_path[k],
-                                     shear_part(node, sub_step.start->jump), slip, slip);
-  const double normal = sub_step.traction[node.dof[0]];
-  const double rate = s.gradient.dot(slip) / slip.norm();
-  return -problem_.strength(k, sub_step.cohesive[i] != 0, normal, s.value).d_slip * rate;
-}
-
 void StabilityCheck::collect(const SubStep& sub_step, Where where, StabilityReport& report) {
   movers_.clear();
   for (int k = 0; k < problem_.n_nodes(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     const ContactNode& node = problem_.nodes[i];
-    const double damping = sub_step.damping_per_second * problem_.damping(k);
+    const double damping = node.law.drag(sub_step.per_second);
     if (sub_step.state[i] == FaultState::open) {
       for (int c = 0; c < node.n_dofs; ++c) {
         movers_.push_back({k, c, {0, 0}, 0, 0, c > 0 ? damping : 0});
@@ -56,15 +20,15 @@ void StabilityCheck::collect(const SubStep& sub_step, Where where, StabilityRepo
     const Eigen::Vector2d slip = shear_part(node, sub_step.increment);
     if (sub_step.state[i] != FaultState::slip || slip.norm() == 0) continue;
     Mover mover{k, -1, slip / slip.norm(), 0, 0, damping};
-    const SlipMeasure s =
-        slip_measure(problem_.laws.cumulated[i] != 0, sub_step.start->slip_path[k],
-                     shear_part(node, sub_step.start->jump), slip, slip);
-    mover.friction =
-        -problem_.strength(k, sub_step.cohesive[i] != 0, sub_step.traction[node.dof[0]], s.value)
-             .d_normal_traction;
-    if (node.weakens) {
-      mover.weakening = where == Where::at_the_end ? weakening_at_the_end(sub_step, k, slip)
-                                                   : fastest_weakening(sub_step, k, slip);
+    const double normal = sub_step.traction[node.dof[0]];
+    const FrictionState before = friction_before(node, sub_step, k);
+    const Strength end = node.law.strength(normal, slip, 0, before, slip);
+    mover.friction = -end.d_normal;
+    if (where == Where::at_the_end) {
+      mover.weakening = -end.d_slip.dot(slip) / slip.norm();
+    } else if (node.law.weakens()) {
+      const double lowest = std::min({0.0, normal, sub_step.start->traction[node.dof[0]]});
+      mover.weakening = node.law.fastest_weakening(lowest, slip, before);
     }
     ++report.n_slipping;
     if (mover.weakening > 0) {
@@ -104,17 +68,20 @@ int StabilityCheck::count_negative_pivots(bool with_weakening, bool damped) {
 void StabilityCheck::assemble() {
   const auto n = static_cast<Eigen::Index>(movers_.size());
   tangent_.resize(n, n);
-  const auto& h = problem_.op.h;
   for (Eigen::Index j = 0; j < n; ++j) {
     const Mover& column = movers_[static_cast<std::size_t>(j)];
     const ContactNode& from = problem_.nodes[static_cast<std::size_t>(column.node)];
+    const auto column_of = [&](int component) {
+      return problem_.compliance.column(from.dof[component]).data();
+    };
+    const bool open = column.open_component >= 0;
+    const double* first = column_of(open ? column.open_component : 1);
+    const double* second = !open && from.n_dofs > 2 ? column_of(2) : nullptr;
     // H applied to the column's direction, at one dof.
     const auto response = [&](int dof) {
-      if (column.open_component >= 0) {
-        return h(dof, from.dof[static_cast<std::size_t>(column.open_component)]);
-      }
-      double sum = h(dof, from.dof[1]) * column.direction[0];
-      if (from.n_dofs > 2) sum += h(dof, from.dof[2]) * column.direction[1];
+      if (open) return first[dof];
+      double sum = first[dof] * column.direction[0];
+      if (second != nullptr) sum += second[dof] * column.direction[1];
       return sum;
     };
     for (Eigen::Index i = 0; i < n; ++i) {

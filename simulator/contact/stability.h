@@ -42,8 +42,6 @@ class StabilityCheck {
     double damping;  ///< η/Δt, Pa/m.
   };
   void collect(const SubStep& sub_step, Where where, StabilityReport& report);
-  double fastest_weakening(const SubStep& sub_step, int node, const Eigen::Vector2d& slip) const;
-  double weakening_at_the_end(const SubStep& sub_step, int node, const Eigen::Vector2d& slip) const;
   void assemble();
   int count_negative_pivots(bool with_weakening, bool damped);
 

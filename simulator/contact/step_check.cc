@@ -27,7 +27,8 @@ Product multiply(const FaultOperator& op, const Eigen::VectorXd& jump) {
   Product product{WideVector::Zero(jump.size()), WideVector::Zero(jump.size())};
   for (Eigen::Index j = 0; j < jump.size(); ++j) {
     if (jump[j] == 0) continue;
-    const WideVector column = op.h.col(j).cast<Wide>() * static_cast<Wide>(jump[j]);
+    const WideVector column =
+        op.compliance->column(static_cast<int>(j)).cast<Wide>() * static_cast<Wide>(jump[j]);
     product.value += column;
     product.size += column.cwiseAbs();
   }
@@ -41,9 +42,9 @@ class Checker {
     const Eigen::Index n = op.geometry.n_dofs;
     FAULTSIM_DEMAND(step.locked.size() == n && step.locked_before.size() == n &&
                         step.before.jump.size() == n && step.after.jump.size() == n &&
-                        laws.node.size() == nodes_.size(),
+                        laws.size() == nodes_.size(),
                     "n_dofs ", n, " locked ", step.locked.size());
-    area_ = op.dof_area.cast<Wide>();
+    area_ = op.geometry.dof_area.cast<Wide>();
     set_levels();
     traction_ = step.after.traction.cast<Wide>();
     if (!step.elastic) return;
@@ -69,7 +70,9 @@ class Checker {
   void check_closed(std::size_t k);
   void check_flow(std::size_t k, Wide shear, Wide limit);
   void check_energies();
-  Wide stiffness(int dof) const { return static_cast<Wide>(op_.h(dof, dof)) / area_[dof]; }
+  Wide stiffness(int dof) const {
+    return static_cast<Wide>(op_.compliance->diagonal(dof)) / area_[dof];
+  }
   template <typename Vector>
   Eigen::Matrix<Wide, 2, 1> shear_part(std::size_t k, const Vector& values) const {
     const auto& dof = nodes_[k].dof;
@@ -124,15 +127,10 @@ void Checker::check_node(std::size_t k) {
 }
 
 void Checker::check_closed(std::size_t k) {
-  const OperatorNode& node = nodes_[k];
-  const Wide normal = traction_[node.dof[0]];
+  const Wide normal = traction_[nodes_[k].dof[0]];
   raise(check_.tension, std::max<Wide>(normal, 0) / level_[k]);
-  const bool cumulated = laws_.cumulated[k] != 0;
-  const double slip = cumulated ? step_.after.slip_path[static_cast<Eigen::Index>(k)]
-                                : static_cast<double>(shear_part(k, step_.after.jump).norm());
-  const CoulombLaw& law = laws_.node[k];
-  Wide limit = limit_shear_traction(law, std::min(static_cast<double>(normal), 0.0), slip).value;
-  if (step_.after.cohesion_lost[k]) limit -= law.cohesion;
+  const FrictionState state = friction_state(nodes_[k], step_.after, static_cast<int>(k));
+  const Wide limit = NodeLaw(laws_[k]).limit(static_cast<double>(normal), state);
   const Wide shear = shear_part(k, traction_).norm();
   raise(check_.over_limit, std::max<Wide>(shear - limit, 0) / level_[k]);
   if (step_.at_once) check_flow(k, shear, limit);

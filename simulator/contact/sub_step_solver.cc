@@ -17,20 +17,15 @@ SubStepSolver::SubStepSolver(const FaultOperator& op, const ContactLaws& laws,
       newton_(problem_, options_),
       stability_(problem_) {}
 
-void SubStepSolver::begin(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
-                          const SubStepRange& range, const ContactState& start) {
+void SubStepSolver::begin(const LoadPath& path, const SubStepRange& range,
+                          const ContactState& start) {
   SubStep& s = sub_step_;
   s.start = &start;
-  if (range.from == 0 && range.to == 1) {
-    s.trial = start.traction + (after - before);
-    s.locked = after;
-  } else {
-    s.trial = start.traction + (range.to - range.from) * (after - before);
-    s.locked = before + range.to * (after - before);
-  }
+  s.trial = start.traction + path.change(range.from, range.to);
+  s.locked = path.at(range.to);
   FAULTSIM_DEMAND(s.trial.allFinite(), "locked traction of a load step is not finite");
   s.traction = s.trial;
-  s.damping_per_second = range.duration > 0 ? 1 / range.duration : 0;
+  s.per_second = range.duration > 0 ? 1 / range.duration : 0;
   const auto n = static_cast<std::size_t>(problem_.n_nodes());
   s.state.assign(n, FaultState::stick);
   s.cohesive.resize(n);
@@ -42,7 +37,11 @@ void SubStepSolver::begin(const Eigen::VectorXd& before, const Eigen::VectorXd& 
     }
   }
   set_tolerance();
-  iterations_ = passes_ = 0;
+  trace_.from = range.from;
+  trace_.to = range.to;
+  trace_.duration = range.duration;
+  trace_.n_nodes = problem_.n_nodes();
+  trace_.searches.clear();
 }
 
 /// Relative to the traction level of the node; but a node that carries little is not asked for more
@@ -81,6 +80,7 @@ bool SubStepSolver::rest() {
   if (!closed_ || !at_rest()) return false;
   start_from_rest();
   stable_ = {};
+  conclude("accepted");
   return true;
 }
 
@@ -91,12 +91,7 @@ bool SubStepSolver::at_rest() const {
     const double normal = sub_step_.trial[node.dof[0]];
     if (normal > sub_step_.tolerance[k]) return false;
     if (node.n_dofs < 2) continue;
-    double s = 0;
-    if (node.weakens) {
-      s = problem_.laws.cumulated[i] ? sub_step_.start->slip_path[k]
-                                     : shear_part(node, sub_step_.start->jump).norm();
-    }
-    const double limit = problem_.strength(k, sub_step_.cohesive[i] != 0, normal, s).value;
+    const double limit = node.law.limit(normal, friction_before(node, sub_step_, k));
     const double shear = node.n_dofs > 2 ? shear_part(node, sub_step_.trial).norm()
                                          : std::abs(sub_step_.trial[node.dof[1]]);
     if (shear - limit > sub_step_.tolerance[k]) return false;
@@ -114,13 +109,13 @@ void SubStepSolver::start_from_rest() {
 bool SubStepSolver::rests_in_plane(int k, double margin) const {
   const auto i = static_cast<std::size_t>(k);
   const ContactNode& node = problem_.nodes[i];
-  if (node.n_dofs != 2 || node.weakens || sub_step_.state[i] != FaultState::stick) return false;
+  if (node.n_dofs != 2 || node.law.weakens() || sub_step_.state[i] != FaultState::stick)
+    return false;
   const double normal = sub_step_.traction[node.dof[0]];
-  const double cohesion = sub_step_.cohesive[i] ? problem_.laws.node[i].cohesion : 0;
   return sub_step_.increment[node.dof[0]] == 0 && sub_step_.increment[node.dof[1]] == 0 &&
          sub_step_.start->jump[node.dof[0]] == 0 && normal <= margin &&
          std::abs(sub_step_.traction[node.dof[1]]) <=
-             cohesion - std::min(normal, 0.0) * node.friction + margin;
+             node.law.static_limit(normal, sub_step_.cohesive[i] != 0) + margin;
 }
 
 /// (3)–(5) straight from their definition at each node: what decides whether a step is accepted.
@@ -143,30 +138,44 @@ double SubStepSolver::residual() const {
   return worst;
 }
 
-bool SubStepSolver::count(const NewtonReport& report) {
-  iterations_ += report.iterations;
-  passes_ += report.passes;
-  return report.converged && verified();
+bool SubStepSolver::solved_by(const char* way, SearchHistory history) {
+  trace_.searches.push_back({way, std::move(history)});
+  return trace_.searches.back().history.converged() && verified();
 }
+
+int SubStepSolver::iterations() const {
+  int sum = 0;
+  for (const SubStepTrace::Search& search : trace_.searches) sum += search.history.iterations;
+  return sum;
+}
+
+int SubStepSolver::passes() const {
+  int sum = 0;
+  for (const SubStepTrace::Search& search : trace_.searches) sum += search.history.passes;
+  return sum;
+}
+
+void SubStepSolver::conclude(const char* verdict) { trace_.verdict = verdict; }
 
 /// With weakening, failure often means that there is nothing near to be found, so smaller
 /// sub-steps and damping come before relaxation.
 bool SubStepSolver::solve_motion(bool last) {
-  const bool damped = sub_step_.damping_per_second > 0;
+  const bool damped = sub_step_.per_second > 0;
   if (problem_.scalar && closed_ && !damped) {
     start_from_rest();
-    if (count(scalar_.solve(sub_step_))) return true;
+    if (solved_by("plane strain", scalar_.solve(sub_step_))) return true;
   }
   start_from_rest();
-  constexpr int kPatience = 8;
+  constexpr int kPatience =
+      8;  // iterations without half the residual: a smaller sub-step is cheaper
   const bool smaller_follow = damped || (problem_.may_jump && !last);
-  if (count(newton_.solve(sub_step_, smaller_follow ? kPatience : 0))) return true;
+  if (solved_by("newton", newton_.solve(sub_step_, smaller_follow ? kPatience : 0))) return true;
   if (smaller_follow) return false;
-  constexpr int kSweeps = 200;
+  constexpr int kSweeps = 200;  // a short try first: most need no more
   for (const int sweeps : {kSweeps, 5 * kSweeps}) {
     start_from_rest();
     relax(problem_, sub_step_, sweeps);
-    if (count(newton_.solve(sub_step_))) return true;
+    if (solved_by("relaxed", newton_.solve(sub_step_))) return true;
     if (problem_.may_jump) break;
   }
   return false;
@@ -183,14 +192,18 @@ Attempt SubStepSolver::attempt(bool last) {
   stable_ = {};
   const bool solved = solve_motion(last);
   if (problem_.any_weakening) stable_ = stability_.check(sub_step_);
-  if (!solved) return Attempt::failed;
-  if (!stable_.stable) return Attempt::not_shown_stable;
-  const bool damped = sub_step_.damping_per_second > 0;
-  return !damped && loses_cohesion() ? Attempt::lost_cohesion : Attempt::converged;
+  const bool damped = sub_step_.per_second > 0;
+  const auto ends_as = [&](Attempt attempt, const char* verdict) {
+    conclude(verdict);
+    return attempt;
+  };
+  if (!solved) return ends_as(Attempt::failed, "failed");
+  if (!stable_.stable) return ends_as(Attempt::not_shown_stable, "not shown stable");
+  if (!damped && loses_cohesion()) return ends_as(Attempt::lost_cohesion, "loses cohesion by slip");
+  return ends_as(Attempt::converged, "accepted");
 }
 
 void SubStepSolver::commit(ContactState& state) const {
-  const ContactLaws& laws = problem_.laws;
   state.traction = sub_step_.traction;
   for (int k = 0; k < problem_.n_nodes(); ++k) {
     const auto i = static_cast<std::size_t>(k);
@@ -198,13 +211,13 @@ void SubStepSolver::commit(ContactState& state) const {
     state.state[i] = sub_step_.state[i];
     // Not cohesive although it was: opened and closed again within the sub-step.
     const bool opened = sub_step_.state[i] == FaultState::open || !sub_step_.cohesive[i];
-    if (opened && !laws.keep_cohesion[i]) state.cohesion_lost[i] = 1;
     const Eigen::Vector2d slip = shear_part(node, sub_step_.increment);
-    if (slip[0] == 0 && slip[1] == 0) continue;
-    state.slip_path[k] += slip.norm();
-    if (!laws.lose_cohesion_slipping.empty() && laws.lose_cohesion_slipping[i] != 0) {
-      state.cohesion_lost[i] = 1;
-    }
+    if (!opened && slip[0] == 0 && slip[1] == 0) continue;  // most nodes, and nothing to remember
+    const FrictionState before = {shear_part(node, state.jump), state.slip_path[k],
+                                  state.cohesion_lost[i] == 0};
+    const FrictionState after = node.law.after(before, slip, opened);
+    state.slip_path[k] = after.path;
+    state.cohesion_lost[i] = !after.cohesive;
   }
   state.jump += sub_step_.increment;
 }

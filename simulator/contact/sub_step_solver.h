@@ -1,8 +1,11 @@
 #pragma once
 
+#include <utility>
+
 #include "simulator/contact/contact.h"
 #include "simulator/contact/contact_newton.h"
 #include "simulator/contact/contact_problem.h"
+#include "simulator/contact/load_path.h"
 #include "simulator/contact/scalar_slip.h"
 #include "simulator/contact/stability.h"
 
@@ -16,7 +19,7 @@ enum class Attempt {
   lost_cohesion,     ///< found, but a node slipped whose cohesion does not outlive slip.
 };
 
-/// Part of a load step, by load factors (0 = its start, 1 = its end), and how its motion is damped.
+/// Part of a load step, by load factors, and how its motion is damped.
 struct SubStepRange {
   double from = 0, to = 1;
   double duration = 0;  ///< s, Δt of a damped sub-step; 0 = static equilibrium.
@@ -30,10 +33,8 @@ class SubStepSolver {
  public:
   SubStepSolver(const FaultOperator& op, const ContactLaws& laws, const ContactOptions& options);
 
-  /// Sets up a sub-step of the load step whose locked traction goes from `before` to `after`.
-  /// @param start  kept by reference until commit().
-  void begin(const Eigen::VectorXd& before, const Eigen::VectorXd& after, const SubStepRange& range,
-             const ContactState& start);
+  /// Sets up a sub-step of a load step. @param start  kept by reference until commit().
+  void begin(const LoadPath& path, const SubStepRange& range, const ContactState& start);
   /// Whether nothing needs to move; then the sub-step is solved.
   bool rest();
   /// @param last  no smaller sub-step will follow, so the slow roads are tried too.
@@ -50,8 +51,10 @@ class SubStepSolver {
     start_from_rest();
     return residual();
   }
-  int iterations() const { return iterations_; }  ///< of the last attempt.
-  int passes() const { return passes_; }
+  int iterations() const;  ///< of the last attempt.
+  int passes() const;
+  /// What was tried since begin().
+  const SubStepTrace& trace() const { return trace_; }
   const StabilityReport& stability_report() const { return stable_; }
   const SubStep& sub_step() const { return sub_step_; }
   const ContactProblem& problem() const { return problem_; }
@@ -62,7 +65,8 @@ class SubStepSolver {
   void start_from_rest();
   bool rests_in_plane(int node, double margin) const;
   bool verified() const;
-  bool count(const NewtonReport& report);
+  bool solved_by(const char* way, SearchHistory history);
+  void conclude(const char* verdict);
   bool solve_motion(bool last);
   bool loses_cohesion() const;
 
@@ -75,8 +79,7 @@ class SubStepSolver {
   bool closed_ = true;  ///< no gap at the start of the sub-step.
   StabilityReport stable_;
   Eigen::VectorXd normal_stiffness_;  ///< H_NN/A per node, Pa/m; empty until something slipped.
-  int iterations_ = 0;
-  int passes_ = 0;
+  SubStepTrace trace_;
 };
 
 }  // namespace faultsim

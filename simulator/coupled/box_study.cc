@@ -30,7 +30,7 @@ BulkProblem box_study(int cells_per_metre) {
   problem.conditions = {
       {MeshSide::z_min, {true, true, true}, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1}};
   LoadCase load;
-  load.name = "boundary:0";
+  load.key.kind = LoadKey::Kind::boundary;
   load.stress_sides = {MeshSide::z_max};
   load.stress(2, 2) = -1e6;
   load.stress(0, 2) = load.stress(2, 0) = 0.5e6;

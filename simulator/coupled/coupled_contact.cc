@@ -35,13 +35,13 @@ struct CoupledContact::Iterate {
 
 CoupledContact::CoupledContact(const TwoSidedBulk& bulk, const ContactLaws& laws,
                                const CoupledContactOptions& options)
-    : bulk_(bulk), laws_(laws), options_(options), all_held_(make_saddle_point(bulk)) {
+    : bulk_(bulk), options_(options), all_held_(make_saddle_point(bulk)) {
   inverse_area_.resize(n_dofs());
   const Eigen::VectorXd diagonal = bulk.stiffness().diagonal();
   for (int k = 0; k < static_cast<int>(bulk.fault_nodes().size()); ++k) {
     const TwoSidedNode& two = bulk.fault_nodes()[k];
     if (!two.may_jump[0]) continue;
-    Node node{k, all_held_.node_begin[k], 1, {-1, -1}, two.area, 0};
+    Node node{k, all_held_.node_begin[k], 1, {-1, -1}, two.area, 0, {}};
     for (int c = 0; c < 2; ++c) {
       if (two.may_jump[1 + c]) node.shear[c] = node.first + node.n_dofs++;
     }
@@ -54,10 +54,12 @@ CoupledContact::CoupledContact(const TwoSidedBulk& bulk, const ContactLaws& laws
     }
     nodes_.push_back(node);
   }
-  FAULTSIM_DEMAND(laws.node.size() == nodes_.size() && laws.cumulated.size() == nodes_.size() &&
-                      laws.keep_cohesion.size() == nodes_.size(),
-                  "laws for ", laws.node.size(), " of ", nodes_.size(), " nodes");
-  FAULTSIM_DEMAND(laws.lose_cohesion_slipping.empty(), "loss of cohesion by slip");
+  FAULTSIM_DEMAND(laws.size() == nodes_.size(), "laws for ", laws.size(), " of ", nodes_.size(),
+                  " nodes");
+  for (std::size_t k = 0; k < laws.size(); ++k) {
+    FAULTSIM_DEMAND(laws[k].cohesion_after_slip, "loss of cohesion by slip at node ", k);
+    nodes_[k].law = NodeLaw(laws[k]);
+  }
   for (int k = 0; k < bulk.n_loads(); ++k) loads_.push_back(bulk.load(k));
 }
 
@@ -71,10 +73,8 @@ ContactState CoupledContact::start(const Eigen::VectorXd& background) const {
   return state;
 }
 
-CoulombLaw CoupledContact::law_of(const ContactState& before, int k) const {
-  CoulombLaw law = laws_.node[k];
-  if (before.cohesion_lost[k]) law.cohesion = 0;
-  return law;
+FrictionState CoupledContact::state_of(const Node& node, const ContactState& state, int k) {
+  return {shear_of(node.shear, state.jump), state.slip_path[k], state.cohesion_lost[k] == 0};
 }
 
 /// The node at the slip that its augmented traction promises; none where that stays below the
@@ -83,15 +83,13 @@ SlippingPoint CoupledContact::point_of(const ContactState& before, const Iterate
   const Node& node = nodes_[k];
   SlippingPoint point;
   point.normal_traction = std::min(at.traction[node.first], 0.0);
-  point.slip_before = shear_of(node.shear, before.jump);
-  point.path_before = before.slip_path[k];
-  point.cumulated = laws_.cumulated[k] != 0;
+  point.before = state_of(node, before, k);
   const Eigen::Vector2d slip = shear_of(node.shear, at.increment);
   const Eigen::Vector2d y = shear_of(node.shear, at.traction) + node.stiffness * slip;
   const double norm = y.norm();
   if (norm > 0) point.traction_direction = y / norm;
   point.slip_increment = slip;
-  const double limit = slip_tangent(law_of(before, k), point).traction.norm();
+  const double limit = slip_tangent(node.law, point).traction.norm();
   point.slip_increment = std::max(norm - limit, 0.0) / node.stiffness * point.traction_direction;
   return point;
 }
@@ -125,7 +123,7 @@ void CoupledContact::linearise(const ContactState& before, Iterate& at) const {
     how.state = at.state[k];
     if (how.state != FaultState::slip) continue;
     const SlippingPoint point = point_of(before, at, k);
-    how.tangent = slip_tangent(law_of(before, k), point);
+    how.tangent = slip_tangent(node.law, point);
     if (at.traction[node.first] > 0) how.tangent.d_normal.setZero();
     set_shear(node.shear,
               how.tangent.traction - how.tangent.d_slip * point.slip_increment -
@@ -224,8 +222,11 @@ CoupledStepReport CoupledContact::advance(const CoupledLoad& load, ContactState&
     const Node& node = nodes_[k];  // what is held moves by what the last linear step left over
     if (at.state[k] != FaultState::open) at.increment[node.first] = -state.jump[node.first];
     if (at.state[k] == FaultState::stick) set_shear(node.shear, {0, 0}, at.increment);
-    if (at.state[k] == FaultState::open && !laws_.keep_cohesion[k]) state.cohesion_lost[k] = 1;
-    state.slip_path[k] += shear_of(node.shear, at.increment).norm();
+    const FrictionState after =
+        node.law.after(state_of(node, state, k), shear_of(node.shear, at.increment),
+                       at.state[k] == FaultState::open);
+    state.slip_path[k] = after.path;
+    state.cohesion_lost[k] = !after.cohesive;
   }
   state.jump += at.increment;
   state.traction = at.traction;

@@ -45,7 +45,7 @@ struct CoupledStepReport {
 /// the last one does not converge.
 class CoupledContact {
  public:
-  /// @param laws  over the nodes that may jump; damping and loss of cohesion by slip are not taken
+  /// @param laws  over the nodes that may jump; loss of cohesion by slip is not taken
   /// (InternalError).
   CoupledContact(const TwoSidedBulk& bulk, const ContactLaws& laws,
                  const CoupledContactOptions& options);
@@ -62,17 +62,17 @@ class CoupledContact {
     int fault_node, first, n_dofs;  ///< of bulk.fault_nodes(); fault dofs, n first.
     std::array<int, 2> shear;       ///< dofs of strike and dip; −1 = none.
     double area, stiffness;         ///< m2; r, Pa/m.
+    NodeLaw law;
   };
   struct Iterate;
   void classify(const ContactState& before, Iterate& at, double tolerance) const;
   void linearise(const ContactState& before, Iterate& at) const;
   double improve(const Eigen::VectorXd& force, const ContactState& before, Iterate& at,
                  CoupledStepReport& report) const;
-  CoulombLaw law_of(const ContactState& before, int node) const;
+  static FrictionState state_of(const Node& node, const ContactState& state, int k);
   SlippingPoint point_of(const ContactState& before, const Iterate& at, int node) const;
 
   const TwoSidedBulk& bulk_;
-  const ContactLaws& laws_;
   CoupledContactOptions options_;
   SaddlePoint all_held_;  ///< its C is that of all fault dofs.
   std::vector<Node> nodes_;

@@ -8,11 +8,9 @@ namespace faultsim {
 
 /// A slipping node and its motion in the load step.
 struct SlippingPoint {
-  double normal_traction = 0;                ///< t'_N ≤ 0, Pa.
+  double normal_traction = 0;                ///< t'_N, Pa.
   Eigen::Vector2d slip_increment{0, 0};      ///< Δg_T (strike, dip), m.
-  Eigen::Vector2d slip_before{0, 0};         ///< g_T at the start of the step, m.
-  double path_before = 0;                    ///< slip path at the start, m.
-  bool cumulated = false;                    ///< the slip measure is the path.
+  FrictionState before;                      ///< at the start of the step.
   Eigen::Vector2d traction_direction{0, 0};  ///< of t'_T: the direction while Δg_T = 0.
 };
 
@@ -29,6 +27,6 @@ struct SlipTangent {
 
 /// A node just set to slip (Δg_T = 0) takes the direction of its traction, and none of the part of
 /// the derivative that turns it: that part grows without bound as Δg_T → 0.
-SlipTangent slip_tangent(const CoulombLaw& law, const SlippingPoint& point);
+SlipTangent slip_tangent(const NodeLaw& law, const SlippingPoint& point);
 
 }  // namespace faultsim

@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "simulator/elasticity/elasticity.h"
+#include "simulator/model/load_key.h"
 
 namespace faultsim {
 
 /// One unit load of a family: exactly one of the three kinds.
 struct LoadCase {
-  std::string name;                    ///< "pressure:0", "boundary:2".
-  int region = -1;                     ///< ≥ 0: b Δp = 1 Pa in this pressure region.
+  LoadKey key;                         ///< what the scene calls it.
+  int region = -1;                     ///< ≥ 0: b Δp = 1 Pa where Mesh::region is this.
   std::vector<MeshSide> stress_sides;  ///< non-empty: stress change Δσ on these sides.
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
   bool displacement = false;  ///< the prescribed displacements of this load's index.
@@ -28,6 +29,9 @@ struct BulkProblem {
   bool b_bar = true;
   bool half_domain = false;
 };
+
+/// The scene's region whose pressure load acts on a cell; −1 = none.
+int pressure_region(const BulkProblem& problem, int cell);
 
 /// The nodal forces of one unit load, f_k (n_unknowns, N), in the unknowns of `dofs`.
 /// @pre `dofs` are of problem.mesh and problem.conditions; the load is of exactly one kind

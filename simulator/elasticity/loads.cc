@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "simulator/common/errors.h"
 #include "simulator/elasticity/element.h"
@@ -63,6 +64,22 @@ Eigen::VectorXd pressure_load(const Mesh& mesh, const DofMap& dofs, int region, 
     }
   }
   return gathered(dofs, forces);
+}
+
+std::vector<std::pair<int, double>> dilatation_load(const Mesh& mesh, const DofMap& dofs,
+                                                    int cell) {
+  const Element element = make_element(mesh, cell);
+  const double volume = per_thickness(mesh) * element.volume;
+  std::map<int, double> load;
+  for (int a = 0; a < 8; ++a) {
+    for (int c = 0; c < 3; ++c) {
+      const auto [first, last] = dofs.terms(mesh.cells[cell][a], c);
+      for (const DofMap::Term* term = first; term != last; ++term) {
+        load[term->unknown] += term->coefficient * volume * element.mean_gradient(a, c);
+      }
+    }
+  }
+  return {load.begin(), load.end()};
 }
 
 Eigen::Matrix3Xd nodal_stress_forces(const Mesh& mesh, const std::vector<MeshSide>& sides,

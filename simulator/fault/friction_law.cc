@@ -1,50 +1,79 @@
 #include "simulator/fault/friction_law.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "simulator/common/errors.h"
-
 namespace faultsim {
 
-LimitShearTraction limit_shear_traction(const CoulombLaw& law, double normal_traction,
-                                        double slip) {
-  FAULTSIM_DEMAND(normal_traction <= 0 && slip >= 0, "normal traction ", normal_traction, " slip ",
-                  slip);
-  const double angle_s = law.static_friction_angle;
-  const double angle_d = law.dynamic_friction_angle;
-  // Without weakening d_c means nothing and may be anything, zero included.
-  if (angle_d == angle_s) {
-    const double friction = std::tan(angle_s);
-    return {law.cohesion - normal_traction * friction, -friction, 0};
-  }
-  const double d_c = law.slip_weakening_distance;
-  if (slip >= d_c) {
-    const double friction = std::tan(angle_d);
-    return {law.cohesion - normal_traction * friction, -friction, 0};
-  }
-  double friction = 0;
-  double d_friction = 0;
-  switch (law.weakening) {
-    case WeakeningLaw::angle: {
-      friction = std::tan(angle_s + (angle_d - angle_s) * (slip / d_c));
-      d_friction = (1 + friction * friction) * (angle_d - angle_s) / d_c;
-      break;
-    }
-    case WeakeningLaw::coefficient: {
-      const double drop = std::tan(angle_d) - std::tan(angle_s);
-      friction = std::tan(angle_s) + drop * (slip / d_c);
-      d_friction = drop / d_c;
-      break;
-    }
-  }
-  return {law.cohesion - normal_traction * friction, -friction, -normal_traction * d_friction};
+NodeLaw::NodeLaw(const CoulombLaw& constants)
+    : constants_(constants),
+      static_friction_(std::tan(constants.static_friction_angle)),
+      dynamic_friction_(std::tan(constants.dynamic_friction_angle)),
+      weakens_(constants.dynamic_friction_angle != constants.static_friction_angle) {}
+
+NodeLaw::SlipMeasure NodeLaw::measure(const Eigen::Vector2d& slip_increment,
+                                      const FrictionState& before,
+                                      const Eigen::Vector2d& direction) const {
+  const bool cumulated = constants_.cumulated;
+  const Eigen::Vector2d slip =
+      cumulated ? slip_increment : Eigen::Vector2d(before.slip + slip_increment);
+  const double norm = slip.norm();
+  const Eigen::Vector2d gradient = norm > 0 ? Eigen::Vector2d(slip / norm) : direction;
+  return {cumulated ? before.path + norm : norm, gradient};
 }
 
-double critical_index(double shear_traction_norm, double limit_shear_traction) {
-  constexpr double kFloor = 1e3;  // Pa; keeps χ finite where a fault carries next to nothing
-  return shear_traction_norm / std::max(limit_shear_traction, kFloor);
+/// φ_d ≠ φ_s. Beyond d_c the dynamic angle is taken as it is, not as the end of a sum.
+Strength NodeLaw::weakened(double normal_traction, const SlipMeasure& s) const {
+  const double angle_s = constants_.static_friction_angle;
+  const double angle_d = constants_.dynamic_friction_angle;
+  const double d_c = constants_.slip_weakening_distance;
+  double friction = dynamic_friction_;
+  double d_friction = 0;
+  if (!(s.value >= d_c)) {
+    switch (constants_.weakening) {
+      case WeakeningLaw::angle: {
+        friction = std::tan(angle_s + (angle_d - angle_s) * (s.value / d_c));
+        d_friction = (1 + friction * friction) * (angle_d - angle_s) / d_c;
+        break;
+      }
+      case WeakeningLaw::coefficient: {
+        const double drop = dynamic_friction_ - static_friction_;
+        friction = static_friction_ + drop * (s.value / d_c);
+        d_friction = drop / d_c;
+        break;
+      }
+    }
+  }
+  const double normal = std::min(normal_traction, 0.0);
+  Strength at;
+  at.value = constants_.cohesion - normal * friction;
+  at.d_normal = normal_traction > 0 ? 0 : -friction;
+  at.d_measure = -normal * d_friction;
+  at.d_slip = at.d_measure * s.gradient;
+  return at;
+}
+
+FrictionState NodeLaw::after(const FrictionState& before, const Eigen::Vector2d& slip_increment,
+                             bool opened) const {
+  const double length = slip_increment.norm();
+  const bool lost = (opened && !constants_.cohesion_after_opening) ||
+                    (length > 0 && !constants_.cohesion_after_slip);
+  return {before.slip + slip_increment, before.path + length, before.cohesive && !lost};
+}
+
+/// Both laws weaken fastest at the smallest s met on the way.
+double NodeLaw::fastest_weakening(double normal_traction, const Eigen::Vector2d& slip_increment,
+                                  const FrictionState& before) const {
+  const auto rate_at = [&](double share) {
+    return -strength(normal_traction, share * slip_increment, 0, before).d_measure;
+  };
+  if (constants_.cumulated) return rate_at(0);
+  const double length = slip_increment.norm();
+  const Eigen::Vector2d end = before.slip + slip_increment;
+  const double outward = end.dot(slip_increment);
+  if (outward <= 0) return 0;  // s shrinks all the way: the node heals
+  const double nearest = std::clamp(-before.slip.dot(slip_increment) / (length * length), 0.0, 1.0);
+  return rate_at(nearest) * (end.norm() > 0 ? outward / (length * end.norm()) : 1);
 }
 
 double nucleation_length(double modulus, double weakening_rate) {

@@ -7,8 +7,10 @@
 #include <string>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/interrupt.h"
 #include "simulator/common/stopwatch.h"
 #include "simulator/linalg/ordering.h"
+#include "simulator/linalg/supernodal_factor.h"
 
 namespace faultsim {
 namespace {
@@ -38,6 +40,20 @@ cholmod_sparse view_of(const TrailingCholesky::SparseMatrix& k) {
   a.packed = 1;
   return a;
 }
+
+struct FreeSparse {
+  cholmod_common* common;
+  void operator()(cholmod_sparse* a) const { cholmod_l_free_sparse(&a, common); }
+};
+/// A matrix that CHOLMOD made.
+class SparseHandle {
+ public:
+  SparseHandle(cholmod_sparse* a, cholmod_common* common) : a_(a, {common}) {}
+  cholmod_sparse* get() const { return a_.get(); }
+
+ private:
+  std::unique_ptr<cholmod_sparse, FreeSparse> a_;
+};
 
 }  // namespace
 
@@ -79,15 +95,19 @@ struct TrailingCholesky::Impl {
     statistics.flops = c->fl;
   }
 
-  void factorise(cholmod_sparse* a) {
+  void factorise(cholmod_sparse* a, const FactorRun& run) {
     cholmod_common* c = common.get();
-    c->quick_return_if_not_posdef = 1;
-    cholmod_l_factorize(a, factor, c);
+    const SparseHandle lower = in_order_of_factor(a);
+    const FactorOutcome outcome = factorise_supernodes(*lower.get(), factor, c, run);
     check("the factorisation");
+    if (outcome.end == FactorEnd::stopped) {
+      throw_if_interrupted("condensing the bulk");
+      throw Interrupted("stopped while condensing the bulk");
+    }
     statistics.bytes = static_cast<double>(factor->xsize) * sizeof(double) +
                        static_cast<double>(factor->ssize) * sizeof(Index);
-    if (static_cast<Index>(factor->minor) < n) {
-      failed = static_cast<int>(order[factor->minor]);
+    if (outcome.end == FactorEnd::not_positive_definite) {
+      failed = static_cast<int>(order[outcome.column]);
       return;
     }
     FAULTSIM_DEMAND(factor->is_super && factor->is_ll, "not a supernodal LLᵀ factor");
@@ -95,21 +115,27 @@ struct TrailingCholesky::Impl {
     check("the workspace");
   }
 
+  /// The lower triangle of P A Pᵀ, sorted: the transpose of a symmetric lower one is upper.
+  SparseHandle in_order_of_factor(cholmod_sparse* a) {
+    cholmod_common* c = common.get();
+    const SparseHandle upper(cholmod_l_ptranspose(a, 1, order.data(), nullptr, 0, c), c);
+    check("the permutation");
+    SparseHandle lower(cholmod_l_ptranspose(upper.get(), 1, nullptr, nullptr, 0, c), c);
+    check("the permutation");
+    return lower;
+  }
+
   /// Calls visit(column, rows, values, count) for each column of L in [from, n) : its rows from the
   /// diagonal down.
   template <typename Visit>
   void for_each_column(Index from, const Visit& visit) const {
-    const Index* super = static_cast<const Index*>(factor->super);
-    const Index* row_begin = static_cast<const Index*>(factor->pi);
-    const Index* value_begin = static_cast<const Index*>(factor->px);
-    const Index* rows = static_cast<const Index*>(factor->s);
-    const double* values = static_cast<const double*>(factor->x);
-    for (Index s = 0; s < static_cast<Index>(factor->nsuper); ++s) {
-      const Index n_rows = row_begin[s + 1] - row_begin[s];
-      for (Index column = std::max(super[s], from); column < super[s + 1]; ++column) {
-        const Index skip = column - super[s];
-        visit(column, rows + row_begin[s] + skip, values + value_begin[s] + skip * n_rows + skip,
-              n_rows - skip);
+    const Supernodes l = supernodes_of(*factor);
+    for (Index s = 0; s < l.count; ++s) {
+      const Index height = l.height(s);
+      for (Index column = std::max(l.begin[s], from); column < l.begin[s + 1]; ++column) {
+        const Index skip = column - l.begin[s];
+        visit(column, l.rows_of(s) + skip, l.values + l.value_begin[s] + skip * (height + 1),
+              height - skip);
       }
     }
   }
@@ -145,7 +171,7 @@ struct TrailingCholesky::Impl {
 };
 
 TrailingCholesky::TrailingCholesky(const SparseMatrix& k, int n_last, const std::vector<int>& group,
-                                   int n_groups)
+                                   int n_groups, const FactorRun& run)
     : impl_(std::make_unique<Impl>()) {
   FAULTSIM_DEMAND(k.rows() == k.cols() && k.rows() >= 1 && k.isCompressed(), k.rows(), k.cols());
   FAULTSIM_DEMAND(static_cast<long>(group.size()) + n_last == k.rows(), group.size(), n_last);
@@ -164,7 +190,7 @@ TrailingCholesky::TrailingCholesky(const SparseMatrix& k, int n_last, const std:
   self.analyse(&a);
   self.statistics.analyse_seconds = analysis.seconds();
   Stopwatch factorisation;
-  self.factorise(&a);
+  self.factorise(&a, run);
   self.statistics.factor_seconds = factorisation.seconds();
   if (self.failed < 0) self.find_singular_pivot(k);
 }
@@ -209,6 +235,15 @@ Eigen::VectorXd TrailingCholesky::condensed(const Eigen::VectorXd& y) const {
 
 Eigen::VectorXd TrailingCholesky::condense(const Eigen::VectorXd& f) {
   return condensed(forward(f));
+}
+
+Eigen::MatrixXd TrailingCholesky::condense(const std::vector<SparseLoad>& loads,
+                                           const std::function<void(double)>& progress) const {
+  const Impl& self = *impl_;
+  FAULTSIM_DEMAND(self.failed < 0, "no factor");
+  std::vector<long> place(self.n);
+  for (Index i = 0; i < self.n; ++i) place[self.order[i]] = i;
+  return condense_sparse(supernodes_of(*self.factor), place, self.n_bulk, loads, progress);
 }
 
 Eigen::VectorXd TrailingCholesky::expand(const Eigen::VectorXd& f, const Eigen::VectorXd& g) {

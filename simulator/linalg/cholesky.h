@@ -2,11 +2,14 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "simulator/linalg/blas.h"
+#include "simulator/linalg/factor_run.h"
+#include "simulator/linalg/sparse_forward.h"
 
 namespace faultsim {
 
@@ -33,7 +36,9 @@ class TrailingCholesky {
   ///                 by AMD).
   /// Throws ResourceError when memory is short. A matrix that is not positive definite does not
   /// throw: see failed_column().
-  TrailingCholesky(const SparseMatrix& k, int n_last, const std::vector<int>& group, int n_groups);
+  /// Interrupted when `run` says so.
+  TrailingCholesky(const SparseMatrix& k, int n_last, const std::vector<int>& group, int n_groups,
+                   const FactorRun& run = {});
   ~TrailingCholesky();
   TrailingCholesky(const TrailingCholesky&) = delete;
   TrailingCholesky& operator=(const TrailingCholesky&) = delete;
@@ -52,6 +57,9 @@ class TrailingCholesky {
   Eigen::VectorXd condensed(const Eigen::VectorXd& y) const;
   /// The condensed load f_g − K_gr K_rr⁻¹ f_r (n_last) = condensed(forward(f)).
   Eigen::VectorXd condense(const Eigen::VectorXd& f);
+  /// The same for loads with few entries, a column each: see condense_sparse().
+  Eigen::MatrixXd condense(const std::vector<SparseLoad>& loads,
+                           const std::function<void(double)>& progress) const;
   /// r = K_rr⁻¹ (f_r − K_rg g), returned as (r, g), size n.
   Eigen::VectorXd expand(const Eigen::VectorXd& f, const Eigen::VectorXd& g);
   /// The same from y = forward(f): the second half of the back-solve.

@@ -20,7 +20,7 @@ void add_pressure_loads(Mesh& mesh, std::vector<LoadCase>& loads) {
   std::vector<std::pair<int, int>> order(present.begin(), present.end());
   for (std::size_t k = 0; k < order.size(); ++k) {
     LoadCase load;
-    load.name = load_name({order[k].first, order[k].second});
+    load.key = {LoadKey::Kind::pressure, order[k].first, order[k].second};
     load.region = static_cast<int>(k);
     loads.push_back(load);
   }
@@ -37,7 +37,7 @@ void add_boundary_loads(const Scene& scene, std::vector<LoadCase>& loads) {
     const BoundaryCondition& condition = scene.box.boundary[i];
     if (!is_load(condition.kind)) continue;
     LoadCase load;
-    load.name = boundary_load_name(static_cast<int>(i));
+    load.key = {.kind = LoadKey::Kind::boundary, .index = static_cast<int>(i)};
     load.displacement = condition.kind == BoundaryKind::displacement;
     if (!load.displacement) {
       for (const Side side : condition.sides) {
@@ -74,6 +74,15 @@ BulkProblem bulk_problem(const Scene& scene, const Plan& plan) {
   problem.b_bar = scene.numerics.b_bar;
   problem.half_domain = plan.half_domain;
   return problem;
+}
+
+std::vector<int> mirrored_rows(const Scene& scene, const Plan& plan) {
+  std::vector<int> rows;
+  const auto& points = scene.output.observation_points;
+  for (int i = 0; plan.half_domain && i < static_cast<int>(points.size()); ++i) {
+    if (points[i].position[1] < 0) rows.push_back(3 * i + 1);
+  }
+  return rows;
 }
 
 }  // namespace faultsim

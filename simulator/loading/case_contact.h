@@ -1,7 +1,7 @@
 #pragma once
 
 #include "simulator/contact/contact.h"
-#include "simulator/output/fault_operator.h"
+#include "simulator/model/fault_operator.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {

@@ -31,7 +31,7 @@ StepLoads CaseLoads::at(double time) const {
   loads.locked = initial_.traction;
   for (std::size_t k = 0; k < loads.factors.size(); ++k) {
     if (loads.factors[k] != 0)
-      loads.locked += loads.factors[k] * op_.locked.col(static_cast<Eigen::Index>(k));
+      loads.locked += loads.factors[k] * op_.loads.traction.col(static_cast<Eigen::Index>(k));
   }
   loads.fault_pressure_change = fault_pressure_change(
       scene_, op_.geometry, load_factors_.region_of_load(), time, loads.pressure_change);

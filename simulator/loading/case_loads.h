@@ -5,7 +5,7 @@
 
 #include "simulator/loading/history.h"
 #include "simulator/loading/initial_traction.h"
-#include "simulator/output/fault_operator.h"
+#include "simulator/model/fault_operator.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {

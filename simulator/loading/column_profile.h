@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "simulator/output/fault_operator.h"
+#include "simulator/model/fault_operator.h"
 
 namespace faultsim {
 

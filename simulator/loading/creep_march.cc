@@ -14,7 +14,7 @@ namespace faultsim {
 namespace {
 
 ContactLaws without_following(ContactLaws laws) {
-  laws.damping.resize(0);
+  for (CoulombLaw& law : laws) law.damping = 0;
   return laws;
 }
 
@@ -31,9 +31,9 @@ void add_counts(SolveCounts& sum, const SolveCounts& part, bool wasted) {
 Eigen::VectorXd elastic_traction_drop(const FaultOperator& op, const Eigen::VectorXd& jump) {
   Eigen::VectorXd drop = Eigen::VectorXd::Zero(op.geometry.n_dofs);
   for (Eigen::Index d = 0; d < jump.size(); ++d) {
-    if (jump[d] != 0) drop += jump[d] * op.h.col(d);
+    if (jump[d] != 0) drop += jump[d] * op.compliance->column(static_cast<int>(d));
   }
-  return drop.cwiseQuotient(op.dof_area);
+  return drop.cwiseQuotient(op.geometry.dof_area);
 }
 
 struct CreepMarch::Impl {
@@ -152,7 +152,7 @@ CreepMarch::Impl::Path CreepMarch::Impl::step(const Point& from, const StepLoads
     increments[k] = loads.factors[k] - from.loads.factors[k];
     if (increments[k] == 0 || rung == 0) continue;
     const auto column = static_cast<Eigen::Index>(k);
-    change += increments[k] * (op.locked.col(column) - elastic.locked.col(column));
+    change += increments[k] * (op.loads.traction.col(column) - elastic.loads.traction.col(column));
   }
   const Eigen::VectorXd before =
       from.contact.traction + elastic_traction_drop(op, from.contact.jump);

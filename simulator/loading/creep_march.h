@@ -35,7 +35,7 @@ struct CreepReport {
 /// the relaxed stiffness, is marked: the ladder is too coarse for it.
 class CreepMarch {
  public:
-  /// @pre all arguments outlive this; laws.node and the operators of the ladder agree.
+  /// @pre all arguments outlive this; laws and the operators of the ladder agree.
   CreepMarch(const Scene& scene, const CaseLoads& loads, CreepLadder& ladder,
              const ContactLaws& laws);
   ~CreepMarch();

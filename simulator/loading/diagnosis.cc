@@ -36,10 +36,11 @@ bool outcome_tells(Outcome outcome) {
 
 OperatorCheck check_operator(const FaultOperator& op) {
   OperatorCheck check;
-  const double largest = op.h.size() > 0 ? op.h.cwiseAbs().maxCoeff() : 0;
-  if (largest > 0) check.asymmetry = (op.h - op.h.transpose()).cwiseAbs().maxCoeff() / largest;
-  const Eigen::VectorXd root = op.dof_area.cwiseSqrt().cwiseInverse();
-  check.condition = spd_condition(root.asDiagonal() * op.h * root.asDiagonal());
+  const auto h = op.h();
+  const double largest = h.size() > 0 ? h.cwiseAbs().maxCoeff() : 0;
+  if (largest > 0) check.asymmetry = (h - h.transpose()).cwiseAbs().maxCoeff() / largest;
+  const Eigen::VectorXd root = op.geometry.dof_area.cwiseSqrt().cwiseInverse();
+  check.condition = spd_condition(root.asDiagonal() * h * root.asDiagonal());
   return check;
 }
 

@@ -1,7 +1,6 @@
 #include "simulator/loading/history.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
 
 #include "simulator/common/errors.h"
@@ -98,47 +97,26 @@ double table_value(const TimeTable& table, double time) {
   return interpolate(table.time, table.factor, time, table.factor.front());
 }
 
-std::string load_name(const PressureLoad& load) {
-  return concat("pressure:", load.region, ":", load.material);
-}
-
-std::string boundary_load_name(int boundary_index) { return concat("boundary:", boundary_index); }
-
-LoadFactors::LoadFactors(const Scene& scene, const FaultOperator& op) : scene_(scene) {
-  for (const std::string& name : op.load_names) {
-    const std::size_t colon = name.find(':');
-    FAULTSIM_DEMAND(colon != std::string::npos, "load ", name);
-    const std::string kind = name.substr(0, colon);
-    char* end = nullptr;
-    const auto index = static_cast<int>(std::strtol(name.c_str() + colon + 1, &end, 10));
-    if (kind == "pressure") {
-      FAULTSIM_DEMAND(*end == ':', "load ", name);
-      const auto material = static_cast<std::size_t>(std::strtol(end + 1, nullptr, 10));
-      FAULTSIM_DEMAND(material < scene.materials.size() &&
-                          static_cast<std::size_t>(index) < scene.pressure.size(),
-                      "load ", name);
-      biot_.push_back(scene.materials[material].biot);
-      region_of_load_.push_back(index);
-      boundary_of_load_.push_back(-1);
-    } else {
-      FAULTSIM_DEMAND(
-          kind == "boundary" && static_cast<std::size_t>(index) < scene.box.boundary.size(),
-          "load ", name);
-      biot_.push_back(0);
-      region_of_load_.push_back(-1);
-      boundary_of_load_.push_back(index);
-    }
+LoadFactors::LoadFactors(const Scene& scene, const FaultOperator& op)
+    : scene_(scene), keys_(op.loads.keys) {
+  const auto demand = [](const LoadKey& key, int number, std::size_t size) {
+    FAULTSIM_DEMAND(number >= 0 && static_cast<std::size_t>(number) < size, "load ",
+                    to_string(key));
+  };
+  for (const LoadKey& key : keys_) {
+    const bool pressure = key.kind == LoadKey::Kind::pressure;
+    if (pressure) demand(key, key.material, scene.materials.size());
+    demand(key, key.index, pressure ? scene.pressure.size() : scene.box.boundary.size());
+    region_of_load_.push_back(pressure ? key.index : -1);
   }
 }
 
 std::vector<double> LoadFactors::at(double time, const std::vector<double>& pressure_change) const {
-  std::vector<double> factors(biot_.size());
-  for (std::size_t k = 0; k < factors.size(); ++k) {
-    factors[k] =
-        boundary_of_load_[k] >= 0
-            ? table_value(scene_.box.boundary[static_cast<std::size_t>(boundary_of_load_[k])].table,
-                          time)
-            : biot_[k] * pressure_change[static_cast<std::size_t>(region_of_load_[k])];
+  std::vector<double> factors;
+  for (const LoadKey& key : keys_) {
+    factors.push_back(key.kind == LoadKey::Kind::boundary
+                          ? table_value(scene_.box.boundary[key.index].table, time)
+                          : scene_.materials[key.material].biot * pressure_change[key.index]);
   }
   return factors;
 }

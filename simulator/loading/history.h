@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/output/fault_operator.h"
+#include "simulator/model/fault_operator.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {
@@ -27,17 +27,8 @@ std::vector<double> pressure_changes(const Scene& scene, double time);
 /// Value of a table at time t: piecewise linear, constant outside; 1 if the table is empty.
 double table_value(const TimeTable& table, double time);
 
-/// Where a pressure load of the operator comes from: "pressure:REGION:MATERIAL". Regions that cover
-/// materials with different Biot coefficients have several loads.
-struct PressureLoad {
-  int region;
-  int material;
-};
-std::string load_name(const PressureLoad& load);
-std::string boundary_load_name(int boundary_index);
-
 /// The factors c_k of the operator's loads at a time: b Δp for pressure loads, the table's value
-/// for boundary loads. Names that the scene does not know are our bug (InternalError).
+/// for boundary loads. Keys that the scene does not know are our bug (InternalError).
 class LoadFactors {
  public:
   LoadFactors(const Scene& scene, const FaultOperator& op);
@@ -48,9 +39,8 @@ class LoadFactors {
 
  private:
   const Scene& scene_;
-  std::vector<double> biot_;           // per load; 0 for boundary loads
-  std::vector<int> region_of_load_;    // −1 for boundary loads
-  std::vector<int> boundary_of_load_;  // −1 for pressure loads
+  const std::vector<LoadKey>& keys_;
+  std::vector<int> region_of_load_;  // −1 for boundary loads
 };
 
 /// The change that rule `prescribed` gives at time t, Pa, where it acts.

@@ -22,7 +22,7 @@ bool has_nodes(const OperatorFault& fault, int j) {
 FaultMeter::FaultMeter(const FaultOperator& op, const ContactLaws& laws, double slip_tolerance,
                        double activation_length)
     : op_(op),
-      laws_(laws),
+      laws_(laws.begin(), laws.end()),
       slip_tolerance_(slip_tolerance),
       activation_length_(activation_length),
       multiplicity_(op.geometry.half_domain ? 2.0 : 1.0) {
@@ -43,10 +43,6 @@ FaultMeter::FaultMeter(const FaultOperator& op, const ContactLaws& laws, double 
     }
     fault_area_.push_back(area);
     fault_width_.push_back(width);
-  }
-  for (const CoulombLaw& law : laws.node) {
-    static_tangent_.push_back(std::tan(law.static_friction_angle));
-    weakens_.push_back(law.dynamic_friction_angle < law.static_friction_angle ? 1 : 0);
   }
 }
 
@@ -88,19 +84,13 @@ void FaultMeter::evaluate(const ContactState& state, NodalState& nodal) const {
     const auto& dof = op_.geometry.nodes[i].dof;
     const double shear = std::hypot(dof[1] >= 0 ? state.traction[dof[1]] : 0.0,
                                     dof[2] >= 0 ? state.traction[dof[2]] : 0.0);
-    const double normal = std::min(state.traction[dof[0]], 0.0);
-    const CoulombLaw& law = laws_.node[i];
-    const double cohesion = state.cohesion_lost[i] != 0 ? 0.0 : law.cohesion;
-    const double static_strength = cohesion - normal * static_tangent_[i];
-    double strength = static_strength;
-    if (weakens_[i] != 0) {
-      const double slip = laws_.cumulated[i] != 0 ? state.slip_path[k] : nodal.slip[k];
-      CoulombLaw current = law;
-      current.cohesion = cohesion;
-      strength = limit_shear_traction(current, normal, slip).value;
-    }
+    const double normal = state.traction[dof[0]];
+    const FrictionState friction =
+        friction_state(op_.geometry.nodes[i], state, static_cast<int>(k));
+    const NodeLaw law = friction.cohesive ? laws_[i] : laws_[i].without_cohesion();
+    const double static_strength = law.static_limit(normal, true);
     nodal.shear[k] = shear;
-    nodal.strength[k] = std::max(strength, kStrengthFloor);
+    nodal.strength[k] = std::max(law.limit(normal, friction), kStrengthFloor);
     nodal.critical_index[k] = shear / nodal.strength[k];
     nodal.static_critical_index[k] = shear / std::max(static_strength, kStrengthFloor);
   }

@@ -5,7 +5,7 @@
 
 #include "simulator/contact/contact.h"
 #include "simulator/loading/column_profile.h"
-#include "simulator/output/fault_operator.h"
+#include "simulator/model/fault_operator.h"
 #include "simulator/output/result.h"
 
 namespace faultsim {
@@ -63,15 +63,13 @@ class FaultMeter {
                        const ContactState& state) const;
 
   const FaultOperator& op_;
-  const ContactLaws& laws_;
+  std::vector<NodeLaw> laws_;
   double slip_tolerance_;
   double activation_length_;
   double multiplicity_;  ///< 2 for a half domain: areas, potency, M0.
   std::vector<Column> columns_;
-  std::vector<double> static_tangent_;  ///< tan φ_s per node.
-  std::vector<char> weakens_;           ///< per node.
-  std::vector<double> fault_area_;      ///< per fault, m2 (not doubled).
-  std::vector<double> fault_width_;     ///< per fault, Σ column widths, m.
+  std::vector<double> fault_area_;   ///< per fault, m2 (not doubled).
+  std::vector<double> fault_width_;  ///< per fault, Σ column widths, m.
 };
 
 }  // namespace faultsim

@@ -1,4 +1,5 @@
 #include "simulator/common/errors.h"
+#include "simulator/common/machine.h"
 #include "simulator/linalg/blas_start.h"
 #include "simulator/linalg/cholesky.h"
 #include "simulator/loading/memory.h"
@@ -16,17 +17,13 @@ void take_fault_names(const Scene& scene, FaultOperator& op) {
   }
 }
 
-/// Points of the half that is not modelled were observed at their mirror image (bulk_problem):
-/// there u_y is opposite.
-void mirror_observations(const Scene& scene, FaultOperator& op) {
-  const auto& points = scene.output.observation_points;
-  FAULTSIM_DEMAND(op.observations.size() == 3 * points.size(), op.observations.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].position[1] >= 0) continue;
-    for (std::size_t c = 0; c < 3; ++c) op.observations[3 * i + c].position.y() *= -1;
-    const auto row = static_cast<Eigen::Index>(3 * i + 1);
-    op.observed_load.row(row) *= -1;
-    op.observed_jump.row(row) *= -1;
+void mirror_observations(const Scene& scene, const Plan& plan, Observations& observed) {
+  FAULTSIM_DEMAND(observed.rows.size() == 3 * scene.output.observation_points.size(),
+                  observed.rows.size());
+  for (const int row : mirrored_rows(scene, plan)) {
+    for (int c = -1; c < 2; ++c) observed.rows[row + c].position.y() *= -1;
+    observed.per_load.row(row) *= -1;
+    observed.per_jump.row(row) *= -1;
   }
 }
 
@@ -72,7 +69,7 @@ PreparedOperator prepare_ladder(const Scene& scene, const Plan& plan, const Buil
                                                   scheme, options, monitor);
   auto op = std::make_shared<FaultOperator>(prepared.ladder->op(0));  // shares H
   take_fault_names(scene, *op);
-  if (plan.half_domain) mirror_observations(scene, *op);
+  mirror_observations(scene, plan, op->observed);
   op->fingerprint = operator_fingerprint(scene, plan, blas_description());
   for (int rung = 1; rung < prepared.ladder->n_rungs(); ++rung) {
     op->build_seconds += prepared.ladder->op(rung).build_seconds;
@@ -85,11 +82,10 @@ PreparedOperator prepare_ladder(const Scene& scene, const Plan& plan, const Buil
 }  // namespace
 
 PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const CachePolicy& cache,
-                                  bool keep_bulk, Monitor& monitor) {
+                                  bool keep_bulk, Monitor& monitor, const BuildOptions& build) {
   take_blas_buffer();
-  const BuildOptions options;
-  set_blas_threads(options.blas_threads);
-  if (plan.creep.active) return prepare_ladder(scene, plan, options, monitor);
+  set_blas_threads(1);
+  if (plan.creep.active) return prepare_ladder(scene, plan, build, monitor);
   PreparedOperator prepared;
   const std::string name = operator_fingerprint(scene, plan, blas_description());
   if (!cache.folder.empty() && !keep_bulk) {
@@ -103,9 +99,9 @@ PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const Ca
   demand_memory(plan, available_memory());
   monitor.progress(0.0, "meshing");
   const BulkProblem problem = bulk_problem(scene, plan);
-  auto bulk = std::make_shared<CondensedBulk>(problem, options, monitor);
+  auto bulk = std::make_shared<CondensedBulk>(problem, build, monitor);
   auto op = std::make_shared<FaultOperator>(bulk->condense());
-  if (plan.half_domain) mirror_observations(scene, *op);
+  mirror_observations(scene, plan, op->observed);
   op->fingerprint = name;
   if (!cache.folder.empty()) keep_operator(*op, cache, prepared.remark);
   prepared.op = op;

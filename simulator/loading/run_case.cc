@@ -136,15 +136,15 @@ FaultFields CaseRun::fields(const StepLoads& loads) const {
 /// traction, where that would make it slip.
 void CaseRun::note_weakening(const Eigen::VectorXd& traction, bool trial) {
   for (std::size_t k = 0; k < op_.geometry.nodes.size(); ++k) {
-    const CoulombLaw& law = laws_.node[k];
-    if (law.dynamic_friction_angle >= law.static_friction_angle) continue;
+    const NodeLaw law(laws_[k]);
+    if (!law.weakens()) continue;
     const OperatorNode& node = op_.geometry.nodes[k];
-    const double normal = std::min(traction[node.dof[0]], 0.0);
+    const double normal = traction[node.dof[0]];
     bool slips = state_.state[k] == FaultState::slip;
     if (trial && !slips) {
       const double shear = std::hypot(node.dof[1] >= 0 ? traction[node.dof[1]] : 0.0,
                                       node.dof[2] >= 0 ? traction[node.dof[2]] : 0.0);
-      slips = shear > limit_shear_traction(law, normal, 0).value;
+      slips = shear > law.limit(normal, {});
     }
     if (!slips) continue;
     result_.max_nucleation_ratio =
@@ -164,7 +164,7 @@ void CaseRun::observe(const StepLoads& loads, StepResult& result) const {
   } else {
     const Eigen::Map<const Eigen::VectorXd> factors(
         loads.factors.data(), static_cast<Eigen::Index>(loads.factors.size()));
-    u = op_.observed_load * factors + op_.observed_jump * state_.jump;
+    u = op_.observed.per_load * factors + op_.observed.per_jump * state_.jump;
   }
   result.observed.assign(u.begin(), u.end());
 }
@@ -195,7 +195,7 @@ void CaseRun::record(const LoadStep& step, const StepLoads& loads,
   for (const OperatorNode& node : op_.geometry.nodes) {
     result_.max_penetration = std::max(result_.max_penetration, -state_.jump[node.dof[0]]);
   }
-  if (!op_.observations.empty()) observe(loads, result);
+  if (!op_.observed.rows.empty()) observe(loads, result);
   if (result.creep) record_creep(loads, *result.creep);
   if (result.n_slip > 0) note_weakening(state_.traction, false);
   const auto first = std::find_if(result_.events.begin(), result_.events.end(),
@@ -332,7 +332,7 @@ void CaseRun::name_result() {
   for (const PressureHistory& history : scene_.pressure)
     result_.region_names.push_back(history.region);
   result_.fault_names = fault_names(scene_);
-  for (const ObservationRow& row : op_.observations) result_.observation_names.push_back(row.name);
+  for (const ObservationRow& row : op_.observed.rows) result_.observation_names.push_back(row.name);
 }
 
 CaseResult CaseRun::run(Monitor& monitor) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "simulator/common/monitor.h"
 #include "simulator/condensation/condensation.h"
@@ -12,7 +13,7 @@
 #include "simulator/contact/contact.h"
 #include "simulator/contact/step_check.h"
 #include "simulator/loading/history.h"
-#include "simulator/output/fault_operator.h"
+#include "simulator/model/fault_operator.h"
 #include "simulator/output/result.h"
 #include "simulator/plan/plan.h"
 #include "simulator/scene/scene.h"
@@ -21,6 +22,9 @@ namespace faultsim {
 
 /// The family of a scene turned into numbers for the bulk.
 BulkProblem bulk_problem(const Scene& scene, const Plan& plan);
+/// Points of the half that is not modelled are observed at their mirror image. The rows (three per
+/// observation point) whose sign is therefore to be turned: their u_y.
+std::vector<int> mirrored_rows(const Scene& scene, const Plan& plan);
 
 /// Where operators are kept; an empty folder = nowhere.
 struct CachePolicy {
@@ -42,8 +46,9 @@ struct PreparedOperator {
   bool from_cache = false;
   std::string remark;  ///< "damaged operator file moved aside", "not kept", ...
 };
+/// @param keep_bulk  wanted with its factor, so never read from the cache.
 PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const CachePolicy& cache,
-                                  bool keep_bulk, Monitor& monitor);
+                                  bool keep_bulk, Monitor& monitor, const BuildOptions& build = {});
 
 /// Called after each load step in equilibrium.
 using StepObserver = std::function<void(const StepResult&, const FaultFields&)>;

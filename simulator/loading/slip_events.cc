@@ -45,10 +45,10 @@ void place_nucleus(const FaultOperator& op, const FaultMeter& meter, const Conta
 
 }  // namespace
 
-double nucleation_ratio(const OperatorNode& node, const CoulombLaw& law, bool plane_strain,
+double nucleation_ratio(const OperatorNode& node, const NodeLaw& law, bool plane_strain,
                         double normal_traction) {
-  if (law.dynamic_friction_angle >= law.static_friction_angle) return 0;
-  const double rate = -limit_shear_traction(law, std::min(normal_traction, 0.0), 0).d_slip;
+  if (!law.weakens()) return 0;
+  const double rate = -law.strength(normal_traction, {0, 0}, 0, {}).d_measure;
   const double g = node.effective_shear_modulus;
   const double down_dip = node.edge_dip / nucleation_length(g / (1 - node.poisson_ratio), rate);
   const double along = plane_strain ? 0 : node.edge_strike / nucleation_length(g, rate);
@@ -76,7 +76,7 @@ SlipEvent measure_event(const FaultOperator& op, const ContactLaws& laws, const 
     const Eigen::Vector2d drop =
         shear_at(node, jump.traction_before) - shear_at(node, jump.traction_after);
     weighted_drop += area * drop.dot(slip);
-    ratio = std::max(ratio, nucleation_ratio(node, laws.node[k], op.geometry.plane_strain,
+    ratio = std::max(ratio, nucleation_ratio(node, NodeLaw(laws[k]), op.geometry.plane_strain,
                                              jump.traction_before[node.dof[0]]));
   }
   if (event.slipped_area > 0) event.mean_slip = event.potency / event.slipped_area;

@@ -2,7 +2,7 @@
 
 #include "simulator/contact/contact.h"
 #include "simulator/loading/metrics.h"
-#include "simulator/output/fault_operator.h"
+#include "simulator/model/fault_operator.h"
 #include "simulator/output/result.h"
 
 namespace faultsim {
@@ -14,7 +14,7 @@ SlipEvent measure_event(const FaultOperator& op, const ContactLaws& laws, const 
 
 /// Largest cell edge over nucleation length of a node under a normal traction: edge_dip with the
 /// modulus of mode II, edge_strike with that of mode III; 0 where it does not weaken.
-double nucleation_ratio(const OperatorNode& node, const CoulombLaw& law, bool plane_strain,
+double nucleation_ratio(const OperatorNode& node, const NodeLaw& law, bool plane_strain,
                         double normal_traction);
 
 }  // namespace faultsim

@@ -52,6 +52,7 @@ void StageSummary::count(const SlipEvent& event) {
     if (event.moment <= sum.event_moment) return;
     sum.event_moment = event.moment;
     sum.event_magnitude = event.magnitude;
+    sum.event_stress_drop = event.stress_drop;
   };
   add(metrics_);
   for (FaultStageMetrics& fault : metrics_.faults) {

@@ -87,9 +87,9 @@ class Warnings {
     const double extent = is_field ? scene_.field.width : scene_.box.to[0] - scene_.box.from[0];
     const double near = extent / 1000;
     const auto& points = scene_.output.observation_points;
-    for (std::size_t i = 0; i < std::min(points.size(), op_.observations.size() / 3); ++i) {
+    for (std::size_t i = 0; i < std::min(points.size(), op_.observed.rows.size() / 3); ++i) {
       const Eigen::Vector3d asked(points[i].position.data());
-      const Eigen::Vector3d& node = op_.observations[3 * i].position;
+      const Eigen::Vector3d& node = op_.observed.rows[3 * i].position;
       Eigen::Vector3d way = node - asked;
       if (op_.geometry.plane_strain) way.y() = 0;
       if (way.norm() <= near) continue;

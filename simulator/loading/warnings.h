@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "simulator/loading/metrics.h"
-#include "simulator/output/fault_operator.h"
+#include "simulator/model/fault_operator.h"
 #include "simulator/output/result.h"
 #include "simulator/scene/scene.h"
 

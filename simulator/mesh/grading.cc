@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "simulator/common/errors.h"
 #include "simulator/mesh/mesh_spec.h"
@@ -33,18 +34,18 @@ int even_count(double length, double size) {
 }
 
 /// s_k = min(first r^k, last r^(n−1−k), largest) for k = 0 … n−1.
-std::vector<double> two_sided(int n, double ratio, double first, double last, double largest) {
-  std::vector<double> sizes(static_cast<size_t>(n), largest);
+/// @param sizes  filled; asked for some hundred times per line, it keeps its memory.
+const std::vector<double>& two_sided(int n, double ratio, double first, double last, double largest,
+                                     std::vector<double>& sizes) {
+  sizes.assign(n, largest);
   double up = first;
   for (int k = 0; k < n; ++k, up *= ratio) {
-    double& size = sizes[static_cast<size_t>(k)];
-    size = std::min(size, up);
+    sizes[k] = std::min(sizes[k], up);
     if (up >= largest) break;
   }
   double down = last;
   for (int k = n - 1; k >= 0; --k, down *= ratio) {
-    double& size = sizes[static_cast<size_t>(k)];
-    size = std::min(size, down);
+    sizes[k] = std::min(sizes[k], down);
     if (down >= largest) break;
   }
   return sizes;
@@ -61,9 +62,11 @@ std::vector<double> scaled_to(std::vector<double> sizes, double length) {
 }
 
 /// Fewest cells whose two-sided growth reaches the length.
-int fewest_cells(double length, double first, double last, double growth, double largest) {
+int fewest_cells(double length, double first, double last, double growth, double largest,
+                 std::vector<double>& scratch) {
   const auto reaches = [&](int n) {
-    return sum(two_sided(n, growth, first, last, largest)) >= length * (1 - kRatioTolerance);
+    return sum(two_sided(n, growth, first, last, largest, scratch)) >=
+           length * (1 - kRatioTolerance);
   };
   int high = 1;
   while (!reaches(high)) demand_few(high *= 2);
@@ -83,9 +86,10 @@ std::vector<double> graded_sizes(double length, double first_size, double last_s
                   length, " ", first_size, " ", last_size, " ", largest, " ", growth);
   const double start = std::min({first_size, last_size, largest});
   if (start >= length) return {length};
-  const int n = fewest_cells(length, first_size, last_size, growth, largest);
-  const auto at = [&](int count, double ratio) {
-    return two_sided(count, ratio, first_size, last_size, largest);
+  std::vector<double> scratch;
+  const int n = fewest_cells(length, first_size, last_size, growth, largest, scratch);
+  const auto at = [&](int count, double ratio) -> const std::vector<double>& {
+    return two_sided(count, ratio, first_size, last_size, largest, scratch);
   };
   if (sum(at(n, 1)) >= length) {
     // Even n cells of the smallest size are too many: prefer one cell less, slightly stretched.
@@ -96,6 +100,7 @@ std::vector<double> graded_sizes(double length, double first_size, double last_s
   double low = 1, high = growth;
   for (int k = 0; k < 60; ++k) {  // 60 halvings: a double's 53 bits and some
     const double middle = 0.5 * (low + high);
+    if (middle == low || middle == high) break;
     (sum(at(n, middle)) < length ? low : high) = middle;
   }
   return scaled_to(at(n, high), length);
@@ -178,6 +183,7 @@ LineBuilder::Pieces LineBuilder::even_pieces() const {
   const size_t n_pieces = pieces.lines.size() - 1;
   pieces.cells.resize(n_pieces);
   pieces.even.assign(n_pieces, 0);
+  pieces.graded_between.resize(n_pieces);
   for (const Line& line : pieces.lines) pieces.size.push_back(std::min(largest_, line.size));
   for (size_t piece = 0; piece < n_pieces; ++piece) {
     const double window = window_size(pieces.lines[piece].x, pieces.lines[piece + 1].x);
@@ -210,6 +216,9 @@ void LineBuilder::grade(Pieces& pieces) const {
     if (pieces.even[piece]) continue;
     const double first = piece == 0 ? kInfinity : pieces.size[piece];
     const double last = piece + 1 == n_pieces ? kInfinity : pieces.size[piece + 1];
+    const std::pair ends(first, last);
+    if (pieces.graded_between[piece] == ends) continue;
+    pieces.graded_between[piece] = ends;
     pieces.cells[piece] = graded_sizes(pieces.length(piece), first, last, growth_, largest_);
   }
 }

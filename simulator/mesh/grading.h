@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace faultsim {
@@ -46,6 +47,7 @@ class LineBuilder {
     std::vector<double> size;                // per line: of the first cells on its graded sides
     std::vector<std::vector<double>> cells;  // per piece: sizes
     std::vector<char> even;                  // per piece: lies in a window
+    std::vector<std::pair<double, double>> graded_between;  // per piece: sizes at its ends
     double length(size_t piece) const { return lines[piece + 1].x - lines[piece].x; }
     void lower(size_t line, double bound);  // unless the line has a size of its own
   };

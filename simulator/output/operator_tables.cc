@@ -176,15 +176,17 @@ OperatorTables to_tables(const FaultOperator& op) {
   for (const OperatorNode& node : geometry.nodes) add_node(t, node);
   for (const OperatorFault& fault : geometry.faults) add_fault(t, fault);
   for (const auto& position : geometry.locked_positions) push(t.locked_positions, position);
-  t.dof_area = flat(op.dof_area);
-  t.load_names = op.load_names;
-  t.locked = flat(op.locked);
-  for (const ObservationRow& row : op.observations) {
+  t.dof_area = flat(op.geometry.dof_area);
+  for (const LoadKey& key : op.loads.keys) {
+    t.load_keys.insert(t.load_keys.end(), {static_cast<int>(key.kind), key.index, key.material});
+  }
+  t.locked = flat(op.loads.traction);
+  for (const ObservationRow& row : op.observed.rows) {
     t.observation_names.push_back(row.name);
     push(t.observation_position, row.position);
   }
-  t.observed_load = flat(op.observed_load);
-  t.observed_jump = flat(op.observed_jump);
+  t.observed_load = flat(op.observed.per_load);
+  t.observed_jump = flat(op.observed.per_jump);
   return t;
 }
 
@@ -209,16 +211,22 @@ FaultOperator from_tables(const OperatorTables& t) {
   }
   demand(t.observation_position.size() == 3 * t.observation_names.size(), "observations");
   for (std::size_t i = 0; i < t.observation_names.size(); ++i) {
-    op.observations.push_back({t.observation_names[i], row3(t.observation_position, i)});
+    op.observed.rows.push_back({t.observation_names[i], row3(t.observation_position, i)});
   }
-  op.load_names = t.load_names;
-  const auto n_loads = static_cast<Eigen::Index>(t.load_names.size());
-  const auto n_observed = static_cast<Eigen::Index>(op.observations.size());
+  demand(t.load_keys.size() % 3 == 0, "keys of the loads");
+  for (std::size_t k = 0; k < t.load_keys.size(); k += 3) {
+    const int kind = t.load_keys[k];
+    demand(kind == 0 || kind == 1, "kind of a load");
+    op.loads.keys.push_back(
+        {static_cast<LoadKey::Kind>(kind), t.load_keys[k + 1], t.load_keys[k + 2]});
+  }
+  const auto n_loads = static_cast<Eigen::Index>(op.loads.keys.size());
+  const auto n_observed = static_cast<Eigen::Index>(op.observed.rows.size());
   const Eigen::Index n_dofs = op.geometry.n_dofs;
-  op.dof_area = read_matrix(t.dof_area, n_dofs, 1, "areas");
-  op.locked = read_matrix(t.locked, n_dofs, n_loads, "locked loads");
-  op.observed_load = read_matrix(t.observed_load, n_observed, n_loads, "observed loads");
-  op.observed_jump = read_matrix(t.observed_jump, n_observed, n_dofs, "observed jumps");
+  op.geometry.dof_area = read_matrix(t.dof_area, n_dofs, 1, "areas");
+  op.loads.traction = read_matrix(t.locked, n_dofs, n_loads, "locked loads");
+  op.observed.per_load = read_matrix(t.observed_load, n_observed, n_loads, "observed loads");
+  op.observed.per_jump = read_matrix(t.observed_jump, n_observed, n_dofs, "observed jumps");
   return op;
 }
 

@@ -3,14 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "simulator/output/fault_operator.h"
+#include "simulator/model/fault_operator.h"
 
 namespace faultsim {
 
 /// A FaultOperator without H as flat tables: what an operator file holds. Tables of Eigen vectors
 /// are row by row, one row per node, point, ...; lists of varying length are one after the other.
 struct OperatorTables {
-  std::vector<std::string> fingerprint, blas, fault_names, load_names, observation_names;
+  std::vector<std::string> fingerprint, blas, fault_names, observation_names;
   std::vector<int> header;         ///< n_dofs, plane_strain, half_domain, n_unknowns
   std::vector<double> provenance;  ///< build_seconds, factor_bytes
   std::vector<double> node_position, node_normal, node_strike, node_dip;  ///< n x 3
@@ -26,6 +26,7 @@ struct OperatorTables {
   std::vector<int> faces;                ///< x 4
   std::vector<double> locked_positions;  ///< x 3
   std::vector<double> dof_area;
+  std::vector<int> load_keys;                        ///< x 3: kind, index, material
   std::vector<double> locked;                        ///< column-major
   std::vector<double> observation_position;          ///< x 3
   std::vector<double> observed_load, observed_jump;  ///< column-major
@@ -64,7 +65,8 @@ void for_each_table(Tables& t, Archive&& archive) {
   archive("/faults/faces", t.faces, 4, "", "grid points of the faces' corners");
   archive("/locked_positions", t.locked_positions, 3, "m", "nodes held closed by a boundary");
   archive("/dof_area", t.dof_area, 1, "m2", "A per dof");
-  archive("/loads/names", t.load_names, 1, "", "");
+  archive("/loads/keys", t.load_keys, 3, "",
+          "0 pressure, 1 boundary; region or boundary condition; material of the region, -1 none");
   archive("/loads/locked", t.locked, 1, "Pa per unit of load", "L, column by column");
   archive("/observations/names", t.observation_names, 1, "", "");
   archive("/observations/position", t.observation_position, 3, "m", "nodes observed");

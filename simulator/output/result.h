@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "simulator/output/measures.h"
+
 /// The result of one case as plain structs. NaN never reaches a file: a missing value is an empty
 /// optional, written as null with a reason where one is known. SI throughout.
 namespace faultsim {
@@ -199,62 +201,26 @@ struct FaultFields {
   const Eigen::Matrix3Xd* displacement = nullptr;
 };
 
-/// Metrics of one fault over one stage, or over the whole case. Words: docs/words.md.
-struct FaultStageMetrics {
+/// Measures of one fault over one stage, or over the whole case.
+struct FaultStageMetrics : Measures {
   std::string fault;
-  bool slips = false;      ///< some node has slipped within the stage: mesh-dependent, a bound.
-  bool activated = false;  ///< it *slides*: slip within the stage meets the activation criterion.
-  bool activation_resolved = true;       ///< for certain, or certainly not: as in StageMetrics.
-  bool opens = false;                    ///< some node is open in one of its steps.
   std::optional<FaultOnset> activation;  ///< iff activated: first step, place of largest slip.
   std::optional<FaultOnset> opening;     ///< iff opens: first step, place of largest gap.
-  double chi_bar = 0;                    ///< maxima over steps, as in StageMetrics.
-  double chi_max = 0;
-  double area_chi_080 = 0;
-  double thickness_chi_080 = 0;
-  double activated_area = 0;
-  double slipping_area = 0;
-  double open_area = 0;
-  double max_slip = 0;      ///< m, within the stage.
-  double potency = 0;       ///< m3, at the end, since the start.
-  double moment = 0;        ///< N m, at the end (stage: summed over its steps).
-  int n_events = 0;         ///< that nucleated on this fault: it *jumps*.
-  double event_moment = 0;  ///< N m, of the largest of these; covers all faults that moved.
-  std::optional<double> event_magnitude;
 
   bool operator==(const FaultStageMetrics&) const = default;  ///< the very same numbers.
 };
 
-/// Metrics of one stage (its steps together); the same fields per case are the "whole" stage.
-struct StageMetrics {
+/// Measures of one stage (its steps together), of all faults; the same per case are "whole".
+struct StageMetrics : Measures {
   std::string stage;  ///< "" for the whole case.
   int first_step = 0, last_step = 0;
-  bool slips = false;      ///< some node of some fault: mesh-dependent, a bound.
-  bool activated = false;  ///< a fault *slides*: slip since the *start of the stage* reaches the
-                           ///< criterion (whole case: since start).
-  bool activation_resolved = true;  ///< some fault slides for certain, or certainly none does: that
-                                    ///< does not hang on the cells.
-  bool opens = false;               ///< some node of some fault is open in one of its steps.
-  std::optional<int> activation_step;  ///< first step with the criterion met.
-  std::string activated_fault;         ///< the first fault that slides; "" if none.
-  std::optional<int> opening_step;     ///< first step with an open node.
-  std::string opened_fault;            ///< the first fault that opens; "" if none.
-  double chi_bar = 0;                  ///< maximum over faults and steps.
-  double chi_max = 0;                  ///< mesh-dependent.
-  double area_chi_080 = 0;             ///< m2, maximum over steps of the sum over faults.
-  double thickness_chi_080 = 0;        ///< m, maximum over faults and steps.
-  double activated_area = 0;           ///< m2, at its maximum over steps, sum over faults.
-  double slipping_area = 0;            ///< m2, maximum over steps.
-  double open_area = 0;                ///< m2, maximum over steps.
-  double max_slip = 0;  ///< m, at most over faults and steps (stage: slip within the stage).
-  double potency = 0;   ///< m3, at the end.
-  double moment = 0;    ///< N m, at the end (stage: summed over its steps).
+  std::optional<int> activation_step;          ///< first step with the criterion met.
+  std::string activated_fault;                 ///< the first fault that slides; "" if none.
+  std::optional<int> opening_step;             ///< first step with an open node.
+  std::string opened_fault;                    ///< the first fault that opens; "" if none.
   std::optional<double> magnitude_if_at_once;  ///< Mw if all its slip were one event; none where
                                                ///< moment = 0 or plane strain.
-  int n_events = 0;
-  double event_moment = 0;                ///< N m, of the largest event; 0 without events.
-  std::optional<double> event_magnitude;  ///< its Mw.
-  std::vector<FaultStageMetrics> faults;  ///< in the order of the scene.
+  std::vector<FaultStageMetrics> faults;       ///< in the order of the scene.
 
   bool operator==(const StageMetrics&) const = default;  ///< the very same numbers.
 };

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/output/fault_operator.h"
+#include "simulator/model/fault_operator.h"
 #include "simulator/output/result.h"
 
 namespace faultsim {

@@ -22,16 +22,27 @@ struct Rates {
 constexpr Rates kPlane{1.7e-5, 2.0e3, 650, 1.16};
 constexpr Rates kSpace{7.0e-5, 6.3e3, 1000, 1.05};
 constexpr double kUpdateShare = 0.5;
-constexpr double kFlopRate = 4.4e10;  ///< 1/s, one thread.
-constexpr double kReadRate = 2e10;    ///< bytes/s, in a substitution.
+constexpr double kFlopRate = 4.4e10;    ///< 1/s, one thread.
+constexpr double kReadRate = 2e10;      ///< bytes/s, in a substitution.
+constexpr double kForwardRate = 3e10;   ///< 1/s, in a block of sparse forward substitutions.
+constexpr double kForwardColumns = 64;  ///< columns that go up together (linalg/sparse_forward.h).
 
+/// Two parts of a factor without a common way.
 FactorSize operator+(const FactorSize& a, const FactorSize& b) {
-  return {a.entries + b.entries, a.flops + b.flops, std::max(a.largest_update, b.largest_update)};
+  return {a.entries + b.entries, a.flops + b.flops, std::max(a.largest_update, b.largest_update),
+          std::max(a.heaviest_way, b.heaviest_way)};
+}
+
+/// A front above a part.
+FactorSize above(const FactorSize& front, const FactorSize& part) {
+  FactorSize size = front + part;
+  size.heaviest_way = front.heaviest_way + part.heaviest_way;
+  return size;
 }
 
 /// s columns of a front with r rows below.
 FactorSize front(double s, double r) {
-  return {s * (s + r), s * (s * s / 3 + s * r + r * r), r * r};
+  return {s * (s + r), s * (s * s / 3 + s * r + r * r), r * r, s * (s + r)};
 }
 
 /// A block of nodes; `open` per axis: whether planes of nodes bound it below and above.
@@ -97,7 +108,7 @@ class Dissection {
     high.from[longest] = middle + 1;
     low.open[longest][1] = high.open[longest][0] = true;
     const double separator = d * block.n_nodes() / block.extent(longest);
-    return front(separator, below) + size(low) + size(high);
+    return above(front(separator, below), size(low) + size(high));
   }
 
   static std::uint64_t key(const NodeBlock& block) {
@@ -131,7 +142,8 @@ FactorSize extrapolated_factor(const GridShape& shape) {
   }
   const FactorSize size = dissected_factor(small);
   const double cut = std::pow(shape.n_nodes() / small.n_nodes(), (d - 1) / d);
-  return {cut * cut * size.entries, cut * cut * cut * size.flops, cut * cut * size.largest_update};
+  return {cut * cut * size.entries, cut * cut * cut * size.flops, cut * cut * size.largest_update,
+          cut * cut * size.heaviest_way};
 }
 
 }  // namespace
@@ -156,7 +168,11 @@ FactorSize dissected_factor(const GridShape& shape) {
   if (shape.n_nodes() > kMostNodes) return extrapolated_factor(shape);
   Dissection dissection(shape);
   const double jumps = shape.n_jump();
-  return dissection.size({{0, 0, 0}, shape.n_lines}) + front(jumps, 0);
+  FactorSize size = dissection.size({{0, 0, 0}, shape.n_lines});
+  const double way = size.heaviest_way;
+  size = size + front(jumps, 0);
+  size.heaviest_way = way;
+  return size;
 }
 
 OperatorCost operator_cost(const GridShape& shape) {
@@ -175,6 +191,21 @@ OperatorCost operator_cost(const GridShape& shape) {
   // H = L_gg L_ggᵀ takes jumps³ operations; each load reads the factor once.
   cost.seconds = rates.seconds_per_cell * cells + (factor.flops + jumps * h_bytes / 8) / kFlopRate +
                  shape.n_loads * cost.factor_bytes / kReadRate;
+  return cost;
+}
+
+InfluenceCost influence_cost(const GridShape& shape, double n_cells, double n_observed) {
+  const Rates& rates = shape.unknowns_per_node == 2 ? kPlane : kSpace;
+  const OperatorCost op = operator_cost(shape);
+  const double way = rates.factor_ratio * dissected_factor(shape).heaviest_way;
+  const double jumps = shape.n_jump();
+  InfluenceCost cost;
+  cost.bytes = 8 * (jumps + n_observed) * n_cells;
+  // Rows are scattered and taken one by one, at the rate of memory; panels at that of dgemm.
+  cost.seconds = 2 * way * n_cells / kForwardRate + 4 * cost.bytes / kReadRate +
+                 n_observed * 2 * op.factor_bytes / kReadRate;
+  const double workspace = 8.0 * kForwardColumns * shape.unknowns_per_node * shape.n_nodes();
+  cost.peak_bytes = op.factor_bytes + op.kept_bytes + 8 * jumps * jumps + cost.bytes + workspace;
   return cost;
 }
 

@@ -30,6 +30,8 @@ struct FactorSize {
   double entries = 0;         ///< as stored: a supernode is a full rectangle.
   double flops = 0;           ///< additions and multiplications.
   double largest_update = 0;  ///< entries of the largest block that a front adds to those above.
+  double heaviest_way = 0;  ///< entries on the way from a leaf of the elimination tree to its root,
+                            ///< the jumps' dense block left out.
 };
 
 /// Counts the factor of a grid under nested dissection: a block of nodes is cut in two by its
@@ -49,6 +51,16 @@ struct OperatorCost {
   double peak_bytes = 0;    ///< while it is built, the factor included, the program not.
 };
 OperatorCost operator_cost(const GridShape& shape);
+
+/// Predicted cost of an influence block (model/influence.h) on top of the operator's: each cell
+/// goes up a way of the elimination tree, 2 operations per entry.
+struct InfluenceCost {
+  double seconds = 0;  ///< on one core of the calibration machine, the factor given.
+  double bytes = 0;    ///< of the block, in memory and on disk.
+  double peak_bytes =
+      0;  ///< while it is built: the factor, what stays with it, H, block and workspace.
+};
+InfluenceCost influence_cost(const GridShape& shape, double n_cells, double n_observed);
 
 inline constexpr double kProgramBytes = 23e6;  ///< the program and its libraries.
 

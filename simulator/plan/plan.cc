@@ -9,6 +9,7 @@
 #include "simulator/common/fingerprint.h"
 #include "simulator/plan/cost.h"
 #include "simulator/plan/creep_plan.h"
+#include "simulator/plan/influence_plan.h"
 #include "simulator/scene/load_times.h"
 
 namespace faultsim {
@@ -144,6 +145,12 @@ FaultWindow box_fault(const PatchGeometry& patch, const Plan& plan, const GridLi
   FaultWindow w = window(ranges);
   if (patch.shape == PatchShape::ellipse && !plan.plane_strain) w.share = kQuarter;
   return w;
+}
+
+GridLines lines_of(const Scene& scene, const Plan& plan, std::vector<Problem>& problems) {
+  const bool is_field = scene.geometry_kind == GeometryKind::field;
+  return is_field ? grid_lines(field_mesh_spec(scene, plan), problems)
+                  : grid_lines(box_mesh_spec(scene, plan), problems);
 }
 
 GridShape grid_shape(const Scene& scene, const Plan& plan, const GridLines& lines) {
@@ -391,9 +398,7 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
     if (plan.creep.active) plan.creep.rungs = creep_rungs(scene);
   }
 
-  const bool is_field = scene.geometry_kind == GeometryKind::field;
-  const GridLines lines = is_field ? grid_lines(field_mesh_spec(scene, plan), problems)
-                                   : grid_lines(box_mesh_spec(scene, plan), problems);
+  const GridLines lines = lines_of(scene, plan, problems);
   if (lines.x.size() < 2 || lines.y.size() < 2 || lines.z.size() < 2) return plan;
   const GridShape shape = grid_shape(scene, plan, lines);
   plan.n_cells =
@@ -407,6 +412,13 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
   predict_cost(shape, plan);
   plan.family = fingerprint(family_of(scene, plan).dump());
   return plan;
+}
+
+InfluenceCost plan_influence(const Scene& scene, const Plan& plan, long n_cells) {
+  std::vector<Problem> problems;
+  const GridLines lines = lines_of(scene, plan, problems);
+  return influence_cost(grid_shape(scene, plan, lines), static_cast<double>(n_cells),
+                        3.0 * static_cast<double>(scene.output.observation_points.size()));
 }
 
 void add_savings(const Scene& scene, Plan& plan) {
@@ -487,7 +499,8 @@ std::string plan_to_text(const Plan& plan) {
     text += concat(" (", plan.n_added_steps, " added where histories turn)");
   }
   text += "\n" + creep_text(plan.creep);
-  std::snprintf(line, sizeof line, "operator: about %s and %s at its peak; family %.12s\n",
+  std::snprintf(line, sizeof line,
+                "operator: about %s of one core and %s at its peak; family %.12s\n",
                 human_time(plan.operator_seconds).c_str(), human_bytes(plan.memory_bytes).c_str(),
                 plan.family.c_str());
   text += line;

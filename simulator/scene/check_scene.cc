@@ -8,7 +8,6 @@
 #include "simulator/scene/load_times.h"
 #include "simulator/scene/pressure_history.h"
 #include "simulator/scene/scene_reader.h"
-#include "simulator/scene/schema_walk.h"
 
 /// Checks that relate parts of a scene. NaN marks what was reported before and fails no check.
 namespace faultsim {
@@ -57,7 +56,7 @@ void check_field_extent(SceneReader& reader, const FieldGeometry& field) {
     for (const auto& [key, x] :
          {std::pair("from", field.blocks[i].from), std::pair("to", field.blocks[i].to)}) {
       if (std::abs(x) < 0.5 * field.width || std::isnan(x) || std::isnan(field.width)) continue;
-      const std::string pointer = concat(at, "blocks/", i, "/", key);
+      const std::string pointer = element(at + "blocks", i) + "/" + key;
       reader.problem(pointer,
                      reader.as_given(pointer) + " is not inside the model, x = " +
                          metres(-0.5 * field.width) + " to " + metres(0.5 * field.width),
@@ -108,7 +107,7 @@ void check_crossing(SceneReader& reader, const Scene& scene) {
   for (const double depth : {reservoir.top + least - field.fault_overshoot,
                              reservoir.bottom + most + field.fault_overshoot}) {
     for (std::size_t i = 0; i < scene.faults.size(); ++i) {
-      const std::string pointer = concat("/faults/", i, "/dip_from_vertical");
+      const std::string pointer = element("/faults", i) + "/dip_from_vertical";
       const double x = fault_x(scene, i, depth);
       if (std::abs(x) >= 0.5 * field.width) {
         reader.problem(pointer,
@@ -154,7 +153,7 @@ void check_box(SceneReader& reader, const Scene& scene) {
   static const char* const axes = "xyz";
   for (std::size_t k = 0; k < 3; ++k) {
     if (box.to[k] <= box.from[k]) {
-      reader.problem(concat("/geometry/to/", k),
+      reader.problem(element("/geometry/to", k),
                      std::string("the box ends before it begins along ") + axes[k],
                      "write the upper corner in \"to\"");
     }
@@ -163,7 +162,7 @@ void check_box(SceneReader& reader, const Scene& scene) {
       const double half = half_extent(patch)[k];
       if (patch.center[k] - half >= box.to[k] || patch.center[k] + half <= box.from[k]) {
         reader.problem(
-            concat("/faults/", i, "/center"),
+            element("/faults", i) + "/center",
             "fault \"" + scene.faults[i].name + "\" lies outside the box along " + axes[k],
             "move its centre between " + metres(box.from[k]) + " and " + metres(box.to[k]));
       }
@@ -174,7 +173,7 @@ void check_box(SceneReader& reader, const Scene& scene) {
       const double reach = k == 2 ? 0.5 * region.thickness : region.radius;
       const double from = disc ? region.center[k] - reach : region.from[k];
       const double to = disc ? region.center[k] + reach : region.to[k];
-      const std::string at = concat("/geometry/regions/", i);
+      const std::string at = element("/geometry/regions", i);
       if (to <= from) {
         reader.problem(concat(at, "/to/", k),
                        std::string("the region ends before it begins along ") + axes[k],
@@ -247,7 +246,8 @@ void check_observation_points(SceneReader& reader, const Scene& scene) {
     for (std::size_t k = 0; k < 3; ++k) {
       const double x = scene.output.observation_points[i].position[k];
       if (!(x < from[k]) && !(x > to[k])) continue;
-      const std::string pointer = concat("/output/observation_points/", i, "/position/", k);
+      const std::string pointer =
+          element(element("/output/observation_points", i) + "/position", k);
       reader.problem(pointer, reader.as_given(pointer) + " is outside the model",
                      std::string("write a value from ") + metres(from[k]) + " to " + metres(to[k]) +
                          (k == 2 ? " (z grows upwards)" : ""));
@@ -297,7 +297,7 @@ std::string cause(const SceneReader& reader, const PressureHistory& history, std
   if (history.from_csv) return "/pressure_csv";
   for (std::size_t i = stage + 1; i-- > 0;) {
     for (const char* key : {"pressure_change", "pressure", "pressure_between"}) {
-      const std::string pointer = concat("/stages/", i, "/", key);
+      const std::string pointer = element("/stages", i) + "/" + key;
       if (reader.has(pointer + "/" + pointer_token(region))) {
         return pointer + "/" + pointer_token(region);
       }
@@ -376,7 +376,7 @@ void check_prescribed(SceneReader& reader, const Scene& scene, std::size_t fault
   for (std::size_t step = 0; step < steps.size(); ++step) {
     const double pressure = initial + rule.prescribed * factor_at(rule.table, steps[step].time);
     if (!(pressure < -1)) continue;
-    const std::string own = concat("/faults/", fault, "/fault_pressure/prescribed");
+    const std::string own = element("/faults", fault) + "/fault_pressure/prescribed";
     reader.problem(reader.has(own) ? own : "/fault_pressure/prescribed",
                    below_zero("in fault \"" + scene.faults[fault].name + "\"", depth, pressure,
                               step, scene.stages[steps[step].stage]),

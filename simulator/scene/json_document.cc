@@ -1,16 +1,15 @@
 #include "simulator/scene/json_document.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
-#include <sstream>
 #include <string>
 
 #include "simulator/common/input_file.h"
 #include "simulator/common/printable.h"
-#include "simulator/scene/schema_walk.h"
 
 namespace faultsim {
 namespace {
@@ -201,21 +200,22 @@ class Builder final : public json::json_sax_t {
   std::vector<Problem> problems_;
 };
 
-std::vector<std::string> tokens_of(const std::string& pointer) {
-  std::vector<std::string> tokens;
-  std::stringstream stream(pointer.substr(1));
-  std::string token;
-  while (std::getline(stream, token, '/')) {
-    std::string plain;
-    for (std::size_t i = 0; i < token.size(); ++i) {
-      const bool escape = token[i] == '~' && i + 1 < token.size();
-      if (escape) ++i;
-      plain += escape ? (token[i] == '1' ? '/' : '~') : token[i];
-    }
-    tokens.push_back(plain);
+/// Takes the first token off a pointer.
+std::string_view next_token(std::string_view& pointer) {
+  const std::size_t end = std::min(pointer.find('/', 1), pointer.size());
+  const std::string_view token = pointer.substr(1, end - 1);
+  pointer.remove_prefix(end);
+  return token;
+}
+
+std::string unescaped(std::string_view token) {
+  std::string key;
+  for (std::size_t i = 0; i < token.size(); ++i) {
+    const bool escape = token[i] == '~' && i + 1 < token.size();
+    if (escape) ++i;
+    key += escape ? (token[i] == '1' ? '/' : '~') : token[i];
   }
-  if (pointer.back() == '/') tokens.emplace_back();
-  return tokens;
+  return key;
 }
 
 [[noreturn]] void refuse(const JsonDocument& document, const std::string& pointer,
@@ -223,24 +223,26 @@ std::vector<std::string> tokens_of(const std::string& pointer) {
   throw InputError(document.source, {{pointer, 0, what, cure}});
 }
 
-/// The member or element `token` of node; missing members are made (null).
-json& child(JsonDocument& document, json& node, const std::string& pointer,
-            const std::string& parent, const std::string& token) {
-  if (node.is_null()) node = json::object();
-  if (node.is_object()) return node[token];
-  if (!node.is_array()) {
+/// Says why put_value could not.
+[[noreturn]] void refuse_place(const JsonDocument& document, const std::string& pointer) {
+  const json* node = &document.value;
+  std::string_view rest = pointer;
+  std::string_view token = next_token(rest);
+  std::size_t end = 0;  // of the pointer to node
+  while (const json* child = child_at(*node, token)) {
+    node = child;
+    end = pointer.size() - rest.size();
+    token = next_token(rest);
+  }
+  const std::string parent = end == 0 ? "the document" : pointer.substr(0, end);
+  if (!node->is_array()) {
     refuse(document, pointer, parent + " is neither an object nor a list",
            "see `faultsim parameters` for what can be set");
   }
-  const bool is_index = !token.empty() && token.size() < 8 &&
-                        token.find_first_not_of("0123456789") == std::string::npos;
-  if (!is_index || std::stoul(token) >= node.size()) {
-    refuse(document, pointer,
-           concat(parent, " has ", node.size(), " elements and no \"", token, "\""),
-           node.empty() ? "write the element into the file"
-                        : concat("use an index from 0 to ", node.size() - 1));
-  }
-  return node[std::stoul(token)];
+  refuse(document, pointer,
+         concat(parent, " has ", node->size(), " elements and no \"", token, "\""),
+         node->empty() ? "write the element into the file"
+                       : concat("use an index from 0 to ", node->size() - 1));
 }
 
 }  // namespace
@@ -273,6 +275,46 @@ JsonDocument parse_json(std::string_view text, const std::string& source) {
   return document;
 }
 
+std::string pointer_token(const std::string& key) {
+  return (json::json_pointer() / key).to_string().substr(1);
+}
+
+const json* child_at(const json& parent, std::string_view token) {
+  if (parent.is_object()) {
+    const bool escaped = token.find('~') != std::string_view::npos;
+    const auto found = escaped ? parent.find(unescaped(token)) : parent.find(token);
+    return found == parent.end() ? nullptr : &*found;
+  }
+  std::size_t index = 0;
+  const auto [rest, error] = std::from_chars(token.data(), token.data() + token.size(), index);
+  const bool is_index = error == std::errc() && rest == token.data() + token.size() &&
+                        (token.size() == 1 || token[0] != '0');
+  return parent.is_array() && is_index && index < parent.size() ? &parent[index] : nullptr;
+}
+
+const json* value_at(const json& document, std::string_view pointer) {
+  const json* value = &document;
+  while (value != nullptr && !pointer.empty()) value = child_at(*value, next_token(pointer));
+  return value;
+}
+
+bool put_value(json& document, std::string_view pointer, json value) {
+  json* place = &document;
+  while (!pointer.empty()) {
+    const std::string_view token = next_token(pointer);
+    if (place->is_null()) *place = json::object();
+    if (place->is_object()) {
+      place = &(*place)[unescaped(token)];
+    } else if (const json* element = child_at(*place, token)) {
+      place = const_cast<json*>(element);
+    } else {
+      return false;
+    }
+  }
+  *place = std::move(value);
+  return true;
+}
+
 JsonDocument read_json_file(const std::string& path) {
   return parse_json(read_input_or_throw(path, kMostJsonBytes), path);
 }
@@ -292,14 +334,11 @@ void set_value(JsonDocument& document, const std::string& pointer, const std::st
              "remove it");
     }
   }
-  json* node = &document.value;
-  std::string parent;
-  for (const std::string& token : tokens_of(pointer)) {
-    node = &child(document, *node, pointer, parent.empty() ? "the document" : parent, token);
-    parent += "/" + pointer_token(token);
-    if (node->is_null()) document.lines[parent] = 0;
+  if (!put_value(document.value, pointer, std::move(new_value))) refuse_place(document, pointer);
+  for (auto slash = pointer.find('/', 1); slash != std::string::npos;
+       slash = pointer.find('/', slash + 1)) {
+    document.lines.emplace(pointer.substr(0, slash), 0);  // made on the way
   }
-  *node = std::move(new_value);
   std::erase_if(document.lines,
                 [&](const auto& entry) { return entry.first.rfind(pointer + "/", 0) == 0; });
   document.lines[pointer] = 0;

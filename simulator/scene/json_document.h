@@ -33,9 +33,19 @@ JsonDocument read_json_file(const std::string& path);
 /// must exist. Throws InputError naming the pointer.
 void set_value(JsonDocument& document, const std::string& pointer, const std::string& value);
 
-/// Validates against a draft-07 schema (valijson) and returns one problem per mistake: the deepest
-/// error per pointer, with "did you mean" for unknown keys and enum values. Texts and keys that a
-/// terminal would obey (common/printable.h) are problems wherever they stand, except in comments.
-std::vector<Problem> check_schema(const JsonDocument& document, const nlohmann::json& schema);
+/// Key as one token of a JSON Pointer ('~' and '/' escaped).
+std::string pointer_token(const std::string& key);
+/// Pointer to an element of a list.
+inline std::string element(const std::string& list, std::size_t i) {
+  return list + "/" + std::to_string(i);
+}
+/// The value at pointer, nullptr if there is none. Takes a tenth of the time of nlohmann's, which
+/// reads the pointer first.
+const nlohmann::json* value_at(const nlohmann::json& document, std::string_view pointer);
+/// A member by its token, an element by its number.
+const nlohmann::json* child_at(const nlohmann::json& parent, std::string_view token);
+/// Puts value at pointer; missing objects on the way are made. False where a list has no such
+/// element or something else stands in the way.
+bool put_value(nlohmann::json& document, std::string_view pointer, nlohmann::json value);
 
 }  // namespace faultsim

@@ -3,10 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "simulator/scene/near_miss.h"
+#include "simulator/common/near_miss.h"
 #include "simulator/scene/read_scene.h"
 #include "simulator/scene/scene_reader.h"
-#include "simulator/scene/schema_walk.h"
 
 /// Parameters are found by walking the schema along the document: what is there, and what could be.
 namespace faultsim {
@@ -15,16 +14,14 @@ namespace {
 using nlohmann::json;
 
 std::string text_at(const json& document, const std::string& pointer) {
-  const json::json_pointer place(pointer);
-  if (!document.contains(place)) return "";
-  const json& value = document.at(place);
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  const json* value = value_at(document, pointer);
+  if (value == nullptr) return "";
+  return value->is_string() ? value->get<std::string>() : value->dump();
 }
 
 std::size_t size_at(const json& document, const std::string& pointer) {
-  const json::json_pointer place(pointer);
-  if (!document.contains(place) || !document.at(place).is_array()) return 0;
-  return document.at(place).size();
+  const json* value = value_at(document, pointer);
+  return value != nullptr && value->is_array() ? value->size() : 0;
 }
 
 /// Letters, digits and '_' only, so that an alias can stand in an expression.
@@ -85,11 +82,11 @@ class Aliases {
     const bool is_field = text_at(document_, "/geometry/kind") == "field";
     const std::string list = is_field ? "/geometry/blocks" : "/geometry/regions";
     const std::size_t n = size_at(document_, list);
-    if (is_field && n > 0) add("offset", concat(list, "/", n - 1, "/offset"));
+    if (is_field && n > 0) add("offset", element(list, n - 1) + "/offset");
     for (std::size_t i = 0; i < n; ++i) {
-      const std::string name = text_at(document_, concat(list, "/", i, "/name"));
-      if (is_field) add("offset_" + as_word(name), concat(list, "/", i, "/offset"));
-      if (is_field) add("overpressure_" + as_word(name), concat(list, "/", i, "/overpressure"));
+      const std::string name = text_at(document_, element(list, i) + "/name");
+      if (is_field) add("offset_" + as_word(name), element(list, i) + "/offset");
+      if (is_field) add("overpressure_" + as_word(name), element(list, i) + "/overpressure");
       const std::string compartment = "/compartments/" + pointer_token(name);
       add("scale_" + as_word(name), compartment + "/scale");
       add("lag_" + as_word(name), compartment + "/lag");
@@ -108,12 +105,12 @@ class Aliases {
     const std::string layers = "/geometry/layers";
     const std::string reservoir = text_at(document_, "/geometry/reservoir_layer");
     for (std::size_t i = 0; i < size_at(document_, layers); ++i) {
-      if (text_at(document_, concat(layers, "/", i, "/name")) != reservoir) continue;
-      const std::string material = text_at(document_, concat(layers, "/", i, "/material"));
+      if (text_at(document_, element(layers, i) + "/name") != reservoir) continue;
+      const std::string material = text_at(document_, element(layers, i) + "/material");
       add("biot", "/materials/" + pointer_token(material) + "/biot");
       add_material("reservoir", material);
       if (i > 0) {
-        add_material("caprock", text_at(document_, concat(layers, "/", i - 1, "/material")));
+        add_material("caprock", text_at(document_, element(layers, i - 1) + "/material"));
       }
     }
     add_material("sideburden", text_at(document_, "/geometry/sideburden"));
@@ -124,9 +121,9 @@ class Aliases {
   }
   void add_faults() {
     const std::size_t n = size_at(document_, "/faults");
-    if (n > 0) add("central_dip", concat("/faults/", n / 2, "/dip_from_vertical"));
+    if (n > 0) add("central_dip", element("/faults", n / 2) + "/dip_from_vertical");
     for (std::size_t i = 0; i < n; ++i) {
-      const std::string at = concat("/faults/", i, "/");
+      const std::string at = element("/faults", i) + "/";
       const std::string name = as_word(text_at(document_, at + "name"));
       add("dip_" + name, at + "dip_from_vertical");
       for (const char* key :
@@ -139,7 +136,7 @@ class Aliases {
   }
   void add_stages() {
     for (std::size_t i = 0; i < size_at(document_, "/stages"); ++i) {
-      const std::string at = concat("/stages/", i, "/");
+      const std::string at = element("/stages", i) + "/";
       const std::string name = as_word(text_at(document_, at + "name"));
       add(name + "_pressure", at + "pressure_change");
       add(name + "_absolute_pressure", at + "pressure");
@@ -207,7 +204,8 @@ class Collector {
     if (here.is_array()) {
       // A list where the schema wants an object has elements only; the schema check refuses it.
       for (std::size_t i = 0; i < here.size(); ++i) {
-        walk_child(&here[i], views, pointer, std::to_string(i), family);
+        SchemaViews scratch;
+        walk(&here[i], item_views(views, here[i], scratch), element(pointer, i), family);
       }
       return;
     }
@@ -237,7 +235,8 @@ class Collector {
     const std::string pointer = at + "/" + pointer_token(key);
     if (is_hidden(pointer)) return;
     const json& here = value == nullptr ? null() : *value;
-    walk(value, child_views(scene_schema(), parent, key, here), pointer, family);
+    SchemaViews scratch;
+    walk(value, member_views(parent, key, here, scratch), pointer, family);
   }
   /// Whether a material of the document has a viscosity and creep is not switched off.
   static bool has_viscosity(const json& document) {
@@ -284,7 +283,7 @@ class Collector {
     ParameterInfo row;
     row.pointer = pointer;
     row.alias = aliases_.of(pointer);
-    row.dimension = dimension.empty() ? Dimension::number : dimension_named(dimension);
+    row.dimension = dimension.empty() ? Dimension::number : dimension_named(dimension)->dimension;
     row.default_value = keyword_text(views, "default");
     // A fault's own friction and fault_pressure default to those at the top level.
     for (const char* object : {"/friction/", "/fault_pressure/"}) {
@@ -317,12 +316,12 @@ std::vector<ParameterInfo> parameters(const JsonDocument& document) {
   const bool field = text_at(completed, "/geometry/kind") == "field";
   const std::string list = field ? "/geometry/blocks" : "/geometry/regions";
   for (std::size_t i = 0; i < size_at(completed, list); ++i) {
-    const std::string name = text_at(completed, concat(list, "/", i, "/name"));
+    const std::string name = text_at(completed, element(list, i) + "/name");
     json& compartments = completed["compartments"];
     const bool is_object = compartments.is_null() || compartments.is_object();
     if (is_object && !compartments.contains(name)) compartments[name] = json::object();
   }
-  collector.walk(&completed, schema_views(scene_schema(), scene_schema(), completed), "", false);
+  collector.walk(&completed, schema_views(scene_schema().root(), completed), "", false);
   return std::move(collector).rows();
 }
 

@@ -4,14 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "simulator/common/near_miss.h"
 #include "simulator/scene/csv_tables.h"
 #include "simulator/scene/dates.h"
 #include "simulator/scene/initial_state.h"
 #include "simulator/scene/load_times.h"
-#include "simulator/scene/near_miss.h"
 #include "simulator/scene/pressure_csv.h"
 #include "simulator/scene/scene_reader.h"
-#include "simulator/scene/schema_walk.h"
 
 /// CSV tables replace what the stages say of a region's pressure.
 namespace faultsim {

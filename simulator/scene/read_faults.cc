@@ -17,7 +17,7 @@ constexpr double kAngleSlack = 1e-9;                // rad; "90 deg" may come ou
 class Overrides {
  public:
   Overrides(const SceneReader& reader, const std::string& name, std::size_t fault)
-      : reader_(reader), own_(concat("/faults/", fault, "/", name)), shared_("/" + name) {}
+      : reader_(reader), own_(element("/faults", fault) + "/" + name), shared_("/" + name) {}
 
   const std::string& own() const { return own_; }
   /// Pointer to the key where it is given; where it is given nowhere, a pointer to nothing.
@@ -88,7 +88,7 @@ Friction read_friction(SceneReader& reader, std::size_t fault) {
   }
   const bool by_coefficient = reader.text(from.at("law"), "angle") == "coefficient";
   friction.law = by_coefficient ? FrictionLaw::coefficient : FrictionLaw::angle;
-  friction.cohesion = reader.quantity(from.at("cohesion"), 0);
+  friction.cohesion = reader.quantity(from.at("cohesion"), friction.cohesion);
   const std::string fixed = from.at_either("friction_angle", "friction_coefficient");
   if (fixed.empty() && reader.sound("/friction") && reader.sound(from.own())) {
     reader.problem(reader.has("/friction") ? "/friction" : "/faults", "no friction angle is given",
@@ -101,8 +101,10 @@ Friction read_friction(SceneReader& reader, std::size_t fault) {
   // Without weakening neither law nor measure says anything; equal cases stay equal.
   friction.slip_measure = cumulated && weakens ? SlipMeasure::cumulated : SlipMeasure::current;
   if (!weakens) friction.law = FrictionLaw::angle;
-  friction.cohesion_after_opening = reader.boolean(from.at("cohesion_after_opening"), false);
-  friction.cohesion_after_slip = reader.boolean(from.at("cohesion_after_slip"), true);
+  friction.cohesion_after_opening =
+      reader.boolean(from.at("cohesion_after_opening"), friction.cohesion_after_opening);
+  friction.cohesion_after_slip =
+      reader.boolean(from.at("cohesion_after_slip"), friction.cohesion_after_slip);
   return friction;
 }
 
@@ -158,7 +160,7 @@ void check_dip(SceneReader& reader, const std::string& at, bool is_box, double d
 PatchGeometry read_patch(SceneReader& reader, const std::string& at, double dip) {
   PatchGeometry patch;
   patch.center = reader.point(at + "center");
-  patch.strike = reader.quantity(at + "strike", 0);
+  patch.strike = reader.quantity(at + "strike", patch.strike);
   patch.dip_from_vertical = dip;
   patch.length = reader.quantity(at + "length");
   patch.width = reader.quantity(at + "width");
@@ -193,13 +195,13 @@ void read_faults(SceneReader& reader, Scene& scene) {
   const bool known_kind = reader.sound("/geometry/kind");
   std::vector<std::string> names;
   for (std::size_t i = 0; i < reader.size("/faults"); ++i) {
-    const std::string at = concat("/faults/", i, "/");
+    const std::string at = element("/faults", i) + "/";
     Fault fault;
     fault.name = reader.text(at + "name");
-    fault.dip_from_vertical = reader.quantity(at + "dip_from_vertical", 0);
+    fault.dip_from_vertical = reader.quantity(at + "dip_from_vertical", fault.dip_from_vertical);
     const std::string own_biot = at + "fault_biot";
-    fault.fault_biot =
-        reader.number(reader.has(own_biot) ? own_biot : "/fault_pressure/fault_biot", 1);
+    fault.fault_biot = reader.number(reader.has(own_biot) ? own_biot : "/fault_pressure/fault_biot",
+                                     fault.fault_biot);
     if (known_kind) check_dip(reader, at, is_box, fault.dip_from_vertical);
     if (known_kind && is_box) {
       scene.box.patches.push_back(read_patch(reader, at, fault.dip_from_vertical));

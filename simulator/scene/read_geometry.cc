@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "simulator/scene/near_miss.h"
+#include "simulator/common/near_miss.h"
 #include "simulator/scene/scene_reader.h"
 
 namespace faultsim {
@@ -22,7 +22,7 @@ std::vector<Layer> read_layers(SceneReader& reader, const Scene& scene) {
   std::vector<Layer> layers;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < reader.size(list); ++i) {
-    const std::string at = concat(list, "/", i, "/");
+    const std::string at = element(list, i) + "/";
     Layer layer{reader.text(at + "name"), reader.text(at + "material"),
                 reader.quantity(at + "top")};
     reader.demand_known(at + "material", layer.material, "material", material_names(scene));
@@ -43,7 +43,7 @@ void read_blocks(SceneReader& reader, FieldGeometry& field) {
   const std::string list = "/geometry/blocks";
   std::vector<std::string> names;
   for (std::size_t i = 0; i < reader.size(list); ++i) {
-    const std::string at = concat(list, "/", i, "/");
+    const std::string at = element(list, i) + "/";
     Block block{reader.text(at + "name"), reader.quantity(at + "from"), reader.quantity(at + "to"),
                 reader.quantity(at + "offset", 0)};
     if (reader.has(at + "overpressure")) block.overpressure = reader.quantity(at + "overpressure");
@@ -122,7 +122,7 @@ void read_motion(SceneReader& reader, const std::string& at, BoundaryCondition& 
   if (reader.has(at + "components")) {
     condition.components = {false, false, false};
     for (std::size_t i = 0; i < reader.size(at + "components"); ++i) {
-      const std::string axis = reader.text(concat(at, "components/", i));
+      const std::string axis = reader.text(element(at + "components", i));
       for (std::size_t c = 0; c < 3; ++c) {
         if (axis == std::string(1, "xyz"[c])) condition.components[c] = true;
       }
@@ -131,7 +131,7 @@ void read_motion(SceneReader& reader, const std::string& at, BoundaryCondition& 
   condition.translation = reader.point(at + "translation", 0);
   if (reader.has(at + "gradient")) {
     for (std::size_t i = 0; i < 9; ++i) {
-      condition.gradient[i] = reader.number(concat(at, "gradient/", i / 3, "/", i % 3));
+      condition.gradient[i] = reader.number(element(element(at + "gradient", i / 3), i % 3));
     }
   }
 }
@@ -154,11 +154,11 @@ void check_tied(SceneReader& reader, const std::string& at, const BoundaryCondit
 void read_boundary(SceneReader& reader, BoxGeometry& box) {
   std::set<std::string> taken;
   for (std::size_t i = 0; i < reader.size("/geometry/boundary"); ++i) {
-    const std::string at = concat("/geometry/boundary/", i, "/");
+    const std::string at = element("/geometry/boundary", i) + "/";
     BoundaryCondition condition;
     condition.kind = boundary_kind_named(reader.text(at + "kind"));
     for (std::size_t k = 0; k < reader.size(at + "sides"); ++k) {
-      const std::string place = concat(at, "sides/", k);
+      const std::string place = element(at + "sides", k);
       const std::string name = reader.text(place);
       const std::optional<Side> side = side_named(name);
       if (!side) continue;
@@ -186,7 +186,7 @@ void read_boundary(SceneReader& reader, BoxGeometry& box) {
 void read_regions(SceneReader& reader, BoxGeometry& box) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < reader.size("/geometry/regions"); ++i) {
-    const std::string at = concat("/geometry/regions/", i, "/");
+    const std::string at = element("/geometry/regions", i) + "/";
     PressureRegion region;
     region.name = reader.text(at + "name");
     const bool is_disc = reader.text(at + "shape") == "disc";

@@ -3,10 +3,9 @@
 #include <cmath>
 #include <string>
 
+#include "simulator/common/near_miss.h"
 #include "simulator/scene/initial_state.h"
-#include "simulator/scene/near_miss.h"
 #include "simulator/scene/scene_reader.h"
-#include "simulator/scene/schema_walk.h"
 
 /// Stages and compartments, and CSV tables (read_csv_histories.cc), become one pressure history per
 /// region.
@@ -21,7 +20,7 @@ class LoadingReader {
   }
 
   void read_stage(std::size_t index) {
-    const std::string at = concat("/stages/", index, "/");
+    const std::string at = element("/stages", index) + "/";
     Stage stage{reader_.text(at + "name"), reader_.quantity(at + "duration"),
                 reader_.integer(at + "steps", 1)};
     const int cycles = reader_.integer(at + "cycles", 1);
@@ -49,8 +48,8 @@ class LoadingReader {
       demand_region(at, region);
       for (PressureHistory& history : scene_.pressure) {
         if (history.region != region) continue;
-        history.scale = reader_.number(at + "/scale", 1);
-        history.lag = reader_.quantity(at + "/lag", 0);
+        history.scale = reader_.number(at + "/scale", history.scale);
+        history.lag = reader_.quantity(at + "/lag", history.lag);
       }
     }
   }

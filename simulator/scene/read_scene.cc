@@ -5,7 +5,6 @@
 
 #include "scene_schema_json.h"
 #include "simulator/scene/scene_reader.h"
-#include "simulator/scene/schema_walk.h"
 #include "simulator/scene/tiers.h"
 #include "starter_box_json.h"
 #include "starter_field_json.h"
@@ -165,10 +164,10 @@ void read_materials(SceneReader& reader, Scene& scene) {
     }
     Material material;
     material.name = name;
-    material.density = reader.quantity(at + "density", 0);
+    material.density = reader.quantity(at + "density", material.density);
     material.youngs_modulus = reader.quantity(at + "youngs_modulus");
     material.poisson_ratio = reader.number(at + "poisson_ratio");
-    material.biot = reader.number(at + "biot", 1);
+    material.biot = reader.number(at + "biot", material.biot);
     if (reader.has(at + "viscosity")) material.viscosity = reader.quantity(at + "viscosity");
     scene.materials.push_back(material);
   }
@@ -179,16 +178,17 @@ void read_initial_state(SceneReader& reader, Scene& scene) {
   InitialState& state = scene.initial;
   const bool is_profile = reader.text(at + "kind") == "profile";
   state.kind = is_profile ? InitialStressKind::profile : InitialStressKind::column;
-  state.ratio_across = reader.number(at + "ratio_across", 1);
-  state.ratio_along = reader.number(at + "ratio_along", 1);
-  state.initial_biot = reader.number(at + "initial_biot", 1);
+  state.ratio_across = reader.number(at + "ratio_across", state.ratio_across);
+  state.ratio_along = reader.number(at + "ratio_along", state.ratio_along);
+  state.initial_biot = reader.number(at + "initial_biot", state.initial_biot);
   state.gravity = reader.quantity(at + "gravity", state.gravity);
   state.water_density = reader.quantity(at + "water_density", state.water_density);
-  state.overpressure = reader.quantity(at + "overpressure", 0);
-  state.vertical_stress = reader.quantity(at + "vertical_stress", 0);
-  state.vertical_stress_gradient = reader.quantity(at + "vertical_stress_gradient", 0);
-  state.pressure = reader.quantity(at + "pressure", 0);
-  state.pressure_gradient = reader.quantity(at + "pressure_gradient", 0);
+  state.overpressure = reader.quantity(at + "overpressure", state.overpressure);
+  state.vertical_stress = reader.quantity(at + "vertical_stress", state.vertical_stress);
+  state.vertical_stress_gradient =
+      reader.quantity(at + "vertical_stress_gradient", state.vertical_stress_gradient);
+  state.pressure = reader.quantity(at + "pressure", state.pressure);
+  state.pressure_gradient = reader.quantity(at + "pressure_gradient", state.pressure_gradient);
   state.lithostatic_viscous_layers = reader.text(at + "viscous_layers") == "lithostatic";
   if (!reader.has(at + "tensor")) return;
   const std::array<double, 9> tensor = reader.tensor(at + "tensor");
@@ -209,19 +209,19 @@ void read_initial_state(SceneReader& reader, Scene& scene) {
 
 void read_output(SceneReader& reader, Scene& scene) {
   OutputRequest& output = scene.output;
-  output.fault_fields = reader.boolean("/output/fault_fields", true);
-  output.volume_fields = reader.boolean("/output/volume_fields", false);
+  output.fault_fields = reader.boolean("/output/fault_fields", output.fault_fields);
+  output.volume_fields = reader.boolean("/output/volume_fields", output.volume_fields);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < reader.size("/output/observation_points"); ++i) {
-    const std::string at = concat("/output/observation_points/", i, "/");
+    const std::string at = element("/output/observation_points", i) + "/";
     output.observation_points.push_back({reader.text(at + "name"), reader.point(at + "position")});
     names.push_back(output.observation_points.back().name);
   }
   reader.demand_unique("/output/observation_points", "/name", names);
 }
 
-const json& scene_schema() {
-  static const json schema = json::parse(embedded::scene_schema_json);
+const Schema& scene_schema() {
+  static const Schema schema(json::parse(embedded::scene_schema_json));
   return schema;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -11,8 +10,10 @@
 
 namespace faultsim {
 
+class Schema;
+
 /// The schema of scenes, embedded from schemas/scene.schema.json.
-const nlohmann::json& scene_schema();
+const Schema& scene_schema();
 
 /// Turns a document into a checked Scene: schema, units, defaults, tier, meaning (names that must
 /// exist, ranges, geometry, p < 0 with depth and step). Relative CSV paths are taken from the

@@ -9,7 +9,6 @@
 #include "simulator/common/errors.h"
 #include "simulator/scene/load_times.h"
 #include "simulator/scene/scene_reader.h"
-#include "simulator/scene/schema_walk.h"
 
 /// What a scene says in vain or leaves out: input that changes nothing is never passed over. Only
 /// what was given makes a remark, and not where it says what holds anyway.
@@ -92,14 +91,14 @@ class IdleInputs {
     for (std::size_t i = 0; !places && i < scene_.box.regions.size(); ++i) {
       const bool is_scaled_off = scene_.pressure[i].scale == 0;  // said on purpose
       if (!is_zero(scene_.pressure[i]) || is_scaled_off) continue;
-      idle(concat("/geometry/regions/", i), "its pressure never changes");
+      idle(element("/geometry/regions", i), "its pressure never changes");
     }
   }
 
   void boundaries() {
     for (std::size_t i = 0; i < scene_.box.boundary.size(); ++i) {
       const BoundaryCondition& condition = scene_.box.boundary[i];
-      const std::string at = concat("/geometry/boundary/", i);
+      const std::string at = element("/geometry/boundary", i);
       const bool is_loaded = acts(condition);
       if (condition.kind == BoundaryKind::stress && is_all(list(condition.stress), 0)) {
         idle(at + "/stress", "it is zero, and the face as free as without it");
@@ -176,7 +175,7 @@ class IdleInputs {
     };
     bool shared_used = false, all_own = true;
     for (std::size_t f = 0; f < scene_.faults.size(); ++f) {
-      const std::string own = concat("/faults/", f, object, "/");
+      const std::string own = element("/faults", f) + object + "/";
       const bool used = uses(scene_.faults[f]);
       if (!any_key(own)) {
         all_own = false;
@@ -238,7 +237,7 @@ class IdleInputs {
 
   /// Where a key of a fault's pressure is given.
   std::string place(std::size_t fault, const std::string& key) const {
-    const std::string own = concat("/faults/", fault, "/fault_pressure/", key);
+    const std::string own = element("/faults", fault) + "/fault_pressure/" + key;
     return reader_.has(own) ? own : "/fault_pressure/" + key;
   }
 
@@ -309,7 +308,7 @@ class IdleInputs {
     }
     for (std::size_t i = 0; i < scene_.stages.size(); ++i) {
       for (const char* key : {"pressure_change", "pressure", "pressure_between"}) {
-        replaced_by_csv(concat("/stages/", i, "/", key));
+        replaced_by_csv(element("/stages", i) + "/" + key);
       }
     }
   }

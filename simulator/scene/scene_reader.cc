@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
+#include <mutex>
 #include <set>
 
-#include "simulator/scene/near_miss.h"
+#include "simulator/common/near_miss.h"
 #include "simulator/scene/read_scene.h"
-#include "simulator/scene/schema_walk.h"
 
 namespace faultsim {
 namespace {
@@ -21,36 +20,48 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
   }
 }
 
-/// Accelerations occur once (gravity): m/s2 times kg/m3 is Pa/m, which units.h knows.
-ParsedQuantity parse_acceleration(const std::string& text) {
-  const auto blank = text.find(' ');
-  ParsedQuantity parsed{kNaN, false, "", ""};
-  if (blank != std::string::npos) {
-    parsed = parse_quantity(text.substr(0, blank) + " (" + text.substr(blank + 1) + ").kg/m3",
-                            Dimension::pressure_gradient);
-  }
-  if (!parsed.ok) {
-    parsed.what = "\"" + text + "\" is not an acceleration";
-    parsed.cure = "write for example \"9.81 m/s2\"";
-  }
-  return parsed;
+/// The limits of a quantity in SI; NaN where there is none.
+struct Range {
+  const DimensionInfo* dimension = nullptr;  ///< nullptr: the value is no quantity.
+  double above = kNaN;
+  double least = kNaN;
+  double most = kNaN;
+};
+
+Range make_range(const SchemaViews& views) {
+  const json* key = keyword(views, "x-dimension");
+  if (key == nullptr) return {};
+  Range range{.dimension = dimension_named(key->get<std::string>())};
+  FAULTSIM_DEMAND(range.dimension != nullptr, "dimension ", *key);
+  const auto limit = [&](const char* name) {
+    const std::string text = keyword_text(views, name);
+    return text.empty() ? kNaN : parse_quantity(text, range.dimension->dimension).value;
+  };
+  range.above = limit("x-above");
+  range.least = limit("x-minimum");
+  range.most = limit("x-maximum");
+  return range;
 }
 
-/// Checks the range that stands in the schema; "" when inside.
-std::string out_of_range(const ParsedQuantity& parsed, const SchemaViews& views,
-                         const std::string& dimension) {
-  const auto limit = [&](const char* name) {
-    const json* text = keyword(views, name);
-    return text == nullptr ? kNaN : parse_schema_quantity(*text, dimension, "").value;
-  };
+/// Made once for values whose views depend on nothing else.
+const Range& range_of(const SchemaViews& views, Range& scratch) {
+  if (&views != &views.front()->views) return scratch = make_range(views);
+  static std::mutex mutex;
+  static std::unordered_map<const SchemaRules*, Range> known;
+  const std::lock_guard lock(mutex);
+  const auto [place, is_new] = known.try_emplace(views.front());
+  if (is_new) place->second = make_range(views);
+  return place->second;
+}
+
+/// "" when inside.
+std::string out_of_range(double value, const Range& range, const SchemaViews& views) {
   constexpr double kSlack = 1e-12;  // 80 deg in rad may come out one bit larger by another unit.
-  const double least = limit("x-minimum");
-  const double most = limit("x-maximum");
-  if (parsed.value <= limit("x-above")) return "is not above " + keyword_text(views, "x-above");
-  if (parsed.value < least - kSlack * std::abs(least)) {
+  if (value <= range.above) return "is not above " + keyword_text(views, "x-above");
+  if (value < range.least - kSlack * std::abs(range.least)) {
     return "is below " + keyword_text(views, "x-minimum");
   }
-  if (parsed.value > most + kSlack * std::abs(most)) {
+  if (value > range.most + kSlack * std::abs(range.most)) {
     return "is above " + keyword_text(views, "x-maximum");
   }
   return "";
@@ -73,94 +84,86 @@ constexpr double kSmallest = 1e-20;
 
 bool is_vanishing(double value) { return value != 0 && std::abs(value) < kSmallest; }
 
+ParsedQuantity parse_given(const json& value, const Range& range) {
+  if (!value.is_string()) return parse_quantity(value.dump(), range.dimension->dimension);
+  return parse_quantity(value.get_ref<const std::string&>(), range.dimension->dimension);
+}
+
 }  // namespace
-
-Dimension dimension_named(const std::string& name) {
-  static const std::map<std::string, Dimension> names = {
-      {"length", Dimension::length},
-      {"pressure", Dimension::pressure},
-      {"pressure_gradient", Dimension::pressure_gradient},
-      {"density", Dimension::density},
-      {"angle", Dimension::angle},
-      {"time", Dimension::time},
-      {"viscosity", Dimension::viscosity}};
-  const auto found = names.find(name);
-  FAULTSIM_DEMAND(found != names.end(), "dimension ", name);
-  return found->second;
-}
-
-ParsedQuantity parse_schema_quantity(const json& value, const std::string& dimension,
-                                     const std::string& usual) {
-  const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-  if (dimension == "acceleration") return parse_acceleration(text);
-  ParsedQuantity parsed = parse_quantity(text, dimension_named(dimension));
-  if (!usual.empty()) {
-    const std::string common = usual_unit(dimension_named(dimension));
-    replace_all(parsed.cure, " " + common + "\"", " " + usual + "\"");
-  }
-  return parsed;
-}
 
 SceneReader::SceneReader(const JsonDocument& document, std::vector<Problem>& problems)
     : document_(document), problems_(problems) {
-  const std::vector<Problem> found = check_schema(document, scene_schema());
-  problems_.insert(problems_.end(), found.begin(), found.end());
-  for (const Problem& one : problems_) {
+  // Problems of quantities come after those of the schema, which decide what is sound.
+  struct Leaf {
+    std::string pointer;
+    const json* value;
+    SchemaViews views;
+  };
+  std::vector<Leaf> wrong;
+  std::vector<Problem> found = check_schema(
+      document, scene_schema(),
+      [&](const ValuePlace& place, const json& value, const SchemaViews& views) {
+        if (value.is_array()) {
+          const json* most = keyword(views, "maxItems");
+          if (most != nullptr && value.size() > most->get<std::size_t>()) too_long_.insert(&value);
+        } else if ((value.is_string() || value.is_number()) && !read_quantity(value, views)) {
+          wrong.push_back({place.pointer(), &value, views});
+        }
+      });
+  for (const Problem& one : found) {
     unsound_.add(one.pointer);
     said_.insert(one.pointer + "\n" + one.what);
+    problems_.push_back(one);
   }
-  read_quantities();
+  for (const Leaf& one : wrong) explain_quantity(one.pointer, *one.value, one.views);
 }
 
-void SceneReader::read_quantities() {
-  walk_schema(scene_schema(), document_.value,
-              [this](const std::string& pointer, const json& value, const SchemaViews& views) {
-                if (value.is_array()) {
-                  const json* most = keyword(views, "maxItems");
-                  if (most != nullptr && value.size() > most->get<std::size_t>()) {
-                    too_long_.insert(pointer);
-                  }
-                } else if (value.is_string() || value.is_number()) {
-                  read_quantity(pointer, value, views);
-                }
-              });
+bool SceneReader::read_quantity(const json& value, const SchemaViews& views) {
+  Range scratch;
+  const Range& range = range_of(views, scratch);
+  if (range.dimension == nullptr) return !value.is_number() || !is_vanishing(value.get<double>());
+  const ParsedQuantity parsed = parse_given(value, range);
+  const bool fine =
+      parsed.ok && out_of_range(parsed.value, range, views).empty() && !is_vanishing(parsed.value);
+  if (fine) quantities_[&value] = parsed.value;
+  return fine;
 }
 
-void SceneReader::read_quantity(const std::string& pointer, const json& value,
-                                const SchemaViews& views) {
-  const auto refuse_vanishing = [&] {
-    problem(pointer, as_text(value) + " is not zero, but too small to mean anything", "write 0");
-  };
-  const std::string dimension = keyword_text(views, "x-dimension");
-  if (dimension.empty()) {
-    if (value.is_number() && is_vanishing(value.get<double>())) refuse_vanishing();
-    return;
+void SceneReader::explain_quantity(const std::string& pointer, const json& value,
+                                   const SchemaViews& views) {
+  Range scratch;
+  const Range& range = range_of(views, scratch);
+  if (range.dimension != nullptr) {
+    ParsedQuantity parsed = parse_given(value, range);
+    if (!parsed.ok) {
+      if (const std::string unit = keyword_text(views, "x-unit"); !unit.empty()) {
+        replace_all(parsed.cure, concat(" ", range.dimension->usual, "\""), " " + unit + "\"");
+      }
+      return problem(pointer, parsed.what, parsed.cure);
+    }
+    const std::string outside = out_of_range(parsed.value, range, views);
+    if (!outside.empty()) {
+      return problem(pointer, as_text(value) + " " + outside, range_cure(views));
+    }
   }
-  const ParsedQuantity parsed =
-      parse_schema_quantity(value, dimension, keyword_text(views, "x-unit"));
-  if (!parsed.ok) {
-    problem(pointer, parsed.what, parsed.cure);
-    return;
-  }
-  const std::string outside = out_of_range(parsed, views, dimension);
-  if (!outside.empty()) {
-    problem(pointer, as_text(value) + " " + outside, range_cure(views));
-  } else if (is_vanishing(parsed.value)) {
-    refuse_vanishing();
-  } else {
-    quantities_[pointer] = parsed.value;
-  }
+  problem(pointer, as_text(value) + " is not zero, but too small to mean anything", "write 0");
 }
 
 const json* SceneReader::find(const std::string& pointer) const {
-  const json::json_pointer place(pointer);
-  if (!document_.value.contains(place)) return nullptr;
-  return &document_.value.at(place);
+  const std::size_t slash = pointer.rfind('/');
+  if (slash == std::string::npos) return &document_.value;
+  const std::string_view above = std::string_view(pointer).substr(0, slash);
+  if (above != parent_pointer_) {
+    parent_ = value_at(document_.value, above);
+    parent_pointer_ = above;
+  }
+  return parent_ == nullptr ? nullptr
+                            : child_at(*parent_, std::string_view(pointer).substr(slash + 1));
 }
 
 std::size_t SceneReader::size(const std::string& pointer) const {
   const json* value = find(pointer);
-  const bool usable = value != nullptr && value->is_array() && too_long_.count(pointer) == 0;
+  const bool usable = value != nullptr && value->is_array() && too_long_.count(value) == 0;
   return usable ? value->size() : 0;
 }
 
@@ -173,10 +176,10 @@ std::vector<std::string> SceneReader::keys(const std::string& pointer) const {
 }
 
 double SceneReader::quantity(const std::string& pointer, double fallback) const {
-  if (const auto found = quantities_.find(pointer); found != quantities_.end()) {
-    return found->second;
-  }
-  return has(pointer) ? kNaN : fallback;
+  const json* value = find(pointer);
+  if (value == nullptr) return fallback;
+  const auto found = quantities_.find(value);
+  return found == quantities_.end() ? kNaN : found->second;
 }
 
 double SceneReader::number(const std::string& pointer, double fallback) const {
@@ -206,7 +209,7 @@ bool SceneReader::boolean(const std::string& pointer, bool fallback) const {
 std::array<double, 3> SceneReader::point(const std::string& pointer, double fallback) const {
   std::array<double, 3> result{};
   for (std::size_t i = 0; i < 3; ++i) {
-    result[i] = has(pointer) ? quantity(pointer + "/" + std::to_string(i)) : fallback;
+    result[i] = has(pointer) ? quantity(element(pointer, i)) : fallback;
   }
   return result;
 }
@@ -214,7 +217,7 @@ std::array<double, 3> SceneReader::point(const std::string& pointer, double fall
 std::array<double, 9> SceneReader::tensor(const std::string& pointer) const {
   std::array<double, 9> result{};
   for (std::size_t i = 0; i < 9; ++i) {
-    result[i] = quantity(concat(pointer, "/", i / 3, "/", i % 3));
+    result[i] = quantity(element(element(pointer, i / 3), i % 3));
   }
   return result;
 }
@@ -222,7 +225,7 @@ std::array<double, 9> SceneReader::tensor(const std::string& pointer) const {
 TimeTable SceneReader::table(const std::string& pointer) {
   TimeTable table;
   for (std::size_t i = 0; i < size(pointer + "/time"); ++i) {
-    const std::string place = concat(pointer, "/time/", i);
+    const std::string place = element(pointer + "/time", i);
     table.time.push_back(quantity(place));
     if (i > 0 && table.time[i] <= table.time[i - 1]) {
       problem(place, "time " + as_given(place) + " does not come after the one before",
@@ -230,7 +233,7 @@ TimeTable SceneReader::table(const std::string& pointer) {
     }
   }
   for (std::size_t i = 0; i < size(pointer + "/factor"); ++i) {
-    table.factor.push_back(number(concat(pointer, "/factor/", i)));
+    table.factor.push_back(number(element(pointer + "/factor", i)));
   }
   if (table.time.size() == table.factor.size()) return table;
   if (sound(pointer)) {

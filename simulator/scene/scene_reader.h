@@ -10,19 +10,13 @@
 #include "simulator/common/units.h"
 #include "simulator/scene/json_document.h"
 #include "simulator/scene/scene.h"
-#include "simulator/scene/schema_walk.h"
+#include "simulator/scene/schema.h"
 
 /// Inside of read_scene. A value that is missing or wrong has been reported once and reads as NaN
 /// (numbers) or "" (texts); checks are written such that NaN and "" never cause a second report.
 namespace faultsim {
 
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-/// A quantity of the schema: x-dimension, which knows one more than Dimension ("acceleration").
-ParsedQuantity parse_schema_quantity(const nlohmann::json& value, const std::string& dimension,
-                                     const std::string& usual_unit);
-/// Dimension by its name in the schema; acceleration is not one of them.
-Dimension dimension_named(const std::string& name);
 
 class SceneReader {
  public:
@@ -34,7 +28,9 @@ class SceneReader {
   const nlohmann::json* find(const std::string& pointer) const;
   bool has(const std::string& pointer) const { return find(pointer) != nullptr; }
   /// No problem at the value or below it (a parent that lacks a key leaves its children sound).
-  bool sound(const std::string& pointer) const { return !unsound_.contains(pointer); }
+  bool sound(const std::string& pointer) const {
+    return problems_.empty() || !unsound_.contains(pointer);
+  }
   /// Elements of a list, 0 if it is none or has more than the schema allows.
   std::size_t size(const std::string& pointer) const;
   /// Keys of an object without "comment".
@@ -62,16 +58,20 @@ class SceneReader {
   std::string as_given(const std::string& pointer) const;
 
  private:
-  void read_quantities();
-  void read_quantity(const std::string& pointer, const nlohmann::json& value,
-                     const SchemaViews& views);
+  /// False where there is something to explain.
+  bool read_quantity(const nlohmann::json& value, const SchemaViews& views);
+  void explain_quantity(const std::string& pointer, const nlohmann::json& value,
+                        const SchemaViews& views);
 
   const JsonDocument& document_;
   std::vector<Problem>& problems_;
-  Ancestry unsound_;                          ///< where the problems are.
-  std::unordered_set<std::string> said_;      ///< pointer and text of each.
-  std::unordered_set<std::string> too_long_;  ///< lists.
-  std::unordered_map<std::string, double> quantities_;
+  Ancestry unsound_;                                    ///< where the problems are.
+  std::unordered_set<std::string> said_;                ///< pointer and text of each.
+  std::unordered_set<const nlohmann::json*> too_long_;  ///< lists.
+  std::unordered_map<const nlohmann::json*, double> quantities_;
+  /// Neighbours are asked for one after the other: where the last one stood.
+  mutable std::string parent_pointer_;
+  mutable const nlohmann::json* parent_ = &document_.value;
 };
 
 /// "-3.8 bar": for messages, at most six digits.

@@ -1,83 +1,17 @@
 #include <algorithm>
 #include <map>
-#include <memory>
-#include <mutex>
 #include <set>
 #include <string>
-#include <unordered_map>
-#include <unordered_set>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
-#include "simulator/common/fingerprint.h"
+#include "simulator/common/near_miss.h"
 #include "simulator/common/printable.h"
-#include "simulator/scene/json_document.h"
-#include "simulator/scene/near_miss.h"
-#include "simulator/scene/schema_walk.h"
+#include "simulator/scene/schema.h"
 
-/// valijson says which values are wrong; this file says it in words a user can act on, from the
-/// same schema. One problem per mistake: valijson also reports every parent of a wrong value.
+/// What a value breaks, in words that a user can act on.
 namespace faultsim {
 namespace {
 
 using nlohmann::json;
-
-/// valijson compares each element with each other: fine for the lists that make sense, minutes for
-/// 10^5 elements. Beyond this length equal elements are looked for here.
-constexpr std::size_t kPairsUpTo = 64;
-
-bool has_long_array(const json& value) {
-  if (value.is_array() && value.size() > kPairsUpTo) return true;
-  return value.is_structured() && std::any_of(value.begin(), value.end(), has_long_array);
-}
-
-json without_unique_items(json schema) {
-  if (schema.is_object()) schema.erase("uniqueItems");
-  if (schema.is_structured()) {
-    for (json& part : schema) part = without_unique_items(std::move(part));
-  }
-  return schema;
-}
-
-/// Schemas as valijson wants them, made once per process and text.
-const valijson::Schema& compiled(const json& schema, bool unique_items) {
-  static std::mutex mutex;
-  static std::map<std::string, std::unique_ptr<valijson::Schema>> cache;
-  const std::lock_guard lock(mutex);
-  auto& entry = cache[fingerprint(schema.dump()) + (unique_items ? "" : " without unique items")];
-  if (!entry) {
-    const json used = unique_items ? schema : without_unique_items(schema);
-    entry = std::make_unique<valijson::Schema>();
-    valijson::SchemaParser parser(valijson::SchemaParser::kDraft7);
-    parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(used), *entry);
-  }
-  return *entry;
-}
-
-/// "<root>", "[faults]", "[0]" -> "/faults/0".
-std::string pointer_of(const std::vector<std::string>& context) {
-  std::string pointer;
-  for (std::size_t i = 1; i < context.size(); ++i) {
-    pointer += "/" + pointer_token(context[i].substr(1, context[i].size() - 2));
-  }
-  return pointer;
-}
-
-struct Place {
-  const json* value;
-  SchemaViews views;
-};
-
-std::unordered_map<std::string, Place> places_of(const JsonDocument& document, const json& schema) {
-  std::unordered_map<std::string, Place> places;
-  walk_schema(schema, document.value,
-              [&](const std::string& pointer, const json& value, const SchemaViews& views) {
-                places[pointer] = {&value, views};
-              });
-  return places;
-}
 
 std::string type_words(const json& types) {
   static const std::map<std::string, std::string> words = {{"object", "an object {...}"},
@@ -89,9 +23,7 @@ std::string type_words(const json& types) {
                                                            {"null", "null"}};
   if (types.is_string()) return words.at(types.get<std::string>());
   std::string text;
-  for (const auto& type : types) {
-    text += (text.empty() ? "" : " or ") + words.at(type.get<std::string>());
-  }
+  for (const json& type : types) text += (text.empty() ? "" : " or ") + type_words(type);
   return text;
 }
 
@@ -101,7 +33,10 @@ std::string range_words(const SchemaViews& views) {
   if (least != nullptr && most != nullptr) {
     return "outside [" + least->dump() + ", " + most->dump() + "]";
   }
-  return least != nullptr ? "below " + least->dump() : "above " + keyword_text(views, "maximum");
+  if (least != nullptr) return "below " + least->dump();
+  const json* above = keyword(views, "exclusiveMinimum");
+  return above != nullptr ? "not above " + above->dump()
+                          : "above " + keyword_text(views, "maximum");
 }
 
 /// "write <example>" where the schema has one.
@@ -113,199 +48,226 @@ std::string example_cure(const SchemaViews& views, const std::string& otherwise)
   return otherwise;
 }
 
-class Explainer {
- public:
-  Explainer(const JsonDocument& document, const json& schema)
-      : document_(document), schema_(schema), places_(places_of(document, schema)) {}
+std::size_t count_characters(const std::string& text) {
+  return std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;  // not the rest of one, in UTF-8
+  });
+}
 
-  void explain(const std::string& pointer, const std::string& description) {
-    const Place& place = places_.at(pointer);
-    const json& value = *place.value;
-    const SchemaViews& views = place.views;
-    const auto says = [&](const char* text) { return description.find(text) != std::string::npos; };
-    if (says("Object contains a property that could not be validated")) {
-      explain_unknown_keys(pointer, place);
-    } else if (says("Missing required property")) {
-      const auto quote = description.find('\'');
-      const std::string key = description.substr(quote + 1, description.rfind('\'') - quote - 1);
-      missing_[pointer].insert(key);
-    } else if (says("'type' constraint")) {
-      const json* types = keyword(views, "type");
-      const bool quantity = keyword(views, "x-dimension") != nullptr;
-      const std::string wanted = quantity ? "a number with a unit, as text"
-                                          : type_words(types == nullptr ? json("object") : *types);
-      add(pointer, as_text(value) + " is not " + wanted, example_cure(views, "write " + wanted));
-    } else if (says("enum values") || says("'const' constraint")) {
-      std::vector<std::string> allowed = enum_texts(views);
-      if (const json* only = keyword(views, "const")) allowed = {only->dump()};
-      const std::string word = value.is_string() ? value.get<std::string>() : "";
-      add(pointer, as_text(value) + " is not known here",
-          example_cure(views, may_suggest() ? suggest(word, allowed) : "write a word it knows"));
-    } else if (says("Expected number")) {
-      add(pointer, as_text(value) + " is " + range_words(views),
-          example_cure(views, "write a number in the range"));
-    } else if (says("Array should contain")) {
-      const json* wanted = keyword(views, says("no more") ? "maxItems" : "minItems");
-      add(pointer, concat("has ", value.size(), " elements"),
-          concat("write ", says("no more") ? "at most " : "at least ", *wanted));
-    } else if (description.rfind("Failed to validate", 0) == 0) {
-      wrappers_.push_back(pointer);
-    } else if (says("no fewer than")) {
-      add(pointer, as_text(value) + " is too short", example_cure(views, "fill it in"));
-    } else if (says("no more than") && value.is_string()) {
-      add(pointer, as_text(value) + " is too long",
-          "write at most " + keyword_text(views, "maxLength") + " characters");
-    } else if (says("no more than")) {
-      add(pointer, concat("has ", value.size(), " entries"),
-          "write at most " + keyword_text(views, "maxProperties"));
-    } else if (says("Elements at indexes")) {
-      add(pointer, as_text(value) + " has equal elements", "remove one of them");
-    } else {
-      add(pointer, as_text(value) + ": " + description, "see the schema");
+/// Sorted instead of compared in pairs: a list may have 10^5 elements.
+bool has_equal_elements(const json& list) {
+  std::vector<const json*> sorted;
+  for (const json& one : list) sorted.push_back(&one);
+  const auto less = [](const json* a, const json* b) { return *a < *b; };
+  std::sort(sorted.begin(), sorted.end(), less);
+  return std::adjacent_find(sorted.begin(), sorted.end(),
+                            [](const json* a, const json* b) { return *a == *b; }) != sorted.end();
+}
+
+class SchemaChecker {
+ public:
+  SchemaChecker(const JsonDocument& document, const SchemaVisitor& visit)
+      : document_(document), visit_(visit) {}
+
+  void walk(const ValuePlace& place, const json& value, const SchemaViews& views) {
+    if (views.empty()) return;
+    for (const SchemaRules* view : views) check(place, value, *view, views);
+    SchemaViews scratch;
+    if (value.is_object()) {
+      check_keys(place, value, views);
+      for (auto member = value.begin(); member != value.end(); ++member) {
+        walk({&place, &member.key()}, *member, member_views(views, member.key(), *member, scratch));
+      }
+    } else if (value.is_array()) {
+      for (std::size_t i = 0; i < value.size(); ++i) {
+        walk({&place, nullptr, i}, value[i], item_views(views, value[i], scratch));
+      }
+    }
+    if (visit_) visit_(place, value, views);
+  }
+
+  /// Texts and keys that a terminal would obey, except comments, which go nowhere.
+  void check_characters(const ValuePlace& place, const json& value) {
+    const auto refuse = [&](const char* what, const ValuePlace& at, const std::string& bad) {
+      const std::string pointer = at.pointer();
+      problems_.push_back({pointer, document_.line_of(pointer),
+                           concat(what, " holds the control character or stray byte ", bad),
+                           "remove it"});
+    };
+    if (value.is_string()) {
+      const std::string bad = first_unprintable(value.get_ref<const std::string&>());
+      if (!bad.empty()) refuse("the text", place, bad);
+    } else if (value.is_array()) {
+      for (std::size_t i = 0; i < value.size(); ++i) {
+        check_characters({&place, nullptr, i}, value[i]);
+      }
+    } else if (value.is_object()) {
+      for (auto member = value.begin(); member != value.end(); ++member) {
+        if (member.key() == "comment") continue;
+        const ValuePlace inner{&place, &member.key()};
+        const std::string bad = first_unprintable(member.key());
+        if (!bad.empty()) refuse("the key", inner, bad);
+        check_characters(inner, *member);
+      }
     }
   }
 
-  std::vector<Problem> finish() {
-    for (const auto& [pointer, keys] : missing_) explain_missing(pointer, keys);
-    Ancestry explained;
-    for (const Problem& problem : problems_) explained.add(problem.pointer);
-    for (const std::string& pointer : wrappers_) {
-      if (!explained.contains(pointer)) {
-        add(pointer, as_text(*places_.at(pointer).value) + " does not fit the schema",
-            "see the schema");
-      }
-    }
+  std::vector<Problem> problems() && {
+    std::stable_sort(problems_.begin(), problems_.end(), [](const Problem& a, const Problem& b) {
+      return a.line != b.line ? a.line < b.line : a.pointer < b.pointer;
+    });
     return std::move(problems_);
   }
 
  private:
+  /// One problem per place, the first.
   void add(const std::string& pointer, const std::string& what, const std::string& cure) {
     if (!reported_.insert(pointer).second) return;
     problems_.push_back({pointer, document_.line_of(pointer), what, cure});
   }
-
-  /// Once per object: valijson tells of every such key.
-  void explain_unknown_keys(const std::string& pointer, const Place& place) {
-    if (!keys_explained_.insert(pointer).second) return;
-    const std::vector<std::string> known = known_keys(place.views);
-    std::vector<std::string> free;
-    for (const std::string& name : known) {
-      if (!place.value->contains(name)) free.push_back(name);
-    }
-    for (const auto& [key, inner] : place.value->items()) {
-      if (key == "comment" || std::binary_search(known.begin(), known.end(), key)) continue;
-      if (may_suggest()) misspelt_[pointer].insert(near_miss(key, free));
-      add(pointer + "/" + pointer_token(key), "\"" + key + "\" is not a key of this object",
-          may_suggest() ? suggest(key, free) : "remove it");
-    }
-  }
   /// After so many problems nobody reads near misses, and looking for them takes time.
   bool may_suggest() const { return problems_.size() < kMostSuggestions; }
 
-  /// Keys that are there but misspelt are one mistake, reported where they stand.
-  void explain_missing(const std::string& pointer, const std::set<std::string>& keys) {
-    for (const std::string& key : keys) {
-      if (misspelt_[pointer].count(key) != 0) continue;
-      const SchemaViews views = child_views(schema_, places_.at(pointer).views, key, nullptr);
-      const std::string description = keyword_text(views, "description");
-      std::string cure = example_cure(views, "");
-      if (cure.rfind("write for example ", 0) == 0) {
-        cure = "add for example \"" + key + "\": " + cure.substr(18);
-      } else {
-        cure = "add \"" + key + "\"" + (description.empty() ? "" : ": " + description);
+  /// Nothing of what stands below the value.
+  void check(const ValuePlace& place, const json& value, const SchemaRules& rules,
+             const SchemaViews& views) {
+    const bool known =
+        (rules.only == nullptr || *rules.only == value) &&
+        (rules.allowed == nullptr ||
+         std::find(rules.allowed->begin(), rules.allowed->end(), value) != rules.allowed->end());
+    if (!known) explain_word(place, value, views);
+    if (value.is_number()) {
+      const auto number = value.get<double>();
+      const bool inside = number >= rules.least && number <= rules.most && number > rules.above;
+      if (!inside) {
+        add(place.pointer(), as_text(value) + " is " + range_words(views),
+            example_cure(views, "write a number in the range"));
       }
-      problems_.push_back(
-          {pointer, document_.line_of(pointer), "\"" + key + "\" is missing", cure});
-      reported_.insert(pointer);
+    } else if (value.is_string()) {
+      check_text(place, value, rules, views);
+    } else if (value.is_array()) {
+      check_list(place, value, rules);
+    } else if (value.is_object()) {
+      if (value.size() > rules.max_entries) {
+        add(place.pointer(), concat("has ", value.size(), " entries"),
+            concat("write at most ", rules.max_entries));
+      }
+      if (value.size() < rules.min_entries) {
+        add(place.pointer(), as_text(value) + " is too short", example_cure(views, "fill it in"));
+      }
+    }
+    if ((rules.types & 1U << static_cast<unsigned>(value.type())) == 0) {
+      explain_type(place, value, views);
     }
   }
 
+  void explain_word(const ValuePlace& place, const json& value, const SchemaViews& views) {
+    std::vector<std::string> allowed = enum_texts(views);
+    if (const json* only = keyword(views, "const")) allowed = {only->dump()};
+    const std::string word = value.is_string() ? value.get<std::string>() : "";
+    add(place.pointer(), as_text(value) + " is not known here",
+        example_cure(views, may_suggest() ? suggest(word, allowed) : "write a word it knows"));
+  }
+
+  void explain_type(const ValuePlace& place, const json& value, const SchemaViews& views) {
+    const json* types = keyword(views, "type");
+    const bool quantity = keyword(views, "x-dimension") != nullptr;
+    const std::string wanted = quantity ? "a number with a unit, as text" : type_words(*types);
+    add(place.pointer(), as_text(value) + " is not " + wanted,
+        example_cure(views, "write " + wanted));
+  }
+
+  void check_text(const ValuePlace& place, const json& value, const SchemaRules& rules,
+                  const SchemaViews& views) {
+    if (rules.min_length == 0 && rules.max_length == ~std::size_t{0}) return;
+    const std::size_t length = count_characters(value.get_ref<const std::string&>());
+    if (length > rules.max_length) {
+      add(place.pointer(), as_text(value) + " is too long",
+          concat("write at most ", rules.max_length, " characters"));
+    } else if (length < rules.min_length) {
+      add(place.pointer(), as_text(value) + " is too short", example_cure(views, "fill it in"));
+    }
+  }
+
+  void check_list(const ValuePlace& place, const json& value, const SchemaRules& rules) {
+    const bool few = value.size() < rules.min_items;
+    if (few || value.size() > rules.max_items) {
+      add(place.pointer(), concat("has ", value.size(), " elements"),
+          few ? concat("write at least ", rules.min_items)
+              : concat("write at most ", rules.max_items));
+    }
+    if (rules.unique_items && has_equal_elements(value)) {
+      add(place.pointer(), as_text(value) + " has equal elements", "remove one of them");
+    }
+  }
+
+  /// Keys that are missing and keys that should not be there. One that is there but misspelt is one
+  /// mistake, reported where it stands.
+  void check_keys(const ValuePlace& place, const json& value, const SchemaViews& views) {
+    std::set<std::string> unknown;
+    std::set<std::string> missing;
+    for (const SchemaRules* view : views) {
+      for (const std::string& key : view->required) {
+        if (!value.contains(key)) missing.insert(key);
+      }
+      if (!view->closed) continue;
+      for (auto member = value.begin(); member != value.end(); ++member) {
+        if (view->properties.find(member.key()) == view->properties.end()) {
+          unknown.insert(member.key());
+        }
+      }
+    }
+    if (unknown.empty() && missing.empty()) return;
+    const std::string pointer = place.pointer();
+    std::vector<std::string> free;
+    for (const std::string& name : known_keys(views)) {
+      if (!value.contains(name)) free.push_back(name);
+    }
+    std::set<std::string> misspelt;
+    for (const std::string& key : unknown) {
+      if (may_suggest()) misspelt.insert(near_miss(key, free));
+      add(pointer + "/" + pointer_token(key), "\"" + key + "\" is not a key of this object",
+          may_suggest() ? suggest(key, free) : "remove it");
+    }
+    for (const std::string& key : missing) {
+      if (misspelt.count(key) == 0) explain_missing(pointer, key, views);
+    }
+  }
+
+  void explain_missing(const std::string& pointer, const std::string& key,
+                       const SchemaViews& parent) {
+    SchemaViews scratch;
+    const SchemaViews& views = member_views(parent, key, nullptr, scratch);
+    const std::string description = keyword_text(views, "description");
+    std::string cure = example_cure(views, "");
+    if (cure.rfind("write for example ", 0) == 0) {
+      cure = "add for example \"" + key + "\": " + cure.substr(18);
+    } else {
+      cure = "add \"" + key + "\"" + (description.empty() ? "" : ": " + description);
+    }
+    problems_.push_back({pointer, document_.line_of(pointer), "\"" + key + "\" is missing", cure});
+    reported_.insert(pointer);
+  }
+
   const JsonDocument& document_;
-  const json& schema_;
-  std::unordered_map<std::string, Place> places_;
-  std::map<std::string, std::set<std::string>> missing_;
-  std::map<std::string, std::set<std::string>> misspelt_;
-  std::vector<std::string> wrappers_;
-  std::unordered_set<std::string> keys_explained_;
+  const SchemaVisitor& visit_;
   std::set<std::string> reported_;
   std::vector<Problem> problems_;
 };
 
 }  // namespace
 
-namespace {
-
-/// Texts and keys that a terminal would obey, except comments, which go nowhere.
-void check_characters(const JsonDocument& document, const json& value, const std::string& pointer,
-                      std::vector<Problem>& problems) {
-  const auto refuse = [&](const char* what, const std::string& place, const std::string& bad) {
-    problems.push_back({place, document.line_of(place),
-                        concat(what, " holds the control character or stray byte ", bad),
-                        "remove it"});
-  };
-  if (value.is_string()) {
-    const auto& text = value.get_ref<const std::string&>();
-    if (const std::string bad = first_unprintable(text); !bad.empty()) {
-      refuse("the text", pointer, bad);
-    }
-  } else if (value.is_array()) {
-    for (std::size_t i = 0; i < value.size(); ++i) {
-      if (!value[i].is_string() && !value[i].is_structured()) continue;
-      check_characters(document, value[i], pointer + "/" + std::to_string(i), problems);
-    }
-  } else if (value.is_object()) {
-    for (const auto& [key, inner] : value.items()) {
-      if (key == "comment") continue;
-      const std::string place = pointer + "/" + pointer_token(key);
-      const std::string bad = first_unprintable(key);
-      if (!bad.empty()) refuse("the key", place, bad);
-      check_characters(document, inner, place, problems);
-    }
-  }
+std::string ValuePlace::pointer() const {
+  if (parent == nullptr) return "";
+  return parent->pointer() + "/" + (key == nullptr ? std::to_string(index) : pointer_token(*key));
 }
 
-/// Lists that must not repeat themselves, where valijson would compare all pairs.
-void check_unique_items(const JsonDocument& document, const json& schema,
-                        std::vector<Problem>& problems) {
-  walk_schema(
-      schema, document.value,
-      [&](const std::string& pointer, const json& value, const SchemaViews& views) {
-        const json* unique = keyword(views, "uniqueItems");
-        if (unique == nullptr || !value.is_array()) return;
-        std::unordered_set<std::string> seen;
-        for (const json& one : value) {
-          if (seen.insert(one.dump(-1, ' ', false, json::error_handler_t::replace)).second)
-            continue;
-          problems.push_back({pointer, document.line_of(pointer),
-                              as_text(value) + " has equal elements", "remove one of them"});
-          return;
-        }
-      });
-}
-
-}  // namespace
-
-std::vector<Problem> check_schema(const JsonDocument& document, const json& schema) {
-  valijson::Validator validator(valijson::Validator::kStrongTypes);
-  valijson::ValidationResults results;
-  const valijson::adapters::NlohmannJsonAdapter target(document.value);
-  const bool in_pairs = !has_long_array(document.value);
-  const bool valid = validator.validate(compiled(schema, in_pairs), target, &results);
-  std::vector<Problem> problems;
-  if (!valid) {
-    Explainer explainer(document, schema);
-    for (const auto& error : results) {
-      explainer.explain(pointer_of(error.context), error.description);
-    }
-    problems = explainer.finish();
-    FAULTSIM_DEMAND(!problems.empty(), "invalid without a reason: ", document.source);
-  }
-  if (!in_pairs) check_unique_items(document, schema, problems);
-  check_characters(document, document.value, "", problems);
-  std::stable_sort(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) {
-    return a.line != b.line ? a.line < b.line : a.pointer < b.pointer;
-  });
-  return problems;
+std::vector<Problem> check_schema(const JsonDocument& document, const Schema& schema,
+                                  const SchemaVisitor& visit) {
+  SchemaChecker checker(document, visit);
+  checker.walk({}, document.value, schema_views(schema.root(), document.value));
+  checker.check_characters({}, document.value);
+  return std::move(checker).problems();
 }
 
 }  // namespace faultsim

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "campaign/scheduler/manager.h"
+#include "simulator/output/result_bytes.h"
 
 namespace faultsweep::benchmarks {
 
@@ -12,8 +13,8 @@ namespace faultsweep::benchmarks {
 class InstantWorkers final : public WorkerLink {
  public:
   /// @param clock  seconds from any origin; by it seconds() counts.
-  InstantWorkers(faultsim::CaseResult result, double (*clock)())
-      : result_(std::move(result)), clock_(clock) {}
+  InstantWorkers(const faultsim::CaseResult& result, double (*clock)())
+      : result_(faultsim::result_to_bytes(result)), clock_(clock) {}
   int n_workers() const override { return 64; }
   void send(int worker, const Message& message) override {
     const double start = clock_();
@@ -29,8 +30,7 @@ class InstantWorkers final : public WorkerLink {
         run.case_id = item.case_id;
         run.wall_seconds = 0.001;
         run.status = RunStatus::completed;
-        run.result = result_;
-        events.events.completed.push_back(std::move(run));
+        events.events.completed.push_back({std::move(run), result_});
       }
       inbox_.push_back({worker, encode(events)});
     } else if (std::holds_alternative<message::Drain>(message)) {
@@ -50,7 +50,7 @@ class InstantWorkers final : public WorkerLink {
   double seconds() const { return seconds_; }
 
  private:
-  faultsim::CaseResult result_;
+  std::string result_;  ///< as bytes.
   double (*clock_)();
   std::deque<std::pair<int, std::string>> inbox_;
   std::map<int, int> last_family_;

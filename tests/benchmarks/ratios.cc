@@ -88,7 +88,7 @@ void matrix_product(int n) {
 
 /// LU = H by LAPACK.
 void dense_lu(const FaultOperator& op) {
-  Eigen::MatrixXd h = op.h;
+  Eigen::MatrixXd h = op.h();
   const int n = static_cast<int>(h.rows());
   std::vector<int> pivots(static_cast<std::size_t>(n));
   int info = 0;

@@ -12,13 +12,14 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "simulator/common/fingerprint.h"
-#include "simulator/output/write_result.h"
+#include "simulator/output/result_bytes.h"
 #include "tests/campaign/made_up_result.h"
 
 namespace {
@@ -83,8 +84,16 @@ bool obey(const Channel& channel, const std::string& title, const json& run) {
 }
 
 void serve(const Channel& channel, const json& request, bool& has_operator) {
+  static std::map<int, json> bases;
+  if (request.contains("scene")) {
+    bases[request.at("base")] = request["scene"];
+    return;
+  }
   const json& run = request.at("run");
-  const json& scene = request.at("scene");
+  json scene = bases.at(request.at("base"));
+  for (const auto& [pointer, value] : request.at("changes").items()) {
+    scene[json::json_pointer(pointer)] = value;
+  }
   const std::string title = scene.value("title", "");
   const std::string family = scene.value("family", "only");
   if (title == "refuse early") {
@@ -130,8 +139,12 @@ void serve(const Channel& channel, const json& request, bool& has_operator) {
   }
   const auto result =
       faultsweep::testing::made_up_result(scene.value("strength", 0.3), scene.value("steps", 12));
-  done["result"] = faultsim::result_to_json(result);
-  reply(channel, done);
+  std::string bytes = faultsim::result_to_bytes(result);
+  done["result_bytes"] = bytes.size();
+  if (title == "damaged") bytes[bytes.size() / 2] ^= 0x10;
+  if (title == "cut off") bytes.resize(bytes.size() / 2);
+  write_all(channel.replies, done.dump() + "\n" + bytes);
+  if (title == "cut off") std::_Exit(0);
 }
 
 }  // namespace
@@ -157,7 +170,11 @@ int main(int argc, char** argv) {
       raise(SIGKILL);
     }
   }
-  reply(channel, {{"event", "hello"}, {"version", 2}, {"numerics_version", 1}});
+  const bool other = std::getenv("FAKE_SIMULATOR_OTHER_BUILD") != nullptr;
+  reply(channel, {{"event", "hello"},
+                  {"version", 3},
+                  {"result_layout", other ? "other" : faultsim::result_layout()},
+                  {"numerics_version", 1}});
   std::FILE* requests = fdopen(channel.requests, "r");
   char* line = nullptr;
   std::size_t capacity = 0;

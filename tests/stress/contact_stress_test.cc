@@ -53,10 +53,11 @@ void print(const StressTally& t) {
 TEST(ContactStress, OperatorsAreSmallAndReal) {
   for (const StressOperator& small : stress_operators()) {
     std::cout << small.name << ": " << small.op->geometry.nodes.size() << " nodes, "
-              << small.op->geometry.n_dofs << " dofs, " << small.op->locked.cols() << " loads\n";
+              << small.op->geometry.n_dofs << " dofs, " << small.op->loads.traction.cols()
+              << " loads\n";
     EXPECT_GE(small.op->geometry.nodes.size(), 4u) << small.name;
     EXPECT_LE(small.op->geometry.nodes.size(), 120u) << small.name;
-    EXPECT_GT(small.op->locked.cols(), 0) << small.name;
+    EXPECT_GT(small.op->loads.traction.cols(), 0) << small.name;
   }
 }
 

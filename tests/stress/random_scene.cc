@@ -174,16 +174,13 @@ ContactLaws laws_of(const RandomScene& scene, const FaultOperator& op) {
     law.static_friction_angle = radians(draw.angle);
     law.dynamic_friction_angle = law.static_friction_angle * (100 - draw.weakening) / 100;
     law.slip_weakening_distance = std::pow(10.0, -draw.log_distance / 10.0);
-    laws.node.push_back(law);
-    laws.cumulated.push_back(draw.cumulated);
-    laws.keep_cohesion.push_back(draw.keep_cohesion);
-    laws.lose_cohesion_slipping.push_back(draw.lose_cohesion_slipping);
-  }
-  if (!scene.follows) return laws;
-  laws.damping.resize(static_cast<Eigen::Index>(fault.size()));
-  for (std::size_t k = 0; k < fault.size(); ++k) {
-    laws.damping[static_cast<Eigen::Index>(k)] =
-        0.5 * std::sqrt(2500 * op.geometry.nodes[k].effective_shear_modulus);
+    law.cumulated = draw.cumulated;
+    law.cohesion_after_opening = draw.keep_cohesion;
+    law.cohesion_after_slip = !draw.lose_cohesion_slipping;
+    if (scene.follows) {
+      law.damping = 0.5 * std::sqrt(2500 * op.geometry.nodes[laws.size()].effective_shear_modulus);
+    }
+    laws.push_back(law);
   }
   return laws;
 }
@@ -201,9 +198,9 @@ std::vector<Eigen::VectorXd> locked_tractions(const RandomScene& scene, const Fa
   for (std::size_t step = 0; step < scene.loads.size(); ++step) {
     const LoadDraw& load = scene.loads[step];
     Eigen::VectorXd now = locked[0];
-    for (Eigen::Index j = 0; j < op.locked.cols(); ++j) {
+    for (Eigen::Index j = 0; j < op.loads.traction.cols(); ++j) {
       now += kUnit * load.pressure[static_cast<std::size_t>(j) % load.pressure.size()] *
-             op.locked.col(j);
+             op.loads.traction.col(j);
     }
     for (std::size_t k = 0; k < at.size(); ++k) {
       const auto& dof = op.geometry.nodes[k].dof;

@@ -120,8 +120,8 @@ void StepJudge::set_tolerances() {
        step_.before.traction.lpNorm<Eigen::Infinity>(),
        step_.after.traction.lpNorm<Eigen::Infinity>(),
        (step_.before.traction + step_.locked - step_.locked_before).lpNorm<Eigen::Infinity>()});
-  const double sum = (op_.h.cwiseAbs() * step_.after.jump.cwiseAbs())
-                         .cwiseQuotient(op_.dof_area)
+  const double sum = (op_.h().cwiseAbs() * step_.after.jump.cwiseAbs())
+                         .cwiseQuotient(op_.geometry.dof_area)
                          .lpNorm<Eigen::Infinity>();
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   const double sub_steps = std::max(step_.report.counts.sub_steps, 1);
@@ -162,8 +162,8 @@ void StepJudge::check_equilibrium() {
   const ContactViolation v = contact_violation(op_, laws_, step_.locked,
                                                at_once() ? step_.before : step_.after, step_.after);
   double softest = std::numeric_limits<double>::infinity();
-  for (Eigen::Index i = 0; i < op_.dof_area.size(); ++i) {
-    softest = std::min(softest, op_.h(i, i) / op_.dof_area[i]);
+  for (Eigen::Index i = 0; i < op_.geometry.dof_area.size(); ++i) {
+    softest = std::min(softest, op_.h()(i, i) / op_.geometry.dof_area[i]);
   }
   demand_at_most(v.tension, traction_, "tension over closed nodes, Pa:");
   demand_at_most(v.over_limit, traction_, "shear over the limit, Pa:");
@@ -175,12 +175,9 @@ void StepJudge::check_equilibrium() {
   // Who slips at the end of the step is at the limit there, whatever the way.
   for (std::size_t k = 0; k < step_.after.state.size(); ++k) {
     if (step_.after.state[k] != FaultState::slip) continue;
-    const auto i = static_cast<Eigen::Index>(k);
-    const double s =
-        laws_.cumulated[k] ? step_.after.slip_path[i] : shear(step_.after.jump, k).norm();
-    const double normal = std::min(step_.after.traction[op_.geometry.nodes[k].dof[0]], 0.0);
-    double limit = limit_shear_traction(laws_.node[k], normal, s).value;
-    if (step_.after.cohesion_lost[k]) limit -= laws_.node[k].cohesion;
+    const OperatorNode& node = op_.geometry.nodes[k];
+    const double limit = NodeLaw(laws_[k]).limit(
+        step_.after.traction[node.dof[0]], friction_state(node, step_.after, static_cast<int>(k)));
     demand_at_most(std::abs(shear(step_.after.traction, k).norm() - limit), traction_,
                    "a slipping node off its limit, Pa:");
   }
@@ -196,9 +193,9 @@ void StepJudge::check_history() {
     demand_at_most(slip, path + 1e-12 * (1 + step_.after.slip_path[i]), "slip beyond its path, m:");
     demand(step_.after.cohesion_lost[k] || !step_.before.cohesion_lost[k], "cohesion came back");
     demand(step_.after.state[k] != FaultState::open || step_.after.cohesion_lost[k] ||
-               laws_.keep_cohesion[k],
+               laws_[k].cohesion_after_opening,
            "an open node kept its cohesion");
-    demand(path == 0 || step_.after.cohesion_lost[k] || !laws_.lose_cohesion_slipping[k],
+    demand(path == 0 || step_.after.cohesion_lost[k] || laws_[k].cohesion_after_slip,
            "a node that slipped kept its cohesion");
   }
 }
@@ -270,10 +267,9 @@ void count(const std::vector<StepRecord>& records, bool follows, StressTally& ta
 
 /// Whether some node has cohesion that outlives opening.
 bool keeps_cohesion(const ContactLaws& laws) {
-  for (std::size_t k = 0; k < laws.node.size(); ++k) {
-    if (laws.keep_cohesion[k] && laws.node[k].cohesion > 0) return true;
-  }
-  return false;
+  return std::any_of(laws.begin(), laws.end(), [](const CoulombLaw& law) {
+    return law.cohesion_after_opening && law.cohesion > 0;
+  });
 }
 
 /// A second run gives the same bits, whatever the solver did before.

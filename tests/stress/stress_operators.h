@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/output/fault_operator.h"
+#include "simulator/model/fault_operator.h"
 
 namespace faultsim {
 

@@ -348,7 +348,7 @@ TEST(CreepFullMesh, EqualsTheCondensedMarchWithStickSlipAndOpenNodes) {
   const StepLoads start = case_loads.at(0);
   Eigen::VectorXd initial = start.locked;
   for (std::size_t k = 0; k < start.factors.size(); ++k) {
-    initial -= start.factors[k] * prepared.op->locked.col(static_cast<Eigen::Index>(k));
+    initial -= start.factors[k] * prepared.op->loads.traction.col(static_cast<Eigen::Index>(k));
   }
   const BulkProblem problem = bulk_problem(scene, plan);
   FullMesh reference(problem, initial);

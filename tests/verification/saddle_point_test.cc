@@ -46,11 +46,8 @@ BulkProblem make_problem() {
                         {MeshSide::z_max, {true, true, true}, {0, 1, 0}, none, 1},
                         {MeshSide::x_min, {true, false, false}, zero, none, -1}};
   LoadCase pressure, shear, tension;
-  pressure.name = "pressure:0:0";
   pressure.region = 0;
-  shear.name = "boundary:0";
   shear.displacement = true;
-  tension.name = "boundary:1";
   tension.stress_sides = {MeshSide::x_max};
   tension.stress = pull;
   problem.loads = {pressure, shear, tension};
@@ -239,9 +236,7 @@ TEST(SaddlePoint, EqualsTheCondensedPathWithStickSlipAndOpenNodes) {
   ContactLaws laws;
   CoulombLaw law;
   law.static_friction_angle = law.dynamic_friction_angle = std::atan(kFriction);
-  laws.node.assign(static_cast<std::size_t>(n_nodes), law);
-  laws.cumulated.assign(static_cast<std::size_t>(n_nodes), 0);
-  laws.keep_cohesion.assign(static_cast<std::size_t>(n_nodes), 0);
+  laws.assign(n_nodes, law);
   ContactOptions options;
   options.traction_tolerance = 1e-11;
   ContactSolver solver(op, laws, options);
@@ -255,7 +250,8 @@ TEST(SaddlePoint, EqualsTheCondensedPathWithStickSlipAndOpenNodes) {
   before = initial;
   for (const std::vector<double>& factors : kSteps) {
     Eigen::VectorXd after = initial;
-    for (int k = 0; k < 3; ++k) after += factors[static_cast<std::size_t>(k)] * op.locked.col(k);
+    for (int k = 0; k < 3; ++k)
+      after += factors[static_cast<std::size_t>(k)] * op.loads.traction.col(k);
     const ContactReport report = solver.solve_step(before, after, state);
     ASSERT_EQ(report.outcome, Outcome::converged) << report.reason;
     before = after;

@@ -45,14 +45,14 @@ std::string_view verification_scene(const std::string& file) {
 }
 
 double SceneRun::observed(const std::string& name, std::size_t step) const {
-  for (std::size_t i = 0; i < op->observations.size(); ++i) {
-    if (op->observations[i].name == name) return result.steps.at(step).observed.at(i);
+  for (std::size_t i = 0; i < op->observed.rows.size(); ++i) {
+    if (op->observed.rows[i].name == name) return result.steps.at(step).observed.at(i);
   }
   FAULTSIM_DEMAND(false, "no observation row ", name);
 }
 
 Eigen::Vector3d SceneRun::observed_position(const std::string& name) const {
-  for (const ObservationRow& row : op->observations) {
+  for (const ObservationRow& row : op->observed.rows) {
     if (row.name == name) return row.position;
   }
   FAULTSIM_DEMAND(false, "no observation row ", name);

@@ -7,7 +7,7 @@
 
 #include "simulator/common/monitor.h"
 #include "simulator/loading/run_case.h"
-#include "simulator/output/fault_operator.h"
+#include "simulator/model/fault_operator.h"
 #include "simulator/output/result.h"
 #include "simulator/scene/scene.h"
 

@@ -165,7 +165,7 @@ VerifyCase critical_case() {
             const SceneRun stable = runner.run(kScene, settings);
             const Slider slider = slider_of(stable.scene);
             const int dof = stable.geometry().nodes.front().dof[1];
-            const double h_over_a = stable.op->h(dof, dof) / stable.op->dof_area[dof];
+            const double h_over_a = stable.op->h()(dof, dof) / stable.op->geometry.dof_area[dof];
             report.compare("H/A of the slider = k", "MPa/m", slider.stiffness / 1e6, h_over_a / 1e6,
                            kTolerance);
             const double critical = slider_critical_distance(slider);
@@ -181,9 +181,10 @@ VerifyCase critical_case() {
                            run.result.events.size() == expected);
             }
             // The eigenvalue H/A − W of the patch changes sign there.
-            CoulombLaw law{WeakeningLaw::angle, 0, slider.static_friction_angle,
-                           slider.dynamic_friction_angle, critical};
-            const double rate = -limit_shear_traction(law, -slider.normal_stress, 0).d_slip;
+            const NodeLaw law(CoulombLaw{.static_friction_angle = slider.static_friction_angle,
+                                         .dynamic_friction_angle = slider.dynamic_friction_angle,
+                                         .slip_weakening_distance = critical});
+            const double rate = -law.strength(-slider.normal_stress, {0, 0}, 0, {}).d_measure;
             report.compare("H/A − W at the critical distance (error of k)", "MPa/m", 0,
                            (h_over_a - rate) / 1e6, kTolerance, slider.stiffness / 1e6);
           }};
@@ -263,13 +264,11 @@ struct TinyProblem {
       node.dof = {first, first + 1, first + 2};
       op.geometry.nodes.push_back(node);
     }
-    op.dof_area = Eigen::VectorXd::Ones(n);
+    op.geometry.dof_area = Eigen::VectorXd::Ones(n);
     const Eigen::MatrixXd inverse = w.inverse();
-    own_h(op, scale * inverse);
-    const CoulombLaw law{WeakeningLaw::angle, 0, std::atan(mu), std::atan(mu), 1};
-    const auto n_nodes = op.geometry.nodes.size();
-    const ContactLaws laws{std::vector<CoulombLaw>(n_nodes, law), std::vector<char>(n_nodes, 0),
-                           std::vector<char>(n_nodes, 0)};
+    op.compliance = std::make_shared<DenseCompliance>(scale * inverse);
+    const ContactLaws laws(op.geometry.nodes.size(), {.static_friction_angle = std::atan(mu),
+                                                      .dynamic_friction_angle = std::atan(mu)});
     ContactOptions options;
     options.traction_tolerance = 1e-13;
     ContactSolver solver(op, laws, options);

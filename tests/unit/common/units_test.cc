@@ -113,5 +113,23 @@ TEST(FromSi, IsTheInverse) {
   EXPECT_DOUBLE_EQ(from_si(std::acos(-1.0), Dimension::angle, "deg"), 180);
 }
 
+TEST(Dimensions, AreListedOnceAndInOrder) {
+  for (const DimensionInfo& one : dimensions()) {
+    EXPECT_EQ(&info_of(one.dimension), &one);
+    EXPECT_EQ(dimension_named(one.key), &one);
+    const std::string usual = std::string("1 ") + one.usual;
+    EXPECT_EQ(parse_quantity("1 " + std::string(one.si), one.dimension).value, 1) << one.key;
+    EXPECT_TRUE(parse_quantity(usual, one.dimension).ok) << one.key;
+  }
+  EXPECT_EQ(dimension_named("colour"), nullptr);
+}
+
+TEST(ParseQuantity, KnowsAccelerations) {
+  EXPECT_EQ(parse_quantity("9.81 m/s2", Dimension::acceleration).value, 9.81);
+  EXPECT_EQ(parse_quantity("981 cm/s2", Dimension::acceleration).value, 9.81);
+  EXPECT_EQ(parse_quantity("9.81 Pa/m", Dimension::acceleration).what,
+            "\"9.81 Pa/m\" is not an acceleration");
+}
+
 }  // namespace
 }  // namespace faultsim

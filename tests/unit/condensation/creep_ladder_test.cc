@@ -84,9 +84,9 @@ TEST(CreepLadder, FirstRungIsTheElasticOperator) {
   BulkProblem elastic = problem;
   elastic.viscosity.clear();
   const FaultOperator op = test::condense(elastic);
-  EXPECT_EQ(Eigen::MatrixXd(op.h), Eigen::MatrixXd(ladder.op(0).h));
-  EXPECT_EQ(op.locked, ladder.op(0).locked);
-  EXPECT_GT((op.h - ladder.op(1).h).norm(), 0.1 * op.h.norm());
+  EXPECT_EQ(Eigen::MatrixXd(op.h()), Eigen::MatrixXd(ladder.op(0).h()));
+  EXPECT_EQ(op.loads.traction, ladder.op(0).loads.traction);
+  EXPECT_GT((op.h() - ladder.op(1).h()).norm(), 0.1 * op.h().norm());
 }
 
 /// Three steps of different rungs, with loads and jumps, against dense solves of
@@ -125,9 +125,9 @@ TEST(CreepLadder, StepsAreThoseOfTheDenseSystem) {
     CreepLadder::History history = ladder.history(rung, state);
     const FaultOperator& op = ladder.op(rung);
     const Eigen::Map<const Eigen::VectorXd> load(factors.data(), 4);
-    const Eigen::VectorXd traction =
-        history.traction + op.locked * load - (op.h * jump).cwiseQuotient(op.dof_area);
-    const Eigen::VectorXd expected = dense.fault_forces(x).cwiseQuotient(op.dof_area);
+    const Eigen::VectorXd traction = history.traction + op.loads.traction * load -
+                                     (op.h() * jump).cwiseQuotient(op.geometry.dof_area);
+    const Eigen::VectorXd expected = dense.fault_forces(x).cwiseQuotient(op.geometry.dof_area);
     EXPECT_LT((traction - expected).norm(), 1e-10 * expected.norm()) << "rung " << rung;
     if (rung == 1) {
       EXPECT_GT(history.traction.norm(), 1e-2 * expected.norm());
@@ -157,7 +157,7 @@ TEST(CreepLadder, ManyShortRungsAreOneLongOneInUniformStrain) {
   gradient << 1, 2, -0.5, 0.3, -0.7, 0.2, 0.9, -0.4, 1.6;
   problem.conditions = test::affine(Eigen::Vector3d::Zero(), 1e-4 * gradient);
   LoadCase load;
-  load.name = "boundary:0";
+  load.key.kind = LoadKey::Kind::boundary;
   load.displacement = true;
   problem.loads = {load};
   CreepLadder ladder = ladder_of(problem, {2 * kTau, 0.25 * kTau});
@@ -167,7 +167,7 @@ TEST(CreepLadder, ManyShortRungsAreOneLongOneInUniformStrain) {
     Eigen::VectorXd traction = closed;
     for (const auto& [rung, factor] : steps) {
       CreepLadder::History history = ladder.history(rung, state);
-      traction += history.traction + factor * ladder.op(rung).locked.col(0);
+      traction += history.traction + factor * ladder.op(rung).loads.traction.col(0);
       ladder.advance(rung, std::move(history), {factor}, closed, state);
     }
     return std::pair(std::move(state), traction);
@@ -205,7 +205,7 @@ TEST(CreepLadder, RockKeepsItsStiffness) {
   problem.viscosity = {kElastic, kElastic};
   const CreepLadder rigid = ladder_of(problem, {kTau});
   EXPECT_EQ(rigid.n_creeping_cells(), 0);
-  EXPECT_EQ(Eigen::MatrixXd(rigid.op(0).h), Eigen::MatrixXd(rigid.op(1).h));
+  EXPECT_EQ(Eigen::MatrixXd(rigid.op(0).h()), Eigen::MatrixXd(rigid.op(1).h()));
   problem.viscosity = {kElastic, 1e17};
   const CreepLadder ladder = ladder_of(problem, {kTau});
   EXPECT_GT(ladder.n_creeping_cells(), 0);
@@ -243,10 +243,10 @@ TEST(CreepLadder, TakesStepsFromInstantaneousToLiquid) {
   BulkProblem problem = viscous_problem();
   problem.viscosity = {kElastic, 1e17};
   CreepLadder ladder = ladder_of(problem, {1e6 * kTau, 1e3 * kTau, kTau, 1e-3 * kTau, 1e-6 * kTau});
-  const Eigen::MatrixXd elastic = ladder.op(0).h;
+  const Eigen::MatrixXd elastic = ladder.op(0).h();
   double last = 0;
   for (int rung = 1; rung < ladder.n_rungs(); ++rung) {
-    const Eigen::MatrixXd h = ladder.op(rung).h;
+    const Eigen::MatrixXd h = ladder.op(rung).h();
     EXPECT_EQ(h, h.transpose());
     EXPECT_EQ(h.llt().info(), Eigen::Success);
     EXPECT_GT(h.trace(), last) << "shorter steps are stiffer";
@@ -265,7 +265,7 @@ TEST(CreepLadder, TakesStepsFromInstantaneousToLiquid) {
       EXPECT_LT(state.stress.deviator.norm(), 1e-4 * start) << ladder.duration(rung) / kTau;
     }
   }
-  EXPECT_LT((elastic - Eigen::MatrixXd(ladder.op(5).h)).norm(), 1e-6 * elastic.norm());
+  EXPECT_LT((elastic - Eigen::MatrixXd(ladder.op(5).h())).norm(), 1e-6 * elastic.norm());
 }
 
 }  // namespace

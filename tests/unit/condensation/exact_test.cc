@@ -45,11 +45,11 @@ TEST_P(PatchTest, LockedTractionsAreSigmaN) {
       const Eigen::Vector3d traction = patch_stress() * node.normal;
       const std::array<Eigen::Vector3d, 3> axes = {node.normal, node.strike, node.dip};
       for (std::size_t c = 0; c < 3; ++c) {
-        EXPECT_NEAR(op.locked(node.dof[c], 0), axes[c].dot(traction), 1e-10 * 30 * kMPa);
+        EXPECT_NEAR(op.loads.traction(node.dof[c], 0), axes[c].dot(traction), 1e-10 * 30 * kMPa);
       }
-      EXPECT_NEAR(op.locked(node.dof[0], 0) / kMPa, answer.normal, 1e-6);
-      EXPECT_NEAR(std::abs(op.locked(node.dof[1], 0)) / kMPa, answer.along_strike, 1e-6);
-      EXPECT_NEAR(std::abs(op.locked(node.dof[2], 0)) / kMPa, answer.down_dip, 1e-6);
+      EXPECT_NEAR(op.loads.traction(node.dof[0], 0) / kMPa, answer.normal, 1e-6);
+      EXPECT_NEAR(std::abs(op.loads.traction(node.dof[1], 0)) / kMPa, answer.along_strike, 1e-6);
+      EXPECT_NEAR(std::abs(op.loads.traction(node.dof[2], 0)) / kMPa, answer.down_dip, 1e-6);
     }
   }
 }
@@ -69,9 +69,9 @@ TEST(Patch, PlaneStrainGivesTheInPlaneTractions) {
   const FaultOperator op = condense(problem);
   EXPECT_EQ(op.geometry.n_dofs, 2 * 6);
   for (const OperatorNode& node : op.geometry.nodes) {
-    EXPECT_NEAR(op.locked(node.dof[0], 0) / kMPa, -23.318151, 1e-6);
+    EXPECT_NEAR(op.loads.traction(node.dof[0], 0) / kMPa, -23.318151, 1e-6);
     EXPECT_EQ(node.dof[1], -1);
-    EXPECT_NEAR(std::abs(op.locked(node.dof[2], 0)) / kMPa, 5.115797, 1e-6);
+    EXPECT_NEAR(std::abs(op.loads.traction(node.dof[2], 0)) / kMPa, 5.115797, 1e-6);
   }
 }
 
@@ -92,11 +92,12 @@ TEST(Compaction, LockedNormalTractionIsGammaH) {
   for (const OperatorNode& node : op.geometry.nodes) {
     const double z = node.position.z();
     const double share = z > -450 && z < -250 ? 1 : z > -550 && z < -150 ? 0.5 : 0;
-    EXPECT_NEAR(depletion * op.locked(node.dof[0], 0), share * gamma * 20e6, 1e-9 * 20e6) << z;
+    EXPECT_NEAR(depletion * op.loads.traction(node.dof[0], 0), share * gamma * 20e6, 1e-9 * 20e6)
+        << z;
     if (node.dof[2] < 0) continue;
-    EXPECT_NEAR(op.locked(node.dof[2], 0), 0, 1e-10);
+    EXPECT_NEAR(op.loads.traction(node.dof[2], 0), 0, 1e-10);
   }
-  EXPECT_NEAR(depletion * op.observed_load(2, 0), -0.34438503 * 1.5, 1e-8);
+  EXPECT_NEAR(depletion * op.observed.per_load(2, 0), -0.34438503 * 1.5, 1e-8);
 }
 
 // A block that slides as a whole on a through-going fault meets no resistance: H c = 0 for it.
@@ -110,10 +111,10 @@ TEST(Patch, RigidSlidingOfALooseBlockCostsNothing) {
   for (std::size_t c = 0; c < 3; ++c) {
     Eigen::VectorXd g = Eigen::VectorXd::Zero(op.geometry.n_dofs);
     for (const OperatorNode& node : op.geometry.nodes) g[node.dof[c]] = 1;
-    EXPECT_LT((op.h * g).norm(), 1e-11 * op.h.norm() * g.norm());
+    EXPECT_LT((op.h() * g).norm(), 1e-11 * op.h().norm() * g.norm());
   }
   const Eigen::VectorXd eigenvalues =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(op.h).eigenvalues();
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(op.h()).eigenvalues();
   EXPECT_LT(std::abs(eigenvalues[5]), 1e-11 * eigenvalues.maxCoeff());
   EXPECT_GT(eigenvalues[6], 1e-4 * eigenvalues.maxCoeff());
 }

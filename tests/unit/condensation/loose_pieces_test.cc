@@ -37,7 +37,7 @@ TEST(LoosePieces, ABlockHeldByTheFaultAloneTransmitsItsLoad) {
   const FaultOperator op =
       condense(two_blocks({MeshSide::x_min, MeshSide::y_min, MeshSide::y_max, MeshSide::z_min}));
   for (const OperatorNode& node : op.geometry.nodes) {
-    EXPECT_NEAR(op.locked(node.dof[0], 0), -1e6, 1e-3);
+    EXPECT_NEAR(op.loads.traction(node.dof[0], 0), -1e6, 1e-3);
   }
 }
 

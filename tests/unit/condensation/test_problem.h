@@ -10,7 +10,7 @@ namespace faultsim::test {
 
 inline LoadCase stress_case(const Eigen::Matrix3d& stress, std::vector<MeshSide> sides) {
   LoadCase load;
-  load.name = "boundary:0";
+  load.key = {LoadKey::Kind::boundary, 0};
   load.stress = stress;
   load.stress_sides = std::move(sides);
   return load;
@@ -18,14 +18,14 @@ inline LoadCase stress_case(const Eigen::Matrix3d& stress, std::vector<MeshSide>
 
 inline LoadCase pressure_case(int region) {
   LoadCase load;
-  load.name = "pressure:" + std::to_string(region);
+  load.key = {LoadKey::Kind::pressure, region, 0};
   load.region = region;
   return load;
 }
 
 inline LoadCase displacement_case() {
   LoadCase load;
-  load.name = "boundary:1";
+  load.key = {LoadKey::Kind::boundary, 1};
   load.displacement = true;
   return load;
 }

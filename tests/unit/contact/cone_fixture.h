@@ -25,12 +25,10 @@ inline ConeStep cone_step(const FrictionalContactProblem& problem) {
   set_h(made.op, 0.5 * (h + h.transpose()));
   for (int k = 0; k < n_contacts; ++k) {
     const double angle = std::atan(problem.friction[k]);
-    made.laws.node.push_back({WeakeningLaw::coefficient, 0, angle, angle, 1});
+    made.laws.push_back({WeakeningLaw::coefficient, 0, angle, angle, 1});
   }
-  made.laws.cumulated.assign(made.laws.node.size(), 0);
-  made.laws.keep_cohesion.assign(made.laws.node.size(), 0);
   made.step.before = Eigen::VectorXd::Zero(n);
-  made.step.after = made.op.h * problem.q;
+  made.step.after = made.op.h() * problem.q;
   made.step.start = initial_state(made.op);
   return made;
 }

@@ -179,7 +179,7 @@ TEST(ExportedStep, IsScaledByPowersOfTenThatItTells) {
   EXPECT_TRUE(largest > 0.3 && largest < 3.2) << largest;
   // W in m/N times H in N/m.
   const Eigen::MatrixXd w = problem.w * (problem.displacement_unit / problem.force_unit);
-  EXPECT_LT((w * second.op.h - Eigen::MatrixXd::Identity(30, 30)).norm(), 1e-11);
+  EXPECT_LT((w * second.op.h() - Eigen::MatrixXd::Identity(30, 30)).norm(), 1e-11);
 }
 
 TEST(ExportedStep, GivesAMissingComponentARowOfItsOwnInWhichNothingMoves) {
@@ -189,11 +189,11 @@ TEST(ExportedStep, GivesAMissingComponentARowOfItsOwnInWhichNothingMoves) {
   Eigen::MatrixXd h(n, n);
   const auto old = [](Eigen::Index i) { return i < 1 ? i : i + 1; };
   for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) h(i, j) = op.h(old(i), old(j));
+    for (Eigen::Index j = 0; j < n; ++j) h(i, j) = op.h()(old(i), old(j));
   }
-  const Eigen::VectorXd area = op.dof_area;
-  op.dof_area.resize(n);
-  for (Eigen::Index i = 0; i < n; ++i) op.dof_area[i] = area[old(i)];
+  const Eigen::VectorXd area = op.geometry.dof_area;
+  op.geometry.dof_area.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) op.geometry.dof_area[i] = area[old(i)];
   for (OperatorNode& node : op.geometry.nodes) {
     for (int& dof : node.dof) dof -= dof > 1 ? 1 : 0;
   }
@@ -222,8 +222,8 @@ TEST(FrozenLaws, AreTheSameLawsWithoutCohesionAndWeakening) {
   const FaultOperator op = spring_slider(1, 2);
   const ContactLaws laws = same_law(op, {WeakeningLaw::angle, 0, 0.5, 0.5, 1});
   const ContactLaws frozen = frozen_laws(op, laws, initial_state(op), Weakening::refuse);
-  EXPECT_DOUBLE_EQ(frozen.node[0].static_friction_angle, 0.5);
-  EXPECT_DOUBLE_EQ(frozen.node[0].dynamic_friction_angle, 0.5);
+  EXPECT_DOUBLE_EQ(frozen[0].static_friction_angle, 0.5);
+  EXPECT_DOUBLE_EQ(frozen[0].dynamic_friction_angle, 0.5);
 }
 
 std::string refusal(const FaultOperator& op, const ContactLaws& laws, const ContactState& start) {
@@ -245,7 +245,7 @@ TEST(FrozenLaws, RefuseCohesionThatIsAtWork) {
                         "cohesion to 0"));
   start.cohesion_lost[0] = 1;  // gone
   EXPECT_EQ(refusal(op, laws, start), "accepted");
-  EXPECT_EQ(frozen_laws(op, laws, start, Weakening::refuse).node[0].cohesion, 0);
+  EXPECT_EQ(frozen_laws(op, laws, start, Weakening::refuse)[0].cohesion, 0);
 }
 
 TEST(FrozenLaws, FreezeTheFrictionOfTheStartOfTheStep) {
@@ -257,16 +257,16 @@ TEST(FrozenLaws, FreezeTheFrictionOfTheStartOfTheStep) {
   start.slip_path[0] = 1;            // path 1: half of it
   EXPECT_THAT(refusal(op, laws, start), HasSubstr("friction may weaken within the step"));
   const auto friction = [&] {
-    return std::tan(frozen_laws(op, laws, start, Weakening::freeze).node[0].dynamic_friction_angle);
+    return std::tan(frozen_laws(op, laws, start, Weakening::freeze)[0].dynamic_friction_angle);
   };
   EXPECT_NEAR(friction(), 0.55, 1e-15);
-  laws.cumulated[0] = 1;
+  laws[0].cumulated = 1;
   EXPECT_NEAR(friction(), 0.5, 1e-15);
   // Once the path is beyond d_c it cannot change any more; the slip could come back.
   start.slip_path[0] = 2;
   EXPECT_EQ(refusal(op, laws, start), "accepted");
   EXPECT_NEAR(friction(), 0.4, 1e-15);
-  laws.cumulated[0] = 0;
+  laws[0].cumulated = 0;
   start.jump.tail<2>() << 3, 4;
   EXPECT_THAT(refusal(op, laws, start), HasSubstr("freeze the strength"));
 }

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <memory>
-#include <new>
 #include <random>
 #include <utility>
 
@@ -11,12 +10,8 @@
 
 namespace faultsim {
 
-/// Makes h the matrix of op and returns a pointer to it, so that tests can change entries.
-inline Eigen::MatrixXd* set_h(FaultOperator& op, Eigen::MatrixXd h) {
-  auto owner = std::make_shared<Eigen::MatrixXd>(std::move(h));
-  new (&op.h) Eigen::Map<const Eigen::MatrixXd>(owner->data(), owner->rows(), owner->cols());
-  op.h_owner = owner;
-  return owner.get();
+inline void set_h(FaultOperator& op, Eigen::MatrixXd h) {
+  op.compliance = std::make_shared<DenseCompliance>(std::move(h));
 }
 
 /// n nodes down dip on a vertical fault, 10 m apart, each with n_shear shear dofs (n, strike, dip).
@@ -24,7 +19,7 @@ inline FaultOperator make_operator(int n_nodes, int n_shear, const Eigen::Vector
   FaultOperator op;
   op.geometry.n_dofs = n_nodes * (1 + n_shear);
   op.geometry.plane_strain = n_shear == 1;
-  op.dof_area.resize(op.geometry.n_dofs);
+  op.geometry.dof_area.resize(op.geometry.n_dofs);
   op.geometry.faults.resize(1);
   op.geometry.faults[0].name = "main";
   op.geometry.faults[0].n_nodes = n_nodes;
@@ -37,7 +32,7 @@ inline FaultOperator make_operator(int n_nodes, int n_shear, const Eigen::Vector
     node.area = node_area[k];
     const int first = k * (1 + n_shear);
     node.dof = {first, n_shear == 2 ? first + 1 : -1, n_shear >= 1 ? first + n_shear : -1};
-    op.dof_area.segment(first, 1 + n_shear).setConstant(node.area);
+    op.geometry.dof_area.segment(first, 1 + n_shear).setConstant(node.area);
     op.geometry.nodes.push_back(node);
   }
   return op;
@@ -49,8 +44,7 @@ inline CoulombLaw linear_weakening(double d_c) {
 }
 
 inline ContactLaws same_law(const FaultOperator& op, const CoulombLaw& law) {
-  const std::size_t n = op.geometry.nodes.size();
-  return {std::vector<CoulombLaw>(n, law), std::vector<char>(n, 0), std::vector<char>(n, 0)};
+  return ContactLaws(op.geometry.nodes.size(), law);
 }
 
 /// One node with H/A = k: the spring-slider.

@@ -37,8 +37,7 @@ struct History {
 
 ContactLaws following(const FaultOperator& op, const CoulombLaw& law) {
   ContactLaws laws = same_law(op, law);
-  laws.damping = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(op.geometry.nodes.size()),
-                                           2e6);  // ½ √(ρ G)
+  for (CoulombLaw& each : laws) each.damping = 2e6;  // ½ √(ρ G)
   return laws;
 }
 
@@ -94,7 +93,7 @@ TEST(Jump, CohesionLostAtFirstSlipIsAnEventOfTheDropInStrength) {
   FaultOperator op = spring_slider(10 * kMPa, 1);
   ContactLaws laws =
       following(op, {WeakeningLaw::angle, 2 * kMPa, std::atan(0.5), std::atan(0.5), 1});
-  laws.lose_cohesion_slipping = {1};
+  laws[0].cohesion_after_slip = false;
   ContactOptions options;
   options.onset_tolerance = 1e-9;
   History run(std::move(op), laws, options);
@@ -129,7 +128,7 @@ FaultOperator bump_operator(int n_nodes) {
   FaultOperator op = make_operator(n_nodes, 1, Eigen::VectorXd::Constant(n_nodes, 10));
   set_h(op, half_space_matrix(op, 6e9, 0.0));
   // Without the image the matrix is symmetric about the middle.
-  Eigen::MatrixXd h = op.h;
+  Eigen::MatrixXd h = op.h();
   const int n = op.geometry.n_dofs;
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
@@ -187,7 +186,7 @@ TEST(Jump, IsNotFollowedWithoutDamping) {
 TEST(Jump, LostCohesionWithoutDampingIsAnInstabilityToo) {
   FaultOperator op = spring_slider(10 * kMPa, 1);
   ContactLaws laws = same_law(op, {WeakeningLaw::angle, 2 * kMPa, 0.4, 0.4, 1});
-  laws.lose_cohesion_slipping = {1};
+  laws[0].cohesion_after_slip = false;
   History run(std::move(op), laws);
   ASSERT_EQ(run.step(pulled(1.0, 2)).outcome, Outcome::converged);
   const ContactReport report = run.step(pulled(1.3, 2));
@@ -203,7 +202,7 @@ TEST(Jump, ANodeThatKeepsItsCohesionHopsUntilItIsClosed) {
   FaultOperator op = spring_slider(1, 1, 1);
   set_h(op, 10 * kMPa * Eigen::Matrix2d{{2, 1}, {1, 2}});
   ContactLaws laws = following(op, {WeakeningLaw::angle, 10 * kMPa, 0.6, 0.6, 1});
-  laws.keep_cohesion = {1};
+  laws[0].cohesion_after_opening = true;
   History run(std::move(op), laws);
   ASSERT_EQ(run.step(Eigen::Vector2d(-1, 1) * kMPa).outcome, Outcome::converged);
   const ContactReport report = run.step(Eigen::Vector2d(0.1, 5) * kMPa);

@@ -52,7 +52,7 @@ TEST(NastyContact, OpensWithoutCohesionAndCarriesNothing) {
 TEST(NastyContact, ClosesAgainWithoutItsCohesion) {
   for (const bool keep : {false, true}) {
     OneNode node(Eigen::Vector2d(4, 2).asDiagonal(), coulomb(0.5, 3));
-    node.laws.keep_cohesion[0] = keep;
+    node.laws[0].cohesion_after_opening = keep;
     ASSERT_EQ(node.go_to(Eigen::Vector2d(-1, 3)).outcome, Outcome::converged);
     EXPECT_EQ(node.state.state[0], FaultState::stick);  // 3 < 3 + 0.5
     ASSERT_EQ(node.go_to(Eigen::Vector2d(1, 0)).outcome, Outcome::converged);
@@ -92,7 +92,7 @@ TEST(NastyContact, ResolvesTheCycleOfACohesiveNodeThatOpensAndCloses) {
 TEST(NastyContact, SaysWhyThereIsNoSolutionAndKeepsTheState) {
   const Eigen::Matrix2d h{{2, 1}, {1, 2}};
   OneNode node(h, coulomb(0.6, 10));
-  node.laws.keep_cohesion[0] = 1;  // so that the cycle above has no way out
+  node.laws[0].cohesion_after_opening = 1;  // so that the cycle above has no way out
   ASSERT_EQ(node.go_to(Eigen::Vector2d(-1, 1)).outcome, Outcome::converged);
   const ContactState before = node.state;
   const ContactReport report = node.go_to(Eigen::Vector2d(0.1, 5));
@@ -101,6 +101,8 @@ TEST(NastyContact, SaysWhyThereIsNoSolutionAndKeepsTheState) {
   EXPECT_NE(report.reason.find("worst: fault 'main' at x = 0 m, y = 0 m, depth = 2000 m"),
             std::string::npos)
       << report.reason;
+  EXPECT_NE(report.reason.find("; last search: "), std::string::npos) << report.reason;
+  EXPECT_NE(report.reason.find("residual "), std::string::npos) << report.reason;
   EXPECT_EQ(node.state.jump, before.jump);
   EXPECT_EQ(node.state.traction, before.traction);
   EXPECT_EQ(node.state.cohesion_lost, before.cohesion_lost);
@@ -111,7 +113,7 @@ TEST(NastyContact, AcceptsNodesWithoutSomeShearDofs) {
   op.geometry.nodes[1].dof = {2, -1, -1};  // only the normal: a corner held by two rollers
   op.geometry.nodes[2].dof = {3, 4, -1};   // strike instead of dip
   op.geometry.n_dofs = 5;
-  op.dof_area = Eigen::VectorXd::Ones(5);
+  op.geometry.dof_area = Eigen::VectorXd::Ones(5);
   set_h(op, Eigen::MatrixXd::Identity(5, 5) + 0.1 * Eigen::MatrixXd::Ones(5, 5));
   const ContactLaws laws = same_law(op, coulomb(0.5));
   ContactSolver solver(op, laws, {});
@@ -143,7 +145,7 @@ TEST(NastyContact, NeverReadsTheColumnsOfNodesAtRest) {
       states[poisoned].push_back(state);
     }
     if (poisoned) break;
-    Eigen::MatrixXd h = fault.op.h;
+    Eigen::MatrixXd h = fault.op.h();
     int n_poisoned = 0;
     for (const OperatorNode& node : fault.op.geometry.nodes) {
       if (state.jump[node.dof[2]] != 0) continue;
@@ -207,11 +209,11 @@ TEST(NastyContact, FastRoadAgreesWithNewton) {
   ContactSolver fast(fault.op, fault.laws, {});
   const auto scalar = run_history(fault, fast);
   // A weakening so slight that it changes nothing keeps the solver off the fast road.
-  for (CoulombLaw& law : fault.laws.node) {
+  for (CoulombLaw& law : fault.laws) {
     law.dynamic_friction_angle = law.static_friction_angle * (1 - 1e-15);
     law.slip_weakening_distance = 1e3;
   }
-  ASSERT_NE(fault.laws.node[0].dynamic_friction_angle, fault.laws.node[0].static_friction_angle);
+  ASSERT_NE(fault.laws[0].dynamic_friction_angle, fault.laws[0].static_friction_angle);
   ContactSolver slow(fault.op, fault.laws, {});
   const auto general = run_history(fault, slow);
   int n_slip = 0;

@@ -37,11 +37,10 @@ RandomProblem random_problem(unsigned seed, int n_shear) {
   set_h(problem.op, 1e8 * h);
   problem.laws = same_law(problem.op, {});
   for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k) {
-    CoulombLaw& law = problem.laws.node[k];
+    CoulombLaw& law = problem.laws[k];
     law.static_friction_angle = law.dynamic_friction_angle =
         engine() % 8 == 0 ? 0 : 0.4 + 0.25 * uniform(engine);
     law.cohesion = engine() % 3 == 0 ? 1e6 * (1 + uniform(engine)) : 0;
-    problem.laws.keep_cohesion[k] = 0;
   }
   Eigen::VectorXd start(dofs), change(dofs);
   const double tension = seed % 3 == 0 ? 1.6 : 0.7;
@@ -136,11 +135,11 @@ TEST(RandomContact, ConvergesOrIsUnstableWithWeakening) {
   int n_converged = 0, n_unstable = 0, n_cut = 0;
   for (unsigned seed = 1; seed <= 60; ++seed) {
     RandomProblem problem = random_problem(seed, 1 + seed / 2 % 2);
-    for (std::size_t k = 0; k < problem.laws.node.size(); ++k) {
-      CoulombLaw& law = problem.laws.node[k];
+    for (std::size_t k = 0; k < problem.laws.size(); ++k) {
+      CoulombLaw& law = problem.laws[k];
       law.dynamic_friction_angle = 0.7 * law.static_friction_angle;
       law.slip_weakening_distance = seed % 5 == 0 ? 0.05 : 0.4;
-      problem.laws.cumulated[k] = seed % 3 == 1;
+      law.cumulated = seed % 3 == 1;
     }
     ContactSolver solver(problem.op, problem.laws, {});
     ContactState state = initial_state(problem.op);

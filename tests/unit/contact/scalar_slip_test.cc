@@ -14,7 +14,7 @@ SubStep sub_step_of(const DepletedFault& fault, const ContactState& start,
   SubStep step;
   step.start = &start;
   step.locked = locked;
-  step.trial = locked - (fault.op.h * start.jump).cwiseQuotient(fault.op.dof_area);
+  step.trial = locked - (fault.op.h() * start.jump).cwiseQuotient(fault.op.geometry.dof_area);
   step.traction = step.trial;
   step.increment = Eigen::VectorXd::Zero(locked.size());
   step.state.assign(static_cast<std::size_t>(n), FaultState::stick);
@@ -36,8 +36,8 @@ TEST(ScalarSlip, SolvesAWholeHistoryByItself) {
   int passes = 0;
   for (std::size_t i = 1; i < fault.locked.size(); ++i) {
     SubStep step = sub_step_of(fault, state, fault.locked[i]);
-    const NewtonReport report = scalar.solve(step);
-    ASSERT_TRUE(report.converged) << i;
+    const SearchHistory report = scalar.solve(step);
+    ASSERT_TRUE(report.converged()) << i;
     for (int k = 0; k < problem.n_nodes(); ++k) {
       ASSERT_LT(check_node(problem, step, k).worst(), 0.2) << i << ' ' << k;
     }
@@ -58,7 +58,7 @@ TEST(ScalarSlip, LeavesOpeningToNewton) {
   Eigen::VectorXd locked = fault.locked[0];
   locked[0] = 1e6;
   SubStep step = sub_step_of(fault, state, locked);
-  EXPECT_FALSE(scalar.solve(step).converged);
+  EXPECT_FALSE(scalar.solve(step).converged());
 }
 
 }  // namespace

@@ -39,8 +39,8 @@ TEST(StabilityCheck, FindsTheSmallestEigenvalueOfThePatchAtZero) {
       Eigen::MatrixXd shear(n, n);
       for (int i = 0; i < n; ++i) {
         for (int j = 0; j < n; ++j) {
-          shear(i, j) = any.op.h(any.op.geometry.nodes[static_cast<std::size_t>(i)].dof[2],
-                                 any.op.geometry.nodes[static_cast<std::size_t>(j)].dof[2]) /
+          shear(i, j) = any.op.h()(any.op.geometry.nodes[static_cast<std::size_t>(i)].dof[2],
+                                   any.op.geometry.nodes[static_cast<std::size_t>(j)].dof[2]) /
                         2;
         }
       }
@@ -107,7 +107,7 @@ TEST(WeakeningStep, EndsOnTheSameBranchWhateverTheStepSize) {
   int n_unstable = 0;
   for (const double d_c : {0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 1.0, 2.0}) {
     DepletedFault fault = depleted_fault(80, 1, true);
-    for (CoulombLaw& law : fault.laws.node) {
+    for (CoulombLaw& law : fault.laws) {
       law.slip_weakening_distance = d_c;
       law.dynamic_friction_angle = std::atan(0.45);
     }

@@ -15,11 +15,11 @@ using test::CoupledExample;
 /// multipliers.
 class TwoPaths {
  public:
-  TwoPaths(const CoulombLaw& law, bool cumulated, const SolverChoice& solver)
+  TwoPaths(CoulombLaw law, bool cumulated, const SolverChoice& solver)
       : op_(test::condense(example_.problem)) {
     const int n = static_cast<int>(op_.geometry.nodes.size());
-    laws_ = {std::vector<CoulombLaw>(n, law), std::vector<char>(n, cumulated),
-             std::vector<char>(n, 0)};
+    law.cumulated = cumulated;
+    laws_.assign(n, law);
     CoupledContactOptions options;
     options.solver = solver;
     options.traction_tolerance = 1e-11;
@@ -44,7 +44,8 @@ class TwoPaths {
     Eigen::VectorXd locked = background_;
     for (const OperatorNode& node : op_.geometry.nodes)
       load.background[node.dof[0]] += overpressure;
-    locked = load.background + op_.locked * Eigen::Map<const Eigen::VectorXd>(factors.data(), 4);
+    locked =
+        load.background + op_.loads.traction * Eigen::Map<const Eigen::VectorXd>(factors.data(), 4);
     const ContactReport condensed = condensed_->solve_step(before_, locked, other_);
     ASSERT_EQ(condensed.outcome, Outcome::converged) << condensed.reason;
     ASSERT_EQ(condensed.counts.sub_steps, 1) << "or the paths would differ";
@@ -128,8 +129,7 @@ TEST(CoupledContact, SaysSoWhenItDoesNotConverge) {
   const int n = example.stick.n_multipliers();
   int n_nodes = 0;
   for (const TwoSidedNode& node : example.bulk.fault_nodes()) n_nodes += node.may_jump[0];
-  const ContactLaws laws{std::vector<CoulombLaw>(n_nodes, friction(0.4, 0.4, 0)),
-                         std::vector<char>(n_nodes, 0), std::vector<char>(n_nodes, 0)};
+  const ContactLaws laws(n_nodes, friction(0.4, 0.4, 0));
   CoupledContactOptions options;
   options.max_newton_iterations = 1;
   const CoupledContact contact(example.bulk, laws, options);

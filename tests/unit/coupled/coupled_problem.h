@@ -28,8 +28,8 @@ struct CoupledExample {
       SlippingPoint point;
       point.normal_traction = -2e6;
       point.slip_increment = 1e-2 * Eigen::Vector2d(std::cos(k), std::sin(k));
-      point.slip_before = {1e-3, -2e-3};
-      nodes[k].tangent = slip_tangent(law, point);
+      point.before.slip = {1e-3, -2e-3};
+      nodes[k].tangent = slip_tangent(NodeLaw(law), point);
     }
     return nodes;
   }

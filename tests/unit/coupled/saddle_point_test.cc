@@ -97,7 +97,7 @@ TEST(SaddlePoint, WhereAllStickIsTheCondensedSolution) {
     const CoupledReport report = solver.solve(
         example.bulk.load(k), Eigen::VectorXd::Zero(j.n_multipliers()), 1e-12, 200, u, traction);
     ASSERT_TRUE(report.converged);
-    const Eigen::VectorXd locked = op.locked.col(k);
+    const Eigen::VectorXd locked = op.loads.traction.col(k);
     EXPECT_LT((traction - locked).norm(), 1e-9 * locked.norm()) << k;
     std::vector<double> factors(example.problem.loads.size(), 0);
     factors[k] = 1;
@@ -120,9 +120,9 @@ Eigen::VectorXd condensed_tractions(const FaultOperator& op, int load,
   const int n = op.geometry.n_dofs;
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(2 * n);
-  m.topLeftCorner(n, n) = op.dof_area.cwiseInverse().asDiagonal() * op.h;
+  m.topLeftCorner(n, n) = op.geometry.dof_area.cwiseInverse().asDiagonal() * op.h();
   m.topRightCorner(n, n).setIdentity();
-  right.head(n) = op.locked.col(load);
+  right.head(n) = op.loads.traction.col(load);
   for (int k = 0; k < static_cast<int>(nodes.size()); ++k) {
     const auto& dof = op.geometry.nodes[k].dof;
     for (int c = 0; c < 3; ++c) {
@@ -200,13 +200,13 @@ TEST(SaddlePoint, EAndFAreTheDerivativesOfTheForceOfASlippingNode) {
     SlippingPoint point;
     point.normal_traction = normal;
     point.slip_increment = shear_of(u);
-    point.slip_before = {0.002, 0.001};
+    point.before.slip = {0.002, 0.001};
     return point;
   };
   // The force K u + C_N t_N + C_T t*_T on all dofs.
   const auto force = [&](const Eigen::VectorXd& u, double normal) {
     Eigen::VectorXd f = example.bulk.stiffness() * u;
-    const Eigen::Vector2d shear = slip_tangent(law, point_of(u, normal)).traction;
+    const Eigen::Vector2d shear = slip_tangent(NodeLaw(law), point_of(u, normal)).traction;
     const Eigen::Vector3d t = node.frame * Eigen::Vector3d(normal, shear[0], shear[1]);
     for (int c = 0; c < 3; ++c) {
       f[node.plus[c]] += node.area * t[c];
@@ -218,7 +218,7 @@ TEST(SaddlePoint, EAndFAreTheDerivativesOfTheForceOfASlippingNode) {
   for (int c = 0; c < 3; ++c) u[node.plus[c]] = 0.01 * (c + 1);
   const double normal = -3e6;
   std::vector<NodeLinearisation> nodes(fault_nodes.size());
-  nodes[slipping] = {FaultState::slip, slip_tangent(law, point_of(u, normal))};
+  nodes[slipping] = {FaultState::slip, slip_tangent(NodeLaw(law), point_of(u, normal))};
   const SaddlePoint j = make_saddle_point(example.bulk, nodes);
   const int column = j.node_begin[slipping];
   ASSERT_EQ(j.node_begin[slipping + 1], column + 1);
@@ -248,25 +248,26 @@ TEST(SlipTangent, DerivativesAreThoseOfTheTraction) {
       law.static_friction_angle = 0.6;
       law.dynamic_friction_angle = 0.3;
       law.slip_weakening_distance = 0.05;
+      law.cumulated = cumulated;
       SlippingPoint point{.normal_traction = -4e6,
                           .slip_increment = {0.012, -0.007},
-                          .slip_before = {0.004, 0.005},
-                          .path_before = 0.01,
-                          .cumulated = cumulated,
+                          .before = {.slip = {0.004, 0.005}, .path = 0.01},
                           .traction_direction = {0, 0}};
-      const SlipTangent at = slip_tangent(law, point);
+      const SlipTangent at = slip_tangent(NodeLaw(law), point);
       for (int c = 0; c < 2; ++c) {
         const double step = 1e-7;
         SlippingPoint more = point, less = point;
         more.slip_increment[c] += step;
         less.slip_increment[c] -= step;
-        const Eigen::Vector2d difference =
-            (slip_tangent(law, more).traction - slip_tangent(law, less).traction) / (2 * step);
+        const Eigen::Vector2d difference = (slip_tangent(NodeLaw(law), more).traction -
+                                            slip_tangent(NodeLaw(law), less).traction) /
+                                           (2 * step);
         EXPECT_LT((difference - at.d_slip.col(c)).norm(), 1e-6 * at.d_slip.norm());
       }
       SlippingPoint more = point;
       more.normal_traction += 10;
-      const Eigen::Vector2d difference = (slip_tangent(law, more).traction - at.traction) / 10;
+      const Eigen::Vector2d difference =
+          (slip_tangent(NodeLaw(law), more).traction - at.traction) / 10;
       EXPECT_LT((difference - at.d_normal).norm(), 1e-7);
       EXPECT_LT(at.d_normal.dot(point.slip_increment), 0) << "compression strengthens";
     }
@@ -279,7 +280,7 @@ TEST(SlipTangent, OfANodeJustSetToSlipFollowsItsTraction) {
   SlippingPoint point;
   point.normal_traction = -1e6;
   point.traction_direction = {0.6, 0.8};
-  const SlipTangent at = slip_tangent(law, point);
+  const SlipTangent at = slip_tangent(NodeLaw(law), point);
   EXPECT_NEAR((at.traction - 1e6 * std::tan(0.5) * point.traction_direction).norm(), 0, 1e-6);
   EXPECT_EQ(at.d_slip.norm(), 0);
 }

@@ -3,9 +3,13 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <random>
 #include <vector>
+
+#include "simulator/common/errors.h"
 
 namespace faultsim {
 namespace {
@@ -163,6 +167,51 @@ TEST(TrailingCholesky, GivesTheSameBitsTwice) {
   EXPECT_GT(first.statistics().flops, 0);
 }
 
+/// Wide enough for panels that are cut, and for several threads.
+struct Cube : Lattice {
+  Cube() : Lattice(make_lattice(18, 1, 300)) { set_blas_threads(1); }
+  TrailingCholesky factor(const FactorRun& run) const {
+    return TrailingCholesky(lower, 300, group, n_groups, run);
+  }
+};
+
+TEST(TrailingCholesky, GivesTheSameBitsWithAnyNumberOfThreads) {
+  const Cube cube;
+  const Eigen::VectorXd f = Eigen::VectorXd::Random(cube.lower.rows());
+  TrailingCholesky one = cube.factor({.n_threads = 1});
+  const Eigen::VectorXd x = one.solve(f);
+  const Eigen::VectorXd residual = f - cube.lower.selfadjointView<Eigen::Lower>() * x;
+  EXPECT_LT(residual.norm(), 1e-12 * f.norm());
+  for (const int n_threads : {2, 3, 8}) {
+    TrailingCholesky several = cube.factor({.n_threads = n_threads});
+    EXPECT_EQ(several.trailing_factor(), one.trailing_factor()) << n_threads;
+    EXPECT_EQ(several.solve(f), x) << n_threads;
+  }
+}
+
+TEST(TrailingCholesky, NamesTheFirstColumnWithoutPivotWhateverTheThreads) {
+  Cube cube;
+  for (const int unknown : {2500, 9000, 17000}) cube.lower.coeffRef(unknown, unknown) = -1;
+  const int first = cube.factor({.n_threads = 1}).failed_column();
+  EXPECT_GE(first, 0);
+  for (int repetition = 0; repetition < 5; ++repetition) {
+    EXPECT_EQ(cube.factor({.n_threads = 4}).failed_column(), first);
+  }
+}
+
+TEST(TrailingCholesky, TellsHowFarItIsAndStopsWhenAsked) {
+  const Cube cube;
+  std::vector<double> told;
+  cube.factor({.n_threads = 2, .progress = [&](double done) { told.push_back(done); }});
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  ASSERT_FALSE(told.empty());
+  EXPECT_GT(told.back(), 0.5);
+  EXPECT_LE(told.back(), 1 + 1e-12);
+  std::atomic<int> asked = 0;
+  EXPECT_THROW(cube.factor({.n_threads = 2, .stop = [&] { return ++asked > 20; }}), Interrupted);
+  EXPECT_LT(asked, 40);
+}
+
 TEST(Blas, IsOpenBlasAndSaysHowManyThreads) {
   EXPECT_EQ(blas_complaint(), "");
   set_blas_threads(1);
@@ -176,6 +225,62 @@ TEST(Blas, LowerTimesTransposeAgreesWithEigenAcrossBlocks) {
     EXPECT_LT((product - l * l.transpose()).norm(), 1e-13 * product.norm());
     EXPECT_EQ(product, product.transpose());
   }
+}
+
+/// Loads of a few entries near each point of the lattice, on trailing unknowns too.
+std::vector<SparseLoad> sparse_loads(int n_unknowns, int n_loads) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<SparseLoad> loads(n_loads);
+  for (int k = 0; k < n_loads; ++k) {
+    for (int i = 0; i < 5; ++i) {
+      loads[k].emplace_back((37 * k + 211 * i) % n_unknowns, uniform(random));
+    }
+  }
+  return loads;
+}
+
+TEST(CondenseSparse, IsTheCondensedLoadOfEachColumn) {
+  for (const int copies : {1, 2}) {
+    const Lattice lattice = make_lattice(6, copies, 20);
+    TrailingCholesky factor(lattice.lower, 20, lattice.group, lattice.n_groups);
+    const auto n = static_cast<int>(lattice.lower.rows());
+    const std::vector<SparseLoad> loads = sparse_loads(n, 150);  // three blocks, one not full
+    std::vector<double> shares;
+    const Eigen::MatrixXd condensed =
+        factor.condense(loads, [&](double share) { shares.push_back(share); });
+    for (std::size_t k = 0; k < loads.size(); ++k) {
+      Eigen::VectorXd f = Eigen::VectorXd::Zero(n);
+      for (const auto& [unknown, value] : loads[k]) f[unknown] = value;
+      const Eigen::VectorXd expected = factor.condense(f);
+      EXPECT_LT((condensed.col(k) - expected).norm(), 1e-13 * f.norm()) << k;
+    }
+    EXPECT_EQ(shares.size(), 3u);
+    EXPECT_EQ(shares.back(), 1);
+  }
+}
+
+TEST(CondenseSparse, AColumnHasTheSameBitsWhateverElseIsAsked) {
+  const Lattice lattice = make_lattice(9, 1, 40);
+  TrailingCholesky factor(lattice.lower, 40, lattice.group, lattice.n_groups);
+  std::vector<SparseLoad> loads = sparse_loads(static_cast<int>(lattice.lower.rows()), 130);
+  const auto condensed = [&] { return factor.condense(loads, [](double) {}); };
+  const Eigen::MatrixXd all = condensed();
+  EXPECT_EQ(condensed(), all);
+  const std::vector<SparseLoad> kept = loads;
+  for (int k = 0; k < 130; k += 7) {
+    loads = {kept[k]};
+    EXPECT_EQ(condensed().col(0), all.col(k)) << k;
+    loads = {kept[(k + 50) % 130], kept[(k + 1) % 130], kept[k]};
+    EXPECT_EQ(condensed().col(2), all.col(k)) << k;
+  }
+}
+
+TEST(CondenseSparse, OfNothingIsNothing) {
+  const Lattice lattice = make_lattice(3, 1, 4);
+  TrailingCholesky factor(lattice.lower, 4, lattice.group, lattice.n_groups);
+  EXPECT_EQ(factor.condense(std::vector<SparseLoad>{}, [](double) {}).cols(), 0);
+  EXPECT_EQ(factor.condense(std::vector<SparseLoad>(1), [](double) {}), Eigen::Vector4d::Zero());
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ class FluidInAFault : public testing::Test {
       node.strike = -Eigen::Vector3d::UnitY();
       node.dip = -Eigen::Vector3d::UnitZ();
     }
-    at_.op.locked = Eigen::MatrixXd::Zero(at_.op.geometry.n_dofs, 2);
+    at_.op.loads.traction = Eigen::MatrixXd::Zero(at_.op.geometry.n_dofs, 2);
   }
   /// t'_N of the locked fault at a node of F1 that lies beside the region west.
   double normal_traction(double fault_biot, double time) {

@@ -99,17 +99,17 @@ TEST(CompareWithTwin, SeesChiSlipOutcomeActivationAndEvents) {
 
 TEST(CheckOperator, SeesAsymmetryAndLostDefiniteness) {
   FaultOperator op;
-  op.dof_area = Eigen::Vector2d(1, 4);
+  op.geometry.dof_area = Eigen::Vector2d(1, 4);
   Eigen::MatrixXd h(2, 2);
   h << 2, 0, 0, 8;
-  own_h(op, h);
+  op.compliance = std::make_shared<DenseCompliance>(h);
   EXPECT_EQ(check_operator(op).asymmetry, 0);
   EXPECT_DOUBLE_EQ(*check_operator(op).condition, 1) << "scaled by the areas";
   h(0, 1) = 1e-3;
-  own_h(op, h);
+  op.compliance = std::make_shared<DenseCompliance>(h);
   EXPECT_DOUBLE_EQ(check_operator(op).asymmetry, 1e-3 / 8);
   h << 1, 3, 3, 1;
-  own_h(op, h);
+  op.compliance = std::make_shared<DenseCompliance>(h);
   EXPECT_FALSE(check_operator(op).condition);
 }
 
@@ -168,9 +168,9 @@ TEST(DiagnoseCase, SaysThatEquilibriumIsNotRecomputedWhileSaltCreeps) {
 TEST(DiagnoseCase, FlagsAnOperatorThatIsNotSymmetric) {
   Prepared prepared = field(false);
   FaultOperator damaged = *prepared.op.op;
-  Eigen::MatrixXd h = damaged.h;
+  Eigen::MatrixXd h = damaged.h();
   h(3, 40) += 1e-3 * h.cwiseAbs().maxCoeff();
-  own_h(damaged, h);
+  damaged.compliance = std::make_shared<DenseCompliance>(h);
   prepared.op.op = std::make_shared<const FaultOperator>(damaged);
   SilentMonitor monitor;
   const Diagnosis d = diagnose_case(prepared.scene, prepared.op, monitor);

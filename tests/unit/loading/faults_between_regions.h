@@ -30,15 +30,13 @@ struct FaultsBetweenRegions {
       scene.box.regions.back().from = {-1000, -1000, -2070};
       scene.box.regions.back().to = {1000, 1000, -2030};
     }
-    op.load_names = {"pressure:0:0", "pressure:1:0"};
+    op.loads.keys = {{LoadKey::Kind::pressure, 0, 0}, {LoadKey::Kind::pressure, 1, 0}};
     add_fault("F1", -1, 0);
     add_fault("F2", 0, 1);
     CoulombLaw law;
     law.static_friction_angle = law.dynamic_friction_angle = std::atan(0.5);
     const std::size_t n = op.geometry.nodes.size();
-    laws.node.assign(n, law);
-    laws.cumulated.assign(n, 0);
-    laws.keep_cohesion.assign(n, 0);
+    laws.assign(n, law);
     op.geometry.n_dofs = static_cast<int>(2 * n);
     state.jump = state.traction = Eigen::VectorXd::Zero(op.geometry.n_dofs);
     state.slip_path = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));

@@ -399,7 +399,7 @@ TEST(FieldCase, MapsTheHostsOwnCopyOfACachedOperator) {
   EXPECT_TRUE(std::filesystem::exists(shared / file)) << "for all hosts";
   const PreparedOperator copied = prepare(policy);
   EXPECT_TRUE(copied.from_cache);
-  EXPECT_EQ(copied.op->h, built.op->h);
+  EXPECT_EQ(copied.op->h(), built.op->h());
   ASSERT_TRUE(std::filesystem::exists(near / file));
   std::filesystem::remove_all(shared);
   EXPECT_TRUE(prepare(policy).from_cache) << "the copy is enough";

@@ -58,14 +58,20 @@ TEST(LoadFactors, TakeBiotFromTheMaterialAndTheTableFromTheBoundary) {
   scene.box.boundary.resize(1);
   scene.box.boundary[0].table = {{0.0, 10.0}, {0.0, 1.0}};
   FaultOperator op;
-  op.load_names = {load_name({1, 1}), load_name({0, 0}), boundary_load_name(0)};
+  op.loads.keys = {{LoadKey::Kind::pressure, 1, 1},
+                   {LoadKey::Kind::pressure, 0, 0},
+                   {LoadKey::Kind::boundary, 0}};
   const LoadFactors factors(scene, op);
   const auto c = factors.at(5.0, {-10e6, -4e6});
   EXPECT_DOUBLE_EQ(c[0], 0.8 * -4e6);
   EXPECT_DOUBLE_EQ(c[1], -10e6);
   EXPECT_DOUBLE_EQ(c[2], 0.5);
-  op.load_names = {"gravity:0"};
-  EXPECT_THROW(LoadFactors(scene, op), InternalError);
+  for (const LoadKey unknown :
+       {LoadKey{LoadKey::Kind::boundary, 1}, LoadKey{LoadKey::Kind::pressure, 0, 2},
+        LoadKey{LoadKey::Kind::pressure, 2, 0}, LoadKey{LoadKey::Kind::pressure, 0, -1}}) {
+    op.loads.keys = {unknown};
+    EXPECT_THROW(LoadFactors(scene, op), InternalError) << to_string(unknown);
+  }
 }
 
 /// One fault node between a cell of region 0 (minus) and a cell of region 1 (plus), half its area;

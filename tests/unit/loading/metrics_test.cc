@@ -43,9 +43,7 @@ struct LineFault {
     op.geometry.half_domain = half;
     CoulombLaw law;
     law.static_friction_angle = law.dynamic_friction_angle = std::atan(0.5);
-    laws.node.assign(n, law);
-    laws.cumulated.assign(n, 0);
-    laws.keep_cohesion.assign(n, 0);
+    laws.assign(n, law);
     state.jump = state.traction = Eigen::VectorXd::Zero(2 * n);
     state.slip_path = Eigen::VectorXd::Zero(n);
     state.state.assign(n, FaultState::stick);
@@ -301,7 +299,7 @@ TEST(FaultMeter, MomentAndPotencyAreDoubledForAHalfDomain) {
 
 TEST(FaultMeter, IgnoresWhatMustNotTakePart) {
   LineFault f(5, 10);
-  f.laws.node[2].slip_weakening_distance = kNaN;  // no weakening: d_c plays no role
+  f.laws[2].slip_weakening_distance = kNaN;  // no weakening: d_c plays no role
   f.state.slip_path.setConstant(kNaN);
   const FaultMeter meter(f.op, f.laws, 1e-4, 40);
   NodalState nodal;

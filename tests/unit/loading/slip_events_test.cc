@@ -22,8 +22,8 @@ class EventOfThreeNodes : public testing::Test {
     }
     for (std::size_t k = 0; k < fault_.op.geometry.nodes.size(); ++k) {
       jump_.traction_before[2 * k] = jump_.traction_after[2 * k] = -10e6;
-      fault_.laws.node[k].dynamic_friction_angle = std::atan(0.4);
-      fault_.laws.node[k].slip_weakening_distance = 0.02;
+      fault_.laws[k].dynamic_friction_angle = std::atan(0.4);
+      fault_.laws[k].slip_weakening_distance = 0.02;
       fault_.op.geometry.nodes[k].poisson_ratio = 0.2;
     }
     jump_.nucleus = {4};
@@ -66,7 +66,7 @@ TEST_F(EventOfThreeNodes, IsTwiceAsLargeWithTheOtherHalfOfTheDomain) {
 
 TEST_F(EventOfThreeNodes, IsResolvedByThreeCellsInTheNucleationLength) {
   // Uenishi and Rice in mode II: 1.158 G/(1 − ν)/W, W from the law itself.
-  const double weakening = -limit_shear_traction(fault_.laws.node[4], -10e6, 0).d_slip;
+  const double weakening = -NodeLaw(fault_.laws[4]).strength(-10e6, {0, 0}, 0, {}).d_measure;
   const double length = nucleation_length(5e9 / 0.8, weakening);
   for (const auto& [edge, resolved] : {std::pair{0.3 * length, true}, {0.4 * length, false}}) {
     set_edges(edge);

@@ -121,6 +121,8 @@ TEST_F(StageSummaryTest, AStageCountsItsOwnSlipAndItsOwnEvents) {
   small.moment = 1e10;
   large.moment = 3e10;
   large.magnitude = 0.9;
+  small.stress_drop = 9e6;
+  large.stress_drop = 2.5e6;
   before_ = start;
   step(summary, -60, -60, {small, large});
   const StageMetrics m = summary.finish();
@@ -129,6 +131,9 @@ TEST_F(StageSummaryTest, AStageCountsItsOwnSlipAndItsOwnEvents) {
   EXPECT_EQ(m.faults[1].n_events, 2);
   EXPECT_EQ(m.faults[1].event_moment, 3e10);
   EXPECT_EQ(m.faults[1].event_magnitude, 0.9);
+  EXPECT_EQ(m.event_stress_drop, 2.5e6) << "of the largest, not the largest";
+  EXPECT_EQ(m.faults[1].event_stress_drop, 2.5e6);
+  EXPECT_FALSE(m.faults[0].event_stress_drop);
   EXPECT_EQ(m.faults[0].n_events, 0);
   EXPECT_FALSE(m.magnitude_if_at_once);
 }

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "simulator/common/fingerprint.h"
-#include "simulator/output/fault_operator.h"
+#include "simulator/model/fault_operator.h"
 
 namespace faultsim {
 
@@ -94,14 +94,16 @@ inline FaultOperator example_operator(const std::string& key, int n_extra = 0) {
   geometry.half_domain = true;
   geometry.locked_positions = {{1, 2, 3}, {4, 5, 6}};
   const Eigen::Index n = geometry.n_dofs;
-  op.dof_area = Eigen::VectorXd::LinSpaced(n, 1, 2);
-  op.load_names = {"pressure:0", "pressure:1", "boundary:2"};
-  op.locked = Eigen::MatrixXd::Random(n, 3);
-  op.observations = {{"above_centre.z", {0, 0, 0}}, {"above_centre.x", {0.1, 0, 0}}};
-  op.observed_load = Eigen::MatrixXd::Random(2, 3);
-  op.observed_jump = Eigen::MatrixXd::Random(2, n);
+  op.geometry.dof_area = Eigen::VectorXd::LinSpaced(n, 1, 2);
+  op.loads.keys = {{LoadKey::Kind::pressure, 0, 2},
+                   {LoadKey::Kind::pressure, 1, 2},
+                   {LoadKey::Kind::boundary, 2}};
+  op.loads.traction = Eigen::MatrixXd::Random(n, 3);
+  op.observed.rows = {{"above_centre.z", {0, 0, 0}}, {"above_centre.x", {0.1, 0, 0}}};
+  op.observed.per_load = Eigen::MatrixXd::Random(2, 3);
+  op.observed.per_jump = Eigen::MatrixXd::Random(2, n);
   const Eigen::MatrixXd random = Eigen::MatrixXd::Random(n, n);
-  own_h(op, random + random.transpose());
+  op.compliance = std::make_shared<DenseCompliance>(random + random.transpose());
   op.n_unknowns = 123456;
   op.build_seconds = 1.5;
   op.factor_bytes = 4e9;

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "simulator/common/errors.h"
-#include "simulator/output/fault_operator.h"
+#include "simulator/model/fault_operator.h"
 
 namespace faultsim {
 namespace {
@@ -30,22 +30,6 @@ TEST(MomentMagnitude, IsNoneWithoutAMoment) {
   EXPECT_FALSE(moment_magnitude(0).has_value());
   EXPECT_FALSE(moment_magnitude(-1).has_value());
   EXPECT_FALSE(moment_magnitude(std::nan("")).has_value());
-}
-
-TEST(OwnH, KeepsTheMatrixAliveInCopies) {
-  FaultOperator copy;
-  {
-    FaultOperator op;
-    Eigen::MatrixXd h(2, 2);
-    h << 1, 2, 2, 5;
-    own_h(op, h);
-    own_h(copy, Eigen::MatrixXd::Identity(3, 3));
-    const FaultOperator same = op;
-    EXPECT_EQ(same.h.data(), op.h.data());
-    own_h(copy, same.h);
-  }
-  EXPECT_EQ(copy.h(1, 1), 5);
-  EXPECT_THROW(own_h(copy, Eigen::MatrixXd(2, 3)), InternalError);
 }
 
 }  // namespace

@@ -50,6 +50,20 @@ TEST(DissectedFactor, OfOneCutByHand) {
   EXPECT_DOUBLE_EQ(size.entries, 6 * 6 + 2 * 12 * (12 + 6));
   EXPECT_DOUBLE_EQ(size.flops, 6 * 6 * 6 / 3.0 + 2 * (18 * 18 * 18 - 6 * 6 * 6) / 3.0);
   EXPECT_DOUBLE_EQ(size.largest_update, 6 * 6);
+  EXPECT_DOUBLE_EQ(size.heaviest_way, 6 * 6 + 12 * (12 + 6));
+}
+
+/// Each cell goes up one way and is a column of the block.
+TEST(InfluenceCost, GrowsWithTheCells) {
+  GridShape shape;
+  shape.n_lines = {40, 20, 30};
+  shape.faults = {{.from = {20, 5, 5}, .to = {21, 15, 25}}};
+  const InfluenceCost none = influence_cost(shape, 0, 3), some = influence_cost(shape, 1000, 3);
+  EXPECT_DOUBLE_EQ(some.bytes, 8 * 1000 * (600 + 3));
+  EXPECT_NEAR(some.peak_bytes - none.peak_bytes, some.bytes, 1);
+  EXPECT_GT(some.seconds, none.seconds);
+  EXPECT_LT(some.seconds, 3);
+  EXPECT_GT(some.peak_bytes, operator_cost(shape).factor_bytes);
 }
 
 /// The same with a fault of one node pair on the lowest line: 2 jumps below that block and the cut

@@ -72,11 +72,9 @@ TEST(Parameters, TravelThroughTheStore) {
   EXPECT_EQ(back[0].dimension, Dimension::length);
   EXPECT_TRUE(back[1].is_text);
   EXPECT_THROW(parameters_from_json("[{}]"), faultsim::StorageError);
-  for (const auto dimension :
-       {Dimension::number, Dimension::length, Dimension::area, Dimension::pressure,
-        Dimension::pressure_gradient, Dimension::density, Dimension::angle, Dimension::time,
-        Dimension::viscosity, Dimension::moment, Dimension::potency}) {
-    EXPECT_EQ(dimension_named(dimension_name(dimension)), dimension);
+  for (const faultsim::DimensionInfo& one : faultsim::dimensions()) {
+    const auto text = parameters_to_json({{"p", one.dimension, false}});
+    EXPECT_EQ(parameters_from_json(text)[0].dimension, one.dimension);
   }
 }
 

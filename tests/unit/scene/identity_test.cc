@@ -10,6 +10,7 @@
 #include <set>
 
 #include "simulator/scene/read_scene.h"
+#include "simulator/scene/schema.h"
 #include "tests/unit/scene/rotliegend.h"
 
 namespace faultsim {
@@ -196,7 +197,8 @@ TEST(CaseIdentity, IgnoresEverythingInTheOutputSection) {
       {"observation_points", R"([{"name": "p", "position": ["1 m", "2 m", "-3 m"]}])"},
       {"volume_fields", "true"}};
   const std::string before = case_identity(read_scene(rotliegend()));
-  for (const auto& [key, schema] : scene_schema()["definitions"]["output"]["properties"].items()) {
+  for (const auto& [key, schema] :
+       scene_schema().text()["definitions"]["output"]["properties"].items()) {
     ASSERT_EQ(outputs.count(key), 1U) << key;
     EXPECT_EQ(identity_with(rotliegend(), {{"/output/" + key, outputs.at(key)}}), before) << key;
   }

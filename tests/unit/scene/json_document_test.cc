@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "simulator/scene/near_miss.h"
+#include "simulator/common/near_miss.h"
 
 namespace faultsim {
 namespace {
@@ -98,6 +98,24 @@ TEST(SetValue, ForgetsTheLinesOfWhatItReplaces) {
   EXPECT_EQ(document.line_of("/a/b"), 3);
   set_value(document, "/a", "{\"b\": 2}");
   EXPECT_EQ(document.line_of("/a/b"), 0);
+}
+
+TEST(PutValue, MakesObjectsButNoArrayElements) {
+  nlohmann::json document = {{"a", {1, 2}}, {"b", 3}};
+  EXPECT_TRUE(put_value(document, "/x/y", 5));
+  EXPECT_EQ(document["x"]["y"], 5);
+  EXPECT_TRUE(put_value(document, "/a/1", 7));
+  EXPECT_EQ(document["a"][1], 7);
+  EXPECT_FALSE(put_value(document, "/a/2", 7));
+  EXPECT_FALSE(put_value(document, "/a/-", 7));
+  EXPECT_FALSE(put_value(document, "/a/01", 7)) << "no number of RFC 6901";
+  EXPECT_FALSE(put_value(document, "/b/c", 7));
+  EXPECT_TRUE(put_value(document, "/s~1t/u~0v", 1));
+  EXPECT_EQ(document["s/t"]["u~v"], 1);
+  EXPECT_EQ(*value_at(document, "/s~1t/" + pointer_token("u~v")), 1);
+  EXPECT_EQ(value_at(document, ""), &document);
+  EXPECT_EQ(value_at(document, "/a/2"), nullptr);
+  EXPECT_EQ(value_at(document, "/b/c"), nullptr);
 }
 
 TEST(NearMiss, FindsSlipsOfThePen) {

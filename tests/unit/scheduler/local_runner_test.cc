@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "simulator/common/stopwatch.h"
+#include "simulator/output/result_bytes.h"
 
 namespace faultsweep {
 namespace {
@@ -30,12 +31,13 @@ class LocalRunnerTest : public ::testing::Test {
   /// Runs one case per title (case ids from 1) until nothing is left.
   JobEvents run(const std::vector<std::string>& titles, const FamilyTask& task = {}) {
     LocalRunner runner(options_);
+    runner.hold(1, "{\"strength\":\n0.7}");
     runner.begin_family(task);
     std::int64_t id = 0;
     for (const std::string& title : titles) {
       const std::string fields =
           task.fields_folder.empty() ? "" : task.fields_folder + "/" + std::to_string(id + 1);
-      runner.add({++id, "{\"title\": \"" + title + "\", \"strength\": 0.7}", "test", fields});
+      runner.add({++id, 1, "{\"/title\": \"" + title + "\"}", "test", fields});
     }
     JobEvents all;
     const faultsim::Stopwatch watch;
@@ -51,7 +53,7 @@ class LocalRunnerTest : public ::testing::Test {
   }
   static std::vector<std::int64_t> completed(const JobEvents& events) {
     std::vector<std::int64_t> ids;
-    for (const RunRecord& run : events.completed) ids.push_back(run.case_id);
+    for (const auto& one : events.completed) ids.push_back(one.run.case_id);
     return ids;
   }
 
@@ -64,13 +66,13 @@ TEST_F(LocalRunnerTest, RunsCasesWithOneProcessAndOneOperator) {
   EXPECT_THAT(events.failed, IsEmpty());
   ASSERT_EQ(events.operators.size(), 1u);
   EXPECT_FALSE(events.operators[0].from_cache);
-  ASSERT_TRUE(events.completed[0].result);
-  EXPECT_EQ(events.completed[0].result->whole.chi_bar, 0.7);
-  EXPECT_EQ(events.completed[0].result->steps.size(), 13u);
-  EXPECT_EQ(events.completed[0].rank, 3);
+  const auto result = faultsim::result_from_bytes(events.completed[0].result);
+  EXPECT_EQ(result.whole.chi_bar, 0.7);
+  EXPECT_EQ(result.steps.size(), 13u);
+  EXPECT_EQ(events.completed[0].run.rank, 3);
   EXPECT_EQ(events.operators[0].seconds, 7);
-  EXPECT_NEAR(events.completed[0].wall_seconds, 0.001, 1e-9);  // without the operator's 7 s
-  EXPECT_EQ(events.completed[1].wall_seconds, 0.001);
+  EXPECT_NEAR(events.completed[0].run.wall_seconds, 0.001, 1e-9);  // without the operator's 7 s
+  EXPECT_EQ(events.completed[1].run.wall_seconds, 0.001);
 }
 
 TEST_F(LocalRunnerTest, ACrashIsOneFailedCaseAndTheOthersGoOn) {
@@ -95,6 +97,10 @@ TEST_F(LocalRunnerTest, EachKindOfDeathHasItsReason) {
        "killed by SIGKILL (9), as the kernel does when memory runs out"},
       {"garbage", RunStatus::garbled, "wrote 'Residual norm 1.2e-3', which is no reply"},
       {"half", RunStatus::garbled, "wrote '{\"event\": \"do', which is no reply"},
+      {"damaged", RunStatus::garbled,
+       "sent a result that cannot be read: the result is cut off or was changed on its way: its "
+       "checksum differs"},
+      {"cut off", RunStatus::crashed, "ended with exit code 0"},
       {"wrong run", RunStatus::garbled, "replied to run 123456789 out of turn"},
       {"refuse", RunStatus::refused, "friction angle < 0"},
       {"refuse early", RunStatus::refused, "no such layer"},
@@ -161,7 +167,7 @@ TEST_F(LocalRunnerTest, AsksForFieldsWhereTheyAreKept) {
   task.fields_folder = folder / "fields \"1\"";
   const JobEvents events = run({"a", "no fields", "crash", "d"}, task);
   EXPECT_THAT(completed(events), ElementsAre(1, 4));
-  EXPECT_TRUE(events.completed[0].has_fields);
+  EXPECT_TRUE(events.completed[0].run.has_fields);
   std::string steps;
   std::ifstream(task.fields_folder + "/4/faults.h5") >> steps;
   EXPECT_EQ(steps, "stages");
@@ -170,7 +176,7 @@ TEST_F(LocalRunnerTest, AsksForFieldsWhereTheyAreKept) {
   EXPECT_EQ(events.failed[0].run.reason,
             "sent a result without the fault fields that it was asked for");
   EXPECT_FALSE(events.failed[0].run.has_fields);
-  EXPECT_FALSE(run({"a"}).completed[0].has_fields) << "not asked for";
+  EXPECT_FALSE(run({"a"}).completed[0].run.has_fields) << "not asked for";
   std::filesystem::remove_all(folder);
 }
 
@@ -207,16 +213,28 @@ TEST_F(LocalRunnerTest, ASimulatorThatCannotStartIsNoCasesFault) {
   unsetenv("FAKE_SIMULATOR_START");
 }
 
+TEST_F(LocalRunnerTest, ASimulatorOfAnotherBuildIsRefusedOnceAndNotPerCase) {
+  setenv("FAKE_SIMULATOR_OTHER_BUILD", "1", 1);
+  try {
+    run({"a", "b"});
+    ADD_FAILURE() << "another build's results were taken";
+  } catch (const faultsim::ResourceError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("is of another build than faultsweep"));
+  }
+  unsetenv("FAKE_SIMULATOR_OTHER_BUILD");
+}
+
 TEST_F(LocalRunnerTest, DrainingEndsTheCaseUnderWayAndReturnsTheOthers) {
   LocalRunner runner(options_);
   runner.begin_family({});
-  for (int id = 1; id <= 4; ++id) runner.add({id, R"({"title": "slow"})", "test", ""});
+  runner.hold(1, R"({"title": "slow"})");
+  for (int id = 1; id <= 4; ++id) runner.add({id, 1, "{}", "test", ""});
   std::vector<std::int64_t> done, returned;
   bool drained = false;
   const faultsim::Stopwatch watch;
   while (!runner.is_idle() && watch.seconds() < 10) {
     const JobEvents events = runner.work(5);
-    for (const RunRecord& run : events.completed) done.push_back(run.case_id);
+    for (const auto& one : events.completed) done.push_back(one.run.case_id);
     returned.insert(returned.end(), events.returned.begin(), events.returned.end());
     if (!drained && done.size() == 1 && watch.seconds() > 0.05) {
       usleep(30000);  // the second case is under way now

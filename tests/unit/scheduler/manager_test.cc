@@ -12,6 +12,7 @@
 #include "campaign/scheduler/worker.h"
 #include "campaign/store/sqlite.h"
 #include "simulator/common/stopwatch.h"
+#include "simulator/output/result_bytes.h"
 #include "tests/campaign/made_up_result.h"
 
 namespace faultsweep {
@@ -24,6 +25,7 @@ class FakeRunner final : public JobRunner {
  public:
   void begin_family(const FamilyTask&) override { has_operator_ = false; }
   void end_family() override { has_operator_ = false; }
+  void hold(std::int64_t base, const std::string& scene) override { bases_[base] = scene; }
   void add(Job job) override { jobs_.push_back(std::move(job)); }
   bool is_idle() const override { return jobs_.empty(); }
   void drain() override { draining_ = true; }
@@ -39,7 +41,7 @@ class FakeRunner final : public JobRunner {
     RunRecord run;
     run.case_id = job.case_id;
     run.wall_seconds = 0.001;
-    if (job.scene.find("crash") != std::string::npos) {
+    if ((bases_.at(job.base) + job.changes).find("crash") != std::string::npos) {
       run.reason = "killed";
       events.failed.push_back({run, false});
       return events;
@@ -47,22 +49,25 @@ class FakeRunner final : public JobRunner {
     if (!has_operator_) events.operators.push_back({"print", false, 1, 1, 1, 1, 1});
     has_operator_ = true;
     run.status = RunStatus::completed;
-    run.result = testing::made_up_result(strength, 3);
-    run.result->outcome = outcome;
-    run.result->operator_fingerprint = operator_fingerprint;
+    faultsim::CaseResult result = testing::made_up_result(strength, 3);
+    result.outcome = outcome;
+    result.operator_fingerprint = operator_fingerprint;
     run.has_fields = !job.fields_folder.empty();
     fields_folders.insert(job.fields_folder);
     ++n_runs;
-    events.completed.push_back(std::move(run));
+    events.completed.push_back({std::move(run), faultsim::result_to_bytes(result)});
+    if (damage) events.completed.back().result[70] ^= 1;
     return events;
   }
   static inline int n_runs = 0;
   static inline double strength = 0.7;
+  static inline bool damage = false;  ///< of results, on their way.
   static inline faultsim::Outcome outcome = faultsim::Outcome::converged;
   static inline std::string operator_fingerprint = "print";
   static inline std::set<std::string> fields_folders;
 
  private:
+  std::map<std::int64_t, std::string> bases_;
   std::deque<Job> jobs_;
   bool has_operator_ = false, draining_ = false;
 };
@@ -195,6 +200,17 @@ TEST_F(ManagerTest, FailuresAreRowsAndTheCampaignIsIncomplete) {
   EXPECT_EQ(info.n_done, 28);
   EXPECT_EQ(info.n_failed, 2);
   EXPECT_EQ(store.stored_case(info.id, "4").runs.at(0).reason, "killed");
+}
+
+TEST_F(ManagerTest, ADamagedResultIsARowWithItsReason) {
+  submit(3, {});
+  FakeRunner::damage = true;
+  EXPECT_EQ(run(), ExitCode::incomplete);
+  FakeRunner::damage = false;
+  const Store store = Store::open_reader(folder_);
+  const StoredRun one = store.stored_case(store.campaign("").id, "2").runs.at(0);
+  EXPECT_EQ(one.status, "garbled");
+  EXPECT_THAT(one.reason, ::testing::HasSubstr("its checksum differs"));
 }
 
 TEST_F(ManagerTest, SlipEventsAreFullResultsAndEarlyEndsAreNot) {

@@ -1,9 +1,6 @@
 #include "campaign/scheduler/resources.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <fstream>
 
 #include "campaign/scheduler/progress.h"
 #include "campaign/scheduler/ranks.h"
@@ -11,40 +8,6 @@
 
 namespace faultsweep {
 namespace {
-
-namespace fs = std::filesystem;
-
-class Cgroup : public ::testing::Test {
- protected:
-  void SetUp() override {
-    std::string name = ::testing::TempDir() + "cgroup_XXXXXX";
-    root_ = mkdtemp(name.data());
-  }
-  void TearDown() override { fs::remove_all(root_); }
-  void put(const std::string& file, const std::string& text) {
-    fs::create_directories((root_ / file).parent_path());
-    std::ofstream(root_ / file) << text << "\n";
-  }
-  fs::path root_;
-};
-
-TEST_F(Cgroup, TheTightestLimitOnTheWayToTheRootCounts) {
-  put("a/cpu.max", "150000 100000");
-  put("a/b/cpu.max", "max 100000");
-  EXPECT_EQ(cgroup_cpus(root_, "0::/a/b\n"), 1.5);
-  put("a/b/cpu.max", "50000 100000");
-  EXPECT_EQ(cgroup_cpus(root_, "0::/a/b\n"), 0.5);
-  EXPECT_EQ(cgroup_cpus(root_, "0::/\n"), std::nullopt);
-}
-
-TEST_F(Cgroup, VersionOneHasItsOwnFiles) {
-  put("cpu/job/cpu.cfs_quota_us", "400000");
-  put("cpu/job/cpu.cfs_period_us", "100000");
-  EXPECT_EQ(cgroup_cpus(root_, "4:cpu:/job\n"), 4.0);
-  EXPECT_EQ(cgroup_cpus(root_, "4:memory:/job\n"), std::nullopt);
-  put("cpu/job/cpu.cfs_quota_us", "-1");
-  EXPECT_EQ(cgroup_cpus(root_, "4:cpu:/job\n"), std::nullopt);
-}
 
 TEST(Resources, ReadsSlurmNumbers) {
   EXPECT_EQ(slurm_number("8"), 8);

@@ -31,6 +31,23 @@ FamilyWork creeping(std::int64_t first_case, int n, double operator_seconds) {
   return work;
 }
 
+TEST(WorkPlan, BuildersShareTheCoresThatCasesLeave) {
+  WorkPlan alone({family(1, 5, 50)}, {.n_workers = 4});
+  alone.next(0);
+  EXPECT_EQ(alone.build_threads(0, 8), 8);  // the others have nothing to build
+  WorkPlan plan({family(1, 500, 50), family(1000, 500, 9), family(2000, 5, 9)}, {.n_workers = 4});
+  plan.next(0);
+  EXPECT_EQ(plan.build_threads(0, 8), 2);  // three more are about to, for two families: 8 / 3
+  plan.next(1);
+  plan.next(2);
+  EXPECT_EQ(plan.build_threads(2, 8), 2);
+  EXPECT_EQ(plan.build_threads(2, 2), 1);
+  plan.operator_ready(0, 50, false);  // runs cases now
+  EXPECT_EQ(plan.build_threads(2, 7), 3);
+  for (int worker = 0; worker < 4; ++worker) plan.place(worker, worker);
+  EXPECT_EQ(plan.build_threads(2, 7), 7);  // a host of its own
+}
+
 TEST(WorkPlan, TakesCachedFamiliesFirstThenTheLongest) {
   WorkPlan plan({family(100, 5, 1), family(200, 5, 50), family(300, 5, 9, true)}, {.n_workers = 3});
   EXPECT_EQ(plan.next(0)->family, 2);
@@ -286,6 +303,19 @@ TEST(WorkPlan, ASecondSetThatCannotBeBuiltIsNoFaultOfTheCase) {
   EXPECT_THAT(plan.take_hopeless(), IsEmpty());
   for (int n = 0; n < 19; ++n) plan.case_done(0, plan.next(0)->cases.at(0), 1);
   EXPECT_TRUE(plan.is_finished());
+}
+
+TEST(WorkPlan, ACaseThatIsTriedAgainGoesToTheWorkerThatHoldsTheOperators) {
+  WorkPlan plan({creeping(1, 2, 5)},
+                {.n_workers = 2, .on_failure = FailureAction::retry, .retries = 1});
+  build_and_run_one(plan, 0, 1);
+  ASSERT_EQ(plan.next(0)->cases, std::vector<std::int64_t>{2});
+  ASSERT_TRUE(plan.case_failed(0, 2, false));
+  EXPECT_FALSE(plan.next(1)) << "to build them anew for 5 s would not pay for a case of 1 s";
+  const auto again = plan.next(0);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->cases, std::vector<std::int64_t>{2});
+  EXPECT_FALSE(again->builds_operator);
 }
 
 TEST(WorkPlan, GivesUpACreepingFamilyWhoseOperatorsFailTwice) {

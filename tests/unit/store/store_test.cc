@@ -291,6 +291,35 @@ TEST_F(StoreTest, LivingManagerKeepsOthersOutAndADeadOneIsTakenOver) {
   EXPECT_FALSE(store.owner());
 }
 
+TEST_F(StoreTest, AStatementThatIsInUseIsNotRestarted) {
+  Connection connection(folder_ / "other.sqlite", Connection::Mode::owner);
+  connection.execute("CREATE TABLE numbers (n); INSERT INTO numbers VALUES (1), (2)");
+  std::vector<std::int64_t> seen;
+  Statement outer = connection.prepared("SELECT n FROM numbers ORDER BY n");
+  while (outer.step()) {
+    Statement inner = connection.prepared("SELECT n FROM numbers ORDER BY n");
+    while (inner.step()) seen.push_back(10 * outer.integer(0) + inner.integer(0));
+  }
+  EXPECT_EQ(seen, (std::vector<std::int64_t>{11, 12, 21, 22}));
+}
+
+TEST_F(StoreTest, EveryMeasureIsAColumnOfItsTablesAndViews) {
+  { Store::open_writer(folder_); }
+  Connection connection(folder_ / "campaign.sqlite", Connection::Mode::read_only);
+  const faultsim::Measures measures;
+  faultsim::for_each_measure(measures, [&](const faultsim::Field& field, const auto&) {
+    for (const char* view : {"ranking", "stage_ranking", "fault_ranking"}) {
+      EXPECT_NO_THROW(
+          Statement(connection, faultsim::concat("SELECT ", field.key, " FROM ", view)));
+    }
+    if (!field.sql.empty()) return;
+    for (const char* table : {"stage_metrics", "fault_metrics"}) {
+      EXPECT_NO_THROW(
+          Statement(connection, faultsim::concat("SELECT ", field.key, " FROM ", table)));
+    }
+  });
+}
+
 TEST_F(StoreTest, RefusesANewerSchemaAndForeignFiles) {
   { Store::open_writer(folder_); }
   {

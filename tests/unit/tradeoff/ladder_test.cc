@@ -41,7 +41,7 @@ TEST(Ladder, OfTheReferenceSceneNamesItsTiers) {
   // The choice that is named after the tier has the tier's operator.
   faultsim::JsonDocument choice = example("scenes/rotliegend");
   for (const Change& change : space.choices[2].changes) {
-    ASSERT_TRUE(put_value(choice.value, change.pointer, change.value));
+    ASSERT_TRUE(faultsim::put_value(choice.value, change.pointer, change.value));
   }
   EXPECT_EQ(family(choice), family(example("scenes/rotliegend")));
   EXPECT_TRUE(std::none_of(ladder.begin(), ladder.end(),

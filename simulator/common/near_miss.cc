@@ -1,4 +1,4 @@
-#include "simulator/scene/near_miss.h"
+#include "simulator/common/near_miss.h"
 
 #include <algorithm>
 #include <cctype>
@@ -16,8 +16,9 @@ std::string folded(const std::string& word) {
   return result;
 }
 
-/// Optimal string alignment distance: insert, delete, replace, swap of neighbours cost 1 each.
-std::size_t distance(const std::string& a, const std::string& b) {
+}  // namespace
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
   const std::size_t n = b.size() + 1;
   std::vector<std::size_t> before(n);
   std::vector<std::size_t> last(n);
@@ -37,8 +38,6 @@ std::size_t distance(const std::string& a, const std::string& b) {
   return last[n - 1];
 }
 
-}  // namespace
-
 std::string near_miss(const std::string& word, const std::vector<std::string>& candidates) {
   // Nobody mistypes a word of this length, and the distance takes the product of both.
   constexpr std::size_t kLongestWord = 100;
@@ -53,7 +52,7 @@ std::string near_miss(const std::string& word, const std::vector<std::string>& c
     const std::size_t limit = std::max(word.size(), candidate.size()) / 3;
     const std::size_t longer = std::max(word.size(), candidate.size());
     if (longer - std::min(word.size(), candidate.size()) > limit) continue;  // d is at least that
-    const std::size_t d = distance(wanted, folded(candidate));
+    const std::size_t d = edit_distance(wanted, folded(candidate));
     if (d > limit) continue;
     if (best.empty() || d < best_distance) {
       best = candidate;

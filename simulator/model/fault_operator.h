@@ -6,11 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "simulator/model/compliance.h"
+#include "simulator/model/load_key.h"
+
 namespace faultsim {
 
 /// Share of one pair of neighbouring cells in the pressure seen by a fault node.
 struct PressurePair {
-  int minus_region = -1;      ///< -1 = no pressure change on that side.
+  int minus_region = -1;      ///< pressure load (LockedLoads::keys); -1 = no change on that side.
   double minus_fraction = 0;  ///< share of the cell's volume in the region.
   int plus_region = -1;
   double plus_fraction = 0;
@@ -51,10 +54,17 @@ struct FaultGeometry {
       nodes;  ///< all faults, fault by fault, column-major (down dip fastest).
   std::vector<OperatorFault> faults;
   int n_dofs = 0;
+  Eigen::VectorXd dof_area;  ///< A per dof, m2 (n_dofs).
   bool plane_strain = false;
   bool half_domain = false;  ///< areas, potency and M0 are to be doubled.
   std::vector<Eigen::Vector3d>
       locked_positions;  ///< nodes that a boundary holds closed; not in nodes.
+};
+
+/// What the unit loads do with every jump held at zero.
+struct LockedLoads {
+  std::vector<LoadKey> keys;  ///< of the columns, in the order of the family's loads.
+  Eigen::MatrixXd traction;   ///< L: n_dofs x n_loads, Pa per unit of load.
 };
 
 /// A displacement component observed at a node of the mesh.
@@ -63,23 +73,25 @@ struct ObservationRow {
   Eigen::Vector3d position;  ///< of the node used.
 };
 
+struct Observations {
+  std::vector<ObservationRow> rows;
+  Eigen::MatrixXd per_load;  ///< U: n_rows x n_loads, m per unit of load.
+  Eigen::MatrixXd per_jump;  ///< V: n_rows x n_dofs, m per m.
+};
+
 /// The linear bulk condensed onto the faults (docs/model.md, 8), all in the local fault frame:
 ///
 ///   t'(step) = t'_0 + Σ_k c_k(step) L_k + α_f Δp_f n − A⁻¹ H g,      u_obs = Σ_k c_k U_k + V g.
 struct FaultOperator {
   std::string fingerprint;  ///< of what it depends on; also the file's name.
   FaultGeometry geometry;
-  Eigen::VectorXd dof_area;  ///< A per dof, m2 (n_dofs).
-  std::vector<std::string>
-      load_names;          ///< "pressure:0" (b Δp = 1 Pa in region 0), "boundary:2" (factor 1).
-  Eigen::MatrixXd locked;  ///< L: n_dofs x n_loads, Pa per unit of load.
-  std::vector<ObservationRow> observations;
-  Eigen::MatrixXd observed_load;  ///< U: n_obs x n_loads, m per unit of load.
-  Eigen::MatrixXd observed_jump;  ///< V: n_obs x n_dofs, m per m.
+  std::shared_ptr<const Compliance> compliance =  ///< H, never null.
+      std::make_shared<DenseCompliance>(Eigen::MatrixXd());
+  LockedLoads loads;
+  Observations observed;
 
-  /// H (n_dofs x n_dofs, symmetric, both triangles stored, column-major), N/m per m.
-  Eigen::Map<const Eigen::MatrixXd> h{nullptr, 0, 0};
-  std::shared_ptr<const void> h_owner;  ///< keeps the memory (or the file mapping) behind h alive.
+  /// H where it is stored, for files, diagnosis and tests; InternalError where it is not.
+  Eigen::Map<const Eigen::MatrixXd> h() const;
 
   // How it was made: reported, never part of the identity.
   int n_unknowns = 0;  ///< bulk and jump unknowns of the factorised matrix.
@@ -87,8 +99,5 @@ struct FaultOperator {
   double factor_bytes = 0;
   std::string blas;  ///< library, kernel and threads.
 };
-
-/// Gives the operator a matrix of its own.
-void own_h(FaultOperator& op, Eigen::MatrixXd h);
 
 }  // namespace faultsim

@@ -1,0 +1,111 @@
+#include "campaign/store/result_rows.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace faultsweep {
+
+using faultsim::concat;
+
+std::string insert_sql(const std::string& table, const std::string& columns) {
+  std::string values = "?";
+  for (auto n = std::count(columns.begin(), columns.end(), ','); n > 0; --n) values += ", ?";
+  return concat("INSERT INTO ", table, " (", columns, ") VALUES (", values, ")");
+}
+
+TableColumns::TableColumns(Connection& connection, const std::string& table) {
+  Statement columns = connection.prepared("SELECT name, \"notnull\" FROM pragma_table_info(?)");
+  columns.bind(table);
+  while (columns.step()) (columns.integer(1) != 0 ? needed_ : nullable_).insert(columns.text(0));
+}
+
+RowField TableColumns::of(const faultsim::Field& field, bool is_text,
+                          const std::string& prefix) const {
+  RowField found;
+  const std::string column = concat(prefix, field.key), id = column + "_id";
+  const auto has = [this](const std::string& name) {
+    return needed_.contains(name) || nullable_.contains(name);
+  };
+  if (is_text && has(id)) {
+    found = {RowField::Kind::name, id, concat("(SELECT name FROM names WHERE id = $.", id, ")"),
+             nullable_.contains(id)};
+  } else if (has(column)) {
+    found = {RowField::Kind::plain, column, "$." + column, nullable_.contains(column)};
+  }
+  if (!field.sql.empty()) found.selected = field.sql;
+  return found;
+}
+
+std::string json_array(const std::vector<double>& values) {
+  std::string text = "[";
+  for (const double value : values) text += (text.size() > 1 ? "," : "") + concat(value);
+  return text + "]";
+}
+
+std::vector<double> numbers_of(const std::string& json_array) {
+  std::vector<double> numbers;
+  const char* at = json_array.data();
+  const char* end = at + json_array.size();
+  while (at < end) {
+    double number = 0;
+    const auto [next, error] = std::from_chars(at, end, number);
+    if (error == std::errc()) {
+      numbers.push_back(number);
+      at = next;
+    } else {
+      ++at;
+    }
+  }
+  return numbers;
+}
+
+std::string join_lines(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
+  return text;
+}
+
+std::vector<std::string> split_lines(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    lines.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
+}
+
+ResultTables::ResultTables(Connection& db)
+    : whole(db, "case_metrics"),
+      stage(db, "stage_metrics"),
+      fault(db, "fault_metrics"),
+      onset(db, "fault_onsets"),
+      step(db, "load_steps"),
+      step_creep(db, "load_steps"),
+      history(db, "chi_history"),
+      history_creep(db, "chi_history", "creep_"),
+      event(db, "slip_events"),
+      episode(db, "episodes"),
+      add_whole(insert_sql("case_metrics",
+                           "case_id, run_id, n_steps, n_episodes,"
+                           " unexpected_episode, unexpected_after" +
+                               whole.columns())),
+      add_stage(
+          insert_sql("stage_metrics", "case_id, rank_class, pressure_margin_pa" + stage.columns())),
+      add_fault(
+          insert_sql("fault_metrics", "case_id, stage_id, fault, rank_class" + fault.columns())),
+      add_onset(
+          insert_sql("fault_onsets", "case_id, stage_id, opening, fault_id" + onset.columns())),
+      add_step(insert_sql("load_steps", "case_id" + step.columns() + step_creep.columns())),
+      add_history(insert_sql("chi_history", "case_id, fault, step, fault_id" + history.columns() +
+                                                history_creep.columns())),
+      add_event(insert_sql("slip_events", "case_id, number" + event.columns())),
+      add_episode(insert_sql("episodes", "case_id, number" + episode.columns())),
+      read_fault(concat("SELECT 1", fault.selected("q"),
+                        " FROM fault_metrics q WHERE q.stage_id = ?1 AND q.fault_id = ?2"
+                        " AND q.case_id = ?3")),
+      read_onsets(concat("SELECT o.opening", onset.selected("o"),
+                         " FROM fault_onsets o WHERE o.stage_id = ?1 AND o.fault_id = ?2"
+                         " AND o.case_id = ?3")) {}
+
+}  // namespace faultsweep

@@ -1,0 +1,196 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <set>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "campaign/store/sqlite.h"
+#include "simulator/output/result_fields.h"
+
+/// Fields of results (simulator/output/result_fields.h) as columns of tables. A field is kept where
+/// the table has a column of its key or, of the name of a stage, fault or region, of its key and
+/// "_id": what the store keeps of a result is said by its schema alone.
+namespace faultsweep {
+
+/// The id of a name in the table `names`, which is added if need be.
+using NameIds = std::function<std::int64_t(const std::string&)>;
+
+/// "case_id, step" -> "INSERT INTO table (case_id, step) VALUES (?, ?)".
+std::string insert_sql(const std::string& table, const std::string& columns);
+
+/// How a field lies in a row.
+struct RowField {
+  enum class Kind { absent, plain, name } kind = Kind::absent;
+  std::string column;    ///< its name in the table.
+  std::string selected;  ///< "$." is the row; "" = it cannot be read back.
+  bool may_be_null = true;
+};
+
+/// Finds the fields of a table.
+class TableColumns {
+ public:
+  TableColumns(Connection& connection, const std::string& table);
+  RowField of(const faultsim::Field& field, bool is_text, const std::string& prefix) const;
+
+ private:
+  std::set<std::string> nullable_, needed_;
+};
+
+template <typename Member>
+struct RowValue : std::bool_constant<std::is_arithmetic_v<Member> || std::is_enum_v<Member> ||
+                                     std::is_same_v<Member, std::string>> {};
+template <typename Member>
+struct RowValue<std::optional<Member>> : std::is_arithmetic<Member> {};
+template <typename Member>
+struct RowValue<std::vector<Member>>
+    : std::bool_constant<std::is_same_v<Member, double> || std::is_same_v<Member, std::string>> {};
+/// Structs whose fields lie in the row of what they belong to.
+template <typename Member>
+constexpr bool kInRow = std::is_same_v<Member, faultsim::SidePressures> ||
+                        std::is_same_v<Member, faultsim::SolveCounts>;
+
+/// Visits the fields that may lie in one row; what has tables of its own is left out.
+template <typename Struct, typename Visit>
+void for_each_row_value(Struct& from, const Visit& visit) {
+  faultsim::for_each_field(from, [&visit](const faultsim::Field& field, auto& value) {
+    using Member = std::remove_cvref_t<decltype(value)>;
+    if constexpr (kInRow<Member>) {
+      for_each_row_value(value, visit);
+    } else if constexpr (RowValue<Member>::value) {
+      visit(field, value);
+    }
+  });
+}
+
+std::string json_array(const std::vector<double>& values);
+std::vector<double> numbers_of(const std::string& json_array);
+std::string join_lines(const std::vector<std::string>& lines);
+std::vector<std::string> split_lines(const std::string& text);
+
+/// The fields of a struct in a table.
+template <typename Struct>
+class RowFields {
+ public:
+  /// @param prefix  of the columns, before the key.
+  RowFields(Connection& connection, const std::string& table, const std::string& prefix = "") {
+    const TableColumns columns(connection, table);
+    const Struct empty;
+    for_each_row_value(empty, [&](const faultsim::Field& field, const auto& value) {
+      constexpr bool is_text = std::is_same_v<std::remove_cvref_t<decltype(value)>, std::string>;
+      fields_.push_back(columns.of(field, is_text, prefix));
+    });
+  }
+  /// ", chi_bar, chi_max": of those that the table keeps.
+  std::string columns() const {
+    std::string list;
+    for (const RowField& field : fields_) {
+      if (field.kind != RowField::Kind::absent) list += ", " + field.column;
+    }
+    return list;
+  }
+  /// The same to be read back from `row`: ", q.chi_bar, (q.max_slip_m > 0)".
+  std::string selected(const std::string& row) const {
+    std::string list;
+    for (const RowField& field : fields_) {
+      if (!field.selected.empty()) list += ", " + in_row(field.selected, row);
+    }
+    return list;
+  }
+  /// Binds the columns() from the parameter behind `position`, which it moves on; NULL for all of
+  /// no struct.
+  void bind(Statement& add, int& position, const Struct* from, const NameIds& ids) const {
+    const Struct empty;
+    std::size_t k = 0;
+    for_each_row_value(from != nullptr ? *from : empty, [&](const auto&, const auto& value) {
+      const RowField& field = fields_[k++];
+      if (field.kind == RowField::Kind::absent) return;
+      ++position;
+      if (from == nullptr) return add.bind_at(position, std::optional<double>());
+      bind_value(add, position, field, value, ids);
+    });
+  }
+  /// Reads what selected() selects from `column` on, which it moves on. NULL is NaN, none, false, 0
+  /// or "".
+  void read(const Statement& row, int& column, Struct& to) const {
+    std::size_t k = 0;
+    for_each_row_value(to, [&](const auto&, auto& value) {
+      if (!fields_[k++].selected.empty()) read_value(row, column++, value);
+    });
+  }
+  static std::string in_row(const std::string& sql, const std::string& row) {
+    std::string text;
+    for (const char c : sql) text += c == '$' ? row : std::string(1, c);
+    return text;
+  }
+
+ private:
+  template <typename Member>
+  static void bind_value(Statement& add, int position, const RowField& field, const Member& value,
+                         const NameIds& ids) {
+    if constexpr (std::is_same_v<Member, double>) {
+      const bool none = field.may_be_null && !std::isfinite(value);
+      add.bind_at(position, none ? std::nullopt : std::optional(value));
+    } else if constexpr (std::is_same_v<Member, std::string>) {
+      if (field.kind == RowField::Kind::plain) return add.bind_at(position, value);
+      const bool none = value.empty() && field.may_be_null;
+      add.bind_at(position, none ? std::nullopt : std::optional(ids(value)));
+    } else if constexpr (std::is_enum_v<Member>) {
+      add.bind_at(position, faultsim::to_string(value));
+    } else if constexpr (std::is_same_v<Member, std::vector<double>>) {
+      add.bind_copy(position, json_array(value));
+    } else if constexpr (std::is_same_v<Member, std::vector<std::string>>) {
+      add.bind_copy(position, join_lines(value));
+    } else {
+      add.bind_at(position, value);
+    }
+  }
+  template <typename Member>
+  static void read_value(const Statement& row, int column, Member& value) {
+    if constexpr (std::is_same_v<Member, double>) {
+      value = row.optional_real(column).value_or(std::numeric_limits<double>::quiet_NaN());
+    } else if constexpr (std::is_same_v<Member, std::optional<double>>) {
+      value = row.optional_real(column);
+    } else if constexpr (std::is_same_v<Member, std::optional<int>>) {
+      value.reset();
+      if (const auto number = row.optional_integer(column)) value = static_cast<int>(*number);
+    } else if constexpr (std::is_same_v<Member, std::string>) {
+      value = row.text(column);
+    } else if constexpr (std::is_enum_v<Member>) {
+      value = faultsim::outcome_from_string(row.text(column));
+    } else if constexpr (std::is_same_v<Member, std::vector<double>>) {
+      value = numbers_of(row.text(column));
+    } else if constexpr (std::is_same_v<Member, std::vector<std::string>>) {
+      value = split_lines(row.text(column));
+    } else {
+      value = static_cast<Member>(row.integer(column));
+    }
+  }
+
+  std::vector<RowField> fields_;  ///< in the order of for_each_row_value.
+};
+
+/// All tables that hold fields of results, with the statements that add rows: first the key columns
+/// as named in result_rows.cc, then the fields.
+struct ResultTables {
+  explicit ResultTables(Connection& connection);
+
+  RowFields<faultsim::CaseResult> whole;
+  RowFields<faultsim::StageMetrics> stage;
+  RowFields<faultsim::FaultStageMetrics> fault;
+  RowFields<faultsim::FaultOnset> onset;
+  RowFields<faultsim::StepResult> step;
+  RowFields<faultsim::StepCreep> step_creep;
+  RowFields<faultsim::FaultMetrics> history;
+  RowFields<faultsim::FaultCreep> history_creep;
+  RowFields<faultsim::SlipEvent> event;
+  RowFields<faultsim::Episode> episode;
+  std::string add_whole, add_stage, add_fault, add_onset, add_step, add_history, add_event,
+      add_episode;
+  std::string read_fault, read_onsets;  ///< by stage_id, fault_id, case_id, as q and o.
+};
+
+}  // namespace faultsweep

@@ -1,0 +1,64 @@
+#include "simulator/contact/search_record.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace faultsim {
+namespace {
+
+template <typename... Args>
+std::string formatted(const char* format, Args... args) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, args...);
+  return text;
+}
+
+std::string residual_text(double residual) {
+  return std::isnan(residual) ? "-" : formatted("%.3g", residual);
+}
+
+}  // namespace
+
+const char* to_string(SearchEnd end) {
+  switch (end) {
+    case SearchEnd::balanced:
+      return "balanced";
+    case SearchEnd::singular_tangent:
+      return "singular tangent";
+    case SearchEnd::no_progress:
+      return "no progress";
+    case SearchEnd::too_many_sets:
+      return "too many active sets";
+    case SearchEnd::set_does_not_settle:
+      return "too many iterations on one active set";
+    case SearchEnd::too_many_iterations:
+      return "too many iterations";
+    case SearchEnd::set_comes_back:
+      return "active set comes back";
+    case SearchEnd::opens:
+      return "a node opens";
+  }
+  return "unknown";
+}
+
+void SearchHistory::add(const SearchIteration& iteration) {
+  ++iterations;
+  if (last.size() == 2 * kMost) last.erase(last.begin(), last.begin() + kMost);
+  last.push_back(iteration);
+  const bool better = best_at == 0 || iteration.residual < best;
+  if (!better || !std::isfinite(iteration.residual)) return;
+  best = iteration.residual;
+  best_at = iterations;
+}
+
+std::string trace_summary(const SubStepTrace& trace) {
+  if (trace.searches.empty() || trace.searches.back().history.last.empty()) return "";
+  const SearchHistory& history = trace.searches.back().history;
+  return formatted(
+      "%d iterations over %d active sets, residual %s tolerances at the end and %s at "
+      "best (iteration %d), %s",
+      history.iterations, history.passes, residual_text(history.last.back().residual).c_str(),
+      residual_text(history.best).c_str(), history.best_at, to_string(history.end));
+}
+
+}  // namespace faultsim

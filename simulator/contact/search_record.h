@@ -1,0 +1,60 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace faultsim {
+
+/// Why a search for equilibrium on one sub-step stopped.
+enum class SearchEnd {
+  balanced,             ///< the residual is within the tolerance.
+  singular_tangent,     ///< no direction to go.
+  no_progress,          ///< the residual no longer falls, and a smaller sub-step may follow.
+  too_many_sets,        ///< ContactOptions::max_active_set_passes.
+  set_does_not_settle,  ///< ContactOptions::max_newton_iterations with one active set.
+  too_many_iterations,  ///< both together.
+  set_comes_back,       ///< plane strain's quick way: an active set seen before.
+  opens,                ///< plane strain's quick way: a node would open.
+};
+const char* to_string(SearchEnd end);
+
+/// Where a search stands after an iteration.
+struct SearchIteration {
+  double residual = 0;  ///< largest over the nodes, in units of their tolerance; NaN: not formed.
+  double length = 1;    ///< share of the step along its direction that was gone.
+  int n_slip = 0, n_open = 0;  ///< nodes; the others stick.
+  int n_changed = 0;           ///< nodes that changed state.
+};
+
+/// A search, iteration by iteration. Of a long one the last are kept, so that its size is bounded.
+struct SearchHistory {
+  static constexpr std::size_t kMost = 64;  ///< shows any cycle of active sets that was ever met.
+  SearchEnd end = SearchEnd::too_many_iterations;
+  int iterations = 0;                 ///< linear solves.
+  int passes = 0;                     ///< active sets tried.
+  std::vector<SearchIteration> last;  ///< of the iterations; at most 2 kMost.
+  double best = 0;                    ///< lowest residual that was formed; 0: none was.
+  int best_at = 0;                    ///< and the iteration it belongs to, from 1.
+
+  bool converged() const { return end == SearchEnd::balanced; }
+  void add(const SearchIteration& iteration);
+};
+
+/// All searches on one sub-step and what became of them.
+struct SubStepTrace {
+  double from = 0, to = 1;  ///< load factors.
+  double duration = 0;      ///< s, Δt of a damped sub-step; 0 = static.
+  int n_nodes = 0;
+  struct Search {
+    const char* way;  ///< "plane strain", "newton", "relaxed": of SubStepSolver::solve_motion.
+    SearchHistory history;
+  };
+  std::vector<Search> searches;  ///< empty: nothing moved.
+  const char* verdict = "";      ///< how the sub-step ended: "accepted", "not shown stable", ...
+};
+
+/// "38 iterations over 12 active sets, residual 7.1 tolerances at the end and 1.4 at best
+/// (iteration 9), no progress" of the last search; empty if there was none.
+std::string trace_summary(const SubStepTrace& trace);
+
+}  // namespace faultsim

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <functional>
+
+namespace faultsim {
+
+/// How a factorisation is carried out. Nothing of it changes a bit of the factor.
+struct FactorRun {
+  int n_threads = 1;                               ///< at most; small matrices take one.
+  std::function<void(double)> progress = nullptr;  ///< fraction of the flops done; calling thread.
+  std::function<bool()> stop = nullptr;            ///< true: end soon. Asked by all threads.
+};
+
+}  // namespace faultsim

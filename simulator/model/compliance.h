@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <utility>
+
+#include "simulator/model/stored_matrix.h"
+
+namespace faultsim {
+
+/// The condensed stiffness H (docs/model.md, 8): column j holds the forces on all jumps for a unit
+/// jump j with all others locked. n x n, symmetric, N/m (plane strain: per metre of thickness). All
+/// that contact asks of the rock; whether columns are stored or solved for is not its business.
+class Compliance {
+ public:
+  using Column = Eigen::Map<const Eigen::VectorXd>;
+
+  virtual ~Compliance() = default;
+  virtual int size() const = 0;  ///< n.
+  /// H e_j, by symmetry also row j. Valid as long as this object.
+  virtual Column column(int j) const = 0;
+  virtual double diagonal(int j) const = 0;
+  /// traction −= A⁻¹ Σ_j H e_j g_j over the jumps listed, summed in their order; the others count
+  /// as 0.
+  virtual void subtract_product(std::span<const int> active, const Eigen::VectorXd& jump,
+                                const Eigen::VectorXd& inverse_area,
+                                Eigen::VectorXd& traction) const = 0;
+};
+
+/// H as a matrix, both triangles stored, column-major.
+class DenseCompliance final : public Compliance {
+ public:
+  /// Throws InternalError when h is not square.
+  explicit DenseCompliance(StoredMatrix h);
+  explicit DenseCompliance(Eigen::MatrixXd h) : DenseCompliance(StoredMatrix(std::move(h))) {}
+
+  Eigen::Map<const Eigen::MatrixXd> matrix() const { return h_.view(); }
+
+  int size() const override { return static_cast<int>(matrix().rows()); }
+  Column column(int j) const override { return {matrix().col(j).data(), matrix().rows()}; }
+  double diagonal(int j) const override { return matrix()(j, j); }
+  void subtract_product(std::span<const int> active, const Eigen::VectorXd& jump,
+                        const Eigen::VectorXd& inverse_area,
+                        Eigen::VectorXd& traction) const override;
+
+ private:
+  StoredMatrix h_;
+};
+
+}  // namespace faultsim

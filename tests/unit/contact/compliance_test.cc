@@ -1,0 +1,100 @@
+#include "simulator/model/compliance.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "simulator/common/errors.h"
+#include "tests/unit/contact/depleted_fault.h"
+
+namespace faultsim {
+namespace {
+
+/// H whose columns are made when they are asked for, as a solver of the bulk would.
+class ColumnsOnDemand final : public Compliance {
+ public:
+  explicit ColumnsOnDemand(Eigen::MatrixXd h) : h_(std::move(h)), columns_(h_.cols()) {}
+  int size() const override { return static_cast<int>(h_.rows()); }
+  Column column(int j) const override {
+    if (columns_[j].size() == 0) columns_[j] = h_.col(j);
+    return {columns_[j].data(), h_.rows()};
+  }
+  double diagonal(int j) const override { return h_(j, j); }
+  void subtract_product(std::span<const int> active, const Eigen::VectorXd& jump,
+                        const Eigen::VectorXd& inverse_area,
+                        Eigen::VectorXd& traction) const override {
+    Eigen::VectorXd product = Eigen::VectorXd::Zero(h_.rows());
+    for (const int j : active) product += column(j) * jump[j];
+    traction -= product.cwiseProduct(inverse_area);
+  }
+  int n_made() const {
+    return static_cast<int>(std::count_if(columns_.begin(), columns_.end(),
+                                          [](const auto& column) { return column.size() > 0; }));
+  }
+
+ private:
+  Eigen::MatrixXd h_;
+  mutable std::vector<Eigen::VectorXd> columns_;
+};
+
+TEST(DenseCompliance, KeepsTheMatrixAliveInCopies) {
+  FaultOperator copy;
+  {
+    FaultOperator op;
+    Eigen::MatrixXd h(2, 2);
+    h << 1, 2, 2, 5;
+    op.compliance = std::make_shared<DenseCompliance>(h);
+    copy = op;
+    EXPECT_EQ(copy.h().data(), op.h().data());
+  }
+  EXPECT_EQ(copy.h()(1, 1), 5);
+  EXPECT_EQ(copy.compliance->column(1)[0], 2);
+  EXPECT_EQ(copy.compliance->diagonal(0), 1);
+  EXPECT_THROW(DenseCompliance(Eigen::MatrixXd(2, 3)), InternalError);
+}
+
+TEST(DenseCompliance, SubtractsTheColumnsListedAndNoOthers) {
+  const int n = 11;
+  const Eigen::MatrixXd h = Eigen::MatrixXd::Random(n, n);
+  Eigen::VectorXd jump = Eigen::VectorXd::Random(n);
+  const Eigen::VectorXd inverse_area = Eigen::VectorXd::LinSpaced(n, 1, 2);
+  for (const std::vector<int>& active : {std::vector<int>{}, {3}, {0, 4, 7, 8}, {10, 1, 2, 5, 9}}) {
+    Eigen::VectorXd expected = Eigen::VectorXd::Ones(n), computed = expected;
+    for (const int j : active) expected -= (h.col(j) * jump[j]).cwiseProduct(inverse_area);
+    DenseCompliance(h).subtract_product(active, jump, inverse_area, computed);
+    EXPECT_LT((computed - expected).norm(), 1e-14 * n);
+  }
+}
+
+TEST(FaultOperator, HasNoMatrixWhereNoneIsStored) {
+  FaultOperator op;
+  EXPECT_EQ(op.h().size(), 0);
+  op.compliance = std::make_shared<ColumnsOnDemand>(Eigen::MatrixXd::Identity(2, 2));
+  EXPECT_THROW(op.h(), InternalError);
+}
+
+TEST(ContactSolver, AsksForTheColumnsOfMovingNodesOnly) {
+  for (const int n_shear : {1, 2}) {
+    DepletedFault stored = depleted_fault(60, n_shear, n_shear == 2);
+    DepletedFault solved = depleted_fault(60, n_shear, n_shear == 2);
+    const auto columns = std::make_shared<ColumnsOnDemand>(stored.op.h());
+    solved.op.compliance = columns;
+    ContactState at = initial_state(stored.op), same = initial_state(solved.op);
+    ContactSolver first(stored.op, stored.laws, {}), second(solved.op, solved.laws, {});
+    for (std::size_t i = 1; i < 6; ++i) {
+      first.solve_step(stored.locked[i - 1], stored.locked[i], at);
+      const ContactReport report = second.solve_step(solved.locked[i - 1], solved.locked[i], same);
+      ASSERT_EQ(report.outcome, Outcome::converged);
+    }
+    EXPECT_GT(at.jump.norm(), 0);
+    EXPECT_LT((same.jump - at.jump).norm(), 1e-7 * at.jump.norm());
+    EXPECT_GT(columns->n_made(), 0);
+    EXPECT_LT(columns->n_made(), columns->size());
+  }
+}
+
+}  // namespace
+}  // namespace faultsim

@@ -1,0 +1,50 @@
+#include "simulator/contact/contact_newton.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/contact/contact_fixture.h"
+
+namespace faultsim {
+namespace {
+
+// Node 0 carries a thousand times what node 1 carries. Solved exactly, it slips by 2 mm: so little
+// for its load that it is rounded to rest, which hands node 1 a traction of four of its tolerances.
+// Newton has to go on from there, to the slip of node 1 alone.
+TEST(ContactNewton, TakesNothingThatItsOwnRoundingHasPutOutOfBalance) {
+  FaultOperator op = make_operator(2, 1, Eigen::VectorXd::Ones(2));
+  set_h(op, Eigen::Matrix4d{{4, 0, 0, 0}, {0, 4, 0, 2}, {0, 0, 4, 0}, {0, 2, 0, 4}});
+  const ContactLaws laws = same_law(op, {WeakeningLaw::angle, 0, std::atan(0.5), std::atan(0.5)});
+  ContactProblem problem(op, laws);
+  const ContactState start = initial_state(op);
+  SubStep step;
+  step.start = &start;
+  step.trial = Eigen::Vector4d(-2000, 1000 + 4 * 0.002 + 2 * 1, -2, 1 + 2 * 0.002 + 4 * 1);
+  step.traction = step.locked = step.trial;
+  step.increment = Eigen::Vector4d::Zero();
+  step.state = start.state;
+  step.cohesive = {1, 1};
+  step.tolerance = Eigen::Vector2d(1, 1e-3);
+  const ContactOptions options;
+  const SearchHistory report = ContactNewton(problem, options).solve(step);
+  EXPECT_TRUE(report.converged());
+  EXPECT_EQ(report.iterations, 2);
+  EXPECT_EQ(step.increment[1], 0);
+  EXPECT_NEAR(step.increment[3], 4.004 / 4, 1e-12);
+  for (const int k : {0, 1}) EXPECT_LT(check_node(problem, step, k).worst(), step.tolerance[k]);
+}
+
+TEST(SearchHistory, KeepsTheLastIterationsAndTheBest) {
+  SearchHistory history;
+  for (int i = 1; i <= 1000; ++i) history.add({.residual = std::abs(i - 300) + 0.5, .n_slip = i});
+  EXPECT_EQ(history.iterations, 1000);
+  EXPECT_GE(history.last.size(), SearchHistory::kMost);
+  EXPECT_LE(history.last.size(), 2 * SearchHistory::kMost);
+  EXPECT_EQ(history.last.back().n_slip, 1000);
+  EXPECT_EQ(history.best, 0.5);
+  EXPECT_EQ(history.best_at, 300);
+}
+
+}  // namespace
+}  // namespace faultsim
