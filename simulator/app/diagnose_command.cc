@@ -5,7 +5,6 @@
 
 #include "simulator/app/commands.h"
 #include "simulator/app/load_scene.h"
-#include "simulator/common/interrupt.h"
 #include "simulator/loading/diagnosis.h"
 #include "simulator/loading/run_case.h"
 #include "simulator/output/json_text.h"
@@ -97,11 +96,12 @@ void print(const Diagnosis& d) {
 }  // namespace
 
 ExitCode diagnose_command(const DiagnoseArguments& arguments) {
-  catch_interrupts();
-  const LoadedScene loaded = load_scene(arguments.scene);
-  const PreparedOperator prepared = prepare_on_screen(loaded, arguments.op, arguments.scene.json);
+  Simulation simulation = load_simulation(arguments.scene, arguments.op);
+  const PreparedOperator& prepared =
+      prepare_on_screen(simulation, arguments.op, arguments.scene.json);
   SilentMonitor silent;
-  const Diagnosis diagnosis = diagnose_case(loaded.scene, prepared, silent);
+  const Diagnosis diagnosis =
+      diagnose_case(simulation.scene().scene, prepared, context_of(arguments.op, silent));
   if (arguments.scene.json) {
     std::cout << json_text(to_json(diagnosis));
   } else {

@@ -6,7 +6,6 @@
 #include "simulator/app/commands.h"
 #include "simulator/app/load_scene.h"
 #include "simulator/common/fingerprint.h"
-#include "simulator/common/interrupt.h"
 #include "simulator/contact/contact_export.h"
 #include "simulator/output/json_text.h"
 #include "simulator/output/output_target.h"
@@ -101,8 +100,8 @@ void report(const ExportArguments& arguments, const ExportedStep& exported) {
 }  // namespace
 
 ExitCode export_contact_command(const ExportArguments& arguments) {
-  catch_interrupts();
-  const LoadedScene loaded = load_scene(arguments.scene);
+  Simulation simulation = load_simulation(arguments.scene, arguments.op);
+  const LoadedScene& loaded = simulation.scene();
   demand_writable_file("-o", arguments.output, FileKind::hdf5, input_files(loaded));
   if (loaded.plan.creep.active) {
     throw InputError(loaded.document.source,
@@ -110,11 +109,13 @@ ExitCode export_contact_command(const ExportArguments& arguments) {
                        "a load step with creeping salt is not one contact problem but several",
                        "export the elastic case: --set /numerics/creep=off"}});
   }
-  const PreparedOperator prepared = prepare_on_screen(loaded, arguments.op, arguments.scene.json);
-  const FaultOperator& op = *prepared.op;
+  const FaultOperator& op =
+      *prepare_on_screen(simulation, arguments.op, arguments.scene.json).op;
 
   ExportedStep exported;
-  exported.start = start_of_step(loaded.scene, op, arguments.step);
+  SilentMonitor silent;
+  exported.start =
+      start_of_step(loaded.scene, op, arguments.step, context_of(arguments.op, silent));
   if (exported.start.outcome != Outcome::converged) {
     std::cerr << "no problem to write: the case ends before load step " << arguments.step << ": "
               << exported.start.reason << "\n";

@@ -5,7 +5,6 @@
 #include "simulator/app/commands.h"
 #include "simulator/app/load_scene.h"
 #include "simulator/app/screen.h"
-#include "simulator/common/interrupt.h"
 #include "simulator/loading/influence.h"
 #include "simulator/output/influence_file.h"
 #include "simulator/output/json_text.h"
@@ -88,18 +87,16 @@ void report(const InfluenceArguments& arguments, const PreparedInfluence& made) 
 }  // namespace
 
 ExitCode influence_command(const InfluenceArguments& arguments) {
-  catch_interrupts();
   const LoadedScene loaded = load_scene(arguments.scene);
   demand_writable_file("-o", arguments.output, FileKind::hdf5, input_files(loaded));
   refuse_what_has_no_block(loaded);
   const std::vector<int> regions = regions_named(loaded.scene, arguments.regions);
   ScreenMonitor monitor(arguments.scene.json);
   const PreparedInfluence made =
-      prepare_influence(loaded.scene, loaded.plan, regions, cache_policy(arguments.op), monitor,
-                        build_options(arguments.op));
+      prepare_influence(loaded.scene, loaded.plan, regions, cache_policy(arguments.op),
+                        context_of(arguments.op, monitor));
   if (!made.remark.empty()) monitor.note(made.remark);
   monitor.clear();
-  throw_if_interrupted("building the influence block");
   write_influence(*made.block, *made.op, arguments.output);
   report(arguments, made);
   return ExitCode::done;

@@ -7,9 +7,6 @@
 #include "simulator/common/interrupt.h"
 #include "simulator/common/machine.h"
 #include "simulator/loading/pressure_warnings.h"
-#include "simulator/output/output_target.h"
-#include "simulator/plan/geometry_check.h"
-#include "simulator/scene/csv_tables.h"
 
 namespace faultsim {
 namespace {
@@ -22,50 +19,32 @@ std::filesystem::path user_cache() {
   return {};
 }
 
-/// Throws them, if there are any, with the lines of what they are about.
-void throw_problems(const JsonDocument& document, std::vector<Problem> problems) {
-  if (problems.empty()) return;
-  for (Problem& problem : problems) {
-    if (problem.line == 0) problem.line = document.line_of(problem.pointer);
-  }
-  throw InputError(document.source, std::move(problems));
-}
-
 }  // namespace
 
-LoadedScene load_scene(JsonDocument document) {
-  LoadedScene loaded{std::move(document), {}, {}};
-  std::vector<Problem> problems;
-  loaded.scene = read_scene(loaded.document, problems);
-  if (problems.empty()) loaded.plan = make_plan(loaded.scene, problems);
-  throw_problems(loaded.document, std::move(problems));
-  return loaded;
-}
-
-void check_geometry(const LoadedScene& loaded) {
-  throw_problems(loaded.document, geometry_problems(loaded.scene, loaded.plan));
-}
-
-LoadedScene load_scene(const SceneArguments& arguments) {
-  JsonDocument document = read_json_file(arguments.file);
-  if (!arguments.tier.empty()) set_value(document, "/tier", arguments.tier);
+Changes changes_of(const SceneArguments& arguments) {
+  Changes changes;
+  if (!arguments.tier.empty()) changes.push_back({"/tier", arguments.tier});
   for (const std::string& change : arguments.set) {
     const std::size_t equals = change.find('=');
     if (equals == std::string::npos) {
       throw InputError("--set", {{"", 0, "\"" + change + "\" has no \"=\"",
                                   "write --set /json/pointer=value or --set alias=value"}});
     }
-    set_value(document, resolve_parameter(document, change.substr(0, equals)),
-              change.substr(equals + 1));
+    changes.push_back({change.substr(0, equals), change.substr(equals + 1)});
   }
-  embed_tables(document);  // what is read now is what runs, and what is written beside the result
-  LoadedScene loaded = load_scene(std::move(document));
-  loaded.plan.warnings = pressure_warnings(loaded.scene);
-  return loaded;
+  return changes;
 }
 
-std::vector<std::filesystem::path> input_files(const LoadedScene& loaded) {
-  return files_named_in(loaded.document.value, loaded.document.source);
+Simulation load_simulation(const SceneArguments& scene, const OperatorArguments& op) {
+  Simulation simulation = Simulation::from_file(scene.file, changes_of(scene));
+  simulation.keep_operators(cache_policy(op));
+  return simulation;
+}
+
+LoadedScene load_scene(const SceneArguments& arguments) {
+  LoadedScene loaded = load_scene(read_scene_file(arguments.file, changes_of(arguments)));
+  loaded.plan.warnings = pressure_warnings(loaded.scene);
+  return loaded;
 }
 
 nlohmann::json remarks_to_json(const LoadedScene& loaded) {
@@ -96,19 +75,17 @@ CachePolicy cache_policy(const OperatorArguments& arguments) {
   return policy;
 }
 
-BuildOptions build_options(const OperatorArguments& arguments) {
-  return {.n_threads = arguments.threads > 0 ? arguments.threads : usable_cores()};
+RunContext context_of(const OperatorArguments& arguments, Monitor& monitor) {
+  return {monitor, stop_on_signals(),
+          arguments.threads > 0 ? arguments.threads : usable_cores()};
 }
 
-PreparedOperator prepare_on_screen(const LoadedScene& loaded, const OperatorArguments& arguments,
-                                   bool quiet) {
+const PreparedOperator& prepare_on_screen(Simulation& simulation,
+                                          const OperatorArguments& arguments, bool quiet) {
   ScreenMonitor monitor(quiet);
-  PreparedOperator prepared = prepare_operator(loaded.scene, loaded.plan, cache_policy(arguments),
-                                               false, monitor, build_options(arguments));
-  if (!prepared.remark.empty()) monitor.note(prepared.remark);
+  simulation.prepare(context_of(arguments, monitor));
   monitor.clear();
-  throw_if_interrupted("building the operator");
-  return prepared;
+  return simulation.prepared();
 }
 
 }  // namespace faultsim

@@ -5,7 +5,6 @@
 #include "simulator/app/commands.h"
 #include "simulator/app/load_scene.h"
 #include "simulator/app/screen.h"
-#include "simulator/common/interrupt.h"
 #include "simulator/linalg/blas.h"
 #include "simulator/linalg/blas_kernel.h"
 #include "simulator/loading/history.h"
@@ -87,10 +86,11 @@ ExitCode exit_code_of(Outcome outcome) {
 }
 
 ExitCode run_command(const RunArguments& arguments) {
-  catch_interrupts();
-  LoadedScene loaded = load_scene(arguments.scene);
+  Simulation simulation = load_simulation(arguments.scene, arguments.op);
+  const LoadedScene& loaded = simulation.scene();
   check_geometry(loaded);
-  add_savings(loaded.scene, loaded.plan);
+  Plan plan = loaded.plan;
+  add_savings(loaded.scene, plan);
   const Scene& scene = loaded.scene;
   const bool json = arguments.scene.json;
   if (const std::string complaint = blas_complaint(); !complaint.empty())
@@ -106,26 +106,24 @@ ExitCode run_command(const RunArguments& arguments) {
                        .names = {"plan.json", "scene.json", "result.json", "faults.h5",
                                  "faults.xmf", "volume.h5", "volume.xmf"},
                        .inputs = input_files(loaded)});
-  write_text(output.path() / "plan.json", json_text(plan_to_json(loaded.plan)));
+  write_text(output.path() / "plan.json", json_text(plan_to_json(plan)));
   write_text(output.path() / "scene.json", loaded.document.value.dump(2) + "\n");
 
   ScreenMonitor monitor(json);
   if (!json) {
-    std::cerr << plan_to_text(loaded.plan) << "linear algebra: " << blas_description() << " ("
+    std::cerr << plan_to_text(plan) << "linear algebra: " << blas_description() << " ("
               << blas_kernel_reason() << ")\n"
               << remarks_to_text(loaded);
   }
-  const PreparedOperator prepared =
-      prepare_operator(scene, loaded.plan, cache_policy(arguments.op), scene.output.volume_fields,
-                       monitor, build_options(arguments.op));
-  if (!prepared.remark.empty()) monitor.note(prepared.remark);
+  RunContext context = context_of(arguments.op, monitor);
+  simulation.prepare(context, scene.output.volume_fields);
+  const PreparedOperator& prepared = simulation.prepared();
   monitor.clear();
   if (!json) {
     std::cerr << (prepared.from_cache ? "operator: from the cache"
                                       : built_in(prepared.op->build_seconds))
               << ", " << prepared.op->geometry.nodes.size() << " fault node pairs\n";
   }
-  throw_if_interrupted("building the operator");
 
   std::optional<FieldWriter> writer;
   if (scene.output.fault_fields) {
@@ -139,13 +137,13 @@ ExitCode run_command(const RunArguments& arguments) {
   for (const Fault& fault : scene.faults) names.fault_names.push_back(fault.name);
   names.plane_strain = loaded.plan.plane_strain;
   if (!json) std::cout << step_table_header(names, arguments.wide);
-  SilentMonitor silent;
+  context.monitor = nullptr;  // the table is progress enough
   const CaseResult result =
-      run_case(scene, prepared, silent, [&](const StepResult& step, const FaultFields& fields) {
-        if (!json) std::cout << step_table_row(step, arguments.wide) << std::flush;
-        if (writer) writer->add_step(step, fields);
-        if (volume) volume->add(step, fields);
-      });
+      simulation.run(context, {.step = [&](const StepResult& step, const FaultFields& fields) {
+                       if (!json) std::cout << step_table_row(step, arguments.wide) << std::flush;
+                       if (writer) writer->add_step(step, fields);
+                       if (volume) volume->add(step, fields);
+                     }});
   if (writer) writer->finish();
   if (volume) write_volume_fields(output.path(), loaded, *volume);
   nlohmann::json document = result_to_json(result);

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "simulator/common/monitor.h"
+#include "simulator/common/run_context.h"
 #include "simulator/common/stopwatch.h"
 #include "simulator/output/result.h"
 

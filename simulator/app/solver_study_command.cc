@@ -4,7 +4,6 @@
 
 #include "simulator/app/commands.h"
 #include "simulator/common/errors.h"
-#include "simulator/common/interrupt.h"
 #include "simulator/coupled/box_study.h"
 #include "simulator/coupled/solver_study.h"
 #include "simulator/linalg/blas.h"
@@ -130,7 +129,6 @@ ExitCode solver_study_command(const SolverStudyArguments& arguments) {
     const SaddlePoint j = make_saddle_point(bulk);
     for (const LeadingKind leading : todo.leading) {
       for (const SchurKind schur : todo.schur) {
-        throw_if_interrupted("studying solvers");
         SolverChoice choice = todo.common;
         choice.leading = leading;
         choice.schur = schur;

@@ -2,21 +2,24 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <array>
 #include <csignal>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "simulator/app/commands.h"
-#include "simulator/app/load_scene.h"
+#include "simulator/app/worker_requests.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/process_memory.h"
 #include "simulator/common/stopwatch.h"
 #include "simulator/linalg/blas_start.h"
 #include "simulator/loading/field_keeper.h"
 #include "simulator/loading/run_case.h"
+#include "simulator/output/field_bytes.h"
 #include "simulator/output/result_bytes.h"
+#include "simulator/scene/read_scene.h"
+#include "simulator/simulation/loaded_scene.h"
+#include "simulator/simulation/simulation.h"
 
 namespace faultsim {
 namespace {
@@ -24,47 +27,6 @@ namespace {
 using nlohmann::json;
 
 constexpr int kProtocolVersion = 3;  // schemas/worker_protocol.md
-
-/// JSON lines over two descriptors.
-class Channel {
- public:
-  Channel(int requests, int replies) : requests_(requests), replies_(replies) {}
-
-  /// The next line, or nothing at end of file.
-  std::optional<std::string> next() {
-    while (true) {
-      if (const std::size_t end = buffer_.find('\n', scanned_); end != std::string::npos) {
-        std::string line = buffer_.substr(0, end);
-        buffer_.erase(0, end + 1);
-        scanned_ = 0;
-        return line;
-      }
-      scanned_ = buffer_.size();
-      std::array<char, 65536> block;
-      const ssize_t n = read(requests_, block.data(), block.size());
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) return std::nullopt;
-      buffer_.append(block.data(), static_cast<std::size_t>(n));
-    }
-  }
-
-  /// @param bytes  what follows the line as it is.
-  void say(const json& message, const std::string& bytes = "") {
-    const std::string line = message.dump() + "\n" + bytes;
-    std::size_t sent = 0;
-    while (sent < line.size()) {
-      const ssize_t n = write(replies_, line.data() + sent, line.size() - sent);
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) throw StorageError("the campaign no longer listens");
-      sent += static_cast<std::size_t>(n);
-    }
-  }
-
- private:
-  int requests_, replies_;
-  std::string buffer_;
-  std::size_t scanned_ = 0;
-};
 
 double peak_bytes() {
   struct rusage usage = {};
@@ -75,60 +37,73 @@ double peak_bytes() {
 /// Serves the requests of one family; the operator of the last scene stays in memory.
 class Worker {
  public:
-  Worker(const WorkerArguments& arguments)
-      : channel_(arguments.requests, arguments.replies),
-        cache_{arguments.cache, static_cast<std::uint64_t>(arguments.cache_size),
-               arguments.node_cache},
-        build_{.n_threads = arguments.threads} {}
+  explicit Worker(const WorkerArguments& arguments)
+      : requests_(arguments.requests),
+        replies_(arguments.replies),
+        context_{silent_, StopToken(requests_.stop()), arguments.threads} {
+    simulation_.keep_operators({arguments.cache, static_cast<std::uint64_t>(arguments.cache_size),
+                                arguments.node_cache});
+  }
 
   void serve() {
-    channel_.say({{"event", "hello"},
-                  {"version", kProtocolVersion},
-                  {"result_layout", result_layout()},
-                  {"numerics_version", kNumericsVersion}});
-    while (const auto line = channel_.next()) {
-      json request = json::parse(*line);
-      if (request.contains("scene")) {
-        bases_[request.at("base").get<std::int64_t>()] = std::move(request["scene"]);
+    say({{"event", "hello"},
+         {"version", kProtocolVersion},
+         {"result_layout", result_layout()},
+         {"numerics_version", kNumericsVersion}});
+    while (auto request = requests_.next()) {
+      if (request->contains("scene")) {
+        bases_[request->at("base").get<std::int64_t>()] = std::move((*request)["scene"]);
       } else {
-        answer(request);
+        answer(*request);
       }
     }
   }
 
  private:
+  /// @param bytes  what follows the line as it is.
+  void say(const json& message, const std::string& bytes = "") {
+    const std::string text = message.dump() + "\n" + bytes;
+    std::size_t sent = 0;
+    while (sent < text.size()) {
+      const ssize_t n = write(replies_, text.data() + sent, text.size() - sent);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) throw StorageError("the campaign no longer listens");
+      sent += static_cast<std::size_t>(n);
+    }
+  }
+
   void answer(const json& request) {
     const json& run = request.at("run");
     const Stopwatch watch;
     json reply = {{"event", "done"}, {"run", run}};
-    std::string result;
+    const auto fail = [&](const Error& error, ExitCode code) {
+      reply["error"] = error.what();
+      reply["exit_code"] = static_cast<int>(code);
+    };
+    std::string bytes;
     try {
-      const LoadedScene loaded = load_scene(scene_of(request));
-      demand_identity(request, loaded.scene);
-      need_operator(run, loaded);
-      channel_.say({{"event", "started"}, {"run", run}});
-      result = result_to_bytes(run_one(request, loaded.scene, reply));
-      reply["result_bytes"] = result.size();
+      simulation_.hold(scene_of(request));
+      demand_identity(request, simulation_.scene().scene);
+      prepare(run);
+      say({{"event", "started"}, {"run", run}});
+      bytes = run_one(request, reply);
     } catch (const InputError& error) {
-      reply["error"] = error.what();
-      reply["exit_code"] = static_cast<int>(ExitCode::input);
+      fail(error, ExitCode::input);
+    } catch (const Interrupted& error) {
+      fail(error, ExitCode::interrupted);
     } catch (const Error& error) {  // disk or memory: the next case may well fit
-      reply["error"] = error.what();
-      reply["exit_code"] = static_cast<int>(ExitCode::world);
+      fail(error, ExitCode::world);
     }
     reply["seconds"] = watch.seconds();
-    channel_.say(reply, result);
+    say(reply, bytes);
   }
 
   /// The base scene with the request's changes put in.
   JsonDocument scene_of(const json& request) const {
     JsonDocument document{request.value("source", "case"), bases_.at(request.at("base")), {}};
     for (const auto& [pointer, value] : request.at("changes").items()) {
-      try {
-        document.value[json::json_pointer(pointer)] = value;
-      } catch (const json::exception&) {
+      if (!put_value(document.value, pointer, value))
         throw InputError(document.source, {{pointer, 0, "the base scene has no place for it", ""}});
-      }
     }
     return document;
   }
@@ -146,52 +121,65 @@ class Worker {
           "a file that it names has changed since it was submitted; submit the campaign again"}});
   }
 
-  /// A result goes out only with the fields that were asked for.
-  CaseResult run_one(const json& request, const Scene& scene, json& reply) {
-    SilentMonitor silent;
-    if (!request.contains("fields")) return run_case(scene, prepared_, silent);
-    const json& wanted = request["fields"];
-    FieldKeeper keeper(wanted.at("folder").get<std::string>(),
-                       field_steps_from_string(wanted.at("steps").get<std::string>()), scene,
-                       prepared_.op->geometry, prepared_.ladder != nullptr);
-    CaseResult result = run_case(
-        scene, prepared_, silent,
-        [&](const StepResult& step, const FaultFields& fields) { keeper.add(step, fields); });
-    reply["fields"] = {{"steps", keeper.finish()}};
-    return result;
-  }
-
-  void need_operator(const json& run, const LoadedScene& loaded) {
-    std::string key = loaded.plan.family;
-    for (const Fault& fault : loaded.scene.faults) key += "/" + fault.name;
-    for (const ObservationPoint& point : loaded.scene.output.observation_points) {
-      key += concat("/", point.name, point.position[0], ",", point.position[1], ",",
-                    point.position[2]);
-    }
-    if (prepared_.op && key == key_) return;
+  void prepare(const json& run) {
     const Stopwatch watch;
-    prepared_ = {};  // frees the old operator before the new one is built
-    SilentMonitor silent;
-    prepared_ = prepare_operator(loaded.scene, loaded.plan, cache_, false, silent, build_);
-    key_ = key;
-    const FaultOperator& op = *prepared_.op;
-    channel_.say({{"event", "operator"},
-                  {"run", run},
-                  {"fingerprint", op.fingerprint},
-                  {"from_cache", prepared_.from_cache},
-                  {"seconds", watch.seconds()},
-                  {"unknowns", op.n_unknowns},
-                  {"jump_unknowns", op.geometry.n_dofs},
-                  {"bytes", 8.0 * op.geometry.n_dofs * op.geometry.n_dofs},
-                  {"peak_bytes", peak_bytes()},
-                  {"remark", prepared_.remark}});
+    if (!simulation_.prepare(context_)) return;
+    const PreparedOperator& prepared = simulation_.prepared();
+    const double n_jump = prepared.op->geometry.n_dofs;
+    say({{"event", "operator"},
+         {"run", run},
+         {"fingerprint", prepared.op->fingerprint},
+         {"from_cache", prepared.from_cache},
+         {"seconds", watch.seconds()},
+         {"unknowns", prepared.op->n_unknowns},
+         {"jump_unknowns", prepared.op->geometry.n_dofs},
+         {"bytes", 8.0 * n_jump * n_jump},
+         {"peak_bytes", peak_bytes()},
+         {"remark", prepared.remark}});
   }
 
-  Channel channel_;
-  CachePolicy cache_;
-  BuildOptions build_;
-  PreparedOperator prepared_;
-  std::string key_;
+  /// The result, and after it the fields that go with it, unless a folder was given for them.
+  std::string run_one(const json& request, json& reply) {
+    const FaultGeometry& geometry = simulation_.prepared().op->geometry;
+    const Scene& scene = simulation_.scene().scene;
+    const json wanted = request.value("fields", json());
+    std::optional<FieldKeeper> files;
+    std::optional<FieldSelection> selection;
+    std::optional<FieldBytes> in_line;
+    RunWatch watch;
+    if (wanted.contains("folder")) {
+      files.emplace(wanted["folder"].get<std::string>(), steps_of(wanted), scene, geometry,
+                    simulation_.prepared().ladder != nullptr);
+      watch.step = [&](const StepResult& step, const FaultFields& f) { files->add(step, f); };
+    } else if (!wanted.is_null()) {
+      in_line.emplace(geometry);
+      selection.emplace(steps_of(wanted), scene,
+                        [&](const StepResult&, const FaultFields& f) { in_line->add(f); });
+      watch.step = [&](const StepResult& step, const FaultFields& f) { selection->add(step, f); };
+    }
+    const CaseResult result = simulation_.run(context_, watch);
+    if (result.outcome == Outcome::interrupted) throw Interrupted(result.reason);
+    std::string bytes = result_to_bytes(result);
+    reply["result_bytes"] = bytes.size();
+    if (files) reply["fields"] = {{"steps", files->finish()}};
+    if (selection) {
+      reply["fields"] = {{"steps", selection->finish()},
+                         {"n_nodes", geometry.nodes.size()},
+                         {"bytes", in_line->bytes().size()}};
+      bytes += in_line->bytes();
+    }
+    return bytes;
+  }
+
+  static FieldSteps steps_of(const json& wanted) {
+    return field_steps_from_string(wanted.at("steps").get<std::string>());
+  }
+
+  WorkerRequests requests_;
+  int replies_;
+  SilentMonitor silent_;
+  RunContext context_;
+  Simulation simulation_;
   std::map<std::int64_t, json> bases_;  ///< base scenes by the number that the campaign gave them.
 };
 

@@ -4,19 +4,18 @@
 
 #include <csignal>
 
-#include "simulator/common/errors.h"
 #include "simulator/common/exit_code.h"
 
 namespace faultsim {
 namespace {
 
-volatile std::sig_atomic_t caught_signal = 0;
+std::atomic<bool> caught = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "set by a signal handler");
 
 extern "C" void end_now(int) { _exit(static_cast<int>(ExitCode::interrupted)); }
 
 extern "C" void remember_signal(int number) {
-  if (caught_signal != 0) end_now(number);  // asked twice
-  caught_signal = number;
+  if (caught.exchange(true)) end_now(number);  // asked twice
 }
 
 void on_stop_signals(void (*handler)(int)) {
@@ -38,13 +37,9 @@ void end_on_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-void catch_interrupts() { on_stop_signals(remember_signal); }
-
-bool interrupted() { return caught_signal != 0; }
-
-void throw_if_interrupted(const char* doing) {
-  if (interrupted())
-    throw Interrupted(concat("stopped by signal ", int{caught_signal}, " while ", doing));
+StopToken stop_on_signals() {
+  on_stop_signals(remember_signal);
+  return StopToken(caught);
 }
 
 }  // namespace faultsim

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "simulator/common/errors.h"
-#include "simulator/common/interrupt.h"
 #include "simulator/common/stopwatch.h"
 #include "simulator/condensation/fault_geometry.h"
 #include "simulator/condensation/loose_pieces.h"
@@ -19,7 +18,7 @@ namespace {
 
 /// Remarks when a stress load leaves a net force or moment on a body that is only pinned: the pins
 /// would have to carry it.
-void check_balance(const BulkProblem& problem, const LoadCase& load, Monitor& monitor) {
+void check_balance(const BulkProblem& problem, const LoadCase& load, const RunContext& context) {
   constexpr double kBalanced = 1e-6;  // of the sum of the absolute nodal forces
   const Eigen::Matrix3Xd forces = nodal_stress_forces(problem.mesh, load.stress_sides, load.stress);
   Eigen::Vector3d low = problem.mesh.nodes.front(), high = low;
@@ -40,7 +39,7 @@ void check_balance(const BulkProblem& problem, const LoadCase& load, Monitor& mo
   const double total = forces.colwise().norm().sum();
   const double size = (high - low).norm();
   if (force.norm() <= kBalanced * total && moment.norm() <= kBalanced * total * size) return;
-  monitor.note(concat("load ", to_string(load.key), " alone is not in balance (net force ",
+  context.note(concat("load ", to_string(load.key), " alone is not in balance (net force ",
                       force.norm(), " N, moment ", moment.norm(),
                       " N m per unit): no displacement is prescribed, so the loads must balance "
                       "together, or three pinned points carry the difference"));
@@ -90,23 +89,21 @@ int observed_node(const Mesh& mesh, const Eigen::Vector3d& point) {
 }
 
 struct CondensedBulk::Impl {
-  Impl(const BulkProblem& bulk_problem, const BuildOptions& build_options)
+  explicit Impl(const BulkProblem& bulk_problem)
       : problem(bulk_problem),
-        options(build_options),
         dofs(problem.mesh, problem.conditions, static_cast<int>(problem.loads.size())),
         geometry(fault_geometry(problem.mesh, problem.materials, dofs, problem.half_domain)) {}
 
-  void factorise(Monitor& monitor);
-  void make_loads(Monitor& monitor);
+  void factorise(const RunContext& context);
+  void make_loads(const RunContext& context);
   Eigen::MatrixXd condensed_matrix() const;
-  void set_locked(FaultOperator& op);
-  void observe(FaultOperator& op);
+  void set_locked(FaultOperator& op, StopToken stop);
+  void observe(FaultOperator& op, StopToken stop);
   /// q: u = q·x of a component of the displacement of an observation point (n_unknowns); zero where
   /// it is prescribed or held for good.
   Eigen::VectorXd observation(const Eigen::Vector3d& point, int component) const;
 
   BulkProblem problem;
-  BuildOptions options;
   DofMap dofs;
   FaultGeometry geometry;
   Eigen::VectorXd springs;  // D
@@ -116,32 +113,32 @@ struct CondensedBulk::Impl {
   double seconds = 0;
 };
 
-void CondensedBulk::Impl::factorise(Monitor& monitor) {
+void CondensedBulk::Impl::factorise(const RunContext& context) {
   springs = loose_piece_springs(problem, dofs, geometry);
-  monitor.progress(0.02, concat("assembling ", dofs.n_unknowns(), " unknowns"));
+  context.progress(0.02, concat("assembling ", dofs.n_unknowns(), " unknowns"));
   SparseMatrix k = assemble_stiffness(problem.mesh, problem.materials, dofs, problem.b_bar);
   for (int g = 0; g < dofs.n_jump(); ++g) {
     k.valuePtr()[k.outerIndexPtr()[dofs.n_bulk() + g]] += springs[g];  // the diagonal comes first
   }
-  throw_if_interrupted("condensing the bulk");
+  context.stop.throw_if_requested("condensing the bulk");
   constexpr double kBegin = 0.1, kEnd = 0.9;
   const std::string what = concat("factorising ", dofs.n_unknowns(), " unknowns");
-  monitor.progress(kBegin, what);
+  context.progress(kBegin, what);
   const FactorRun run = {
-      .n_threads = options.n_threads,
-      .progress = [&](double done) { monitor.progress(kBegin + (kEnd - kBegin) * done, what); },
-      .stop = interrupted};
+      .n_threads = context.n_threads,
+      .progress = [&](double done) { context.progress(kBegin + (kEnd - kBegin) * done, what); },
+      .stop = [&] { return context.stop.requested(); }};
   factor =
       std::make_unique<TrailingCholesky>(k, dofs.n_jump(), dofs.bulk_group(), dofs.n_groups(), run);
   if (factor->failed_column() >= 0) throw_not_held(problem, dofs, factor->failed_column());
-  throw_if_interrupted("condensing the bulk");
+  context.stop.throw_if_requested("condensing the bulk");
 }
 
-void CondensedBulk::Impl::make_loads(Monitor& monitor) {
+void CondensedBulk::Impl::make_loads(const RunContext& context) {
   for (std::size_t k = 0; k < problem.loads.size(); ++k) {
     loads.push_back(unit_load(problem, dofs, static_cast<int>(k)));
     if (dofs.pinned() && !problem.loads[k].stress_sides.empty()) {
-      check_balance(problem, problem.loads[k], monitor);
+      check_balance(problem, problem.loads[k], context);
     }
   }
 }
@@ -158,10 +155,10 @@ Eigen::MatrixXd CondensedBulk::Impl::condensed_matrix() const {
   return h;
 }
 
-void CondensedBulk::Impl::set_locked(FaultOperator& op) {
+void CondensedBulk::Impl::set_locked(FaultOperator& op, StopToken stop) {
   op.loads.traction.resize(geometry.n_dofs, static_cast<Eigen::Index>(loads.size()));
   for (std::size_t k = 0; k < loads.size(); ++k) {
-    throw_if_interrupted("condensing the loads");
+    stop.throw_if_requested("condensing the loads");
     if (forward_loads.size() == k) forward_loads.push_back(factor->forward(loads[k]));
     op.loads.keys.push_back(problem.loads[k].key);
     op.loads.traction.col(static_cast<Eigen::Index>(k)) =
@@ -172,7 +169,7 @@ void CondensedBulk::Impl::set_locked(FaultOperator& op) {
 
 /// One adjoint back-solve per component: with q the row of P, u = q·x gives V = q_g − K_gr K_rr⁻¹
 /// q_r and U_k = q_r·K_rr⁻¹ f_k,r + the prescribed part.
-void CondensedBulk::Impl::observe(FaultOperator& op) {
+void CondensedBulk::Impl::observe(FaultOperator& op, StopToken stop) {
   const Eigen::Index n_rows = 3 * static_cast<Eigen::Index>(problem.observation_points.size());
   op.observed.per_load.setZero(n_rows, static_cast<Eigen::Index>(loads.size()));
   op.observed.per_jump.setZero(n_rows, geometry.n_dofs);
@@ -180,7 +177,7 @@ void CondensedBulk::Impl::observe(FaultOperator& op) {
   for (const auto& [name, point] : problem.observation_points) {
     const int node = observed_node(problem.mesh, point);
     for (int c = 0; c < 3; ++c, ++row) {
-      throw_if_interrupted("condensing the observation points");
+      stop.throw_if_requested("condensing the observation points");
       op.observed.rows.push_back(
           {concat(name, ".", "xyz"[c]), problem.mesh.nodes[static_cast<std::size_t>(node)]});
       for (std::size_t k = 0; k < loads.size(); ++k) {
@@ -209,28 +206,27 @@ Eigen::VectorXd CondensedBulk::Impl::observation(const Eigen::Vector3d& point,
   return q;
 }
 
-CondensedBulk::CondensedBulk(const BulkProblem& problem, const BuildOptions& options,
-                             Monitor& monitor) {
+CondensedBulk::CondensedBulk(const BulkProblem& problem, const RunContext& context) {
   check_problem(problem);
   Stopwatch stopwatch;
   set_blas_threads(1);
-  impl_ = std::make_unique<Impl>(problem, options);
-  impl_->factorise(monitor);
-  impl_->make_loads(monitor);
+  impl_ = std::make_unique<Impl>(problem);
+  impl_->factorise(context);
+  impl_->make_loads(context);
   impl_->seconds = stopwatch.seconds();
-  monitor.progress(0.9, "factorised");
+  context.progress(0.9, "factorised");
 }
 
 CondensedBulk::~CondensedBulk() = default;
 
-FaultOperator CondensedBulk::condense() {
+FaultOperator CondensedBulk::condense(const RunContext& context) {
   Impl& self = *impl_;
   Stopwatch stopwatch;
   FaultOperator op;
   op.geometry = self.geometry;
   op.compliance = std::make_shared<DenseCompliance>(self.condensed_matrix());
-  self.set_locked(op);
-  self.observe(op);
+  self.set_locked(op, context.stop);
+  self.observe(op, context.stop);
   op.n_unknowns = self.dofs.n_unknowns();
   op.factor_bytes = self.factor->statistics().bytes;
   op.blas = blas_description();
@@ -238,7 +234,8 @@ FaultOperator CondensedBulk::condense() {
   return op;
 }
 
-InfluenceBlock CondensedBulk::influence(const std::vector<int>& cells, Monitor& monitor) {
+InfluenceBlock CondensedBulk::influence(const std::vector<int>& cells,
+                                        const RunContext& context) {
   Impl& self = *impl_;
   const Mesh& mesh = self.problem.mesh;
   Stopwatch stopwatch;
@@ -249,8 +246,8 @@ InfluenceBlock CondensedBulk::influence(const std::vector<int>& cells, Monitor& 
     loads.push_back(dilatation_load(mesh, self.dofs, cell));
   }
   Eigen::MatrixXd traction = self.factor->condense(loads, [&](double share) {
-    monitor.progress(share, concat("influence of ", cells.size(), " cells"));
-    throw_if_interrupted("condensing the influence of cells");
+    context.progress(share, concat("influence of ", cells.size(), " cells"));
+    context.stop.throw_if_requested("condensing the influence of cells");
   });
   traction.array().colwise() /= self.geometry.dof_area.array();
   FAULTSIM_DEMAND(traction.allFinite(), "influences are not finite");

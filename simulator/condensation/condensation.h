@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/common/monitor.h"
+#include "simulator/common/run_context.h"
 #include "simulator/elasticity/bulk_problem.h"
 #include "simulator/linalg/cholesky.h"
 #include "simulator/model/fault_operator.h"
@@ -16,28 +16,23 @@ namespace faultsim {
 /// The mesh node whose displacement stands for that of a point: the nearest.
 int observed_node(const Mesh& mesh, const Eigen::Vector3d& point);
 
-struct BuildOptions {
-  int n_threads = 1;  ///< of the factorisation; bits do not depend on it.
-};
-
 /// The factorised bulk of one family: kept while displacement fields, or the creep of salt, still
 /// need it.
 class CondensedBulk {
  public:
   /// Orders jump unknowns last, factorises K (blocks that faults cut loose get D > 0 on their
   /// jumps, taken off H again), checks H. Throws InputError naming a floating block that nothing
-  /// holds.
-  CondensedBulk(const BulkProblem& problem, const BuildOptions& options, Monitor& monitor);
+  /// holds, Interrupted when the context says so; so do the other two that take one.
+  CondensedBulk(const BulkProblem& problem, const RunContext& context);
   ~CondensedBulk();
   /// H = K_gg − K_gr K_rr⁻¹ K_rg, L_k = A⁻¹(f_g − K_gr K_rr⁻¹ f_r), observation rows; fingerprint
   /// left empty. One right-hand side at a time, so that the bits do not depend on what else is
   /// asked.
-  FaultOperator condense();
+  FaultOperator condense(const RunContext& context = {});
   /// The influence of cells of the mesh, names left empty: f_c = Pᵀ ∫_c div v, one forward
   /// substitution per cell, P_c = A⁻¹ (f_g − K_gr K_rr⁻¹ f_r); one back-solve per observation row,
-  /// K_rr z = q_r, O_c = z·f_c. The bits of a cell do not depend on the others. May throw
-  /// Interrupted.
-  InfluenceBlock influence(const std::vector<int>& cells, Monitor& monitor);
+  /// K_rr z = q_r, O_c = z·f_c. The bits of a cell do not depend on the others.
+  InfluenceBlock influence(const std::vector<int>& cells, const RunContext& context);
   /// Displacement of all mesh nodes for given load factors and jumps: 3 x n_nodes, m.
   Eigen::Matrix3Xd displacement(const std::vector<double>& load_factors,
                                 const Eigen::VectorXd& jump);

@@ -21,7 +21,7 @@ std::vector<MaxwellStep> maxwell_steps(const BulkProblem& problem, double durati
 /// Shows the building of one of several operators as a share of the whole.
 class ShareMonitor final : public Monitor {
  public:
-  ShareMonitor(Monitor& whole, int part, int n_parts)
+  ShareMonitor(const RunContext& whole, int part, int n_parts)
       : whole_(whole), part_(part), n_parts_(n_parts) {}
   void progress(double share, const std::string& what) override {
     whole_.progress((part_ + share) / n_parts_,
@@ -32,7 +32,7 @@ class ShareMonitor final : public Monitor {
   }
 
  private:
-  Monitor& whole_;
+  const RunContext& whole_;
   int part_, n_parts_;
 };
 
@@ -53,19 +53,20 @@ struct CreepLadder::Impl {
 };
 
 CreepLadder::CreepLadder(const BulkProblem& problem, const std::vector<double>& durations,
-                         MaxwellScheme scheme, const BuildOptions& options, Monitor& monitor)
+                         MaxwellScheme scheme, const RunContext& context)
     : impl_(std::make_unique<Impl>()) {
   FAULTSIM_DEMAND(problem.viscosity.size() == problem.materials.size(), problem.viscosity.size());
   std::vector<double> all = {0};
   all.insert(all.end(), durations.begin(), durations.end());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    ShareMonitor share(monitor, static_cast<int>(i), static_cast<int>(all.size()));
+    ShareMonitor share(context, static_cast<int>(i), static_cast<int>(all.size()));
+    const RunContext part(share, context.stop, context.n_threads);
     const std::vector<MaxwellStep> steps = maxwell_steps(problem, all[i], scheme);
     BulkProblem relaxed = problem;
     for (std::size_t m = 0; m < steps.size(); ++m) {
       relaxed.materials[m].shear_factor = steps[m].shear_factor;
     }
-    auto bulk = std::make_unique<CondensedBulk>(relaxed, options, share);
+    auto bulk = std::make_unique<CondensedBulk>(relaxed, part);
     if (i == 0) {
       impl_->cells = std::make_unique<CreepCells>(bulk->problem().mesh, bulk->problem().materials,
                                                   problem.viscosity, bulk->dofs());
@@ -74,7 +75,7 @@ CreepLadder::CreepLadder(const BulkProblem& problem, const std::vector<double>& 
     for (const int m : impl_->cells->materials()) {
       creeping.push_back(steps[static_cast<std::size_t>(m)]);
     }
-    FaultOperator op = bulk->condense();
+    FaultOperator op = bulk->condense(part);
     impl_->rungs.push_back({all[i], std::move(creeping), std::move(bulk), std::move(op)});
   }
   for (const auto& [name, point] : problem.observation_points) {

@@ -27,7 +27,7 @@ class CreepLadder {
  public:
   /// Factorises the elastic bulk and one per duration (s, > 0). @pre problem.viscosity is set.
   CreepLadder(const BulkProblem& problem, const std::vector<double>& durations,
-              MaxwellScheme scheme, const BuildOptions& options, Monitor& monitor);
+              MaxwellScheme scheme, const RunContext& context);
   ~CreepLadder();
 
   int n_rungs() const;  ///< with the elastic one.

@@ -32,8 +32,9 @@ FrictionState friction_state(const OperatorNode& node, const ContactState& state
 
 /// A load step in halves of halves. Position and width are in units of the smallest sub-step.
 struct ContactSolver::Impl {
-  Impl(const FaultOperator& op, const ContactLaws& laws, const ContactOptions& given)
-      : options(given), solver(op, laws, options), follower(solver) {
+  Impl(const FaultOperator& op, const ContactLaws& laws, const ContactOptions& given,
+       const ContactWatch& watch)
+      : options(given), solver(op, laws, options, watch), follower(solver) {
     follows = std::any_of(laws.begin(), laws.end(),
                           [](const CoulombLaw& law) { return law.damping > 0; });
     most_cuts = options.max_step_cuts;
@@ -60,8 +61,8 @@ struct ContactSolver::Impl {
 };
 
 ContactSolver::ContactSolver(const FaultOperator& op, const ContactLaws& laws,
-                             const ContactOptions& options)
-    : impl_(std::make_unique<Impl>(op, laws, options)) {}
+                             const ContactOptions& options, const ContactWatch& watch)
+    : impl_(std::make_unique<Impl>(op, laws, options, watch)) {}
 ContactSolver::~ContactSolver() = default;
 
 ContactReport ContactSolver::solve_step(const Eigen::VectorXd& before, const Eigen::VectorXd& after,

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/contact/search_record.h"
 #include "simulator/fault/friction_law.h"
 #include "simulator/model/fault_operator.h"
 #include "simulator/output/result.h"
@@ -86,12 +87,13 @@ struct ContactReport {
 class ContactSolver {
  public:
   /// @pre op and laws outlive the solver; sizes agree (InternalError).
-  ContactSolver(const FaultOperator& op, const ContactLaws& laws, const ContactOptions& options);
+  ContactSolver(const FaultOperator& op, const ContactLaws& laws, const ContactOptions& options,
+                const ContactWatch& watch = {});
   ~ContactSolver();
 
   /// Advances state to the end of a load step whose locked traction goes linearly from `before`
   /// (of the last step) to `after`. On any outcome but converged and event, state is left as it
-  /// was.
+  /// was. Throws Interrupted when the watch says so; state is then as it was.
   ContactReport solve_step(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
                            ContactState& state);
 

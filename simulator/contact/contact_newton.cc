@@ -31,8 +31,8 @@ SearchIteration iteration_of(const SubStep& sub_step, double residual, double le
 
 }  // namespace
 
-ContactNewton::ContactNewton(ContactProblem& problem, const ContactOptions& options)
-    : problem_(problem), options_(options) {}
+ContactNewton::ContactNewton(ContactProblem& problem, const ContactOptions& options, StopToken stop)
+    : problem_(problem), options_(options), stop_(stop) {}
 
 SlipPoint ContactNewton::slip_point(const SubStep& sub_step, const Eigen::VectorXd& traction,
                                     const Eigen::VectorXd& increment, int k) const {
@@ -360,6 +360,7 @@ SearchHistory ContactNewton::solve(SubStep& sub_step, int patience) {
   seen_before(sub_step);
   const int bound = options_.max_active_set_passes + options_.max_newton_iterations;
   while (history.iterations < bound) {
+    stop_.throw_if_requested("solving a load step");
     linearise(sub_step);
     if (!solve_linear()) return stop(SearchEnd::singular_tangent);
     const double length = advance(sub_step, line_search);

@@ -16,7 +16,7 @@ namespace faultsim {
 /// residual, which lets only a share of the nodes change state.
 class ContactNewton {
  public:
-  ContactNewton(ContactProblem& problem, const ContactOptions& options);
+  ContactNewton(ContactProblem& problem, const ContactOptions& options, StopToken stop = {});
   /// Starts from sub_step.increment and state; leaves its last iterate there in any case.
   /// @param patience  gives up after so many iterations without progress of the natural residual:
   /// where strength falls with slip there may be nothing to find, and a smaller sub-step is better
@@ -57,6 +57,7 @@ class ContactNewton {
 
   ContactProblem& problem_;
   const ContactOptions& options_;
+  StopToken stop_;
   std::vector<Unknown> unknowns_;
   std::vector<std::uint64_t> seen_;
   std::vector<char> was_open_;

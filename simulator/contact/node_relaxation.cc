@@ -77,13 +77,14 @@ LocalSolution solve_node(const StrengthAt& strength, const Eigen::Vector3d& trac
 
 }  // namespace
 
-double relax(ContactProblem& problem, SubStep& sub_step, int sweeps) {
+double relax(ContactProblem& problem, SubStep& sub_step, int sweeps, StopToken stop) {
   sub_step.traction = sub_step.trial;
   problem.subtract_product(sub_step.increment, sub_step.traction);
   double worst = 0;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     worst = 0;
     for (int k = 0; k < problem.n_nodes(); ++k) {
+      stop.throw_if_requested("solving a load step");
       const auto i = static_cast<std::size_t>(k);
       const ContactNode& node = problem.nodes[i];
       const auto n = static_cast<std::size_t>(node.n_dofs);

@@ -6,8 +6,8 @@
 
 namespace faultsim {
 
-ScalarSlip::ScalarSlip(ContactProblem& problem, const ContactOptions& options)
-    : problem_(problem), options_(options) {
+ScalarSlip::ScalarSlip(ContactProblem& problem, const ContactOptions& options, StopToken stop)
+    : problem_(problem), options_(options), stop_(stop) {
   wanted_.assign(static_cast<std::size_t>(problem.n_nodes()), 0);
   placed_ = wanted_;
 }
@@ -173,6 +173,7 @@ SearchHistory ScalarSlip::solve(SubStep& sub_step) {
       history.end = SearchEnd::set_comes_back;
       break;
     }
+    stop_.throw_if_requested("solving a load step");
     ++history.passes;
     if (!solve_set(sub_step)) {
       history.end = SearchEnd::singular_tangent;  // what was appended so far is a valid factor

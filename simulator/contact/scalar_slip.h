@@ -20,7 +20,7 @@ namespace faultsim {
 /// earlier step is the factor that would be built anew, up to the order of the nodes.
 class ScalarSlip {
  public:
-  ScalarSlip(ContactProblem& problem, const ContactOptions& options);
+  ScalarSlip(ContactProblem& problem, const ContactOptions& options, StopToken stop = {});
   /// @pre problem.scalar, no gap at the start, sub_step.traction = trial.
   /// @returns not converged when the set cycles or a node would open: take ContactNewton.
   SearchHistory solve(SubStep& sub_step);
@@ -37,6 +37,7 @@ class ScalarSlip {
 
   ContactProblem& problem_;
   const ContactOptions& options_;
+  StopToken stop_;
   BorderedLu lu_;
   std::vector<int> order_;           ///< nodes in the factor.
   std::vector<signed char> signs_;   ///< their slip signs there, per node of order_.

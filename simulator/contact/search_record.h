@@ -1,7 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
+
+#include "simulator/common/run_context.h"
 
 namespace faultsim {
 
@@ -51,6 +54,12 @@ struct SubStepTrace {
   };
   std::vector<Search> searches;  ///< empty: nothing moved.
   const char* verdict = "";      ///< how the sub-step ended: "accepted", "not shown stable", ...
+};
+
+/// Who looks on while a contact problem is solved. The answer does not depend on it.
+struct ContactWatch {
+  StopToken stop;  ///< asked per linear solve: Interrupted.
+  std::function<void(const SubStepTrace&)> tried = nullptr;  ///< after each try at a sub-step.
 };
 
 /// "38 iterations over 12 active sets, residual 7.1 tolerances at the end and 1.4 at best

@@ -10,11 +10,12 @@
 namespace faultsim {
 
 SubStepSolver::SubStepSolver(const FaultOperator& op, const ContactLaws& laws,
-                             const ContactOptions& options)
+                             const ContactOptions& options, const ContactWatch& watch)
     : options_(options),
+      watch_(watch),
       problem_(op, laws),
-      scalar_(problem_, options_),
-      newton_(problem_, options_),
+      scalar_(problem_, options_, watch.stop),
+      newton_(problem_, options_, watch.stop),
       stability_(problem_) {}
 
 void SubStepSolver::begin(const LoadPath& path, const SubStepRange& range,
@@ -155,7 +156,10 @@ int SubStepSolver::passes() const {
   return sum;
 }
 
-void SubStepSolver::conclude(const char* verdict) { trace_.verdict = verdict; }
+void SubStepSolver::conclude(const char* verdict) {
+  trace_.verdict = verdict;
+  if (watch_.tried) watch_.tried(trace_);
+}
 
 /// With weakening, failure often means that there is nothing near to be found, so smaller
 /// sub-steps and damping come before relaxation.
@@ -174,7 +178,7 @@ bool SubStepSolver::solve_motion(bool last) {
   constexpr int kSweeps = 200;  // a short try first: most need no more
   for (const int sweeps : {kSweeps, 5 * kSweeps}) {
     start_from_rest();
-    relax(problem_, sub_step_, sweeps);
+    relax(problem_, sub_step_, sweeps, watch_.stop);
     if (solved_by("relaxed", newton_.solve(sub_step_))) return true;
     if (problem_.may_jump) break;
   }

@@ -31,7 +31,8 @@ struct SubStepRange {
 /// always has a solution.
 class SubStepSolver {
  public:
-  SubStepSolver(const FaultOperator& op, const ContactLaws& laws, const ContactOptions& options);
+  SubStepSolver(const FaultOperator& op, const ContactLaws& laws, const ContactOptions& options,
+                const ContactWatch& watch);
 
   /// Sets up a sub-step of a load step. @param start  kept by reference until commit().
   void begin(const LoadPath& path, const SubStepRange& range, const ContactState& start);
@@ -71,6 +72,7 @@ class SubStepSolver {
   bool loses_cohesion() const;
 
   ContactOptions options_;
+  ContactWatch watch_;
   ContactProblem problem_;
   ScalarSlip scalar_;
   ContactNewton newton_;

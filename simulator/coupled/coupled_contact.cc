@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "simulator/common/errors.h"
-#include "simulator/common/interrupt.h"
 
 namespace faultsim {
 namespace {
@@ -210,7 +209,6 @@ CoupledStepReport CoupledContact::advance(const CoupledLoad& load, ContactState&
     at.state.push_back(s == FaultState::open ? s : FaultState::stick);
   }
   while (!report.converged) {
-    throw_if_interrupted("solving a load step");
     if (report.newton_iterations++ == options_.max_newton_iterations) return report;
     const double change = improve(force, state, at, report);
     const double largest = std::max(at.traction.cwiseAbs().maxCoeff(), 1.0);

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "simulator/common/errors.h"
-#include "simulator/common/interrupt.h"
 #include "simulator/coupled/leading_block.h"
 
 namespace faultsim {
@@ -116,7 +115,6 @@ SparseMatrix fsai_factor(const SparseMatrix& a, const FsaiOptions& options) {
   entries.reserve(static_cast<long>(n) * (1 + options.steps * options.step_size));
   FsaiRows rows(a, options);
   for (int i = 0; i < n; ++i) {
-    if (i % 1000 == 0) throw_if_interrupted("making FSAI");
     rows.append(i, entries);
   }
   SparseMatrix factor(n, n);

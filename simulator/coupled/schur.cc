@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "simulator/common/errors.h"
-#include "simulator/common/interrupt.h"
 #include "simulator/linalg/dense_lu.h"
 
 namespace faultsim {
@@ -16,7 +15,6 @@ class ExactSchur final : public SchurComplement {
     DirectSolver leading(j.leading, j.symmetric);
     Eigen::MatrixXd s(j.n_multipliers(), j.n_multipliers());
     for (int k = 0; k < j.n_multipliers(); ++k) {
-      throw_if_interrupted("making the Schur complement");
       s.col(k) = j.constraint.transpose() * leading.solve(j.coupling.col(k));
     }
     if (!lu_.factor(s)) throw ResourceError("the Schur complement is singular");

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "simulator/common/errors.h"
-#include "simulator/common/interrupt.h"
 #include "simulator/common/stopwatch.h"
 #include "simulator/linalg/ordering.h"
 #include "simulator/linalg/supernodal_factor.h"
@@ -101,7 +100,6 @@ struct TrailingCholesky::Impl {
     const FactorOutcome outcome = factorise_supernodes(*lower.get(), factor, c, run);
     check("the factorisation");
     if (outcome.end == FactorEnd::stopped) {
-      throw_if_interrupted("condensing the bulk");
       throw Interrupted("stopped while condensing the bulk");
     }
     statistics.bytes = static_cast<double>(factor->xsize) * sizeof(double) +
@@ -185,7 +183,7 @@ TrailingCholesky::TrailingCholesky(const SparseMatrix& k, int n_last, const std:
   }
   cholmod_sparse a = view_of(k);
   Stopwatch analysis;
-  self.order = trailing_order(a, self.n_bulk, group, n_groups, self.common);
+  self.order = trailing_order(a, self.n_bulk, group, n_groups, self.common, run.stop);
   self.check("the ordering");
   self.analyse(&a);
   self.statistics.analyse_seconds = analysis.seconds();

@@ -4,11 +4,13 @@
 
 #include <array>
 #include <csignal>
+#include <chrono>
 #include <limits>
+#include <mutex>
 #include <numeric>
+#include <thread>
 
 #include "simulator/common/errors.h"
-#include "simulator/common/interrupt.h"
 
 namespace faultsim {
 namespace {
@@ -32,6 +34,22 @@ class KeptSignalActions {
   static constexpr std::array kTaken = {SIGABRT, SIGTERM};
   std::array<struct sigaction, kTaken.size()> before_ = {};
 };
+
+void demand_no_stop(const std::function<bool()>& stop) {
+  if (stop && stop()) throw Interrupted("stopped while ordering the unknowns");
+}
+
+/// The one turn in the process: METIS seeds rand() and draws from it, and sets handlers of signals.
+std::unique_lock<std::mutex> wait_for_turn(const std::function<bool()>& stop) {
+  static std::mutex mutex;
+  std::unique_lock turn(mutex, std::try_to_lock);
+  while (!turn.owns_lock()) {
+    demand_no_stop(stop);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    turn.try_lock();
+  }
+  return turn;
+}
 
 /// Both triangles, as METIS wants them; neighbours ascending.
 struct Adjacency {
@@ -61,13 +79,16 @@ Adjacency adjacency(const GroupGraph& graph) {
 
 }  // namespace
 
-std::optional<std::vector<Index>> nested_dissection(const GroupGraph& graph) {
+std::optional<std::vector<Index>> nested_dissection(const GroupGraph& graph,
+                                                    const std::function<bool()>& stop) {
   if (2 * graph.rows.size() > static_cast<std::size_t>(std::numeric_limits<idx_t>::max()))
     return {};
   Adjacency full = adjacency(graph);
   idx_t n = static_cast<idx_t>(full.begin.size()) - 1;
   std::vector<idx_t> order(n), place(n);
+  const std::unique_lock turn = wait_for_turn(stop);
   while (true) {
+    demand_no_stop(stop);
     int done = METIS_ERROR;
     {
       const KeptSignalActions kept;
@@ -78,7 +99,6 @@ std::optional<std::vector<Index>> nested_dissection(const GroupGraph& graph) {
     if (done == METIS_ERROR_MEMORY) return {};
     FAULTSIM_DEMAND(done == METIS_ERROR, "METIS_NodeND returns ", done);
     std::raise(SIGTERM);
-    throw_if_interrupted("ordering the unknowns");
   }
 }
 

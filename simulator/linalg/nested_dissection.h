@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -14,8 +15,11 @@ struct GroupGraph {
 /// Fill-reducing order by METIS's nested dissection (METIS_NodeND with its default options):
 /// entry k is the vertex that is eliminated as the k-th. Nothing if METIS has no memory for it or
 /// the graph more edges than its integers count.
-/// Throws Interrupted if a stop signal came meanwhile: METIS takes SIGTERM for itself, so that one
-/// is raised again for the program once METIS is gone.
-std::optional<std::vector<long>> nested_dissection(const GroupGraph& graph);
+/// METIS draws from the process's rand() and takes SIGTERM for itself, so that one call runs at a
+/// time in a process, and a SIGTERM that came meanwhile is raised again once METIS is gone.
+/// @param stop  asked while it waits its turn, and before and after METIS.
+/// Throws Interrupted when `stop` says so.
+std::optional<std::vector<long>> nested_dissection(const GroupGraph& graph,
+                                                   const std::function<bool()>& stop = nullptr);
 
 }  // namespace faultsim

@@ -48,13 +48,15 @@ GroupGraph group_graph(const cholmod_sparse& a, const std::vector<int>& group, i
   return graph;
 }
 
-std::vector<Index> order_groups(GroupGraph graph, CholmodCommon& common) {
+std::vector<Index> order_groups(GroupGraph graph, CholmodCommon& common,
+                                const std::function<bool()>& stop) {
   const std::size_t n = graph.begin.size() - 1;
   std::vector<Index> order(n);
   std::iota(order.begin(), order.end(), Index{0});
   if (graph.rows.empty()) return order;
   if (n >= kSmallGraph) {
-    if (std::optional<std::vector<Index>> dissected = nested_dissection(graph)) return *dissected;
+    if (std::optional<std::vector<Index>> dissected = nested_dissection(graph, stop))
+      return *dissected;
   }
   cholmod_sparse a{};
   a.nrow = a.ncol = n;
@@ -100,8 +102,9 @@ void postorder_bulk(cholmod_sparse& a, Index n_bulk, std::vector<Index>& order,
 }  // namespace
 
 std::vector<Index> trailing_order(cholmod_sparse& a, Index n_bulk, const std::vector<int>& group,
-                                  int n_groups, CholmodCommon& common) {
-  const std::vector<Index> group_order = order_groups(group_graph(a, group, n_groups), common);
+                                  int n_groups, CholmodCommon& common,
+                                  const std::function<bool()>& stop) {
+  const std::vector<Index> group_order = order_groups(group_graph(a, group, n_groups), common, stop);
   std::vector<Index> place(group_order.size());
   for (std::size_t i = 0; i < group_order.size(); ++i) {
     place[static_cast<std::size_t>(group_order[i])] = static_cast<Index>(i);

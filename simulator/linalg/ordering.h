@@ -2,6 +2,7 @@
 
 #include <cholmod.h>
 
+#include <functional>
 #include <vector>
 
 namespace faultsim {
@@ -30,6 +31,7 @@ class CholmodCommon {
 /// move trailing unknowns when the matrix falls into several parts, and its supernodes need one.
 std::vector<SuiteSparse_long> trailing_order(cholmod_sparse& a, SuiteSparse_long n_bulk,
                                              const std::vector<int>& group, int n_groups,
-                                             CholmodCommon& common);
+                                             CholmodCommon& common,
+                                             const std::function<bool()>& stop);
 
 }  // namespace faultsim

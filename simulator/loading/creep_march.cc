@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "simulator/common/errors.h"
-#include "simulator/common/interrupt.h"
 #include "simulator/loading/case_contact.h"
 
 namespace faultsim {
@@ -60,8 +59,9 @@ struct CreepMarch::Impl {
   };
 
   Impl(const Scene& given_scene, const CaseLoads& given_loads, CreepLadder& given_ladder,
-       const ContactLaws& laws)
+       const ContactLaws& laws, const ContactWatch& given_watch)
       : numerics(given_scene.numerics),
+        watch(given_watch),
         case_loads(given_loads),
         ladder(given_ladder),
         following_laws(laws),
@@ -82,6 +82,7 @@ struct CreepMarch::Impl {
   Path controlled(const Point& from, double to, Path coarse, int rung);
 
   Numerics numerics;
+  ContactWatch watch;
   const CaseLoads& case_loads;
   CreepLadder& ladder;
   ContactLaws following_laws, static_laws;
@@ -117,7 +118,7 @@ ContactSolver& CreepMarch::Impl::solver(int rung, bool follows) {
       (follows ? following_solver : static_solver)[static_cast<std::size_t>(rung)];
   if (!chosen) {
     chosen = std::make_unique<ContactSolver>(
-        ladder.op(rung), follows ? following_laws : static_laws, contact_options(numerics));
+        ladder.op(rung), follows ? following_laws : static_laws, contact_options(numerics), watch);
   }
   return *chosen;
 }
@@ -137,12 +138,7 @@ const CreepMarch::Impl::Point& CreepMarch::Impl::arrive(Path& path) {
 /// of the load step, whose loads are linear in time.
 CreepMarch::Impl::Path CreepMarch::Impl::step(const Point& from, const StepLoads& loads, double to,
                                               int rung, bool follows) {
-  if (interrupted()) {
-    Path stopped{from, {}, {}};
-    stopped.report.contact.outcome = Outcome::interrupted;
-    stopped.report.contact.reason = concat("stopped at a step of creep from ", from.time, " s");
-    return stopped;
-  }
+  watch.stop.throw_if_requested("solving a step of creep");
   const FaultOperator& op = ladder.op(rung);
   const FaultOperator& elastic = ladder.op(0);
   CreepLadder::History history = ladder.history(rung, from.bulk);
@@ -262,8 +258,8 @@ CreepMarch::Impl::Path CreepMarch::Impl::controlled(const Point& from, double to
 }
 
 CreepMarch::CreepMarch(const Scene& scene, const CaseLoads& loads, CreepLadder& ladder,
-                       const ContactLaws& laws)
-    : impl_(std::make_unique<Impl>(scene, loads, ladder, laws)) {}
+                       const ContactLaws& laws, const ContactWatch& watch)
+    : impl_(std::make_unique<Impl>(scene, loads, ladder, laws, watch)) {}
 
 CreepMarch::~CreepMarch() = default;
 

@@ -37,13 +37,13 @@ class CreepMarch {
  public:
   /// @pre all arguments outlive this; laws and the operators of the ladder agree.
   CreepMarch(const Scene& scene, const CaseLoads& loads, CreepLadder& ladder,
-             const ContactLaws& laws);
+             const ContactLaws& laws, const ContactWatch& watch = {});
   ~CreepMarch();
 
   /// Step 0: the faults have moved from closed to `state` under the loads at t = 0, elastically.
   void begin(const StepLoads& loads, const ContactState& state);
   /// Advances from the end of the last step to time `to`, s. Unless in equilibrium, state and salt
-  /// are left as they were.
+  /// are left as they were. Throws Interrupted when the watch says so.
   CreepReport advance(double to, ContactState& state);
 
   /// Displacement so far: observation points (ladder order) and all mesh nodes.

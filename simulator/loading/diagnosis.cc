@@ -112,7 +112,7 @@ void judge(const DiagnosisLimits& limits, double traction_tolerance, Diagnosis& 
   }
 }
 
-Diagnosis diagnose_case(const Scene& scene, const PreparedOperator& prepared, Monitor& monitor,
+Diagnosis diagnose_case(const Scene& scene, const PreparedOperator& prepared, const RunContext& context,
                         const DiagnosisLimits& limits) {
   Diagnosis diagnosis;
   diagnosis.op = check_operator(*prepared.op);
@@ -127,11 +127,11 @@ Diagnosis diagnose_case(const Scene& scene, const PreparedOperator& prepared, Mo
     diagnosis.n_elastic += step.elastic;
     diagnosis.n_at_once += step.at_once;
   };
-  diagnosis.result = run_case(scene, prepared, monitor, {}, probe);
+  diagnosis.result = run_case(scene, prepared, context, {}, probe);
   if (diagnosis.result.outcome == Outcome::interrupted) return diagnosis;
   CaseProbe disturbed;
   disturbed.noise = NoiseCheck::kNoise;
-  const CaseResult twin = run_case(scene, prepared, monitor, {}, disturbed);
+  const CaseResult twin = run_case(scene, prepared, context, {}, disturbed);
   if (twin.outcome == Outcome::interrupted) {
     diagnosis.result.outcome = Outcome::interrupted;
     return diagnosis;

@@ -1,5 +1,7 @@
 #include "simulator/loading/field_keeper.h"
 
+#include <utility>
+
 #include "simulator/common/errors.h"
 #include "simulator/output/atomic_file.h"
 
@@ -10,31 +12,42 @@ FieldSteps field_steps_from_string(const std::string& text) {
   return text == "all" ? FieldSteps::all : FieldSteps::stages;
 }
 
-FieldKeeper::FieldKeeper(const std::filesystem::path& folder, FieldSteps which, const Scene& scene,
-                         const FaultGeometry& geometry, bool creep)
-    : which_(which), history_(load_steps(scene)), writer_(folder, geometry, creep) {
-  create_folders(folder);
-  remove_abandoned_temporaries(folder);
-}
+FieldSelection::FieldSelection(FieldSteps which, const Scene& scene, StepObserver sink)
+    : which_(which), history_(load_steps(scene)), sink_(std::move(sink)) {}
 
-void FieldKeeper::add(const StepResult& step, const FaultFields& fields) {
+void FieldSelection::add(const StepResult& step, const FaultFields& fields) {
   if (which_ == FieldSteps::all || is_stage_end(history_, static_cast<std::size_t>(step.step))) {
-    write(step, fields);
+    hand_on(step, fields);
     last_.reset();
   } else {
     last_ = Step{step, fields};
   }
 }
 
-void FieldKeeper::write(const StepResult& step, const FaultFields& fields) {
-  writer_.add_step(step, fields);
-  written_.push_back(step.step);
+void FieldSelection::hand_on(const StepResult& step, const FaultFields& fields) {
+  sink_(step, fields);
+  done_.push_back(step.step);
+}
+
+std::vector<int> FieldSelection::finish() {
+  if (last_) hand_on(last_->result, last_->fields);
+  return done_;
+}
+
+FieldKeeper::FieldKeeper(const std::filesystem::path& folder, FieldSteps which, const Scene& scene,
+                         const FaultGeometry& geometry, bool creep)
+    : writer_(folder, geometry, creep),
+      selection_(which, scene, [this](const StepResult& step, const FaultFields& fields) {
+        writer_.add_step(step, fields);
+      }) {
+  create_folders(folder);
+  remove_abandoned_temporaries(folder);
 }
 
 std::vector<int> FieldKeeper::finish() {
-  if (last_) write(last_->result, last_->fields);
+  const std::vector<int> steps = selection_.finish();
   writer_.finish();
-  return written_;
+  return steps;
 }
 
 }  // namespace faultsim

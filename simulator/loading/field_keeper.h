@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "simulator/loading/history.h"
+#include "simulator/loading/run_case.h"
 #include "simulator/output/write_result.h"
 
 namespace faultsim {
 
-/// The load steps whose fault fields are written.
+/// The load steps whose fault fields are wanted.
 enum class FieldSteps {
   stages,  ///< the initial state, the last step of each stage, and where the history ends early the
            ///< last step in equilibrium.
@@ -18,6 +19,29 @@ enum class FieldSteps {
 };
 /// From "stages" or "all"; anything else is an InternalError, as programs write it.
 FieldSteps field_steps_from_string(const std::string& text);
+
+/// Hands the fault fields of the wanted steps of one case to a sink, as it runs.
+class FieldSelection {
+ public:
+  FieldSelection(FieldSteps which, const Scene& scene, StepObserver sink);
+  /// To be called after each load step in equilibrium, in order (a StepObserver).
+  void add(const StepResult& step, const FaultFields& fields);
+  /// Hands on what is still held back. Returns the numbers of the steps handed on, ascending.
+  std::vector<int> finish();
+
+ private:
+  struct Step {
+    StepResult result;
+    FaultFields fields;
+  };
+  void hand_on(const StepResult& step, const FaultFields& fields);
+
+  FieldSteps which_;
+  std::vector<LoadStep> history_;
+  StepObserver sink_;
+  std::optional<Step> last_;  ///< not handed on: it is if nothing follows.
+  std::vector<int> done_;
+};
 
 /// Writes the fault fields of one case as it runs: FOLDER/faults.h5 and FOLDER/faults.xmf, as
 /// `faultsim run` does. Files that are there already stay until finish() replaces them; what a
@@ -27,23 +51,14 @@ class FieldKeeper {
  public:
   FieldKeeper(const std::filesystem::path& folder, FieldSteps which, const Scene& scene,
               const FaultGeometry& geometry, bool creep = false);
-  /// To be called after each load step in equilibrium, in order (a StepObserver).
-  void add(const StepResult& step, const FaultFields& fields);
+  /// As FieldSelection::add().
+  void add(const StepResult& step, const FaultFields& fields) { selection_.add(step, fields); }
   /// Completes the files. Returns the numbers of the steps in them, ascending.
   std::vector<int> finish();
 
  private:
-  struct Step {
-    StepResult result;
-    FaultFields fields;
-  };
-  void write(const StepResult& step, const FaultFields& fields);
-
-  FieldSteps which_;
-  std::vector<LoadStep> history_;
   FieldWriter writer_;
-  std::optional<Step> last_;  ///< not written: it is if nothing follows.
-  std::vector<int> written_;
+  FieldSelection selection_;
 };
 
 }  // namespace faultsim

@@ -60,7 +60,7 @@ std::vector<int> reservoir_cells(const BulkProblem& problem, const std::vector<i
 
 PreparedInfluence prepare_influence(const Scene& scene, const Plan& plan,
                                     const std::vector<int>& regions, const CachePolicy& cache,
-                                    Monitor& monitor, const BuildOptions& build) {
+                                    const RunContext& context) {
   FAULTSIM_DEMAND(!plan.creep.active, "an influence block is of the elastic operator");
   take_blas_buffer();
   set_blas_threads(1);
@@ -70,7 +70,7 @@ PreparedInfluence prepare_influence(const Scene& scene, const Plan& plan,
   if (!cache.folder.empty()) {
     auto block = read_influence(influence_path(cache, op_name, name), name, &made.remark);
     if (block) {
-      PreparedOperator prepared = prepare_operator(scene, plan, cache, false, monitor, build);
+      PreparedOperator prepared = prepare_operator(scene, plan, cache, false, context);
       if (!prepared.remark.empty()) made.remark = prepared.remark;
       made.op = prepared.op;
       block->region_names = region_names(scene);
@@ -83,10 +83,10 @@ PreparedInfluence prepare_influence(const Scene& scene, const Plan& plan,
   made.predicted = plan_influence(scene, plan, static_cast<long>(cells.size()));
   Plan whole = plan;
   whole.memory_bytes = std::max(plan.memory_bytes, kProgramBytes + made.predicted.peak_bytes);
-  PreparedOperator prepared = prepare_operator(scene, whole, cache, true, monitor, build);
+  PreparedOperator prepared = prepare_operator(scene, whole, cache, true, context);
   made.op = prepared.op;
   if (!prepared.remark.empty()) made.remark = prepared.remark;
-  auto block = std::make_shared<InfluenceBlock>(prepared.bulk->influence(cells, monitor));
+  auto block = std::make_shared<InfluenceBlock>(prepared.bulk->influence(cells, context));
   block->fingerprint = name;
   block->operator_fingerprint = op_name;
   block->region_names = region_names(scene);

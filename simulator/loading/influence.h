@@ -29,6 +29,6 @@ struct PreparedInfluence {
 /// prepare_operator() does. @pre no creep in the plan.
 PreparedInfluence prepare_influence(const Scene& scene, const Plan& plan,
                                     const std::vector<int>& regions, const CachePolicy& cache,
-                                    Monitor& monitor, const BuildOptions& build = {});
+                                    const RunContext& context = {});
 
 }  // namespace faultsim

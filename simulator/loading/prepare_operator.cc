@@ -57,16 +57,15 @@ std::optional<FaultOperator> find_operator(const std::string& name, const CacheP
 }
 
 /// Every process needs the factors of a creeping family, so its operators are built, never read.
-PreparedOperator prepare_ladder(const Scene& scene, const Plan& plan, const BuildOptions& options,
-                                Monitor& monitor) {
+PreparedOperator prepare_ladder(const Scene& scene, const Plan& plan, const RunContext& context) {
   demand_memory(plan, available_memory());
-  monitor.progress(0.0, "meshing");
+  context.progress(0.0, "meshing");
   const MaxwellScheme scheme = scene.numerics.creep_scheme == CreepScheme::exponential
                                    ? MaxwellScheme::exponential
                                    : MaxwellScheme::backward_euler;
   PreparedOperator prepared;
   prepared.ladder = std::make_shared<CreepLadder>(bulk_problem(scene, plan), plan.creep.rungs,
-                                                  scheme, options, monitor);
+                                                  scheme, context);
   auto op = std::make_shared<FaultOperator>(prepared.ladder->op(0));  // shares H
   take_fault_names(scene, *op);
   mirror_observations(scene, plan, op->observed);
@@ -82,10 +81,10 @@ PreparedOperator prepare_ladder(const Scene& scene, const Plan& plan, const Buil
 }  // namespace
 
 PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const CachePolicy& cache,
-                                  bool keep_bulk, Monitor& monitor, const BuildOptions& build) {
+                                  bool keep_bulk, const RunContext& context) {
   take_blas_buffer();
   set_blas_threads(1);
-  if (plan.creep.active) return prepare_ladder(scene, plan, build, monitor);
+  if (plan.creep.active) return prepare_ladder(scene, plan, context);
   PreparedOperator prepared;
   const std::string name = operator_fingerprint(scene, plan, blas_description());
   if (!cache.folder.empty() && !keep_bulk) {
@@ -97,10 +96,10 @@ PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const Ca
     }
   }
   demand_memory(plan, available_memory());
-  monitor.progress(0.0, "meshing");
+  context.progress(0.0, "meshing");
   const BulkProblem problem = bulk_problem(scene, plan);
-  auto bulk = std::make_shared<CondensedBulk>(problem, build, monitor);
-  auto op = std::make_shared<FaultOperator>(bulk->condense());
+  auto bulk = std::make_shared<CondensedBulk>(problem, context);
+  auto op = std::make_shared<FaultOperator>(bulk->condense(context));
   mirror_observations(scene, plan, op->observed);
   op->fingerprint = name;
   if (!cache.folder.empty()) keep_operator(*op, cache, prepared.remark);

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "simulator/common/fingerprint.h"
-#include "simulator/common/interrupt.h"
 #include "simulator/common/stopwatch.h"
 #include "simulator/contact/contact.h"
 #include "simulator/loading/case_contact.h"
@@ -41,27 +40,30 @@ class CaseRun {
  public:
   /// @param ladder  of the family whose elastic operator op is; null = no creep.
   CaseRun(const Scene& scene, const FaultOperator& op, CreepLadder* ladder,
-          const StepObserver& observer, const CaseProbe& probe)
+          const RunContext& context, const StepObserver& observer, const CaseProbe& probe)
       : scene_(scene),
         op_(op),
+        context_(context),
         observer_(observer),
         probe_(probe),
         laws_(contact_laws(scene, op.geometry)),
         loads_(scene, op, probe.noise),
         meter_(op, laws_, scene.numerics.slip_tolerance, scene.numerics.activation_length),
-        solver_(op, laws_, contact_options(scene.numerics)),
+        solver_(op, laws_, contact_options(scene.numerics), watch()),
         state_(initial_state(op)),
         neighbours_(scene, op),
         episodes_(meter_, neighbours_, fault_names(scene), op.geometry.plane_strain),
         whole_("", 0, nullptr, true, op.geometry.plane_strain) {
-    if (ladder != nullptr) march_.emplace(scene, loads_, *ladder, laws_);
+    if (ladder != nullptr) march_.emplace(scene, loads_, *ladder, laws_, watch());
   }
 
-  CaseResult run(Monitor& monitor);
+  CaseResult run();
   StepStart start_of(int step);
 
  private:
+  ContactWatch watch() const;
   void name_result();
+  void walk(const std::vector<LoadStep>& steps);
   ContactReport solve(const LoadStep& step, const StepLoads* before, const StepLoads& loads,
                       StepResult& result);
   bool advance(const LoadStep& step, const StepLoads* before, const StepLoads& loads);
@@ -81,6 +83,7 @@ class CaseRun {
 
   const Scene& scene_;
   const FaultOperator& op_;
+  const RunContext& context_;
   const StepObserver& observer_;
   const CaseProbe& probe_;
   ContactLaws laws_;
@@ -97,7 +100,14 @@ class CaseRun {
   std::optional<CreepMarch> march_;
   Eigen::VectorXd creep_traction_;  ///< t'_creep of the last step, n_dofs, Pa; empty without creep.
   double last_time_ = 0;            ///< s, of the last step.
+  const LoadStep* at_ = nullptr;    ///< the step being solved.
 };
+
+ContactWatch CaseRun::watch() const {
+  ContactWatch watch{context_.stop};
+  if (probe_.tried) watch.tried = [this](const SubStepTrace& part) { probe_.tried(at_->step, part); };
+  return watch;
+}
 
 /// A dof vector as components (n, strike, dip) of nodes; removed components are 0.
 Eigen::Matrix3Xd CaseRun::per_node(const Eigen::VectorXd& values) const {
@@ -278,7 +288,8 @@ void CaseRun::show(const StepLoads* before, const StepLoads& loads, const Contac
 }
 
 bool CaseRun::advance(const LoadStep& step, const StepLoads* before, const StepLoads& loads) {
-  const Stopwatch watch;
+  const Stopwatch stopwatch;
+  at_ = &step;
   StepResult result;
   result.step = step.step;
   result.stage = step.stage;
@@ -294,7 +305,7 @@ bool CaseRun::advance(const LoadStep& step, const StepLoads* before, const StepL
   add_counts(result_.counts, report.counts);
   const bool good = in_equilibrium(report.outcome);
   record_events(step, before, loads, report.jumps);
-  result.seconds = watch.seconds();
+  result.seconds = stopwatch.seconds();
   if (good) {
     record(step, loads, jump_before, result);
     if (probe_.accepted) show(before, loads, report, result, accepted);
@@ -335,29 +346,36 @@ void CaseRun::name_result() {
   for (const ObservationRow& row : op_.observed.rows) result_.observation_names.push_back(row.name);
 }
 
-CaseResult CaseRun::run(Monitor& monitor) {
-  const Stopwatch watch;
-  name_result();
-  const std::vector<LoadStep> steps = load_steps(scene_);
+/// Goes through the load steps to their end, or as far as there is equilibrium.
+void CaseRun::walk(const std::vector<LoadStep>& steps) {
   std::vector<StepLoads> loads;
   for (const LoadStep& step : steps) {
     loads.push_back(loads_.at(step.time));
     loads_.check_fault_pressure(step, loads.back());
   }
-  result_.outcome = Outcome::converged;
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    if (interrupted()) {
-      result_.outcome = Outcome::interrupted;
-      result_.reason = concat("stopped before load step ", steps[i].step);
-      break;
-    }
+    at_ = &steps[i];
+    context_.stop.throw_if_requested("starting a load step");
     if (stage_ && steps[i].stage != steps[i - 1].stage) {
       result_.stages.push_back(stage_->finish());
       stage_.reset();
     }
     if (!advance(steps[i], i == 0 ? nullptr : &loads[i - 1], loads[i])) break;
-    monitor.progress(static_cast<double>(i + 1) / static_cast<double>(steps.size()),
-                     steps[i].stage);
+    context_.progress(static_cast<double>(i + 1) / static_cast<double>(steps.size()),
+                      steps[i].stage);
+  }
+}
+
+CaseResult CaseRun::run() {
+  const Stopwatch stopwatch;
+  name_result();
+  result_.outcome = Outcome::converged;
+  const std::vector<LoadStep> steps = load_steps(scene_);
+  try {
+    walk(steps);
+  } catch (const Interrupted&) {  // the step at hand is given up, those before it stand
+    result_.outcome = Outcome::interrupted;
+    result_.reason = concat("stopped in load step ", at_->step);
   }
   if (stage_) result_.stages.push_back(stage_->finish());
   result_.whole = whole_.finish();
@@ -371,7 +389,7 @@ CaseResult CaseRun::run(Monitor& monitor) {
   result_.weakening_resolved = result_.max_nucleation_ratio <= 1.0 / 3.0;
   name_events();
   result_.warnings = case_warnings(scene_, op_, meter_, result_);
-  result_.seconds = watch.seconds();
+  result_.seconds = stopwatch.seconds();
   return std::move(result_);
 }
 
@@ -391,11 +409,6 @@ StepStart CaseRun::start_of(int step) {
   start.outcome = result_.outcome = Outcome::converged;
   name_result();
   for (const LoadStep& next : steps) {
-    if (interrupted()) {
-      start.outcome = Outcome::interrupted;
-      start.reason = concat("stopped before load step ", next.step);
-      return start;
-    }
     const StepLoads loads = loads_.at(next.time);
     loads_.check_fault_pressure(next, loads);
     start.step = next;
@@ -415,18 +428,19 @@ StepStart CaseRun::start_of(int step) {
 
 }  // namespace
 
-CaseResult run_case(const Scene& scene, const FaultOperator& op, Monitor& monitor,
+CaseResult run_case(const Scene& scene, const FaultOperator& op, const RunContext& context,
                     const StepObserver& observer) {
-  return CaseRun(scene, op, nullptr, observer, {}).run(monitor);
+  return CaseRun(scene, op, nullptr, context, observer, {}).run();
 }
 
-CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, Monitor& monitor,
+CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, const RunContext& context,
                     const StepObserver& observer, const CaseProbe& probe) {
-  return CaseRun(scene, *prepared.op, prepared.ladder.get(), observer, probe).run(monitor);
+  return CaseRun(scene, *prepared.op, prepared.ladder.get(), context, observer, probe).run();
 }
 
-StepStart start_of_step(const Scene& scene, const FaultOperator& op, int step) {
-  return CaseRun(scene, op, nullptr, {}, {}).start_of(step);
+StepStart start_of_step(const Scene& scene, const FaultOperator& op, int step,
+                        const RunContext& context) {
+  return CaseRun(scene, op, nullptr, context, {}, {}).start_of(step);
 }
 
 }  // namespace faultsim

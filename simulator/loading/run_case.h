@@ -1,19 +1,19 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "simulator/common/monitor.h"
+#include "simulator/common/run_context.h"
 #include "simulator/condensation/condensation.h"
 #include "simulator/condensation/creep_ladder.h"
 #include "simulator/contact/contact.h"
 #include "simulator/contact/step_check.h"
 #include "simulator/loading/history.h"
 #include "simulator/model/fault_operator.h"
+#include "simulator/output/cache_policy.h"
 #include "simulator/output/result.h"
 #include "simulator/plan/plan.h"
 #include "simulator/scene/scene.h"
@@ -25,15 +25,6 @@ BulkProblem bulk_problem(const Scene& scene, const Plan& plan);
 /// Points of the half that is not modelled are observed at their mirror image. The rows (three per
 /// observation point) whose sign is therefore to be turned: their u_y.
 std::vector<int> mirrored_rows(const Scene& scene, const Plan& plan);
-
-/// Where operators are kept; an empty folder = nowhere.
-struct CachePolicy {
-  std::filesystem::path folder;
-  std::uint64_t max_bytes = 20'000'000'000;  ///< of either folder.
-  /// If set, `folder` is on a network file system and this one on the host's own disk: operators
-  /// are mapped from copies in it, as a mapped file that another host removes is gone at once.
-  std::filesystem::path node_folder = {};
-};
 
 /// The operator of the scene: from the cache if it is there and sound, else built (and cached).
 /// Throws ResourceError before anything is built when the plan needs more memory than is available;
@@ -48,27 +39,30 @@ struct PreparedOperator {
 };
 /// @param keep_bulk  wanted with its factor, so never read from the cache.
 PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const CachePolicy& cache,
-                                  bool keep_bulk, Monitor& monitor, const BuildOptions& build = {});
+                                  bool keep_bulk, const RunContext& context = {});
 
 /// Called after each load step in equilibrium.
 using StepObserver = std::function<void(const StepResult&, const FaultFields&)>;
 
-/// What a diagnosis adds to a run: a look at each accepted step, and noise.
+/// What a diagnosis adds to a run: looks at what was tried and accepted, and noise.
 struct CaseProbe {
   /// Relative size of a disturbance of every locked traction at every time, with signs that depend
   /// on nothing but the position of the entry; 0 = none.
   double noise = 0;
   /// Called after each load step in equilibrium, if set, with the number of the step.
   std::function<void(int, const ContactLaws&, const AcceptedStep&)> accepted;
+  /// Called after each try at a part of a load step, if set, with the number of the step.
+  std::function<void(int, const SubStepTrace&)> tried;
 };
 
 /// Runs one case on its operator: initial state, load steps, contact, metrics. Deterministic: the
 /// same scene and operator give the same bits whatever ran before. Never throws for
-/// non-convergence.
-CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, Monitor& monitor,
+/// non-convergence, nor where the context stops it: the outcome is then `interrupted`, and the steps
+/// are those that were complete.
+CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, const RunContext& context,
                     const StepObserver& observer = {}, const CaseProbe& probe = {});
 /// The same without creep, whatever the scene says of viscosity.
-CaseResult run_case(const Scene& scene, const FaultOperator& op, Monitor& monitor,
+CaseResult run_case(const Scene& scene, const FaultOperator& op, const RunContext& context,
                     const StepObserver& observer = {});
 
 /// One load step of a case before it is solved: what a contact solver would be given.
@@ -83,7 +77,9 @@ struct StepStart {
 };
 
 /// Runs a case up to the end of load step − 1 (0: the unloaded start, whose step equilibrates the
-/// initial state). Throws InputError when the case has no such step.
-StepStart start_of_step(const Scene& scene, const FaultOperator& op, int step);
+/// initial state). Throws InputError when the case has no such step,
+/// Interrupted when the context says so.
+StepStart start_of_step(const Scene& scene, const FaultOperator& op, int step,
+                        const RunContext& context = {});
 
 }  // namespace faultsim

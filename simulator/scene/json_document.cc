@@ -319,21 +319,25 @@ JsonDocument read_json_file(const std::string& path) {
   return parse_json(read_input_or_throw(path, kMostJsonBytes), path);
 }
 
+json value_of_text(const std::string& text, const std::string& source,
+                   const std::string& pointer) {
+  try {
+    return parse_json(text, "").value;
+  } catch (const InputError&) {
+    // Not JSON: a plain text such as 25 deg.
+    const std::string bad = first_unprintable(text);
+    if (bad.empty()) return text;
+    throw InputError(source, {{pointer, 0, "the value holds the control character or stray byte " + bad,
+                               "remove it"}});
+  }
+}
+
 void set_value(JsonDocument& document, const std::string& pointer, const std::string& value) {
   if (pointer.size() < 2 || pointer[0] != '/') {
     refuse(document, pointer, "\"" + pointer + "\" is not a JSON Pointer to a value",
            "write for example /friction/friction_angle");
   }
-  json new_value = value;
-  try {
-    new_value = parse_json(value, "").value;
-  } catch (const InputError&) {
-    // Not JSON: a plain text such as 25 deg.
-    if (const std::string bad = first_unprintable(value); !bad.empty()) {
-      refuse(document, pointer, "the value holds the control character or stray byte " + bad,
-             "remove it");
-    }
-  }
+  json new_value = value_of_text(value, document.source, pointer);
   if (!put_value(document.value, pointer, std::move(new_value))) refuse_place(document, pointer);
   for (auto slash = pointer.find('/', 1); slash != std::string::npos;
        slash = pointer.find('/', slash + 1)) {

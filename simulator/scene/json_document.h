@@ -33,6 +33,11 @@ JsonDocument read_json_file(const std::string& path);
 /// must exist. Throws InputError naming the pointer.
 void set_value(JsonDocument& document, const std::string& pointer, const std::string& value);
 
+/// The text as a value, as `--set` takes it: what parses as JSON as such, else as a string. Throws
+/// InputError with `pointer` where it holds a control character.
+nlohmann::json value_of_text(const std::string& text, const std::string& source,
+                             const std::string& pointer);
+
 /// Key as one token of a JSON Pointer ('~' and '/' escaped).
 std::string pointer_token(const std::string& key);
 /// Pointer to an element of a list.

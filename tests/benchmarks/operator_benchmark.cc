@@ -37,7 +37,7 @@ void build_operator(benchmark::State& state, const PlannedScene& scene) {
   const BulkProblem problem = bulk_problem(scene.scene, scene.plan);
   SilentMonitor monitor;
   for (auto _ : state) {
-    CondensedBulk bulk(problem, {static_cast<int>(state.range(0))}, monitor);
+    CondensedBulk bulk(problem, {monitor, {}, static_cast<int>(state.range(0))});
     const FaultOperator op = bulk.condense();
     state.counters["unknowns"] = op.n_unknowns;
     state.counters["jump_unknowns"] = op.geometry.n_dofs;

@@ -100,7 +100,7 @@ void study(const char* file, const char* tier) {
   const std::vector<int> cells = reservoir_cells(problem, {});
   const InfluenceCost predicted = plan_influence(scene, plan, static_cast<long>(cells.size()));
   double start = processor_seconds();
-  CondensedBulk bulk(problem, {}, monitor);
+  CondensedBulk bulk(problem, monitor);
   const FaultOperator op = bulk.condense();
   const double operator_seconds = processor_seconds() - start;
   start = processor_seconds();

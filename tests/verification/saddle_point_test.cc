@@ -221,7 +221,7 @@ class SaddlePoint {
 TEST(SaddlePoint, EqualsTheCondensedPathWithStickSlipAndOpenNodes) {
   const BulkProblem problem = make_problem();
   SilentMonitor monitor;
-  CondensedBulk bulk(problem, {}, monitor);
+  CondensedBulk bulk(problem, monitor);
   const FaultOperator op = bulk.condense();
   const int n_nodes = static_cast<int>(op.geometry.nodes.size());
   ASSERT_EQ(op.geometry.n_dofs, 3 * n_nodes);

@@ -4,7 +4,7 @@
 #include <cctype>
 
 #include "simulator/app/verify/verify_cases.h"
-#include "simulator/common/monitor.h"
+#include "simulator/common/run_context.h"
 
 namespace faultsim {
 namespace {

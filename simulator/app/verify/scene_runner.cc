@@ -3,7 +3,6 @@
 #include <string_view>
 
 #include "simulator/common/errors.h"
-#include "simulator/common/interrupt.h"
 #include "simulator/linalg/cholesky.h"
 #include "simulator/loading/run_case.h"
 #include "simulator/plan/plan.h"
@@ -59,7 +58,7 @@ Eigen::Vector3d SceneRun::observed_position(const std::string& name) const {
 }
 
 SceneRun SceneRunner::run(const std::string& file, const Settings& settings, bool must_converge) {
-  throw_if_interrupted("verifying");
+  context_.stop.throw_if_requested("verifying");
   JsonDocument document = parse_json(verification_scene(file), file);
   for (const Setting& setting : settings) set_value(document, setting.pointer, setting.value);
   SceneRun run;
@@ -71,10 +70,10 @@ SceneRun SceneRunner::run(const std::string& file, const Settings& settings, boo
 
   const std::string name = operator_fingerprint(run.scene, plan, blas_description());
   PreparedOperator& prepared = operators_[name];
-  if (!prepared.op) prepared = prepare_operator(run.scene, plan, CachePolicy{}, false, monitor_);
+  if (!prepared.op) prepared = prepare_operator(run.scene, plan, CachePolicy{}, false, context_);
   run.op = prepared.op;
   run.result =
-      run_case(run.scene, prepared, monitor_,
+      run_case(run.scene, prepared, context_,
                [&](const StepResult&, const FaultFields& fields) { run.fields.push_back(fields); });
   if (run.result.outcome == Outcome::interrupted)
     throw Interrupted("stopped while running " + file);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/common/monitor.h"
+#include "simulator/common/run_context.h"
 #include "simulator/loading/run_case.h"
 #include "simulator/model/fault_operator.h"
 #include "simulator/output/result.h"
@@ -39,14 +39,14 @@ struct SceneRun {
 /// their fingerprint, so that members of a family are cheap.
 class SceneRunner {
  public:
-  explicit SceneRunner(Monitor& monitor) : monitor_(monitor) {}
+  explicit SceneRunner(const RunContext& context) : context_(context) {}
 
   /// @param file  "v1_patch_test.json". Throws InputError when the scene is wrong, and Error when
   /// the case does not end `converged` and that was not allowed.
   SceneRun run(const std::string& file, const Settings& settings = {}, bool must_converge = true);
 
  private:
-  Monitor& monitor_;
+  RunContext context_;
   std::map<std::string, PreparedOperator> operators_;
 };
 

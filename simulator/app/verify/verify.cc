@@ -25,13 +25,13 @@ const std::vector<VerifyCase>& verify_cases() {
   return cases;
 }
 
-VerifyReport run_verify_case(const VerifyCase& verify_case, Monitor& monitor) {
+VerifyReport run_verify_case(const VerifyCase& verify_case, const RunContext& context) {
   VerifyReport report;
   report.name = verify_case.name;
   report.title = verify_case.title;
   report.scenes = verify_case.scenes;
   try {
-    SceneRunner runner(monitor);
+    SceneRunner runner(context);
     verify_case.evaluate(runner, report);
     if (report.rows.empty()) report.failure = "nothing was compared";
   } catch (const Interrupted&) {
@@ -108,16 +108,16 @@ ExitCode verify_command(const std::vector<std::string>& names, bool list, bool j
     print_list(cases, json);
     return ExitCode::done;
   }
-  catch_interrupts();
   take_blas_buffer();
   StderrMonitor monitor;
+  const RunContext context(monitor, stop_on_signals());
   nlohmann::json reports = nlohmann::json::array();
   std::size_t passed = 0, compared = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     std::cerr << "[" << i + 1 << "/" << cases.size() << "] " << cases[i]->name << " ..."
               << std::flush;
     const Stopwatch watch;
-    const VerifyReport report = run_verify_case(*cases[i], monitor);
+    const VerifyReport report = run_verify_case(*cases[i], context);
     std::cerr << (report.passed() ? " pass, " : " MISS, ") << watch.seconds() << " s\n";
     passed += report.passed() ? 1 : 0;
     compared += report.rows.size();

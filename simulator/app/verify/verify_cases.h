@@ -36,6 +36,6 @@ std::vector<VerifyCase> creep_cases();      // V8
 
 /// Runs one case. What goes wrong in it becomes VerifyReport::failure; only Interrupted (and bugs)
 /// leave.
-VerifyReport run_verify_case(const VerifyCase& verify_case, Monitor& monitor);
+VerifyReport run_verify_case(const VerifyCase& verify_case, const RunContext& context);
 
 }  // namespace faultsim

@@ -54,7 +54,7 @@ TEST(CondensedBulk, AgreesWithTheSaddlePointSystem) {
       {MeshSide::x_min, {true, true, true}, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1}};
   problem.loads = {test::pressure_case(0)};
   SilentMonitor monitor;
-  CondensedBulk bulk(problem, {}, monitor);
+  CondensedBulk bulk(problem, monitor);
   const FaultOperator op = bulk.condense();
 
   const Mesh open = test::without_faults(problem.mesh);
@@ -109,7 +109,7 @@ TEST(CondensedBulk, AgreesWithTheSaddlePointSystem) {
 TEST(CondensedBulk, ObservationRowsEqualTheDisplacementField) {
   const BulkProblem problem = test::mixed_problem();
   SilentMonitor monitor;
-  CondensedBulk bulk(problem, {}, monitor);
+  CondensedBulk bulk(problem, monitor);
   const FaultOperator op = bulk.condense();
   ASSERT_EQ(op.observed.rows.size(), 9u);
   EXPECT_EQ(op.observed.rows[0].name, "top.x");

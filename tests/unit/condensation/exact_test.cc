@@ -39,7 +39,7 @@ TEST_P(PatchTest, LockedTractionsAreSigmaN) {
   for (bool swap : {false, true}) {
     if (swap) test::swap_sides(problem.mesh);
     test::RecordingMonitor monitor;
-    const FaultOperator op = CondensedBulk(problem, {}, monitor).condense();
+    const FaultOperator op = CondensedBulk(problem, monitor).condense();
     EXPECT_TRUE(monitor.notes.empty());
     for (const OperatorNode& node : op.geometry.nodes) {
       const Eigen::Vector3d traction = patch_stress() * node.normal;

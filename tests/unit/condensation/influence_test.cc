@@ -16,7 +16,7 @@ namespace {
 /// the influence of all its cells.
 class Influence : public testing::Test {
  protected:
-  Influence() : problem_(test::mixed_problem()), bulk_(problem_, {}, monitor_) {
+  Influence() : problem_(test::mixed_problem()), bulk_(problem_, monitor_) {
     op_ = bulk_.condense();
     cells_.resize(problem_.mesh.cells.size());
     std::iota(cells_.begin(), cells_.end(), 0);

@@ -25,7 +25,7 @@ TEST(LockedNodes, AreReportedAndLeftOutOfTheContactProblem) {
     problem.conditions.push_back({side, components, Eigen::Vector3d::Zero(), none, -1});
   }
   SilentMonitor monitor;
-  const FaultOperator op = CondensedBulk(problem, {}, monitor).condense();
+  const FaultOperator op = CondensedBulk(problem, monitor).condense();
   const OperatorFault& fault = op.geometry.faults.front();
   EXPECT_EQ(op.geometry.locked_positions.size(), static_cast<std::size_t>(fault.n_columns));
   EXPECT_EQ(fault.n_nodes, static_cast<int>(op.geometry.nodes.size()));

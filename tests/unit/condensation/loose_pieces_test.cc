@@ -110,7 +110,7 @@ TEST(LoosePieces, AHingeIsRefusedWithItsPlace) {
 TEST(LoosePieces, AnUnbalancedLoadOnAPinnedBodyIsRemarked) {
   test::RecordingMonitor monitor;
   const BulkProblem problem = two_blocks({});
-  CondensedBulk bulk(problem, {}, monitor);
+  CondensedBulk bulk(problem, monitor);
   ASSERT_EQ(monitor.notes.size(), 1u);
   EXPECT_THAT(monitor.notes[0], testing::HasSubstr("load boundary:0 alone is not in balance"));
 }

@@ -40,7 +40,7 @@ class RecordingMonitor final : public Monitor {
 
 inline FaultOperator condense(const BulkProblem& problem) {
   SilentMonitor monitor;
-  return CondensedBulk(problem, {}, monitor).condense();
+  return CondensedBulk(problem, monitor).condense();
 }
 
 /// Sets region and fraction of the cells whose first corner passes.

@@ -86,7 +86,7 @@ TEST(SaddlePoint, RigidMotionsNeedNoForce) {
 TEST(SaddlePoint, WhereAllStickIsTheCondensedSolution) {
   const CoupledExample example;
   SilentMonitor monitor;
-  CondensedBulk condensed(example.problem, {}, monitor);
+  CondensedBulk condensed(example.problem, monitor);
   const FaultOperator op = condensed.condense();
   const SaddlePoint& j = example.stick;
   ASSERT_EQ(j.n_multipliers(), op.geometry.n_dofs);

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <atomic>
+#include <string>
+
+namespace faultsim {
+
+/// Where progress and remarks go. Kernels never print; they tell a Monitor.
+class Monitor {
+ public:
+  virtual ~Monitor() = default;
+  /// A stage of long work: fraction in [0, 1], "factorising 257,049 unknowns".
+  virtual void progress(double fraction, const std::string& what) = 0;
+  /// A remark worth reading (a warning with its figures).
+  virtual void note(const std::string& text) = 0;
+};
+
+/// Says nothing.
+class SilentMonitor final : public Monitor {
+ public:
+  void progress(double, const std::string&) override {}
+  void note(const std::string&) override {}
+};
+
+/// Whether work that was given it should end soon: a view of a flag that somebody else owns and may
+/// set from any thread, or from a signal handler. Long work asks at least every few milliseconds.
+class StopToken {
+ public:
+  StopToken() = default;  ///< never asks to stop.
+  /// @pre the flag outlives the work.
+  explicit StopToken(const std::atomic<bool>& flag) : flag_(&flag) {}
+  bool requested() const {
+    return flag_ != nullptr && flag_->load(std::memory_order_relaxed);
+  }
+  /// Throws Interrupted("stopped while DOING") if requested().
+  void throw_if_requested(const char* doing) const;
+
+ private:
+  const std::atomic<bool>* flag_ = nullptr;
+};
+
+/// What a piece of work is given beside its data; nothing of it changes a bit of the result. All
+/// that differs between two simulations in one process is here or in their data.
+struct RunContext {
+  RunContext() = default;  ///< silent, never stopped, one thread.
+  // Not explicit: to most work the monitor is all of the context.
+  RunContext(Monitor& told, StopToken stop_token = {}, int threads = 1)  // NOLINT
+      : monitor(&told), stop(stop_token), n_threads(threads) {}
+
+  void progress(double fraction, const std::string& what) const {
+    if (monitor != nullptr) monitor->progress(fraction, what);
+  }
+  void note(const std::string& text) const {
+    if (monitor != nullptr) monitor->note(text);
+  }
+
+  Monitor* monitor = nullptr;  ///< null: nobody listens. Called by the thread that was called.
+  StopToken stop;
+  int n_threads = 1;  ///< of a factorisation, at most.
+};
+
+}  // namespace faultsim

@@ -1,0 +1,71 @@
+#include "simulator/simulation/loaded_scene.h"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "simulator/output/output_target.h"
+#include "simulator/plan/geometry_check.h"
+#include "simulator/scene/csv_tables.h"
+#include "simulator/scene/read_scene.h"
+
+namespace faultsim {
+namespace {
+
+/// Throws them, if there are any, with the lines of what they are about.
+void throw_problems(const JsonDocument& document, std::vector<Problem> problems) {
+  if (problems.empty()) return;
+  for (Problem& problem : problems) {
+    if (problem.line == 0) problem.line = document.line_of(problem.pointer);
+  }
+  throw InputError(document.source, std::move(problems));
+}
+
+}  // namespace
+
+void apply(const Changes& changes, JsonDocument& document) {
+  std::vector<Problem> problems;
+  for (const Change& change : changes) {
+    try {
+      set_value(document, resolve_parameter(document, change.parameter), change.value);
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  throw_problems(document, std::move(problems));
+}
+
+JsonDocument read_scene_file(const std::string& file, const Changes& changes) {
+  JsonDocument document = read_json_file(file);
+  apply(changes, document);
+  embed_tables(document);
+  return document;
+}
+
+LoadedScene load_scene(JsonDocument document) {
+  LoadedScene loaded{std::move(document), {}, {}};
+  std::vector<Problem> problems;
+  loaded.scene = read_scene(loaded.document, problems);
+  if (problems.empty()) loaded.plan = make_plan(loaded.scene, problems);
+  throw_problems(loaded.document, std::move(problems));
+  return loaded;
+}
+
+void check_geometry(const LoadedScene& loaded) {
+  throw_problems(loaded.document, geometry_problems(loaded.scene, loaded.plan));
+}
+
+std::vector<std::filesystem::path> input_files(const LoadedScene& loaded) {
+  return files_named_in(loaded.document.value, loaded.document.source);
+}
+
+std::string operator_key(const LoadedScene& loaded) {
+  std::string key = loaded.plan.family;
+  for (const Fault& fault : loaded.scene.faults) key += "/" + fault.name;
+  for (const ObservationPoint& point : loaded.scene.output.observation_points) {
+    key += concat("/", point.name, point.position[0], ",", point.position[1], ",",
+                  point.position[2]);
+  }
+  return key;
+}
+
+}  // namespace faultsim

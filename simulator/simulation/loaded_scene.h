@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "simulator/plan/plan.h"
+#include "simulator/scene/json_document.h"
+#include "simulator/scene/scene.h"
+#include "simulator/simulation/simulation.h"
+
+namespace faultsim {
+
+/// A scene that was read and found sound, and what will be modelled of it.
+struct LoadedScene {
+  JsonDocument document;
+  Scene scene;
+  Plan plan;
+};
+
+/// The file with the changes put in, and the text of the tables that it names: what is read now is
+/// what runs. Throws InputError with all that is wrong with the changes.
+JsonDocument read_scene_file(const std::string& file, const Changes& changes);
+/// Puts changes into a document, in order. Throws InputError with all that is wrong with them.
+void apply(const Changes& changes, JsonDocument& document);
+
+/// Checks everything and plans, without the plan's warnings. Throws InputError with all problems of
+/// scene and geometry.
+LoadedScene load_scene(JsonDocument document);
+/// What a run would refuse once it has the mesh (plan/geometry_check.h), thrown as InputError with
+/// its place in the file. Makes the mesh, unless that is large.
+void check_geometry(const LoadedScene& loaded);
+/// The files that the scene was read from: its own and those that it names.
+std::vector<std::filesystem::path> input_files(const LoadedScene& loaded);
+
+/// Two scenes with the same key run on the same operator, names and all.
+std::string operator_key(const LoadedScene& loaded);
+
+}  // namespace faultsim

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "simulator/common/errors.h"
+#include "simulator/common/run_context.h"
+#include "simulator/contact/search_record.h"
+#include "simulator/output/cache_policy.h"
+#include "simulator/output/result.h"
+
+/// faultsim as a library. What programs outside this project include, with the headers above:
+///
+///   load → plan → prepare → run, changed, as often as wanted → results, fields, trace
+///
+/// Errors are exceptions by kind (errors.h): InputError with every problem of a scene or its
+/// changes, ResourceError, StorageError, Interrupted, and InternalError for bugs. How a case ended
+/// (no convergence, unstable, interrupted) is a value: CaseResult::outcome.
+namespace faultsim {
+
+struct JsonDocument;
+struct LoadedScene;
+struct PreparedOperator;
+
+/// A value of a scene in place of the one that it has, as `faultsim run --set` takes it.
+struct Change {
+  std::string parameter;  ///< "/json/pointer", or an alias: "friction_angle".
+  std::string value;      ///< "25 deg", "off", "0.4"; what parses as JSON is taken as such.
+};
+using Changes = std::vector<Change>;
+
+/// Who looks on while a case runs; the result does not depend on it. Called by the thread that runs.
+struct RunWatch {
+  /// After each load step in equilibrium.
+  std::function<void(const StepResult&, const FaultFields&)> step = nullptr;
+  /// After each try at a part of a load step, with the step's number (docs/trace.md).
+  std::function<void(int, const SubStepTrace&)> tried = nullptr;
+};
+
+/// A scene that is held, and the operator that it and its changes run on.
+///
+/// Two simulations know nothing of each other: each may run in a thread of its own, with its own
+/// settings. One simulation is for one thread at a time. Same scene and changes, same bits, whatever
+/// ran before. What stays common to a process: BLAS computes with one thread and by one kernel (both
+/// are set by the first simulation and are the same for all), and calls of HDF5, of the unit
+/// database and of METIS, which draws from rand(), take turns.
+class Simulation {
+ public:
+  /// @param file     a scene as `faultsim run` reads it, with the tables that it names.
+  /// @param changes  for good: later changes are to the scene with these.
+  static Simulation from_file(const std::string& file, const Changes& changes = {});
+  /// @param source  what messages call the text; tables are looked for beside it.
+  static Simulation from_text(std::string_view json, const std::string& source = "scene");
+  Simulation();  ///< holds nothing yet.
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  /// Operators are kept in files from now on, for other runs and processes. Default: nowhere.
+  void keep_operators(const CachePolicy& policy);
+
+  /// Holds another scene. An operator that is the same is kept, and goes on being used.
+  void hold(JsonDocument document);
+  /// The held scene with these changes, and none of earlier ones. Throws InputError with all that is
+  /// wrong; the scene at hand is then the one before.
+  void change(const Changes& changes);
+
+  /// The scene at hand: held, with the last changes.
+  const LoadedScene& scene() const;
+  /// What will be modelled of it, why, and what it costs, as `faultsim plan` prints it.
+  std::string plan_text() const;
+  /// Fingerprint of the case: equal cases have equal ones, however they are spelled.
+  std::string identity() const;
+
+  /// Whether the scene at hand needs another operator than the one that is there: changes of mesh,
+  /// stiffness or boundary conditions do; friction, stress, pressure and Biot coefficients do not.
+  bool needs_operator() const;
+  /// Reads or builds the operator of the scene at hand, unless it is there. The old one is freed
+  /// first. @returns whether it was needed.
+  /// @param keep_bulk  with the factor of the bulk, for displacements of the whole mesh.
+  bool prepare(const RunContext& context = {}, bool keep_bulk = false);
+  const PreparedOperator& prepared() const;  ///< @pre !needs_operator()
+
+  /// Runs the scene at hand, prepared first if it is not. A stop while it runs is an outcome
+  /// (`interrupted`), one while the operator is prepared is thrown (Interrupted).
+  CaseResult run(const RunContext& context = {}, const RunWatch& watch = {});
+  /// change(), then run().
+  CaseResult run(const Changes& changes, const RunContext& context = {},
+                 const RunWatch& watch = {});
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace faultsim
