@@ -30,6 +30,7 @@ struct RunArguments {
   OperatorArguments op;
   std::filesystem::path output;  ///< empty = <scene name>-result beside the current folder.
   bool wide = false;             ///< the step table with all its columns.
+  bool trace = false;            ///< how each load step was solved (docs/trace.md).
 };
 
 struct DiagnoseArguments {

@@ -51,7 +51,7 @@ void demand_known_command(const CLI::App& app, int argc, char** argv) {
 
 /// All arguments of all commands; CLI11 fills them.
 struct Arguments {
-  std::string init_kind = "field", init_file, mesh_output, path = "condensed";
+  std::string init_kind = "field", init_file, mesh_output;
   SceneArguments scene;
   RunArguments run;
   DiagnoseArguments diagnosed;
@@ -134,7 +134,8 @@ void add_run(CLI::App& app, Arguments& a, ExitCode& code) {
   command->add_option("-o,--output", a.run.output, "result folder (default SCENE-result)");
   add_operator(command, a.run.op);
   command->add_flag("--wide", a.run.wide, "the table with all its columns, however wide");
-  command->add_option("--path", a.path, "how to solve")->check(CLI::IsMember({"condensed"}));
+  command->add_flag("--trace", a.run.trace,
+                    "how each load step was solved, iteration by iteration; also in trace.jsonl");
   command->footer(
       "Examples:\n"
       "  faultsim run my-field.json -o out\n"

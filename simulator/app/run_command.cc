@@ -5,6 +5,7 @@
 #include "simulator/app/commands.h"
 #include "simulator/app/load_scene.h"
 #include "simulator/app/screen.h"
+#include "simulator/app/trace_text.h"
 #include "simulator/linalg/blas.h"
 #include "simulator/linalg/blas_kernel.h"
 #include "simulator/loading/history.h"
@@ -104,7 +105,7 @@ ExitCode run_command(const RunArguments& arguments) {
                        .folder = folder,
                        .made_by = "faultsim run",
                        .names = {"plan.json", "scene.json", "result.json", "faults.h5",
-                                 "faults.xmf", "volume.h5", "volume.xmf"},
+                                 "faults.xmf", "volume.h5", "volume.xmf", "trace.jsonl"},
                        .inputs = input_files(loaded)});
   write_text(output.path() / "plan.json", json_text(plan_to_json(plan)));
   write_text(output.path() / "scene.json", loaded.document.value.dump(2) + "\n");
@@ -138,12 +139,21 @@ ExitCode run_command(const RunArguments& arguments) {
   names.plane_strain = loaded.plan.plane_strain;
   if (!json) std::cout << step_table_header(names, arguments.wide);
   context.monitor = nullptr;  // the table is progress enough
-  const CaseResult result =
-      simulation.run(context, {.step = [&](const StepResult& step, const FaultFields& fields) {
-                       if (!json) std::cout << step_table_row(step, arguments.wide) << std::flush;
-                       if (writer) writer->add_step(step, fields);
-                       if (volume) volume->add(step, fields);
-                     }});
+  RunWatch watch;
+  watch.step = [&](const StepResult& step, const FaultFields& fields) {
+    if (!json) std::cout << step_table_row(step, arguments.wide) << std::flush;
+    if (writer) writer->add_step(step, fields);
+    if (volume) volume->add(step, fields);
+  };
+  std::string trace;
+  if (arguments.trace) {
+    watch.tried = [&](int step, const SubStepTrace& part) {
+      if (!json) std::cout << trace_text(step, part);
+      trace += trace_to_json(step, part).dump() + "\n";
+    };
+  }
+  const CaseResult result = simulation.run(context, watch);
+  if (arguments.trace) write_text(output.path() / "trace.jsonl", trace);
   if (writer) writer->finish();
   if (volume) write_volume_fields(output.path(), loaded, *volume);
   nlohmann::json document = result_to_json(result);

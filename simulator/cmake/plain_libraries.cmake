@@ -12,7 +12,6 @@ function(plain_library name header library)
 endfunction()
 
 plain_library(CHOLMOD cholmod.h cholmod suitesparse)
-plain_library(HYPRE HYPRE.h HYPRE hypre)
 plain_library(METIS metis.h metis)
 plain_library(UDUNITS2 udunits2.h udunits2)
 # By name and not as "BLAS": its threads and kernel are read and set (openblas_set_num_threads).

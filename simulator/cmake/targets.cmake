@@ -14,8 +14,10 @@ function(faultsim_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(faultsim_${name} STATIC ${ARG_SOURCES})
   add_library(faultsim::${name} ALIAS faultsim_${name})
-  target_include_directories(faultsim_${name} PUBLIC ${PROJECT_SOURCE_DIR})
-  target_link_libraries(faultsim_${name} PUBLIC ${ARG_PUBLIC} PRIVATE faultsim_options ${ARG_PRIVATE})
+  set_target_properties(faultsim_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(faultsim_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  target_link_libraries(faultsim_${name} PUBLIC ${ARG_PUBLIC}
+                        PRIVATE $<BUILD_INTERFACE:faultsim_options> ${ARG_PRIVATE})
 endfunction()
 
 # faultsweep_library(...): the same for a module of the campaign manager.

@@ -1,0 +1,145 @@
+#include "simulator/simulation/simulation.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "simulator/loading/run_case.h"
+#include "simulator/output/result_bytes.h"
+#include "simulator/scene/read_scene.h"
+#include "simulator/simulation/loaded_scene.h"
+
+namespace faultsim {
+namespace {
+
+using testing::HasSubstr;
+
+Simulation field() {
+  Simulation simulation = Simulation::from_text(starter_scene("field"), "field.json");
+  JsonDocument document = simulation.scene().document;
+  apply({{"/tier", "screening"}, {"friction_angle", "22 deg"}}, document);
+  simulation.hold(std::move(document));
+  return simulation;
+}
+
+/// All of a result but how long it took.
+std::string bits(CaseResult result) {
+  result.seconds = 0;
+  for (StepResult& step : result.steps) step.seconds = 0;
+  return result_to_bytes(result);
+}
+
+class Notes final : public Monitor {
+ public:
+  void progress(double, const std::string&) override { ++n_told; }
+  void note(const std::string&) override {}
+  int n_told = 0;
+};
+
+TEST(Simulation, RunsAsTheFunctionsBelowItDo) {
+  Simulation simulation = field();
+  const LoadedScene& scene = simulation.scene();
+  const PreparedOperator prepared = prepare_operator(scene.scene, scene.plan, {}, false);
+  const CaseResult expected = run_case(scene.scene, prepared, {});
+  EXPECT_TRUE(simulation.needs_operator());
+  EXPECT_EQ(bits(simulation.run()), bits(expected));
+  EXPECT_EQ(simulation.identity(), expected.identity);
+  EXPECT_THAT(simulation.plan_text(), HasSubstr("plane strain"));
+}
+
+TEST(Simulation, ChangesAreToTheHeldSceneAndUseItsOperator) {
+  Simulation simulation = field();
+  const std::string before = bits(simulation.run());
+  const PreparedOperator* op = &simulation.prepared();
+  const CaseResult weak = simulation.run({{"friction_angle", "18 deg"}});
+  const CaseResult both =
+      simulation.run({{"/friction/friction_angle", "18 deg"}, {"ratio_across", "0.7"}});
+  EXPECT_EQ(simulation.prepared().op, op->op);
+  EXPECT_NE(bits(weak), before);
+  EXPECT_NE(both.identity, weak.identity);
+  EXPECT_EQ(bits(simulation.run(Changes{})), before) << "nothing of earlier changes stays";
+
+  Simulation fresh = field();
+  EXPECT_EQ(bits(fresh.run({{"friction_angle", "18 deg"}})), bits(weak));
+}
+
+TEST(Simulation, SaysWhenAChangeNeedsAnotherOperator) {
+  Simulation simulation = field();
+  EXPECT_TRUE(simulation.prepare());
+  EXPECT_FALSE(simulation.prepare());
+  simulation.change({{"friction_angle", "18 deg"}, {"primary_production_pressure", "-150 bar"}});
+  EXPECT_FALSE(simulation.needs_operator());
+  simulation.change({{"offset_east", "50 m"}});
+  EXPECT_TRUE(simulation.needs_operator());
+  EXPECT_THROW(simulation.prepared(), InternalError);
+  const CaseResult moved = simulation.run();
+  EXPECT_FALSE(simulation.needs_operator());
+  Simulation fresh = field();
+  fresh.change({{"offset_east", "50 m"}});
+  EXPECT_EQ(bits(moved), bits(fresh.run()));
+}
+
+TEST(Simulation, ListsAllThatIsWrongAndStaysAsItWas) {
+  Simulation simulation = field();
+  simulation.change({{"friction_angle", "18 deg"}});
+  const std::string identity = simulation.identity();
+  try {
+    simulation.change({{"frictoin_angle", "20 deg"}, {"/stages/9/steps", "3"}});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().size(), 2u);
+    EXPECT_THAT(error.what(), HasSubstr("friction_angle"));
+  }
+  EXPECT_THROW(simulation.change({{"friction_angle", "20"}}), InputError);
+  EXPECT_EQ(simulation.identity(), identity);
+}
+
+TEST(Simulation, GivesFieldsAndTrace) {
+  Simulation simulation = field();
+  int n_steps = 0, n_tried = 0, n_slip = 0;
+  RunWatch watch;
+  watch.step = [&](const StepResult&, const FaultFields& fields) {
+    ++n_steps;
+    n_slip += (fields.state.array() == static_cast<int>(FaultState::slip)).any();
+  };
+  watch.tried = [&](int step, const SubStepTrace& trace) {
+    ++n_tried;
+    EXPECT_EQ(step, n_steps);
+    EXPECT_STREQ(trace.verdict, "accepted");
+  };
+  const CaseResult result = simulation.run(RunContext{}, watch);
+  EXPECT_EQ(n_steps, static_cast<int>(result.steps.size()));
+  EXPECT_GE(n_tried, n_steps);
+  EXPECT_GT(n_slip, 0);
+}
+
+TEST(Simulation, StopsACaseWithTheStepsThatItReached) {
+  Simulation simulation = field();
+  std::atomic<bool> stop = false;
+  SilentMonitor silent;
+  const RunContext context(silent, StopToken(stop));
+  simulation.prepare(context);
+  const CaseResult whole = simulation.run(context);
+  const CaseResult part = simulation.run(
+      context, {.tried = [&](int step, const SubStepTrace&) { stop = step >= 6; }});
+  EXPECT_EQ(part.outcome, Outcome::interrupted);
+  EXPECT_EQ(part.reason, "stopped in load step 7");
+  ASSERT_EQ(part.steps.size(), 7u);
+  EXPECT_EQ(part.steps.back().faults, whole.steps[6].faults);
+  stop = false;
+  EXPECT_EQ(bits(simulation.run(context)), bits(whole)) << "a stop leaves nothing behind";
+}
+
+TEST(Simulation, StopsTheBuildingOfAnOperator) {
+  Simulation simulation = field();
+  std::atomic<bool> stop = true;
+  Notes monitor;
+  EXPECT_THROW(simulation.prepare({monitor, StopToken(stop)}), Interrupted);
+  EXPECT_TRUE(simulation.needs_operator());
+  stop = false;
+  EXPECT_TRUE(simulation.prepare({monitor, StopToken(stop)}));
+  EXPECT_GT(monitor.n_told, 2);
+}
+
+}  // namespace
+}  // namespace faultsim
