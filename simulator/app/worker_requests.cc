@@ -5,6 +5,7 @@
 #include <array>
 #include <cerrno>
 #include <condition_variable>
+#include <csignal>
 #include <deque>
 #include <exception>
 #include <mutex>
@@ -68,7 +69,12 @@ void WorkerRequests::Shared::read_all(int descriptor) {
 }
 
 WorkerRequests::WorkerRequests(int descriptor) : shared_(std::make_shared<Shared>()) {
-  std::thread([shared = shared_, descriptor] { shared->read_all(descriptor); }).detach();
+  std::thread([shared = shared_, descriptor] {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_BLOCK, &all, nullptr);  // signals are for the thread that works
+    shared->read_all(descriptor);
+  }).detach();
 }
 
 WorkerRequests::~WorkerRequests() = default;

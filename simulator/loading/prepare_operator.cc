@@ -98,6 +98,7 @@ PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const Ca
   demand_memory(plan, available_memory());
   context.progress(0.0, "meshing");
   const BulkProblem problem = bulk_problem(scene, plan);
+  context.stop.throw_if_requested("meshing");
   auto bulk = std::make_shared<CondensedBulk>(problem, context);
   auto op = std::make_shared<FaultOperator>(bulk->condense(context));
   mirror_observations(scene, plan, op->observed);

@@ -1,5 +1,6 @@
 #include "simulator/simulation/simulation.h"
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -9,8 +10,11 @@
 #include "simulator/loading/run_case.h"
 #include "simulator/scene/read_scene.h"
 #include "simulator/simulation/loaded_scene.h"
+#include "simulator/simulation/operator_build.h"
 
 namespace faultsim {
+
+using nlohmann::json;
 
 struct Simulation::Impl {
   std::optional<JsonDocument> held;  ///< none: the scene at hand is the one held.
@@ -19,12 +23,35 @@ struct Simulation::Impl {
   CachePolicy cache;
   PreparedOperator prepared;
   std::string prepared_key;
+  std::unique_ptr<OperatorBuild> build;        ///< also one that was called off and has not ended.
+  std::map<std::string, std::string> aliases;  ///< of `held`.
 
   void take(LoadedScene loaded) {
     at_hand = std::move(loaded);
     key = operator_key(at_hand);
   }
+  bool change_quickly(const Changes& changes);
 };
+
+/// Without the lines of the file, which only messages need. @returns whether all is well; if not,
+/// nothing has changed.
+bool Simulation::Impl::change_quickly(const Changes& changes) {
+  JsonDocument document{held->source, held->value, {}};
+  try {
+    for (const Change& change : changes) {
+      const auto found = aliases.find(change.parameter);
+      const bool is_alias = found != aliases.end();
+      if (!is_alias && !change.parameter.starts_with('/')) return false;
+      const std::string& pointer = is_alias ? found->second : change.parameter;
+      json value = value_of_text(change.value, document.source, pointer);
+      if (pointer.size() < 2 || !put_value(document.value, pointer, std::move(value))) return false;
+    }
+    take(load_scene(std::move(document)));
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
 
 Simulation::Simulation() : impl_(std::make_unique<Impl>()) {}
 Simulation::~Simulation() = default;
@@ -54,7 +81,11 @@ void Simulation::hold(JsonDocument document) {
 
 void Simulation::change(const Changes& changes) {
   Impl& self = *impl_;
-  if (!self.held) self.held = self.at_hand.document;
+  if (!self.held) {
+    self.held = self.at_hand.document;
+    self.aliases = parameter_aliases(*self.held);
+  }
+  if (self.change_quickly(changes)) return;
   JsonDocument document = *self.held;
   apply(changes, document);
   self.take(load_scene(std::move(document)));
@@ -75,8 +106,12 @@ bool Simulation::prepare(const RunContext& context, bool keep_bulk) {
   const bool has_bulk = self.prepared.bulk != nullptr || self.at_hand.plan.creep.active;
   if (!needs_operator() && (has_bulk || !keep_bulk)) return false;
   self.prepared = {};  // frees the old operator before the new one is built
-  self.prepared = prepare_operator(self.at_hand.scene, self.at_hand.plan, self.cache, keep_bulk,
-                                   context);
+  self.build.reset();  // one that was called off: two would need the memory of both
+  context.stop.throw_if_requested("preparing the operator");
+  self.build = std::make_unique<OperatorBuild>(self.at_hand.scene, self.at_hand.plan, self.cache,
+                                               keep_bulk, context.n_threads);
+  self.prepared = self.build->wait(context);
+  self.build.reset();
   self.prepared_key = self.key;
   if (!self.prepared.remark.empty()) context.note(self.prepared.remark);
   return true;

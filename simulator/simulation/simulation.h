@@ -80,7 +80,9 @@ class Simulation {
   /// stiffness or boundary conditions do; friction, stress, pressure and Biot coefficients do not.
   bool needs_operator() const;
   /// Reads or builds the operator of the scene at hand, unless it is there. The old one is freed
-  /// first. @returns whether it was needed.
+  /// first. @returns whether it was needed. A stop is thrown within milliseconds; what is left of the
+  /// build ends by itself, at most some seconds later, and is waited for by the next one and by the
+  /// destructor.
   /// @param keep_bulk  with the factor of the bulk, for displacements of the whole mesh.
   bool prepare(const RunContext& context = {}, bool keep_bulk = false);
   const PreparedOperator& prepared() const;  ///< @pre !needs_operator()

@@ -1,0 +1,108 @@
+#include "simulator/simulation/operator_build.h"
+
+#include <pthread.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <csignal>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "simulator/common/errors.h"
+
+namespace faultsim {
+namespace {
+
+/// METIS takes SIGTERM for itself by a handler that may run in its own thread only. While another
+/// waits for it, that one does not take the signal.
+class SigtermLeftToTheBuild {
+ public:
+  SigtermLeftToTheBuild() {
+    sigset_t blocked;
+    sigemptyset(&blocked);
+    sigaddset(&blocked, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &blocked, &before_);
+  }
+  ~SigtermLeftToTheBuild() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SigtermLeftToTheBuild(const SigtermLeftToTheBuild&) = delete;
+  SigtermLeftToTheBuild& operator=(const SigtermLeftToTheBuild&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
+}  // namespace
+
+/// What the two threads share; the monitor keeps what is told until it is fetched.
+struct OperatorBuild::Shared final : Monitor {
+  std::mutex mutex;
+  std::condition_variable news;
+  std::pair<double, std::string> last_progress;
+  bool progressed = false, ended = false;
+  std::vector<std::string> notes;
+  PreparedOperator prepared;
+  std::exception_ptr thrown;
+  std::atomic<bool> stop = false;
+  std::jthread thread;  // last: it ends before what it uses
+
+  void progress(double fraction, const std::string& what) override {
+    const std::lock_guard lock(mutex);
+    last_progress = {fraction, what};
+    progressed = true;
+    news.notify_one();
+  }
+  void note(const std::string& text) override {
+    const std::lock_guard lock(mutex);
+    notes.push_back(text);
+    news.notify_one();
+  }
+  void tell(const RunContext& context) {
+    for (const std::string& text : std::exchange(notes, {})) context.note(text);
+    if (std::exchange(progressed, false)) context.progress(last_progress.first, last_progress.second);
+  }
+};
+
+OperatorBuild::OperatorBuild(const Scene& scene, const Plan& plan, const CachePolicy& cache,
+                             bool keep_bulk, int n_threads)
+    : shared_(std::make_unique<Shared>()) {
+  Shared* shared = shared_.get();
+  shared->thread = std::jthread([=] {
+    PreparedOperator prepared;
+    std::exception_ptr thrown;
+    try {
+      prepared = prepare_operator(scene, plan, cache, keep_bulk,
+                                  {*shared, StopToken(shared->stop), n_threads});
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+    const std::lock_guard lock(shared->mutex);
+    shared->prepared = std::move(prepared);
+    shared->thrown = std::move(thrown);
+    shared->ended = true;
+    shared->news.notify_one();
+  });
+}
+
+OperatorBuild::~OperatorBuild() { shared_->stop = true; }
+
+PreparedOperator OperatorBuild::wait(const RunContext& context) {
+  constexpr std::chrono::milliseconds kLook{2};
+  const SigtermLeftToTheBuild left;
+  Shared& shared = *shared_;
+  std::unique_lock lock(shared.mutex);
+  while (!shared.ended) {
+    shared.news.wait_for(lock, kLook);
+    shared.tell(context);
+    if (!context.stop.requested()) continue;
+    shared.stop = true;
+    context.stop.throw_if_requested("preparing the operator");
+  }
+  shared.tell(context);
+  if (shared.thrown) std::rethrow_exception(shared.thrown);
+  return std::move(shared.prepared);
+}
+
+}  // namespace faultsim
