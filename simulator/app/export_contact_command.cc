@@ -109,8 +109,7 @@ ExitCode export_contact_command(const ExportArguments& arguments) {
                        "a load step with creeping salt is not one contact problem but several",
                        "export the elastic case: --set /numerics/creep=off"}});
   }
-  const FaultOperator& op =
-      *prepare_on_screen(simulation, arguments.op, arguments.scene.json).op;
+  const FaultOperator& op = *prepare_on_screen(simulation, arguments.op, arguments.scene.json).op;
 
   ExportedStep exported;
   SilentMonitor silent;

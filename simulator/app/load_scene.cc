@@ -76,8 +76,7 @@ CachePolicy cache_policy(const OperatorArguments& arguments) {
 }
 
 RunContext context_of(const OperatorArguments& arguments, Monitor& monitor) {
-  return {monitor, stop_on_signals(),
-          arguments.threads > 0 ? arguments.threads : usable_cores()};
+  return {monitor, stop_on_signals(), arguments.threads > 0 ? arguments.threads : usable_cores()};
 }
 
 const PreparedOperator& prepare_on_screen(Simulation& simulation,

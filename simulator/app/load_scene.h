@@ -23,8 +23,8 @@ std::string remarks_to_text(const LoadedScene& loaded);
 
 /// Where a command keeps operators: the folder given, or the user's cache folder, or nowhere.
 CachePolicy cache_policy(const OperatorArguments& arguments);
-/// Told to `monitor`, stopped by signals, with the threads asked for: as many as the process may use
-/// cores where nothing was.
+/// Told to `monitor`, stopped by signals, with the threads asked for: as many as the process may
+/// use cores where nothing was.
 RunContext context_of(const OperatorArguments& arguments, Monitor& monitor);
 /// Simulation::prepare with its progress and remarks on the screen, unless `quiet`.
 const PreparedOperator& prepare_on_screen(Simulation& simulation,

@@ -41,8 +41,8 @@ class Worker {
       : requests_(arguments.requests),
         replies_(arguments.replies),
         context_{silent_, StopToken(requests_.stop()), arguments.threads} {
-    simulation_.keep_operators({arguments.cache, static_cast<std::uint64_t>(arguments.cache_size),
-                                arguments.node_cache});
+    simulation_.keep_operators(
+        {arguments.cache, static_cast<std::uint64_t>(arguments.cache_size), arguments.node_cache});
   }
 
   void serve() {

@@ -21,7 +21,7 @@ struct WorkerRequests::Shared {
   std::mutex mutex;
   std::condition_variable came;
   std::deque<json> waiting;
-  json running;                ///< number of the run that was handed out last.
+  json running;  ///< number of the run that was handed out last.
   std::atomic<bool> stop = false;
   bool ended = false;
   std::exception_ptr trouble;  ///< a line that is no JSON.

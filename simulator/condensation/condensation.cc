@@ -234,8 +234,7 @@ FaultOperator CondensedBulk::condense(const RunContext& context) {
   return op;
 }
 
-InfluenceBlock CondensedBulk::influence(const std::vector<int>& cells,
-                                        const RunContext& context) {
+InfluenceBlock CondensedBulk::influence(const std::vector<int>& cells, const RunContext& context) {
   Impl& self = *impl_;
   const Mesh& mesh = self.problem.mesh;
   Stopwatch stopwatch;

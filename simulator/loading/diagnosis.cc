@@ -112,8 +112,8 @@ void judge(const DiagnosisLimits& limits, double traction_tolerance, Diagnosis& 
   }
 }
 
-Diagnosis diagnose_case(const Scene& scene, const PreparedOperator& prepared, const RunContext& context,
-                        const DiagnosisLimits& limits) {
+Diagnosis diagnose_case(const Scene& scene, const PreparedOperator& prepared,
+                        const RunContext& context, const DiagnosisLimits& limits) {
   Diagnosis diagnosis;
   diagnosis.op = check_operator(*prepared.op);
   CaseProbe probe;

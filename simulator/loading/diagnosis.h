@@ -60,8 +60,8 @@ struct Diagnosis {
 };
 
 /// Runs the case twice and checks it. Interrupted runs are as run_case() leaves them.
-Diagnosis diagnose_case(const Scene& scene, const PreparedOperator& prepared, const RunContext& context,
-                        const DiagnosisLimits& limits = {});
+Diagnosis diagnose_case(const Scene& scene, const PreparedOperator& prepared,
+                        const RunContext& context, const DiagnosisLimits& limits = {});
 
 /// The verdict on numbers at hand; sets diagnosis.violations.
 void judge(const DiagnosisLimits& limits, double traction_tolerance, Diagnosis& diagnosis);

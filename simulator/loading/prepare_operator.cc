@@ -64,8 +64,8 @@ PreparedOperator prepare_ladder(const Scene& scene, const Plan& plan, const RunC
                                    ? MaxwellScheme::exponential
                                    : MaxwellScheme::backward_euler;
   PreparedOperator prepared;
-  prepared.ladder = std::make_shared<CreepLadder>(bulk_problem(scene, plan), plan.creep.rungs,
-                                                  scheme, context);
+  prepared.ladder =
+      std::make_shared<CreepLadder>(bulk_problem(scene, plan), plan.creep.rungs, scheme, context);
   auto op = std::make_shared<FaultOperator>(prepared.ladder->op(0));  // shares H
   take_fault_names(scene, *op);
   mirror_observations(scene, plan, op->observed);

@@ -105,7 +105,8 @@ class CaseRun {
 
 ContactWatch CaseRun::watch() const {
   ContactWatch watch{context_.stop};
-  if (probe_.tried) watch.tried = [this](const SubStepTrace& part) { probe_.tried(at_->step, part); };
+  if (probe_.tried)
+    watch.tried = [this](const SubStepTrace& part) { probe_.tried(at_->step, part); };
   return watch;
 }
 

@@ -57,8 +57,8 @@ struct CaseProbe {
 
 /// Runs one case on its operator: initial state, load steps, contact, metrics. Deterministic: the
 /// same scene and operator give the same bits whatever ran before. Never throws for
-/// non-convergence, nor where the context stops it: the outcome is then `interrupted`, and the steps
-/// are those that were complete.
+/// non-convergence, nor where the context stops it: the outcome is then `interrupted`, and the
+/// steps are those that were complete.
 CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, const RunContext& context,
                     const StepObserver& observer = {}, const CaseProbe& probe = {});
 /// The same without creep, whatever the scene says of viscosity.

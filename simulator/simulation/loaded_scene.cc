@@ -62,8 +62,8 @@ std::string operator_key(const LoadedScene& loaded) {
   std::string key = loaded.plan.family;
   for (const Fault& fault : loaded.scene.faults) key += "/" + fault.name;
   for (const ObservationPoint& point : loaded.scene.output.observation_points) {
-    key += concat("/", point.name, point.position[0], ",", point.position[1], ",",
-                  point.position[2]);
+    key +=
+        concat("/", point.name, point.position[0], ",", point.position[1], ",", point.position[2]);
   }
   return key;
 }

@@ -61,7 +61,8 @@ struct OperatorBuild::Shared final : Monitor {
   }
   void tell(const RunContext& context) {
     for (const std::string& text : std::exchange(notes, {})) context.note(text);
-    if (std::exchange(progressed, false)) context.progress(last_progress.first, last_progress.second);
+    if (std::exchange(progressed, false))
+      context.progress(last_progress.first, last_progress.second);
   }
 };
 

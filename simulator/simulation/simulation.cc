@@ -66,9 +66,9 @@ Simulation Simulation::from_file(const std::string& file, const Changes& changes
   return simulation;
 }
 
-Simulation Simulation::from_text(std::string_view json, const std::string& source) {
+Simulation Simulation::from_text(std::string_view text, const std::string& source) {
   Simulation simulation;
-  simulation.hold(parse_json(json, source));
+  simulation.hold(parse_json(text, source));
   return simulation;
 }
 

@@ -33,7 +33,8 @@ struct Change {
 };
 using Changes = std::vector<Change>;
 
-/// Who looks on while a case runs; the result does not depend on it. Called by the thread that runs.
+/// Who looks on while a case runs; the result does not depend on it. Called by the thread that
+/// runs.
 struct RunWatch {
   /// After each load step in equilibrium.
   std::function<void(const StepResult&, const FaultFields&)> step = nullptr;
@@ -44,17 +45,17 @@ struct RunWatch {
 /// A scene that is held, and the operator that it and its changes run on.
 ///
 /// Two simulations know nothing of each other: each may run in a thread of its own, with its own
-/// settings. One simulation is for one thread at a time. Same scene and changes, same bits, whatever
-/// ran before. What stays common to a process: BLAS computes with one thread and by one kernel (both
-/// are set by the first simulation and are the same for all), and calls of HDF5, of the unit
-/// database and of METIS, which draws from rand(), take turns.
+/// settings. One simulation is for one thread at a time. Same scene and changes, same bits,
+/// whatever ran before. What stays common to a process: BLAS computes with one thread and by one
+/// kernel (both are set by the first simulation and are the same for all), and calls of HDF5, of
+/// the unit database and of METIS, which draws from rand(), take turns.
 class Simulation {
  public:
   /// @param file     a scene as `faultsim run` reads it, with the tables that it names.
   /// @param changes  for good: later changes are to the scene with these.
   static Simulation from_file(const std::string& file, const Changes& changes = {});
   /// @param source  what messages call the text; tables are looked for beside it.
-  static Simulation from_text(std::string_view json, const std::string& source = "scene");
+  static Simulation from_text(std::string_view text, const std::string& source = "scene");
   Simulation();  ///< holds nothing yet.
   ~Simulation();
   Simulation(Simulation&&) noexcept;
@@ -65,8 +66,8 @@ class Simulation {
 
   /// Holds another scene. An operator that is the same is kept, and goes on being used.
   void hold(JsonDocument document);
-  /// The held scene with these changes, and none of earlier ones. Throws InputError with all that is
-  /// wrong; the scene at hand is then the one before.
+  /// The held scene with these changes, and none of earlier ones. Throws InputError with all that
+  /// is wrong; the scene at hand is then the one before.
   void change(const Changes& changes);
 
   /// The scene at hand: held, with the last changes.
@@ -80,9 +81,9 @@ class Simulation {
   /// stiffness or boundary conditions do; friction, stress, pressure and Biot coefficients do not.
   bool needs_operator() const;
   /// Reads or builds the operator of the scene at hand, unless it is there. The old one is freed
-  /// first. @returns whether it was needed. A stop is thrown within milliseconds; what is left of the
-  /// build ends by itself, at most some seconds later, and is waited for by the next one and by the
-  /// destructor.
+  /// first. @returns whether it was needed. A stop is thrown within milliseconds; what is left of
+  /// the build ends by itself, at most some seconds later, and is waited for by the next one and by
+  /// the destructor.
   /// @param keep_bulk  with the factor of the bulk, for displacements of the whole mesh.
   bool prepare(const RunContext& context = {}, bool keep_bulk = false);
   const PreparedOperator& prepared() const;  ///< @pre !needs_operator()

@@ -1,4 +1,5 @@
-// How likely does a fault slide where friction, stress and the pressure in the faults are uncertain?
+// How likely does a fault slide where friction, stress and the pressure in the faults are
+// uncertain?
 #include <faultsim/simulation.h>
 
 #include <chrono>

@@ -120,8 +120,8 @@ TEST(Simulation, StopsACaseWithTheStepsThatItReached) {
   const RunContext context(silent, StopToken(stop));
   simulation.prepare(context);
   const CaseResult whole = simulation.run(context);
-  const CaseResult part = simulation.run(
-      context, {.tried = [&](int step, const SubStepTrace&) { stop = step >= 6; }});
+  const CaseResult part =
+      simulation.run(context, {.tried = [&](int step, const SubStepTrace&) { stop = step >= 6; }});
   EXPECT_EQ(part.outcome, Outcome::interrupted);
   EXPECT_EQ(part.reason, "stopped in load step 7");
   ASSERT_EQ(part.steps.size(), 7u);

@@ -1,4 +1,5 @@
-// Two simulations in one process at once, with different settings: built for the thread sanitizer too.
+// Two simulations in one process at once, with different settings: built for the thread sanitizer
+// too.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -47,8 +48,8 @@ TEST(TwoSimulations, AtOnceGiveTheBitsOfOneAfterTheOther) {
       {{"/tier", "screening"}, {"offset_east", "50 m"}, {"friction_angle", "25 deg"}},
       {{"fault_pressure", "max"}, {"biot", "0.9"}, {"offset_east", "100 m"}},
       2};
-  const auto scratch = std::filesystem::temp_directory_path() /
-                       ("faultsim-two-" + std::to_string(getpid()));
+  const auto scratch =
+      std::filesystem::temp_directory_path() / ("faultsim-two-" + std::to_string(getpid()));
   std::vector<std::string> one, other;
   {
     std::jthread a([&] { one = run_all(first, {scratch}); });
