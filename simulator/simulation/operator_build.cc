@@ -89,21 +89,25 @@ OperatorBuild::OperatorBuild(const Scene& scene, const Plan& plan, const CachePo
 
 OperatorBuild::~OperatorBuild() { shared_->stop = true; }
 
-PreparedOperator OperatorBuild::wait(const RunContext& context) {
+void OperatorBuild::wait_for_end(const RunContext& context) {
   constexpr std::chrono::milliseconds kLook{2};
   const SigtermLeftToTheBuild left;
   Shared& shared = *shared_;
   std::unique_lock lock(shared.mutex);
   while (!shared.ended) {
     shared.news.wait_for(lock, kLook);
-    shared.tell(context);
+    if (!shared.stop) shared.tell(context);
     if (!context.stop.requested()) continue;
     shared.stop = true;
     context.stop.throw_if_requested("preparing the operator");
   }
-  shared.tell(context);
-  if (shared.thrown) std::rethrow_exception(shared.thrown);
-  return std::move(shared.prepared);
+  if (!shared.stop) shared.tell(context);
+}
+
+PreparedOperator OperatorBuild::wait(const RunContext& context) {
+  wait_for_end(context);
+  if (shared_->thrown) std::rethrow_exception(shared_->thrown);
+  return std::move(shared_->prepared);
 }
 
 }  // namespace faultsim

@@ -24,6 +24,8 @@ class OperatorBuild {
   /// monitor, in this thread. Throws Interrupted within a few milliseconds of the context's stop;
   /// the build is then called off and ends by itself at its next look.
   PreparedOperator wait(const RunContext& context);
+  /// Waits for the end of a build that was called off. Throws Interrupted likewise.
+  void wait_for_end(const RunContext& context);
 
  private:
   struct Shared;

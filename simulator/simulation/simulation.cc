@@ -106,7 +106,7 @@ bool Simulation::prepare(const RunContext& context, bool keep_bulk) {
   const bool has_bulk = self.prepared.bulk != nullptr || self.at_hand.plan.creep.active;
   if (!needs_operator() && (has_bulk || !keep_bulk)) return false;
   self.prepared = {};  // frees the old operator before the new one is built
-  self.build.reset();  // one that was called off: two would need the memory of both
+  if (self.build) self.build->wait_for_end(context);  // two would need the memory of both
   context.stop.throw_if_requested("preparing the operator");
   self.build = std::make_unique<OperatorBuild>(self.at_hand.scene, self.at_hand.plan, self.cache,
                                                keep_bulk, context.n_threads);

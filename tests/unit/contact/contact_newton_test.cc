@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "simulator/common/errors.h"
 #include "tests/unit/contact/contact_fixture.h"
 
 namespace faultsim {
@@ -11,28 +12,43 @@ namespace {
 
 // Node 0 carries a thousand times what node 1 carries. Solved exactly, it slips by 2 mm: so little
 // for its load that it is rounded to rest, which hands node 1 a traction of four of its tolerances.
+struct TwoNodes {
+  TwoNodes() {
+    set_h(op, Eigen::Matrix4d{{4, 0, 0, 0}, {0, 4, 0, 2}, {0, 0, 4, 0}, {0, 2, 0, 4}});
+    step.start = &start;
+    step.trial = Eigen::Vector4d(-2000, 1000 + 4 * 0.002 + 2 * 1, -2, 1 + 2 * 0.002 + 4 * 1);
+    step.traction = step.locked = step.trial;
+    step.increment = Eigen::Vector4d::Zero();
+    step.state = start.state;
+    step.cohesive = {1, 1};
+    step.tolerance = Eigen::Vector2d(1, 1e-3);
+  }
+  FaultOperator op = make_operator(2, 1, Eigen::VectorXd::Ones(2));
+  const ContactLaws laws = same_law(op, {WeakeningLaw::angle, 0, std::atan(0.5), std::atan(0.5)});
+  const ContactState start = initial_state(op);
+  const ContactOptions options;
+  SubStep step;
+};
+
 // Newton has to go on from there, to the slip of node 1 alone.
 TEST(ContactNewton, TakesNothingThatItsOwnRoundingHasPutOutOfBalance) {
-  FaultOperator op = make_operator(2, 1, Eigen::VectorXd::Ones(2));
-  set_h(op, Eigen::Matrix4d{{4, 0, 0, 0}, {0, 4, 0, 2}, {0, 0, 4, 0}, {0, 2, 0, 4}});
-  const ContactLaws laws = same_law(op, {WeakeningLaw::angle, 0, std::atan(0.5), std::atan(0.5)});
-  ContactProblem problem(op, laws);
-  const ContactState start = initial_state(op);
-  SubStep step;
-  step.start = &start;
-  step.trial = Eigen::Vector4d(-2000, 1000 + 4 * 0.002 + 2 * 1, -2, 1 + 2 * 0.002 + 4 * 1);
-  step.traction = step.locked = step.trial;
-  step.increment = Eigen::Vector4d::Zero();
-  step.state = start.state;
-  step.cohesive = {1, 1};
-  step.tolerance = Eigen::Vector2d(1, 1e-3);
-  const ContactOptions options;
-  const SearchHistory report = ContactNewton(problem, options).solve(step);
+  TwoNodes given;
+  ContactProblem problem(given.op, given.laws);
+  SubStep& step = given.step;
+  const SearchHistory report = ContactNewton(problem, given.options).solve(step);
   EXPECT_TRUE(report.converged());
   EXPECT_EQ(report.iterations, 2);
   EXPECT_EQ(step.increment[1], 0);
   EXPECT_NEAR(step.increment[3], 4.004 / 4, 1e-12);
   for (const int k : {0, 1}) EXPECT_LT(check_node(problem, step, k).worst(), step.tolerance[k]);
+}
+
+TEST(ContactNewton, StopsWhenItIsAsked) {
+  TwoNodes given;
+  ContactProblem problem(given.op, given.laws);
+  const std::atomic<bool> stop = true;
+  EXPECT_THROW(ContactNewton(problem, given.options, StopToken(stop)).solve(given.step),
+               Interrupted);
 }
 
 TEST(SearchHistory, KeepsTheLastIterationsAndTheBest) {
