@@ -27,7 +27,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* kVerification = "faultsim verify";
+constexpr const char* kVerification = "faultsim-verify";
 constexpr int kNightsShown = 50;
 
 /// One night at a time in a store; the lock goes with the process.
@@ -242,7 +242,8 @@ class Night {
   }
 
   std::vector<std::string> verify_command(const std::vector<std::string>& options) const {
-    std::vector<std::string> command = {simulator_.string(), "verify", "--json"};
+    std::vector<std::string> command = {
+        (simulator_.parent_path() / kVerification).string(), "--json"};
     command.insert(command.end(), options.begin(), options.end());
     command.insert(command.end(), suite_.verification.begin(), suite_.verification.end());
     return command;
@@ -250,8 +251,8 @@ class Night {
 
   void check_verification() const {
     if (suite_.verification.empty() || run_child(verify_command({"--list"})).code == 0) return;
-    throw InputError(suite_.source, {{"/verification", 0, "faultsim verify does not know all names",
-                                      "faultsim verify --list names them"}});
+    throw InputError(suite_.source, {{"/verification", 0, "faultsim-verify does not know all names",
+                                      "faultsim-verify --list names them"}});
   }
 
   /// A problem that meets its closed forms is within its tier.
@@ -259,7 +260,7 @@ class Night {
     const ChildOutput answer = run_child(verify_command({}));
     const json document = json::parse(answer.out, nullptr, false);
     if (!document.is_object()) {
-      throw faultsim::ResourceError(concat("faultsim verify ended with exit code ", answer.code));
+      throw faultsim::ResourceError(concat("faultsim-verify ended with exit code ", answer.code));
     }
     for (const json& problem : document.at("cases")) {
       const bool passed = problem.at("passed");

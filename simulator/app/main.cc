@@ -1,7 +1,6 @@
 #include <CLI/CLI.hpp>
 
 #include "simulator/app/commands.h"
-#include "simulator/app/verify/verify.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/version.h"
 #include "simulator/linalg/blas_start.h"
@@ -21,7 +20,6 @@ constexpr const char* kFooter =
     "                                             a step's contact problem for other solvers\n"
     "  faultsim influence my-field.json -o influence.h5\n"
     "                                             what pressure in each reservoir cell does\n"
-    "  faultsim verify V1 V2                      meet the closed forms\n"
     "  faultsim solver-study --h 1/8              preconditioners of the coupled path\n"
     "  faultsim environment                       processor, BLAS, compiler: for bug reports\n"
     "Exit codes: 0 done, 2 input, 3 no convergence, 4 disk or memory, 5 a comparison failed,\n"
@@ -258,21 +256,6 @@ void add_environment(CLI::App& app, Arguments& a, ExitCode& code) {
   command->callback([&] { code = environment_command(a.environment_json); });
 }
 
-void add_verify(CLI::App& app, Arguments& a, ExitCode& code) {
-  CLI::App* command =
-      app.add_subcommand("verify", "run the verification problems against closed forms");
-  command->add_option("names", a.problems, "V1 V2 … (default: all)");
-  command->add_flag("--list", a.list, "list the problems");
-  command->add_flag("--json", a.json, "machine-readable output on stdout");
-  command->add_flag("--slow", a.slow, "also the members that take minutes");
-  command->add_flag("--markdown", a.markdown, "tables as in docs/verification.md");
-  command->footer(
-      "Examples:\n"
-      "  faultsim verify                  all, under a minute\n"
-      "  faultsim verify V4 V5 --json     these two, with expected and computed values");
-  command->callback([&] { code = verify_command(a.problems, a.list, a.json, a.slow, a.markdown); });
-}
-
 /// Reads the command line and returns the chosen command's exit code.
 ExitCode faultsim_main(int argc, char** argv) {
   start_blas(argv);
@@ -284,7 +267,7 @@ ExitCode faultsim_main(int argc, char** argv) {
   Arguments arguments;
   ExitCode code = ExitCode::done;
   for (auto* add : {add_init, add_looking, add_run, add_diagnose, add_export_contact, add_influence,
-                    add_worker, add_solver_study, add_environment, add_verify}) {
+                    add_worker, add_solver_study, add_environment}) {
     add(app, arguments, code);
   }
   try {

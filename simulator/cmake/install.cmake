@@ -2,13 +2,13 @@
 include(GNUInstallDirs)
 set(manual ${PROJECT_BINARY_DIR}/manual)
 set(pages "")
-foreach(program faultsim faultsweep)
+foreach(program faultsim faultsim-verify faultsweep)
   add_custom_command(OUTPUT ${manual}/${program}.1 DEPENDS ${program} ${PROJECT_SOURCE_DIR}/simulator/cmake/make_manual
     COMMAND ${PROJECT_SOURCE_DIR}/simulator/cmake/make_manual $<TARGET_FILE:${program}> ${manual}/${program}.1)
   list(APPEND pages ${manual}/${program}.1)
 endforeach()
 add_custom_target(manual ALL DEPENDS ${pages})
-install(TARGETS faultsim faultsweep RUNTIME)
+install(TARGETS faultsim faultsim-verify faultsweep RUNTIME)
 install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 foreach(program faultsim faultsweep)
   install(FILES ${PROJECT_SOURCE_DIR}/simulator/cmake/completion.bash

@@ -12,8 +12,10 @@ namespace faultsim {
 namespace {
 
 constexpr double kMaxDip = 0.7854;       // 45 degrees, rounded up
+constexpr double kSameLine = 1e-6;       // m
 constexpr double kEdgeTolerance = 1e-5;  // m; ten times the distance below which lines are merged
 constexpr double kLeastRest = 0.1;       // of a cell; a thinner rest is spread over its neighbours
+constexpr double kLeastGap = 0.5, kLargestGap = 2.5;  // of a gap between lines that are moved
 constexpr int kEdgeCells = 2;  // cells of exactly sizes.dip on each side of a reservoir edge
 
 struct DepthRange {
@@ -202,8 +204,9 @@ std::vector<double> field_y(const FieldMeshSpec& spec) {
   return builder.build();
 }
 
-/// Depths that must be grid lines (z, ascending): layer tops, reservoir edges, tips of faults.
-std::vector<double> must_lines(const FieldMeshSpec& spec) {
+/// Depths that must be grid lines, z: layer tops, reservoir edges, tips of faults; in an order of
+/// their own, the same for all offsets.
+std::vector<double> special_z(const FieldMeshSpec& spec) {
   std::vector<double> z = {-spec.depth, 0};
   for (const double top : spec.layer_tops) z.push_back(-top);
   for (const FieldMeshSpec::Block& block : spec.blocks) {
@@ -214,8 +217,14 @@ std::vector<double> must_lines(const FieldMeshSpec& spec) {
     const DepthRange range = fault_range(spec, i);
     z.insert(z.end(), {-range.top, -range.bottom});
   }
+  return z;
+}
+
+/// Those depths, ascending, each once.
+std::vector<double> must_lines(const FieldMeshSpec& spec) {
+  std::vector<double> z = special_z(spec);
   std::sort(z.begin(), z.end());
-  const auto same = [](double a, double b) { return b - a < 1e-6; };
+  const auto same = [](double a, double b) { return b - a < kSameLine; };
   z.erase(std::unique(z.begin(), z.end(), same), z.end());
   return z;
 }
@@ -270,6 +279,78 @@ std::vector<double> field_z(const FieldMeshSpec& spec) {
   }
   builder.add_window(-all.bottom, -all.top, dip);
   return builder.build();
+}
+
+FieldMeshSpec with_mesh_offsets(FieldMeshSpec spec) {
+  for (FieldMeshSpec::Block& block : spec.blocks)
+    block.offset = block.mesh_offset.value_or(block.offset);
+  return spec;
+}
+
+/// A special depth where lines were laid out, and where it belongs.
+struct MovedDepth {
+  double from, to;
+};
+
+/// Special depths of the layout, ascending, each once. Empty when their order is another at the
+/// blocks' offsets, or a gap changes too much.
+std::vector<MovedDepth> moved_depths(const FieldMeshSpec& spec) {
+  const std::vector<double> from = special_z(with_mesh_offsets(spec)), to = special_z(spec);
+  std::vector<MovedDepth> all, kept;
+  for (size_t i = 0; i < from.size(); ++i) all.push_back({from[i], to[i]});
+  std::sort(all.begin(), all.end(),
+            [](const MovedDepth& a, const MovedDepth& b) { return a.from < b.from; });
+  for (const MovedDepth& one : all) {
+    if (!kept.empty() && one.from - kept.back().from < kSameLine) {
+      if (std::abs(one.to - kept.back().to) >= kSameLine) return {};
+      continue;
+    }
+    const double stretch =
+        kept.empty() ? 1 : (one.to - kept.back().to) / (one.from - kept.back().from);
+    if (!(stretch >= kLeastGap && stretch <= kLargestGap)) return {};
+    kept.push_back(one);
+  }
+  return kept;
+}
+
+bool moves_lines(const FieldMeshSpec& spec) {
+  return std::any_of(spec.blocks.begin(), spec.blocks.end(),
+                     [](const FieldMeshSpec::Block& block) { return block.mesh_offset; });
+}
+
+void check_moved_lines(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
+  if (!moves_lines(spec) || !moved_depths(spec).empty()) return;
+  for (size_t i = 0; i < spec.blocks.size(); ++i) {
+    const FieldMeshSpec::Block& block = spec.blocks[i];
+    if (!block.mesh_offset) continue;
+    problems.push_back({concat("/geometry/blocks/", i, "/mesh_offset"), 0,
+                        concat("grid lines laid out for an offset of ", *block.mesh_offset,
+                               " m cannot be moved to ", block.offset,
+                               " m: reservoir edges, layers or fault tips would meet, change order "
+                               "or come much closer"),
+                        "use a mesh_offset nearer to offset, on the same side of 0 m and of the "
+                        "reservoir's thickness"});
+  }
+}
+
+/// Lines laid out for the mesh offsets, moved to the offsets.
+std::vector<double> moved_z(const FieldMeshSpec& spec) {
+  if (!moves_lines(spec)) return field_z(spec);
+  std::vector<double> lines = field_z(with_mesh_offsets(spec));
+  const std::vector<MovedDepth> depths = moved_depths(spec);
+  size_t gap = 0;
+  for (double& z : lines) {
+    while (gap + 2 < depths.size() && z > depths[gap + 1].from) ++gap;
+    const MovedDepth &low = depths[gap], &high = depths[gap + 1];
+    const double at = z - low.from, length = high.from - low.from;
+    if (length - at < kSameLine) {
+      z = high.to;
+      continue;
+    }
+    const double s = at / length, shift = low.to - low.from;
+    z = low.to + at + ((high.to - high.from) - shift) * s * s * (3 - 2 * s);
+  }
+  return lines;
 }
 
 /// Material and region of a reference place.
@@ -359,10 +440,11 @@ GridLines grid_lines(const FieldMeshSpec& spec, std::vector<Problem>& problems) 
   check_blocks(spec, found);
   if (found.empty()) check_faults(spec, found);
   if (found.empty()) check_shear(spec, found);
+  if (found.empty()) check_moved_lines(spec, found);
   GridLines lines;
   if (found.empty()) {
     try {
-      lines = {field_x(spec), field_y(spec), field_z(spec)};
+      lines = {field_x(spec), field_y(spec), moved_z(spec)};
       found = grid_size_problems({lines.x, lines.y, lines.z});
     } catch (const InputError& error) {  // too many on an axis
       found = error.problems();

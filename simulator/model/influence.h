@@ -35,7 +35,10 @@ struct InfluenceBlock {
   double build_seconds = 0;       ///< reported; without those of the factor.
 };
 
-/// Σ_c P_c s_c, Pa (n_dofs). @param stress  s per cell, Pa.
-Eigen::VectorXd locked_change(const InfluenceBlock& block, const Eigen::VectorXd& stress);
+/// Σ_c P_c s_c of each field, Pa (n_dofs x n_fields). The time is that of reading P once per eight
+/// fields. A field's bits depend neither on the others nor on the threads.
+/// @param stress  s per cell and field (n_cells x n_fields), Pa.
+Eigen::MatrixXd locked_change(const InfluenceBlock& block,
+                              const Eigen::Ref<const Eigen::MatrixXd>& stress, int n_threads = 1);
 
 }  // namespace faultsim

@@ -185,6 +185,7 @@ void ResultFolder::start() {
     close(lock_);
     fail("write into", folder_, "another process writes its result there");
   }
+  remove_abandoned_temporaries(folder_);  // of a marker whose writer was killed
   if (!whole_) {
     const std::string why = "This folder holds no complete result of `" + request_.made_by +
                             "`. What an unfinished one left is in incomplete/.";

@@ -195,6 +195,7 @@ nlohmann::json family_of_field(const FieldMeshSpec& spec) {
                       {"half", spec.half_domain}};
   for (const auto& block : spec.blocks) {
     j["blocks"].push_back({block.from, block.to, block.offset});
+    if (block.mesh_offset) j["blocks"].back().push_back(*block.mesh_offset);
   }
   if (!spec.plane_strain && spec.fault_length >= spec.length) j["fault_ends"] = "none";
   return j;
@@ -339,7 +340,7 @@ FieldMeshSpec field_mesh_spec(const Scene& scene, const Plan& plan) {
   }
   spec.sideburden_material = material_index(scene, field.sideburden);
   for (const Block& block : field.blocks)
-    spec.blocks.push_back({block.from, block.to, block.offset});
+    spec.blocks.push_back({block.from, block.to, block.offset, block.mesh_offset});
   spec.block_length = field.block_length;
   spec.fault_length = field.fault_length;
   spec.fault_overshoot = field.fault_overshoot;

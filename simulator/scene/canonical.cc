@@ -46,6 +46,7 @@ json field(const FieldGeometry& field) {
                       {"to", plain(block.to)},
                       {"offset", plain(block.offset)}});
     if (block.overpressure) blocks.back()["overpressure"] = plain(*block.overpressure);
+    if (block.mesh_offset) blocks.back()["mesh_offset"] = plain(*block.mesh_offset);
   }
   return {{"kind", "field"},
           {"width", plain(field.width)},

@@ -46,6 +46,8 @@ void read_blocks(SceneReader& reader, FieldGeometry& field) {
     const std::string at = element(list, i) + "/";
     Block block{reader.text(at + "name"), reader.quantity(at + "from"), reader.quantity(at + "to"),
                 reader.quantity(at + "offset", 0)};
+    const double mesh_offset = reader.quantity(at + "mesh_offset", block.offset);
+    if (mesh_offset != block.offset) block.mesh_offset = mesh_offset;  // else it says nothing
     if (reader.has(at + "overpressure")) block.overpressure = reader.quantity(at + "overpressure");
     if (block.to <= block.from) {
       reader.problem(at + "to", "block \"" + block.name + "\" ends west of where it begins",

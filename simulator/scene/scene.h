@@ -37,6 +37,9 @@ struct Block {
   /// Pa, of its own: what its initial pressure is above hydrostatic (profile: above the profile),
   /// at all depths of its reservoir. None = that of the column at the same depth.
   std::optional<double> overpressure = std::nullopt;
+  /// m: grid lines are laid out for this offset and then moved to `offset` (FieldMeshSpec). None =
+  /// for `offset`.
+  std::optional<double> mesh_offset = std::nullopt;
 };
 
 /// The conceptual Dutch field: layers, a row of contiguous reservoir blocks, a

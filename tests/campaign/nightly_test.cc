@@ -249,7 +249,7 @@ TEST_F(Nightly, ASampleOfAStoreIsComparedWithWhatIsStored) {
   EXPECT_EQ(cases[0]["campaign"], "sample-angles");
   EXPECT_EQ(cases[0]["verdict"], "identical");
   EXPECT_EQ(cases[1]["verdict"], "identical");
-  EXPECT_EQ(cases[2]["campaign"], "faultsim verify");
+  EXPECT_EQ(cases[2]["campaign"], "faultsim-verify");
   EXPECT_EQ(cases[2]["verdict"], "within tier");
   wrap("s/15 deg/15.0000000000015 deg/g", "s/\"passed\": true/\"passed\": false/");
   const auto other = nightly({"--json"});

@@ -98,6 +98,20 @@ TEST_F(Influence, ACellHasTheSameBitsWhateverElseIsAsked) {
   }
 }
 
+/// More fields than meet P at once, on more threads than there are tiles for.
+TEST(LockedChange, HasTheSameBitsAloneOrAmongOthersOnAnyThreads) {
+  constexpr int kDofs = 1300, kCells = 27, kFields = 19;
+  InfluenceBlock block;
+  const Eigen::MatrixXd p = Eigen::MatrixXd::Random(kDofs, kCells);
+  block.traction = StoredMatrix(p);
+  const Eigen::MatrixXd stress = Eigen::MatrixXd::Random(kCells, kFields);
+  const Eigen::MatrixXd all = locked_change(block, stress);
+  EXPECT_LT((all - p * stress).cwiseAbs().maxCoeff(), 1e-13);
+  for (const int threads : {2, 5}) EXPECT_EQ(all, locked_change(block, stress, threads));
+  for (int f = 0; f < kFields; ++f)
+    EXPECT_EQ(all.col(f), locked_change(block, stress.col(f), 2)) << f;
+}
+
 TEST_F(Influence, TellsWhatItsCellsAre) {
   double volume = 0;
   for (const InfluenceCell& cell : block_.cells) {

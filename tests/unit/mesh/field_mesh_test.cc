@@ -55,6 +55,12 @@ std::set<int> kinds_at(const Mesh& mesh, double x, double y, double depth_from, 
   return kinds;
 }
 
+std::vector<double> sorted_depths(const Mesh& mesh) {
+  std::set<double> depths;
+  for (const Eigen::Vector3d& one : mesh.nodes) depths.insert(one.z());
+  return {depths.begin(), depths.end()};
+}
+
 TEST(FieldMesh, IsSoundForAllOffsetsAndDips) {
   for (const double offset : {-100.0, 0.0, 37.0, 200.0, 250.0})
     for (const double dip : {-25.0, 0.0, 25.0}) {
@@ -292,6 +298,47 @@ TEST(FieldMesh, PlaneStrainTiesTheBackToTheFrontAndHasOneColumn) {
   const double along = (fault.grid_position[3] - fault.grid_position[1]).norm() / 2;
   EXPECT_NEAR(fault.nodes[1].area, along, 1e-9);
   EXPECT_NEAR(face_area(fault), 600 / std::cos(15 * kDegree), 1e-9);
+}
+
+/// A spec whose lines are laid out for an offset of 100 m.
+FieldMeshSpec laid_out_for_100(double offset) {
+  FieldMeshSpec spec = plane_strain(offset);
+  spec.sizes.corner = 2, spec.sizes.corner_growth = 1.5;
+  spec.blocks[1].mesh_offset = 100;
+  return spec;
+}
+
+TEST(FieldMesh, CellsCorrespondOverARangeOfOffsetsWithTheSameMeshOffset) {
+  const Mesh at_100 = make_mesh(laid_out_for_100(100));
+  FieldMeshSpec own = laid_out_for_100(100);
+  own.blocks[1].mesh_offset.reset();
+  EXPECT_EQ(make_mesh(own).nodes, at_100.nodes);
+  for (const double offset : {60.0, 124.0}) {
+    const Mesh mesh = make_mesh(laid_out_for_100(offset));
+    EXPECT_EQ(mesh.cells, at_100.cells);
+    EXPECT_EQ(mesh.material, at_100.material);
+    EXPECT_EQ(mesh.region, at_100.region);
+    for (std::size_t f = 0; f < mesh.faults.size(); ++f)
+      EXPECT_EQ(mesh.faults[f].grid_node, at_100.faults[f].grid_node);
+    const std::vector<double> z = sorted_depths(mesh);
+    for (const double edge : {-2000.0, -2200.0, -2000 - offset, -2200 - offset}) {
+      const auto at = std::min_element(z.begin(), z.end(), [&](double a, double b) {
+        return std::abs(a - edge) < std::abs(b - edge);
+      });
+      EXPECT_NEAR(*at, edge, 1e-9) << offset;
+      EXPECT_NEAR(*(at + 1) - *at, 2, 0.2) << offset << " " << edge;  // corner cells, to a tenth
+      EXPECT_NEAR(*at - *(at - 1), 2, 0.2) << offset << " " << edge;
+    }
+  }
+}
+
+TEST(FieldMesh, RefusesToMoveLinesPastEachOther) {
+  for (const double offset : {0.0, -50.0, 40.0, 200.0, 260.0}) {
+    std::vector<Problem> problems;
+    grid_lines(laid_out_for_100(offset), problems);
+    ASSERT_EQ(problems.size(), 1u) << offset;
+    EXPECT_EQ(problems[0].pointer, "/geometry/blocks/1/mesh_offset");
+  }
 }
 
 TEST(FieldMesh, SplitsEveryNodeOfAFaultThatPassesBeyondTheModel) {

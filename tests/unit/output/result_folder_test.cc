@@ -107,6 +107,21 @@ TEST(ResultFolder, KeepsAnUnfinishedResultApart) {
   }
 }
 
+TEST(ResultFolder, RemovesTheMarkerThatAKilledProcessWasWriting) {
+  const ScratchFolder scratch;
+  const fs::path folder = scratch.path() / "out";
+  write_result(folder, "first");
+  const pid_t child = fork();
+  if (child == 0) {
+    PendingFile marker(folder / "INCOMPLETE");
+    _exit(0);
+  }
+  waitpid(child, nullptr, 0);
+  ASSERT_EQ(std::distance(fs::directory_iterator(folder), {}), kFiles + 2);
+  write_result(folder, "second");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), kFiles + 1);
+}
+
 /// SIGKILL at some 150 moments of replacing one result by another, and of making the first.
 TEST(ResultFolder, AKilledProcessLeavesOneResultOrSaysThatThereIsNone) {
   const ScratchFolder scratch;

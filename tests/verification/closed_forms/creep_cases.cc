@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <limits>
 
-#include "simulator/app/verify/creep_solutions.h"
-#include "simulator/app/verify/verify_cases.h"
+#include "tests/verification/closed_forms/creep_solutions.h"
+#include "tests/verification/closed_forms/verify_cases.h"
 #include "simulator/common/errors.h"
 
 namespace faultsim {

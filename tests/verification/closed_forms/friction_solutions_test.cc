@@ -1,5 +1,5 @@
 // The closed forms of friction against the numbers printed with them.
-#include "simulator/app/verify/friction_solutions.h"
+#include "tests/verification/closed_forms/friction_solutions.h"
 #include "simulator/common/units.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "simulator/app/verify/scene_runner.h"
+#include "tests/verification/closed_forms/scene_runner.h"
 
 #include <string_view>
 

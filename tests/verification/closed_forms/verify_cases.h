@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "simulator/app/verify/scene_runner.h"
-#include "simulator/app/verify/verify_report.h"
+#include "tests/verification/closed_forms/scene_runner.h"
+#include "tests/verification/closed_forms/verify_report.h"
 
 namespace faultsim {
 

@@ -1,5 +1,5 @@
 // The verification engine must be able to say no.
-#include "simulator/app/verify/verify_report.h"
+#include "tests/verification/closed_forms/verify_report.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "simulator/app/verify/verify.h"
-#include "simulator/app/verify/verify_cases.h"
+#include "tests/verification/closed_forms/verify.h"
+#include "tests/verification/closed_forms/verify_cases.h"
 #include "simulator/common/errors.h"
 
 namespace faultsim {

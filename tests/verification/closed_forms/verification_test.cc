@@ -3,8 +3,8 @@
 
 #include <cctype>
 
-#include "simulator/app/verify/verify_cases.h"
 #include "simulator/common/run_context.h"
+#include "tests/verification/closed_forms/verify_cases.h"
 
 namespace faultsim {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "simulator/app/verify/elastic_solutions.h"
-#include "simulator/app/verify/verify_cases.h"
+#include "tests/verification/closed_forms/elastic_solutions.h"
+#include "tests/verification/closed_forms/verify_cases.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/units.h"
 

@@ -1,4 +1,4 @@
-#include "simulator/app/verify/creep_solutions.h"
+#include "tests/verification/closed_forms/creep_solutions.h"
 
 #include <cmath>
 

@@ -1,9 +1,9 @@
-#include "simulator/app/verify/friction_solutions.h"
+#include "tests/verification/closed_forms/friction_solutions.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "simulator/app/verify/elastic_solutions.h"
+#include "tests/verification/closed_forms/elastic_solutions.h"
 
 namespace faultsim {
 

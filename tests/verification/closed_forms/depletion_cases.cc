@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulator/app/verify/elastic_solutions.h"
-#include "simulator/app/verify/friction_solutions.h"
-#include "simulator/app/verify/verify_cases.h"
+#include "tests/verification/closed_forms/elastic_solutions.h"
+#include "tests/verification/closed_forms/friction_solutions.h"
+#include "tests/verification/closed_forms/verify_cases.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/units.h"
 

@@ -1,4 +1,4 @@
-#include "simulator/app/verify/verify_report.h"
+#include "tests/verification/closed_forms/verify_report.h"
 
 #include <algorithm>
 #include <cmath>

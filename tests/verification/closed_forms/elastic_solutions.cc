@@ -1,4 +1,4 @@
-#include "simulator/app/verify/elastic_solutions.h"
+#include "tests/verification/closed_forms/elastic_solutions.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

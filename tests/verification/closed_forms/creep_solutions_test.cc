@@ -1,5 +1,5 @@
 // The closed forms of Maxwell salt against a table calculated by hand, and against their equation.
-#include "simulator/app/verify/creep_solutions.h"
+#include "tests/verification/closed_forms/creep_solutions.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The closed forms against the numbers printed in the literature they are taken from.
-#include "simulator/app/verify/elastic_solutions.h"
+#include "tests/verification/closed_forms/elastic_solutions.h"
 #include "simulator/common/units.h"
 
 #include <gtest/gtest.h>

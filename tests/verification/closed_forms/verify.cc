@@ -1,11 +1,11 @@
-#include "simulator/app/verify/verify.h"
+#include "tests/verification/closed_forms/verify.h"
 
 #include <algorithm>
 #include <cctype>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "simulator/app/verify/verify_cases.h"
+#include "tests/verification/closed_forms/verify_cases.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/interrupt.h"
 #include "simulator/common/stopwatch.h"

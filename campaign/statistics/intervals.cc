@@ -1,0 +1,64 @@
+#include "campaign/statistics/intervals.h"
+
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/special_functions/beta.hpp>
+#include <cmath>
+
+#include "simulator/common/errors.h"
+
+namespace faultsweep {
+
+Interval proportion_bounds(long k, long n, double confidence) {
+  FAULTSIM_DEMAND(0 <= k && k <= n && confidence > 0 && confidence < 1, k, " of ", n);
+  const double tail = 0.5 * (1 - confidence);
+  const auto successes = static_cast<double>(k), failures = static_cast<double>(n - k);
+  return {k == 0 ? 0 : boost::math::ibeta_inv(successes, failures + 1, tail),
+          k == n ? 1 : boost::math::ibetac_inv(successes + 1, failures, tail)};
+}
+
+long samples_for_half_width(double expected, double half_width, double confidence) {
+  FAULTSIM_DEMAND(half_width > 0, half_width);
+  const auto is_enough = [&](long n) {
+    const long k = std::lround(expected * static_cast<double>(n));
+    const Interval bounds = proportion_bounds(k, n, confidence);
+    return bounds.high - bounds.low <= 2 * half_width;
+  };
+  long enough = 1;
+  while (!is_enough(enough)) enough *= 2;
+  long short_of = enough / 2;
+  while (enough - short_of > 1) {
+    const long middle = short_of + (enough - short_of) / 2;
+    (is_enough(middle) ? enough : short_of) = middle;
+  }
+  return enough;
+}
+
+QuantileBounds quantile_bounds(std::span<const double> sorted, double q, double confidence) {
+  FAULTSIM_DEMAND(!sorted.empty() && q > 0 && q < 1, sorted.size(), " values, q = ", q);
+  const auto n = static_cast<long>(sorted.size());
+  const double place = q * static_cast<double>(n - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  QuantileBounds bounds;
+  bounds.estimate = std::lerp(sorted[below], sorted[above], place - std::floor(place));
+  // B of n samples lie below the quantile: y_(r) is above it iff B < r.
+  const boost::math::binomial_distribution<> below_it(static_cast<double>(n), q);
+  const double tail = 0.5 * (1 - confidence);
+  const auto share_up_to = [&](long b) {  // P(B ≤ b)
+    return b < 0 ? 0 : b >= n ? 1 : boost::math::cdf(below_it, static_cast<double>(b));
+  };
+  long r = 0;  // largest with P(B < r) ≤ tail
+  for (long step = n; step > 0; step /= 2) {
+    while (r + step <= n && share_up_to(r + step - 1) <= tail) r += step;
+  }
+  long s = n + 1;  // least with P(B ≥ s) ≤ tail
+  for (long step = n; step > 0; step /= 2) {
+    while (s - step >= 1 && 1 - share_up_to(s - step - 1) <= tail) s -= step;
+  }
+  if (r >= 1) bounds.low = sorted[static_cast<std::size_t>(r - 1)];
+  if (s <= n) bounds.high = sorted[static_cast<std::size_t>(s - 1)];
+  return bounds;
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+/// Intervals that hold whatever the distribution of what is sampled. Samples are independent.
+namespace faultsweep {
+
+struct Interval {
+  double low = 0, high = 0;
+};
+
+/// Two-sided bounds of a probability of which k of n samples had the property, after Clopper &
+/// Pearson (1934): exact, so they cover it with at least `confidence`. [0, 1] for n = 0.
+/// @pre 0 ≤ k ≤ n, 0 < confidence < 1.
+Interval proportion_bounds(long k, long n, double confidence);
+
+/// The fewest samples with which proportion_bounds are at most 2 half_width apart, if a share
+/// `expected` of them has the property.
+long samples_for_half_width(double expected, double half_width, double confidence);
+
+/// Bounds of the q-quantile: order statistics y_(r) and y_(s) between which it lies with at least
+/// `confidence` whatever the distribution (Conover 1999, section 3.2). An end is missing where there
+/// are too few samples for it.
+struct QuantileBounds {
+  double estimate = 0;  ///< the sample's own quantile, linear between its values.
+  std::optional<double> low, high;
+};
+/// @param sorted  ascending, not empty. @pre 0 < q < 1.
+QuantileBounds quantile_bounds(std::span<const double> sorted, double q, double confidence);
+
+}  // namespace faultsweep

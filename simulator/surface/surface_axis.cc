@@ -1,0 +1,31 @@
+#include "simulator/surface/surface_axis.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace faultsim {
+
+double SurfaceAxis::scaled(double value) const {
+  if (scale == Scale::logarithm) return std::log(value);
+  return scale == Scale::tangent ? std::tan(value) : value;
+}
+
+double SurfaceAxis::value(double x) const {
+  const double low = scaled(from), high = scaled(to);
+  const double at = 0.5 * (low + high) + 0.5 * (high - low) * x;
+  if (scale == Scale::logarithm) return std::exp(at);
+  return scale == Scale::tangent ? std::atan(at) : at;
+}
+
+double SurfaceAxis::coordinate(double value) const {
+  const double low = scaled(from), high = scaled(to);
+  return (2 * scaled(value) - low - high) / (high - low);
+}
+
+void SurfaceAxis::set(JsonDocument& document, double x) const {
+  char text[64];
+  std::snprintf(text, sizeof text, unit.empty() ? "%.15g" : "%.15g %s", value(x), unit.c_str());
+  for (const std::string& pointer : pointers) set_value(document, pointer, text);
+}
+
+}  // namespace faultsim
