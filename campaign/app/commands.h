@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "campaign/answers/probability.h"
+#include "campaign/answers/sensitivity.h"
 #include "campaign/report/case_report.h"
 #include "campaign/report/compare.h"
 #include "campaign/report/export.h"
@@ -43,6 +45,8 @@ ExitCode status_command(const StoreArguments& common);
 /// Whether the store is sound; exit code 4 with all problems and the cure if it is not.
 ExitCode verify_store_command(const StoreArguments& common);
 ExitCode rank_command(const StoreArguments& common, const RankRequest& request, bool list_metrics);
+ExitCode probability_command(const StoreArguments& common, const ProbabilityRequest& request);
+ExitCode sensitivity_command(const StoreArguments& common, const SensitivityRequest& request);
 /// @param name  case number, beginning of an identity, or CAMPAIGN/either.
 ExitCode show_command(const StoreArguments& common, const std::string& name,
                       const ShowRequest& request);

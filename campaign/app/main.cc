@@ -85,6 +85,8 @@ struct Arguments {
   RunOptions run;
   SlurmRequest slurm;
   RankRequest rank;
+  ProbabilityRequest probability;
+  SensitivityRequest sensitivity;
   ShowRequest show;
   bool list_metrics = false, verify = false;
   ExportRequest exporting;
@@ -237,6 +239,52 @@ void add_reading(CLI::App& app, Arguments& a, ExitCode& code) {
   add_json(explain, a.common);
   explain->footer("Example: faultsweep explain my-sweep/17");
   explain->callback([&] { code = explain_command(a.common, a.case_name); });
+}
+
+CLI::Option* add_confidence(CLI::App* command, double& confidence) {
+  return command->add_option("--confidence", confidence, "of the intervals (default 0.95)")
+      ->check(CLI::Range(0.5, 0.9999));
+}
+
+void add_answers(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* probability =
+      app.add_subcommand("probability", "how likely something is, with exact bounds");
+  add_campaign(probability, a.common);
+  probability->add_option("--of", a.probability.condition,
+                          "condition on metrics, as of `rank --where`; default: that each fault\n"
+                          "slides, in each stage");
+  probability->add_option("--where", a.probability.where, "only of these cases");
+  probability->add_option("--by", a.probability.by,
+                          "for each value of this parameter, or ten parts of its range");
+  add_confidence(probability, a.probability.confidence);
+  add_json(probability, a.common);
+  add_wide(probability);
+  probability->footer(
+      "Examples:\n"
+      "  faultsweep probability\n"
+      "  faultsweep probability my-sweep --of \"F2.slides in gas_storage\" --by offset\n"
+      "  faultsweep probability --of \"chi_bar > 0.9\" --where \"friction_angle < 25 deg\"");
+  probability->callback([&] { code = probability_command(a.common, a.probability); });
+
+  CLI::App* sensitivity =
+      app.add_subcommand("sensitivity", "which parameters a metric depends on, and how surely");
+  add_campaign(sensitivity, a.common);
+  sensitivity->add_option("--metrics", a.sensitivity.metrics,
+                          "names of `rank --list-metrics`, with commas, also of a fault and stage:\n"
+                          "F2.max_slip in gas_storage; default: chi_bar, slip and sliding by fault");
+  sensitivity->add_option("--where", a.sensitivity.cases.where, "only of these cases");
+  sensitivity->add_option("--stage", a.sensitivity.cases.stage,
+                          "metrics of this stage; default: the whole history");
+  sensitivity->add_option("--fault", a.sensitivity.cases.fault,
+                          "metrics of this fault; default: of all faults of a case together");
+  add_confidence(sensitivity, a.sensitivity.confidence);
+  add_json(sensitivity, a.common);
+  add_wide(sensitivity);
+  sensitivity->footer(
+      "Examples:\n"
+      "  faultsweep sensitivity\n"
+      "  faultsweep sensitivity my-sweep --metrics \"F2.chi_bar in gas_storage, moment\"");
+  sensitivity->callback([&] { code = sensitivity_command(a.common, a.sensitivity); });
 }
 
 void add_export(CLI::App& app, Arguments& a, ExitCode& code) {
@@ -416,6 +464,7 @@ ExitCode faultsweep_main(int argc, char** argv) {
   add_running(app, arguments, code, argc, argv);
   add_slurm(app, arguments, code);
   add_reading(app, arguments, code);
+  add_answers(app, arguments, code);
   add_export(app, arguments, code);
   add_compare(app, arguments, code);
   add_nightly(app, arguments, code);

@@ -1,0 +1,228 @@
+#include "campaign/answers/probability.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <set>
+
+#include "campaign/report/text_table.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+using faultsim::InputError;
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t kMostValues = 12;  ///< of a parameter that is not cut into parts.
+constexpr std::size_t kParts = 10;
+
+/// The rows that were asked about, without metrics.
+struct Rows {
+  std::vector<long> position;
+  std::vector<char> complete;
+  std::vector<double> value;       ///< of `by`; NaN for words and where the case has none.
+  std::vector<std::string> label;  ///< of `by`.
+  long n_unresolved = 0;
+};
+
+int parameter_index(const CampaignInfo& campaign, const std::string& name) {
+  std::vector<std::string> names;
+  for (const StoredParameter& one : parameters_from_json(campaign.parameters))
+    names.push_back(one.name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) require_name("--by", "parameter", name, names);
+  return static_cast<int>(found - names.begin());
+}
+
+Rows read_rows(const Store& store, const CampaignInfo& campaign, const ProbabilityRequest& request,
+               const Selection& selection) {
+  const int by = request.by.empty() ? -1 : parameter_index(campaign, request.by);
+  Store::TableQuery query;
+  query.where = parse_condition(request.where, campaign, selection);
+  Rows rows;
+  const SampleRows sample_rows(store, campaign);
+  store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    std::string label;
+    for (const CaseParameter& one : row.parameters) {
+      if (one.index != by) continue;
+      value = one.si.value_or(value);
+      label = one.text;
+    }
+    for (int k = 0; k < sample_rows.count(row.position); ++k) {
+      rows.position.push_back(row.position);
+      rows.complete.push_back(row.complete() ? 1 : 0);
+      rows.value.push_back(value);
+      rows.label.push_back(label);
+      rows.n_unresolved += row.rank_class && *row.rank_class == 1 ? 1 : 0;
+    }
+  });
+  return rows;
+}
+
+std::set<long> positions_where(const Store& store, const CampaignInfo& campaign,
+                               const Selection& selection, const std::string& condition) {
+  Store::TableQuery query;
+  query.where = parse_condition(condition, campaign, selection);
+  std::set<long> positions;
+  store.for_each_case(campaign.id, query,
+                      [&](const CaseRow& row) { positions.insert(row.position); });
+  return positions;
+}
+
+Share share_of(std::string label, const std::vector<std::size_t>& chosen, const Rows& rows,
+               const std::set<long>& holds, double confidence) {
+  Share share;
+  share.label = std::move(label);
+  for (const std::size_t k : chosen) {
+    ++share.n;
+    if (!rows.complete[k]) {
+      ++share.n_unknown;
+    } else if (holds.contains(rows.position[k])) {
+      ++share.n_holds;
+    }
+  }
+  share.estimate = static_cast<double>(share.n_holds) / static_cast<double>(share.n - share.n_unknown);
+  share.bounds = {proportion_bounds(share.n_holds, share.n, confidence).low,
+                  proportion_bounds(share.n_holds + share.n_unknown, share.n, confidence).high};
+  return share;
+}
+
+/// Rows in groups, each with a name: by value where there are few, else ten of equal number.
+std::vector<std::pair<std::string, std::vector<std::size_t>>> parts_of(const Rows& rows) {
+  std::vector<std::size_t> order(rows.position.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const bool are_numbers = std::none_of(rows.value.begin(), rows.value.end(),
+                                        [](double value) { return std::isnan(value); });
+  if (are_numbers) {
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return rows.value[a] < rows.value[b]; });
+  }
+  std::vector<std::pair<std::string, std::vector<std::size_t>>> parts;
+  for (const std::size_t k : order) {
+    const auto same = std::find_if(parts.begin(), parts.end(),
+                                   [&](const auto& part) { return part.first == rows.label[k]; });
+    if (same != parts.end()) {
+      same->second.push_back(k);
+    } else {
+      parts.push_back({rows.label[k], {k}});
+    }
+    if (are_numbers && parts.size() > kMostValues) break;
+  }
+  if (!are_numbers || parts.size() <= kMostValues) return parts;
+  parts.clear();
+  for (std::size_t part = 0; part < kParts; ++part) {
+    const std::size_t from = part * order.size() / kParts, to = (part + 1) * order.size() / kParts;
+    parts.push_back({concat(short_number(rows.label[order[from]]), " to ",
+                            short_number(rows.label[order[to - 1]])),
+                     {order.begin() + static_cast<long>(from), order.begin() + static_cast<long>(to)}});
+  }
+  return parts;
+}
+
+/// "F2.slides in gas_storage" for each fault and stage, and for the whole history.
+std::vector<std::string> default_conditions(const Selection& selection) {
+  std::vector<std::string> conditions;
+  for (const NamedId& fault : selection.faults) {
+    conditions.push_back(concat(fault.name, ".slides"));
+    for (const NamedId& stage : selection.stages) {
+      if (!stage.name.empty())
+        conditions.push_back(concat(fault.name, ".slides in ", stage.name));
+    }
+  }
+  return conditions;
+}
+
+std::string percent(double share) {
+  return std::isfinite(share) ? concat(format_number(100 * share, 3), " %") : "not known";
+}
+
+}  // namespace
+
+Probability find_probability(const Store& store, const CampaignInfo& campaign,
+                             const ProbabilityRequest& request) {
+  const Selection selection = make_selection(store, campaign, "", "");
+  Probability found{campaign, request, sampling_of(store, campaign), {}, 0, 0};
+  const Rows rows = read_rows(store, campaign, request, selection);
+  if (rows.position.empty()) {
+    throw InputError("probability", {{"", 0, "no case was selected", "ask for others with --where"}});
+  }
+  found.n_unresolved = rows.n_unresolved;
+  std::vector<std::size_t> all(rows.position.size());
+  std::iota(all.begin(), all.end(), 0u);
+  const std::vector<std::string> conditions =
+      request.condition.empty() ? default_conditions(selection)
+                                : std::vector<std::string>{request.condition};
+  for (const std::string& condition : conditions) {
+    const std::set<long> holds = positions_where(store, campaign, selection, condition);
+    if (request.by.empty()) {
+      found.shares.push_back(share_of(condition, all, rows, holds, request.confidence));
+      continue;
+    }
+    for (const auto& [label, chosen] : parts_of(rows)) {
+      const std::string name = conditions.size() > 1 ? concat(condition, ", ", label) : label;
+      found.shares.push_back(share_of(name, chosen, rows, holds, request.confidence));
+    }
+  }
+  if (found.shares.size() == 1 && found.shares[0].n_unknown < found.shares[0].n) {
+    const Share& one = found.shares[0];
+    found.n_for_half = samples_for_half_width(
+        one.estimate, 0.25 * (one.bounds.high - one.bounds.low), request.confidence);
+  }
+  return found;
+}
+
+std::string probability_to_text(const Probability& p) {
+  const std::string what = p.sampling.is_random ? "probability" : "share";
+  TextTable table({p.request.by.empty() ? "condition" : p.request.by, what, "from", "to", "true in",
+                   "of", "not known"});
+  for (const Share& one : p.shares) {
+    table.add_row({one.label, percent(one.estimate), percent(one.bounds.low),
+                   percent(one.bounds.high), std::to_string(one.n_holds), std::to_string(one.n),
+                   one.n_unknown > 0 ? std::to_string(one.n_unknown) : ""});
+  }
+  std::string text;
+  if (!p.request.condition.empty() && !p.request.by.empty()) text = p.request.condition + "\n";
+  text += table.text();
+  text += concat("\nBounds hold the ", what, " with a confidence of ",
+                 format_number(100 * p.request.confidence, 4),
+                 " %; what is not known may be either.\n");
+  if (p.n_unresolved > 0) {
+    text += concat(p.n_unresolved,
+                   " have an activation or event that the cells do not resolve: counted as they "
+                   "are\n");
+  }
+  if (p.n_for_half > 0) {
+    text += concat("half the distance between the bounds takes ", p.n_for_half, " cases\n");
+  }
+  if (!p.sampling.remark.empty()) text += p.sampling.remark + "\n";
+  return text;
+}
+
+json probability_to_json(const Probability& p) {
+  json shares = json::array();
+  for (const Share& one : p.shares) {
+    shares.push_back({{"label", one.label},
+                      {"estimate", std::isfinite(one.estimate) ? json(one.estimate) : json()},
+                      {"low", one.bounds.low},
+                      {"high", one.bounds.high},
+                      {"holds", one.n_holds},
+                      {"rows", one.n},
+                      {"unknown", one.n_unknown}});
+  }
+  return {{"campaign", p.campaign.name},
+          {"condition", p.request.condition},
+          {"by", p.request.by},
+          {"confidence", p.request.confidence},
+          {"is_probability", p.sampling.is_random},
+          {"remark", p.sampling.remark},
+          {"unresolved", p.n_unresolved},
+          {"cases_for_half_the_width", p.n_for_half},
+          {"shares", shares}};
+}
+
+}  // namespace faultsweep

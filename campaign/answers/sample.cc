@@ -1,0 +1,139 @@
+#include "campaign/answers/sample.h"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "campaign/report/table_output.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+using nlohmann::json;
+
+namespace {
+
+/// The designs of a resolved spec, those within nested ones too.
+void collect_designs(const json& design, std::vector<json>& designs) {
+  if (design.at("kind") != "nested") {
+    designs.push_back(design);
+    return;
+  }
+  for (const json& one : design.at("designs")) collect_designs(one, designs);
+}
+
+std::vector<json> designs_of(const Store& store, const CampaignInfo& campaign) {
+  const json spec = json::parse(store.spec_copies(campaign.id).resolved);
+  std::vector<json> designs;
+  for (const json& group : spec.at("groups")) collect_designs(group, designs);
+  return designs;
+}
+
+/// Rows of a sobol design, a group's only one, from one base sample to the next.
+long sobol_block(const json& design) {
+  const auto n = static_cast<long>(design.at("parameters").size());
+  return (design.value("second_order", false) ? 2 * n : n) + 2;
+}
+
+/// A number for each word, in the order in which words come.
+class Words {
+ public:
+  double number(const std::string& word) {
+    return numbers_.emplace(word, static_cast<double>(numbers_.size())).first->second;
+  }
+
+ private:
+  std::map<std::string, double> numbers_;
+};
+
+/// Leaves out parameters that have one value only.
+void keep_what_varies(Sample& sample) {
+  for (std::size_t k = sample.x.size(); k-- > 0;) {
+    const std::vector<double>& values = sample.x[k];
+    const bool varies = std::any_of(values.begin(), values.end(),
+                                    [&](double value) { return value != values.front(); });
+    if (varies) continue;
+    sample.x.erase(sample.x.begin() + static_cast<long>(k));
+    sample.parameters.erase(sample.parameters.begin() + static_cast<long>(k));
+  }
+}
+
+}  // namespace
+
+Sampling sampling_of(const Store& store, const CampaignInfo& campaign) {
+  const std::vector<json> designs = designs_of(store, campaign);
+  const auto all_are = [&](const std::set<std::string>& kinds) {
+    return std::all_of(designs.begin(), designs.end(),
+                       [&](const json& one) { return kinds.contains(one.at("kind")); });
+  };
+  Sampling sampling;
+  sampling.is_random = all_are({"monte-carlo", "latin-hypercube", "sobol"});
+  sampling.is_factorial = all_are({"grid"});
+  if (all_are({"latin-hypercube", "sobol"})) {
+    sampling.remark = "samples are spread evenly: intervals are wider than they need be";
+  } else if (sampling.is_factorial) {
+    sampling.remark =
+        "a grid: shares are of the values given, each as likely as the others, and intervals what "
+        "as many random cases would have";
+  } else if (!sampling.is_random) {
+    sampling.remark =
+        "the cases were not drawn at random: shares are of these cases, no probabilities";
+  }
+  return sampling;
+}
+
+SampleRows::SampleRows(const Store& store, const CampaignInfo& campaign) {
+  const std::vector<json> designs = designs_of(store, campaign);
+  all_once_ = designs.size() != 1 || designs.front().at("kind") != "sobol";
+  if (all_once_) return;
+  const long block = sobol_block(designs.front());
+  for (const DesignRow& row : store.design_rows(campaign.id)) {
+    const long place = (row.row - 1) % block;
+    if (place == 0 || place == block - 1) ++counts_[row.position];
+  }
+}
+
+int SampleRows::count(long position) const {
+  if (all_once_) return 1;
+  const auto found = counts_.find(position);
+  return found == counts_.end() ? 0 : found->second;
+}
+
+Sample read_sample(const Store& store, const CampaignInfo& campaign, const SampleRequest& request,
+                   const std::string& metrics) {
+  const Selection selection = make_selection(store, campaign, request.stage, request.fault);
+  Sample sample;
+  sample.parameters = parameters_from_json(campaign.parameters);
+  sample.outputs = choose_metrics(selection, metrics, true, false);
+  Store::TableQuery query;
+  query.stage = request.stage;
+  if (selection.fault) query.fault = selection.fault->id;
+  query.where = parse_condition(request.where, campaign, selection);
+  for (const ScopedMetric& one : sample.outputs) query.columns.push_back(one.sql);
+  sample.x.resize(sample.parameters.size());
+  sample.y.resize(sample.outputs.size());
+
+  const SampleRows rows(store, campaign);
+  std::vector<Words> words(sample.parameters.size());
+  store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
+    for (int k = 0; k < rows.count(row.position); ++k) {
+      ++sample.n_rows;
+      sample.n_without += row.rank_class ? 0 : 1;
+      sample.n_early += row.rank_class && !row.complete() ? 1 : 0;
+      if (!row.complete()) continue;
+      sample.n_unresolved += *row.rank_class == 1 ? 1 : 0;
+      for (std::size_t p = 0; p < sample.x.size(); ++p) sample.x[p].push_back(-1);  // of no group
+      for (const CaseParameter& one : row.parameters) {
+        const auto p = static_cast<std::size_t>(one.index);
+        sample.x[p].back() = one.si ? *one.si : words[p].number(one.text);
+      }
+      for (std::size_t m = 0; m < sample.y.size(); ++m)
+        sample.y[m].push_back(number_of(row.metrics[m]));
+    }
+  });
+  keep_what_varies(sample);
+  return sample;
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "campaign/report/parameters.h"
+#include "campaign/report/selection.h"
+#include "campaign/store/store.h"
+
+/// What a campaign's cases answer when they are taken as a sample of its parameters.
+namespace faultsweep {
+
+/// Which cases, and of what.
+struct SampleRequest {
+  std::string where;  ///< condition; "" = all cases.
+  std::string stage;  ///< of metrics without a stage of their own; "" = the whole history.
+  std::string fault;  ///< "" = all faults of a case together.
+};
+
+/// How the campaign's cases were chosen, and what follows for statistics.
+struct Sampling {
+  bool is_random = false;    ///< drawn: shares are estimates of probabilities.
+  bool is_factorial = false; ///< every combination: shares are of the values given.
+  std::string remark;        ///< what to know of it, in a sentence; "" = nothing.
+};
+/// By the designs of the campaign's spec. Of a sobol design only the rows of its two independent
+/// blocks are a sample.
+Sampling sampling_of(const Store& store, const CampaignInfo& campaign);
+
+/// How often each case of a campaign is a row of its sample: once, but in a sobol design as often as
+/// it is a row of block A or B.
+class SampleRows {
+ public:
+  SampleRows(const Store& store, const CampaignInfo& campaign);
+  int count(long position) const;
+
+ private:
+  bool all_once_ = true;
+  std::map<long, int> counts_;
+};
+
+/// The rows of a sample as columns of numbers.
+struct Sample {
+  std::vector<StoredParameter> parameters;  ///< those that vary.
+  std::vector<std::vector<double>> x;       ///< per parameter: SI; words by their first place.
+  std::vector<ScopedMetric> outputs;
+  std::vector<std::vector<double>> y;  ///< per output; NaN where a full history has no value.
+  long n_rows = 0;                     ///< selected, with those that are left out.
+  long n_without = 0;                  ///< left out: no result in the stage.
+  long n_early = 0;                    ///< left out: the history ends early.
+  long n_unresolved = 0;  ///< kept: complete, but an activation or event hangs on the mesh.
+};
+
+/// Throws InputError as make_selection, parse_condition and choose_metrics.
+/// @param metrics  names with commas, as of `export --metrics`.
+Sample read_sample(const Store& store, const CampaignInfo& campaign, const SampleRequest& request,
+                   const std::string& metrics);
+
+}  // namespace faultsweep

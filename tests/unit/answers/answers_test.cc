@@ -1,0 +1,175 @@
+// Probabilities and sensitivities of made-up campaigns whose answers are known.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "campaign/answers/probability.h"
+#include "campaign/answers/sensitivity.h"
+#include "tests/campaign/made_up_result.h"
+
+namespace faultsweep {
+namespace {
+
+using faultsim::Dimension;
+using faultsim::InputError;
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+class AnswersTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = ::testing::TempDir() + "answers_XXXXXX";
+    folder_ = mkdtemp(name.data());
+    store_ = std::make_unique<Store>(Store::open_owner(folder_ / "store"));
+    s_.name = "sweep";
+    s_.scenes = {{"scene.json", "{}"}};
+    s_.families = {{"family-a", 1000, 100, 1, 1}};
+    s_.parameters = parameters_to_json({{"strength", Dimension::number, false},
+                                        {"offset", Dimension::length, false},
+                                        {"rule", Dimension::number, true}});
+  }
+  void TearDown() override {
+    store_.reset();
+    std::filesystem::remove_all(folder_);
+  }
+  /// Cases whose results follow from `strength` alone (made_up_result: F1 slides above 0.5).
+  void submit(const std::string& kind, const std::vector<std::array<double, 2>>& values) {
+    for (const auto& [strength, offset] : values) {
+      const std::size_t n = s_.cases.size();
+      s_.cases.push_back({"identity-" + std::to_string(n), 0, 0, "{}",
+                          {{0, strength, std::to_string(strength)},
+                           {1, offset, std::to_string(offset) + " m"},
+                           {2, std::nullopt, n % 2 == 0 ? "mean" : "min"}}});
+    }
+    s_.spec_resolved =
+        json{{"groups", {{{"kind", kind}, {"parameters", {{{"name", "strength"}}}}}}}}.dump();
+    store_->submit(s_);
+    campaign_ = store_->campaign("");
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      RunRecord run;
+      run.case_id = static_cast<long>(k) + 1;
+      run.status = RunStatus::completed;
+      run.result = testing::made_up_result(values[k][0]);
+      runs_.push_back(run);
+    }
+  }
+  void record() { store_->record_runs(campaign_.id, runs_); }
+  Probability probability(ProbabilityRequest request) {
+    return find_probability(*store_, campaign_, request);
+  }
+
+  std::filesystem::path folder_;
+  std::unique_ptr<Store> store_;
+  Submission s_;
+  CampaignInfo campaign_;
+  std::vector<RunRecord> runs_;
+};
+
+/// Strengths evenly in [0, 1], offsets that say nothing.
+std::vector<std::array<double, 2>> even(int n) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> uniform(0, 300);
+  std::vector<std::array<double, 2>> values;
+  for (int k = 0; k < n; ++k) values.push_back({(k + 0.5) / n, uniform(random)});
+  return values;
+}
+
+TEST_F(AnswersTest, AProbabilityIsAShareWithExactBounds) {
+  submit("monte-carlo", even(40));
+  record();
+  const Probability p = probability({.condition = "F1.slides"});
+  ASSERT_EQ(p.shares.size(), 1u);
+  EXPECT_TRUE(p.sampling.is_random);
+  EXPECT_EQ(p.shares[0].n, 40);
+  EXPECT_EQ(p.shares[0].n_holds, 20);
+  EXPECT_EQ(p.shares[0].estimate, 0.5);
+  EXPECT_EQ(p.shares[0].bounds.low, proportion_bounds(20, 40, 0.95).low);
+  EXPECT_EQ(p.shares[0].bounds.high, proportion_bounds(20, 40, 0.95).high);
+  EXPECT_GT(p.n_for_half, 120);
+  EXPECT_THAT(probability_to_text(p), HasSubstr("50 %"));
+}
+
+TEST_F(AnswersTest, WhatIsNotKnownMayBeEither) {
+  submit("monte-carlo", even(40));
+  runs_[0].result.reset(), runs_[0].status = RunStatus::hung;
+  runs_[39].result->outcome = faultsim::Outcome::unstable;
+  record();
+  const Share share = probability({.condition = "F1.slides"}).shares.at(0);
+  EXPECT_EQ(share.n, 40);
+  EXPECT_EQ(share.n_unknown, 2);
+  EXPECT_EQ(share.n_holds, 19);
+  EXPECT_EQ(share.estimate, 0.5);
+  EXPECT_EQ(share.bounds.low, proportion_bounds(19, 40, 0.95).low);
+  EXPECT_EQ(share.bounds.high, proportion_bounds(21, 40, 0.95).high);
+}
+
+TEST_F(AnswersTest, IsAskedForEachPartOfAParameter) {
+  submit("monte-carlo", even(40));
+  record();
+  const Probability parts = probability({.condition = "F1.slides", .by = "strength"});
+  ASSERT_EQ(parts.shares.size(), 10u);
+  for (std::size_t k = 0; k < 10; ++k) {
+    EXPECT_EQ(parts.shares[k].n, 4) << k;
+    EXPECT_EQ(parts.shares[k].estimate, k < 5 ? 0 : 1) << parts.shares[k].label;
+  }
+  const Probability words = probability({.condition = "F1.slides", .by = "rule"});
+  ASSERT_EQ(words.shares.size(), 2u);
+  EXPECT_EQ(words.shares[0].label, "mean");
+  EXPECT_EQ(words.shares[0].n, 20);
+  EXPECT_THROW(probability({.by = "ofset"}), InputError);
+  EXPECT_THROW(probability({.where = "offset > 1000 m"}), InputError);
+  EXPECT_GT(probability({}).shares.size(), 2u) << "each fault, each stage";
+}
+
+TEST_F(AnswersTest, SharesOfChosenCasesAreNoProbabilities) {
+  submit("list", even(24));
+  record();
+  EXPECT_THAT(probability_to_text(probability({.condition = "F1.slides"})),
+              HasSubstr("not drawn at random"));
+  EXPECT_THROW(analyse_sensitivity(*store_, campaign_, {}), InputError);
+}
+
+TEST_F(AnswersTest, SensitivityNamesTheParameterThatMatters) {
+  submit("latin-hypercube", even(300));
+  runs_[7].result.reset(), runs_[7].status = RunStatus::hung;
+  record();
+  const Sensitivity s = analyse_sensitivity(*store_, campaign_, {.metrics = "F1.chi_bar, slides"});
+  ASSERT_EQ(s.parameters, (std::vector<std::string>{"strength", "offset", "rule"}));
+  ASSERT_EQ(s.metrics.size(), 2u);
+  EXPECT_EQ(s.metrics[0].n, 299);
+  EXPECT_GT(s.metrics[0].first_order[0].value, 0.99);
+  for (const std::size_t other : {1u, 2u}) {
+    const Estimate& e = s.metrics[0].first_order[other];
+    EXPECT_LT(std::abs(e.value), 4 * e.standard_error) << other;
+  }
+  const std::string text = sensitivity_to_text(s);
+  EXPECT_THAT(text, HasSubstr("299 of 300 rows"));
+  EXPECT_THAT(text, HasSubstr("1 without a result"));
+  EXPECT_EQ(sensitivity_to_json(s).at("metrics").size(), 2u);
+}
+
+/// In each block of D + 2 rows only the first and the last are of the sample.
+TEST_F(AnswersTest, OfASobolDesignTheIndependentBlocksCount) {
+  submit("sobol", even(30));
+  record();
+  store_.reset();
+  std::filesystem::remove_all(folder_ / "store");
+  store_ = std::make_unique<Store>(Store::open_owner(folder_ / "store"));
+  for (long row = 1; row <= 30; ++row) s_.design_rows.push_back({0, row, row});
+  store_->submit(s_);
+  campaign_ = store_->campaign("");
+  record();
+  EXPECT_EQ(probability({.condition = "F1.slides"}).shares.at(0).n, 20) << "of 10 blocks of 3";
+}
+
+TEST_F(AnswersTest, TooFewCasesAreRefused) {
+  submit("monte-carlo", even(10));
+  record();
+  EXPECT_THROW(analyse_sensitivity(*store_, campaign_, {}), InputError);
+}
+
+}  // namespace
+}  // namespace faultsweep
