@@ -1,5 +1,6 @@
-// How well operators at few values of one parameter give those in between. Arguments: SCENE TIER
-// NAME SCALE UNIT FROM TO POINTER... Prints rows of results/surfaces.
+// How well operators at few values of one parameter give those in between. Prints a row of the
+// table of results/surfaces: for 3, 5, 7 and 9 operators the largest error over random values, of H
+// / of the worst locked traction, relative to their norms (Frobenius, Euclid).
 
 #include <algorithm>
 #include <cstdio>
@@ -14,6 +15,8 @@
 namespace faultsim {
 namespace {
 
+constexpr int kNodes = 9, kChecks = 5;
+
 FaultOperator operator_at(JsonDocument document, const SurfaceAxis& axis, double x) {
   axis.set(document, x);
   const Scene scene = read_scene(document);
@@ -25,76 +28,78 @@ FaultOperator operator_at(JsonDocument document, const SurfaceAxis& axis, double
   return bulk.condense();
 }
 
-/// (A_i A_j)^-power on every entry.
-Eigen::MatrixXd scaled(const FaultOperator& op, double power) {
-  const Eigen::VectorXd d = op.geometry.dof_area.array().pow(-power);
-  return d.asDiagonal() * op.h() * d.asDiagonal();
+struct Errors {
+  double h = 0, locked = 0;
+};
+
+/// Of the first n nodes at x, against the exact operator.
+Errors errors_of(const std::vector<FaultOperator>& nodes, int n, double x,
+                 const FaultOperator& exact) {
+  SparseGrid grid(1);
+  for (int k = 1; k < n; ++k) grid.add({k});
+  const Eigen::VectorXd w = grid.weights(Eigen::VectorXd::Constant(1, x));
+  Eigen::MatrixXd h = -exact.h(), locked = -exact.loads.traction;
+  for (int k = 0; k < n; ++k) {
+    h += w[k] * nodes[k].h();
+    locked += w[k] * nodes[k].loads.traction;
+  }
+  const auto relative = locked.colwise().norm().array() / exact.loads.traction.colwise().norm().array();
+  return {h.norm() / exact.h().norm(), relative.maxCoeff()};
 }
 
 void study(const JsonDocument& base, const SurfaceAxis& axis) {
-  constexpr int kNodes = 9, kChecks = 5;
-  std::vector<FaultOperator> nodes, checks;
+  std::vector<FaultOperator> nodes;
   for (int k = 0; k < kNodes; ++k) nodes.push_back(operator_at(base, axis, leja_point(k)));
+  std::vector<Errors> worst(4);
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  std::vector<double> at;
-  for (int k = 0; k < kChecks; ++k) at.push_back(uniform(random));
-  for (const double x : at) checks.push_back(operator_at(base, axis, x));
-
-  for (const double power : {0.0, 0.5, 1.0}) {
-    for (const int n : {3, 5, 7, 9}) {
-      SparseGrid grid(1);
-      for (int k = 1; k < n; ++k) grid.add({k});
-      double worst_h = 0, worst_l = 0, worst_u = 0;
-      for (int c = 0; c < kChecks; ++c) {
-        const Eigen::VectorXd w = grid.weights(Eigen::VectorXd::Constant(1, at[c]));
-        const FaultOperator& exact = checks[c];
-        Eigen::MatrixXd h = Eigen::MatrixXd::Zero(exact.h().rows(), exact.h().cols());
-        Eigen::MatrixXd l = Eigen::MatrixXd::Zero(exact.loads.traction.rows(), exact.loads.traction.cols());
-        Eigen::MatrixXd u = Eigen::MatrixXd::Zero(exact.observed.per_jump.rows(), exact.observed.per_jump.cols());
-        for (int k = 0; k < n; ++k) {
-          h += w[k] * scaled(nodes[k], power);
-          l += w[k] * nodes[k].loads.traction;
-          u += w[k] * nodes[k].observed.per_jump;
-        }
-        worst_h = std::max(worst_h, (h - scaled(exact, power)).norm() / scaled(exact, power).norm());
-        for (Eigen::Index k = 0; k < l.cols(); ++k)
-          worst_l = std::max(worst_l, (l.col(k) - exact.loads.traction.col(k)).norm() /
-                                          exact.loads.traction.col(k).norm());
-        if (u.size() > 0)
-          worst_u = std::max(worst_u, (u - exact.observed.per_jump).norm() / exact.observed.per_jump.norm());
-      }
-      std::printf("%s power %.1f, %d operators: H %.1e, locked %.1e, observed %.1e\n",
-                  axis.name.c_str(), power, n, worst_h, worst_l, worst_u);
+  for (int check = 0; check < kChecks; ++check) {
+    const double x = -1 + 2 * (static_cast<double>(random()) / 4294967296.0);
+    const FaultOperator exact = operator_at(base, axis, x);
+    for (int k = 0; k < 4; ++k) {
+      const Errors one = errors_of(nodes, 3 + 2 * k, x, exact);
+      worst[k] = {std::max(worst[k].h, one.h), std::max(worst[k].locked, one.locked)};
     }
   }
+  std::printf("| %s |", axis.name.c_str());
+  for (const Errors& one : worst) std::printf(" %.0e / %.0e |", one.h, one.locked);
+  std::printf("\n");
+}
+
+/// SCENE TIER NAME SCALE UNIT FROM TO POINTER... [POINTER=VALUE...]
+void run(int argc, char** argv) {
+  JsonDocument base = read_json_file(argv[1]);
+  set_value(base, "/tier", argv[2]);
+  const std::string scale = argv[4];
+  SurfaceAxis axis{.name = argv[3], .pointers = {}, .unit = argv[5], .from = std::stod(argv[6]),
+                   .to = std::stod(argv[7])};
+  if (scale == "logarithm") axis.scale = SurfaceAxis::Scale::logarithm;
+  if (scale == "tangent") axis.scale = SurfaceAxis::Scale::tangent;
+  for (int i = 8; i < argc; ++i) {
+    const std::string one = argv[i];
+    const std::size_t equal = one.find('=');
+    if (equal == std::string::npos) {
+      axis.pointers.push_back(one);
+    } else {
+      set_value(base, one.substr(0, equal), one.substr(equal + 1));
+    }
+  }
+  study(base, axis);
 }
 
 }  // namespace
 }  // namespace faultsim
 
 int main(int argc, char** argv) {
-  using namespace faultsim;
-  start_blas(argv);
-  take_blas_buffer();
+  faultsim::start_blas(argv);
+  faultsim::take_blas_buffer();
+  if (argc < 9) {
+    std::fprintf(stderr,
+                 "usage: surface_study SCENE TIER NAME linear|logarithm|tangent UNIT FROM TO "
+                 "POINTER... [POINTER=VALUE...]\n");
+    return 2;
+  }
   try {
-    JsonDocument base = read_json_file(argv[1]);
-    set_value(base, "/tier", argv[2]);
-    SurfaceAxis axis;
-    axis.name = argv[3];
-    axis.scale = argv[4][0] == 'l' && argv[4][1] == 'o' ? SurfaceAxis::Scale::logarithm
-                 : argv[4][0] == 't'                    ? SurfaceAxis::Scale::tangent
-                                                        : SurfaceAxis::Scale::linear;
-    axis.unit = argv[5];
-    axis.from = std::stod(argv[6]);
-    axis.to = std::stod(argv[7]);
-    for (int i = 8; i < argc; ++i) {
-      const std::string one = argv[i];
-      const auto equal = one.find('=');
-      if (equal == std::string::npos) axis.pointers.push_back(one);
-      else set_value(base, one.substr(0, equal), one.substr(equal + 1));
-    }
-    study(base, axis);
+    faultsim::run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "surface_study: %s\n", error.what());
     return 70;
