@@ -43,7 +43,8 @@ std::string blas_complaint() {
 
 void set_blas_threads(int n_threads) {
   FAULTSIM_DEMAND(n_threads >= 1, n_threads);
-  openblas_set_num_threads(n_threads);
+  // Not while another thread computes: to set what is set already is a change, too.
+  if (openblas_get_num_threads() != n_threads) openblas_set_num_threads(n_threads);
 }
 
 Eigen::MatrixXd lower_times_transpose(const Eigen::MatrixXd& lower) {

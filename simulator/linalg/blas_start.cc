@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -61,7 +62,9 @@ void start_blas(char** argv) {
 }
 
 void take_blas_buffer() {
+  static std::mutex mutex;
   static bool taken = false;
+  const std::lock_guard lock(mutex);
   if (taken) return;
   const ProcessMemory used = process_memory();
   demand_room(RLIMIT_AS, used.address_space, "-v", "address space");
