@@ -1,6 +1,7 @@
 #include "campaign/app/nightly_sample.h"
 
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "campaign/report/parameters.h"
 #include "simulator/common/errors.h"
@@ -12,12 +13,10 @@ using faultsim::concat;
 namespace {
 
 std::string label_of(const StoredCase& stored, const CampaignInfo& campaign) {
-  const auto parameters = parameters_from_json(campaign.parameters);
-  const auto labels = labels_from_json(stored.parameter_labels);
   std::string text;
-  for (std::size_t k = 0; k < parameters.size() && k < labels.size(); ++k) {
-    if (labels[k].empty()) continue;
-    text += concat(text.empty() ? "" : ", ", parameters[k].name, " = ", labels[k]);
+  for (const std::string& one :
+       settings_of(stored.parameters, parameters_from_json(campaign.parameters))) {
+    text += (text.empty() ? "" : ", ") + one;
   }
   return text;
 }
@@ -92,8 +91,13 @@ StoredSample take_sample(const SampleRequest& request) {
   const Store store = Store::open_reader(request.store);
   const CampaignInfo campaign = store.campaign(request.campaign);
   const std::vector<RankedCase> ranking = store.ranking(campaign.id, {});
-  std::vector<std::string> parameters;
-  for (const RankedCase& one : ranking) parameters.push_back(one.parameter_values);
+  const std::size_t n_parameters = parameters_from_json(campaign.parameters).size();
+  std::vector<std::string> keys;
+  for (const RankedCase& one : ranking) {
+    std::vector<nlohmann::json> values(n_parameters);
+    for (const CaseParameter& value : one.parameters) values.at(value.index) = value_to_json(value);
+    keys.push_back(nlohmann::json(values).dump());
+  }
   StoredSample sample;
   Submission& submission = sample.submission;
   submission.name = "sample-" + campaign.name;
@@ -103,11 +107,10 @@ StoredSample take_sample(const SampleRequest& request) {
   submission.rank_by = campaign.rank_by;
   submission.policy = campaign.policy;
   Numbering numbering(store, campaign, submission);
-  for (const std::size_t place : sampled_places(parameters, request.top, request.sample)) {
+  for (const std::size_t place : sampled_places(keys, request.top, request.sample)) {
     const StoredCase one = store.stored_case(campaign.id, std::to_string(ranking[place].position));
     submission.cases.push_back({one.identity, numbering.family(one.family),
-                                numbering.scene(one.scene), one.changes, one.parameter_values,
-                                one.parameter_labels});
+                                numbering.scene(one.scene), one.changes, one.parameters});
     sample.baseline.cases.push_back(night_case(one, campaign));
   }
   return sample;

@@ -7,6 +7,7 @@
 #include "campaign/report/case_report.h"
 #include "campaign/report/status_report.h"
 #include "campaign/report/text_table.h"
+#include "campaign/rounds/next_round.h"
 #include "campaign/scheduler/starter.h"
 #include "campaign/store/clock.h"
 #include "simulator/output/json_text.h"
@@ -69,6 +70,7 @@ ExitCode run_command(const StoreArguments& common, RunOptions options, int argc,
   if (!options.memory.empty()) {
     options.memory_bytes = static_cast<double>(parse_size("--memory", options.memory));
   }
+  options.next_round = add_next_round;
   if (is_rank()) return run_ranks(argc, argv, options);
   const ExitCode status = start_ranks(options);
   const std::string name = Store::open_reader(common.store).campaign(options.campaign).name;

@@ -6,9 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/app/commands.h"
-#include "campaign/app/submission.h"
 #include "campaign/report/parameters.h"
 #include "campaign/report/text_table.h"
+#include "campaign/rounds/next_round.h"
+#include "campaign/rounds/submission.h"
 #include "campaign/scheduler/resources.h"
 #include "campaign/store/clock.h"
 #include "simulator/common/process_memory.h"
@@ -221,7 +222,9 @@ ExitCode submit_command(const StoreArguments& common, const SubmitArguments& arg
   constexpr std::size_t kPlannedForALook = 500;  // a millisecond each
   const std::size_t most_planned =
       arguments.dry_run ? kPlannedForALook : std::numeric_limits<std::size_t>::max();
-  SubmitReport report = make_report(expand(read_campaign(arguments.spec), most_planned));
+  const Expansion expansion = expand(read_campaign(arguments.spec), most_planned);
+  check_rounds(expansion);
+  SubmitReport report = make_report(expansion);
   if (report.submission.cases.empty()) {
     throw InputError(arguments.spec,
                      {{"/exclude", 0, "every case is excluded", "relax a condition"}});

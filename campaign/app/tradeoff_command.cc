@@ -4,8 +4,8 @@
 
 #include "campaign/app/child_output.h"
 #include "campaign/app/commands.h"
-#include "campaign/app/submission.h"
 #include "campaign/report/text_table.h"
+#include "campaign/rounds/submission.h"
 #include "campaign/scheduler/resources.h"
 #include "campaign/scheduler/starter.h"
 #include "campaign/store/clock.h"

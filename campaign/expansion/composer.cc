@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <set>
 
-#include "simulator/common/fingerprint.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsweep {
@@ -15,10 +14,9 @@ constexpr std::size_t kAllChoices = 16;  ///< up to here every choice is read.
 constexpr std::size_t kMaximumCorners = 128;
 constexpr long kSpreadRows = 32;
 
-/// As canonical_scene writes a number.
-std::string number_text(double value) { return nlohmann::json(value == 0 ? 0.0 : value).dump(); }
-
-std::string preamble() { return faultsim::concat("numerics ", faultsim::kNumericsVersion, "\n"); }
+/// As the texts have a number; some have -0 as 0, others not.
+std::string number_text(double value) { return nlohmann::json(value).dump(); }
+bool is_minus_zero(double value) { return value == 0 && std::signbit(value); }
 
 std::set<std::size_t> leaves_of(const std::vector<std::pair<std::size_t, std::string>>& change) {
   std::set<std::size_t> leaves;
@@ -81,26 +79,31 @@ std::vector<int> sample_choices(const Parameter& parameter, std::size_t n) {
 }
 
 Composer::Composer(const CampaignSpec& spec, const Group& group, SceneBuilder& builder,
-                   const CaseValues& values)
+                   const CaseValues& values, Text text, std::vector<bool> has_effect)
     : spec_(spec),
       group_(group),
       builder_(builder),
       values_(values),
+      text_of_(std::move(text)),
+      has_effect_(std::move(has_effect)),
       n_rows_(count_rows(group)),
       structural_(group.parameters.size(), false) {}
 
-std::optional<std::string> Composer::exact_text(const Row& row,
-                                                const std::vector<double>& derived) {
-  std::vector<faultsim::Problem> problems;
+std::optional<std::string> Composer::exact_text(const Row& row, const std::vector<double>& derived,
+                                                std::vector<faultsim::Problem>& problems) {
   const auto scene = builder_.scene(row, derived, problems);
   if (!scene) return std::nullopt;
-  return faultsim::canonical_scene(*scene);
+  std::vector<faultsim::Problem> found;
+  auto text = text_of_(*scene, found);
+  for (const faultsim::Problem& one : found) problems.push_back(builder_.in_spec(one, row));
+  return text;
 }
 
 /// What the row's text has other than the template's; nothing if its shape differs or it is wrong.
 std::optional<Composer::Difference> Composer::read_difference(const Template& one, const Row& row,
                                                               const std::vector<double>& derived) {
-  const auto text = exact_text(row, derived);
+  std::vector<faultsim::Problem> problems;
+  const auto text = exact_text(row, derived, problems);
   if (!text) return std::nullopt;
   const CanonicalPieces pieces = cut_at_values(*text);
   if (pieces.between != one.pieces.between) return std::nullopt;
@@ -126,7 +129,7 @@ const std::optional<Composer::Difference>& Composer::difference(Template& one,
 void Composer::find_number_effects(Template& one) {
   for (std::size_t p = 0; p < group_.parameters.size(); ++p) {
     const Parameter& parameter = group_.parameters[p];
-    if (structural_[p] || parameter.n_values() <= static_cast<int>(kAllChoices)) continue;
+    if (is_fixed(p) || parameter.n_values() <= static_cast<int>(kAllChoices)) continue;
     std::set<std::size_t> leaves;
     bool is_number = true;
     for (const int choice : sample_choices(parameter, kAllChoices)) {
@@ -155,6 +158,8 @@ bool Composer::find_derived_leaves(Template& one) {
     }
   }
   for (std::size_t d = 0; d < one.derived.size(); ++d) {
+    one.derived_leaves.emplace_back();
+    if (!has_effect_[group_.parameters.size() + d]) continue;
     std::set<double> others;
     std::vector<double> derived;
     Row row;
@@ -176,7 +181,7 @@ bool Composer::find_derived_leaves(Template& one) {
       leaves = leaves_of(*change);
     }
     taken.insert(leaves.begin(), leaves.end());
-    one.derived_leaves.emplace_back(leaves.begin(), leaves.end());
+    one.derived_leaves.back().assign(leaves.begin(), leaves.end());
   }
   return true;
 }
@@ -188,7 +193,8 @@ std::optional<Composer::Template> Composer::make_template(const Row& like) {
     if (structural_[p]) one.reference[p] = like[p];
   }
   values_.derive(one.reference, one.derived);
-  const auto text = exact_text(one.reference, one.derived);
+  std::vector<faultsim::Problem> problems;
+  const auto text = exact_text(one.reference, one.derived, problems);
   if (!text) return std::nullopt;
   one.pieces = cut_at_values(*text);
   one.effects.resize(group_.parameters.size());
@@ -220,6 +226,7 @@ bool Composer::find_structure() {
   std::vector<std::set<std::size_t>> leaves(n);
   for (std::size_t p = 0; p < n; ++p) {
     const Parameter& parameter = group_.parameters[p];
+    if (!has_effect_[p]) continue;
     for (const int choice : sample_choices(parameter, kAllChoices)) {
       const auto& change = difference(probe, p, choice);
       if (change) leaves[p].merge(leaves_of(*change));
@@ -245,6 +252,7 @@ std::vector<Row> Composer::rows_to_check() const {
   for (const Design& design : group_.designs) {
     const std::size_t end = p + design.n_parameters;
     for (; design.kind == DesignKind::grid && p < end; ++p) {
+      if (!has_effect_[p]) continue;
       const Parameter& parameter = group_.parameters[p];
       const std::vector<int> ends = sample_choices(parameter, parameter.is_text ? 4 : 2);
       std::vector<Row> next;
@@ -280,23 +288,21 @@ bool Composer::prepare(std::vector<faultsim::Problem>& problems) {
     values_.derive(row, derived);
     if (values_.excluded_by(row, derived) >= 0) continue;
     std::vector<faultsim::Problem> found;
-    const auto scene = builder_.scene(row, derived, found);
-    if (!scene) {
-      for (faultsim::Problem& one : found) {
-        one.what += " (where " + builder_.describe(row) + ")";
-        problems.push_back(one);
-      }
-      continue;
+    const auto exact = exact_text(row, derived, found);
+    for (faultsim::Problem& one : found) {
+      one.what += " (where " + builder_.describe(row) + ")";
+      problems.push_back(one);
     }
-    const auto composed = identity(row, derived);
-    if (composed && *composed != faultsim::case_identity(*scene)) return false;
+    if (!exact) continue;
+    const auto composed = text(row, derived);
+    if (composed && *composed != *exact) return false;
   }
   return true;
 }
 
-bool Composer::compose(const Row& row, const std::vector<double>& derived) {
+std::optional<std::string_view> Composer::text(const Row& row, const std::vector<double>& derived) {
   Template* one = template_of(row);
-  if (one == nullptr) return false;
+  if (one == nullptr) return std::nullopt;
   // Indices into pieces.leaves, replaced where the row differs.
   std::vector<const std::string*> leaves;
   leaves.reserve(one->pieces.leaves.size());
@@ -304,37 +310,36 @@ bool Composer::compose(const Row& row, const std::vector<double>& derived) {
   scratch_.clear();
   scratch_.reserve(row.size() + derived.size());  // pointers into it must stay
   for (std::size_t p = 0; p < row.size(); ++p) {
-    if (structural_[p] || row[p] == one->reference[p]) continue;
+    if (is_fixed(p) || row[p] == one->reference[p]) continue;
     const Effect& effect = one->effects[p];
     if (effect.is_number && row[p] >= 0) {
-      scratch_.push_back(number_text(*group_.parameters[p].si(row[p])));
+      const double si = *group_.parameters[p].si(row[p]);
+      if (is_minus_zero(si)) return std::nullopt;
+      scratch_.push_back(number_text(si));
       for (const std::size_t leaf : effect.leaves) leaves[leaf] = &scratch_.back();
       continue;
     }
     const auto& change = difference(*one, p, row[p]);
-    if (!change) return false;
+    if (!change) return std::nullopt;
     for (const auto& [leaf, text] : *change) leaves[leaf] = &text;
   }
   for (std::size_t d = 0; d < derived.size(); ++d) {
-    if (std::isnan(derived[d]) || std::isnan(one->derived[d])) return false;
+    if (!has_effect_[row.size() + d]) continue;
+    if (std::isnan(derived[d]) || std::isnan(one->derived[d]) || is_minus_zero(derived[d])) {
+      return std::nullopt;
+    }
     if (derived[d] == one->derived[d]) continue;
-    if (one->derived_leaves[d].empty()) return false;
+    if (one->derived_leaves[d].empty()) return std::nullopt;
     scratch_.push_back(number_text(derived[d]));
     for (const std::size_t leaf : one->derived_leaves[d]) leaves[leaf] = &scratch_.back();
   }
-  static const std::string kPreamble = preamble();
-  text_ = kPreamble;
+  text_.clear();
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     text_ += one->pieces.between[i];
     text_ += *leaves[i];
   }
   text_ += one->pieces.between.back();
-  return true;
-}
-
-std::optional<std::string> Composer::identity(const Row& row, const std::vector<double>& derived) {
-  if (!compose(row, derived)) return std::nullopt;
-  return faultsim::fingerprint(text_);
+  return text_;
 }
 
 }  // namespace faultsweep

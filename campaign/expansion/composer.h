@@ -1,8 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -10,9 +12,10 @@
 #include "campaign/expansion/case_values.h"
 #include "campaign/expansion/scene_builder.h"
 
-/// Reading a scene takes 0.1 ms; a campaign may have 10^6 cases. But a case's canonical text
-/// differs from its neighbour's in a few values only, so large designs read a few scenes per
-/// *choice*, note which values each choice changes, and compose the texts of all cases from that.
+/// Reading a scene takes 0.1 ms, planning it 0.3 ms; a campaign may have 10^5. But what a case's
+/// identity and its family are fingerprints of differs from its neighbour's text in a few values
+/// only, so large designs read a few scenes per *choice*, note which values each choice changes,
+/// and compose the texts of all rows from that.
 namespace faultsweep {
 
 /// A canonical scene cut at its values: between[0] leaf[0] between[1] leaf[1] ... between[n].
@@ -24,20 +27,25 @@ struct CanonicalPieces {
 /// that are values, not keys.
 CanonicalPieces cut_at_values(const std::string& json_text);
 
-/// Identities of the cases of one group. Composing is trusted only after it was compared with the
-/// real thing: every combination of extreme values (up to 128) and 32 rows spread over the design.
+/// Texts of the rows of one group. Composing is trusted only after it was compared with the real
+/// thing: every combination of extreme values (up to 128) and 32 rows spread over the design.
 /// Parameters that change the shape of the text, or values that another one changes too, get a
 /// template of their own per choice.
 class Composer {
  public:
+  /// JSON text of a checked scene; nothing where problems are appended.
+  using Text = std::function<std::optional<std::string>(const faultsim::Scene&,
+                                                        std::vector<faultsim::Problem>&)>;
+  /// @param has_effect  per parameter of the group, and then per derived one: false = it never
+  ///                    changes the text.
   Composer(const CampaignSpec& spec, const Group& group, SceneBuilder& builder,
-           const CaseValues& values);
+           const CaseValues& values, Text text, std::vector<bool> has_effect);
 
-  /// False when this group cannot be composed; then every case must be read. Problems are those of
+  /// False when this group cannot be composed; then every row must be read. Problems are those of
   /// extreme combinations that are cases of a grid.
   bool prepare(std::vector<faultsim::Problem>& problems);
-  /// faultsim::case_identity of the row's scene, or nothing where that one must be read.
-  std::optional<std::string> identity(const Row& row, const std::vector<double>& derived);
+  /// The row's text, until the next call, or nothing where the scene must be read.
+  std::optional<std::string_view> text(const Row& row, const std::vector<double>& derived);
 
  private:
   using Difference = std::vector<std::pair<std::size_t, std::string>>;  // leaf, its text
@@ -55,7 +63,8 @@ class Composer {
     std::vector<std::vector<std::size_t>> derived_leaves;  ///< per derived parameter.
   };
 
-  std::optional<std::string> exact_text(const Row& row, const std::vector<double>& derived);
+  std::optional<std::string> exact_text(const Row& row, const std::vector<double>& derived,
+                                        std::vector<faultsim::Problem>& problems);
   std::optional<Difference> read_difference(const Template& one, const Row& row,
                                             const std::vector<double>& derived);
   const std::optional<Difference>& difference(Template& one, std::size_t parameter, int choice);
@@ -65,12 +74,16 @@ class Composer {
   bool find_structure();
   Template* template_of(const Row& row);
   std::vector<Row> rows_to_check() const;
-  bool compose(const Row& row, const std::vector<double>& derived);
+  bool is_fixed(std::size_t parameter) const {
+    return structural_[parameter] || !has_effect_[parameter];
+  }
 
   const CampaignSpec& spec_;
   const Group& group_;
   SceneBuilder& builder_;
   const CaseValues& values_;
+  Text text_of_;
+  std::vector<bool> has_effect_;
   long n_rows_ = 0;
   Row reference_;
   std::vector<bool> structural_;                      ///< per parameter: has templates of its own.

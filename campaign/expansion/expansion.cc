@@ -25,9 +25,14 @@ constexpr std::size_t kChoicesTried = 64;  ///< per parameter; the extremes are 
 constexpr int kMaximumWrongCases = 20;     ///< of cases wrong only as a combination.
 constexpr std::size_t kMaximumProblems = 100;
 
+/// What faultsim::case_identity puts before the canonical scene.
+const std::string identity_preamble =
+    faultsim::concat("numerics ", faultsim::kNumericsVersion, "\n");
+
 class Expander {
  public:
-  Expander(CampaignSpec spec, std::size_t most_planned) : most_planned_(most_planned) {
+  Expander(CampaignSpec spec, std::size_t most_planned) {
+    families_.most_planned = most_planned;
     result_.spec = std::move(spec);
   }
 
@@ -38,6 +43,8 @@ class Expander {
     result_.case_of_row.resize(result_.spec.groups.size());
     for (std::size_t g = 0; g < result_.spec.groups.size(); ++g) expand_group(static_cast<int>(g));
     throw_problems();
+    result_.families = std::move(families_.families);
+    result_.n_planned = families_.n_planned;
     for (const Case& one : result_.cases) {
       result_.families[static_cast<std::size_t>(one.family)].cases.push_back(one.index);
     }
@@ -92,13 +99,17 @@ class Expander {
     SceneBuilder builder(result_.spec, group);
     const CaseValues values(result_.spec, group);
     if (!check_choices(group, builder, values)) return;
-    FamilyFinder families(result_.spec, group, builder, result_.families, by_fingerprint_,
-                          {cells_to_check_, most_planned_});
+    FamilyFinder families(result_.spec, group, builder, values, families_);
     const long n_rows = count_rows(group);
     std::optional<Composer> composer;
     if (n_rows > kRowsReadOneByOne) {
       std::vector<Problem> found;
-      composer.emplace(result_.spec, group, builder, values);
+      composer.emplace(
+          result_.spec, group, builder, values,
+          [](const faultsim::Scene& scene, std::vector<Problem>&) {
+            return std::optional(faultsim::canonical_scene(scene));
+          },
+          std::vector<bool>(group.parameters.size() + result_.spec.derived.size(), true));
       if (!composer->prepare(found)) composer.reset();
       add(found);
       if (!found.empty()) return;
@@ -126,7 +137,8 @@ class Expander {
       }
       std::vector<Problem> found;
       std::string identity;
-      if (composer) identity = composer->identity(row, derived).value_or("");
+      const auto text = composer ? composer->text(row, derived) : std::nullopt;
+      if (text) identity = faultsim::fingerprint(identity_preamble + std::string(*text));
       int& place = case_of_row[static_cast<std::size_t>(i)];
       place = add_case(index, row, derived, identity, builder, families, found);
       if (place < 0) {
@@ -218,12 +230,12 @@ class Expander {
   }
 
   void write_notes() {
-    if (result_.families.size() > most_planned_) {
-      result_.notes.push_back("the first " + std::to_string(most_planned_) + " of " +
-                              std::to_string(result_.families.size()) +
-                              " families were planned; the others are counted by their parameters, "
-                              "at most as many as there are, and their sizes are taken to be those "
-                              "of the last one planned");
+    if (families_.n_estimated > 0) {
+      const std::size_t n_families = result_.families.size();
+      result_.notes.push_back(std::to_string(n_families - families_.n_estimated) + " of " +
+                              std::to_string(n_families) +
+                              " families were planned, spread over the design; the sizes of the "
+                              "others are taken to be those of the planned one before them");
     }
     for (const Group& group : result_.spec.groups) {
       for (const Design& design : group.designs) {
@@ -247,9 +259,7 @@ class Expander {
   Expansion result_;
   std::vector<Problem> problems_;
   std::set<std::string> said_;
-  std::map<std::string, int> by_fingerprint_;
-  std::size_t most_planned_;
-  long cells_to_check_ = 300'000;  ///< half a second
+  FamiliesSoFar families_;
   std::unordered_map<std::string, int> by_identity_;
   std::string first_merged_;
 };

@@ -2,19 +2,14 @@
 
 #include <algorithm>
 
+#include "simulator/common/fingerprint.h"
 #include "simulator/plan/geometry_check.h"
 
 namespace faultsweep {
 
 FamilyFinder::FamilyFinder(const CampaignSpec& spec, const Group& group, SceneBuilder& builder,
-                           std::vector<Family>& families,
-                           std::map<std::string, int>& by_fingerprint, Budget budget)
-    : spec_(spec),
-      group_(group),
-      builder_(builder),
-      families_(families),
-      by_fingerprint_(by_fingerprint),
-      budget_(budget) {
+                           const CaseValues& values, FamiliesSoFar& found)
+    : spec_(spec), group_(group), builder_(builder), values_(values), found_(found) {
   find_relevant();
 }
 
@@ -32,36 +27,74 @@ void FamilyFinder::find_relevant() {
         std::any_of(parameter.targets.begin(), parameter.targets.end(), may_matter));
   }
   for (const Derived& one : spec_.derived) {
-    derived_relevant_.push_back(may_matter(one.scene_pointer));
+    relevant_.push_back(may_matter(one.scene_pointer));
   }
 }
 
 std::vector<std::string> FamilyFinder::drawn() const {
   std::vector<std::string> names;
-  for (std::size_t p = 0; p < relevant_.size(); ++p) {
+  for (std::size_t p = 0; p < group_.parameters.size(); ++p) {
     if (relevant_[p] && group_.parameters[p].range) names.push_back(group_.parameters[p].name);
   }
   return names;
 }
 
-int FamilyFinder::family_of(const Row& row, const std::vector<double>& derived,
-                            std::vector<faultsim::Problem>& problems) {
-  std::vector<double> key;
+FamilyFinder::Key FamilyFinder::key_of(const Row& row, const std::vector<double>& derived) const {
+  Key key;
   for (std::size_t p = 0; p < row.size(); ++p) {
     if (relevant_[p]) key.push_back(row[p]);
   }
   for (std::size_t d = 0; d < derived.size(); ++d) {
-    if (derived_relevant_[d]) key.push_back(derived[d]);
+    if (relevant_[row.size() + d]) key.push_back(derived[d]);
   }
+  return key;
+}
+
+/// Families that cannot be composed go on being planned one by one.
+void FamilyFinder::start_composing(std::vector<faultsim::Problem>& problems) {
+  tried_composing_ = true;
+  if (may_creep_) return;
+  composer_.emplace(
+      spec_, group_, builder_, values_,
+      [](const faultsim::Scene& scene, std::vector<faultsim::Problem>& wrong) {
+        const faultsim::Plan plan = faultsim::make_plan(scene, wrong);
+        return wrong.empty() ? std::optional(faultsim::canonical_family(scene, plan))
+                             : std::nullopt;
+      },
+      relevant_);
+  if (!composer_->prepare(problems)) composer_.reset();
+}
+
+void FamilyFinder::add_estimated(const std::string& fingerprint) {
+  found_.families.push_back({fingerprint, found_.families.back().plan, {}});
+  ++found_.n_estimated;
+}
+
+int FamilyFinder::family_of(const Row& row, const std::vector<double>& derived,
+                            std::vector<faultsim::Problem>& problems) {
+  Key key = key_of(row, derived);
   const auto known = by_key_.find(key);
   if (known != by_key_.end()) return known->second;
-  if (families_.size() >= budget_.most_planned) {
-    const auto family = static_cast<int>(families_.size());
-    families_.push_back({"not planned", families_.back().plan, {}});
-    by_key_.emplace(std::move(key), family);
-    return family;
+  if (n_planned_ == kPlannedOneByOne && !tried_composing_) start_composing(problems);
+  if (!problems.empty()) return -1;
+  const long stride = std::max(1L, count_rows(group_) / kPlannedOneByOne);
+  const auto text = composer_ ? composer_->text(row, derived) : std::nullopt;
+  int family = static_cast<int>(found_.families.size());
+  const bool is_beyond = found_.n_planned >= found_.most_planned;
+  if (text && (++n_keys_ % stride != 0 || is_beyond)) {
+    const auto [place, is_new] =
+        found_.by_fingerprint.emplace(faultsim::fingerprint(*text), family);
+    family = place->second;
+    if (is_new) add_estimated(place->first);
+  } else if (is_beyond) {
+    add_estimated("not planned");
+  } else {
+    family = plan_row(row, derived, problems);
+    if (text && family >= 0) {
+      const std::string& planned = found_.families[static_cast<std::size_t>(family)].fingerprint;
+      FAULTSIM_DEMAND(planned == faultsim::fingerprint(*text), builder_.describe(row));
+    }
   }
-  const int family = plan_row(row, derived, problems);
   if (family >= 0 && !may_creep_) by_key_.emplace(std::move(key), family);
   return family;
 }
@@ -70,21 +103,25 @@ int FamilyFinder::plan_row(const Row& row, const std::vector<double>& derived,
                            std::vector<faultsim::Problem>& problems) {
   const auto scene = builder_.scene(row, derived, problems);
   if (!scene) return -1;
-  std::vector<faultsim::Problem> found;
-  faultsim::Plan plan = faultsim::make_plan(*scene, found);
+  std::vector<faultsim::Problem> wrong;
+  faultsim::Plan plan = faultsim::make_plan(*scene, wrong);
+  ++n_planned_;
+  ++found_.n_planned;
   may_creep_ =
       faultsim::has_viscous_material(*scene) && scene->numerics.creep != faultsim::Switch::off;
-  const bool is_known = by_fingerprint_.count(plan.family) != 0;
-  if (found.empty() && !is_known && plan.n_cells <= budget_.cells_to_check) {
-    budget_.cells_to_check -= plan.n_cells;
-    found = faultsim::geometry_problems(*scene, plan);
+  const bool is_known = found_.by_fingerprint.count(plan.family) != 0;
+  if (wrong.empty() && !is_known && plan.n_cells <= found_.cells_to_check) {
+    found_.cells_to_check -= plan.n_cells;
+    wrong = faultsim::geometry_problems(*scene, plan);
   }
-  for (const auto& one : found) problems.push_back(builder_.in_spec(one, row));
-  if (!found.empty()) return -1;
+  for (const auto& one : wrong) problems.push_back(builder_.in_spec(one, row));
+  if (!wrong.empty()) return -1;
   const auto [place, is_new] =
-      by_fingerprint_.emplace(plan.family, static_cast<int>(families_.size()));
-  if (is_new)
-    families_.push_back({plan.family, std::make_shared<const faultsim::Plan>(std::move(plan)), {}});
+      found_.by_fingerprint.emplace(plan.family, static_cast<int>(found_.families.size()));
+  if (is_new) {
+    found_.families.push_back(
+        {plan.family, std::make_shared<const faultsim::Plan>(std::move(plan)), {}});
+  }
   return place->second;
 }
 

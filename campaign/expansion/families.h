@@ -1,28 +1,39 @@
 #pragma once
 
-#include <map>
+#include <boost/container_hash/hash.hpp>
+#include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
+#include "campaign/expansion/composer.h"
 #include "campaign/expansion/expansion.h"
 #include "campaign/expansion/scene_builder.h"
 
 namespace faultsweep {
 
-/// Finds the family of each row of one group, making a plan once per distinct family key: the
-/// values of the parameters that may change the linear bulk. A row that may creep is planned by
-/// itself: its steps are those of the stages, and whether it creeps may depend on the loads.
+/// What is found of families over all groups of a campaign.
+struct FamiliesSoFar {
+  std::vector<Family> families;  ///< in order of first use.
+  std::unordered_map<std::string, int> by_fingerprint;
+  /// Of meshes that may still be made to look at them (plan/geometry_check.h); counted down.
+  long cells_to_check = 300'000;  // half a second
+  std::size_t most_planned = 0;   ///< see expand.
+  std::size_t n_planned = 0;      ///< plans made.
+  std::size_t n_estimated = 0;    ///< families that have the plan of another one.
+};
+
+/// Finds the family of each row of one group, looking once at each distinct family key: the values
+/// of the parameters that may change the linear bulk. The first kPlannedOneByOne keys of a group
+/// are planned, a millisecond each; then fingerprints of families are composed (composer.h), and of
+/// the further families one in so many is planned, so that some kPlannedOneByOne more are. The
+/// others have the plan of the last one planned.
+/// A row that may creep is planned by itself: its steps are those of the stages, and whether it
+/// creeps may depend on the loads.
 class FamilyFinder {
  public:
-  /// @param families  those found so far, in all groups; new ones are added.
-  struct Budget {
-    long& cells_to_check;      ///< of meshes that may still be made to look at them
-                               ///< (plan/geometry_check.h); counted down.
-    std::size_t most_planned;  ///< families; see expand.
-  };
   FamilyFinder(const CampaignSpec& spec, const Group& group, SceneBuilder& builder,
-               std::vector<Family>& families, std::map<std::string, int>& by_fingerprint,
-               Budget budget);
+               const CaseValues& values, FamiliesSoFar& found);
 
   /// The index of the row's family. Problems of the geometry are appended; then -1.
   int family_of(const Row& row, const std::vector<double>& derived,
@@ -30,21 +41,30 @@ class FamilyFinder {
   /// Names of parameters that may change the family and are drawn from ranges.
   std::vector<std::string> drawn() const;
 
+  static constexpr long kPlannedOneByOne = 200;
+
  private:
+  using Key = std::vector<double>;
+
   void find_relevant();
+  Key key_of(const Row& row, const std::vector<double>& derived) const;
+  void add_estimated(const std::string& fingerprint);
+  void start_composing(std::vector<faultsim::Problem>& problems);
   int plan_row(const Row& row, const std::vector<double>& derived,
                std::vector<faultsim::Problem>& problems);
 
   const CampaignSpec& spec_;
   const Group& group_;
   SceneBuilder& builder_;
-  std::vector<Family>& families_;
-  std::map<std::string, int>& by_fingerprint_;
-  Budget budget_;
-  std::vector<bool> relevant_;          ///< per parameter: may change the family.
-  std::vector<bool> derived_relevant_;  ///< per derived parameter.
-  bool may_creep_ = false;              ///< the row planned last: its family takes more than a key.
-  std::map<std::vector<double>, int> by_key_;
+  const CaseValues& values_;
+  FamiliesSoFar& found_;
+  std::vector<bool> relevant_;  ///< per parameter, then per derived one: may change the family.
+  bool may_creep_ = false;      ///< the row planned last: its family takes more than a key.
+  std::unordered_map<Key, int, boost::hash<Key>> by_key_;
+  long n_keys_ = 0;     ///< looked at so far.
+  long n_planned_ = 0;  ///< of this group.
+  bool tried_composing_ = false;
+  std::optional<Composer> composer_;
 };
 
 }  // namespace faultsweep

@@ -15,6 +15,7 @@ long count_rows(const Design& design, Parameters parameters) {
   long count = 1;
   switch (design.kind) {
     case DesignKind::list:
+    case DesignKind::monte_carlo:
     case DesignKind::latin_hypercube:
     case DesignKind::sobol:
     case DesignKind::morris:
@@ -36,6 +37,7 @@ void row_at(const Design& design, Parameters parameters, long i, int* row) {
   const std::size_t n = design.n_parameters;
   switch (design.kind) {
     case DesignKind::list:
+    case DesignKind::monte_carlo:
     case DesignKind::latin_hypercube:
     case DesignKind::sobol:
     case DesignKind::morris:

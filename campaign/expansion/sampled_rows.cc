@@ -29,9 +29,9 @@ class Values {
   std::vector<int> numbers_;
 };
 
-void draw_latin_hypercube(Design& design, Parameter* parameters) {
+/// One row per point.
+void draw_points(const UnitSamples& columns, Design& design, Parameter* parameters) {
   const auto n = static_cast<std::size_t>(design.n);
-  const auto columns = latin_hypercube(n, design.n_parameters, design.seed);
   design.rows.assign(n, std::vector<int>(design.n_parameters));
   for (std::size_t p = 0; p < design.n_parameters; ++p) {
     const Values values(parameters[p], columns[p]);
@@ -112,7 +112,14 @@ void draw_morris(Design& design, Parameter* parameters) {
 void draw_sampled_rows(Group& group) {
   Parameter* parameters = group.parameters.data();
   for (Design& design : group.designs) {
-    if (design.kind == DesignKind::latin_hypercube) draw_latin_hypercube(design, parameters);
+    const auto n = static_cast<std::size_t>(design.n);
+    if (design.kind == DesignKind::monte_carlo) {
+      draw_points(monte_carlo(design.first, n, design.n_parameters, design.seed), design,
+                  parameters);
+    }
+    if (design.kind == DesignKind::latin_hypercube) {
+      draw_points(latin_hypercube(n, design.n_parameters, design.seed), design, parameters);
+    }
     if (design.kind == DesignKind::sobol) draw_sobol(design, parameters);
     if (design.kind == DesignKind::morris) draw_morris(design, parameters);
     parameters += design.n_parameters;

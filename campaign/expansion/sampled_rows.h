@@ -2,12 +2,14 @@
 
 #include "campaign/spec/spec.h"
 
-/// Inside of the module: rows of Latin hypercube, Sobol' and Morris designs, by their seed.
+/// Inside of the module: rows of Monte Carlo, Latin hypercube, Sobol' and Morris designs, by their
+/// seed.
 namespace faultsweep {
 
 /// Draws the values of ranges and makes the rows of the group's sampled designs. The same design
 /// and seed give the same bits, whatever else the campaign has.
 ///
+/// - monte-carlo: row i is sample first + i; samples are independent and uniform.
 /// - latin-hypercube: row i is sample i; of n samples each lies in another n-th part of every range
 ///   (McKay, Beckman & Conover 1979).
 /// - sobol: per base sample the rows A, AB_1 .. AB_D, with second_order also BA_1 .. BA_D, then B;

@@ -25,6 +25,17 @@ std::uint64_t below(std::uint64_t n, std::mt19937_64& random) {
   return drawn % n;
 }
 
+UnitSamples monte_carlo(std::size_t first, std::size_t n, std::size_t dimensions,
+                        std::int64_t seed) {
+  std::mt19937_64 random = generator(seed);
+  random.discard(first * dimensions);
+  UnitSamples samples(dimensions, std::vector<double>(n));
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::vector<double>& column : samples) column[i] = fraction(random());
+  }
+  return samples;
+}
+
 UnitSamples latin_hypercube(std::size_t n, std::size_t dimensions, std::int64_t seed) {
   std::mt19937_64 random = generator(seed);
   UnitSamples samples(dimensions, std::vector<double>(n));

@@ -12,6 +12,10 @@ namespace faultsweep {
 /// Coordinates in [0, 1): [dimension][point].
 using UnitSamples = std::vector<std::vector<double>>;
 
+/// Points first .. first + n - 1 of a sequence of independent uniform ones.
+UnitSamples monte_carlo(std::size_t first, std::size_t n, std::size_t dimensions,
+                        std::int64_t seed);
+
 /// In each dimension one point, uniform, in every n-th part; the parts are paired at random.
 UnitSamples latin_hypercube(std::size_t n, std::size_t dimensions, std::int64_t seed);
 

@@ -29,9 +29,9 @@ constexpr double kYear = 31557600;  // s, 365.25 d
 
 std::string parameters_text(const CampaignInfo& campaign, const StoredCase& one) {
   const auto parameters = parameters_from_json(campaign.parameters);
-  const auto labels = labels_from_json(one.parameter_labels);
+  const auto labels = labels_of(one.parameters, parameters);
   std::string text;
-  for (std::size_t k = 0; k < parameters.size() && k < labels.size(); ++k) {
+  for (std::size_t k = 0; k < labels.size(); ++k) {
     if (!labels[k].empty())
       text += concat("  ", parameters[k].name, " = ", short_number(labels[k]), "\n");
   }
@@ -384,17 +384,6 @@ std::string case_to_text(const CampaignInfo& campaign, const StoredCase& one,
 }
 
 json case_to_json(const CampaignInfo& campaign, const StoredCase& one) {
-  const auto parameters = parameters_from_json(campaign.parameters);
-  const auto labels = labels_from_json(one.parameter_labels);
-  const json values = json::parse(one.parameter_values, nullptr, false);
-  json named = json::object();
-  for (std::size_t k = 0; k < parameters.size() && k < values.size(); ++k) {
-    if (values[k].is_null()) continue;
-    named[parameters[k].name] = {
-        {"value", values[k]},
-        {"unit", parameters[k].is_text ? "" : faultsim::si_unit(parameters[k].dimension)},
-        {"text", k < labels.size() ? labels[k] : ""}};
-  }
   json runs = json::array();
   for (const StoredRun& run : one.runs) {
     runs.push_back({{"attempt", run.attempt},
@@ -415,7 +404,7 @@ json case_to_json(const CampaignInfo& campaign, const StoredCase& one) {
           {"identity", one.identity},
           {"family", one.family},
           {"state", one.state},
-          {"parameters", named},
+          {"parameters", values_to_json(one.parameters, parameters_from_json(campaign.parameters))},
           {"changes", json::parse(one.changes, nullptr, false)},
           {"fields", fields_to_json(campaign, one)},
           {"runs", runs},

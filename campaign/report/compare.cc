@@ -44,7 +44,7 @@ struct Side {
   long position = 0;
   std::string identity;
   std::string key;  ///< values of the shared parameters; "" = none are shared.
-  std::string labels;
+  CaseParameters parameters;
   std::string outcome;  ///< or status of the failed run; "" = not run.
   bool has_result = false, complete = false, activated = false, plane_strain = false;
   std::vector<double> metrics;  ///< NaN = missing.
@@ -63,12 +63,14 @@ std::vector<std::size_t> places_of(const std::vector<std::string>& names,
   return places;
 }
 
-std::string key_of(const std::string& parameter_values, const std::vector<std::size_t>& places) {
-  const json values = json::parse(parameter_values, nullptr, false);
+std::string key_of(const CaseParameters& values, const std::vector<std::size_t>& places) {
   std::string key;
   for (const std::size_t place : places) {
-    const json value = place < values.size() ? values[place] : json();
-    key += (value.is_number() ? exact_number(value.get<double>()) : value.dump()) + "\n";
+    for (const CaseParameter& one : values) {
+      if (static_cast<std::size_t>(one.index) != place) continue;
+      key += one.si ? exact_number(*one.si) : '"' + one.text;
+    }
+    key += '\n';
   }
   return key;
 }
@@ -88,8 +90,8 @@ std::vector<Side> read_side(const Store& store, const CampaignInfo& campaign,
     side.id = row.id;
     side.position = row.position;
     side.identity = row.identity;
-    side.key = key_of(row.parameter_values, places);
-    side.labels = row.parameter_labels;
+    side.key = key_of(row.parameters, places);
+    side.parameters = row.parameters;
     side.has_result = row.rank_class.has_value();
     side.complete = row.complete();
     side.outcome = side.has_result ? row.outcome : row.state == "failed" ? row.status : "";
@@ -190,7 +192,7 @@ ComparedPair compare_pair(const Side& a, const Side& b, Comparison& comparison) 
   ComparedPair pair;
   pair.a = a.position;
   pair.b = b.position;
-  pair.labels = a.labels;
+  pair.parameters = a.parameters;
   pair.outcome_a = a.outcome;
   pair.outcome_b = b.outcome;
   pair.outcome_differs = a.outcome != b.outcome;

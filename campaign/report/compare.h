@@ -35,7 +35,7 @@ struct MetricDifference {
 /// Two cases taken for the same, and how far they differ.
 struct ComparedPair {
   long a = 0, b = 0;                 ///< case numbers.
-  std::string labels;                ///< A's parameters, JSON array.
+  CaseParameters parameters;         ///< A's.
   std::string outcome_a, outcome_b;  ///< or how the run ended, where there is no result.
   bool outcome_differs = false, flipped = false;  ///< flipped: activated in one only.
   bool identical = false;                         ///< same outcome, and every metric bit for bit.

@@ -98,8 +98,7 @@ std::string worst_text(const Comparison& c) {
   for (std::size_t k = 0; k < n_shown(c); ++k) {
     const ComparedPair& p = c.pairs[k];
     std::vector<std::string> cells = {std::to_string(p.a), std::to_string(p.b)};
-    std::vector<std::string> labels = labels_from_json(p.labels);
-    labels.resize(parameters.size());
+    const std::vector<std::string> labels = labels_of(p.parameters, parameters);
     cells.insert(cells.end(), labels.begin(), labels.end());
     const bool has_metric = p.worst > 0;
     cells.insert(cells.end(),

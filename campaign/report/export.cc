@@ -66,16 +66,15 @@ std::string header_line(const std::vector<StoredParameter>& parameters,
 
 /// Parameters as given and, where they have a unit, in SI.
 std::string parameter_fields(const std::vector<StoredParameter>& parameters, const CaseRow& row) {
-  const auto values = nlohmann::json::parse(row.parameter_values, nullptr, false);
-  std::vector<std::string> labels = labels_from_json(row.parameter_labels);
-  labels.resize(parameters.size());
   std::string fields;
+  auto value = row.parameters.begin();
   for (std::size_t k = 0; k < parameters.size(); ++k) {
-    const bool has_number = k < values.size() && values[k].is_number();
-    const std::string number = has_number ? exact_number(values[k].get<double>()) : "";
+    const bool has_it = value != row.parameters.end() && value->index == static_cast<int>(k);
+    const std::string number = has_it && value->si ? exact_number(*value->si) : "";
     const bool plain = !parameters[k].is_text && parameters[k].dimension == Dimension::number;
-    fields += "," + (plain ? number : csv_field(labels[k]));
+    fields += "," + (plain ? number : csv_field(has_it ? value->text : ""));
     if (parameters[k].dimension != Dimension::number) fields += "," + number;
+    if (has_it) ++value;
   }
   return fields;
 }

@@ -24,8 +24,8 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 /// A parameter over the cases that are exported.
 struct Factor {
   StoredParameter parameter;
-  std::size_t index = 0;  ///< in the parameter vectors.
-  long n_values = 0;      ///< cases that have one.
+  int index = 0;      ///< in the campaign's parameters.
+  long n_values = 0;  ///< cases that have one.
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
   std::vector<std::string> words;  ///< of a parameter of words: its levels, in order of appearance.
@@ -41,20 +41,17 @@ struct Factor {
 /// A parameter's values of one case: numbers or words.
 class FactorValues {
  public:
-  explicit FactorValues(const CaseRow& row)
-      : values_(json::parse(row.parameter_values, nullptr, false)) {}
-  bool has(const Factor& factor) const {
-    if (factor.index >= values_.size()) return false;
-    return factor.parameter.is_text ? values_[factor.index].is_string()
-                                    : values_[factor.index].is_number();
-  }
-  double number(const Factor& factor) const { return values_[factor.index].get<double>(); }
-  const std::string& word(const Factor& factor) const {
-    return values_[factor.index].get_ref<const std::string&>();
-  }
+  explicit FactorValues(const CaseRow& row) : values_(row.parameters) {}
+  bool has(const Factor& factor) const { return find(factor) != values_.end(); }
+  double number(const Factor& factor) const { return find(factor)->si.value(); }
+  const std::string& word(const Factor& factor) const { return find(factor)->text; }
 
  private:
-  json values_;
+  CaseParameters::const_iterator find(const Factor& factor) const {
+    return std::find_if(values_.begin(), values_.end(),
+                        [&](const CaseParameter& one) { return one.index == factor.index; });
+  }
+  const CaseParameters& values_;
 };
 
 /// Names of what the designs vary. Derived parameters follow from these: they are no factors.
@@ -80,7 +77,7 @@ std::vector<Factor> survey(const Store& store, const CampaignInfo& campaign,
     if (!names.contains(parameters[index].name)) continue;
     factors.push_back({});
     factors.back().parameter = parameters[index];
-    factors.back().index = index;
+    factors.back().index = static_cast<int>(index);
   }
   query.columns.clear();
   store.for_each_case(campaign.id, query, [&](const CaseRow& row) {

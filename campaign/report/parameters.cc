@@ -40,12 +40,50 @@ std::vector<StoredParameter> parameters_from_json(const std::string& text) {
   return parameters;
 }
 
-std::vector<std::string> labels_from_json(const std::string& text) {
-  std::vector<std::string> labels;
-  const json all = json::parse(text, nullptr, false);
-  if (!all.is_array()) return labels;
-  for (const json& one : all) labels.push_back(one.is_string() ? one.get<std::string>() : "");
+namespace {
+
+const StoredParameter& of(const CaseParameter& value,
+                          const std::vector<StoredParameter>& parameters) {
+  const auto index = static_cast<std::size_t>(value.index);
+  if (index < parameters.size()) return parameters[index];
+  throw faultsim::StorageError(faultsim::concat("a case of the store has a parameter number ",
+                                                value.index, ", which its campaign has not"));
+}
+
+}  // namespace
+
+std::vector<std::string> labels_of(const CaseParameters& values,
+                                   const std::vector<StoredParameter>& parameters) {
+  std::vector<std::string> labels(parameters.size());
+  for (const CaseParameter& one : values)
+    labels[&of(one, parameters) - parameters.data()] = one.text;
   return labels;
+}
+
+std::vector<std::string> settings_of(const CaseParameters& values,
+                                     const std::vector<StoredParameter>& parameters) {
+  std::vector<std::string> settings;
+  for (const CaseParameter& one : values) {
+    if (!one.text.empty()) settings.push_back(of(one, parameters).name + " = " + one.text);
+  }
+  return settings;
+}
+
+nlohmann::json value_to_json(const CaseParameter& value) {
+  return value.si ? json(*value.si) : json(value.text);
+}
+
+nlohmann::json values_to_json(const CaseParameters& values,
+                              const std::vector<StoredParameter>& parameters) {
+  json named = json::object();
+  for (const CaseParameter& one : values) {
+    const StoredParameter& parameter = of(one, parameters);
+    named[parameter.name] = {
+        {"value", value_to_json(one)},
+        {"unit", parameter.is_text ? "" : faultsim::si_unit(parameter.dimension)},
+        {"text", one.text}};
+  }
+  return named;
 }
 
 }  // namespace faultsweep

@@ -257,8 +257,7 @@ std::string ranking_to_text(const Ranking& ranking) {
   PlaceNames places;
   for (const RankedCase& row : ranking.rows) {
     std::vector<std::string> cells = {places.next(row.rank_class), std::to_string(row.position)};
-    std::vector<std::string> labels = labels_from_json(row.parameter_labels);
-    labels.resize(parameters.size());
+    const std::vector<std::string> labels = labels_of(row.parameters, parameters);
     cells.insert(cells.end(), labels.begin(), labels.end());
     for (std::string& cell : metric_cells(row, ranking)) cells.push_back(std::move(cell));
     cells.push_back(has_score ? (row.score ? format_number(*row.score) : "-") : "");
@@ -305,19 +304,9 @@ json ranking_to_json(const Ranking& ranking) {
   int rank = 0;
   for (const RankedCase& row : ranking.rows) {
     const faultsim::StageMetrics m = shown(row);
-    json values = json::object();
-    const json stored = json::parse(row.parameter_values, nullptr, false);
-    const std::vector<std::string> labels = labels_from_json(row.parameter_labels);
-    for (std::size_t k = 0; k < parameters.size() && k < stored.size(); ++k) {
-      if (stored[k].is_null()) continue;
-      values[parameters[k].name] = {
-          {"value", stored[k]},
-          {"unit", parameters[k].is_text ? "" : faultsim::si_unit(parameters[k].dimension)},
-          {"text", k < labels.size() ? labels[k] : ""}};
-    }
     json entry = {{"rank", row.rank_class == 0 ? json(++rank) : json()},
                   {"case", row.position},
-                  {"parameters", values},
+                  {"parameters", values_to_json(row.parameters, parameters)},
                   {"outcome", row.outcome},
                   {"rank_class", row.rank_class},
                   {"unexpected", is_unexpected(row)},

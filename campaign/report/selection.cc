@@ -93,7 +93,7 @@ Symbols result_symbols(const CampaignInfo& campaign, const Selection& selection)
   int index = 0;
   for (const StoredParameter& parameter : parameters_from_json(campaign.parameters)) {
     const Type type = parameter.is_text ? Type{Kind::text, {}} : number_type(parameter.dimension);
-    symbols[parameter.name] = {parameter_sql(index++), type};
+    symbols[parameter.name] = {parameter_sql(index++, parameter.is_text), type};
   }
   // After the parameters: a parameter that is called like a metric does not hide it.
   for (const auto& [name, metric] : known_metrics(selection)) {

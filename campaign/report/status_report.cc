@@ -30,6 +30,7 @@ StatusReport make_status(const Store& store, const std::string& campaign) {
   if (counts.n_failed > 0 || counts.n_done > counts.n_complete()) {
     status.failures = store.failure_counts(status.campaign.id);
   }
+  status.rounds = store.rounds(status.campaign.id);
   status.events = store.events(status.campaign.id, kEvents);
   for (const CampaignInfo& other : store.campaigns()) {
     if (other.id != status.campaign.id) status.others.push_back(other.name);
@@ -96,6 +97,10 @@ std::string status_to_text(const StatusReport& status) {
   text += concat("submitted ", format_time(c.submitted_at), " from ", c.source, ", ",
                  status.families.size(), " families, ", c.n_excluded, " excluded, ", c.n_merged,
                  " merged, on failure: ", to_string(c.policy.on_failure), "\n");
+  if (status.rounds.size() > 1 || !c.conclusion.empty()) {
+    text += concat(status.rounds.size(), status.rounds.size() == 1 ? " round" : " rounds", "; ",
+                   c.conclusion.empty() ? status.rounds.back().reason : c.conclusion, "\n");
+  }
   text += creep_text(status.families);
   if (c.keep_fields != KeepFields::none) {
     const long n_lacking = c.n_fields_waiting + c.n_fields_failed;
@@ -147,6 +152,11 @@ json status_to_json(const StatusReport& status) {
                         {"failed", family.n_failed},
                         {"build_s", family.build_seconds ? json(*family.build_seconds) : json()}});
   }
+  json rounds = json::array();
+  for (const RoundRecord& round : status.rounds) {
+    rounds.push_back(
+        {{"first_case", round.first_position}, {"cases", round.n_cases}, {"reason", round.reason}});
+  }
   json events = json::array();
   for (const EventRecord& event : status.events) {
     events.push_back({{"at", event.at}, {"kind", event.kind}, {"text", event.text}});
@@ -179,6 +189,8 @@ json status_to_json(const StatusReport& status) {
           {"manager_died", status.manager_died},
           {"failures", failures},
           {"families", families},
+          {"rounds", rounds},
+          {"conclusion", c.conclusion},
           {"events", events},
           {"other_campaigns", status.others}};
 }

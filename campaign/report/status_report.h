@@ -16,6 +16,7 @@ struct StatusReport {
   bool manager_died = false;         ///< there is an owner, but it is gone.
   std::vector<FailureCount> failures;
   std::vector<Store::FamilyProgress> families;
+  std::vector<RoundRecord> rounds;
   std::vector<EventRecord> events;  ///< newest first.
   std::vector<std::string> others;  ///< names of the store's other campaigns.
 };

@@ -20,6 +20,7 @@ namespace {
 FamilyWork work_of(const WaitingFamily& waiting, const std::filesystem::path& operators) {
   FamilyWork work;
   work.id = waiting.family;
+  work.name = waiting.predicted.fingerprint;
   work.cases = waiting.cases;
   work.operator_seconds = waiting.predicted.operator_seconds;
   work.case_seconds = waiting.seconds_per_case.value_or(0);
@@ -45,34 +46,52 @@ Manager::Manager(Store& store, WorkerLink& link, ProgressDisplay& display, const
   store_.claim_ownership(campaign_.id, link.n_workers());
   const long n_lost = store_.want_lost_fields(campaign_);
   if (n_lost > 0) display_.note(concat("the fields of ", n_lost, " cases are gone: written again"));
-  campaign_ = store_.campaign(campaign_.name);  // nobody else changes it from here on
-  n_cases_ = campaign_.n_cases;
-  n_done_ = campaign_.n_done;
-  n_failed_ = campaign_.n_failed;
-  n_incomplete_ = campaign_.n_done - campaign_.n_complete();
   fields_folder_ =
       std::filesystem::absolute(store_.fields_folder(campaign_.name)).lexically_normal();
-  families_ = store_.waiting_families(campaign_.id);
-  std::vector<FamilyWork> work;
-  for (const WaitingFamily& family : families_) {
-    work.push_back(work_of(family, store_.folder() / "operators"));
-    fields_only_.insert(family.fields_only.begin(), family.fields_only.end());
-  }
   plan_ = std::make_unique<WorkPlan>(
-      std::move(work), WorkPlan::Limits{link.n_workers(), options.memory_bytes,
-                                        campaign_.policy.on_failure, campaign_.policy.retries});
+      std::vector<FamilyWork>(),
+      WorkPlan::Limits{link.n_workers(), options.memory_bytes, campaign_.policy.on_failure,
+                       campaign_.policy.retries});
+  take_work();
   const auto n_workers = static_cast<std::size_t>(link.n_workers());
   scenes_sent_.resize(n_workers);
   hosts_.resize(n_workers);
   cores_.resize(n_workers, 1);
   if (campaign_.cancelled) plan_->stop();
-  store_.record_event(
-      campaign_.id, "started",
-      concat(
-          campaign_.n_waiting, " cases in ", families_.size(), " families, ", n_workers, " workers",
-          fields_only_.empty() ? std::string()
-                               : concat("; ", fields_only_.size(), " cases for their fields only"),
-          slurm_text()));
+  store_.record_event(campaign_.id, "started",
+                      concat(campaign_.n_waiting, " cases in ", plan_->n_families(), " families, ",
+                             n_workers, " workers",
+                             fields_only_.empty() ? std::string()
+                                                  : concat("; ", fields_only_.size(),
+                                                           " cases for their fields only"),
+                             slurm_text()));
+}
+
+/// What waits in the store, of a round that is new here. Nobody else changes the campaign.
+void Manager::take_work() {
+  campaign_ = store_.campaign(campaign_.name);
+  n_cases_ = campaign_.n_cases;
+  n_done_ = campaign_.n_done;
+  n_failed_ = campaign_.n_failed;
+  n_incomplete_ = campaign_.n_done - campaign_.n_complete();
+  std::vector<FamilyWork> work;
+  for (const WaitingFamily& family : store_.waiting_families(campaign_.id)) {
+    work.push_back(work_of(family, store_.folder() / "operators"));
+    fields_only_.insert(family.fields_only.begin(), family.fields_only.end());
+  }
+  plan_->add(std::move(work));
+}
+
+bool Manager::take_next_round() {
+  if (plan_->stopped() || !options_.next_round) return false;
+  commit();
+  if (!options_.next_round(store_, campaign_.name)) return false;
+  const RoundRecord round = store_.rounds(campaign_.id).back();
+  const std::string text = concat("next round, ", round.n_cases, " cases: ", round.reason);
+  store_.record_event(campaign_.id, "round", text);
+  display_.note(text);
+  take_work();
+  return true;
 }
 
 Manager::~Manager() {
@@ -106,7 +125,7 @@ bool Manager::turn() {
   if (is_old || uncommitted_.size() >= kCommitRuns || !operators_.empty()) commit();
   beat();
   const bool over = plan_->is_finished() || interrupted_ || !trouble_.empty();
-  if (over && !draining_) begin_drain();
+  if (over && !draining_ && !take_next_round()) begin_drain();
   if (!draining_) return true;
   if (!workers_are_drained() && since_drain_.seconds() < options_.patience) return true;
   commit();
@@ -238,7 +257,7 @@ void Manager::add_run(RunRecord run) {
 
 void Manager::commit() {
   for (const auto& [family, record] : operators_) {
-    store_.record_operator(families_[static_cast<std::size_t>(family)].family, record);
+    store_.record_operator(plan_->work(family).id, record);
   }
   operators_.clear();
   store_.record_runs(campaign_.id, uncommitted_);
@@ -270,8 +289,7 @@ void Manager::send_work(int worker, const Slice& slice) {
   work.task.threads = options_.threads.value_or(plan_->build_threads(worker, cores_[worker]));
   work.task.keep_fields = campaign_.keep_fields;
   work.task.fields_folder = fields_folder_;
-  work.task.operator_seconds =
-      families_[static_cast<std::size_t>(slice.family)].predicted.operator_seconds;
+  work.task.operator_seconds = plan_->work(slice.family).operator_seconds;
   std::set<std::int64_t>& sent = scenes_sent_[static_cast<std::size_t>(worker)];
   for (const std::int64_t id : slice.cases) {
     CaseInput input = store_.case_input(campaign_.id, id);
@@ -313,14 +331,11 @@ std::string Manager::progress_json() const {
     const char* state = plan_->n_outstanding(worker) == 0 ? "waiting"
                         : plan_->is_building(worker)      ? "building operator"
                                                           : "running cases";
-    workers.push_back(
-        {{"rank", worker + 1},
-         {"host", hosts_[static_cast<std::size_t>(worker)]},
-         {"state", state},
-         {"cases_at_hand", plan_->n_outstanding(worker)},
-         {"family",
-          family < 0 ? json()
-                     : json(families_[static_cast<std::size_t>(family)].predicted.fingerprint)}});
+    workers.push_back({{"rank", worker + 1},
+                       {"host", hosts_[static_cast<std::size_t>(worker)]},
+                       {"state", state},
+                       {"cases_at_hand", plan_->n_outstanding(worker)},
+                       {"family", family < 0 ? json() : json(plan_->work(family).name)}});
   }
   const double seconds = since_start_.seconds();
   const json progress = {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -38,6 +39,8 @@ class Manager {
     double memory_bytes = 0;  ///< for operators built and held together on a host; 0 = not limited.
     double patience = 10;     ///< s for cases under way once stopped.
     std::optional<int> threads = {};  ///< of building an operator; none = WorkPlan::build_threads.
+    /// RunOptions::next_round, asked when all cases are decided.
+    std::function<bool(Store&, const std::string&)> next_round = {};
   };
   /// Claims the store. Throws StorageError.
   Manager(Store& store, WorkerLink& link, ProgressDisplay& display, const Options& options);
@@ -74,6 +77,8 @@ class Manager {
   void send_work(int worker, const Slice& slice);
   void add_run(RunRecord run);
   void fail_hopeless();
+  void take_work();
+  bool take_next_round();
   void begin_drain();
   void beat();
   std::string progress_json() const;
@@ -84,7 +89,6 @@ class Manager {
   Options options_;
   CampaignInfo campaign_;
   std::string fields_folder_;  ///< of the campaign, absolute.
-  std::vector<WaitingFamily> families_;
   std::unique_ptr<WorkPlan> plan_;
   std::map<std::int64_t, CaseInput> inputs_;  ///< of cases under way
   std::set<std::int64_t> fields_only_;        ///< cases that have a result and lack their fields

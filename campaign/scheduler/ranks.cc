@@ -103,9 +103,11 @@ ExitCode manage(Messenger& messenger, const RunOptions& options, bool& in_order)
   if (!store.remark().empty()) display.note(store.remark());
   MpiWorkers link(messenger);
   const double memory = options.memory_bytes.value_or(kMemoryShare * available_memory());
-  Manager manager(
-      store, link, display,
-      {.campaign = options.campaign, .memory_bytes = memory, .threads = options.threads});
+  Manager manager(store, link, display,
+                  {.campaign = options.campaign,
+                   .memory_bytes = memory,
+                   .threads = options.threads,
+                   .next_round = options.next_round});
   IdleSleep idle(IdleSleep::kManagerLongest);
   while (manager.turn()) {
     if (stop_wanted != 0) manager.interrupt();

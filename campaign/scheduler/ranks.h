@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -8,6 +9,8 @@
 #include "simulator/common/exit_code.h"
 
 namespace faultsweep {
+
+class Store;
 
 /// What `faultsweep run` was asked.
 struct RunOptions {
@@ -25,6 +28,8 @@ struct RunOptions {
   /// For copies of operators on each host's own disk; "none", or "" = default_node_cache().
   std::string node_cache;
   ProgressDisplay::Style progress = ProgressDisplay::Style::lines;
+  /// Adds the campaign's next round to the store; false = there is none. None = one round only.
+  std::function<bool(Store&, const std::string& campaign)> next_round;
   std::filesystem::path status_file;  ///< of the ranks: where rank 0 leaves the campaign's status.
 };
 

@@ -10,14 +10,21 @@ namespace faultsweep {
 
 WorkPlan::WorkPlan(std::vector<FamilyWork> families, const Limits& limits) : limits_(limits) {
   FAULTSIM_DEMAND(limits.n_workers > 0, limits.n_workers);
-  workers_.resize(static_cast<std::size_t>(limits.n_workers));
+  workers_.resize(limits.n_workers);
+  add(std::move(families));
+}
+
+void WorkPlan::add(std::vector<FamilyWork> families) {
   for (FamilyWork& work : families) {
-    Family entry;
-    entry.waiting.assign(work.cases.begin(), work.cases.end());
+    const auto [place, is_new] = by_id_.emplace(work.id, n_families());
+    if (is_new) families_.emplace_back();
+    Family& entry = family(place->second);
+    entry.waiting.insert(entry.waiting.end(), work.cases.begin(), work.cases.end());
     n_waiting_ += static_cast<long>(work.cases.size());
+    if (!is_new) continue;
+    work.cases.clear();
     entry.state = work.operator_cached ? State::ready : State::cold;
     entry.work = std::move(work);
-    families_.push_back(std::move(entry));
   }
   order_.resize(families_.size());
   std::iota(order_.begin(), order_.end(), 0);

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "campaign/spec/spec.h"
@@ -14,6 +15,7 @@ namespace faultsweep {
 /// A family whose cases wait.
 struct FamilyWork {
   std::int64_t id = 0;
+  std::string name;  ///< for people.
   std::vector<std::int64_t> cases;
   double operator_seconds = 0;  ///< predicted, when it has to be built.
   double case_seconds = 0;      ///< predicted or measured earlier; 0 = unknown.
@@ -52,6 +54,9 @@ class WorkPlan {
     int retries = 0;  ///< further attempts of a failed case, of FailureAction::retry.
   };
   WorkPlan(std::vector<FamilyWork> families, const Limits& limits);
+  /// More work, also while there is some: cases of families that are known join those that wait,
+  /// new families get indices behind those that there are.
+  void add(std::vector<FamilyWork> families);
 
   /// Says where the worker runs: a number per host. Until then all are taken to share one.
   void place(int worker, int host) { at(worker).host = host; }
@@ -82,6 +87,8 @@ class WorkPlan {
 
   /// Nothing under way, and nothing waits (or it is stopped).
   bool is_finished() const;
+  int n_families() const { return static_cast<int>(families_.size()); }
+  const FamilyWork& work(int index) const { return family(index).work; }  ///< without its cases.
   long n_waiting() const { return n_waiting_; }
   long n_in_flight() const { return static_cast<long>(in_flight_.size()); }
   long n_outstanding(int worker) const { return at(worker).n_cases; }
@@ -146,7 +153,8 @@ class WorkPlan {
 
   Limits limits_;
   std::vector<Family> families_;
-  std::vector<int> order_;  ///< families by priority.
+  std::map<std::int64_t, int> by_id_;  ///< of families_.
+  std::vector<int> order_;             ///< families by priority.
   std::vector<Worker> workers_;
   std::map<std::int64_t, Flight> in_flight_;
   std::map<std::int64_t, int> failures_;

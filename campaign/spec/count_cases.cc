@@ -61,7 +61,9 @@ std::optional<std::pair<long double, long double>> SpecReader::count_samples(
   const auto n_parameters = [&] {
     return static_cast<long double>(keys(design + "/parameters").size());
   };
-  if (kind == "latin-hypercube") return std::pair(number("/samples"), 1.0L);
+  if (kind == "latin-hypercube" || kind == "monte-carlo") {
+    return std::pair(number("/samples"), 1.0L);
+  }
   if (kind == "morris") return std::pair(number("/trajectories"), n_parameters() + 1);
   if (kind != "sobol") return std::nullopt;
   const bool second_order = has(design + "/second_order") && at(design + "/second_order");

@@ -48,7 +48,8 @@ void SpecReader::read_design(const std::string& pointer, const SceneNames& names
   const auto kind = at(pointer + "/kind").get<std::string>();
   for (const DesignKind one :
        {DesignKind::grid, DesignKind::list, DesignKind::zip, DesignKind::one_at_a_time,
-        DesignKind::latin_hypercube, DesignKind::sobol, DesignKind::morris}) {
+        DesignKind::monte_carlo, DesignKind::latin_hypercube, DesignKind::sobol,
+        DesignKind::morris}) {
     if (kind == to_string(one)) design.kind = one;
   }
   std::vector<Parameter> parameters;
@@ -85,6 +86,7 @@ void SpecReader::read_sampling(const std::string& pointer, Design& design) {
     problem(pointer + "/levels", std::to_string(design.levels) + " levels are an odd number",
             "write an even one: parameters move by half the levels");
   }
+  if (has(pointer + "/first")) design.first = at(pointer + "/first").get<long>();
   if (has(pointer + "/seed")) design.seed = at(pointer + "/seed").get<std::int64_t>();
   if (has(pointer + "/second_order"))
     design.second_order = at(pointer + "/second_order").get<bool>();

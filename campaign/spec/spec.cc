@@ -51,6 +51,7 @@ json design_to_json(const Design& design) {
   result["seed"] = design.seed;
   result[design.kind == DesignKind::morris ? "trajectories" : "samples"] = design.n;
   if (design.kind == DesignKind::morris) result["levels"] = design.levels;
+  if (design.kind == DesignKind::monte_carlo) result["first"] = design.first;
   if (design.kind == DesignKind::sobol) result["second_order"] = design.second_order;
   return result;
 }
@@ -97,6 +98,8 @@ const char* to_string(DesignKind kind) {
       return "zip";
     case DesignKind::one_at_a_time:
       return "one-at-a-time";
+    case DesignKind::monte_carlo:
+      return "monte-carlo";
     case DesignKind::latin_hypercube:
       return "latin-hypercube";
     case DesignKind::sobol:
@@ -108,8 +111,8 @@ const char* to_string(DesignKind kind) {
 }
 
 bool is_sampled(DesignKind kind) {
-  return kind == DesignKind::latin_hypercube || kind == DesignKind::sobol ||
-         kind == DesignKind::morris;
+  return kind == DesignKind::monte_carlo || kind == DesignKind::latin_hypercube ||
+         kind == DesignKind::sobol || kind == DesignKind::morris;
 }
 
 const char* to_string(KeepFields keep) {
@@ -142,6 +145,12 @@ std::string CampaignSpec::resolved() const {
                  {"groups", json::array()}};
   // Only where it says something: specs that were stored before the key existed stay the same.
   if (keep_fields != KeepFields::none) result["keep_fields"] = to_string(keep_fields);
+  if (const auto& staged = staged_sample) {
+    result["rounds"] = {{"probability_of", staged->condition},
+                        {"width", staged->width},
+                        {"confidence", staged->confidence},
+                        {"most_samples", staged->most}};
+  }
   for (const Exclusion& one : exclude) result["exclude"].push_back(one.text);
   for (const Derived& one : derived) {
     result["derived"].push_back({{"pointer", one.scene_pointer}, {"expression", one.text}});

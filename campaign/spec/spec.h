@@ -79,6 +79,7 @@ enum class DesignKind {
   list,             ///< the rows as given.
   zip,              ///< the i-th choice of every parameter together.
   one_at_a_time,    ///< the base case, then each choice of each parameter alone.
+  monte_carlo,      ///< n samples, each by itself: further ones leave the first as they are.
   latin_hypercube,  ///< n samples; each n-th part of every range has one.
   sobol,   ///< n base samples in blocks A, AB_1 .. AB_D, (BA_1 .. BA_D,) B (Saltelli 2010).
   morris,  ///< n trajectories of D + 1 rows; in each every parameter moves once, by half the
@@ -96,6 +97,7 @@ struct Design {
   /// Value per parameter, -1 = its base. Of a list as read, of sampled designs made by `expand`.
   std::vector<std::vector<int>> rows;
   long n = 0;                 ///< sampled: samples, base samples (sobol) or trajectories (morris).
+  long first = 0;             ///< monte-carlo: number of the first sample.
   int levels = 0;             ///< morris: even.
   bool second_order = false;  ///< sobol: blocks BA too.
   std::int64_t seed = 1;
@@ -157,6 +159,14 @@ enum class KeepFields {
   stages,  ///< the ends of stages.
   all,
 };
+/// `rounds`: a Monte Carlo sample that grows until a probability is known well enough.
+struct StagedSample {
+  std::string condition;     ///< over results, as of `rank --where`: what the probability is of.
+  double width = 0;          ///< of its interval, wanted.
+  double confidence = 0.95;  ///< of the interval.
+  long most = 0;             ///< samples, however wide it still is.
+};
+
 const char* to_string(KeepFields keep);  ///< "none", "stages", "all".
 std::optional<KeepFields> keep_fields_named(const std::string& name);
 
@@ -174,9 +184,10 @@ struct CampaignSpec {
   Policy policy;
   std::string rank_by = "activated_area";  ///< an expression over metrics.h.
   KeepFields keep_fields = KeepFields::none;
-  faultsim::JsonDocument document;  ///< the spec, for pointers and lines.
-  faultsim::JsonDocument base;      ///< the base scene as given.
-  bool base_is_inline = false;      ///< base is document's /base.
+  std::optional<StagedSample> staged_sample;  ///< none = its design is all there is.
+  faultsim::JsonDocument document;            ///< the spec, for pointers and lines.
+  faultsim::JsonDocument base;                ///< the base scene as given.
+  bool base_is_inline = false;                ///< base is document's /base.
 
   /// The second of the three copies: JSON text in which every alias is a
   /// pointer, every range its values (or, where values are drawn, its ends: design and seed make

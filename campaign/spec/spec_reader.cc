@@ -82,6 +82,7 @@ CampaignSpec SpecReader::read() {
     }
     embed_tables();
   }
+  if (is_usable("/rounds") && is_usable("/design")) read_rounds();
   if (is_usable("/metrics")) read_rank_by();
   if (is_usable("/keep_fields")) {
     spec_.keep_fields = keep_fields_named(at("/keep_fields").get<std::string>()).value();
@@ -268,6 +269,22 @@ void SpecReader::read_policy() {
               "write at least \"" + std::to_string(std::lround(faultsim::kLeastMemoryLimit / 1e6)) +
                   " MB\"");
     }
+  }
+}
+
+/// What the condition may name is known with the faults and stages of a scene (campaign/rounds).
+void SpecReader::read_rounds() {
+  StagedSample& staged = spec_.staged_sample.emplace();
+  staged.condition = at("/rounds/probability_of").get<std::string>();
+  staged.width = at("/rounds/width").get<double>();
+  if (has("/rounds/confidence")) staged.confidence = at("/rounds/confidence").get<double>();
+  staged.most = at("/rounds/most_samples").get<long>();
+  if (at("/design/kind") != "monte-carlo") {
+    problem("/rounds", "the design is no monte-carlo design, whose samples can be continued",
+            "write \"kind\": \"monte-carlo\", or remove rounds");
+  } else if (staged.most < at("/design/samples").get<long>()) {
+    problem("/rounds/most_samples", "is less than the samples of the design",
+            "write at least " + at("/design/samples").dump());
   }
 }
 

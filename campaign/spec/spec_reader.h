@@ -116,6 +116,7 @@ class SpecReader {
   void read_exclusions();
   void embed_tables();
   void read_rank_by();
+  void read_rounds();
   std::optional<Expression> parse(const std::string& pointer, const Symbols& symbols);
 
   CampaignSpec spec_;

@@ -57,17 +57,29 @@ FieldsState fields_state_from_string(const std::string& text) {
 
 namespace {
 
-/// Covers what the expanded copy is made of: base scenes and parameter vectors, in order.
+/// Covers what the expanded copy is made of: base scenes and cases, in order.
 std::string expanded_hash(const Submission& submission) {
   std::string text;
   for (const BaseScene& scene : submission.scenes) {
     text += faultsim::fingerprint(scene.source + '\n' + scene.document) + '\n';
   }
   text += submission.parameters + '\n';
-  for (const CaseRecord& one : submission.cases) {
-    text += concat(one.scene, ' ', one.identity, ' ', one.parameter_values, '\n');
-  }
+  for (const CaseRecord& one : submission.cases) text += one.identity + '\n';
   return faultsim::fingerprint(text);
+}
+
+/// Whether the campaign's own design became these very cases.
+bool has_cases(Connection& db, std::int64_t campaign, const std::vector<CaseRecord>& cases) {
+  Statement query = db.prepared(
+      "SELECT c.identity FROM rounds r CROSS JOIN campaign_cases cc"
+      " ON cc.campaign_id = r.campaign_id AND cc.position < r.first_position + r.n_cases"
+      " CROSS JOIN cases c ON c.id = cc.case_id"
+      " WHERE r.campaign_id = ? AND r.round = 0 ORDER BY cc.position");
+  query.bind(campaign);
+  for (const CaseRecord& one : cases) {
+    if (!query.step() || query.text(0) != one.identity) return false;
+  }
+  return !query.step();
 }
 
 /// The campaign that is this submission, or a name that is free.
@@ -76,34 +88,37 @@ struct Place {
   std::string name;
 };
 
-Place find_place(Connection& db, const Submission& submission, const std::string& resolved_hash,
-                 const std::string& expanded) {
+Place find_place(Connection& db, const Submission& submission) {
   constexpr int kMostRevisions = 100000;  // names NAME-2, NAME-3, ...: far beyond use
-  Statement query = db.prepared(
-      "SELECT id, spec_resolved_hash, spec_expanded_hash FROM campaigns WHERE name = ?");
+  const std::string resolved = faultsim::fingerprint(submission.spec_resolved);
+  Statement query = db.prepared("SELECT id, spec_resolved_hash FROM campaigns WHERE name = ?");
   for (int revision = 1; revision < kMostRevisions; ++revision) {
     const std::string name =
         revision == 1 ? submission.name : concat(submission.name, '-', revision);
     if (!query.bind(name).step()) return {std::nullopt, name};
-    if (query.text(1) == resolved_hash && query.text(2) == expanded)
+    if (query.text(1) == resolved && has_cases(db, query.integer(0), submission.cases))
       return {query.integer(0), name};
   }
   throw StorageError(concat("too many campaigns are called ", submission.name));
 }
 
-std::vector<std::int64_t> add_families(Connection& db, const Submission& submission) {
+std::vector<std::int64_t> add_families(Connection& db, const std::vector<FamilyRecord>& families) {
   std::vector<std::int64_t> ids;
-  for (const FamilyRecord& family : submission.families) {
-    db.prepared(
-          "INSERT INTO families (fingerprint, predicted_unknowns, predicted_jump_unknowns,"
-          " predicted_operator_s, predicted_memory_bytes, n_operators) VALUES (?, ?, ?, ?, ?, ?)"
-          " ON CONFLICT (fingerprint) DO UPDATE SET n_operators = excluded.n_operators")
-        .bind(family.fingerprint, family.unknowns, family.jump_unknowns, family.operator_seconds,
-              family.memory_bytes, family.n_operators)
+  Statement insert = db.prepared(
+      "INSERT INTO families (fingerprint, predicted_unknowns, predicted_jump_unknowns,"
+      " predicted_operator_s, predicted_memory_bytes, n_operators) VALUES (?, ?, ?, ?, ?, ?)"
+      " ON CONFLICT (fingerprint) DO NOTHING");
+  Statement find =
+      db.prepared("UPDATE families SET n_operators = ? WHERE fingerprint = ? RETURNING id");
+  for (const FamilyRecord& one : families) {
+    insert
+        .bind(one.fingerprint, one.unknowns, one.jump_unknowns, one.operator_seconds,
+              one.memory_bytes, one.n_operators)
         .run();
-    Statement query = db.prepared("SELECT id FROM families WHERE fingerprint = ?");
-    query.bind(family.fingerprint).step();
-    ids.push_back(query.integer(0));
+    ids.push_back(db.last_insert_id());
+    if (db.changes() > 0) continue;
+    find.bind(one.n_operators, one.fingerprint).step();
+    ids.back() = find.integer(0);
   }
   return ids;
 }
@@ -111,7 +126,7 @@ std::vector<std::int64_t> add_families(Connection& db, const Submission& submiss
 constexpr const char* kInfoColumns =
     "SELECT id, name, submitted_at, state, source, parameters, rank_by, n_excluded, n_merged,"
     " on_failure, retries, case_time_limit_s, case_memory_limit_bytes, keep_fields,"
-    " operator_time_limit_s FROM campaigns ";
+    " operator_time_limit_s, conclusion FROM campaigns ";
 
 CampaignInfo read_info(const Statement& row) {
   CampaignInfo info;
@@ -129,6 +144,7 @@ CampaignInfo read_info(const Statement& row) {
   info.policy.time_limit = row.optional_real(11);
   info.policy.memory_limit = row.optional_real(12);
   info.policy.operator_time_limit = row.optional_real(14);
+  info.conclusion = row.text(15);
   const auto keep = keep_fields_named(row.text(13));
   if (!keep) throw StorageError(concat("unknown keep_fields '", row.text(13), "' in the store"));
   info.keep_fields = *keep;
@@ -159,48 +175,126 @@ std::int64_t Store::add_scene(const BaseScene& scene) {
   return id;
 }
 
-void Store::add_cases(std::int64_t campaign, const Submission& submission) {
+namespace {
+
+/// Puts cases into a campaign, behind those that it has.
+class CaseAdder {
+ public:
+  CaseAdder(Connection& db, std::int64_t campaign, long n_before, FieldsState fields)
+      : db_(db), campaign_(campaign), n_cases_(n_before), fields_(to_string(fields)) {}
+
+  /// The position of the case: that which it has already, or the next one.
+  long add(const CaseRecord& one, std::int64_t family, std::int64_t scene) {
+    insert_.bind(one.identity, family, scene, one.changes).run();
+    std::int64_t id = db_.last_insert_id();
+    if (db_.changes() == 0) {
+      find_.bind(one.identity).step();
+      id = find_.integer(0);
+      if (place_.bind(campaign_, id).step()) return static_cast<long>(place_.integer(0));
+    }
+    link_.bind(campaign_, ++n_cases_, id, fields_).run();
+    for (const CaseParameter& value : one.parameters) {
+      parameter_.bind(campaign_, n_cases_, value.index, value.si, value.text).run();
+    }
+    return n_cases_;
+  }
+  long n_cases() const { return n_cases_; }
+
+ private:
+  Connection& db_;
+  std::int64_t campaign_;
+  long n_cases_;
+  const char* fields_;
+  Statement insert_ = db_.prepared(
+      "INSERT INTO cases (identity, family_id, scene_id, changes) VALUES (?, ?, ?, ?)"
+      " ON CONFLICT (identity) DO NOTHING");
+  Statement find_ = db_.prepared("SELECT id FROM cases WHERE identity = ?");
+  Statement place_ =
+      db_.prepared("SELECT position FROM campaign_cases WHERE campaign_id = ? AND case_id = ?");
+  Statement link_ = db_.prepared(
+      "INSERT INTO campaign_cases (campaign_id, position, case_id, fields) VALUES (?, ?, ?, ?)");
+  Statement parameter_ = db_.prepared(
+      "INSERT INTO case_parameters (campaign_id, position, parameter, si, text)"
+      " VALUES (?, ?, ?, ?, ?)");
+};
+
+}  // namespace
+
+long Store::add_round(std::int64_t campaign, const Submission& submission,
+                      const std::string& design, const std::string& reason) {
   Connection& db = *connection_;
   std::vector<std::int64_t> scenes;
   for (const BaseScene& scene : submission.scenes) scenes.push_back(add_scene(scene));
-  const std::vector<std::int64_t> families = add_families(db, submission);
-  Statement insert = db.prepared(
-      "INSERT INTO cases (identity, family_id, scene_id, changes) VALUES (?, ?, ?, ?)"
-      " ON CONFLICT (identity) DO NOTHING");
-  Statement find = db.prepared("SELECT id FROM cases WHERE identity = ?");
-  Statement link = db.prepared(
-      "INSERT INTO campaign_cases (campaign_id, position, case_id, parameter_values,"
-      " parameter_labels, fields) VALUES (?, ?, ?, ?, ?, ?)");
-  const char* fields = to_string(submission.keep_fields == KeepFields::none ? FieldsState::none
-                                                                            : FieldsState::wanted);
-  long position = 0;
+  const std::vector<std::int64_t> families = add_families(db, submission.families);
+  Statement last = db.prepared(
+      "SELECT coalesce(max(round), -1) + 1, coalesce(max(first_position + n_cases), 1)"
+      " FROM rounds WHERE campaign_id = ?");
+  last.bind(campaign).step();
+  const long round = last.integer(0), first = last.integer(1);
+  CaseAdder adder(
+      db, campaign, first - 1,
+      submission.keep_fields == KeepFields::none ? FieldsState::none : FieldsState::wanted);
+  std::vector<long> positions;
   for (const CaseRecord& one : submission.cases) {
-    insert
-        .bind(one.identity, families.at(static_cast<std::size_t>(one.family)),
-              scenes.at(static_cast<std::size_t>(one.scene)), one.changes)
-        .run();
-    std::int64_t id = db.last_insert_id();
-    if (db.changes() == 0) {
-      find.bind(one.identity).step();
-      id = find.integer(0);
-    }
-    link.bind(campaign, ++position, id, one.parameter_values, one.parameter_labels, fields).run();
+    positions.push_back(adder.add(one, families.at(static_cast<std::size_t>(one.family)),
+                                  scenes.at(static_cast<std::size_t>(one.scene))));
   }
+  Statement rows =
+      db.prepared("SELECT coalesce(max(row), 0) FROM design_rows WHERE campaign_id = ?");
+  rows.bind(campaign).step();
+  const long n_rows = rows.integer(0);
   Statement add_row = db.prepared(
       "INSERT INTO design_rows (campaign_id, design, row, position) VALUES (?, ?, ?, ?)");
   for (const DesignRow& one : submission.design_rows) {
-    add_row.bind(campaign, one.design, one.row, one.position).run();
+    const auto place = static_cast<std::size_t>(one.position - 1);
+    FAULTSIM_DEMAND(place < positions.size(), "row of case ", one.position);
+    add_row.bind(campaign, one.design, n_rows + one.row, positions[place]).run();
   }
+  const long n_new = adder.n_cases() - (first - 1);
+  db.prepared(
+        "INSERT INTO rounds (campaign_id, round, first_position, n_cases, design, reason,"
+        " proposed_at) VALUES (?, ?, ?, ?, ?, ?, ?)")
+      .bind(campaign, round, first, n_new, design, reason, seconds_since_1970())
+      .run();
+  checksums_->seal_campaign(campaign);
+  return n_new;
+}
+
+long Store::record_round(std::int64_t campaign, const Submission& submission,
+                         const std::string& design, const std::string& reason) {
+  const ForeignKeysOff foreign_keys_off(*connection_);
+  Transaction transaction(*connection_);
+  const long n_new = add_round(campaign, submission, design, reason);
+  transaction.commit();
+  return n_new;
+}
+
+void Store::conclude(std::int64_t campaign, const std::string& conclusion) {
+  connection_->prepared("UPDATE campaigns SET conclusion = ? WHERE id = ?")
+      .bind(conclusion, campaign)
+      .run();
+}
+
+std::vector<RoundRecord> Store::rounds(std::int64_t campaign) const {
+  std::vector<RoundRecord> all;
+  Statement query = connection_->prepared(
+      "SELECT first_position, n_cases, design, reason, proposed_at FROM rounds"
+      " WHERE campaign_id = ? ORDER BY round");
+  query.bind(campaign);
+  while (query.step()) {
+    all.push_back({static_cast<long>(query.integer(0)), static_cast<long>(query.integer(1)),
+                   query.text(2), query.text(3), query.real(4)});
+  }
+  return all;
 }
 
 SubmitOutcome Store::submit(const Submission& submission) {
   FAULTSIM_DEMAND(!submission.cases.empty() && !submission.scenes.empty(), submission.name);
   Connection& db = *connection_;
-  const std::string resolved_hash = faultsim::fingerprint(submission.spec_resolved);
-  const std::string expanded = expanded_hash(submission);
   SubmitOutcome outcome;
+  const ForeignKeysOff foreign_keys_off(db);  // which takes a quarter of the time
   Transaction transaction(db);
-  const Place place = find_place(db, submission, resolved_hash, expanded);
+  const Place place = find_place(db, submission);
   outcome.name = place.name;
   outcome.existed = place.campaign.has_value();
   if (outcome.existed) {
@@ -216,18 +310,23 @@ SubmitOutcome Store::submit(const Submission& submission) {
           " operator_time_limit_s)"
           " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
         .bind(place.name, seconds_since_1970(), submission.source, submission.spec_given,
-              faultsim::fingerprint(submission.spec_given), submission.spec_resolved, resolved_hash,
-              expanded, submission.parameters, submission.rank_by, submission.n_excluded,
-              submission.n_merged, to_string(submission.policy.on_failure),
-              submission.policy.retries, submission.policy.time_limit,
+              faultsim::fingerprint(submission.spec_given), submission.spec_resolved,
+              faultsim::fingerprint(submission.spec_resolved), expanded_hash(submission),
+              submission.parameters, submission.rank_by, submission.n_excluded, submission.n_merged,
+              to_string(submission.policy.on_failure), submission.policy.retries,
+              submission.policy.time_limit,
               submission.policy.memory_limit
                   ? std::optional(static_cast<std::int64_t>(*submission.policy.memory_limit))
                   : std::nullopt,
               to_string(submission.keep_fields), submission.policy.operator_time_limit)
         .run();
     outcome.campaign = db.last_insert_id();
-    add_cases(outcome.campaign, submission);
-    checksums_->seal_campaign(outcome.campaign);
+    db.prepared(
+          "INSERT INTO campaign_parameters SELECT ?1, key, value ->> 'name', value ->> 'dimension'"
+          " FROM json_each(?2)")
+        .bind(outcome.campaign, submission.parameters)
+        .run();
+    add_round(outcome.campaign, submission, "", "");
   }
   count_known(db, outcome);
   transaction.commit();
@@ -281,8 +380,7 @@ bool Store::lacks_results() const {
 
 SubmitOutcome Store::preview(const Submission& submission) const {
   Connection& db = *connection_;
-  const Place place = find_place(db, submission, faultsim::fingerprint(submission.spec_resolved),
-                                 expanded_hash(submission));
+  const Place place = find_place(db, submission);
   SubmitOutcome outcome;
   outcome.name = place.name;
   outcome.existed = place.campaign.has_value();

@@ -98,13 +98,15 @@ std::string Checksums::of_result(std::int64_t case_id) const {
 
 std::string Checksums::of_campaign(std::int64_t campaign) const {
   Digest digest;
-  digest.add_rows(
-      connection_
-          .prepared("SELECT cc.position, cc.case_id, cc.parameter_values, cc.parameter_labels,"
-                    " c.identity, c.scene_id, c.changes FROM campaign_cases cc"
-                    " JOIN cases c ON c.id = cc.case_id WHERE cc.campaign_id = ?"
-                    " ORDER BY cc.position")
-          .bind(campaign));
+  digest.add_rows(connection_
+                      .prepared("SELECT cc.position, cc.case_id, c.identity, c.scene_id, c.changes"
+                                " FROM campaign_cases cc JOIN cases c ON c.id = cc.case_id"
+                                " WHERE cc.campaign_id = ? ORDER BY cc.position")
+                      .bind(campaign));
+  digest.add_rows(connection_
+                      .prepared("SELECT position, parameter, si, text FROM case_parameters"
+                                " WHERE campaign_id = ? ORDER BY position, parameter")
+                      .bind(campaign));
   return digest.finish();
 }
 

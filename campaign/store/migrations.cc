@@ -8,6 +8,7 @@
 #include "simulator/output/measures.h"
 #include "store_10_sql.h"
 #include "store_11_sql.h"
+#include "store_13_sql.h"
 #include "store_2_sql.h"
 #include "store_3_sql.h"
 #include "store_4_sql.h"
@@ -54,26 +55,6 @@ int usable_version(Connection& connection, int newest) {
   }
   return static_cast<int>(version);
 }
-
-/// Foreign keys off as long as it lives, for a table that is made anew under its name. A pragma
-/// within a transaction would have no effect.
-class ForeignKeysOff {
- public:
-  explicit ForeignKeysOff(Connection& connection) : connection_(connection) {
-    connection_.execute("PRAGMA foreign_keys = OFF");
-  }
-  ~ForeignKeysOff() {
-    try {
-      connection_.execute("PRAGMA foreign_keys = ON");
-    } catch (const StorageError&) {  // the connection is of no use any more, and its owner is told
-    }
-  }
-  ForeignKeysOff(const ForeignKeysOff&) = delete;
-  ForeignKeysOff& operator=(const ForeignKeysOff&) = delete;
-
- private:
-  Connection& connection_;
-};
 
 void demand_sound_references(Connection& connection, const Migration& migration) {
   Statement broken(connection, "PRAGMA foreign_key_check");
@@ -152,16 +133,19 @@ const std::vector<Migration>& store_migrations() {
         {9, "2026-11-22 metrics and pressures per fault", faultsim::embedded::store_9_sql},
         {10, "2026-11-22 flags that hang on the mesh", faultsim::embedded::store_10_sql},
         {11, "2026-11-22 views of the list of measures", faultsim::embedded::store_11_sql},
+        {13, "2026-11-23 parameters of cases, rounds", faultsim::embedded::store_13_sql},
     };
     constexpr int kFirstWithViews = 11;
-    for (Migration& one : all) {
-      if (one.version < kFirstWithViews) continue;
-      one.sql = texts.emplace_back(std::string(one.sql) + views(one.version));
-    }
-    for (int version = all.back().version + 1;; ++version) {
-      const std::string sql = new_measures(version);
-      if (sql.empty()) return all;
-      all.push_back({version, "measures added", texts.emplace_back(sql + views(version))});
+    for (std::size_t k = kFirstWithViews - 1;; ++k) {  // versions are without gaps from 1
+      const int version = static_cast<int>(k) + 1;
+      const std::string measures = new_measures(version);
+      if (!measures.empty()) {
+        all.insert(all.begin() + static_cast<std::ptrdiff_t>(k),
+                   {version, "measures added", texts.emplace_back(measures)});
+      }
+      if (k == all.size()) return all;
+      FAULTSIM_DEMAND(all[k].version == version, version);
+      all[k].sql = texts.emplace_back(std::string(all[k].sql) + views(version));
     }
   }();
   return migrations;

@@ -7,12 +7,24 @@
 #include "campaign/expression/expression.h"
 #include "campaign/store/records.h"
 #include "campaign/store/result_rows.h"
+#include "campaign/store/sqlite.h"
 
 /// What several queries of the store share.
 namespace faultsweep {
 
 /// Binds the parameters of an expression's SqlFragment after `position`, which it moves on.
 void bind_values(Statement& statement, int& position, const std::vector<Value>& values);
+
+/// Reads case_parameters, case by case.
+class ParameterReader {
+ public:
+  ParameterReader(Connection& connection, std::int64_t campaign);
+  CaseParameters of(long position);
+
+ private:
+  std::int64_t campaign_;
+  Statement query_;
+};
 
 /// The counts of a campaign's cases by family id. In one pass without sorting: with 10^5 cases an
 /// SQL GROUP BY takes twice as long.

@@ -32,8 +32,25 @@ void bind_values(Statement& statement, int& position, const std::vector<Value>& 
   }
 }
 
-std::string parameter_sql(int index) {
-  return faultsim::concat("json_extract(cc.parameter_values, '$[", index, "]')");
+std::string parameter_sql(int index, bool is_text) {
+  return faultsim::concat("(SELECT p.", is_text ? "text" : "si",
+                          " FROM case_parameters p WHERE p.campaign_id = cc.campaign_id"
+                          " AND p.position = cc.position AND p.parameter = ",
+                          index, ")");
+}
+
+ParameterReader::ParameterReader(Connection& connection, std::int64_t campaign)
+    : campaign_(campaign),
+      query_(connection.prepared("SELECT parameter, si, text FROM case_parameters"
+                                 " WHERE campaign_id = ? AND position = ? ORDER BY parameter")) {}
+
+CaseParameters ParameterReader::of(long position) {
+  CaseParameters all;
+  query_.bind(campaign_, position);
+  while (query_.step()) {
+    all.push_back({static_cast<int>(query_.integer(0)), query_.optional_real(1), query_.text(2)});
+  }
+  return all;
 }
 
 namespace {
@@ -107,44 +124,42 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
         {order.integer(0), static_cast<long>(order.integer(1)), order.optional_real(2)});
   }
   const ResultTables& tables = result_tables();
-  constexpr int kFirstMetric = 12;
+  constexpr int kFirstMetric = 10;
   Statement rows = connection_->prepared(faultsim::concat(
-      "SELECT cc.parameter_values, cc.parameter_labels, s.rank_class, m.outcome,"
+      "SELECT s.rank_class, m.outcome,"
       " m.weakening_resolved, m.pressure_margin_pa, (SELECT n.name FROM episodes e JOIN names n"
       " ON n.id = e.fault_id WHERE e.case_id = s.case_id AND e.number = m.unexpected_episode),"
       " m.plane_strain, s.stage_id, s.activated_fault_id, s.opened_fault_id,"
       " (SELECT q.rank_class FROM fault_metrics q WHERE q.stage_id = s.stage_id"
-      " AND q.fault_id = ?5 AND q.case_id = s.case_id)",
+      " AND q.fault_id = ?3 AND q.case_id = s.case_id)",
       tables.stage.selected("s"),
       " FROM stage_metrics s JOIN case_metrics m ON m.case_id = s.case_id"
-      " JOIN campaign_cases cc ON cc.campaign_id = ?1 AND cc.position = ?2"
-      " WHERE s.stage_id = (SELECT id FROM names WHERE name = ?3) AND s.case_id = ?4"));
+      " WHERE s.stage_id = (SELECT id FROM names WHERE name = ?1) AND s.case_id = ?2"));
+  ParameterReader parameters(*connection_, campaign);
   std::vector<RankedCase> ranked;
   ranked.reserve(cases.size());
   for (const OrderedCase& one : cases) {
-    FAULTSIM_DEMAND(rows.bind(campaign, one.position, query.stage, one.id, query.fault).step(),
-                    one.id);
+    FAULTSIM_DEMAND(rows.bind(query.stage, one.id, query.fault).step(), one.id);
     RankedCase row;
     row.id = one.id;
     row.position = one.position;
     row.score = one.score;
-    row.parameter_values = rows.text(0);
-    row.parameter_labels = rows.text(1);
-    row.rank_class = static_cast<int>(rows.integer(2));
-    row.outcome = rows.text(3);
-    row.weakening_resolved = rows.integer(4) != 0;
-    row.pressure_margin = rows.optional_real(5);
-    row.unexpected_fault = rows.text(6);
-    row.plane_strain = rows.integer(7) != 0;
+    row.parameters = parameters.of(one.position);
+    row.rank_class = static_cast<int>(rows.integer(0));
+    row.outcome = rows.text(1);
+    row.weakening_resolved = rows.integer(2) != 0;
+    row.pressure_margin = rows.optional_real(3);
+    row.unexpected_fault = rows.text(4);
+    row.plane_strain = rows.integer(5) != 0;
     int column = kFirstMetric;
     tables.stage.read(rows, column, row.metrics);
     const auto fault_row = [&](std::int64_t fault) {
-      return read_fault_row(*connection_, tables, one.id, rows.integer(8), fault);
+      return read_fault_row(*connection_, tables, one.id, rows.integer(6), fault);
     };
-    const auto slides = rows.optional_integer(9), opens = rows.optional_integer(10);
+    const auto slides = rows.optional_integer(7), opens = rows.optional_integer(8);
     if (query.fault) {
       row.fault_metrics = fault_row(*query.fault);
-      row.rank_class = static_cast<int>(rows.integer(11));
+      row.rank_class = static_cast<int>(rows.integer(9));
     } else {  // the faults that slide and open first
       if (slides) row.metrics.faults.push_back(fault_row(*slides));
       if (opens && opens != slides) row.metrics.faults.push_back(fault_row(*opens));

@@ -46,8 +46,7 @@ StoredCase find_case(Connection& db, std::int64_t campaign, const std::string& n
   constexpr std::size_t kShortestPrefix = 6;
   constexpr const char* kColumns =
       "SELECT c.id, cc.position, c.identity, f.fingerprint, c.state, c.changes,"
-      " cc.parameter_values, cc.parameter_labels, c.scene_id, cc.fields, k.name FROM "
-      "campaign_cases cc"
+      " c.scene_id, cc.fields, k.name FROM campaign_cases cc"
       " JOIN campaigns k ON k.id = cc.campaign_id JOIN cases c ON c.id = cc.case_id JOIN families "
       "f ON f.id = c.family_id"
       " WHERE cc.campaign_id = ?1 AND ";
@@ -71,11 +70,10 @@ StoredCase find_case(Connection& db, std::int64_t campaign, const std::string& n
   found.family = query.text(3);
   found.state = query.text(4);
   found.changes = query.text(5);
-  found.parameter_values = query.text(6);
-  found.parameter_labels = query.text(7);
-  found.scene = query.integer(8);
-  found.fields = fields_state_from_string(query.text(9));
-  found.fields_folder = query.text(10);
+  found.parameters = ParameterReader(db, campaign).of(found.position);
+  found.scene = query.integer(6);
+  found.fields = fields_state_from_string(query.text(7));
+  found.fields_folder = query.text(8);
   return found;
 }
 

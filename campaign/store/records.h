@@ -46,15 +46,23 @@ struct BaseScene {
   std::string document;  ///< JSON text.
 };
 
+/// A row of case_parameters: the value of a campaign's parameter in one of its cases.
+struct CaseParameter {
+  int index = 0;             ///< from 0, in Submission::parameters.
+  std::optional<double> si;  ///< nothing for words.
+  std::string text;          ///< as given, with its unit.
+  bool operator==(const CaseParameter&) const = default;
+};
+/// By index, ascending; those that the case does not have (of other groups) are missing.
+using CaseParameters = std::vector<CaseParameter>;
+
 /// A case as submitted.
 struct CaseRecord {
   std::string identity;
   int family = 0;       ///< index in Submission::families.
   int scene = 0;        ///< index in Submission::scenes.
   std::string changes;  ///< JSON object: pointer -> value, applied to the base scene.
-  std::string
-      parameter_values;  ///< JSON array: SI numbers, words, null; see Submission::parameters.
-  std::string parameter_labels;  ///< JSON array of the same as text, with the units given.
+  CaseParameters parameters;
 };
 
 /// A row of a design and the case that it became.
@@ -81,6 +89,15 @@ struct Submission {
   std::vector<CaseRecord> cases;  ///< in the order of the expansion.
   std::vector<DesignRow>
       design_rows;  ///< of all designs, if one is sampled or rows were merged; else none.
+};
+
+/// A round of a campaign as stored; its place in the list is its number.
+struct RoundRecord {
+  long first_position = 1;  ///< of its cases in the campaign, which are consecutive.
+  long n_cases = 0;         ///< that no earlier round has.
+  std::string design;       ///< JSON, as in a spec; "" of round 0, whose design is the spec's.
+  std::string reason;       ///< why it was proposed.
+  double proposed_at = 0;
 };
 
 struct SubmitOutcome {
@@ -117,6 +134,7 @@ struct CampaignInfo : CaseCounts {
   long n_excluded = 0, n_merged = 0;
   Policy policy;
   KeepFields keep_fields = KeepFields::none;
+  std::string conclusion;  ///< why no further round was proposed; "" = none was asked for, or is.
 };
 
 /// A family with cases that still wait.
@@ -213,7 +231,8 @@ struct StoredRun {
 struct StoredCase {
   std::int64_t id = 0;
   long position = 0;
-  std::string identity, family, state, changes, parameter_values, parameter_labels;
+  std::string identity, family, state, changes;
+  CaseParameters parameters;
   std::int64_t scene = 0;
   FieldsState fields = FieldsState::none;
   std::filesystem::path fields_folder;  ///< where faults.h5 and faults.xmf are, or would be.
@@ -233,9 +252,8 @@ struct NamedId {
 struct RankedCase {
   std::int64_t id = 0;
   long position = 0;
-  std::string parameter_values;  ///< JSON array.
-  std::string parameter_labels;  ///< JSON array.
-  std::optional<double> score;   ///< what it was ranked by; none in the default order.
+  CaseParameters parameters;
+  std::optional<double> score;  ///< what it was ranked by; none in the default order.
   int rank_class = 0;  ///< 0 complete, 1 complete with an unresolved activation or events, 2
                        ///< unstable, 3 ended early otherwise.
   std::string outcome;
@@ -259,9 +277,8 @@ struct CaseRow {
   std::string status;             ///< how the run that decided the case ended; "" before.
   std::string reason;             ///< why that is no full history.
   std::optional<int> rank_class;  ///< see RankedCase; none without a result in the stage.
-  std::string parameter_values;   ///< JSON array.
-  std::string parameter_labels;   ///< JSON array.
-  std::vector<Cell> metrics;      ///< the columns asked for.
+  CaseParameters parameters;
+  std::vector<Cell> metrics;  ///< the columns asked for.
   /// A history to its end: what statistics may take.
   bool complete() const { return rank_class && *rank_class < 2; }
 };

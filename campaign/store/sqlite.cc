@@ -3,6 +3,7 @@
 #include <sqlite3.h>
 #include <unistd.h>
 
+#include <charconv>
 #include <cmath>
 #include <cstring>
 
@@ -58,6 +59,17 @@ std::string uri_path(const std::filesystem::path& path) {
   return "file:" + text;
 }
 
+/// exact_real(JSON): the double that the text of a number names, to the last bit, as SQLite's own
+/// reading of numbers is not; NULL of anything else.
+void exact_real(sqlite3_context* context, int, sqlite3_value** arguments) {
+  const auto* text = reinterpret_cast<const char*>(sqlite3_value_text(arguments[0]));
+  double number = 0;
+  if (text == nullptr) return;
+  const char* end = text + std::strlen(text);
+  const auto [stop, error] = std::from_chars(text, end, number);
+  if (error == std::errc() && stop == end) sqlite3_result_double(context, number);
+}
+
 }  // namespace
 
 Connection::Connection(const std::filesystem::path& path, Mode mode) : path_(path) {
@@ -88,6 +100,8 @@ Connection::Connection(const std::filesystem::path& path, Mode mode) : path_(pat
     execute(
         "PRAGMA foreign_keys = ON; PRAGMA trusted_schema = OFF; PRAGMA cache_size = -65536;"
         "PRAGMA mmap_size = 268435456; PRAGMA temp_store = MEMORY");
+    sqlite3_create_function(handle_, "exact_real", 1, SQLITE_UTF8 | SQLITE_DETERMINISTIC, nullptr,
+                            exact_real, nullptr, nullptr);
     if (mode == Mode::read_write) {
       execute("PRAGMA wal_autocheckpoint = 0");
       sqlite3_db_config(handle_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
@@ -250,6 +264,16 @@ Cell Statement::cell(int column) const {
       return real(column);
     default:
       return text(column);
+  }
+}
+
+ForeignKeysOff::ForeignKeysOff(Connection& connection) : connection_(connection) {
+  connection_.execute("PRAGMA foreign_keys = OFF");
+}
+ForeignKeysOff::~ForeignKeysOff() {
+  try {
+    connection_.execute("PRAGMA foreign_keys = ON");
+  } catch (const StorageError&) {  // the connection is of no use any more, and its owner is told
   }
 }
 

@@ -132,6 +132,20 @@ class Statement {
       nullptr;  ///< where it goes when it is done with; none = ours.
 };
 
+/// Foreign keys off as long as it lives: for a table that is made anew under its name, and for many
+/// rows whose references were made or read just before. A pragma within a transaction would have no
+/// effect.
+class ForeignKeysOff {
+ public:
+  explicit ForeignKeysOff(Connection& connection);
+  ~ForeignKeysOff();
+  ForeignKeysOff(const ForeignKeysOff&) = delete;
+  ForeignKeysOff& operator=(const ForeignKeysOff&) = delete;
+
+ private:
+  Connection& connection_;
+};
+
 /// BEGIN IMMEDIATE ... COMMIT; rolled back unless committed.
 class Transaction {
  public:

@@ -36,8 +36,8 @@ bool has_faults(const std::string& metric);
 /// The same of another fault or stage. @pre has_stages(metric), and has_faults for that of a fault.
 std::string metric_sql(const std::string& metric, const MetricScope& scope,
                        std::int64_t stage_of_query);
-/// The same for the index-th of a campaign's parameters.
-std::string parameter_sql(int index);
+/// The same for the index-th of a campaign's parameters: SI, or words.
+std::string parameter_sql(int index, bool is_text);
 
 /// True if STATFS's f_type is a network file system, where WAL must not be used.
 bool is_network_file_system(long f_type);
@@ -74,6 +74,13 @@ class Store {
   SubmitOutcome submit(const Submission& submission);
   /// What submit would return, but nothing is added; campaign is 0 where it would be a new one.
   SubmitOutcome preview(const Submission& submission) const;
+  /// Adds a further round, in one transaction: the cases that the campaign does not have yet,
+  /// behind those that it has; rows of the design that are cases of earlier rounds point at these.
+  /// Returns how many cases are new.
+  long record_round(std::int64_t campaign, const Submission& round, const std::string& design,
+                    const std::string& reason);
+  void conclude(std::int64_t campaign, const std::string& conclusion);
+  std::vector<RoundRecord> rounds(std::int64_t campaign) const;
   std::vector<CampaignInfo> campaigns() const;  ///< newest last, without counts of cases.
   /// By name; "" = the newest. Throws InputError listing the names there are, StorageError when
   /// there is none. Counting takes about 0.5 µs per case: leave it out where it is not needed.
@@ -227,7 +234,8 @@ class Store {
   std::function<std::int64_t(const std::string&)> name_ids();  ///< name_id as a function.
   const ResultTables& result_tables() const;
   std::int64_t add_scene(const BaseScene& scene);
-  void add_cases(std::int64_t campaign, const Submission& submission);
+  long add_round(std::int64_t campaign, const Submission& submission, const std::string& design,
+                 const std::string& reason);
 
   std::filesystem::path folder_;
   std::unique_ptr<Connection> connection_;

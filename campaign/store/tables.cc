@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "campaign/store/queries.h"
@@ -33,7 +32,7 @@ std::string where_sql(const SqlFragment& where) {
 }
 
 CaseRow read_case(const Statement& row, std::size_t n_metrics) {
-  constexpr int kFirstMetric = 10;
+  constexpr int kFirstMetric = 8;
   CaseRow one;
   one.id = row.integer(0);
   one.position = static_cast<long>(row.integer(1));
@@ -44,8 +43,6 @@ CaseRow read_case(const Statement& row, std::size_t n_metrics) {
   one.reason = row.text(6);
   if (const auto rank_class = row.optional_integer(7))
     one.rank_class = static_cast<int>(*rank_class);
-  one.parameter_values = row.text(8);
-  one.parameter_labels = row.text(9);
   one.metrics.reserve(n_metrics);
   for (std::size_t k = 0; k < n_metrics; ++k) {
     one.metrics.push_back(row.cell(kFirstMetric + static_cast<int>(k)));
@@ -59,57 +56,47 @@ void visit_cases(Connection& db, const std::string& source, std::int64_t campaig
                  const std::function<void(const CaseRow&)>& visit) {
   std::string sql =
       "SELECT cc.case_id, cc.position, c.identity, c.state, coalesce(m.outcome, ''),"
-      " coalesce(r.status, ''), coalesce(m.reason, r.reason, ''), s.rank_class,"
-      " cc.parameter_values, cc.parameter_labels";
+      " coalesce(r.status, ''), coalesce(m.reason, r.reason, ''), s.rank_class";
   for (const std::string& column : query.columns) sql += ", " + column;
   Statement rows(db, (sql + source + where_sql(query.where) + order));
   int bound = 0;
   rows.bind_at(++bound, query.stage);
   rows.bind_at(++bound, campaign);
   bind_values(rows, bound, query.where.parameters);
-  while (rows.step()) visit(read_case(rows, query.columns.size()));
+  ParameterReader parameters(db, campaign);
+  while (rows.step()) {
+    CaseRow one = read_case(rows, query.columns.size());
+    one.parameters = parameters.of(one.position);
+    visit(one);
+  }
 }
 
 struct HistoryColumn {
-  const char *name, *sql;
-  bool per_metre = false;  ///< in plane strain.
+  std::string name, sql;
 };
 
 /// Joined as in the view chi_history_wide.
-constexpr std::array<HistoryColumn, 32> kHistory = {{
-    {"case", "cc.position"},
-    {"fault", "hf.name"},
-    {"step", "h.step"},
-    {"stage", "g.name"},
-    {"time_s", "l.time_s"},
-    {"pressure_change_pa", "l.pressure_change_pa"},
-    {"outcome", "l.outcome"},
-    {"chi_bar", "h.chi_bar"},
-    {"chi_max", "h.chi_max"},
-    {"chi_static_max", "h.chi_static_max"},
-    {"area_chi_080_m2", "h.area_chi_080_m2", true},
-    {"thickness_chi_080_max_m", "h.thickness_chi_080_max_m"},
-    {"thickness_chi_080_mean_m", "h.thickness_chi_080_mean_m"},
-    {"slipping_area_m2", "h.slipping_area_m2", true},
-    {"open_area_m2", "h.open_area_m2", true},
-    {"activated_area_m2", "h.activated_area_m2", true},
-    {"activated_length_m", "h.activated_length_m"},
-    {"activated", "h.activated"},
-    {"activation_resolved", "h.activation_resolved"},
-    {"activated_at_edge", "h.activated_at_edge"},
-    {"max_slip_m", "h.max_slip_m"},
-    {"mean_slip_m", "h.mean_slip_m"},
-    {"potency_m3", "h.potency_m3", true},
-    {"moment_nm", "h.moment_nm", true},
-    {"moment_step_nm", "h.moment_step_nm", true},
-    {"newton_iterations", "l.newton_iterations"},
-    {"creep_normal_min_pa", "h.creep_normal_min_pa"},
-    {"creep_normal_max_pa", "h.creep_normal_max_pa"},
-    {"creep_shear_max_pa", "h.creep_shear_max_pa"},
-    {"time_steps", "l.time_steps"},
-    {"time_error_pa", "l.time_error_pa"},
-    {"time_resolved", "l.time_resolved"},
-}};
+std::vector<HistoryColumn> history_fields() {
+  std::vector<HistoryColumn> all = {
+      {"case", "cc.position"}, {"fault", "hf.name"},
+      {"step", "h.step"},      {"stage", "g.name"},
+      {"time_s", "l.time_s"},  {"pressure_change_pa", "l.pressure_change_pa"},
+      {"outcome", "l.outcome"}};
+  const auto add = [&all](std::string row, std::string_view prefix = "") {
+    return [&all, row, prefix](const faultsim::Field& field, const auto&) {
+      const std::string name = concat(prefix, field.key);
+      if (field.key != "faults") all.push_back({name, row + name});
+    };
+  };
+  const faultsim::FaultMetrics metrics;
+  const faultsim::FaultCreep fault_creep;
+  const faultsim::StepCreep step_creep;
+  faultsim::for_each_field(metrics, add("h."));
+  all.push_back({"newton_iterations", "l.newton_iterations"});
+  faultsim::for_each_field(fault_creep, add("h.", "creep_"));
+  faultsim::for_each_field(step_creep, add("l."));
+  return all;
+}
 
 }  // namespace
 
@@ -134,18 +121,17 @@ void Store::for_each_case(std::int64_t campaign, const TableQuery& query,
 
 namespace {
 
-/// Each column of kHistory as SQL under its name; of mixed results what is per metre apart.
+/// Each column of history_fields() as SQL under its name; of mixed results what is per metre apart.
 std::vector<std::pair<std::string, std::string>> history_sql(Store::Kinds kinds) {
   std::vector<std::pair<std::string, std::string>> columns;
-  for (const HistoryColumn& one : kHistory) {
-    const std::string name = one.name;
-    if (!one.per_metre || !kinds.plane_strain) {
-      columns.emplace_back(name, one.sql);
+  for (const auto& [name, sql] : history_fields()) {
+    if (!faultsim::is_extensive(name) || !kinds.plane_strain) {
+      columns.emplace_back(name, sql);
     } else if (!kinds.total) {
-      columns.emplace_back(name + "_per_m", one.sql);
+      columns.emplace_back(name + "_per_m", sql);
     } else {
-      columns.emplace_back(name, concat("iif(m.plane_strain, NULL, ", one.sql, ")"));
-      columns.emplace_back(name + "_per_m", concat("iif(m.plane_strain, ", one.sql, ", NULL)"));
+      columns.emplace_back(name, concat("iif(m.plane_strain, NULL, ", sql, ")"));
+      columns.emplace_back(name + "_per_m", concat("iif(m.plane_strain, ", sql, ", NULL)"));
     }
   }
   return columns;

@@ -1,6 +1,6 @@
 -- What results/extremes/make found, as tables. :work is the folder of its diagnoses.
 create temporary table d as
-  select position, json_extract(parameter_values, '$[0]') as family,
+  select position, parameter_labels ->> '$[0]' as family,
          (select group_concat(json_extract(p.value, '$.name') || ' ' || l.value, ', ')
           from json_each(parameter_labels) l, json_each(c.parameters) p
           where p.key = l.key and l.value is not null and l.key > 0) as label,
@@ -8,7 +8,7 @@ create temporary table d as
          cast(readfile(:work || '/case-' || position || '.json') as text) as j,
          r.status, r.outcome, r.wall_s,
          (select max(open_area_m2) > 0 from chi_history h where h.case_id = cc.case_id) as opened
-  from campaign_cases cc join campaigns c on c.id = cc.campaign_id
+  from campaign_cases cc join case_labels using (campaign_id, position) join campaigns c on c.id = cc.campaign_id
        join runs r on r.id = (select run_id from cases where id = cc.case_id)
   where c.name = 'extremes';
 update d set j = '{}' where not json_valid(j);

@@ -1,9 +1,9 @@
 -- What the campaign rotliegend-events shows. Its two groups hold the same cases in the same order.
 .mode markdown
 CREATE TEMP VIEW the_case AS
-SELECT cc.position, cc.case_id, cc.parameter_labels AS labels, m.*,
+SELECT cc.position, cc.case_id, la.parameter_labels AS labels, m.*,
        cc.position > (SELECT max(position) / 2 FROM campaign_cases cc2 WHERE cc2.campaign_id = k.id) AS half
-FROM campaigns k JOIN campaign_cases cc ON cc.campaign_id = k.id JOIN case_metrics m USING (case_id)
+FROM campaigns k JOIN campaign_cases cc ON cc.campaign_id = k.id JOIN case_labels la USING (campaign_id, position) JOIN case_metrics m USING (case_id)
 WHERE k.name = 'rotliegend-events';
 
 .print '## Every step'

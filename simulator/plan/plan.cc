@@ -238,31 +238,6 @@ nlohmann::json family_of_creep(const Scene& scene, const CreepPlan& creep) {
           {"rungs", numbers(creep.rungs)}};
 }
 
-nlohmann::json family_of(const Scene& scene, const Plan& plan) {
-  const bool is_field = scene.geometry_kind == GeometryKind::field;
-  nlohmann::json j;
-  CellSizes sizes{};
-  if (is_field) {
-    const FieldMeshSpec spec = field_mesh_spec(scene, plan);
-    j = family_of_field(spec);
-    sizes = spec.sizes;
-  } else {
-    const BoxMeshSpec spec = box_mesh_spec(scene, plan);
-    j = family_of_box(scene, spec);
-    sizes = spec.sizes;
-  }
-  j["sizes"] = {sizes.strike, sizes.dip,         sizes.normal,
-                sizes.growth, sizes.fine_margin, sizes.largest};
-  if (sizes.grades_corners()) j["corners"] = {sizes.corner, sizes.corner_growth};
-  j["plane_strain"] = plan.plane_strain;
-  j["b_bar"] = scene.numerics.b_bar;
-  for (const Material& m : scene.materials) {
-    j["materials"].push_back({m.youngs_modulus, m.poisson_ratio});
-  }
-  if (plan.creep.active) j["creep"] = family_of_creep(scene, plan.creep);
-  return j;
-}
-
 int material_index(const Scene& scene, const std::string& name) {
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     if (scene.materials[i].name == name) return static_cast<int>(i);
@@ -383,6 +358,31 @@ BoxMeshSpec box_mesh_spec(const Scene& scene, const Plan& plan) {
   return spec;
 }
 
+std::string canonical_family(const Scene& scene, const Plan& plan) {
+  const bool is_field = scene.geometry_kind == GeometryKind::field;
+  nlohmann::json j;
+  CellSizes sizes{};
+  if (is_field) {
+    const FieldMeshSpec spec = field_mesh_spec(scene, plan);
+    j = family_of_field(spec);
+    sizes = spec.sizes;
+  } else {
+    const BoxMeshSpec spec = box_mesh_spec(scene, plan);
+    j = family_of_box(scene, spec);
+    sizes = spec.sizes;
+  }
+  j["sizes"] = {sizes.strike, sizes.dip,         sizes.normal,
+                sizes.growth, sizes.fine_margin, sizes.largest};
+  if (sizes.grades_corners()) j["corners"] = {sizes.corner, sizes.corner_growth};
+  j["plane_strain"] = plan.plane_strain;
+  j["b_bar"] = scene.numerics.b_bar;
+  for (const Material& m : scene.materials) {
+    j["materials"].push_back({m.youngs_modulus, m.poisson_ratio});
+  }
+  if (plan.creep.active) j["creep"] = family_of_creep(scene, plan.creep);
+  return j.dump();
+}
+
 Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
   Plan plan;
   plan.initial = initial_regions(scene);
@@ -411,7 +411,7 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
     plan.n_added_steps += step.added;
   }
   predict_cost(shape, plan);
-  plan.family = fingerprint(family_of(scene, plan).dump());
+  plan.family = fingerprint(canonical_family(scene, plan));
   return plan;
 }
 

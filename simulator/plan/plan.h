@@ -65,6 +65,10 @@ struct Plan : PlannedSize {
 /// Makes the plan. Geometry problems are appended with pointers into the scene document.
 Plan make_plan(const Scene& scene, std::vector<Problem>& problems);
 
+/// The JSON text that Plan::family is the fingerprint of; numbers stand in it as the scene has
+/// them.
+std::string canonical_family(const Scene& scene, const Plan& plan);
+
 /// What each reduction saves, or would save: the scene planned once more with and without it. None
 /// where a reduction is not possible, or the scene cannot be planned the other way (a plane without
 /// a cell size along strike).

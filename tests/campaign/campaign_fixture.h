@@ -51,10 +51,12 @@ class CampaignTest : public ::testing::Test {
     s.families = {{"family-a", 1000, 100, 1, 1e8}, {"family-b", 1000, 100, 1, 1e8}};
     for (std::size_t k = 0; k < titles.size(); ++k) {
       const std::string strength = std::to_string(static_cast<double>(k % 97) / 97);
-      s.cases.push_back({"identity-" + std::to_string(k), static_cast<int>(k % 2), 0,
+      s.cases.push_back({"identity-" + std::to_string(k),
+                         static_cast<int>(k % 2),
+                         0,
                          R"({"/title": ")" + titles[k] + R"(", "/strength": )" + strength +
                              R"(, "/family": ")" + (k % 2 == 0 ? "a" : "b") + "\"}",
-                         "[" + strength + "]", "[\"" + strength + "\"]"});
+                         {{0, std::stod(strength), strength}}});
     }
     return Store::open_writer(store_).submit(s).campaign;
   }

@@ -103,8 +103,9 @@ TEST_F(Creep, NumbersAreThoseOfCasesRunAloneWhateverTheWorkersAndTheOrder) {
     const Store forth = Store::open_reader(two), back = Store::open_reader(store_);
     const auto stored = [&](const Store& store, int position) {
       const StoredCase one = store.stored_case(store.campaign("").id, std::to_string(position));
-      EXPECT_THAT(one.parameter_labels, HasSubstr(angle));
-      EXPECT_THAT(one.parameter_labels, HasSubstr(pressure));
+      std::vector<std::string> texts;
+      for (const CaseParameter& value : one.parameters) texts.push_back(value.text);
+      EXPECT_THAT(texts, ::testing::UnorderedElementsAre(angle, pressure));
       return one.result;
     };
     const CaseResult first = stored(forth, k + 1), last = stored(back, 8 - k);

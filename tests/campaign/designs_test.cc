@@ -51,7 +51,8 @@ class Designs : public testing::CampaignTest {
       EXPECT_EQ(row.row, static_cast<long>(result.size()) + 1);
       const StoredCase one = store.stored_case(campaign.id, std::to_string(row.position));
       EXPECT_TRUE(one.has_result);
-      result.push_back(json::parse(one.parameter_values).get<std::vector<double>>());
+      result.emplace_back();
+      for (const CaseParameter& value : one.parameters) result.back().push_back(value.si.value());
     }
     return result;
   }
@@ -93,6 +94,36 @@ TEST_F(Designs, MorrisTrajectoriesThatMeetAreWhole) {
     const bool angle = all[i][0] != all[i - 1][0], ratio = all[i][1] != all[i - 1][1];
     EXPECT_NE(angle, ratio) << "row " << i + 1;
   }
+}
+
+/// The whole way, with everything killed on it: as many cases, with the same bits, as without.
+TEST_F(Designs, ASampleGrowsInRoundsWhateverIsKilled) {
+  const std::string spec =
+      std::string(FAULTSIM_SOURCE_DIR) + "/docs/examples/campaigns/staged.json";
+  ASSERT_EQ(faultsweep({"submit", spec}).code, 0);
+  const auto whole = wait(start({"run", "--workers", "2"}), 300);
+  EXPECT_EQ(whole.code, 0) << whole.err;
+  EXPECT_THAT(whole.err, HasSubstr("next round"));
+  const auto ranked = faultsweep({"rank", "--json", "--top", "0"});
+  const json status = json::parse(faultsweep({"status", "--json"}).out);
+  EXPECT_GT(status["rounds"].size(), 1u);
+  EXPECT_THAT(status["conclusion"].get<std::string>(), HasSubstr("% (confidence 95.0 %)"));
+  std::filesystem::remove_all(store_);
+  ASSERT_EQ(faultsweep({"submit", spec}).code, 0);
+  for (const long n_done : {3L, 12L, 15L}) {
+    const pid_t starter = start({"run", "--workers", "1"});
+    EXPECT_TRUE(wait_for_done(n_done));
+    for (const pid_t mpirun : children_of(starter)) {
+      for (const pid_t rank : children_of(mpirun)) kill(rank, SIGKILL);
+      kill(mpirun, SIGKILL);
+    }
+    kill(starter, SIGKILL);
+    waitpid(starter, nullptr, 0);
+  }
+  const auto rest = wait(start({"run", "--workers", "2"}), 300);
+  EXPECT_EQ(rest.code, 0) << rest.err;
+  EXPECT_EQ(faultsweep({"rank", "--json", "--top", "0"}).out, ranked.out);
+  EXPECT_EQ(json::parse(faultsweep({"status", "--json"}).out)["conclusion"], status["conclusion"]);
 }
 
 TEST_F(Designs, NestedSamplesAreTheSameInEachOuterRow) {

@@ -104,7 +104,7 @@ TEST_F(Tables, ThatWereEditedInAnOldStoreRefuseTheCase) {
   s.rank_by = "activated_area";
   s.scenes = {{source, scene_.dump()}};
   s.families = {{faultsim::make_plan(scene, problems).family, 1000, 100, 1, 1e8}};
-  s.cases = {{faultsim::case_identity(scene), 0, 0, "{}", "[]", "[]"}};
+  s.cases = {{faultsim::case_identity(scene), 0, 0, "{}", {}}};
   Store::open_writer(store_).submit(s);
   write_history(-50);
   EXPECT_EQ(faultsweep({"run", "--workers", "1"}).code, 1);

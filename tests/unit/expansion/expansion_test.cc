@@ -1,5 +1,6 @@
 #include "campaign/expansion/expansion.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -262,6 +263,33 @@ TEST(Expansion, HundredThousandCasesExpandInSeconds) {
   // Alone on a machine it is below 2 s (results/); here only a guard against reading every scene.
   EXPECT_LT(seconds, 20.0);
   expect_true_identities(all, 9973);
+}
+
+/// Work, not time: 10^5 families are told apart by their fingerprints, and a few hundred planned.
+TEST(Expansion, ManyFamiliesAreComposedAndFewArePlanned) {
+  const auto all =
+      expand_grid(R"({
+      "offset": {"from": "0 m", "to": "290 m", "count": 30},
+      "/materials/salt/youngs_modulus": {"from": "20 GPa", "to": "60 GPa", "count": 50},
+      "friction_angle": {"from": "20 deg", "to": "30 deg", "count": 2}})",
+                  R"("derived": {"/materials/salt/poisson_ratio": "0.2 + offset / 10 km"}, )");
+  EXPECT_EQ(all.cases.size(), 3000u);
+  EXPECT_EQ(all.families.size(), 1500u);
+  EXPECT_LE(all.n_planned, 2 * 200u);
+  EXPECT_THAT(all.notes,
+              ::testing::Contains(::testing::HasSubstr("of 1500 families were planned")));
+  for (const Family& family : all.families) EXPECT_EQ(family.cases.size(), 2u);
+  expect_true_identities(all, 31);
+}
+
+TEST(Expansion, AMeshThatCannotBeMadeIsFoundAmongManyFamilies) {
+  try {  // the last block's offset leaves no rock above the reservoir
+    expand_grid(R"({"offset": {"from": "0 m", "to": "40 km", "count": 3000}})");
+    FAIL() << "accepted";
+  } catch (const faultsim::InputError& error) {
+    EXPECT_THAT(error.problems().front().pointer,
+                ::testing::HasSubstr("/design/parameters/offset"));
+  }
 }
 
 TEST(Expansion, ExamplesExpand) {

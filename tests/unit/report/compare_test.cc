@@ -93,8 +93,12 @@ class CompareTest : public ::testing::Test {
     s.scenes = {{"scene.json", "{}"}};
     s.families = {{"family-a", 1000, 100, 1, 1}};
     for (const Made& one : cases) {
-      s.cases.push_back({one.identity, 0, 0, "{}", nlohmann::json({one.offset, name}).dump(),
-                         nlohmann::json({std::to_string(one.offset) + " m", name}).dump()});
+      s.cases.push_back(
+          {one.identity,
+           0,
+           0,
+           "{}",
+           {{0, one.offset, std::to_string(one.offset) + " m"}, {1, std::nullopt, name}}});
     }
     Store& target = *stores_[store];
     const std::int64_t id = target.submit(s).campaign;

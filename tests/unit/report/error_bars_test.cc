@@ -40,7 +40,7 @@ class ErrorBars : public ::testing::Test {
     s.scenes = {{"scene.json", "{}"}};
     s.families = {{"family", 1000, 100, 1, 1}};
     const auto id = std::to_string(++n_cases_);
-    s.cases.push_back({"identity-" + id, 0, 0, "{}", "[]", "[]"});
+    s.cases.push_back({"identity-" + id, 0, 0, "{}", {}});
     const SubmitOutcome outcome = store_->submit(s);
     RunRecord run;
     run.case_id = n_cases_;

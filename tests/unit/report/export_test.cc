@@ -128,8 +128,8 @@ class ExportTest : public ::testing::Test {
     store_.reset();
     std::filesystem::remove_all(folder_);
   }
-  void add_case(const std::string& values, const std::string& labels) {
-    s_.cases.push_back({"identity-" + std::to_string(s_.cases.size()), 0, 0, "{}", values, labels});
+  void add_case(const CaseParameters& values) {
+    s_.cases.push_back({"identity-" + std::to_string(s_.cases.size()), 0, 0, "{}", values});
   }
   void record(long case_id, std::optional<faultsim::CaseResult> result,
               RunStatus status = RunStatus::completed) {
@@ -157,8 +157,7 @@ class ExportTest : public ::testing::Test {
         {{"rule", Dimension::number, true}, {"offset", Dimension::length, false}});
     const char* rules[] = {"mean", "-100 bar, \"low\"", "mean", "min", "min"};
     for (int k = 0; k < 5; ++k) {
-      add_case(nlohmann::json({rules[k], 100.0 * k / 3}).dump(),
-               nlohmann::json({rules[k], std::to_string(k) + "/3 hm"}).dump());
+      add_case({{0, std::nullopt, rules[k]}, {1, 100.0 * k / 3, std::to_string(k) + "/3 hm"}});
     }
     submit();
     record(1, testing::made_up_result(1.0 / 3));
@@ -256,7 +255,7 @@ TEST_F(ExportTest, AFailedExportLeavesNoFile) {
 
 TEST_F(ExportTest, ParametersCalledLikeAColumnDoNotHideIt) {
   s_.parameters = parameters_to_json({{"outcome", Dimension::number, false}});
-  add_case("[7.0]", "[\"7\"]");
+  add_case({{0, 7.0, "7"}});
   submit();
   record(1, testing::made_up_result(0.9));
   const auto rows = csv(to(ExportFormat::csv, "cases.csv"));
@@ -323,7 +322,7 @@ TEST_F(ExportTest, DakotaReadsEveryRow) {
 TEST_F(ExportTest, DakotaRefusesWordsThatBecomeOne) {
   s_.parameters = parameters_to_json({{"rule", Dimension::number, true}});
   for (const char* word : {"a b", "a_b"}) {
-    add_case(nlohmann::json({word}).dump(), nlohmann::json({word}).dump());
+    add_case({{0, std::nullopt, word}});
   }
   submit();
   EXPECT_THROW(run(to(ExportFormat::dakota, "points.dat")), InputError);
@@ -398,7 +397,7 @@ TEST_F(ExportTest, SobolIndicesFromTheFilesAreThoseOfTheFunction) {
   std::map<std::array<int, 3>, long> positions;
   for (int k = 63; k >= 0; --k) {
     const std::array<int, 3> x = {k / 16, k / 4 % 4, k % 4};
-    add_case(nlohmann::json({x[0], x[0] + x[1], x[1], x[2]}).dump(), "[]");
+    add_case({{0, x[0], ""}, {1, x[0] + x[1], ""}, {2, x[1], ""}, {3, x[2], ""}});
     positions[x] = static_cast<long>(s_.cases.size());
   }
   std::mt19937 random(3);

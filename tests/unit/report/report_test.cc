@@ -94,9 +94,11 @@ class ReportTest : public ::testing::Test {
     s.families = {{"family-a", 1000, 100, 1, 1}};
     for (int k = 0; k < 6; ++k) {
       const std::string rule = k % 2 == 0 ? "mean" : "min";
-      s.cases.push_back({"identity-" + std::to_string(k), 0, 0, "{}",
-                         "[" + std::to_string(10 * k) + ".0, \"" + rule + "\"]",
-                         "[\"" + std::to_string(10 * k) + " m\", \"" + rule + "\"]"});
+      s.cases.push_back({"identity-" + std::to_string(k),
+                         0,
+                         0,
+                         "{}",
+                         {{0, 10.0 * k, std::to_string(10 * k) + " m"}, {1, std::nullopt, rule}}});
     }
     store_ = std::make_unique<Store>(Store::open_owner(folder_));
     const std::int64_t id = store_->submit(s).campaign;
@@ -230,7 +232,7 @@ TEST_F(ReportTest, SaysWhereTheFieldsAre) {
   s.scenes = {{"scene.json", "{}"}};
   s.families = {{"family-a", 1000, 100, 1, 1}};
   for (int k = 0; k < 6; ++k) {
-    s.cases.push_back({"identity-" + std::to_string(k), 0, 0, "{}", "[]", "[]"});
+    s.cases.push_back({"identity-" + std::to_string(k), 0, 0, "{}", {}});
   }
   const std::int64_t id = store_->submit(s).campaign;
   for (int k = 1; k <= 3; ++k) {
@@ -292,7 +294,7 @@ TEST_F(ReportTest, SaysWhereOperatorsAreNotShared) {
   s.parameters = "[]";
   s.scenes = {{"scene.json", "{}"}};
   s.families = {{"family-a", 1000, 100, 1, 1}, {"family-b", 1000, 100, 1, 1.98e10, 4}};
-  s.cases = {{"elastic", 0, 0, "{}", "[]", "[]"}, {"viscous", 1, 0, "{}", "[]", "[]"}};
+  s.cases = {{"elastic", 0, 0, "{}", {}}, {"viscous", 1, 0, "{}", {}}};
   const std::int64_t id = store_->submit(s).campaign;
   EXPECT_FALSE(store_->waiting_families(id).at(0).predicted.creeps());
   EXPECT_TRUE(store_->waiting_families(id).at(1).predicted.creeps());
@@ -317,7 +319,7 @@ class EventReportTest : public ReportTest {
     s.scenes = {{"scene.json", "{}"}};
     s.families = {{"family-a", 1000, 100, 1, 1}};
     for (const char* identity : {"identity-1", "event-1", "event-2"}) {
-      s.cases.push_back({identity, 0, 0, "{}", "[]", "[]"});
+      s.cases.push_back({identity, 0, 0, "{}", {}});
     }
     id_ = store_->submit(s).campaign;
     const auto ids = store_->waiting_families(id_).at(0).cases;

@@ -98,7 +98,7 @@ class WordsTest : public ::testing::Test {
     s.scenes = {{"scene.json", "{}"}};
     s.families = {{"family", 1, 1, 1, 1}};
     for (std::size_t k = 0; k < results.size(); ++k)
-      s.cases.push_back({name + "-" + std::to_string(k), 0, 0, "{}", "[]", "[]"});
+      s.cases.push_back({name + "-" + std::to_string(k), 0, 0, "{}", {}});
     const std::int64_t id = store_->submit(s).campaign;
     const auto ids = store_->waiting_families(id).at(0).cases;
     for (std::size_t k = 0; k < results.size(); ++k) {

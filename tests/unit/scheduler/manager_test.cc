@@ -151,8 +151,8 @@ class ManagerTest : public ::testing::Test {
     s.families = {{"a", 1, 1, 2, 1}, {"b", 1, 1, 1, 1}, {"c", 1, 1, 1, 1}};
     for (int k = 0; k < n; ++k) {
       const bool crashes = std::count(crashing.begin(), crashing.end(), k) > 0;
-      s.cases.push_back({"case-" + std::to_string(k), k % 3, 0,
-                         crashes ? R"({"/title": "crash"})" : "{}", "[]", "[]"});
+      s.cases.push_back(
+          {"case-" + std::to_string(k), k % 3, 0, crashes ? R"({"/title": "crash"})" : "{}", {}});
     }
     Store::open_writer(folder_).submit(s);
   }
@@ -301,6 +301,104 @@ TEST_F(ManagerTest, KilledAtAnyTurnTheNextManagerCompletesTheCampaign) {
   for (int position = 1; position <= 25; ++position) {
     EXPECT_EQ(store.stored_case(info.id, std::to_string(position)).runs.size(), 1u);
   }
+}
+
+/// Rounds of three cases, by their number; case-5 crashes. The third proposal is the end.
+bool next_round_of_three(Store& store, const std::string& name, std::vector<long>& asked_with) {
+  const CampaignInfo info = store.campaign(name);
+  EXPECT_EQ(info.n_waiting, 0) << "asked before all cases were decided";
+  const auto n_rounds = static_cast<int>(store.rounds(info.id).size());
+  asked_with.push_back(info.n_failed);
+  if (n_rounds == 3) {
+    store.conclude(info.id, "enough");
+    return false;
+  }
+  Submission s;
+  s.parameters = "[]";
+  s.scenes = {{"scene.json", "{\"title\": \"base\"}"}};
+  s.families = {{"a", 1, 1, 2, 1}, {"d", 1, 1, 1, 1}};         // one is known, one is new
+  for (int k = 3 * n_rounds - 1; k < 3 * n_rounds + 3; ++k) {  // the first is of the round before
+    s.cases.push_back(
+        {"case-" + std::to_string(k), k % 2, 0, k == 5 ? R"({"/title": "crash"})" : "{}", {}});
+  }
+  EXPECT_EQ(store.record_round(info.id, s, R"({"round": "design"})", "more"), 3);
+  return true;
+}
+
+TEST_F(ManagerTest, GoesOnRoundByRoundUntilThereIsNoFurtherOne) {
+  submit(3, {});
+  std::vector<long> asked_with;
+  Store store = Store::open_owner(folder_);
+  Stage stage(2);
+  Manager manager(store, stage, silent_,
+                  {.campaign = "", .next_round = [&](Store& s, const std::string& name) {
+                     return next_round_of_three(s, name, asked_with);
+                   }});
+  EXPECT_TRUE(stage.play(manager));
+  EXPECT_EQ(manager.status(), ExitCode::incomplete);
+  EXPECT_THAT(asked_with, ::testing::ElementsAre(0, 1, 1)) << "a failed case is told";
+  const CampaignInfo info = store.campaign("");
+  EXPECT_EQ(info.n_cases, 9);
+  EXPECT_EQ(info.n_done, 8);
+  EXPECT_EQ(info.conclusion, "enough");
+  const auto rounds = store.rounds(info.id);
+  ASSERT_EQ(rounds.size(), 3u);
+  EXPECT_EQ(rounds[2].first_position, 7);
+  EXPECT_EQ(rounds[2].n_cases, 3) << "a case of an earlier round is no case of a later one";
+  EXPECT_EQ(rounds[2].reason, "more");
+  EXPECT_TRUE(store.integrity_problems().empty());
+  EXPECT_TRUE(store
+                  .submit([] {
+                    Submission s;
+                    s.name = "sweep";
+                    s.parameters = "[]";
+                    s.scenes = {{"scene.json", "{\"title\": \"base\"}"}};
+                    s.families = {{"a", 1, 1, 2, 1}};
+                    for (int k = 0; k < 3; ++k)
+                      s.cases.push_back({"case-" + std::to_string(k), 0, 0, "{}", {}});
+                    return s;
+                  }())
+                  .existed)
+      << "it is known by its first round";
+}
+
+/// As above, killed after each number of turns: each round is proposed once, each case run once.
+TEST_F(ManagerTest, KilledAtAnyTurnRoundsGoOnWhereTheyWere) {
+  submit(3, {});
+  std::vector<long> asked_with;
+  const auto next_round = [&](Store& s, const std::string& name) {
+    return next_round_of_three(s, name, asked_with);
+  };
+  for (int turns = 0; turns < 40; ++turns) {
+    Store store = Store::open_owner(folder_);
+    Stage stage(2);
+    Manager manager(store, stage, silent_, {.campaign = "", .next_round = next_round});
+    stage.play(manager, turns);
+    EXPECT_TRUE(store.integrity_problems().empty());
+  }
+  Store store = Store::open_reader(folder_);
+  const CampaignInfo info = store.campaign("");
+  EXPECT_EQ(info.n_cases, 9);
+  EXPECT_EQ(info.n_done, 8);
+  EXPECT_EQ(store.rounds(info.id).size(), 3u);
+  for (int position = 1; position <= 9; ++position) {
+    EXPECT_EQ(store.stored_case(info.id, std::to_string(position)).runs.size(), 1u);
+  }
+}
+
+TEST_F(ManagerTest, AStoppedCampaignIsNotAskedForItsNextRound) {
+  Policy policy;
+  policy.on_failure = FailureAction::abort;
+  submit(3, {1}, policy);
+  std::vector<long> asked_with;
+  Store store = Store::open_owner(folder_);
+  Stage stage(1);
+  Manager manager(store, stage, silent_,
+                  {.campaign = "", .next_round = [&](Store& s, const std::string& name) {
+                     return next_round_of_three(s, name, asked_with);
+                   }});
+  EXPECT_TRUE(stage.play(manager));
+  EXPECT_THAT(asked_with, ::testing::IsEmpty());
 }
 
 TEST_F(ManagerTest, TellsWhereTheFieldsOfEachCaseGo) {

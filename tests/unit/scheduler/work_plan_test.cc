@@ -31,6 +31,32 @@ FamilyWork creeping(std::int64_t first_case, int n, double operator_seconds) {
   return work;
 }
 
+TEST(WorkPlan, MoreWorkMayComeWhileThereIsSomeAndWhenAllIsDone) {
+  WorkPlan plan({family(1, 1, 5)}, {.n_workers = 1});
+  ASSERT_TRUE(plan.next(0)->builds_operator);
+  plan.operator_ready(0, 5, false);
+  FamilyWork more = family(1, 0, 5);
+  more.cases = {2};
+  plan.add({more, family(100, 1, 3)});
+  EXPECT_EQ(plan.n_families(), 2);
+  EXPECT_EQ(plan.n_waiting(), 2);
+  plan.case_done(0, 1, 0.1);
+  const Slice own = *plan.next(0);
+  EXPECT_THAT(own.cases, ElementsAre(2));
+  EXPECT_FALSE(own.builds_operator) << "the family is known, and its operator is there";
+  plan.case_done(0, 2, 0.1);
+  const Slice other = *plan.next(0);
+  EXPECT_EQ(other.family, 1);
+  EXPECT_TRUE(other.builds_operator);
+  plan.operator_ready(0, 3, false);
+  plan.case_done(0, 100, 0.1);
+  EXPECT_TRUE(plan.is_finished());
+  more.cases = {3};
+  plan.add({more});
+  EXPECT_FALSE(plan.is_finished());
+  EXPECT_THAT(plan.next(0)->cases, ElementsAre(3));
+}
+
 TEST(WorkPlan, BuildersShareTheCoresThatCasesLeave) {
   WorkPlan alone({family(1, 5, 50)}, {.n_workers = 4});
   alone.next(0);

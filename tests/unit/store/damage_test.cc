@@ -56,8 +56,11 @@ class Damage : public ::testing::Test {
     s.families = {{"family", 1000, 100, 2.5, 1e8}};
     for (int i = 0; i < n; ++i) {
       const std::string number = std::to_string(i);
-      s.cases.push_back({"identity-" + number, 0, 0, R"({"/title": "case )" + number + "\"}",
-                         "[" + number + "]", "[\"" + number + " m\"]"});
+      s.cases.push_back({"identity-" + number,
+                         0,
+                         0,
+                         R"({"/title": "case )" + number + "\"}",
+                         {{0, std::stod(number), number + " m"}}});
     }
     const std::int64_t campaign = store.submit(s).campaign;
     std::vector<RunRecord> runs;
@@ -100,7 +103,7 @@ TEST_F(Damage, ChecksumsNoticeAChangedNumberInEveryTableOfAResult) {
 
 TEST_F(Damage, ChecksumsNoticeChangedParametersScenesAndSpecs) {
   make_store(3, 1);
-  change("UPDATE campaign_cases SET parameter_labels = '[\"7 m\"]' WHERE position = 3");
+  change("UPDATE case_parameters SET text = '7 m' WHERE position = 3");
   EXPECT_THAT(problems(), ElementsAre("the cases of campaign sweep differ from their checksum"));
   change("UPDATE scenes SET document = '{}'");
   EXPECT_THAT(problems(), ::testing::Contains("base scene 1 differs from its checksum"));

@@ -40,8 +40,7 @@ class EventsTest : public ::testing::Test {
     s.parameters = "[]";
     s.scenes = {{"scene.json", "{}"}};
     s.families = {{"family", 1, 1, 1, 1}};
-    for (int k = 0; k < n; ++k)
-      s.cases.push_back({"identity" + std::to_string(k), 0, 0, "{}", "[]", "[]"});
+    for (int k = 0; k < n; ++k) s.cases.push_back({"identity" + std::to_string(k), 0, 0, "{}", {}});
     return store.submit(s).campaign;
   }
   static RunRecord run_of(std::int64_t case_id, CaseResult result) {

@@ -26,7 +26,7 @@ CaseResult stored(const CaseResult& result) {
     s.parameters = "[]";
     s.scenes = {{"scene.json", "{}"}};
     s.families = {{"family", 1, 1, 1, 1}};
-    s.cases = {{"identity", 0, 0, "{}", "[]", "[]"}};
+    s.cases = {{"identity", 0, 0, "{}", {}}};
     const std::int64_t campaign = store.submit(s).campaign;
     RunRecord run;
     run.case_id = store.waiting_families(campaign)[0].cases[0];

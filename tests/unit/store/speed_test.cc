@@ -25,8 +25,11 @@ TEST(StoreSpeed, SlowHundredThousandCases) {
     s.families.push_back({"family-" + std::to_string(k), 1000, 100, 1, 1});
   for (int k = 0; k < kCases; ++k) {
     const std::string number = std::to_string(k);
-    s.cases.push_back({"identity-" + number, k % 50, 0, "{\"/strength\": " + number + "}",
-                       "[" + number + "]", "[\"" + number + "\"]"});
+    s.cases.push_back({"identity-" + number,
+                       k % 50,
+                       0,
+                       "{\"/strength\": " + number + "}",
+                       {{0, static_cast<double>(k), number}}});
   }
   Store store = Store::open_owner(folder);
   faultsim::Stopwatch watch;
@@ -64,7 +67,7 @@ TEST(StoreSpeed, SlowHundredThousandCases) {
   query.by = {metric_sql("chi_max"), {}};
   timed("rank by metric", 0.5, [&] { reader.ranking(campaign, query); });
   query.by = {};
-  query.where = {parameter_sql(0) + " < ?", {Value(1000.0)}};
+  query.where = {parameter_sql(0, false) + " < ?", {Value(1000.0)}};
   timed("rank where", 0.5, [&] { reader.ranking(campaign, query); });
   const std::int64_t f2 = reader.faults(campaign).at(1).id;
   const std::int64_t storage = reader.stages(campaign).at(3).id;

@@ -44,8 +44,11 @@ Submission submission(int n, const std::string& name = "sweep") {
   s.families = {{"family-a", 1000, 100, 2.5, 1e8}, {"family-b", 500, 50, 1.0, 1e7}};
   for (int i = 0; i < n; ++i) {
     const std::string number = std::to_string(i);
-    s.cases.push_back({"identity-" + number, i % 2, 0, R"({"/title": "case )" + number + "\"}",
-                       "[" + number + "]", "[\"" + number + " m\"]"});
+    s.cases.push_back({"identity-" + number,
+                       i % 2,
+                       0,
+                       R"({"/title": "case )" + number + "\"}",
+                       {{0, static_cast<double>(i), number + " m"}}});
   }
   return s;
 }
@@ -122,7 +125,7 @@ TEST_F(StoreTest, FindsTheCaseOfEachRowOfADesign) {
   EXPECT_EQ(store.design_rows(first).size(), 4u);
   s.name = "beyond";
   s.design_rows = {{0, 1, 4}};
-  EXPECT_THROW(store.submit(s), StorageError) << "there is no case 4";
+  EXPECT_THROW(store.submit(s), faultsim::InternalError) << "there is no case 4";
 }
 
 TEST_F(StoreTest, SharesCasesBetweenCampaigns) {
@@ -149,7 +152,7 @@ TEST_F(StoreTest, GivesBackWhatARunStored) {
   const StoredCase stored = store.stored_case(campaign, "1");
   ASSERT_TRUE(stored.has_result);
   EXPECT_EQ(stored.state, "done");
-  EXPECT_EQ(stored.parameter_labels, "[\"0 m\"]");
+  EXPECT_THAT(stored.parameters, ElementsAre(CaseParameter{0, 0.0, "0 m"}));
   const faultsim::CaseResult& wanted = *run.result;
   ASSERT_EQ(stored.result.steps.size(), wanted.steps.size());
   EXPECT_EQ(stored.result.steps[7].stage, wanted.steps[7].stage);
@@ -237,7 +240,7 @@ TEST_F(StoreTest, RanksByAreaMomentMarginAndKeepsUnstableApart) {
   EXPECT_THAT(order, ElementsAre(6, 3));
   query = {};
   query.stage = "gas_storage";
-  query.where = {parameter_sql(0) + " = ?", {Value(1.0)}};
+  query.where = {parameter_sql(0, false) + " = ?", {Value(1.0)}};
   const auto rows = store.ranking(campaign, query);
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].position, 2);
@@ -365,11 +368,14 @@ TEST_F(StoreTest, BringsAStoreOfTheFirstVersionUpToDate) {
     connection.execute(
         "INSERT INTO scenes VALUES (1, 'h', 'scene.json', '{}');"
         "INSERT INTO families VALUES (1, 'family', 1, 1, 1, 1, NULL);"
-        "INSERT INTO campaigns VALUES (1, 'old', 5, 'open', 'f', '{}', 'h', '{}', 'h', 'h', '[]',"
+        "INSERT INTO campaigns VALUES (1, 'old', 5, 'open', 'f', '{}', 'h', '{}', 'h', 'h', '[{}, "
+        "{}, {}]',"
         " 'moment', 0, 0, 'continue', 0, NULL, NULL);"
         "INSERT INTO cases VALUES (1, 'id-1', 1, 1, '{}', 'done', 'converged', 1);"
         "INSERT INTO cases VALUES (2, 'id-2', 1, 1, '{}', 'waiting', NULL, NULL);"
-        "INSERT INTO campaign_cases VALUES (1, 1, 1, '[]', '[]'), (1, 2, 2, '[]', '[]');"
+        "INSERT INTO campaign_cases VALUES (1, 1, 1,"
+        " '[0.30000000000000004,\"mean\",null]', '[\"0.3 m\",\"mean\",null]'),"
+        " (1, 2, 2, '[-7e-23,null,\"1\"]', '[\"-7e-23 m\",null,\"1\"]');"
         "INSERT INTO runs VALUES (1, 1, 1, 1, 5, 1, 'here', 1, 'completed', 'converged', '', NULL,"
         " NULL, '', 'op', 1);");
   }
@@ -384,6 +390,13 @@ TEST_F(StoreTest, BringsAStoreOfTheFirstVersionUpToDate) {
   EXPECT_EQ(stored.fields, FieldsState::none);
   ASSERT_EQ(stored.runs.size(), 1u);
   EXPECT_FALSE(stored.runs[0].fields_only);
+  EXPECT_THAT(stored.parameters, ElementsAre(CaseParameter{0, 0.30000000000000004, "0.3 m"},
+                                             CaseParameter{1, std::nullopt, "mean"}));
+  EXPECT_THAT(
+      store.stored_case(info.id, "2").parameters,
+      ElementsAre(CaseParameter{0, -7e-23, "-7e-23 m"}, CaseParameter{2, std::nullopt, "1"}));
+  ASSERT_EQ(store.rounds(info.id).size(), 1u);
+  EXPECT_EQ(store.rounds(info.id)[0].n_cases, 2);
   EXPECT_THAT(store.integrity_problems(),
               ElementsAre("base scene 1 differs from its checksum",
                           "the spec of campaign old differs from its checksum",

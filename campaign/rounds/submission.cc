@@ -1,4 +1,4 @@
-#include "campaign/app/submission.h"
+#include "campaign/rounds/submission.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -13,22 +13,53 @@ using nlohmann::json;
 
 namespace {
 
-/// Columns of the parameter vectors: the union over the groups, in order of appearance.
+/// The campaign's parameters: the union over the groups, in order of appearance.
 class Columns {
  public:
-  std::size_t of(const std::string& name, faultsim::Dimension dimension, bool is_text) {
-    const auto [place, is_new] = places_.try_emplace(name, parameters.size());
-    if (is_new) {
-      parameters.push_back({name, dimension, is_text});
-    } else if (parameters[place->second].is_text != is_text) {
-      parameters[place->second].is_text = true;  // numbers in one group, words in another
+  explicit Columns(const Expansion& expansion)
+      : expansion_(expansion), places_(expansion.spec.groups.size()) {
+    if (places_.size() > 1) of("group", faultsim::Dimension::number, true);
+    for (const Case& one : expansion.cases) add(one);
+  }
+  CaseParameters values_of(const Case& one) const {
+    CaseParameters values;
+    auto place = places_[one.group].begin();
+    for (ParameterValue& value : parameters_of(expansion_, one)) {
+      if (parameters[*place].is_text) value.si.reset();
+      values.push_back({*place++, value.si, std::move(value.text)});
     }
-    return place->second;
+    if (places_.size() > 1)
+      values.push_back({0, std::nullopt, expansion_.spec.groups[one.group].name});
+    std::sort(values.begin(), values.end(),
+              [](const CaseParameter& a, const CaseParameter& b) { return a.index < b.index; });
+    return values;
   }
   std::vector<StoredParameter> parameters;
 
  private:
-  std::map<std::string, std::size_t> places_;
+  int of(const std::string& name, faultsim::Dimension dimension, bool is_text) {
+    const auto [place, is_new] = by_name_.try_emplace(name, static_cast<int>(parameters.size()));
+    if (is_new) parameters.push_back({name, dimension, is_text});
+    return place->second;
+  }
+  void add(const Case& one) {
+    const Group& group = expansion_.spec.groups[one.group];
+    std::vector<int>& places = places_[one.group];
+    const bool is_first = places.empty();
+    for (std::size_t p = 0; p < group.parameters.size(); ++p) {
+      const Parameter& parameter = group.parameters[p];
+      const bool is_text = !parameter.si(one.choices[p]);
+      if (is_first) places.push_back(of(parameter.name, parameter.dimension, is_text));
+      if (is_text) parameters[places[p]].is_text = true;  // if only in some of the cases
+    }
+    for (const Derived& derived : expansion_.spec.derived) {
+      if (is_first) places.push_back(of(derived.name, derived.dimension, false));
+    }
+  }
+
+  const Expansion& expansion_;
+  std::vector<std::vector<int>> places_;  ///< in `parameters`, per group and parameter.
+  std::map<std::string, int> by_name_;
 };
 
 /// Rows of all designs, or none: see schemas/store_5.sql.
@@ -72,29 +103,11 @@ Submission make_submission(const Expansion& expansion) {
                                    family.plan->operator_seconds, family.plan->memory_bytes,
                                    1 + static_cast<int>(family.plan->creep.rungs.size())});
   }
-  Columns columns;
-  const bool has_groups = spec.groups.size() > 1;
-  if (has_groups) columns.of("group", faultsim::Dimension::number, true);
-  for (const Case& one : expansion.cases) {
-    for (const ParameterValue& value : parameters_of(expansion, one)) {
-      columns.of(value.name, value.dimension, !value.si);
-    }
-  }
-  const std::size_t n_columns = columns.parameters.size();
+  const Columns columns(expansion);
   submission.cases.reserve(expansion.cases.size());
   for (const Case& one : expansion.cases) {
-    std::vector<json> values(n_columns), labels(n_columns);
-    if (has_groups) {
-      values[0] = labels[0] = spec.groups[static_cast<std::size_t>(one.group)].name;
-    }
-    for (const ParameterValue& value : parameters_of(expansion, one)) {
-      const std::size_t k = columns.of(value.name, value.dimension, !value.si);
-      values[k] = columns.parameters[k].is_text ? json(value.text) : json(*value.si);
-      labels[k] = value.text;
-    }
     submission.cases.push_back({one.identity, one.family, one.group,
-                                changes_of(expansion, one).dump(), json(values).dump(),
-                                json(labels).dump()});
+                                changes_of(expansion, one).dump(), columns.values_of(one)});
   }
   submission.design_rows = design_rows(expansion);
   submission.parameters = parameters_to_json(columns.parameters);

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "campaign/expansion/expansion.h"
+#include "campaign/store/store.h"
+
+namespace faultsweep {
+
+/// Adds the next round of a campaign whose cases are all decided, in one transaction; false where
+/// there is none, and why is then CampaignInfo::conclusion. A round that would add no case ends the
+/// campaign too. Throws InputError where a proposed scene is wrong.
+bool add_next_round(Store& store, const std::string& campaign);
+
+/// Throws InputError where the spec's rounds ask for what results of its scenes will not have.
+void check_rounds(const Expansion& expansion);
+
+}  // namespace faultsweep

@@ -1,0 +1,55 @@
+#include "campaign/rounds/staged_sample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "campaign/statistics/intervals.h"
+#include "simulator/common/errors.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+using nlohmann::json;
+
+namespace {
+
+std::string percent(double probability) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%.1f", 100 * probability);
+  return text;
+}
+
+}  // namespace
+
+Proposal StagedSampler::propose(const std::vector<Answer>& answers,
+                                const std::vector<json>& designs) const {
+  long n_drawn = 0;  // with those that were excluded
+  for (const json& design : designs) n_drawn += design.at("samples").get<long>();
+  const auto n = static_cast<long>(answers.size());
+  const long n_holds =
+      std::count_if(answers.begin(), answers.end(), [](const Answer& one) { return one.holds; });
+  const long n_unknown = std::count_if(answers.begin(), answers.end(),
+                                       [](const Answer& one) { return !one.complete; });
+  const Interval known{proportion_bounds(n_holds, n, wanted_.confidence).low,
+                       proportion_bounds(n_holds + n_unknown, n, wanted_.confidence).high};
+  std::string text = concat(percent(known.low), " to ", percent(known.high), " % (confidence ",
+                            percent(wanted_.confidence), " %): true in ", n_holds, " of ", n);
+  if (n_unknown > 0) text += concat(", not known in ", n_unknown);
+  if (known.high - known.low <= wanted_.width) return {nullptr, text};
+  if (n_drawn >= wanted_.most) {
+    return {nullptr, concat(text, "; wider than ", percent(wanted_.width), " %, but ", wanted_.most,
+                            " samples are the most")};
+  }
+  // Between none and all there is at least one of each kind to come.
+  const double p = (static_cast<double>(n_holds) + 1) / (static_cast<double>(n) + 2);
+  const long missing = samples_for_half_width(p, 0.5 * wanted_.width, wanted_.confidence) - n;
+  const long most = std::min(n_drawn, wanted_.most - n_drawn);
+  const long n_more = std::min(most, std::max(n_drawn / 10 + 1, missing));
+  json design = designs.front();
+  design["first"] = design.value("first", 0L) + n_drawn;
+  design["samples"] = n_more;
+  return {std::move(design), concat(text, "; wider than ", percent(wanted_.width), " %")};
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "campaign/rounds/proposer.h"
+
+namespace faultsweep {
+
+/// Draws further samples of a monte-carlo design until the interval of a probability is narrow
+/// enough, or there are as many as allowed. A sample whose case failed, or whose history ends
+/// early, may be either: the interval reaches from none of these to all of them.
+///
+/// A round has what is missing if the share stays as it is, at most as many samples as there are
+/// and at least a tenth. The confidence is that of one interval; as the end is chosen by looking at
+/// it, its coverage is slightly less, the less the more samples the first round has.
+class StagedSampler final : public Proposer {
+ public:
+  explicit StagedSampler(const StagedSample& wanted) : wanted_(wanted) {}
+  std::string condition() const override { return wanted_.condition; }
+  Proposal propose(const std::vector<Answer>& answers,
+                   const std::vector<nlohmann::json>& designs) const override;
+
+ private:
+  StagedSample wanted_;
+};
+
+}  // namespace faultsweep

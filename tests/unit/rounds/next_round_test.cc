@@ -1,0 +1,129 @@
+#include "campaign/rounds/next_round.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "campaign/rounds/submission.h"
+#include "tests/campaign/made_up_result.h"
+
+namespace faultsweep {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// A campaign of the reference scene in the spec's own folder; results are made up.
+class NextRound : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = ::testing::TempDir() + "rounds_XXXXXX";
+    folder_ = mkdtemp(name.data());
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  static Expansion expansion(const std::string& rounds, int samples = 20, int first = 0) {
+    const std::string text = faultsim::concat(
+        R"({"format": 1, "name": "sample", "base": "docs/examples/scenes/rotliegend.json",
+            "set": {"/tier": "screening"}, )",
+        rounds, R"("design": {"kind": "monte-carlo", "samples": )", samples, R"(, "first": )",
+        first,
+        R"(, "parameters": {"friction_angle": {"from": "15 deg", "to": "35 deg"},
+                            "offset": ["0 m", "100 m"]}}})");
+    return expand(parse_campaign(text, FAULTSIM_SOURCE_DIR "/test.json"));
+  }
+  static constexpr const char* kRounds =
+      R"("rounds": {"probability_of": "F1.slides in gas_storage", "width": 0.25,
+                    "most_samples": 60}, )";
+
+  /// Decides what waits: of every fourth case a fault slides, the first of all fails.
+  void decide(Store& store, const std::string& name = "sample") {
+    const CampaignInfo info = store.campaign(name);
+    for (const WaitingFamily& family : store.waiting_families(info.id)) {
+      for (const std::int64_t id : family.cases) {
+        RunRecord run;
+        run.case_id = id;
+        run.status = id == 1 ? RunStatus::crashed : RunStatus::completed;
+        if (id != 1) run.result = testing::made_up_result(id % 4 == 0 ? 0.9 : 0.2);
+        store.record_runs(info.id, {run});
+      }
+    }
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(NextRound, AMonteCarloSampleContinuesAndIsTheSameAsALongerOne) {
+  const Expansion whole = expansion("", 30), first = expansion("", 12),
+                  rest = expansion("", 18, 12);
+  ASSERT_EQ(whole.cases.size(), 30u);
+  for (std::size_t i = 0; i < 30; ++i) {
+    const Expansion& part = i < 12 ? first : rest;
+    EXPECT_EQ(whole.cases[i].identity, part.cases[i < 12 ? i : i - 12].identity) << i;
+  }
+}
+
+TEST_F(NextRound, RoundsAreProposedUntilTheIntervalIsNarrow) {
+  Store store = Store::open_owner(folder_);
+  const std::int64_t id = store.submit(make_submission(expansion(kRounds))).campaign;
+  decide(store);
+  ASSERT_TRUE(add_next_round(store, "sample"));
+  EXPECT_EQ(store.campaign("").n_waiting, 20) << "at most as many as there are";
+  EXPECT_THAT(store.rounds(id).at(1).reason, HasSubstr("true in 5 of 20, not known in 1"));
+  EXPECT_THAT(store.integrity_problems(), IsEmpty()) << "sealed again";
+  decide(store);
+  while (add_next_round(store, "sample")) decide(store);
+  EXPECT_FALSE(add_next_round(store, "sample")) << "asked again it says the same";
+  const CampaignInfo info = store.campaign("");
+  EXPECT_THAT(info.conclusion, HasSubstr("% (confidence 95.0 %)"));
+  EXPECT_GE(store.rounds(id).size(), 3u);
+  EXPECT_LE(info.n_cases, 60);
+  // The sample is that of a design with as many samples at once, which finds every result.
+  Submission whole = make_submission(expansion("", static_cast<int>(info.n_cases)));
+  whole.name = "whole";
+  EXPECT_EQ(store.submit(whole).n_cached, info.n_cases - 1) << "one has failed";
+  const auto rows = store.design_rows(id);
+  ASSERT_EQ(static_cast<long>(rows.size()), info.n_cases);
+  for (long k = 0; k < info.n_cases; ++k) {
+    EXPECT_EQ(rows[k].row, k + 1);
+    EXPECT_EQ(store.stored_case(id, std::to_string(rows[k].position)).identity,
+              whole.cases[k].identity);
+  }
+}
+
+TEST_F(NextRound, ResultsThatAreKnownAlreadyAreShared) {
+  Store store = Store::open_owner(folder_);
+  Submission other = make_submission(expansion("", 30));
+  other.name = "other";
+  store.submit(other);
+  decide(store, "other");
+  store.submit(make_submission(expansion(kRounds)));
+  store.retry(store.campaign("sample").id, false, std::nullopt);
+  decide(store);
+  ASSERT_TRUE(add_next_round(store, "sample"));
+  EXPECT_EQ(store.campaign("sample").n_waiting, 10) << "of 20, the other campaign has run 10";
+}
+
+TEST_F(NextRound, ACampaignWithoutRoundsHasOne) {
+  Store store = Store::open_owner(folder_);
+  const std::int64_t id = store.submit(make_submission(expansion(""))).campaign;
+  decide(store);
+  EXPECT_FALSE(add_next_round(store, "sample"));
+  EXPECT_EQ(store.rounds(id).size(), 1u);
+  EXPECT_EQ(store.campaign("").conclusion, "");
+}
+
+TEST_F(NextRound, AConditionThatResultsCannotAnswerIsRefusedBefore) {
+  EXPECT_NO_THROW(check_rounds(expansion(kRounds)));
+  try {
+    check_rounds(expansion(R"("rounds": {"probability_of": "F9.slides in gas_storage",
+                                         "width": 0.2, "most_samples": 60}, )"));
+    FAIL() << "accepted";
+  } catch (const faultsim::InputError& error) {
+    EXPECT_EQ(error.problems().at(0).pointer, "/rounds/probability_of");
+    EXPECT_THAT(error.what(), HasSubstr("F9"));
+  }
+}
+
+}  // namespace
+}  // namespace faultsweep

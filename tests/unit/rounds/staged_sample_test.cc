@@ -1,0 +1,59 @@
+#include "campaign/rounds/staged_sample.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "campaign/statistics/intervals.h"
+
+namespace faultsweep {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+/// n answers of which every other holds; the last n_failed have failed.
+std::vector<Answer> every_other(int n, int n_failed = 0) {
+  std::vector<Answer> answers(n);
+  for (int k = 0; k < n; ++k) {
+    answers[k].position = k + 1;
+    answers[k].failed = k >= n - n_failed;
+    answers[k].complete = !answers[k].failed;
+    answers[k].holds = answers[k].complete && k % 2 == 0;
+  }
+  return answers;
+}
+
+const json kFirst = {{"kind", "monte-carlo"}, {"samples", 100}, {"first", 7}, {"seed", 3}};
+
+TEST(StagedSampler, GoesOnBehindTheSamplesThatItHas) {
+  const StagedSampler sampler({.condition = "slides", .width = 0.1, .most = 1000});
+  const Proposal second = sampler.propose(every_other(100), {kFirst});
+  EXPECT_EQ(second.design.at("first"), 107);
+  EXPECT_EQ(second.design.at("samples"), 100) << "at most as many as there are";
+  EXPECT_EQ(second.design.at("seed"), 3);
+  EXPECT_THAT(second.reason, HasSubstr("39.8 to 60.2 %"));
+  const Proposal third = sampler.propose(every_other(200), {kFirst, second.design});
+  EXPECT_EQ(third.design.at("first"), 207);
+  EXPECT_EQ(third.design.at("samples"), samples_for_half_width(0.5, 0.05, 0.95) - 200);
+}
+
+TEST(StagedSampler, EndsWhenTheIntervalIsNarrowOrTheSamplesAreUsedUp) {
+  const StagedSampler wide({.condition = "slides", .width = 0.21, .most = 1000});
+  EXPECT_TRUE(wide.propose(every_other(100), {kFirst}).design.is_null());
+  const StagedSampler few({.condition = "slides", .width = 0.1, .most = 130});
+  const Proposal second = few.propose(every_other(100), {kFirst});
+  EXPECT_EQ(second.design.at("samples"), 30);
+  const Proposal end = few.propose(every_other(130), {kFirst, second.design});
+  EXPECT_TRUE(end.design.is_null());
+  EXPECT_THAT(end.reason, HasSubstr("130 samples are the most"));
+}
+
+TEST(StagedSampler, AFailedCaseMayBeEither) {
+  const StagedSampler sampler({.condition = "slides", .width = 0.21, .most = 1000});
+  const Proposal proposal = sampler.propose(every_other(100, 20), {kFirst});
+  EXPECT_FALSE(proposal.design.is_null()) << "the same width without failures would be enough";
+  EXPECT_THAT(proposal.reason, HasSubstr("true in 40 of 100, not known in 20"));
+}
+
+}  // namespace
+}  // namespace faultsweep
