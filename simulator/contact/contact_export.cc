@@ -60,7 +60,7 @@ ContactLaws frozen_laws(const FaultOperator& op, const ContactLaws& laws, const 
   ContactLaws frozen = laws;
   Obstacle cohesion, change;
   for (std::size_t i = 0; i < laws.size(); ++i) {
-    const NodeLaw& law = problem.nodes[i].law;
+    const NodeLaw& law = *problem.nodes[i].law;
     const FrictionState state = friction_state(op.geometry.nodes[i], start, static_cast<int>(i));
     if (law.cohesion(state.cohesive) > 0) cohesion.note(i);
     frozen[i].cohesion = 0;
@@ -128,7 +128,7 @@ FrictionalContactProblem frictional_contact_problem(const FaultOperator& op,
     problem.q[b] = free_motion[column];
     if (b % problem.dimension == 0) {
       problem.q[b] += step.start.jump[column];
-      problem.friction[node] = contact.nodes[static_cast<std::size_t>(node)].law.static_friction();
+      problem.friction[node] = contact.nodes[static_cast<std::size_t>(node)].law->static_friction();
     }
   }
   problem.displacement_unit = power_of_ten(problem.q.lpNorm<Eigen::Infinity>());

@@ -52,7 +52,7 @@ SlipPoint ContactNewton::slip_point(const SubStep& sub_step, const Eigen::Vector
   point.per_second = sub_step.per_second;
   // With damping in r, |y| − τ_L of a node that slips along its traction does not depend on Δt;
   // without, a first guess that slips too far would look like rest, and the set would cycle.
-  point.stiffness += node.law.drag(sub_step.per_second);
+  point.stiffness += node.law->drag(sub_step.per_second);
   return point;
 }
 
@@ -73,7 +73,7 @@ int ContactNewton::classify(SubStep& sub_step) {
       state = FaultState::open;
     } else if (node.n_dofs > 1) {
       const double excess =
-          slip_excess(node.law, slip_point(sub_step, sub_step.traction, sub_step.increment, k));
+          slip_excess(*node.law, slip_point(sub_step, sub_step.traction, sub_step.increment, k));
       const bool slips = sub_step.state[i] == FaultState::slip;
       if (excess > (slips ? 0 : tolerance)) state = FaultState::slip;
     }
@@ -99,11 +99,11 @@ ContactNewton::Residual ContactNewton::natural_residual(const SubStep& sub_step,
     double square = normal - std::min(0.0, augmented);
     square *= square;
     if (augmented > (sub_step.state[i] == FaultState::open ? 0 : sub_step.tolerance[k])) {
-      const double drag = node.law.drag(sub_step.per_second);
+      const double drag = node.law->drag(sub_step.per_second);
       square += (shear_part(node, traction) - drag * shear_part(node, increment)).squaredNorm();
     } else if (node.n_dofs > 1) {
       const SlipPoint point = slip_point(sub_step, traction, increment, k);
-      const double excess = slip_excess(node.law, point);
+      const double excess = slip_excess(*node.law, point);
       const Eigen::Vector2d y = point.shear_traction + point.stiffness * point.slip_increment;
       const double norm = y.norm();
       Eigen::Vector2d shear = point.shear_traction - y;
@@ -142,7 +142,7 @@ void ContactNewton::collect_node(const SubStep& sub_step, int k) {
   std::array<double, 3> response{};
   for (std::size_t c = 0; c < n; ++c) response[c] = response_[node.dof[c]];
   if (sub_step.state[i] == FaultState::open) {
-    const double drag = node.law.drag(sub_step.per_second);
+    const double drag = node.law->drag(sub_step.per_second);
     for (std::size_t c = 0; c < n; ++c) {
       Unknown unknown{k, static_cast<int>(c), node.dof[c], {0, 0, 0}, {0, 0}};
       unknown.weight[c] = -node.inverse_area[c];
@@ -155,7 +155,7 @@ void ContactNewton::collect_node(const SubStep& sub_step, int k) {
     return;
   }
   const SlipResidual r =
-      slip_residual(node.law, slip_point(sub_step, sub_step.traction, sub_step.increment, k));
+      slip_residual(*node.law, slip_point(sub_step, sub_step.traction, sub_step.increment, k));
   for (std::size_t c = 1; c < n; ++c) {
     const auto row = static_cast<Eigen::Index>(c - 1);
     const std::array<double, 3> d_traction = {r.d_normal[row], r.d_shear(row, 0),
@@ -284,7 +284,7 @@ bool ContactNewton::finish(SubStep& sub_step) {
       sub_step.state[i] = FaultState::stick;
       continue;
     }
-    const double drag = node.law.drag(sub_step.per_second);
+    const double drag = node.law->drag(sub_step.per_second);
     const double noise = kNoise * sub_step.tolerance[k] / (problem_.stiffness(node, 1) + drag);
     if (sub_step.state[i] == FaultState::stick || slip.norm() < noise) {
       for (std::size_t c = 1; c < static_cast<std::size_t>(node.n_dofs); ++c) {
@@ -329,7 +329,7 @@ bool ContactNewton::lose_cohesion(SubStep& sub_step) {
   const bool hops = sub_step.per_second > 0;
   bool any = false;
   for (std::size_t i = 0; i < was_open_.size(); ++i) {
-    const CoulombLaw& law = problem_.nodes[i].law.constants();
+    const CoulombLaw& law = problem_.nodes[i].law->constants();
     if (!was_open_[i] || !sub_step.cohesive[i] || law.cohesion == 0) continue;
     if (law.cohesion_after_opening && !hops) continue;
     sub_step.cohesive[i] = 0;

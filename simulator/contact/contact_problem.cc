@@ -8,7 +8,7 @@
 namespace faultsim {
 
 ContactProblem::ContactProblem(const FaultOperator& fault_operator, const ContactLaws& contact_laws)
-    : op(fault_operator), compliance(*fault_operator.compliance) {
+    : op(fault_operator), compliance(*fault_operator.compliance), laws(contact_laws) {
   const auto& geometry = op.geometry;
   const std::size_t n = geometry.nodes.size();
   FAULTSIM_DEMAND(contact_laws.size() == n, "laws for ", contact_laws.size(), " of ", n, " nodes");
@@ -30,8 +30,8 @@ ContactProblem::ContactProblem(const FaultOperator& fault_operator, const Contac
       node.dof[c] = dof;
       node.inverse_area[c] = inverse_area[dof];
     }
-    node.law = NodeLaw(contact_laws[k]);
-    const bool weakens = node.law.weakens();
+    node.law = &laws[k];
+    const bool weakens = node.law->weakens();
     any_weakening = any_weakening || weakens;
     may_jump = may_jump || weakens || !contact_laws[k].cohesion_after_slip;
     if (weakens || node.n_dofs > 2) scalar = false;
@@ -53,7 +53,7 @@ void ContactProblem::subtract_product(const Eigen::VectorXd& jump, Eigen::Vector
 
 bool loses_cohesion(const ContactProblem& problem, const SubStep& sub_step, int k) {
   return sub_step.state[k] == FaultState::slip &&
-         problem.nodes[k].law.loses_cohesion_slipping(sub_step.cohesive[k] != 0);
+         problem.nodes[k].law->loses_cohesion_slipping(sub_step.cohesive[k] != 0);
 }
 
 double NodeViolation::worst() const {
@@ -68,7 +68,7 @@ NodeViolation check_node(const ContactProblem& problem, const SubStep& sub_step,
   const Eigen::Vector2d shear = shear_part(node, sub_step.traction);
   const Eigen::Vector2d slip = shear_part(node, sub_step.increment);
   const double gap = start.jump[node.dof[0]] + sub_step.increment[node.dof[0]];
-  const double drag = node.law.drag(sub_step.per_second);
+  const double drag = node.law->drag(sub_step.per_second);
   NodeViolation violation;
   if (gap < 0) violation.penetration = -gap * problem.stiffness(node, 0);
   if (gap > 0 || sub_step.state[i] == FaultState::open) {

@@ -9,12 +9,12 @@
 
 namespace faultsim {
 
-/// What the contact loops need of a node, flat.
+/// What the contact loops need of a node, flat and small: they go over all nodes.
 struct ContactNode {
   std::array<int, 3> dof = {-1, -1, -1};  ///< n, then the shear dofs that exist.
   int n_dofs = 0;                         ///< 1 + number of shear dofs.
   std::array<double, 3> inverse_area{};   ///< 1/A per dof, 1/m2.
-  NodeLaw law;
+  const NodeLaw* law = nullptr;           ///< of the problem.
 };
 
 /// The constants of one case: operator, laws, and both flattened per node.
@@ -22,6 +22,7 @@ class ContactProblem {
  public:
   /// @pre sizes agree, normal dofs exist, areas > 0 (InternalError).
   ContactProblem(const FaultOperator& fault_operator, const ContactLaws& contact_laws);
+  ContactProblem(const ContactProblem&) = delete;  // nodes point to its laws
 
   int n_nodes() const { return static_cast<int>(nodes.size()); }
   int n_dofs() const { return static_cast<int>(inverse_area.size()); }
@@ -33,6 +34,7 @@ class ContactProblem {
 
   const FaultOperator& op;
   const Compliance& compliance;  ///< op's H.
+  NodeLaws laws;
   std::vector<ContactNode> nodes;
   Eigen::VectorXd inverse_area;  ///< per dof.
   bool any_weakening = false;
@@ -69,7 +71,7 @@ inline FrictionState friction_before(const ContactNode& node, const SubStep& sub
 /// The strength of a node at the end of a sub-step.
 inline Strength strength_after(const ContactNode& node, const SubStep& sub_step, int k) {
   const Eigen::Vector2d slip = shear_part(node, sub_step.increment);
-  return node.law.strength(sub_step.traction[node.dof[0]], slip, sub_step.per_second,
+  return node.law->strength(sub_step.traction[node.dof[0]], slip, sub_step.per_second,
                            friction_before(node, sub_step, k), slip);
 }
 

@@ -27,7 +27,7 @@ double JumpFollower::first_duration() const {
   for (int k = 0; k < problem.n_nodes(); ++k) {
     const ContactNode& node = problem.nodes[static_cast<std::size_t>(k)];
     if (node.n_dofs < 2) continue;
-    duration = std::min(duration, node.law.constants().damping / problem.stiffness(node, 1));
+    duration = std::min(duration, node.law->constants().damping / problem.stiffness(node, 1));
   }
   return std::isfinite(duration) ? duration : 1;
 }
@@ -38,8 +38,8 @@ bool JumpFollower::still_weakens(int k) const {
   const SubStep& s = solver_.sub_step();
   const auto i = static_cast<std::size_t>(k);
   const ContactNode& node = problem.nodes[i];
-  return node.law.weakens() && s.state[i] == FaultState::slip &&
-         !node.law.is_fully_weakened(friction_before(node, s, k));
+  return node.law->weakens() && s.state[i] == FaultState::slip &&
+         !node.law->is_fully_weakened(friction_before(node, s, k));
 }
 
 /// Largest slip of the sub-step in units of d_c among nodes that still weaken.
@@ -50,7 +50,7 @@ double JumpFollower::weakening_share() const {
     if (!still_weakens(k)) continue;
     const auto i = static_cast<std::size_t>(k);
     const double slip = shear_part(problem.nodes[i], solver_.sub_step().increment).norm();
-    share = std::max(share, slip / problem.nodes[i].law.constants().slip_weakening_distance);
+    share = std::max(share, slip / problem.nodes[i].law->constants().slip_weakening_distance);
   }
   return share;
 }
@@ -63,7 +63,7 @@ double JumpFollower::hop_share() const {
   const SubStep& s = solver_.sub_step();
   double share = 0;
   for (std::size_t i = 0; i < problem.nodes.size(); ++i) {
-    const CoulombLaw& law = problem.nodes[i].law.constants();
+    const CoulombLaw& law = problem.nodes[i].law->constants();
     const bool hops = law.cohesion_after_opening && !s.cohesive[i] && !s.start->cohesion_lost[i];
     if (!hops || s.state[i] != FaultState::slip) continue;
     share = std::max(share, -s.traction[problem.nodes[i].dof[0]] / law.cohesion);
@@ -106,8 +106,8 @@ void JumpFollower::add_energy() {
     // Trapezoidal rule: exact while strength falls linearly with slip.
     const FrictionState before = friction_before(node, s, k);
     const double friction =
-        0.5 * (node.law.limit(s.start->traction[node.dof[0]], before) +
-               node.law.strength(s.traction[node.dof[0]], slip, 0, before).value);
+        0.5 * (node.law->limit(s.start->traction[node.dof[0]], before) +
+               node.law->strength(s.traction[node.dof[0]], slip, 0, before).value);
     evidence_.dissipated += friction * length / node.inverse_area[1];
   }
 }

@@ -95,7 +95,7 @@ double relax(ContactProblem& problem, SubStep& sub_step, int sweeps, StopToken s
         traction[static_cast<Eigen::Index>(c)] = sub_step.traction[node.dof[c]];
         increment[static_cast<Eigen::Index>(c)] = sub_step.increment[node.dof[c]];
       }
-      const StrengthAt strength = {node.law, increment.tail<2>(),
+      const StrengthAt strength = {*node.law, increment.tail<2>(),
                                    friction_before(node, sub_step, k)};
       if (increment.isZero(0) && gap_before == 0 && traction[0] <= 0 &&
           traction.tail<2>().norm() <= strength(traction[0])) {

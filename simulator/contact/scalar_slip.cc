@@ -24,7 +24,7 @@ bool ScalarSlip::add_violators(const SubStep& sub_step, bool& opens) {
     opens = opens || normal > tolerance;
     if (wanted_[i] != 0 || node.n_dofs < 2) continue;
     const double shear = sub_step.traction[node.dof[1]];
-    const double limit = node.law.static_limit(normal, sub_step.cohesive[i] != 0);
+    const double limit = node.law->static_limit(normal, sub_step.cohesive[i] != 0);
     if (std::abs(shear) - limit > tolerance) {
       wanted_[i] = shear > 0 ? 1 : -1;
       any = true;
@@ -54,7 +54,7 @@ bool ScalarSlip::add_neighbours(const SubStep& sub_step) {
     }
     const double shear = sub_step.trial[node.dof[1]] - shear_sum * node.inverse_area[1];
     const double normal = sub_step.trial[node.dof[0]] - normal_sum * node.inverse_area[0];
-    const double limit = node.law.static_limit(normal, sub_step.cohesive[i] != 0);
+    const double limit = node.law->static_limit(normal, sub_step.cohesive[i] != 0);
     if (!(std::abs(shear) - limit > sub_step.tolerance[k])) continue;
     wanted_[i] = shear > 0 ? 1 : -1;
     any = true;
@@ -84,7 +84,7 @@ bool ScalarSlip::append(int k) {
   const double* shear = problem_.compliance.column(node.dof[1]).data();
   const double* normal = problem_.compliance.column(node.dof[0]).data();
   const auto coupling = [](const ContactNode& at, int sign) {
-    return sign * at.law.static_friction() * at.inverse_area[0] / at.inverse_area[1];
+    return sign * at.law->static_friction() * at.inverse_area[0] / at.inverse_area[1];
   };
   const double own = coupling(node, wanted_[i]);
   double* row = lu_.row();
@@ -116,8 +116,8 @@ bool ScalarSlip::solve_set(const SubStep& sub_step) {
     const auto i = static_cast<std::size_t>(order_[j]);
     const ContactNode& node = problem_.nodes[i];
     const double excess = signs_[j] * sub_step.trial[node.dof[1]] -
-                          node.law.cohesion(sub_step.cohesive[i] != 0) +
-                          node.law.static_friction() * sub_step.trial[node.dof[0]];
+                          node.law->cohesion(sub_step.cohesive[i] != 0) +
+                          node.law->static_friction() * sub_step.trial[node.dof[0]];
     slip_[j] = signs_[j] * excess / node.inverse_area[1];
   }
   lu_.solve(slip_.data());

@@ -10,7 +10,7 @@ void StabilityCheck::collect(const SubStep& sub_step, Where where, StabilityRepo
   for (int k = 0; k < problem_.n_nodes(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     const ContactNode& node = problem_.nodes[i];
-    const double damping = node.law.drag(sub_step.per_second);
+    const double damping = node.law->drag(sub_step.per_second);
     if (sub_step.state[i] == FaultState::open) {
       for (int c = 0; c < node.n_dofs; ++c) {
         movers_.push_back({k, c, {0, 0}, 0, 0, c > 0 ? damping : 0});
@@ -22,13 +22,13 @@ void StabilityCheck::collect(const SubStep& sub_step, Where where, StabilityRepo
     Mover mover{k, -1, slip / slip.norm(), 0, 0, damping};
     const double normal = sub_step.traction[node.dof[0]];
     const FrictionState before = friction_before(node, sub_step, k);
-    const Strength end = node.law.strength(normal, slip, 0, before, slip);
+    const Strength end = node.law->strength(normal, slip, 0, before, slip);
     mover.friction = -end.d_normal;
     if (where == Where::at_the_end) {
       mover.weakening = -end.d_slip.dot(slip) / slip.norm();
-    } else if (node.law.weakens()) {
+    } else if (node.law->weakens()) {
       const double lowest = std::min({0.0, normal, sub_step.start->traction[node.dof[0]]});
-      mover.weakening = node.law.fastest_weakening(lowest, slip, before);
+      mover.weakening = node.law->fastest_weakening(lowest, slip, before);
     }
     ++report.n_slipping;
     if (mover.weakening > 0) {

@@ -92,7 +92,7 @@ bool SubStepSolver::at_rest() const {
     const double normal = sub_step_.trial[node.dof[0]];
     if (normal > sub_step_.tolerance[k]) return false;
     if (node.n_dofs < 2) continue;
-    const double limit = node.law.limit(normal, friction_before(node, sub_step_, k));
+    const double limit = node.law->limit(normal, friction_before(node, sub_step_, k));
     const double shear = node.n_dofs > 2 ? shear_part(node, sub_step_.trial).norm()
                                          : std::abs(sub_step_.trial[node.dof[1]]);
     if (shear - limit > sub_step_.tolerance[k]) return false;
@@ -110,13 +110,13 @@ void SubStepSolver::start_from_rest() {
 bool SubStepSolver::rests_in_plane(int k, double margin) const {
   const auto i = static_cast<std::size_t>(k);
   const ContactNode& node = problem_.nodes[i];
-  if (node.n_dofs != 2 || node.law.weakens() || sub_step_.state[i] != FaultState::stick)
+  if (node.n_dofs != 2 || node.law->weakens() || sub_step_.state[i] != FaultState::stick)
     return false;
   const double normal = sub_step_.traction[node.dof[0]];
   return sub_step_.increment[node.dof[0]] == 0 && sub_step_.increment[node.dof[1]] == 0 &&
          sub_step_.start->jump[node.dof[0]] == 0 && normal <= margin &&
          std::abs(sub_step_.traction[node.dof[1]]) <=
-             node.law.static_limit(normal, sub_step_.cohesive[i] != 0) + margin;
+             node.law->static_limit(normal, sub_step_.cohesive[i] != 0) + margin;
 }
 
 /// (3)–(5) straight from their definition at each node: what decides whether a step is accepted.
@@ -219,7 +219,7 @@ void SubStepSolver::commit(ContactState& state) const {
     if (!opened && slip[0] == 0 && slip[1] == 0) continue;  // most nodes, and nothing to remember
     const FrictionState before = {shear_part(node, state.jump), state.slip_path[k],
                                   state.cohesion_lost[i] == 0};
-    const FrictionState after = node.law.after(before, slip, opened);
+    const FrictionState after = node.law->after(before, slip, opened);
     state.slip_path[k] = after.path;
     state.cohesion_lost[i] = !after.cohesive;
   }

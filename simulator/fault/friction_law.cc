@@ -76,6 +76,17 @@ double NodeLaw::fastest_weakening(double normal_traction, const Eigen::Vector2d&
   return rate_at(nearest) * (end.norm() > 0 ? outward / (length * end.norm()) : 1);
 }
 
+NodeLaws::NodeLaws(std::span<const CoulombLaw> constants) {
+  for (const CoulombLaw& own : constants) {
+    if (laws_.empty() || own != laws_.back().constants()) laws_.emplace_back(own);
+    number_.push_back(static_cast<std::uint32_t>(laws_.size() - 1));
+  }
+}
+
+bool NodeLaws::any_weakens() const {
+  return std::any_of(laws_.begin(), laws_.end(), [](const NodeLaw& law) { return law.weakens(); });
+}
+
 double nucleation_length(double modulus, double weakening_rate) {
   constexpr double kUenishiRice = 1.157773883699;  // Uenishi and Rice (2003), 0.579 x 2
   if (!(weakening_rate > 0)) return std::numeric_limits<double>::infinity();

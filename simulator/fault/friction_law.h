@@ -2,6 +2,10 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 namespace faultsim {
 
@@ -18,6 +22,8 @@ struct CoulombLaw {
   bool cohesion_after_opening = false;  ///< cohesion survives opening.
   bool cohesion_after_slip = true;      ///< false: the first slip ends it.
   double damping = 0;                   ///< η = G/2c_s ≥ 0 of motion at a rate, Pa s/m.
+
+  bool operator==(const CoulombLaw&) const = default;
 };
 
 /// What the friction of a point remembers of what it has been through.
@@ -109,6 +115,20 @@ class NodeLaw {
   CoulombLaw constants_;
   double static_friction_, dynamic_friction_;
   bool weakens_;
+};
+
+/// The laws of many points, each made once for all neighbours that share it: loops over points then
+/// read few of them, and no angle is turned into its tangent twice.
+class NodeLaws {
+ public:
+  NodeLaws() = default;
+  explicit NodeLaws(std::span<const CoulombLaw> constants);
+  const NodeLaw& operator[](std::size_t point) const { return laws_[number_[point]]; }
+  bool any_weakens() const;
+
+ private:
+  std::vector<NodeLaw> laws_;
+  std::vector<std::uint32_t> number_;  // of each point's law
 };
 
 inline Strength NodeLaw::strength(double normal_traction, const Eigen::Vector2d& slip_increment,
