@@ -1,6 +1,7 @@
 #include "simulator/condensation/fault_geometry.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "simulator/common/errors.h"
 
@@ -44,37 +45,27 @@ void add_quarter(const Mesh& mesh, const std::vector<ElasticMaterial>& materials
   add_pressure_pair(node.pressure, pair);
 }
 
-/// Longest edges of a face along strike (same row) and dip (same column).
-struct FaceEdges {
-  double strike = 0, dip = 0;
-};
-
-FaceEdges face_edges(const FaultSurface& fault, const FaultFace& face) {
-  FaceEdges edges;
+/// Lengthens a node's edges to those of a face, each by the direction that it is nearer to.
+void add_edges(const FaultSurface& fault, const FaultFace& face, OperatorNode& node) {
   for (std::size_t i = 0; i < 4; ++i) {
-    const int from = face.grid[i], to = face.grid[(i + 1) % 4];
-    const double length = (fault.grid_position[static_cast<std::size_t>(to)] -
-                           fault.grid_position[static_cast<std::size_t>(from)])
-                              .norm();
-    const bool same_column = from / fault.n_rows == to / fault.n_rows;
-    double& edge = same_column ? edges.dip : edges.strike;
-    edge = std::max(edge, length);
+    const Eigen::Vector3d along =
+        fault.points[face.points[(i + 1) % 4]] - fault.points[face.points[i]];
+    const bool down = std::abs(along.dot(node.dip)) > std::abs(along.dot(node.strike));
+    double& edge = down ? node.edge_dip : node.edge_strike;
+    edge = std::max(edge, along.norm());
   }
-  return edges;
 }
 
 void average_over_faces(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
                         const FaultSurface& fault, OperatorNode* nodes) {
   std::vector<double> area(fault.nodes.size(), 0);
   for (const FaultFace& face : fault.faces) {
-    const FaceEdges edges = face_edges(fault, face);
     for (int corner : face.nodes) {
       if (corner < 0) continue;
       OperatorNode& node = nodes[corner];
       add_quarter(mesh, materials, face, node);
       area[static_cast<std::size_t>(corner)] += face.area / 4;
-      node.edge_strike = std::max(node.edge_strike, edges.strike);
-      node.edge_dip = std::max(node.edge_dip, edges.dip);
+      add_edges(fault, face, node);
     }
   }
   for (std::size_t k = 0; k < fault.nodes.size(); ++k) {
@@ -86,26 +77,23 @@ void average_over_faces(const Mesh& mesh, const std::vector<ElasticMaterial>& ma
   }
 }
 
-OperatorFault fault_grid(const FaultSurface& fault, int first_node) {
-  OperatorFault grid;
-  grid.name = fault.name;
-  grid.n_columns = fault.n_columns;
-  grid.n_rows = fault.n_rows;
-  grid.grid_position = fault.grid_position;
-  grid.grid_used = fault.grid_used;
-  grid.column_width = fault.column_width;
-  grid.first_node = first_node;
-  grid.n_nodes = static_cast<int>(fault.nodes.size());
-  for (int node : fault.grid_node) grid.grid_node.push_back(node < 0 ? -1 : first_node + node);
-  for (const FaultFace& face : fault.faces) grid.faces.push_back(face.grid);
-  return grid;
+OperatorFault surface_of(const FaultSurface& fault, int first_node) {
+  OperatorFault surface;
+  surface.name = fault.name;
+  surface.points = fault.points;
+  surface.first_node = first_node;
+  surface.n_nodes = static_cast<int>(fault.nodes.size());
+  for (const int node : fault.node_of_point)
+    surface.node_of_point.push_back(node < 0 ? -1 : first_node + node);
+  for (const FaultFace& face : fault.faces) surface.faces.push_back(face.points);
+  return surface;
 }
 
 /// Nodes that a boundary holds closed have no jump: for the contact solve they are like unsplit
 /// ones.
-void drop_locked_nodes(FaultGeometry& geometry, OperatorFault& grid) {
+void drop_locked_nodes(FaultGeometry& geometry, OperatorFault& fault) {
   std::vector<int> renumbered;
-  const auto begin = geometry.nodes.begin() + grid.first_node;
+  const auto begin = geometry.nodes.begin() + fault.first_node;
   auto kept = begin;
   for (auto node = begin; node != geometry.nodes.end(); ++node) {
     const bool locked = node->dof == std::array<int, 3>{-1, -1, -1};
@@ -115,10 +103,10 @@ void drop_locked_nodes(FaultGeometry& geometry, OperatorFault& grid) {
     ++kept;
   }
   geometry.nodes.erase(kept, geometry.nodes.end());
-  for (int& node : grid.grid_node) {
-    if (node >= 0) node = renumbered[static_cast<std::size_t>(node - grid.first_node)];
+  for (int& node : fault.node_of_point) {
+    if (node >= 0) node = renumbered[static_cast<std::size_t>(node - fault.first_node)];
   }
-  grid.n_nodes = static_cast<int>(geometry.nodes.size()) - grid.first_node;
+  fault.n_nodes = static_cast<int>(geometry.nodes.size()) - fault.first_node;
 }
 
 }  // namespace
@@ -133,7 +121,7 @@ FaultGeometry fault_geometry(const Mesh& mesh, const std::vector<ElasticMaterial
   for (std::size_t f = 0; f < mesh.faults.size(); ++f) {
     const FaultSurface& fault = mesh.faults[f];
     const int first_node = static_cast<int>(geometry.nodes.size());
-    geometry.faults.push_back(fault_grid(fault, first_node));
+    geometry.faults.push_back(surface_of(fault, first_node));
     for (std::size_t k = 0; k < fault.nodes.size(); ++k) {
       const FaultNode& from = fault.nodes[k];
       OperatorNode node;
@@ -149,7 +137,9 @@ FaultGeometry fault_geometry(const Mesh& mesh, const std::vector<ElasticMaterial
       geometry.nodes.push_back(std::move(node));
     }
     average_over_faces(mesh, materials, fault, geometry.nodes.data() + first_node);
-    drop_locked_nodes(geometry, geometry.faults.back());
+    OperatorFault& surface = geometry.faults.back();
+    drop_locked_nodes(geometry, surface);
+    surface.profiles = fault_profiles(surface, geometry.nodes);
   }
   geometry.dof_area.resize(geometry.n_dofs);
   for (const OperatorNode& node : geometry.nodes) {

@@ -7,7 +7,7 @@
 
 namespace faultsim {
 
-/// The faults of a mesh as the contact solve sees them: grids, frames, areas, jump unknowns, and
+/// The faults of a mesh as the contact solve sees them: surfaces, frames, areas, jump unknowns, and
 /// per node the means over the fault faces around it, each weighted by the quarter that is the
 /// node's.
 FaultGeometry fault_geometry(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,

@@ -12,17 +12,12 @@ constexpr double kStrengthFloor = 1e3;  // Pa; keeps χ finite, never enters the
 // χ̄ is off by about this over the number of cells in its window (results/measures).
 constexpr double kWindowError = 0.2;
 
-bool has_nodes(const OperatorFault& fault, int j) {
-  const auto first = fault.grid_node.begin() + j * fault.n_rows;
-  return std::any_of(first, first + fault.n_rows, [](int node) { return node >= 0; });
-}
-
 }  // namespace
 
 FaultMeter::FaultMeter(const FaultOperator& op, const ContactLaws& laws, double slip_tolerance,
                        double activation_length)
     : op_(op),
-      laws_(laws.begin(), laws.end()),
+      laws_(laws),
       slip_tolerance_(slip_tolerance),
       activation_length_(activation_length),
       multiplicity_(op.geometry.half_domain ? 2.0 : 1.0) {
@@ -30,13 +25,9 @@ FaultMeter::FaultMeter(const FaultOperator& op, const ContactLaws& laws, double 
   for (std::size_t f = 0; f < geometry.faults.size(); ++f) {
     const OperatorFault& fault = geometry.faults[f];
     double area = 0, width = 0;
-    for (int j = 0; j < fault.n_columns; ++j) {
-      Column column = make_column(fault, static_cast<int>(f), j);
-      if (column.nodes.empty()) continue;
-      column.strike_edge = (j > 0 && !has_nodes(fault, j - 1)) ||
-                           (j + 1 < fault.n_columns && !has_nodes(fault, j + 1));
-      width += column.width;
-      columns_.push_back(std::move(column));
+    for (const Profile& profile : fault.profiles) {
+      width += profile.width;
+      lines_.push_back({static_cast<int>(f), profile, WindowSearch(profile, activation_length)});
     }
     for (int k = 0; k < fault.n_nodes; ++k) {
       area += geometry.nodes[static_cast<std::size_t>(fault.first_node + k)].area;
@@ -48,9 +39,8 @@ FaultMeter::FaultMeter(const FaultOperator& op, const ContactLaws& laws, double 
 
 double FaultMeter::down_dip_length(int fault) const {
   double longest = 0;
-  for (const Column& c : columns_) {
-    if (c.fault == fault) longest = std::max(longest, c.length());
-  }
+  for (const Profile& profile : op_.geometry.faults[fault].profiles)
+    longest = std::max(longest, profile.length());
   return longest;
 }
 
@@ -72,6 +62,7 @@ void FaultMeter::evaluate(const ContactState& state, NodalState& nodal) const {
                              &nodal.static_critical_index, &nodal.slip}) {
     v->resize(n);
   }
+  NodeLaw bare;  // of a node that lost its cohesion
   for (Eigen::Index k = 0; k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
     nodal.slip[k] = slip_norm(static_cast<int>(k), state.jump, nullptr);
@@ -87,7 +78,8 @@ void FaultMeter::evaluate(const ContactState& state, NodalState& nodal) const {
     const double normal = state.traction[dof[0]];
     const FrictionState friction =
         friction_state(op_.geometry.nodes[i], state, static_cast<int>(k));
-    const NodeLaw law = friction.cohesive ? laws_[i] : laws_[i].without_cohesion();
+    if (!friction.cohesive) bare = laws_[i].without_cohesion();
+    const NodeLaw& law = friction.cohesive ? laws_[i] : bare;
     const double static_strength = law.static_limit(normal, true);
     nodal.shear[k] = shear;
     nodal.strength[k] = std::max(law.limit(normal, friction), kStrengthFloor);
@@ -95,23 +87,23 @@ void FaultMeter::evaluate(const ContactState& state, NodalState& nodal) const {
     nodal.static_critical_index[k] = shear / std::max(static_strength, kStrengthFloor);
   }
   nodal.window.clear();
-  for (const Column& column : columns_) {
-    nodal.window.push_back(
-        window_critical_index(column, nodal.shear, nodal.strength, activation_length_));
-  }
+  for (const Line& line : lines_)
+    nodal.window.push_back(line.windows.most_loaded(nodal.shear, nodal.strength));
 }
 
-void FaultMeter::measure_columns(const NodalState& nodal, std::vector<FaultMetrics>& faults) const {
+void FaultMeter::measure_profiles(const NodalState& nodal,
+                                  std::vector<FaultMetrics>& faults) const {
   constexpr double kThreshold = 0.8;
-  for (std::size_t j = 0; j < columns_.size(); ++j) {
-    const Column& column = columns_[j];
-    FaultMetrics& m = faults[static_cast<std::size_t>(column.fault)];
+  for (std::size_t j = 0; j < lines_.size(); ++j) {
+    const Line& line = lines_[j];
+    const double width = line.profile.width;
+    FaultMetrics& m = faults[static_cast<std::size_t>(line.fault)];
     m.chi_bar = std::max(m.chi_bar, nodal.window[j].critical_index);
-    const double thickness = length_above(column, nodal.critical_index, kThreshold);
+    const double thickness = length_above(line.profile, nodal.critical_index, kThreshold);
     m.thickness_chi_080_max = std::max(m.thickness_chi_080_max, thickness);
     m.thickness_chi_080_mean +=
-        thickness * column.width / fault_width_[static_cast<std::size_t>(column.fault)];
-    m.area_chi_080 += multiplicity_ * thickness * column.width;
+        thickness * width / fault_width_[static_cast<std::size_t>(line.fault)];
+    m.area_chi_080 += multiplicity_ * thickness * width;
   }
 }
 
@@ -138,7 +130,7 @@ std::vector<FaultMetrics> FaultMeter::measure(const NodalState& nodal, const Con
     }
     m.mean_slip = fault_area_[f] > 0 ? m.potency / (multiplicity_ * fault_area_[f]) : 0;
   }
-  measure_columns(nodal, faults);
+  measure_profiles(nodal, faults);
   const auto activations = activation(nodal, state, nullptr);
   for (std::size_t f = 0; f < faults.size(); ++f) {
     faults[f].activated_area = activations[f].area;
@@ -150,25 +142,18 @@ std::vector<FaultMetrics> FaultMeter::measure(const NodalState& nodal, const Con
   return faults;
 }
 
-SlipExtent FaultMeter::extent_of(const Column& column, const ContactState& state,
-                                 const Eigen::VectorXd* reference) const {
-  std::vector<double> slip;
-  for (const int node : column.nodes) slip.push_back(slip_norm(node, state.jump, reference));
-  return slip_extent(column, slip, slip_tolerance_, activation_length_);
-}
-
 /// Whether slip may reach the activation length on a finer mesh although it does not on this one.
 /// Where it did before, the mesh has shown that it can tell. Where it is open over that length, it
 /// carries no shear to slide under.
-bool FaultMeter::near_activation(const Column& column, const WindowIndex& window,
-                                 const ContactState& state) const {
+bool FaultMeter::near_activation(const Profile& profile, const WindowIndex& window,
+                                 const NodalState& nodal, const ContactState& state) const {
   double open = 0;
-  for (std::size_t i = 0; i < column.nodes.size(); ++i) {
-    if (state.state[column.nodes[i]] == FaultState::open) open += column.share(i);
+  for (std::size_t i = 0; i < profile.samples.size(); ++i) {
+    if (state.state[profile.samples[i].node[0]] == FaultState::open) open += profile.share(i);
   }
-  return column.length() >= activation_length_ && open < activation_length_ &&
+  return profile.length() >= activation_length_ && open < activation_length_ &&
          window.critical_index + kWindowError / window.n_cells >= 1 &&
-         !extent_of(column, state, nullptr).surely;
+         !slip_extent(profile, nodal.slip, slip_tolerance_, activation_length_).surely;
 }
 
 std::vector<FaultMeter::Activation> FaultMeter::activation(const NodalState& nodal,
@@ -177,37 +162,45 @@ std::vector<FaultMeter::Activation> FaultMeter::activation(const NodalState& nod
   std::vector<Activation> result(op_.geometry.faults.size());
   std::vector<char> surely(result.size(), 0);
   std::vector<double> place_slip(result.size(), 0);
-  for (std::size_t j = 0; j < columns_.size(); ++j) {
-    const Column& column = columns_[j];
-    Activation& a = result[column.fault];
+  Eigen::VectorXd since;
+  if (reference != nullptr) {
+    since.resize(nodal.slip.size());
+    for (Eigen::Index k = 0; k < since.size(); ++k)
+      since[k] = slip_norm(static_cast<int>(k), state.jump, reference);
+  }
+  const Eigen::VectorXd& slip = reference != nullptr ? since : nodal.slip;
+  for (std::size_t f = 0; f < result.size(); ++f) {
+    const OperatorFault& fault = op_.geometry.faults[f];
+    if (fault.n_nodes > 0)
+      result[f].max_slip = slip.segment(fault.first_node, fault.n_nodes).maxCoeff();
+  }
+  for (std::size_t j = 0; j < lines_.size(); ++j) {
+    const auto& [fault, profile, windows] = lines_[j];
+    Activation& a = result[fault];
     double largest = 0;
     int place = -1;
-    for (const int node : column.nodes) {
-      const double slip = slip_norm(node, state.jump, reference);
-      if (slip > largest) place = node;
-      largest = std::max(largest, slip);
+    for (const ProfileSample& sample : profile.samples) {
+      if (slip[sample.node[0]] > largest) place = sample.node[0];
+      largest = std::max(largest, slip[sample.node[0]]);
     }
-    a.max_slip = std::max(a.max_slip, largest);
-    const SlipExtent extent = extent_of(column, state, reference);
-    surely[column.fault] |= extent.surely;
+    const SlipExtent extent = slip_extent(profile, slip, slip_tolerance_, activation_length_);
+    surely[fault] |= extent.surely;
     a.resolved = a.resolved && extent.resolved &&
-                 (extent.reaches || !near_activation(column, nodal.window[j], state));
+                 (extent.reaches || !near_activation(profile, nodal.window[j], nodal, state));
     a.length = std::max(a.length, extent.longest);
     if (!extent.reaches) continue;
-    const auto slips = [&](int node) {
-      return slip_norm(node, state.jump, reference) > slip_tolerance_;
-    };
     a.activated = true;
-    if (largest > place_slip[column.fault]) {
-      place_slip[column.fault] = largest;
+    if (largest > place_slip[fault]) {
+      place_slip[fault] = largest;
       a.place = place;
     }
-    a.at_edge = a.at_edge || column.strike_edge ||
-                (slips(column.nodes.front()) && !std::isnan(column.tip_before)) ||
-                (slips(column.nodes.back()) && !std::isnan(column.tip_after));
-    a.area += multiplicity_ * extent.total * column.width;
+    const auto slips = [&](const ProfileSample& at) { return at.slip(slip) > slip_tolerance_; };
+    a.at_edge = a.at_edge || profile.strike_edge ||
+                (slips(profile.samples.front()) && !std::isnan(profile.tip_before)) ||
+                (slips(profile.samples.back()) && !std::isnan(profile.tip_after));
+    a.area += multiplicity_ * extent.total * profile.width;
   }
-  // One column that is surely activated is enough.
+  // One profile that is surely activated is enough.
   for (std::size_t f = 0; f < result.size(); ++f) result[f].resolved |= surely[f] != 0;
   return result;
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "simulator/contact/contact.h"
-#include "simulator/loading/column_profile.h"
+#include "simulator/loading/profile_measures.h"
 #include "simulator/model/fault_operator.h"
 #include "simulator/output/result.h"
 
@@ -17,7 +17,7 @@ struct NodalState {
   Eigen::VectorXd critical_index;  ///< χ; 1 where open.
   Eigen::VectorXd static_critical_index;
   Eigen::VectorXd slip;             ///< |g_T|, m.
-  std::vector<WindowIndex> window;  ///< χ̄ per column of FaultMeter::columns().
+  std::vector<WindowIndex> window;  ///< χ̄ per profile, fault by fault.
 };
 
 /// Metrics on the faults (docs/model.md, section 7).
@@ -35,7 +35,7 @@ class FaultMeter {
   /// Activation by slip since `reference`: extent, area, flag.
   struct Activation {
     double length = 0;    ///< m, longest down-dip extent with slip > tolerance.
-    double area = 0;      ///< m2, of the extents in columns that satisfy the criterion.
+    double area = 0;      ///< m2, of the extents in profiles that satisfy the criterion.
     double max_slip = 0;  ///< m.
     bool activated = false;
     /// The flag does not hang on the mesh. Not resolved: extents that reach the activation length
@@ -43,33 +43,36 @@ class FaultMeter {
     /// may be 1 within its error.
     bool resolved = true;
     bool at_edge = false;  ///< an activated extent reaches a node next to an edge of the fault.
-    int place = -1;        ///< node of largest slip in the columns that satisfy it; -1 = none does.
+    int place = -1;        ///< node of largest slip in the profiles that satisfy it; -1 = none does.
   };
   /// @param nodal  of this state.
   /// @param reference  jump at the reference time; nullptr = zero.
   std::vector<Activation> activation(const NodalState& nodal, const ContactState& state,
                                      const Eigen::VectorXd* reference) const;
 
-  const std::vector<Column>& columns() const { return columns_; }
   /// The longest extent that slip could reach on a fault, m; 0 for a fault without nodes.
   double down_dip_length(int fault) const;
 
  private:
+  /// A profile of a fault, and how its windows are found.
+  struct Line {
+    int fault;
+    const Profile& profile;
+    WindowSearch windows;
+  };
   double slip_norm(int node, const Eigen::VectorXd& jump, const Eigen::VectorXd* reference) const;
-  void measure_columns(const NodalState& nodal, std::vector<FaultMetrics>& faults) const;
-  SlipExtent extent_of(const Column& column, const ContactState& state,
-                       const Eigen::VectorXd* reference) const;
-  bool near_activation(const Column& column, const WindowIndex& window,
+  void measure_profiles(const NodalState& nodal, std::vector<FaultMetrics>& faults) const;
+  bool near_activation(const Profile& profile, const WindowIndex& window, const NodalState& nodal,
                        const ContactState& state) const;
 
   const FaultOperator& op_;
-  std::vector<NodeLaw> laws_;
+  NodeLaws laws_;
   double slip_tolerance_;
   double activation_length_;
   double multiplicity_;  ///< 2 for a half domain: areas, potency, M0.
-  std::vector<Column> columns_;
+  std::vector<Line> lines_;
   std::vector<double> fault_area_;   ///< per fault, m2 (not doubled).
-  std::vector<double> fault_width_;  ///< per fault, Σ column widths, m.
+  std::vector<double> fault_width_;  ///< per fault, Σ widths of profiles, m.
 };
 
 }  // namespace faultsim

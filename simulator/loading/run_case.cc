@@ -47,6 +47,7 @@ class CaseRun {
         observer_(observer),
         probe_(probe),
         laws_(contact_laws(scene, op.geometry)),
+        node_laws_(laws_),
         loads_(scene, op, probe.noise),
         meter_(op, laws_, scene.numerics.slip_tolerance, scene.numerics.activation_length),
         solver_(op, laws_, contact_options(scene.numerics), watch()),
@@ -87,6 +88,7 @@ class CaseRun {
   const StepObserver& observer_;
   const CaseProbe& probe_;
   ContactLaws laws_;
+  NodeLaws node_laws_;
   CaseLoads loads_;
   FaultMeter meter_;
   ContactSolver solver_;
@@ -146,8 +148,9 @@ FaultFields CaseRun::fields(const StepLoads& loads) const {
 /// Cell edges against the nucleation length (docs/model.md, section 8) where it slips; with a trial
 /// traction, where that would make it slip.
 void CaseRun::note_weakening(const Eigen::VectorXd& traction, bool trial) {
+  if (!node_laws_.any_weakens()) return;
   for (std::size_t k = 0; k < op_.geometry.nodes.size(); ++k) {
-    const NodeLaw law(laws_[k]);
+    const NodeLaw& law = node_laws_[k];
     if (!law.weakens()) continue;
     const OperatorNode& node = op_.geometry.nodes[k];
     const double normal = traction[node.dof[0]];
@@ -239,7 +242,7 @@ int CaseRun::nucleus_node(const ContactJump& jump, double depth) const {
 void CaseRun::record_events(const LoadStep& step, const StepLoads* before, const StepLoads& loads,
                             const std::vector<ContactJump>& jumps) {
   for (const ContactJump& jump : jumps) {
-    SlipEvent event = measure_event(op_, laws_, meter_, jump);
+    SlipEvent event = measure_event(op_, laws_, jump);
     event.step = step.step;
     event.stage = step.stage;
     const double share = jump.load_before;

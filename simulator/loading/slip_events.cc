@@ -12,20 +12,21 @@ Eigen::Vector2d shear_at(const OperatorNode& node, const Eigen::VectorXd& values
 }
 
 /// Longest run of the nodes down dip, m.
-double longest_run(const FaultMeter& meter, const std::vector<char>& inside) {
+double longest_run(const FaultGeometry& geometry, const std::vector<char>& inside) {
   double longest = 0;
-  for (const Column& column : meter.columns()) {
-    double run = 0;
-    for (std::size_t i = 0; i < column.nodes.size(); ++i) {
-      run = inside[static_cast<std::size_t>(column.nodes[i])] ? run + column.share(i) : 0;
-      longest = std::max(longest, run);
+  for (const OperatorFault& fault : geometry.faults) {
+    for (const Profile& profile : fault.profiles) {
+      double run = 0;
+      for (std::size_t i = 0; i < profile.samples.size(); ++i) {
+        run = inside[profile.samples[i].node[0]] ? run + profile.share(i) : 0;
+        longest = std::max(longest, run);
+      }
     }
   }
   return longest;
 }
 
-void place_nucleus(const FaultOperator& op, const FaultMeter& meter, const ContactJump& jump,
-                   SlipEvent& event) {
+void place_nucleus(const FaultOperator& op, const ContactJump& jump, SlipEvent& event) {
   if (jump.nucleus.empty()) return;
   std::vector<char> inside(op.geometry.nodes.size(), 0);
   double area = 0;
@@ -36,7 +37,7 @@ void place_nucleus(const FaultOperator& op, const FaultMeter& meter, const Conta
     area += node.area;
   }
   event.depth /= area;
-  event.nucleation_length = longest_run(meter, inside);
+  event.nucleation_length = longest_run(op.geometry, inside);
   for (const OperatorFault& fault : op.geometry.faults) {
     const int k = jump.nucleus.front() - fault.first_node;
     if (k >= 0 && k < fault.n_nodes) event.fault = fault.name;
@@ -55,12 +56,11 @@ double nucleation_ratio(const OperatorNode& node, const NodeLaw& law, bool plane
   return std::max(down_dip, along);
 }
 
-SlipEvent measure_event(const FaultOperator& op, const ContactLaws& laws, const FaultMeter& meter,
-                        const ContactJump& jump) {
+SlipEvent measure_event(const FaultOperator& op, const ContactLaws& laws, const ContactJump& jump) {
   SlipEvent event;
   event.load_factor_before = jump.load_before;
   event.load_factor_after = jump.load_after;
-  place_nucleus(op, meter, jump, event);
+  place_nucleus(op, jump, event);
   const double multiplicity = op.geometry.half_domain ? 2 : 1;
   double weighted_drop = 0, ratio = 0;
   for (std::size_t k = 0; k < op.geometry.nodes.size(); ++k) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "simulator/contact/contact.h"
-#include "simulator/loading/metrics.h"
 #include "simulator/model/fault_operator.h"
 #include "simulator/output/result.h"
 
@@ -9,7 +8,7 @@ namespace faultsim {
 
 /// Turns a jump that the contact solver followed into an event: sizes, place and evidence.
 /// Step, stage, time and pressure are for the caller, who knows the loading.
-SlipEvent measure_event(const FaultOperator& op, const ContactLaws& laws, const FaultMeter& meter,
+SlipEvent measure_event(const FaultOperator& op, const ContactLaws& laws,
                         const ContactJump& jump);
 
 /// Largest cell edge over nucleation length of a node under a normal traction: edge_dip with the

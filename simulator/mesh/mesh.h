@@ -32,30 +32,23 @@ struct FaultNode {
                 ///< plane strain per metre of strike.
 };
 
-/// A quadrilateral of a fault.
+/// A face of a fault.
 struct FaultFace {
-  std::array<int, 4> grid;   ///< indices into FaultSurface::grid_position of its corners, cyclic.
-  std::array<int, 4> nodes;  ///< indices into FaultSurface::nodes; -1 where not split.
+  std::array<int, 4> points;  ///< of its corners, cyclic, into FaultSurface::points.
+  std::array<int, 4> nodes;   ///< of its corners, into FaultSurface::nodes; -1 where not split.
   int minus_cell;
   int plus_cell;
   double area;  ///< m2 (plane strain: per metre of strike).
 };
 
-/// A fault as a structured grid of points: n_columns along strike times n_rows down dip.
-/// Point (column, row) is at column * n_rows + row; rows go down dip (for a horizontal fault along
-/// its dip direction), columns up the grid axis along strike (from south to north where that is y;
-/// a half domain begins at y = 0). Points outside an elliptic patch have used = false. In plane
-/// strain there is one column and a face is an edge of it, whose ends it has twice: corners 0 and
-/// 3, and 1 and 2, are the same point. On tied faces several points share one node.
+/// A fault as a surface of points and faces. In plane strain a face is an edge down dip, whose ends
+/// it has twice: corners 0 and 3, and 1 and 2, are the same point. On tied faces several points
+/// share one node.
 struct FaultSurface {
   std::string name;
-  int n_columns = 0;
-  int n_rows = 0;
-  std::vector<Eigen::Vector3d> grid_position;
-  std::vector<int> grid_node;        ///< index into nodes, -1 where the point is not split.
-  std::vector<char> grid_used;       ///< 1 if the point is a corner of one of the faces.
-  std::vector<double> column_width;  ///< m along strike that a column stands for (plane strain: 1).
-  std::vector<FaultNode> nodes;      ///< one per *independent* duplicated node (ties merged).
+  std::vector<Eigen::Vector3d> points;  ///< m, each the corner of a face.
+  std::vector<int> node_of_point;       ///< into nodes, -1 where the point is not split.
+  std::vector<FaultNode> nodes;         ///< one per *independent* duplicated node (ties merged).
   std::vector<FaultFace> faces;
 };
 

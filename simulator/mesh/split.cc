@@ -173,9 +173,8 @@ class SurfaceBuilder {
   FaultSurface build() {
     surface_.name = fault_.name;
     find_range();
-    add_points();
+    find_nodes();
     add_faces();
-    add_widths();
     return std::move(surface_);
   }
 
@@ -186,13 +185,13 @@ class SurfaceBuilder {
   size_t point(size_t column, size_t row) const {
     return grid_.point(on_plane(fault_, column, row));
   }
-  /// Row line of the r-th row of the surface: rows go down dip.
+  /// Row line of the r-th row of the block: rows go down dip.
   size_t row_line(int r) const {
     const bool up = fault_.dip[static_cast<int>(fault_.row_axis)] > 0;
     return up ? first_row_ + static_cast<size_t>(r) : last_row_ - static_cast<size_t>(r);
   }
   size_t column_line(int c) const { return first_column_ + static_cast<size_t>(c); }
-  size_t grid_index(int c, int r) const { return static_cast<size_t>(c * surface_.n_rows + r); }
+  size_t grid_index(int c, int r) const { return static_cast<size_t>(c * n_rows_ + r); }
 
   /// The smallest block of points that holds the split ones and one ring around them.
   void find_range() {
@@ -215,34 +214,29 @@ class SurfaceBuilder {
     first_row_ -= first_row_ > 0;
     last_column_ += last_column_ + 1 < n_columns;
     last_row_ += last_row_ + 1 < n_rows;
-    surface_.n_columns = grid_.plane_strain ? 1 : to_int(last_column_ - first_column_ + 1);
-    surface_.n_rows = to_int(last_row_ - first_row_ + 1);
+    n_columns_ = grid_.plane_strain ? 1 : to_int(last_column_ - first_column_ + 1);
+    n_rows_ = to_int(last_row_ - first_row_ + 1);
   }
 
-  void add_points() {
-    std::vector<int>& node_of = surface_.grid_node;
-    const size_t n = static_cast<size_t>(surface_.n_columns * surface_.n_rows);
-    surface_.grid_position.resize(n);
-    surface_.grid_used.assign(n, 0);
-    node_of.assign(n, -1);
+  void find_nodes() {
+    node_at_.assign(static_cast<size_t>(n_columns_ * n_rows_), -1);
     // A tied point lies on the near end of its axis or axes, hence comes first in line order; look
     // it up by its mesh node.
     std::vector<std::pair<int, int>> roots;  // (minus mesh node, surface node)
-    for (int c = 0; c < surface_.n_columns; ++c)
-      for (int r = 0; r < surface_.n_rows; ++r) {
+    for (int c = 0; c < n_columns_; ++c)
+      for (int r = 0; r < n_rows_; ++r) {
         const size_t at = point(column_line(c), row_line(r));
-        surface_.grid_position[grid_index(c, r)] = mesh_.nodes[at];
         if (plus_of_[at] < 0 || !splits(column_line(c), row_line(r)) ||
             mesh_.tied_to[at] != to_int(at))
           continue;
-        node_of[grid_index(c, r)] = to_int(surface_.nodes.size());
+        node_at_[grid_index(c, r)] = to_int(surface_.nodes.size());
         roots.push_back({to_int(at), to_int(surface_.nodes.size())});
         surface_.nodes.push_back(
             {to_int(at), plus_of_[at], fault_.normal, fault_.strike, fault_.dip, 0.0});
       }
     std::sort(roots.begin(), roots.end());
-    for (int c = 0; c < surface_.n_columns; ++c)
-      for (int r = 0; r < surface_.n_rows; ++r) {
+    for (int c = 0; c < n_columns_; ++c)
+      for (int r = 0; r < n_rows_; ++r) {
         const size_t at = point(column_line(c), row_line(r));
         if (!splits(column_line(c), row_line(r)) || mesh_.tied_to[at] == to_int(at)) continue;
         const auto found = std::lower_bound(roots.begin(), roots.end(),
@@ -250,22 +244,35 @@ class SurfaceBuilder {
         if (found == roots.end() || found->first != mesh_.tied_to[at])
           refuse("/faults", concat("fault \"", fault_.name, "\" is tied to another fault"),
                  "let one patch pass beyond both tied faces");
-        node_of[grid_index(c, r)] = found->second;
+        node_at_[grid_index(c, r)] = found->second;
       }
   }
 
+  /// Faces with a split corner, their corners numbered along the grid; then those as points.
   void add_faces() {
     const double thickness = grid_.plane_strain ? mesh_.thickness : 1;
-    const int n_face_columns = grid_.plane_strain ? 1 : surface_.n_columns - 1;
+    const int n_face_columns = grid_.plane_strain ? 1 : n_columns_ - 1;
+    std::vector<int> number(node_at_.size(), -1);
     for (int c = 0; c < n_face_columns; ++c)
-      for (int r = 0; r + 1 < surface_.n_rows; ++r) {
+      for (int r = 0; r + 1 < n_rows_; ++r) {
         const int other = grid_.plane_strain ? c : c + 1;
         const std::array<size_t, 4> corner = {grid_index(c, r), grid_index(c, r + 1),
                                               grid_index(other, r + 1), grid_index(other, r)};
-        const bool any = std::any_of(corner.begin(), corner.end(),
-                                     [&](size_t k) { return surface_.grid_node[k] >= 0; });
-        if (any) add_face(c, r, corner, thickness);
+        if (std::none_of(corner.begin(), corner.end(), [&](size_t k) { return node_at_[k] >= 0; }))
+          continue;
+        add_face(c, r, corner, thickness);
+        for (const size_t k : corner) number[k] = 0;
       }
+    for (int c = 0; c < n_columns_; ++c)
+      for (int r = 0; r < n_rows_; ++r) {
+        const size_t k = grid_index(c, r);
+        if (number[k] < 0) continue;
+        number[k] = to_int(surface_.points.size());
+        surface_.points.push_back(mesh_.nodes[point(column_line(c), row_line(r))]);
+        surface_.node_of_point.push_back(node_at_[k]);
+      }
+    for (FaultFace& face : surface_.faces)
+      for (int& corner : face.points) corner = number[static_cast<size_t>(corner)];
   }
 
   void add_face(int c, int r, const std::array<size_t, 4>& corner, double thickness) {
@@ -279,29 +286,12 @@ class SurfaceBuilder {
     FaultFace face{
         {}, {}, to_int(grid_.cell(minus)), to_int(grid_.cell(plus)), areas.total / thickness};
     for (size_t v = 0; v < 4; ++v) {
-      face.grid[v] = to_int(corner[v]);
-      face.nodes[v] = surface_.grid_node[corner[v]];
-      surface_.grid_used[corner[v]] = 1;
+      face.points[v] = to_int(corner[v]);
+      face.nodes[v] = node_at_[corner[v]];
       if (face.nodes[v] >= 0)
         surface_.nodes[static_cast<size_t>(face.nodes[v])].area += areas.corner[v] / thickness;
     }
     surface_.faces.push_back(face);
-  }
-
-  void add_widths() {
-    if (grid_.plane_strain) {
-      surface_.column_width = {1.0};
-      return;
-    }
-    surface_.column_width.assign(static_cast<size_t>(surface_.n_columns), 0.0);
-    const int r = surface_.n_rows / 2;
-    for (int c = 0; c + 1 < surface_.n_columns; ++c) {
-      const Vector3d step =
-          surface_.grid_position[grid_index(c + 1, r)] - surface_.grid_position[grid_index(c, r)];
-      const double width = std::abs(step.dot(fault_.strike));
-      surface_.column_width[static_cast<size_t>(c)] += 0.5 * width;
-      surface_.column_width[static_cast<size_t>(c) + 1] += 0.5 * width;
-    }
   }
 
   const StructuredGrid& grid_;
@@ -310,6 +300,8 @@ class SurfaceBuilder {
   const Mesh& mesh_;
   FaultSurface surface_;
   size_t first_column_ = 0, last_column_ = 0, first_row_ = 0, last_row_ = 0;
+  int n_columns_ = 0, n_rows_ = 0;  // of that block
+  std::vector<int> node_at_;        // of the surface, at its points; -1 = not split
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "simulator/model/compliance.h"
+#include "simulator/model/fault_profile.h"
 #include "simulator/model/load_key.h"
 
 namespace faultsim {
@@ -34,24 +35,23 @@ struct OperatorNode {
   std::vector<PressurePair> pressure;
 };
 
-/// A fault's grid (see mesh.h); grid_node and first_node index FaultGeometry::nodes.
+/// A fault as a surface: its points, the faces between them, and what lies on it.
 struct OperatorFault {
   std::string name;
-  int n_columns = 0;
-  int n_rows = 0;
-  std::vector<Eigen::Vector3d> grid_position;
-  std::vector<int> grid_node;  ///< into FaultGeometry::nodes; -1 = not split.
-  std::vector<char> grid_used;
-  std::vector<double> column_width;       ///< m; plane strain: 1.
-  std::vector<std::array<int, 4>> faces;  ///< grid indices of the corners.
-  int first_node = 0;
+  std::vector<Eigen::Vector3d> points;  ///< m, each the corner of a face.
+  std::vector<int> node_of_point;       ///< into FaultGeometry::nodes; -1 = not split.
+  /// Points at the corners, cyclic. A triangle has its last corner twice; in plane strain a face is
+  /// an edge down dip and has both of its ends twice: (a, b, b, a).
+  std::vector<std::array<int, 4>> faces;
+  int first_node = 0;  ///< its nodes are consecutive in FaultGeometry::nodes.
   int n_nodes = 0;
+  std::vector<Profile> profiles;  ///< fault_profiles() of all this.
 };
 
 /// Everything about the faults that does not depend on the loads.
 struct FaultGeometry {
   std::vector<OperatorNode>
-      nodes;  ///< all faults, fault by fault, column-major (down dip fastest).
+      nodes;  ///< all faults, fault by fault.
   std::vector<OperatorFault> faults;
   int n_dofs = 0;
   Eigen::VectorXd dof_area;  ///< A per dof, m2 (n_dofs).

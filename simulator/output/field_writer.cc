@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <span>
@@ -66,23 +68,23 @@ Eigen::Vector3d mirror_local(const Eigen::Vector3d& local) {
 int nearest_node(const OperatorFault& fault, const Eigen::Vector3d& position) {
   int nearest = -1;
   double least = 0;
-  for (std::size_t i = 0; i < fault.grid_position.size(); ++i) {
-    if (fault.grid_node[i] < 0) continue;
-    const double distance = (fault.grid_position[i] - position).squaredNorm();
+  for (std::size_t i = 0; i < fault.points.size(); ++i) {
+    if (fault.node_of_point[i] < 0) continue;
+    const double distance = (fault.points[i] - position).squaredNorm();
     if (nearest < 0 || distance < least) {
-      nearest = fault.grid_node[i];
+      nearest = fault.node_of_point[i];
       least = distance;
     }
   }
   return nearest;
 }
 
-/// Adds a grid point, or its image in the plane y = 0; returns its number.
+/// Adds a point, or its image in the plane y = 0; returns its number.
 int add_point(const OperatorFault& fault, std::size_t i, bool mirrored, FaultPoints& points) {
-  const Eigen::Vector3d& position = fault.grid_position[i];
+  const Eigen::Vector3d& position = fault.points[i];
   const Eigen::Vector3d place = mirrored ? mirror(position) : position;
-  const bool is_split = fault.grid_node[i] >= 0;
-  points.source.push_back(is_split ? fault.grid_node[i] : nearest_node(fault, position));
+  const bool is_split = fault.node_of_point[i] >= 0;
+  points.source.push_back(is_split ? fault.node_of_point[i] : nearest_node(fault, position));
   points.split.push_back(is_split ? 1 : 0);
   points.mirrored.push_back(mirrored ? 1 : 0);
   points.share.push_back(1);
@@ -98,38 +100,35 @@ void add_faces(const OperatorFault& fault, const std::vector<int>& number, bool 
     // In plane strain the two sides of a face along strike are one: corners (a, b, b, a).
     for (std::size_t c = 0; c < points.points_per_cell; ++c) {
       const int at = face[mirrored ? points.points_per_cell - 1 - c : c];
-      const int corner = number[static_cast<std::size_t>(at)];
-      FAULTSIM_DEMAND(corner >= 0, "fault ", fault.name, ": corner ", at, " is not used");
-      points.cells.push_back(corner);
+      points.cells.push_back(number[static_cast<std::size_t>(at)]);
     }
   }
 }
 
 /// All points of a fault: where only y ≥ 0 is modelled, the other half as its mirror image, from
-/// the far end towards the plane, as the whole domain has its columns.
+/// the far end towards the plane.
 FaultPoints collect_points(const OperatorFault& fault, const std::string& plain,
                            const FaultGeometry& geometry) {
   FaultPoints points;
   points.group = "/faults/" + plain;
   points.topology = geometry.plane_strain ? "Polyline" : "Quadrilateral";
   points.points_per_cell = geometry.plane_strain ? 2 : 4;
-  const std::size_t n = fault.grid_position.size();
+  const std::size_t n = fault.points.size();
   std::vector<int> number(n, -1), image(n, -1);
-  const auto n_rows = static_cast<std::size_t>(fault.n_rows);
-  if (geometry.half_domain) {  // from the far end towards the plane, as the whole domain has its
-                               // columns
-    for (std::size_t column = n / n_rows; column-- > 0;) {
-      for (std::size_t i = column * n_rows; i < (column + 1) * n_rows; ++i) {
-        if (fault.grid_used[i] == 0 || is_on_plane(fault.grid_position[i])) continue;
-        image[i] = add_point(fault, i, true, points);
-      }
+  if (geometry.half_domain) {
+    std::vector<std::size_t> inwards(n);
+    std::iota(inwards.begin(), inwards.end(), std::size_t{0});
+    std::stable_sort(inwards.begin(), inwards.end(), [&](std::size_t a, std::size_t b) {
+      return fault.points[a].y() > fault.points[b].y();
+    });
+    for (const std::size_t i : inwards) {
+      if (!is_on_plane(fault.points[i])) image[i] = add_point(fault, i, true, points);
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
-    if (fault.grid_used[i] == 0) continue;
     number[i] = add_point(fault, i, false, points);
     if (image[i] < 0) image[i] = number[i];
-    if (geometry.half_domain && is_on_plane(fault.grid_position[i])) points.share.back() = 2;
+    if (geometry.half_domain && is_on_plane(fault.points[i])) points.share.back() = 2;
   }
   add_faces(fault, number, false, points);
   if (geometry.half_domain) add_faces(fault, image, true, points);

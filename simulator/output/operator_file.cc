@@ -14,7 +14,7 @@
 namespace faultsim {
 namespace {
 
-constexpr SealedFormat kOperatorFile{.name = "operator", .version = 2};
+constexpr SealedFormat kOperatorFile{.name = "operator", .version = 3};
 constexpr const char* kH = "/h";
 
 FaultOperator decode_operator(const SealedContent& content) {

@@ -61,18 +61,15 @@ void add_node(OperatorTables& t, const OperatorNode& node) {
 }
 
 void add_fault(OperatorTables& t, const OperatorFault& fault) {
-  const std::size_t n_points = fault.grid_position.size();
-  FAULTSIM_DEMAND(fault.grid_node.size() == n_points && fault.grid_used.size() == n_points,
-                  "fault ", fault.name, " has ", n_points, " points");
+  FAULTSIM_DEMAND(fault.node_of_point.size() == fault.points.size(), "fault ", fault.name, " has ",
+                  fault.points.size(), " points");
   t.fault_names.push_back(fault.name);
-  t.fault_numbers.insert(
-      t.fault_numbers.end(),
-      {fault.n_columns, fault.n_rows, fault.first_node, fault.n_nodes, static_cast<int>(n_points),
-       static_cast<int>(fault.column_width.size()), static_cast<int>(fault.faces.size())});
-  for (const auto& position : fault.grid_position) push(t.grid_position, position);
-  t.grid_node.insert(t.grid_node.end(), fault.grid_node.begin(), fault.grid_node.end());
-  for (const char used : fault.grid_used) t.grid_used.push_back(used != 0 ? 1 : 0);
-  t.column_width.insert(t.column_width.end(), fault.column_width.begin(), fault.column_width.end());
+  t.fault_numbers.insert(t.fault_numbers.end(),
+                         {fault.first_node, fault.n_nodes, static_cast<int>(fault.points.size()),
+                          static_cast<int>(fault.faces.size())});
+  for (const auto& point : fault.points) push(t.points, point);
+  t.node_of_point.insert(t.node_of_point.end(), fault.node_of_point.begin(),
+                         fault.node_of_point.end());
   for (const auto& face : fault.faces) t.faces.insert(t.faces.end(), face.begin(), face.end());
 }
 
@@ -112,47 +109,42 @@ std::vector<OperatorNode> read_nodes(const OperatorTables& t, int n_dofs) {
 }
 
 void check_indices(const OperatorFault& fault, int n_nodes) {
-  const int n_points = static_cast<int>(fault.grid_position.size());
+  const int n_points = static_cast<int>(fault.points.size());
   demand(fault.first_node >= 0 && fault.n_nodes >= 0 && fault.first_node <= n_nodes - fault.n_nodes,
          "nodes of a fault");
-  for (const int node : fault.grid_node) demand(node >= -1 && node < n_nodes, "node of a point");
+  for (const int node : fault.node_of_point)
+    demand(node >= -1 && node < n_nodes, "node of a point");
   for (const auto& face : fault.faces) {
     for (const int point : face) demand(point >= 0 && point < n_points, "corner of a face");
   }
 }
 
-std::vector<OperatorFault> read_faults(const OperatorTables& t, int n_nodes) {
-  demand(t.fault_numbers.size() == 7 * t.fault_names.size(), "faults");
-  Cursor positions(t.grid_position, 3);
-  Cursor grid_nodes(t.grid_node, 1), grid_used(t.grid_used, 1), corners(t.faces, 4);
-  Cursor widths(t.column_width, 1);
+std::vector<OperatorFault> read_faults(const OperatorTables& t,
+                                       const std::vector<OperatorNode>& nodes) {
+  demand(t.fault_numbers.size() == 4 * t.fault_names.size(), "faults");
+  Cursor points(t.points, 3);
+  Cursor nodes_of_points(t.node_of_point, 1), corners(t.faces, 4);
   std::vector<OperatorFault> faults(t.fault_names.size());
   for (std::size_t i = 0; i < faults.size(); ++i) {
     OperatorFault& fault = faults[i];
-    const int* number = &t.fault_numbers[7 * i];
+    const int* number = &t.fault_numbers[4 * i];
     fault.name = t.fault_names[i];
-    fault.n_columns = number[0];
-    fault.n_rows = number[1];
-    fault.first_node = number[2];
-    fault.n_nodes = number[3];
-    const double* position = positions.take(number[4]);
-    const int* node = grid_nodes.take(number[4]);
-    const int* used = grid_used.take(number[4]);
-    for (int k = 0; k < number[4]; ++k, position += 3) {
-      fault.grid_position.emplace_back(position[0], position[1], position[2]);
-      fault.grid_node.push_back(node[k]);
-      fault.grid_used.push_back(used[k] != 0 ? 1 : 0);
+    fault.first_node = number[0];
+    fault.n_nodes = number[1];
+    const double* point = points.take(number[2]);
+    const int* node = nodes_of_points.take(number[2]);
+    for (int k = 0; k < number[2]; ++k, point += 3) {
+      fault.points.emplace_back(point[0], point[1], point[2]);
+      fault.node_of_point.push_back(node[k]);
     }
-    const double* width = widths.take(number[5]);
-    fault.column_width.assign(width, width + number[5]);
-    const int* corner = corners.take(number[6]);
-    for (int k = 0; k < number[6]; ++k, corner += 4) {
+    const int* corner = corners.take(number[3]);
+    for (int k = 0; k < number[3]; ++k, corner += 4) {
       fault.faces.push_back({corner[0], corner[1], corner[2], corner[3]});
     }
-    check_indices(fault, n_nodes);
+    check_indices(fault, static_cast<int>(nodes.size()));
+    fault.profiles = fault_profiles(fault, nodes);
   }
-  demand(positions.at_end() && grid_nodes.at_end() && grid_used.at_end() && corners.at_end() &&
-             widths.at_end(),
+  demand(points.at_end() && nodes_of_points.at_end() && corners.at_end(),
          "points and faces of the faults");
   return faults;
 }
@@ -204,7 +196,7 @@ FaultOperator from_tables(const OperatorTables& t) {
   op.geometry.plane_strain = t.header[1] != 0;
   op.geometry.half_domain = t.header[2] != 0;
   op.geometry.nodes = read_nodes(t, op.geometry.n_dofs);
-  op.geometry.faults = read_faults(t, static_cast<int>(op.geometry.nodes.size()));
+  op.geometry.faults = read_faults(t, op.geometry.nodes);
   demand(t.locked_positions.size() % 3 == 0, "locked positions");
   for (std::size_t i = 0; i < t.locked_positions.size() / 3; ++i) {
     op.geometry.locked_positions.push_back(row3(t.locked_positions, i));

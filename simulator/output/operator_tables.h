@@ -19,10 +19,9 @@ struct OperatorTables {
   std::vector<int> node_n_pairs;     ///< pressure pairs of each node
   std::vector<int> pair_regions;     ///< x 2: minus, plus
   std::vector<double> pair_numbers;  ///< x 3: minus_fraction, plus_fraction, weight
-  std::vector<int> fault_numbers;  ///< x 7: columns, rows, first node, nodes, points, widths, faces
-  std::vector<double> grid_position;  ///< x 3
-  std::vector<int> grid_node, grid_used;
-  std::vector<double> column_width;
+  std::vector<int> fault_numbers;        ///< x 4: first node, nodes, points, faces
+  std::vector<double> points;            ///< x 3
+  std::vector<int> node_of_point;
   std::vector<int> faces;                ///< x 4
   std::vector<double> locked_positions;  ///< x 3
   std::vector<double> dof_area;
@@ -56,13 +55,10 @@ void for_each_table(Tables& t, Archive&& archive) {
   archive("/pairs/regions", t.pair_regions, 2, "", "pressure region minus, plus; -1 none");
   archive("/pairs/numbers", t.pair_numbers, 3, "1", "fraction minus, fraction plus, weight");
   archive("/faults/names", t.fault_names, 1, "", "");
-  archive("/faults/numbers", t.fault_numbers, 7, "",
-          "columns, rows, first node, nodes, grid points, column widths, faces");
-  archive("/faults/grid_position", t.grid_position, 3, "m", "grid points of all faults");
-  archive("/faults/grid_node", t.grid_node, 1, "", "node at the grid point; -1 not split");
-  archive("/faults/grid_used", t.grid_used, 1, "", "1 where the point is a face's corner");
-  archive("/faults/column_width", t.column_width, 1, "m", "length along strike of a column");
-  archive("/faults/faces", t.faces, 4, "", "grid points of the faces' corners");
+  archive("/faults/numbers", t.fault_numbers, 4, "", "first node, nodes, points, faces");
+  archive("/faults/points", t.points, 3, "m", "points of all faults");
+  archive("/faults/node_of_point", t.node_of_point, 1, "", "node at the point; -1 not split");
+  archive("/faults/faces", t.faces, 4, "", "points at the faces' corners");
   archive("/locked_positions", t.locked_positions, 3, "m", "nodes held closed by a boundary");
   archive("/dof_area", t.dof_area, 1, "m2", "A per dof");
   archive("/loads/keys", t.load_keys, 3, "",

@@ -40,11 +40,11 @@ struct FaultMetrics {
   double chi_max = 0;         ///< nodal max χ: mesh-dependent.
   double chi_static_max = 0;  ///< nodal max χ_s, against the static strength.
   double area_chi_080 = 0;    ///< m2 with χ > 0.8.
-  double thickness_chi_080_max = 0;  ///< m, longest down-dip length with χ > 0.8 over the columns.
+  double thickness_chi_080_max = 0;  ///< m, longest down-dip length with χ > 0.8 over the profiles.
   double thickness_chi_080_mean = 0;  ///< m, strike mean of that length.
   double slipping_area = 0;           ///< m2 of nodes in state slip in this step.
   double open_area = 0;               ///< m2.
-  double activated_area = 0;    ///< m2: slip since start > slip_tolerance in columns that satisfy
+  double activated_area = 0;    ///< m2: slip since start > slip_tolerance in profiles that satisfy
                                 ///< the activation length.
   double activated_length = 0;  ///< m, longest down-dip extent with slip > slip_tolerance.
   bool activated = false;       ///< activated_length ≥ activation_length.

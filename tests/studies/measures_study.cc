@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include "simulator/common/errors.h"
-#include "simulator/loading/column_profile.h"
 #include "simulator/loading/run_case.h"
+#include "simulator/model/fault_profile.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsim {
@@ -22,22 +22,22 @@ namespace {
 
 using Eigen::VectorXd;
 using nlohmann::json;
-using Profile = std::function<double(double)>;  // of s, Pa
+using Line = std::function<double(double)>;  // of s, Pa
 
 constexpr double kWindow = 40;      // m
 constexpr double kThreshold = 0.8;  // of χ
 
-/// Shear and strength of one column as functions of s with kinks at `knots` only.
+/// Shear and strength down one profile as functions of s with kinks at `knots` only.
 struct Reading {
-  Profile shear, strength;
+  Line shear, strength;
   std::vector<double> knots;
 };
 
 /// Maximum over windows of ∫shear/∫strength with an end at a knot, integrals by midpoints of many
 /// parts: slow and plain, so that it shares no code with what it judges.
-double window_index(const Column& column, const Reading& reading) {
+double window_index(const Profile& profile, const Reading& reading) {
   constexpr double kPart = 0.02;  // m
-  const double from = column.edge.front(), to = column.edge.back();
+  const double from = profile.edge.front(), to = profile.edge.back();
   const auto n = static_cast<std::size_t>(std::ceil((to - from) / kPart));
   const double part = (to - from) / static_cast<double>(n);
   std::vector<double> load(n + 1, 0), bearing(n + 1, 0);
@@ -53,18 +53,23 @@ double window_index(const Column& column, const Reading& reading) {
   return best;
 }
 
-double thickness(const Column& column, const Reading& reading) {
+double thickness(const Profile& profile, const Reading& reading) {
   constexpr double kPart = 0.05;  // m
   double length = 0;
-  for (double s = column.edge.front() + kPart / 2; s < column.edge.back(); s += kPart)
+  for (double s = profile.edge.front() + kPart / 2; s < profile.edge.back(); s += kPart)
     if (reading.shear(s) > kThreshold * reading.strength(s)) length += kPart;
   return length;
 }
 
+std::vector<double> positions(const Profile& profile) {
+  std::vector<double> s;
+  for (const ProfileSample& sample : profile.samples) s.push_back(sample.position);
+  return s;
+}
+
 /// Linear between nodes, constant beyond the first and last.
-Profile linear(const Column& column, std::vector<double> value) {
-  return [&column, value = std::move(value)](double s) {
-    const std::vector<double>& x = column.position;
+Line linear(const Profile& profile, std::vector<double> value) {
+  return [x = positions(profile), value = std::move(value)](double s) {
     const auto next = static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), s) - x.begin());
     if (next == 0) return value.front();
     if (next == x.size()) return value.back();
@@ -73,50 +78,50 @@ Profile linear(const Column& column, std::vector<double> value) {
   };
 }
 
-std::size_t dual_cell(const Column& column, double s) {
-  const auto after = std::upper_bound(column.edge.begin() + 1, column.edge.end() - 1, s);
-  return static_cast<std::size_t>(after - column.edge.begin()) - 1;
+std::size_t dual_cell(const Profile& profile, double s) {
+  const auto after = std::upper_bound(profile.edge.begin() + 1, profile.edge.end() - 1, s);
+  return static_cast<std::size_t>(after - profile.edge.begin()) - 1;
 }
 
 /// Constant over dual cells.
-Profile dual(const Column& column, std::vector<double> value) {
-  return [&column, value = std::move(value)](double s) { return value[dual_cell(column, s)]; };
+Line dual(const Profile& profile, std::vector<double> value) {
+  return [&profile, value = std::move(value)](double s) { return value[dual_cell(profile, s)]; };
 }
 
 /// With the sum of each dual cell kept, sloped in it by the lesser of the slopes to its neighbours
 /// (0 where they differ in sign).
-Profile sloped(const Column& column, std::vector<double> value) {
+Line sloped(const Profile& profile, std::vector<double> value) {
   const std::size_t n = value.size();
   std::vector<double> slope(n, 0), middle(n);
-  for (std::size_t i = 0; i < n; ++i) middle[i] = 0.5 * (column.edge[i] + column.edge[i + 1]);
+  for (std::size_t i = 0; i < n; ++i) middle[i] = 0.5 * (profile.edge[i] + profile.edge[i + 1]);
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const double before = (value[i] - value[i - 1]) / (middle[i] - middle[i - 1]);
     const double after = (value[i + 1] - value[i]) / (middle[i + 1] - middle[i]);
     if (before * after > 0) slope[i] = std::abs(before) < std::abs(after) ? before : after;
   }
-  return [&column, value = std::move(value), slope, middle](double s) {
-    const std::size_t i = dual_cell(column, s);
+  return [&profile, value = std::move(value), slope, middle](double s) {
+    const std::size_t i = dual_cell(profile, s);
     return value[i] + slope[i] * (s - middle[i]);
   };
 }
 
-/// The piecewise linear traction whose consistent nodal forces are those of the column: M q = F,
+/// The piecewise linear traction whose consistent nodal forces are those of the profile: M q = F,
 /// F_i = value_i share_i, q constant beyond the first and last node.
-std::vector<double> recovered(const Column& column, const std::vector<double>& value) {
+std::vector<double> recovered(const Profile& profile, const std::vector<double>& value) {
   const std::size_t n = value.size();
   if (n == 1) return value;
-  const std::vector<double>& x = column.position;
+  const std::vector<double> x = positions(profile);
   std::vector<double> diagonal(n), off(n, 0), force(n);
   for (std::size_t i = 0; i < n; ++i) {
-    force[i] = value[i] * column.share(i);
+    force[i] = value[i] * profile.share(i);
     if (i > 0) diagonal[i] += (x[i] - x[i - 1]) / 3;
     if (i + 1 < n) {
       diagonal[i] += (x[i + 1] - x[i]) / 3;
       off[i] = (x[i + 1] - x[i]) / 6;
     }
   }
-  diagonal[0] += x.front() - column.edge.front();
-  diagonal[n - 1] += column.edge.back() - x.back();
+  diagonal[0] += x.front() - profile.edge.front();
+  diagonal[n - 1] += profile.edge.back() - x.back();
   for (std::size_t i = 1; i < n; ++i) {  // Thomas
     const double factor = off[i - 1] / diagonal[i - 1];
     diagonal[i] -= factor * off[i - 1];
@@ -131,7 +136,7 @@ std::vector<double> recovered(const Column& column, const std::vector<double>& v
 
 struct Rule {
   const char* name;
-  std::function<Reading(const Column&, const std::vector<double>& shear,
+  std::function<Reading(const Profile&, const std::vector<double>& shear,
                         const std::vector<double>& strength)>
       read;
 };
@@ -149,26 +154,26 @@ std::vector<double> absolute(std::vector<double> shear) {
 const std::vector<Rule>& rules() {
   static const std::vector<Rule> all = {
       {"linear",
-       [](const Column& c, const auto& t, const auto& l) {
+       [](const Profile& c, const auto& t, const auto& l) {
          return Reading{linear(c, absolute(t)), linear(c, floored(l)), {}};
        }},
       {"dual",
-       [](const Column& c, const auto& t, const auto& l) {
+       [](const Profile& c, const auto& t, const auto& l) {
          return Reading{dual(c, absolute(t)), dual(c, floored(l)), {}};
        }},
       {"sloped",
-       [](const Column& c, const auto& t, const auto& l) {
+       [](const Profile& c, const auto& t, const auto& l) {
          return Reading{sloped(c, absolute(t)), sloped(c, floored(l)), {}};
        }},
       {"recovered",
-       [](const Column& c, const auto& t, const auto& l) {
+       [](const Profile& c, const auto& t, const auto& l) {
          return Reading{
              linear(c, absolute(recovered(c, t))), linear(c, floored(recovered(c, l))), {}};
        }},
       {"limited",  // recovered, but nowhere beyond strength
-       [](const Column& c, const auto& t, const auto& l) {
-         const Profile strength = linear(c, floored(recovered(c, l)));
-         const Profile shear = linear(c, absolute(recovered(c, t)));
+       [](const Profile& c, const auto& t, const auto& l) {
+         const Line strength = linear(c, floored(recovered(c, l)));
+         const Line shear = linear(c, absolute(recovered(c, t)));
          return Reading{[=](double s) { return std::min(shear(s), strength(s)); }, strength, {}};
        }},
   };
@@ -179,14 +184,10 @@ const std::vector<Rule>& rules() {
 class StepWriter {
  public:
   StepWriter(const FaultOperator& op, const Scene& scene, std::string prefix, bool with_rules)
-      : scene_(scene), prefix_(std::move(prefix)), with_rules_(with_rules) {
-    for (std::size_t f = 0; f < op.geometry.faults.size(); ++f) {
-      const OperatorFault& fault = op.geometry.faults[f];
-      for (int j = 0; j < fault.n_columns; ++j)
-        if (Column c = make_column(fault, static_cast<int>(f), j); !c.nodes.empty())
-          columns_.push_back(std::move(c));
-    }
-  }
+      : faults_(op.geometry.faults),
+        scene_(scene),
+        prefix_(std::move(prefix)),
+        with_rules_(with_rules) {}
 
   void write(const StepResult& step, const FaultFields& fields) const {
     for (std::size_t f = 0; f < step.faults.size(); ++f) {
@@ -204,24 +205,23 @@ class StepWriter {
   void write_rule(const Rule& rule, int fault, const FaultFields& fields) const {
     const double tangent = std::tan(scene_.faults[fault].friction.static_friction_angle);
     double chi = 0, thick = 0;
-    for (const Column& column : columns_) {
-      if (column.fault != fault) continue;
+    for (const Profile& profile : faults_[fault].profiles) {
       std::vector<double> shear, strength;
-      for (const int node : column.nodes) {
-        shear.push_back(fields.traction(2, node));  // plane strain: down dip only
-        strength.push_back(-fields.traction(0, node) * tangent);
+      for (const ProfileSample& sample : profile.samples) {
+        shear.push_back(fields.traction(2, sample.node[0]));  // plane strain: down dip only
+        strength.push_back(-fields.traction(0, sample.node[0]) * tangent);
       }
-      const Reading reading = rule.read(column, shear, strength);
-      chi = std::max(chi, window_index(column, reading));
-      thick = std::max(thick, thickness(column, reading));
+      const Reading reading = rule.read(profile, shear, strength);
+      chi = std::max(chi, window_index(profile, reading));
+      thick = std::max(thick, thickness(profile, reading));
     }
     std::printf(",%.7g,%.5g", chi, thick);
   }
 
+  const std::vector<OperatorFault>& faults_;
   const Scene& scene_;
   std::string prefix_;
   bool with_rules_;
-  std::vector<Column> columns_;
 };
 
 JsonDocument with(JsonDocument document, const json& changes) {

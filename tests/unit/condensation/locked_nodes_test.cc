@@ -27,20 +27,19 @@ TEST(LockedNodes, AreReportedAndLeftOutOfTheContactProblem) {
   SilentMonitor monitor;
   const FaultOperator op = CondensedBulk(problem, monitor).condense();
   const OperatorFault& fault = op.geometry.faults.front();
-  EXPECT_EQ(op.geometry.locked_positions.size(), static_cast<std::size_t>(fault.n_columns));
   EXPECT_EQ(fault.n_nodes, static_cast<int>(op.geometry.nodes.size()));
   for (const OperatorNode& node : op.geometry.nodes) EXPECT_GE(node.dof[0], 0);
-  for (int column = 0; column < fault.n_columns; ++column) {
-    for (int row = 0; row < fault.n_rows; ++row) {
-      const auto point = static_cast<std::size_t>(column * fault.n_rows + row);
-      const bool on_base = std::abs(fault.grid_position[point].z() + 100) < 1e-9;
-      ASSERT_EQ(fault.grid_node[point] < 0, on_base);
-      if (on_base) continue;
-      const OperatorNode& node =
-          op.geometry.nodes[static_cast<std::size_t>(fault.grid_node[point])];
-      EXPECT_LT((node.position - fault.grid_position[point]).norm(), 1e-9);
-    }
+  std::size_t n_on_base = 0;
+  for (std::size_t point = 0; point < fault.points.size(); ++point) {
+    const bool on_base = std::abs(fault.points[point].z() + 100) < 1e-9;
+    n_on_base += on_base;
+    ASSERT_EQ(fault.node_of_point[point] < 0, on_base);
+    if (on_base) continue;
+    const OperatorNode& node =
+        op.geometry.nodes[static_cast<std::size_t>(fault.node_of_point[point])];
+    EXPECT_LT((node.position - fault.points[point]).norm(), 1e-9);
   }
+  EXPECT_EQ(op.geometry.locked_positions.size(), n_on_base);
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ TEST(LoosePieces, AHingeIsRefusedWithItsPlace) {
   problem.mesh = make_box(n, {40, 1, 20}, {test::through(2, n)});
   test::make_plane_strain(problem.mesh, 1);
   problem.mesh.faults[0].nodes.resize(1);
-  for (int& node : problem.mesh.faults[0].grid_node) node = node == 0 ? 0 : -1;
+  for (int& node : problem.mesh.faults[0].node_of_point) node = node == 0 ? 0 : -1;
   for (FaultFace& face : problem.mesh.faults[0].faces) {
     for (int& node : face.nodes) node = node == 0 ? 0 : -1;
   }

@@ -27,16 +27,13 @@ class BoxMaker {
   void split(const Split& s) {
     FaultSurface fault;
     fault.name = "fault_" + std::to_string(mesh_.faults.size());
-    fault.n_columns = s.j1 - s.j0 + 1;
-    fault.n_rows = s.k1 - s.k0 + 1;
-    fault.column_width.assign(static_cast<std::size_t>(fault.n_columns), 1);
     for (int j = s.j1; j >= s.j0; --j) {
       for (int k = s.k1; k >= s.k0; --k) {
         const bool inside_j = (j > s.j0 || j == 0) && (j < s.j1 || j == n_[1]);
         const bool inside_k = (k > s.k0 || k == 0) && (k < s.k1 || k == n_[2]);
-        fault.grid_position.push_back(at(s.i, j, k));
-        fault.grid_used.push_back(1);
-        fault.grid_node.push_back(inside_j && inside_k ? static_cast<int>(fault.nodes.size()) : -1);
+        fault.points.push_back(at(s.i, j, k));
+        fault.node_of_point.push_back(inside_j && inside_k ? static_cast<int>(fault.nodes.size())
+                                                           : -1);
         if (!(inside_j && inside_k)) continue;
         plus_[id(s.i, j, k)] = static_cast<int>(mesh_.nodes.size());
         mesh_.nodes.push_back(at(s.i, j, k));
@@ -82,15 +79,15 @@ class BoxMaker {
       for (int k = s.k1 - 1; k >= s.k0; --k) {
         FaultFace face;
         const int column = s.j1 - 1 - j, row = s.k1 - 1 - k;
-        const int first = column * fault.n_rows + row;
-        face.grid = {first, first + 1, first + fault.n_rows + 1, first + fault.n_rows};
+        const int n_rows = s.k1 - s.k0 + 1, first = column * n_rows + row;
+        face.points = {first, first + 1, first + n_rows + 1, first + n_rows};
         face.area = 0.5 * (at(s.i, j + 1, k + 1) - at(s.i, j, k))
                               .cross(at(s.i, j + 1, k) - at(s.i, j, k + 1))
                               .norm();
         face.minus_cell = cell(s.i - 1, j, k);
         face.plus_cell = cell(s.i, j, k);
         for (std::size_t a = 0; a < 4; ++a) {
-          face.nodes[a] = fault.grid_node[static_cast<std::size_t>(face.grid[a])];
+          face.nodes[a] = fault.node_of_point[static_cast<std::size_t>(face.points[a])];
           if (face.nodes[a] < 0) continue;
           fault.nodes[static_cast<std::size_t>(face.nodes[a])].area += face.area / 4;
         }
@@ -148,7 +145,7 @@ Mapping shear_to_dip(double dip_degrees) {
 void distort(Mesh& mesh, double smallest_edge, double share) {
   std::vector<char> keep(mesh.nodes.size(), 0);
   for (const FaultSurface& fault : mesh.faults) {
-    for (const Eigen::Vector3d& x : fault.grid_position) {
+    for (const Eigen::Vector3d& x : fault.points) {
       for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
         if ((mesh.nodes[i] - x).norm() < 1e-9 * smallest_edge) keep[i] = 1;
       }
@@ -204,7 +201,8 @@ void make_plane_strain(Mesh& mesh, double thickness) {
       }
     }
     fault.nodes = merged;
-    for (int& node : fault.grid_node) node = node < 0 ? -1 : number[static_cast<std::size_t>(node)];
+    for (int& node : fault.node_of_point)
+      node = node < 0 ? -1 : number[static_cast<std::size_t>(node)];
     for (FaultFace& face : fault.faces) {
       face.area /= thickness;
       for (int& node : face.nodes) node = node < 0 ? -1 : number[static_cast<std::size_t>(node)];

@@ -46,20 +46,19 @@ struct FaultsBetweenRegions {
   void add_fault(const std::string& name, int minus, int plus) {
     OperatorFault fault;
     fault.name = name;
-    fault.n_columns = 1;
-    fault.n_rows = kNodes + 2;
-    fault.column_width = {1.0};
     fault.first_node = static_cast<int>(op.geometry.nodes.size());
     fault.n_nodes = kNodes;
     for (int row = 0; row < kNodes + 2; ++row) {
       const bool tip = row == 0 || row == kNodes + 1;
       const double depth = 2000 + kSpacing * row;
-      fault.grid_position.emplace_back(0, 0, -depth);
-      fault.grid_node.push_back(tip ? -1 : fault.first_node + row - 1);
-      fault.grid_used.push_back(1);
+      fault.points.emplace_back(0, 0, -depth);
+      fault.node_of_point.push_back(tip ? -1 : fault.first_node + row - 1);
+      if (row > 0) fault.faces.push_back({row - 1, row, row, row - 1});
       if (tip) continue;
       OperatorNode node;
       node.position = {0, 0, -depth};
+      node.strike = Eigen::Vector3d::UnitY();
+      node.dip = -Eigen::Vector3d::UnitZ();
       node.area = kSpacing;
       const int dof = 2 * static_cast<int>(op.geometry.nodes.size());
       node.dof = {dof, -1, dof + 1};
@@ -68,6 +67,7 @@ struct FaultsBetweenRegions {
       node.pressure = {{inside ? minus : -1, 1.0, inside ? plus : -1, 1.0, 1.0}};
       op.geometry.nodes.push_back(node);
     }
+    fault.profiles = fault_profiles(fault, op.geometry.nodes);
     op.geometry.faults.push_back(fault);
   }
   /// More slip on a stretch of nodes of a fault, tent-shaped: largest at the middle node.

@@ -22,23 +22,23 @@ struct LineFault {
     const int n = static_cast<int>(s.size()) - 2;
     OperatorFault fault;
     fault.name = "F";
-    fault.n_columns = 1;
-    fault.n_rows = n + 2;
-    fault.column_width = {1.0};
     fault.n_nodes = n;
     for (int row = 0; row < n + 2; ++row) {
-      fault.grid_position.emplace_back(0, 0, -s[row]);
-      fault.grid_node.push_back(row == 0 || row == n + 1 ? -1 : row - 1);
-      fault.grid_used.push_back(1);
+      fault.points.emplace_back(0, 0, -s[row]);
+      fault.node_of_point.push_back(row == 0 || row == n + 1 ? -1 : row - 1);
+      if (row > 0) fault.faces.push_back({row - 1, row, row, row - 1});
     }
     for (int k = 0; k < n; ++k) {
       OperatorNode node;
+      node.strike = Eigen::Vector3d::UnitY();
+      node.dip = -Eigen::Vector3d::UnitZ();
       node.area = (s[k + 2] - s[k]) / 2;
       node.dof = {2 * k, -1, 2 * k + 1};
       node.effective_shear_modulus = 5e9;
       op.geometry.nodes.push_back(node);
     }
     op.geometry.n_dofs = 2 * n;
+    fault.profiles = fault_profiles(fault, op.geometry.nodes);
     op.geometry.faults = {fault};
     op.geometry.half_domain = half;
     CoulombLaw law;
@@ -53,6 +53,7 @@ struct LineFault {
   /// n nodes every h metres between two unsplit tips.
   LineFault(int n, double h, bool half = false) : LineFault(even(n + 2, h), half) {}
 
+  const Profile& profile() const { return op.geometry.faults[0].profiles[0]; }
   int n() const { return static_cast<int>(op.geometry.nodes.size()); }
   void slip(int first, int last, double by) {
     for (int k = first; k <= last; ++k) state.jump[2 * k + 1] = by;
@@ -72,7 +73,8 @@ struct LineFault {
   }
   double window_index(double length = 40) const {
     const NodalState values = nodal();
-    return window_critical_index(meter().columns()[0], values.shear, values.strength, length)
+    return WindowSearch(profile(), length)
+        .most_loaded(values.shear, values.strength)
         .critical_index;
   }
   FaultOperator op;
@@ -176,27 +178,13 @@ TEST(FaultMeter, WindowIndexIsTheSameUpsideDown) {
   EXPECT_NEAR(down.window_index(), up.window_index(), 1e-12);
 }
 
-TEST(FaultMeter, AColumnThatTheBodyCutsEndsAtItsLastNode) {
-  LineFault f(9, 10);
-  f.op.geometry.faults[0].grid_used.back() = 0;  // no tip below: the body ends at node 8
-  const FaultMeter meter = f.meter();
-  const Column& column = meter.columns()[0];
-  EXPECT_TRUE(std::isnan(column.tip_after));
-  EXPECT_DOUBLE_EQ(column.edge.front(), 5);
-  EXPECT_DOUBLE_EQ(column.edge.back(), 90);
-  EXPECT_DOUBLE_EQ(column.share(8), 5);
-  EXPECT_DOUBLE_EQ(column.share(0), 10);
-  EXPECT_DOUBLE_EQ(column.length(), 90);
-}
-
 TEST(FaultMeter, LengthAboveIsLocatedByInterpolation) {
   LineFault f(9, 10);
   for (int k = 0; k < 9; ++k) f.state.traction[2 * k + 1] = 5e6 * (k == 4 ? 1.0 : 0.0);
-  const FaultMeter meter(f.op, f.laws, 1e-4, 40);
   NodalState nodal = f.nodal();
-  EXPECT_NEAR(length_above(meter.columns()[0], nodal.critical_index, 0.8), 4.0, 1e-12);
+  EXPECT_NEAR(length_above(f.profile(), nodal.critical_index, 0.8), 4.0, 1e-12);
   nodal.critical_index.setOnes();
-  EXPECT_NEAR(length_above(meter.columns()[0], nodal.critical_index, 0.8), 90.0, 1e-12);
+  EXPECT_NEAR(length_above(f.profile(), nodal.critical_index, 0.8), 90.0, 1e-12);
 }
 
 TEST(FaultMeter, ActivationNeedsTheLengthNotTheNumberOfCells) {

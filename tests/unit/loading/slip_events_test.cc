@@ -31,7 +31,7 @@ class EventOfThreeNodes : public testing::Test {
     jump_.released = 4e6;
     jump_.dissipated = 2e6;
   }
-  SlipEvent event() const { return measure_event(fault_.op, fault_.laws, fault_.meter(), jump_); }
+  SlipEvent event() const { return measure_event(fault_.op, fault_.laws, jump_); }
   void set_edges(double edge) {
     for (OperatorNode& node : fault_.op.geometry.nodes) node.edge_dip = edge;
   }

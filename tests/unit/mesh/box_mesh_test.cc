@@ -33,7 +33,7 @@ TEST(BoxMesh, HasTheSizesOfTheSolverTable) {
     EXPECT_EQ(fault.nodes[0].normal, Eigen::Vector3d(0, 0, 1));
     EXPECT_EQ(fault.nodes[0].strike, Eigen::Vector3d(0, 1, 0));
     EXPECT_EQ(fault.nodes[0].dip, Eigen::Vector3d(-1, 0, 0));
-    EXPECT_NEAR(fault.grid_position.front().x(), 4, 1e-12);  // rows go along dip = -x
+    EXPECT_NEAR(fault.points.front().x(), 4, 1e-12);  // rows go along dip = -x
   }
 }
 
@@ -121,9 +121,9 @@ TEST(BoxMesh, TiesOppositeFacesWithoutChains) {
   EXPECT_EQ(roots.size(), 2u * 3 * 6);  // 2 x 3 independent places, 5 levels and one duplicated
   const FaultSurface& fault = mesh.faults[0];
   EXPECT_EQ(fault.nodes.size(), 6u);
-  EXPECT_EQ(fault.grid_node.size(), 12u);
+  EXPECT_EQ(fault.node_of_point.size(), 12u);
   for (const FaultNode& one : fault.nodes) EXPECT_NEAR(one.area, 1, 1e-12);
-  for (const int n : fault.grid_node) EXPECT_GE(n, 0);
+  for (const int n : fault.node_of_point) EXPECT_GE(n, 0);
   // A tied plus copy goes to a plus copy.
   for (size_t n = 0; n < mesh.nodes.size(); ++n) {
     const int root = mesh.tied_to[n];
@@ -152,7 +152,6 @@ TEST(BoxMesh, PlaneStrainHasOneCellInYAndAreasPerMetre) {
   check_mesh(mesh);
   EXPECT_EQ(mesh.thickness, 0.5);
   const FaultSurface& fault = mesh.faults[0];
-  EXPECT_EQ(fault.n_columns, 1);
   EXPECT_EQ(fault.nodes.size(), 7u);
   for (const FaultNode& one : fault.nodes) EXPECT_NEAR(one.area, 0.25, 1e-12);
   EXPECT_NEAR(face_area(fault), 2, 1e-12);

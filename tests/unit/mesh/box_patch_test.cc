@@ -66,25 +66,20 @@ TEST(BoxPatch, RectanglesEndOnGridLinesWhateverTheirStrikeAndDip) {
       check_mesh(mesh);
       const FaultSurface& fault = mesh.faults[0];
       EXPECT_NEAR(face_area(fault), 80, 1e-9);
-      EXPECT_EQ(fault.nodes.size(),
-                static_cast<size_t>((fault.n_columns - 2) * (fault.n_rows - 2)));
-      double length = 0;
-      for (const double width : fault.column_width) length += width;
-      EXPECT_NEAR(length, 10, 1e-9);
       const BoxMeshSpec::Patch& patch = spec.patches[0];
       double max_u = 0, max_v = 0;
-      for (size_t k = 0; k < fault.grid_position.size(); ++k) {
-        const Eigen::Vector3d local = fault.grid_position[k] - centre(patch);
+      for (size_t k = 0; k < fault.points.size(); ++k) {
+        const Eigen::Vector3d local = fault.points[k] - centre(patch);
         EXPECT_NEAR(local.dot(along(patch).cross(down(patch))), 0, 1e-9);
         const double u = std::abs(local.dot(along(patch))), v = std::abs(local.dot(down(patch)));
-        EXPECT_EQ(fault.grid_node[k] >= 0, u < 5 - 1e-6 && v < 4 - 1e-6);
+        EXPECT_EQ(fault.node_of_point[k] >= 0, u < 5 - 1e-6 && v < 4 - 1e-6);
         max_u = std::max(max_u, u);
         max_v = std::max(max_v, v);
       }
       EXPECT_NEAR(max_u, 5, 1e-9);
       EXPECT_NEAR(max_v, 4, 1e-9);
       // Rows go down dip.
-      EXPECT_GT((fault.grid_position[1] - fault.grid_position[0]).dot(fault.nodes[0].dip), 0);
+      EXPECT_GT((fault.points[1] - fault.points[0]).dot(fault.nodes[0].dip), 0);
       EXPECT_NEAR(total_volume(mesh), 64e3, 1e-6);
     }
 }
@@ -115,10 +110,10 @@ TEST(BoxPatch, EllipsesSplitTheNodesStrictlyInside) {
     check_mesh(mesh);
     const FaultSurface& fault = mesh.faults[0];
     const BoxMeshSpec::Patch& patch = spec.patches[0];
-    for (size_t k = 0; k < fault.grid_position.size(); ++k) {
-      const double u = fault.grid_position[k].dot(along(patch)) / 4,
-                   v = fault.grid_position[k].dot(down(patch)) / 3;
-      EXPECT_EQ(fault.grid_node[k] >= 0, u * u + v * v < 1 - 1e-6);
+    for (size_t k = 0; k < fault.points.size(); ++k) {
+      const double u = fault.points[k].dot(along(patch)) / 4,
+                   v = fault.points[k].dot(down(patch)) / 3;
+      EXPECT_EQ(fault.node_of_point[k] >= 0, u * u + v * v < 1 - 1e-6);
     }
     EXPECT_NEAR(node_area(fault), M_PI * 12, 0.1 * M_PI * 12);
     EXPECT_LT(node_area(fault), face_area(fault));

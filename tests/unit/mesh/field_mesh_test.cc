@@ -94,7 +94,7 @@ TEST(FieldMesh, BendsTheFaultAboutThePivot) {
   check_mesh(mesh);
   const double x[3] = {-2000, 0, 2000};
   for (size_t i = 0; i < 3; ++i)
-    for (const Eigen::Vector3d& p : mesh.faults[i].grid_position)
+    for (const Eigen::Vector3d& p : mesh.faults[i].points)
       EXPECT_NEAR(p.x(), x[i] + (-p.z() - 2100) * std::tan(spec.fault_dips[i]), 1e-9);
   const FaultNode& one = mesh.faults[1].nodes[0];
   EXPECT_NEAR(one.normal.x(), std::cos(25 * kDegree), 1e-14);
@@ -107,15 +107,15 @@ TEST(FieldMesh, EachFaultHasItsOwnDepthRange) {
   const double top[3] = {-1850, -1850, -1987}, bottom[3] = {-2350, -2487, -2487};
   for (size_t i = 0; i < 3; ++i) {
     const FaultSurface& fault = mesh.faults[i];
-    EXPECT_NEAR(fault.grid_position.front().z(), top[i], 1e-6);  // rows go down dip
-    EXPECT_NEAR(fault.grid_position.back().z(), bottom[i], 1e-6);
-    EXPECT_NEAR(fault.grid_position.front().y(), -1200, 1e-9);
-    EXPECT_NEAR(fault.grid_position.back().y(), 1200, 1e-9);
-    // All points but those on the edge split.
-    EXPECT_EQ(fault.nodes.size(), static_cast<size_t>((fault.n_columns - 2) * (fault.n_rows - 2)));
-    double length = 0;
-    for (const double width : fault.column_width) length += width;
-    EXPECT_NEAR(length, 2400, 1e-9);
+    EXPECT_NEAR(fault.points.front().z(), top[i], 1e-6);  // rows go down dip
+    EXPECT_NEAR(fault.points.back().z(), bottom[i], 1e-6);
+    EXPECT_NEAR(fault.points.front().y(), -1200, 1e-9);
+    EXPECT_NEAR(fault.points.back().y(), 1200, 1e-9);
+    for (size_t k = 0; k < fault.points.size(); ++k) {  // all but those on the edge split
+      const Eigen::Vector3d& p = fault.points[k];
+      EXPECT_EQ(fault.node_of_point[k] >= 0,
+                std::abs(p.y()) < 1199 && p.z() < top[i] - 1e-6 && p.z() > bottom[i] + 1e-6);
+    }
   }
 }
 
@@ -257,21 +257,14 @@ TEST(FieldMesh, HalfDomainIsHalfOfTheFullOne) {
   EXPECT_NEAR(2 * total_volume(half), total_volume(full), 1e-9 * total_volume(full));
   for (size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(2 * node_area(half.faults[i]), node_area(full.faults[i]), 1e-6);
-    double full_length = 0, half_length = 0;
-    for (const double width : full.faults[i].column_width) full_length += width;
-    for (const double width : half.faults[i].column_width) half_length += width;
-    EXPECT_NEAR(2 * half_length, full_length, 1e-9);
-    // The column on the symmetry plane stands for half.
-    EXPECT_NEAR(2 * half.faults[i].column_width[0], half.faults[i].column_width[1], 1e-9);
-    EXPECT_NEAR(half.faults[i].grid_position[0].y(), 0, 1e-12);
+    EXPECT_NEAR(half.faults[i].points[0].y(), 0, 1e-12);
+    // The nodes on the symmetry plane stand for half.
+    const size_t n_on_plane = std::count_if(
+        half.faults[i].nodes.begin(), half.faults[i].nodes.end(),
+        [&](const FaultNode& one) { return std::abs(node(half, one.minus_node).y()) < 1e-9; });
+    const std::vector<FaultNode>& nodes = full.faults[i].nodes;
     EXPECT_NEAR(2 * half.faults[i].nodes[3].area,
-                full.faults[i]
-                    .nodes[full.faults[i].nodes.size() / 2 /
-                               static_cast<size_t>(full.faults[i].n_rows - 2) *
-                               static_cast<size_t>(full.faults[i].n_rows - 2) +
-                           3]
-                    .area,
-                1e-9);
+                nodes[nodes.size() / 2 / n_on_plane * n_on_plane + 3].area, 1e-9);
   }
 }
 
@@ -290,12 +283,10 @@ TEST(FieldMesh, PlaneStrainTiesTheBackToTheFrontAndHasOneColumn) {
     EXPECT_EQ(root == static_cast<int>(n), mesh.nodes[n].y() == 0);
   }
   const FaultSurface& fault = mesh.faults[1];
-  EXPECT_EQ(fault.n_columns, 1);
-  EXPECT_EQ(fault.column_width, std::vector<double>{1.0});
-  EXPECT_EQ(fault.nodes.size(), static_cast<size_t>(fault.n_rows - 2));
-  EXPECT_EQ(fault.faces.size(), static_cast<size_t>(fault.n_rows - 1));
+  EXPECT_EQ(fault.nodes.size(), fault.points.size() - 2);
+  EXPECT_EQ(fault.faces.size(), fault.points.size() - 1);
   // Per metre of strike: the down-dip length that a node stands for.
-  const double along = (fault.grid_position[3] - fault.grid_position[1]).norm() / 2;
+  const double along = (fault.points[3] - fault.points[1]).norm() / 2;
   EXPECT_NEAR(fault.nodes[1].area, along, 1e-9);
   EXPECT_NEAR(face_area(fault), 600 / std::cos(15 * kDegree), 1e-9);
 }
@@ -348,8 +339,13 @@ TEST(FieldMesh, SplitsEveryNodeOfAFaultThatPassesBeyondTheModel) {
   const Mesh mesh = make_mesh(spec);
   check_mesh(mesh);
   const FaultSurface& fault = mesh.faults[1];
-  EXPECT_EQ(fault.nodes.size(), static_cast<size_t>(fault.n_columns * (fault.n_rows - 2)));
-  EXPECT_NEAR(fault.grid_position[0].y(), -10e3, 1e-9);
+  const auto is_end = [&](double z) {
+    return std::min(std::abs(z - fault.points.front().z()), std::abs(z - fault.points.back().z())) <
+           1e-6;
+  };
+  for (size_t k = 0; k < fault.points.size(); ++k)
+    EXPECT_EQ(fault.node_of_point[k] >= 0, !is_end(fault.points[k].z()));
+  EXPECT_NEAR(fault.points[0].y(), -10e3, 1e-9);
 }
 
 TEST(FieldMesh, WorksForOneBlockAndForMany) {

@@ -88,10 +88,7 @@ inline bool has_node(const Mesh& mesh, int cell, int wanted) {
 
 inline void check_fault(const Mesh& mesh, const FaultSurface& fault) {
   ASSERT_FALSE(fault.nodes.empty());
-  ASSERT_EQ(fault.grid_position.size(), static_cast<size_t>(fault.n_columns * fault.n_rows));
-  ASSERT_EQ(fault.grid_node.size(), fault.grid_position.size());
-  ASSERT_EQ(fault.grid_used.size(), fault.grid_position.size());
-  ASSERT_EQ(fault.column_width.size(), static_cast<size_t>(fault.n_columns));
+  ASSERT_EQ(fault.node_of_point.size(), fault.points.size());
   for (const FaultNode& one : fault.nodes) {
     EXPECT_EQ(node(mesh, one.minus_node), node(mesh, one.plus_node));
     EXPECT_NE(one.minus_node, one.plus_node);
@@ -104,18 +101,18 @@ inline void check_fault(const Mesh& mesh, const FaultSurface& fault) {
     EXPECT_NEAR(one.normal.dot(one.strike), 0, 1e-14);
     EXPECT_GT(one.area, 0);
   }
-  std::vector<char> used(fault.grid_position.size(), 0);
+  std::vector<char> used(fault.points.size(), 0);
   for (const FaultFace& face : fault.faces) {
     EXPECT_GT(face.area, 0);
     const Eigen::Vector3d normal = fault.nodes[0].normal;
-    const Eigen::Vector3d place = fault.grid_position[static_cast<size_t>(face.grid[0])];
+    const Eigen::Vector3d place = fault.points[static_cast<size_t>(face.points[0])];
     EXPECT_LT((cell_centre(mesh, face.minus_cell) - place).dot(normal), 0);
     EXPECT_GT((cell_centre(mesh, face.plus_cell) - place).dot(normal), 0);
     for (size_t v = 0; v < 4; ++v) {
-      const size_t grid = static_cast<size_t>(face.grid[v]);
-      used[grid] = 1;
-      EXPECT_EQ(face.nodes[v], fault.grid_node[grid]);
-      EXPECT_NEAR((fault.grid_position[grid] - place).dot(normal), 0, 1e-9 * (1 + place.norm()));
+      const size_t point = static_cast<size_t>(face.points[v]);
+      used[point] = 1;
+      EXPECT_EQ(face.nodes[v], fault.node_of_point[point]);
+      EXPECT_NEAR((fault.points[point] - place).dot(normal), 0, 1e-9 * (1 + place.norm()));
       if (face.nodes[v] < 0) continue;
       const FaultNode& one = fault.nodes[static_cast<size_t>(face.nodes[v])];
       EXPECT_TRUE(has_node(mesh, face.minus_cell, one.minus_node));
@@ -124,7 +121,7 @@ inline void check_fault(const Mesh& mesh, const FaultSurface& fault) {
       EXPECT_FALSE(has_node(mesh, face.plus_cell, one.minus_node));
     }
   }
-  EXPECT_EQ(used, fault.grid_used);
+  EXPECT_EQ(used, std::vector<char>(used.size(), 1));
 }
 
 inline void check_mesh(const Mesh& mesh) {

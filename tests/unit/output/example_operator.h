@@ -45,18 +45,15 @@ inline std::string read_bytes(const std::filesystem::path& path) {
 inline OperatorFault example_fault(FaultGeometry& geometry, const std::string& name, double x) {
   OperatorFault fault;
   fault.name = name;
-  fault.n_columns = 3;
-  fault.n_rows = 4;
   fault.first_node = static_cast<int>(geometry.nodes.size());
   for (int column = 0; column < 3; ++column) {
     for (int row = 0; row < 4; ++row) {
       const bool split = column == 1 && row > 0 && row < 3;
-      fault.grid_position.emplace_back(x, 100.0 * column, -2000 - 50.0 * row);
-      fault.grid_node.push_back(split ? static_cast<int>(geometry.nodes.size()) : -1);
-      fault.grid_used.push_back(1);
+      fault.points.emplace_back(x, 100.0 * column, -2000 - 50.0 * row);
+      fault.node_of_point.push_back(split ? static_cast<int>(geometry.nodes.size()) : -1);
       if (!split) continue;
       OperatorNode node;
-      node.position = fault.grid_position.back();
+      node.position = fault.points.back();
       node.normal = {0.8, 0, 0.6};
       node.strike = {0, 1, 0};
       node.dip = node.normal.cross(node.strike);
@@ -72,13 +69,13 @@ inline OperatorFault example_fault(FaultGeometry& geometry, const std::string& n
     }
   }
   fault.n_nodes = 2;
-  fault.column_width = {50, 100, 50};
   for (int column = 0; column < 2; ++column) {
     for (int row = 0; row < 3; ++row) {
       const int at = 4 * column + row;
       fault.faces.push_back({at, at + 1, at + 5, at + 4});
     }
   }
+  fault.profiles = fault_profiles(fault, geometry.nodes);
   return fault;
 }
 

@@ -241,7 +241,8 @@ TEST(FieldWriter, WritesTheWholeFaultOfAHalfDomain) {
   FaultOperator op = whole_operator();
   op.geometry.half_domain = true;
   OperatorFault& fault = op.geometry.faults[0];
-  std::swap(fault.grid_node[1], fault.grid_node[5]);  // node 0 lies on the plane, node 1 beyond it
+  std::swap(fault.node_of_point[1],
+            fault.node_of_point[5]);  // node 0 lies on the plane, node 1 beyond it
   FieldWriter writer(folder.path(), op.geometry);
   const FaultFields fields = example_fields(4, 1);
   writer.add_step(example_step(0), fields);
@@ -319,12 +320,9 @@ TEST(FieldWriter, PlaneStrainDrawsLines) {
   FaultGeometry geometry;
   geometry.plane_strain = true;
   OperatorFault fault = example_fault(geometry, "F", 0);
-  fault.n_columns = 1;
-  fault.grid_position.erase(fault.grid_position.begin(), fault.grid_position.begin() + 4);
-  fault.grid_position.resize(4);
-  fault.grid_node = {-1, 0, 1, -1};
-  fault.grid_used = {1, 1, 1, 1};
-  fault.column_width = {1};
+  fault.points.erase(fault.points.begin(), fault.points.begin() + 4);
+  fault.points.resize(4);
+  fault.node_of_point = {-1, 0, 1, -1};
   fault.faces = {{0, 1, 1, 0}, {1, 2, 2, 1}, {2, 3, 3, 2}};
   geometry.faults = {fault};
   FieldWriter writer(folder.path(), geometry);

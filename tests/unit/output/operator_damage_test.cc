@@ -160,7 +160,7 @@ TEST(DamagedOperator, OtherFormatVersionIsLeftAlone) {
   write_operator(op, folder.path());
   const auto path = folder.path() / (op.fingerprint + ".h5");
   std::string bytes = read_bytes(path);
-  bytes.replace(bytes.find("operator 2"), 10, "operator 1");
+  bytes.replace(bytes.find("operator 3"), 10, "operator 1");
   std::ofstream(path, std::ios::binary) << bytes;
   std::string remark;
   EXPECT_FALSE(read_operator(folder.path(), op.fingerprint, &remark).has_value());
