@@ -72,7 +72,7 @@ inline FrictionState friction_before(const ContactNode& node, const SubStep& sub
 inline Strength strength_after(const ContactNode& node, const SubStep& sub_step, int k) {
   const Eigen::Vector2d slip = shear_part(node, sub_step.increment);
   return node.law->strength(sub_step.traction[node.dof[0]], slip, sub_step.per_second,
-                           friction_before(node, sub_step, k), slip);
+                            friction_before(node, sub_step, k), slip);
 }
 
 /// Whether a node slips in the sub-step that still has cohesion and loses it by slip.

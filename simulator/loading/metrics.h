@@ -43,7 +43,7 @@ class FaultMeter {
     /// may be 1 within its error.
     bool resolved = true;
     bool at_edge = false;  ///< an activated extent reaches a node next to an edge of the fault.
-    int place = -1;        ///< node of largest slip in the profiles that satisfy it; -1 = none does.
+    int place = -1;  ///< node of largest slip in the profiles that satisfy it; -1 = none does.
   };
   /// @param nodal  of this state.
   /// @param reference  jump at the reference time; nullptr = zero.

@@ -50,8 +50,7 @@ struct OperatorFault {
 
 /// Everything about the faults that does not depend on the loads.
 struct FaultGeometry {
-  std::vector<OperatorNode>
-      nodes;  ///< all faults, fault by fault.
+  std::vector<OperatorNode> nodes;  ///< all faults, fault by fault.
   std::vector<OperatorFault> faults;
   int n_dofs = 0;
   Eigen::VectorXd dof_area;  ///< A per dof, m2 (n_dofs).

@@ -12,9 +12,9 @@ struct OperatorNode;
 
 /// Where a profile meets the fault: at a node, or on the edge between two points.
 struct ProfileSample {
-  double position = 0;                   ///< s, m down the profile from its first point.
-  std::array<int, 2> node = {-1, -1};    ///< into FaultGeometry::nodes, the heavier first; the same
-                                         ///< one twice where there is but one.
+  double position = 0;                 ///< s, m down the profile from its first point.
+  std::array<int, 2> node = {-1, -1};  ///< into FaultGeometry::nodes, the heavier first; the same
+                                       ///< one twice where there is but one.
   std::array<double, 2> weight = {1, 0};  ///< of their values; sum to 1.
   double moving = 1;  ///< < 1 on an edge with an unsplit end: slip is this times the weighted sum.
 
@@ -39,8 +39,9 @@ struct Profile {
   double width = 1;                    ///< m along strike; plane strain: 1.
   std::vector<ProfileSample> samples;  ///< down dip, at least one.
   std::vector<double> edge;            ///< s of the ends of the dual cells, m; samples + 1.
-  double tip_before = kNone, tip_after = kNone;  ///< s of the unsplit ends (slip 0), m; NaN where
-                                                 ///< the line is cut by the body's boundary instead.
+  double tip_before = kNone,
+         tip_after = kNone;  ///< s of the unsplit ends (slip 0), m; NaN where
+                             ///< the line is cut by the body's boundary instead.
   bool strike_edge = false;  ///< the fault ends next to it along strike, inside the rock.
 
   double share(std::size_t i) const { return edge[i + 1] - edge[i]; }  ///< of sample i, m.
@@ -48,12 +49,13 @@ struct Profile {
   double length() const;
 };
 
-/// The profiles of a fault: where planes across its strike cut its faces. There is one through every
-/// split point, but points closer along strike than half the narrowest face share the first one's:
-/// of a grid whose lines go down dip, a profile is such a line, and its samples are its nodes.
+/// The profiles of a fault: where planes across its strike cut its faces. There is one through
+/// every split point, but points closer along strike than half the narrowest face share the first
+/// one's: of a grid whose lines go down dip, a profile is such a line, and its samples are its
+/// nodes.
 ///
-/// @pre the fault is plane: the frame of its first node is that of all, and positions down dip order
-/// the points of a profile.
+/// @pre the fault is plane: the frame of its first node is that of all, and positions down dip
+/// order the points of a profile.
 /// @return from south to north, or west to east if strike is nearer to that; none without nodes.
 std::vector<Profile> fault_profiles(const OperatorFault& fault,
                                     const std::vector<OperatorNode>& nodes);

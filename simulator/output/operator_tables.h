@@ -19,8 +19,8 @@ struct OperatorTables {
   std::vector<int> node_n_pairs;     ///< pressure pairs of each node
   std::vector<int> pair_regions;     ///< x 2: minus, plus
   std::vector<double> pair_numbers;  ///< x 3: minus_fraction, plus_fraction, weight
-  std::vector<int> fault_numbers;        ///< x 4: first node, nodes, points, faces
-  std::vector<double> points;            ///< x 3
+  std::vector<int> fault_numbers;    ///< x 4: first node, nodes, points, faces
+  std::vector<double> points;        ///< x 3
   std::vector<int> node_of_point;
   std::vector<int> faces;                ///< x 4
   std::vector<double> locked_positions;  ///< x 3
