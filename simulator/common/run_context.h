@@ -29,9 +29,7 @@ class StopToken {
   StopToken() = default;  ///< never asks to stop.
   /// @pre the flag outlives the work.
   explicit StopToken(const std::atomic<bool>& flag) : flag_(&flag) {}
-  bool requested() const {
-    return flag_ != nullptr && flag_->load(std::memory_order_relaxed);
-  }
+  bool requested() const { return flag_ != nullptr && flag_->load(std::memory_order_relaxed); }
   /// Throws Interrupted("stopped while DOING") if requested().
   void throw_if_requested(const char* doing) const;
 

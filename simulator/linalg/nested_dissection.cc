@@ -3,8 +3,8 @@
 #include <metis.h>
 
 #include <array>
-#include <csignal>
 #include <chrono>
+#include <csignal>
 #include <limits>
 #include <mutex>
 #include <numeric>

@@ -104,7 +104,8 @@ void postorder_bulk(cholmod_sparse& a, Index n_bulk, std::vector<Index>& order,
 std::vector<Index> trailing_order(cholmod_sparse& a, Index n_bulk, const std::vector<int>& group,
                                   int n_groups, CholmodCommon& common,
                                   const std::function<bool()>& stop) {
-  const std::vector<Index> group_order = order_groups(group_graph(a, group, n_groups), common, stop);
+  const std::vector<Index> group_order =
+      order_groups(group_graph(a, group, n_groups), common, stop);
   std::vector<Index> place(group_order.size());
   for (std::size_t i = 0; i < group_order.size(); ++i) {
     place[static_cast<std::size_t>(group_order[i])] = static_cast<Index>(i);

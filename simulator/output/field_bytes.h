@@ -17,10 +17,12 @@ struct FieldBlock {
 inline constexpr std::array kNodeBlocks = {FieldBlock{"position_m", 3}, FieldBlock{"normal", 3},
                                            FieldBlock{"strike", 3}, FieldBlock{"dip", 3},
                                            FieldBlock{"area_m2", 1}};
-inline constexpr std::array kStepBlocks = {
-    FieldBlock{"traction_pa", 3},           FieldBlock{"jump_m", 3},
-    FieldBlock{"state", 1},                 FieldBlock{"critical_index", 1},
-    FieldBlock{"static_critical_index", 1}, FieldBlock{"fault_pressure_change_pa", 1}};
+inline constexpr std::array kStepBlocks = {FieldBlock{"traction_pa", 3},
+                                           FieldBlock{"jump_m", 3},
+                                           FieldBlock{"state", 1},
+                                           FieldBlock{"critical_index", 1},
+                                           FieldBlock{"static_critical_index", 1},
+                                           FieldBlock{"fault_pressure_change_pa", 1}};
 
 /// Fault fields as bytes for another process (schemas/worker_protocol.md): float64 as in memory,
 /// block by block, node by node, the components of a node together; the nodes are those of the

@@ -319,16 +319,16 @@ JsonDocument read_json_file(const std::string& path) {
   return parse_json(read_input_or_throw(path, kMostJsonBytes), path);
 }
 
-json value_of_text(const std::string& text, const std::string& source,
-                   const std::string& pointer) {
+json value_of_text(const std::string& text, const std::string& source, const std::string& pointer) {
   try {
     if (json::accept(text)) return parse_json(text, "").value;
   } catch (const InputError&) {  // JSON, but none that a file may hold: taken as text
   }
   const std::string bad = first_unprintable(text);  // a plain text such as 25 deg
   if (bad.empty()) return text;
-  throw InputError(source, {{pointer, 0, "the value holds the control character or stray byte " + bad,
-                             "remove it"}});
+  throw InputError(
+      source,
+      {{pointer, 0, "the value holds the control character or stray byte " + bad, "remove it"}});
 }
 
 void set_value(JsonDocument& document, const std::string& pointer, const std::string& value) {
