@@ -24,7 +24,7 @@ FaultOperator operator_at(JsonDocument document, const SurfaceAxis& axis, double
   const Plan plan = make_plan(scene, problems);
   if (!problems.empty()) throw InputError(axis.name, problems);
   SilentMonitor monitor;
-  CondensedBulk bulk(bulk_problem(scene, plan), {}, monitor);
+  CondensedBulk bulk(bulk_problem(scene, plan), monitor);
   return bulk.condense();
 }
 
