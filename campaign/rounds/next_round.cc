@@ -11,7 +11,7 @@
 namespace faultsweep {
 
 using faultsim::concat;
-using nlohmann::json;
+using json = nlohmann::ordered_json;  // the order of parameters is that of the spec
 
 std::unique_ptr<Proposer> make_proposer(const CampaignSpec& spec) {
   if (spec.staged_sample) return std::make_unique<StagedSampler>(*spec.staged_sample);

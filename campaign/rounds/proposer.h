@@ -22,7 +22,7 @@ struct Answer {
 
 /// How a campaign goes on.
 struct Proposal {
-  nlohmann::json design;  ///< as in a spec; null = no further round.
+  nlohmann::ordered_json design;  ///< as in a spec, in its order; null = no further round.
   std::string reason;     ///< why, for people: of the round, or of the end.
 };
 
@@ -37,7 +37,7 @@ class Proposer {
   /// @param answers  of all rows of all rounds, in their order; every case is decided.
   /// @param designs  of the rounds so far, that of the spec first.
   virtual Proposal propose(const std::vector<Answer>& answers,
-                           const std::vector<nlohmann::json>& designs) const = 0;
+                           const std::vector<nlohmann::ordered_json>& designs) const = 0;
 };
 
 /// The proposer that the spec asks for; null = its design is all there is.

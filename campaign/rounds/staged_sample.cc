@@ -10,7 +10,7 @@
 namespace faultsweep {
 
 using faultsim::concat;
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 namespace {
 

@@ -16,7 +16,7 @@ class StagedSampler final : public Proposer {
   explicit StagedSampler(const StagedSample& wanted) : wanted_(wanted) {}
   std::string condition() const override { return wanted_.condition; }
   Proposal propose(const std::vector<Answer>& answers,
-                   const std::vector<nlohmann::json>& designs) const override;
+                   const std::vector<nlohmann::ordered_json>& designs) const override;
 
  private:
   StagedSample wanted_;

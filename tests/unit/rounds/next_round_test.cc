@@ -28,8 +28,8 @@ class NextRound : public ::testing::Test {
             "set": {"/tier": "screening"}, )",
         rounds, R"("design": {"kind": "monte-carlo", "samples": )", samples, R"(, "first": )",
         first,
-        R"(, "parameters": {"friction_angle": {"from": "15 deg", "to": "35 deg"},
-                            "offset": ["0 m", "100 m"]}}})");
+        R"(, "parameters": {"offset": ["0 m", "100 m"],
+                            "friction_angle": {"from": "15 deg", "to": "35 deg"}}}})");
     return expand(parse_campaign(text, FAULTSIM_SOURCE_DIR "/test.json"));
   }
   static constexpr const char* kRounds =

@@ -8,7 +8,7 @@
 namespace faultsweep {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 using ::testing::HasSubstr;
 
 /// n answers of which every other holds; the last n_failed have failed.
