@@ -86,7 +86,8 @@ Share share_of(std::string label, const std::vector<std::size_t>& chosen, const 
       ++share.n_holds;
     }
   }
-  share.estimate = static_cast<double>(share.n_holds) / static_cast<double>(share.n - share.n_unknown);
+  share.estimate =
+      static_cast<double>(share.n_holds) / static_cast<double>(share.n - share.n_unknown);
   share.bounds = {proportion_bounds(share.n_holds, share.n, confidence).low,
                   proportion_bounds(share.n_holds + share.n_unknown, share.n, confidence).high};
   return share;
@@ -117,9 +118,10 @@ std::vector<std::pair<std::string, std::vector<std::size_t>>> parts_of(const Row
   parts.clear();
   for (std::size_t part = 0; part < kParts; ++part) {
     const std::size_t from = part * order.size() / kParts, to = (part + 1) * order.size() / kParts;
-    parts.push_back({concat(short_number(rows.label[order[from]]), " to ",
-                            short_number(rows.label[order[to - 1]])),
-                     {order.begin() + static_cast<long>(from), order.begin() + static_cast<long>(to)}});
+    parts.push_back(
+        {concat(short_number(rows.label[order[from]]), " to ",
+                short_number(rows.label[order[to - 1]])),
+         {order.begin() + static_cast<long>(from), order.begin() + static_cast<long>(to)}});
   }
   return parts;
 }
@@ -130,8 +132,7 @@ std::vector<std::string> default_conditions(const Selection& selection) {
   for (const NamedId& fault : selection.faults) {
     conditions.push_back(concat(fault.name, ".slides"));
     for (const NamedId& stage : selection.stages) {
-      if (!stage.name.empty())
-        conditions.push_back(concat(fault.name, ".slides in ", stage.name));
+      if (!stage.name.empty()) conditions.push_back(concat(fault.name, ".slides in ", stage.name));
     }
   }
   return conditions;
@@ -149,14 +150,15 @@ Probability find_probability(const Store& store, const CampaignInfo& campaign,
   Probability found{campaign, request, sampling_of(store, campaign), {}, 0, 0};
   const Rows rows = read_rows(store, campaign, request, selection);
   if (rows.position.empty()) {
-    throw InputError("probability", {{"", 0, "no case was selected", "ask for others with --where"}});
+    throw InputError("probability",
+                     {{"", 0, "no case was selected", "ask for others with --where"}});
   }
   found.n_unresolved = rows.n_unresolved;
   std::vector<std::size_t> all(rows.position.size());
   std::iota(all.begin(), all.end(), 0u);
-  const std::vector<std::string> conditions =
-      request.condition.empty() ? default_conditions(selection)
-                                : std::vector<std::string>{request.condition};
+  const std::vector<std::string> conditions = request.condition.empty()
+                                                  ? default_conditions(selection)
+                                                  : std::vector<std::string>{request.condition};
   for (const std::string& condition : conditions) {
     const std::set<long> holds = positions_where(store, campaign, selection, condition);
     if (request.by.empty()) {

@@ -100,7 +100,7 @@ int SampleRows::count(long position) const {
   return found == counts_.end() ? 0 : found->second;
 }
 
-Sample read_sample(const Store& store, const CampaignInfo& campaign, const SampleRequest& request,
+Sample read_sample(const Store& store, const CampaignInfo& campaign, const SampledCases& request,
                    const std::string& metrics) {
   const Selection selection = make_selection(store, campaign, request.stage, request.fault);
   Sample sample;

@@ -12,7 +12,7 @@
 namespace faultsweep {
 
 /// Which cases, and of what.
-struct SampleRequest {
+struct SampledCases {
   std::string where;  ///< condition; "" = all cases.
   std::string stage;  ///< of metrics without a stage of their own; "" = the whole history.
   std::string fault;  ///< "" = all faults of a case together.
@@ -20,16 +20,16 @@ struct SampleRequest {
 
 /// How the campaign's cases were chosen, and what follows for statistics.
 struct Sampling {
-  bool is_random = false;    ///< drawn: shares are estimates of probabilities.
-  bool is_factorial = false; ///< every combination: shares are of the values given.
-  std::string remark;        ///< what to know of it, in a sentence; "" = nothing.
+  bool is_random = false;     ///< drawn: shares are estimates of probabilities.
+  bool is_factorial = false;  ///< every combination: shares are of the values given.
+  std::string remark;         ///< what to know of it, in a sentence; "" = nothing.
 };
 /// By the designs of the campaign's spec. Of a sobol design only the rows of its two independent
 /// blocks are a sample.
 Sampling sampling_of(const Store& store, const CampaignInfo& campaign);
 
-/// How often each case of a campaign is a row of its sample: once, but in a sobol design as often as
-/// it is a row of block A or B.
+/// How often each case of a campaign is a row of its sample: once, but in a sobol design as often
+/// as it is a row of block A or B.
 class SampleRows {
  public:
   SampleRows(const Store& store, const CampaignInfo& campaign);
@@ -54,7 +54,7 @@ struct Sample {
 
 /// Throws InputError as make_selection, parse_condition and choose_metrics.
 /// @param metrics  names with commas, as of `export --metrics`.
-Sample read_sample(const Store& store, const CampaignInfo& campaign, const SampleRequest& request,
+Sample read_sample(const Store& store, const CampaignInfo& campaign, const SampledCases& request,
                    const std::string& metrics);
 
 }  // namespace faultsweep

@@ -28,9 +28,10 @@ std::string default_metrics(const Store& store, const CampaignInfo& campaign) {
 
 void refuse_what_is_no_sample(const Sensitivity& s) {
   if (!s.sampling.is_random && !s.sampling.is_factorial) {
-    throw InputError("sensitivity",
-                     {{"", 0, concat("the cases of ", s.campaign.name, " are no sample of its parameters"),
-                       "give its spec a design monte-carlo, latin-hypercube, sobol or grid"}});
+    throw InputError(
+        "sensitivity",
+        {{"", 0, concat("the cases of ", s.campaign.name, " are no sample of its parameters"),
+          "give its spec a design monte-carlo, latin-hypercube, sobol or grid"}});
   }
   const long n = s.sample.n_rows - s.sample.n_without - s.sample.n_early;
   if (n < kFewestRows) {
@@ -66,9 +67,9 @@ MetricSensitivity of_metric(const ScopedMetric& metric, const std::vector<double
   found.standard_deviation = std::sqrt(squares / std::max(1.0, n - 1));
   for (std::size_t p = 0; p < sample.x.size(); ++p) {
     found.first_order.push_back(
-        has_all ? first_order_by_ranks(y, orders[p], confidence)
-                : first_order_by_ranks(y, random_tied_order(values_at(sample.x[p], rows)),
-                                       confidence));
+        has_all
+            ? first_order_by_ranks(y, orders[p], confidence)
+            : first_order_by_ranks(y, random_tied_order(values_at(sample.x[p], rows)), confidence));
   }
   return found;
 }
@@ -95,8 +96,8 @@ Sensitivity analyse_sensitivity(const Store& store, const CampaignInfo& campaign
   for (const std::vector<double>& x : s.sample.x) orders.push_back(random_tied_order(x));
   for (const StoredParameter& one : s.sample.parameters) s.parameters.push_back(one.name);
   for (std::size_t m = 0; m < s.sample.outputs.size(); ++m) {
-    s.metrics.push_back(of_metric(s.sample.outputs[m], s.sample.y[m], s.sample, orders,
-                                  request.confidence));
+    s.metrics.push_back(
+        of_metric(s.sample.outputs[m], s.sample.y[m], s.sample, orders, request.confidence));
   }
   s.sample.x.clear(), s.sample.y.clear();
   return s;
@@ -125,8 +126,11 @@ std::string sensitivity_to_text(const Sensitivity& s) {
     any = true;
   }
   std::string text = concat(
-      "Share of a metric's variance that a parameter explains alone (first order, by ranks; ± half of "
-      "the interval of ", format_number(100 * s.request.confidence, 4), " %).\n"
+      "Share of a metric's variance that a parameter explains alone (first order, by ranks; ± half "
+      "of "
+      "the interval of ",
+      format_number(100 * s.request.confidence, 4),
+      " %).\n"
       "What `together` leaves to 1 is interaction.\n\n");
   if (any) text += table.text();
   if (!constant.empty()) text += concat("the same in all cases: ", constant, "\n");
@@ -145,9 +149,10 @@ json sensitivity_to_json(const Sensitivity& s) {
     json first_order = json::object();
     for (std::size_t p = 0; p < one.first_order.size(); ++p) {
       const Estimate& e = one.first_order[p];
-      first_order[s.parameters[p]] = {
-          {"value", e.value}, {"standard_error", e.standard_error},
-          {"low", e.bounds.low}, {"high", e.bounds.high}};
+      first_order[s.parameters[p]] = {{"value", e.value},
+                                      {"standard_error", e.standard_error},
+                                      {"low", e.bounds.low},
+                                      {"high", e.bounds.high}};
     }
     metrics.push_back({{"metric", one.metric.name},
                        {"rows", one.n},
@@ -155,14 +160,10 @@ json sensitivity_to_json(const Sensitivity& s) {
                        {"standard_deviation", one.standard_deviation},
                        {"first_order", first_order}});
   }
-  return {{"campaign", s.campaign.name},
-          {"confidence", s.request.confidence},
-          {"rows", s.sample.n_rows},
-          {"without_result", s.sample.n_without},
-          {"ends_early", s.sample.n_early},
-          {"unresolved", s.sample.n_unresolved},
-          {"remark", s.sampling.remark},
-          {"metrics", metrics}};
+  return {{"campaign", s.campaign.name},    {"confidence", s.request.confidence},
+          {"rows", s.sample.n_rows},        {"without_result", s.sample.n_without},
+          {"ends_early", s.sample.n_early}, {"unresolved", s.sample.n_unresolved},
+          {"remark", s.sampling.remark},    {"metrics", metrics}};
 }
 
 }  // namespace faultsweep

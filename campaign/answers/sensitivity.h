@@ -10,7 +10,7 @@
 namespace faultsweep {
 
 struct SensitivityRequest {
-  SampleRequest cases;
+  SampledCases cases;
   std::string metrics;  ///< names with commas; "" = χ̄, slip and sliding of each fault.
   double confidence = 0.95;
 };

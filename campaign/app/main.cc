@@ -269,9 +269,10 @@ void add_answers(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* sensitivity =
       app.add_subcommand("sensitivity", "which parameters a metric depends on, and how surely");
   add_campaign(sensitivity, a.common);
-  sensitivity->add_option("--metrics", a.sensitivity.metrics,
-                          "names of `rank --list-metrics`, with commas, also of a fault and stage:\n"
-                          "F2.max_slip in gas_storage; default: chi_bar, slip and sliding by fault");
+  sensitivity->add_option(
+      "--metrics", a.sensitivity.metrics,
+      "names of `rank --list-metrics`, with commas, also of a fault and stage:\n"
+      "F2.max_slip in gas_storage; default: chi_bar, slip and sliding by fault");
   sensitivity->add_option("--where", a.sensitivity.cases.where, "only of these cases");
   sensitivity->add_option("--stage", a.sensitivity.cases.stage,
                           "metrics of this stage; default: the whole history");

@@ -242,8 +242,8 @@ class Night {
   }
 
   std::vector<std::string> verify_command(const std::vector<std::string>& options) const {
-    std::vector<std::string> command = {
-        (simulator_.parent_path() / kVerification).string(), "--json"};
+    std::vector<std::string> command = {(simulator_.parent_path() / kVerification).string(),
+                                        "--json"};
     command.insert(command.end(), options.begin(), options.end());
     command.insert(command.end(), suite_.verification.begin(), suite_.verification.end());
     return command;

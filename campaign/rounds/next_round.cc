@@ -11,7 +11,7 @@
 namespace faultsweep {
 
 using faultsim::concat;
-using json = nlohmann::ordered_json;  // the order of parameters is that of the spec
+using nlohmann::ordered_json;  // the order of parameters is that of the spec
 
 std::unique_ptr<Proposer> make_proposer(const CampaignSpec& spec) {
   if (spec.staged_sample) return std::make_unique<StagedSampler>(*spec.staged_sample);
@@ -22,12 +22,12 @@ namespace {
 
 /// The spec of a stored campaign on its stored base scene, whatever has become of the files; with
 /// rounds it has one group.
-json stored_spec(const Store& store, const CampaignInfo& campaign, std::string& source) {
-  json spec = json::parse(store.spec_copies(campaign.id).given);
+ordered_json stored_spec(const Store& store, const CampaignInfo& campaign, std::string& source) {
+  ordered_json spec = ordered_json::parse(store.spec_copies(campaign.id).given);
   if (!spec.contains("rounds")) return spec;
   const BaseScene base = store.base_scene(store.stored_case(campaign.id, "1").scene);
   source = base.source;
-  spec["base"] = json::parse(base.document);
+  spec["base"] = ordered_json::parse(base.document);
   spec.erase("set");  // it is in the scene
   return spec;
 }
@@ -73,12 +73,13 @@ std::vector<Answer> answers_of(const Store& store, const CampaignInfo& campaign,
 bool add_next_round(Store& store, const std::string& name) {
   const CampaignInfo campaign = store.campaign(name, false);
   std::string source;
-  json spec = stored_spec(store, campaign, source);
+  ordered_json spec = stored_spec(store, campaign, source);
   if (!spec.contains("rounds")) return false;
   const std::unique_ptr<Proposer> proposer = make_proposer(parse_campaign(spec.dump(), source));
   const std::vector<RoundRecord> rounds = store.rounds(campaign.id);
-  std::vector<json> designs = {spec.at("design")};
-  for (std::size_t k = 1; k < rounds.size(); ++k) designs.push_back(json::parse(rounds[k].design));
+  std::vector<ordered_json> designs = {spec.at("design")};
+  for (std::size_t k = 1; k < rounds.size(); ++k)
+    designs.push_back(ordered_json::parse(rounds[k].design));
   const Proposal proposal =
       proposer->propose(answers_of(store, campaign, rounds, proposer->condition()), designs);
   if (proposal.design.is_null()) {

@@ -23,7 +23,7 @@ struct Answer {
 /// How a campaign goes on.
 struct Proposal {
   nlohmann::ordered_json design;  ///< as in a spec, in its order; null = no further round.
-  std::string reason;     ///< why, for people: of the round, or of the end.
+  std::string reason;             ///< why, for people: of the round, or of the end.
 };
 
 /// Proposes the rounds of a campaign after its first. A pure function of the spec and the answers:

@@ -10,7 +10,7 @@
 namespace faultsweep {
 
 using faultsim::concat;
-using json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
 namespace {
 
@@ -23,9 +23,9 @@ std::string percent(double probability) {
 }  // namespace
 
 Proposal StagedSampler::propose(const std::vector<Answer>& answers,
-                                const std::vector<json>& designs) const {
+                                const std::vector<ordered_json>& designs) const {
   long n_drawn = 0;  // with those that were excluded
-  for (const json& design : designs) n_drawn += design.at("samples").get<long>();
+  for (const ordered_json& design : designs) n_drawn += design.at("samples").get<long>();
   const auto n = static_cast<long>(answers.size());
   const long n_holds =
       std::count_if(answers.begin(), answers.end(), [](const Answer& one) { return one.holds; });
@@ -46,7 +46,7 @@ Proposal StagedSampler::propose(const std::vector<Answer>& answers,
   const long missing = samples_for_half_width(p, 0.5 * wanted_.width, wanted_.confidence) - n;
   const long most = std::min(n_drawn, wanted_.most - n_drawn);
   const long n_more = std::min(most, std::max(n_drawn / 10 + 1, missing));
-  json design = designs.front();
+  ordered_json design = designs.front();
   design["first"] = design.value("first", 0L) + n_drawn;
   design["samples"] = n_more;
   return {std::move(design), concat(text, "; wider than ", percent(wanted_.width), " %")};

@@ -20,8 +20,8 @@ Interval proportion_bounds(long k, long n, double confidence);
 long samples_for_half_width(double expected, double half_width, double confidence);
 
 /// Bounds of the q-quantile: order statistics y_(r) and y_(s) between which it lies with at least
-/// `confidence` whatever the distribution (Conover 1999, section 3.2). An end is missing where there
-/// are too few samples for it.
+/// `confidence` whatever the distribution (Conover 1999, section 3.2). An end is missing where
+/// there are too few samples for it.
 struct QuantileBounds {
   double estimate = 0;  ///< the sample's own quantile, linear between its values.
   std::optional<double> low, high;

@@ -9,9 +9,9 @@ namespace faultsim {
 namespace {
 
 using Eigen::Index;
-constexpr Index kRows = 512;   ///< of a tile: its sums stay in the nearest cache.
-constexpr Index kFields = 8;   ///< that meet P while it is there.
-constexpr Index kCells = 4;    ///< per visit of a sum.
+constexpr Index kRows = 512;  ///< of a tile: its sums stay in the nearest cache.
+constexpr Index kFields = 8;  ///< that meet P while it is there.
+constexpr Index kCells = 4;   ///< per visit of a sum.
 
 /// sums += P's four columns from `p` on, times `s`. One cell after the other, so that a sum has the
 /// same bits however the work is cut.
@@ -26,8 +26,9 @@ void add_one(const double* p, double s, Index n_rows, double* sums) {
 }
 
 /// All of P's columns on the rows [row, row + n_rows), times the fields [field, field + n_fields).
-void add_tile(const Eigen::Map<const Eigen::MatrixXd>& p, const Eigen::Ref<const Eigen::MatrixXd>& s,
-              Index row, Index field, Eigen::MatrixXd& sums) {
+void add_tile(const Eigen::Map<const Eigen::MatrixXd>& p,
+              const Eigen::Ref<const Eigen::MatrixXd>& s, Index row, Index field,
+              Eigen::MatrixXd& sums) {
   const Index n_rows = std::min(kRows, p.rows() - row);
   const Index last = std::min(field + kFields, s.cols());
   Index c = 0;
@@ -36,7 +37,8 @@ void add_tile(const Eigen::Map<const Eigen::MatrixXd>& p, const Eigen::Ref<const
       add_four(&p.coeffRef(row, c), p.rows(), &s.coeffRef(c, f), n_rows, &sums(row, f));
   }
   for (; c < p.cols(); ++c) {
-    for (Index f = field; f < last; ++f) add_one(&p.coeffRef(row, c), s(c, f), n_rows, &sums(row, f));
+    for (Index f = field; f < last; ++f)
+      add_one(&p.coeffRef(row, c), s(c, f), n_rows, &sums(row, f));
   }
 }
 

@@ -103,7 +103,8 @@ Eigen::VectorXd SparseGrid::newton(const Eigen::VectorXd& x) const {
     for (int k = 1; k <= most; ++k) {
       double value = 1;
       for (int i = 0; i < k; ++i)
-        value *= (x[static_cast<Eigen::Index>(j)] - leja_point(i)) / (leja_point(k) - leja_point(i));
+        value *=
+            (x[static_cast<Eigen::Index>(j)] - leja_point(i)) / (leja_point(k) - leja_point(i));
       along[j].push_back(value);
     }
   }

@@ -5,10 +5,10 @@
 
 namespace faultsim {
 
-/// The k-th Leja point of [-1, 1]: 0, 1, −1, then the place where Π |x − x_i| over the points before
-/// is largest (the left one of two). Nested, and interpolation at them is stable: Lebesgue constants
-/// grow slower than the square of their number (Chkifa 2013). Rounded to 1e-12, so that they print
-/// and read back as the same numbers.
+/// The k-th Leja point of [-1, 1]: 0, 1, −1, then the place where Π |x − x_i| over the points
+/// before is largest (the left one of two). Nested, and interpolation at them is stable: Lebesgue
+/// constants grow slower than the square of their number (Chkifa 2013). Rounded to 1e-12, so that
+/// they print and read back as the same numbers.
 double leja_point(int k);
 
 /// Polynomial interpolation on a nested, dimension-adaptive sparse grid of Leja points in [-1, 1]^d

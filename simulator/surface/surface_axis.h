@@ -9,8 +9,8 @@ namespace faultsim {
 
 /// A parameter of scenes in which a surface of operators is continuous.
 struct SurfaceAxis {
-  /// The coordinate in which the operator is smoothest: the logarithm of a modulus, the tangent of a
-  /// dip, any other value itself.
+  /// The coordinate in which the operator is smoothest: the logarithm of a modulus, the tangent of
+  /// a dip, any other value itself.
   enum class Scale { linear, logarithm, tangent };
 
   std::string name;                   ///< for messages and files.

@@ -75,8 +75,7 @@ double random_error(CondensedBulk& bulk, const InfluenceBlock& block, int n_fiel
 
 /// Median of 21 products with n_fields fields each, ms of wall clock per field.
 double product_milliseconds(const InfluenceBlock& block, int n_fields, int n_threads) {
-  Eigen::MatrixXd fields =
-      Eigen::MatrixXd::Constant(block.traction.view().cols(), n_fields, -1e6);
+  Eigen::MatrixXd fields = Eigen::MatrixXd::Constant(block.traction.view().cols(), n_fields, -1e6);
   std::vector<double> times;
   double sum = 0;
   for (int i = 0; i < 21; ++i) {

@@ -43,7 +43,8 @@ Errors errors_of(const std::vector<FaultOperator>& nodes, int n, double x,
     h += w[k] * nodes[k].h();
     locked += w[k] * nodes[k].loads.traction;
   }
-  const auto relative = locked.colwise().norm().array() / exact.loads.traction.colwise().norm().array();
+  const auto relative =
+      locked.colwise().norm().array() / exact.loads.traction.colwise().norm().array();
   return {h.norm() / exact.h().norm(), relative.maxCoeff()};
 }
 
@@ -70,7 +71,10 @@ void run(int argc, char** argv) {
   JsonDocument base = read_json_file(argv[1]);
   set_value(base, "/tier", argv[2]);
   const std::string scale = argv[4];
-  SurfaceAxis axis{.name = argv[3], .pointers = {}, .unit = argv[5], .from = std::stod(argv[6]),
+  SurfaceAxis axis{.name = argv[3],
+                   .pointers = {},
+                   .unit = argv[5],
+                   .from = std::stod(argv[6]),
                    .to = std::stod(argv[7])};
   if (scale == "logarithm") axis.scale = SurfaceAxis::Scale::logarithm;
   if (scale == "tangent") axis.scale = SurfaceAxis::Scale::tangent;

@@ -39,7 +39,10 @@ class AnswersTest : public ::testing::Test {
   void submit(const std::string& kind, const std::vector<std::array<double, 2>>& values) {
     for (const auto& [strength, offset] : values) {
       const std::size_t n = s_.cases.size();
-      s_.cases.push_back({"identity-" + std::to_string(n), 0, 0, "{}",
+      s_.cases.push_back({"identity-" + std::to_string(n),
+                          0,
+                          0,
+                          "{}",
                           {{0, strength, std::to_string(strength)},
                            {1, offset, std::to_string(offset) + " m"},
                            {2, std::nullopt, n % 2 == 0 ? "mean" : "min"}}});

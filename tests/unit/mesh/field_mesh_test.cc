@@ -310,7 +310,7 @@ TEST(FieldMesh, CellsCorrespondOverARangeOfOffsetsWithTheSameMeshOffset) {
     EXPECT_EQ(mesh.material, at_100.material);
     EXPECT_EQ(mesh.region, at_100.region);
     for (std::size_t f = 0; f < mesh.faults.size(); ++f)
-      EXPECT_EQ(mesh.faults[f].grid_node, at_100.faults[f].grid_node);
+      EXPECT_EQ(mesh.faults[f].node_of_point, at_100.faults[f].node_of_point);
     const std::vector<double> z = sorted_depths(mesh);
     for (const double edge : {-2000.0, -2200.0, -2000 - offset, -2200 - offset}) {
       const auto at = std::min_element(z.begin(), z.end(), [&](double a, double b) {

@@ -62,7 +62,8 @@ TEST(SamplesForHalfWidth, AreTheFewestThatAreEnough) {
   for (const double p : {0.0, 0.1, 0.5}) {
     const long n = samples_for_half_width(p, 0.02, 0.95);
     const auto width = [&](long samples) {
-      const Interval b = proportion_bounds(std::lround(p * static_cast<double>(samples)), samples, 0.95);
+      const Interval b =
+          proportion_bounds(std::lround(p * static_cast<double>(samples)), samples, 0.95);
       return b.high - b.low;
     };
     EXPECT_LE(width(n), 0.04);

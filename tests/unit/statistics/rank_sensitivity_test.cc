@@ -32,7 +32,9 @@ Sample sample(const Model& model, std::size_t n, std::mt19937_64& random) {
 /// Ishigami & Homma (1990), a = 7, b = 0.1, its coordinates in the order given.
 Model ishigami(int first, int second, int third) {
   return [=](const Point& p) {
-    const auto angle = [&](int k) { return std::numbers::pi * (2 * p[static_cast<std::size_t>(k)] - 1); };
+    const auto angle = [&](int k) {
+      return std::numbers::pi * (2 * p[static_cast<std::size_t>(k)] - 1);
+    };
     return std::sin(angle(first)) + 7 * std::pow(std::sin(angle(second)), 2) +
            0.1 * std::pow(angle(third), 4) * std::sin(angle(first));
   };
@@ -67,7 +69,8 @@ TEST(RankSensitivity, MeetsKnownIndices) {
   }
 }
 
-/// Of 1,000 intervals of 95 %, 95 ± 2 % hold the index. Not where nothing is left to explain: there is no scatter.
+/// Of 1,000 intervals of 95 %, 95 ± 2 % hold the index. Not where nothing is left to explain: there
+/// is no scatter.
 TEST(RankSensitivity, ItsIntervalsCover) {
   for (const Known& one : known()) {
     if (one.index == 1) continue;

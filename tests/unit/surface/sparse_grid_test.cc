@@ -86,7 +86,8 @@ TEST(SparseGrid, ConvergesGeometricallyOnAnalyticFunctions) {
 TEST(SparseGrid, ItsWeightsAreUnitVectorsAtNodesAndSumToOne) {
   const SparseGrid grid = total_degree(2, 5);
   for (int k = 0; k < grid.n_nodes(); ++k) {
-    EXPECT_LT((grid.weights(grid.node(k)) - Eigen::VectorXd::Unit(grid.n_nodes(), k)).norm(), 1e-13);
+    EXPECT_LT((grid.weights(grid.node(k)) - Eigen::VectorXd::Unit(grid.n_nodes(), k)).norm(),
+              1e-13);
   }
   EXPECT_NEAR(grid.weights(Eigen::Vector2d(0.3, -0.7)).sum(), 1, 1e-13);
 }

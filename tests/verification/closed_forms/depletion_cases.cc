@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/common/errors.h"
+#include "simulator/common/units.h"
 #include "tests/verification/closed_forms/elastic_solutions.h"
 #include "tests/verification/closed_forms/friction_solutions.h"
 #include "tests/verification/closed_forms/verify_cases.h"
-#include "simulator/common/errors.h"
-#include "simulator/common/units.h"
 
 namespace faultsim {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "simulator/common/errors.h"
 #include "tests/verification/closed_forms/elastic_solutions.h"
 #include "tests/verification/closed_forms/verify_cases.h"
-#include "simulator/common/errors.h"
 
 namespace faultsim {
 namespace {

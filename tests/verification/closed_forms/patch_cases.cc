@@ -3,10 +3,10 @@
 #include <array>
 #include <cmath>
 
-#include "tests/verification/closed_forms/elastic_solutions.h"
-#include "tests/verification/closed_forms/verify_cases.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/units.h"
+#include "tests/verification/closed_forms/elastic_solutions.h"
+#include "tests/verification/closed_forms/verify_cases.h"
 
 namespace faultsim {
 namespace {

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "simulator/common/errors.h"
 #include "tests/verification/closed_forms/verify.h"
 #include "tests/verification/closed_forms/verify_cases.h"
-#include "simulator/common/errors.h"
 
 namespace faultsim {
 namespace {
