@@ -10,9 +10,9 @@
 namespace faultsweep {
 
 struct ProbabilityRequest {
-  std::string condition;  ///< as of `rank --where`; "" = sliding of each fault in each stage.
-  std::string where;      ///< of which cases; "" = all.
-  std::string by;         ///< a parameter: for each of its values, or ten parts of its range.
+  std::string condition = {};  ///< as of `rank --where`; "" = sliding of each fault in each stage.
+  std::string where = {};      ///< of which cases; "" = all.
+  std::string by = {};         ///< a parameter: for each of its values, or ten parts of its range.
   double confidence = 0.95;
 };
 

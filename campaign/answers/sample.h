@@ -13,9 +13,9 @@ namespace faultsweep {
 
 /// Which cases, and of what.
 struct SampledCases {
-  std::string where;  ///< condition; "" = all cases.
-  std::string stage;  ///< of metrics without a stage of their own; "" = the whole history.
-  std::string fault;  ///< "" = all faults of a case together.
+  std::string where = {};  ///< condition; "" = all cases.
+  std::string stage = {};  ///< of metrics without a stage of their own; "" = the whole history.
+  std::string fault = {};  ///< "" = all faults of a case together.
 };
 
 /// How the campaign's cases were chosen, and what follows for statistics.

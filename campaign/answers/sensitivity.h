@@ -10,8 +10,8 @@
 namespace faultsweep {
 
 struct SensitivityRequest {
-  SampledCases cases;
-  std::string metrics;  ///< names with commas; "" = χ̄, slip and sliding of each fault.
+  SampledCases cases = {};
+  std::string metrics = {};  ///< names with commas; "" = χ̄, slip and sliding of each fault.
   double confidence = 0.95;
 };
 

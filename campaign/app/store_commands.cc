@@ -184,6 +184,22 @@ ExitCode show_command(const StoreArguments& common, const std::string& name,
   return ExitCode::done;
 }
 
+ExitCode probability_command(const StoreArguments& common, const ProbabilityRequest& request) {
+  const Store store = Store::open_reader(common.store);
+  const Probability found =
+      find_probability(store, store.campaign(common.campaign, false), request);
+  common.json ? print(probability_to_json(found)) : print(probability_to_text(found));
+  return ExitCode::done;
+}
+
+ExitCode sensitivity_command(const StoreArguments& common, const SensitivityRequest& request) {
+  const Store store = Store::open_reader(common.store);
+  const Sensitivity found =
+      analyse_sensitivity(store, store.campaign(common.campaign, false), request);
+  common.json ? print(sensitivity_to_json(found)) : print(sensitivity_to_text(found));
+  return ExitCode::done;
+}
+
 ExitCode export_command(const StoreArguments& common, ExportRequest request) {
   if (faultsim::is_standard_output(request.target) && request.format != ExportFormat::salib) {
     request.target.clear();
