@@ -69,8 +69,11 @@ inline void submit(Store& store, int n_cases) {
     s.families.push_back({"family-" + std::to_string(k), 1000, 100, 1, 1});
   for (int k = 0; k < n_cases; ++k) {
     const std::string number = std::to_string(k);
-    s.cases.push_back({"identity-" + number, k % kFamilies, 0, "{\"/strength\": " + number + "}",
-                       "[" + number + "]", "[\"" + number + "\"]"});
+    s.cases.push_back({"identity-" + number,
+                       k % kFamilies,
+                       0,
+                       "{\"/strength\": " + number + "}",
+                       {{0, std::stod(number), number}}});
   }
   store.submit(s);
 }
