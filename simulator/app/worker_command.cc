@@ -159,16 +159,17 @@ class Worker {
     }
     const CaseResult result = simulation_.run(context_, watch);
     if (result.outcome == Outcome::interrupted) throw Interrupted(result.reason);
+    json fields;  // written before the reply announces anything: the disk may be full
+    if (files) fields = {{"steps", files->finish()}};
+    if (selection) {
+      fields = {{"steps", selection->finish()},
+                {"n_nodes", geometry.nodes.size()},
+                {"bytes", in_line->bytes().size()}};
+    }
     std::string bytes = result_to_bytes(result);
     reply["result_bytes"] = bytes.size();
-    if (files) reply["fields"] = {{"steps", files->finish()}};
-    if (selection) {
-      reply["fields"] = {{"steps", selection->finish()},
-                         {"n_nodes", geometry.nodes.size()},
-                         {"bytes", in_line->bytes().size()}};
-      bytes += in_line->bytes();
-    }
-    return bytes;
+    if (!fields.is_null()) reply["fields"] = fields;
+    return in_line ? bytes + in_line->bytes() : bytes;
   }
 
   static FieldSteps steps_of(const json& wanted) {

@@ -65,7 +65,10 @@ class Nightly : public testing::CampaignTest {
   /// The simulator, with a sed script on the cases it is given and one on what it prints. It is not
   /// told whose cases they are, as it would refuse changed ones.
   void wrap(const std::string& requests, const std::string& output) {
-    const auto script = folder_ / "wrapped";
+    const auto script = folder_ / "wrapped", verify = folder_ / "faultsim-verify";
+    std::ofstream(verify) << "#!/bin/sh\n'" << FAULTSIM << "-verify' \"$@\" >\"$0.out\"; code=$?\n"
+                          << "sed '" << output << "' \"$0.out\"; exit $code\n";
+    std::filesystem::permissions(verify, std::filesystem::perms::owner_all);
     std::ofstream(script) << "#!/bin/sh\nreal='" FAULTSIM "'\n"
                           << "if [ \"$1\" != worker ]; then \"$real\" \"$@\" >\"$0.out\"; code=$?\n"
                           << "  sed '" << output << "' \"$0.out\"; exit $code; fi\n"

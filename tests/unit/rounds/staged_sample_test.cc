@@ -26,7 +26,7 @@ std::vector<Answer> every_other(int n, int n_failed = 0) {
 const json kFirst = {{"kind", "monte-carlo"}, {"samples", 100}, {"first", 7}, {"seed", 3}};
 
 TEST(StagedSampler, GoesOnBehindTheSamplesThatItHas) {
-  const StagedSampler sampler({.condition = "slides", .width = 0.1, .most = 1000});
+  const StagedSampler sampler({.condition = "slides", .width = 0.12, .most = 1000});
   const Proposal second = sampler.propose(every_other(100), {kFirst});
   EXPECT_EQ(second.design.at("first"), 107);
   EXPECT_EQ(second.design.at("samples"), 100) << "at most as many as there are";
@@ -34,7 +34,7 @@ TEST(StagedSampler, GoesOnBehindTheSamplesThatItHas) {
   EXPECT_THAT(second.reason, HasSubstr("39.8 to 60.2 %"));
   const Proposal third = sampler.propose(every_other(200), {kFirst, second.design});
   EXPECT_EQ(third.design.at("first"), 207);
-  EXPECT_EQ(third.design.at("samples"), samples_for_half_width(0.5, 0.05, 0.95) - 200);
+  EXPECT_EQ(third.design.at("samples"), samples_for_half_width(0.5, 0.06, 0.95) - 200);
 }
 
 TEST(StagedSampler, EndsWhenTheIntervalIsNarrowOrTheSamplesAreUsedUp) {
