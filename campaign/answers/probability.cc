@@ -194,9 +194,10 @@ std::string probability_to_text(const Probability& p) {
                  format_number(100 * p.request.confidence, 4),
                  " %; what is not known may be either.\n");
   if (p.n_unresolved > 0) {
-    text += concat(p.n_unresolved,
-                   " have an activation or event that the cells do not resolve: counted as they "
-                   "are\n");
+    text +=
+        concat(p.n_unresolved,
+               " cases have an activation or event that the cells do not resolve: counted as they "
+               "are\n");
   }
   if (p.n_for_half > 0) {
     text += concat("half the distance between the bounds takes ", p.n_for_half, " cases\n");

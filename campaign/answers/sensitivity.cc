@@ -138,7 +138,7 @@ std::string sensitivity_to_text(const Sensitivity& s) {
   text += concat("\n", sample.n_rows - sample.n_without - sample.n_early, " of ", sample.n_rows,
                  " rows; left out: ", sample.n_without, " without a result, ", sample.n_early,
                  " that end early; ", sample.n_unresolved,
-                 " have an activation or event that the cells do not resolve\n");
+                 " of these have an activation or event that the cells do not resolve\n");
   if (!s.sampling.remark.empty()) text += s.sampling.remark + "\n";
   return text;
 }

@@ -63,7 +63,8 @@ Estimate first_order_by_ranks(std::span<const double> y, std::span<const std::ui
     other += here * two_before;
     two_before = one_before, one_before = here;
   }
-  const double variance = std::max(0.0, own + 2 * (next - other));
+  // Of few rows the covariances may leave nothing: then the terms count as independent.
+  const double sum = own + 2 * (next - other), variance = sum > 0 ? sum : own;
   estimate.standard_error = std::sqrt(variance) / squares;
   const double z = std::sqrt(2.0) * boost::math::erf_inv(confidence);
   estimate.bounds = {estimate.value - z * estimate.standard_error,

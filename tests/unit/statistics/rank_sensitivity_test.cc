@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -98,6 +99,17 @@ TEST(RankSensitivity, IsNotMisledByTheOrderOfAGrid) {
   const Estimate e = first_order_by_ranks(y, random_tied_order(x), 0.95);
   EXPECT_NEAR(e.value, 0, 4 * e.standard_error);
   EXPECT_LT(e.standard_error, 0.03);
+}
+
+TEST(RankSensitivity, IsNeverSureOfItselfWhereSomethingVaries) {
+  std::mt19937_64 random(9);
+  for (int repeat = 0; repeat < 200; ++repeat) {
+    Sample s = sample([](const Point& p) { return p[1] > 0.7 ? 1.0 : 0.0; }, 8, random);
+    for (double& value : s.x) value = value < 0.5 ? 0 : 1;
+    const Estimate e = first_order_by_ranks(s.y, random_tied_order(s.x), 0.95);
+    const bool varies = std::count(s.y.begin(), s.y.end(), s.y[0]) < 8;
+    EXPECT_EQ(e.standard_error > 0, varies) << repeat;
+  }
 }
 
 TEST(RankSensitivity, IsZeroWhereNothingVaries) {
