@@ -5,8 +5,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <set>
+#include <unordered_map>
 
+#include "campaign/report/table_output.h"
 #include "campaign/report/text_table.h"
 
 namespace faultsweep {
@@ -20,12 +21,12 @@ namespace {
 constexpr std::size_t kMostValues = 12;  ///< of a parameter that is not cut into parts.
 constexpr std::size_t kParts = 10;
 
-/// The rows that were asked about, without metrics.
+/// The rows that were asked about.
 struct Rows {
-  std::vector<long> position;
   std::vector<char> complete;
-  std::vector<double> value;       ///< of `by`; NaN for words and where the case has none.
-  std::vector<std::string> label;  ///< of `by`.
+  std::vector<double> value;             ///< of `by`; NaN for words and where the case has none.
+  std::vector<std::string> label;        ///< of `by`.
+  std::vector<std::vector<char>> holds;  ///< of a condition, of a row.
   long n_unresolved = 0;
 };
 
@@ -38,12 +39,16 @@ int parameter_index(const CampaignInfo& campaign, const std::string& name) {
   return static_cast<int>(found - names.begin());
 }
 
+/// One pass over the cases: every condition is a column.
 Rows read_rows(const Store& store, const CampaignInfo& campaign, const ProbabilityRequest& request,
-               const Selection& selection) {
+               const Selection& selection, const std::vector<std::string>& conditions) {
   const int by = request.by.empty() ? -1 : parameter_index(campaign, request.by);
   Store::TableQuery query;
   query.where = parse_condition(request.where, campaign, selection);
+  for (const std::string& condition : conditions)
+    query.columns.push_back(parse_condition(condition, campaign, selection));
   Rows rows;
+  rows.holds.resize(conditions.size());
   const SampleRows sample_rows(store, campaign);
   store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
     double value = std::numeric_limits<double>::quiet_NaN();
@@ -54,68 +59,63 @@ Rows read_rows(const Store& store, const CampaignInfo& campaign, const Probabili
       label = one.text;
     }
     for (int k = 0; k < sample_rows.count(row.position); ++k) {
-      rows.position.push_back(row.position);
       rows.complete.push_back(row.complete() ? 1 : 0);
       rows.value.push_back(value);
       rows.label.push_back(label);
       rows.n_unresolved += row.rank_class && *row.rank_class == 1 ? 1 : 0;
+      for (std::size_t c = 0; c < conditions.size(); ++c)
+        rows.holds[c].push_back(number_of(row.metrics[c]) == 1 ? 1 : 0);
     }
   });
   return rows;
 }
 
-std::set<long> positions_where(const Store& store, const CampaignInfo& campaign,
-                               const Selection& selection, const std::string& condition) {
-  Store::TableQuery query;
-  query.where = parse_condition(condition, campaign, selection);
-  std::set<long> positions;
-  store.for_each_case(campaign.id, query,
-                      [&](const CaseRow& row) { positions.insert(row.position); });
-  return positions;
-}
-
-Share share_of(std::string label, const std::vector<std::size_t>& chosen, const Rows& rows,
-               const std::set<long>& holds, double confidence) {
+Share share_of(std::string label, const std::vector<std::size_t>& chosen,
+               const std::vector<char>& complete, const std::vector<char>& holds,
+               double confidence) {
   Share share;
   share.label = std::move(label);
+  share.n = static_cast<long>(chosen.size());
   for (const std::size_t k : chosen) {
-    ++share.n;
-    if (!rows.complete[k]) {
-      ++share.n_unknown;
-    } else if (holds.contains(rows.position[k])) {
-      ++share.n_holds;
-    }
+    share.n_unknown += complete[k] == 0 ? 1 : 0;
+    share.n_holds += complete[k] != 0 && holds[k] != 0 ? 1 : 0;
   }
   share.estimate =
       static_cast<double>(share.n_holds) / static_cast<double>(share.n - share.n_unknown);
-  share.bounds = {proportion_bounds(share.n_holds, share.n, confidence).low,
-                  proportion_bounds(share.n_holds + share.n_unknown, share.n, confidence).high};
+  share.bounds = proportion_bounds(share.n_holds, share.n_unknown, share.n, confidence);
   return share;
 }
 
+using Part = std::pair<std::string, std::vector<std::size_t>>;
+
+/// Rows of equal label, in the order in which labels come first; nothing if there are more than
+/// `most`.
+std::vector<Part> parts_by_label(const std::vector<std::size_t>& order, const Rows& rows,
+                                 std::size_t most) {
+  std::vector<Part> parts;
+  std::unordered_map<std::string, std::size_t> place;
+  for (const std::size_t k : order) {
+    const auto [found, is_new] = place.emplace(rows.label[k], parts.size());
+    if (is_new) {
+      if (parts.size() == most) return {};
+      parts.push_back({rows.label[k], {}});
+    }
+    parts[found->second].second.push_back(k);
+  }
+  return parts;
+}
+
 /// Rows in groups, each with a name: by value where there are few, else ten of equal number.
-std::vector<std::pair<std::string, std::vector<std::size_t>>> parts_of(const Rows& rows) {
-  std::vector<std::size_t> order(rows.position.size());
+std::vector<Part> parts_of(const Rows& rows) {
+  std::vector<std::size_t> order(rows.label.size());
   std::iota(order.begin(), order.end(), 0u);
   const bool are_numbers = std::none_of(rows.value.begin(), rows.value.end(),
                                         [](double value) { return std::isnan(value); });
-  if (are_numbers) {
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return rows.value[a] < rows.value[b]; });
-  }
-  std::vector<std::pair<std::string, std::vector<std::size_t>>> parts;
-  for (const std::size_t k : order) {
-    const auto same = std::find_if(parts.begin(), parts.end(),
-                                   [&](const auto& part) { return part.first == rows.label[k]; });
-    if (same != parts.end()) {
-      same->second.push_back(k);
-    } else {
-      parts.push_back({rows.label[k], {k}});
-    }
-    if (are_numbers && parts.size() > kMostValues) break;
-  }
-  if (!are_numbers || parts.size() <= kMostValues) return parts;
-  parts.clear();
+  if (!are_numbers) return parts_by_label(order, rows, order.size());
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return rows.value[a] < rows.value[b]; });
+  std::vector<Part> parts = parts_by_label(order, rows, kMostValues);
+  if (!parts.empty()) return parts;
   for (std::size_t part = 0; part < kParts; ++part) {
     const std::size_t from = part * order.size() / kParts, to = (part + 1) * order.size() / kParts;
     parts.push_back(
@@ -124,6 +124,14 @@ std::vector<std::pair<std::string, std::vector<std::size_t>>> parts_of(const Row
          {order.begin() + static_cast<long>(from), order.begin() + static_cast<long>(to)}});
   }
   return parts;
+}
+
+/// All rows, under no name, where nothing is asked by parts.
+std::vector<Part> parts_asked(const Rows& rows, const std::string& by) {
+  if (!by.empty()) return parts_of(rows);
+  std::vector<std::size_t> all(rows.label.size());
+  std::iota(all.begin(), all.end(), 0u);
+  return {{"", all}};
 }
 
 /// "F2.slides in gas_storage" for each fault and stage, and for the whole history.
@@ -148,26 +156,26 @@ Probability find_probability(const Store& store, const CampaignInfo& campaign,
                              const ProbabilityRequest& request) {
   const Selection selection = make_selection(store, campaign, "", "");
   Probability found{campaign, request, sampling_of(store, campaign), {}, 0, 0};
-  const Rows rows = read_rows(store, campaign, request, selection);
-  if (rows.position.empty()) {
+  const std::vector<std::string> conditions = request.condition.empty()
+                                                  ? default_conditions(selection)
+                                                  : std::vector<std::string>{request.condition};
+  const Rows rows = read_rows(store, campaign, request, selection, conditions);
+  if (rows.label.empty()) {
     throw InputError("probability",
                      {{"", 0, "no case was selected", "ask for others with --where"}});
   }
   found.n_unresolved = rows.n_unresolved;
-  std::vector<std::size_t> all(rows.position.size());
-  std::iota(all.begin(), all.end(), 0u);
-  const std::vector<std::string> conditions = request.condition.empty()
-                                                  ? default_conditions(selection)
-                                                  : std::vector<std::string>{request.condition};
-  for (const std::string& condition : conditions) {
-    const std::set<long> holds = positions_where(store, campaign, selection, condition);
-    if (request.by.empty()) {
-      found.shares.push_back(share_of(condition, all, rows, holds, request.confidence));
-      continue;
-    }
-    for (const auto& [label, chosen] : parts_of(rows)) {
-      const std::string name = conditions.size() > 1 ? concat(condition, ", ", label) : label;
-      found.shares.push_back(share_of(name, chosen, rows, holds, request.confidence));
+  const std::vector<Part> parts = parts_asked(rows, request.by);
+  for (std::size_t c = 0; c < conditions.size(); ++c) {
+    for (const auto& [label, chosen] : parts) {
+      std::string name = label;
+      if (label.empty()) {
+        name = conditions[c];
+      } else if (conditions.size() > 1) {
+        name = concat(conditions[c], ", ", label);
+      }
+      found.shares.push_back(
+          share_of(std::move(name), chosen, rows.complete, rows.holds[c], request.confidence));
     }
   }
   if (found.shares.size() == 1 && found.shares[0].n_unknown < found.shares[0].n) {

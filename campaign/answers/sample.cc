@@ -110,7 +110,7 @@ Sample read_sample(const Store& store, const CampaignInfo& campaign, const Sampl
   query.stage = request.stage;
   if (selection.fault) query.fault = selection.fault->id;
   query.where = parse_condition(request.where, campaign, selection);
-  for (const ScopedMetric& one : sample.outputs) query.columns.push_back(one.sql);
+  for (const ScopedMetric& one : sample.outputs) query.columns.push_back({one.sql, {}});
   sample.x.resize(sample.parameters.size());
   sample.y.resize(sample.outputs.size());
 

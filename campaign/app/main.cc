@@ -67,6 +67,17 @@ void add_case(CLI::App* command, StoreArguments& common, std::string& name) {
   command->add_option("--campaign", common.campaign, "default: the newest");
   add_store(command, common);
 }
+void add_where(CLI::App* command, std::string& where) {
+  command->add_option(
+      "--where", where,
+      "only cases with this, a condition on metrics and parameters: \"offset > 50 m and slides\";\n"
+      "of a fault, a stage, or both: \"F2.max_slip in gas_storage > 10 mm\"");
+}
+void add_stage_and_fault(CLI::App* command, std::string& stage, std::string& fault) {
+  command->add_option("--stage", stage, "metrics of this stage; default: the whole history");
+  command->add_option("--fault", fault,
+                      "metrics of this fault; default: of all faults of a case together");
+}
 void add_json(CLI::App* command, StoreArguments& common) {
   command->add_flag("--json", common.json, "machine-readable output on stdout");
 }
@@ -200,13 +211,8 @@ void add_reading(CLI::App& app, Arguments& a, ExitCode& code) {
   rank->add_option("--by", a.rank.by,
                    "metric or expression; default: the spec's, or the area that slides, then\n"
                    "the area that is open, M0, the pressure margin of inactive cases, and chi");
-  rank->add_option("--stage", a.rank.stage, "metrics of this stage; default: the whole history");
-  rank->add_option(
-      "--where", a.rank.where,
-      "condition on metrics and parameters: \"offset > 50 m and slides\"; of a fault,\n"
-      "a stage, or both: \"F2.max_slip in gas_storage > 10 mm\"");
-  rank->add_option("--fault", a.rank.fault,
-                   "metrics of this fault; default: of all faults of a case together");
+  add_stage_and_fault(rank, a.rank.stage, a.rank.fault);
+  add_where(rank, a.rank.where);
   rank->add_option("--top", a.rank.top, "how many rows; 0 = all")->check(CLI::NonNegativeNumber);
   rank->add_flag("--ascending", a.rank.ascending, "smallest first");
   rank->add_flag("--list-metrics", a.list_metrics, "what can be ranked by");
@@ -253,7 +259,7 @@ void add_answers(CLI::App& app, Arguments& a, ExitCode& code) {
   probability->add_option("--of", a.probability.condition,
                           "condition on metrics, as of `rank --where`; default: that each fault\n"
                           "slides, in each stage");
-  probability->add_option("--where", a.probability.where, "only of these cases");
+  add_where(probability, a.probability.where);
   probability->add_option("--by", a.probability.by,
                           "for each value of this parameter, or ten parts of its range");
   add_confidence(probability, a.probability.confidence);
@@ -273,11 +279,8 @@ void add_answers(CLI::App& app, Arguments& a, ExitCode& code) {
       "--metrics", a.sensitivity.metrics,
       "names of `rank --list-metrics`, with commas, also of a fault and stage:\n"
       "F2.max_slip in gas_storage; default: chi_bar, slip and sliding by fault");
-  sensitivity->add_option("--where", a.sensitivity.cases.where, "only of these cases");
-  sensitivity->add_option("--stage", a.sensitivity.cases.stage,
-                          "metrics of this stage; default: the whole history");
-  sensitivity->add_option("--fault", a.sensitivity.cases.fault,
-                          "metrics of this fault; default: of all faults of a case together");
+  add_stage_and_fault(sensitivity, a.sensitivity.cases.stage, a.sensitivity.cases.fault);
+  add_where(sensitivity, a.sensitivity.cases.where);
   add_confidence(sensitivity, a.sensitivity.confidence);
   add_json(sensitivity, a.common);
   add_wide(sensitivity);
@@ -302,11 +305,8 @@ void add_export(CLI::App& app, Arguments& a, ExitCode& code) {
                       "names of `rank --list-metrics`, with commas, also of a fault and stage:\n"
                       "F2.max_slip in gas_storage; default: all, for dakota and salib those that\n"
                       "every full history has");
-  command->add_option("--where", a.exporting.where, "condition on metrics and parameters");
-  command->add_option("--stage", a.exporting.stage,
-                      "metrics of this stage; default: the whole history");
-  command->add_option("--fault", a.exporting.fault,
-                      "metrics of this fault; default: of all faults of a case together");
+  add_stage_and_fault(command, a.exporting.stage, a.exporting.fault);
+  add_where(command, a.exporting.where);
   command->add_flag("--histories", a.exporting.histories,
                     "the chi histories instead: a row per case, fault and load step");
   command->footer(kExportFooter);

@@ -81,8 +81,8 @@ std::vector<Side> read_side(const Store& store, const CampaignInfo& campaign,
                             const Comparison& comparison) {
   Store::TableQuery query;
   query.stage = comparison.request.stage;
-  query.columns = {metric_sql("slides"), metric_sql("plane_strain")};
-  for (const ScopedMetric& metric : metrics) query.columns.push_back(metric.sql);
+  query.columns = {{metric_sql("slides"), {}}, {metric_sql("plane_strain"), {}}};
+  for (const ScopedMetric& metric : metrics) query.columns.push_back({metric.sql, {}});
   const std::vector<std::size_t> places = places_of(comparison.shared_parameters, campaign);
   std::vector<Side> cases;
   store.for_each_case(campaign.id, query, [&](const CaseRow& row) {

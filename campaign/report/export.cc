@@ -91,8 +91,8 @@ std::string export_cases(const Store& store, const CampaignInfo& campaign,
   const std::vector<Column> columns =
       columns_of(choose_metrics(selection, request.metrics, true, creeps(store, campaign)),
                  store.kinds(campaign.id, {}));
-  query.columns = {metric_sql("activated_fault")};
-  for (const Column& column : columns) query.columns.push_back(column.sql);
+  query.columns = {{metric_sql("activated_fault"), {}}};
+  for (const Column& column : columns) query.columns.push_back({column.sql, {}});
   TableOutput output(request.target);
   output.write(header_line(parameters, columns));
   long n_rows = 0, n_without = 0, n_early = 0;

@@ -103,7 +103,7 @@ Store::TableQuery table_query(const CampaignInfo& campaign, const Selection& sel
   query.stage = request.stage;
   if (selection.fault) query.fault = selection.fault->id;
   query.where = parse_condition(request.where, campaign, selection);
-  for (const ScopedMetric& metric : metrics) query.columns.push_back(metric.sql);
+  for (const ScopedMetric& metric : metrics) query.columns.push_back({metric.sql, {}});
   return query;
 }
 

@@ -1,9 +1,9 @@
 #include "campaign/rounds/next_round.h"
 
 #include <algorithm>
-#include <set>
 
 #include "campaign/report/selection.h"
+#include "campaign/report/table_output.h"
 #include "campaign/rounds/staged_sample.h"
 #include "campaign/rounds/submission.h"
 #include "simulator/scene/read_scene.h"
@@ -32,25 +32,14 @@ ordered_json stored_spec(const Store& store, const CampaignInfo& campaign, std::
   return spec;
 }
 
-/// Rows in which a condition on the results is true, by the position of their case.
-std::set<long> positions_where(const Store& store, const CampaignInfo& campaign,
-                               const std::string& condition) {
-  std::set<long> positions;
-  const Selection selection = make_selection(store, campaign, "", "");
-  if (selection.faults.empty()) return positions;  // no case has a result
-  Store::TableQuery query;
-  query.where = parse_condition(condition, campaign, selection);
-  store.for_each_case(campaign.id, query,
-                      [&](const CaseRow& row) { positions.insert(row.position); });
-  return positions;
-}
-
 std::vector<Answer> answers_of(const Store& store, const CampaignInfo& campaign,
                                const std::vector<RoundRecord>& rounds,
                                const std::string& condition) {
-  const std::set<long> holds = positions_where(store, campaign, condition);
   Store::TableQuery query;
   query.by_design_row = true;
+  const Selection selection = make_selection(store, campaign, "", "");
+  const bool any_result = !selection.faults.empty();
+  if (any_result) query.columns = {parse_condition(condition, campaign, selection)};
   std::vector<Answer> answers;
   store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
     Answer one;
@@ -62,7 +51,7 @@ std::vector<Answer> answers_of(const Store& store, const CampaignInfo& campaign,
     one.parameters = row.parameters;
     one.failed = row.state == "failed";
     one.complete = row.complete();
-    one.holds = one.complete && holds.contains(row.position);
+    one.holds = any_result && one.complete && number_of(row.metrics[0]) == 1;
     answers.push_back(std::move(one));
   });
   return answers;

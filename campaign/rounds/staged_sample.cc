@@ -31,8 +31,7 @@ Proposal StagedSampler::propose(const std::vector<Answer>& answers,
       std::count_if(answers.begin(), answers.end(), [](const Answer& one) { return one.holds; });
   const long n_unknown = std::count_if(answers.begin(), answers.end(),
                                        [](const Answer& one) { return !one.complete; });
-  const Interval known{proportion_bounds(n_holds, n, wanted_.confidence).low,
-                       proportion_bounds(n_holds + n_unknown, n, wanted_.confidence).high};
+  const Interval known = proportion_bounds(n_holds, n_unknown, n, wanted_.confidence);
   std::string text = concat(percent(known.low), " to ", percent(known.high), " % (confidence ",
                             percent(wanted_.confidence), " %): true in ", n_holds, " of ", n);
   if (n_unknown > 0) text += concat(", not known in ", n_unknown);

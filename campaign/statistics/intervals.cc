@@ -17,6 +17,11 @@ Interval proportion_bounds(long k, long n, double confidence) {
           k == n ? 1 : boost::math::ibetac_inv(successes + 1, failures, tail)};
 }
 
+Interval proportion_bounds(long k, long n_unknown, long n, double confidence) {
+  return {proportion_bounds(k, n, confidence).low,
+          proportion_bounds(k + n_unknown, n, confidence).high};
+}
+
 long samples_for_half_width(double expected, double half_width, double confidence) {
   FAULTSIM_DEMAND(half_width > 0, half_width);
   const auto is_enough = [&](long n) {

@@ -14,6 +14,9 @@ struct Interval {
 /// Pearson (1934): exact, so they cover it with at least `confidence`. [0, 1] for n = 0.
 /// @pre 0 ≤ k ≤ n, 0 < confidence < 1.
 Interval proportion_bounds(long k, long n, double confidence);
+/// The same where n_unknown of the n may or may not have it: from none of these to all.
+/// @pre k + n_unknown ≤ n.
+Interval proportion_bounds(long k, long n_unknown, long n, double confidence);
 
 /// The fewest samples with which proportion_bounds are at most 2 half_width apart, if a share
 /// `expected` of them has the property.

@@ -162,7 +162,7 @@ class Store {
   struct TableQuery {
     std::string stage;                                 ///< "" = the whole history.
     std::optional<std::int64_t> fault = std::nullopt;  ///< whose metrics `of_fault` are.
-    std::vector<std::string> columns;                  ///< SQL, of metric_sql.
+    std::vector<SqlFragment> columns;                  ///< values or conditions, of metric_sql.
     SqlFragment where;                                 ///< condition; empty = all.
     bool by_design_row = false;  ///< order of design_rows: merged rows repeat their case.
   };

@@ -57,9 +57,10 @@ void visit_cases(Connection& db, const std::string& source, std::int64_t campaig
   std::string sql =
       "SELECT cc.case_id, cc.position, c.identity, c.state, coalesce(m.outcome, ''),"
       " coalesce(r.status, ''), coalesce(m.reason, r.reason, ''), s.rank_class";
-  for (const std::string& column : query.columns) sql += ", " + column;
+  for (const SqlFragment& column : query.columns) sql += ", (" + column.text + ")";
   Statement rows(db, (sql + source + where_sql(query.where) + order));
   int bound = 0;
+  for (const SqlFragment& column : query.columns) bind_values(rows, bound, column.parameters);
   rows.bind_at(++bound, query.stage);
   rows.bind_at(++bound, campaign);
   bind_values(rows, bound, query.where.parameters);

@@ -38,6 +38,7 @@ struct InfluenceBlock {
 /// Σ_c P_c s_c of each field, Pa (n_dofs x n_fields). The time is that of reading P once per eight
 /// fields. A field's bits depend neither on the others nor on the threads.
 /// @param stress  s per cell and field (n_cells x n_fields), Pa.
+/// @throws InternalError for another number of cells.
 Eigen::MatrixXd locked_change(const InfluenceBlock& block,
                               const Eigen::Ref<const Eigen::MatrixXd>& stress, int n_threads = 1);
 

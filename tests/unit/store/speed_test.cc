@@ -91,7 +91,7 @@ TEST(StoreSpeed, SlowHundredThousandCases) {
   timed("stages", 0.5, [&] { reader.stages(campaign); });
   Store::TableQuery table;
   for (const MetricInfo& metric : metric_catalogue()) {
-    if (!metric.name.starts_with("creep_")) table.columns.push_back(metric_sql(metric.name));
+    if (!metric.name.starts_with("creep_")) table.columns.push_back({metric_sql(metric.name), {}});
   }
   long n_rows = 0;
   timed("all cases as a table", 5,
