@@ -300,45 +300,71 @@ bool Composer::prepare(std::vector<faultsim::Problem>& problems) {
   return true;
 }
 
-std::optional<std::string_view> Composer::text(const Row& row, const std::vector<double>& derived) {
-  Template* one = template_of(row);
-  if (one == nullptr) return std::nullopt;
-  // Indices into pieces.leaves, replaced where the row differs.
-  std::vector<const std::string*> leaves;
-  leaves.reserve(one->pieces.leaves.size());
-  for (const std::string& leaf : one->pieces.leaves) leaves.push_back(&leaf);
-  scratch_.clear();
-  scratch_.reserve(row.size() + derived.size());  // pointers into it must stay
+/// Puts together what no row seen so far changes, so that a text is made of few parts.
+void Composer::add_places(Template& one) {
+  std::set<std::size_t> places(one.places.begin(), one.places.end());
+  for (const auto& [leaf, text] : changes_) places.insert(leaf);
+  if (places.size() == one.places.size() && !one.between.empty()) return;
+  one.places.assign(places.begin(), places.end());
+  one.between.assign(1, "");
+  for (std::size_t i = 0; i < one.pieces.leaves.size(); ++i) {
+    one.between.back() += one.pieces.between[i];
+    if (places.contains(i)) {
+      one.between.emplace_back();
+    } else {
+      one.between.back() += one.pieces.leaves[i];
+    }
+  }
+  one.between.back() += one.pieces.between.back();
+}
+
+/// Fills changes_; false where the scene must be read.
+bool Composer::find_changes(Template& one, const Row& row, const std::vector<double>& derived) {
+  changes_.clear();
+  numbers_.clear();
+  numbers_.reserve(row.size() + derived.size());  // views of them must stay
+  const auto change = [&](const std::vector<std::size_t>& leaves, double number) {
+    numbers_.push_back(number_text(number));
+    for (const std::size_t leaf : leaves) changes_.emplace_back(leaf, numbers_.back());
+  };
   for (std::size_t p = 0; p < row.size(); ++p) {
-    if (is_fixed(p) || row[p] == one->reference[p]) continue;
-    const Effect& effect = one->effects[p];
+    if (is_fixed(p) || row[p] == one.reference[p]) continue;
+    const Effect& effect = one.effects[p];
     if (effect.is_number && row[p] >= 0) {
       const double si = *group_.parameters[p].si(row[p]);
-      if (is_minus_zero(si)) return std::nullopt;
-      scratch_.push_back(number_text(si));
-      for (const std::size_t leaf : effect.leaves) leaves[leaf] = &scratch_.back();
+      if (is_minus_zero(si)) return false;
+      change(effect.leaves, si);
       continue;
     }
-    const auto& change = difference(*one, p, row[p]);
-    if (!change) return std::nullopt;
-    for (const auto& [leaf, text] : *change) leaves[leaf] = &text;
+    const auto& known = difference(one, p, row[p]);
+    if (!known) return false;
+    changes_.insert(changes_.end(), known->begin(), known->end());
   }
   for (std::size_t d = 0; d < derived.size(); ++d) {
     if (!has_effect_[row.size() + d]) continue;
-    if (std::isnan(derived[d]) || std::isnan(one->derived[d]) || is_minus_zero(derived[d])) {
-      return std::nullopt;
+    if (std::isnan(derived[d]) || std::isnan(one.derived[d]) || is_minus_zero(derived[d])) {
+      return false;
     }
-    if (derived[d] == one->derived[d]) continue;
-    if (one->derived_leaves[d].empty()) return std::nullopt;
-    scratch_.push_back(number_text(derived[d]));
-    for (const std::size_t leaf : one->derived_leaves[d]) leaves[leaf] = &scratch_.back();
+    if (derived[d] == one.derived[d]) continue;
+    if (one.derived_leaves[d].empty()) return false;
+    change(one.derived_leaves[d], derived[d]);
   }
-  text_.clear();
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
-    text_ += one->pieces.between[i];
-    text_ += *leaves[i];
+  return true;
+}
+
+std::optional<std::string_view> Composer::text(const Row& row, const std::vector<double>& derived) {
+  Template* one = template_of(row);
+  if (one == nullptr || !find_changes(*one, row, derived)) return std::nullopt;
+  add_places(*one);
+  text_ = one->between.front();
+  for (std::size_t k = 0; k < one->places.size(); ++k) {
+    const std::size_t leaf = one->places[k];
+    const auto changed = std::find_if(changes_.rbegin(), changes_.rend(),
+                                      [&](const auto& place) { return place.first == leaf; });
+    text_ += changed == changes_.rend() ? std::string_view(one->pieces.leaves[leaf])
+                                        : changed->second;
+    text_ += one->between[k + 1];
   }
-  text_ += one->pieces.between.back();
   return text_;
 }
 

@@ -61,6 +61,8 @@ class Composer {
     CanonicalPieces pieces;
     std::vector<Effect> effects;                           ///< per parameter.
     std::vector<std::vector<std::size_t>> derived_leaves;  ///< per derived parameter.
+    std::vector<std::size_t> places;   ///< leaves that differ between rows seen, ascending,
+    std::vector<std::string> between;  ///< and the text between them.
   };
 
   std::optional<std::string> exact_text(const Row& row, const std::vector<double>& derived,
@@ -73,6 +75,8 @@ class Composer {
   bool find_derived_leaves(Template& one);
   bool find_structure();
   Template* template_of(const Row& row);
+  bool find_changes(Template& one, const Row& row, const std::vector<double>& derived);
+  void add_places(Template& one);
   std::vector<Row> rows_to_check() const;
   bool is_fixed(std::size_t parameter) const {
     return structural_[parameter] || !has_effect_[parameter];
@@ -88,8 +92,11 @@ class Composer {
   Row reference_;
   std::vector<bool> structural_;                      ///< per parameter: has templates of its own.
   std::map<Row, std::optional<Template>> templates_;  ///< by the structural choices.
-  std::vector<std::string> scratch_;                  ///< texts of numbers of the row at hand.
-  std::string text_;                                  ///< composed text of the row at hand.
+  /// Of the row at hand: leaves that differ from its template's, the later one where a leaf comes
+  /// twice; the texts of numbers among them; the composed text.
+  std::vector<std::pair<std::size_t, std::string_view>> changes_;
+  std::vector<std::string> numbers_;
+  std::string text_;
 };
 
 /// Up to n choices of a parameter, always with the first, last, smallest and largest.

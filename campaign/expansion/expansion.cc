@@ -138,7 +138,11 @@ class Expander {
       std::vector<Problem> found;
       std::string identity;
       const auto text = composer ? composer->text(row, derived) : std::nullopt;
-      if (text) identity = faultsim::fingerprint(identity_preamble + std::string(*text));
+      if (text) {
+        identity_text_ = identity_preamble;
+        identity_text_ += *text;
+        identity = faultsim::fingerprint(identity_text_);
+      }
       int& place = case_of_row[static_cast<std::size_t>(i)];
       place = add_case(index, row, derived, identity, builder, families, found);
       if (place < 0) {
@@ -262,6 +266,7 @@ class Expander {
   FamiliesSoFar families_;
   std::unordered_map<std::string, int> by_identity_;
   std::string first_merged_;
+  std::string identity_text_;
 };
 
 const Group& group_of(const Expansion& expansion, const Case& one) {

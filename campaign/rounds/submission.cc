@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <future>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -104,11 +105,18 @@ Submission make_submission(const Expansion& expansion) {
                                    1 + static_cast<int>(family.plan->creep.rungs.size())});
   }
   const Columns columns(expansion);
-  submission.cases.reserve(expansion.cases.size());
-  for (const Case& one : expansion.cases) {
-    submission.cases.push_back({one.identity, one.family, one.group,
-                                changes_of(expansion, one).dump(), columns.values_of(one)});
-  }
+  submission.cases.resize(expansion.cases.size());
+  const auto record = [&](std::size_t from, std::size_t to) {
+    for (std::size_t k = from; k < to; ++k) {
+      const Case& one = expansion.cases[k];
+      submission.cases[k] = {one.identity, one.family, one.group, changes_of(expansion, one).dump(),
+                             columns.values_of(one)};
+    }
+  };
+  const std::size_t half = expansion.cases.size() / 2;
+  std::future<void> other = std::async(std::launch::async, record, 0, half);
+  record(half, expansion.cases.size());
+  other.get();
   submission.design_rows = design_rows(expansion);
   submission.parameters = parameters_to_json(columns.parameters);
   return submission;

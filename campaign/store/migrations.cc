@@ -158,7 +158,7 @@ int stored_version(Connection& connection, const std::vector<Migration>& migrati
 void migrate(Connection& connection, const std::vector<Migration>& migrations) {
   const int newest = migrations.back().version;
   if (usable_version(connection, newest) == newest) return;
-  const ForeignKeysOff foreign_keys_off(connection);
+  const PragmaWhile foreign_keys(connection, "foreign_keys", false);
   for (const Migration& migration : migrations) {
     Transaction transaction(connection);
     // Read again: another process may have migrated while we waited for the lock.

@@ -267,12 +267,13 @@ Cell Statement::cell(int column) const {
   }
 }
 
-ForeignKeysOff::ForeignKeysOff(Connection& connection) : connection_(connection) {
-  connection_.execute("PRAGMA foreign_keys = OFF");
+PragmaWhile::PragmaWhile(Connection& connection, const std::string& name, bool on)
+    : connection_(connection), after_(concat("PRAGMA ", name, " = ", on ? "OFF" : "ON")) {
+  connection_.execute(concat("PRAGMA ", name, " = ", on ? "ON" : "OFF").c_str());
 }
-ForeignKeysOff::~ForeignKeysOff() {
+PragmaWhile::~PragmaWhile() {
   try {
-    connection_.execute("PRAGMA foreign_keys = ON");
+    connection_.execute(after_.c_str());
   } catch (const StorageError&) {  // the connection is of no use any more, and its owner is told
   }
 }
