@@ -361,8 +361,8 @@ std::optional<std::string_view> Composer::text(const Row& row, const std::vector
     const std::size_t leaf = one->places[k];
     const auto changed = std::find_if(changes_.rbegin(), changes_.rend(),
                                       [&](const auto& place) { return place.first == leaf; });
-    text_ += changed == changes_.rend() ? std::string_view(one->pieces.leaves[leaf])
-                                        : changed->second;
+    text_ +=
+        changed == changes_.rend() ? std::string_view(one->pieces.leaves[leaf]) : changed->second;
     text_ += one->between[k + 1];
   }
   return text_;

@@ -258,6 +258,26 @@ class Expander {
         result_.notes.push_back("nothing is excluded by \"" + one.reason + "\"");
       }
     }
+    note_distributions();
+  }
+
+  /// Leaving cases out changes how the parameters of the others are distributed.
+  void note_distributions() {
+    long n_excluded = 0;
+    for (const ExcludedCases& one : result_.excluded) n_excluded += one.n_cases;
+    const auto is_stated = [](const Group& group) {
+      return std::any_of(group.designs.begin(), group.designs.end(),
+                         [](const Design& one) { return one.correlated.has_value(); }) ||
+             std::any_of(group.parameters.begin(), group.parameters.end(), [](const auto& one) {
+               return one.range && one.range->marginal.spread > 0;
+             });
+    };
+    const auto& groups = result_.spec.groups;
+    if (n_excluded == 0 || std::none_of(groups.begin(), groups.end(), is_stated)) return;
+    result_.notes.push_back(
+        std::to_string(n_excluded) +
+        " samples are excluded: the others have other distributions and correlations than those "
+        "given, and probabilities are those of what is not excluded");
   }
 
   Expansion result_;

@@ -29,9 +29,19 @@ class Values {
   std::vector<int> numbers_;
 };
 
+void correlate(const Design::Correlated& correlated, UnitSamples& columns) {
+  std::vector<double> u(correlated.parameters.size());
+  for (std::size_t i = 0; i < columns.front().size(); ++i) {
+    for (std::size_t k = 0; k < u.size(); ++k) u[k] = columns[correlated.parameters[k]][i];
+    correlated.copula.correlate(u);
+    for (std::size_t k = 0; k < u.size(); ++k) columns[correlated.parameters[k]][i] = u[k];
+  }
+}
+
 /// One row per point.
-void draw_points(const UnitSamples& columns, Design& design, Parameter* parameters) {
+void draw_points(UnitSamples columns, Design& design, Parameter* parameters) {
   const auto n = static_cast<std::size_t>(design.n);
+  if (design.correlated) correlate(*design.correlated, columns);
   design.rows.assign(n, std::vector<int>(design.n_parameters));
   for (std::size_t p = 0; p < design.n_parameters; ++p) {
     const Values values(parameters[p], columns[p]);

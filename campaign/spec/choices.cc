@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 
 #include "campaign/spec/spec_reader.h"
 #include "simulator/scene/schema.h"
@@ -80,11 +81,9 @@ void Parameter::append_changes(int value, std::vector<Change>& changes) const {
 
 void Parameter::draw(const std::vector<double>& positions) {
   const SampledRange& r = *range;
-  for (const long double t : positions) {
+  for (const double position : positions) {
     DrawnValue one;
-    const long double number =
-        r.log ? r.from * std::pow(r.to / r.from, t) : r.from + (r.to - r.from) * t;
-    one.number = std::strtod(decimal(number).c_str(), nullptr);
+    one.number = std::strtod(decimal(r.marginal.quantile(position)).c_str(), nullptr);
     drawn.push_back(one);
     DrawnValue& value = drawn.back();
     value.si = r.unit.empty() ? value.number
@@ -119,14 +118,15 @@ std::optional<Parameter> SpecReader::read_parameter(const std::string& pointer,
     if (!parameter.targets.empty()) read_values(pointer, names, parameter);
   } else {
     std::vector<std::string> found;
-    for (const char* kind : {"values", "from", "scale", "variants"}) {
-      if (value.contains(kind)) found.emplace_back(kind);
+    for (const char* kind : {"values", "from", "scale", "variants", "distribution"}) {
+      const bool is_end = value.contains("distribution") && std::string(kind) == "from";
+      if (value.contains(kind) && !is_end) found.emplace_back(kind);
     }
     if (found.size() != 1) {
       const std::string what =
           found.empty() ? "says not how it varies" : "has both " + found[0] + " and " + found[1];
       problem(pointer, "\"" + name + "\" " + what,
-              "give one of values, from/to/count, scale/factors, variants");
+              "give one of values, from/to/count, distribution, scale/factors, variants");
     } else if (found[0] == "scale") {
       read_scale(names, parameter);
     } else if (found[0] == "variants") {
@@ -136,6 +136,8 @@ std::optional<Parameter> SpecReader::read_parameter(const std::string& pointer,
       if (parameter.targets.empty()) return std::nullopt;
       if (found[0] == "values") {
         read_values(pointer + "/values", names, parameter);
+      } else if (found[0] == "distribution") {
+        read_distribution(names, parameter, design);
       } else {
         read_range(names, parameter, design);
       }
@@ -149,8 +151,13 @@ std::optional<Parameter> SpecReader::read_parameter(const std::string& pointer,
 /// Keys that do nothing without another one.
 void SpecReader::check_stray_keys(const std::string& pointer) {
   const json& value = at(pointer);
-  for (const auto& [key, owner] : {std::pair("to", "from"), std::pair("count", "from"),
-                                   std::pair("spacing", "from"), std::pair("factors", "scale")}) {
+  const bool has_distribution = value.contains("distribution");
+  for (const auto& [key, owner] :
+       {std::pair("to", "from"), std::pair("count", "from"), std::pair("spacing", "from"),
+        std::pair("factors", "scale"), std::pair("mean", "distribution"),
+        std::pair("deviation", "distribution"), std::pair("median", "distribution"),
+        std::pair("factor", "distribution"), std::pair("mode", "distribution")}) {
+    if (has_distribution && std::string(owner) == "from") continue;  // read_distribution sees to it
     if (value.contains(key) && !value.contains(owner)) {
       problem(pointer + "/" + key, std::string(key) + " needs " + owner,
               std::string("add ") + owner + " or remove " + key);
@@ -290,7 +297,8 @@ void SpecReader::read_range(const SceneNames& names, Parameter& parameter, Desig
   }
   if (drawn) {
     parameter.choices = {*from, *to};
-    parameter.range = SampledRange{first->number, end, first->unit, log};
+    const Distribution distribution = log ? Distribution::log_uniform : Distribution::uniform;
+    parameter.range = SampledRange{{distribution, first->number, end}, first->unit};
     return;
   }
   const int count = at(pointer + "/count").get<int>();
@@ -305,6 +313,104 @@ void SpecReader::read_range(const SceneNames& names, Parameter& parameter, Desig
     if (!choice) return;
     parameter.choices.push_back(std::move(*choice));
   }
+}
+
+/// The keys that a distribution needs; `from` and `to` cut the others too.
+std::vector<std::string> keys_of(const std::string& distribution) {
+  if (distribution == "normal") return {"mean", "deviation"};
+  if (distribution == "log-normal") return {"median", "factor"};
+  return {"mode", "from", "to"};
+}
+
+/// Keys of a distribution that are missing, and those that belong to others.
+bool SpecReader::check_distribution_keys(const std::string& pointer) {
+  const std::string kind = at(pointer + "/distribution");
+  const std::vector<std::string> needed = keys_of(kind);
+  const std::size_t before = problems_.size();
+  for (const std::string& key : needed) {
+    if (!has(pointer + "/" + key)) problem(pointer, "a " + kind + " needs " + key, "add " + key);
+  }
+  for (const std::string key :
+       {"mean", "deviation", "median", "factor", "mode", "count", "spacing"}) {
+    if (!has(pointer + "/" + key) || std::count(needed.begin(), needed.end(), key) > 0) continue;
+    problem(pointer + "/" + key, "a " + kind + " has no " + key, "remove it");
+  }
+  return problems_.size() == before;
+}
+
+void SpecReader::read_distribution(const SceneNames& names, Parameter& parameter,
+                                   DesignKind design) {
+  const std::string& pointer = parameter.pointer;
+  if (!is_sampled(design)) {
+    problem(pointer + "/distribution", "nothing is drawn in a " + std::string(to_string(design)),
+            "use monte-carlo, latin-hypercube, sobol or morris");
+    return;
+  }
+  if (!check_distribution_keys(pointer)) return;
+  const std::string kind = at(pointer + "/distribution");
+  const std::string centre_key = keys_of(kind).front();
+  std::string unit;
+  bool is_sound = true;
+  const auto number = [&](const std::string& key) -> long double {  // in the unit of the centre
+    const std::string place = pointer + "/" + key;
+    const auto choice = make_choice(at(place), place, names, parameter);
+    const auto parts = choice && choice->si ? split(at(place)) : std::nullopt;
+    if (choice && !parts) problem(place, "a distribution needs numbers", "list the values instead");
+    is_sound = is_sound && parts;
+    if (!parts) return 0;
+    if (key == centre_key) unit = parts->unit;
+    return parts->unit == unit ? parts->number
+                               : faultsim::from_si(*choice->si, parameter.dimension, unit);
+  };
+  constexpr long double kInfinity = std::numeric_limits<long double>::infinity();
+  Marginal marginal;
+  marginal.distribution = kind == "normal"       ? Distribution::normal
+                          : kind == "log-normal" ? Distribution::log_normal
+                                                 : Distribution::triangular;
+  marginal.centre = number(centre_key);
+  const bool is_log = marginal.distribution == Distribution::log_normal;
+  marginal.from = has(pointer + "/from") ? number("from") : is_log ? 0 : -kInfinity;
+  marginal.to = has(pointer + "/to") ? number("to") : kInfinity;
+  if (is_log) marginal.spread = at(pointer + "/factor").get<double>();
+  if (marginal.distribution == Distribution::normal) marginal.spread = number("deviation");
+  if (!is_sound || !check_distribution(pointer, marginal, design)) return;
+  parameter.range = SampledRange{marginal, unit};
+  for (const auto& [u, key] : {std::pair(0, "/from"), std::pair(1, "/to")}) {
+    const std::string place = pointer + (has(pointer + key) ? key : "/distribution");
+    auto end = make_choice(with_unit(marginal.quantile(u), unit), place, names, parameter);
+    if (end) parameter.choices.push_back(std::move(*end));
+  }
+}
+
+/// What a distribution must be to be drawn from.
+bool SpecReader::check_distribution(const std::string& pointer, const Marginal& m,
+                                    DesignKind design) {
+  constexpr long double kFar = 8;  // deviations: beyond there is nothing to draw
+  const std::size_t before = problems_.size();
+  const bool is_log = m.distribution == Distribution::log_normal;
+  const bool is_triangle = m.distribution == Distribution::triangular;
+  if (m.from >= m.to)
+    problem(pointer + "/to", "the distribution is cut at no more than from", "give a larger one");
+  if (is_log && (m.centre <= 0 || m.from < 0))
+    problem(pointer + "/median", "a log-normal has values above zero only", "give such numbers");
+  if (is_log && m.spread <= 1)
+    problem(pointer + "/factor", "the factor of a log-normal is not above 1",
+            "two thirds of the values lie between median / factor and median * factor");
+  if (m.distribution == Distribution::normal && m.spread <= 0)
+    problem(pointer + "/deviation", "the deviation is not above zero", "give a larger one");
+  if (is_triangle && (m.centre < m.from || m.centre > m.to))
+    problem(pointer + "/mode", "the mode is not between from and to", "give one that is");
+  if (problems_.size() > before) return false;
+  const auto deviations = [&](long double end) {
+    return is_log ? std::log(end / m.centre) / std::log(m.spread) : (end - m.centre) / m.spread;
+  };
+  if (!is_triangle && (deviations(m.from) > kFar || deviations(m.to) < -kFar))
+    problem(pointer + "/distribution", "nothing of it lies between from and to",
+            "widen them: they are more than 8 deviations away");
+  if (design == DesignKind::morris && (!std::isfinite(m.to) || !std::isfinite(deviations(m.from))))
+    problem(pointer + "/distribution", "morris goes to both ends, and there is none",
+            "give from and to");
+  return problems_.size() == before;
 }
 
 void SpecReader::read_scale(const SceneNames& names, Parameter& parameter) {

@@ -64,6 +64,7 @@ void SpecReader::read_design(const std::string& pointer, const SceneNames& names
     }
   }
   if (is_sampled(design.kind)) read_sampling(pointer, design);
+  if (has(pointer + "/correlations")) read_correlations(pointer, parameters, design);
   if (design.kind == DesignKind::zip) check_zip(parameters);
   if (design.kind == DesignKind::morris) check_morris(design, parameters);
   design.n_parameters = parameters.size();
@@ -90,6 +91,54 @@ void SpecReader::read_sampling(const std::string& pointer, Design& design) {
   if (has(pointer + "/seed")) design.seed = at(pointer + "/seed").get<std::int64_t>();
   if (has(pointer + "/second_order"))
     design.second_order = at(pointer + "/second_order").get<bool>();
+}
+
+/// "correlations": [{"of": ["friction_angle", "cohesion"], "rank": -0.5}, ...]
+void SpecReader::read_correlations(const std::string& pointer,
+                                   const std::vector<Parameter>& parameters, Design& design) {
+  std::vector<std::size_t> places;  // of the correlated parameters, in the design
+  std::map<std::pair<std::size_t, std::size_t>, double> ranks;
+  const std::string list = pointer + "/correlations";
+  const auto place_of = [&](const std::string& where) -> std::optional<std::size_t> {
+    const std::string name = at(where);
+    for (std::size_t p = 0; p < parameters.size(); ++p) {
+      if (parameters[p].name != name) continue;
+      if (parameters[p].range) return p;
+      problem(where, "\"" + name + "\" has values that are listed", "give it a range");
+      return std::nullopt;
+    }
+    if (has(pointer + "/parameters/" + faultsim::pointer_token(name))) return std::nullopt;
+    problem(where, "the design has no parameter \"" + name + "\"", "name one of its parameters");
+    return std::nullopt;
+  };
+  const std::size_t before = problems_.size();
+  for (std::size_t i = 0; i < at(list).size(); ++i) {
+    const std::string one = list + "/" + std::to_string(i);
+    const auto a = place_of(one + "/of/0"), b = place_of(one + "/of/1");
+    if (!a || !b) continue;
+    if (!ranks.emplace(std::minmax(*a, *b), at(one + "/rank").get<double>()).second)
+      problem(one + "/of", "these two are correlated twice", "remove one");
+    for (const std::size_t p : {*a, *b}) {
+      if (std::count(places.begin(), places.end(), p) == 0) places.push_back(p);
+    }
+  }
+  if (problems_.size() > before || places.empty()) return;
+  std::sort(places.begin(), places.end());
+  std::vector<std::vector<double>> matrix(places.size(), std::vector<double>(places.size(), 0));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    matrix[i][i] = 1;
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto rank = ranks.find({places[j], places[i]});
+      if (rank != ranks.end()) matrix[i][j] = matrix[j][i] = rank->second;
+    }
+  }
+  auto copula = GaussianCopula::make(matrix);
+  if (!copula) {
+    problem(list, "no numbers can have these correlations together",
+            "bring them closer to zero; pairs that are not given have 0");
+    return;
+  }
+  design.correlated = {places, std::move(matrix), std::move(*copula)};
 }
 
 void SpecReader::read_groups(const std::string& pointer, const std::string& prefix,

@@ -21,6 +21,31 @@ json choice_to_json(const Choice& choice) {
   return result;
 }
 
+json marginal_to_json(const SampledRange& range) {
+  const Marginal& m = range.marginal;
+  const auto centre = static_cast<double>(m.centre), spread = static_cast<double>(m.spread);
+  switch (m.distribution) {
+    case Distribution::uniform:
+      return {{"spacing", "linear"}};
+    case Distribution::log_uniform:
+      return {{"spacing", "log"}};
+    case Distribution::normal:
+      return {{"distribution", "normal"},
+              {"mean", centre},
+              {"deviation", spread},
+              {"unit", range.unit}};
+    case Distribution::log_normal:
+      return {{"distribution", "log-normal"},
+              {"median", centre},
+              {"factor", spread},
+              {"unit", range.unit}};
+    case Distribution::triangular:
+      return {{"distribution", "triangular"}, {"mode", centre}, {"unit", range.unit}};
+  }
+  FAULTSIM_DEMAND(false, static_cast<int>(m.distribution));
+  return {};
+}
+
 json parameter_to_json(const Parameter& parameter) {
   json result = {{"name", parameter.name},
                  {"unit", faultsim::si_unit(parameter.dimension)},
@@ -32,8 +57,8 @@ json parameter_to_json(const Parameter& parameter) {
                        {"to", to.text},
                        {"from_si", *from.si},
                        {"to_si", *to.si},
-                       {"spacing", parameter.range->log ? "log" : "linear"},
                        {"pointers", parameter.targets}};
+    result["range"].update(marginal_to_json(*parameter.range));
     return result;
   }
   result["choices"] = json::array();
@@ -53,6 +78,10 @@ json design_to_json(const Design& design) {
   if (design.kind == DesignKind::morris) result["levels"] = design.levels;
   if (design.kind == DesignKind::monte_carlo) result["first"] = design.first;
   if (design.kind == DesignKind::sobol) result["second_order"] = design.second_order;
+  if (design.correlated) {
+    result["correlated"] = {{"parameters", design.correlated->parameters},
+                            {"rank", design.correlated->rank}};
+  }
   return result;
 }
 

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "campaign/expression/expression.h"
+#include "campaign/statistics/copula.h"
+#include "campaign/statistics/marginal.h"
 #include "simulator/common/units.h"
 #include "simulator/scene/json_document.h"
 #include "simulator/scene/schema.h"
@@ -32,11 +34,10 @@ struct Choice {
   std::vector<Change> changes;
 };
 
-/// A range from which a sampled design draws values; its ends are the parameter's two choices.
+/// What a sampled design draws values from; its ends are the parameter's two choices.
 struct SampledRange {
-  long double from = 0, to = 0;  ///< in `unit`.
-  std::string unit;              ///< as given for `from`; "" for plain numbers.
-  bool log = false;              ///< uniform in the logarithm.
+  Marginal marginal;  ///< in `unit`.
+  std::string unit;   ///< as given for `from`, the mean or the median; "" for plain numbers.
 };
 
 /// A value drawn from a SampledRange. There may be 10^5 per parameter.
@@ -64,7 +65,7 @@ struct Parameter {
   std::optional<double> si(int value) const;
   const std::string& place(int value) const;  ///< into the spec, for messages.
   void append_changes(int value, std::vector<Change>& changes) const;
-  /// Draws values from the range: position 0 is `from`, 1 is `to`.
+  /// Draws values from the range: position 0 is its lower end, 1 its upper one.
   void draw(const std::vector<double>& positions);
 };
 
@@ -100,6 +101,13 @@ struct Design {
   long first = 0;             ///< monte-carlo: number of the first sample.
   int levels = 0;             ///< morris: even.
   bool second_order = false;  ///< sobol: blocks BA too.
+  /// Between parameters of the design, numbered as there, drawn from ranges; empty = independent.
+  struct Correlated {
+    std::vector<std::size_t> parameters;
+    std::vector<std::vector<double>> rank;  ///< Spearman's; [row][column].
+    GaussianCopula copula;
+  };
+  std::optional<Correlated> correlated = std::nullopt;
   std::int64_t seed = 1;
 };
 

@@ -88,6 +88,8 @@ class SpecReader {
   bool check_group_count();
   std::size_t count_groups(const std::string& design) const;
   void check_zip(const std::vector<Parameter>& parameters);
+  void read_correlations(const std::string& pointer, const std::vector<Parameter>& parameters,
+                         Design& design);
   void check_morris(const Design& design, const std::vector<Parameter>& parameters);
 
   // choices.cc
@@ -98,6 +100,9 @@ class SpecReader {
   void read_targets(const SceneNames& names, Parameter& parameter);
   void read_values(const std::string& pointer, const SceneNames& names, Parameter& parameter);
   void read_range(const SceneNames& names, Parameter& parameter, DesignKind design);
+  bool check_distribution_keys(const std::string& pointer);
+  bool check_distribution(const std::string& pointer, const Marginal& marginal, DesignKind design);
+  void read_distribution(const SceneNames& names, Parameter& parameter, DesignKind design);
   void read_scale(const SceneNames& names, Parameter& parameter);
   void read_variants(const SceneNames& names, Parameter& parameter);
   /// One value for all targets; nothing (and a problem) when it is not what the scene wants.

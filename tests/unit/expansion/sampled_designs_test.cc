@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -42,6 +43,18 @@ std::vector<std::vector<double>> positions(const Expansion& expansion, std::size
     }
   }
   return rows;
+}
+
+/// Values of a parameter in the rows of the first group, SI.
+std::vector<double> values_in(const Expansion& expansion, std::size_t parameter) {
+  const Group& g = expansion.spec.groups.front();
+  std::vector<double> values;
+  Row row;
+  for (long i = 0; i < count_rows(g); ++i) {
+    row_at(g, i, row);
+    values.push_back(*g.parameters[parameter].si(row[parameter]));
+  }
+  return values;
 }
 
 std::vector<double> column(const std::vector<std::vector<double>>& rows, std::size_t p) {
@@ -399,6 +412,89 @@ TEST(SampledDesigns, HundredThousandSamplesExpandInSeconds) {
   // Alone on a machine it is below 2 s; here only a guard against reading every scene.
   EXPECT_LT(seconds, 20.0);
   expect_true_identities(all, 9973);
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+TEST(Distributions, AreThoseOfTheSpecInSi) {
+  const Expansion all = expand_kind(R"("latin-hypercube", "samples": 500)", R"("parameters": {
+      "friction_angle": {"distribution": "normal", "mean": "25 deg", "deviation": "3 deg"},
+      "cohesion": {"distribution": "triangular", "from": "0 MPa", "mode": "10 bar", "to": "5 MPa"},
+      "biot": {"distribution": "normal", "mean": 0.9, "deviation": 0.1, "to": 1, "from": 0.5}})");
+  ASSERT_EQ(all.cases.size(), 500u);
+  constexpr double kDegree = 0.017453292519943295;
+  EXPECT_NEAR(mean_of(values_in(all, 0)) / kDegree, 25, 0.05);
+  EXPECT_NEAR(mean_of(values_in(all, 1)), 2e6, 0.01e6);  // (0 + 1 + 5) / 3 MPa
+  const std::vector<double> biot = values_in(all, 2);
+  EXPECT_LE(*std::max_element(biot.begin(), biot.end()), 1);
+  EXPECT_NEAR(mean_of(biot), 0.9 - 0.1 * 0.28761, 2e-3);  // φ(1) / Φ(1) deviations below
+  expect_true_identities(all, 97);
+}
+
+TEST(Distributions, KeepTheFirstSamplesOfALongerSample) {
+  const std::string parameters = R"("parameters": {
+      "friction_angle": {"distribution": "normal", "mean": "25 deg", "deviation": "2 deg"},
+      "cohesion": {"from": "0 MPa", "to": "2 MPa"}},
+      "correlations": [{"of": ["friction_angle", "cohesion"], "rank": -0.6}])";
+  const Expansion few = expand_kind(R"("monte-carlo", "samples": 40)", parameters);
+  const Expansion many = expand_kind(R"("monte-carlo", "samples": 60)", parameters);
+  for (std::size_t k = 0; k < few.cases.size(); ++k)
+    EXPECT_EQ(few.cases[k].identity, many.cases[k].identity);
+}
+
+TEST(Correlations, AreThoseOfTheSpec) {
+  const Expansion all = expand_kind(R"("latin-hypercube", "samples": 4000)", R"("parameters": {
+      "friction_angle": {"from": "15 deg", "to": "35 deg"}, "biot": {"from": 0.5, "to": 1},
+      "cohesion": {"from": "0 MPa", "to": "2 MPa"}},
+      "correlations": [{"of": ["cohesion", "friction_angle"], "rank": -0.6}])");
+  const auto rows = positions(all);
+  EXPECT_NEAR(correlation(column(rows, 0), column(rows, 2)), -0.6, 0.03);
+  EXPECT_NEAR(correlation(column(rows, 0), column(rows, 1)), 0, 0.05);
+}
+
+/// One problem each: what of the parameters, and where.
+TEST(Distributions, SayWhatIsWrongWithThem) {
+  const auto problem_of = [](const std::string& kind, const std::string& biot) {
+    try {
+      expand_kind(kind, R"("parameters": {"friction_angle": {"from": "15 deg", "to": "35 deg"},
+                          "biot": )" +
+                            biot);
+    } catch (const faultsim::InputError& error) {
+      std::string text;
+      for (const auto& one : error.problems()) text += one.pointer + ": " + one.what + "; ";
+      return text;
+    }
+    return std::string("nothing");
+  };
+  const std::string sample = R"("monte-carlo", "samples": 50)";
+  const std::string normal = R"({"distribution": "normal", "mean": 0.8, )";
+  for (const auto& [kind, biot, said] : std::vector<std::array<std::string, 3>>{
+           {sample, normal + R"("median": 1}})", "a normal needs deviation"},
+           {sample, normal + R"("median": 1}})", "a normal has no median"},
+           {sample, normal + R"("deviation": 0}})", "the deviation is not above zero"},
+           {sample, normal + R"("deviation": 0.1, "from": 1, "to": 0.5}})", "no more than from"},
+           {sample, normal + R"("deviation": 0.001, "from": 0.9, "to": 1}})", "nothing of it lies"},
+           {sample, normal + R"("deviation": 0.1, "count": 3}})", "a normal has no count"},
+           {R"("grid")", normal + R"("deviation": 0.1}})", "nothing is drawn in a grid"},
+           {R"("morris", "trajectories": 4)", normal + R"("deviation": 0.1}})", "both ends"},
+           {sample, R"({"distribution": "log-normal", "median": 0.8, "factor": 1}})",
+            "not above 1"},
+           {sample, R"({"distribution": "triangular", "from": 0.5, "mode": 2, "to": 1}})",
+            "the mode is not between"},
+           {sample, R"({"from": 0.5, "to": 1, "mean": 0.8}})", "mean needs distribution"},
+           {sample, R"([0.5, 1]}, "correlations": [{"of": ["biot", "friction_angle"], "rank": 0}])",
+            "has values that are listed"},
+           {sample, R"([0.5, 1]}, "correlations": [{"of": ["boit", "friction_angle"], "rank": 0}])",
+            "no parameter"}}) {
+    EXPECT_THAT(problem_of(kind, biot), ::testing::HasSubstr(said)) << biot;
+  }
+  // Without ends its tails leave what the scene accepts, which is found before anything starts.
+  EXPECT_THAT(problem_of(sample, normal + R"("deviation": 0.1}})"),
+              ::testing::HasSubstr("/design/parameters/biot/distribution"));
 }
 
 }  // namespace

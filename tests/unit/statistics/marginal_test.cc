@@ -1,0 +1,100 @@
+#include "campaign/statistics/marginal.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace faultsweep {
+namespace {
+
+constexpr long double kInfinity = std::numeric_limits<long double>::infinity();
+constexpr int kParts = 200'000;
+
+struct Moments {
+  double mean = 0, deviation = 0;
+};
+
+/// Of equally likely values in the middle of many parts of the unit interval.
+Moments moments_of(const Marginal& m, bool logarithms = false) {
+  double sum = 0, squares = 0;
+  for (int k = 0; k < kParts; ++k) {
+    auto x = static_cast<double>(m.quantile((k + 0.5L) / kParts));
+    if (logarithms) x = std::log(x);
+    sum += x;
+    squares += x * x;
+  }
+  const double mean = sum / kParts;
+  return {mean, std::sqrt(squares / kParts - mean * mean)};
+}
+
+TEST(Marginal, RangesAreUniformInTheValueOrItsLogarithm) {
+  const Marginal uniform{Distribution::uniform, 2, 6};
+  EXPECT_EQ(uniform.quantile(0), 2);
+  EXPECT_EQ(uniform.quantile(0.25), 3);
+  EXPECT_EQ(uniform.quantile(1), 6);
+  const Marginal log{Distribution::log_uniform, 1, 100};
+  EXPECT_NEAR(static_cast<double>(log.quantile(0.5)), 10, 1e-12);
+}
+
+TEST(Marginal, AnUncutNormalHasItsMeanAndDeviation) {
+  const Marginal m{Distribution::normal, -kInfinity, kInfinity, 25, 3};
+  const Moments moments = moments_of(m);
+  EXPECT_NEAR(moments.mean, 25, 1e-9);
+  EXPECT_NEAR(moments.deviation, 3, 1e-3);
+  EXPECT_NEAR(static_cast<double>(m.quantile(0.975L)), 25 + 3 * 1.959963984540054, 1e-12);
+  // Its ends are as far as a sample may reach, and alike.
+  EXPECT_NEAR(static_cast<double>(m.quantile(0)), 25 - 3 * 8.29236, 1e-4);
+  EXPECT_EQ(m.quantile(0) + m.quantile(1), 50);
+}
+
+/// Mean of the standard normal distribution between a and b: (φ(a) − φ(b)) / (Φ(b) − Φ(a)).
+TEST(Marginal, ACutNormalHasTheMeanOfTheFormula) {
+  const auto density = [](double x) {
+    return std::exp(-0.5 * x * x) / std::sqrt(2 * std::numbers::pi);
+  };
+  const auto below = [](double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); };
+  for (const auto& [a, b] : {std::pair(-1.0, 2.0), std::pair(1.0, 3.0), std::pair(-4.0, -2.0)}) {
+    const Marginal m{Distribution::normal, 10 + 2 * a, 10 + 2 * b, 10, 2};
+    const double mean = 10 + 2 * (density(a) - density(b)) / (below(b) - below(a));
+    EXPECT_NEAR(moments_of(m).mean, mean, 1e-4) << a << " " << b;
+    EXPECT_EQ(m.quantile(0), 10 + 2 * a);
+    EXPECT_EQ(m.quantile(1), 10 + 2 * b);
+  }
+}
+
+TEST(Marginal, FarTailsAreNotLost) {
+  // Beyond 7 deviations the excess is exponential with rate 7 to first order: mean 1/7.
+  const Marginal right{Distribution::normal, 7, kInfinity, 0, 1};
+  const Marginal left{Distribution::normal, -kInfinity, -7, 0, 1};
+  EXPECT_NEAR(moments_of(right).mean, 7 + 0.1376, 2e-3);
+  for (const long double u : {0.1L, 0.5L, 0.9L})
+    EXPECT_NEAR(static_cast<double>(right.quantile(u) + left.quantile(1 - u)), 0, 1e-9);
+}
+
+TEST(Marginal, ALogNormalHasItsMedianAndFactor) {
+  const Marginal m{Distribution::log_normal, 0, kInfinity, 1e17L, 3};
+  EXPECT_NEAR(static_cast<double>(m.quantile(0.5) / 1e17L), 1, 1e-12);
+  const Moments moments = moments_of(m, true);
+  EXPECT_NEAR(moments.mean, std::log(1e17), 1e-9);
+  EXPECT_NEAR(moments.deviation, std::log(3.0), 1e-3);
+  EXPECT_GT(m.quantile(0), 0);
+  const Marginal cut{Distribution::log_normal, 0.5L, 4, 1, 2};
+  EXPECT_EQ(cut.quantile(0), 0.5L);
+  EXPECT_EQ(cut.quantile(1), 4);
+}
+
+TEST(Marginal, ATriangleHasItsMomentsAndMayLean) {
+  for (const double mode : {0.0, 1.0, 4.0}) {
+    const Marginal m{Distribution::triangular, 0, 4, mode};
+    const Moments moments = moments_of(m);
+    EXPECT_NEAR(moments.mean, (0 + 4 + mode) / 3, 1e-6);
+    EXPECT_NEAR(moments.deviation, std::sqrt((16 + mode * mode - 4 * mode) / 18), 1e-5);
+    EXPECT_EQ(m.quantile(0), 0);
+    EXPECT_EQ(m.quantile(1), 4);
+  }
+}
+
+}  // namespace
+}  // namespace faultsweep
