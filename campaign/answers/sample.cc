@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "campaign/answers/designs.h"
 #include "campaign/report/table_output.h"
 
 namespace faultsweep {
@@ -14,26 +15,12 @@ using nlohmann::json;
 
 namespace {
 
-/// The designs of a resolved spec, those within nested ones too.
 void collect_designs(const json& design, std::vector<json>& designs) {
   if (design.at("kind") != "nested") {
     designs.push_back(design);
     return;
   }
   for (const json& one : design.at("designs")) collect_designs(one, designs);
-}
-
-std::vector<json> designs_of(const Store& store, const CampaignInfo& campaign) {
-  const json spec = json::parse(store.spec_copies(campaign.id).resolved);
-  std::vector<json> designs;
-  for (const json& group : spec.at("groups")) collect_designs(group, designs);
-  return designs;
-}
-
-/// Rows of a sobol design, a group's only one, from one base sample to the next.
-long sobol_block(const json& design) {
-  const auto n = static_cast<long>(design.at("parameters").size());
-  return (design.value("second_order", false) ? 2 * n : n) + 2;
 }
 
 /// A number for each word, in the order in which words come.
@@ -61,6 +48,18 @@ void keep_what_varies(Sample& sample) {
 
 }  // namespace
 
+std::vector<json> designs_of(const Store& store, const CampaignInfo& campaign) {
+  const json spec = json::parse(store.spec_copies(campaign.id).resolved);
+  std::vector<json> designs;
+  for (const json& group : spec.at("groups")) collect_designs(group, designs);
+  return designs;
+}
+
+long rows_per_base_sample(const json& design) {
+  const auto n = static_cast<long>(design.at("parameters").size());
+  return (design.value("second_order", false) ? 2 * n : n) + 2;
+}
+
 Sampling sampling_of(const Store& store, const CampaignInfo& campaign) {
   const std::vector<json> designs = designs_of(store, campaign);
   const auto all_are = [&](const std::set<std::string>& kinds) {
@@ -87,7 +86,7 @@ SampleRows::SampleRows(const Store& store, const CampaignInfo& campaign) {
   const std::vector<json> designs = designs_of(store, campaign);
   all_once_ = designs.size() != 1 || designs.front().at("kind") != "sobol";
   if (all_once_) return;
-  const long block = sobol_block(designs.front());
+  const long block = rows_per_base_sample(designs.front());
   for (const DesignRow& row : store.design_rows(campaign.id)) {
     const long place = (row.row - 1) % block;
     if (place == 0 || place == block - 1) ++counts_[row.position];

@@ -100,8 +100,46 @@ Sensitivity analyse_sensitivity(const Store& store, const CampaignInfo& campaign
         of_metric(s.sample.outputs[m], s.sample.y[m], s.sample, orders, request.confidence));
   }
   s.sample.x.clear(), s.sample.y.clear();
+  if (const auto rows = read_sobol_rows(store, campaign, request.cases, s.sample.outputs)) {
+    s.frozen = rows->parameters;
+    for (std::size_t m = 0; m < s.metrics.size(); ++m) {
+      s.metrics[m].sobol = indices_by_pick_freeze(rows->outputs[m], request.confidence);
+      s.metrics[m].n_base_samples = static_cast<long>(rows->outputs[m].a.size());
+    }
+  }
   return s;
 }
+
+namespace {
+
+/// Total indices where the design gives them; "" elsewhere.
+std::string totals_to_text(const Sensitivity& s) {
+  if (s.frozen.empty()) return "";
+  std::vector<std::string> header = {"metric"};
+  header.insert(header.end(), s.frozen.begin(), s.frozen.end());
+  header.emplace_back("base samples");
+  TextTable table(header);
+  for (const MetricSensitivity& one : s.metrics) {
+    if (!(one.standard_deviation > 0)) continue;
+    std::vector<std::string> row = {one.metric.name};
+    for (const SobolIndices& indices : one.sobol) row.push_back(with_error(indices.total));
+    row.push_back(std::to_string(one.n_base_samples));
+    table.add_row(row);
+  }
+  return concat(
+      "\nShare in which a parameter takes part, interactions included (total order, by "
+      "pick-freeze).\n\n",
+      table.text());
+}
+
+json estimate_to_json(const Estimate& e) {
+  return {{"value", e.value},
+          {"standard_error", e.standard_error},
+          {"low", e.bounds.low},
+          {"high", e.bounds.high}};
+}
+
+}  // namespace
 
 std::string sensitivity_to_text(const Sensitivity& s) {
   std::vector<std::string> header = {"metric"};
@@ -133,6 +171,7 @@ std::string sensitivity_to_text(const Sensitivity& s) {
       " %).\n"
       "What `together` leaves to 1 is interaction.\n\n");
   if (any) text += table.text();
+  text += totals_to_text(s);
   if (!constant.empty()) text += concat("the same in all cases: ", constant, "\n");
   const Sample& sample = s.sample;
   text += concat("\n", sample.n_rows - sample.n_without - sample.n_early, " of ", sample.n_rows,
@@ -148,17 +187,20 @@ json sensitivity_to_json(const Sensitivity& s) {
   for (const MetricSensitivity& one : s.metrics) {
     json first_order = json::object();
     for (std::size_t p = 0; p < one.first_order.size(); ++p) {
-      const Estimate& e = one.first_order[p];
-      first_order[s.parameters[p]] = {{"value", e.value},
-                                      {"standard_error", e.standard_error},
-                                      {"low", e.bounds.low},
-                                      {"high", e.bounds.high}};
+      first_order[s.parameters[p]] = estimate_to_json(one.first_order[p]);
     }
     metrics.push_back({{"metric", one.metric.name},
                        {"rows", one.n},
                        {"mean", one.mean},
                        {"standard_deviation", one.standard_deviation},
                        {"first_order", first_order}});
+    if (s.frozen.empty()) continue;
+    json& frozen = metrics.back()["pick_freeze"];
+    frozen["base_samples"] = one.n_base_samples;
+    for (std::size_t p = 0; p < one.sobol.size(); ++p) {
+      frozen["first_order"][s.frozen[p]] = estimate_to_json(one.sobol[p].first);
+      frozen["total_order"][s.frozen[p]] = estimate_to_json(one.sobol[p].total);
+    }
   }
   return {{"campaign", s.campaign.name},    {"confidence", s.request.confidence},
           {"rows", s.sample.n_rows},        {"without_result", s.sample.n_without},

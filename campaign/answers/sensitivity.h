@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/answers/sample.h"
+#include "campaign/answers/sobol_rows.h"
 #include "campaign/statistics/rank_sensitivity.h"
 
 namespace faultsweep {
@@ -21,6 +21,9 @@ struct MetricSensitivity {
   long n = 0;  ///< rows that have a value.
   double mean = 0, standard_deviation = 0;
   std::vector<Estimate> first_order;  ///< per Sensitivity::parameters.
+  /// Of a sobol design by pick-freeze: per Sensitivity::frozen, from n_base_samples of them.
+  std::vector<SobolIndices> sobol = {};
+  long n_base_samples = 0;
 };
 
 struct Sensitivity {
@@ -30,10 +33,12 @@ struct Sensitivity {
   Sample sample;  ///< without its columns: what was taken and left out.
   std::vector<std::string> parameters;
   std::vector<MetricSensitivity> metrics;
+  std::vector<std::string> frozen = {};  ///< parameters of a sobol design.
 };
 
-/// First-order indices by ranks. Throws InputError where the campaign's design is no sample of its
-/// parameters, or fewer than kFewestRows full histories were selected.
+/// First-order indices by ranks; of a sobol design first and total ones by pick-freeze too. Throws
+/// InputError where the campaign's design is no sample of its parameters, or fewer than kFewestRows
+/// full histories were selected.
 Sensitivity analyse_sensitivity(const Store& store, const CampaignInfo& campaign,
                                 const SensitivityRequest& request);
 inline constexpr long kFewestRows = 20;

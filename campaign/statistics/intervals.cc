@@ -3,11 +3,17 @@
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/special_functions/beta.hpp>
+#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
 #include "simulator/common/errors.h"
 
 namespace faultsweep {
+
+Estimate normal_estimate(double value, double standard_error, double confidence) {
+  const double z = std::sqrt(2.0) * boost::math::erf_inv(confidence);
+  return {value, standard_error, {value - z * standard_error, value + z * standard_error}};
+}
 
 Interval proportion_bounds(long k, long n, double confidence) {
   FAULTSIM_DEMAND(0 <= k && k <= n && confidence > 0 && confidence < 1, k, " of ", n);

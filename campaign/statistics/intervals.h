@@ -10,6 +10,15 @@ struct Interval {
   double low = 0, high = 0;
 };
 
+/// An estimate with its interval.
+struct Estimate {
+  double value = 0;
+  double standard_error = 0;
+  Interval bounds;  ///< value ± z standard errors.
+};
+/// With the z between −z and z of which a standard normal number lies with `confidence`.
+Estimate normal_estimate(double value, double standard_error, double confidence);
+
 /// Two-sided bounds of a probability of which k of n samples had the property, after Clopper &
 /// Pearson (1934): exact, so they cover it with at least `confidence`. [0, 1] for n = 0.
 /// @pre 0 ≤ k ≤ n, 0 < confidence < 1.

@@ -1,7 +1,6 @@
 #include "campaign/statistics/rank_sensitivity.h"
 
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <numeric>
 
@@ -46,13 +45,12 @@ Estimate first_order_by_ranks(std::span<const double> y, std::span<const std::ui
   }
   if (!(squares > 0)) return {};
   products += 0.5 * (centred[0] * centred[1] + centred[n - 2] * centred[n - 1]);
-  Estimate estimate;
-  estimate.value = products / squares;
+  const double value = products / squares;
   // What each place adds to the error of the quotient, y_i y_(i+1) − S y_i² but for a sum that
   // telescopes: so it has little trend along x. ȳ enters at second order, being removed.
   const auto influence = [&](std::size_t i) {
     const double here = centred[i], there = centred[i + 1];
-    return here * there - 0.5 * estimate.value * (here * here + there * there);
+    return here * there - 0.5 * value * (here * here + there * there);
   };
   double own = 0, next = 0, other = 0;
   double one_before = 0, two_before = 0;
@@ -65,11 +63,7 @@ Estimate first_order_by_ranks(std::span<const double> y, std::span<const std::ui
   }
   // Of few rows the covariances may leave nothing: then the terms count as independent.
   const double sum = own + 2 * (next - other), variance = sum > 0 ? sum : own;
-  estimate.standard_error = std::sqrt(variance) / squares;
-  const double z = std::sqrt(2.0) * boost::math::erf_inv(confidence);
-  estimate.bounds = {estimate.value - z * estimate.standard_error,
-                     estimate.value + z * estimate.standard_error};
-  return estimate;
+  return normal_estimate(value, std::sqrt(variance) / squares, confidence);
 }
 
 }  // namespace faultsweep

@@ -8,13 +8,6 @@
 
 namespace faultsweep {
 
-/// An estimate with its interval.
-struct Estimate {
-  double value = 0;
-  double standard_error = 0;
-  Interval bounds;  ///< value ± z standard errors.
-};
-
 /// The order that sorts x; equal values in an order that is random, but the same for the same
 /// numbers: neighbours must not share what else varies, as they would in the order of a grid.
 std::vector<std::uint32_t> random_tied_order(std::span<const double> x);

@@ -36,7 +36,8 @@ class AnswersTest : public ::testing::Test {
     std::filesystem::remove_all(folder_);
   }
   /// Cases whose results follow from `strength` alone (made_up_result: F1 slides above 0.5).
-  void submit(const std::string& kind, const std::vector<std::array<double, 2>>& values) {
+  void submit(const std::string& kind, const std::vector<std::array<double, 2>>& values,
+              const std::vector<std::string>& names = {"strength"}) {
     for (const auto& [strength, offset] : values) {
       const std::size_t n = s_.cases.size();
       s_.cases.push_back({"identity-" + std::to_string(n),
@@ -47,8 +48,9 @@ class AnswersTest : public ::testing::Test {
                            {1, offset, std::to_string(offset) + " m"},
                            {2, std::nullopt, n % 2 == 0 ? "mean" : "min"}}});
     }
-    s_.spec_resolved =
-        json{{"groups", {{{"kind", kind}, {"parameters", {{{"name", "strength"}}}}}}}}.dump();
+    json parameters = json::array();
+    for (const std::string& name : names) parameters.push_back({{"name", name}});
+    s_.spec_resolved = json{{"groups", {{{"kind", kind}, {"parameters", parameters}}}}}.dump();
     store_->submit(s_);
     campaign_ = store_->campaign("");
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -166,6 +168,34 @@ TEST_F(AnswersTest, OfASobolDesignTheIndependentBlocksCount) {
   campaign_ = store_->campaign("");
   record();
   EXPECT_EQ(probability({.condition = "F1.slides"}).shares.at(0).n, 20) << "of 10 blocks of 3";
+}
+
+/// Rows A, AB_1, AB_2, B of each base sample: what follows from strength alone goes with it wholly.
+TEST_F(AnswersTest, ASobolDesignHasTotalIndices) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<std::array<double, 2>> values;
+  for (int k = 0; k < 60; ++k) {
+    const std::array<double, 2> a = {uniform(random), uniform(random)};
+    const std::array<double, 2> b = {uniform(random), uniform(random)};
+    values.insert(values.end(), {a, {b[0], a[1]}, {a[0], b[1]}, b});
+  }
+  for (long row = 1; row <= 240; ++row) s_.design_rows.push_back({0, row, row});
+  submit("sobol", values, {"strength", "offset"});
+  runs_[5].result.reset(), runs_[5].status = RunStatus::hung;
+  record();
+  const Sensitivity s = analyse_sensitivity(*store_, campaign_, {.metrics = "F1.chi_bar"});
+  ASSERT_EQ(s.frozen, (std::vector<std::string>{"strength", "offset"}));
+  const MetricSensitivity& chi_bar = s.metrics.at(0);
+  EXPECT_EQ(chi_bar.n_base_samples, 59) << "the one with a row that has no result is left out";
+  EXPECT_NEAR(chi_bar.sobol.at(0).total.value, 1, 3 * chi_bar.sobol.at(0).total.standard_error);
+  EXPECT_NEAR(chi_bar.sobol.at(0).first.value, 1, 1e-12);
+  EXPECT_NEAR(chi_bar.sobol.at(1).total.value, 0, 1e-12);
+  EXPECT_THAT(sensitivity_to_text(s), HasSubstr("total order, by pick-freeze"));
+  EXPECT_TRUE(sensitivity_to_json(s).at("metrics").at(0).at("pick_freeze").contains("total_order"));
+  // Of some of the cases there are no whole base samples.
+  EXPECT_TRUE(analyse_sensitivity(*store_, campaign_, {.cases = {.where = "offset < 0.9 m"}})
+                  .frozen.empty());
 }
 
 TEST_F(AnswersTest, TooFewCasesAreRefused) {

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "campaign/statistics/intervals.h"
+
+namespace faultsweep {
+
+/// Values of one output on the rows of a Sobol' design (Saltelli 2010): N points of two independent
+/// samples A and B, and those of A with parameter i of B.
+struct PickFreezeValues {
+  std::vector<double> a, b;             ///< N each.
+  std::vector<std::vector<double>> ab;  ///< [parameter][point].
+};
+
+/// Of one parameter.
+struct SobolIndices {
+  Estimate first;  ///< Var E[y | x_i] / Var y: what it explains alone.
+  Estimate total;  ///< 1 − Var E[y | x_others] / Var y: what goes with it, interactions included.
+};
+
+/// B and AB_i share x_i and nothing else, A and AB_i all but x_i; so with the correlation of pairs
+/// (u, v) as Janon et al. (2014) estimate it, which is efficient,
+///
+///   r(u, v) = (mean(u v) − m²) / (mean((u² + v²) / 2) − m²),   m = mean((u + v) / 2),
+///
+/// first_i = r(b, ab_i) and total_i = 1 − r(a, ab_i). Standard errors: bootstrap over points, the
+/// same resamples for all parameters, drawn by a fixed seed. Zeros where nothing varies or N < 4.
+std::vector<SobolIndices> indices_by_pick_freeze(const PickFreezeValues& values, double confidence);
+
+}  // namespace faultsweep
