@@ -151,6 +151,14 @@ std::string CampaignSpec::resolved() const {
                         {"confidence", staged->confidence},
                         {"most_samples", staged->most}};
   }
+  for (const LimitSearch& one : limits) {
+    result["limits"].push_back({{"parameter", one.name},
+                                {"faults", one.faults},
+                                {"stage", one.stage},
+                                {"unsafe", one.unsafe},
+                                {"tolerance", one.tolerance},
+                                {"unit", one.unit}});
+  }
   for (const Exclusion& one : exclude) result["exclude"].push_back(one.text);
   for (const Derived& one : derived) {
     result["derived"].push_back({{"pointer", one.scene_pointer}, {"expression", one.text}});
