@@ -59,11 +59,12 @@ std::vector<Answer> stored_answers(const Store& store, const CampaignInfo& campa
 
 std::optional<StoredRounds> stored_rounds(const Store& store, const CampaignInfo& campaign) {
   StoredRounds stored;
-  stored.spec = ordered_json::parse(store.spec_copies(campaign.id).given);
+  const Store::SpecCopies copies = store.spec_copies(campaign.id);
+  stored.spec = ordered_json::parse(copies.given);
   if (!stored.spec.contains("rounds") && !stored.spec.contains("limits")) return std::nullopt;
-  const BaseScene base = store.base_scene(store.stored_case(campaign.id, "1").scene);
-  stored.source = base.source;
-  stored.spec["base"] = ordered_json::parse(base.document);
+  // A case that an earlier campaign had is stored as changes of that one's scene: not of ours.
+  stored.spec["base"] = ordered_json::parse(copies.resolved).at("groups").at(0).at("scene");
+  stored.source = campaign.source;
   stored.spec.erase("set");  // it is in the scene
   stored.rounds = store.rounds(campaign.id);
   stored.designs = {stored.spec.at("design")};

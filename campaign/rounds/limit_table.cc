@@ -6,11 +6,13 @@
 
 #include "campaign/expansion/expansion.h"
 #include "campaign/rounds/answers_of.h"
+#include "campaign/spec/pointers.h"
 #include "simulator/scene/initial_state.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsweep {
 
+using faultsim::concat;
 using faultsim::InputError;
 
 namespace {
@@ -39,7 +41,7 @@ void find_width(LimitRow& row, const std::vector<LimitSearch>& limits) {
   row.width = is_band ? std::max(0.0, *upper - *lower) : shortest;
 }
 
-/// Of the last safe case: the region whose pressure goes furthest in the stage.
+/// Of the last safe case: the first region whose pressure changes by the value in some load step.
 std::optional<DatumPressure> datum_of(const Store& store, const CampaignInfo& campaign,
                                       const LimitCell& cell, const LimitSearch& limit) {
   const Crossing* crossing = cell.finding.limit();
@@ -50,21 +52,23 @@ std::optional<DatumPressure> datum_of(const Store& store, const CampaignInfo& ca
   const faultsim::Scene scene = faultsim::read_scene(
       {base.source, scene_from_changes(base.document, one.changes), {}}, problems);
   if (!problems.empty()) return std::nullopt;
-  const double sign = limit.scan.back() > limit.scan.front() ? 1 : -1;
-  double furthest = -INFINITY;
-  std::size_t region = 0;
-  for (const faultsim::StepResult& step : one.result.steps) {
-    if (!limit.stage.empty() && step.stage != limit.stage) continue;
-    for (std::size_t r = 0; r < step.pressure_change.size(); ++r) {
-      if (sign * step.pressure_change[r] <= furthest) continue;
-      furthest = sign * step.pressure_change[r];
-      region = r;
-    }
+  const double change =
+      faultsim::parse_quantity(concat(shortest_text(crossing->before.value), " ", limit.unit),
+                               limit.dimension)
+          .value;
+  constexpr double kAlike = 1;  // Pa
+  for (std::size_t r = 0; r < scene.pressure.size(); ++r) {
+    const bool has_it = std::any_of(one.result.steps.begin(), one.result.steps.end(),
+                                    [&](const faultsim::StepResult& step) {
+                                      return r < step.pressure_change.size() &&
+                                             std::abs(step.pressure_change[r] - change) < kAlike;
+                                    });
+    if (!has_it) continue;
+    const double depth = faultsim::region_top(scene, r);
+    return DatumPressure{scene.pressure[r].region, depth,
+                         faultsim::initial_region_pressure(scene, r, depth) + change};
   }
-  if (!std::isfinite(furthest) || region >= scene.pressure.size()) return std::nullopt;
-  const double depth = faultsim::region_top(scene, region);
-  return DatumPressure{one.result.region_names.at(region), depth,
-                       faultsim::initial_region_pressure(scene, region, depth) + sign * furthest};
+  return std::nullopt;
 }
 
 /// The places of the design's parameters among the campaign's: all but those that are searched.

@@ -12,17 +12,17 @@
 /// `faultsweep limits`: the limits of a campaign as a table.
 namespace faultsweep {
 
-/// Where the limit is reached, as a regulator counts pressure.
+/// A limit as a regulator counts pressure: absolute, at a datum.
 struct DatumPressure {
-  std::string region;   ///< the pressure region that goes furthest in the direction of the search.
+  std::string region;   ///< the first pressure region that changes by the last safe value.
   double depth = 0;     ///< m, its datum: its top.
-  double absolute = 0;  ///< Pa, p0 at the datum and its change in the safe case of the bracket.
+  double absolute = 0;  ///< Pa, p0 of the region at the datum and the last safe change.
 };
 
 /// A limit of a configuration and a fault.
 struct LimitCell {
   LimitFinding finding;
-  std::optional<DatumPressure> datum;  ///< of limits along pressures only.
+  std::optional<DatumPressure> datum;  ///< of limits along pressure changes of a region only.
 };
 
 struct LimitRow {

@@ -210,7 +210,7 @@ TEST_F(LimitSearcherTest, AllConfigurationsFaultsAndLimitsAreSearchedTogether) {
   const Proposal first = searcher_->propose(answers_, designs_);
   EXPECT_THAT(first.reason, HasSubstr("6 searches: 6 limit; 6 wider"));
   EXPECT_EQ(first.design["values"]["storage"], (json{"-75 bar", "-25 bar"}));
-  EXPECT_EQ(first.design["values"]["depth"], json{6.0}) << "a middle on the grid of 2";
+  EXPECT_EQ(first.design["values"]["depth"], json{4.0}) << "a middle on the grid of 2";
   // F1 and F2 share a case; configuration 1 looks above -50 bar for neither of them.
   EXPECT_EQ(first.design["rows"], (json{1, 2, 3, 5}));
   for (int round = 1; round < 20; ++round) {
