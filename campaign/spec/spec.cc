@@ -168,7 +168,13 @@ std::string CampaignSpec::resolved() const {
 }
 
 CampaignSpec read_campaign(const std::string& path) {
-  return parse_campaign(faultsim::read_input_or_throw(path, faultsim::kMostJsonBytes), path);
+  CampaignSpec spec =
+      parse_campaign(faultsim::read_input_or_throw(path, faultsim::kMostJsonBytes), path);
+  if (spec.document.value.contains("limits_round")) {
+    throw faultsim::InputError(path, {{"/limits_round", spec.document.line_of("/limits_round"),
+                                       "is what a search of limits adds by itself", "remove it"}});
+  }
+  return spec;
 }
 
 bool is_plain_name(const std::string& name) {
