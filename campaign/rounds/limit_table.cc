@@ -38,7 +38,7 @@ void find_width(LimitRow& row, const std::vector<LimitSearch>& limits) {
     shortest = std::min(shortest.value_or(INFINITY), std::abs(*safe - from));
   }
   const bool is_band = upper && lower && limits.front().unit == limits.back().unit;
-  row.width = is_band ? std::max(0.0, *upper - *lower) : shortest;
+  row.width = is_band ? *upper - *lower : shortest;
 }
 
 /// Of the last safe case: the first region whose pressure changes by the value in some load step.
