@@ -81,11 +81,30 @@ void check_question(const Question& question, const CampaignInfo& campaign, Sele
   parse_condition(question.condition, campaign, selection);
 }
 
+/// A search whose values are left out in part could not tell what lies behind.
+void check_whole_searches(const Expansion& expansion) {
+  std::size_t n_values = 0;
+  for (const LimitSearch& one : expansion.spec.limits) n_values += one.scan.size();
+  const std::vector<int>& rows = expansion.case_of_row.front();
+  for (std::size_t first = 0; n_values > 0 && first < rows.size(); first += n_values) {
+    const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto n_excluded = std::count(begin, begin + static_cast<std::ptrdiff_t>(n_values), -1);
+    if (n_excluded == 0 || n_excluded == static_cast<std::ptrdiff_t>(n_values)) continue;
+    throw faultsim::InputError(
+        expansion.spec.source,
+        {{"/exclude", expansion.spec.document.line_of("/exclude"),
+          concat("leaves out ", n_excluded, " of the ", n_values, " values of a search (row ",
+                 first / n_values + 1, " of the design)"),
+          "exclude whole rows of the design, and let limits end where values may not go"}});
+  }
+}
+
 }  // namespace
 
 void check_rounds(const Expansion& expansion) {
   const std::unique_ptr<Proposer> proposer = make_proposer(expansion.spec);
   if (!proposer) return;
+  check_whole_searches(expansion);
   const faultsim::Scene scene = faultsim::read_scene(
       {expansion.spec.scene_source, scene_of(expansion, expansion.cases.front()), {}});
   Selection selection;  // as results will have them

@@ -86,6 +86,13 @@ void SpecReader::read_limit(const std::string& name, const SceneNames& names, Gr
     problem(place, "a limit is searched along numbers", "give from, to and count, or values");
     return;
   }
+  const bool is_taken = std::any_of(group.parameters.begin(), group.parameters.end(),
+                                    [&](const Parameter& other) { return other.name == name; });
+  if (is_taken) {
+    problem(search.pointer, "\"" + name + "\" is a parameter of the design",
+            "search another one, or take it out of the design");
+    return;
+  }
   auto parameter = read_parameter(place, name, names, DesignKind::grid);
   if (!parameter) return;
   if (parameter->is_text) {

@@ -133,24 +133,44 @@ TEST_F(NextRound, FurtherRoundsAreOnTheCampaignsOwnScene) {
   }
 }
 
+/// Of two offsets, the highest storage pressure for which F1 does not slide.
+json limit_spec() {
+  return {{"format", 1},
+          {"name", "sample"},
+          {"base", "docs/examples/scenes/rotliegend.json"},
+          {"set", {{"/tier", "screening"}}},
+          {"design", {{"kind", "grid"}, {"parameters", {{"offset", {"0 m", "100 m"}}}}}},
+          {"limits",
+           {{"top",
+             {{"parameter",
+               {{"pointers", {"/stages/2/pressure_between/1"}},
+                {"from", "-110 bar"},
+                {"to", "-10 bar"},
+                {"count", 5}}},
+              {"faults", {"F1"}},
+              {"stage", "gas_storage"},
+              {"tolerance", "2 bar"}}}}}};
+}
+
+TEST_F(NextRound, AnExclusionLeavesOutWholeSearchesOnly) {
+  json spec = limit_spec();
+  const std::string source = FAULTSIM_SOURCE_DIR "/test.json";
+  spec["exclude"] = {"offset > 50 m"};
+  EXPECT_NO_THROW(check_rounds(expand(parse_campaign(spec.dump(), source))));
+  spec["exclude"] = {"top > -50 bar"};
+  try {
+    check_rounds(expand(parse_campaign(spec.dump(), source)));
+    FAIL() << "accepted";
+  } catch (const faultsim::InputError& error) {
+    EXPECT_EQ(error.problems().at(0).pointer, "/exclude");
+    EXPECT_THAT(error.what(), HasSubstr("2 of the 5 values of a search (row 1 of the design)"));
+  }
+}
+
 /// Slides above a storage pressure of -40 bar; the second offset never does.
 TEST_F(NextRound, LimitsAreFoundOnTheStore) {
-  const json spec = {{"format", 1},
-                     {"name", "sample"},
-                     {"base", "docs/examples/scenes/rotliegend.json"},
-                     {"set", {{"/tier", "screening"}}},
-                     {"design", {{"kind", "grid"}, {"parameters", {{"offset", {"0 m", "100 m"}}}}}},
-                     {"limits",
-                      {{"top",
-                        {{"parameter",
-                          {{"pointers", {"/stages/2/pressure_between/1"}},
-                           {"from", "-110 bar"},
-                           {"to", "-10 bar"},
-                           {"count", 5}}},
-                         {"faults", {"F1"}},
-                         {"stage", "gas_storage"},
-                         {"tolerance", "2 bar"}}}}}};
-  const Expansion limits = expand(parse_campaign(spec.dump(), FAULTSIM_SOURCE_DIR "/test.json"));
+  const Expansion limits =
+      expand(parse_campaign(limit_spec().dump(), FAULTSIM_SOURCE_DIR "/test.json"));
   EXPECT_EQ(limits.cases.size(), 10u) << "five values in each of two rows";
   EXPECT_NO_THROW(check_rounds(limits));
   Store store = Store::open_owner(folder_);
