@@ -63,8 +63,10 @@ std::optional<StoredRounds> stored_rounds(const Store& store, const CampaignInfo
   stored.spec = ordered_json::parse(copies.given);
   if (!stored.spec.contains("rounds") && !stored.spec.contains("limits")) return std::nullopt;
   // A case that an earlier campaign had is stored as changes of that one's scene: not of ours.
-  stored.spec["base"] = ordered_json::parse(copies.resolved).at("groups").at(0).at("scene");
-  stored.source = campaign.source;
+  const ordered_json scene = ordered_json::parse(copies.resolved).at("groups").at(0).at("scene");
+  const BaseScene first = store.base_scene(store.stored_case(campaign.id, "1").scene);
+  stored.source = ordered_json::parse(first.document) == scene ? first.source : campaign.source;
+  stored.spec["base"] = scene;
   stored.spec.erase("set");  // it is in the scene
   stored.rounds = store.rounds(campaign.id);
   stored.designs = {stored.spec.at("design")};
