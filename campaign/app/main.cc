@@ -296,7 +296,8 @@ void add_limits(CLI::App& app, Arguments& a, ExitCode& code) {
   command->add_option("source", a.limits.source,
                       "spec (*.json) with a section limits, which is submitted and run first; or\n"
                       "a campaign of one; default: the newest");
-  command->add_option("-w,--workers", a.limits.n_workers, "of the run; default: the cores available")
+  command
+      ->add_option("-w,--workers", a.limits.n_workers, "of the run; default: the cores available")
       ->check(CLI::Range(1, 10000));
   command->add_option("--top", a.limits.top, "how many rows (default 20); 0 = all")
       ->check(CLI::NonNegativeNumber);

@@ -31,8 +31,8 @@ struct LimitRow {
   std::string fault;
   std::vector<std::optional<LimitCell>> cells;  ///< per limit; none where it is not of this fault.
   /// Of the safe band, in the unit of the first limit: from the safe end of the range to the last
-  /// value known to be safe; of limits in both directions from the one downwards to the one upwards,
-  /// negative where they cross. None where some limit is unknown.
+  /// value known to be safe; of limits in both directions from the one downwards to the one
+  /// upwards, negative where they cross. None where some limit is unknown.
   std::optional<double> width;
   bool is_open = false;  ///< a limit lies beyond its range: the band may be wider.
 };

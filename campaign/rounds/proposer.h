@@ -18,8 +18,8 @@ struct Answer {
   long row = 0;       ///< of its round's designs, from 0; 0 where rows are not asked for.
   long position = 0;  ///< of its case, from 1; rows that are the same case share it.
   CaseParameters parameters;
-  bool failed = false;    ///< its case has no result: its last run failed.
-  bool complete = false;  ///< it has a history to its end.
+  bool failed = false;      ///< its case has no result: its last run failed.
+  bool complete = false;    ///< it has a history to its end.
   std::vector<bool> holds;  ///< per question: complete, and it is true.
 };
 

@@ -27,8 +27,8 @@ Proposal StagedSampler::propose(const std::vector<Answer>& answers,
   long n_drawn = 0;  // with those that were excluded
   for (const ordered_json& design : designs) n_drawn += design.at("samples").get<long>();
   const auto n = static_cast<long>(answers.size());
-  const long n_holds =
-      std::count_if(answers.begin(), answers.end(), [](const Answer& one) { return one.holds.at(0); });
+  const long n_holds = std::count_if(answers.begin(), answers.end(),
+                                     [](const Answer& one) { return one.holds.at(0); });
   const long n_unknown = std::count_if(answers.begin(), answers.end(),
                                        [](const Answer& one) { return !one.complete; });
   const Interval known{proportion_bounds(n_holds, n, wanted_.confidence).low,

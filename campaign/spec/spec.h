@@ -205,9 +205,9 @@ struct CampaignSpec {
   std::optional<StagedSample> staged_sample;  ///< none = its design is all there is.
   /// Of `limits`. The group's last design then varies one of their parameters at a time.
   std::vector<LimitSearch> limits;
-  faultsim::JsonDocument document;            ///< the spec, for pointers and lines.
-  faultsim::JsonDocument base;                ///< the base scene as given.
-  bool base_is_inline = false;                ///< base is document's /base.
+  faultsim::JsonDocument document;  ///< the spec, for pointers and lines.
+  faultsim::JsonDocument base;      ///< the base scene as given.
+  bool base_is_inline = false;      ///< base is document's /base.
 
   /// The second of the three copies: JSON text in which every alias is a
   /// pointer, every range its values (or, where values are drawn, its ends: design and seed make
