@@ -47,6 +47,15 @@ ExitCode verify_store_command(const StoreArguments& common);
 ExitCode rank_command(const StoreArguments& common, const RankRequest& request, bool list_metrics);
 ExitCode probability_command(const StoreArguments& common, const ProbabilityRequest& request);
 ExitCode sensitivity_command(const StoreArguments& common, const SensitivityRequest& request);
+struct LimitsArguments {
+  std::string source;                 ///< a spec (*.json) to submit and run first, or a campaign.
+  std::optional<int> n_workers;       ///< of the run; as for `run`.
+  long top = 20;                      ///< rows; 0 = all.
+  bool csv = false;                   ///< all rows as CSV instead.
+  std::vector<std::string> map = {};  ///< two parameters: a table of one against the other instead.
+};
+/// The code of the run, if there was one.
+ExitCode limits_command(const StoreArguments& common, const LimitsArguments& arguments);
 /// @param name  case number, beginning of an identity, or CAMPAIGN/either.
 ExitCode show_command(const StoreArguments& common, const std::string& name,
                       const ShowRequest& request);

@@ -29,6 +29,7 @@ constexpr const char* kFooter =
     "  faultsweep show 17                            one case: stages, faults, chi history\n"
     "  faultsweep export -o cases.csv                all cases, for pandas or a spreadsheet\n"
     "  faultsweep compare coarse fine                two campaigns, case by case\n"
+    "  faultsweep limits campaign.json               up to which pressure a fault is safe\n"
     "  faultsweep tradeoff scene.json                what each choice costs, in accuracy and time\n"
     "Campaigns are addressed by name, the newest by default; cases by number, or CAMPAIGN/NUMBER.\n"
     "Exit codes: 0 done, 1 done with some cases without a full result, 2 input, 4 disk or memory,\n"
@@ -98,6 +99,7 @@ struct Arguments {
   RankRequest rank;
   ProbabilityRequest probability;
   SensitivityRequest sensitivity;
+  LimitsArguments limits;
   ShowRequest show;
   bool list_metrics = false, verify = false;
   ExportRequest exporting;
@@ -291,6 +293,35 @@ void add_answers(CLI::App& app, Arguments& a, ExitCode& code) {
   sensitivity->callback([&] { code = sensitivity_command(a.common, a.sensitivity); });
 }
 
+void add_limits(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* command = app.add_subcommand(
+      "limits", "up to which pressure a fault is safe, in each configuration of a spec");
+  command->add_option("source", a.limits.source,
+                      "spec (*.json) with a section limits, which is submitted and run first; or\n"
+                      "a campaign of one; default: the newest");
+  command
+      ->add_option("-w,--workers", a.limits.n_workers, "of the run; default: the cores available")
+      ->check(CLI::Range(1, 10000));
+  command->add_option("--top", a.limits.top, "how many rows (default 20); 0 = all")
+      ->check(CLI::NonNegativeNumber);
+  CLI::Option* csv = command->add_flag("--csv", a.limits.csv, "all rows as CSV");
+  command
+      ->add_option("--map", a.limits.map,
+                   "A B: the limit as a table, parameter A across and B down")
+      ->expected(2)
+      ->excludes(csv);
+  add_store(command, a.common);
+  add_json(command, a.common);
+  add_wide(command);
+  command->footer(
+      "Examples:\n"
+      "  faultsweep limits storage-limit.json             search, then the narrowest bands first\n"
+      "  faultsweep limits storage-limit --map offset friction_angle\n"
+      "  faultsweep limits storage-limit --csv >limits.csv\n"
+      "Each limit is a pair of cases that were computed, one on either side of it.");
+  command->callback([&] { code = limits_command(a.common, a.limits); });
+}
+
 void add_export(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* command = app.add_subcommand("export", "cases as tables: CSV, or for Dakota or SALib");
   add_campaign(command, a.common);
@@ -466,6 +497,7 @@ ExitCode faultsweep_main(int argc, char** argv) {
   add_slurm(app, arguments, code);
   add_reading(app, arguments, code);
   add_answers(app, arguments, code);
+  add_limits(app, arguments, code);
   add_export(app, arguments, code);
   add_compare(app, arguments, code);
   add_nightly(app, arguments, code);

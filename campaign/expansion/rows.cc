@@ -24,7 +24,7 @@ long count_rows(const Design& design, Parameters parameters) {
       return design.n_parameters == 0 ? 0 : size_of(parameters[0]);
     case DesignKind::one_at_a_time:
       for (std::size_t p = 0; p < design.n_parameters; ++p) count += size_of(parameters[p]);
-      return count;
+      return design.without_base ? count - 1 : count;
     case DesignKind::grid:
       for (std::size_t p = 0; p < design.n_parameters; ++p) count *= size_of(parameters[p]);
       return count;
@@ -47,7 +47,7 @@ void row_at(const Design& design, Parameters parameters, long i, int* row) {
       std::fill_n(row, n, static_cast<int>(i));
       return;
     case DesignKind::one_at_a_time: {
-      long first = 1;
+      long first = design.without_base ? 0 : 1;
       for (std::size_t p = 0; p < n; first += size_of(parameters[p++])) {
         const long choice = i - first;
         if (choice >= 0 && choice < size_of(parameters[p])) row[p] = static_cast<int>(choice);
@@ -63,9 +63,7 @@ void row_at(const Design& design, Parameters parameters, long i, int* row) {
   }
 }
 
-}  // namespace
-
-long count_rows(const Group& group) {
+long count_all_rows(const Group& group) {
   long count = 1;
   const Parameter* first = group.parameters.data();
   for (const Design& design : group.designs) {
@@ -75,8 +73,16 @@ long count_rows(const Group& group) {
   return count;
 }
 
+}  // namespace
+
+long count_rows(const Group& group) {
+  return group.picked.empty() ? count_all_rows(group) : static_cast<long>(group.picked.size());
+}
+
 void row_at(const Group& group, long i, Row& row) {
   FAULTSIM_DEMAND(i >= 0 && i < count_rows(group), "row ", i);
+  if (!group.picked.empty()) i = group.picked[static_cast<std::size_t>(i)];
+  FAULTSIM_DEMAND(i >= 0 && i < count_all_rows(group), "row ", i);
   row.assign(group.parameters.size(), -1);
   std::size_t end = row.size();
   for (auto design = group.designs.rbegin(); design != group.designs.rend(); ++design) {

@@ -3,7 +3,8 @@
 #include <algorithm>
 
 #include "campaign/report/selection.h"
-#include "campaign/report/table_output.h"
+#include "campaign/rounds/answers_of.h"
+#include "campaign/rounds/limit_searcher.h"
 #include "campaign/rounds/staged_sample.h"
 #include "campaign/rounds/submission.h"
 #include "simulator/scene/read_scene.h"
@@ -15,81 +16,95 @@ using nlohmann::ordered_json;  // the order of parameters is that of the spec
 
 std::unique_ptr<Proposer> make_proposer(const CampaignSpec& spec) {
   if (spec.staged_sample) return std::make_unique<StagedSampler>(*spec.staged_sample);
+  if (!spec.limits.empty()) return std::make_unique<LimitSearcher>(make_limit_searcher(spec));
   return nullptr;
+}
+
+LimitSearcher make_limit_searcher(const CampaignSpec& spec) {
+  std::vector<LimitSearch> limits = spec.limits;
+  std::vector<std::string> all;
+  for (LimitSearch& one : limits) {
+    if (one.faults.empty() && all.empty()) {
+      std::vector<faultsim::Problem> problems;
+      const faultsim::Scene scene =
+          faultsim::read_scene({spec.scene_source, spec.groups.front().scene, {}}, problems);
+      for (const faultsim::Fault& fault : scene.faults) all.push_back(fault.name);
+    }
+    if (one.faults.empty()) one.faults = all;
+  }
+  return LimitSearcher(std::move(limits));
+}
+
+bool add_next_round(Store& store, const std::string& name) {
+  const CampaignInfo campaign = store.campaign(name, false);
+  std::optional<StoredRounds> stored = stored_rounds(store, campaign);
+  if (!stored) return false;
+  const CampaignSpec given = parse_spec(*stored);
+  const bool has_limits = !given.limits.empty();
+  const std::unique_ptr<Proposer> proposer = make_proposer(given);
+  while (true) {
+    const Proposal proposal = proposer->propose(
+        answers_of(store, campaign, *stored, *proposer, has_limits), stored->designs);
+    if (proposal.design.is_null()) {
+      store.conclude(campaign.id, proposal.reason);
+      return false;
+    }
+    const ordered_json spec = proposer->spec_of_round(stored->spec, proposal.design);
+    const Submission round = make_submission(expand(parse_campaign(spec.dump(), stored->source)));
+    FAULTSIM_DEMAND(round.parameters == campaign.parameters, round.parameters);
+    const long n_new =
+        store.record_round(campaign.id, round, proposal.design.dump(), proposal.reason);
+    if (n_new > 0) return true;
+    if (!has_limits) {
+      store.conclude(campaign.id, concat(proposal.reason, "; the next round has no new case"));
+      return false;
+    }
+    stored = stored_rounds(store, campaign);  // its cases were there: they are answers already
+  }
 }
 
 namespace {
 
-/// The spec of a stored campaign on its stored base scene, whatever has become of the files; with
-/// rounds it has one group.
-ordered_json stored_spec(const Store& store, const CampaignInfo& campaign, std::string& source) {
-  ordered_json spec = ordered_json::parse(store.spec_copies(campaign.id).given);
-  if (!spec.contains("rounds")) return spec;
-  const BaseScene base = store.base_scene(store.stored_case(campaign.id, "1").scene);
-  source = base.source;
-  spec["base"] = ordered_json::parse(base.document);
-  spec.erase("set");  // it is in the scene
-  return spec;
+std::vector<std::string> names_of_all(const std::vector<NamedId>& all) {
+  std::vector<std::string> names;
+  for (const NamedId& one : all) names.push_back(one.name);
+  return names;
 }
 
-std::vector<Answer> answers_of(const Store& store, const CampaignInfo& campaign,
-                               const std::vector<RoundRecord>& rounds,
-                               const std::string& condition) {
-  Store::TableQuery query;
-  query.by_design_row = true;
-  const Selection selection = make_selection(store, campaign, "", "");
-  const bool any_result = !selection.faults.empty();
-  if (any_result) query.columns = {parse_condition(condition, campaign, selection)};
-  std::vector<Answer> answers;
-  store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
-    Answer one;
-    one.position = row.position;
-    while (one.round + 1 < static_cast<int>(rounds.size()) &&
-           rounds[one.round + 1].first_position <= row.position) {
-      ++one.round;
-    }
-    one.parameters = row.parameters;
-    one.failed = row.state == "failed";
-    one.complete = row.complete();
-    one.holds = any_result && one.complete && number_of(row.metrics[0]) == 1;
-    answers.push_back(std::move(one));
-  });
-  return answers;
+void check_question(const Question& question, const CampaignInfo& campaign, Selection selection) {
+  if (!question.stage.empty())
+    require_name("stage", "stage", question.stage, names_of_all(selection.stages));
+  if (!question.fault.empty()) {
+    require_name("faults", "fault", question.fault, names_of_all(selection.faults));
+    selection.fault = NamedId{0, question.fault};
+  }
+  parse_condition(question.condition, campaign, selection);
+}
+
+/// A search whose values are left out in part could not tell what lies behind.
+void check_whole_searches(const Expansion& expansion) {
+  std::size_t n_values = 0;
+  for (const LimitSearch& one : expansion.spec.limits) n_values += one.scan.size();
+  const std::vector<int>& rows = expansion.case_of_row.front();
+  for (std::size_t first = 0; n_values > 0 && first < rows.size(); first += n_values) {
+    const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto n_excluded = std::count(begin, begin + static_cast<std::ptrdiff_t>(n_values), -1);
+    if (n_excluded == 0 || n_excluded == static_cast<std::ptrdiff_t>(n_values)) continue;
+    throw faultsim::InputError(
+        expansion.spec.source,
+        {{"/exclude", expansion.spec.document.line_of("/exclude"),
+          concat("leaves out ", n_excluded, " of the ", n_values, " values of a search (row ",
+                 first / n_values + 1, " of the design)"),
+          "exclude whole rows of the design, and let limits end where values may not go"}});
+  }
 }
 
 }  // namespace
 
-bool add_next_round(Store& store, const std::string& name) {
-  const CampaignInfo campaign = store.campaign(name, false);
-  std::string source;
-  ordered_json spec = stored_spec(store, campaign, source);
-  if (!spec.contains("rounds")) return false;
-  const std::unique_ptr<Proposer> proposer = make_proposer(parse_campaign(spec.dump(), source));
-  const std::vector<RoundRecord> rounds = store.rounds(campaign.id);
-  std::vector<ordered_json> designs = {spec.at("design")};
-  for (std::size_t k = 1; k < rounds.size(); ++k)
-    designs.push_back(ordered_json::parse(rounds[k].design));
-  const Proposal proposal =
-      proposer->propose(answers_of(store, campaign, rounds, proposer->condition()), designs);
-  if (proposal.design.is_null()) {
-    store.conclude(campaign.id, proposal.reason);
-    return false;
-  }
-  spec["design"] = proposal.design;
-  spec.erase("rounds");
-  const Submission round = make_submission(expand(parse_campaign(spec.dump(), source)));
-  FAULTSIM_DEMAND(round.parameters == campaign.parameters, round.parameters);
-  const long n_new =
-      store.record_round(campaign.id, round, proposal.design.dump(), proposal.reason);
-  if (n_new == 0) {
-    store.conclude(campaign.id, concat(proposal.reason, "; the next round has no new case"));
-  }
-  return n_new > 0;
-}
-
 void check_rounds(const Expansion& expansion) {
   const std::unique_ptr<Proposer> proposer = make_proposer(expansion.spec);
   if (!proposer) return;
+  check_whole_searches(expansion);
   const faultsim::Scene scene = faultsim::read_scene(
       {expansion.spec.scene_source, scene_of(expansion, expansion.cases.front()), {}});
   Selection selection;  // as results will have them
@@ -97,16 +112,22 @@ void check_rounds(const Expansion& expansion) {
   for (const faultsim::Stage& stage : scene.stages) selection.stages.push_back({0, stage.name});
   CampaignInfo campaign;
   campaign.parameters = make_submission(expansion).parameters;
-  try {
-    parse_condition(proposer->condition(), campaign, selection);
-  } catch (const faultsim::InputError& error) {
-    std::vector<faultsim::Problem> problems = error.problems();
-    for (faultsim::Problem& one : problems) {
-      one.pointer = "/rounds/probability_of";
-      one.line = expansion.spec.document.line_of(one.pointer);
+  std::vector<faultsim::Problem> problems;
+  for (const Question& question : proposer->questions()) {
+    try {
+      check_question(question, campaign, selection);
+    } catch (const faultsim::InputError& error) {
+      for (faultsim::Problem one : error.problems()) {
+        const bool is_said = std::any_of(problems.begin(), problems.end(),
+                                         [&](const auto& other) { return other.what == one.what; });
+        if (is_said) continue;
+        one.pointer = question.pointer;
+        one.line = expansion.spec.document.line_of(one.pointer);
+        problems.push_back(std::move(one));
+      }
     }
-    throw faultsim::InputError(expansion.spec.source, problems);
   }
+  if (!problems.empty()) throw faultsim::InputError(expansion.spec.source, problems);
 }
 
 }  // namespace faultsweep

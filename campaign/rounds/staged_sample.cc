@@ -27,8 +27,8 @@ Proposal StagedSampler::propose(const std::vector<Answer>& answers,
   long n_drawn = 0;  // with those that were excluded
   for (const ordered_json& design : designs) n_drawn += design.at("samples").get<long>();
   const auto n = static_cast<long>(answers.size());
-  const long n_holds =
-      std::count_if(answers.begin(), answers.end(), [](const Answer& one) { return one.holds; });
+  const long n_holds = std::count_if(answers.begin(), answers.end(),
+                                     [](const Answer& one) { return one.holds.at(0); });
   const long n_unknown = std::count_if(answers.begin(), answers.end(),
                                        [](const Answer& one) { return !one.complete; });
   const Interval known = proportion_bounds(n_holds, n_unknown, n, wanted_.confidence);
@@ -49,6 +49,12 @@ Proposal StagedSampler::propose(const std::vector<Answer>& answers,
   design["first"] = design.value("first", 0L) + n_drawn;
   design["samples"] = n_more;
   return {std::move(design), concat(text, "; wider than ", percent(wanted_.width), " %")};
+}
+
+ordered_json StagedSampler::spec_of_round(ordered_json spec, const ordered_json& design) const {
+  spec["design"] = design;
+  spec.erase("rounds");
+  return spec;
 }
 
 }  // namespace faultsweep

@@ -14,9 +14,13 @@ namespace faultsweep {
 class StagedSampler final : public Proposer {
  public:
   explicit StagedSampler(const StagedSample& wanted) : wanted_(wanted) {}
-  std::string condition() const override { return wanted_.condition; }
+  std::vector<Question> questions() const override {
+    return {{.condition = wanted_.condition, .pointer = "/rounds/probability_of"}};
+  }
   Proposal propose(const std::vector<Answer>& answers,
                    const std::vector<nlohmann::ordered_json>& designs) const override;
+  nlohmann::ordered_json spec_of_round(nlohmann::ordered_json spec,
+                                       const nlohmann::ordered_json& design) const override;
 
  private:
   StagedSample wanted_;

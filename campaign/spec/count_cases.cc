@@ -115,7 +115,7 @@ bool SpecReader::check_group_count() {
 }
 
 bool SpecReader::check_count() {
-  const long double count = count_cases("/design");
+  const long double count = count_cases("/design") * count_scan();
   n_cases_ = count;
   if (count <= static_cast<long double>(kMaximumCases)) return true;
   problem("/design", digits(count) + " cases (" + describe_count("/design") + ")",

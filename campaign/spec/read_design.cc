@@ -38,6 +38,7 @@ void SpecReader::read_designs(const std::string& pointer, const std::string& pre
   } else {
     read_design(pointer, names, group);
   }
+  if (is_usable("/limits")) read_limits(names, group);
   check_targets(group);
   spec_.groups.push_back(std::move(group));
 }

@@ -180,6 +180,14 @@ std::string CampaignSpec::resolved() const {
                         {"confidence", staged->confidence},
                         {"most_samples", staged->most}};
   }
+  for (const LimitSearch& one : limits) {
+    result["limits"].push_back({{"parameter", one.name},
+                                {"faults", one.faults},
+                                {"stage", one.stage},
+                                {"unsafe", one.unsafe},
+                                {"tolerance", one.tolerance},
+                                {"unit", one.unit}});
+  }
   for (const Exclusion& one : exclude) result["exclude"].push_back(one.text);
   for (const Derived& one : derived) {
     result["derived"].push_back({{"pointer", one.scene_pointer}, {"expression", one.text}});
@@ -189,7 +197,13 @@ std::string CampaignSpec::resolved() const {
 }
 
 CampaignSpec read_campaign(const std::string& path) {
-  return parse_campaign(faultsim::read_input_or_throw(path, faultsim::kMostJsonBytes), path);
+  CampaignSpec spec =
+      parse_campaign(faultsim::read_input_or_throw(path, faultsim::kMostJsonBytes), path);
+  if (spec.document.value.contains("limits_round")) {
+    throw faultsim::InputError(path, {{"/limits_round", spec.document.line_of("/limits_round"),
+                                       "is what a search of limits adds by itself", "remove it"}});
+  }
+  return spec;
 }
 
 bool is_plain_name(const std::string& name) {

@@ -109,6 +109,7 @@ struct Design {
   };
   std::optional<Correlated> correlated = std::nullopt;
   std::int64_t seed = 1;
+  bool without_base = false;  ///< one_at_a_time: no row of the base case.
 };
 
 /// One design on one scene. A spec without groups has a single group named "".
@@ -120,6 +121,8 @@ struct Group {
   /// One, or those of a nested design: each row of a design with every row of the next.
   std::vector<Design> designs;
   std::vector<Parameter> parameters;  ///< in document order, those of designs[0] first.
+  /// Only these rows of the designs, from 0, in this order; empty = all.
+  std::vector<long> picked = {};
 };
 
 /// `exclude`: cases for which the expression is true are left out.
@@ -175,6 +178,21 @@ struct StagedSample {
   long most = 0;             ///< samples, however wide it still is.
 };
 
+/// One of `limits`: how far a parameter may go, from the first of its values towards the last,
+/// before something happens on a fault. Its Parameter is that of the same name in the group: its
+/// values are those of the coarse scan.
+struct LimitSearch {
+  std::string name;                 ///< of the parameter.
+  std::string pointer;              ///< into the spec.
+  std::vector<std::string> faults;  ///< each has a limit of its own; empty = all of the scene.
+  std::string stage;                ///< where it may happen; "" = the whole history.
+  std::string unsafe = "slides";    ///< what may: a condition of the fault in the stage.
+  double tolerance = 0;             ///< wanted width of brackets, in `unit`.
+  std::string unit;                 ///< of values as given: "bar"; "" for plain numbers.
+  faultsim::Dimension dimension = faultsim::Dimension::number;
+  std::vector<double> scan;  ///< values of the coarse scan in `unit`, one way.
+};
+
 const char* to_string(KeepFields keep);  ///< "none", "stages", "all".
 std::optional<KeepFields> keep_fields_named(const std::string& name);
 
@@ -193,9 +211,11 @@ struct CampaignSpec {
   std::string rank_by = "activated_area";  ///< an expression over metrics.h.
   KeepFields keep_fields = KeepFields::none;
   std::optional<StagedSample> staged_sample;  ///< none = its design is all there is.
-  faultsim::JsonDocument document;            ///< the spec, for pointers and lines.
-  faultsim::JsonDocument base;                ///< the base scene as given.
-  bool base_is_inline = false;                ///< base is document's /base.
+  /// Of `limits`. The group's last design then varies one of their parameters at a time.
+  std::vector<LimitSearch> limits;
+  faultsim::JsonDocument document;  ///< the spec, for pointers and lines.
+  faultsim::JsonDocument base;      ///< the base scene as given.
+  bool base_is_inline = false;      ///< base is document's /base.
 
   /// The second of the three copies: JSON text in which every alias is a
   /// pointer, every range its values (or, where values are drawn, its ends: design and seed make

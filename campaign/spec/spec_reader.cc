@@ -83,6 +83,10 @@ CampaignSpec SpecReader::read() {
     embed_tables();
   }
   if (is_usable("/rounds") && is_usable("/design")) read_rounds();
+  if (has("/rounds") && has("/limits")) {
+    problem("/limits", "a campaign has rounds or limits, not both",
+            "make a campaign of each; what both have is computed once");
+  }
   if (is_usable("/metrics")) read_rank_by();
   if (is_usable("/keep_fields")) {
     spec_.keep_fields = keep_fields_named(at("/keep_fields").get<std::string>()).value();

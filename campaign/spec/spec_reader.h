@@ -122,6 +122,12 @@ class SpecReader {
   void embed_tables();
   void read_rank_by();
   void read_rounds();
+
+  // read_limits.cc
+  long double count_scan() const;
+  void read_limits(const SceneNames& names, Group& group);
+  void read_limit(const std::string& name, const SceneNames& names, Group& group);
+  void read_tolerance(const std::string& pointer, LimitSearch& search);
   std::optional<Expression> parse(const std::string& pointer, const Symbols& symbols);
 
   CampaignSpec spec_;

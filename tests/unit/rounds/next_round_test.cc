@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "campaign/rounds/limit_table.h"
 #include "campaign/rounds/submission.h"
 #include "tests/campaign/made_up_result.h"
 
 namespace faultsweep {
 namespace {
 
+using json = nlohmann::ordered_json;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -102,6 +104,103 @@ TEST_F(NextRound, ResultsThatAreKnownAlreadyAreShared) {
   decide(store);
   ASSERT_TRUE(add_next_round(store, "sample"));
   EXPECT_EQ(store.campaign("sample").n_waiting, 10) << "of 20, the other campaign has run 10";
+}
+
+/// Its first case is stored as changes of the scene of another campaign.
+TEST_F(NextRound, FurtherRoundsAreOnTheCampaignsOwnScene) {
+  const Expansion own = expansion(kRounds);
+  json first = json::object();
+  for (const ParameterValue& one : parameters_of(own, own.cases.front()))
+    first[one.name] = one.text;
+  first["cohesion"] = "0 MPa";
+  const json other = {{"format", 1},
+                      {"name", "other"},
+                      {"base", "docs/examples/scenes/rotliegend.json"},
+                      {"set", {{"/tier", "screening"}, {"cohesion", "3 MPa"}}},
+                      {"design", {{"kind", "list"}, {"cases", {first}}}}};
+  Store store = Store::open_owner(folder_);
+  store.submit(
+      make_submission(expand(parse_campaign(other.dump(), FAULTSIM_SOURCE_DIR "/test.json"))));
+  ASSERT_EQ(store.preview(make_submission(own)).n_cached, 0);
+  decide(store, "other");
+  const std::int64_t id = store.submit(make_submission(own)).campaign;
+  ASSERT_EQ(store.stored_case(id, "1").id, 1) << "shared with the other campaign";
+  decide(store);
+  ASSERT_TRUE(add_next_round(store, "sample"));
+  const Expansion whole = expansion("", 40);
+  for (int k = 21; k <= 40; ++k) {
+    EXPECT_EQ(store.stored_case(id, std::to_string(k)).identity, whole.cases[k - 1].identity) << k;
+  }
+}
+
+/// Of two offsets, the highest storage pressure for which F1 does not slide.
+json limit_spec() {
+  return {{"format", 1},
+          {"name", "sample"},
+          {"base", "docs/examples/scenes/rotliegend.json"},
+          {"set", {{"/tier", "screening"}}},
+          {"design", {{"kind", "grid"}, {"parameters", {{"offset", {"0 m", "100 m"}}}}}},
+          {"limits",
+           {{"top",
+             {{"parameter",
+               {{"pointers", {"/stages/2/pressure_between/1"}},
+                {"from", "-110 bar"},
+                {"to", "-10 bar"},
+                {"count", 5}}},
+              {"faults", {"F1"}},
+              {"stage", "gas_storage"},
+              {"tolerance", "2 bar"}}}}}};
+}
+
+TEST_F(NextRound, AnExclusionLeavesOutWholeSearchesOnly) {
+  json spec = limit_spec();
+  const std::string source = FAULTSIM_SOURCE_DIR "/test.json";
+  spec["exclude"] = {"offset > 50 m"};
+  EXPECT_NO_THROW(check_rounds(expand(parse_campaign(spec.dump(), source))));
+  spec["exclude"] = {"top > -50 bar"};
+  try {
+    check_rounds(expand(parse_campaign(spec.dump(), source)));
+    FAIL() << "accepted";
+  } catch (const faultsim::InputError& error) {
+    EXPECT_EQ(error.problems().at(0).pointer, "/exclude");
+    EXPECT_THAT(error.what(), HasSubstr("2 of the 5 values of a search (row 1 of the design)"));
+  }
+}
+
+/// Slides above a storage pressure of -40 bar; the second offset never does.
+TEST_F(NextRound, LimitsAreFoundOnTheStore) {
+  const Expansion limits =
+      expand(parse_campaign(limit_spec().dump(), FAULTSIM_SOURCE_DIR "/test.json"));
+  EXPECT_EQ(limits.cases.size(), 10u) << "five values in each of two rows";
+  EXPECT_NO_THROW(check_rounds(limits));
+  Store store = Store::open_owner(folder_);
+  const std::int64_t id = store.submit(make_submission(limits)).campaign;
+  const auto decide_all = [&] {
+    for (const WaitingFamily& family : store.waiting_families(id)) {
+      for (const std::int64_t one : family.cases) {
+        const CaseParameters values = store.stored_case(id, std::to_string(one)).parameters;
+        RunRecord run;
+        run.case_id = one;
+        run.status = RunStatus::completed;
+        const bool slides = *values[0].si < 50 && *values[1].si > -40e5;
+        run.result = testing::made_up_result(slides ? 0.9 : 0.2);
+        store.record_runs(id, {run});
+      }
+    }
+  };
+  decide_all();
+  while (add_next_round(store, "sample")) decide_all();
+  EXPECT_EQ(store.campaign("").conclusion, "2 searches: 1 never, 1 limit");
+  const LimitTable table = make_limit_table(store, store.campaign(""));
+  EXPECT_TRUE(table.is_finished);
+  ASSERT_EQ(table.rows.size(), 2u);
+  const Crossing& limit = *table.rows[0].cells[0]->finding.limit();
+  EXPECT_LE(limit.before.value, -40);
+  EXPECT_GT(limit.after.value, -40);
+  EXPECT_LE(limit.width(), 2);
+  EXPECT_EQ(table.rows[0].settings, std::vector<std::string>{"0 m"});
+  EXPECT_THAT(limits_to_csv(table), HasSubstr("2,100 m,F1,top,bar,never,,,"));
+  EXPECT_THAT(store.integrity_problems(), IsEmpty());
 }
 
 TEST_F(NextRound, ACampaignWithoutRoundsHasOne) {

@@ -18,7 +18,7 @@ std::vector<Answer> every_other(int n, int n_failed = 0) {
     answers[k].position = k + 1;
     answers[k].failed = k >= n - n_failed;
     answers[k].complete = !answers[k].failed;
-    answers[k].holds = answers[k].complete && k % 2 == 0;
+    answers[k].holds = {answers[k].complete && k % 2 == 0};
   }
   return answers;
 }

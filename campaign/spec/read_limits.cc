@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "campaign/spec/spec_reader.h"
+
+namespace faultsweep {
+namespace {
+
+using faultsim::pointer_token;
+using nlohmann::json;
+
+/// What follows the number in "-120 bar".
+std::string unit_of(const std::string& text) {
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  const std::string rest(end);
+  const std::size_t begin = rest.find_first_not_of(' ');
+  return begin == std::string::npos ? "" : rest.substr(begin);
+}
+
+/// The choices of a parameter as numbers of a unit.
+std::vector<double> numbers_of(const Parameter& parameter, const std::string& unit) {
+  std::vector<double> numbers;
+  for (const Choice& choice : parameter.choices) {
+    numbers.push_back(unit_of(choice.text) == unit
+                          ? std::strtod(choice.text.c_str(), nullptr)
+                          : faultsim::from_si(*choice.si, parameter.dimension, unit));
+  }
+  return numbers;
+}
+
+bool goes_one_way(const std::vector<double>& values) {
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    if ((values[k] > values[k - 1]) != (values[1] > values[0])) return false;
+  }
+  return values.size() > 1;
+}
+
+}  // namespace
+
+/// Cases for each row of the design.
+long double SpecReader::count_scan() const {
+  if (!is_usable("/limits")) return 1;
+  long double count = 0;
+  for (const std::string& name : keys("/limits")) {
+    const json& parameter = at("/limits/" + pointer_token(name) + "/parameter");
+    if (parameter.contains("count")) count += parameter["count"].get<long double>();
+    if (parameter.contains("values")) count += static_cast<long double>(parameter["values"].size());
+  }
+  return std::max(count, 1.0L);
+}
+
+void SpecReader::read_limits(const SceneNames& names, Group& group) {
+  if (at("/design/kind") == "groups") {
+    problem("/limits", "limits are searched in the rows of one design, and groups are several",
+            "make a campaign of each group");
+    return;
+  }
+  Design design;
+  design.kind = DesignKind::one_at_a_time;
+  design.pointer = "/limits";
+  design.without_base = true;
+  const std::size_t first = group.parameters.size();
+  for (const std::string& name : keys("/limits")) read_limit(name, names, group);
+  design.n_parameters = group.parameters.size() - first;
+  group.designs.push_back(std::move(design));
+  if (!is_usable("/limits_round")) return;
+  for (std::size_t k = first; k < group.parameters.size(); ++k) {
+    Parameter& parameter = group.parameters[k];
+    const std::string place = "/limits_round/values/" + pointer_token(parameter.name);
+    if (!has(place)) continue;
+    parameter.choices.clear();
+    read_values(place, names, parameter);
+  }
+  group.picked = at("/limits_round/rows").get<std::vector<long>>();
+}
+
+void SpecReader::read_limit(const std::string& name, const SceneNames& names, Group& group) {
+  LimitSearch search;
+  search.name = name;
+  search.pointer = "/limits/" + pointer_token(name);
+  const std::string place = search.pointer + "/parameter";
+  const bool is_range = at(place).contains("from") || at(place).contains("values");
+  if (!is_range) {
+    problem(place, "a limit is searched along numbers", "give from, to and count, or values");
+    return;
+  }
+  const bool is_taken = std::any_of(group.parameters.begin(), group.parameters.end(),
+                                    [&](const Parameter& other) { return other.name == name; });
+  if (is_taken) {
+    problem(search.pointer, "\"" + name + "\" is a parameter of the design",
+            "search another one, or take it out of the design");
+    return;
+  }
+  auto parameter = read_parameter(place, name, names, DesignKind::grid);
+  if (!parameter) return;
+  if (parameter->is_text) {
+    problem(place, "a limit is searched along numbers, and these are words", "give numbers");
+    return;
+  }
+  search.dimension = parameter->dimension;
+  search.unit = unit_of(parameter->choices.front().text);
+  search.scan = numbers_of(*parameter, search.unit);
+  if (!goes_one_way(search.scan)) {
+    problem(place, "the values of \"" + name + "\" do not go one way",
+            "order them, at least two, from the safe end to the dangerous one");
+    return;
+  }
+  if (at(search.pointer).contains("faults")) {
+    search.faults = at(search.pointer + "/faults").get<std::vector<std::string>>();
+  }
+  search.stage = at(search.pointer).value("stage", "");
+  search.unsafe = at(search.pointer).value("unsafe", search.unsafe);
+  read_tolerance(search.pointer + "/tolerance", search);
+  group.parameters.push_back(std::move(*parameter));
+  spec_.limits.push_back(std::move(search));
+}
+
+void SpecReader::read_tolerance(const std::string& pointer, LimitSearch& search) {
+  const auto parsed = faultsim::parse_quantity(scalar_text(at(pointer)), search.dimension);
+  if (!parsed.ok) {
+    problem(pointer, parsed.what, parsed.cure);
+  } else if (!(parsed.value > 0)) {
+    problem(pointer, "the tolerance is not above zero", "write for example \"1 bar\"");
+  }
+  search.tolerance = search.unit.empty()
+                         ? parsed.value
+                         : faultsim::from_si(parsed.value, search.dimension, search.unit);
+}
+
+}  // namespace faultsweep
