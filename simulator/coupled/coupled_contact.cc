@@ -171,8 +171,8 @@ double CoupledContact::improve(const Eigen::VectorXd& force, const ContactState&
         node.area * (wanted - jump).segment(node.first, held(k));
   }
   CoupledSolver solver(j, options_.solver);
-  const CoupledReport solved = solver.solve(r_u, r_l, options_.krylov_tolerance,
-                                            options_.max_krylov_iterations, du, lambda);
+  const CoupledReport solved =
+      solver.solve(r_u, r_l, options_.krylov_tolerance, options_.max_krylov_iterations, du, lambda);
   report.linear.krylov_iterations.push_back(static_cast<int>(solved.residuals.size()) - 1);
   report.linear.setup_seconds += solver.setup_seconds();
   report.linear.solve_seconds += solved.seconds;
@@ -221,10 +221,10 @@ void CoupledContact::iterate(const Eigen::VectorXd& force, const ContactState& b
                        .krylov = report.linear.krylov_iterations.back()});
     report.newton.passes += at.n_changed > 0 || report.newton.passes == 0;
     if (std::isinf(change)) {
-      report.reason = concat("GMRES (", to_string(options_.solver.leading), ", ",
-                             to_string(options_.solver.schur), ") does not reach ",
-                             options_.krylov_tolerance, " within ",
-                             options_.max_krylov_iterations, " iterations");
+      report.reason =
+          concat("GMRES (", to_string(options_.solver.leading), ", ",
+                 to_string(options_.solver.schur), ") does not reach ", options_.krylov_tolerance,
+                 " within ", options_.max_krylov_iterations, " iterations");
       report.newton.end = SearchEnd::no_progress;
       return;
     }

@@ -28,9 +28,9 @@ struct CoupledLoad {
 
 struct CoupledStepReport {
   bool converged = false;
-  std::string reason;      ///< why not.
-  StepCoupled linear;      ///< an entry of krylov_iterations per Newton iteration.
-  SearchHistory newton;    ///< as the condensed path tells it; residual: change per tolerance.
+  std::string reason;    ///< why not.
+  StepCoupled linear;    ///< an entry of krylov_iterations per Newton iteration.
+  SearchHistory newton;  ///< as the condensed path tells it; residual: change per tolerance.
   int newton_iterations() const { return newton.iterations; }
 };
 

@@ -190,6 +190,32 @@ const std::vector<SchurKind>& all_schur_kinds() {
   return kinds;
 }
 
+namespace {
+
+/// The kind of that name; none becomes a problem.
+template <typename Kind>
+Kind kind_of(const std::string& name, const std::vector<Kind>& known, const char* option,
+             std::vector<Problem>& problems) {
+  std::string list;
+  for (const Kind kind : known) {
+    if (name == to_string(kind)) return kind;
+    list += concat(list.empty() ? "" : ", ", to_string(kind));
+  }
+  problems.push_back({"", 0, concat(option, " ", name, " is not known"), "choose of " + list});
+  return known.front();
+}
+
+}  // namespace
+
+SolverChoice solver_of(const std::string& leading, const std::string& schur) {
+  std::vector<Problem> problems;
+  SolverChoice choice;
+  choice.leading = kind_of(leading, all_leading_kinds(), "--leading", problems);
+  choice.schur = kind_of(schur, all_schur_kinds(), "--schur", problems);
+  if (!problems.empty()) throw InputError("coupled path", std::move(problems));
+  return choice;
+}
+
 int CoupledReport::iterations_to(double tolerance) const {
   for (int i = 0; i < static_cast<int>(residuals.size()); ++i) {
     if (residuals[i] <= tolerance) return i;

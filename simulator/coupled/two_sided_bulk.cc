@@ -63,12 +63,13 @@ void TwoSidedBulk::demand_pieces_held() const {
           return first == last;
         });
     if (modes.free.cols() == 0) continue;
-    throw InputError("coupled path",
-                     {{"/boundary", 0,
-                       concat("a piece of ", pieces.n_cells[piece],
-                              " cells that the faults cut loose can ", describe(modes)),
-                       "hold it by a boundary condition, or take rac for its Schur complement, or the condensed "
-                       "path"}});
+    throw InputError(
+        "coupled path",
+        {{"/boundary", 0,
+          concat("a piece of ", pieces.n_cells[piece], " cells that the faults cut loose can ",
+                 describe(modes)),
+          "hold it by a boundary condition, or take rac for its Schur complement, or the condensed "
+          "path"}});
   }
 }
 

@@ -52,11 +52,10 @@ std::vector<Problem> coupled_hindrances(const Scene& scene, const Plan& plan) {
            concat("give it one friction angle, or ", path)});
     }
     if (!friction.cohesion_after_slip && friction.cohesion > 0) {
-      problems.push_back(
-          {concat("/faults/", f), 0,
-           concat("the first slip of ", scene.faults[f].name,
-                  " ends its cohesion: the coupled path does not follow that jump"),
-           concat("leave cohesion_after_slip at true, or ", path)});
+      problems.push_back({concat("/faults/", f), 0,
+                          concat("the first slip of ", scene.faults[f].name,
+                                 " ends its cohesion: the coupled path does not follow that jump"),
+                          concat("leave cohesion_after_slip at true, or ", path)});
     }
   }
   return problems;
@@ -68,8 +67,8 @@ struct CoupledCase::Impl final {
         solver(choice),
         problem(bulk_problem(scene, plan)),
         faults(uncondensed(scene, plan, problem)),
-        bulk(problem, choice.schur == SchurKind::rac ? LoosePieces::held_by_faults
-                                                     : LoosePieces::refused),
+        bulk(problem,
+             choice.schur == SchurKind::rac ? LoosePieces::held_by_faults : LoosePieces::refused),
         laws(contact_laws(scene, faults.geometry)),
         mirrored(mirrored_rows(scene, plan)) {}
 

@@ -31,14 +31,14 @@ PathChoice choose_path(const Plan& plan, std::optional<double> available, int n_
   }
   const std::string there = concat(" of ", gigabytes(*available));
   if (plan.memory_bytes <= *available) {
-    const std::string shared =
-        n_cases == 1 ? "and all load steps share it"
-                     : concat("and all load steps of ", n_cases, " cases share it");
+    const std::string shared = n_cases == 1
+                                   ? "and all load steps share it"
+                                   : concat("and all load steps of ", n_cases, " cases share it");
     return {SolutionPath::condensed, needs + there + ", " + shared};
   }
   if (!hindrances.empty()) {
-    return {SolutionPath::condensed, needs + there + "; the coupled path cannot take the scene: " +
-                                         hindrances.front().what};
+    return {SolutionPath::condensed,
+            needs + there + "; the coupled path cannot take the scene: " + hindrances.front().what};
   }
   if (coupled_bytes(plan) > *available) {
     return {SolutionPath::condensed,
@@ -46,9 +46,8 @@ PathChoice choose_path(const Plan& plan, std::optional<double> available, int n_
   }
   const std::string price =
       n_cases == 1 ? "" : concat("; each of the ", n_cases, " cases pays for its own solves");
-  return {SolutionPath::coupled,
-          concat(needs, there, "; the coupled path needs about ", gigabytes(coupled_bytes(plan)),
-                 price)};
+  return {SolutionPath::coupled, concat(needs, there, "; the coupled path needs about ",
+                                        gigabytes(coupled_bytes(plan)), price)};
 }
 
 }  // namespace faultsim

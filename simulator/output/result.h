@@ -114,8 +114,8 @@ struct StepResult {
   std::string reason;  ///< why not converged: counts per reason and the worst node.
   int n_stick = 0, n_slip = 0, n_open = 0;
   std::vector<FaultMetrics> faults;
-  std::vector<double> observed;    ///< m, per observation row.
-  std::optional<StepCreep> creep;  ///< only where salt creeps.
+  std::vector<double> observed;        ///< m, per observation row.
+  std::optional<StepCreep> creep;      ///< only where salt creeps.
   std::optional<StepCoupled> coupled;  ///< only on the coupled path.
   SolveCounts counts;
   double seconds = 0;  ///< wall; not compared.

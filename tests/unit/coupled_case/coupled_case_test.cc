@@ -44,10 +44,9 @@ History condensed(const json& document) {
   const Planned p(document);
   History history;
   const PreparedOperator prepared = prepare_operator(p.scene, p.plan, {}, false);
-  history.result =
-      run_case(p.scene, prepared, {}, [&](const StepResult&, const FaultFields& fields) {
-        history.fields.push_back(fields);
-      });
+  history.result = run_case(
+      p.scene, prepared, {},
+      [&](const StepResult&, const FaultFields& fields) { history.fields.push_back(fields); });
   return history;
 }
 
@@ -104,26 +103,29 @@ void expect_same(const History& a, const History& b, double tolerance) {
 /// A fault in a box that a depleting block makes slip, then fluid in it opens, and back: 3D.
 json box() {
   json scene = json::parse(starter_scene("box"));
-  scene["geometry"]["from"] = {"-600 m", "-300 m", "-2500 m"};
-  scene["geometry"]["to"] = {"600 m", "300 m", "-1500 m"};
-  scene["geometry"]["regions"][0]["from"] = {"-600 m", "-300 m", "-2100 m"};
-  scene["geometry"]["regions"][0]["to"] = {"0 m", "300 m", "-1900 m"};
-  scene["faults"][0]["length"] = "400 m";
-  scene["faults"][0]["width"] = "400 m";
+  scene["geometry"]["from"] = {"-500 m", "-250 m", "-2400 m"};
+  scene["geometry"]["to"] = {"500 m", "250 m", "-1600 m"};
+  scene["geometry"]["regions"][0]["from"] = {"-500 m", "-250 m", "-2100 m"};
+  scene["geometry"]["regions"][0]["to"] = {"0 m", "250 m", "-1900 m"};
+  scene["faults"][0]["length"] = "350 m";
+  scene["faults"][0]["width"] = "370 m";
   scene["faults"][0]["strike"] = "0 deg";
   scene["faults"][0]["dip_from_vertical"] = "15 deg";
-  scene["mesh"] = {{"strike", "100 m"}, {"dip", "50 m"},         {"normal", "60 m"},
-                   {"growth", 1.6},     {"fine_margin", "50 m"}};
+  scene["mesh"] = {{"strike", "100 m"},
+                   {"dip", "75 m"},
+                   {"normal", "120 m"},
+                   {"growth", 2.0},
+                   {"fine_margin", "30 m"}};
   scene["friction"] = {{"cohesion", "0 MPa"}, {"friction_angle", "14 deg"}};
-  scene["fault_pressure"] = {{"rule", "prescribed"},
-                             {"prescribed", "14 MPa"},
-                             {"table", {{"time", {"0 year", "4 year", "6 year", "8 year"}},
-                                        {"factor", {0, 0, 1, 0}}}}};
+  scene["fault_pressure"] = {
+      {"rule", "prescribed"},
+      {"prescribed", "14 MPa"},
+      {"table", {{"time", {"0 year", "4 year", "6 year", "8 year"}}, {"factor", {0, 0, 1, 0}}}}};
   scene["stages"] = json::parse(
       R"([{"name": "depletion", "duration": "4 year", "steps": 3, "pressure_change": "-150 bar"},
           {"name": "injection", "duration": "4 year", "steps": 4, "pressure_change": "-150 bar"}])");
   scene["output"]["observation_points"] =
-      json::parse(R"([{"name": "top", "position": ["100 m", "0 m", "-1500 m"]}])");
+      json::parse(R"([{"name": "top", "position": ["100 m", "0 m", "-1600 m"]}])");
   return scene;
 }
 
@@ -139,17 +141,17 @@ json field() {
   return scene;
 }
 
+const History& box_on_both_sides() {
+  static const History history = coupled(box(), {LeadingKind::amg, SchurKind::rac});
+  return history;
+}
+
 TEST(CoupledCase, IsTheCondensedCaseWithStickSlipAndOpening) {
   const History on_operator = condensed(box());
   EXPECT_GT(on_operator.most(&StepResult::n_stick), 5);
   EXPECT_GT(on_operator.most(&StepResult::n_slip), 5);
   EXPECT_GT(on_operator.most(&StepResult::n_open), 5);
-  for (const SolverChoice& solver :
-       {SolverChoice{LeadingKind::amg, SchurKind::rac}, SolverChoice{LeadingKind::exact, SchurKind::lsc}}) {
-    SCOPED_TRACE(to_string(solver.leading));
-    const History both_sides = coupled(box(), solver);
-    expect_same(both_sides, on_operator, 1e-6);
-  }
+  expect_same(box_on_both_sides(), on_operator, 1e-6);
 }
 
 TEST(CoupledCase, IsTheCondensedCaseInPlaneStrain) {
@@ -159,12 +161,12 @@ TEST(CoupledCase, IsTheCondensedCaseInPlaneStrain) {
 }
 
 TEST(CoupledCase, CountsItsWork) {
-  const History history = coupled(box(), {LeadingKind::exact, SchurKind::rac});
+  const History& history = box_on_both_sides();
   ASSERT_TRUE(history.result.coupled);
   const CaseCoupled& whole = *history.result.coupled;
-  EXPECT_EQ(whole.leading + whole.schur, "exactrac");
+  EXPECT_EQ(whole.leading + whole.schur, "amgrac");
   EXPECT_GT(whole.n_displacements, 10 * whole.n_multipliers);
-  EXPECT_GT(whole.n_multipliers, 60);
+  EXPECT_GT(whole.n_multipliers, 30);
   int sum = 0, most = 0, newton = 0;
   for (const StepResult& step : history.result.steps) {
     ASSERT_TRUE(step.coupled);
@@ -203,9 +205,7 @@ json loose_block() {
 
 TEST(CoupledCase, HoldsLooseBlocksByTheirFaults) {
   const History on_operator = condensed(loose_block());
-  for (const LeadingKind leading : {LeadingKind::exact, LeadingKind::amg}) {
-    expect_same(coupled(loose_block(), {leading, SchurKind::rac}), on_operator, 1e-6);
-  }
+  expect_same(coupled(loose_block(), {LeadingKind::amg, SchurKind::rac}), on_operator, 1e-6);
   try {
     coupled(loose_block(), {LeadingKind::exact, SchurKind::lsc});
     FAIL() << "K is singular";
@@ -248,13 +248,13 @@ TEST(CoupledCase, SaysWhereGmresGivesUp) {
 
 TEST(CoupledCase, EndsWhenItIsToldTo) {
   const Planned p(box());
-  CoupledCase one(p.scene, p.plan, {LeadingKind::exact, SchurKind::rac});
+  CoupledCase one(p.scene, p.plan, {LeadingKind::amg, SchurKind::rac});
   std::atomic<bool> flag = false;
   SilentMonitor silent;
-  const CaseResult result = one.run({silent, StopToken(flag)},
-                                    [&](const StepResult& step, const FaultFields&) {
-                                      if (step.step == 2) flag = true;
-                                    });
+  const CaseResult result =
+      one.run({silent, StopToken(flag)}, [&](const StepResult& step, const FaultFields&) {
+        if (step.step == 2) flag = true;
+      });
   EXPECT_EQ(result.outcome, Outcome::interrupted);
   EXPECT_EQ(result.steps.size(), 3u);
 }
