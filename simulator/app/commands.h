@@ -32,7 +32,7 @@ struct RunArguments {
   bool wide = false;               ///< the step table with all its columns.
   bool trace = false;              ///< how each load step was solved (docs/trace.md).
   std::string path = "condensed";  ///< or coupled, automatic.
-  std::string leading = "amg", schur = "rac";  ///< of the coupled path.
+  std::string leading = "amg-u", schur = "rac";  ///< of the coupled path.
 };
 
 struct DiagnoseArguments {

@@ -140,7 +140,7 @@ void add_run(CLI::App& app, Arguments& a, ExitCode& code) {
                    "multipliers; automatic: condensed where it fits into memory")
       ->check(CLI::IsMember({"condensed", "coupled", "automatic"}));
   command->add_option("--leading", a.run.leading,
-                      "coupled path, for K + E: exact,fsai,ic,ilu,amg (default amg)");
+                      "coupled path, for K + E: exact,fsai,ic,ilu,amg,amg-u (default amg-u)");
   command->add_option("--schur", a.run.schur,
                       "coupled path: exact,fsai+dir,fsai+fsai,bds,lsc,rac (default rac)");
   command->footer(
@@ -228,7 +228,7 @@ void add_solver_study(CLI::App& app, Arguments& a, ExitCode& code) {
       ->delimiter(',');
   command
       ->add_option("--leading", a.study.leading,
-                   "for K + E: exact,fsai,ic,ilu,amg or all (default exact)")
+                   "for K + E: exact,fsai,ic,ilu,amg,amg-u or all (default exact)")
       ->delimiter(',');
   command
       ->add_option("--schur", a.study.schur,

@@ -152,6 +152,8 @@ const char* to_string(LeadingKind kind) {
       return "ilu";
     case LeadingKind::amg:
       return "amg";
+    case LeadingKind::amg_by_component:
+      return "amg-u";
   }
   FAULTSIM_DEMAND(false, "leading block ", static_cast<int>(kind));
 }
@@ -177,9 +179,9 @@ const char* to_string(SchurKind kind) {
 const char* to_string(BlockForm form) { return form == BlockForm::full ? "full" : "upper"; }
 
 const std::vector<LeadingKind>& all_leading_kinds() {
-  static const std::vector<LeadingKind> kinds = {LeadingKind::exact, LeadingKind::fsai,
-                                                 LeadingKind::incomplete_cholesky, LeadingKind::ilu,
-                                                 LeadingKind::amg};
+  static const std::vector<LeadingKind> kinds = {
+      LeadingKind::exact, LeadingKind::fsai, LeadingKind::incomplete_cholesky,
+      LeadingKind::ilu,   LeadingKind::amg,  LeadingKind::amg_by_component};
   return kinds;
 }
 
