@@ -68,8 +68,8 @@ void TwoSidedBulk::demand_pieces_held() const {
         {{"/boundary", 0,
           concat("a piece of ", pieces.n_cells[piece], " cells that the faults cut loose can ",
                  describe(modes)),
-          "hold it by a boundary condition, or take rac for its Schur complement, or the condensed "
-          "path"}});
+          "hold it by a boundary condition, take rac as its Schur complement, or use the "
+          "condensed path"}});
   }
 }
 
