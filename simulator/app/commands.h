@@ -28,9 +28,11 @@ struct OperatorArguments {
 struct RunArguments {
   SceneArguments scene;
   OperatorArguments op;
-  std::filesystem::path output;  ///< empty = <scene name>-result beside the current folder.
-  bool wide = false;             ///< the step table with all its columns.
-  bool trace = false;            ///< how each load step was solved (docs/trace.md).
+  std::filesystem::path output;    ///< empty = <scene name>-result beside the current folder.
+  bool wide = false;               ///< the step table with all its columns.
+  bool trace = false;              ///< how each load step was solved (docs/trace.md).
+  std::string path = "condensed";  ///< or coupled, automatic.
+  std::string leading = "amg-u", schur = "rac";  ///< of the coupled path.
 };
 
 struct DiagnoseArguments {

@@ -134,6 +134,15 @@ void add_run(CLI::App& app, Arguments& a, ExitCode& code) {
   command->add_flag("--wide", a.run.wide, "the table with all its columns, however wide");
   command->add_flag("--trace", a.run.trace,
                     "how each load step was solved, iteration by iteration; also in trace.jsonl");
+  command
+      ->add_option("--path", a.run.path,
+                   "condensed (default); coupled: no operator, both sides of the faults and\n"
+                   "multipliers; automatic: condensed where it fits into memory")
+      ->check(CLI::IsMember({"condensed", "coupled", "automatic"}));
+  command->add_option("--leading", a.run.leading,
+                      "coupled path, for K + E: exact,fsai,ic,ilu,amg,amg-u (default amg-u)");
+  command->add_option("--schur", a.run.schur,
+                      "coupled path: exact,fsai+dir,fsai+fsai,bds,lsc,rac (default rac)");
   command->footer(
       "Examples:\n"
       "  faultsim run my-field.json -o out\n"
@@ -219,7 +228,7 @@ void add_solver_study(CLI::App& app, Arguments& a, ExitCode& code) {
       ->delimiter(',');
   command
       ->add_option("--leading", a.study.leading,
-                   "for K + E: exact,fsai,ic,ilu,amg or all (default exact)")
+                   "for K + E: exact,fsai,ic,ilu,amg,amg-u or all (default exact)")
       ->delimiter(',');
   command
       ->add_option("--schur", a.study.schur,

@@ -6,6 +6,10 @@
 #include "simulator/app/load_scene.h"
 #include "simulator/app/screen.h"
 #include "simulator/app/trace_text.h"
+#include "simulator/common/machine.h"
+#include "simulator/coupled/start_hypre.h"
+#include "simulator/coupled_case/coupled_case.h"
+#include "simulator/coupled_case/path_choice.h"
 #include "simulator/linalg/blas.h"
 #include "simulator/linalg/blas_kernel.h"
 #include "simulator/loading/history.h"
@@ -27,14 +31,12 @@ std::string built_in(double seconds) {
 /// elastic one from the factor kept.
 class VolumeRecorder {
  public:
-  VolumeRecorder(const Scene& scene, const PreparedOperator& prepared)
-      : factors_(scene, *prepared.op),
-        op_(*prepared.op),
-        bulk_(prepared.bulk),
-        steps_(load_steps(scene)) {}
+  /// @param bulk  null where displacements come with the fields of a step.
+  VolumeRecorder(const Scene& scene, const FaultOperator& op, std::shared_ptr<CondensedBulk> bulk)
+      : factors_(scene, op), op_(op), bulk_(std::move(bulk)), steps_(load_steps(scene)) {}
   void add(const StepResult& step, const FaultFields& fields) {
     if (!is_stage_end(steps_, static_cast<std::size_t>(step.step))) return;
-    if (fields.displacement != nullptr) {  // salt creeps: it depends on all that went before
+    if (fields.displacement != nullptr) {  // salt creeps, or the coupled path
       snapshots_.push_back({step.stage, step.time, *fields.displacement});
       return;
     }
@@ -53,7 +55,7 @@ class VolumeRecorder {
  private:
   LoadFactors factors_;
   const FaultOperator& op_;
-  std::shared_ptr<CondensedBulk> bulk_;  // null where salt creeps
+  std::shared_ptr<CondensedBulk> bulk_;
   std::vector<LoadStep> steps_;
   std::vector<VolumeSnapshot> snapshots_;
 };
@@ -86,13 +88,40 @@ ExitCode exit_code_of(Outcome outcome) {
   return ExitCode::bug;
 }
 
+namespace {
+
+/// What the arguments ask for; automatic chooses by the plan. Throws InputError when the coupled
+/// path is asked for and cannot take the scene.
+PathChoice path_of(const RunArguments& arguments, const LoadedScene& loaded) {
+  if (arguments.path == "condensed") return {SolutionPath::condensed, "asked for"};
+  std::vector<Problem> hindrances = coupled_hindrances(loaded.scene, loaded.plan);
+  if (arguments.path == "automatic") {
+    return choose_path(loaded.plan, available_memory(), 1, hindrances);
+  }
+  if (!hindrances.empty()) throw InputError(arguments.scene.file, std::move(hindrances));
+  return {SolutionPath::coupled, "asked for"};
+}
+
+std::string prepared_text(const FaultOperator& op, bool from_cache, bool coupled) {
+  const std::string how = coupled      ? "no operator"
+                          : from_cache ? "operator: from the cache"
+                                       : built_in(op.build_seconds);
+  return concat(how, ", ", op.geometry.nodes.size(), " fault node pairs\n");
+}
+
+}  // namespace
+
 ExitCode run_command(const RunArguments& arguments) {
+  const SolverChoice solver = solver_of(arguments.leading, arguments.schur);
   Simulation simulation = load_simulation(arguments.scene, arguments.op);
   const LoadedScene& loaded = simulation.scene();
   check_geometry(loaded);
   Plan plan = loaded.plan;
   add_savings(loaded.scene, plan);
   const Scene& scene = loaded.scene;
+  const PathChoice choice = path_of(arguments, loaded);
+  const bool is_coupled = choice.path == SolutionPath::coupled;
+  if (is_coupled) demand_one_rank();
   const bool json = arguments.scene.json;
   if (const std::string complaint = blas_complaint(); !complaint.empty())
     std::cerr << complaint << "\n";
@@ -107,7 +136,9 @@ ExitCode run_command(const RunArguments& arguments) {
                        .names = {"plan.json", "scene.json", "result.json", "faults.h5",
                                  "faults.xmf", "volume.h5", "volume.xmf", "trace.jsonl"},
                        .inputs = input_files(loaded)});
-  write_text(output.path() / "plan.json", json_text(plan_to_json(plan)));
+  nlohmann::json planned = plan_to_json(plan);
+  planned["path"] = {{"name", to_string(choice.path)}, {"reason", choice.reason}};
+  write_text(output.path() / "plan.json", json_text(planned));
   write_text(output.path() / "scene.json", loaded.document.value.dump(2) + "\n");
 
   ScreenMonitor monitor(json);
@@ -115,23 +146,27 @@ ExitCode run_command(const RunArguments& arguments) {
     std::cerr << plan_to_text(plan) << "linear algebra: " << blas_description() << " ("
               << blas_kernel_reason() << ")\n"
               << remarks_to_text(loaded);
+    if (arguments.path != "condensed")
+      std::cerr << "path: " << to_string(choice.path) << ", " << choice.reason << "\n";
   }
   RunContext context = context_of(arguments.op, monitor);
-  simulation.prepare(context, scene.output.volume_fields);
-  const PreparedOperator& prepared = simulation.prepared();
-  monitor.clear();
-  if (!json) {
-    std::cerr << (prepared.from_cache ? "operator: from the cache"
-                                      : built_in(prepared.op->build_seconds))
-              << ", " << prepared.op->geometry.nodes.size() << " fault node pairs\n";
+  std::unique_ptr<CoupledCase> coupled;
+  if (is_coupled) {
+    coupled = std::make_unique<CoupledCase>(scene, loaded.plan, solver, context);
+  } else {
+    simulation.prepare(context, scene.output.volume_fields);
   }
+  const PreparedOperator prepared = is_coupled ? PreparedOperator() : simulation.prepared();
+  const FaultOperator& faults = is_coupled ? coupled->faults() : *prepared.op;
+  monitor.clear();
+  if (!json) std::cerr << prepared_text(faults, prepared.from_cache, is_coupled);
 
   std::optional<FieldWriter> writer;
   if (scene.output.fault_fields) {
-    writer.emplace(output.path(), prepared.op->geometry, prepared.ladder != nullptr);
+    writer.emplace(output.path(), faults.geometry, prepared.ladder != nullptr);
   }
   std::optional<VolumeRecorder> volume;
-  if (scene.output.volume_fields) volume.emplace(scene, prepared);
+  if (scene.output.volume_fields) volume.emplace(scene, faults, prepared.bulk);
   CaseResult names;
   for (const PressureHistory& history : scene.pressure)
     names.region_names.push_back(history.region);
@@ -152,7 +187,8 @@ ExitCode run_command(const RunArguments& arguments) {
       trace += trace_to_json(step, part).dump() + "\n";
     };
   }
-  const CaseResult result = simulation.run(context, watch);
+  const CaseResult result =
+      is_coupled ? coupled->run(context, watch.step, watch.tried) : simulation.run(context, watch);
   if (arguments.trace) write_text(output.path() / "trace.jsonl", trace);
   if (writer) writer->finish();
   if (volume) write_volume_fields(output.path(), loaded, *volume);

@@ -310,12 +310,29 @@ std::string stage_text(const CaseResult& result, const StageMetrics& stage) {
 
 }  // namespace
 
+namespace {
+
+std::string coupled_text(const CaseResult& result) {
+  if (!result.coupled) return "";
+  const CaseCoupled& c = *result.coupled;
+  char text[256];
+  std::snprintf(
+      text, sizeof text,
+      "coupled path (%s, %s): %d displacements, %d multipliers; %d iterations of GMRES in "
+      "%d of\nNewton, at most %d in one; set-up %.1f s, solve %.1f s of the processor\n",
+      c.leading.c_str(), c.schur.c_str(), c.n_displacements, c.n_multipliers, c.krylov_iterations,
+      result.counts.newton_iterations, c.most_krylov_iterations, c.setup_seconds, c.solve_seconds);
+  return text;
+}
+
+}  // namespace
+
 std::string case_summary(const CaseResult& result) {
   std::string text = std::string("outcome: ") + to_string(result.outcome);
   if (!result.reason.empty()) text += ", " + result.reason;
   text += "\n" + whole_text(result);
   for (const StageMetrics& stage : result.stages) text += stage_text(result, stage);
-  text += events_text(result) + episodes_text(result) + creep_text(result);
+  text += events_text(result) + episodes_text(result) + creep_text(result) + coupled_text(result);
   for (const std::string& warning : result.warnings) text += "warning: " + warning + "\n";
   return text;
 }

@@ -19,14 +19,16 @@ std::string search_text(const SubStepTrace::Search& search) {
   std::string text = formatted("    %s: %s, %d iterations over %d active sets\n", search.way,
                                to_string(history.end), history.iterations, history.passes);
   if (history.last.empty()) return text;
-  text += formatted("    %6s %10s %7s %7s %7s %8s\n", "iter", "residual", "length", "slip", "open",
-                    "changed");
+  const bool iterative = history.last.front().krylov >= 0;
+  text += formatted("    %6s %10s %7s %7s %7s %8s%s\n", "iter", "residual", "length", "slip",
+                    "open", "changed", iterative ? "  krylov" : "");
   int number = history.iterations - static_cast<int>(history.last.size());
   if (number > 0) text += formatted("    %6s (%d before these)\n", "...", number);
   for (const SearchIteration& at : history.last) {
     const std::string residual = std::isnan(at.residual) ? "-" : formatted("%.3g", at.residual);
-    text += formatted("    %6d %10s %7.4g %7d %7d %8d\n", ++number, residual.c_str(), at.length,
+    text += formatted("    %6d %10s %7.4g %7d %7d %8d", ++number, residual.c_str(), at.length,
                       at.n_slip, at.n_open, at.n_changed);
+    text += iterative ? formatted(" %7d\n", at.krylov) : "\n";
   }
   return text;
 }
@@ -53,6 +55,7 @@ nlohmann::json trace_to_json(int step, const SubStepTrace& trace) {
                             {"n_slip", at.n_slip},
                             {"n_open", at.n_open},
                             {"n_changed", at.n_changed}});
+      if (at.krylov >= 0) iterations.back()["krylov"] = at.krylov;
     }
     searches.push_back({{"way", search.way},
                         {"end", to_string(search.history.end)},

@@ -27,6 +27,7 @@ struct SearchIteration {
   double length = 1;    ///< share of the step along its direction that was gone.
   int n_slip = 0, n_open = 0;  ///< nodes; the others stick.
   int n_changed = 0;           ///< nodes that changed state.
+  int krylov = -1;             ///< iterations of GMRES; −1: a direct solve.
 };
 
 /// A search, iteration by iteration. Of a long one the last are kept, so that its size is bounded.

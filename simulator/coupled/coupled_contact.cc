@@ -1,6 +1,8 @@
 #include "simulator/coupled/coupled_contact.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "simulator/common/errors.h"
 
@@ -19,13 +21,17 @@ void set_shear(const std::array<int, 2>& dof, const Eigen::Vector2d& value,
   }
 }
 
+int count(const std::vector<FaultState>& states, FaultState state) {
+  return static_cast<int>(std::count(states.begin(), states.end(), state));
+}
+
 }  // namespace
 
 /// Where Newton stands within a load step.
 struct CoupledContact::Iterate {
   Eigen::VectorXd u, increment, traction;  ///< displacements; Δg, t' over fault dofs.
   std::vector<FaultState> state;           ///< per node that may jump.
-  bool changed = true;                     ///< some state, at the last classify().
+  int n_changed = 0;                       ///< states, at the last classify().
   /// t' of the next iterate: `fixed` + D Δg + d t'_N where a node slips, with the multiplier
   /// elsewhere.
   Eigen::VectorXd fixed;
@@ -96,7 +102,7 @@ SlippingPoint CoupledContact::point_of(const ContactState& before, const Iterate
 /// States from the augmented tractions. Leaving stick takes more than the tolerance, going back
 /// nothing, so that round-off changes no state for ever.
 void CoupledContact::classify(const ContactState& before, Iterate& at, double tolerance) const {
-  at.changed = false;
+  at.n_changed = 0;
   for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {
     const Node& node = nodes_[k];
     const double gap = before.jump[node.first] + at.increment[node.first];
@@ -108,7 +114,7 @@ void CoupledContact::classify(const ContactState& before, Iterate& at, double to
       const double excess = node.stiffness * point_of(before, at, k).slip_increment.norm();
       if (excess > (at.state[k] == FaultState::slip ? 0 : tolerance)) state = FaultState::slip;
     }
-    at.changed = at.changed || state != at.state[k];
+    at.n_changed += state != at.state[k];
     at.state[k] = state;
   }
 }
@@ -164,12 +170,12 @@ double CoupledContact::improve(const Eigen::VectorXd& force, const ContactState&
     r_l.segment(j.node_begin[node.fault_node], held(k)) =
         node.area * (wanted - jump).segment(node.first, held(k));
   }
+  CoupledSolver solver(j, options_.solver);
   const CoupledReport solved =
-      CoupledSolver(j, options_.solver)
-          .solve(r_u, r_l, options_.krylov_tolerance, options_.max_krylov_iterations, du, lambda);
-  const int n_krylov = static_cast<int>(solved.residuals.size()) - 1;
-  report.krylov_iterations += n_krylov;
-  report.most_krylov_iterations = std::max(report.most_krylov_iterations, n_krylov);
+      solver.solve(r_u, r_l, options_.krylov_tolerance, options_.max_krylov_iterations, du, lambda);
+  report.linear.krylov_iterations.push_back(static_cast<int>(solved.residuals.size()) - 1);
+  report.linear.setup_seconds += solver.setup_seconds();
+  report.linear.solve_seconds += solved.seconds;
   at.u += du;
   const Eigen::VectorXd next = inverse_area_.cwiseProduct(c.transpose() * at.u) - before.jump;
   double change = 0;
@@ -193,6 +199,40 @@ double CoupledContact::improve(const Eigen::VectorXd& force, const ContactState&
   return solved.converged ? change : std::numeric_limits<double>::infinity();
 }
 
+/// Newton with the active set, until neither states nor values change.
+void CoupledContact::iterate(const Eigen::VectorXd& force, const ContactState& before, Iterate& at,
+                             CoupledStepReport& report) const {
+  while (!report.converged) {
+    if (report.newton_iterations() == options_.max_newton_iterations) {
+      report.reason = concat("Newton's method goes on changing after ", report.newton_iterations(),
+                             " iterations, ", at.n_changed, " states in the last");
+      return;
+    }
+    options_.stop.throw_if_requested("solving a linear step of the coupled path");
+    const double change = improve(force, before, at, report);
+    const double largest = std::max(at.traction.cwiseAbs().maxCoeff(), 1.0);
+    const double tolerance = options_.traction_tolerance * largest;
+    classify(before, at, tolerance);
+    report.newton.add({.residual = change / tolerance,
+                       .length = 1,
+                       .n_slip = count(at.state, FaultState::slip),
+                       .n_open = count(at.state, FaultState::open),
+                       .n_changed = at.n_changed,
+                       .krylov = report.linear.krylov_iterations.back()});
+    report.newton.passes += at.n_changed > 0 || report.newton.passes == 0;
+    if (std::isinf(change)) {
+      report.reason =
+          concat("GMRES (", to_string(options_.solver.leading), ", ",
+                 to_string(options_.solver.schur), ") does not reach ", options_.krylov_tolerance,
+                 " within ", options_.max_krylov_iterations, " iterations");
+      report.newton.end = SearchEnd::no_progress;
+      return;
+    }
+    report.converged = at.n_changed == 0 && change <= tolerance;
+  }
+  report.newton.end = SearchEnd::balanced;
+}
+
 CoupledStepReport CoupledContact::advance(const CoupledLoad& load, ContactState& state,
                                           Eigen::VectorXd& u) const {
   FAULTSIM_DEMAND(load.factors.size() == loads_.size() && load.background.size() == n_dofs() &&
@@ -208,14 +248,8 @@ CoupledStepReport CoupledContact::advance(const CoupledLoad& load, ContactState&
   for (const FaultState s : state.state) {
     at.state.push_back(s == FaultState::open ? s : FaultState::stick);
   }
-  while (!report.converged) {
-    if (report.newton_iterations++ == options_.max_newton_iterations) return report;
-    const double change = improve(force, state, at, report);
-    const double largest = std::max(at.traction.cwiseAbs().maxCoeff(), 1.0);
-    const double tolerance = options_.traction_tolerance * largest;
-    classify(state, at, tolerance);
-    report.converged = !at.changed && change <= tolerance;
-  }
+  iterate(force, state, at, report);
+  if (!report.converged) return report;
   for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {
     const Node& node = nodes_[k];  // what is held moves by what the last linear step left over
     if (at.state[k] != FaultState::open) at.increment[node.first] = -state.jump[node.first];

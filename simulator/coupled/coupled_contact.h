@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "simulator/contact/contact.h"
@@ -15,6 +16,7 @@ struct CoupledContactOptions {
   double krylov_tolerance = 1e-4;  ///< of each linear step, relative to its right-hand side.
   int max_krylov_iterations = 500;
   int max_newton_iterations = 60;
+  StopToken stop = {};  ///< asked before each linear step: Interrupted.
 };
 
 /// What drives a load step; both count from the start of the history.
@@ -26,9 +28,10 @@ struct CoupledLoad {
 
 struct CoupledStepReport {
   bool converged = false;
-  int newton_iterations = 0;
-  int krylov_iterations = 0;       ///< of all linear steps.
-  int most_krylov_iterations = 0;  ///< of one linear step.
+  std::string reason;    ///< why not.
+  StepCoupled linear;    ///< an entry of krylov_iterations per Newton iteration.
+  SearchHistory newton;  ///< as the condensed path tells it; residual: change per tolerance.
+  int newton_iterations() const { return newton.iterations; }
 };
 
 /// Frictional contact without condensation (model section 11), load step by load step: Newton with
@@ -54,7 +57,7 @@ class CoupledContact {
   /// Rest: no displacement, and the traction of the background.
   ContactState start(const Eigen::VectorXd& background) const;
   /// Takes `state` and the displacements `u` (n_u, zero at first) to the end of a load step. Not
-  /// converged: both are left as they were.
+  /// converged, or stopped (Interrupted): both are left as they were.
   CoupledStepReport advance(const CoupledLoad& load, ContactState& state, Eigen::VectorXd& u) const;
 
  private:
@@ -69,6 +72,8 @@ class CoupledContact {
   void linearise(const ContactState& before, Iterate& at) const;
   double improve(const Eigen::VectorXd& force, const ContactState& before, Iterate& at,
                  CoupledStepReport& report) const;
+  void iterate(const Eigen::VectorXd& force, const ContactState& before, Iterate& at,
+               CoupledStepReport& report) const;
   static FrictionState state_of(const Node& node, const ContactState& state, int k);
   SlippingPoint point_of(const ContactState& before, const Iterate& at, int node) const;
 

@@ -152,6 +152,8 @@ const char* to_string(LeadingKind kind) {
       return "ilu";
     case LeadingKind::amg:
       return "amg";
+    case LeadingKind::amg_by_component:
+      return "amg-u";
   }
   FAULTSIM_DEMAND(false, "leading block ", static_cast<int>(kind));
 }
@@ -177,9 +179,9 @@ const char* to_string(SchurKind kind) {
 const char* to_string(BlockForm form) { return form == BlockForm::full ? "full" : "upper"; }
 
 const std::vector<LeadingKind>& all_leading_kinds() {
-  static const std::vector<LeadingKind> kinds = {LeadingKind::exact, LeadingKind::fsai,
-                                                 LeadingKind::incomplete_cholesky, LeadingKind::ilu,
-                                                 LeadingKind::amg};
+  static const std::vector<LeadingKind> kinds = {
+      LeadingKind::exact, LeadingKind::fsai, LeadingKind::incomplete_cholesky,
+      LeadingKind::ilu,   LeadingKind::amg,  LeadingKind::amg_by_component};
   return kinds;
 }
 
@@ -188,6 +190,32 @@ const std::vector<SchurKind>& all_schur_kinds() {
                                                SchurKind::fsai_fsai, SchurKind::bds,
                                                SchurKind::lsc,       SchurKind::rac};
   return kinds;
+}
+
+namespace {
+
+/// The kind of that name; none becomes a problem.
+template <typename Kind>
+Kind kind_of(const std::string& name, const std::vector<Kind>& known, const char* option,
+             std::vector<Problem>& problems) {
+  std::string list;
+  for (const Kind kind : known) {
+    if (name == to_string(kind)) return kind;
+    list += concat(list.empty() ? "" : ", ", to_string(kind));
+  }
+  problems.push_back({"", 0, concat(option, " ", name, " is not known"), "choose of " + list});
+  return known.front();
+}
+
+}  // namespace
+
+SolverChoice solver_of(const std::string& leading, const std::string& schur) {
+  std::vector<Problem> problems;
+  SolverChoice choice;
+  choice.leading = kind_of(leading, all_leading_kinds(), "--leading", problems);
+  choice.schur = kind_of(schur, all_schur_kinds(), "--schur", problems);
+  if (!problems.empty()) throw InputError("coupled path", std::move(problems));
+  return choice;
 }
 
 int CoupledReport::iterations_to(double tolerance) const {

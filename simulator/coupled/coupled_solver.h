@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "simulator/coupled/leading_block.h"
@@ -27,6 +28,8 @@ const char* to_string(SchurKind kind);
 const char* to_string(BlockForm form);
 const std::vector<LeadingKind>& all_leading_kinds();
 const std::vector<SchurKind>& all_schur_kinds();
+/// The kinds of those names. Throws InputError with the names that are none.
+SolverChoice solver_of(const std::string& leading, const std::string& schur);
 
 struct CoupledReport {
   bool converged = false;

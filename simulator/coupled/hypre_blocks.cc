@@ -54,23 +54,39 @@ class IluBlock final : public HypreBlock {
   ~IluBlock() override { HYPRE_ILUDestroy(solver_); }
 };
 
+/// What both kinds of AMG share.
+void set_common(HYPRE_Solver solver) {
+  HYPRE_BoomerAMGSetNumFunctions(solver, 3);  // unknown i is of component i mod 3
+  HYPRE_BoomerAMGSetCoarsenType(solver, 10);  // HMIS
+  HYPRE_BoomerAMGSetInterpType(solver, 6);    // extended+i
+  HYPRE_BoomerAMGSetPMaxElmts(solver, 4);
+  HYPRE_BoomerAMGSetRelaxType(solver, 6);  // symmetric Gauss-Seidel: SPD
+  HYPRE_BoomerAMGSetTol(solver, 0.0);
+  HYPRE_BoomerAMGSetMaxIter(solver, 1);
+}
+
+class ComponentAmgBlock final : public HypreBlock {
+ public:
+  explicit ComponentAmgBlock(const SparseMatrix& a) : HypreBlock(a, HYPRE_BoomerAMGSolve) {
+    HYPRE_BoomerAMGCreate(&solver_);
+    set_common(solver_);
+    HYPRE_BoomerAMGSetStrongThreshold(solver_, 0.9);
+    set_up(HYPRE_BoomerAMGSetup);
+  }
+  ~ComponentAmgBlock() override { HYPRE_BoomerAMGDestroy(solver_); }
+};
+
 class AmgBlock final : public HypreBlock {
  public:
   AmgBlock(const SparseMatrix& a, const Eigen::MatrixXd& motions)
       : HypreBlock(a, HYPRE_BoomerAMGSolve) {
     HYPRE_BoomerAMGCreate(&solver_);
-    HYPRE_BoomerAMGSetNumFunctions(solver_, 3);  // unknown i is of component i mod 3
-    HYPRE_BoomerAMGSetNodal(solver_, 4);         // strength of a node's 3 x 3 block: row sum
+    set_common(solver_);
+    HYPRE_BoomerAMGSetNodal(solver_, 4);  // strength of a node's 3 x 3 block: row sum
     HYPRE_BoomerAMGSetNodalDiag(solver_, 1);
     // HMIS and a threshold of 1/4: with PMIS and 1/2, which hypre's manual has for three
     // dimensions, counts grow with each refinement, 13 to 18, and the hierarchy is no smaller.
-    HYPRE_BoomerAMGSetCoarsenType(solver_, 10);
-    HYPRE_BoomerAMGSetInterpType(solver_, 6);  // extended+i
-    HYPRE_BoomerAMGSetPMaxElmts(solver_, 4);
     HYPRE_BoomerAMGSetStrongThreshold(solver_, 0.25);
-    HYPRE_BoomerAMGSetRelaxType(solver_, 6);  // symmetric Gauss-Seidel: SPD
-    HYPRE_BoomerAMGSetTol(solver_, 0.0);
-    HYPRE_BoomerAMGSetMaxIter(solver_, 1);
     set_rotations(motions);
     set_up(HYPRE_BoomerAMGSetup);
   }
@@ -114,6 +130,10 @@ std::unique_ptr<LeadingBlock> make_hypre_ilu(const SparseMatrix& a, const IluOpt
 std::unique_ptr<LeadingBlock> make_hypre_amg(const SparseMatrix& a,
                                              const Eigen::MatrixXd& rigid_motions) {
   return std::make_unique<AmgBlock>(a, rigid_motions);
+}
+
+std::unique_ptr<LeadingBlock> make_hypre_amg_by_component(const SparseMatrix& a) {
+  return std::make_unique<ComponentAmgBlock>(a);
 }
 
 }  // namespace faultsim

@@ -36,6 +36,15 @@ void start_hypre() {
   FAULTSIM_DEMAND(started, "hypre");
 }
 
+void demand_one_rank() {
+  start_hypre();
+  int n_ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
+  if (n_ranks == 1) return;
+  throw InputError("coupled path", {{"", 0, concat("it was started on ", n_ranks, " ranks"),
+                                     "start it without mpirun: it runs on one rank so far"}});
+}
+
 void check_hypre(const char* doing) {
   const HYPRE_Int error = HYPRE_GetError();
   if (error == 0) return;

@@ -60,6 +60,8 @@ std::unique_ptr<LeadingBlock> make_leading_block(LeadingKind kind, const SaddleP
       return make_hypre_ilu(j.symmetric_leading(), ilu);
     case LeadingKind::amg:
       return make_hypre_amg(j.symmetric_leading(), j.rigid_motions);
+    case LeadingKind::amg_by_component:
+      return make_hypre_amg_by_component(j.symmetric_leading());
   }
   FAULTSIM_DEMAND(false, "leading block ", static_cast<int>(kind));
 }

@@ -9,7 +9,7 @@
 namespace faultsim {
 
 /// How (K + E)⁻¹ is approximated.
-enum class LeadingKind { exact, fsai, incomplete_cholesky, ilu, amg };
+enum class LeadingKind { exact, fsai, incomplete_cholesky, ilu, amg, amg_by_component };
 
 /// Adaptive factored sparse approximate inverse (Janna, Ferronato, Sartoretto and Gambolati, ACM
 /// TOMS 41, 2015): per row of G, at most `steps` times the `step_size` entries that lower the row's
@@ -34,7 +34,7 @@ class LeadingBlock {
 };
 
 /// exact: sparse Cholesky, or LU where K + E is not symmetric positive definite. The others take
-/// the symmetric part of K + E. ilu and amg are hypre's; incomplete_cholesky is Lin and
+/// the symmetric part of K + E. ilu and both amg are hypre's; incomplete_cholesky is Lin and
 /// Moré's (as many entries per column as K has, the largest ones, and a shift where a pivot fails).
 /// Throws ResourceError when memory is short or K + E is singular.
 std::unique_ptr<LeadingBlock> make_leading_block(LeadingKind kind, const SaddlePoint& j,

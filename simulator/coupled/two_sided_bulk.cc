@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "simulator/common/errors.h"
+#include "simulator/elasticity/held.h"
 #include "simulator/elasticity/rigid_modes.h"
 
 namespace faultsim {
@@ -30,14 +31,15 @@ void tie_closed_nodes(const DofMap& condensed, const std::vector<FaultSurface>& 
 
 }  // namespace
 
-TwoSidedBulk::TwoSidedBulk(const BulkProblem& problem) : problem_(problem) {
+TwoSidedBulk::TwoSidedBulk(const BulkProblem& problem, LoosePieces loose) : problem_(problem) {
   const int n_loads = static_cast<int>(problem.loads.size());
   const DofMap condensed(problem.mesh, problem.conditions, n_loads);
+  demand_held(problem.mesh, condensed);
   Mesh& mesh = problem_.mesh;
   faults_.swap(mesh.faults);
   tie_closed_nodes(condensed, faults_, mesh);
   dofs_ = std::make_unique<DofMap>(mesh, problem.conditions, n_loads);
-  demand_held();
+  if (loose == LoosePieces::refused) demand_pieces_held();
   int n_independent = 0;
   rank_.resize(mesh.nodes.size());
   for (int i = 0; i < static_cast<int>(mesh.nodes.size()); ++i) {
@@ -51,7 +53,7 @@ TwoSidedBulk::TwoSidedBulk(const BulkProblem& problem) : problem_(problem) {
 int TwoSidedBulk::dof(int node, int component) const { return 3 * rank_[node] + component; }
 
 /// Every piece must be held by itself: multipliers tie pieces together only in the whole system.
-void TwoSidedBulk::demand_held() const {
+void TwoSidedBulk::demand_pieces_held() const {
   const Pieces pieces = find_pieces(problem_.mesh);
   for (int piece = 0; piece < pieces.n_pieces; ++piece) {
     const RigidModes modes = rigid_modes(
@@ -61,11 +63,13 @@ void TwoSidedBulk::demand_held() const {
           return first == last;
         });
     if (modes.free.cols() == 0) continue;
-    throw InputError("coupled path",
-                     {{"/boundary", 0,
-                       concat("a piece of ", pieces.n_cells[piece],
-                              " cells that the faults cut loose can ", describe(modes)),
-                       "hold it by a boundary condition, or use the condensed path"}});
+    throw InputError(
+        "coupled path",
+        {{"/boundary", 0,
+          concat("a piece of ", pieces.n_cells[piece], " cells that the faults cut loose can ",
+                 describe(modes)),
+          "hold it by a boundary condition, take rac as its Schur complement, or use the "
+          "condensed path"}});
   }
 }
 

@@ -17,6 +17,12 @@ struct TwoSidedNode {
   std::array<bool, 3> may_jump;    ///< per n, strike, dip; all false on a node that stays closed.
 };
 
+/// Pieces of rock that only faults hold: K is singular then.
+enum class LoosePieces {
+  refused,
+  held_by_faults  ///< the solver sees to that (SchurKind::rac).
+};
+
 /// The linear bulk over displacements of both sides of every fault (model section 11):
 /// K (n_u x n_u), unit loads, and where the fault nodes are in it.
 ///
@@ -26,8 +32,9 @@ struct TwoSidedNode {
 /// the condensed path keeps closed (DofMap) are tied here.
 class TwoSidedBulk {
  public:
-  /// Throws InputError when a piece that faults cut loose is not held: K is singular then.
-  explicit TwoSidedBulk(const BulkProblem& problem);
+  /// Throws InputError when nothing holds a body, or a piece that faults cut loose where those are
+  /// refused.
+  explicit TwoSidedBulk(const BulkProblem& problem, LoosePieces loose = LoosePieces::refused);
 
   int n_displacements() const { return static_cast<int>(stiffness_.rows()); }
   /// K, both triangles, sorted columns.
@@ -47,7 +54,7 @@ class TwoSidedBulk {
 
  private:
   void place_fault_nodes(const DofMap& condensed);
-  void demand_held() const;
+  void demand_pieces_held() const;
   void assemble();
 
   BulkProblem problem_;  ///< without faults in its mesh: both copies of a node are independent.

@@ -1,5 +1,6 @@
 #include "simulator/loading/case_loads.h"
 
+#include <algorithm>
 #include <cstdint>
 
 #include "simulator/common/errors.h"
@@ -29,7 +30,8 @@ StepLoads CaseLoads::at(double time) const {
   loads.pressure_change = pressure_changes(scene_, time);
   loads.factors = load_factors_.at(time, loads.pressure_change);
   loads.locked = initial_.traction;
-  for (std::size_t k = 0; k < loads.factors.size(); ++k) {
+  const std::size_t n_condensed = op_.loads.traction.cols();
+  for (std::size_t k = 0; k < std::min(n_condensed, loads.factors.size()); ++k) {
     if (loads.factors[k] != 0)
       loads.locked += loads.factors[k] * op_.loads.traction.col(static_cast<Eigen::Index>(k));
   }

@@ -39,8 +39,10 @@ void add_counts(SolveCounts& sum, const SolveCounts& part) {
 class CaseRun {
  public:
   /// @param ladder  of the family whose elastic operator op is; null = no creep.
+  /// @param other   solves instead of contact on op; null = none.
   CaseRun(const Scene& scene, const FaultOperator& op, CreepLadder* ladder,
-          const RunContext& context, const StepObserver& observer, const CaseProbe& probe)
+          const RunContext& context, const StepObserver& observer, const CaseProbe& probe,
+          StepSolver* other = nullptr)
       : scene_(scene),
         op_(op),
         context_(context),
@@ -50,11 +52,12 @@ class CaseRun {
         node_laws_(laws_),
         loads_(scene, op, probe.noise),
         meter_(op, laws_, scene.numerics.slip_tolerance, scene.numerics.activation_length),
-        solver_(op, laws_, contact_options(scene.numerics), watch()),
+        other_(other),
         state_(initial_state(op)),
         neighbours_(scene, op),
         episodes_(meter_, neighbours_, fault_names(scene), op.geometry.plane_strain),
         whole_("", 0, nullptr, true, op.geometry.plane_strain) {
+    if (other == nullptr) solver_.emplace(op, laws_, contact_options(scene.numerics), watch());
     if (ladder != nullptr) march_.emplace(scene, loads_, *ladder, laws_, watch());
   }
 
@@ -91,7 +94,8 @@ class CaseRun {
   NodeLaws node_laws_;
   CaseLoads loads_;
   FaultMeter meter_;
-  ContactSolver solver_;
+  StepSolver* other_;
+  std::optional<ContactSolver> solver_;  ///< none where another one solves.
   ContactState state_;
   NodalState nodal_;
   CaseResult result_;
@@ -142,6 +146,7 @@ FaultFields CaseRun::fields(const StepLoads& loads) const {
     f.creep_traction = per_node(creep_traction_);
     f.displacement = &march_->displacement();
   }
+  if (other_ != nullptr) f.displacement = &other_->displacement();
   return f;
 }
 
@@ -169,7 +174,9 @@ void CaseRun::note_weakening(const Eigen::VectorXd& traction, bool trial) {
 
 void CaseRun::observe(const StepLoads& loads, StepResult& result) const {
   Eigen::VectorXd u;
-  if (march_) {
+  if (other_ != nullptr) {
+    u = other_->observed();
+  } else if (march_) {
     u = march_->observed();
     const auto& points = scene_.output.observation_points;
     for (std::size_t i = 0; op_.geometry.half_domain && i < points.size(); ++i) {
@@ -268,9 +275,15 @@ ContactReport CaseRun::solve(const LoadStep& step, const StepLoads* before, cons
     result.creep = StepCreep{report.time_steps, report.time_error, report.time_resolved, {}};
     return std::move(report.contact);
   }
+  if (other_ != nullptr) {
+    StepSolver::Report report = other_->advance(loads, state_);
+    result_.coupled->add(report.linear);
+    result.coupled = std::move(report.linear);
+    return std::move(report.contact);
+  }
   const Eigen::VectorXd locked_before =
       before != nullptr ? before->locked : Eigen::VectorXd::Zero(op_.geometry.n_dofs);
-  ContactReport report = solver_.solve_step(locked_before, loads.locked, state_);
+  ContactReport report = solver_->solve_step(locked_before, loads.locked, state_);
   if (march_ && in_equilibrium(report.outcome)) {
     march_->begin(loads, state_);
     result.creep.emplace();
@@ -348,6 +361,7 @@ void CaseRun::name_result() {
     result_.region_names.push_back(history.region);
   result_.fault_names = fault_names(scene_);
   for (const ObservationRow& row : op_.observed.rows) result_.observation_names.push_back(row.name);
+  if (other_ != nullptr) result_.coupled = other_->description();
 }
 
 /// Goes through the load steps to their end, or as far as there is equilibrium.
@@ -440,6 +454,11 @@ CaseResult run_case(const Scene& scene, const FaultOperator& op, const RunContex
 CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, const RunContext& context,
                     const StepObserver& observer, const CaseProbe& probe) {
   return CaseRun(scene, *prepared.op, prepared.ladder.get(), context, observer, probe).run();
+}
+
+CaseResult run_case(const Scene& scene, const FaultOperator& faults, StepSolver& solver,
+                    const RunContext& context, const StepObserver& observer) {
+  return CaseRun(scene, faults, nullptr, context, observer, {}, &solver).run();
 }
 
 StepStart start_of_step(const Scene& scene, const FaultOperator& op, int step,

@@ -11,6 +11,7 @@
 #include "simulator/condensation/creep_ladder.h"
 #include "simulator/contact/contact.h"
 #include "simulator/contact/step_check.h"
+#include "simulator/loading/case_loads.h"
 #include "simulator/loading/history.h"
 #include "simulator/model/fault_operator.h"
 #include "simulator/output/cache_policy.h"
@@ -55,6 +56,25 @@ struct CaseProbe {
   std::function<void(int, const SubStepTrace&)> tried;
 };
 
+/// Who finds the equilibrium of a load step where that is not contact on a condensed operator: the
+/// coupled path (coupled_case/), which loading does not know. Remembers the last equilibrium.
+class StepSolver {
+ public:
+  virtual ~StepSolver() = default;
+  struct Report {
+    ContactReport contact;  ///< load factors of its jumps are of the load step.
+    StepCoupled linear;
+  };
+  /// Advances from the last equilibrium, the unloaded rest at first, to that under `loads`. Unless
+  /// in equilibrium, `state` is left as it was. Throws Interrupted when it is told to stop.
+  virtual Report advance(const StepLoads& loads, ContactState& state) = 0;
+  /// Displacement there of all mesh nodes, 3 x n_nodes, m, and of the operator's observation rows.
+  virtual const Eigen::Matrix3Xd& displacement() const = 0;
+  virtual Eigen::VectorXd observed() const = 0;
+  /// How it solves, with the sizes; sums are 0.
+  virtual CaseCoupled description() const = 0;
+};
+
 /// Runs one case on its operator: initial state, load steps, contact, metrics. Deterministic: the
 /// same scene and operator give the same bits whatever ran before. Never throws for
 /// non-convergence, nor where the context stops it: the outcome is then `interrupted`, and the
@@ -64,6 +84,12 @@ CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, const 
 /// The same without creep, whatever the scene says of viscosity.
 CaseResult run_case(const Scene& scene, const FaultOperator& op, const RunContext& context,
                     const StepObserver& observer = {});
+
+/// The same by a solver of its own: no creep, no slip events.
+/// @param faults  an operator that is not condensed (coupled_case.h): geometry, keys of its loads
+/// and observation rows, and nothing of what a load or a jump does.
+CaseResult run_case(const Scene& scene, const FaultOperator& faults, StepSolver& solver,
+                    const RunContext& context, const StepObserver& observer = {});
 
 /// One load step of a case before it is solved: what a contact solver would be given.
 struct StepStart {

@@ -63,7 +63,8 @@ struct FaultGeometry {
 /// What the unit loads do with every jump held at zero.
 struct LockedLoads {
   std::vector<LoadKey> keys;  ///< of the columns, in the order of the family's loads.
-  Eigen::MatrixXd traction;   ///< L: n_dofs x n_loads, Pa per unit of load.
+  Eigen::MatrixXd traction;   ///< L: n_dofs x n_loads, Pa per unit of load; no columns
+                              ///< where the bulk is not condensed (the coupled path).
 };
 
 /// A displacement component observed at a node of the mesh.

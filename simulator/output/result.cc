@@ -1,5 +1,6 @@
 #include "simulator/output/result.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "simulator/common/errors.h"
@@ -56,6 +57,15 @@ const FaultOnset* onset_on(const StageMetrics& stage, const std::string& fault,
 }
 
 }  // namespace
+
+void CaseCoupled::add(const StepCoupled& step) {
+  for (const int n : step.krylov_iterations) {
+    krylov_iterations += n;
+    most_krylov_iterations = std::max(most_krylov_iterations, n);
+  }
+  setup_seconds += step.setup_seconds;
+  solve_seconds += step.solve_seconds;
+}
 
 std::optional<double> leading_change(const SidePressures& sides) {
   return plus_leads(sides) ? sides.change_plus : sides.change_minus;

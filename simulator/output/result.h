@@ -85,6 +85,26 @@ struct StepCreep {
   std::vector<FaultCreep> faults;
 };
 
+/// What the linear solver of the coupled path did in a load step (docs/model.md, section 11).
+struct StepCoupled {
+  std::vector<int> krylov_iterations;  ///< of GMRES, per Newton iteration, tries in vain included.
+  double setup_seconds = 0;            ///< of the processor, for preconditioners; not compared.
+  double solve_seconds = 0;            ///< of the processor, in GMRES; not compared.
+};
+
+/// The same over a case.
+struct CaseCoupled {
+  std::string leading, schur;  ///< names of the preconditioner's two parts.
+  int n_displacements = 0;     ///< unknowns, both sides of the faults.
+  int n_multipliers = 0;       ///< where all nodes stick.
+  int krylov_iterations = 0;
+  int most_krylov_iterations = 0;  ///< of one Newton iteration.
+  double setup_seconds = 0;        ///< of the processor; not compared.
+  double solve_seconds = 0;        ///< of the processor; not compared.
+
+  void add(const StepCoupled& step);
+};
+
 struct StepResult {
   int step = 0;                         ///< 0 = initial equilibrium.
   std::string stage;                    ///< "initial" for step 0.
@@ -94,8 +114,9 @@ struct StepResult {
   std::string reason;  ///< why not converged: counts per reason and the worst node.
   int n_stick = 0, n_slip = 0, n_open = 0;
   std::vector<FaultMetrics> faults;
-  std::vector<double> observed;    ///< m, per observation row.
-  std::optional<StepCreep> creep;  ///< only where salt creeps.
+  std::vector<double> observed;        ///< m, per observation row.
+  std::optional<StepCreep> creep;      ///< only where salt creeps.
+  std::optional<StepCoupled> coupled;  ///< only on the coupled path.
   SolveCounts counts;
   double seconds = 0;  ///< wall; not compared.
 };
@@ -197,7 +218,8 @@ struct FaultFields {
   Eigen::VectorXi state;                  ///< FaultState.
   Eigen::VectorXd fault_pressure_change;  ///< Δp_f, Pa.
   Eigen::Matrix3Xd creep_traction;        ///< t'_creep (n, strike, dip), Pa; empty without creep.
-  /// Displacement of all mesh nodes, m: given where salt creeps, valid during the call.
+  /// Displacement of all mesh nodes, m: given where salt creeps and on the coupled path, valid
+  /// during the call.
   const Eigen::Matrix3Xd* displacement = nullptr;
 };
 
@@ -256,6 +278,7 @@ struct CaseResult {
   std::vector<Episode> episodes;           ///< in order of time.
   std::optional<Reactivation> unexpected;  ///< the first unexpected reactivation.
   SolveCounts counts;
+  std::optional<CaseCoupled> coupled;  ///< only on the coupled path.
   std::vector<std::string> warnings;
   double seconds = 0;  ///< wall; not compared.
 };

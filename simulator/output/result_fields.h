@@ -60,6 +60,25 @@ void for_each_field(Struct& c, Visit&& visit) {
   visit(Field{"faults"}, c.faults);
 }
 
+template <Of<StepCoupled> Struct, typename Visit>
+void for_each_field(Struct& c, Visit&& visit) {
+  visit(Field{"krylov_iterations"}, c.krylov_iterations);
+  visit(Field{"setup_s"}, c.setup_seconds);
+  visit(Field{"solve_s"}, c.solve_seconds);
+}
+
+template <Of<CaseCoupled> Struct, typename Visit>
+void for_each_field(Struct& c, Visit&& visit) {
+  visit(Field{"leading"}, c.leading);
+  visit(Field{"schur"}, c.schur);
+  visit(Field{"displacement_dofs"}, c.n_displacements);
+  visit(Field{"multiplier_dofs"}, c.n_multipliers);
+  visit(Field{"krylov_iterations"}, c.krylov_iterations);
+  visit(Field{"most_krylov_iterations"}, c.most_krylov_iterations);
+  visit(Field{"setup_s"}, c.setup_seconds);
+  visit(Field{"solve_s"}, c.solve_seconds);
+}
+
 template <Of<StepResult> Struct, typename Visit>
 void for_each_field(Struct& s, Visit&& visit) {
   visit(Field{"step"}, s.step);
@@ -74,6 +93,7 @@ void for_each_field(Struct& s, Visit&& visit) {
   visit(Field{"faults"}, s.faults);
   visit(Field{"observed_m"}, s.observed);
   visit(Field{"creep"}, s.creep);
+  visit(Field{.key = "coupled", .since = 13}, s.coupled);
   visit(Field{"counts"}, s.counts);
   visit(Field{"wall_s"}, s.seconds);
 }
@@ -192,6 +212,7 @@ void for_each_field(Struct& c, Visit&& visit) {
   visit(Field{"episodes"}, c.episodes);
   visit(Field{"unexpected"}, c.unexpected);
   visit(Field{"counts"}, c.counts);
+  visit(Field{.key = "coupled", .since = 13}, c.coupled);
   visit(Field{"warnings"}, c.warnings);
   visit(Field{"wall_s"}, c.seconds);
 }

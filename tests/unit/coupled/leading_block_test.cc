@@ -156,8 +156,8 @@ TEST(LeadingBlocks, ArePositiveDefiniteAndBetterThanTheDiagonal) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> jacobi(
       root.asDiagonal() * Eigen::MatrixXd(j.leading) * root.asDiagonal());
   const double plain = jacobi.eigenvalues().maxCoeff() / jacobi.eigenvalues().minCoeff();
-  for (const LeadingKind kind :
-       {LeadingKind::fsai, LeadingKind::incomplete_cholesky, LeadingKind::amg}) {
+  for (const LeadingKind kind : {LeadingKind::fsai, LeadingKind::incomplete_cholesky,
+                                 LeadingKind::amg, LeadingKind::amg_by_component}) {
     const Eigen::Vector2d range = spectrum(kind, j, 1e-10);
     EXPECT_GT(range[0], 0) << static_cast<int>(kind);
     EXPECT_LT(range[1] / range[0], plain / 2) << static_cast<int>(kind);

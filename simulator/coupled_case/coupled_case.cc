@@ -1,0 +1,258 @@
+#include "simulator/coupled_case/coupled_case.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "simulator/condensation/fault_geometry.h"
+#include "simulator/coupled/coupled_contact.h"
+#include "simulator/loading/case_contact.h"
+
+namespace faultsim {
+namespace {
+
+/// What `faults` says of a case; its bulk is not condensed.
+FaultOperator uncondensed(const Scene& scene, const Plan& plan, const BulkProblem& problem) {
+  FaultOperator op;
+  const DofMap dofs(problem.mesh, problem.conditions, static_cast<int>(problem.loads.size()));
+  op.geometry = fault_geometry(problem.mesh, problem.materials, dofs, problem.half_domain);
+  FAULTSIM_DEMAND(op.geometry.faults.size() == scene.faults.size(), op.geometry.faults.size());
+  for (std::size_t f = 0; f < scene.faults.size(); ++f) {
+    op.geometry.faults[f].name = scene.faults[f].name;
+  }
+  for (const LoadCase& load : problem.loads) op.loads.keys.push_back(load.key);
+  op.loads.traction.resize(op.geometry.n_dofs, 0);
+  for (const auto& [name, point] : problem.observation_points) {
+    const int node = observed_node(problem.mesh, point);
+    for (int c = 0; c < 3; ++c)
+      op.observed.rows.push_back({concat(name, ".", "xyz"[c]), problem.mesh.nodes[node]});
+  }
+  for (const int row : mirrored_rows(scene, plan)) {
+    for (int c = -1; c < 2; ++c) op.observed.rows[row + c].position.y() *= -1;
+  }
+  op.n_unknowns = dofs.n_unknowns();
+  return op;
+}
+
+}  // namespace
+
+std::vector<Problem> coupled_hindrances(const Scene& scene, const Plan& plan) {
+  std::vector<Problem> problems;
+  const char* path = "take the condensed path (--path condensed)";
+  if (plan.creep.active) {
+    problems.push_back({"/numerics/creep", 0, "the coupled path knows no creeping salt",
+                        concat("switch creep off, or ", path)});
+  }
+  for (std::size_t f = 0; f < scene.faults.size(); ++f) {
+    const Friction& friction = scene.faults[f].friction;
+    if (friction.dynamic_friction_angle != friction.static_friction_angle) {
+      problems.push_back(
+          {concat("/faults/", f), 0,
+           concat("friction of ", scene.faults[f].name,
+                  " weakens with slip: the coupled path neither sees nor follows instabilities"),
+           concat("give it one friction angle, or ", path)});
+    }
+    if (!friction.cohesion_after_slip && friction.cohesion > 0) {
+      problems.push_back({concat("/faults/", f), 0,
+                          concat("the first slip of ", scene.faults[f].name,
+                                 " ends its cohesion: the coupled path does not follow that jump"),
+                          concat("leave cohesion_after_slip at true, or ", path)});
+    }
+  }
+  return problems;
+}
+
+struct CoupledCase::Impl final {
+  Impl(const Scene& the_scene, const Plan& plan, const SolverChoice& choice)
+      : scene(the_scene),
+        solver(choice),
+        problem(bulk_problem(scene, plan)),
+        faults(uncondensed(scene, plan, problem)),
+        bulk(problem,
+             choice.schur == SchurKind::rac ? LoosePieces::held_by_faults : LoosePieces::refused),
+        laws(contact_laws(scene, faults.geometry)),
+        mirrored(mirrored_rows(scene, plan)) {}
+
+  const Scene& scene;
+  SolverChoice solver;
+  BulkProblem problem;
+  FaultOperator faults;
+  TwoSidedBulk bulk;
+  ContactLaws laws;
+  std::vector<int> mirrored;  ///< rows of observations.
+  int max_krylov = CoupledContactOptions{}.max_krylov_iterations;
+};
+
+namespace {
+
+/// What a run of a case asks of Newton's method on both sides of the faults.
+class CoupledSteps final : public StepSolver {
+ public:
+  using Tried = std::function<void(const SubStepTrace&)>;
+  /// @pre bulk, faults and mirrored outlive this.
+  CoupledSteps(const TwoSidedBulk& bulk, const BulkProblem& problem, const FaultOperator& faults,
+               const ContactLaws& laws, const CoupledContactOptions& options,
+               const std::vector<int>& mirrored, int max_cuts, Tried tried)
+      : bulk_(bulk),
+        problem_(problem),
+        faults_(faults),
+        mirrored_(mirrored),
+        options_(options),
+        contact_(bulk, laws, options),
+        max_cuts_(max_cuts),
+        tried_(std::move(tried)),
+        u_(Eigen::VectorXd::Zero(bulk.n_displacements())) {
+    at_.factors.assign(problem.loads.size(), 0);
+    at_.background = Eigen::VectorXd::Zero(faults.geometry.n_dofs);
+    FAULTSIM_DEMAND(contact_.n_dofs() == faults.geometry.n_dofs, contact_.n_dofs(), " and ",
+                    faults.geometry.n_dofs);
+  }
+
+  Report advance(const StepLoads& loads, ContactState& state) override;
+  const Eigen::Matrix3Xd& displacement() const override { return displacement_; }
+  Eigen::VectorXd observed() const override;
+  CaseCoupled description() const override {
+    CaseCoupled of;
+    of.leading = to_string(options_.solver.leading);
+    of.schur = to_string(options_.solver.schur);
+    of.n_displacements = bulk_.n_displacements();
+    of.n_multipliers = contact_.n_dofs();
+    return of;
+  }
+
+ private:
+  CoupledLoad between(const CoupledLoad& to, double share) const;
+  bool try_part(double from, double to, const CoupledLoad& load, ContactState& state,
+                Eigen::VectorXd& u, Report& report);
+
+  const TwoSidedBulk& bulk_;
+  const BulkProblem& problem_;
+  const FaultOperator& faults_;
+  const std::vector<int>& mirrored_;
+  CoupledContactOptions options_;
+  CoupledContact contact_;
+  int max_cuts_;
+  bool may_cut_ = true;  ///< after a failure: a smaller step may help.
+  Tried tried_;
+  CoupledLoad at_;     ///< of the last equilibrium,
+  Eigen::VectorXd u_;  ///< its displacements as unknowns
+  Eigen::Matrix3Xd displacement_;
+};
+
+/// Loads are linear within a step.
+CoupledLoad CoupledSteps::between(const CoupledLoad& to, double share) const {
+  if (share == 1) return to;
+  CoupledLoad load;
+  for (std::size_t k = 0; k < to.factors.size(); ++k)
+    load.factors.push_back((1 - share) * at_.factors[k] + share * to.factors[k]);
+  load.background = (1 - share) * at_.background + share * to.background;
+  return load;
+}
+
+/// @returns whether there is equilibrium at the end of that part of the load step; if not,
+/// report.contact.reason says why.
+bool CoupledSteps::try_part(double from, double to, const CoupledLoad& load, ContactState& state,
+                            Eigen::VectorXd& u, Report& report) {
+  const CoupledStepReport part = contact_.advance(load, state, u);
+  report.linear.krylov_iterations.insert(report.linear.krylov_iterations.end(),
+                                         part.linear.krylov_iterations.begin(),
+                                         part.linear.krylov_iterations.end());
+  report.linear.setup_seconds += part.linear.setup_seconds;
+  report.linear.solve_seconds += part.linear.solve_seconds;
+  SolveCounts& counts = report.contact.counts;
+  counts.newton_iterations += part.newton_iterations();
+  counts.active_set_passes += part.newton.passes;
+  if (part.converged) {
+    ++counts.sub_steps;
+  } else {
+    may_cut_ = part.newton.end != SearchEnd::no_progress;  // a linear system stays as hard
+    counts.wasted_newton_iterations += part.newton_iterations();
+    report.contact.reason = concat(part.reason, " (load ", from, " to ", to, " of the step)");
+  }
+  if (tried_) {
+    tried_({.from = from,
+            .to = to,
+            .n_nodes = static_cast<int>(faults_.geometry.nodes.size()),
+            .searches = {{"coupled", part.newton}},
+            .verdict = part.converged ? "accepted" : "failed"});
+  }
+  return part.converged;
+}
+
+StepSolver::Report CoupledSteps::advance(const StepLoads& loads, ContactState& state) {
+  const CoupledLoad to{loads.factors, loads.locked};
+  Report report;
+  ContactState next = state;
+  Eigen::VectorXd u = u_;
+  double done = 0, length = 1;
+  for (int cuts = 0; done < 1;) {
+    const double end = std::min(done + length, 1.0);
+    if (try_part(done, end, between(to, end), next, u, report)) {
+      done = end;
+      continue;
+    }
+    if (!may_cut_ || cuts++ == max_cuts_) {
+      report.contact.outcome = Outcome::unconverged;
+      return report;
+    }
+    length /= 2;
+  }
+  report.contact.outcome = Outcome::converged;
+  report.contact.reason.clear();
+  state = std::move(next);
+  u_ = std::move(u);
+  at_ = to;
+  displacement_.resize(3, static_cast<Eigen::Index>(problem_.mesh.nodes.size()));
+  for (Eigen::Index i = 0; i < displacement_.cols(); ++i) {
+    for (int c = 0; c < 3; ++c) displacement_(c, i) = u_[bulk_.dof(static_cast<int>(i), c)];
+  }
+  return report;
+}
+
+Eigen::VectorXd CoupledSteps::observed() const {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(faults_.observed.rows.size()));
+  int row = 0;
+  for (const auto& [name, point] : problem_.observation_points) {
+    values.segment<3>(row) = displacement_.col(observed_node(problem_.mesh, point));
+    row += 3;
+  }
+  for (const int turned : mirrored_) values[turned] *= -1;
+  return values;
+}
+
+}  // namespace
+
+CoupledCase::CoupledCase(const Scene& scene, const Plan& plan, const SolverChoice& solver,
+                         const RunContext& context) {
+  std::vector<Problem> problems = coupled_hindrances(scene, plan);
+  if (!problems.empty()) throw InputError("scene", std::move(problems));
+  context.progress(0.0, "meshing and assembling");
+  impl_ = std::make_unique<Impl>(scene, plan, solver);
+}
+
+CoupledCase::~CoupledCase() = default;
+
+const FaultOperator& CoupledCase::faults() const { return impl_->faults; }
+void CoupledCase::limit_krylov(int max_iterations) { impl_->max_krylov = max_iterations; }
+const Mesh& CoupledCase::mesh() const { return impl_->problem.mesh; }
+
+CaseResult CoupledCase::run(const RunContext& context, const StepObserver& observer,
+                            const std::function<void(int, const SubStepTrace&)>& tried) {
+  Impl& self = *impl_;
+  int step = 0;  // of the tries; the observer is told when it is over
+  CoupledSteps::Tried told;
+  if (tried) told = [&](const SubStepTrace& part) { tried(step, part); };
+  CoupledContactOptions options;
+  options.solver = self.solver;
+  options.traction_tolerance = self.scene.numerics.traction_tolerance;
+  options.max_krylov_iterations = self.max_krylov;
+  options.stop = context.stop;
+  CoupledSteps steps(self.bulk, self.problem, self.faults, self.laws, options, self.mirrored,
+                     self.scene.numerics.max_step_cuts, told);
+  return run_case(self.scene, self.faults, steps, context,
+                  [&](const StepResult& result, const FaultFields& fields) {
+                    step = result.step + 1;
+                    if (observer) observer(result, fields);
+                  });
+}
+
+}  // namespace faultsim

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulator/common/errors.h"
+#include "simulator/plan/plan.h"
+
+namespace faultsim {
+
+/// How a case is to be solved: on a condensed operator, or with both sides of the faults and
+/// multipliers in one system.
+enum class SolutionPath { condensed, coupled };
+const char* to_string(SolutionPath path);
+
+struct PathChoice {
+  SolutionPath path = SolutionPath::condensed;
+  std::string reason;  ///< a sentence with the numbers that decide, for the screen and plan.json.
+};
+
+/// Predicted peak of the coupled path with AMG and RAC, bytes; see results/solver-study.
+double coupled_bytes(const Plan& plan);
+
+/// The path for scenes that leave the choice: condensed wherever its operator fits, because every
+/// further case of the family, and every load step, is then nearly free; coupled where only that
+/// fits.
+/// @param available    bytes; none = not known, taken as enough.
+/// @param n_cases      that share the operator.
+/// @param hindrances   coupled_hindrances() of the scene.
+PathChoice choose_path(const Plan& plan, std::optional<double> available, int n_cases,
+                       const std::vector<Problem>& hindrances);
+
+}  // namespace faultsim
