@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace faultsim {
 namespace {
@@ -158,6 +159,9 @@ WindowIndex WindowSearch::most_loaded(const Eigen::VectorXd& shear,
   }
   constexpr double kRounding = 1 - 1e-9;
   const double known = most_known[0] / most_known[1] * kRounding;
+  // How far a load is below what would be the known quotient; of both ends of a way the nearer.
+  const auto lack = [known](const Eigen::Array2d& at) { return known * at[1] - at[0]; };
+  double lack_here = lack(forces[0]);
   const std::vector<double>& edge = profile_.edge;
   double largest = 0, begin = 0;
   const Place* best = nullptr;
@@ -165,10 +169,9 @@ WindowIndex WindowSearch::most_loaded(const Eigen::VectorXd& shear,
     const Place& here = places_[p];
     const std::size_t first = here.start.cell, last = here.end.cell;
     const Eigen::Array2d off = (cells[last].slope - cells[first].slope).abs() * here.bulge;
-    const auto is_less = [&](const Eigen::Array2d& at) {
-      return at[0] + off[0] < known * (at[1] - off[1]);
-    };
-    if (best != nullptr && is_less(forces[p]) && is_less(forces[p + 1])) continue;
+    const double lack_next = lack(forces[p + 1]);
+    const double nearer = std::min(std::exchange(lack_here, lack_next), lack_next);
+    if (best != nullptr && nearer > off[0] + known * off[1]) continue;
     const auto over = [&](double t) -> Eigen::Array2d {
       const double from = here.begin + t * (places_[p + 1].begin - here.begin);
       const double until = from + window_;
