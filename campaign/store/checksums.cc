@@ -21,8 +21,11 @@ class Digest {
     if (const auto* real = std::get_if<double>(&cell)) {
       add_number(std::bit_cast<std::uint64_t>(*real));
     }
-    if (const auto* words = std::get_if<std::string>(&cell))
-      text_ += concat(words->size(), ':', *words);
+    if (const auto* words = std::get_if<std::string>(&cell)) {
+      add_number(words->size());
+      text_ += ':';
+      text_ += *words;
+    }
     text_ += '\n';
     constexpr std::size_t kLongest = 1 << 20;
     if (text_.size() > kLongest) text_ = faultsim::fingerprint(text_);

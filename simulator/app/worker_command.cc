@@ -106,7 +106,7 @@ class Worker {
     const auto source = request.value("source", "case");
     if (base != held_) simulation_.hold_unread({source, bases_.at(base), {}});
     held_ = base;
-    simulation_.change(JsonDocument{source, request.at("changes"), {}});
+    simulation_.change_values({source, request.at("changes"), {}});
   }
 
   /// Refuses a scene that is not the case's: its result would be stored under another's name.

@@ -181,7 +181,7 @@ void Simulation::change(const Changes& changes) {
   self.is_of_held = false;
 }
 
-void Simulation::change(const JsonDocument& values) {
+void Simulation::change_values(const JsonDocument& values) {
   Impl& self = *impl_;
   self.keep();
   Values all;

@@ -74,7 +74,7 @@ class Simulation {
   void hold_unread(JsonDocument document);
   /// change() by values as they stand in documents.
   /// @param values  an object of values by JSON pointer; its source is what messages call the case.
-  void change(const JsonDocument& values);
+  void change_values(const JsonDocument& values);
 
   /// The scene at hand: held, with the last changes.
   const LoadedScene& scene() const;
