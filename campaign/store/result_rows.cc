@@ -38,7 +38,14 @@ RowField TableColumns::of(const faultsim::Field& field, bool is_text,
 
 std::string json_array(const std::vector<double>& values) {
   std::string text = "[";
-  for (const double value : values) text += (text.size() > 1 ? "," : "") + concat(value);
+  char digits[32];
+  for (const double value : values) {
+    if (text.size() > 1) text += ',';
+    constexpr int kAll = std::numeric_limits<double>::max_digits10;
+    const auto [end, error] =
+        std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, kAll);
+    text.append(digits, end);
+  }
   return text + "]";
 }
 

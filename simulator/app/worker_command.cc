@@ -52,7 +52,9 @@ class Worker {
          {"numerics_version", kNumericsVersion}});
     while (auto request = requests_.next()) {
       if (request->contains("scene")) {
-        bases_[request->at("base").get<std::int64_t>()] = std::move((*request)["scene"]);
+        const auto number = request->at("base").get<std::int64_t>();
+        bases_[number] = std::move((*request)["scene"]);
+        if (number == held_) held_.reset();
       } else {
         answer(*request);
       }
@@ -82,8 +84,8 @@ class Worker {
     };
     std::string bytes;
     try {
-      simulation_.hold(scene_of(request));
-      demand_identity(request, simulation_.scene().scene);
+      take_scene(request);
+      demand_identity(request);
       prepare(run);
       say({{"event", "started"}, {"run", run}});
       bytes = run_one(request, reply);
@@ -99,24 +101,24 @@ class Worker {
   }
 
   /// The base scene with the request's changes put in.
-  JsonDocument scene_of(const json& request) const {
-    JsonDocument document{request.value("source", "case"), bases_.at(request.at("base")), {}};
-    for (const auto& [pointer, value] : request.at("changes").items()) {
-      if (!put_value(document.value, pointer, value))
-        throw InputError(document.source, {{pointer, 0, "the base scene has no place for it", ""}});
-    }
-    return document;
+  void take_scene(const json& request) {
+    const auto base = request.at("base").get<std::int64_t>();
+    const auto source = request.value("source", "case");
+    if (base != held_) simulation_.hold_unread({source, bases_.at(base), {}});
+    held_ = base;
+    simulation_.change_values({source, request.at("changes"), {}});
   }
 
   /// Refuses a scene that is not the case's: its result would be stored under another's name.
-  static void demand_identity(const json& request, const Scene& scene) {
+  void demand_identity(const json& request) const {
     if (!request.contains("identity")) return;
     const auto wanted = request["identity"].get<std::string>();
-    if (has_identity(scene, wanted)) return;
+    const std::string identity = simulation_.identity();
+    if (identity == wanted || has_identity(simulation_.scene().scene, wanted)) return;
     throw InputError(
         request.value("source", "case"),
         {{"", 0,
-          concat("the scene has the identity ", case_identity(scene).substr(0, 12), ", its case ",
+          concat("the scene has the identity ", identity.substr(0, 12), ", its case ",
                  wanted.substr(0, 12)),
           "a file that it names has changed since it was submitted; submit the campaign again"}});
   }
@@ -182,6 +184,7 @@ class Worker {
   RunContext context_;
   Simulation simulation_;
   std::map<std::int64_t, json> bases_;  ///< base scenes by the number that the campaign gave them.
+  std::optional<std::int64_t> held_;    ///< of the one that the simulation holds.
 };
 
 }  // namespace

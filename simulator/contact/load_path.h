@@ -13,8 +13,8 @@ struct LoadPath {
   Eigen::VectorXd at(double factor) const {
     return factor == 1 ? after : before + factor * (after - before);
   }
-  /// From one load factor to another.
-  Eigen::VectorXd change(double from, double to) const { return (to - from) * (after - before); }
+  /// From one load factor to another; an expression in both vectors.
+  auto change(double from, double to) const { return (to - from) * (after - before); }
 };
 
 }  // namespace faultsim

@@ -31,6 +31,7 @@ void SubStepSolver::begin(const LoadPath& path, const SubStepRange& range,
   s.state.assign(n, FaultState::stick);
   s.cohesive.resize(n);
   closed_ = true;
+  rests_ = false;
   for (std::size_t i = 0; i < n; ++i) {
     s.cohesive[i] = !start.cohesion_lost[i];
     if (start.jump[problem_.nodes[i].dof[0]] != 0 || start.state[i] == FaultState::open) {
@@ -53,15 +54,14 @@ void SubStepSolver::set_tolerance() {
   constexpr double kLowest = 1e-3;
   constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();
   const double largest_jump = start.jump.size() > 0 ? start.jump.cwiseAbs().maxCoeff() : 0;
+  level_ = s.trial.cwiseAbs().cwiseMax(s.locked.cwiseAbs()).cwiseMax(start.traction.cwiseAbs());
   s.tolerance.resize(problem_.n_nodes());
   double highest = 0;
   for (int k = 0; k < problem_.n_nodes(); ++k) {
     const ContactNode& node = problem_.nodes[static_cast<std::size_t>(k)];
-    double level = 0;
-    for (std::size_t c = 0; c < static_cast<std::size_t>(node.n_dofs); ++c) {
-      level = std::max({level, std::abs(s.trial[node.dof[c]]), std::abs(s.locked[node.dof[c]]),
-                        std::abs(start.traction[node.dof[c]])});
-    }
+    double level = level_[node.dof[0]];
+    for (std::size_t c = 1; c < static_cast<std::size_t>(node.n_dofs); ++c)
+      level = std::max(level, level_[node.dof[c]]);
     s.tolerance[k] = level;
     highest = std::max(highest, level);
   }
@@ -78,7 +78,8 @@ void SubStepSolver::set_tolerance() {
 }
 
 bool SubStepSolver::rest() {
-  if (!closed_ || !at_rest()) return false;
+  rests_ = closed_ && at_rest();
+  if (!rests_) return false;
   start_from_rest();
   stable_ = {};
   conclude("accepted");
@@ -92,7 +93,9 @@ bool SubStepSolver::at_rest() const {
     const double normal = sub_step_.trial[node.dof[0]];
     if (normal > sub_step_.tolerance[k]) return false;
     if (node.n_dofs < 2) continue;
-    const double limit = node.law->limit(normal, friction_before(node, sub_step_, k));
+    const double limit = node.law->weakens() || !sub_step_.cohesive[i]
+                             ? node.law->limit(normal, friction_before(node, sub_step_, k))
+                             : node.law->static_limit(normal, true);
     const double shear = node.n_dofs > 2 ? shear_part(node, sub_step_.trial).norm()
                                          : std::abs(sub_step_.trial[node.dof[1]]);
     if (shear - limit > sub_step_.tolerance[k]) return false;
@@ -209,6 +212,11 @@ Attempt SubStepSolver::attempt(bool last) {
 
 void SubStepSolver::commit(ContactState& state) const {
   state.traction = sub_step_.traction;
+  if (rests_) {  // closed as before, and nothing to remember
+    state.state = sub_step_.state;
+    state.jump += sub_step_.increment;
+    return;
+  }
   for (int k = 0; k < problem_.n_nodes(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     const ContactNode& node = problem_.nodes[i];

@@ -79,7 +79,9 @@ class SubStepSolver {
   StabilityCheck stability_;
   SubStep sub_step_;
   bool closed_ = true;  ///< no gap at the start of the sub-step.
+  bool rests_ = false;  ///< nothing moves in the sub-step.
   StabilityReport stable_;
+  Eigen::VectorXd level_;             ///< largest |traction| per dof, Pa.
   Eigen::VectorXd normal_stiffness_;  ///< H_NN/A per node, Pa/m; empty until something slipped.
   SubStepTrace trace_;
 };

@@ -50,14 +50,15 @@ void EpisodeTracker::add(const StepResult& step, const NodalState& nodal, const 
       running->episode.fault = names_[f];
       running->episode.first_step = step.step;
       running->episode.after_recovery = recovered;
-      running->reference = before;
+      if (!before.isZero(0)) running->reference = before;
       running->pressure_change = step.pressure_change;
       running->in_fault = fault_pressure_change;
     }
     Episode& episode = running->episode;
     episode.last_step = step.step;
     episode.moment += fault.moment_step;
-    const FaultMeter::Activation slip = meter_.activation(nodal, state, &running->reference)[f];
+    const Activation slip =
+        meter_.activation(static_cast<int>(f), nodal, state, running->reference);
     episode.activated_area = std::max(episode.activated_area, slip.area);
     episode.max_slip = std::max(episode.max_slip, slip.max_slip);
     if (slip.activated) running->place = slip.place;

@@ -36,7 +36,7 @@ class EpisodeTracker {
  private:
   struct Running {
     Episode episode;
-    Eigen::VectorXd reference;            ///< jump at its start.
+    Eigen::VectorXd reference;            ///< jump at its start; empty = zero.
     std::vector<double> pressure_change;  ///< per region, at its first step.
     Eigen::VectorXd in_fault;             ///< Δp_f per fault node, then.
     int place = -1;                       ///< node of its largest slip; -1 = not activated.

@@ -60,6 +60,10 @@ double share_of(const std::vector<int>& region_of_load, const std::vector<double
   return fraction * per_region[static_cast<std::size_t>(region)];
 }
 
+bool has_region(const PressurePair& pair) {
+  return pair.minus_region >= 0 || pair.plus_region >= 0;
+}
+
 bool in_window(const FaultPressure& law, const OperatorNode& node, const PressurePair& pair) {
   if (!law.depth_window) {
     return pair.minus_fraction > 0 || pair.plus_fraction > 0;
@@ -143,12 +147,16 @@ bool prescribed_pressure_acts(const Scene& scene, const FaultGeometry& geometry,
 Eigen::VectorXd initial_pressure_excess(const Scene& scene, const FaultGeometry& geometry,
                                         const std::vector<int>& region_of_load) {
   Eigen::VectorXd excess = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(geometry.nodes.size()));
+  const std::vector<Block>& blocks = scene.field.blocks;
+  if (std::none_of(blocks.begin(), blocks.end(), [](const Block& b) { return b.overpressure; }))
+    return excess;
   std::vector<double> per_region(scene.pressure.size());
   for (std::size_t f = 0; f < geometry.faults.size(); ++f) {
     const FaultPressure& law = scene.faults[f].pressure;
     const OperatorFault& fault = geometry.faults[f];
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
       const OperatorNode& node = geometry.nodes[static_cast<std::size_t>(k)];
+      if (std::none_of(node.pressure.begin(), node.pressure.end(), has_region)) continue;
       for (std::size_t r = 0; r < per_region.size(); ++r) {
         per_region[r] = own_pressure_excess(scene, r, node.position.z());
       }
@@ -181,6 +189,7 @@ Eigen::VectorXd fault_pressure_change(const Scene& scene, const FaultGeometry& g
       const OperatorNode& node = geometry.nodes[static_cast<std::size_t>(k)];
       double sum = 0;
       for (const PressurePair& pair : node.pressure) {
+        if (!prescribed && !has_region(pair)) continue;  // every rule of 0 and 0 is 0
         const double value = prescribed
                                  ? (in_window(law, node, pair) ? given : 0.0)
                                  : by_rule(law, cell_change(pair.minus_region, pair.minus_fraction),

@@ -13,12 +13,13 @@ InitialTraction initial_traction(const Scene& scene, const FaultGeometry& geomet
   const auto n_nodes = static_cast<Eigen::Index>(geometry.nodes.size());
   InitialTraction initial{Eigen::VectorXd::Zero(geometry.n_dofs), Eigen::VectorXd::Zero(n_nodes)};
   const Eigen::VectorXd excess = initial_pressure_excess(scene, geometry, region_of_load);
+  const InitialColumn column(scene);
   for (std::size_t f = 0; f < geometry.faults.size(); ++f) {
     const OperatorFault& fault = geometry.faults[f];
     const double fault_biot = scene.faults[f].fault_biot;
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
       const OperatorNode& node = geometry.nodes[static_cast<std::size_t>(k)];
-      StressAtDepth at = initial_state(scene, node.position.z());
+      StressAtDepth at = column.at(node.position.z());
       at.pressure += excess[k];
       const Eigen::Matrix3d sigma =
           Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(at.sigma.data());

@@ -12,6 +12,24 @@ constexpr double kStrengthFloor = 1e3;  // Pa; keeps χ finite, never enters the
 // χ̄ is off by about this over the number of cells in its window (results/measures).
 constexpr double kWindowError = 0.2;
 
+/// √(a² + b²); either is 0 in plane strain and on planes of symmetry.
+double length_of(double a, double b) {
+  if (a == 0) return std::abs(b);
+  return b == 0 ? std::abs(a) : std::hypot(a, b);
+}
+
+/// |g_T − reference| of a node, m. @param reference  empty = zero.
+double slip_norm(const std::array<int, 3>& dof, const Eigen::VectorXd& jump,
+                 const Eigen::VectorXd& reference) {
+  double sum = 0;
+  for (std::size_t c = 1; c < 3; ++c) {
+    if (dof[c] < 0) continue;
+    const double g = jump[dof[c]] - (reference.size() > 0 ? reference[dof[c]] : 0.0);
+    sum += g * g;
+  }
+  return sum == 0 ? 0 : std::sqrt(sum);
+}
+
 }  // namespace
 
 FaultMeter::FaultMeter(const FaultOperator& op, const ContactLaws& laws, double slip_tolerance,
@@ -22,12 +40,18 @@ FaultMeter::FaultMeter(const FaultOperator& op, const ContactLaws& laws, double 
       activation_length_(activation_length),
       multiplicity_(op.geometry.half_domain ? 2.0 : 1.0) {
   const FaultGeometry& geometry = op.geometry;
+  for (const OperatorNode& node : geometry.nodes) {
+    const double area = multiplicity_ * node.area;
+    nodes_.push_back({node.dof, area, area * node.effective_shear_modulus});
+  }
   for (std::size_t f = 0; f < geometry.faults.size(); ++f) {
     const OperatorFault& fault = geometry.faults[f];
     double area = 0, width = 0;
+    first_line_.push_back(lines_.size());
     for (const Profile& profile : fault.profiles) {
       width += profile.width;
-      lines_.push_back({static_cast<int>(f), profile, WindowSearch(profile, activation_length)});
+      lines_.push_back({static_cast<int>(f), profile, profile.length(),
+                        WindowSearch(profile, activation_length)});
     }
     for (int k = 0; k < fault.n_nodes; ++k) {
       area += geometry.nodes[static_cast<std::size_t>(fault.first_node + k)].area;
@@ -35,6 +59,7 @@ FaultMeter::FaultMeter(const FaultOperator& op, const ContactLaws& laws, double 
     fault_area_.push_back(area);
     fault_width_.push_back(width);
   }
+  first_line_.push_back(lines_.size());
 }
 
 double FaultMeter::down_dip_length(int fault) const {
@@ -44,51 +69,53 @@ double FaultMeter::down_dip_length(int fault) const {
   return longest;
 }
 
-double FaultMeter::slip_norm(int node, const Eigen::VectorXd& jump,
-                             const Eigen::VectorXd* reference) const {
-  const auto& dof = op_.geometry.nodes[static_cast<std::size_t>(node)].dof;
-  double sum = 0;
-  for (std::size_t c = 1; c < 3; ++c) {
-    if (dof[c] < 0) continue;
-    const double g = jump[dof[c]] - (reference != nullptr ? (*reference)[dof[c]] : 0.0);
-    sum += g * g;
+void FaultMeter::evaluate_node(std::size_t k, const ContactState& state, NodalState& nodal) const {
+  const auto& dof = nodes_[k].dof;
+  const double shear = length_of(dof[1] >= 0 ? state.traction[dof[1]] : 0.0,
+                                 dof[2] >= 0 ? state.traction[dof[2]] : 0.0);
+  const double normal = state.traction[dof[0]];
+  const NodeLaw& law = laws_[k];
+  nodal.shear[k] = shear;
+  if (!law.weakens() && state.cohesion_lost[k] == 0) {  // strength is the static one
+    nodal.strength[k] = std::max(law.static_limit(normal, true), kStrengthFloor);
+    nodal.critical_index[k] = nodal.static_critical_index[k] = shear / nodal.strength[k];
+    return;
   }
-  return std::sqrt(sum);
+  const FrictionState friction = friction_state(op_.geometry.nodes[k], state, static_cast<int>(k));
+  NodeLaw bare;  // of a node that lost its cohesion
+  if (!friction.cohesive) bare = law.without_cohesion();
+  const NodeLaw& actual = friction.cohesive ? law : bare;
+  nodal.strength[k] = std::max(actual.limit(normal, friction), kStrengthFloor);
+  nodal.critical_index[k] = shear / nodal.strength[k];
+  nodal.static_critical_index[k] =
+      shear / std::max(actual.static_limit(normal, true), kStrengthFloor);
 }
 
 void FaultMeter::evaluate(const ContactState& state, NodalState& nodal) const {
-  const auto n = static_cast<Eigen::Index>(op_.geometry.nodes.size());
+  const auto n = static_cast<Eigen::Index>(nodes_.size());
   for (Eigen::VectorXd* v : {&nodal.shear, &nodal.strength, &nodal.critical_index,
                              &nodal.static_critical_index, &nodal.slip}) {
     v->resize(n);
   }
-  NodeLaw bare;  // of a node that lost its cohesion
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    nodal.slip[k] = slip_norm(static_cast<int>(k), state.jump, nullptr);
-    if (state.state[i] == FaultState::open) {  // χ = 1 and counted as open; no load, no strength
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    nodal.slip[k] = slip_norm(nodes_[k].dof, state.jump, {});
+    if (state.state[k] == FaultState::open) {  // χ = 1 and counted as open; no load, no strength
       nodal.shear[k] = kStrengthFloor;
       nodal.strength[k] = kStrengthFloor;
       nodal.critical_index[k] = nodal.static_critical_index[k] = 1;
-      continue;
+    } else {
+      evaluate_node(k, state, nodal);
     }
-    const auto& dof = op_.geometry.nodes[i].dof;
-    const double shear = std::hypot(dof[1] >= 0 ? state.traction[dof[1]] : 0.0,
-                                    dof[2] >= 0 ? state.traction[dof[2]] : 0.0);
-    const double normal = state.traction[dof[0]];
-    const FrictionState friction =
-        friction_state(op_.geometry.nodes[i], state, static_cast<int>(k));
-    if (!friction.cohesive) bare = laws_[i].without_cohesion();
-    const NodeLaw& law = friction.cohesive ? laws_[i] : bare;
-    const double static_strength = law.static_limit(normal, true);
-    nodal.shear[k] = shear;
-    nodal.strength[k] = std::max(law.limit(normal, friction), kStrengthFloor);
-    nodal.critical_index[k] = shear / nodal.strength[k];
-    nodal.static_critical_index[k] = shear / std::max(static_strength, kStrengthFloor);
   }
   nodal.window.clear();
-  for (const Line& line : lines_)
+  nodal.near_activation.clear();
+  nodal.since_start.clear();
+  for (const Line& line : lines_) {
     nodal.window.push_back(line.windows.most_loaded(nodal.shear, nodal.strength));
+    nodal.near_activation.push_back(near_activation(line, nodal.window.back(), nodal, state));
+  }
+  for (std::size_t f = 0; f < op_.geometry.faults.size(); ++f)
+    nodal.since_start.push_back(activation_by(static_cast<int>(f), nodal, nodal.slip));
 }
 
 void FaultMeter::measure_profiles(const NodalState& nodal,
@@ -116,28 +143,27 @@ std::vector<FaultMetrics> FaultMeter::measure(const NodalState& nodal, const Con
     const OperatorFault& fault = geometry.faults[f];
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
       const auto i = static_cast<std::size_t>(k);
-      const OperatorNode& node = geometry.nodes[i];
+      const Node& node = nodes_[i];
       m.chi_max = std::max(m.chi_max, nodal.critical_index[k]);
       m.chi_static_max = std::max(m.chi_static_max, nodal.static_critical_index[k]);
-      const double area = multiplicity_ * node.area;
-      if (state.state[i] == FaultState::slip) m.slipping_area += area;
-      if (state.state[i] == FaultState::open) m.open_area += area;
+      if (state.state[i] == FaultState::slip) m.slipping_area += node.area;
+      if (state.state[i] == FaultState::open) m.open_area += node.area;
       if (nodal.slip[k] == 0) continue;
       m.max_slip = std::max(m.max_slip, nodal.slip[k]);
-      m.potency += area * nodal.slip[k];
-      m.moment += area * node.effective_shear_modulus * nodal.slip[k];
-      m.moment_step += area * node.effective_shear_modulus * slip_norm(k, state.jump, &before);
+      m.potency += node.area * nodal.slip[k];
+      m.moment += node.moment_per_slip * nodal.slip[k];
+      m.moment_step += node.moment_per_slip * slip_norm(node.dof, state.jump, before);
     }
     m.mean_slip = fault_area_[f] > 0 ? m.potency / (multiplicity_ * fault_area_[f]) : 0;
   }
   measure_profiles(nodal, faults);
-  const auto activations = activation(nodal, state, nullptr);
   for (std::size_t f = 0; f < faults.size(); ++f) {
-    faults[f].activated_area = activations[f].area;
-    faults[f].activated_length = activations[f].length;
-    faults[f].activated = activations[f].activated;
-    faults[f].activation_resolved = activations[f].resolved;
-    faults[f].activated_at_edge = activations[f].at_edge;
+    const Activation& activation = nodal.since_start[f];
+    faults[f].activated_area = activation.area;
+    faults[f].activated_length = activation.length;
+    faults[f].activated = activation.activated;
+    faults[f].activation_resolved = activation.resolved;
+    faults[f].activated_at_edge = activation.at_edge;
   }
   return faults;
 }
@@ -145,53 +171,55 @@ std::vector<FaultMetrics> FaultMeter::measure(const NodalState& nodal, const Con
 /// Whether slip may reach the activation length on a finer mesh although it does not on this one.
 /// Where it did before, the mesh has shown that it can tell. Where it is open over that length, it
 /// carries no shear to slide under.
-bool FaultMeter::near_activation(const Profile& profile, const WindowIndex& window,
+bool FaultMeter::near_activation(const Line& line, const WindowIndex& window,
                                  const NodalState& nodal, const ContactState& state) const {
+  const bool may_slide = window.critical_index + kWindowError / window.n_cells >= 1;
+  if (line.length < activation_length_ || !may_slide) return false;
+  const Profile& profile = line.profile;
   double open = 0;
   for (std::size_t i = 0; i < profile.samples.size(); ++i) {
     if (state.state[profile.samples[i].node[0]] == FaultState::open) open += profile.share(i);
   }
-  return profile.length() >= activation_length_ && open < activation_length_ &&
-         window.critical_index + kWindowError / window.n_cells >= 1 &&
+  return open < activation_length_ &&
          !slip_extent(profile, nodal.slip, slip_tolerance_, activation_length_).surely;
 }
 
-std::vector<FaultMeter::Activation> FaultMeter::activation(const NodalState& nodal,
-                                                           const ContactState& state,
-                                                           const Eigen::VectorXd* reference) const {
-  std::vector<Activation> result(op_.geometry.faults.size());
-  std::vector<char> surely(result.size(), 0);
-  std::vector<double> place_slip(result.size(), 0);
-  Eigen::VectorXd since;
-  if (reference != nullptr) {
-    since.resize(nodal.slip.size());
-    for (Eigen::Index k = 0; k < since.size(); ++k)
-      since[k] = slip_norm(static_cast<int>(k), state.jump, reference);
-  }
-  const Eigen::VectorXd& slip = reference != nullptr ? since : nodal.slip;
-  for (std::size_t f = 0; f < result.size(); ++f) {
-    const OperatorFault& fault = op_.geometry.faults[f];
-    if (fault.n_nodes > 0)
-      result[f].max_slip = slip.segment(fault.first_node, fault.n_nodes).maxCoeff();
-  }
-  for (std::size_t j = 0; j < lines_.size(); ++j) {
-    const auto& [fault, profile, windows] = lines_[j];
-    Activation& a = result[fault];
+Activation FaultMeter::activation(int fault, const NodalState& nodal, const ContactState& state,
+                                  const Eigen::VectorXd& reference) const {
+  if (reference.size() == 0) return nodal.since_start[fault];
+  Eigen::VectorXd slip(nodal.slip.size());  // of the nodes of this fault
+  const OperatorFault& grid = op_.geometry.faults[fault];
+  for (int k = grid.first_node; k < grid.first_node + grid.n_nodes; ++k)
+    slip[k] = slip_norm(nodes_[k].dof, state.jump, reference);
+  return activation_by(fault, nodal, slip);
+}
+
+/// @param slip  per node, m.
+Activation FaultMeter::activation_by(int fault, const NodalState& nodal,
+                                     const Eigen::VectorXd& slip) const {
+  Activation a;
+  const OperatorFault& grid = op_.geometry.faults[fault];
+  if (grid.n_nodes > 0) a.max_slip = slip.segment(grid.first_node, grid.n_nodes).maxCoeff();
+  double place_slip = 0;
+  bool surely = false;
+  for (std::size_t j = first_line_[fault]; j < first_line_[fault + 1]; ++j) {
+    const Profile& profile = lines_[j].profile;
+    const SlipExtent extent = a.max_slip == 0
+                                  ? SlipExtent()
+                                  : slip_extent(profile, slip, slip_tolerance_, activation_length_);
+    surely = surely || extent.surely;
+    a.resolved = a.resolved && extent.resolved && (extent.reaches || nodal.near_activation[j] == 0);
+    a.length = std::max(a.length, extent.longest);
+    if (!extent.reaches) continue;
+    a.activated = true;
     double largest = 0;
     int place = -1;
     for (const ProfileSample& sample : profile.samples) {
       if (slip[sample.node[0]] > largest) place = sample.node[0];
       largest = std::max(largest, slip[sample.node[0]]);
     }
-    const SlipExtent extent = slip_extent(profile, slip, slip_tolerance_, activation_length_);
-    surely[fault] |= extent.surely;
-    a.resolved = a.resolved && extent.resolved &&
-                 (extent.reaches || !near_activation(profile, nodal.window[j], nodal, state));
-    a.length = std::max(a.length, extent.longest);
-    if (!extent.reaches) continue;
-    a.activated = true;
-    if (largest > place_slip[fault]) {
-      place_slip[fault] = largest;
+    if (largest > place_slip) {
+      place_slip = largest;
       a.place = place;
     }
     const auto slips = [&](const ProfileSample& at) { return at.slip(slip) > slip_tolerance_; };
@@ -200,9 +228,8 @@ std::vector<FaultMeter::Activation> FaultMeter::activation(const NodalState& nod
                 (slips(profile.samples.back()) && !std::isnan(profile.tip_after));
     a.area += multiplicity_ * extent.total * profile.width;
   }
-  // One profile that is surely activated is enough.
-  for (std::size_t f = 0; f < result.size(); ++f) result[f].resolved |= surely[f] != 0;
-  return result;
+  a.resolved = a.resolved || surely;  // one profile that is surely activated is enough
+  return a;
 }
 
 }  // namespace faultsim

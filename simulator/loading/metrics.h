@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "simulator/contact/contact.h"
@@ -10,14 +11,30 @@
 
 namespace faultsim {
 
-/// Point values of one load step, per fault node.
+/// Activation of a fault by slip since some time: extent, area, flag.
+struct Activation {
+  double length = 0;    ///< m, longest down-dip extent with slip > tolerance.
+  double area = 0;      ///< m2, of the extents in profiles that satisfy the criterion.
+  double max_slip = 0;  ///< m.
+  bool activated = false;
+  /// The flag does not hang on the mesh. Not resolved: extents that reach the activation length
+  /// or not depending on where in a cell slip ends, and faults that do not reach it but where χ̄
+  /// may be 1 within its error.
+  bool resolved = true;
+  bool at_edge = false;  ///< an activated extent reaches a node next to an edge of the fault.
+  int place = -1;        ///< node of largest slip in the profiles that satisfy it; -1 = none does.
+};
+
+/// Point values of one load step, per fault node, and what follows from them alone.
 struct NodalState {
   Eigen::VectorXd shear;           ///< |t'_T|, Pa.
   Eigen::VectorXd strength;        ///< τ_L, current, Pa; at least 1 kPa.
   Eigen::VectorXd critical_index;  ///< χ; 1 where open.
   Eigen::VectorXd static_critical_index;
-  Eigen::VectorXd slip;             ///< |g_T|, m.
-  std::vector<WindowIndex> window;  ///< χ̄ per profile, fault by fault.
+  Eigen::VectorXd slip;                 ///< |g_T|, m.
+  std::vector<WindowIndex> window;      ///< χ̄ per profile, fault by fault.
+  std::vector<char> near_activation;    ///< per profile: it may slide on a finer mesh.
+  std::vector<Activation> since_start;  ///< per fault, by all slip.
 };
 
 /// Metrics on the faults (docs/model.md, section 7).
@@ -32,23 +49,10 @@ class FaultMeter {
   std::vector<FaultMetrics> measure(const NodalState& nodal, const ContactState& state,
                                     const Eigen::VectorXd& before) const;
 
-  /// Activation by slip since `reference`: extent, area, flag.
-  struct Activation {
-    double length = 0;    ///< m, longest down-dip extent with slip > tolerance.
-    double area = 0;      ///< m2, of the extents in profiles that satisfy the criterion.
-    double max_slip = 0;  ///< m.
-    bool activated = false;
-    /// The flag does not hang on the mesh. Not resolved: extents that reach the activation length
-    /// or not depending on where in a cell slip ends, and faults that do not reach it but where χ̄
-    /// may be 1 within its error.
-    bool resolved = true;
-    bool at_edge = false;  ///< an activated extent reaches a node next to an edge of the fault.
-    int place = -1;  ///< node of largest slip in the profiles that satisfy it; -1 = none does.
-  };
+  /// Activation of one fault by slip since `reference`, the jump then; empty = zero.
   /// @param nodal  of this state.
-  /// @param reference  jump at the reference time; nullptr = zero.
-  std::vector<Activation> activation(const NodalState& nodal, const ContactState& state,
-                                     const Eigen::VectorXd* reference) const;
+  Activation activation(int fault, const NodalState& nodal, const ContactState& state,
+                        const Eigen::VectorXd& reference) const;
 
   /// The longest extent that slip could reach on a fault, m; 0 for a fault without nodes.
   double down_dip_length(int fault) const;
@@ -58,11 +62,19 @@ class FaultMeter {
   struct Line {
     int fault;
     const Profile& profile;
+    double length;  ///< m, the longest extent that slip could reach.
     WindowSearch windows;
   };
-  double slip_norm(int node, const Eigen::VectorXd& jump, const Eigen::VectorXd* reference) const;
+  /// What is asked of a node at every step, side by side.
+  struct Node {
+    std::array<int, 3> dof;
+    double area;             ///< m2, doubled for a half domain.
+    double moment_per_slip;  ///< area G_eff, N.
+  };
+  void evaluate_node(std::size_t k, const ContactState& state, NodalState& nodal) const;
   void measure_profiles(const NodalState& nodal, std::vector<FaultMetrics>& faults) const;
-  bool near_activation(const Profile& profile, const WindowIndex& window, const NodalState& nodal,
+  Activation activation_by(int fault, const NodalState& nodal, const Eigen::VectorXd& slip) const;
+  bool near_activation(const Line& line, const WindowIndex& window, const NodalState& nodal,
                        const ContactState& state) const;
 
   const FaultOperator& op_;
@@ -70,9 +82,11 @@ class FaultMeter {
   double slip_tolerance_;
   double activation_length_;
   double multiplicity_;  ///< 2 for a half domain: areas, potency, M0.
-  std::vector<Line> lines_;
-  std::vector<double> fault_area_;   ///< per fault, m2 (not doubled).
-  std::vector<double> fault_width_;  ///< per fault, Σ widths of profiles, m.
+  std::vector<Node> nodes_;
+  std::vector<Line> lines_;              ///< fault by fault.
+  std::vector<std::size_t> first_line_;  ///< per fault, and the end.
+  std::vector<double> fault_area_;       ///< per fault, m2 (not doubled).
+  std::vector<double> fault_width_;      ///< per fault, Σ widths of profiles, m.
 };
 
 }  // namespace faultsim

@@ -28,18 +28,26 @@ class WindowSearch {
   WindowIndex most_loaded(const Eigen::VectorXd& shear, const Eigen::VectorXd& strength) const;
 
  private:
-  /// Windows whose ends lie in the same two dual cells.
-  struct Range {
-    std::size_t first, last;  ///< the cells.
-    double begin, end;        ///< s of the window's start, m.
+  /// A way from a place into the dual cell that it lies in, m from the cell's ends.
+  struct Cut {
+    std::size_t cell;
+    double from_start, to_end;
+  };
+  /// A place from which on windows begin and end in the same two dual cells.
+  struct Place {
+    double begin;    ///< s of the window's start, m.
+    Cut start, end;  ///< the window's.
+    double bulge;    ///< ⅛ of the squared length to the next place, m2.
   };
   struct Cell;
   std::vector<Cell> cells(const Eigen::VectorXd& shear, const Eigen::VectorXd& strength) const;
+  Place place(std::size_t first, std::size_t last, double begin, double end) const;
 
   const Profile& profile_;
   double window_;
   std::vector<double> middle_distance_;  ///< m, between dual cells i and i + 1.
-  std::vector<Range> ranges_;            ///< none: one sample between faces of the body.
+  std::vector<Place> places_;  ///< from the first window to the last; none: one sample between
+                               ///< faces of the body.
 };
 
 /// Length of the profile where a nodal field exceeds a threshold, linear between samples, constant

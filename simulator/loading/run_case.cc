@@ -56,7 +56,7 @@ class CaseRun {
         state_(initial_state(op)),
         neighbours_(scene, op),
         episodes_(meter_, neighbours_, fault_names(scene), op.geometry.plane_strain),
-        whole_("", 0, nullptr, true, op.geometry.plane_strain) {
+        whole_("", 0, {}, true, op.geometry.plane_strain) {
     if (other == nullptr) solver_.emplace(op, laws_, contact_options(scene.numerics), watch());
     if (ladder != nullptr) march_.emplace(scene, loads_, *ladder, laws_, watch());
   }
@@ -227,7 +227,8 @@ void CaseRun::record(const LoadStep& step, const StepLoads& loads,
   if (step.step > 0) {
     episodes_.add(result, nodal_, state_, jump_before, loads.fault_pressure_change);
     if (!stage_) {
-      stage_.emplace(step.stage, step.step, &jump_before, false, op_.geometry.plane_strain);
+      stage_.emplace(step.stage, step.step, jump_before.isZero(0) ? Eigen::VectorXd() : jump_before,
+                     false, op_.geometry.plane_strain);
     }
     stage_->add(result, meter_, neighbours_, nodal_, state_, loads.fault_pressure_change,
                 result_.fault_names, events);
@@ -353,7 +354,7 @@ void CaseRun::name_events() {
 /// Identity and names, which the metrics of a step refer to.
 void CaseRun::name_result() {
   result_.title = scene_.title;
-  result_.identity = case_identity(scene_);
+  result_.identity = probe_.identity.empty() ? case_identity(scene_) : probe_.identity;
   result_.operator_fingerprint = op_.fingerprint;
   result_.numerics_version = kNumericsVersion;
   result_.plane_strain = op_.geometry.plane_strain;

@@ -45,7 +45,7 @@ PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const Ca
 /// Called after each load step in equilibrium.
 using StepObserver = std::function<void(const StepResult&, const FaultFields&)>;
 
-/// What a diagnosis adds to a run: looks at what was tried and accepted, and noise.
+/// What callers add to a run: looks at what was tried and accepted, noise, and what they know.
 struct CaseProbe {
   /// Relative size of a disturbance of every locked traction at every time, with signs that depend
   /// on nothing but the position of the entry; 0 = none.
@@ -54,6 +54,7 @@ struct CaseProbe {
   std::function<void(int, const ContactLaws&, const AcceptedStep&)> accepted;
   /// Called after each try at a part of a load step, if set, with the number of the step.
   std::function<void(int, const SubStepTrace&)> tried;
+  std::string identity;  ///< case_identity of the scene; empty = to be found.
 };
 
 /// Who finds the equilibrium of a load step where that is not contact on a condensed operator: the

@@ -21,15 +21,14 @@ double chi_bar_of(const StepResult& step) {
 
 }  // namespace
 
-StageSummary::StageSummary(std::string name, int first_step, const Eigen::VectorXd* reference,
-                           bool whole, bool plane_strain)
-    : whole_(whole), plane_strain_(plane_strain) {
+StageSummary::StageSummary(std::string name, int first_step, Eigen::VectorXd reference, bool whole,
+                           bool plane_strain)
+    : reference_(std::move(reference)), whole_(whole), plane_strain_(plane_strain) {
   metrics_.stage = std::move(name);
   metrics_.first_step = metrics_.last_step = first_step;
-  if (reference != nullptr) reference_ = *reference;
 }
 
-void StageSummary::add_fault(const FaultMetrics& fault, const FaultMeter::Activation& slip,
+void StageSummary::add_fault(const FaultMetrics& fault, const Activation& slip,
                              FaultStageMetrics& sum) const {
   sum.slips = sum.slips || slip.max_slip > 0;
   sum.activated = sum.activated || slip.activated;
@@ -70,7 +69,6 @@ void StageSummary::add(const StepResult& step, const FaultMeter& meter,
   m.faults.resize(fault_names.size());
   surely_.resize(fault_names.size());
   doubtful_.resize(fault_names.size());
-  const auto activations = meter.activation(nodal, state, reference_ ? &*reference_ : nullptr);
   const auto onset_at = [&](int node) {
     const double depth = neighbours.depth(node);
     return FaultOnset{step.step, depth,
@@ -79,15 +77,16 @@ void StageSummary::add(const StepResult& step, const FaultMeter& meter,
   double area = 0, slipping = 0, open = 0, activated_area = 0, moment = 0, potency = 0;
   for (std::size_t f = 0; f < step.faults.size(); ++f) {
     const FaultMetrics& fault = step.faults[f];
+    const Activation slip = meter.activation(static_cast<int>(f), nodal, state, reference_);
     FaultStageMetrics& own = m.faults[f];
     own.fault = fault_names[f];
-    if (activations[f].activated && !own.activated) own.activation = onset_at(activations[f].place);
+    if (slip.activated && !own.activated) own.activation = onset_at(slip.place);
     if (fault.open_area > 0 && !own.opens) {
       own.opening = onset_at(neighbours.widest_gap(static_cast<int>(f), state.jump, state.state));
     }
-    add_fault(fault, activations[f], own);
-    surely_[f] |= activations[f].activated && activations[f].resolved;
-    doubtful_[f] |= !activations[f].resolved;
+    add_fault(fault, slip, own);
+    surely_[f] |= slip.activated && slip.resolved;
+    doubtful_[f] |= !slip.resolved;
     m.chi_bar = std::max(m.chi_bar, fault.chi_bar);
     m.chi_max = std::max(m.chi_max, fault.chi_max);
     m.thickness_chi_080 = std::max(m.thickness_chi_080, fault.thickness_chi_080_max);
@@ -96,8 +95,8 @@ void StageSummary::add(const StepResult& step, const FaultMeter& meter,
     open += fault.open_area;
     potency += fault.potency;
     moment += whole_ ? fault.moment : fault.moment_step;
-    activated_area += activations[f].area;
-    m.max_slip = std::max(m.max_slip, activations[f].max_slip);
+    activated_area += slip.area;
+    m.max_slip = std::max(m.max_slip, slip.max_slip);
     m.slips = m.slips || own.slips;
     if (own.opens && !m.opens) {
       m.opens = true;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,8 +13,8 @@ namespace faultsim {
 /// Gathers StageMetrics while the steps of a stage (or of the whole case) go by.
 class StageSummary {
  public:
-  /// @param reference  jump at the start of the stage; nullptr = the start of the case.
-  StageSummary(std::string name, int first_step, const Eigen::VectorXd* reference, bool whole,
+  /// @param reference  jump at the start of the stage; empty = zero, as at the start of the case.
+  StageSummary(std::string name, int first_step, Eigen::VectorXd reference, bool whole,
                bool plane_strain);
   /// @param nodal  of this state.
   /// @param fault_pressure_change  Δp_f per fault node, Pa.
@@ -28,12 +27,11 @@ class StageSummary {
   StageMetrics finish();
 
  private:
-  void add_fault(const FaultMetrics& fault, const FaultMeter::Activation& slip,
-                 FaultStageMetrics& sum) const;
+  void add_fault(const FaultMetrics& fault, const Activation& slip, FaultStageMetrics& sum) const;
   void count(const SlipEvent& event);
 
   StageMetrics metrics_;
-  std::optional<Eigen::VectorXd> reference_;
+  Eigen::VectorXd reference_;
   bool whole_;
   bool plane_strain_;
   std::vector<char> surely_, doubtful_;  ///< per fault: activated for certain, in doubt, in a step.

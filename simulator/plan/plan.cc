@@ -415,6 +415,17 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
   return plan;
 }
 
+Plan make_plan(const Scene& scene, std::vector<Problem>& problems, const Scene& other,
+               const Plan& of_other) {
+  const bool is_alike = have_same_body(scene, other) && scene.output == other.output;
+  // What creep may change depends on the stress.
+  if (!is_alike || has_viscous_material(scene)) return make_plan(scene, problems);
+  Plan plan = of_other;
+  plan.initial = initial_regions(scene);
+  plan.warnings.clear();
+  return plan;
+}
+
 InfluenceCost plan_influence(const Scene& scene, const Plan& plan, long n_cells) {
   std::vector<Problem> problems;
   const GridLines lines = lines_of(scene, plan, problems);

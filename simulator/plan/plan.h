@@ -65,6 +65,11 @@ struct Plan : PlannedSize {
 /// Makes the plan. Geometry problems are appended with pointers into the scene document.
 Plan make_plan(const Scene& scene, std::vector<Problem>& problems);
 
+/// The same, where another sound scene's is known: where both differ in friction, pressure of
+/// faults and initial state alone, nothing else is planned again.
+Plan make_plan(const Scene& scene, std::vector<Problem>& problems, const Scene& other,
+               const Plan& of_other);
+
 /// The JSON text that Plan::family is the fingerprint of; numbers stand in it as the scene has
 /// them.
 std::string canonical_family(const Scene& scene, const Plan& plan);

@@ -206,52 +206,40 @@ json creep(const Numerics& numerics) {
           {"scheme", static_cast<int>(numerics.creep_scheme)}};
 }
 
-}  // namespace
-
-std::string canonical_scene(const Scene& scene) {
-  json faults = json::array();
-  for (const Fault& each : scene.faults) faults.push_back(fault(each));
-  json stages = json::array();
-  for (const Stage& stage : scene.stages) {
-    stages.push_back(
-        {{"name", stage.name}, {"duration", plain(stage.duration)}, {"steps", stage.n_steps}});
-  }
-  json pressure = json::array();
-  for (const PressureHistory& history : scene.pressure) {
-    pressure.push_back({{"region", history.region},
-                        {"time", list(history.time)},
-                        {"pressure_change", list(history.pressure_change)},
-                        {"scale", plain(history.scale)},
-                        {"lag", plain(history.lag)}});
-  }
-  const MeshSizes& mesh = scene.mesh;
-  json result = {{"format", 1},
-                 {"materials", materials(scene)},
-                 {"geometry",
-                  scene.geometry_kind == GeometryKind::field ? field(scene.field) : box(scene.box)},
-                 {"mesh",
-                  {{"strike", plain(mesh.strike)},
-                   {"dip", plain(mesh.dip)},
-                   {"normal", plain(mesh.normal)},
-                   {"growth", plain(mesh.growth)},
-                   {"fine_margin", plain(mesh.fine_margin)},
-                   {"largest", plain(mesh.largest)}}},
-                 {"initial_state", initial_state(scene.initial)},
-                 {"faults", faults},
-                 {"stages", stages},
-                 {"pressure", pressure},
-                 {"numerics", numerics(scene.numerics)}};
+json mesh(const MeshSizes& mesh) {
+  json result = {{"strike", plain(mesh.strike)},           {"dip", plain(mesh.dip)},
+                 {"normal", plain(mesh.normal)},           {"growth", plain(mesh.growth)},
+                 {"fine_margin", plain(mesh.fine_margin)}, {"largest", plain(mesh.largest)}};
   // Cells of one size down dip keep the identity from before they could be graded.
   if (mesh.grades_corners()) {
-    result["mesh"]["corner"] = plain(mesh.corner);
-    result["mesh"]["corner_growth"] = plain(mesh.corner_growth);
+    result["corner"] = plain(mesh.corner);
+    result["corner_growth"] = plain(mesh.corner_growth);
   }
-  // An elastic scene has no creep to speak of: it keeps the identity from before there was any.
-  if (has_viscous_material(scene)) result["creep"] = creep(scene.numerics);
+  return result;
+}
+
+json stage(const Stage& stage) {
+  return {{"name", stage.name}, {"duration", plain(stage.duration)}, {"steps", stage.n_steps}};
+}
+
+json history(const PressureHistory& history) {
+  return {{"region", history.region},
+          {"time", list(history.time)},
+          {"pressure_change", list(history.pressure_change)},
+          {"scale", plain(history.scale)},
+          {"lag", plain(history.lag)}};
+}
+
+template <typename Struct>
+std::string list_text(const std::vector<Struct>& all, json (*of)(const Struct&)) {
+  json result = json::array();
+  for (const Struct& each : all) result.push_back(of(each));
   return result.dump();
 }
 
-namespace {
+std::string geometry_text(const Scene& scene) {
+  return (scene.geometry_kind == GeometryKind::field ? field(scene.field) : box(scene.box)).dump();
+}
 
 std::string identity_under(int numerics_version, const std::string& canonical) {
   return fingerprint(concat("numerics ", numerics_version, "\n", canonical));
@@ -259,9 +247,43 @@ std::string identity_under(int numerics_version, const std::string& canonical) {
 
 }  // namespace
 
-std::string case_identity(const Scene& scene) {
-  return identity_under(kNumericsVersion, canonical_scene(scene));
+std::string CanonicalParts::text() const {
+  const std::string optional = creep.empty() ? "" : "\"creep\":" + creep + ",";
+  return concat("{", optional, "\"faults\":", faults, ",\"format\":1,\"geometry\":", geometry,
+                ",\"initial_state\":", initial_state, ",\"materials\":", materials,
+                ",\"mesh\":", mesh, ",\"numerics\":", numerics, ",\"pressure\":", pressure,
+                ",\"stages\":", stages, "}");
 }
+
+CanonicalParts canonical_parts(const Scene& scene) {
+  CanonicalParts parts{.faults = list_text(scene.faults, fault),
+                       .geometry = geometry_text(scene),
+                       .initial_state = initial_state(scene.initial).dump(),
+                       .materials = materials(scene).dump(),
+                       .mesh = mesh(scene.mesh).dump(),
+                       .numerics = numerics(scene.numerics).dump(),
+                       .pressure = list_text(scene.pressure, history),
+                       .stages = list_text(scene.stages, stage),
+                       .creep = {}};
+  // An elastic scene has no creep to speak of: it keeps the identity from before there was any.
+  if (has_viscous_material(scene)) parts.creep = creep(scene.numerics).dump();
+  return parts;
+}
+
+CanonicalParts canonical_parts(const Scene& scene, const Scene& other, CanonicalParts of_other) {
+  if (!have_same_body(scene, other)) return canonical_parts(scene);
+  if (scene.faults != other.faults) of_other.faults = list_text(scene.faults, fault);
+  if (scene.initial != other.initial) of_other.initial_state = initial_state(scene.initial).dump();
+  return of_other;
+}
+
+std::string canonical_scene(const Scene& scene) { return canonical_parts(scene).text(); }
+
+std::string case_identity(const CanonicalParts& parts) {
+  return identity_under(kNumericsVersion, parts.text());
+}
+
+std::string case_identity(const Scene& scene) { return case_identity(canonical_parts(scene)); }
 
 bool has_identity(const Scene& scene, const std::string& identity) {
   const std::string canonical = canonical_scene(scene);

@@ -8,23 +8,17 @@
 namespace faultsim {
 namespace {
 
-/// A piece of a column, down to `bottom` from the piece above.
-struct Piece {
-  double bottom;   ///< m, depth.
-  double density;  ///< kg/m3
-};
-
 const std::vector<Layer>& layers_of(const Scene& scene) {
   return scene.geometry_kind == GeometryKind::field ? scene.field.layers : scene.box.layers;
 }
 
 /// The reference column: layers at zero offset, or the box's layers from z = 0 down.
-std::vector<Piece> reference_column(const Scene& scene) {
+std::vector<ColumnPiece> reference_column(const Scene& scene) {
   const bool is_field = scene.geometry_kind == GeometryKind::field;
   const double base = is_field ? scene.field.depth : -scene.box.from[2];
   const std::vector<Layer>& layers = layers_of(scene);
   if (layers.empty()) return {{base, material_named(scene, scene.box.material).density}};
-  std::vector<Piece> column;
+  std::vector<ColumnPiece> column;
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const double bottom = i + 1 < layers.size() ? layers[i + 1].top_depth : base;
     column.push_back({bottom, material_named(scene, layers[i].material).density});
@@ -33,25 +27,15 @@ std::vector<Piece> reference_column(const Scene& scene) {
 }
 
 /// ∫ ρ g from the surface to depth, Pa.
-double weight(const std::vector<Piece>& column, double gravity, double depth) {
+double weight(const std::vector<ColumnPiece>& column, double gravity, double depth) {
   double sum = 0;
   double top = 0;
-  for (const Piece& piece : column) {
+  for (const ColumnPiece& piece : column) {
     sum += piece.density * std::max(0.0, std::min(depth, piece.bottom) - top);
     top = piece.bottom;
   }
   return sum * gravity;
 }
-
-struct DepthInterval {
-  double top = 0;
-  double bottom = 0;
-  bool holds(double depth, DepthSide side) const {
-    const bool inside = depth > top && depth < bottom;
-    return inside || (depth == top && side == DepthSide::below) ||
-           (depth == bottom && side == DepthSide::above);
-  }
-};
 
 DepthInterval reservoir_range(const Scene& scene) {
   const FieldGeometry& field = scene.field;
@@ -80,38 +64,8 @@ bool is_viscous_at(const Scene& scene, double depth, DepthSide side) {
   return is_viscous(scene, layers[i].material);
 }
 
-StressAtDepth one_sided(const Scene& scene, double depth, DepthSide side) {
-  const InitialState& state = scene.initial;
-  StressAtDepth result;
-  double vertical = 0;
-  if (state.kind == InitialStressKind::column) {
-    depth = std::max(depth, 0.0);
-    vertical = -weight(reference_column(scene), state.gravity, depth);
-    result.pressure = state.water_density * state.gravity * depth;
-    if (scene.geometry_kind == GeometryKind::field && reservoir_range(scene).holds(depth, side)) {
-      result.pressure += state.overpressure;
-    }
-  } else {
-    vertical = state.vertical_stress + state.vertical_stress_gradient * depth;
-    result.pressure = state.pressure + state.pressure_gradient * depth;
-  }
-  if (state.tensor) {
-    result.sigma = *state.tensor;
-    return result;
-  }
-  result.sigma[8] = vertical;
-  if (state.lithostatic_viscous_layers && is_viscous_at(scene, depth, side)) {
-    result.sigma[0] = result.sigma[4] = vertical;
-    return result;
-  }
-  const double pore = state.initial_biot * result.pressure;
-  result.sigma[0] = state.ratio_across * (vertical + pore) - pore;
-  result.sigma[4] = state.ratio_along * (vertical + pore) - pore;
-  return result;
-}
-
 /// A block's column: reservoir at its offset, sideburden where the layer is left empty.
-std::vector<Piece> block_column(const Scene& scene, double offset, bool has_reservoir) {
+std::vector<ColumnPiece> block_column(const Scene& scene, double offset, bool has_reservoir) {
   const DepthInterval layer = reservoir_range(scene);
   const double reservoir_density = [&] {
     for (const Layer& each : scene.field.layers) {
@@ -122,16 +76,16 @@ std::vector<Piece> block_column(const Scene& scene, double offset, bool has_rese
     return 0.0;
   }();
   const double side_density = material_named(scene, scene.field.sideburden).density;
-  const std::vector<Piece> reference = reference_column(scene);
+  const std::vector<ColumnPiece> reference = reference_column(scene);
   std::vector<double> cuts = {layer.top + offset, layer.bottom + offset};
-  for (const Piece& piece : reference) cuts.push_back(piece.bottom);
+  for (const ColumnPiece& piece : reference) cuts.push_back(piece.bottom);
   std::sort(cuts.begin(), cuts.end());
-  std::vector<Piece> column;
+  std::vector<ColumnPiece> column;
   double top = 0;
   for (const double bottom : cuts) {
     const double middle = 0.5 * (top + bottom);
     const auto piece = std::find_if(reference.begin(), reference.end(),
-                                    [&](const Piece& each) { return middle < each.bottom; });
+                                    [&](const ColumnPiece& each) { return middle < each.bottom; });
     double density = piece == reference.end() ? 0.0 : piece->density;
     if (middle > layer.top && middle < layer.bottom) density = side_density;
     const bool in_reservoir = middle > layer.top + offset && middle < layer.bottom + offset;
@@ -155,16 +109,60 @@ double own_excess(const Scene& scene, std::size_t region, double depth, DepthSid
 
 }  // namespace
 
-StressAtDepth initial_state(const Scene& scene, double z, DepthSide side) {
-  if (side != DepthSide::mean) return one_sided(scene, -z, side);
-  const StressAtDepth above = one_sided(scene, -z, DepthSide::above);
-  const StressAtDepth below = one_sided(scene, -z, DepthSide::below);
+bool DepthInterval::holds(double depth, DepthSide side) const {
+  const bool inside = depth > top && depth < bottom;
+  return inside || (depth == top && side == DepthSide::below) ||
+         (depth == bottom && side == DepthSide::above);
+}
+
+InitialColumn::InitialColumn(const Scene& scene) : scene_(scene) {
+  if (scene.initial.kind == InitialStressKind::column) pieces_ = reference_column(scene);
+  if (scene.geometry_kind == GeometryKind::field) reservoir_ = reservoir_range(scene);
+}
+
+StressAtDepth InitialColumn::one_sided(double depth, DepthSide side) const {
+  const InitialState& state = scene_.initial;
+  StressAtDepth result;
+  double vertical = 0;
+  if (state.kind == InitialStressKind::column) {
+    depth = std::max(depth, 0.0);
+    vertical = -weight(pieces_, state.gravity, depth);
+    result.pressure = state.water_density * state.gravity * depth;
+    if (scene_.geometry_kind == GeometryKind::field && reservoir_.holds(depth, side))
+      result.pressure += state.overpressure;
+  } else {
+    vertical = state.vertical_stress + state.vertical_stress_gradient * depth;
+    result.pressure = state.pressure + state.pressure_gradient * depth;
+  }
+  if (state.tensor) {
+    result.sigma = *state.tensor;
+    return result;
+  }
+  result.sigma[8] = vertical;
+  if (state.lithostatic_viscous_layers && is_viscous_at(scene_, depth, side)) {
+    result.sigma[0] = result.sigma[4] = vertical;
+    return result;
+  }
+  const double pore = state.initial_biot * result.pressure;
+  result.sigma[0] = state.ratio_across * (vertical + pore) - pore;
+  result.sigma[4] = state.ratio_along * (vertical + pore) - pore;
+  return result;
+}
+
+StressAtDepth InitialColumn::at(double z, DepthSide side) const {
+  if (side != DepthSide::mean) return one_sided(-z, side);
+  const StressAtDepth above = one_sided(-z, DepthSide::above);
+  const StressAtDepth below = one_sided(-z, DepthSide::below);
   const bool is_equal = above.pressure == below.pressure && above.sigma == below.sigma;
   if (is_equal) return above;  // (a + a)/2 is a, but say so
   StressAtDepth mean;
   for (std::size_t i = 0; i < 9; ++i) mean.sigma[i] = 0.5 * (above.sigma[i] + below.sigma[i]);
   mean.pressure = 0.5 * (above.pressure + below.pressure);
   return mean;
+}
+
+StressAtDepth initial_state(const Scene& scene, double z, DepthSide side) {
+  return InitialColumn(scene).at(z, side);
 }
 
 double region_top(const Scene& scene, std::size_t region) {
@@ -234,14 +232,14 @@ double neglected_weight_difference(const Scene& scene) {
   const bool has_columns =
       scene.geometry_kind == GeometryKind::field && scene.initial.kind == InitialStressKind::column;
   if (!has_columns) return 0;
-  const std::vector<Piece> reference = reference_column(scene);
-  std::vector<std::vector<Piece>> columns = {block_column(scene, 0, false)};
+  const std::vector<ColumnPiece> reference = reference_column(scene);
+  std::vector<std::vector<ColumnPiece>> columns = {block_column(scene, 0, false)};
   for (const Block& block : scene.field.blocks) {
     columns.push_back(block_column(scene, block.offset, true));
   }
   double largest = 0;
   for (const auto& column : columns) {
-    for (const Piece& piece : column) {  // weights are linear between the cuts
+    for (const ColumnPiece& piece : column) {  // weights are linear between the cuts
       const double difference = weight(column, scene.initial.gravity, piece.bottom) -
                                 weight(reference, scene.initial.gravity, piece.bottom);
       largest = std::max(largest, std::abs(difference));

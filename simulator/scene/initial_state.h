@@ -36,6 +36,31 @@ enum class DepthSide {
 /// @pre the scene comes from read_scene without problems.
 StressAtDepth initial_state(const Scene& scene, double z, DepthSide side = DepthSide::mean);
 
+/// A piece of a column, down to `bottom` from the piece above.
+struct ColumnPiece {
+  double bottom;   ///< m, depth.
+  double density;  ///< kg/m3
+};
+struct DepthInterval {
+  double top = 0, bottom = 0;  ///< m, depths.
+  bool holds(double depth, DepthSide side) const;
+};
+
+/// initial_state() of one scene at many heights.
+class InitialColumn {
+ public:
+  /// @pre scene outlives this.
+  explicit InitialColumn(const Scene& scene);
+  StressAtDepth at(double z, DepthSide side = DepthSide::mean) const;
+
+ private:
+  StressAtDepth one_sided(double depth, DepthSide side) const;
+
+  const Scene& scene_;
+  std::vector<ColumnPiece> pieces_;  ///< of a column; none for a profile.
+  DepthInterval reservoir_;          ///< of a field.
+};
+
 /// Depth of the top of a pressure region, m: of a block's reservoir at its offset, or of a box
 /// region (cut at the top of the box).
 double region_top(const Scene& scene, std::size_t region);

@@ -1,6 +1,7 @@
 #include "simulator/scene/read_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "scene_schema_json.h"
@@ -225,6 +226,25 @@ const Schema& scene_schema() {
   return schema;
 }
 
+namespace {
+
+void relate_parts(SceneReader& reader, const std::vector<Problem>& problems, Scene& scene) {
+  check_geometry(reader, scene);
+  check_pressures(reader, scene);
+  check_creep(reader, scene);
+  check_turning_points(reader, scene);
+  if (problems.empty()) add_remarks(reader, scene);
+}
+
+/// All of the initial state that the histories of pressure depend on.
+bool have_same_pressure(const InitialState& a, const InitialState& b) {
+  return a.kind == b.kind && a.gravity == b.gravity && a.water_density == b.water_density &&
+         a.overpressure == b.overpressure && a.pressure == b.pressure &&
+         a.pressure_gradient == b.pressure_gradient;
+}
+
+}  // namespace
+
 Scene read_scene(const JsonDocument& document, std::vector<Problem>& problems) {
   SceneReader reader(document, problems);
   Scene scene;
@@ -236,12 +256,9 @@ Scene read_scene(const JsonDocument& document, std::vector<Problem>& problems) {
   read_initial_state(reader, scene);
   read_faults(reader, scene);
   read_loading(reader, scene);
+  scene.n_table_remarks = scene.remarks.size();
   read_output(reader, scene);
-  check_geometry(reader, scene);
-  check_pressures(reader, scene);
-  check_creep(reader, scene);
-  check_turning_points(reader, scene);
-  if (problems.empty()) add_remarks(reader, scene);
+  relate_parts(reader, problems, scene);
   std::stable_sort(problems.begin(), problems.end(),
                    [](const Problem& a, const Problem& b) { return a.line < b.line; });
   return scene;
@@ -254,6 +271,30 @@ Scene read_scene(const JsonDocument& document) {
   return scene;
 }
 
+std::span<const std::string> case_members() {
+  static const std::array<std::string, 4> members = {"fault_pressure", "faults", "friction",
+                                                     "initial_state"};
+  return members;
+}
+
+std::optional<Scene> reread_scene(const JsonDocument& document, const Scene& other) {
+  std::vector<Problem> problems;
+  SceneReader reader(document, problems, case_members());
+  if (!problems.empty()) return std::nullopt;
+  Scene scene = other;
+  scene.faults.clear();
+  scene.box.patches.clear();
+  scene.initial = {};
+  scene.remarks.resize(scene.n_table_remarks);
+  read_initial_state(reader, scene);
+  read_faults(reader, scene);
+  if (!problems.empty()) return std::nullopt;
+  if (!have_same_pressure(scene.initial, other.initial)) return std::nullopt;
+  relate_parts(reader, problems, scene);
+  if (!problems.empty()) return std::nullopt;
+  return scene;
+}
+
 std::string remark_text(const Remark& remark) {
   return remark.pointer.empty() ? remark.what : remark.pointer + " " + remark.what;
 }
@@ -263,6 +304,17 @@ const Material& material_named(const Scene& scene, const std::string& name) {
     if (material.name == name) return material;
   }
   throw_internal("the material exists", name, __FILE__, __LINE__);
+}
+
+bool have_same_body(const Scene& a, const Scene& b) {
+  const auto is_same_surface = [](const Fault& one, const Fault& other) {
+    return one.name == other.name && one.dip_from_vertical == other.dip_from_vertical;
+  };
+  return a.geometry_kind == b.geometry_kind && a.field == b.field && a.box == b.box &&
+         a.materials == b.materials && a.mesh == b.mesh && a.numerics == b.numerics &&
+         a.stages == b.stages && a.pressure == b.pressure &&
+         std::equal(a.faults.begin(), a.faults.end(), b.faults.begin(), b.faults.end(),
+                    is_same_surface);
 }
 
 std::set<std::string> used_materials(const Scene& scene) {

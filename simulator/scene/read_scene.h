@@ -1,6 +1,8 @@
 #pragma once
 
 #include <map>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,10 +25,28 @@ Scene read_scene(const JsonDocument& document);
 /// The same without throwing: problems are appended; the scene is meaningful only if none were.
 Scene read_scene(const JsonDocument& document, std::vector<Problem>& problems);
 
+/// Members of a document that say what differs between the cases of a family, and little else.
+std::span<const std::string> case_members();
+/// The scene of a document that differs from another sound one in case_members() only, which alone
+/// are read. @param other  the scene of the other one.
+/// @returns what read_scene() would; nothing where there is a problem, or where the initial
+/// pressure differs, which histories of pressure may follow from.
+std::optional<Scene> reread_scene(const JsonDocument& document, const Scene& other);
+
 /// The canonical text of the *resolved physical and numerical* scene: every default filled in, SI,
 /// keys sorted, 1 = 1.0, -0 = 0, shortest round-trip numbers. Without title and outputs. A field
 /// added later appears only when it differs from the value that reproduces the old behaviour.
 std::string canonical_scene(const Scene& scene);
+/// canonical_scene() in the parts that it is made of: the members of one JSON object.
+struct CanonicalParts {
+  std::string faults, geometry, initial_state, materials, mesh, numerics, pressure, stages;
+  std::string creep;  ///< may be empty.
+  std::string text() const;
+};
+CanonicalParts canonical_parts(const Scene& scene);
+/// The same, where another scene's are known: what both have in common is not written again.
+CanonicalParts canonical_parts(const Scene& scene, const Scene& other, CanonicalParts of_other);
+std::string case_identity(const CanonicalParts& parts);
 
 /// Identity of a case: fingerprint of canonical_scene and kNumericsVersion.
 std::string case_identity(const Scene& scene);

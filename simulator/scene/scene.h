@@ -19,6 +19,7 @@ struct Material {
   double poisson_ratio = 0;         ///< in [0, 0.4999].
   double biot = 1;                  ///< Biot coefficient b in [0, 1].
   std::optional<double> viscosity;  ///< η > 0, Pa s, Maxwell: ε̇_v = s/(2η); none = elastic.
+  bool operator==(const Material&) const = default;
 };
 
 /// A horizontal layer by its top; it reaches to the next layer's top or the base of the model.
@@ -26,6 +27,7 @@ struct Layer {
   std::string name;
   std::string material;
   double top_depth = 0;  ///< m, at zero offset.
+  bool operator==(const Layer&) const = default;
 };
 
 /// One compartment of a field: x in [from, to], the reservoir shifted down by `offset`.
@@ -40,6 +42,7 @@ struct Block {
   /// m: grid lines are laid out for this offset and then moved to `offset` (FieldMeshSpec). None =
   /// for `offset`.
   std::optional<double> mesh_offset = std::nullopt;
+  bool operator==(const Block&) const = default;
 };
 
 /// The conceptual Dutch field: layers, a row of contiguous reservoir blocks, a
@@ -57,6 +60,7 @@ struct FieldGeometry {
   double fault_overshoot =
       0;                   ///< m above the shallowest and below the deepest reservoir edge touched.
   double pivot_depth = 0;  ///< m, where a dipping fault keeps its x.
+  bool operator==(const FieldGeometry&) const = default;
 };
 
 enum class PatchShape { rectangle, ellipse };
@@ -71,6 +75,7 @@ struct PatchGeometry {
   double length = 0;             ///< m along strike (full length).
   double width = 0;              ///< m down dip (full width).
   PatchShape shape = PatchShape::rectangle;
+  bool operator==(const PatchGeometry&) const = default;
 };
 
 /// The six faces of a box: x- x+ y- y+ z- z+.
@@ -89,6 +94,7 @@ enum class BoundaryKind {
 struct TimeTable {
   std::vector<double> time;    ///< s, strictly increasing.
   std::vector<double> factor;  ///< dimensionless.
+  bool operator==(const TimeTable&) const = default;
 };
 
 struct BoundaryCondition {
@@ -99,6 +105,7 @@ struct BoundaryCondition {
   std::array<double, 9> gradient = {0, 0, 0, 0, 0, 0, 0, 0, 0};  ///< row-major ∂u_i/∂x_j.
   std::array<double, 9> stress = {0, 0, 0, 0, 0, 0, 0, 0, 0};  ///< Pa, Δσ, symmetric, row-major.
   TimeTable table;
+  bool operator==(const BoundaryCondition&) const = default;
 };
 
 enum class RegionShape { box, disc };
@@ -112,6 +119,7 @@ struct PressureRegion {
   std::array<double, 3> center = {0, 0, 0};  ///< disc: centre of a vertical cylinder
   double radius = 0;                         ///< disc, m.
   double thickness = 0;                      ///< disc, m.
+  bool operator==(const PressureRegion&) const = default;
 };
 
 struct BoxGeometry {
@@ -122,6 +130,7 @@ struct BoxGeometry {
   std::vector<PatchGeometry> patches;       ///< one per Scene::faults, same order.
   std::vector<BoundaryCondition> boundary;  ///< faces not mentioned: free.
   std::vector<PressureRegion> regions;
+  bool operator==(const BoxGeometry&) const = default;
 };
 
 enum class GeometryKind { field, box };
@@ -139,6 +148,7 @@ struct MeshSizes {
   double corner = 0;  ///< m, field: down dip at the corners of compartments; 0 or ≥ dip: as dip.
   double corner_growth = 1.5;  ///< largest ratio of neighbouring cells between corners and `dip`.
   bool grades_corners() const { return corner > 0 && corner < dip; }
+  bool operator==(const MeshSizes&) const = default;
 };
 
 enum class InitialStressKind { column, profile };
@@ -163,6 +173,7 @@ struct InitialState {
   /// σ_xx = σ_yy = σ_v in the layers of viscous material, whatever the ratios: salt that has come
   /// to rest. Never next to `tensor`.
   bool lithostatic_viscous_layers = false;
+  bool operator==(const InitialState&) const = default;
 };
 
 enum class FrictionLaw {
@@ -180,6 +191,7 @@ struct Friction {
   SlipMeasure slip_measure = SlipMeasure::current;
   bool cohesion_after_opening = false;
   bool cohesion_after_slip = true;  ///< false: the first slip ends cohesion.
+  bool operator==(const Friction&) const = default;
 };
 
 enum class FaultPressureRule { mean, min, max, minus, plus, fraction, prescribed, none };
@@ -191,6 +203,7 @@ struct FaultPressure {
   TimeTable table;        ///< rule prescribed.
   std::optional<std::array<double, 2>> depth_window;  ///< m; prescribed: top, bottom. None = where
                                                       ///< either side is reservoir.
+  bool operator==(const FaultPressure&) const = default;
 };
 
 struct Fault {
@@ -199,6 +212,7 @@ struct Fault {
   double fault_biot = 1;         ///< α_f.
   Friction friction;
   FaultPressure pressure;
+  bool operator==(const Fault&) const = default;
 };
 
 /// One named stage of the loading; steps are equal in time unless times are given.
@@ -206,6 +220,7 @@ struct Stage {
   std::string name;
   double duration = 0;  ///< s.
   int n_steps = 1;
+  bool operator==(const Stage&) const = default;
 };
 
 /// Pressure change history of one compartment or region: piecewise linear in time from 0 at t = 0.
@@ -216,11 +231,13 @@ struct PressureHistory {
   double scale = 1;                     ///< multiplies Δp.
   double lag = 0;                       ///< s, ≥ 0: Δp(t) = scale · history(t − lag).
   bool from_csv = false;  ///< a CSV file replaced what the stages say; for messages only.
+  bool operator==(const PressureHistory&) const = default;
 };
 
 struct ObservationPoint {
   std::string name;
   std::array<double, 3> position = {0, 0, 0};  ///< m; the nearest node is used and reported.
+  bool operator==(const ObservationPoint&) const = default;
 };
 
 /// What to write. Never part of a case's identity.
@@ -228,6 +245,7 @@ struct OutputRequest {
   bool fault_fields = true;    ///< per load step, HDF5 + XDMF.
   bool volume_fields = false;  ///< displacement at the end of each stage.
   std::vector<ObservationPoint> observation_points;
+  bool operator==(const OutputRequest&) const = default;
 };
 
 /// What becomes of the turning points of histories that lie within the steps of a stage.
@@ -266,6 +284,7 @@ struct Numerics {
   double creep_tolerance = 2e4;  ///< Pa, largest difference of fault traction between one step of
                                  ///< creep and two of half its length that is accepted.
   CreepScheme creep_scheme = CreepScheme::exponential;
+  bool operator==(const Numerics&) const = default;
 };
 
 /// Something that the user of a scene should know before running it: what has no effect, what is
@@ -289,8 +308,13 @@ struct Scene {
   std::vector<PressureHistory> pressure;
   Numerics numerics;
   OutputRequest output;
-  std::vector<Remark> remarks;  ///< never part of a case's identity.
+  std::vector<Remark> remarks;      ///< never part of a case's identity.
+  std::size_t n_table_remarks = 0;  ///< of them, the first: of reading tables.
 };
+
+/// Whether two scenes agree in geometry, mesh, materials, loading and numerics: not looked at are
+/// title, tier, output and remarks, the initial state, and of the faults what is no geometry.
+bool have_same_body(const Scene& a, const Scene& b);
 
 /// "/compartments/east/lag has no effect: ...".
 std::string remark_text(const Remark& remark);

@@ -91,7 +91,8 @@ ParsedQuantity parse_given(const json& value, const Range& range) {
 
 }  // namespace
 
-SceneReader::SceneReader(const JsonDocument& document, std::vector<Problem>& problems)
+SceneReader::SceneReader(const JsonDocument& document, std::vector<Problem>& problems,
+                         std::span<const std::string> members)
     : document_(document), problems_(problems) {
   // Problems of quantities come after those of the schema, which decide what is sound.
   struct Leaf {
@@ -100,16 +101,17 @@ SceneReader::SceneReader(const JsonDocument& document, std::vector<Problem>& pro
     SchemaViews views;
   };
   std::vector<Leaf> wrong;
-  std::vector<Problem> found = check_schema(
-      document, scene_schema(),
-      [&](const ValuePlace& place, const json& value, const SchemaViews& views) {
-        if (value.is_array()) {
-          const json* most = keyword(views, "maxItems");
-          if (most != nullptr && value.size() > most->get<std::size_t>()) too_long_.insert(&value);
-        } else if ((value.is_string() || value.is_number()) && !read_quantity(value, views)) {
-          wrong.push_back({place.pointer(), &value, views});
-        }
-      });
+  const auto visit = [&](const ValuePlace& place, const json& value, const SchemaViews& views) {
+    if (value.is_array()) {
+      const json* most = keyword(views, "maxItems");
+      if (most != nullptr && value.size() > most->get<std::size_t>()) too_long_.insert(&value);
+    } else if ((value.is_string() || value.is_number()) && !read_quantity(value, views)) {
+      wrong.push_back({place.pointer(), &value, views});
+    }
+  };
+  const std::vector<Problem> found = members.empty()
+                                         ? check_schema(document, scene_schema(), visit)
+                                         : check_members(document, scene_schema(), members, visit);
   for (const Problem& one : found) {
     unsound_.add(one.pointer);
     said_.insert(one.pointer + "\n" + one.what);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <limits>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -21,7 +22,9 @@ inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 class SceneReader {
  public:
   /// Checks document against the schema and reads all quantities of it.
-  SceneReader(const JsonDocument& document, std::vector<Problem>& problems);
+  /// @param members  of the document that are checked and read; none = all.
+  SceneReader(const JsonDocument& document, std::vector<Problem>& problems,
+              std::span<const std::string> members = {});
 
   const JsonDocument& document() const { return document_; }
   /// The value at pointer; nullptr when it is not there.

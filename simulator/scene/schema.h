@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -84,6 +85,11 @@ using SchemaVisitor = std::function<void(const ValuePlace& place, const nlohmann
 /// @param visit  called for every value that the schema speaks about, children first.
 std::vector<Problem> check_schema(const JsonDocument& document, const Schema& schema,
                                   const SchemaVisitor& visit = {});
+
+/// The same of some members of a document alone.
+std::vector<Problem> check_members(const JsonDocument& document, const Schema& schema,
+                                   std::span<const std::string> members,
+                                   const SchemaVisitor& visit);
 
 /// @param value  decides the branches of `if`.
 SchemaViews schema_views(const SchemaRules& rules, const nlohmann::json& value);

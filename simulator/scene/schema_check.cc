@@ -270,4 +270,21 @@ std::vector<Problem> check_schema(const JsonDocument& document, const Schema& sc
   return std::move(checker).problems();
 }
 
+std::vector<Problem> check_members(const JsonDocument& document, const Schema& schema,
+                                   std::span<const std::string> members,
+                                   const SchemaVisitor& visit) {
+  SchemaChecker checker(document, visit);
+  const SchemaViews views = schema_views(schema.root(), document.value);
+  const ValuePlace top;
+  SchemaViews scratch;
+  for (const std::string& name : members) {
+    const auto member = document.value.find(name);
+    if (member == document.value.end()) continue;
+    const ValuePlace place{&top, &name};
+    checker.walk(place, *member, member_views(views, name, *member, scratch));
+    checker.check_characters(place, *member);
+  }
+  return std::move(checker).problems();
+}
+
 }  // namespace faultsim

@@ -42,12 +42,27 @@ JsonDocument read_scene_file(const std::string& file, const Changes& changes) {
 }
 
 LoadedScene load_scene(JsonDocument document) {
-  LoadedScene loaded{std::move(document), {}, {}};
+  LoadedScene loaded;
+  loaded.document = std::move(document);
   std::vector<Problem> problems;
   loaded.scene = read_scene(loaded.document, problems);
   if (problems.empty()) loaded.plan = make_plan(loaded.scene, problems);
   throw_problems(loaded.document, std::move(problems));
+  loaded.canonical = canonical_parts(loaded.scene);
+  loaded.identity = case_identity(loaded.canonical);
   return loaded;
+}
+
+bool reload_scene(const JsonDocument& document, const LoadedScene& other, LoadedScene& loaded) {
+  std::optional<Scene> scene = reread_scene(document, other.scene);
+  if (!scene) return false;
+  std::vector<Problem> problems;
+  loaded.plan = make_plan(*scene, problems, other.scene, other.plan);
+  if (!problems.empty()) return false;
+  loaded.canonical = canonical_parts(*scene, other.scene, other.canonical);
+  loaded.identity = case_identity(loaded.canonical);
+  loaded.scene = std::move(*scene);
+  return true;
 }
 
 void check_geometry(const LoadedScene& loaded) {

@@ -6,6 +6,7 @@
 
 #include "simulator/plan/plan.h"
 #include "simulator/scene/json_document.h"
+#include "simulator/scene/read_scene.h"
 #include "simulator/scene/scene.h"
 #include "simulator/simulation/simulation.h"
 
@@ -16,6 +17,8 @@ struct LoadedScene {
   JsonDocument document;
   Scene scene;
   Plan plan;
+  CanonicalParts canonical;
+  std::string identity;  ///< of the case.
 };
 
 /// The file with the changes put in, and the text of the tables that it names: what is read now is
@@ -27,6 +30,10 @@ void apply(const Changes& changes, JsonDocument& document);
 /// Checks everything and plans, without the plan's warnings. Throws InputError with all problems of
 /// scene and geometry.
 LoadedScene load_scene(JsonDocument document);
+/// The same by reading, planning and writing only what may differ from a scene that was loaded, of
+/// a document that differs from its in case_members() only. @returns whether that was enough; if
+/// not, load_scene() has to look.
+bool reload_scene(const JsonDocument& document, const LoadedScene& other, LoadedScene& loaded);
 /// What a run would refuse once it has the mesh (plan/geometry_check.h), thrown as InputError with
 /// its place in the file. Makes the mesh, unless that is large.
 void check_geometry(const LoadedScene& loaded);

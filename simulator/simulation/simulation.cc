@@ -1,8 +1,10 @@
 #include "simulator/simulation/simulation.h"
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "simulator/common/stopwatch.h"
@@ -16,41 +18,121 @@ namespace faultsim {
 
 using nlohmann::json;
 
+namespace {
+
+using Values = std::vector<std::pair<std::string, json>>;  // by pointer
+
+/// Puts values into a document. @returns the first pointer that has no place in it; empty: all
+/// have.
+std::string put_values(const Values& values, json& document) {
+  for (const auto& [pointer, value] : values) {
+    if (!put_value(document, pointer, value)) return pointer;
+  }
+  return "";
+}
+
+/// "" where it is no pointer to a member.
+std::string member_of(const std::string& pointer) {
+  return pointer.size() < 2 ? "" : pointer.substr(1, pointer.find('/', 1) - 1);
+}
+
+bool is_case_member(const std::string& name) {
+  const auto members = case_members();
+  return std::find(members.begin(), members.end(), name) != members.end();
+}
+
+}  // namespace
+
 struct Simulation::Impl {
   std::optional<JsonDocument> held;  ///< none: the scene at hand is the one held.
+  bool is_of_held = true;            ///< the scene at hand is the held one, changed.
+  std::set<std::string> changed;     ///< members in which it differs then.
   LoadedScene at_hand;
   std::string key;  ///< of the operator that the scene at hand needs.
   CachePolicy cache;
   PreparedOperator prepared;
   std::string prepared_key;
   std::unique_ptr<OperatorBuild> build;        ///< also one that was called off and has not ended.
-  std::map<std::string, std::string> aliases;  ///< of `held`.
+  std::map<std::string, std::string> aliases;  ///< of `held`, once asked for.
 
   void take(LoadedScene loaded) {
     at_hand = std::move(loaded);
     key = operator_key(at_hand);
   }
-  bool change_quickly(const Changes& changes);
+  void keep();
+  bool change_members(const Values& values, const std::string& source);
+  bool change(const Values& values, const std::string& source);
+  std::optional<Values> values_of(const Changes& changes);
 };
 
-/// Without the lines of the file, which only messages need. @returns whether all is well; if not,
-/// nothing has changed.
-bool Simulation::Impl::change_quickly(const Changes& changes) {
-  JsonDocument document{held->source, held->value, {}};
-  try {
-    for (const Change& change : changes) {
-      const auto found = aliases.find(change.parameter);
-      const bool is_alias = found != aliases.end();
-      if (!is_alias && !change.parameter.starts_with('/')) return false;
-      const std::string& pointer = is_alias ? found->second : change.parameter;
-      json value = value_of_text(change.value, document.source, pointer);
-      if (pointer.size() < 2 || !put_value(document.value, pointer, std::move(value))) return false;
+/// What is changed from now on.
+void Simulation::Impl::keep() {
+  if (held) return;
+  held = at_hand.document;
+  is_of_held = true;
+  changed.clear();
+  aliases.clear();
+}
+
+/// By looking at the members that differ only, without the lines of the file. @returns whether that
+/// was enough; if not, nothing has changed.
+bool Simulation::Impl::change_members(const Values& values, const std::string& source) {
+  std::set<std::string> members = changed, next;
+  for (const auto& [pointer, value] : values) next.insert(member_of(pointer));
+  members.insert(next.begin(), next.end());
+  if (!is_of_held || !std::all_of(members.begin(), members.end(), is_case_member)) return false;
+  json& document = at_hand.document.value;
+  std::map<std::string, json> before;
+  const auto put_back = [&](const std::string& name, const json* value) {
+    if (value != nullptr) {
+      document[name] = *value;
+    } else {
+      document.erase(name);
     }
-    take(load_scene(std::move(document)));
-    return true;
-  } catch (const InputError&) {
-    return false;
+  };
+  for (const std::string& name : members) {
+    if (const auto old = document.find(name); old != document.end()) before[name] = std::move(*old);
+    put_back(name, child_at(held->value, name));
   }
+  LoadedScene loaded;
+  if (put_values(values, document).empty() && reload_scene(at_hand.document, at_hand, loaded)) {
+    loaded.document = std::move(at_hand.document);
+    loaded.document.source = source;
+    loaded.document.lines.clear();
+    take(std::move(loaded));
+    changed = std::move(next);
+    return true;
+  }
+  for (const std::string& name : members) {
+    const auto old = before.find(name);
+    put_back(name, old == before.end() ? nullptr : &old->second);
+  }
+  return false;
+}
+
+/// Throws InputError where the scene is wrong. @returns false where a value has no place in it.
+bool Simulation::Impl::change(const Values& values, const std::string& source) {
+  if (change_members(values, source)) return true;
+  JsonDocument document{source, held->value, {}};
+  if (!put_values(values, document.value).empty()) return false;
+  take(load_scene(std::move(document)));
+  is_of_held = true;
+  changed.clear();
+  for (const auto& [pointer, value] : values) changed.insert(member_of(pointer));
+  return true;
+}
+
+/// None where there is something to explain.
+std::optional<Values> Simulation::Impl::values_of(const Changes& changes) {
+  if (aliases.empty()) aliases = parameter_aliases(*held);
+  Values values;
+  for (const Change& change : changes) {
+    const auto found = aliases.find(change.parameter);
+    const std::string& pointer = found != aliases.end() ? found->second : change.parameter;
+    if (pointer.size() < 2 || pointer[0] != '/') return std::nullopt;
+    values.emplace_back(pointer, value_of_text(change.value, held->source, pointer));
+  }
+  return values;
 }
 
 Simulation::Simulation() : impl_(std::make_unique<Impl>()) {}
@@ -79,23 +161,42 @@ void Simulation::hold(JsonDocument document) {
   impl_->held.reset();
 }
 
+void Simulation::hold_unread(JsonDocument document) {
+  impl_->held = std::move(document);
+  impl_->is_of_held = false;
+  impl_->aliases.clear();
+}
+
 void Simulation::change(const Changes& changes) {
   Impl& self = *impl_;
-  if (!self.held) {
-    self.held = self.at_hand.document;
-    self.aliases = parameter_aliases(*self.held);
+  self.keep();
+  try {
+    const std::optional<Values> values = self.values_of(changes);
+    if (values && self.change(*values, self.held->source)) return;
+  } catch (const InputError&) {  // said again below, with the lines of the file
   }
-  if (self.change_quickly(changes)) return;
   JsonDocument document = *self.held;
   apply(changes, document);
   self.take(load_scene(std::move(document)));
+  self.is_of_held = false;
+}
+
+void Simulation::change_values(const JsonDocument& values) {
+  Impl& self = *impl_;
+  self.keep();
+  Values all;
+  for (const auto& [pointer, value] : values.value.items()) all.emplace_back(pointer, value);
+  if (self.change(all, values.source)) return;
+  json document = self.held->value;
+  throw InputError(values.source,
+                   {{put_values(all, document), 0, "the base scene has no place for it", ""}});
 }
 
 const LoadedScene& Simulation::scene() const { return impl_->at_hand; }
 
 std::string Simulation::plan_text() const { return plan_to_text(impl_->at_hand.plan); }
 
-std::string Simulation::identity() const { return case_identity(impl_->at_hand.scene); }
+std::string Simulation::identity() const { return impl_->at_hand.identity; }
 
 bool Simulation::needs_operator() const {
   return !impl_->prepared.op || impl_->prepared_key != impl_->key;
@@ -126,6 +227,7 @@ CaseResult Simulation::run(const RunContext& context, const RunWatch& watch) {
   prepare(context);
   CaseProbe probe;
   probe.tried = watch.tried;
+  probe.identity = impl_->at_hand.identity;
   return run_case(impl_->at_hand.scene, impl_->prepared, context, watch.step, probe);
 }
 

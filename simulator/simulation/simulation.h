@@ -70,6 +70,12 @@ class Simulation {
   /// is wrong; the scene at hand is then the one before.
   void change(const Changes& changes);
 
+  /// Holds a scene that is nothing without changes: it is read with the next ones.
+  void hold_unread(JsonDocument document);
+  /// change() by values as they stand in documents.
+  /// @param values  an object of values by JSON pointer; its source is what messages call the case.
+  void change_values(const JsonDocument& values);
+
   /// The scene at hand: held, with the last changes.
   const LoadedScene& scene() const;
   /// What will be modelled of it, why, and what it costs, as `faultsim plan` prints it.

@@ -68,8 +68,8 @@ struct LineFault {
     meter().evaluate(state, nodal);
     return nodal;
   }
-  FaultMeter::Activation activation(const Eigen::VectorXd* reference = nullptr) const {
-    return meter().activation(nodal(), state, reference)[0];
+  Activation activation(const Eigen::VectorXd& reference = {}) const {
+    return meter().activation(0, nodal(), state, reference);
   }
   double window_index(double length = 40) const {
     const NodalState values = nodal();
@@ -214,7 +214,7 @@ TEST(FaultMeter, ActivationOfAStageCountsSlipSinceItsStart) {
   f.slip(0, 18, 5e-3);
   const Eigen::VectorXd start = f.state.jump;
   EXPECT_TRUE(f.activation().activated);
-  EXPECT_FALSE(f.activation(&start).activated);
+  EXPECT_FALSE(f.activation(start).activated);
 }
 
 TEST(FaultMeter, AFlagFromTooFewCellsIsNotResolved) {
@@ -260,7 +260,7 @@ TEST(FaultMeter, AFaultNearActivationIsNotResolvedWithoutSlip) {
     EXPECT_FALSE(m.activated);
     EXPECT_FALSE(m.activation_resolved);
     f.slip(5, 30, 1e-2);  // it slid before: the cells can tell, and in this stage it does not
-    EXPECT_TRUE(f.activation(&f.state.jump).resolved) << h;
+    EXPECT_TRUE(f.activation(f.state.jump).resolved) << h;
   }
   LineFault little(3, 5);  // 20 m: it cannot be activated
   little.load(1);

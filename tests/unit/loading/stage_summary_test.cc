@@ -30,7 +30,7 @@ class StageSummaryTest : public ::testing::Test {
 };
 
 TEST_F(StageSummaryTest, SlipsSlidesAndOpensPerFaultWithPlaceAndPressures) {
-  StageSummary summary("production", 1, nullptr, false, false);
+  StageSummary summary("production", 1, {}, false, false);
   step(summary, -50, -20);
   faults_.slip(0, 1e-3, 4, 5);  // one or two cells: slips, does not slide
   step(summary, -80, -30);
@@ -73,7 +73,7 @@ TEST_F(StageSummaryTest, SlipsSlidesAndOpensPerFaultWithPlaceAndPressures) {
 }
 
 TEST_F(StageSummaryTest, SaysWhatHangsOnTheCellsPerFaultAndOfAll) {
-  StageSummary summary("production", 1, nullptr, false, false);
+  StageSummary summary("production", 1, {}, false, false);
   step(summary, -50, -20);
   EXPECT_TRUE(summary.finish().activation_resolved);
   faults_.slip(0, 1e-3, 3, 5);  // 37 m, with ends that may be half a cell further out
@@ -93,7 +93,7 @@ TEST_F(StageSummaryTest, SaysWhatHangsOnTheCellsPerFaultAndOfAll) {
 }
 
 TEST_F(StageSummaryTest, AWhollyOpenFaultOpensAndDoesNotSlide) {
-  StageSummary summary("injection", 1, nullptr, false, false);
+  StageSummary summary("injection", 1, {}, false, false);
   for (int k = 0; k < FaultsBetweenRegions::kNodes; ++k) {
     faults_.state.state[k] = FaultState::open;
     faults_.state.jump[2 * k] = 1e-3 * (k + 1);
@@ -115,7 +115,7 @@ TEST_F(StageSummaryTest, AWhollyOpenFaultOpensAndDoesNotSlide) {
 TEST_F(StageSummaryTest, AStageCountsItsOwnSlipAndItsOwnEvents) {
   faults_.slip(1, 5e-3);
   const Eigen::VectorXd start = faults_.state.jump;
-  StageSummary summary("storage", 1, &start, false, false);
+  StageSummary summary("storage", 1, start, false, false);
   SlipEvent small, large;
   small.fault = large.fault = "F2";
   small.moment = 1e10;
