@@ -103,7 +103,7 @@ CaseInput Store::case_input(std::int64_t campaign, std::int64_t case_id) const {
 
 void Store::record_runs(std::int64_t campaign, const std::vector<RunRecord>& runs) {
   if (runs.empty()) return;
-  const ForeignKeysOff foreign_keys_off(*connection_);  // cases and names were just looked up
+  const PragmaWhile foreign_keys(*connection_, "foreign_keys", false);  // cases and names were just looked up
   names_->begin();
   try {
     Transaction transaction(*connection_);

@@ -4,17 +4,18 @@
 
 #include <array>
 #include <cmath>
-#include <functional>
-#include <numbers>
 #include <random>
+
+#include "tests/unit/statistics/known_models.h"
 
 namespace faultsweep {
 namespace {
 
-using Point = std::array<double, 3>;  ///< uniform in [0, 1).
-using Model = std::function<double(const Point&)>;
+using testing::ishigami;
+using testing::Model;
+using testing::Point;
 
-PickFreezeValues sample(const Model& model, std::size_t n, std::mt19937_64& random) {
+PickFreezeValues sobol_sample(const Model& model, std::size_t n, std::mt19937_64& random) {
   std::uniform_real_distribution<double> uniform(0, 1);
   PickFreezeValues values;
   values.ab.resize(3);
@@ -33,20 +34,14 @@ PickFreezeValues sample(const Model& model, std::size_t n, std::mt19937_64& rand
   return values;
 }
 
-struct Known {
+struct KnownIndices {
   const char* name;
   Model model;
   std::array<double, 3> first, total;
 };
 
-double ishigami(const Point& p) {  // Ishigami & Homma (1990), a = 7, b = 0.1
-  const auto angle = [&](std::size_t k) { return std::numbers::pi * (2 * p[k] - 1); };
-  return std::sin(angle(0)) + 7 * std::pow(std::sin(angle(1)), 2) +
-         0.1 * std::pow(angle(2), 4) * std::sin(angle(0));
-}
-
-const std::vector<Known>& known() {
-  static const std::vector<Known> all = {
+const std::vector<KnownIndices>& known_indices() {
+  static const std::vector<KnownIndices> all = {
       {"linear",
        [](const Point& p) { return 1000 + 2 * p[0] + p[1]; },
        {0.8, 0.2, 0},
@@ -61,14 +56,17 @@ const std::vector<Known>& known() {
        [](const Point& p) { return p[0] + p[1] > 1 ? 1.0 : 0.0; },
        {1.0 / 3, 1.0 / 3, 0},
        {2.0 / 3, 2.0 / 3, 0}},
-      {"Ishigami", ishigami, {0.31390519, 0.44241114, 0}, {0.55758886, 0.44241114, 0.24368366}}};
+      {"Ishigami",
+       ishigami(0, 1, 2),
+       {0.31390519, 0.44241114, 0},
+       {0.55758886, 0.44241114, 0.24368366}}};
   return all;
 }
 
 TEST(PickFreeze, MeetsKnownIndices) {
   std::mt19937_64 random(3);
-  for (const Known& one : known()) {
-    const auto indices = indices_by_pick_freeze(sample(one.model, 20'000, random), 0.95);
+  for (const KnownIndices& one : known_indices()) {
+    const auto indices = indices_by_pick_freeze(sobol_sample(one.model, 20'000, random), 0.95);
     for (std::size_t p = 0; p < 3; ++p) {
       const auto& [first, total] = indices[p];
       EXPECT_NEAR(first.value, one.first[p], 4 * first.standard_error + 1e-12) << one.name << p;
@@ -81,11 +79,11 @@ TEST(PickFreeze, MeetsKnownIndices) {
 
 /// Of 1,000 intervals of 95 %, 95 ± 2 % hold the index, where it is not a bound of all there is.
 TEST(PickFreeze, ItsIntervalsCover) {
-  for (const Known& one : known()) {
+  for (const KnownIndices& one : known_indices()) {
     std::mt19937_64 random(11);
     std::array<int, 3> first{}, total{};
     for (int repeat = 0; repeat < 1000; ++repeat) {
-      const auto indices = indices_by_pick_freeze(sample(one.model, 500, random), 0.95);
+      const auto indices = indices_by_pick_freeze(sobol_sample(one.model, 500, random), 0.95);
       const auto holds = [](const Estimate& e, double value) {
         return e.bounds.low <= value && value <= e.bounds.high ? 1 : 0;
       };

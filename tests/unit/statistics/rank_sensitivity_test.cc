@@ -5,15 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <numbers>
 #include <random>
+
+#include "tests/unit/statistics/known_models.h"
 
 namespace faultsweep {
 namespace {
 
-using Point = std::array<double, 3>;  ///< uniform in [0, 1).
-using Model = std::function<double(const Point&)>;
+using testing::ishigami;
+using testing::Model;
+using testing::Point;
 
 struct Sample {
   std::vector<double> x, y;  ///< x: the first coordinate.
@@ -28,17 +29,6 @@ Sample sample(const Model& model, std::size_t n, std::mt19937_64& random) {
     s.y.push_back(model(p));
   }
   return s;
-}
-
-/// Ishigami & Homma (1990), a = 7, b = 0.1, its coordinates in the order given.
-Model ishigami(int first, int second, int third) {
-  return [=](const Point& p) {
-    const auto angle = [&](int k) {
-      return std::numbers::pi * (2 * p[static_cast<std::size_t>(k)] - 1);
-    };
-    return std::sin(angle(first)) + 7 * std::pow(std::sin(angle(second)), 2) +
-           0.1 * std::pow(angle(third), 4) * std::sin(angle(first));
-  };
 }
 
 struct Known {
