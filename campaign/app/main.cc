@@ -71,8 +71,8 @@ void add_case(CLI::App* command, StoreArguments& common, std::string& name) {
 void add_where(CLI::App* command, std::string& where) {
   command->add_option(
       "--where", where,
-      "only cases with this, a condition on metrics and parameters: \"offset > 50 m and slides\";\n"
-      "of a fault, a stage, or both: \"F2.max_slip in gas_storage > 10 mm\"");
+      "only cases where this holds of metrics and parameters: \"offset > 50 m and\n"
+      "slides\"; of a fault, a stage, or both: \"F2.max_slip in gas_storage > 10 mm\"");
 }
 void add_stage_and_fault(CLI::App* command, std::string& stage, std::string& fault) {
   command->add_option("--stage", stage, "metrics of this stage; default: the whole history");

@@ -70,9 +70,9 @@ struct SubmitReport {
   double operator_seconds = 0;
 };
 
-SubmitReport make_report(const Expansion& expansion) {
+SubmitReport make_report(const Expansion& expansion, CaseDetail cases) {
   SubmitReport report;
-  report.submission = make_submission(expansion);
+  report.submission = make_submission(expansion, cases);
   report.excluded = expansion.excluded;
   report.notes = expansion.notes;
   report.n_designed = expansion.n_designed;
@@ -224,7 +224,8 @@ ExitCode submit_command(const StoreArguments& common, const SubmitArguments& arg
       arguments.dry_run ? kPlannedForALook : std::numeric_limits<std::size_t>::max();
   const Expansion expansion = expand(read_campaign(arguments.spec), most_planned);
   check_rounds(expansion);
-  SubmitReport report = make_report(expansion);
+  SubmitReport report =
+      make_report(expansion, arguments.dry_run ? CaseDetail::identity : CaseDetail::whole);
   if (report.submission.cases.empty()) {
     throw InputError(arguments.spec,
                      {{"/exclude", 0, "every case is excluded", "relax a condition"}});

@@ -111,7 +111,7 @@ void check_rounds(const Expansion& expansion) {
   for (const faultsim::Fault& fault : scene.faults) selection.faults.push_back({0, fault.name});
   for (const faultsim::Stage& stage : scene.stages) selection.stages.push_back({0, stage.name});
   CampaignInfo campaign;
-  campaign.parameters = make_submission(expansion).parameters;
+  campaign.parameters = make_submission(expansion, CaseDetail::identity).parameters;
   std::vector<faultsim::Problem> problems;
   for (const Question& question : proposer->questions()) {
     try {

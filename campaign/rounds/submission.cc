@@ -83,7 +83,7 @@ std::vector<DesignRow> design_rows(const Expansion& expansion) {
 
 }  // namespace
 
-Submission make_submission(const Expansion& expansion) {
+Submission make_submission(const Expansion& expansion, CaseDetail cases) {
   const CampaignSpec& spec = expansion.spec;
   Submission submission;
   submission.name = spec.name;
@@ -109,8 +109,10 @@ Submission make_submission(const Expansion& expansion) {
   const auto record = [&](std::size_t from, std::size_t to) {
     for (std::size_t k = from; k < to; ++k) {
       const Case& one = expansion.cases[k];
-      submission.cases[k] = {one.identity, one.family, one.group, changes_of(expansion, one).dump(),
-                             columns.values_of(one)};
+      submission.cases[k] = {one.identity, one.family, one.group, {}, {}};
+      if (cases == CaseDetail::identity) continue;
+      submission.cases[k].changes = changes_of(expansion, one).dump();
+      submission.cases[k].parameters = columns.values_of(one);
     }
   };
   const std::size_t half = expansion.cases.size() / 2;

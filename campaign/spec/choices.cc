@@ -357,7 +357,7 @@ void SpecReader::read_distribution(const SceneNames& names, Parameter& parameter
     const auto parts = choice && choice->si ? split(at(place)) : std::nullopt;
     if (choice && !parts) problem(place, "a distribution needs numbers", "list the values instead");
     is_sound = is_sound && parts;
-    if (!parts) return 0;
+    if (!is_sound) return 0;  // without a centre there is no unit
     if (key == centre_key) unit = parts->unit;
     return parts->unit == unit ? parts->number
                                : faultsim::from_si(*choice->si, parameter.dimension, unit);
@@ -407,6 +407,11 @@ bool SpecReader::check_distribution(const std::string& pointer, const Marginal& 
   if (!is_triangle && (deviations(m.from) > kFar || deviations(m.to) < -kFar))
     problem(pointer + "/distribution", "nothing of it lies between from and to",
             "widen them: they are more than 8 deviations away");
+  for (const int u : {0, 1}) {
+    if (problems_.size() == before && !std::isfinite(static_cast<double>(m.quantile(u))))
+      problem(pointer + "/distribution", "it reaches numbers that are too large",
+              "give from and to, or less spread");
+  }
   if (design == DesignKind::morris && (!std::isfinite(m.to) || !std::isfinite(deviations(m.from))))
     problem(pointer + "/distribution", "morris goes to both ends, and there is none",
             "give from and to");

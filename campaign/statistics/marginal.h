@@ -18,7 +18,7 @@ struct Marginal {
 
   /// The value below which a share u of all lies. Of an end that is not cut, that of the smallest
   /// share above 0 that a sample can ask for, 2⁻⁵⁴: 8.2 deviations from the centre.
-  /// @pre 0 ≤ u ≤ 1, from < to.
+  /// @pre 0 ≤ u ≤ 1; from < to, but a range may go down.
   long double quantile(long double u) const;
 };
 

@@ -17,22 +17,41 @@ namespace {
 
 using Index = long;
 
-/// METIS 5.1 catches SIGABRT and SIGTERM by System V's signal(), and so puts back handlers that
-/// serve once: the next signal would end the process by its default. This puts back what was.
+/// METIS 5.1 catches SIGABRT and SIGTERM as it begins, by a handler that crashes in any thread but
+/// its own, and the process may have some that nobody here started (those of BLAS). So what was is
+/// put back as soon as METIS has taken it; and once more in the end, because METIS then puts back
+/// handlers that serve once: the next signal would end the process by its default.
 class KeptSignalActions {
  public:
   KeptSignalActions() {
     for (std::size_t i = 0; i < kTaken.size(); ++i) sigaction(kTaken[i], nullptr, &before_[i]);
+    watch_ = std::jthread([this](const std::stop_token& end) {
+      while (!end.stop_requested() && !is_taken()) std::this_thread::yield();
+      put_back();
+    });
   }
   ~KeptSignalActions() {
-    for (std::size_t i = 0; i < kTaken.size(); ++i) sigaction(kTaken[i], &before_[i], nullptr);
+    watch_.request_stop();
+    watch_.join();
+    put_back();
   }
   KeptSignalActions(const KeptSignalActions&) = delete;
   KeptSignalActions& operator=(const KeptSignalActions&) = delete;
 
  private:
+  /// SIGTERM is the last that it takes.
+  bool is_taken() const {
+    struct sigaction now = {};
+    sigaction(SIGTERM, nullptr, &now);
+    return now.sa_handler != before_.back().sa_handler;
+  }
+  void put_back() const {
+    for (std::size_t i = 0; i < kTaken.size(); ++i) sigaction(kTaken[i], &before_[i], nullptr);
+  }
+
   static constexpr std::array kTaken = {SIGABRT, SIGTERM};
   std::array<struct sigaction, kTaken.size()> before_ = {};
+  std::jthread watch_;
 };
 
 void demand_no_stop(const std::function<bool()>& stop) {
@@ -95,6 +114,7 @@ std::optional<std::vector<Index>> nested_dissection(const GroupGraph& graph,
       done = METIS_NodeND(&n, full.begin.data(), full.neighbours.data(), nullptr, nullptr,
                           order.data(), place.data());
     }
+    demand_no_stop(stop);
     if (done == METIS_OK) return std::vector<Index>(order.begin(), order.end());
     if (done == METIS_ERROR_MEMORY) return {};
     FAULTSIM_DEMAND(done == METIS_ERROR, "METIS_NodeND returns ", done);

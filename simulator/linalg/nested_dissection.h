@@ -15,8 +15,8 @@ struct GroupGraph {
 /// Fill-reducing order by METIS's nested dissection (METIS_NodeND with its default options):
 /// entry k is the vertex that is eliminated as the k-th. Nothing if METIS has no memory for it or
 /// the graph more edges than its integers count.
-/// METIS draws from the process's rand() and takes SIGTERM for itself, so that one call runs at a
-/// time in a process, and a SIGTERM that came meanwhile is raised again once METIS is gone.
+/// METIS draws from the process's rand(), so that one call runs at a time in a process, and takes
+/// SIGTERM for itself: it is given back at once, and what METIS caught before is raised again.
 /// @param stop  asked while it waits its turn, and before and after METIS.
 /// Throws Interrupted when `stop` says so.
 std::optional<std::vector<long>> nested_dissection(const GroupGraph& graph,

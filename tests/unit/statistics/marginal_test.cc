@@ -34,6 +34,9 @@ TEST(Marginal, RangesAreUniformInTheValueOrItsLogarithm) {
   EXPECT_EQ(uniform.quantile(0), 2);
   EXPECT_EQ(uniform.quantile(0.25), 3);
   EXPECT_EQ(uniform.quantile(1), 6);
+  const Marginal down{Distribution::uniform, 6, 2};
+  EXPECT_EQ(down.quantile(0), 6);
+  EXPECT_EQ(down.quantile(0.25), 5);
   const Marginal log{Distribution::log_uniform, 1, 100};
   EXPECT_NEAR(static_cast<double>(log.quantile(0.5)), 10, 1e-12);
 }
