@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <fstream>
+#include <string>
 
 namespace faultsim {
 namespace {
@@ -10,8 +12,9 @@ namespace {
 /// A made-up /proc.
 class Limits : public testing::Test {
  protected:
-  Limits() : proc_(std::filesystem::path(testing::TempDir()) / "faultsim_limits") {
-    std::filesystem::remove_all(proc_);
+  Limits() {
+    std::string name = testing::TempDir() + "faultsim_limits_XXXXXX";  // tests run side by side
+    proc_ = mkdtemp(name.data());
     std::filesystem::create_directories(proc_ / "self");
     std::ofstream(proc_ / "self" / "status")
         << "Name:\tfaultsim\nVmPeak:\t 900 kB\nVmSize:\t 800 kB\nVmData:\t 300 kB\n";
