@@ -1,8 +1,6 @@
 #include "campaign/store/checksums.h"
 
-#include <bit>
-#include <charconv>
-
+#include "campaign/store/row_digest.h"
 #include "campaign/store/sqlite.h"
 #include "simulator/common/fingerprint.h"
 
@@ -10,65 +8,46 @@ namespace faultsweep {
 
 using faultsim::concat;
 
-namespace {
-
-/// Folds rows into a short text: what has been added is replaced by its fingerprint now and then.
-class Digest {
- public:
-  void add(const Cell& cell) {
-    text_ += static_cast<char>('0' + cell.index());  // 1, 1.0 and "1" differ
-    if (const auto* whole = std::get_if<std::int64_t>(&cell)) add_number(*whole);
-    if (const auto* real = std::get_if<double>(&cell)) {
-      add_number(std::bit_cast<std::uint64_t>(*real));
-    }
-    if (const auto* words = std::get_if<std::string>(&cell)) {
-      add_number(words->size());
-      text_ += ':';
-      text_ += *words;
-    }
-    text_ += '\n';
-    constexpr std::size_t kLongest = 1 << 20;
-    if (text_.size() > kLongest) text_ = faultsim::fingerprint(text_);
-  }
-  void add_rows(Statement& query) {
-    while (query.step()) {
-      for (int column = 0; column < query.n_columns(); ++column) add(query.cell(column));
+/// A query for the rows of one case or campaign that count.
+struct Checksums::Rows {
+  Rows(Connection& connection, const std::string& table, const std::string& sql)
+      : query(std::make_unique<Statement>(connection, sql)) {
+    for (int column = 0; column < query->n_columns(); ++column) {
+      keys.push_back(RowDigest::column_key(table, query->column_name(column)));
     }
   }
-  std::string finish() const { return faultsim::fingerprint(text_); }
-
- private:
-  template <typename Integer>
-  void add_number(Integer number) {
-    char digits[24];
-    text_.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+  void add_to(RowDigest& digest, std::int64_t id) const {
+    query->bind(id);
+    while (query->step()) {
+      for (std::size_t k = 0; k < keys.size(); ++k) {
+        digest.add(keys[k], query->cell(static_cast<int>(k)));
+      }
+      digest.end_row();
+    }
+    query->reset();
   }
-  std::string text_;
+  std::unique_ptr<Statement> query;
+  std::vector<std::uint64_t> keys;
 };
 
-/// Selects the rows of one case, in the order of the primary key. Where the key does not begin with
-/// case_id, what stands before it are ids of names, which are few.
+namespace {
+
+/// Selects the rows of one case. Where the key does not begin with case_id, what stands before it
+/// are ids of names, which are few.
 std::string select_rows(Connection& connection, const std::string& table) {
   Statement key(connection, "SELECT name FROM pragma_table_info(?) WHERE pk > 0 ORDER BY pk");
   key.bind(table);
-  std::string where, order;
-  bool has_case = false;
-  while (key.step()) {
-    const std::string column = key.text(0);
-    if (column == "case_id") {
-      has_case = true;
-    } else if (!has_case) {
-      where += concat(column, " IN (SELECT id FROM names) AND ");
-    }
-    order += (order.empty() ? " ORDER BY " : ", ") + column;
+  std::string where;
+  while (key.step() && key.text(0) != "case_id") {
+    where += concat(key.text(0), " IN (SELECT id FROM names) AND ");
   }
-  return concat("SELECT * FROM ", table, " WHERE ", has_case ? where : "", "case_id = ?",
-                has_case ? order : " ORDER BY rowid");
+  return concat("SELECT * FROM ", table, " WHERE ", where, "case_id = ?");
 }
 
 }  // namespace
 
 Checksums::Checksums(Connection& connection) : connection_(connection) {
+  if (!exist(connection)) return;
   Statement tables(connection,
                    "SELECT m.name FROM sqlite_schema m JOIN pragma_table_info(m.name) c"
                    " WHERE m.type = 'table' AND c.name = 'case_id' AND m.name NOT IN"
@@ -76,48 +55,59 @@ Checksums::Checksums(Connection& connection) : connection_(connection) {
   std::vector<std::string> names;
   while (tables.step()) names.push_back(tables.text(0));
   for (const std::string& name : names) {
-    rows_.push_back(std::make_unique<Statement>(connection, select_rows(connection, name).c_str()));
+    tables_.emplace_back(connection, name, select_rows(connection, name));
   }
+  decided_.emplace_back(connection, "cases", "SELECT identity, changes FROM cases WHERE id = ?");
+  decided_.emplace_back(connection, "runs",
+                        "SELECT id, case_id, attempt, status, outcome, reason, operator,"
+                        " numerics_version FROM runs"
+                        " WHERE id = (SELECT run_id FROM case_metrics WHERE case_id = ?)");
+  campaign_.emplace_back(connection, "campaign_cases",
+                         "SELECT cc.position, cc.case_id, c.identity, c.scene_id, c.changes"
+                         " FROM campaign_cases cc JOIN cases c ON c.id = cc.case_id"
+                         " WHERE cc.campaign_id = ?");
+  campaign_.emplace_back(connection, "case_parameters",
+                         "SELECT position, parameter, si, text FROM case_parameters"
+                         " WHERE campaign_id = ?");
 }
 
 Checksums::~Checksums() = default;
 
 bool Checksums::exist(Connection& connection) {
-  return Statement(connection, "SELECT 1 FROM sqlite_schema WHERE name = 'checksum_schema'").step();
+  constexpr int kFirst = 14;  // older stores have others
+  Statement version(connection, "PRAGMA user_version");
+  return version.step() && version.integer(0) >= kFirst;
 }
 
-std::string Checksums::of_result(std::int64_t case_id) const {
-  Digest digest;
-  digest.add_rows(
-      connection_.prepared("SELECT identity, changes FROM cases WHERE id = ?").bind(case_id));
-  digest.add_rows(connection_
-                      .prepared("SELECT id, case_id, attempt, status, outcome, reason, operator,"
-                                " numerics_version FROM runs"
-                                " WHERE id = (SELECT run_id FROM case_metrics WHERE case_id = ?)")
-                      .bind(case_id));
-  for (const auto& query : rows_) digest.add_rows(query->bind(case_id));
-  return digest.finish();
+std::string Checksums::of_result(std::int64_t case_id, RowDigest rows) const {
+  for (const Rows& decided : decided_) decided.add_to(rows, case_id);
+  return rows.text();
+}
+
+std::string Checksums::of_stored_result(std::int64_t case_id) const {
+  RowDigest rows;
+  for (const Rows& table : tables_) table.add_to(rows, case_id);
+  return of_result(case_id, rows);
 }
 
 std::string Checksums::of_campaign(std::int64_t campaign) const {
-  Digest digest;
-  digest.add_rows(connection_
-                      .prepared("SELECT cc.position, cc.case_id, c.identity, c.scene_id, c.changes"
-                                " FROM campaign_cases cc JOIN cases c ON c.id = cc.case_id"
-                                " WHERE cc.campaign_id = ? ORDER BY cc.position")
-                      .bind(campaign));
-  digest.add_rows(connection_
-                      .prepared("SELECT position, parameter, si, text FROM case_parameters"
-                                " WHERE campaign_id = ? ORDER BY position, parameter")
-                      .bind(campaign));
-  return digest.finish();
+  RowDigest rows;
+  for (const Rows& part : campaign_) part.add_to(rows, campaign);
+  return rows.text();
 }
 
-void Checksums::seal_result(std::int64_t case_id) {
-  const std::string checksum = of_result(case_id);
-  connection_.prepared("INSERT OR REPLACE INTO result_checksums (case_id, checksum) VALUES (?, ?)")
+namespace {
+
+void write(Connection& connection, std::int64_t case_id, const std::string& checksum) {
+  connection.prepared("INSERT OR REPLACE INTO result_checksums (case_id, checksum) VALUES (?, ?)")
       .bind(case_id, checksum)
       .run();
+}
+
+}  // namespace
+
+void Checksums::seal_result(std::int64_t case_id, RowDigest rows) {
+  write(connection_, case_id, of_result(case_id, rows));
 }
 
 void Checksums::seal_campaign(std::int64_t campaign) {
@@ -140,8 +130,9 @@ std::vector<std::int64_t> ids(Connection& connection, const char* sql) {
 }  // namespace
 
 void Checksums::seal_all() {
-  for (const std::int64_t id : ids(connection_, "SELECT case_id FROM case_metrics"))
-    seal_result(id);
+  for (const std::int64_t id : ids(connection_, "SELECT case_id FROM case_metrics")) {
+    write(connection_, id, of_stored_result(id));
+  }
   for (const std::int64_t id : ids(connection_, "SELECT id FROM campaigns")) seal_campaign(id);
   connection_.execute(
       "UPDATE checksum_schema SET version = (SELECT user_version FROM pragma_user_version)");
@@ -156,7 +147,7 @@ bool Checksums::are_current() const {
 
 std::vector<std::string> Checksums::problems() const {
   std::vector<std::string> found;
-  if (!are_current()) return found;
+  if (!exist(connection_) || !are_current()) return found;
   Statement scenes(connection_, "SELECT id, hash, source, document FROM scenes");
   while (scenes.step()) {
     if (faultsim::fingerprint(scenes.text(2) + '\n' + scenes.text(3)) != scenes.text(1))
@@ -179,7 +170,7 @@ std::vector<std::string> Checksums::problems() const {
                     " LEFT JOIN result_checksums s ON s.case_id = c.id WHERE c.state = 'done'"
                     " OR s.case_id IS NOT NULL");
   while (results.step()) {
-    if (of_result(results.integer(0)) != results.text(2))
+    if (of_stored_result(results.integer(0)) != results.text(2))
       found.push_back(concat("the result of case ", results.text(1), " differs from its checksum"));
   }
   return found;

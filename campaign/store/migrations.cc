@@ -9,6 +9,7 @@
 #include "store_10_sql.h"
 #include "store_11_sql.h"
 #include "store_13_sql.h"
+#include "store_14_sql.h"
 #include "store_2_sql.h"
 #include "store_3_sql.h"
 #include "store_4_sql.h"
@@ -134,6 +135,7 @@ const std::vector<Migration>& store_migrations() {
         {10, "2026-11-22 flags that hang on the mesh", faultsim::embedded::store_10_sql},
         {11, "2026-11-22 views of the list of measures", faultsim::embedded::store_11_sql},
         {13, "2026-11-23 parameters of cases, rounds", faultsim::embedded::store_13_sql},
+        {14, "2026-11-23 checksums as sums over rows", faultsim::embedded::store_14_sql},
     };
     constexpr int kFirstWithViews = 11;
     for (std::size_t k = kFirstWithViews - 1;; ++k) {  // versions are without gaps from 1

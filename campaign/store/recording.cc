@@ -55,95 +55,113 @@ void Store::forget_result(std::int64_t case_id) {
       .run();
 }
 
-void Store::record_result(std::int64_t case_id, std::int64_t run_id, const CaseResult& result) {
-  const ResultTables& tables = result_tables();
-  Statement add = connection_->prepared(tables.add_whole);
-  const auto& unexpected = result.unexpected;
-  add.bind(case_id, run_id, result.steps.size(), result.episodes.size(),
-           unexpected ? std::optional(unexpected->episode) : std::nullopt,
-           unexpected ? std::optional(unexpected->after) : std::nullopt);
-  int bound = 6;
-  tables.whole.bind(add, bound, &result, name_ids());
-  add.run();
-  record_stage(case_id, result.whole, result);
-  for (const StageMetrics& stage : result.stages) record_stage(case_id, stage, result);
-  record_list(case_id, tables.add_event, tables.event, result.events);
-  record_list(case_id, tables.add_episode, tables.episode, result.episodes);
-}
+namespace {
 
-template <typename Struct>
-void Store::record_list(std::int64_t case_id, const std::string& sql,
-                        const RowFields<Struct>& fields, const std::vector<Struct>& list) {
-  Statement add = connection_->prepared(sql);
-  int number = 0;
-  for (const Struct& one : list) {
-    add.bind(case_id, ++number);
-    int bound = 2;
-    fields.bind(add, bound, &one, name_ids());
+/// Adds the rows of one result.
+class ResultWriter {
+ public:
+  ResultWriter(Connection& db, const ResultTables& tables, const NameIds& ids, std::int64_t case_id)
+      : db_(db), tables_(tables), ids_(ids), case_id_(case_id) {}
+  void add_result(std::int64_t run_id, const CaseResult& result) {
+    RowWriter add(db_, tables_.add_whole, digest_);
+    const auto& unexpected = result.unexpected;
+    add.begin(case_id_, run_id, result.steps.size(), result.episodes.size(),
+              unexpected ? std::optional(unexpected->episode) : std::nullopt,
+              unexpected ? std::optional(unexpected->after) : std::nullopt);
+    tables_.whole.bind(add, &result, ids_);
     add.run();
+    add_stage(result.whole, result);
+    for (const StageMetrics& stage : result.stages) add_stage(stage, result);
+    add_list(tables_.add_event, tables_.event, result.events);
+    add_list(tables_.add_episode, tables_.episode, result.episodes);
   }
-}
+  void add_histories(const CaseResult& result);
+  const RowDigest& digest() const { return digest_; }
 
-void Store::record_stage(std::int64_t case_id, const StageMetrics& stage,
-                         const CaseResult& result) {
-  const ResultTables& tables = result_tables();
-  Statement add = connection_->prepared(tables.add_stage);
+ private:
+  template <typename Struct>
+  void add_list(const RowInsert& insert, const RowFields<Struct>& fields,
+                const std::vector<Struct>& list) {
+    RowWriter add(db_, insert, digest_);
+    int number = 0;
+    for (const Struct& one : list) {
+      add.begin(case_id_, ++number);
+      fields.bind(add, &one, ids_);
+      add.run();
+    }
+  }
+  void add_stage(const StageMetrics& stage, const CaseResult& result);
+  void add_onset(std::int64_t stage_id, bool opening, const std::string& fault,
+                 const std::optional<faultsim::FaultOnset>& onset);
+
+  Connection& db_;
+  const ResultTables& tables_;
+  const NameIds& ids_;
+  std::int64_t case_id_;
+  RowDigest digest_;
+};
+
+void ResultWriter::add_stage(const StageMetrics& stage, const CaseResult& result) {
+  RowWriter add(db_, tables_.add_stage, digest_);
   const double margin = result.pressure_margin;
-  add.bind(case_id, rank_class(result.outcome, stage.activation_resolved),
-           std::isfinite(margin) ? std::optional(margin) : std::nullopt);
-  int bound = 3;
-  tables.stage.bind(add, bound, &stage, name_ids());
+  add.begin(case_id_, rank_class(result.outcome, stage.activation_resolved),
+            std::isfinite(margin) ? std::optional(margin) : std::nullopt);
+  tables_.stage.bind(add, &stage, ids_);
   add.run();
-  const std::int64_t stage_id = name_id(stage.stage);
-  Statement add_fault = connection_->prepared(tables.add_fault);
+  const std::int64_t stage_id = ids_(stage.stage);
+  RowWriter add_fault(db_, tables_.add_fault, digest_);
   for (std::size_t f = 0; f < stage.faults.size(); ++f) {
     const faultsim::FaultStageMetrics& fault = stage.faults[f];
-    add_fault.bind(case_id, stage_id, f, rank_class(result.outcome, fault.activation_resolved));
-    bound = 4;
-    tables.fault.bind(add_fault, bound, &fault, name_ids());
+    add_fault.begin(case_id_, stage_id, f, rank_class(result.outcome, fault.activation_resolved));
+    tables_.fault.bind(add_fault, &fault, ids_);
     add_fault.run();
-    record_onset(case_id, stage_id, false, fault.fault, fault.activation);
-    record_onset(case_id, stage_id, true, fault.fault, fault.opening);
+    add_onset(stage_id, false, fault.fault, fault.activation);
+    add_onset(stage_id, true, fault.fault, fault.opening);
   }
 }
 
-void Store::record_onset(std::int64_t case_id, std::int64_t stage_id, bool opening,
-                         const std::string& fault,
-                         const std::optional<faultsim::FaultOnset>& onset) {
+void ResultWriter::add_onset(std::int64_t stage_id, bool opening, const std::string& fault,
+                             const std::optional<faultsim::FaultOnset>& onset) {
   if (!onset) return;
-  const ResultTables& tables = result_tables();
-  Statement add = connection_->prepared(tables.add_onset);
-  add.bind(case_id, stage_id, opening, name_id(fault));
-  int bound = 4;
-  tables.onset.bind(add, bound, &*onset, name_ids());
+  RowWriter add(db_, tables_.add_onset, digest_);
+  add.begin(case_id_, stage_id, opening, ids_(fault));
+  tables_.onset.bind(add, &*onset, ids_);
   add.run();
 }
 
-void Store::record_histories(std::int64_t case_id, const CaseResult& result) {
-  const ResultTables& tables = result_tables();
-  Statement add_step = connection_->prepared(tables.add_step);
-  Statement add_fault = connection_->prepared(tables.add_history);
+void ResultWriter::add_histories(const CaseResult& result) {
+  RowWriter add_step(db_, tables_.add_step, digest_);
+  RowWriter add_fault(db_, tables_.add_history, digest_);
   std::vector<std::int64_t> faults;
-  for (const std::string& name : result.fault_names) faults.push_back(name_id(name));
+  for (const std::string& name : result.fault_names) faults.push_back(ids_(name));
   for (const faultsim::StepResult& step : result.steps) {
     const faultsim::StepCreep* creep = step.creep ? &*step.creep : nullptr;
-    add_step.bind(case_id);
-    int bound = 1;
-    tables.step.bind(add_step, bound, &step, name_ids());
-    tables.step_creep.bind(add_step, bound, creep, name_ids());
+    add_step.begin(case_id_);
+    tables_.step.bind(add_step, &step, ids_);
+    tables_.step_creep.bind(add_step, creep, ids_);
     add_step.run();
     // A step that did not converge has no metrics.
     if (!faultsim::in_equilibrium(step.outcome)) continue;
     FAULTSIM_DEMAND(step.faults.size() <= faults.size(), step.faults.size());
     for (std::size_t k = 0; k < step.faults.size(); ++k) {
       const bool creeps = creep != nullptr && k < creep->faults.size();
-      add_fault.bind(case_id, k, step.step, faults[k]);
-      bound = 4;
-      tables.history.bind(add_fault, bound, &step.faults[k], name_ids());
-      tables.history_creep.bind(add_fault, bound, creeps ? &creep->faults[k] : nullptr, name_ids());
+      add_fault.begin(case_id_, k, step.step, faults[k]);
+      tables_.history.bind(add_fault, &step.faults[k], ids_);
+      tables_.history_creep.bind(add_fault, creeps ? &creep->faults[k] : nullptr, ids_);
       add_fault.run();
     }
   }
+}
+
+}  // namespace
+
+RowDigest Store::record_result(std::int64_t case_id, std::int64_t run_id,
+                               const CaseResult& result) {
+  const NameIds ids = [this](const std::string& name) { return name_id(name); };
+  ResultWriter writer(*connection_, result_tables(), ids, case_id);
+  writer.add_result(run_id, result);
+  writer.add_histories(result);
+  return writer.digest();
 }
 
 /// Before the rows of stage_metrics and chi_history go, which say which there are.
@@ -159,10 +177,6 @@ void Store::forget_fault_metrics(std::int64_t case_id) {
 const ResultTables& Store::result_tables() const {
   if (!tables_) tables_ = std::make_unique<ResultTables>(*connection_);
   return *tables_;
-}
-
-NameIds Store::name_ids() {
-  return [this](const std::string& name) { return name_id(name); };
 }
 
 }  // namespace faultsweep

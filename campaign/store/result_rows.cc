@@ -7,10 +7,16 @@ namespace faultsweep {
 
 using faultsim::concat;
 
-std::string insert_sql(const std::string& table, const std::string& columns) {
-  std::string values = "?";
-  for (auto n = std::count(columns.begin(), columns.end(), ','); n > 0; --n) values += ", ?";
-  return concat("INSERT INTO ", table, " (", columns, ") VALUES (", values, ")");
+RowInsert::RowInsert(const std::string& table, const std::string& columns) {
+  std::string values;
+  constexpr std::string_view kBetween = ", ";
+  for (std::size_t at = 0; at < columns.size();) {
+    const std::size_t end = std::min(columns.find(kBetween, at), columns.size());
+    keys.push_back(RowDigest::column_key(table, std::string_view(columns).substr(at, end - at)));
+    values += values.empty() ? "?" : ", ?";
+    at = end + kBetween.size();
+  }
+  sql = concat("INSERT INTO ", table, " (", columns, ") VALUES (", values, ")");
 }
 
 TableColumns::TableColumns(Connection& connection, const std::string& table) {
@@ -93,21 +99,21 @@ ResultTables::ResultTables(Connection& db)
       history_creep(db, "chi_history", "creep_"),
       event(db, "slip_events"),
       episode(db, "episodes"),
-      add_whole(insert_sql("case_metrics",
-                           "case_id, run_id, n_steps, n_episodes,"
-                           " unexpected_episode, unexpected_after" +
-                               whole.columns())),
+      add_whole("case_metrics",
+                "case_id, run_id, n_steps, n_episodes,"
+                " unexpected_episode, unexpected_after" +
+                    whole.columns()),
       add_stage(
-          insert_sql("stage_metrics", "case_id, rank_class, pressure_margin_pa" + stage.columns())),
+          RowInsert("stage_metrics", "case_id, rank_class, pressure_margin_pa" + stage.columns())),
       add_fault(
-          insert_sql("fault_metrics", "case_id, stage_id, fault, rank_class" + fault.columns())),
+          RowInsert("fault_metrics", "case_id, stage_id, fault, rank_class" + fault.columns())),
       add_onset(
-          insert_sql("fault_onsets", "case_id, stage_id, opening, fault_id" + onset.columns())),
-      add_step(insert_sql("load_steps", "case_id" + step.columns() + step_creep.columns())),
-      add_history(insert_sql("chi_history", "case_id, fault, step, fault_id" + history.columns() +
-                                                history_creep.columns())),
-      add_event(insert_sql("slip_events", "case_id, number" + event.columns())),
-      add_episode(insert_sql("episodes", "case_id, number" + episode.columns())),
+          RowInsert("fault_onsets", "case_id, stage_id, opening, fault_id" + onset.columns())),
+      add_step("load_steps", "case_id" + step.columns() + step_creep.columns()),
+      add_history("chi_history",
+                  "case_id, fault, step, fault_id" + history.columns() + history_creep.columns()),
+      add_event("slip_events", "case_id, number" + event.columns()),
+      add_episode("episodes", "case_id, number" + episode.columns()),
       read_fault(concat("SELECT 1", fault.selected("q"),
                         " FROM fault_metrics q WHERE q.stage_id = ?1 AND q.fault_id = ?2"
                         " AND q.case_id = ?3")),

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "campaign/store/row_digest.h"
 #include "campaign/store/sqlite.h"
 #include "simulator/output/result_fields.h"
 
@@ -19,8 +20,49 @@ namespace faultsweep {
 /// The id of a name in the table `names`, which is added if need be.
 using NameIds = std::function<std::int64_t(const std::string&)>;
 
-/// "case_id, step" -> "INSERT INTO table (case_id, step) VALUES (?, ?)".
-std::string insert_sql(const std::string& table, const std::string& columns);
+/// How rows are added to a table.
+struct RowInsert {
+  /// @param columns  "case_id, step".
+  RowInsert(const std::string& table, const std::string& columns);
+  std::string sql;                  ///< "INSERT INTO table (case_id, step) VALUES (?, ?)".
+  std::vector<std::uint64_t> keys;  ///< of the columns, for checksums.
+};
+
+/// Adds rows to a table, and to the checksum of the result they belong to.
+class RowWriter {
+ public:
+  RowWriter(Connection& connection, const RowInsert& insert, RowDigest& digest)
+      : statement_(connection.prepared(insert.sql)), keys_(insert.keys), digest_(digest) {}
+  /// Begins a row with its first columns. Texts must live until run().
+  template <typename... Values>
+  void begin(const Values&... values) {
+    statement_.reset();
+    position_ = 0;
+    (bind(values), ...);
+  }
+  /// Binds the next column.
+  template <typename Value>
+  void bind(const Value& value) {
+    digest_.add(keys_[static_cast<std::size_t>(position_)], value);
+    statement_.bind_at(++position_, value);
+  }
+  /// The same of a text that does not live as long.
+  void bind_copy(const std::string& text) {
+    digest_.add(keys_[static_cast<std::size_t>(position_)], text);
+    statement_.bind_copy(++position_, text);
+  }
+  void bind_null() { statement_.bind_at(++position_, std::optional<double>()); }
+  void run() {
+    statement_.run();
+    digest_.end_row();
+  }
+
+ private:
+  Statement statement_;
+  const std::vector<std::uint64_t>& keys_;
+  RowDigest& digest_;
+  int position_ = 0;  ///< of the column bound last, from 1.
+};
 
 /// How a field lies in a row.
 struct RowField {
@@ -100,17 +142,18 @@ class RowFields {
     }
     return list;
   }
-  /// Binds the columns() from the parameter behind `position`, which it moves on; NULL for all of
-  /// no struct.
-  void bind(Statement& add, int& position, const Struct* from, const NameIds& ids) const {
-    const Struct empty;
+  /// Binds the columns(); NULL for all of no struct.
+  void bind(RowWriter& row, const Struct* from, const NameIds& ids) const {
+    if (from == nullptr) {
+      for (const RowField& field : fields_) {
+        if (field.kind != RowField::Kind::absent) row.bind_null();
+      }
+      return;
+    }
     std::size_t k = 0;
-    for_each_row_value(from != nullptr ? *from : empty, [&](const auto&, const auto& value) {
+    for_each_row_value(*from, [&](const auto&, const auto& value) {
       const RowField& field = fields_[k++];
-      if (field.kind == RowField::Kind::absent) return;
-      ++position;
-      if (from == nullptr) return add.bind_at(position, std::optional<double>());
-      bind_value(add, position, field, value, ids);
+      if (field.kind != RowField::Kind::absent) bind_value(row, field, value, ids);
     });
   }
   /// Reads what selected() selects from `column` on, which it moves on. NULL is NaN, none, false, 0
@@ -129,23 +172,23 @@ class RowFields {
 
  private:
   template <typename Member>
-  static void bind_value(Statement& add, int position, const RowField& field, const Member& value,
+  static void bind_value(RowWriter& row, const RowField& field, const Member& value,
                          const NameIds& ids) {
     if constexpr (std::is_same_v<Member, double>) {
       const bool none = field.may_be_null && !std::isfinite(value);
-      add.bind_at(position, none ? std::nullopt : std::optional(value));
+      row.bind(none ? std::nullopt : std::optional(value));
     } else if constexpr (std::is_same_v<Member, std::string>) {
-      if (field.kind == RowField::Kind::plain) return add.bind_at(position, value);
+      if (field.kind == RowField::Kind::plain) return row.bind(value);
       const bool none = value.empty() && field.may_be_null;
-      add.bind_at(position, none ? std::nullopt : std::optional(ids(value)));
+      row.bind(none ? std::nullopt : std::optional(ids(value)));
     } else if constexpr (std::is_enum_v<Member>) {
-      add.bind_at(position, faultsim::to_string(value));
+      row.bind(faultsim::to_string(value));
     } else if constexpr (std::is_same_v<Member, std::vector<double>>) {
-      add.bind_copy(position, json_array(value));
+      row.bind_copy(json_array(value));
     } else if constexpr (std::is_same_v<Member, std::vector<std::string>>) {
-      add.bind_copy(position, join_lines(value));
+      row.bind_copy(join_lines(value));
     } else {
-      add.bind_at(position, value);
+      row.bind(value);
     }
   }
   template <typename Member>
@@ -188,7 +231,7 @@ struct ResultTables {
   RowFields<faultsim::FaultCreep> history_creep;
   RowFields<faultsim::SlipEvent> event;
   RowFields<faultsim::Episode> episode;
-  std::string add_whole, add_stage, add_fault, add_onset, add_step, add_history, add_event,
+  RowInsert add_whole, add_stage, add_fault, add_onset, add_step, add_history, add_event,
       add_episode;
   std::string read_fault, read_onsets;  ///< by stage_id, fault_id, case_id, as q and o.
 };

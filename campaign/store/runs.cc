@@ -1,6 +1,7 @@
 #include "campaign/store/checksums.h"
 #include "campaign/store/clock.h"
 #include "campaign/store/name_cache.h"
+#include "campaign/store/row_digest.h"
 #include "campaign/store/sqlite.h"
 #include "campaign/store/store.h"
 
@@ -155,9 +156,7 @@ void Store::decide_case(const RunRecord& run, std::int64_t run_id) {
   using Text = std::optional<std::string>;
   if (result != nullptr) {
     forget_result(run.case_id);
-    record_result(run.case_id, run_id, *result);
-    record_histories(run.case_id, *result);
-    checksums_->seal_result(run.case_id);
+    checksums_->seal_result(run.case_id, record_result(run.case_id, run_id, *result));
   }
   if (!run.final) return;
   connection_->prepared("UPDATE cases SET state = ?, outcome = ?, run_id = ? WHERE id = ?")

@@ -254,6 +254,10 @@ std::optional<std::string> Statement::optional_text(int column) const {
 
 int Statement::n_columns() const { return sqlite3_column_count(statement_); }
 
+std::string Statement::column_name(int column) const {
+  return sqlite3_column_name(statement_, column);
+}
+
 Cell Statement::cell(int column) const {
   switch (sqlite3_column_type(statement_, column)) {
     case SQLITE_NULL:

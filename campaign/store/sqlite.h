@@ -100,6 +100,7 @@ class Statement {
   std::optional<std::string> optional_text(int column) const;
   Cell cell(int column) const;  ///< whatever is there.
   int n_columns() const;
+  std::string column_name(int column) const;
 
  private:
   friend class Connection;

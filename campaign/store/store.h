@@ -15,10 +15,9 @@
 namespace faultsweep {
 
 class Checksums;
+class RowDigest;
 class Connection;
 struct ResultTables;
-template <typename Struct>
-class RowFields;
 
 /// What a metric is of. Ids are those of Store::stages and Store::faults.
 struct MetricScope {
@@ -219,19 +218,11 @@ class Store {
                        double now);
   void decide_case(const RunRecord& run, std::int64_t run_id);
   void decide_fields(std::int64_t campaign, const RunRecord& run);
-  void record_result(std::int64_t case_id, std::int64_t run_id, const faultsim::CaseResult& result);
-  void record_histories(std::int64_t case_id, const faultsim::CaseResult& result);
-  template <typename Struct>
-  void record_list(std::int64_t case_id, const std::string& sql, const RowFields<Struct>& fields,
-                   const std::vector<Struct>& list);
-  void record_onset(std::int64_t case_id, std::int64_t stage_id, bool opening,
-                    const std::string& fault, const std::optional<faultsim::FaultOnset>& onset);
+  RowDigest record_result(std::int64_t case_id, std::int64_t run_id,
+                          const faultsim::CaseResult& result);
   void forget_fault_metrics(std::int64_t case_id);
-  void record_stage(std::int64_t case_id, const faultsim::StageMetrics& stage,
-                    const faultsim::CaseResult& result);
   void forget_result(std::int64_t case_id);
   std::int64_t name_id(const std::string& name);
-  std::function<std::int64_t(const std::string&)> name_ids();  ///< name_id as a function.
   const ResultTables& result_tables() const;
   std::int64_t add_scene(const BaseScene& scene);
   long add_round(std::int64_t campaign, const Submission& submission, const std::string& design,

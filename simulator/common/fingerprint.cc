@@ -15,6 +15,10 @@ std::string fingerprint(const void* bytes, std::size_t n_bytes) {
   return text;
 }
 
+std::uint64_t hash64(const void* bytes, std::size_t n_bytes, std::uint64_t seed) {
+  return XXH3_64bits_withSeed(bytes, n_bytes, seed);
+}
+
 std::string fingerprint(std::string_view bytes) { return fingerprint(bytes.data(), bytes.size()); }
 
 }  // namespace faultsim

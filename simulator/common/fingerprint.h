@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -13,5 +14,8 @@ inline constexpr int kNumericsVersion = 5;
 /// of one user apart and finds damaged files; it does not defend against forgery.
 std::string fingerprint(std::string_view bytes);
 std::string fingerprint(const void* bytes, std::size_t n_bytes);
+
+/// The 64-bit XXH3 hash of the bytes with a seed: for sums over many small things.
+std::uint64_t hash64(const void* bytes, std::size_t n_bytes, std::uint64_t seed = 0);
 
 }  // namespace faultsim

@@ -1,0 +1,3 @@
+-- Migration 14: checksums are sums over rows (campaign/store/row_digest.h), so that they are made of what
+-- is written instead of reading it back. No table changes; all checksums are made anew, and those of
+-- before are not looked at again.
