@@ -57,19 +57,24 @@ void Store::forget_result(std::int64_t case_id) {
 
 namespace {
 
+/// A step that did not converge has no metrics.
+std::size_t n_history_rows(const faultsim::StepResult& step) {
+  return faultsim::in_equilibrium(step.outcome) ? step.faults.size() : 0;
+}
+
 /// Adds the rows of one result.
 class ResultWriter {
  public:
   ResultWriter(Connection& db, const ResultTables& tables, const NameIds& ids, std::int64_t case_id)
       : db_(db), tables_(tables), ids_(ids), case_id_(case_id) {}
   void add_result(std::int64_t run_id, const CaseResult& result) {
-    RowWriter add(db_, tables_.add_whole, digest_);
+    RowWriter add(db_, tables_.add_whole, digest_, 1);
     const auto& unexpected = result.unexpected;
     add.begin(case_id_, run_id, result.steps.size(), result.episodes.size(),
               unexpected ? std::optional(unexpected->episode) : std::nullopt,
               unexpected ? std::optional(unexpected->after) : std::nullopt);
     tables_.whole.bind(add, &result, ids_);
-    add.run();
+    add.end();
     add_stage(result.whole, result);
     for (const StageMetrics& stage : result.stages) add_stage(stage, result);
     add_list(tables_.add_event, tables_.event, result.events);
@@ -82,17 +87,18 @@ class ResultWriter {
   template <typename Struct>
   void add_list(const RowInsert& insert, const RowFields<Struct>& fields,
                 const std::vector<Struct>& list) {
-    RowWriter add(db_, insert, digest_);
+    RowWriter add(db_, insert, digest_, list.size());
     int number = 0;
     for (const Struct& one : list) {
       add.begin(case_id_, ++number);
       fields.bind(add, &one, ids_);
-      add.run();
+      add.end();
     }
   }
   void add_stage(const StageMetrics& stage, const CaseResult& result);
   void add_onset(std::int64_t stage_id, bool opening, const std::string& fault,
                  const std::optional<faultsim::FaultOnset>& onset);
+  void add_fault_histories(const CaseResult& result, std::size_t n_faults, std::size_t n_rows);
 
   Connection& db_;
   const ResultTables& tables_;
@@ -102,19 +108,19 @@ class ResultWriter {
 };
 
 void ResultWriter::add_stage(const StageMetrics& stage, const CaseResult& result) {
-  RowWriter add(db_, tables_.add_stage, digest_);
+  RowWriter add(db_, tables_.add_stage, digest_, 1);
   const double margin = result.pressure_margin;
   add.begin(case_id_, rank_class(result.outcome, stage.activation_resolved),
             std::isfinite(margin) ? std::optional(margin) : std::nullopt);
   tables_.stage.bind(add, &stage, ids_);
-  add.run();
+  add.end();
   const std::int64_t stage_id = ids_(stage.stage);
-  RowWriter add_fault(db_, tables_.add_fault, digest_);
+  RowWriter add_fault(db_, tables_.add_fault, digest_, stage.faults.size());
   for (std::size_t f = 0; f < stage.faults.size(); ++f) {
     const faultsim::FaultStageMetrics& fault = stage.faults[f];
     add_fault.begin(case_id_, stage_id, f, rank_class(result.outcome, fault.activation_resolved));
     tables_.fault.bind(add_fault, &fault, ids_);
-    add_fault.run();
+    add_fault.end();
     add_onset(stage_id, false, fault.fault, fault.activation);
     add_onset(stage_id, true, fault.fault, fault.opening);
   }
@@ -123,32 +129,40 @@ void ResultWriter::add_stage(const StageMetrics& stage, const CaseResult& result
 void ResultWriter::add_onset(std::int64_t stage_id, bool opening, const std::string& fault,
                              const std::optional<faultsim::FaultOnset>& onset) {
   if (!onset) return;
-  RowWriter add(db_, tables_.add_onset, digest_);
+  RowWriter add(db_, tables_.add_onset, digest_, 1);
   add.begin(case_id_, stage_id, opening, ids_(fault));
   tables_.onset.bind(add, &*onset, ids_);
-  add.run();
+  add.end();
 }
 
 void ResultWriter::add_histories(const CaseResult& result) {
-  RowWriter add_step(db_, tables_.add_step, digest_);
-  RowWriter add_fault(db_, tables_.add_history, digest_);
-  std::vector<std::int64_t> faults;
-  for (const std::string& name : result.fault_names) faults.push_back(ids_(name));
+  RowWriter add(db_, tables_.add_step, digest_, result.steps.size());
+  std::size_t n_faults = 0, n_rows = 0;
   for (const faultsim::StepResult& step : result.steps) {
-    const faultsim::StepCreep* creep = step.creep ? &*step.creep : nullptr;
-    add_step.begin(case_id_);
-    tables_.step.bind(add_step, &step, ids_);
-    tables_.step_creep.bind(add_step, creep, ids_);
-    add_step.run();
-    // A step that did not converge has no metrics.
-    if (!faultsim::in_equilibrium(step.outcome)) continue;
-    FAULTSIM_DEMAND(step.faults.size() <= faults.size(), step.faults.size());
-    for (std::size_t k = 0; k < step.faults.size(); ++k) {
-      const bool creeps = creep != nullptr && k < creep->faults.size();
-      add_fault.begin(case_id_, k, step.step, faults[k]);
-      tables_.history.bind(add_fault, &step.faults[k], ids_);
-      tables_.history_creep.bind(add_fault, creeps ? &creep->faults[k] : nullptr, ids_);
-      add_fault.run();
+    add.begin(case_id_);
+    tables_.step.bind(add, &step, ids_);
+    tables_.step_creep.bind(add, step.creep ? &*step.creep : nullptr, ids_);
+    add.end();
+    n_faults = std::max(n_faults, n_history_rows(step));
+    n_rows += n_history_rows(step);
+  }
+  FAULTSIM_DEMAND(n_faults <= result.fault_names.size(), n_faults);
+  add_fault_histories(result, n_faults, n_rows);
+}
+
+/// In the order of the table: fault by fault.
+void ResultWriter::add_fault_histories(const CaseResult& result, std::size_t n_faults,
+                                       std::size_t n_rows) {
+  RowWriter add(db_, tables_.add_history, digest_, n_rows);
+  for (std::size_t k = 0; k < n_faults; ++k) {
+    const std::int64_t fault = ids_(result.fault_names[k]);
+    for (const faultsim::StepResult& step : result.steps) {
+      if (k >= n_history_rows(step)) continue;
+      const bool creeps = step.creep && k < step.creep->faults.size();
+      add.begin(case_id_, k, step.step, fault);
+      tables_.history.bind(add, &step.faults[k], ids_);
+      tables_.history_creep.bind(add, creeps ? &step.creep->faults[k] : nullptr, ids_);
+      add.end();
     }
   }
 }

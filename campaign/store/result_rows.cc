@@ -8,15 +8,39 @@ namespace faultsweep {
 using faultsim::concat;
 
 RowInsert::RowInsert(const std::string& table, const std::string& columns) {
-  std::string values;
+  std::string row;
   constexpr std::string_view kBetween = ", ";
   for (std::size_t at = 0; at < columns.size();) {
     const std::size_t end = std::min(columns.find(kBetween, at), columns.size());
     keys.push_back(RowDigest::column_key(table, std::string_view(columns).substr(at, end - at)));
-    values += values.empty() ? "?" : ", ?";
+    row += row.empty() ? "(?" : ", ?";
     at = end + kBetween.size();
   }
-  sql = concat("INSERT INTO ", table, " (", columns, ") VALUES (", values, ")");
+  row += ')';
+  for (std::size_t k = 0; k < sql.size(); ++k) {
+    sql[k] = concat("INSERT INTO ", table, " (", columns, ") VALUES ", row);
+    for (std::size_t more = 1; more < kRows[k]; ++more) sql[k] += concat(kBetween, row);
+  }
+}
+
+void RowWriter::take_statement() {
+  FAULTSIM_DEMAND(n_left_ > 0, insert_.sql.back());
+  std::size_t k = 0;
+  while (RowInsert::kRows[k] > n_left_) ++k;
+  if (!statement_ || RowInsert::kRows[k] != n_taken_) {
+    statement_.reset();
+    statement_.emplace(connection_.prepared(insert_.sql[k]));
+    n_taken_ = RowInsert::kRows[k];
+  }
+  n_open_ = n_taken_;
+  n_left_ -= n_taken_;
+  position_ = 0;
+}
+
+void RowWriter::end() {
+  FAULTSIM_DEMAND(column_ == insert_.keys.size(), insert_.sql.back());
+  digest_.end_row();
+  if (--n_open_ == 0) statement_->run();
 }
 
 TableColumns::TableColumns(Connection& connection, const std::string& table) {

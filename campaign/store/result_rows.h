@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <set>
 #include <string>
 #include <type_traits>
@@ -24,44 +26,56 @@ using NameIds = std::function<std::int64_t(const std::string&)>;
 struct RowInsert {
   /// @param columns  "case_id, step".
   RowInsert(const std::string& table, const std::string& columns);
-  std::string sql;                  ///< "INSERT INTO table (case_id, step) VALUES (?, ?)".
-  std::vector<std::uint64_t> keys;  ///< of the columns, for checksums.
+  /// So many rows at once: of one statement SQLite finds the place once, and the next rows, if they
+  /// come in the order of the primary key, just behind.
+  static constexpr std::array<std::size_t, 3> kRows = {32, 8, 1};
+  std::array<std::string, kRows.size()> sql;  ///< "INSERT INTO t (a, b) VALUES (?, ?), (?, ?)".
+  std::vector<std::uint64_t> keys;            ///< of the columns, for checksums.
 };
 
 /// Adds rows to a table, and to the checksum of the result they belong to.
 class RowWriter {
  public:
-  RowWriter(Connection& connection, const RowInsert& insert, RowDigest& digest)
-      : statement_(connection.prepared(insert.sql)), keys_(insert.keys), digest_(digest) {}
-  /// Begins a row with its first columns. Texts must live until run().
+  /// @param n_rows  that will be added: no fewer.
+  RowWriter(Connection& connection, const RowInsert& insert, RowDigest& digest, std::size_t n_rows)
+      : connection_(connection), insert_(insert), digest_(digest), n_left_(n_rows) {}
+  /// Begins a row with its first columns. Texts must live as long as the writer.
   template <typename... Values>
   void begin(const Values&... values) {
-    statement_.reset();
-    position_ = 0;
+    if (n_open_ == 0) take_statement();
+    column_ = 0;
     (bind(values), ...);
   }
   /// Binds the next column.
   template <typename Value>
   void bind(const Value& value) {
-    digest_.add(keys_[static_cast<std::size_t>(position_)], value);
-    statement_.bind_at(++position_, value);
+    digest_.add(insert_.keys[column_++], value);
+    statement_->bind_at(++position_, value);
   }
   /// The same of a text that does not live as long.
   void bind_copy(const std::string& text) {
-    digest_.add(keys_[static_cast<std::size_t>(position_)], text);
-    statement_.bind_copy(++position_, text);
+    digest_.add(insert_.keys[column_++], text);
+    statement_->bind_copy(++position_, text);
   }
-  void bind_null() { statement_.bind_at(++position_, std::optional<double>()); }
-  void run() {
-    statement_.run();
-    digest_.end_row();
+  void bind_null() {
+    ++column_;
+    statement_->bind_at(++position_, std::optional<double>());
   }
+  /// Ends a row.
+  void end();
 
  private:
-  Statement statement_;
-  const std::vector<std::uint64_t>& keys_;
+  void take_statement();
+
+  Connection& connection_;
+  const RowInsert& insert_;
   RowDigest& digest_;
-  int position_ = 0;  ///< of the column bound last, from 1.
+  std::optional<Statement> statement_;
+  std::size_t n_left_;       ///< rows for which no statement was taken.
+  std::size_t n_taken_ = 0;  ///< rows of the statement.
+  std::size_t n_open_ = 0;   ///< of these, those that have not ended.
+  std::size_t column_ = 0;   ///< the next one of the row.
+  int position_ = 0;         ///< of the parameter bound last, from 1.
 };
 
 /// How a field lies in a row.

@@ -104,8 +104,6 @@ CaseInput Store::case_input(std::int64_t campaign, std::int64_t case_id) const {
 
 void Store::record_runs(std::int64_t campaign, const std::vector<RunRecord>& runs) {
   if (runs.empty()) return;
-  const PragmaWhile foreign_keys(*connection_, "foreign_keys",
-                                 false);  // cases and names were just looked up
   names_->begin();
   try {
     Transaction transaction(*connection_);

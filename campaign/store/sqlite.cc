@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace faultsweep {
 namespace {
@@ -102,6 +103,11 @@ Connection::Connection(const std::filesystem::path& path, Mode mode) : path_(pat
         "PRAGMA mmap_size = 268435456; PRAGMA temp_store = MEMORY");
     sqlite3_create_function(handle_, "exact_real", 1, SQLITE_UTF8 | SQLITE_DETERMINISTIC, nullptr,
                             exact_real, nullptr, nullptr);
+    if (mode == Mode::owner) {
+      // Pages that change in every batch are written once per 32 MB; and see ConstraintsOff: to
+      // switch for each batch would prepare all statements again.
+      execute("PRAGMA wal_autocheckpoint = 8000; PRAGMA foreign_keys = OFF");
+    }
     if (mode == Mode::read_write) {
       execute("PRAGMA wal_autocheckpoint = 0");
       sqlite3_db_config(handle_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
@@ -173,7 +179,13 @@ void Connection::copy_to(const std::filesystem::path& target) {
 Statement::Statement(Connection& connection, const std::string& sql)
     : connection_(connection), statement_(connection.prepare(sql)) {}
 
+Statement::Statement(Statement&& other) noexcept
+    : connection_(other.connection_),
+      statement_(std::exchange(other.statement_, nullptr)),
+      home_(other.home_) {}
+
 Statement::~Statement() {
+  if (statement_ == nullptr) return;
   if (home_ == nullptr) {
     sqlite3_finalize(statement_);
   } else {
@@ -272,10 +284,15 @@ Cell Statement::cell(int column) const {
 }
 
 PragmaWhile::PragmaWhile(Connection& connection, const std::string& name, bool on)
-    : connection_(connection), after_(concat("PRAGMA ", name, " = ", on ? "OFF" : "ON")) {
+    : connection_(connection) {
+  Statement before(connection, "PRAGMA " + name);
+  const bool was_on = before.step() && before.integer(0) != 0;
+  if (was_on == on) return;  // prepared statements stay valid
+  after_ = concat("PRAGMA ", name, " = ", was_on ? "ON" : "OFF");
   connection_.execute(concat("PRAGMA ", name, " = ", on ? "ON" : "OFF").c_str());
 }
 PragmaWhile::~PragmaWhile() {
+  if (after_.empty()) return;
   try {
     connection_.execute(after_.c_str());
   } catch (const StorageError&) {  // the connection is of no use any more, and its owner is told

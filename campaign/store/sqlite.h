@@ -32,10 +32,11 @@ class Connection {
   enum class Mode {
     read_only,   ///< mode=ro; immutable where the folder cannot be written (no -shm file possible).
     read_write,  ///< never checkpoints: see `checkpoints`.
-    owner,       ///< the manager: the only one that checkpoints (WAL-reset bug of SQLite < 3.51.3).
+    owner,       ///< the manager: the only one that checkpoints (WAL-reset bug of SQLite < 3.51.3);
+            ///< without foreign keys, as it writes about cases and names that it just looked up.
   };
-  /// Opens (creates, unless read_only) the file. Foreign keys are on; a locked database is waited
-  /// for 10 s at most. Throws StorageError.
+  /// Opens (creates, unless read_only) the file. Foreign keys are on but for the owner; a locked
+  /// database is waited for 10 s at most. Throws StorageError.
   Connection(const std::filesystem::path& path, Mode mode);
   ~Connection();
   Connection(const Connection&) = delete;
@@ -68,6 +69,7 @@ class Connection {
 class Statement {
  public:
   Statement(Connection& connection, const std::string& sql);
+  Statement(Statement&& other) noexcept;
   ~Statement();
   Statement(const Statement&) = delete;
   Statement& operator=(const Statement&) = delete;

@@ -302,7 +302,7 @@ TEST_F(EventsTest, AStoreWithLostRowsIsRefusedAndLeftAsItIs) {
 }
 
 TEST_F(EventsTest, ForeignKeysAndOutcomesAreGuardedAfterTheMigration) {
-  Connection connection(folder_ / "campaign.sqlite", Connection::Mode::owner);
+  Connection connection(folder_ / "campaign.sqlite", Connection::Mode::read_write);
   migrate(connection, store_migrations());
   EXPECT_THROW(
       connection.execute(
