@@ -1,4 +1,4 @@
--- The views whose columns are the measures of stages and faults (simulator/output/measures.h), and
+-- The views whose columns are the measures of stages and faults (simulator/result/measures.h), and
 -- those with the parameters of cases. MEASURES(s) stands for these columns of the row s: of what is
 -- per metre of strike in plane strain two, of which one is NULL. Every migration from 11 on makes
 -- the views anew.

@@ -7,7 +7,7 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/common/exit_code.h"
-#include "simulator/output/result_bytes.h"
+#include "simulator/result/result_bytes.h"
 
 namespace faultsweep {
 

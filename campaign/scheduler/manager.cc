@@ -7,7 +7,7 @@
 
 #include "campaign/store/same_numbers.h"
 #include "simulator/common/errors.h"
-#include "simulator/output/result_bytes.h"
+#include "simulator/result/result_bytes.h"
 
 namespace faultsweep {
 

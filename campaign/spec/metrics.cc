@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "simulator/output/measures.h"
+#include "simulator/result/measures.h"
 
 namespace faultsweep {
 

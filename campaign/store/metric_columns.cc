@@ -1,7 +1,7 @@
 #include <map>
 
 #include "campaign/store/store.h"
-#include "simulator/output/measures.h"
+#include "simulator/result/measures.h"
 
 /// Metrics of spec/metrics.h as SQL.
 namespace faultsweep {

@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "campaign/store/sqlite.h"
-#include "simulator/output/measures.h"
+#include "simulator/result/measures.h"
 #include "store_10_sql.h"
 #include "store_11_sql.h"
 #include "store_13_sql.h"

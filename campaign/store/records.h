@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "campaign/spec/spec.h"
-#include "simulator/output/result.h"
+#include "simulator/result/result.h"
 
 /// What goes into the store and comes out of it, as plain structs. SI; times of day in seconds
 /// since 1970. JSON is text here: the store does not look into it.

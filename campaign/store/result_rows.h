@@ -12,7 +12,7 @@
 
 #include "campaign/store/row_digest.h"
 #include "campaign/store/sqlite.h"
-#include "simulator/output/result_fields.h"
+#include "simulator/result/result_fields.h"
 
 /// Fields of results (simulator/output/result_fields.h) as columns of tables. A field is kept where
 /// the table has a column of its key or, of the name of a stage, fault or region, of its key and

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "simulator/output/result.h"
+#include "simulator/result/result.h"
 
 namespace faultsweep {
 

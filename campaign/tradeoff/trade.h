@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "campaign/tradeoff/ladder.h"
-#include "simulator/output/result.h"
+#include "simulator/result/result.h"
 
 /// What the choices of a ladder cost, and how far they are from what they converge to.
 namespace faultsweep {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "simulator/common/exit_code.h"
-#include "simulator/output/result.h"
+#include "simulator/result/result.h"
 
 /// The commands of `faultsim`, one function each; main.cc reads the command line.
 namespace faultsim {

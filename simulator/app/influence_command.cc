@@ -5,7 +5,7 @@
 #include "simulator/app/commands.h"
 #include "simulator/app/load_scene.h"
 #include "simulator/app/screen.h"
-#include "simulator/loading/influence.h"
+#include "simulator/operators/influence.h"
 #include "simulator/output/influence_file.h"
 #include "simulator/output/json_text.h"
 #include "simulator/output/output_target.h"

@@ -12,7 +12,7 @@
 #include "simulator/coupled_case/path_choice.h"
 #include "simulator/linalg/blas.h"
 #include "simulator/linalg/blas_kernel.h"
-#include "simulator/loading/history.h"
+#include "simulator/loads/history.h"
 #include "simulator/loading/run_case.h"
 #include "simulator/output/json_text.h"
 #include "simulator/output/result_folder.h"

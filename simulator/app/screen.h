@@ -4,7 +4,7 @@
 
 #include "simulator/common/run_context.h"
 #include "simulator/common/stopwatch.h"
-#include "simulator/output/result.h"
+#include "simulator/result/result.h"
 
 namespace faultsim {
 

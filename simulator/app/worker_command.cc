@@ -16,7 +16,7 @@
 #include "simulator/loading/field_keeper.h"
 #include "simulator/loading/run_case.h"
 #include "simulator/output/field_bytes.h"
-#include "simulator/output/result_bytes.h"
+#include "simulator/result/result_bytes.h"
 #include "simulator/scene/read_scene.h"
 #include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/simulation.h"

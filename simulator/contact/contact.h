@@ -8,7 +8,7 @@
 #include "simulator/contact/search_record.h"
 #include "simulator/fault/friction_law.h"
 #include "simulator/model/fault_operator.h"
-#include "simulator/output/result.h"
+#include "simulator/result/result.h"
 
 namespace faultsim {
 

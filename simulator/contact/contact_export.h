@@ -1,7 +1,7 @@
 #pragma once
 
 #include "simulator/contact/contact.h"
-#include "simulator/output/frictional_contact.h"
+#include "simulator/model/frictional_contact.h"
 
 namespace faultsim {
 

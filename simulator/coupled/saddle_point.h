@@ -5,7 +5,7 @@
 
 #include "simulator/coupled/slip_tangent.h"
 #include "simulator/coupled/two_sided_bulk.h"
-#include "simulator/output/result.h"
+#include "simulator/result/result.h"
 
 namespace faultsim {
 

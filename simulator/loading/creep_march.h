@@ -6,7 +6,7 @@
 
 #include "simulator/condensation/creep_ladder.h"
 #include "simulator/contact/contact.h"
-#include "simulator/loading/case_loads.h"
+#include "simulator/loads/case_loads.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/loading/history.h"
+#include "simulator/loads/history.h"
 #include "simulator/loading/run_case.h"
 #include "simulator/output/write_result.h"
 

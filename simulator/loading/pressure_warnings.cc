@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "simulator/common/errors.h"
-#include "simulator/loading/history.h"
+#include "simulator/loads/history.h"
 #include "simulator/scene/initial_state.h"
 
 namespace faultsim {

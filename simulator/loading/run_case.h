@@ -1,46 +1,21 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "simulator/common/run_context.h"
-#include "simulator/condensation/condensation.h"
-#include "simulator/condensation/creep_ladder.h"
 #include "simulator/contact/contact.h"
 #include "simulator/contact/step_check.h"
-#include "simulator/loading/case_loads.h"
-#include "simulator/loading/history.h"
+#include "simulator/loads/case_loads.h"
+#include "simulator/loads/history.h"
 #include "simulator/model/fault_operator.h"
-#include "simulator/output/cache_policy.h"
-#include "simulator/output/result.h"
-#include "simulator/plan/plan.h"
+#include "simulator/operators/prepare_operator.h"
+#include "simulator/result/result.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {
-
-/// The family of a scene turned into numbers for the bulk.
-BulkProblem bulk_problem(const Scene& scene, const Plan& plan);
-/// Points of the half that is not modelled are observed at their mirror image. The rows (three per
-/// observation point) whose sign is therefore to be turned: their u_y.
-std::vector<int> mirrored_rows(const Scene& scene, const Plan& plan);
-
-/// The operator of the scene: from the cache if it is there and sound, else built (and cached).
-/// Throws ResourceError before anything is built when the plan needs more memory than is available;
-/// a cache that cannot be written is a remark.
-struct PreparedOperator {
-  std::shared_ptr<const FaultOperator> op;  ///< elastic.
-  std::shared_ptr<CreepLadder> ladder;      ///< only when the plan has creep; never cached on disk,
-                                            ///< because every time step needs the factors.
-  std::shared_ptr<CondensedBulk> bulk;  ///< only when keep_bulk was asked (displacement fields).
-  bool from_cache = false;
-  std::string remark;  ///< "damaged operator file moved aside", "not kept", ...
-};
-/// @param keep_bulk  wanted with its factor, so never read from the cache.
-PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const CachePolicy& cache,
-                                  bool keep_bulk, const RunContext& context = {});
 
 /// Called after each load step in equilibrium.
 using StepObserver = std::function<void(const StepResult&, const FaultFields&)>;

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "simulator/common/errors.h"
-#include "simulator/loading/history.h"
+#include "simulator/loads/history.h"
 #include "simulator/loading/pressure_warnings.h"
 #include "simulator/scene/initial_state.h"
 

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "simulator/loading/metrics.h"
+#include "simulator/measures/metrics.h"
 #include "simulator/model/fault_operator.h"
-#include "simulator/output/result.h"
+#include "simulator/result/result.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {

@@ -3,7 +3,7 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/output/atomic_file.h"
-#include "simulator/output/frictional_contact.h"
+#include "simulator/output/fclib_writer.h"
 #include "simulator/output/hdf5_support.h"
 
 namespace faultsim {

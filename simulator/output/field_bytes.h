@@ -4,7 +4,7 @@
 #include <string>
 
 #include "simulator/model/fault_operator.h"
-#include "simulator/output/result.h"
+#include "simulator/result/result.h"
 
 namespace faultsim {
 

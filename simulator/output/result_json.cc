@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "simulator/common/errors.h"
-#include "simulator/output/result_fields.h"
+#include "simulator/result/result_fields.h"
 #include "simulator/output/write_result.h"
 
 namespace faultsim {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "simulator/model/fault_operator.h"
-#include "simulator/output/result.h"
+#include "simulator/result/result.h"
 
 namespace faultsim {
 

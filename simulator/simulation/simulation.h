@@ -11,7 +11,7 @@
 #include "simulator/common/run_context.h"
 #include "simulator/contact/search_record.h"
 #include "simulator/output/cache_policy.h"
-#include "simulator/output/result.h"
+#include "simulator/result/result.h"
 
 /// faultsim as a library. What programs outside this project include, with the headers above:
 ///

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "campaign/scheduler/manager.h"
-#include "simulator/output/result_bytes.h"
+#include "simulator/result/result_bytes.h"
 
 namespace faultsweep::benchmarks {
 

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "simulator/common/fingerprint.h"
-#include "simulator/output/result_bytes.h"
+#include "simulator/result/result_bytes.h"
 #include "tests/campaign/made_up_result.h"
 
 namespace {

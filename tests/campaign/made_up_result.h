@@ -4,7 +4,7 @@
 #include <string>
 
 #include "simulator/common/fingerprint.h"
-#include "simulator/output/result.h"
+#include "simulator/result/result.h"
 
 namespace faultsweep::testing {
 

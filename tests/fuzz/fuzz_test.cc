@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "campaign/expansion/expansion.h"
-#include "campaign/report/nightly_suite.h"
+#include "campaign/nightly/nightly_suite.h"
 #include "simulator/plan/geometry_check.h"
 #include "simulator/scene/pressure_csv.h"
 #include "simulator/scene/read_scene.h"

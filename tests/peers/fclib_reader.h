@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "simulator/output/frictional_contact.h"
+#include "simulator/output/fclib_writer.h"
 
 namespace faultsim {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/output/frictional_contact.h"
+#include "simulator/model/frictional_contact.h"
 
 namespace faultsim {
 

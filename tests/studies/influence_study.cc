@@ -12,7 +12,7 @@
 #include "simulator/common/machine.h"
 #include "simulator/common/stopwatch.h"
 #include "simulator/linalg/blas_start.h"
-#include "simulator/loading/influence.h"
+#include "simulator/operators/influence.h"
 #include "simulator/plan/influence_plan.h"
 #include "simulator/scene/read_scene.h"
 

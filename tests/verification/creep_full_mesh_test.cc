@@ -11,7 +11,7 @@
 #include <cmath>
 #include <optional>
 
-#include "simulator/loading/case_loads.h"
+#include "simulator/loads/case_loads.h"
 #include "simulator/loading/run_case.h"
 #include "simulator/scene/read_scene.h"
 

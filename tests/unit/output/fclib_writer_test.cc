@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "simulator/common/errors.h"
-#include "simulator/output/frictional_contact.h"
+#include "simulator/output/fclib_writer.h"
 
 namespace faultsim {
 namespace {

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "simulator/common/stopwatch.h"
-#include "simulator/output/result_bytes.h"
+#include "simulator/result/result_bytes.h"
 
 namespace faultsweep {
 namespace {

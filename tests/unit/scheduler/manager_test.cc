@@ -12,7 +12,7 @@
 #include "campaign/scheduler/worker.h"
 #include "campaign/store/sqlite.h"
 #include "simulator/common/stopwatch.h"
-#include "simulator/output/result_bytes.h"
+#include "simulator/result/result_bytes.h"
 #include "tests/campaign/made_up_result.h"
 
 namespace faultsweep {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simulator/loading/run_case.h"
-#include "simulator/output/result_bytes.h"
+#include "simulator/result/result_bytes.h"
 #include "simulator/scene/read_scene.h"
 #include "simulator/simulation/loaded_scene.h"
 

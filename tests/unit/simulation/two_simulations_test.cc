@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "simulator/output/result_bytes.h"
+#include "simulator/result/result_bytes.h"
 #include "simulator/scene/read_scene.h"
 #include "simulator/simulation/simulation.h"
 

@@ -8,7 +8,7 @@
 #include "simulator/common/run_context.h"
 #include "simulator/loading/run_case.h"
 #include "simulator/model/fault_operator.h"
-#include "simulator/output/result.h"
+#include "simulator/result/result.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "simulator/loads/history.h"
+#include "simulator/loads/initial_traction.h"
+#include "simulator/model/fault_operator.h"
+#include "simulator/scene/scene.h"
+
+namespace faultsim {
+
+/// The loads of a case at one time: what the faults would carry if they stayed closed.
+struct StepLoads {
+  std::vector<double> pressure_change;  ///< per region, Pa.
+  std::vector<double> factors;          ///< c_k, per operator load.
+  /// t_L = t'_0 + Σ c_k L_k + α_f Δp_f n, n_dofs, Pa; without the sum where the operator is not
+  /// condensed and has no L: what the faults would carry if the rock were rigid.
+  Eigen::VectorXd locked;
+  Eigen::VectorXd fault_pressure_change;  ///< Δp_f, n_nodes, Pa.
+};
+
+/// The loads of a case as functions of time, on an (elastic) operator.
+class CaseLoads {
+ public:
+  /// @pre scene and op outlive this. Throws InputError as initial_traction() does.
+  /// @param noise  relative disturbance of every locked traction, to see what it does; 0 = none.
+  CaseLoads(const Scene& scene, const FaultOperator& op, double noise = 0);
+  StepLoads at(double time) const;
+  /// Throws InputError where a prescribed fault pressure falls below zero in that step.
+  void check_fault_pressure(const LoadStep& step, const StepLoads& loads) const;
+
+ private:
+  const Scene& scene_;
+  const FaultOperator& op_;
+  LoadFactors load_factors_;
+  InitialTraction initial_;
+  double noise_;
+};
+
+}  // namespace faultsim

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "simulator/measures/fault_neighbours.h"
+#include "simulator/measures/metrics.h"
+#include "simulator/result/result.h"
+
+namespace faultsim {
+
+/// Gathers StageMetrics while the steps of a stage (or of the whole case) go by.
+class StageSummary {
+ public:
+  /// @param reference  jump at the start of the stage; empty = zero, as at the start of the case.
+  StageSummary(std::string name, int first_step, Eigen::VectorXd reference, bool whole,
+               bool plane_strain);
+  /// @param nodal  of this state.
+  /// @param fault_pressure_change  Δp_f per fault node, Pa.
+  /// @param fault_names  in the order of the scene.
+  /// @param events  of this step.
+  void add(const StepResult& step, const FaultMeter& meter, const FaultNeighbours& neighbours,
+           const NodalState& nodal, const ContactState& state,
+           const Eigen::VectorXd& fault_pressure_change,
+           const std::vector<std::string>& fault_names, std::span<const SlipEvent> events);
+  StageMetrics finish();
+
+ private:
+  void add_fault(const FaultMetrics& fault, const Activation& slip, FaultStageMetrics& sum) const;
+  void count(const SlipEvent& event);
+
+  StageMetrics metrics_;
+  Eigen::VectorXd reference_;
+  bool whole_;
+  bool plane_strain_;
+  std::vector<char> surely_, doubtful_;  ///< per fault: activated for certain, in doubt, in a step.
+};
+
+/// Pa of further depletion to χ̄ = 1 for a case in which no fault slides or opens: χ̄ extrapolated
+/// linearly in Δp of the most depleted region from step 0 through the step of largest χ̄. NaN when χ̄
+/// does not grow.
+double pressure_margin(std::span<const StepResult> steps);
+
+}  // namespace faultsim

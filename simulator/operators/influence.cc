@@ -1,0 +1,99 @@
+#include "simulator/operators/influence.h"
+
+#include <algorithm>
+
+#include "simulator/common/errors.h"
+#include "simulator/common/fingerprint.h"
+#include "simulator/linalg/blas.h"
+#include "simulator/linalg/blas_start.h"
+#include "simulator/operators/memory.h"
+#include "simulator/output/influence_file.h"
+#include "simulator/output/operator_cache.h"
+#include "simulator/plan/influence_plan.h"
+
+namespace faultsim {
+namespace {
+
+/// Cells are told by their regions, so that the name is known without the mesh.
+std::string influence_fingerprint(const std::string& op, const std::vector<int>& regions) {
+  std::string definition = concat(op, " influence of reservoir cells");
+  for (const int region : regions) definition += concat(' ', region);
+  return fingerprint(definition);
+}
+
+std::filesystem::path influence_path(const CachePolicy& cache, const std::string& op,
+                                     const std::string& name) {
+  return cache.folder / concat(op, "-influence-", name.substr(0, 12), ".h5");
+}
+
+/// No part of the operator: a block made for another scene of the family may carry other names.
+std::vector<std::string> region_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const PressureHistory& history : scene.pressure) names.push_back(history.region);
+  return names;
+}
+
+/// A block that cannot be kept is still a block.
+void keep_influence(const PreparedInfluence& made, const CachePolicy& cache, std::string& remark) {
+  try {
+    write_influence(*made.block, *made.op,
+                    influence_path(cache, made.op->fingerprint, made.block->fingerprint));
+    prune_operators(cache.folder, cache.max_bytes, made.op->fingerprint);
+  } catch (const StorageError& error) {
+    if (!remark.empty()) remark += "; ";
+    remark += concat("the influence block is not kept for other runs: ", error.what());
+  }
+}
+
+}  // namespace
+
+std::vector<int> reservoir_cells(const BulkProblem& problem, const std::vector<int>& regions) {
+  std::vector<int> cells;
+  for (int c = 0; c < static_cast<int>(problem.mesh.cells.size()); ++c) {
+    const int region = pressure_region(problem, c);
+    const bool wanted =
+        regions.empty() || std::find(regions.begin(), regions.end(), region) != regions.end();
+    if (region >= 0 && wanted) cells.push_back(c);
+  }
+  return cells;
+}
+
+PreparedInfluence prepare_influence(const Scene& scene, const Plan& plan,
+                                    const std::vector<int>& regions, const CachePolicy& cache,
+                                    const RunContext& context) {
+  FAULTSIM_DEMAND(!plan.creep.active, "an influence block is of the elastic operator");
+  take_blas_buffer();
+  set_blas_threads(1);
+  const std::string op_name = operator_fingerprint(scene, plan, blas_description());
+  const std::string name = influence_fingerprint(op_name, regions);
+  PreparedInfluence made;
+  if (!cache.folder.empty()) {
+    auto block = read_influence(influence_path(cache, op_name, name), name, &made.remark);
+    if (block) {
+      PreparedOperator prepared = prepare_operator(scene, plan, cache, false, context);
+      if (!prepared.remark.empty()) made.remark = prepared.remark;
+      made.op = prepared.op;
+      block->region_names = region_names(scene);
+      made.block = std::make_shared<InfluenceBlock>(std::move(*block));
+      made.from_cache = true;
+      return made;
+    }
+  }
+  const std::vector<int> cells = reservoir_cells(bulk_problem(scene, plan), regions);
+  made.predicted = plan_influence(scene, plan, static_cast<long>(cells.size()));
+  Plan whole = plan;
+  whole.memory_bytes = std::max(plan.memory_bytes, kProgramBytes + made.predicted.peak_bytes);
+  PreparedOperator prepared = prepare_operator(scene, whole, cache, true, context);
+  made.op = prepared.op;
+  if (!prepared.remark.empty()) made.remark = prepared.remark;
+  auto block = std::make_shared<InfluenceBlock>(prepared.bulk->influence(cells, context));
+  block->fingerprint = name;
+  block->operator_fingerprint = op_name;
+  block->region_names = region_names(scene);
+  for (const int row : mirrored_rows(scene, plan)) block->observed.row(row) *= -1;
+  made.block = block;
+  if (!cache.folder.empty()) keep_influence(made, cache, made.remark);
+  return made;
+}
+
+}  // namespace faultsim

@@ -1,0 +1,44 @@
+#include "simulator/operators/memory.h"
+
+#include <cstdio>
+#include <string>
+
+#include "simulator/common/errors.h"
+
+namespace faultsim {
+namespace {
+
+std::string size_text(double bytes) {
+  char text[32];
+  if (bytes < 1e9) {
+    std::snprintf(text, sizeof text, "%.0f MB", bytes / 1e6);
+  } else {
+    std::snprintf(text, sizeof text, "%.1f GB", bytes / 1e9);
+  }
+  return text;
+}
+
+}  // namespace
+
+void demand_memory(const Plan& plan, std::optional<double> available) {
+  if (!available || plan.memory_bytes <= *available) return;
+  const bool creeps = plan.creep.active;
+  const std::string what =
+      creeps ? concat("the ", 1 + plan.creep.rungs.size(),
+                      " operators of this scene, one per step length of creep and the elastic one, "
+                      "need about ",
+                      size_text(plan.memory_bytes), " together (")
+             : concat("the operator of this scene needs about ", size_text(plan.memory_bytes),
+                      " while it is built (");
+  throw ResourceError(
+      concat("not enough memory: ", what, plan.n_unknowns, " unknowns, ", plan.n_jump,
+             " of them jumps), ", size_text(*available), " are available; ",
+             plan.plane_strain ? "choose larger cells (/mesh)"
+                               : "choose a coarser tier or larger cells (/mesh), or plane strain "
+                                 "(for a field the tier \"screening\")",
+             creeps ? ", or fewer step lengths (/numerics/creep_refinements, or fixed steps by "
+                      "/numerics/creep_time_step)"
+                    : ""));
+}
+
+}  // namespace faultsim

@@ -1,0 +1,112 @@
+#include "simulator/common/errors.h"
+#include "simulator/common/machine.h"
+#include "simulator/linalg/blas_start.h"
+#include "simulator/linalg/cholesky.h"
+#include "simulator/operators/memory.h"
+#include "simulator/operators/prepare_operator.h"
+#include "simulator/output/operator_cache.h"
+
+namespace faultsim {
+namespace {
+
+/// Fault names are no part of a family: an operator made for another scene may carry other names.
+void take_fault_names(const Scene& scene, FaultOperator& op) {
+  FAULTSIM_DEMAND(op.geometry.faults.size() == scene.faults.size(), op.geometry.faults.size());
+  for (std::size_t f = 0; f < scene.faults.size(); ++f) {
+    op.geometry.faults[f].name = scene.faults[f].name;
+  }
+}
+
+void mirror_observations(const Scene& scene, const Plan& plan, Observations& observed) {
+  FAULTSIM_DEMAND(observed.rows.size() == 3 * scene.output.observation_points.size(),
+                  observed.rows.size());
+  for (const int row : mirrored_rows(scene, plan)) {
+    for (int c = -1; c < 2; ++c) observed.rows[row + c].position.y() *= -1;
+    observed.per_load.row(row) *= -1;
+    observed.per_jump.row(row) *= -1;
+  }
+}
+
+/// An operator that cannot be kept is still an operator: a full disk must not cost the run.
+void keep_operator(const FaultOperator& op, const CachePolicy& cache, std::string& remark) {
+  try {
+    write_operator(op, cache.folder);
+    prune_operators(cache.folder, cache.max_bytes, op.fingerprint);
+  } catch (const StorageError& error) {
+    if (!remark.empty()) remark += "; ";
+    remark += concat("the operator is not kept for other runs: ", error.what());
+  }
+}
+
+/// The operator from the cache; where the host has a folder of its own, from a copy made there. One
+/// that cannot be copied is used where it is.
+std::optional<FaultOperator> find_operator(const std::string& name, const CachePolicy& cache,
+                                           std::string& remark) {
+  if (cache.node_folder.empty()) return read_operator(cache.folder, name, &remark);
+  if (auto near = read_operator(cache.node_folder, name, &remark)) return near;
+  auto found = read_operator(cache.folder, name, &remark);
+  if (!found) return found;
+  try {
+    write_operator(*found, cache.node_folder);
+    prune_operators(cache.node_folder, cache.max_bytes, name);
+    if (auto near = read_operator(cache.node_folder, name)) return near;
+  } catch (const StorageError& error) {
+    remark = concat("the operator is not copied to this host: ", error.what());
+  }
+  return found;
+}
+
+/// Every process needs the factors of a creeping family, so its operators are built, never read.
+PreparedOperator prepare_ladder(const Scene& scene, const Plan& plan, const RunContext& context) {
+  demand_memory(plan, available_memory());
+  context.progress(0.0, "meshing");
+  const MaxwellScheme scheme = scene.numerics.creep_scheme == CreepScheme::exponential
+                                   ? MaxwellScheme::exponential
+                                   : MaxwellScheme::backward_euler;
+  PreparedOperator prepared;
+  prepared.ladder =
+      std::make_shared<CreepLadder>(bulk_problem(scene, plan), plan.creep.rungs, scheme, context);
+  auto op = std::make_shared<FaultOperator>(prepared.ladder->op(0));  // shares H
+  take_fault_names(scene, *op);
+  mirror_observations(scene, plan, op->observed);
+  op->fingerprint = operator_fingerprint(scene, plan, blas_description());
+  for (int rung = 1; rung < prepared.ladder->n_rungs(); ++rung) {
+    op->build_seconds += prepared.ladder->op(rung).build_seconds;
+    op->factor_bytes += prepared.ladder->op(rung).factor_bytes;
+  }
+  prepared.op = op;
+  return prepared;
+}
+
+}  // namespace
+
+PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const CachePolicy& cache,
+                                  bool keep_bulk, const RunContext& context) {
+  take_blas_buffer();
+  set_blas_threads(1);
+  if (plan.creep.active) return prepare_ladder(scene, plan, context);
+  PreparedOperator prepared;
+  const std::string name = operator_fingerprint(scene, plan, blas_description());
+  if (!cache.folder.empty() && !keep_bulk) {
+    if (auto found = find_operator(name, cache, prepared.remark)) {
+      take_fault_names(scene, *found);
+      prepared.op = std::make_shared<FaultOperator>(std::move(*found));
+      prepared.from_cache = true;
+      return prepared;
+    }
+  }
+  demand_memory(plan, available_memory());
+  context.progress(0.0, "meshing");
+  const BulkProblem problem = bulk_problem(scene, plan);
+  context.stop.throw_if_requested("meshing");
+  auto bulk = std::make_shared<CondensedBulk>(problem, context);
+  auto op = std::make_shared<FaultOperator>(bulk->condense(context));
+  mirror_observations(scene, plan, op->observed);
+  op->fingerprint = name;
+  if (!cache.folder.empty()) keep_operator(*op, cache, prepared.remark);
+  prepared.op = op;
+  if (keep_bulk) prepared.bulk = bulk;
+  return prepared;
+}
+
+}  // namespace faultsim

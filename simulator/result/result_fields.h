@@ -1,0 +1,220 @@
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+
+#include "simulator/result/field.h"
+#include "simulator/result/result.h"
+
+/// The one list of the fields of a result: for_each_field(struct, visit) calls visit(Field, member)
+/// for each member. JSON (result_json.cc), bytes between processes (result_bytes.cc), the store's
+/// columns (campaign/store/result_rows.h) and metrics (campaign/spec/metrics.cc) are written from
+/// it. What is measured of a stage stands in measures.h.
+namespace faultsim {
+
+template <typename Struct, typename Plain>
+concept Of = std::same_as<std::remove_const_t<Struct>, Plain>;
+
+template <Of<FaultMetrics> Struct, typename Visit>
+void for_each_field(Struct& m, Visit&& visit) {
+  visit(Field{"chi_bar"}, m.chi_bar);
+  visit(Field{"chi_max"}, m.chi_max);
+  visit(Field{"chi_static_max"}, m.chi_static_max);
+  visit(Field{"area_chi_080_m2"}, m.area_chi_080);
+  visit(Field{"thickness_chi_080_max_m"}, m.thickness_chi_080_max);
+  visit(Field{"thickness_chi_080_mean_m"}, m.thickness_chi_080_mean);
+  visit(Field{"slipping_area_m2"}, m.slipping_area);
+  visit(Field{"open_area_m2"}, m.open_area);
+  visit(Field{"activated_area_m2"}, m.activated_area);
+  visit(Field{"activated_length_m"}, m.activated_length);
+  visit(Field{"activated"}, m.activated);
+  visit(Field{"activation_resolved"}, m.activation_resolved);
+  visit(Field{"activated_at_edge"}, m.activated_at_edge);
+  visit(Field{"max_slip_m"}, m.max_slip);
+  visit(Field{"mean_slip_m"}, m.mean_slip);
+  visit(Field{"potency_m3"}, m.potency);
+  visit(Field{"moment_nm"}, m.moment);
+  visit(Field{"moment_step_nm"}, m.moment_step);
+}
+
+template <Of<SolveCounts> Struct, typename Visit>
+void for_each_field(Struct& c, Visit&& visit) {
+  visit(Field{"newton_iterations"}, c.newton_iterations);
+  visit(Field{"active_set_passes"}, c.active_set_passes);
+  visit(Field{"sub_steps"}, c.sub_steps);
+  visit(Field{"wasted_newton_iterations"}, c.wasted_newton_iterations);
+}
+
+template <Of<FaultCreep> Struct, typename Visit>
+void for_each_field(Struct& c, Visit&& visit) {
+  visit(Field{"normal_min_pa"}, c.normal_min);
+  visit(Field{"normal_max_pa"}, c.normal_max);
+  visit(Field{"shear_max_pa"}, c.shear_max);
+}
+
+template <Of<StepCreep> Struct, typename Visit>
+void for_each_field(Struct& c, Visit&& visit) {
+  visit(Field{"time_steps"}, c.time_steps);
+  visit(Field{"time_error_pa"}, c.time_error);
+  visit(Field{"time_resolved"}, c.time_resolved);
+  visit(Field{"faults"}, c.faults);
+}
+
+template <Of<StepCoupled> Struct, typename Visit>
+void for_each_field(Struct& c, Visit&& visit) {
+  visit(Field{"krylov_iterations"}, c.krylov_iterations);
+  visit(Field{"setup_s"}, c.setup_seconds);
+  visit(Field{"solve_s"}, c.solve_seconds);
+}
+
+template <Of<CaseCoupled> Struct, typename Visit>
+void for_each_field(Struct& c, Visit&& visit) {
+  visit(Field{"leading"}, c.leading);
+  visit(Field{"schur"}, c.schur);
+  visit(Field{"displacement_dofs"}, c.n_displacements);
+  visit(Field{"multiplier_dofs"}, c.n_multipliers);
+  visit(Field{"krylov_iterations"}, c.krylov_iterations);
+  visit(Field{"most_krylov_iterations"}, c.most_krylov_iterations);
+  visit(Field{"setup_s"}, c.setup_seconds);
+  visit(Field{"solve_s"}, c.solve_seconds);
+}
+
+template <Of<StepResult> Struct, typename Visit>
+void for_each_field(Struct& s, Visit&& visit) {
+  visit(Field{"step"}, s.step);
+  visit(Field{"stage"}, s.stage);
+  visit(Field{"time_s"}, s.time);
+  visit(Field{"pressure_change_pa"}, s.pressure_change);
+  visit(Field{"outcome"}, s.outcome);
+  visit(Field{"reason"}, s.reason);
+  visit(Field{"n_stick"}, s.n_stick);
+  visit(Field{"n_slip"}, s.n_slip);
+  visit(Field{"n_open"}, s.n_open);
+  visit(Field{"faults"}, s.faults);
+  visit(Field{"observed_m"}, s.observed);
+  visit(Field{"creep"}, s.creep);
+  visit(Field{.key = "coupled", .since = 13}, s.coupled);
+  visit(Field{"counts"}, s.counts);
+  visit(Field{"wall_s"}, s.seconds);
+}
+
+template <Of<SidePressures> Struct, typename Visit>
+void for_each_field(Struct& s, Visit&& visit) {
+  visit(Field{"region_minus"}, s.region_minus);
+  visit(Field{"region_plus"}, s.region_plus);
+  visit(Field{"change_minus_pa"}, s.change_minus);
+  visit(Field{"change_plus_pa"}, s.change_plus);
+  visit(Field{"absolute_minus_pa"}, s.absolute_minus);
+  visit(Field{"absolute_plus_pa"}, s.absolute_plus);
+  visit(Field{.key = "change_in_fault_pa", .may_be_nan = true}, s.change_in_fault);
+}
+
+template <Of<FaultOnset> Struct, typename Visit>
+void for_each_field(Struct& o, Visit&& visit) {
+  visit(Field{"step"}, o.step);
+  visit(Field{"depth_m"}, o.depth);
+  visit(Field{"pressures"}, o.pressures);
+}
+
+template <Of<FaultStageMetrics> Struct, typename Visit>
+void for_each_field(Struct& s, Visit&& visit) {
+  visit(Field{"fault"}, s.fault);
+  visit(Field{"activation"}, s.activation);
+  visit(Field{"opening"}, s.opening);
+  for_each_measure(s, visit);
+}
+
+template <Of<StageMetrics> Struct, typename Visit>
+void for_each_field(Struct& s, Visit&& visit) {
+  visit(Field{"stage"}, s.stage);
+  visit(Field{"first_step"}, s.first_step);
+  visit(Field{"last_step"}, s.last_step);
+  visit(Field{"activation_step"}, s.activation_step);
+  visit(Field{"activated_fault"}, s.activated_fault);
+  visit(Field{"opening_step"}, s.opening_step);
+  visit(Field{"opened_fault"}, s.opened_fault);
+  visit(Field{"magnitude_if_released_at_once_mw"}, s.magnitude_if_at_once);
+  for_each_measure(s, visit);
+  visit(Field{"faults"}, s.faults);
+}
+
+template <Of<SlipEvent> Struct, typename Visit>
+void for_each_field(Struct& e, Visit&& visit) {
+  visit(Field{"step"}, e.step);
+  visit(Field{"stage"}, e.stage);
+  visit(Field{"load_factor_before"}, e.load_factor_before);
+  visit(Field{"load_factor_after"}, e.load_factor_after);
+  visit(Field{"time_s"}, e.time);
+  visit(Field{"fault"}, e.fault);
+  visit(Field{"depth_m"}, e.depth);
+  visit(Field{"pressures"}, e.pressures);
+  visit(Field{"nucleation_length_m"}, e.nucleation_length);
+  visit(Field{"slipped_area_m2"}, e.slipped_area);
+  visit(Field{"max_slip_m"}, e.max_slip);
+  visit(Field{"mean_slip_m"}, e.mean_slip);
+  visit(Field{"stress_drop_pa"}, e.stress_drop);
+  visit(Field{"potency_m3"}, e.potency);
+  visit(Field{"moment_nm"}, e.moment);
+  visit(Field{"magnitude_mw"}, e.magnitude);
+  visit(Field{"duration_s"}, e.duration);
+  visit(Field{"resolved"}, e.resolved);
+  visit(Field{"negative_pivots"}, e.negative_pivots);
+  visit(Field{"n_lost_cohesion"}, e.n_lost_cohesion);
+  visit(Field{"residual_before"}, e.residual_before);
+  visit(Field{"residual_after"}, e.residual_after);
+  visit(Field{"energy_released_j"}, e.energy_released);
+  visit(Field{"energy_dissipated_j"}, e.energy_dissipated);
+  visit(Field{"evidence_holds"}, e.evidence_holds);
+}
+
+template <Of<Episode> Struct, typename Visit>
+void for_each_field(Struct& e, Visit&& visit) {
+  visit(Field{"stage"}, e.stage);
+  visit(Field{"fault"}, e.fault);
+  visit(Field{"first_step"}, e.first_step);
+  visit(Field{"last_step"}, e.last_step);
+  visit(Field{.key = "depth_m", .may_be_nan = true}, e.depth);
+  visit(Field{"pressures"}, e.pressures);
+  visit(Field{"after_recovery"}, e.after_recovery);
+  visit(Field{"activated_area_m2"}, e.activated_area);
+  visit(Field{"max_slip_m"}, e.max_slip);
+  visit(Field{"moment_nm"}, e.moment);
+  visit(Field{"magnitude_if_released_at_once_mw"}, e.magnitude_if_at_once);
+}
+
+template <Of<Reactivation> Struct, typename Visit>
+void for_each_field(Struct& r, Visit&& visit) {
+  visit(Field{"episode"}, r.episode);
+  visit(Field{"after_episode"}, r.after);
+}
+
+template <Of<CaseResult> Struct, typename Visit>
+void for_each_field(Struct& c, Visit&& visit) {
+  visit(Field{"title"}, c.title);
+  visit(Field{"identity"}, c.identity);
+  visit(Field{"operator_fingerprint"}, c.operator_fingerprint);
+  visit(Field{"numerics_version"}, c.numerics_version);
+  visit(Field{"outcome"}, c.outcome);
+  visit(Field{"reason"}, c.reason);
+  visit(Field{"failed_step"}, c.failed_step);
+  visit(Field{"plane_strain"}, c.plane_strain);
+  visit(Field{"weakening_resolved"}, c.weakening_resolved);
+  visit(Field{.key = "max_nucleation_ratio", .may_be_nan = true}, c.max_nucleation_ratio);
+  visit(Field{.key = "max_penetration_m", .may_be_nan = true}, c.max_penetration);
+  visit(Field{.key = "pressure_margin_pa", .may_be_nan = true}, c.pressure_margin);
+  visit(Field{"regions"}, c.region_names);
+  visit(Field{"faults"}, c.fault_names);
+  visit(Field{"observations"}, c.observation_names);
+  visit(Field{"steps"}, c.steps);
+  visit(Field{"stages"}, c.stages);
+  visit(Field{"whole"}, c.whole);
+  visit(Field{"events"}, c.events);
+  visit(Field{"episodes"}, c.episodes);
+  visit(Field{"unexpected"}, c.unexpected);
+  visit(Field{"counts"}, c.counts);
+  visit(Field{.key = "coupled", .since = 13}, c.coupled);
+  visit(Field{"warnings"}, c.warnings);
+  visit(Field{"wall_s"}, c.seconds);
+}
+
+}  // namespace faultsim
