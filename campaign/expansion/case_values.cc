@@ -88,9 +88,9 @@ CaseValues::Source CaseValues::source_of(const std::string& name) const {
 
 Value CaseValues::value_of(const Source& source, const Row& row,
                            const std::vector<double>& derived) {
-  if (source.derived >= 0) return derived[static_cast<std::size_t>(source.derived)];
+  if (source.derived >= 0) return derived[source.derived];
   if (source.parameter < 0) return source.base;
-  const int choice = row[static_cast<std::size_t>(source.parameter)];
+  const int choice = row[source.parameter];
   if (choice < 0) return source.base;
   const auto index = static_cast<std::size_t>(choice);
   if (index < source.choices.size()) return source.choices[index];

@@ -46,7 +46,7 @@ class Expander {
     result_.families = std::move(families_.families);
     result_.n_planned = families_.n_planned;
     for (const Case& one : result_.cases) {
-      result_.families[static_cast<std::size_t>(one.family)].cases.push_back(one.index);
+      result_.families[one.family].cases.push_back(one.index);
     }
     if (result_.cases.empty()) {
       problems_.push_back({"/design", result_.spec.document.line_of("/design"),
@@ -95,7 +95,7 @@ class Expander {
   }
 
   void expand_group(int index) {
-    const Group& group = result_.spec.groups[static_cast<std::size_t>(index)];
+    const Group& group = result_.spec.groups[index];
     SceneBuilder builder(result_.spec, group);
     const CaseValues values(result_.spec, group);
     if (!check_choices(group, builder, values)) return;
@@ -114,7 +114,7 @@ class Expander {
       add(found);
       if (!found.empty()) return;
     }
-    std::vector<int>& case_of_row = result_.case_of_row[static_cast<std::size_t>(index)];
+    std::vector<int>& case_of_row = result_.case_of_row[index];
     case_of_row.assign(static_cast<std::size_t>(n_rows), -1);
     for (const std::string& name : families.drawn()) {
       result_.notes.push_back("\"" + name + "\" of " + group.pointer +
@@ -128,7 +128,7 @@ class Expander {
       row_at(group, i, row);
       values.derive(row, derived);
       if (const int e = values.excluded_by(row, derived); e >= 0) {
-        ++result_.excluded[static_cast<std::size_t>(e)].n_cases;
+        ++result_.excluded[e].n_cases;
         if (const Design* whole = whole_design(group)) {
           refuse_exclusion(*whole, static_cast<std::size_t>(e), builder.describe(row));
           return;
@@ -143,7 +143,7 @@ class Expander {
         identity_text_ += *text;
         identity = faultsim::fingerprint(identity_text_);
       }
-      int& place = case_of_row[static_cast<std::size_t>(i)];
+      int& place = case_of_row[i];
       place = add_case(index, row, derived, identity, builder, families, found);
       if (place < 0) {
         for (Problem& one : found) one.what += " (where " + builder.describe(row) + ")";
@@ -290,7 +290,7 @@ class Expander {
 };
 
 const Group& group_of(const Expansion& expansion, const Case& one) {
-  return expansion.spec.groups.at(static_cast<std::size_t>(one.group));
+  return expansion.spec.groups.at(one.group);
 }
 
 }  // namespace
@@ -335,8 +335,7 @@ nlohmann::json scene_of(const Expansion& expansion, const Case& one) {
 }
 
 std::string base_fingerprint(const Expansion& expansion, int group) {
-  return faultsim::fingerprint(
-      expansion.spec.groups.at(static_cast<std::size_t>(group)).scene.dump());
+  return faultsim::fingerprint(expansion.spec.groups.at(group).scene.dump());
 }
 
 nlohmann::json scene_from_changes(const std::string& base, const std::string& changes) {

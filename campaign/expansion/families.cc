@@ -91,7 +91,7 @@ int FamilyFinder::family_of(const Row& row, const std::vector<double>& derived,
   } else {
     family = plan_row(row, derived, problems);
     if (text && family >= 0) {
-      const std::string& planned = found_.families[static_cast<std::size_t>(family)].fingerprint;
+      const std::string& planned = found_.families[family].fingerprint;
       FAULTSIM_DEMAND(planned == faultsim::fingerprint(*text), builder_.describe(row));
     }
   }

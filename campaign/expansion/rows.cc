@@ -41,7 +41,7 @@ void row_at(const Design& design, Parameters parameters, long i, int* row) {
     case DesignKind::latin_hypercube:
     case DesignKind::sobol:
     case DesignKind::morris:
-      std::copy_n(design.rows[static_cast<std::size_t>(i)].begin(), n, row);
+      std::copy_n(design.rows[i].begin(), n, row);
       return;
     case DesignKind::zip:
       std::fill_n(row, n, static_cast<int>(i));
@@ -81,7 +81,7 @@ long count_rows(const Group& group) {
 
 void row_at(const Group& group, long i, Row& row) {
   FAULTSIM_DEMAND(i >= 0 && i < count_rows(group), "row ", i);
-  if (!group.picked.empty()) i = group.picked[static_cast<std::size_t>(i)];
+  if (!group.picked.empty()) i = group.picked[i];
   FAULTSIM_DEMAND(i >= 0 && i < count_all_rows(group), "row ", i);
   row.assign(group.parameters.size(), -1);
   std::size_t end = row.size();

@@ -105,7 +105,7 @@ void draw_morris(Design& design, Parameter* parameters) {
     const auto add_row = [&] {
       std::vector<int> row;
       for (std::size_t k = 0; k < d; ++k) {
-        row.push_back(values[k][static_cast<std::size_t>(levels[k])]);
+        row.push_back(values[k][levels[k]]);
       }
       design.rows.push_back(std::move(row));
     };

@@ -290,7 +290,7 @@ void Manager::send_work(int worker, const Slice& slice) {
   work.task.keep_fields = campaign_.keep_fields;
   work.task.fields_folder = fields_folder_;
   work.task.operator_seconds = plan_->work(slice.family).operator_seconds;
-  std::set<std::int64_t>& sent = scenes_sent_[static_cast<std::size_t>(worker)];
+  std::set<std::int64_t>& sent = scenes_sent_[worker];
   for (const std::int64_t id : slice.cases) {
     CaseInput input = store_.case_input(campaign_.id, id);
     if (sent.insert(input.scene).second) work.scenes[input.scene] = store_.base_scene(input.scene);
@@ -332,7 +332,7 @@ std::string Manager::progress_json() const {
                         : plan_->is_building(worker)      ? "building operator"
                                                           : "running cases";
     workers.push_back({{"rank", worker + 1},
-                       {"host", hosts_[static_cast<std::size_t>(worker)]},
+                       {"host", hosts_[worker]},
                        {"state", state},
                        {"cases_at_hand", plan_->n_outstanding(worker)},
                        {"family", family < 0 ? json() : json(plan_->work(family).name)}});

@@ -69,7 +69,7 @@ void Messenger::accept() {
     MPI_Get_count(&status, MPI_BYTE, &n_bytes);
     auto incoming = std::make_unique<Incoming>();
     incoming->from = status.MPI_SOURCE;
-    incoming->bytes.resize(static_cast<std::size_t>(n_bytes));
+    incoming->bytes.resize(n_bytes);
     MPI_Imrecv(incoming->bytes.data(), n_bytes, MPI_BYTE, &announced, &incoming->request);
     inbox_.push_back(std::move(incoming));
   }

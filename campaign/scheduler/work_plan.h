@@ -130,10 +130,10 @@ class WorkPlan {
     int worker = 0;
   };
 
-  Family& family(int index) { return families_[static_cast<std::size_t>(index)]; }
-  Worker& at(int worker) { return workers_[static_cast<std::size_t>(worker)]; }
-  const Worker& at(int worker) const { return workers_[static_cast<std::size_t>(worker)]; }
-  const Family& family(int index) const { return families_[static_cast<std::size_t>(index)]; }
+  Family& family(int index) { return families_[index]; }
+  Worker& at(int worker) { return workers_[worker]; }
+  const Worker& at(int worker) const { return workers_[worker]; }
+  const Family& family(int index) const { return families_[index]; }
   double case_seconds(const Family& family) const;
   double build_seconds(const Family& family) const;
   double total_seconds(const Family& family) const;

@@ -236,8 +236,7 @@ long Store::add_round(std::int64_t campaign, const Submission& submission,
       submission.keep_fields == KeepFields::none ? FieldsState::none : FieldsState::wanted);
   std::vector<long> positions;
   for (const CaseRecord& one : submission.cases) {
-    positions.push_back(adder.add(one, families.at(static_cast<std::size_t>(one.family)),
-                                  scenes.at(static_cast<std::size_t>(one.scene))));
+    positions.push_back(adder.add(one, families.at(one.family), scenes.at(one.scene)));
   }
   Statement rows =
       db.prepared("SELECT coalesce(max(row), 0) FROM design_rows WHERE campaign_id = ?");

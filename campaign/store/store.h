@@ -76,7 +76,7 @@ class Store {
   /// Adds a further round, in one transaction: the cases that the campaign does not have yet,
   /// behind those that it has; rows of the design that are cases of earlier rounds point at these.
   /// Returns how many cases are new.
-  long record_round(std::int64_t campaign, const Submission& round, const std::string& design,
+  long record_round(std::int64_t campaign, const Submission& submission, const std::string& design,
                     const std::string& reason);
   void conclude(std::int64_t campaign, const std::string& conclusion);
   std::vector<RoundRecord> rounds(std::int64_t campaign) const;

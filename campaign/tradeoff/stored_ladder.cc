@@ -105,8 +105,7 @@ void StoredLadder::add_cost(long position, const TradeRun& run, SecondsByFamily&
                             double& seconds) const {
   if (!std::isnan(run.case_seconds)) seconds += run.case_seconds;
   const std::size_t index = static_cast<std::size_t>(position - 1);
-  const Family& family =
-      expansion_.families[static_cast<std::size_t>(expansion_.cases[index].family)];
+  const Family& family = expansion_.families[expansion_.cases[index].family];
   if (!std::isnan(run.operator_seconds)) operators[family.fingerprint] = run.operator_seconds;
 }
 

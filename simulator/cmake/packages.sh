@@ -8,6 +8,7 @@ test_packages="libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev pyth
 plot_packages="gnuplot-nox"
 peer_packages="slurmctld slurmd slurm-client iproute2 procps libfclib-dev libsiconos-numerics-dev
   paraview python3-paraview"
+lint_packages="clang-tidy"
 
 install_packages() {  # package names
   missing=""

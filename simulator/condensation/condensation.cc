@@ -28,7 +28,7 @@ void check_balance(const BulkProblem& problem, const LoadCase& load, const RunCo
   }
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
   for (Eigen::Index i = 0; i < forces.cols(); ++i) {
-    const Eigen::Vector3d arm = problem.mesh.nodes[static_cast<std::size_t>(i)] - (low + high) / 2;
+    const Eigen::Vector3d arm = problem.mesh.nodes[i] - (low + high) / 2;
     force += forces.col(i);
     moment += arm.cross(Eigen::Vector3d(forces.col(i)));
   }
@@ -178,8 +178,7 @@ void CondensedBulk::Impl::observe(FaultOperator& op, StopToken stop) {
     const int node = observed_node(problem.mesh, point);
     for (int c = 0; c < 3; ++c, ++row) {
       stop.throw_if_requested("condensing the observation points");
-      op.observed.rows.push_back(
-          {concat(name, ".", "xyz"[c]), problem.mesh.nodes[static_cast<std::size_t>(node)]});
+      op.observed.rows.push_back({concat(name, ".", "xyz"[c]), problem.mesh.nodes[node]});
       for (std::size_t k = 0; k < loads.size(); ++k) {
         op.observed.per_load(row, static_cast<Eigen::Index>(k)) =
             dofs.prescribed(static_cast<int>(k), node, c);

@@ -49,7 +49,7 @@ struct CreepLadder::Impl {
   std::unique_ptr<CreepCells> cells;  // refers to the mesh and dofs of rung 0
   std::vector<int> observed_nodes;
 
-  Rung& at(int rung) { return rungs.at(static_cast<std::size_t>(rung)); }
+  Rung& at(int rung) { return rungs.at(rung); }
 };
 
 CreepLadder::CreepLadder(const BulkProblem& problem, const std::vector<double>& durations,
@@ -73,7 +73,7 @@ CreepLadder::CreepLadder(const BulkProblem& problem, const std::vector<double>& 
     }
     std::vector<MaxwellStep> creeping;
     for (const int m : impl_->cells->materials()) {
-      creeping.push_back(steps[static_cast<std::size_t>(m)]);
+      creeping.push_back(steps[m]);
     }
     FaultOperator op = bulk->condense(part);
     impl_->rungs.push_back({all[i], std::move(creeping), std::move(bulk), std::move(op)});

@@ -31,9 +31,7 @@ void add_pressure_pair(std::vector<PressurePair>& pairs, const PressurePair& pai
 void add_quarter(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
                  const FaultFace& face, OperatorNode& node) {
   const double area = face.area / 4;
-  const auto material = [&](int cell) {
-    return materials.at(static_cast<std::size_t>(mesh.material[static_cast<std::size_t>(cell)]));
-  };
+  const auto material = [&](int cell) { return materials.at(mesh.material[cell]); };
   const ElasticMaterial minus = material(face.minus_cell), plus = material(face.plus_cell);
   const double g_minus = shear_modulus(minus), g_plus = shear_modulus(plus);
   node.effective_shear_modulus += area * 2 * g_plus * g_minus / (g_plus + g_minus);
@@ -64,7 +62,7 @@ void average_over_faces(const Mesh& mesh, const std::vector<ElasticMaterial>& ma
       if (corner < 0) continue;
       OperatorNode& node = nodes[corner];
       add_quarter(mesh, materials, face, node);
-      area[static_cast<std::size_t>(corner)] += face.area / 4;
+      area[corner] += face.area / 4;
       add_edges(fault, face, node);
     }
   }
@@ -104,7 +102,7 @@ void drop_locked_nodes(FaultGeometry& geometry, OperatorFault& fault) {
   }
   geometry.nodes.erase(kept, geometry.nodes.end());
   for (int& node : fault.node_of_point) {
-    if (node >= 0) node = renumbered[static_cast<std::size_t>(node - fault.first_node)];
+    if (node >= 0) node = renumbered[node - fault.first_node];
   }
   fault.n_nodes = static_cast<int>(geometry.nodes.size()) - fault.first_node;
 }
@@ -125,14 +123,13 @@ FaultGeometry fault_geometry(const Mesh& mesh, const std::vector<ElasticMaterial
     for (std::size_t k = 0; k < fault.nodes.size(); ++k) {
       const FaultNode& from = fault.nodes[k];
       OperatorNode node;
-      node.position = mesh.nodes[static_cast<std::size_t>(from.minus_node)];
+      node.position = mesh.nodes[from.minus_node];
       node.normal = from.normal;
       node.strike = from.strike;
       node.dip = from.dip;
       node.area = from.area;
       for (int c = 0; c < 3; ++c) {
-        node.dof[static_cast<std::size_t>(c)] =
-            dofs.jump_dof(static_cast<int>(f), static_cast<int>(k), c);
+        node.dof[c] = dofs.jump_dof(static_cast<int>(f), static_cast<int>(k), c);
       }
       geometry.nodes.push_back(std::move(node));
     }

@@ -15,7 +15,7 @@ Eigen::VectorXd loose_piece_springs(const BulkProblem& problem, const DofMap& do
   const Mesh& mesh = problem.mesh;
   demand_held(mesh, dofs);
   const Pieces pieces = find_pieces(mesh);
-  const auto piece_of = [&](int node) { return pieces.of_node[static_cast<std::size_t>(node)]; };
+  const auto piece_of = [&](int node) { return pieces.of_node[node]; };
   const auto is_fixed = [&](int node, int c) {
     const auto [first, last] = dofs.terms(node, c);
     return first == last;
@@ -60,9 +60,7 @@ void throw_not_held(const BulkProblem& problem, const DofMap& dofs, int unknown)
       if (!is_here) continue;
       const Pieces pieces = find_pieces(mesh);
       const int piece = pieces.of_node[i];
-      const auto member = [&](int node) {
-        return pieces.of_node[static_cast<std::size_t>(node)] == piece;
-      };
+      const auto member = [&](int node) { return pieces.of_node[node] == piece; };
       const Eigen::Vector3d at = mesh.nodes[i].array() + 0.0;  // no -0
       std::ostringstream place;
       place << std::setprecision(7) << "x " << at.x() << ", y " << at.y() << ", z " << at.z();

@@ -42,8 +42,8 @@ CellUnknowns transposed(const CellUnknowns& cells, int n_unknowns) {
   std::vector<long> next(result.begin.begin(), result.begin.end() - 1);
   for (std::size_t cell = 0; cell + 1 < cells.begin.size(); ++cell) {
     for (long k = cells.begin[cell]; k < cells.begin[cell + 1]; ++k) {
-      long& at = next[static_cast<std::size_t>(cells.unknowns[static_cast<std::size_t>(k)])];
-      result.unknowns[static_cast<std::size_t>(at++)] = static_cast<int>(cell);
+      long& at = next[cells.unknowns[k]];
+      result.unknowns[at++] = static_cast<int>(cell);
     }
   }
   return result;
@@ -58,12 +58,11 @@ SparseMatrix make_pattern(const CellUnknowns& cells, int n_unknowns) {
     rows.clear();
     const std::size_t j = static_cast<std::size_t>(column);
     for (long c = cells_of.begin[j]; c < cells_of.begin[j + 1]; ++c) {
-      const std::size_t cell =
-          static_cast<std::size_t>(cells_of.unknowns[static_cast<std::size_t>(c)]);
+      const std::size_t cell = static_cast<std::size_t>(cells_of.unknowns[c]);
       for (long k = cells.begin[cell]; k < cells.begin[cell + 1]; ++k) {
-        const int row = cells.unknowns[static_cast<std::size_t>(k)];
-        if (row < column || seen_by[static_cast<std::size_t>(row)] == column) continue;
-        seen_by[static_cast<std::size_t>(row)] = column;
+        const int row = cells.unknowns[k];
+        if (row < column || seen_by[row] == column) continue;
+        seen_by[row] = column;
         rows.push_back(row);
       }
     }
@@ -94,17 +93,16 @@ SparseMatrix make_pattern(const CellUnknowns& cells, int n_unknowns) {
 void add_cell(const std::array<int, 8>& nodes, const ElementMatrix& k_e, double scale,
               const DofMap& dofs, const int* unknowns, int n, std::vector<int>& local,
               Eigen::MatrixXd& matrix, SparseMatrix& k) {
-  for (int i = 0; i < n; ++i) local[static_cast<std::size_t>(unknowns[i])] = i;
+  for (int i = 0; i < n; ++i) local[unknowns[i]] = i;
   matrix.setZero(n, n);
   for (int q = 0; q < 24; ++q) {
-    const auto [q_first, q_last] = dofs.terms(nodes[static_cast<std::size_t>(q / 3)], q % 3);
+    const auto [q_first, q_last] = dofs.terms(nodes[q / 3], q % 3);
     for (const DofMap::Term* b = q_first; b != q_last; ++b) {
-      const int column = local[static_cast<std::size_t>(b->unknown)];
+      const int column = local[b->unknown];
       for (int p = 0; p < 24; ++p) {
-        const auto [p_first, p_last] = dofs.terms(nodes[static_cast<std::size_t>(p / 3)], p % 3);
+        const auto [p_first, p_last] = dofs.terms(nodes[p / 3], p % 3);
         for (const DofMap::Term* a = p_first; a != p_last; ++a) {
-          matrix(local[static_cast<std::size_t>(a->unknown)], column) +=
-              a->coefficient * b->coefficient * k_e(p, q);
+          matrix(local[a->unknown], column) += a->coefficient * b->coefficient * k_e(p, q);
         }
       }
     }
@@ -130,7 +128,7 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticMater
   std::vector<int> local(static_cast<std::size_t>(dofs.n_unknowns()));
   Eigen::MatrixXd matrix;
   for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
-    const auto& material = materials.at(static_cast<std::size_t>(mesh.material[cell]));
+    const auto& material = materials.at(mesh.material[cell]);
     const Element element = make_element(mesh, static_cast<int>(cell));
     const int n = static_cast<int>(cells.begin[cell + 1] - cells.begin[cell]);
     add_cell(mesh.cells[cell], element_stiffness(element, material, b_bar), scale, dofs,

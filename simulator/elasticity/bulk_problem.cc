@@ -14,7 +14,7 @@ int pressure_region(const BulkProblem& problem, int cell) {
 }
 
 Eigen::VectorXd unit_load(const BulkProblem& problem, const DofMap& dofs, int index) {
-  const LoadCase& load = problem.loads[static_cast<std::size_t>(index)];
+  const LoadCase& load = problem.loads[index];
   const int n_kinds = (load.region >= 0) + !load.stress_sides.empty() + load.displacement;
   FAULTSIM_DEMAND(n_kinds == 1, "load ", to_string(load.key), " is of ", n_kinds, " kinds");
   if (load.region >= 0) return pressure_load(problem.mesh, dofs, load.region, problem.b_bar);

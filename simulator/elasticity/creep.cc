@@ -59,12 +59,12 @@ void CreepCells::advance(const Eigen::Matrix3Xd& displacement, const std::vector
   const double scale = mesh_.plane_strain ? 1 / mesh_.thickness : 1;
   stress.force.setZero();
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    const auto& nodes = mesh_.cells[static_cast<std::size_t>(cells_[i])];
+    const auto& nodes = mesh_.cells[cells_[i]];
     const auto m = static_cast<std::size_t>(material_of_[i]);
     const double stiffness = 2 * shear_modulus_[m] * step[m].shear_factor;
     const Element element = make_element(mesh_, cells_[i]);
     Eigen::Matrix<double, 3, 8> u;
-    for (int a = 0; a < 8; ++a) u.col(a) = displacement.col(nodes[static_cast<std::size_t>(a)]);
+    for (int a = 0; a < 8; ++a) u.col(a) = displacement.col(nodes[a]);
     CellDeviator s(stress.deviator.col(static_cast<Eigen::Index>(i)).data());
     Eigen::Matrix<double, 3, 8> force = Eigen::Matrix<double, 3, 8>::Zero();
     for (std::size_t g = 0; g < 8; ++g) {
@@ -75,7 +75,7 @@ void CreepCells::advance(const Eigen::Matrix3Xd& displacement, const std::vector
     }
     for (int a = 0; a < 8; ++a) {
       for (int c = 0; c < 3; ++c) {
-        const auto [first, last] = dofs_.terms(nodes[static_cast<std::size_t>(a)], c);
+        const auto [first, last] = dofs_.terms(nodes[a], c);
         for (const DofMap::Term* term = first; term != last; ++term) {
           stress.force(term->unknown, static_cast<Eigen::Index>(m)) +=
               scale * term->coefficient * force(c, a);

@@ -36,10 +36,8 @@ class DofMapBuilder {
     std::array<int, 3> jump = {-1, -1, -1};
   };
 
-  int root(int node) const {
-    return mesh_.tied_to.empty() ? node : mesh_.tied_to[static_cast<std::size_t>(node)];
-  }
-  std::array<bool, 3>& fixed(int node) { return fixed_[static_cast<std::size_t>(node)]; }
+  int root(int node) const { return mesh_.tied_to.empty() ? node : mesh_.tied_to[node]; }
+  std::array<bool, 3>& fixed(int node) { return fixed_[node]; }
   bool fix(int node, std::size_t c);
   bool may_pin(const Pieces& pieces, int piece, int node) const;
   std::vector<int> three_far_nodes(const Pieces& pieces, int piece) const;
@@ -62,7 +60,7 @@ bool DofMapBuilder::fix(int node, std::size_t c) {
 }
 
 void DofMapBuilder::prescribe(const std::vector<DisplacementCondition>& conditions, int n_loads) {
-  map_.prescribed_.resize(static_cast<std::size_t>(n_loads));
+  map_.prescribed_.resize(n_loads);
   for (const DisplacementCondition& condition : conditions) {
     FAULTSIM_DEMAND(condition.load >= -1 && condition.load < n_loads, "load ", condition.load);
     std::vector<int> nodes;
@@ -73,12 +71,11 @@ void DofMapBuilder::prescribe(const std::vector<DisplacementCondition>& conditio
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     for (int node : nodes) {
-      const Eigen::Vector3d value =
-          condition.translation + condition.gradient * mesh_.nodes[static_cast<std::size_t>(node)];
+      const Eigen::Vector3d value = condition.translation + condition.gradient * mesh_.nodes[node];
       for (std::size_t c = 0; c < 3; ++c) {
         if (!condition.components[c] || !fix(node, c) || condition.load < 0) continue;
-        map_.prescribed_[static_cast<std::size_t>(condition.load)].emplace_back(
-            3 * node + static_cast<int>(c), value[static_cast<int>(c)]);
+        map_.prescribed_[condition.load].emplace_back(3 * node + static_cast<int>(c),
+                                                      value[static_cast<int>(c)]);
       }
     }
   }
@@ -91,9 +88,8 @@ void DofMapBuilder::collect_pairs() {
     for (const FaultNode& node : fault.nodes) {
       const Pair pair{root(node.minus_node), root(node.plus_node), &node};
       for (int side : {pair.minus, pair.plus}) {
-        FAULTSIM_DEMAND(pair_[static_cast<std::size_t>(side)] < 0, "node ", side,
-                        " belongs to two fault nodes");
-        pair_[static_cast<std::size_t>(side)] = static_cast<int>(pairs_.size());
+        FAULTSIM_DEMAND(pair_[side] < 0, "node ", side, " belongs to two fault nodes");
+        pair_[side] = static_cast<int>(pairs_.size());
       }
       FAULTSIM_DEMAND(pair.minus != pair.plus, "node ", pair.minus, " is tied across a fault");
       pairs_.push_back(pair);
@@ -102,8 +98,7 @@ void DofMapBuilder::collect_pairs() {
 }
 
 bool DofMapBuilder::may_pin(const Pieces& pieces, int piece, int node) const {
-  return pieces.of_node[static_cast<std::size_t>(node)] == piece && root(node) == node &&
-         pair_[static_cast<std::size_t>(node)] < 0;
+  return pieces.of_node[node] == piece && root(node) == node && pair_[node] < 0;
 }
 
 /// Three nodes of the piece, off the faults and far apart: from the centre, from the first, and
@@ -114,7 +109,7 @@ std::vector<int> DofMapBuilder::three_far_nodes(const Pieces& pieces, int piece)
     double best_distance = -1;
     for (int i = 0; i < n_nodes_; ++i) {
       if (!may_pin(pieces, piece, i)) continue;
-      const double d = distance(mesh_.nodes[static_cast<std::size_t>(i)]);
+      const double d = distance(mesh_.nodes[i]);
       // The margin keeps rounding from choosing among the corners of a box.
       if (d > best_distance * (1 + 1e-9)) {
         best = i;
@@ -128,14 +123,14 @@ std::vector<int> DofMapBuilder::three_far_nodes(const Pieces& pieces, int piece)
   int n = 0;
   for (int i = 0; i < n_nodes_; ++i) {
     if (!may_pin(pieces, piece, i)) continue;
-    centre += mesh_.nodes[static_cast<std::size_t>(i)];
+    centre += mesh_.nodes[i];
     ++n;
   }
   centre /= std::max(n, 1);
   const int a = farthest([&](const Eigen::Vector3d& x) { return (x - centre).norm(); });
-  const Eigen::Vector3d& at_a = mesh_.nodes[static_cast<std::size_t>(a)];
+  const Eigen::Vector3d& at_a = mesh_.nodes[a];
   const int b = farthest([&](const Eigen::Vector3d& x) { return (x - at_a).norm(); });
-  const Eigen::Vector3d line = (mesh_.nodes[static_cast<std::size_t>(b)] - at_a).normalized();
+  const Eigen::Vector3d line = (mesh_.nodes[b] - at_a).normalized();
   const int c = farthest([&](const Eigen::Vector3d& x) { return (x - at_a).cross(line).norm(); });
   return {a, b, c};
 }
@@ -148,26 +143,25 @@ void DofMapBuilder::pin() {
   const Pieces pieces = find_pieces(mesh_);
   const auto largest = std::max_element(pieces.n_cells.begin(), pieces.n_cells.end());
   const int piece = static_cast<int>(largest - pieces.n_cells.begin());
-  const int body = pieces.body[static_cast<std::size_t>(piece)];
+  const int body = pieces.body[piece];
   const auto in_body = [&](int node) {
-    const int its_piece = pieces.of_node[static_cast<std::size_t>(node)];
-    return pieces.body[static_cast<std::size_t>(its_piece)] == body;
+    const int its_piece = pieces.of_node[node];
+    return pieces.body[its_piece] == body;
   };
   const RigidModes modes = rigid_modes(mesh_, in_body, [](int, int) { return false; });
   const Eigen::Index n_free = modes.free.cols();
   const std::vector<int> nodes = three_far_nodes(pieces, piece);
   Eigen::MatrixXd motions(9, n_free);  // of the candidates' components
   for (Eigen::Index i = 0; i < 3; ++i) {
-    const int node = nodes[static_cast<std::size_t>(i)];
-    motions.middleRows(3 * i, 3) =
-        modes.at(mesh_.nodes[static_cast<std::size_t>(node)]) * modes.free;
+    const int node = nodes[i];
+    motions.middleRows(3 * i, 3) = modes.at(mesh_.nodes[node]) * modes.free;
   }
   // The pivots of a QR factorisation are components that hold the motions, and well.
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(motions.transpose());
   FAULTSIM_DEMAND(qr.rank() == n_free, "rank ", qr.rank(), " of ", n_free);
   for (Eigen::Index m = 0; m < n_free; ++m) {
     const int row = qr.colsPermutation().indices()[m];
-    fix(nodes[static_cast<std::size_t>(row / 3)], static_cast<std::size_t>(row % 3));
+    fix(nodes[row / 3], static_cast<std::size_t>(row % 3));
   }
   map_.pinned_ = n_free > 0;
 }
@@ -196,7 +190,7 @@ void DofMapBuilder::place_jumps() {
       fixed(pair.minus)[c] = fixed(pair.plus)[c] = true;
     }
     if (locked) {
-      map_.locked_.push_back(mesh_.nodes[static_cast<std::size_t>(pair.node->minus_node)]);
+      map_.locked_.push_back(mesh_.nodes[pair.node->minus_node]);
     }
     for (std::size_t c = 0; c < 3; ++c) {
       if (!locked && !removed[c]) pair.jump[c] = n_jump++;
@@ -210,14 +204,14 @@ void DofMapBuilder::number_bulk() {
   bulk_.assign(mesh_.nodes.size(), {-1, -1, -1});
   for (int node = 0; node < n_nodes_; ++node) {
     if (root(node) != node) continue;
-    const int index = pair_[static_cast<std::size_t>(node)];
+    const int index = pair_[node];
     int other = node;
     if (index >= 0) {
-      const Pair& pair = pairs_[static_cast<std::size_t>(index)];
+      const Pair& pair = pairs_[index];
       other = pair.minus == node ? pair.plus : pair.minus;
       if (other < node) continue;  // numbered with it
     }
-    auto& unknowns = bulk_[static_cast<std::size_t>(node)];
+    auto& unknowns = bulk_[node];
     bool has_any = false;
     for (std::size_t c = 0; c < 3; ++c) {
       if (fixed(node)[c]) continue;
@@ -225,7 +219,7 @@ void DofMapBuilder::number_bulk() {
       map_.bulk_group_.push_back(map_.n_groups_);
       has_any = true;
     }
-    bulk_[static_cast<std::size_t>(other)] = unknowns;
+    bulk_[other] = unknowns;
     if (has_any) ++map_.n_groups_;
   }
 }
@@ -234,12 +228,12 @@ void DofMapBuilder::write_terms() {
   map_.begin_.push_back(0);
   for (int node = 0; node < n_nodes_; ++node) {
     const int own = root(node);
-    const int index = pair_[static_cast<std::size_t>(own)];
+    const int index = pair_[own];
     for (std::size_t c = 0; c < 3; ++c) {
-      const int unknown = bulk_[static_cast<std::size_t>(own)][c];
+      const int unknown = bulk_[own][c];
       if (unknown >= 0) map_.terms_.push_back({unknown, 1});
       if (index >= 0) {
-        const Pair& pair = pairs_[static_cast<std::size_t>(index)];
+        const Pair& pair = pairs_[index];
         const double half = pair.plus == own ? 0.5 : -0.5;
         const std::array<const Eigen::Vector3d*, 3> axes = {&pair.node->normal, &pair.node->strike,
                                                             &pair.node->dip};
@@ -265,11 +259,11 @@ void DofMapBuilder::share_prescribed() {
     std::vector<std::pair<int, double>> all;
     for (int node = 0; node < n_nodes_ && !list.empty(); ++node) {
       const int own = root(node);
-      const int index = pair_[static_cast<std::size_t>(own)];
+      const int index = pair_[own];
       for (int c = 0; c < 3; ++c) {
         auto found = find(3 * own + c);
         if (found == list.end() && index >= 0) {
-          const Pair& pair = pairs_[static_cast<std::size_t>(index)];
+          const Pair& pair = pairs_[index];
           found = find(3 * (pair.minus == own ? pair.plus : pair.minus) + c);
         }
         if (found != list.end()) all.emplace_back(3 * node + c, found->second);
@@ -298,23 +292,21 @@ std::pair<const DofMap::Term*, const DofMap::Term*> DofMap::terms(int node, int 
 }
 
 double DofMap::prescribed(int load, int node, int component) const {
-  const auto& list = prescribed_[static_cast<std::size_t>(load)];
+  const auto& list = prescribed_[load];
   const int key = 3 * node + component;
   const auto at = std::lower_bound(list.begin(), list.end(), std::pair(key, -HUGE_VAL));
   return at != list.end() && at->first == key ? at->second : 0;
 }
 
-bool DofMap::has_prescribed(int load) const {
-  return !prescribed_[static_cast<std::size_t>(load)].empty();
-}
+bool DofMap::has_prescribed(int load) const { return !prescribed_[load].empty(); }
 
 int DofMap::n_unknowns() const { return n_bulk_ + n_jump_; }
 int DofMap::n_bulk() const { return n_bulk_; }
 int DofMap::n_jump() const { return n_jump_; }
 
 int DofMap::jump_dof(int fault, int node, int component) const {
-  const int index = jump_begin_[static_cast<std::size_t>(fault)] + node;
-  return jump_[static_cast<std::size_t>(index)][static_cast<std::size_t>(component)];
+  const int index = jump_begin_[fault] + node;
+  return jump_[index][component];
 }
 
 const std::vector<Eigen::Vector3d>& DofMap::locked_positions() const { return locked_; }

@@ -22,7 +22,7 @@ std::array<Eigen::Matrix<double, 8, 3>, 8> reference_gradients() {
   std::array<Eigen::Matrix<double, 8, 3>, 8> result;
   for (std::size_t g = 0; g < 8; ++g) {
     for (int a = 0; a < 8; ++a) {
-      const auto& corner = kCorners[static_cast<std::size_t>(a)];
+      const auto& corner = kCorners[a];
       std::array<double, 3> factor;
       for (std::size_t i = 0; i < 3; ++i) {
         factor[i] = 1 + corner[i] * kCorners[g][i] / std::sqrt(3.0);
@@ -43,12 +43,12 @@ double shear_modulus(const ElasticMaterial& material) {
 Element make_element(const Mesh& mesh, int cell) {
   static const auto kReference = reference_gradients();
   Eigen::Matrix<double, 8, 3> corners;
-  const auto& nodes = mesh.cells[static_cast<std::size_t>(cell)];
+  const auto& nodes = mesh.cells[cell];
   // Relative to the first corner, so that far coordinates cost no digits.
-  const Eigen::Vector3d origin = mesh.nodes[static_cast<std::size_t>(nodes[0])];
+  const Eigen::Vector3d origin = mesh.nodes[nodes[0]];
   for (int a = 0; a < 8; ++a) {
-    const int node = nodes[static_cast<std::size_t>(a)];
-    corners.row(a) = (mesh.nodes[static_cast<std::size_t>(node)] - origin).transpose();
+    const int node = nodes[a];
+    corners.row(a) = (mesh.nodes[node] - origin).transpose();
   }
   Element element;
   element.mean_gradient.setZero();

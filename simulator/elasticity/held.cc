@@ -59,11 +59,7 @@ void demand_held(const Mesh& mesh, const DofMap& dofs) {
     return first == last;
   };
   for (int body = 0; body < pieces.n_bodies; ++body) {
-    const auto member = [&](int node) {
-      return pieces
-                 .body[static_cast<std::size_t>(pieces.of_node[static_cast<std::size_t>(node)])] ==
-             body;
-    };
+    const auto member = [&](int node) { return pieces.body[pieces.of_node[node]] == body; };
     const std::string freedom = describe(rigid_modes(mesh, member, is_fixed));
     if (!freedom.empty()) throw_loose(extent_text(mesh, member) + " can " + freedom);
   }

@@ -39,7 +39,7 @@ Eigen::Matrix<double, 3, 4> nodal_area_vectors(const Mesh& mesh, const BoundaryF
     Eigen::Vector3d along_xi = Eigen::Vector3d::Zero(), along_eta = Eigen::Vector3d::Zero();
     Eigen::RowVector4d shape;
     for (std::size_t a = 0; a < 4; ++a) {
-      const Eigen::Vector3d& x = mesh.nodes[static_cast<std::size_t>(face.nodes[a])];
+      const Eigen::Vector3d& x = mesh.nodes[face.nodes[a]];
       along_xi += kCorner[a][0] * (1 + kCorner[a][1] * eta) / 4 * x;
       along_eta += kCorner[a][1] * (1 + kCorner[a][0] * xi) / 4 * x;
       shape[static_cast<int>(a)] = (1 + kCorner[a][0] * xi) * (1 + kCorner[a][1] * eta) / 4;
@@ -59,8 +59,7 @@ Eigen::VectorXd pressure_load(const Mesh& mesh, const DofMap& dofs, int region, 
     // ∫ div v over the cell is its volume times the mean dilatation, with B-bar and without.
     const double factor = per_thickness(mesh) * element.volume * mesh.region_fraction[cell];
     for (int a = 0; a < 8; ++a) {
-      forces.col(mesh.cells[cell][static_cast<std::size_t>(a)]) +=
-          factor * element.mean_gradient.row(a).transpose();
+      forces.col(mesh.cells[cell][a]) += factor * element.mean_gradient.row(a).transpose();
     }
   }
   return gathered(dofs, forces);
@@ -91,8 +90,7 @@ Eigen::Matrix3Xd nodal_stress_forces(const Mesh& mesh, const std::vector<MeshSid
     if (mesh.plane_strain && is_front_or_back) continue;
     const Eigen::Matrix<double, 3, 4> areas = nodal_area_vectors(mesh, face);
     for (int a = 0; a < 4; ++a) {
-      forces.col(face.nodes[static_cast<std::size_t>(a)]) +=
-          per_thickness(mesh) * stress * areas.col(a);
+      forces.col(face.nodes[a]) += per_thickness(mesh) * stress * areas.col(a);
     }
   }
   return forces;
@@ -110,17 +108,16 @@ Eigen::VectorXd displacement_load(const Mesh& mesh, const std::vector<ElasticMat
   for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
     Eigen::Matrix<double, 24, 1> prescribed;
     for (int p = 0; p < 24; ++p) {
-      const int node = mesh.cells[cell][static_cast<std::size_t>(p / 3)];
+      const int node = mesh.cells[cell][p / 3];
       prescribed[p] = dofs.prescribed(load, node, p % 3);
     }
     if (prescribed.isZero(0)) continue;
-    const auto& material = materials.at(static_cast<std::size_t>(mesh.material[cell]));
+    const auto& material = materials.at(mesh.material[cell]);
     const Element element = make_element(mesh, static_cast<int>(cell));
     const Eigen::Matrix<double, 24, 1> force =
         element_stiffness(element, material, b_bar) * prescribed;
     for (Eigen::Index a = 0; a < 8; ++a) {
-      forces.col(mesh.cells[cell][static_cast<std::size_t>(a)]) -=
-          per_thickness(mesh) * force.segment<3>(3 * a);
+      forces.col(mesh.cells[cell][a]) -= per_thickness(mesh) * force.segment<3>(3 * a);
     }
   }
   return gathered(dofs, forces);

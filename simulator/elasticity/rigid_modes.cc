@@ -20,9 +20,9 @@ class DisjointSets {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
   int find(int i) {
-    while (parent_[static_cast<std::size_t>(i)] != i) {
-      int& up = parent_[static_cast<std::size_t>(i)];
-      up = parent_[static_cast<std::size_t>(up)];
+    while (parent_[i] != i) {
+      int& up = parent_[i];
+      up = parent_[up];
       i = up;
     }
     return i;
@@ -55,7 +55,7 @@ Pieces find_pieces(const Mesh& mesh) {
       piece = pieces.n_pieces++;
       pieces.n_cells.push_back(0);
     }
-    ++pieces.n_cells[static_cast<std::size_t>(piece)];
+    ++pieces.n_cells[piece];
   }
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     pieces.of_node.push_back(number[static_cast<std::size_t>(sets.find(static_cast<int>(i)))]);
@@ -64,15 +64,13 @@ Pieces find_pieces(const Mesh& mesh) {
   DisjointSets bodies(static_cast<std::size_t>(pieces.n_pieces));
   for (const FaultSurface& fault : mesh.faults) {
     for (const FaultNode& node : fault.nodes) {
-      bodies.join(pieces.of_node[static_cast<std::size_t>(node.minus_node)],
-                  pieces.of_node[static_cast<std::size_t>(node.plus_node)]);
+      bodies.join(pieces.of_node[node.minus_node], pieces.of_node[node.plus_node]);
     }
   }
   pieces.body.assign(static_cast<std::size_t>(pieces.n_pieces), -1);
   for (int p = 0; p < pieces.n_pieces; ++p) {
     const int first = bodies.find(p);  // the lowest of its body
-    pieces.body[static_cast<std::size_t>(p)] =
-        first == p ? pieces.n_bodies++ : pieces.body[static_cast<std::size_t>(first)];
+    pieces.body[p] = first == p ? pieces.n_bodies++ : pieces.body[first];
   }
   return pieces;
 }
@@ -94,8 +92,8 @@ RigidModes rigid_modes(const Mesh& mesh, const std::function<bool(int)>& member,
   const int n_nodes = static_cast<int>(mesh.nodes.size());
   for (int i = 0; i < n_nodes; ++i) {
     if (!member(i)) continue;
-    low = low.cwiseMin(mesh.nodes[static_cast<std::size_t>(i)]);
-    high = high.cwiseMax(mesh.nodes[static_cast<std::size_t>(i)]);
+    low = low.cwiseMin(mesh.nodes[i]);
+    high = high.cwiseMax(mesh.nodes[i]);
   }
   RigidModes modes;
   FAULTSIM_DEMAND((high.array() >= low.array()).all(), "no nodes");
@@ -107,14 +105,13 @@ RigidModes rigid_modes(const Mesh& mesh, const std::function<bool(int)>& member,
   };
   for (int i = 0; i < n_nodes; ++i) {
     if (!member(i)) continue;
-    const Eigen::Matrix<double, 3, 6> u = modes.at(mesh.nodes[static_cast<std::size_t>(i)]);
+    const Eigen::Matrix<double, 3, 6> u = modes.at(mesh.nodes[i]);
     for (int c = 0; c < 3; ++c) {
       if (is_fixed(i, c) || (mesh.plane_strain && c == 1)) hold(u.row(c));
     }
-    const int root = mesh.tied_to.empty() ? i : mesh.tied_to[static_cast<std::size_t>(i)];
+    const int root = mesh.tied_to.empty() ? i : mesh.tied_to[i];
     if (root == i) continue;
-    const Eigen::Matrix<double, 3, 6> difference =
-        u - modes.at(mesh.nodes[static_cast<std::size_t>(root)]);
+    const Eigen::Matrix<double, 3, 6> difference = u - modes.at(mesh.nodes[root]);
     for (int c = 0; c < 3; ++c) hold(difference.row(c));
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(held);
@@ -133,7 +130,7 @@ std::string describe(const RigidModes& modes) {
   int n_named = 0;
   for (int m = 0; m < 6; ++m) {
     if (modes.free.row(m).norm() < 0.999) continue;  // not free by itself
-    text += (n_named++ == 0 ? "" : ", ") + std::string(kNames[static_cast<std::size_t>(m)]);
+    text += (n_named++ == 0 ? "" : ", ") + std::string(kNames[m]);
   }
   if (n_named < modes.free.cols()) text += n_named == 0 ? "turn" : ", turn about some point";
   return text;

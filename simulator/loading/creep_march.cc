@@ -114,8 +114,7 @@ int CreepMarch::Impl::finer(int rung) const {
 }
 
 ContactSolver& CreepMarch::Impl::solver(int rung, bool follows) {
-  std::unique_ptr<ContactSolver>& chosen =
-      (follows ? following_solver : static_solver)[static_cast<std::size_t>(rung)];
+  std::unique_ptr<ContactSolver>& chosen = (follows ? following_solver : static_solver)[rung];
   if (!chosen) {
     chosen = std::make_unique<ContactSolver>(
         ladder.op(rung), follows ? following_laws : static_laws, contact_options(numerics), watch);

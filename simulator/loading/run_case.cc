@@ -8,15 +8,15 @@
 #include "simulator/common/stopwatch.h"
 #include "simulator/contact/contact.h"
 #include "simulator/loading/case_contact.h"
-#include "simulator/loads/case_loads.h"
 #include "simulator/loading/creep_march.h"
+#include "simulator/loading/warnings.h"
+#include "simulator/loads/case_loads.h"
+#include "simulator/loads/history.h"
 #include "simulator/measures/episodes.h"
 #include "simulator/measures/fault_neighbours.h"
-#include "simulator/loads/history.h"
 #include "simulator/measures/metrics.h"
 #include "simulator/measures/slip_events.h"
 #include "simulator/measures/stage_summary.h"
-#include "simulator/loading/warnings.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsim {
@@ -121,9 +121,9 @@ Eigen::Matrix3Xd CaseRun::per_node(const Eigen::VectorXd& values) const {
   Eigen::Matrix3Xd result =
       Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(op_.geometry.nodes.size()));
   for (Eigen::Index k = 0; k < result.cols(); ++k) {
-    const auto& dof = op_.geometry.nodes[static_cast<std::size_t>(k)].dof;
+    const auto& dof = op_.geometry.nodes[k].dof;
     for (Eigen::Index c = 0; c < 3; ++c) {
-      const int d = dof[static_cast<std::size_t>(c)];
+      const int d = dof[c];
       if (d >= 0) result(c, k) = values[d];
     }
   }
@@ -137,7 +137,7 @@ FaultFields CaseRun::fields(const StepLoads& loads) const {
   f.jump = per_node(state_.jump);
   f.state.resize(n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    f.state[k] = static_cast<int>(state_.state[static_cast<std::size_t>(k)]);
+    f.state[k] = static_cast<int>(state_.state[k]);
   }
   f.critical_index = nodal_.critical_index;
   f.static_critical_index = nodal_.static_critical_index;

@@ -40,7 +40,7 @@ StepLoads CaseLoads::at(double time) const {
   for (std::size_t f = 0; f < op_.geometry.faults.size(); ++f) {
     const OperatorFault& fault = op_.geometry.faults[f];
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
-      loads.locked[op_.geometry.nodes[static_cast<std::size_t>(k)].dof[0]] +=
+      loads.locked[op_.geometry.nodes[k].dof[0]] +=
           scene_.faults[f].fault_biot * loads.fault_pressure_change[k];
     }
   }
@@ -61,12 +61,11 @@ void CaseLoads::check_fault_pressure(const LoadStep& step, const StepLoads& load
       const double p = initial_.pressure[k] + loads.fault_pressure_change[k];
       if (p >= -slack) continue;
       throw InputError(
-          "scene",
-          {{concat("/faults/", f, "/fault_pressure"), 0,
-            concat("the prescribed fault pressure of ", fault.name, " falls to ", p / 1e5,
-                   " bar at depth ", -op_.geometry.nodes[static_cast<std::size_t>(k)].position.z(),
-                   " m in load step ", step.step),
-            "prescribe a smaller drop or a narrower depth window"}});
+          "scene", {{concat("/faults/", f, "/fault_pressure"), 0,
+                     concat("the prescribed fault pressure of ", fault.name, " falls to ", p / 1e5,
+                            " bar at depth ", -op_.geometry.nodes[k].position.z(),
+                            " m in load step ", step.step),
+                     "prescribe a smaller drop or a narrower depth window"}});
     }
   }
 }

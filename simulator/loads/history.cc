@@ -56,8 +56,8 @@ double by_rule(const FaultPressure& law, double minus, double plus) {
 double share_of(const std::vector<int>& region_of_load, const std::vector<double>& per_region,
                 int load, double fraction) {
   if (load < 0) return 0;
-  const int region = region_of_load[static_cast<std::size_t>(load)];
-  return fraction * per_region[static_cast<std::size_t>(region)];
+  const int region = region_of_load[load];
+  return fraction * per_region[region];
 }
 
 bool has_region(const PressurePair& pair) {
@@ -136,7 +136,7 @@ bool prescribed_pressure_acts(const Scene& scene, const FaultGeometry& geometry,
   const FaultPressure& law = scene.faults[fault].pressure;
   const OperatorFault& grid = geometry.faults[fault];
   for (int k = grid.first_node; k < grid.first_node + grid.n_nodes; ++k) {
-    const OperatorNode& node = geometry.nodes[static_cast<std::size_t>(k)];
+    const OperatorNode& node = geometry.nodes[k];
     for (const PressurePair& pair : node.pressure) {
       if (in_window(law, node, pair)) return true;
     }
@@ -155,7 +155,7 @@ Eigen::VectorXd initial_pressure_excess(const Scene& scene, const FaultGeometry&
     const FaultPressure& law = scene.faults[f].pressure;
     const OperatorFault& fault = geometry.faults[f];
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
-      const OperatorNode& node = geometry.nodes[static_cast<std::size_t>(k)];
+      const OperatorNode& node = geometry.nodes[k];
       if (std::none_of(node.pressure.begin(), node.pressure.end(), has_region)) continue;
       for (std::size_t r = 0; r < per_region.size(); ++r) {
         per_region[r] = own_pressure_excess(scene, r, node.position.z());
@@ -186,7 +186,7 @@ Eigen::VectorXd fault_pressure_change(const Scene& scene, const FaultGeometry& g
     const double given = prescribed ? prescribed_pressure_change(scene, law, time) : 0;
     const OperatorFault& fault = geometry.faults[f];
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
-      const OperatorNode& node = geometry.nodes[static_cast<std::size_t>(k)];
+      const OperatorNode& node = geometry.nodes[k];
       double sum = 0;
       for (const PressurePair& pair : node.pressure) {
         if (!prescribed && !has_region(pair)) continue;  // every rule of 0 and 0 is 0

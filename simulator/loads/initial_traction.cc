@@ -18,7 +18,7 @@ InitialTraction initial_traction(const Scene& scene, const FaultGeometry& geomet
     const OperatorFault& fault = geometry.faults[f];
     const double fault_biot = scene.faults[f].fault_biot;
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
-      const OperatorNode& node = geometry.nodes[static_cast<std::size_t>(k)];
+      const OperatorNode& node = geometry.nodes[k];
       StressAtDepth at = column.at(node.position.z());
       at.pressure += excess[k];
       const Eigen::Matrix3d sigma =

@@ -54,7 +54,7 @@ FaultMeter::FaultMeter(const FaultOperator& op, const ContactLaws& laws, double 
                         WindowSearch(profile, activation_length)});
     }
     for (int k = 0; k < fault.n_nodes; ++k) {
-      area += geometry.nodes[static_cast<std::size_t>(fault.first_node + k)].area;
+      area += geometry.nodes[fault.first_node + k].area;
     }
     fault_area_.push_back(area);
     fault_width_.push_back(width);
@@ -124,12 +124,11 @@ void FaultMeter::measure_profiles(const NodalState& nodal,
   for (std::size_t j = 0; j < lines_.size(); ++j) {
     const Line& line = lines_[j];
     const double width = line.profile.width;
-    FaultMetrics& m = faults[static_cast<std::size_t>(line.fault)];
+    FaultMetrics& m = faults[line.fault];
     m.chi_bar = std::max(m.chi_bar, nodal.window[j].critical_index);
     const double thickness = length_above(line.profile, nodal.critical_index, kThreshold);
     m.thickness_chi_080_max = std::max(m.thickness_chi_080_max, thickness);
-    m.thickness_chi_080_mean +=
-        thickness * width / fault_width_[static_cast<std::size_t>(line.fault)];
+    m.thickness_chi_080_mean += thickness * width / fault_width_[line.fault];
     m.area_chi_080 += multiplicity_ * thickness * width;
   }
 }

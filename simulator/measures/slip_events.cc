@@ -31,8 +31,8 @@ void place_nucleus(const FaultOperator& op, const ContactJump& jump, SlipEvent& 
   std::vector<char> inside(op.geometry.nodes.size(), 0);
   double area = 0;
   for (const int k : jump.nucleus) {
-    const OperatorNode& node = op.geometry.nodes[static_cast<std::size_t>(k)];
-    inside[static_cast<std::size_t>(k)] = 1;
+    const OperatorNode& node = op.geometry.nodes[k];
+    inside[k] = 1;
     event.depth -= node.area * node.position.z();
     area += node.area;
   }

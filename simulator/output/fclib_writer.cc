@@ -36,8 +36,7 @@ void write_matrix(hid_t file, const std::string& group, const Eigen::MatrixXd& w
   for (std::size_t j = 0; j < start.size(); ++j) start[j] = static_cast<int>(j) * n;
   std::vector<int> row(static_cast<std::size_t>(n_entries));
   for (int j = 0; j < n; ++j)
-    std::iota(row.begin() + start[static_cast<std::size_t>(j)],
-              row.begin() + start[static_cast<std::size_t>(j) + 1], 0);
+    std::iota(row.begin() + start[j], row.begin() + start[static_cast<std::size_t>(j) + 1], 0);
   hdf5::write_array(file, group + "/p", {start.size()}, start.data(), {});
   hdf5::write_array(file, group + "/i", {row.size()}, row.data(), {});
   hdf5::write_array(file, group + "/x", {row.size()}, w.data(), {});

@@ -100,7 +100,7 @@ void add_faces(const OperatorFault& fault, const std::vector<int>& number, bool 
     // In plane strain the two sides of a face along strike are one: corners (a, b, b, a).
     for (std::size_t c = 0; c < points.points_per_cell; ++c) {
       const int at = face[mirrored ? points.points_per_cell - 1 - c : c];
-      points.cells.push_back(number[static_cast<std::size_t>(at)]);
+      points.cells.push_back(number[at]);
     }
   }
 }
@@ -209,7 +209,7 @@ struct FieldWriter::Impl {
 };
 
 OperatorNode FieldWriter::Impl::node_of(const FaultPoints& fault, std::size_t point) const {
-  const OperatorNode& node = nodes[static_cast<std::size_t>(fault.source[point])];
+  const OperatorNode& node = nodes[fault.source[point]];
   return fault.mirrored[point] != 0 ? mirror(node) : node;
 }
 

@@ -33,7 +33,7 @@ std::optional<FileKind> kind_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::string start(16, '\0');
   file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(file.gcount()));
+  start.resize(file.gcount());
   if (start.empty()) return std::nullopt;
   const bool sealed = start.starts_with("faultsim ");  // an HDF5 file behind a line of ours
   if (sealed || start.starts_with("\x89HDF\r\n")) return FileKind::hdf5;
