@@ -14,7 +14,7 @@
 #include "campaign/store/sqlite.h"
 #include "simulator/result/result_fields.h"
 
-/// Fields of results (simulator/output/result_fields.h) as columns of tables. A field is kept where
+/// Fields of results (simulator/result/result_fields.h) as columns of tables. A field is kept where
 /// the table has a column of its key or, of the name of a stage, fault or region, of its key and
 /// "_id": what the store keeps of a result is said by its schema alone.
 namespace faultsweep {

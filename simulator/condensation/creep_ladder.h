@@ -48,7 +48,7 @@ class CreepLadder {
                const Eigen::VectorXd& jump_increment, BulkState& state);
 
   /// Displacement components of the observation points, in the order of
-  /// FaultOperator::observations.
+  /// FaultOperator::observed.
   Eigen::VectorXd observed(const BulkState& state) const;
 
  private:
