@@ -21,12 +21,12 @@ struct Progress {
   }
 };
 
-SearchIteration iteration_of(const SubStep& sub_step, double residual, double length,
-                             int n_changed) {
+SearchIteration iteration_of(const SubStep& sub_step, double residual, double length, int n_changed,
+                             int krylov) {
   const auto count = [&](FaultState state) {
     return static_cast<int>(std::count(sub_step.state.begin(), sub_step.state.end(), state));
   };
-  return {residual, length, count(FaultState::slip), count(FaultState::open), n_changed};
+  return {residual, length, count(FaultState::slip), count(FaultState::open), n_changed, krylov};
 }
 
 }  // namespace
@@ -223,8 +223,10 @@ bool ContactNewton::solve_tangent(Eigen::VectorXd& solution) {
       y = x;
       lu_.solve(y);
     };
-    if (gmres(multiply, precondition, right_.head(n), kTolerance, kIterations, solution)
-            .converged) {
+    const GmresReport report =
+        gmres(multiply, precondition, right_.head(n), kTolerance, kIterations, solution);
+    if (report.converged) {
+      krylov_ = report.iterations;
       return solution.allFinite();
     }
   }
@@ -238,6 +240,7 @@ bool ContactNewton::solve_tangent(Eigen::VectorXd& solution) {
 
 /// Solves the tangent over the unknowns and adds their part to direction_.
 bool ContactNewton::solve_linear() {
+  krylov_ = -1;
   if (unknowns_.empty()) return true;
   assemble_tangent();
   Eigen::VectorXd solution;
@@ -366,7 +369,7 @@ SearchHistory ContactNewton::solve(SubStep& sub_step, int patience) {
     const double length = advance(sub_step, line_search);
     const int n_changed = classify(sub_step);
     Residual residual = natural_residual(sub_step);
-    history.add(iteration_of(sub_step, residual.worst, length, n_changed));
+    history.add(iteration_of(sub_step, residual.worst, length, n_changed, krylov_));
     on_this_set = n_changed > 0 ? 0 : on_this_set + 1;
     if (patience > 0 && progress.idle_after(residual.square_sum) >= patience) {
       return stop(SearchEnd::no_progress);

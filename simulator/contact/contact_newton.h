@@ -65,6 +65,7 @@ class ContactNewton {
   Eigen::MatrixXd tangent_;
   DenseLu lu_;                 ///< of an earlier tangent over factored_.
   std::vector<int> factored_;  ///< dofs of the unknowns then.
+  int krylov_ = -1;            ///< of the last linear solve: SearchIteration::krylov.
 };
 
 }  // namespace faultsim
