@@ -1,5 +1,6 @@
 #include "simulator/app/trace_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -19,7 +20,8 @@ std::string search_text(const SubStepTrace::Search& search) {
   std::string text = formatted("    %s: %s, %d iterations over %d active sets\n", search.way,
                                to_string(history.end), history.iterations, history.passes);
   if (history.last.empty()) return text;
-  const bool iterative = history.last.front().krylov >= 0;
+  const bool iterative = std::any_of(history.last.begin(), history.last.end(),
+                                     [](const SearchIteration& at) { return at.krylov >= 0; });
   text += formatted("    %6s %10s %7s %7s %7s %8s%s\n", "iter", "residual", "length", "slip",
                     "open", "changed", iterative ? "  krylov" : "");
   int number = history.iterations - static_cast<int>(history.last.size());
@@ -28,7 +30,8 @@ std::string search_text(const SubStepTrace::Search& search) {
     const std::string residual = std::isnan(at.residual) ? "-" : formatted("%.3g", at.residual);
     text += formatted("    %6d %10s %7.4g %7d %7d %8d", ++number, residual.c_str(), at.length,
                       at.n_slip, at.n_open, at.n_changed);
-    text += iterative ? formatted(" %7d\n", at.krylov) : "\n";
+    if (iterative) text += at.krylov < 0 ? "       -" : formatted(" %7d", at.krylov);
+    text += "\n";
   }
   return text;
 }

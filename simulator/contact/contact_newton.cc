@@ -2,11 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "simulator/linalg/gmres.h"
+#include <limits>
 
 namespace faultsim {
 namespace {
+
+// How far linear equations are solved, as a share of their right side: no further than the set that
+// they hold for is worth, and at the end far enough that Newton's own error decides. No equation is
+// solved beyond a hundredth of the tolerance.
+constexpr double kForcing = 1e-2;
+constexpr double kForcingAtTheEnd = 1e-6;
+constexpr double kBeyond = 1e-2;
 
 /// How long a search has gone on without its residual falling by half.
 struct Progress {
@@ -21,18 +27,18 @@ struct Progress {
   }
 };
 
-SearchIteration iteration_of(const SubStep& sub_step, double residual, double length,
-                             int n_changed) {
+SearchIteration iteration_of(const SubStep& sub_step, double residual, double length, int n_changed,
+                             int krylov) {
   const auto count = [&](FaultState state) {
     return static_cast<int>(std::count(sub_step.state.begin(), sub_step.state.end(), state));
   };
-  return {residual, length, count(FaultState::slip), count(FaultState::open), n_changed};
+  return {residual, length, count(FaultState::slip), count(FaultState::open), n_changed, krylov};
 }
 
 }  // namespace
 
 ContactNewton::ContactNewton(ContactProblem& problem, const ContactOptions& options, StopToken stop)
-    : problem_(problem), options_(options), stop_(stop) {}
+    : problem_(problem), options_(options), stop_(stop), tangent_(problem) {}
 
 SlipPoint ContactNewton::slip_point(const SubStep& sub_step, const Eigen::VectorXd& traction,
                                     const Eigen::VectorXd& increment, int k) const {
@@ -144,7 +150,7 @@ void ContactNewton::collect_node(const SubStep& sub_step, int k) {
   if (sub_step.state[i] == FaultState::open) {
     const double drag = node.law->drag(sub_step.per_second);
     for (std::size_t c = 0; c < n; ++c) {
-      Unknown unknown{k, static_cast<int>(c), node.dof[c], {0, 0, 0}, {0, 0}};
+      TangentUnknown unknown{k, static_cast<int>(c), node.dof[c], {0, 0, 0}, {0, 0}};
       unknown.weight[c] = -node.inverse_area[c];
       const double carried = c > 0 ? drag * sub_step.increment[node.dof[c]] : 0;
       if (c > 0) unknown.own[c - 1] = -drag;
@@ -160,7 +166,7 @@ void ContactNewton::collect_node(const SubStep& sub_step, int k) {
     const auto row = static_cast<Eigen::Index>(c - 1);
     const std::array<double, 3> d_traction = {r.d_normal[row], r.d_shear(row, 0),
                                               r.d_shear(row, 1)};
-    Unknown unknown{
+    TangentUnknown unknown{
         k, static_cast<int>(c), node.dof[c], {0, 0, 0}, {r.d_slip(row, 0), r.d_slip(row, 1)}};
     double right = -r.value[row];
     for (std::size_t a = 0; a < n; ++a) {
@@ -184,76 +190,49 @@ void ContactNewton::linearise(const SubStep& sub_step) {
   }
 }
 
-void ContactNewton::assemble_tangent() {
-  const auto n = static_cast<Eigen::Index>(unknowns_.size());
-  tangent_.resize(n, n);
-  for (Eigen::Index v = 0; v < n; ++v) {
-    const Unknown& column = unknowns_[static_cast<std::size_t>(v)];
-    const double* h = problem_.compliance.column(column.dof).data();
-    for (Eigen::Index u = 0; u < n; ++u) {
-      const Unknown& row = unknowns_[static_cast<std::size_t>(u)];
-      const ContactNode& node = problem_.nodes[static_cast<std::size_t>(row.node)];
-      double sum = row.weight[0] * h[node.dof[0]];
-      if (node.n_dofs > 1) sum += row.weight[1] * h[node.dof[1]];
-      if (node.n_dofs > 2) sum += row.weight[2] * h[node.dof[2]];
-      if (row.node == column.node && column.component > 0) {
-        sum += row.own[static_cast<std::size_t>(column.component - 1)];
-      }
-      tangent_(u, v) = sum;
-    }
+/// How far the linear equations are to be solved, Pa. Where strength falls with slip the next set
+/// to be tried decides where a search ends, and a jump may follow: to round-off.
+double ContactNewton::wanted_residual(const SubStep& sub_step) const {
+  if (problem_.may_jump) return 0;
+  double tolerance = std::numeric_limits<double>::infinity();
+  for (const TangentUnknown& unknown : unknowns_) {
+    tolerance = std::min(tolerance, sub_step.tolerance[unknown.node]);
   }
-}
-
-/// Tangents over the same unknowns differ little from one iteration, and one sub-step, to the next:
-/// the last factor is then a preconditioner that needs a few products instead of n³ operations.
-bool ContactNewton::solve_tangent(Eigen::VectorXd& solution) {
-  constexpr Eigen::Index kSmall = 100;  // factorising anew is cheaper
-  constexpr double kTolerance = 1e-13;  // that of a factorisation
-  constexpr int kIterations = 15;       // 15 n² products against 2/3 n³ of a factorisation
-  const auto n = static_cast<Eigen::Index>(unknowns_.size());
-  const auto same = [&] {
-    return std::equal(unknowns_.begin(), unknowns_.end(), factored_.begin(), factored_.end(),
-                      [](const Unknown& unknown, int dof) { return unknown.dof == dof; });
-  };
-  if (n > kSmall && lu_.size() == n && same()) {
-    const LinearMap multiply = [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) {
-      y.noalias() = tangent_ * x;
-    };
-    const LinearMap precondition = [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) {
-      y = x;
-      lu_.solve(y);
-    };
-    if (gmres(multiply, precondition, right_.head(n), kTolerance, kIterations, solution)
-            .converged) {
-      return solution.allFinite();
-    }
-  }
-  factored_.clear();
-  if (!lu_.factor(tangent_)) return false;
-  for (const Unknown& unknown : unknowns_) factored_.push_back(unknown.dof);
-  solution = right_.head(n);
-  lu_.solve(solution);
-  return solution.allFinite();
+  const double norm = right_.head(static_cast<Eigen::Index>(unknowns_.size())).norm();
+  return std::max((set_stands_ ? kForcingAtTheEnd : kForcing) * norm, kBeyond * tolerance);
 }
 
 /// Solves the tangent over the unknowns and adds their part to direction_.
-bool ContactNewton::solve_linear() {
+bool ContactNewton::solve_linear(const SubStep& sub_step) {
+  krylov_ = -1;
   if (unknowns_.empty()) return true;
-  assemble_tangent();
+  const auto n = static_cast<Eigen::Index>(unknowns_.size());
   Eigen::VectorXd solution;
-  if (!solve_tangent(solution)) return false;
+  const TangentReport report =
+      tangent_.solve(unknowns_, right_.head(n), wanted_residual(sub_step), solution);
+  krylov_ = report.krylov;
+  if (!report.solved) return false;
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
     direction_[unknowns_[u].dof] = solution[static_cast<Eigen::Index>(u)];
   }
   return true;
 }
 
-/// Goes along direction_; tractions are linear in the step length, so trying lengths is cheap.
+/// Goes along direction_. While the set stands, and may be what is accepted, tractions are computed
+/// afresh: no round-off of earlier iterations is left in them. Else tractions are linear in the
+/// step length, so trying lengths is cheap.
 /// @returns the length.
 double ContactNewton::advance(SubStep& sub_step, bool line_search) {
+  fresh_ = set_stands_ && !line_search;
+  if (fresh_) {
+    sub_step.increment += direction_;
+    sub_step.traction = sub_step.trial;
+    problem_.subtract_product(sub_step.increment, sub_step.traction);
+    return 1;
+  }
+  double length = 1;
   response_.setZero(problem_.n_dofs());
   problem_.subtract_product(direction_, response_);
-  double length = 1;
   if (line_search) {
     double best = std::numeric_limits<double>::infinity();
     for (const double candidate : {1.0, 0.5, 0.25, 0.125, 0.0625}) {
@@ -271,14 +250,17 @@ double ContactNewton::advance(SubStep& sub_step, bool line_search) {
   return length;
 }
 
-/// Rounds noise to rest, computes the tractions afresh and checks the residual again.
+/// Rounds noise to rest, corrects the tractions for it and checks the residual again.
 bool ContactNewton::finish(SubStep& sub_step) {
   constexpr double kNoise = 0.01;  // of the slip that moves the traction by the tolerance
+  direction_.setZero(problem_.n_dofs());
   for (int k = 0; k < problem_.n_nodes(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     const ContactNode& node = problem_.nodes[i];
     if (sub_step.state[i] == FaultState::open) continue;
-    sub_step.increment[node.dof[0]] = -sub_step.start->jump[node.dof[0]];
+    const double closed = -sub_step.start->jump[node.dof[0]];
+    direction_[node.dof[0]] = closed - sub_step.increment[node.dof[0]];
+    sub_step.increment[node.dof[0]] = closed;
     const Eigen::Vector2d slip = shear_part(node, sub_step.increment);
     if (slip[0] == 0 && slip[1] == 0) {
       sub_step.state[i] = FaultState::stick;
@@ -288,13 +270,19 @@ bool ContactNewton::finish(SubStep& sub_step) {
     const double noise = kNoise * sub_step.tolerance[k] / (problem_.stiffness(node, 1) + drag);
     if (sub_step.state[i] == FaultState::stick || slip.norm() < noise) {
       for (std::size_t c = 1; c < static_cast<std::size_t>(node.n_dofs); ++c) {
+        direction_[node.dof[c]] = -sub_step.increment[node.dof[c]];
         sub_step.increment[node.dof[c]] = 0;
       }
       sub_step.state[i] = FaultState::stick;
     }
   }
-  sub_step.traction = sub_step.trial;
-  problem_.subtract_product(sub_step.increment, sub_step.traction);
+  if (fresh_) {
+    problem_.subtract_product(direction_, sub_step.traction);
+  } else {
+    sub_step.traction = sub_step.trial;
+    problem_.subtract_product(sub_step.increment, sub_step.traction);
+    fresh_ = true;
+  }
   constexpr double kAccepted = 1.5;  // the tolerance with a margin for what was rounded to rest
   return natural_residual(sub_step).worst <= kAccepted;
 }
@@ -341,8 +329,9 @@ bool ContactNewton::lose_cohesion(SubStep& sub_step) {
 void ContactNewton::begin(const SubStep& sub_step) {
   seen_.clear();
   // A history starts with no jump: no factor of an earlier one has a say in its digits.
-  if (sub_step.start->jump.isZero(0)) lu_.clear();
+  if (sub_step.start->jump.isZero(0)) tangent_.clear();
   was_open_.assign(static_cast<std::size_t>(problem_.n_nodes()), 0);
+  set_stands_ = false;
 }
 
 SearchHistory ContactNewton::solve(SubStep& sub_step, int patience) {
@@ -362,12 +351,13 @@ SearchHistory ContactNewton::solve(SubStep& sub_step, int patience) {
   while (history.iterations < bound) {
     stop_.throw_if_requested("solving a load step");
     linearise(sub_step);
-    if (!solve_linear()) return stop(SearchEnd::singular_tangent);
+    if (!solve_linear(sub_step)) return stop(SearchEnd::singular_tangent);
     const double length = advance(sub_step, line_search);
     const int n_changed = classify(sub_step);
     Residual residual = natural_residual(sub_step);
-    history.add(iteration_of(sub_step, residual.worst, length, n_changed));
+    history.add(iteration_of(sub_step, residual.worst, length, n_changed, krylov_));
     on_this_set = n_changed > 0 ? 0 : on_this_set + 1;
+    set_stands_ = n_changed == 0;
     if (patience > 0 && progress.idle_after(residual.square_sum) >= patience) {
       return stop(SearchEnd::no_progress);
     }

@@ -6,7 +6,7 @@
 #include "simulator/contact/contact_problem.h"
 #include "simulator/contact/search_record.h"
 #include "simulator/contact/slip_residual.h"
-#include "simulator/linalg/dense_lu.h"
+#include "simulator/contact/tangent_solver.h"
 
 namespace faultsim {
 
@@ -24,11 +24,6 @@ class ContactNewton {
   SearchHistory solve(SubStep& sub_step, int patience = 0);
 
  private:
-  struct Unknown {
-    int node, component, dof;
-    std::array<double, 3> weight;  ///< −∂R/∂t' A⁻¹ per dof of the node.
-    std::array<double, 2> own;     ///< ∂R/∂Δg_T of the node's own slip.
-  };
   /// The natural residual over all nodes, in units of their tolerances.
   struct Residual {
     double square_sum = 0, worst = 0;
@@ -46,9 +41,8 @@ class ContactNewton {
   void prescribe(const SubStep& sub_step);
   void linearise(const SubStep& sub_step);
   void collect_node(const SubStep& sub_step, int node);
-  void assemble_tangent();
-  bool solve_tangent(Eigen::VectorXd& solution);
-  bool solve_linear();
+  double wanted_residual(const SubStep& sub_step) const;
+  bool solve_linear(const SubStep& sub_step);
   double advance(SubStep& sub_step, bool line_search);
   bool finish(SubStep& sub_step);
   bool aligned(const SubStep& sub_step) const;
@@ -58,13 +52,14 @@ class ContactNewton {
   ContactProblem& problem_;
   const ContactOptions& options_;
   StopToken stop_;
-  std::vector<Unknown> unknowns_;
+  std::vector<TangentUnknown> unknowns_;
+  TangentSolver tangent_;
   std::vector<std::uint64_t> seen_;
   std::vector<char> was_open_;
   Eigen::VectorXd direction_, response_, right_, trial_increment_, trial_traction_;
-  Eigen::MatrixXd tangent_;
-  DenseLu lu_;                 ///< of an earlier tangent over factored_.
-  std::vector<int> factored_;  ///< dofs of the unknowns then.
+  bool set_stands_ = false;  ///< the active set did not change in the last iteration.
+  bool fresh_ = false;       ///< tractions are those of the increment, to round-off.
+  int krylov_ = -1;          ///< of the last linear solve: SearchIteration::krylov.
 };
 
 }  // namespace faultsim

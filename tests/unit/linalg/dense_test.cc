@@ -5,6 +5,7 @@
 
 #include "simulator/linalg/dense_lu.h"
 #include "simulator/linalg/gmres.h"
+#include "simulator/linalg/growing_lu.h"
 
 namespace faultsim {
 namespace {
@@ -33,6 +34,42 @@ TEST(DenseLu, SaysThatAMatrixIsSingularAndKeepsNoFactor) {
   Eigen::MatrixXd m = random_matrix(6, 3);
   m.row(2).setZero();
   EXPECT_FALSE(lu.factor(m));
+  EXPECT_EQ(lu.size(), 0);
+}
+
+/// Grows the factor to the leading n x n block of m.
+bool grow_to(GrowingLu& lu, const Eigen::MatrixXf& m, int n) {
+  const int old = lu.size();
+  GrowingLu::Block block = lu.border(n - old);
+  block.rightCols(n - old) = m.topLeftCorner(n, n).rightCols(n - old);
+  block.bottomLeftCorner(n - old, old) = m.block(old, 0, n - old, old);
+  return lu.grow(n - old);
+}
+
+// Not diagonally dominant, so that rows are exchanged within each part.
+TEST(GrowingLu, SolvesAtEachOfItsSizes) {
+  const Eigen::MatrixXf m =
+      (random_matrix(150, 4) + 8 * Eigen::MatrixXd::Identity(150, 150)).cast<float>();
+  GrowingLu lu;
+  for (const int n : {3, 4, 70, 70, 150}) {
+    ASSERT_TRUE(grow_to(lu, m, n));
+    EXPECT_EQ(lu.size(), n);
+    const Eigen::VectorXf expected = random_matrix(n, 8).col(0).cast<float>();
+    Eigen::VectorXf x = m.topLeftCorner(n, n) * expected;
+    lu.solve(x);
+    EXPECT_LT((x - expected).norm(), 1e-3 * expected.norm()) << n;
+  }
+  lu.clear();
+  ASSERT_TRUE(grow_to(lu, m.bottomRightCorner(20, 20), 20));
+  EXPECT_EQ(lu.size(), 20);
+}
+
+TEST(GrowingLu, SaysThatWhatJoinedIsSingularAndKeepsNoFactor) {
+  Eigen::MatrixXf m = Eigen::MatrixXf::Identity(6, 6);
+  GrowingLu lu;
+  ASSERT_TRUE(grow_to(lu, m, 4));
+  m(5, 5) = 0;
+  EXPECT_FALSE(grow_to(lu, m, 6));
   EXPECT_EQ(lu.size(), 0);
 }
 

@@ -1,0 +1,212 @@
+#include "simulator/contact/tangent_solver.h"
+
+#include <algorithm>
+
+#include "simulator/linalg/gmres.h"
+
+namespace faultsim {
+namespace {
+
+// Only speed depends on these.
+constexpr std::size_t kDirect = 160;  // unknowns that are solved for faster by a factorisation
+constexpr std::size_t kSmall = 100;   // unknowns for which even an old factor is no help
+constexpr int kMany = 20;             // iterations after which a new factor would have been cheaper
+constexpr int kMost = 30;             // iterations after which it does not help at all
+constexpr int kSpare = 2;             // times as large as needed: block and factor are made anew
+
+}  // namespace
+
+TangentSolver::TangentSolver(const ContactProblem& problem)
+    : problem_(problem), block_(problem), place_(static_cast<std::size_t>(problem.n_dofs()), -1) {}
+
+void TangentSolver::clear() {
+  direct_dofs_.clear();
+  forget_factor();
+  block_.clear();
+}
+
+void TangentSolver::forget_factor() {
+  for (const TangentUnknown& unknown : factored_)
+    place_[static_cast<std::size_t>(unknown.dof)] = -1;
+  factored_.clear();
+  rows_.clear();
+  factor_.clear();
+  tired_ = false;
+}
+
+/// T by its definition, in double precision.
+void TangentSolver::assemble(const std::vector<TangentUnknown>& unknowns) {
+  const auto n = static_cast<Eigen::Index>(unknowns.size());
+  direct_.resize(n, n);
+  for (Eigen::Index v = 0; v < n; ++v) {
+    const TangentUnknown& column = unknowns[static_cast<std::size_t>(v)];
+    const double* h = problem_.compliance.column(column.dof).data();
+    for (Eigen::Index u = 0; u < n; ++u) {
+      const TangentUnknown& row = unknowns[static_cast<std::size_t>(u)];
+      const ContactNode& node = problem_.nodes[static_cast<std::size_t>(row.node)];
+      double sum = row.weight[0] * h[node.dof[0]];
+      if (node.n_dofs > 1) sum += row.weight[1] * h[node.dof[1]];
+      if (node.n_dofs > 2) sum += row.weight[2] * h[node.dof[2]];
+      if (row.node == column.node && column.component > 0) {
+        sum += row.own[static_cast<std::size_t>(column.component - 1)];
+      }
+      direct_(u, v) = sum;
+    }
+  }
+}
+
+/// To round-off: by a factorisation, or with the last one as the preconditioner of GMRES where the
+/// unknowns are the same, as tangents then differ little.
+TangentReport TangentSolver::solve_exactly(const std::vector<TangentUnknown>& unknowns,
+                                           const Eigen::VectorXd& right,
+                                           Eigen::VectorXd& solution) {
+  constexpr double kRoundOff = 1e-13;  // that of a factorisation
+  constexpr int kIterations = 15;      // 15 n² products against 2/3 n³ of a factorisation
+  assemble(unknowns);
+  const bool same =
+      std::equal(unknowns.begin(), unknowns.end(), direct_dofs_.begin(), direct_dofs_.end(),
+                 [](const TangentUnknown& unknown, int dof) { return unknown.dof == dof; });
+  if (unknowns.size() > kSmall && same) {
+    const GmresReport report =
+        gmres([&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y.noalias() = direct_ * x; },
+              [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { direct_lu_.solve(y = x); }, right,
+              kRoundOff, kIterations, solution);
+    if (report.converged) return {solution.allFinite(), report.iterations};
+  }
+  direct_dofs_.clear();
+  if (!direct_lu_.factor(direct_)) return {};
+  for (const TangentUnknown& unknown : unknowns) direct_dofs_.push_back(unknown.dof);
+  direct_lu_.solve(solution = right);
+  return {solution.allFinite(), -1};
+}
+
+/// Has the block hold all that the unknowns need of H.
+void TangentSolver::cover(const std::vector<TangentUnknown>& unknowns) {
+  // The factor grows by what the block holds, so they go together.
+  if (block_.n_columns() > kSpare * static_cast<int>(unknowns.size())) {
+    forget_factor();
+    block_.clear();
+  }
+  std::vector<int> nodes, dofs;
+  for (const TangentUnknown& unknown : unknowns) {
+    if (block_.row(unknown.node) < 0 && (nodes.empty() || nodes.back() != unknown.node)) {
+      nodes.push_back(unknown.node);
+    }
+    if (block_.column(unknown.dof) < 0) dofs.push_back(unknown.dof);
+  }
+  if (!dofs.empty()) block_.add(nodes, dofs);
+}
+
+/// Entries of a column of T over the rows of the factor from first_row on, by their equations when
+/// they joined. The shear dofs of a node join together, so they follow each other.
+void TangentSolver::fill(GrowingLu::Block& block, int column, int first_row) const {
+  const TangentUnknown& v = factored_[static_cast<std::size_t>(column)];
+  const float* g = block_.entries(block_.column(v.dof));
+  const int n = static_cast<int>(rows_.size());
+  for (int u = first_row; u < n; ++u) {
+    const Row& row = rows_[static_cast<std::size_t>(u)];
+    const float* at = g + row.first;
+    block(u, column) = row.weight[0] * at[0] + row.weight[1] * at[1] + row.weight[2] * at[2];
+  }
+  if (v.component == 0) return;
+  for (int u = std::max(first_row, column - 2); u < std::min(column + 3, n); ++u) {
+    const TangentUnknown& row = factored_[static_cast<std::size_t>(u)];
+    if (row.node != v.node) continue;
+    block(u, column) += static_cast<float>(row.own[static_cast<std::size_t>(v.component - 1)]);
+  }
+}
+
+/// Has the factor hold all unknowns. @returns false when it cannot be.
+bool TangentSolver::grow_factor(const std::vector<TangentUnknown>& unknowns) {
+  if (tired_ || factor_.size() > kSpare * static_cast<int>(unknowns.size())) forget_factor();
+  const int old = factor_.size();
+  for (const TangentUnknown& unknown : unknowns) {
+    int& place = place_[static_cast<std::size_t>(unknown.dof)];
+    if (place >= 0) continue;
+    place = static_cast<int>(factored_.size());
+    factored_.push_back(unknown);
+    rows_.push_back({block_.row(unknown.node),
+                     {static_cast<float>(unknown.weight[0]), static_cast<float>(unknown.weight[1]),
+                      static_cast<float>(unknown.weight[2])}});
+  }
+  const int n = static_cast<int>(factored_.size());
+  if (n == old) return true;
+  GrowingLu::Block block = factor_.border(n - old);
+  for (int v = 0; v < n; ++v) fill(block, v, v < old ? old : 0);
+  if (factor_.grow(n - old)) return true;
+  forget_factor();
+  return false;
+}
+
+void TangentSolver::multiply(const std::vector<TangentUnknown>& unknowns, const Eigen::VectorXd& x,
+                             Eigen::VectorXd& y) {
+  moving_.setZero(block_.n_columns());
+  for (std::size_t v = 0; v < unknowns.size(); ++v) {
+    moving_[block_.column(unknowns[v].dof)] = static_cast<float>(x[static_cast<Eigen::Index>(v)]);
+  }
+  block_.multiply(moving_, response_);
+  y.resize(x.size());
+  for (std::size_t u = 0; u < unknowns.size(); ++u) {
+    const TangentUnknown& row = unknowns[u];
+    const float* at = response_.data() + block_.row(row.node);
+    y[static_cast<Eigen::Index>(u)] =
+        row.weight[0] * at[0] + row.weight[1] * at[1] + row.weight[2] * at[2];
+  }
+  // Unknowns of a node follow each other.
+  for (std::size_t v = 0; v < unknowns.size(); ++v) {
+    if (unknowns[v].component == 0) continue;
+    const auto c = static_cast<std::size_t>(unknowns[v].component - 1);
+    for (std::size_t u = v >= 2 ? v - 2 : 0; u < std::min(v + 3, unknowns.size()); ++u) {
+      if (unknowns[u].node != unknowns[v].node) continue;
+      y[static_cast<Eigen::Index>(u)] += unknowns[u].own[c] * x[static_cast<Eigen::Index>(v)];
+    }
+  }
+}
+
+/// What rests is passed over: its rows see nothing, and what the factor makes of it is dropped.
+void TangentSolver::precondition(const std::vector<TangentUnknown>& unknowns,
+                                 const Eigen::VectorXd& x, Eigen::VectorXd& y) {
+  factor_side_.setZero(factor_.size());
+  for (std::size_t u = 0; u < unknowns.size(); ++u) {
+    factor_side_[place_[static_cast<std::size_t>(unknowns[u].dof)]] =
+        static_cast<float>(x[static_cast<Eigen::Index>(u)]);
+  }
+  factor_.solve(factor_side_);
+  y.resize(x.size());
+  for (std::size_t u = 0; u < unknowns.size(); ++u) {
+    y[static_cast<Eigen::Index>(u)] =
+        factor_side_[place_[static_cast<std::size_t>(unknowns[u].dof)]];
+  }
+}
+
+bool TangentSolver::iterate(const std::vector<TangentUnknown>& unknowns,
+                            const Eigen::VectorXd& right, double residual,
+                            Eigen::VectorXd& solution, int& iterations) {
+  if (!grow_factor(unknowns)) return false;
+  const GmresReport report =
+      gmres([&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { multiply(unknowns, x, y); },
+            [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { precondition(unknowns, x, y); },
+            right, residual / right.norm(), kMost, solution);
+  iterations += report.iterations;
+  tired_ = report.iterations > kMany;
+  return report.converged && solution.allFinite();
+}
+
+TangentReport TangentSolver::solve(const std::vector<TangentUnknown>& unknowns,
+                                   const Eigen::VectorXd& right, double residual,
+                                   Eigen::VectorXd& solution) {
+  if (residual > 0 && unknowns.size() > kDirect) {
+    cover(unknowns);
+    TangentReport report{true, 0};
+    const bool had_factor = factor_.size() > 0;
+    if (iterate(unknowns, right, residual, solution, report.krylov)) return report;
+    if (had_factor) {
+      forget_factor();
+      if (iterate(unknowns, right, residual, solution, report.krylov)) return report;
+    }
+    forget_factor();
+  }
+  return solve_exactly(unknowns, right, solution);
+}
+
+}  // namespace faultsim

@@ -1,0 +1,88 @@
+// More sliding nodes than are solved for directly: the same solution as with everything exact, at
+// the tolerance, step by step as load grows, turns and comes back.
+#include <gtest/gtest.h>
+
+#include "tests/unit/contact/contact_fixture.h"
+
+namespace faultsim {
+namespace {
+
+struct LargeFault {
+  LargeFault() {
+    set_h(op, 1e8 * half_space_matrix(op, 1, 0.2));
+    const int dofs = op.geometry.n_dofs;
+    Eigen::VectorXd start(dofs), change(dofs), across = Eigen::VectorXd::Zero(dofs);
+    for (int k = 0; k < kNodes; ++k) {
+      const double x = (k - 0.5 * kNodes) / (0.5 * kNodes);
+      start.segment<3>(3 * k) = Eigen::Vector3d(-1e7, 1e6 * x, 2e6);
+      change.segment<3>(3 * k) = Eigen::Vector3d(4e6, 1e6, 6e6 * (1 - x * x));
+      across[3 * k + 1] = 2e6 * (1 - x);
+    }
+    for (const double factor : {0.0, 0.4, 0.7, 1.0, 0.8, -0.6, 1.1}) {
+      locked.push_back(start + factor * change + factor * factor * across);
+    }
+  }
+  static constexpr int kNodes = 260;
+  FaultOperator op = make_operator(kNodes, 2, Eigen::VectorXd::Ones(kNodes));
+  const ContactLaws laws = same_law(op, {WeakeningLaw::angle, 0, std::atan(0.5), std::atan(0.5)});
+  std::vector<Eigen::VectorXd> locked;
+};
+
+/// @returns the states after the steps.
+std::vector<ContactState> history(const LargeFault& fault, ContactSolver& solver) {
+  std::vector<ContactState> states = {initial_state(fault.op)};
+  Eigen::VectorXd before = Eigen::VectorXd::Zero(fault.op.geometry.n_dofs);
+  for (const Eigen::VectorXd& locked : fault.locked) {
+    ContactState state = states.back();
+    const ContactReport report = solver.solve_step(before, locked, state);
+    EXPECT_EQ(report.outcome, Outcome::converged) << report.reason;
+    EXPECT_EQ(report.counts.sub_steps, 1);
+    const ContactViolation violation =
+        contact_violation(fault.op, fault.laws, locked, states.back(), state);
+    const double tolerance = 0.2;  // Pa: 1e-8 of the tractions, times two
+    EXPECT_LT(violation.over_limit, tolerance);
+    EXPECT_LT(violation.slip_below_limit, tolerance);
+    EXPECT_LT(violation.misaligned, tolerance);
+    EXPECT_LT(violation.tension, tolerance);
+    EXPECT_LT(violation.equilibrium, 1e-6);
+    states.push_back(state);
+    before = locked;
+  }
+  return states;
+}
+
+TEST(LargeSet, SlidesAtItsLimitTurnsAndComesBack) {
+  const LargeFault fault;
+  int iterations = 0, krylov = 0, largest = 0;
+  ContactWatch watch;
+  watch.tried = [&](const SubStepTrace& trace) {
+    for (const SubStepTrace::Search& search : trace.searches) {
+      iterations += search.history.iterations;
+      for (const SearchIteration& iteration : search.history.last) {
+        krylov += std::max(iteration.krylov, 0);
+        largest = std::max(largest, iteration.n_slip);
+      }
+    }
+  };
+  ContactSolver solver(fault.op, fault.laws, {}, watch);
+  history(fault, solver);
+  EXPECT_GT(largest, 100);    // beyond what is factorised
+  EXPECT_GT(krylov, 10);      // so GMRES was at work,
+  EXPECT_LT(krylov, 330);     // with a factor that helps,
+  EXPECT_LT(iterations, 45);  // and Newton does not mind
+}
+
+// What one history leaves in a solver has no say in the next.
+TEST(LargeSet, GivesTheSameBitsWhateverRanBefore) {
+  const LargeFault fault;
+  ContactSolver solver(fault.op, fault.laws, {});
+  const std::vector<ContactState> first = history(fault, solver);
+  const std::vector<ContactState> again = history(fault, solver);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].jump, again[i].jump) << i;
+    EXPECT_EQ(first[i].traction, again[i].traction) << i;
+  }
+}
+
+}  // namespace
+}  // namespace faultsim
