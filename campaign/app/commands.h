@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "campaign/answers/curves.h"
 #include "campaign/answers/probability.h"
 #include "campaign/answers/sensitivity.h"
 #include "campaign/report/case_report.h"
@@ -45,7 +46,13 @@ ExitCode status_command(const StoreArguments& common);
 /// Whether the store is sound; exit code 4 with all problems and the cure if it is not.
 ExitCode verify_store_command(const StoreArguments& common);
 ExitCode rank_command(const StoreArguments& common, const RankRequest& request, bool list_metrics);
-ExitCode probability_command(const StoreArguments& common, const ProbabilityRequest& request);
+struct ProbabilityArguments {
+  ProbabilityRequest request = {};
+  std::optional<CurveAxis> against = std::nullopt;  ///< curves; none = a table.
+  std::string stage = {};                           ///< of curves.
+  bool csv = false;                                 ///< of curves.
+};
+ExitCode probability_command(const StoreArguments& common, const ProbabilityArguments& arguments);
 ExitCode sensitivity_command(const StoreArguments& common, const SensitivityRequest& request);
 struct LimitsArguments {
   std::string source;                 ///< a spec (*.json) to submit and run first, or a campaign.

@@ -97,7 +97,7 @@ struct Arguments {
   RunOptions run;
   SlurmRequest slurm;
   RankRequest rank;
-  ProbabilityRequest probability;
+  ProbabilityArguments probability;
   SensitivityRequest sensitivity;
   LimitsArguments limits;
   ShowRequest show;
@@ -254,24 +254,49 @@ CLI::Option* add_confidence(CLI::App* command, double& confidence) {
       ->check(CLI::Range(0.5, 0.9999));
 }
 
+/// What makes curves of a table of probabilities.
+void add_curves(CLI::App* command, ProbabilityArguments& a, CLI::Option* of, CLI::Option* by) {
+  const std::map<std::string, CurveAxis> axes = {
+      {"step", CurveAxis::step}, {"time", CurveAxis::time}, {"pressure", CurveAxis::pressure}};
+  CLI::Option* against =
+      command
+          ->add_option("--against", a.against,
+                       "step, time or pressure: curves of how likely each fault has begun to\n"
+                       "slide by then")
+          ->transform(CLI::CheckedTransformer(axes))
+          ->option_text("AXIS")
+          ->excludes(of)
+          ->excludes(by);
+  command
+      ->add_option("--stage", a.stage,
+                   "curves of slip since the start of this stage; default: of the history,\n"
+                   "against pressure each stage")
+      ->needs(against);
+  command->add_flag("--csv", a.csv, "curves as CSV")->needs(against);
+}
+
 void add_answers(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* probability =
       app.add_subcommand("probability", "how likely something is, with exact bounds");
   add_campaign(probability, a.common);
-  probability->add_option("--of", a.probability.condition,
-                          "condition on metrics, as of `rank --where`; default: that each fault\n"
-                          "slides, in each stage");
-  add_where(probability, a.probability.where);
-  probability->add_option("--by", a.probability.by,
-                          "for each value of this parameter, or ten parts of its range");
-  add_confidence(probability, a.probability.confidence);
+  ProbabilityRequest& request = a.probability.request;
+  CLI::Option* of = probability->add_option(
+      "--of", request.condition,
+      "condition on metrics, as of `rank --where`; default: that each fault\n"
+      "slides, in each stage");
+  add_where(probability, request.where);
+  CLI::Option* by = probability->add_option(
+      "--by", request.by, "for each value of this parameter, or ten parts of its range");
+  add_curves(probability, a.probability, of, by);
+  add_confidence(probability, request.confidence);
   add_json(probability, a.common);
   add_wide(probability);
   probability->footer(
       "Examples:\n"
       "  faultsweep probability\n"
       "  faultsweep probability my-sweep --of \"F2.slides in gas_storage\" --by offset\n"
-      "  faultsweep probability --of \"chi_bar > 0.9\" --where \"friction_angle < 25 deg\"");
+      "  faultsweep probability --of \"chi_bar > 0.9\" --where \"friction_angle < 25 deg\"\n"
+      "  faultsweep probability --against time --csv >curves.csv");
   probability->callback([&] { code = probability_command(a.common, a.probability); });
 
   CLI::App* sensitivity =

@@ -120,6 +120,40 @@ void Store::for_each_case(std::int64_t campaign, const TableQuery& query,
   }
 }
 
+void Store::for_each_onset(std::int64_t campaign, const TableQuery& query,
+                           const std::function<void(const CaseOnsets&)>& visit) const {
+  const std::string sql = concat(
+      "SELECT cc.position, s.rank_class, coalesce(s.last_step, 0), coalesce(e.time_s, 0),"
+      " o.fault_id, o.step, l.time_s, coalesce(CASE WHEN coalesce(abs(o.change_plus_pa) >"
+      " coalesce(abs(o.change_minus_pa), -1), 0) THEN o.change_plus_pa ELSE o.change_minus_pa END,"
+      " o.change_in_fault_pa) FROM campaign_cases cc",
+      joins(query),
+      " LEFT JOIN load_steps e ON e.case_id = cc.case_id AND e.step = s.last_step"
+      " LEFT JOIN fault_onsets o ON o.case_id = cc.case_id AND o.stage_id = s.stage_id"
+      " AND o.opening = 0"
+      " LEFT JOIN load_steps l ON l.case_id = o.case_id AND l.step = o.step"
+      " WHERE cc.campaign_id = ?",
+      where_sql(query.where), " ORDER BY cc.position");
+  Statement rows(*connection_, sql);
+  int bound = 0;
+  rows.bind_at(++bound, query.stage);
+  rows.bind_at(++bound, campaign);
+  bind_values(rows, bound, query.where.parameters);
+  CaseOnsets one;
+  while (rows.step()) {
+    if (const long position = rows.integer(0); position != one.position) {
+      if (one.position > 0) visit(one);
+      one = {position, std::nullopt, static_cast<int>(rows.integer(2)), rows.real(3), {}};
+      if (const auto rank_class = rows.optional_integer(1))
+        one.rank_class = static_cast<int>(*rank_class);
+    }
+    if (const auto fault = rows.optional_integer(4)) {
+      one.onsets.push_back({*fault, static_cast<int>(rows.integer(5)), rows.real(6), rows.real(7)});
+    }
+  }
+  if (one.position > 0) visit(one);
+}
+
 namespace {
 
 /// Each column of history_fields() as SQL under its name; of mixed results what is per metre apart.
