@@ -269,7 +269,7 @@ std::string curves_to_text(const Curves& curves) {
   const std::string what = curves.sampling.is_random ? "Probability" : "Share";
   std::string text = concat(what, " that a fault has begun to slide by then",
                             curves.request.axis == CurveAxis::pressure
-                                ? ", or by the time that the stage's pressure has come so far"
+                                ? ",\nor by the time that the stage's pressure has come so far"
                                 : "",
                             ".\n\n");
   for (std::size_t from = 0; from < curves.curves.size();) {
@@ -280,7 +280,9 @@ std::string curves_to_text(const Curves& curves) {
   }
   text += concat(curves.n_rows, " cases. Bounds hold each point with a confidence of ",
                  format_number(100 * curves.request.confidence, 4),
-                 " %; a history that ends early may go on either way.\n");
+                 " %;\na history that ends early may go on either way. A fault that slides at the "
+                 "end of a load "
+                 "step\nbegan somewhere within it.\n");
   if (!curves.sampling.remark.empty()) text += curves.sampling.remark + "\n";
   return text;
 }

@@ -50,6 +50,8 @@ struct Curves {
 /// steps, or on the way of a stage's pressure, from the onsets that the store keeps for each case:
 /// 10^5 cases take about half a second.
 ///
+/// Onsets are those at ends of load steps: a fault began somewhere within the step.
+///
 /// Steps, times and the way of the pressure are those of the first full history. Against pressure a
 /// case counts from the pressure at which its fault began to slide, in the direction in which the
 /// stage's pressure first goes away from where it was; a case whose pressure does not go as far and

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "campaign/answers/curves.h"
+#include "campaign/answers/posterior.h"
 #include "campaign/answers/probability.h"
 #include "campaign/answers/sensitivity.h"
 #include "campaign/report/case_report.h"
@@ -54,6 +55,8 @@ struct ProbabilityArguments {
 };
 ExitCode probability_command(const StoreArguments& common, const ProbabilityArguments& arguments);
 ExitCode sensitivity_command(const StoreArguments& common, const SensitivityRequest& request);
+ExitCode posterior_command(const StoreArguments& common, const PosteriorRequest& request);
+
 struct LimitsArguments {
   std::string source;                 ///< a spec (*.json) to submit and run first, or a campaign.
   std::optional<int> n_workers;       ///< of the run; as for `run`.

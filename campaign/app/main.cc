@@ -98,6 +98,7 @@ struct Arguments {
   SlurmRequest slurm;
   RankRequest rank;
   ProbabilityArguments probability;
+  PosteriorRequest posterior;
   SensitivityRequest sensitivity;
   LimitsArguments limits;
   ShowRequest show;
@@ -275,6 +276,36 @@ void add_curves(CLI::App* command, ProbabilityArguments& a, CLI::Option* of, CLI
   command->add_flag("--csv", a.csv, "curves as CSV")->needs(against);
 }
 
+void add_posterior(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* command = app.add_subcommand(
+      "posterior", "parameters and probabilities, given what was seen in the field");
+  add_campaign(command, a.common);
+  command
+      ->add_option("--seen", a.posterior.seen,
+                   "a statement; give the option again for each further one:\n"
+                   "\"F2 did not slide before 8 yr +- 0.5 yr\", \"event of Mw 3 +- 0.2 on F2\n"
+                   "between -120 bar and -80 bar +- 5 bar\", \"max_slip = 20 mm +- 5 mm\",\n"
+                   "\"F2.slides in gas_storage, wrong 0.1\"")
+      ->required()
+      ->allow_extra_args(false);
+  command
+      ->add_option("--of", a.posterior.conditions,
+                   "condition whose probability is wanted, as of `rank --where`; may be given\n"
+                   "again; default: that each fault slides, in each stage")
+      ->allow_extra_args(false);
+  add_where(command, a.posterior.where);
+  add_confidence(command, a.posterior.confidence);
+  add_json(command, a.common);
+  add_wide(command);
+  command->footer(
+      "Examples:\n"
+      "  faultsweep posterior my-sweep --seen \"F2 did not slide before 8 yr\"\n"
+      "  faultsweep posterior --seen \"F1.max_slip = 20 mm +- 5 mm\" --of \"F2.slides in "
+      "gas_storage\"\n"
+      "What is given without an error is taken as exact. The cases are what was thought before.");
+  command->callback([&] { code = posterior_command(a.common, a.posterior); });
+}
+
 void add_answers(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* probability =
       app.add_subcommand("probability", "how likely something is, with exact bounds");
@@ -299,6 +330,7 @@ void add_answers(CLI::App& app, Arguments& a, ExitCode& code) {
       "  faultsweep probability --against time --csv >curves.csv");
   probability->callback([&] { code = probability_command(a.common, a.probability); });
 
+  add_posterior(app, a, code);
   CLI::App* sensitivity =
       app.add_subcommand("sensitivity", "which parameters a metric depends on, and how surely");
   add_campaign(sensitivity, a.common);

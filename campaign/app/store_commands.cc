@@ -211,6 +211,13 @@ ExitCode probability_command(const StoreArguments& common, const ProbabilityArgu
   return ExitCode::done;
 }
 
+ExitCode posterior_command(const StoreArguments& common, const PosteriorRequest& request) {
+  const Store store = Store::open_reader(common.store);
+  const Posterior found = find_posterior(store, store.campaign(common.campaign, false), request);
+  common.json ? print(posterior_to_json(found)) : print(posterior_to_text(found));
+  return ExitCode::done;
+}
+
 ExitCode sensitivity_command(const StoreArguments& common, const SensitivityRequest& request) {
   const Store store = Store::open_reader(common.store);
   const Sensitivity found =

@@ -299,6 +299,15 @@ struct CaseOnsets {
   bool complete() const { return rank_class && *rank_class < 2; }
 };
 
+/// A slip event of a case, as statements about what was seen speak of it.
+struct SeenEvent {
+  long position = 0;       ///< of its case.
+  std::int64_t fault = 0;  ///< id, of Store::faults, where it nucleated.
+  double time = 0;         ///< s, of onset.
+  double change = 0;  ///< Pa, Δp there of the side that changed more, or of the fault's fluid.
+  std::optional<double> magnitude;  ///< none in plane strain.
+};
+
 /// Counts of what went wrong, for status.
 struct FailureCount {
   std::string status;

@@ -120,14 +120,41 @@ void Store::for_each_case(std::int64_t campaign, const TableQuery& query,
   }
 }
 
+namespace {
+
+/// Δp of the side that changed more, or of the fault's fluid where no region touches the place.
+std::string leading_change_sql(const std::string& row) {
+  const std::string minus = row + ".change_minus_pa", plus = row + ".change_plus_pa";
+  return concat("coalesce(CASE WHEN coalesce(abs(", plus, ") > coalesce(abs(", minus,
+                "), -1), 0) THEN ", plus, " ELSE ", minus, " END, ", row, ".change_in_fault_pa)");
+}
+
+}  // namespace
+
+void Store::for_each_slip_event(std::int64_t campaign, const TableQuery& query,
+                                const std::function<void(const SeenEvent&)>& visit) const {
+  const std::string sql =
+      concat("SELECT cc.position, coalesce(e.fault_id, 0), e.time_s, e.magnitude_mw, ",
+             leading_change_sql("e"), " FROM campaign_cases cc", joins(query),
+             " CROSS JOIN slip_events e ON e.case_id = cc.case_id WHERE cc.campaign_id = ?",
+             where_sql(query.where), " ORDER BY cc.position, e.number");
+  Statement rows(*connection_, sql);
+  int bound = 0;
+  rows.bind_at(++bound, query.stage);
+  rows.bind_at(++bound, campaign);
+  bind_values(rows, bound, query.where.parameters);
+  while (rows.step()) {
+    visit({static_cast<long>(rows.integer(0)), rows.integer(1), rows.real(2), rows.real(4),
+           rows.optional_real(3)});
+  }
+}
+
 void Store::for_each_onset(std::int64_t campaign, const TableQuery& query,
                            const std::function<void(const CaseOnsets&)>& visit) const {
   const std::string sql = concat(
       "SELECT cc.position, s.rank_class, coalesce(s.last_step, 0), coalesce(e.time_s, 0),"
-      " o.fault_id, o.step, l.time_s, coalesce(CASE WHEN coalesce(abs(o.change_plus_pa) >"
-      " coalesce(abs(o.change_minus_pa), -1), 0) THEN o.change_plus_pa ELSE o.change_minus_pa END,"
-      " o.change_in_fault_pa) FROM campaign_cases cc",
-      joins(query),
+      " o.fault_id, o.step, l.time_s, ",
+      leading_change_sql("o"), " FROM campaign_cases cc", joins(query),
       " LEFT JOIN load_steps e ON e.case_id = cc.case_id AND e.step = s.last_step"
       " LEFT JOIN fault_onsets o ON o.case_id = cc.case_id AND o.stage_id = s.stage_id"
       " AND o.opening = 0"

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "campaign/answers/curves.h"
+#include "campaign/answers/posterior.h"
 #include "campaign/answers/probability.h"
 #include "campaign/answers/sensitivity.h"
 #include "tests/campaign/made_up_result.h"
@@ -272,6 +273,56 @@ TEST_F(AnswersTest, ACurveAgainstPressureGoesTheWayOfTheStage) {
           .curves.size(),
       2u);
   EXPECT_THROW(probability_curves(*store_, campaign_, {.where = "offset > 1000 m"}), InputError);
+}
+
+/// χ̄ of F1 is its strength below 1, so what is seen of the one is seen of the other.
+TEST_F(AnswersTest, APosteriorIsThePriorWeightedByWhatWasSeen) {
+  submit("monte-carlo", even(2000));
+  record();
+  const auto posterior = [&](std::vector<std::string> seen) {
+    return find_posterior(*store_, campaign_, {std::move(seen), {"F1.slides"}, "", 0.95});
+  };
+  const Posterior p = posterior({"F1.chi_bar = 0.5 +- 0.05"});
+  ASSERT_EQ(p.parameters.size(), 2u);
+  EXPECT_EQ(p.parameters[0].name, "strength");
+  EXPECT_NEAR(p.parameters[0].before[0].estimate, 0.05, 0.002);
+  EXPECT_NEAR(p.parameters[0].after[0].estimate, 0.5 - 1.644854 * 0.05, 0.002);
+  EXPECT_NEAR(p.parameters[0].after[1].estimate, 0.5, 0.002);
+  EXPECT_NEAR(p.parameters[0].after[2].estimate, 0.5 + 1.644854 * 0.05, 0.002);
+  EXPECT_NEAR(p.parameters[1].after[1].estimate, 150, 30) << "offset says nothing";
+  EXPECT_EQ(p.parameters[1].unit, "m");
+  EXPECT_NEAR(p.probabilities.at(0).after.value, 0.5, 0.01);
+  EXPECT_NEAR(p.effective_size, 2000 * 0.05 * 2 * std::sqrt(std::acos(-1.0)), 2);
+  ASSERT_EQ(p.words.size(), 2u);
+  EXPECT_NEAR(p.words[0].after.value, 0.5, 0.01);
+  EXPECT_THAT(posterior_to_text(p), HasSubstr("Effective sample size"));
+  EXPECT_EQ(posterior_to_json(p).at("rows"), 2000);
+  // Half of the cases agree with what is exact, and it makes the condition certain.
+  const Posterior slid = posterior({"F1 slid before 2 yr"});
+  EXPECT_NEAR(slid.agreement.at(0), 0.5, 1e-9);
+  EXPECT_NEAR(slid.effective_size, 1000, 1e-6);
+  EXPECT_EQ(slid.probabilities.at(0).after.value, 1);
+  EXPECT_NEAR(slid.probabilities.at(0).before.value, 0.5, 1e-9);
+  EXPECT_THAT(posterior_to_text(slid), HasSubstr("taken as exact"));
+}
+
+TEST_F(AnswersTest, AFewCasesDoNotSpeakForAll) {
+  submit("monte-carlo", even(200));
+  runs_[3].result.reset(), runs_[3].status = RunStatus::hung;
+  record();
+  EXPECT_THROW(find_posterior(*store_, campaign_, {.seen = {"F1.chi_bar = 0.5 +- 0.01"}}),
+               InputError);
+  EXPECT_EQ(find_posterior(*store_, campaign_, {.seen = {"slides"}}).n_left_out, 1);
+}
+
+/// Rows of a design that are one case count as often as they are rows.
+TEST_F(AnswersTest, MergedRowsCountEach) {
+  for (long row = 1; row <= 40; ++row) s_.design_rows.push_back({0, row, row <= 31 ? 1 : row - 30});
+  submit("samples", even(10));
+  record();
+  const Share share = probability({.condition = "F1.slides"}).shares.at(0);
+  EXPECT_EQ(share.n, 40);
+  EXPECT_EQ(share.n_holds, 5);
 }
 
 TEST_F(AnswersTest, TooFewCasesAreRefused) {
