@@ -8,6 +8,7 @@
 #include "campaign/answers/posterior.h"
 #include "campaign/answers/probability.h"
 #include "campaign/answers/sensitivity.h"
+#include "campaign/answers/tiers.h"
 #include "campaign/report/case_report.h"
 #include "campaign/report/compare.h"
 #include "campaign/report/export.h"
@@ -56,6 +57,15 @@ struct ProbabilityArguments {
 ExitCode probability_command(const StoreArguments& common, const ProbabilityArguments& arguments);
 ExitCode sensitivity_command(const StoreArguments& common, const SensitivityRequest& request);
 ExitCode posterior_command(const StoreArguments& common, const PosteriorRequest& request);
+
+struct TiersArguments {
+  std::string source;                                          ///< spec.
+  std::vector<std::string> tiers = {"screening", "standard"};  ///< cheap and dear.
+  long budget = 0;                                             ///< samples at the dear one.
+  std::optional<int> n_workers;                                ///< as for `run`.
+  TierRequest request;
+};
+ExitCode tiers_command(const StoreArguments& common, const TiersArguments& arguments);
 
 struct LimitsArguments {
   std::string source;                 ///< a spec (*.json) to submit and run first, or a campaign.

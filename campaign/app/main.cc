@@ -99,6 +99,7 @@ struct Arguments {
   RankRequest rank;
   ProbabilityArguments probability;
   PosteriorRequest posterior;
+  TiersArguments tiers;
   SensitivityRequest sensitivity;
   LimitsArguments limits;
   ShowRequest show;
@@ -350,6 +351,42 @@ void add_answers(CLI::App& app, Arguments& a, ExitCode& code) {
   sensitivity->callback([&] { code = sensitivity_command(a.common, a.sensitivity); });
 }
 
+void add_tiers(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* command = app.add_subcommand(
+      "tiers", "what a dear tier says of a sample, from few of its cases and many cheap ones");
+  TiersArguments& t = a.tiers;
+  command->add_option("source", t.source, "spec (JSON) with a monte-carlo design")->required();
+  command
+      ->add_option("--tier-budget", t.budget,
+                   "how many of the samples are run at the dear tier; all at the cheap one")
+      ->required()
+      ->check(CLI::Range(20, 100000));
+  command
+      ->add_option("--tiers", t.tiers,
+                   "the cheap one and the dear one (default screening,standard)")
+      ->delimiter(',');
+  command->add_option("--metrics", t.request.metrics,
+                      "whose means are wanted, with commas; default: chi_bar of each fault");
+  command
+      ->add_option("--of", t.request.conditions,
+                   "condition whose probability is wanted, as of `rank --where`; may be given\n"
+                   "again; default: that each fault slides, in each stage")
+      ->allow_extra_args(false);
+  command->add_option("-w,--workers", t.n_workers, "of the runs; default: the cores available")
+      ->check(CLI::Range(1, 10000));
+  add_confidence(command, t.request.confidence);
+  add_store(command, a.common);
+  add_json(command, a.common);
+  add_wide(command);
+  command->footer(
+      "Examples:\n"
+      "  faultsweep tiers sample.json --tier-budget 40\n"
+      "  faultsweep tiers sample.json --tier-budget 100 --tiers screening,demonstration --json\n"
+      "Campaigns NAME-screening and NAME-standard are submitted and run; give the command again to "
+      "go on.");
+  command->callback([&] { code = tiers_command(a.common, t); });
+}
+
 void add_limits(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* command = app.add_subcommand(
       "limits", "up to which pressure a fault is safe, in each configuration of a spec");
@@ -554,6 +591,7 @@ ExitCode faultsweep_main(int argc, char** argv) {
   add_slurm(app, arguments, code);
   add_reading(app, arguments, code);
   add_answers(app, arguments, code);
+  add_tiers(app, arguments, code);
   add_limits(app, arguments, code);
   add_export(app, arguments, code);
   add_compare(app, arguments, code);
