@@ -57,6 +57,22 @@ double product_sum(std::span<const double> x, double mean_x, std::span<const dou
   return sum;
 }
 
+/// How many members alone, a share p of them with the property, have Wilson's interval as narrow as
+/// that; never fewer than were run.
+double members_as_sure(double p, double width, double least, double confidence) {
+  const auto is_wider = [&](double n) {
+    const Interval one = wilson(p * n, n, confidence);
+    return one.high - one.low > width;
+  };
+  double low = least, high = least;
+  while (is_wider(high) && high < 1e12) low = high, high *= 2;
+  for (int step = 0; step < 50; ++step) {
+    const double middle = 0.5 * (low + high);
+    (is_wider(middle) ? low : high) = middle;
+  }
+  return high;
+}
+
 /// How many members alone have this standard error; never fewer than were run.
 double equivalent(double variance_of_one, double error, double n) {
   return error > 0 ? std::max(n, variance_of_one / (error * error)) : n;
@@ -115,14 +131,11 @@ TieredEstimate tiered_probability(const TieredSample& sample, double confidence)
   const double down = std::hypot(pi * (a - as.low), (1 - pi) * (b - bs.low), slope * pi_down);
   const double up = std::hypot(pi * (as.high - a), (1 - pi) * (bs.high - b), slope * pi_up);
   const double value = pi * a + (1 - pi) * b;
-  const auto part = [](const Stratum& s, double share) {
-    return s.n > 0 ? share * share * s.share() * (1 - s.share()) / s.n : 0.25 * share * share;
-  };
-  const double variance =
-      part(with, pi) + part(without, 1 - pi) + slope * slope * pi * (1 - pi) / all.n;
-  found.estimate = {
-      value, std::sqrt(variance), {std::max(0.0, value - down), std::min(1.0, value + up)}};
-  found.n_equivalent = equivalent(value * (1 - value), found.estimate.standard_error, n);
+  found.estimate.value = value;
+  found.estimate.bounds = {std::max(0.0, value - down), std::min(1.0, value + up)};
+  const double width = found.estimate.bounds.high - found.estimate.bounds.low;
+  found.estimate.standard_error = 0.5 * width / deviations(confidence);
+  found.n_equivalent = members_as_sure(value, width, n, confidence);
   return found;
 }
 

@@ -21,8 +21,8 @@ struct TieredEstimate {
   Estimate direct;         ///< from its n values alone.
   double weight = 0;       ///< with which the cheap values count.
   double correlation = 0;  ///< of x and y, over the n.
-  /// Members of the dear model alone that would give the same standard error; n where the cheap one
-  /// does not help.
+  /// Members of the dear model alone that would be as sure: with the same standard error, or of
+  /// flags as wide an interval (Wilson's); n where the cheap one does not help.
   double n_equivalent = 0;
 };
 
@@ -42,8 +42,8 @@ TieredEstimate tiered_mean(const TieredSample& sample, double confidence);
 ///
 /// and bounds put those of the three together (Wilson 1927) by their squared distances (Zou &
 /// Donner 2008): P̂ − √Σ (their part to the lower side)², so that they do not shrink to a point
-/// where nothing was seen. A stratum in which no dear run lies may hold anything: the bounds are
-/// widened by it.
+/// where nothing was seen; the standard error is what they are half as wide as, over z. A stratum
+/// in which no dear run lies may hold anything: the bounds are widened by it.
 /// @param sample  values 0 and 1. @pre n ≥ 4, N ≥ n.
 TieredEstimate tiered_probability(const TieredSample& sample, double confidence);
 

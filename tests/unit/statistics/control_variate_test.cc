@@ -118,6 +118,18 @@ TEST(TieredProbability, CoversAtZeroAndOne) {
   }
 }
 
+/// 30 flags that agree with the cheap ones do not make these certain.
+TEST(TieredProbability, IsWorthWhatItsIntervalIs) {
+  std::mt19937_64 random(6);
+  const Flags agree(30, 3000, 0.5, 1, 0, random);
+  const TieredEstimate found = tiered_probability(agree.sample(), 0.95);
+  EXPECT_EQ(found.correlation, 1);
+  EXPECT_GT(found.n_equivalent, 40);
+  EXPECT_LT(found.n_equivalent, 300) << "not 3000";
+  const Flags alone(50, 3000, 0.5, 0.4, 0.4, random);
+  EXPECT_LT(tiered_probability(alone.sample(), 0.95).n_equivalent, 70) << "they have no relation";
+}
+
 TEST(TieredProbability, KnowsNothingOfAStratumWithoutARun) {
   std::vector<double> low(1000, 0.0), high(50, 0.0);
   std::fill(low.end() - 300, low.end(), 1.0);
