@@ -134,7 +134,12 @@ std::vector<Part> parts_asked(const Rows& rows, const std::string& by) {
   return {{"", all}};
 }
 
-/// "F2.slides in gas_storage" for each fault and stage, and for the whole history.
+std::string percent(double share) {
+  return std::isfinite(share) ? concat(format_number(100 * share, 3), " %") : "not known";
+}
+
+}  // namespace
+
 std::vector<std::string> default_conditions(const Selection& selection) {
   std::vector<std::string> conditions;
   for (const NamedId& fault : selection.faults) {
@@ -145,12 +150,6 @@ std::vector<std::string> default_conditions(const Selection& selection) {
   }
   return conditions;
 }
-
-std::string percent(double share) {
-  return std::isfinite(share) ? concat(format_number(100 * share, 3), " %") : "not known";
-}
-
-}  // namespace
 
 Probability find_probability(const Store& store, const CampaignInfo& campaign,
                              const ProbabilityRequest& request) {

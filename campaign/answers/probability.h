@@ -42,6 +42,10 @@ struct Probability {
 Probability find_probability(const Store& store, const CampaignInfo& campaign,
                              const ProbabilityRequest& request);
 
+/// What is asked where no condition is given: "F2.slides in gas_storage" for each fault and stage,
+/// and for the whole history.
+std::vector<std::string> default_conditions(const Selection& selection);
+
 std::string probability_to_text(const Probability& probability);
 nlohmann::json probability_to_json(const Probability& probability);
 

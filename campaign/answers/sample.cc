@@ -67,9 +67,13 @@ Sampling sampling_of(const Store& store, const CampaignInfo& campaign) {
                        [&](const json& one) { return kinds.contains(one.at("kind")); });
   };
   Sampling sampling;
-  sampling.is_random = all_are({"monte-carlo", "latin-hypercube", "sobol"});
+  sampling.is_random = all_are({"monte-carlo", "latin-hypercube", "sobol", "samples"});
   sampling.is_factorial = all_are({"grid"});
-  if (all_are({"latin-hypercube", "sobol"})) {
+  if (all_are({"samples"})) {
+    sampling.remark =
+        "samples of a file, taken to be independent: of a correlated chain intervals are too "
+        "narrow";
+  } else if (all_are({"latin-hypercube", "sobol"})) {
     sampling.remark = "samples are spread evenly: intervals are wider than they need be";
   } else if (sampling.is_factorial) {
     sampling.remark =
@@ -84,19 +88,21 @@ Sampling sampling_of(const Store& store, const CampaignInfo& campaign) {
 
 SampleRows::SampleRows(const Store& store, const CampaignInfo& campaign) {
   const std::vector<json> designs = designs_of(store, campaign);
-  all_once_ = designs.size() != 1 || designs.front().at("kind") != "sobol";
-  if (all_once_) return;
-  const long block = rows_per_base_sample(designs.front());
+  const bool is_sobol = designs.size() == 1 && designs.front().at("kind") == "sobol";
+  const long block = is_sobol ? rows_per_base_sample(designs.front()) : 1;
+  others_ = is_sobol ? 0 : 1;
   for (const DesignRow& row : store.design_rows(campaign.id)) {
     const long place = (row.row - 1) % block;
-    if (place == 0 || place == block - 1) ++counts_[row.position];
+    const auto position = static_cast<std::size_t>(row.position);
+    if (position >= counts_.size()) counts_.resize(position + 1, -1);
+    if (counts_[position] < 0) counts_[position] = 0;
+    if (place == 0 || place == block - 1) ++counts_[position];
   }
 }
 
 int SampleRows::count(long position) const {
-  if (all_once_) return 1;
-  const auto found = counts_.find(position);
-  return found == counts_.end() ? 0 : found->second;
+  const auto place = static_cast<std::size_t>(position);
+  return place < counts_.size() && counts_[place] >= 0 ? counts_[place] : others_;
 }
 
 Sample read_sample(const Store& store, const CampaignInfo& campaign, const SampledCases& request,

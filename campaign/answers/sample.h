@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -28,16 +27,16 @@ struct Sampling {
 /// blocks are a sample.
 Sampling sampling_of(const Store& store, const CampaignInfo& campaign);
 
-/// How often each case of a campaign is a row of its sample: once, but in a sobol design as often
-/// as it is a row of block A or B.
+/// How often each case of a campaign is a row of its sample: more than once where rows were the
+/// same case; in a sobol design as often as it is a row of block A or B.
 class SampleRows {
  public:
   SampleRows(const Store& store, const CampaignInfo& campaign);
   int count(long position) const;
 
  private:
-  bool all_once_ = true;
-  std::map<long, int> counts_;
+  int others_ = 1;           ///< of cases that are no row of `design_rows`.
+  std::vector<int> counts_;  ///< by position; -1 = another case.
 };
 
 /// The rows of a sample as columns of numbers.

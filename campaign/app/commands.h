@@ -4,8 +4,11 @@
 #include <optional>
 #include <string>
 
+#include "campaign/answers/curves.h"
+#include "campaign/answers/posterior.h"
 #include "campaign/answers/probability.h"
 #include "campaign/answers/sensitivity.h"
+#include "campaign/answers/tiers.h"
 #include "campaign/report/case_report.h"
 #include "campaign/report/compare.h"
 #include "campaign/report/export.h"
@@ -45,8 +48,25 @@ ExitCode status_command(const StoreArguments& common);
 /// Whether the store is sound; exit code 4 with all problems and the cure if it is not.
 ExitCode verify_store_command(const StoreArguments& common);
 ExitCode rank_command(const StoreArguments& common, const RankRequest& request, bool list_metrics);
-ExitCode probability_command(const StoreArguments& common, const ProbabilityRequest& request);
+struct ProbabilityArguments {
+  ProbabilityRequest request = {};
+  std::optional<CurveAxis> against = std::nullopt;  ///< curves; none = a table.
+  std::string stage = {};                           ///< of curves.
+  bool csv = false;                                 ///< of curves.
+};
+ExitCode probability_command(const StoreArguments& common, const ProbabilityArguments& arguments);
 ExitCode sensitivity_command(const StoreArguments& common, const SensitivityRequest& request);
+ExitCode posterior_command(const StoreArguments& common, const PosteriorRequest& request);
+
+struct TiersArguments {
+  std::string source;                                          ///< spec.
+  std::vector<std::string> tiers = {"screening", "standard"};  ///< cheap and dear.
+  long budget = 0;                                             ///< samples at the dear one.
+  std::optional<int> n_workers;                                ///< as for `run`.
+  TierRequest request;
+};
+ExitCode tiers_command(const StoreArguments& common, const TiersArguments& arguments);
+
 struct LimitsArguments {
   std::string source;                 ///< a spec (*.json) to submit and run first, or a campaign.
   std::optional<int> n_workers;       ///< of the run; as for `run`.

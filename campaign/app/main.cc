@@ -97,7 +97,9 @@ struct Arguments {
   RunOptions run;
   SlurmRequest slurm;
   RankRequest rank;
-  ProbabilityRequest probability;
+  ProbabilityArguments probability;
+  PosteriorRequest posterior;
+  TiersArguments tiers;
   SensitivityRequest sensitivity;
   LimitsArguments limits;
   ShowRequest show;
@@ -254,26 +256,82 @@ CLI::Option* add_confidence(CLI::App* command, double& confidence) {
       ->check(CLI::Range(0.5, 0.9999));
 }
 
+/// What makes curves of a table of probabilities.
+void add_curves(CLI::App* command, ProbabilityArguments& a, CLI::Option* of, CLI::Option* by) {
+  const std::map<std::string, CurveAxis> axes = {
+      {"step", CurveAxis::step}, {"time", CurveAxis::time}, {"pressure", CurveAxis::pressure}};
+  CLI::Option* against =
+      command
+          ->add_option("--against", a.against,
+                       "step, time or pressure: curves of how likely each fault has begun to\n"
+                       "slide by then")
+          ->transform(CLI::CheckedTransformer(axes))
+          ->option_text("AXIS")
+          ->excludes(of)
+          ->excludes(by);
+  command
+      ->add_option("--stage", a.stage,
+                   "curves of slip since the start of this stage; default: of the history,\n"
+                   "against pressure each stage")
+      ->needs(against);
+  command->add_flag("--csv", a.csv, "curves as CSV")->needs(against);
+}
+
+void add_posterior(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* command = app.add_subcommand(
+      "posterior", "parameters and probabilities, given what was seen in the field");
+  add_campaign(command, a.common);
+  command
+      ->add_option("--seen", a.posterior.seen,
+                   "a statement; give the option again for each further one:\n"
+                   "\"F2 did not slide before 8 yr +- 0.5 yr\", \"event of Mw 3 +- 0.2 on F2\n"
+                   "between -120 bar and -80 bar +- 5 bar\", \"max_slip = 20 mm +- 5 mm\",\n"
+                   "\"F2.slides in gas_storage, wrong 0.1\"")
+      ->required()
+      ->allow_extra_args(false);
+  command
+      ->add_option("--of", a.posterior.conditions,
+                   "condition whose probability is wanted, as of `rank --where`; may be given\n"
+                   "again; default: that each fault slides, in each stage")
+      ->allow_extra_args(false);
+  add_where(command, a.posterior.where);
+  add_confidence(command, a.posterior.confidence);
+  add_json(command, a.common);
+  add_wide(command);
+  command->footer(
+      "Examples:\n"
+      "  faultsweep posterior my-sweep --seen \"F2 did not slide before 8 yr\"\n"
+      "  faultsweep posterior --seen \"F1.max_slip = 20 mm +- 5 mm\" --of \"F2.slides in "
+      "gas_storage\"\n"
+      "What is given without an error is taken as exact. The cases are what was thought before.");
+  command->callback([&] { code = posterior_command(a.common, a.posterior); });
+}
+
 void add_answers(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* probability =
       app.add_subcommand("probability", "how likely something is, with exact bounds");
   add_campaign(probability, a.common);
-  probability->add_option("--of", a.probability.condition,
-                          "condition on metrics, as of `rank --where`; default: that each fault\n"
-                          "slides, in each stage");
-  add_where(probability, a.probability.where);
-  probability->add_option("--by", a.probability.by,
-                          "for each value of this parameter, or ten parts of its range");
-  add_confidence(probability, a.probability.confidence);
+  ProbabilityRequest& request = a.probability.request;
+  CLI::Option* of = probability->add_option(
+      "--of", request.condition,
+      "condition on metrics, as of `rank --where`; default: that each fault\n"
+      "slides, in each stage");
+  add_where(probability, request.where);
+  CLI::Option* by = probability->add_option(
+      "--by", request.by, "for each value of this parameter, or ten parts of its range");
+  add_curves(probability, a.probability, of, by);
+  add_confidence(probability, request.confidence);
   add_json(probability, a.common);
   add_wide(probability);
   probability->footer(
       "Examples:\n"
       "  faultsweep probability\n"
       "  faultsweep probability my-sweep --of \"F2.slides in gas_storage\" --by offset\n"
-      "  faultsweep probability --of \"chi_bar > 0.9\" --where \"friction_angle < 25 deg\"");
+      "  faultsweep probability --of \"chi_bar > 0.9\" --where \"friction_angle < 25 deg\"\n"
+      "  faultsweep probability --against time --csv >curves.csv");
   probability->callback([&] { code = probability_command(a.common, a.probability); });
 
+  add_posterior(app, a, code);
   CLI::App* sensitivity =
       app.add_subcommand("sensitivity", "which parameters a metric depends on, and how surely");
   add_campaign(sensitivity, a.common);
@@ -291,6 +349,42 @@ void add_answers(CLI::App& app, Arguments& a, ExitCode& code) {
       "  faultsweep sensitivity\n"
       "  faultsweep sensitivity my-sweep --metrics \"F2.chi_bar in gas_storage, moment\"");
   sensitivity->callback([&] { code = sensitivity_command(a.common, a.sensitivity); });
+}
+
+void add_tiers(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* command = app.add_subcommand(
+      "tiers", "what a dear tier says of a sample, from few of its cases and many cheap ones");
+  TiersArguments& t = a.tiers;
+  command->add_option("source", t.source, "spec (JSON) with a monte-carlo design")->required();
+  command
+      ->add_option("--tier-budget", t.budget,
+                   "how many of the samples are run at the dear tier; all at the cheap one")
+      ->required()
+      ->check(CLI::Range(20, 100000));
+  command
+      ->add_option("--tiers", t.tiers,
+                   "the cheap one and the dear one (default screening,standard)")
+      ->delimiter(',');
+  command->add_option("--metrics", t.request.metrics,
+                      "whose means are wanted, with commas; default: chi_bar of each fault");
+  command
+      ->add_option("--of", t.request.conditions,
+                   "condition whose probability is wanted, as of `rank --where`; may be given\n"
+                   "again; default: that each fault slides, in each stage")
+      ->allow_extra_args(false);
+  command->add_option("-w,--workers", t.n_workers, "of the runs; default: the cores available")
+      ->check(CLI::Range(1, 10000));
+  add_confidence(command, t.request.confidence);
+  add_store(command, a.common);
+  add_json(command, a.common);
+  add_wide(command);
+  command->footer(
+      "Examples:\n"
+      "  faultsweep tiers sample.json --tier-budget 40\n"
+      "  faultsweep tiers sample.json --tier-budget 100 --tiers screening,demonstration --json\n"
+      "Campaigns NAME-screening and NAME-standard are submitted and run; give the command again to "
+      "go on.");
+  command->callback([&] { code = tiers_command(a.common, t); });
 }
 
 void add_limits(CLI::App& app, Arguments& a, ExitCode& code) {
@@ -497,6 +591,7 @@ ExitCode faultsweep_main(int argc, char** argv) {
   add_slurm(app, arguments, code);
   add_reading(app, arguments, code);
   add_answers(app, arguments, code);
+  add_tiers(app, arguments, code);
   add_limits(app, arguments, code);
   add_export(app, arguments, code);
   add_compare(app, arguments, code);

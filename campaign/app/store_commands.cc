@@ -184,11 +184,37 @@ ExitCode show_command(const StoreArguments& common, const std::string& name,
   return ExitCode::done;
 }
 
-ExitCode probability_command(const StoreArguments& common, const ProbabilityRequest& request) {
+namespace {
+
+ExitCode curves_command(const StoreArguments& common, const Store& store,
+                        const ProbabilityArguments& arguments) {
+  const ProbabilityRequest& request = arguments.request;
+  const Curves found =
+      probability_curves(store, store.campaign(common.campaign, false),
+                         {*arguments.against, request.where, arguments.stage, request.confidence});
+  if (common.json) {
+    print(curves_to_json(found));
+  } else {
+    print(arguments.csv ? curves_to_csv(found) : curves_to_text(found));
+  }
+  return ExitCode::done;
+}
+
+}  // namespace
+
+ExitCode probability_command(const StoreArguments& common, const ProbabilityArguments& arguments) {
   const Store store = Store::open_reader(common.store);
+  if (arguments.against) return curves_command(common, store, arguments);
   const Probability found =
-      find_probability(store, store.campaign(common.campaign, false), request);
+      find_probability(store, store.campaign(common.campaign, false), arguments.request);
   common.json ? print(probability_to_json(found)) : print(probability_to_text(found));
+  return ExitCode::done;
+}
+
+ExitCode posterior_command(const StoreArguments& common, const PosteriorRequest& request) {
+  const Store store = Store::open_reader(common.store);
+  const Posterior found = find_posterior(store, store.campaign(common.campaign, false), request);
+  common.json ? print(posterior_to_json(found)) : print(posterior_to_text(found));
   return ExitCode::done;
 }
 

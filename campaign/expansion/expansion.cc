@@ -102,7 +102,11 @@ class Expander {
     FamilyFinder families(result_.spec, group, builder, values, families_);
     const long n_rows = count_rows(group);
     std::optional<Composer> composer;
-    if (n_rows > kRowsReadOneByOne) {
+    // Each line of a file is somebody's own: nothing but reading it tells whether it is sound.
+    const bool has_file =
+        std::any_of(group.designs.begin(), group.designs.end(),
+                    [](const Design& one) { return one.kind == DesignKind::samples; });
+    if (n_rows > kRowsReadOneByOne && !has_file) {
       std::vector<Problem> found;
       composer.emplace(
           result_.spec, group, builder, values,
@@ -267,7 +271,9 @@ class Expander {
     for (const ExcludedCases& one : result_.excluded) n_excluded += one.n_cases;
     const auto is_stated = [](const Group& group) {
       return std::any_of(group.designs.begin(), group.designs.end(),
-                         [](const Design& one) { return one.correlated.has_value(); }) ||
+                         [](const Design& one) {
+                           return one.correlated || one.kind == DesignKind::samples;
+                         }) ||
              std::any_of(group.parameters.begin(), group.parameters.end(), [](const auto& one) {
                return one.range && one.range->marginal.spread > 0;
              });

@@ -18,6 +18,7 @@ long count_rows(const Design& design, Parameters parameters) {
     case DesignKind::monte_carlo:
     case DesignKind::latin_hypercube:
     case DesignKind::sobol:
+    case DesignKind::samples:
     case DesignKind::morris:
       return static_cast<long>(design.rows.size());
     case DesignKind::zip:
@@ -40,6 +41,7 @@ void row_at(const Design& design, Parameters parameters, long i, int* row) {
     case DesignKind::monte_carlo:
     case DesignKind::latin_hypercube:
     case DesignKind::sobol:
+    case DesignKind::samples:
     case DesignKind::morris:
       std::copy_n(design.rows[i].begin(), n, row);
       return;

@@ -23,6 +23,7 @@ std::string digits(long double count) {
 long double SpecReader::count_cases(const std::string& design) {
   const auto kind = at(design + "/kind").get<std::string>();
   if (kind == "list") return static_cast<long double>(at(design + "/cases").size());
+  if (kind == "samples") return static_cast<long double>(sample_file(design).n_rows);
   if (kind == "groups" || kind == "nested") {
     const bool nested = kind == "nested";
     long double total = nested ? 1 : 0;
@@ -74,6 +75,7 @@ std::optional<std::pair<long double, long double>> SpecReader::count_samples(
 std::string SpecReader::describe_count(const std::string& design) {
   const auto kind = at(design + "/kind").get<std::string>();
   if (kind == "list") return "as listed";
+  if (kind == "samples") return "lines of " + at(design + "/file").get<std::string>();
   std::string text;
   if (kind == "groups" || kind == "nested") {
     const auto parts = parts_of(design);

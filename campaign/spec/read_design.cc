@@ -50,12 +50,14 @@ void SpecReader::read_design(const std::string& pointer, const SceneNames& names
   for (const DesignKind one :
        {DesignKind::grid, DesignKind::list, DesignKind::zip, DesignKind::one_at_a_time,
         DesignKind::monte_carlo, DesignKind::latin_hypercube, DesignKind::sobol,
-        DesignKind::morris}) {
+        DesignKind::samples, DesignKind::morris}) {
     if (kind == to_string(one)) design.kind = one;
   }
   std::vector<Parameter> parameters;
   if (design.kind == DesignKind::list) {
     read_list(pointer + "/cases", names, design, parameters);
+  } else if (design.kind == DesignKind::samples) {
+    read_samples(pointer, names, design, parameters);
   } else {
     for (const std::string& name : keys(pointer + "/parameters")) {
       const std::string place = pointer + "/parameters/" + faultsim::pointer_token(name);

@@ -57,6 +57,12 @@ void SpecReader::read_limits(const SceneNames& names, Group& group) {
             "make a campaign of each group");
     return;
   }
+  for (const Design& one : group.designs) {
+    if (one.kind != DesignKind::samples) continue;
+    problem("/limits", "limits are searched in rounds, and a file of samples may change meanwhile",
+            "write the configurations into the spec, as a list");
+    return;
+  }
   Design design;
   design.kind = DesignKind::one_at_a_time;
   design.pointer = "/limits";

@@ -58,7 +58,11 @@ json parameter_to_json(const Parameter& parameter) {
                        {"from_si", *from.si},
                        {"to_si", *to.si},
                        {"pointers", parameter.targets}};
-    result["range"].update(marginal_to_json(*parameter.range));
+    if (parameter.range->is_given) {
+      result["range"]["unit"] = parameter.range->unit;
+    } else {
+      result["range"].update(marginal_to_json(*parameter.range));
+    }
     return result;
   }
   result["choices"] = json::array();
@@ -72,6 +76,11 @@ json parameter_to_json(const Parameter& parameter) {
 json design_to_json(const Design& design) {
   json result = {{"kind", to_string(design.kind)}};
   if (design.kind == DesignKind::list) result["rows"] = design.rows;
+  if (design.kind == DesignKind::samples) {
+    result.update({{"file", design.file},
+                   {"fingerprint", design.fingerprint},
+                   {"samples", design.rows.size()}});
+  }
   if (!is_sampled(design.kind)) return result;
   result["seed"] = design.seed;
   result[design.kind == DesignKind::morris ? "trajectories" : "samples"] = design.n;
@@ -133,6 +142,8 @@ const char* to_string(DesignKind kind) {
       return "latin-hypercube";
     case DesignKind::sobol:
       return "sobol";
+    case DesignKind::samples:
+      return "samples";
     case DesignKind::morris:
       return "morris";
   }

@@ -36,8 +36,9 @@ struct Choice {
 
 /// What a sampled design draws values from; its ends are the parameter's two choices.
 struct SampledRange {
-  Marginal marginal;  ///< in `unit`.
-  std::string unit;   ///< as given for `from`, the mean or the median; "" for plain numbers.
+  Marginal marginal;      ///< in `unit`.
+  std::string unit;       ///< as given for `from`, the mean or the median; "" for plain numbers.
+  bool is_given = false;  ///< values are those of a file; the marginal says only how far they go.
 };
 
 /// A value drawn from a SampledRange. There may be 10^5 per parameter.
@@ -58,7 +59,7 @@ struct Parameter {
   Choice base;  ///< the value where a design leaves the parameter alone; no changes.
   std::vector<Choice> choices;
   std::optional<SampledRange> range;  ///< of a sampled design: no row has one of the choices.
-  std::vector<DrawnValue> drawn;      ///< from `range`, made by `expand`.
+  std::vector<DrawnValue> drawn;      ///< from `range`, made by `expand`; those of a file as read.
 
   int n_values() const { return static_cast<int>(choices.size() + drawn.size()); }
   std::string text(int value) const;
@@ -82,9 +83,10 @@ enum class DesignKind {
   one_at_a_time,    ///< the base case, then each choice of each parameter alone.
   monte_carlo,      ///< n samples, each by itself: further ones leave the first as they are.
   latin_hypercube,  ///< n samples; each n-th part of every range has one.
-  sobol,   ///< n base samples in blocks A, AB_1 .. AB_D, (BA_1 .. BA_D,) B (Saltelli 2010).
-  morris,  ///< n trajectories of D + 1 rows; in each every parameter moves once, by half the
-           ///< levels.
+  sobol,    ///< n base samples in blocks A, AB_1 .. AB_D, (BA_1 .. BA_D,) B (Saltelli 2010).
+  samples,  ///< the rows of a file, drawn by somebody else.
+  morris,   ///< n trajectories of D + 1 rows; in each every parameter moves once, by half the
+            ///< levels.
 };
 const char* to_string(DesignKind kind);  ///< as in the spec: "one-at-a-time".
 /// True for those whose rows `expand` draws by their seed.
@@ -109,6 +111,8 @@ struct Design {
   };
   std::optional<Correlated> correlated = std::nullopt;
   std::int64_t seed = 1;
+  std::string file;           ///< samples: its name as given.
+  std::string fingerprint;    ///< samples: of its text.
   bool without_base = false;  ///< one_at_a_time: no row of the base case.
 };
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "campaign/spec/pointers.h"
+#include "campaign/spec/sample_file.h"
 #include "campaign/spec/spec.h"
 #include "simulator/scene/read_scene.h"
 
@@ -83,6 +84,10 @@ class SpecReader {
   /// Adds columns to parameters, which are empty.
   void read_list(const std::string& pointer, const SceneNames& names, Design& design,
                  std::vector<Parameter>& parameters);
+  /// samples.cc: the samples of a file, each file read once.
+  const SampleFile& sample_file(const std::string& design);
+  void read_samples(const std::string& pointer, const SceneNames& names, Design& design,
+                    std::vector<Parameter>& parameters);
   void read_sampling(const std::string& pointer, Design& design);
   void check_targets(const Group& group);
   bool check_group_count();
@@ -136,6 +141,7 @@ class SpecReader {
   std::unordered_set<std::string> said_;  ///< pointer and text of each.
   std::optional<SceneNames> names_;       ///< those that names_of gave last.
   Symbols symbols_;                       ///< of spec_.identifiers.
+  std::map<std::string, SampleFile> sample_files_;  ///< by name as given.
   long double n_cases_ = 0;               ///< before exclusions.
 };
 

@@ -283,6 +283,31 @@ struct CaseRow {
   bool complete() const { return rank_class && *rank_class < 2; }
 };
 
+/// When each fault of a case began to slide in a stage.
+struct CaseOnsets {
+  struct Onset {
+    std::int64_t fault = 0;  ///< id, of Store::faults.
+    int step = 0;            ///< the first at whose end it slides.
+    double time = 0;         ///< s, of the end of that step.
+    double change = 0;  ///< Pa, Δp there of the side that changed more, or of the fault's fluid.
+  };
+  long position = 0;
+  std::optional<int> rank_class;  ///< as of CaseRow.
+  int last_step = 0;              ///< of the stage that has a result.
+  double end = 0;                 ///< s, of that step.
+  std::vector<Onset> onsets;      ///< of the faults that slide.
+  bool complete() const { return rank_class && *rank_class < 2; }
+};
+
+/// A slip event of a case, as statements about what was seen speak of it.
+struct SeenEvent {
+  long position = 0;       ///< of its case.
+  std::int64_t fault = 0;  ///< id, of Store::faults, where it nucleated.
+  double time = 0;         ///< s, of onset.
+  double change = 0;  ///< Pa, Δp there of the side that changed more, or of the fault's fluid.
+  std::optional<double> magnitude;  ///< none in plane strain.
+};
+
 /// Counts of what went wrong, for status.
 struct FailureCount {
   std::string status;

@@ -168,6 +168,13 @@ class Store {
   /// Visits the campaign's cases by position, one in memory at a time.
   void for_each_case(std::int64_t campaign, const TableQuery& query,
                      const std::function<void(const CaseRow&)>& visit) const;
+  /// Visits them with the onsets of the query's stage, which are kept apart: no history is read.
+  /// Its fault, columns and order mean nothing here.
+  void for_each_onset(std::int64_t campaign, const TableQuery& query,
+                      const std::function<void(const CaseOnsets&)>& visit) const;
+  /// Visits the slip events of the query's cases by position, in order of time; the same holds.
+  void for_each_slip_event(std::int64_t campaign, const TableQuery& query,
+                           const std::function<void(const SeenEvent&)>& visit) const;
   /// Columns of the χ histories, units in their names as in the view chi_history_wide; what is per
   /// metre of strike in plane strain has a column for each kind of result.
   static std::vector<std::string> history_columns(Kinds kinds);

@@ -122,6 +122,67 @@ void Store::for_each_case(std::int64_t campaign, const TableQuery& query,
 
 namespace {
 
+/// Δp of the side that changed more, or of the fault's fluid where no region touches the place.
+std::string leading_change_sql(const std::string& row) {
+  const std::string minus = row + ".change_minus_pa", plus = row + ".change_plus_pa";
+  return concat("coalesce(CASE WHEN coalesce(abs(", plus, ") > coalesce(abs(", minus,
+                "), -1), 0) THEN ", plus, " ELSE ", minus, " END, ", row, ".change_in_fault_pa)");
+}
+
+}  // namespace
+
+void Store::for_each_slip_event(std::int64_t campaign, const TableQuery& query,
+                                const std::function<void(const SeenEvent&)>& visit) const {
+  const std::string sql =
+      concat("SELECT cc.position, coalesce(e.fault_id, 0), e.time_s, e.magnitude_mw, ",
+             leading_change_sql("e"), " FROM campaign_cases cc", joins(query),
+             " CROSS JOIN slip_events e ON e.case_id = cc.case_id WHERE cc.campaign_id = ?",
+             where_sql(query.where), " ORDER BY cc.position, e.number");
+  Statement rows(*connection_, sql);
+  int bound = 0;
+  rows.bind_at(++bound, query.stage);
+  rows.bind_at(++bound, campaign);
+  bind_values(rows, bound, query.where.parameters);
+  while (rows.step()) {
+    visit({static_cast<long>(rows.integer(0)), rows.integer(1), rows.real(2), rows.real(4),
+           rows.optional_real(3)});
+  }
+}
+
+void Store::for_each_onset(std::int64_t campaign, const TableQuery& query,
+                           const std::function<void(const CaseOnsets&)>& visit) const {
+  const std::string sql = concat(
+      "SELECT cc.position, s.rank_class, coalesce(s.last_step, 0), coalesce(e.time_s, 0),"
+      " o.fault_id, o.step, l.time_s, ",
+      leading_change_sql("o"), " FROM campaign_cases cc", joins(query),
+      " LEFT JOIN load_steps e ON e.case_id = cc.case_id AND e.step = s.last_step"
+      " LEFT JOIN fault_onsets o ON o.case_id = cc.case_id AND o.stage_id = s.stage_id"
+      " AND o.opening = 0"
+      " LEFT JOIN load_steps l ON l.case_id = o.case_id AND l.step = o.step"
+      " WHERE cc.campaign_id = ?",
+      where_sql(query.where), " ORDER BY cc.position");
+  Statement rows(*connection_, sql);
+  int bound = 0;
+  rows.bind_at(++bound, query.stage);
+  rows.bind_at(++bound, campaign);
+  bind_values(rows, bound, query.where.parameters);
+  CaseOnsets one;
+  while (rows.step()) {
+    if (const long position = rows.integer(0); position != one.position) {
+      if (one.position > 0) visit(one);
+      one = {position, std::nullopt, static_cast<int>(rows.integer(2)), rows.real(3), {}};
+      if (const auto rank_class = rows.optional_integer(1))
+        one.rank_class = static_cast<int>(*rank_class);
+    }
+    if (const auto fault = rows.optional_integer(4)) {
+      one.onsets.push_back({*fault, static_cast<int>(rows.integer(5)), rows.real(6), rows.real(7)});
+    }
+  }
+  if (one.position > 0) visit(one);
+}
+
+namespace {
+
 /// Each column of history_fields() as SQL under its name; of mixed results what is per metre apart.
 std::vector<std::pair<std::string, std::string>> history_sql(Store::Kinds kinds) {
   std::vector<std::pair<std::string, std::string>> columns;

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "campaign/answers/curves.h"
+#include "campaign/answers/posterior.h"
 #include "campaign/answers/probability.h"
 #include "campaign/answers/sensitivity.h"
 #include "tests/campaign/made_up_result.h"
@@ -196,6 +198,131 @@ TEST_F(AnswersTest, ASobolDesignHasTotalIndices) {
   // Of some of the cases there are no whole base samples.
   EXPECT_TRUE(analyse_sensitivity(*store_, campaign_, {.cases = {.where = "offset < 0.9 m"}})
                   .frozen.empty());
+}
+
+/// Fault f of the k-th of n cases begins to slide at the end of step k, at −k bar, but F2 never.
+TEST_F(AnswersTest, ACurveCountsTheFaultsThatHaveBegunToSlide) {
+  submit("monte-carlo", even(12));
+  for (std::size_t k = 0; k < 12; ++k) {
+    faultsim::CaseResult& result = *runs_[k].result;
+    const int step = static_cast<int>(k) + 1;
+    for (faultsim::StageMetrics* stage :
+         {&result.whole, &result.stages[0], &result.stages[1], &result.stages[2]}) {
+      stage->faults[1].activation.reset();
+      stage->faults[0].activation.reset();
+      if (stage->first_step > step || stage->last_step < step) continue;
+      stage->faults[0].activation =
+          faultsim::FaultOnset{step, 2000, testing::made_up_pressures(-1e5 * step)};
+    }
+  }
+  // One whose fault never slid up to step 6, where it ends, and one without any result.
+  runs_[10].result->outcome = faultsim::Outcome::unstable;
+  for (faultsim::FaultStageMetrics& fault : runs_[10].result->whole.faults)
+    fault.activation.reset();
+  runs_[10].result->whole.last_step = 6;
+  runs_[11].result.reset(), runs_[11].status = RunStatus::hung;
+  record();
+  const Curves steps = probability_curves(*store_, campaign_, {CurveAxis::step});
+  ASSERT_EQ(steps.curves.size(), 2u);
+  const Curve& f1 = steps.curves[0];
+  EXPECT_EQ(f1.fault, "F1");
+  ASSERT_EQ(f1.points.size(), 13u);
+  for (long k = 0; k <= 12; ++k) {
+    const CurvePoint& point = f1.points[static_cast<std::size_t>(k)];
+    EXPECT_EQ(point.at, static_cast<double>(k));
+    EXPECT_EQ(point.n_holds, std::min(k, 10L)) << k;
+    EXPECT_EQ(point.n_unknown, k <= 6 ? 1 : 2) << k;
+    const Interval bounds = proportion_bounds(point.n_holds, point.n_unknown, 12, 0.95);
+    EXPECT_EQ(point.bounds.low, bounds.low);
+    EXPECT_EQ(point.bounds.high, bounds.high);
+    EXPECT_EQ(steps.curves[1].points[static_cast<std::size_t>(k)].n_holds, 0) << "F2 never";
+  }
+  const Curves times = probability_curves(*store_, campaign_, {CurveAxis::time});
+  EXPECT_EQ(times.curves[0].points[4].at, 4 * 3.15576e7);
+  EXPECT_EQ(times.curves[0].points[4].n_holds, 4);
+  EXPECT_EQ(times.curves[0].points[7].n_unknown, 2);
+  EXPECT_THAT(curves_to_csv(times), HasSubstr("\nF1,,126230400,"));
+}
+
+TEST_F(AnswersTest, ACurveAgainstPressureGoesTheWayOfTheStage) {
+  submit("monte-carlo", even(12));
+  for (std::size_t k = 0; k < 12; ++k) {
+    for (faultsim::StageMetrics& stage : runs_[k].result->stages) {
+      for (faultsim::FaultStageMetrics& fault : stage.faults) fault.activation.reset();
+      stage.faults[0].activation = faultsim::FaultOnset{
+          stage.last_step, 2000, testing::made_up_pressures(-5e5 * static_cast<double>(k))};
+    }
+  }
+  record();
+  const Curves curves = probability_curves(*store_, campaign_, {CurveAxis::pressure});
+  ASSERT_EQ(curves.curves.size(), 6u) << "two faults in three stages";
+  const Curve& first = curves.curves[0];
+  EXPECT_EQ(first.stage, "primary_production");
+  EXPECT_TRUE(first.falls);
+  EXPECT_EQ(first.points.front().at, 0);
+  EXPECT_LE(first.points.back().at, -2e7 / 3) << "the way of the stage";
+  for (const CurvePoint& point : first.points) {
+    long expected = 0;
+    for (int k = 0; k < 12; ++k) expected += -5e5 * k >= point.at;
+    EXPECT_EQ(point.n_holds, expected) << point.at;
+  }
+  EXPECT_THAT(curves_to_text(curves), HasSubstr("in gas_storage"));
+  EXPECT_EQ(curves_to_json(curves).at("against"), "pressure_change_pa");
+  EXPECT_EQ(
+      probability_curves(*store_, campaign_, {.axis = CurveAxis::pressure, .stage = "gas_storage"})
+          .curves.size(),
+      2u);
+  EXPECT_THROW(probability_curves(*store_, campaign_, {.where = "offset > 1000 m"}), InputError);
+}
+
+/// χ̄ of F1 is its strength below 1, so what is seen of the one is seen of the other.
+TEST_F(AnswersTest, APosteriorIsThePriorWeightedByWhatWasSeen) {
+  submit("monte-carlo", even(2000));
+  record();
+  const auto posterior = [&](std::vector<std::string> seen) {
+    return find_posterior(*store_, campaign_, {std::move(seen), {"F1.slides"}, "", 0.95});
+  };
+  const Posterior p = posterior({"F1.chi_bar = 0.5 +- 0.05"});
+  ASSERT_EQ(p.parameters.size(), 2u);
+  EXPECT_EQ(p.parameters[0].name, "strength");
+  EXPECT_NEAR(p.parameters[0].before[0].estimate, 0.05, 0.002);
+  EXPECT_NEAR(p.parameters[0].after[0].estimate, 0.5 - 1.644854 * 0.05, 0.002);
+  EXPECT_NEAR(p.parameters[0].after[1].estimate, 0.5, 0.002);
+  EXPECT_NEAR(p.parameters[0].after[2].estimate, 0.5 + 1.644854 * 0.05, 0.002);
+  EXPECT_NEAR(p.parameters[1].after[1].estimate, 150, 30) << "offset says nothing";
+  EXPECT_EQ(p.parameters[1].unit, "m");
+  EXPECT_NEAR(p.probabilities.at(0).after.value, 0.5, 0.01);
+  EXPECT_NEAR(p.effective_size, 2000 * 0.05 * 2 * std::sqrt(std::acos(-1.0)), 2);
+  ASSERT_EQ(p.words.size(), 2u);
+  EXPECT_NEAR(p.words[0].after.value, 0.5, 0.01);
+  EXPECT_THAT(posterior_to_text(p), HasSubstr("Effective sample size"));
+  EXPECT_EQ(posterior_to_json(p).at("rows"), 2000);
+  // Half of the cases agree with what is exact, and it makes the condition certain.
+  const Posterior slid = posterior({"F1 slid before 2 yr"});
+  EXPECT_NEAR(slid.agreement.at(0), 0.5, 1e-9);
+  EXPECT_NEAR(slid.effective_size, 1000, 1e-6);
+  EXPECT_EQ(slid.probabilities.at(0).after.value, 1);
+  EXPECT_NEAR(slid.probabilities.at(0).before.value, 0.5, 1e-9);
+  EXPECT_THAT(posterior_to_text(slid), HasSubstr("taken as exact"));
+}
+
+TEST_F(AnswersTest, AFewCasesDoNotSpeakForAll) {
+  submit("monte-carlo", even(200));
+  runs_[3].result.reset(), runs_[3].status = RunStatus::hung;
+  record();
+  EXPECT_THROW(find_posterior(*store_, campaign_, {.seen = {"F1.chi_bar = 0.5 +- 0.01"}}),
+               InputError);
+  EXPECT_EQ(find_posterior(*store_, campaign_, {.seen = {"slides"}}).n_left_out, 1);
+}
+
+/// Rows of a design that are one case count as often as they are rows.
+TEST_F(AnswersTest, MergedRowsCountEach) {
+  for (long row = 1; row <= 40; ++row) s_.design_rows.push_back({0, row, row <= 31 ? 1 : row - 30});
+  submit("samples", even(10));
+  record();
+  const Share share = probability({.condition = "F1.slides"}).shares.at(0);
+  EXPECT_EQ(share.n, 40);
+  EXPECT_EQ(share.n_holds, 5);
 }
 
 TEST_F(AnswersTest, TooFewCasesAreRefused) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "campaign/expansion/expansion.h"
@@ -43,6 +45,58 @@ std::vector<std::vector<double>> positions(const Expansion& expansion, std::size
     }
   }
   return rows;
+}
+
+/// A campaign of the lines of a file in a folder of its own.
+class SamplesTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = ::testing::TempDir() + "samples_XXXXXX";
+    folder_ = mkdtemp(name.data());
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  Expansion expand_lines(const std::string& lines, const std::string& more = "") {
+    std::ofstream(folder_ / "lines.csv") << lines;
+    const std::string text = R"({"format": 1, "name": "test", "base": ")" FAULTSIM_SOURCE_DIR
+                             R"(/docs/examples/scenes/rotliegend.json", )"
+                             R"("set": {"/tier": "screening"}, )" +
+                             more + R"("design": {"kind": "samples", "file": "lines.csv"}})";
+    return expand(parse_campaign(text, (folder_ / "test.json").string()));
+  }
+  std::filesystem::path folder_;
+};
+
+TEST_F(SamplesTest, AreTheLinesOfTheFile) {
+  const Expansion expansion = expand_lines(
+      "\xEF\xBB\xBF"
+      "# drawn elsewhere\nfriction_angle [deg], cohesion[bar] ,biot\r\n"
+      "18.25,3,0.9\r\n\n21,1.5e0,1\n18.25, 3, 0.9\n");
+  ASSERT_EQ(expansion.cases.size(), 2u) << "the third line is the first once more";
+  EXPECT_EQ(values_of(expansion, 0), "friction_angle=18.25 deg cohesion=3 bar biot=0.9");
+  EXPECT_EQ(values_of(expansion, 1), "friction_angle=21 deg cohesion=1.5 bar biot=1");
+  EXPECT_EQ(parameters_of(expansion, expansion.cases[0])[1].si, 3e5);
+  EXPECT_EQ(expansion.n_merged, 1);
+  expect_true_identities(expansion, 1);
+}
+
+TEST_F(SamplesTest, BelongToTheCampaign) {
+  const std::string first = expand_lines("biot\n0.9\n").spec.resolved();
+  EXPECT_NE(expand_lines("biot\n0.8\n").spec.resolved(), first);
+  EXPECT_EQ(expand_lines("biot\n0.9\n").spec.resolved(), first);
+}
+
+/// More than are read one by one of other designs; each line must be sound by itself.
+TEST_F(SamplesTest, AreAllChecked) {
+  std::string lines = "friction_angle [deg],cohesion [MPa]\n";
+  for (int k = 0; k < 400; ++k)
+    lines += std::to_string(15 + 0.01 * k) + (k == 333 ? ",-1\n" : ",0.5\n");
+  try {
+    expand_lines(lines);
+    FAIL() << "a negative cohesion was taken";
+  } catch (const faultsim::InputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("cohesion = -1 MPa"));
+    EXPECT_EQ(error.problems().size(), 1u) << error.what();
+  }
 }
 
 /// Values of a parameter in the rows of the first group, SI.

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "campaign/report/selection.h"
+#include "campaign/statistics/control_variate.h"
+#include "campaign/store/store.h"
+
+namespace faultsweep {
+
+struct TierRequest {
+  std::string metrics = {};                  ///< names with commas; "" = χ̄ of each fault.
+  std::vector<std::string> conditions = {};  ///< as of `rank --where`; none = as of `probability`.
+  double confidence = 0.95;
+};
+
+/// What a tier took.
+struct TierCost {
+  long n_rows = 0;              ///< with a history to its end.
+  long n_left_out = 0;          ///< without.
+  double case_seconds = 0;      ///< wall, of a case on average.
+  double operator_seconds = 0;  ///< wall, of building all operators that were not in the cache.
+};
+
+/// The mean of a metric, or the probability of a condition, at the high tier.
+struct TierAnswer {
+  std::string label;
+  bool is_probability = false;
+  TieredEstimate found;
+  double low_mean = 0;    ///< of the low tier alone, over all its rows.
+  double cost_ratio = 0;  ///< what the high tier alone would take for the same error, over what was
+                          ///< taken: above 1 it pays.
+  double best_ratio = 1;  ///< rows of the low tier per one of the high that would be best.
+};
+
+struct Tiers {
+  CampaignInfo low, high;
+  TierRequest request;
+  long n_pairs = 0;  ///< rows with a history to its end at both.
+  TierCost low_cost, high_cost;
+  std::vector<TierAnswer> answers;
+};
+
+/// Control variates: the same random sample at a low tier, all of it, and at a high one, its first
+/// rows (statistics/control_variate). Rows without a history to its end at one of the tiers are
+/// left out of the pairs, those of the low tier out of all, and counted: answers hold if these are
+/// like the others. A metric that some full history lacks is refused, as a mean of what there is
+/// would be of other cases.
+/// @param low, high  campaigns of the same monte-carlo design; the second has fewer samples, or as
+///                   many.
+/// Throws InputError where metrics or conditions are wrong, the designs do not fit, or fewer than
+/// kFewestPairs rows are complete at both.
+Tiers compare_tiers(const Store& store, const CampaignInfo& low, const CampaignInfo& high,
+                    const TierRequest& request);
+inline constexpr long kFewestPairs = 20;
+
+std::string tiers_to_text(const Tiers& tiers);
+nlohmann::json tiers_to_json(const Tiers& tiers);
+
+}  // namespace faultsweep

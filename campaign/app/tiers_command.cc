@@ -1,0 +1,87 @@
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "campaign/app/commands.h"
+#include "campaign/rounds/submission.h"
+#include "campaign/scheduler/starter.h"
+#include "simulator/output/json_text.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+using faultsim::InputError;
+using nlohmann::ordered_json;  // the order of parameters is that of the spec
+
+namespace {
+
+/// The spec at a tier, with the tier's own mesh: its first samples where some are asked for.
+ordered_json spec_at(const ordered_json& given, const std::string& tier, long most_samples) {
+  ordered_json spec = given;
+  spec["name"] = concat(given.at("name").get<std::string>(), "-", tier);
+  ordered_json& set = spec["set"];
+  if (set.is_null()) set = ordered_json::object();
+  for (auto key = set.begin(); key != set.end();)
+    key = key.key().starts_with("/mesh") || key.key() == "/tier" ? set.erase(key) : std::next(key);
+  set["/tier"] = tier;
+  set["/mesh"] = ordered_json::object();
+  long& samples = *spec["design"]["samples"].get_ptr<ordered_json::number_integer_t*>();
+  if (most_samples > 0) samples = std::min(samples, most_samples);
+  return spec;
+}
+
+/// The spec that was given, unless its design cannot be run at two tiers.
+ordered_json read_spec(const TiersArguments& arguments) {
+  const CampaignSpec spec = read_campaign(arguments.source);
+  const bool is_sample = spec.groups.size() == 1 && spec.groups[0].designs.size() == 1 &&
+                         spec.groups[0].designs[0].kind == DesignKind::monte_carlo;
+  std::vector<faultsim::Problem> problems;
+  if (!is_sample) {
+    problems.push_back({"/design", spec.document.line_of("/design"),
+                        "tiers share the first samples of one monte-carlo design",
+                        "make it one; other designs have no first samples that are a sample"});
+  }
+  if (spec.staged_sample || !spec.limits.empty()) {
+    problems.push_back(
+        {"/", 0, "a spec with rounds or limits goes on by itself", "remove that section"});
+  }
+  if (arguments.tiers.size() != 2 || arguments.tiers[0] == arguments.tiers[1]) {
+    problems.push_back({"--tiers", 0, "two tiers are compared",
+                        "write --tiers screening,standard: the cheap one first"});
+  }
+  if (!problems.empty()) throw InputError(arguments.source, problems);
+  return ordered_json::parse(spec.given);
+}
+
+}  // namespace
+
+ExitCode tiers_command(const StoreArguments& common, const TiersArguments& arguments) {
+  const ordered_json given = read_spec(arguments);
+  std::vector<std::string> names;
+  ExitCode worst = ExitCode::done;
+  std::vector<Submission> submissions;
+  for (const bool is_high : {false, true}) {  // both are checked before anything runs
+    const ordered_json spec =
+        spec_at(given, arguments.tiers[is_high ? 1 : 0], is_high ? arguments.budget : 0);
+    submissions.push_back(make_submission(expand(parse_campaign(spec.dump(), arguments.source))));
+  }
+  for (const Submission& one : submissions) {
+    RunOptions options;
+    options.store = common.store;
+    options.campaign = Store::open_writer(common.store).submit(one).name;
+    options.n_workers = arguments.n_workers;
+    options.simulator = simulator_binary();
+    names.push_back(options.campaign);
+    const ExitCode status = start_ranks(options);
+    if (status != ExitCode::done && status != ExitCode::incomplete) return status;
+    if (status == ExitCode::incomplete) worst = status;
+  }
+  const Store store = Store::open_reader(common.store);
+  const Tiers found =
+      compare_tiers(store, store.campaign(names[0]), store.campaign(names[1]), arguments.request);
+  const std::string text =
+      common.json ? faultsim::json_text(tiers_to_json(found)) : tiers_to_text(found);
+  std::fputs(text.c_str(), stdout);
+  return worst;
+}
+
+}  // namespace faultsweep

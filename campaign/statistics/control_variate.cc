@@ -1,0 +1,148 @@
+#include "campaign/statistics/control_variate.h"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <boost/math/special_functions/erf.hpp>
+#include <cmath>
+
+#include "simulator/common/errors.h"
+
+namespace faultsweep {
+namespace {
+
+struct Moments {
+  double n = 0, mean = 0, squares = 0;  ///< squares of the deviations, summed.
+  double variance() const { return squares / std::max(1.0, n - 1); }
+};
+
+Moments moments_of(std::span<const double> values) {
+  Moments m{static_cast<double>(values.size()), 0, 0};
+  for (const double v : values) m.mean += v / m.n;
+  for (const double v : values) m.squares += (v - m.mean) * (v - m.mean);
+  return m;
+}
+
+double deviations(double confidence) { return std::sqrt(2.0) * boost::math::erf_inv(confidence); }
+
+/// Wilson's score interval; of nothing all of [0, 1].
+Interval wilson(double k, double n, double confidence) {
+  if (n == 0) return {0, 1};
+  const double z = deviations(confidence), p = k / n, zz = z * z / n;
+  const double centre = (p + zz / 2) / (1 + zz);
+  const double half = std::sqrt(p * (1 - p) * zz + zz * zz / 4) / (1 + zz);
+  return {k == 0 ? 0 : centre - half, k == n ? 1 : centre + half};
+}
+
+/// Of the members with one value of x: how many, how many of them with y = 1.
+struct Stratum {
+  double n = 0, k = 0;
+  double share() const { return n > 0 ? k / n : 0.5; }
+};
+
+Estimate with_t(double value, double error, double freedom, double confidence) {
+  const boost::math::students_t t(freedom);
+  const double reach = boost::math::quantile(t, 0.5 + 0.5 * confidence) * error;
+  return {value, error, {value - reach, value + reach}};
+}
+
+void check(const TieredSample& sample) {
+  FAULTSIM_DEMAND(sample.high.size() >= 4 && sample.low.size() >= sample.high.size(),
+                  sample.high.size(), " of ", sample.low.size());
+}
+
+double product_sum(std::span<const double> x, double mean_x, std::span<const double> y,
+                   double mean_y) {
+  double sum = 0;
+  for (std::size_t i = 0; i < y.size(); ++i) sum += (x[i] - mean_x) * (y[i] - mean_y);
+  return sum;
+}
+
+/// How many members alone, a share p of them with the property, have Wilson's interval as narrow as
+/// that; never fewer than were run.
+double members_as_sure(double p, double width, double least, double confidence) {
+  const auto is_wider = [&](double n) {
+    const Interval one = wilson(p * n, n, confidence);
+    return one.high - one.low > width;
+  };
+  double low = least, high = least;
+  while (is_wider(high) && high < 1e12) low = high, high *= 2;
+  for (int step = 0; step < 50; ++step) {
+    const double middle = 0.5 * (low + high);
+    (is_wider(middle) ? low : high) = middle;
+  }
+  return high;
+}
+
+/// How many members alone have this standard error; never fewer than were run.
+double equivalent(double variance_of_one, double error, double n) {
+  return error > 0 ? std::max(n, variance_of_one / (error * error)) : n;
+}
+
+}  // namespace
+
+TieredEstimate tiered_mean(const TieredSample& sample, double confidence) {
+  check(sample);
+  const auto n = static_cast<double>(sample.high.size());
+  const auto paired = sample.low.first(sample.high.size());
+  const Moments y = moments_of(sample.high), x = moments_of(paired), all = moments_of(sample.low);
+  TieredEstimate found;
+  found.direct = with_t(y.mean, std::sqrt(y.variance() / n), n - 1, confidence);
+  found.n_equivalent = n;
+  if (!(x.squares > 0)) {
+    found.estimate = found.direct;
+    return found;
+  }
+  const double xy = product_sum(paired, x.mean, sample.high, y.mean);
+  found.weight = xy / x.squares;
+  if (y.squares > 0) found.correlation = xy / std::sqrt(x.squares * y.squares);
+  const double residual = std::max(0.0, y.squares - xy * found.weight) / (n - 2);
+  const double shift = all.mean - x.mean;
+  const double variance = residual * (1 / n + shift * shift / x.squares) +
+                          found.weight * found.weight * all.variance() / all.n;
+  found.estimate = with_t(y.mean + found.weight * shift, std::sqrt(variance), n - 2, confidence);
+  found.n_equivalent = equivalent(y.variance(), found.estimate.standard_error, n);
+  return found;
+}
+
+TieredEstimate tiered_probability(const TieredSample& sample, double confidence) {
+  check(sample);
+  Stratum with, without;
+  for (std::size_t i = 0; i < sample.high.size(); ++i) {
+    Stratum& one = sample.low[i] != 0 ? with : without;
+    one.n += 1, one.k += sample.high[i];
+  }
+  const Moments y = moments_of(sample.high), all = moments_of(sample.low);
+  const double pi = all.mean, a = with.share(), b = without.share(), n = y.n;
+  TieredEstimate found;
+  found.direct = {y.mean, std::sqrt(y.mean * (1 - y.mean) / n), wilson(y.mean * n, n, confidence)};
+  found.weight = with.n > 0 && without.n > 0 ? a - b : 0;
+  const Moments x = moments_of(sample.low.first(sample.high.size()));
+  if (x.squares > 0 && y.squares > 0) {
+    found.correlation =
+        product_sum(sample.low, x.mean, sample.high, y.mean) / std::sqrt(x.squares * y.squares);
+  }
+  const Interval pis = wilson(pi * all.n, all.n, confidence);
+  const Interval as = wilson(with.k, with.n, confidence),
+                 bs = wilson(without.k, without.n, confidence);
+  // Without a run in a stratum its probability may be any: so may be what π contributes.
+  const double slope = with.n > 0 && without.n > 0 ? a - b : 1;
+  const double pi_down = slope >= 0 ? pi - pis.low : pis.high - pi;
+  const double pi_up = slope >= 0 ? pis.high - pi : pi - pis.low;
+  const double down = std::hypot(pi * (a - as.low), (1 - pi) * (b - bs.low), slope * pi_down);
+  const double up = std::hypot(pi * (as.high - a), (1 - pi) * (bs.high - b), slope * pi_up);
+  const double value = pi * a + (1 - pi) * b;
+  found.estimate.value = value;
+  found.estimate.bounds = {std::max(0.0, value - down), std::min(1.0, value + up)};
+  const double width = found.estimate.bounds.high - found.estimate.bounds.low;
+  found.estimate.standard_error = 0.5 * width / deviations(confidence);
+  found.n_equivalent = members_as_sure(value, width, n, confidence);
+  return found;
+}
+
+double best_ratio(double correlation, double cost_ratio) {
+  FAULTSIM_DEMAND(cost_ratio > 0, cost_ratio);
+  const double rest = std::max(1 - correlation * correlation, 1e-12);
+  return std::max(1.0, std::sqrt(correlation * correlation / rest / cost_ratio));
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <span>
+
+#include "campaign/statistics/intervals.h"
+
+/// What an exact but dear model says of a sample, from a few runs of it and many of a cheap model
+/// that goes with it. The sample is random; the dear model was run on its first n members, the
+/// cheap one on all N ≥ n.
+namespace faultsweep {
+
+/// Dear values y of the first members and cheap values x of all.
+struct TieredSample {
+  std::span<const double> high;  ///< n.
+  std::span<const double> low;   ///< N ≥ n.
+};
+
+/// What it took, and what the dear model alone would have taken.
+struct TieredEstimate {
+  Estimate estimate;       ///< of the dear model.
+  Estimate direct;         ///< from its n values alone.
+  double weight = 0;       ///< with which the cheap values count.
+  double correlation = 0;  ///< of x and y, over the n.
+  /// Members of the dear model alone that would be as sure: with the same standard error, or of
+  /// flags as wide an interval (Wilson's); n where the cheap one does not help.
+  double n_equivalent = 0;
+};
+
+/// Mean of y by the regression estimator of double sampling (Cochran 1977, section 12.6):
+///
+///   mean(y_n) + β (mean(x_N) − mean(x_n)),   β = S_xy / S_xx over the n, which is the best weight;
+///   variance  s_e² (1 / n + (mean(x_N) − mean(x_n))² / S_xx) + β² s_x² / N,
+///
+/// with s_e² the residual variance (n − 2 in its denominator) and s_x² that of all N; bounds by
+/// Student's t with n − 2 degrees of freedom. Where x does not vary over the n it is left out.
+/// @pre n ≥ 4, N ≥ n.
+TieredEstimate tiered_mean(const TieredSample& sample, double confidence);
+
+/// P(y = 1) of flags x and y. With the best weight that is
+///
+///   P = π a + (1 − π) b,   π = P(x = 1) over the N, a and b = P(y = 1 | x) over the n,
+///
+/// and bounds put those of the three together (Wilson 1927) by their squared distances (Zou &
+/// Donner 2008): P̂ − √Σ (their part to the lower side)², so that they do not shrink to a point
+/// where nothing was seen; the standard error is what they are half as wide as, over z. A stratum
+/// in which no dear run lies may hold anything: the bounds are widened by it.
+/// @param sample  values 0 and 1. @pre n ≥ 4, N ≥ n.
+TieredEstimate tiered_probability(const TieredSample& sample, double confidence);
+
+/// The N / n at which cases of the two models, whose costs stand as c = cost_low / cost_high, give
+/// the smallest variance for their price: √(ρ² / (1 − ρ²) / c), at least 1.
+double best_ratio(double correlation, double cost_ratio);
+
+}  // namespace faultsweep

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+
+#include "campaign/statistics/intervals.h"
+
+/// What a sample says when its members count with weights w_i ≥ 0, as draws from one distribution
+/// that stand for another: w_i = likelihood of what was seen, given the i-th (importance sampling
+/// from the prior). Weights are taken relative to their sum; members are independent.
+namespace faultsweep {
+
+/// (Σ w)² / Σ w² (Kish 1965): how many equal members would say as much. 0 where all weights are 0.
+double effective_sample_size(std::span<const double> weights);
+
+/// Σ w y / Σ w, with the standard error √(Σ w² (y − mean)²) / Σ w of the self-normalised estimate.
+/// @pre some weight is not 0.
+Estimate weighted_mean(std::span<const double> values, std::span<const double> weights,
+                       double confidence);
+
+/// P of a property, after Korn & Graubard (1998): Clopper & Pearson's bounds for n* = P (1 − P) /
+/// variance members, at most as many as there are of weight, of which n* P have the property; at
+/// P = 0 and 1, where the variance says nothing, n* is the effective sample size.
+/// @pre some weight is not 0.
+Estimate weighted_probability(std::span<const char> holds, std::span<const double> weights,
+                              double confidence);
+
+/// The smallest value up to which members carry a share q of all weight, between the values of the
+/// two shares that are the bounds of q as a weighted probability (Woodruff 1952). An end is missing
+/// where fewer than one member lies beyond it.
+/// @param order  of values, ascending. @pre 0 < q < 1, some weight is not 0.
+QuantileBounds weighted_quantile(std::span<const double> values, std::span<const double> weights,
+                                 std::span<const std::size_t> order, double q, double confidence);
+
+}  // namespace faultsweep

@@ -1,0 +1,154 @@
+#include "campaign/statistics/control_variate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+namespace faultsweep {
+namespace {
+
+/// A dear model and a cheap one that errs by a curved bias and some scatter.
+struct Tiers {
+  std::vector<double> high, low;
+  Tiers(std::size_t n, std::size_t all, double scatter, std::mt19937_64& random) {
+    std::normal_distribution<double> normal;
+    for (std::size_t i = 0; i < all; ++i) {
+      const double u = normal(random);
+      const double y = u + 0.1 * u * u;
+      if (i < n) high.push_back(y);
+      low.push_back(0.8 * u + 3 + scatter * normal(random));
+    }
+  }
+  TieredSample sample() const { return {high, low}; }
+};
+constexpr double kTrueMean = 0.1;
+
+/// Whether x happens, and y given x.
+struct Flags {
+  std::vector<double> high, low;
+  Flags(std::size_t n, std::size_t all, double pi, double a, double b, std::mt19937_64& random) {
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (std::size_t i = 0; i < all; ++i) {
+      const bool x = uniform(random) < pi;
+      const bool y = uniform(random) < (x ? a : b);
+      low.push_back(x ? 1 : 0);
+      if (i < n) high.push_back(y ? 1 : 0);
+    }
+  }
+  TieredSample sample() const { return {high, low}; }
+};
+
+TEST(TieredMean, IsExactWhereTheCheapModelIs) {
+  std::mt19937_64 random(1);
+  const Tiers tiers(20, 2000, 0, random);
+  std::vector<double> high;
+  for (std::size_t i = 0; i < 20; ++i) high.push_back(2 * tiers.low[i] - 1);
+  double mean = 0;
+  for (const double x : tiers.low) mean += (2 * x - 1) / 2000;
+  const TieredEstimate found = tiered_mean({high, tiers.low}, 0.95);
+  EXPECT_NEAR(found.estimate.value, mean, 1e-9);
+  EXPECT_NEAR(found.weight, 2, 1e-9);
+  EXPECT_NEAR(found.correlation, 1, 1e-9);
+  EXPECT_NEAR(found.n_equivalent, 2000, 400) << "as good as all of them";
+}
+
+TEST(TieredMean, LeavesOutACheapModelThatSaysNothing) {
+  const std::vector<double> high = {1, 2, 3, 4, 5}, low(50, 7.0);
+  const TieredEstimate found = tiered_mean({high, low}, 0.95);
+  EXPECT_EQ(found.estimate.value, 3);
+  EXPECT_EQ(found.weight, 0);
+  EXPECT_EQ(found.n_equivalent, 5);
+}
+
+TEST(TieredMean, IsSurerThanTheDearRunsAlone) {
+  std::mt19937_64 random(2);
+  const Tiers tiers(100, 10000, 0.05, random);
+  const TieredEstimate found = tiered_mean(tiers.sample(), 0.95);
+  EXPECT_LT(found.estimate.standard_error, 0.3 * found.direct.standard_error);
+  EXPECT_GT(found.n_equivalent, 1000);
+}
+
+TEST(TieredMean, Covers) {
+  std::mt19937_64 random(3);
+  for (const auto& [n, scatter] : {std::pair(30, 0.3), {100, 0.05}, {100, 2.0}}) {
+    int held = 0;
+    for (int repeat = 0; repeat < 1000; ++repeat) {
+      const Tiers tiers(static_cast<std::size_t>(n), 1000, scatter, random);
+      const Interval bounds = tiered_mean(tiers.sample(), 0.95).estimate.bounds;
+      held += bounds.low <= kTrueMean && kTrueMean <= bounds.high;
+    }
+    EXPECT_GE(held, 930) << n << ", scatter " << scatter;
+    EXPECT_LE(held, 970) << n << ", scatter " << scatter;
+  }
+}
+
+TEST(TieredProbability, Covers) {
+  std::mt19937_64 random(4);
+  struct Truth {
+    double pi, a, b;
+  };
+  for (const auto& [pi, a, b] : {Truth{0.3, 0.8, 0.05}, {0.5, 0.9, 0.1}, {0.1, 0.6, 0.2}}) {
+    int held = 0;
+    const double truth = pi * a + (1 - pi) * b;
+    for (int repeat = 0; repeat < 1000; ++repeat) {
+      const Flags flags(200, 3000, pi, a, b, random);
+      const Interval bounds = tiered_probability(flags.sample(), 0.95).estimate.bounds;
+      held += bounds.low <= truth && truth <= bounds.high;
+    }
+    EXPECT_GE(held, 930) << pi;
+    EXPECT_LE(held, 970) << pi;
+  }
+}
+
+/// Where nothing ever happens, or always, the truth is inside and the bounds are no point.
+TEST(TieredProbability, CoversAtZeroAndOne) {
+  std::mt19937_64 random(5);
+  for (const double p : {0.0, 1.0}) {
+    for (const double pi : {0.0, 0.2, 1.0}) {
+      const Flags flags(100, 3000, pi, p, p, random);
+      const Interval bounds = tiered_probability(flags.sample(), 0.95).estimate.bounds;
+      EXPECT_LE(bounds.low, p);
+      EXPECT_GE(bounds.high, p);
+      EXPECT_GT(bounds.high - bounds.low, 0.02);
+      EXPECT_LT(bounds.high - bounds.low, 0.2);
+    }
+  }
+}
+
+/// 30 flags that agree with the cheap ones do not make these certain.
+TEST(TieredProbability, IsWorthWhatItsIntervalIs) {
+  std::mt19937_64 random(6);
+  const Flags agree(30, 3000, 0.5, 1, 0, random);
+  const TieredEstimate found = tiered_probability(agree.sample(), 0.95);
+  EXPECT_EQ(found.correlation, 1);
+  EXPECT_GT(found.n_equivalent, 40);
+  EXPECT_LT(found.n_equivalent, 300) << "not 3000";
+  const Flags alone(50, 3000, 0.5, 0.4, 0.4, random);
+  EXPECT_LT(tiered_probability(alone.sample(), 0.95).n_equivalent, 70) << "they have no relation";
+}
+
+TEST(TieredProbability, KnowsNothingOfAStratumWithoutARun) {
+  std::vector<double> low(1000, 0.0), high(50, 0.0);
+  std::fill(low.end() - 300, low.end(), 1.0);
+  const Interval bounds = tiered_probability({high, low}, 0.95).estimate.bounds;
+  EXPECT_LE(bounds.low, 0.01);
+  EXPECT_GE(bounds.high, 0.29);
+}
+
+TEST(BestRatio, GivesTheSmallestVarianceForItsPrice) {
+  constexpr double kCorrelation = 0.95, kCost = 0.05, kBudget = 100;
+  const auto variance = [&](double ratio) {  // n + c N = budget
+    const double n = kBudget / (1 + kCost * ratio);
+    return (1 - kCorrelation * kCorrelation) / n + kCorrelation * kCorrelation / (n * ratio);
+  };
+  const double best = best_ratio(kCorrelation, kCost);
+  EXPECT_LT(variance(best), variance(0.9 * best));
+  EXPECT_LT(variance(best), variance(1.1 * best));
+  EXPECT_EQ(best_ratio(0, 0.1), 1);
+}
+
+}  // namespace
+}  // namespace faultsweep

@@ -1,0 +1,115 @@
+#include "campaign/statistics/weighted.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <vector>
+
+namespace faultsweep {
+namespace {
+
+std::vector<std::size_t> order_of(const std::vector<double>& values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  return order;
+}
+
+TEST(Weighted, EqualWeightsAreNone) {
+  std::vector<double> values(100), weights(100, 0.3);
+  std::iota(values.begin(), values.end(), 1.0);
+  std::vector<char> holds(100, 0);
+  std::fill_n(holds.begin(), 20, char{1});
+  EXPECT_NEAR(effective_sample_size(weights), 100, 1e-9);
+  const Estimate p = weighted_probability(holds, weights, 0.95);
+  const Interval exact = proportion_bounds(20, 100, 0.95);
+  EXPECT_NEAR(p.value, 0.2, 1e-12);
+  EXPECT_NEAR(p.bounds.low, exact.low, 1e-9);
+  EXPECT_NEAR(p.bounds.high, exact.high, 1e-9);
+  EXPECT_NEAR(weighted_mean(values, weights, 0.95).value, 50.5, 1e-9);
+  const QuantileBounds median = weighted_quantile(values, weights, order_of(values), 0.5, 0.95);
+  const QuantileBounds plain = quantile_bounds(values, 0.5, 0.95);
+  EXPECT_EQ(median.estimate, 50);
+  EXPECT_NEAR(median.low.value(), plain.low.value(), 1);
+  EXPECT_NEAR(median.high.value(), plain.high.value(), 1);
+}
+
+TEST(Weighted, WhatWeighsNothingSaysNothing) {
+  const std::vector<double> values = {1, 2, 3, 1e9}, weights = {1, 1, 1, 0};
+  const std::vector<char> holds = {1, 1, 1, 0};
+  EXPECT_NEAR(effective_sample_size(weights), 3, 1e-12);
+  EXPECT_EQ(weighted_probability(holds, weights, 0.95).value, 1);
+  EXPECT_EQ(weighted_probability(holds, weights, 0.95).bounds.high, 1);
+  EXPECT_NEAR(weighted_probability(holds, weights, 0.95).bounds.low, std::pow(0.025, 1.0 / 3),
+              1e-9);
+  EXPECT_EQ(weighted_quantile(values, weights, order_of(values), 0.99, 0.95).estimate, 3);
+  EXPECT_FALSE(weighted_quantile(values, weights, order_of(values), 0.99, 0.95).high);
+}
+
+/// θ ~ N(0, 1)², y = 2 θ1 + θ2 seen as 3 ± 0.5. Then θ1 is normal with mean 2·3 / 5.25 and
+/// variance 1 − 4 / 5.25, and y itself with mean 5·3 / 5.25 and variance 5 · 0.25 / 5.25.
+class LinearGaussian : public ::testing::Test {
+ protected:
+  static constexpr double kMean = 6 / 5.25, kMeanY = 15 / 5.25;
+  const double deviation_ = std::sqrt(1 - 4 / 5.25), deviation_y_ = std::sqrt(1.25 / 5.25);
+
+  void draw(std::size_t n, std::mt19937_64& random) {
+    std::normal_distribution<double> normal;
+    theta_.resize(n), y_.resize(n), weights_.resize(n), holds_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      theta_[i] = normal(random);
+      y_[i] = 2 * theta_[i] + normal(random);
+      weights_[i] = std::exp(-0.5 * (y_[i] - 3) * (y_[i] - 3) / 0.25);
+      holds_[i] = y_[i] > kMeanY ? 1 : 0;
+    }
+  }
+  std::vector<double> theta_, y_, weights_;
+  std::vector<char> holds_;
+};
+
+TEST_F(LinearGaussian, IsMetToOnePercent) {
+  std::mt19937_64 random(11);
+  draw(400000, random);
+  const auto order = order_of(theta_);
+  EXPECT_NEAR(weighted_mean(theta_, weights_, 0.95).value, kMean, 0.01 * kMean);
+  EXPECT_NEAR(weighted_mean(y_, weights_, 0.95).value, kMeanY, 0.01 * kMeanY);
+  EXPECT_NEAR(weighted_probability(holds_, weights_, 0.95).value, 0.5, 0.005);
+  for (const auto& [q, z] : {std::pair(0.05, -1.644854), {0.5, 0.0}, {0.95, 1.644854}}) {
+    const double truth = kMean + z * deviation_;
+    EXPECT_NEAR(weighted_quantile(theta_, weights_, order, q, 0.95).estimate, truth,
+                0.01 * deviation_)
+        << q;
+  }
+}
+
+TEST_F(LinearGaussian, IntervalsCover) {
+  std::mt19937_64 random(12);
+  int mean = 0, probability = 0, median = 0, tail = 0;
+  constexpr int kRepeats = 1000;
+  for (int repeat = 0; repeat < kRepeats; ++repeat) {
+    draw(2000, random);
+    const auto order = order_of(theta_);
+    const auto in = [](const Interval& bounds, double truth) {
+      return bounds.low <= truth && truth <= bounds.high ? 1 : 0;
+    };
+    const auto quantile_in = [&](double q, double truth) {
+      const QuantileBounds b = weighted_quantile(theta_, weights_, order, q, 0.95);
+      return in({b.low.value(), b.high.value()}, truth);
+    };
+    mean += in(weighted_mean(theta_, weights_, 0.95).bounds, kMean);
+    probability += in(weighted_probability(holds_, weights_, 0.95).bounds, 0.5);
+    median += quantile_in(0.5, kMean);
+    tail += quantile_in(0.9, kMean + 1.281552 * deviation_);
+  }
+  for (const int held : {mean, probability, median, tail}) {
+    EXPECT_GE(held, 930);
+    EXPECT_LE(held, 970);
+  }
+}
+
+}  // namespace
+}  // namespace faultsweep
