@@ -11,7 +11,7 @@
 namespace faultsim {
 namespace {
 
-std::string brief(double value) {
+std::string two_digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2g", value);
   return text;
@@ -74,30 +74,32 @@ void judge(const DiagnosisLimits& limits, double traction_tolerance, Diagnosis& 
   const StepCheck& worst = diagnosis.worst;
   if (!(worst.largest_residual() <= residual)) {
     violations.push_back(
-        {concat("a load step misses equilibrium or contact by ", brief(worst.largest_residual()),
-                ", allowed are ", brief(residual)),
+        {concat("a load step misses equilibrium or contact by ",
+                two_digits(worst.largest_residual()), ", allowed are ", two_digits(residual)),
          false});
   }
   if (!(worst.largest_energy() <= residual)) {
-    violations.push_back({concat("the energies of a load step miss their identity by ",
-                                 brief(worst.largest_energy()), ", allowed are ", brief(residual)),
-                          false});
+    violations.push_back(
+        {concat("the energies of a load step miss their identity by ",
+                two_digits(worst.largest_energy()), ", allowed are ", two_digits(residual)),
+         false});
   }
   if (!(diagnosis.op.asymmetry <= limits.asymmetry)) {
-    violations.push_back({concat("H is not symmetric, by ", brief(diagnosis.op.asymmetry)), false});
+    violations.push_back(
+        {concat("H is not symmetric, by ", two_digits(diagnosis.op.asymmetry)), false});
   }
   if (!diagnosis.op.condition) {
     violations.push_back({"H is not positive definite", false});
   } else if (!(*diagnosis.op.condition <= limits.condition)) {
-    violations.push_back({concat("H has the condition ", brief(*diagnosis.op.condition),
-                                 ", allowed are ", brief(limits.condition)),
+    violations.push_back({concat("H has the condition ", two_digits(*diagnosis.op.condition),
+                                 ", allowed are ", two_digits(limits.condition)),
                           false});
   }
   const bool open_end = outcome_tells(result.outcome);
   if (!(diagnosis.noise.change() <= limits.noise_change)) {
     violations.push_back(
-        {concat("noise of 1e-12 changes the answer by ", brief(diagnosis.noise.change()),
-                ", allowed are ", brief(limits.noise_change)),
+        {concat("noise of 1e-12 changes the answer by ", two_digits(diagnosis.noise.change()),
+                ", allowed are ", two_digits(limits.noise_change)),
          open_end});
   }
   for (const std::string& change : diagnosis.noise.changed) {
