@@ -86,6 +86,14 @@ Share share_of(std::string label, const std::vector<std::size_t>& chosen,
   return share;
 }
 
+void set_more(Share& share, const ProbabilityRequest& request) {
+  const long n_known = share.n - share.n_unknown;
+  if (n_known == 0 || share.bounds.high - share.bounds.low <= request.width) return;
+  share.n_more =
+      std::max(0L, samples_for_half_width(share.estimate, 0.5 * request.width, request.confidence) -
+                       n_known);
+}
+
 using Part = std::pair<std::string, std::vector<std::size_t>>;
 
 /// Rows of equal label, in the order in which labels come first; nothing if there are more than
@@ -175,6 +183,7 @@ Probability find_probability(const Store& store, const CampaignInfo& campaign,
       }
       found.shares.push_back(
           share_of(std::move(name), chosen, rows.complete, rows.holds[c], request.confidence));
+      if (request.width > 0) set_more(found.shares.back(), request);
     }
   }
   if (found.shares.size() == 1 && found.shares[0].n_unknown < found.shares[0].n) {
@@ -188,11 +197,12 @@ Probability find_probability(const Store& store, const CampaignInfo& campaign,
 std::string probability_to_text(const Probability& p) {
   const std::string what = p.sampling.is_random ? "probability" : "share";
   TextTable table({p.request.by.empty() ? "condition" : p.request.by, what, "from", "to", "true in",
-                   "of", "not known"});
+                   "of", "not known", "more for width"});
   for (const Share& one : p.shares) {
     table.add_row({one.label, percent(one.estimate), percent(one.bounds.low),
                    percent(one.bounds.high), std::to_string(one.n_holds), std::to_string(one.n),
-                   one.n_unknown > 0 ? std::to_string(one.n_unknown) : ""});
+                   one.n_unknown > 0 ? std::to_string(one.n_unknown) : "",
+                   one.n_more > 0 ? std::to_string(one.n_more) : ""});
   }
   std::string text;
   if (!p.request.condition.empty() && !p.request.by.empty()) text = p.request.condition + "\n";
@@ -222,7 +232,8 @@ json probability_to_json(const Probability& p) {
                       {"high", one.bounds.high},
                       {"holds", one.n_holds},
                       {"rows", one.n},
-                      {"unknown", one.n_unknown}});
+                      {"unknown", one.n_unknown},
+                      {"more_for_width", one.n_more}});
   }
   return {{"campaign", p.campaign.name},
           {"condition", p.request.condition},

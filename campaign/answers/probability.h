@@ -14,6 +14,7 @@ struct ProbabilityRequest {
   std::string where = {};      ///< of which cases; "" = all.
   std::string by = {};         ///< a parameter: for each of its values, or ten parts of its range.
   double confidence = 0.95;
+  double width = 0;  ///< wanted distance of the bounds, in (0, 1]; 0 = not asked.
 };
 
 /// How often something holds. Rows whose case has no history to its end may be either: the bounds
@@ -25,6 +26,9 @@ struct Share {
   long n_holds = 0;
   double estimate = 0;  ///< of those known; NaN where none is.
   Interval bounds;      ///< Clopper & Pearson's.
+  /// Rows that bounds as far apart as ProbabilityRequest::width would take beyond those there are,
+  /// if the share stays as it is; 0 = none, or not asked, or no row is known.
+  long n_more = 0;
 };
 
 struct Probability {

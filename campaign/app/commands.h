@@ -7,6 +7,7 @@
 #include "campaign/answers/curves.h"
 #include "campaign/answers/posterior.h"
 #include "campaign/answers/probability.h"
+#include "campaign/answers/quantiles.h"
 #include "campaign/answers/sensitivity.h"
 #include "campaign/answers/tiers.h"
 #include "campaign/report/case_report.h"
@@ -53,6 +54,7 @@ struct ProbabilityArguments {
   std::optional<CurveAxis> against = std::nullopt;  ///< curves; none = a table.
   std::string stage = {};                           ///< of curves.
   bool csv = false;                                 ///< of curves.
+  QuantileRequest quantiles = {};                   ///< with metrics: quantiles instead.
 };
 ExitCode probability_command(const StoreArguments& common, const ProbabilityArguments& arguments);
 ExitCode sensitivity_command(const StoreArguments& common, const SensitivityRequest& request);

@@ -256,7 +256,7 @@ CLI::Option* add_confidence(CLI::App* command, double& confidence) {
       ->check(CLI::Range(0.5, 0.9999));
 }
 
-/// What makes curves of a table of probabilities.
+/// What makes curves, or quantiles, of a table of probabilities.
 void add_curves(CLI::App* command, ProbabilityArguments& a, CLI::Option* of, CLI::Option* by) {
   const std::map<std::string, CurveAxis> axes = {
       {"step", CurveAxis::step}, {"time", CurveAxis::time}, {"pressure", CurveAxis::pressure}};
@@ -275,6 +275,17 @@ void add_curves(CLI::App* command, ProbabilityArguments& a, CLI::Option* of, CLI
                    "against pressure each stage")
       ->needs(against);
   command->add_flag("--csv", a.csv, "curves as CSV")->needs(against);
+  CLI::Option* quantiles =
+      command
+          ->add_option("--quantiles", a.quantiles.metrics,
+                       "quantiles of these metrics instead, with commas: names of\n"
+                       "`rank --list-metrics`, also of a fault and stage")
+          ->excludes(of)
+          ->excludes(by)
+          ->excludes(against);
+  command->add_option("--at", a.quantiles.at, "shares of the cases below (default 0.05,0.5,0.95)")
+      ->delimiter(',')
+      ->needs(quantiles);
 }
 
 void add_posterior(CLI::App& app, Arguments& a, ExitCode& code) {
@@ -320,6 +331,10 @@ void add_answers(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::Option* by = probability->add_option(
       "--by", request.by, "for each value of this parameter, or ten parts of its range");
   add_curves(probability, a.probability, of, by);
+  probability
+      ->add_option("--width", request.width,
+                   "wanted distance of the bounds, as a share: how many more cases it takes")
+      ->check(CLI::Range(1e-4, 1.0));
   add_confidence(probability, request.confidence);
   add_json(probability, a.common);
   add_wide(probability);
@@ -328,7 +343,8 @@ void add_answers(CLI::App& app, Arguments& a, ExitCode& code) {
       "  faultsweep probability\n"
       "  faultsweep probability my-sweep --of \"F2.slides in gas_storage\" --by offset\n"
       "  faultsweep probability --of \"chi_bar > 0.9\" --where \"friction_angle < 25 deg\"\n"
-      "  faultsweep probability --against time --csv >curves.csv");
+      "  faultsweep probability --against time --csv >curves.csv\n"
+      "  faultsweep probability --quantiles \"F1.chi_bar, max_slip in gas_storage\" --at 0.5,0.99");
   probability->callback([&] { code = probability_command(a.common, a.probability); });
 
   add_posterior(app, a, code);

@@ -205,6 +205,14 @@ ExitCode curves_command(const StoreArguments& common, const Store& store,
 ExitCode probability_command(const StoreArguments& common, const ProbabilityArguments& arguments) {
   const Store store = Store::open_reader(common.store);
   if (arguments.against) return curves_command(common, store, arguments);
+  if (!arguments.quantiles.metrics.empty()) {
+    QuantileRequest request = arguments.quantiles;
+    request.where = arguments.request.where;
+    request.confidence = arguments.request.confidence;
+    const Quantiles found = find_quantiles(store, store.campaign(common.campaign, false), request);
+    common.json ? print(quantiles_to_json(found)) : print(quantiles_to_text(found));
+    return ExitCode::done;
+  }
   const Probability found =
       find_probability(store, store.campaign(common.campaign, false), arguments.request);
   common.json ? print(probability_to_json(found)) : print(probability_to_text(found));

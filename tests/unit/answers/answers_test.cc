@@ -9,6 +9,7 @@
 #include "campaign/answers/curves.h"
 #include "campaign/answers/posterior.h"
 #include "campaign/answers/probability.h"
+#include "campaign/answers/quantiles.h"
 #include "campaign/answers/sensitivity.h"
 #include "tests/campaign/made_up_result.h"
 
@@ -277,7 +278,7 @@ TEST_F(AnswersTest, ACurveAgainstPressureGoesTheWayOfTheStage) {
 
 /// χ̄ of F1 is its strength below 1, so what is seen of the one is seen of the other.
 TEST_F(AnswersTest, APosteriorIsThePriorWeightedByWhatWasSeen) {
-  submit("monte-carlo", even(2000));
+  submit("monte-carlo", even(1000));
   record();
   const auto posterior = [&](std::vector<std::string> seen) {
     return find_posterior(*store_, campaign_, {std::move(seen), {"F1.slides"}, "", 0.95});
@@ -292,15 +293,15 @@ TEST_F(AnswersTest, APosteriorIsThePriorWeightedByWhatWasSeen) {
   EXPECT_NEAR(p.parameters[1].after[1].estimate, 150, 30) << "offset says nothing";
   EXPECT_EQ(p.parameters[1].unit, "m");
   EXPECT_NEAR(p.probabilities.at(0).after.value, 0.5, 0.01);
-  EXPECT_NEAR(p.effective_size, 2000 * 0.05 * 2 * std::sqrt(std::acos(-1.0)), 2);
+  EXPECT_NEAR(p.effective_size, 1000 * 0.05 * 2 * std::sqrt(std::acos(-1.0)), 2);
   ASSERT_EQ(p.words.size(), 2u);
   EXPECT_NEAR(p.words[0].after.value, 0.5, 0.01);
   EXPECT_THAT(posterior_to_text(p), HasSubstr("Effective sample size"));
-  EXPECT_EQ(posterior_to_json(p).at("rows"), 2000);
+  EXPECT_EQ(posterior_to_json(p).at("rows"), 1000);
   // Half of the cases agree with what is exact, and it makes the condition certain.
   const Posterior slid = posterior({"F1 slid before 2 yr"});
   EXPECT_NEAR(slid.agreement.at(0), 0.5, 1e-9);
-  EXPECT_NEAR(slid.effective_size, 1000, 1e-6);
+  EXPECT_NEAR(slid.effective_size, 500, 1e-6);
   EXPECT_EQ(slid.probabilities.at(0).after.value, 1);
   EXPECT_NEAR(slid.probabilities.at(0).before.value, 0.5, 1e-9);
   EXPECT_THAT(posterior_to_text(slid), HasSubstr("taken as exact"));
@@ -313,6 +314,42 @@ TEST_F(AnswersTest, AFewCasesDoNotSpeakForAll) {
   EXPECT_THROW(find_posterior(*store_, campaign_, {.seen = {"F1.chi_bar = 0.5 +- 0.01"}}),
                InputError);
   EXPECT_EQ(find_posterior(*store_, campaign_, {.seen = {"slides"}}).n_left_out, 1);
+}
+
+TEST_F(AnswersTest, AWidthTakesMoreCases) {
+  submit("monte-carlo", even(40));
+  record();
+  const Share share = probability({.condition = "F1.slides", .width = 0.1}).shares.at(0);
+  EXPECT_EQ(share.n_more, samples_for_half_width(0.5, 0.05, 0.95) - 40);
+  EXPECT_EQ(probability({.condition = "F1.slides", .width = 0.5}).shares.at(0).n_more, 0);
+}
+
+/// χ̄ of F1 is (k + ½) / 200; two histories that are not known may lie on either side.
+TEST_F(AnswersTest, QuantilesHaveBoundsWhateverTheDistribution) {
+  submit("monte-carlo", even(200));
+  record();
+  const auto chi_bar = [&] {
+    return find_quantiles(*store_, campaign_, {.metrics = "F1.chi_bar", .at = {0.5, 0.999}});
+  };
+  const MetricQuantiles all = chi_bar().metrics.at(0);
+  EXPECT_NEAR(all.values.at(0).estimate, 0.5, 1e-9);
+  EXPECT_NEAR(all.values.at(0).low.value(), 0.4275, 1e-12) << "the 86th";
+  EXPECT_NEAR(all.values.at(0).high.value(), 0.5725, 1e-12) << "the 115th";
+  EXPECT_FALSE(all.values.at(1).high) << "200 cases do not bound it from above";
+  store_.reset();
+  std::filesystem::remove_all(folder_ / "store");
+  store_ = std::make_unique<Store>(Store::open_owner(folder_ / "store"));
+  store_->submit(s_);
+  for (const std::size_t k : {3u, 150u}) runs_[k].result.reset(), runs_[k].status = RunStatus::hung;
+  record();
+  const Quantiles some = chi_bar();
+  EXPECT_EQ(some.n_unknown, 2);
+  EXPECT_LT(some.metrics.at(0).values.at(0).low.value(), 0.4275);
+  EXPECT_GT(some.metrics.at(0).values.at(0).high.value(), 0.5725);
+  EXPECT_THAT(quantiles_to_text(some), HasSubstr("open"));
+  EXPECT_TRUE(
+      quantiles_to_json(some).at("metrics").at(0).at("quantiles").at(1).at("high").is_null());
+  EXPECT_THROW(find_quantiles(*store_, campaign_, {.metrics = "chi_bar", .at = {1}}), InputError);
 }
 
 /// Rows of a design that are one case count as often as they are rows.
