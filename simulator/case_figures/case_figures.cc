@@ -413,12 +413,18 @@ bool colour_by_fields(const Chosen& chosen, std::size_t fault, figure::Section::
   return false;
 }
 
-std::string draw_section(const Chosen& chosen) {
-  if (chosen.scene().geometry_kind != GeometryKind::field) {
-    refuse("chart", "a section is drawn of a field, and this scene is a box",
-           "choose another chart: history, profiles, fault-map");
+/// "Δp −160 bar" of a compartment at a step; "" where its pressure is not given.
+std::string pressure_note(const CaseResult& result, const StepResult& step,
+                          const std::string& name) {
+  for (std::size_t r = 0; r < result.region_names.size(); ++r) {
+    if (result.region_names[r] != name || r >= step.pressure_change.size()) continue;
+    return "Δp " + plain_number(step.pressure_change[r] / kBarInPascal) + " bar";
   }
-  figure::Section section = field_section(chosen.scene());
+  return "";
+}
+
+/// The section with χ and pressures of the step. @return whether all χ are those of fields.
+bool fill_section(const Chosen& chosen, figure::Section& section) {
   const StepResult& step = chosen.result().steps[chosen.step];
   bool all_fields = true;
   for (std::size_t f = 0; f < section.faults.size() && f < step.faults.size(); ++f) {
@@ -427,14 +433,20 @@ std::string draw_section(const Chosen& chosen) {
     all_fields = false;
   }
   for (figure::Section::Rock& rock : section.rocks) {
-    if (!rock.is_reservoir) continue;
-    for (std::size_t r = 0; r < chosen.result().region_names.size(); ++r) {
-      if (chosen.result().region_names[r] != rock.name || r >= step.pressure_change.size())
-        continue;
-      rock.note = "Δp " + plain_number(step.pressure_change[r] / kBarInPascal) + " bar";
-    }
+    if (rock.is_reservoir) rock.note = pressure_note(chosen.result(), step, rock.name);
   }
-  section.title = "The field across its faults: " + moment_text(chosen);
+  return all_fields;
+}
+
+std::string draw_section(const Chosen& chosen) {
+  if (chosen.scene().geometry_kind != GeometryKind::field) {
+    refuse("chart", "a section is drawn of a field, and this scene is a box",
+           "choose another chart: history, profiles, fault-map");
+  }
+  figure::Section section = field_section(chosen.scene());
+  const bool all_fields = fill_section(chosen, section);
+  section.title = concat("The field across its faults",
+                         chosen.request.with_cursor ? "" : ": " + moment_text(chosen));
   section.remark = concat(subject_of(chosen.picture), "; to scale; colour: ",
                           all_fields ? "χ down dip, on the line where it is largest"
                                      : "χ̄ of the whole fault (fields were not kept)");
@@ -539,6 +551,27 @@ std::string draw_case(const CasePicture& picture, const CaseChartRequest& reques
       return draw_stress_path(chosen);
   }
   return {};
+}
+
+std::vector<StepLook> step_looks(const CasePicture& picture) {
+  std::vector<StepLook> looks;
+  Chosen chosen{picture, {}, 0, 0};
+  const figure::Section empty = field_section(picture.scene);
+  for (chosen.step = 0; chosen.step < n_steps_of(picture.result); ++chosen.step) {
+    figure::Section section = empty;
+    fill_section(chosen, section);
+    const StepResult& step = picture.result.steps[chosen.step];
+    StepLook look{step.step, time_of(picture.result, step.time), moment_text(chosen), {}, {}};
+    for (const figure::Section::FaultLine& fault : section.faults) {
+      std::vector<std::string>& colours = look.colours.emplace_back();
+      for (const double chi : fault.chi) colours.push_back(figure::chi_colour(chi));
+    }
+    for (const figure::Section::Rock& rock : section.rocks) {
+      if (rock.is_reservoir) look.notes.emplace_back(rock.name, rock.note);
+    }
+    looks.push_back(std::move(look));
+  }
+  return looks;
 }
 
 }  // namespace faultsim

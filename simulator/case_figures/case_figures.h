@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "simulator/output/field_reader.h"
@@ -46,6 +47,17 @@ struct CaseChartRequest {
 
 /// The chart as SVG. Throws InputError: no such fault or step, no fields, a section of a box.
 std::string draw_case(const CasePicture& picture, const CaseChartRequest& request);
+
+/// What a page changes in the section and the histories (with_cursor) when it shows another step.
+struct StepLook {
+  int step = 0;
+  double time = 0;                                ///< in the unit of the histories' axis.
+  std::string says;                               ///< "load step 10, primary production, 10 years".
+  std::vector<std::vector<std::string>> colours;  ///< of a fault's pieces, as the section has them.
+  std::vector<std::pair<std::string, std::string>> notes;  ///< per compartment: its Δp.
+};
+/// Of every step that has metrics. @pre the scene is a field.
+std::vector<StepLook> step_looks(const CasePicture& picture);
 
 /// The fault (index) with the largest χ̄ of the case and the step (index in CaseResult::steps, of
 /// those that have metrics) that has it; among those at their strength the largest area with
