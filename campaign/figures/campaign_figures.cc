@@ -62,7 +62,7 @@ ParameterAxis axis_of(const std::vector<StoredParameter>& parameters, const std:
 template <typename Visit>
 void for_each_outcome(const Store& store, const CampaignInfo& campaign, const Visit& visit) {
   Store::TableQuery query;
-  for (const char* metric : {"activated", "n_events"}) {
+  for (const char* metric : {"slides", "jumps"}) {
     query.columns.push_back({metric_sql(metric), {}});
   }
   store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
@@ -162,8 +162,8 @@ std::string draw_probability(const Probability& probability) {
   figure::IntervalChart chart;
   const std::string& of = probability.request.condition;
   const std::string& by = probability.request.by;
-  chart.title =
-      concat("How often ", of.empty() ? "a fault slides" : of, by.empty() ? "" : ", by " + by);
+  chart.title = concat("How often", of.empty() ? " a fault slides" : ": " + of,
+                       by.empty() ? "" : ", by " + by);
   chart.remark =
       concat(probability.campaign.name, "; lines: exact ", percent(probability.request.confidence),
              " bounds", probability.sampling.is_random ? "" : "; shares of the cases given");

@@ -1,6 +1,7 @@
 #include "campaign/figures/report_page.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -37,6 +38,14 @@ std::string share_text(long k, long n, double confidence) {
   return concat(percent(static_cast<double>(k) / static_cast<double>(n)), " % (",
                 plain_number(100 * confidence, 4), " %: ", percent(bounds.low), " to ",
                 percent(bounds.high), " %)");
+}
+
+/// "15.0943434363654 deg" as "15.09 deg": samples have more digits than a reader needs.
+std::string short_label(const std::string& label) {
+  char* end = nullptr;
+  const double value = std::strtod(label.c_str(), &end);
+  constexpr int kDigits = 4;
+  return end == label.c_str() ? label : plain_number(value, kDigits) + end;
 }
 
 /// The page as it is written.
@@ -113,8 +122,8 @@ void add_ranking_row(Page& page, const RankedCase& row,
   const faultsim::StageMetrics& m = row.metrics;
   page.html += "<tr>" + cell(std::to_string(row.position));
   for (const std::string& label : labels_of(row.parameters, parameters)) {
-    const std::size_t blank = label.find(' ');  // the unit stands in the head
-    page.html += cell(label.substr(0, blank));
+    const std::string shown = short_label(label);
+    page.html += cell(shown.substr(0, shown.find(' ')));  // the unit stands in the head
   }
   page.html += cell(m.activated_fault) + measured(m.chi_bar) + measured(m.activated_area) +
                measured(m.max_slip * 1e3) + measured(m.moment) + cell(std::to_string(m.n_events)) +
@@ -191,9 +200,12 @@ void add_case(Page& page, long position) {
   const StoredPicture stored(page.store, page.campaign, one);
   const faultsim::CasePicture picture = stored.picture();
   const auto parameters = parameters_from_json(page.campaign.parameters);
+  const std::vector<std::string> labels = labels_of(one.parameters, parameters);
   std::string settings;
-  for (const std::string& setting : settings_of(one.parameters, parameters)) {
-    settings += (settings.empty() ? "" : ", ") + setting;
+  for (std::size_t p = 0; p < labels.size(); ++p) {
+    if (labels[p].empty()) continue;  // of another group
+    settings +=
+        concat(settings.empty() ? "" : ", ", parameters[p].name, " = ", short_label(labels[p]));
   }
   page.html += concat("<h3>Case ", position, ": ", escape_xml(settings), "</h3>\n<div data-case=\"",
                       position, "\">\n");

@@ -82,6 +82,8 @@ void draw_path(Svg& svg, Panel& panel, const StressPath& path) {
     const double x = is_right ? right + 20 : place.x - 20;
     svg.line({place.x + (is_right ? 5 : -5), place.y}, {x - (is_right ? 3 : -3), placed[k]},
              {kFaint, 0.75});
+    const double wide = text_width(mark.word, kTickSize);
+    svg.rect({is_right ? x - 1 : x - wide, placed[k] - 6, wide + 1, 13}, "#ffffff");
     svg.text({x, placed[k] + 4}, mark.word,
              {kTickSize, kInk, is_right ? Anchor::start : Anchor::end});
   }
