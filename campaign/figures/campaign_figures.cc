@@ -181,13 +181,18 @@ std::string draw_probability(const Probability& probability) {
 
 StoredPicture::StoredPicture(const Store& store, const CampaignInfo& campaign,
                              const StoredCase& one)
-    : name_(concat(campaign.name, "/", one.position)), stored_(one) {
+    : name_(concat(campaign.name, "/", one.position)), result_(one.result) {
   if (!one.has_result) {
     throw InputError("case", {{"", 0, concat("case ", one.position, " has no result yet"),
                                concat("faultsweep explain ", name_, " says why")}});
   }
   const BaseScene base = store.base_scene(one.scene);
   scene_ = faultsim::read_scene({base.source, scene_from_changes(base.document, one.changes), {}});
+  if (result_.region_names.empty()) {  // the store keeps pressures in the order of the scene's
+    for (const faultsim::PressureHistory& region : scene_.pressure) {
+      result_.region_names.push_back(region.region);
+    }
+  }
   std::error_code error;  // what cannot be looked at is not there
   if (std::filesystem::exists(one.fields_folder / "faults.h5", error)) {
     fields_ = std::make_unique<faultsim::FieldReader>(one.fields_folder / "faults.h5");
@@ -195,7 +200,7 @@ StoredPicture::StoredPicture(const Store& store, const CampaignInfo& campaign,
 }
 
 faultsim::CasePicture StoredPicture::picture() const {
-  return {stored_.result, scene_, fields_.get(), name_};
+  return {result_, scene_, fields_.get(), name_};
 }
 
 }  // namespace faultsweep

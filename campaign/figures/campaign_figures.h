@@ -40,7 +40,7 @@ class StoredPicture {
 
  private:
   std::string name_;
-  const StoredCase& stored_;
+  faultsim::CaseResult result_;
   faultsim::Scene scene_;
   std::unique_ptr<faultsim::FieldReader> fields_;
 };

@@ -59,9 +59,11 @@ bool wants_exponent(double size) { return size >= 1e7 || (size > 0 && size < 1e-
 
 std::vector<Tick> ticks_within(double low, double high, int n) {
   if (!(std::isfinite(low) && std::isfinite(high) && low < high)) return {};
+  const double size = std::max(std::abs(low), std::abs(high));
+  if (high - low < 1e-12 * size) return {};  // steps of a range of last digits do not add up
   const double step = nice_step(high - low, n);
   const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
-  const bool exponents = wants_exponent(std::max(std::abs(low), std::abs(high)));
+  const bool exponents = wants_exponent(size);
   std::vector<Tick> ticks;
   const double slack = 1e-9 * (high - low);
   for (double k = std::ceil((low - slack) / step); k * step <= high + slack; ++k) {
@@ -69,7 +71,6 @@ std::vector<Tick> ticks_within(double low, double high, int n) {
     ticks.push_back({value, value == 0  ? "0"
                             : exponents ? exponent_text(value, 3)
                                         : fixed_text(value, decimals)});
-    if (ticks.size() > 200) break;  // a range of a few last digits: its steps do not add up
   }
   return ticks;
 }

@@ -21,7 +21,8 @@ struct Axis {
 };
 
 /// Multiples of 1, 2 or 5 times a power of ten within [low, high], about n of them, with the digits
-/// that tell them apart and a true minus. Nothing where the ends are no finite range.
+/// that tell them apart and a true minus. Nothing where the ends are no finite range, or one
+/// of last digits only.
 std::vector<Tick> ticks_within(double low, double high, int n);
 
 /// An axis that holds all finite values, widened to whole ticks; of values that are all alike a

@@ -43,6 +43,7 @@ TEST(Ticks, AreNoneWhereThereIsNoRange) {
   EXPECT_TRUE(ticks_within(2, 1, 5).empty());
   EXPECT_TRUE(ticks_within(NAN, 1, 5).empty());
   EXPECT_TRUE(ticks_within(0, INFINITY, 5).empty());
+  EXPECT_TRUE(ticks_within(1e9, std::nextafter(1e9, 2e9), 5).empty());
 }
 
 TEST(Ticks, LieWithinAndAreFewWhateverTheRange) {
@@ -53,7 +54,7 @@ TEST(Ticks, LieWithinAndAreFewWhateverTheRange) {
     const double high = low + std::pow(10, exponent(random));
     if (!(high > low)) continue;
     const std::vector<Tick> ticks = ticks_within(low, high, 6);
-    EXPECT_LE(ticks.size(), 201U);
+    EXPECT_LE(ticks.size(), 13U);
     for (const Tick& tick : ticks) {
       EXPECT_GE(tick.value, low - 1e-6 * (high - low));
       EXPECT_LE(tick.value, high + 1e-6 * (high - low));
