@@ -67,7 +67,7 @@ Axis depth_axis(const std::vector<double>& depths, double height) {
 }  // namespace
 
 std::string draw(const DepthChart& chart) {
-  constexpr double kLeft = 70, kGap = 16, kColumn = 168, kHeight = 430;
+  constexpr double kLeft = 70, kGap = 26, kColumn = 168, kHeight = 430;
   std::size_t most = 0;
   for (const DepthColumn& column : chart.columns) most = std::max(most, column.curves.size());
   const double n = static_cast<double>(chart.columns.size());
