@@ -27,6 +27,13 @@ bool clip(const Box& box, Point& a, Point& b) {
   return true;
 }
 
+/// A share a rounding beyond an end is that end: a χ of 1 + 1e-9 is on the frame of an axis to 1.
+double snapped(double share) {
+  constexpr double kRounding = 1e-6;
+  if (share < 0 && share > -kRounding) return 0;
+  return share > 1 && share < 1 + kRounding ? 1 : share;
+}
+
 }  // namespace
 
 Panel::Panel(Svg& svg, const Box& box, Axis x, Axis y, Sides sides)
@@ -66,7 +73,8 @@ void Panel::draw_y(const Sides& sides) {
 void Panel::frame() { svg_.rect(box_, "none", {kFrame, 1}); }
 
 Point Panel::at(double x, double y) const {
-  return {box_.x + box_.width * x_.share(x), box_.bottom() - box_.height * y_.share(y)};
+  return {box_.x + box_.width * snapped(x_.share(x)),
+          box_.bottom() - box_.height * snapped(y_.share(y))};
 }
 
 bool Panel::holds(double x, double y) const {

@@ -163,6 +163,13 @@ TEST(Panel, DrawsOnlyThePartOfALineThatLiesWithin) {
   EXPECT_THAT(text, Not(HasSubstr("#abcdef")));
 }
 
+TEST(Panel, KeepsWhatIsARoundingBeyondItsEnd) {
+  Svg svg(200, 200, "");
+  Panel panel(svg, {50, 50, 100, 100}, axis_between("", 0, 1), axis_between("", 0, 1));
+  panel.curve({0, 0.5, 1}, {1, 1 + 1e-9, 1}, {"#123456", 1});
+  EXPECT_THAT(svg.finish(), HasSubstr("points=\"50,50 100,50 150,50\" stroke=\"#123456\""));
+}
+
 TEST(Panel, KeepsALineWithinInOnePiece) {
   Svg svg(200, 200, "");
   Panel panel(svg, {50, 50, 100, 100}, axis_between("", 0, 1), axis_between("", 0, 1));
