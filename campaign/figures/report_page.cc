@@ -34,10 +34,10 @@ std::string count_text(long n) { return plain_number(static_cast<double>(n), 12)
 /// "28.6 % (95 %: 26.3 to 31.0 %)".
 std::string share_text(long k, long n, double confidence) {
   const Interval bounds = proportion_bounds(k, n, confidence);
-  const auto percent = [](double share) { return plain_number(100 * share); };
-  return concat(percent(static_cast<double>(k) / static_cast<double>(n)), " % (",
-                plain_number(100 * confidence, 4), " %: ", percent(bounds.low), " to ",
-                percent(bounds.high), " %)");
+  const auto in_percent = [](double share) { return plain_number(100 * share); };
+  return concat(in_percent(static_cast<double>(k) / static_cast<double>(n)), " % (",
+                plain_number(100 * confidence, 4), " %: ", in_percent(bounds.low), " to ",
+                in_percent(bounds.high), " %)");
 }
 
 /// "15.0943434363654 deg" as "15.09 deg": samples have more digits than a reader needs.

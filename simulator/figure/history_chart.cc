@@ -8,7 +8,7 @@
 namespace faultsim::figure {
 namespace {
 
-constexpr double kWidth = 860, kLeft = 72, kRight = 96, kPanelGap = 18;
+constexpr double kHistoryWidth = 860, kHistoryLeft = 72, kHistoryRight = 96, kPanelGap = 18;
 
 /// A stage's name above its middle; in two lines where one is too short for it.
 void draw_stage_name(Svg& svg, const std::string& name, Point middle, double width) {
@@ -88,7 +88,7 @@ void draw_marks(Svg& svg, const Panel& panel, const HistoryChart& chart) {
 std::string draw(const HistoryChart& chart) {
   double height = (chart.remark.empty() ? 30 : 48) + 34 + 48;
   for (const HistoryPanel& panel : chart.panels) height += panel.height + kPanelGap;
-  Svg svg(kWidth, height - kPanelGap, chart.title);
+  Svg svg(kHistoryWidth, height - kPanelGap, chart.title);
   const double heading = draw_heading(svg, chart.title, chart.remark, 16);
   double first = chart.time.empty() ? 0 : chart.time.front(),
          last = chart.time.empty() ? 1 : chart.time.back();
@@ -98,14 +98,14 @@ std::string draw(const HistoryChart& chart) {
   if (!(last > first)) last = first + 1;
   const Axis time = axis_between(chart.time_label, first, last, 10);
   double y = heading + 34;
-  Box all{kLeft, y, kWidth - kLeft - kRight, 0};
+  Box all{kHistoryLeft, y, kHistoryWidth - kHistoryLeft - kHistoryRight, 0};
   for (std::size_t k = 0; k < chart.panels.size(); ++k) {
     const HistoryPanel& content = chart.panels[k];
     std::vector<double> values;
     for (const Curve& curve : content.curves) {
       values.insert(values.end(), curve.values.begin(), curve.values.end());
     }
-    Panel panel(svg, {kLeft, y, all.width, content.height}, time,
+    Panel panel(svg, {kHistoryLeft, y, all.width, content.height}, time,
                 axis_over(content.label, values, content.always, 5),
                 {.x_labels = k + 1 == chart.panels.size()});
     draw_stages(svg, panel, chart, k == 0);
