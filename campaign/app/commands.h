@@ -10,6 +10,8 @@
 #include "campaign/answers/quantiles.h"
 #include "campaign/answers/sensitivity.h"
 #include "campaign/answers/tiers.h"
+#include "campaign/figures/campaign_figures.h"
+#include "campaign/figures/report_page.h"
 #include "campaign/report/case_report.h"
 #include "campaign/report/compare.h"
 #include "campaign/report/export.h"
@@ -82,6 +84,24 @@ ExitCode limits_command(const StoreArguments& common, const LimitsArguments& arg
 ExitCode show_command(const StoreArguments& common, const std::string& name,
                       const ShowRequest& request);
 ExitCode explain_command(const StoreArguments& common, const std::string& name);
+struct PlotArguments {
+  std::string chart;             ///< of case_charts(), or map, sensitivity, probability.
+  std::string subject;           ///< campaign, or CAMPAIGN/CASE; "" = the newest campaign.
+  std::filesystem::path output;  ///< .svg or .png.
+  std::string fault;             ///< of charts of a case; "" = the most critical one.
+  std::optional<int> step;       ///< the same; none = the most critical one.
+  MapRequest map = {};
+  SensitivityRequest sensitivity = {};
+  ProbabilityRequest probability = {};
+};
+/// Draws a chart of a campaign or of one of its cases.
+ExitCode plot_command(const StoreArguments& common, const PlotArguments& arguments);
+struct ReportArguments {
+  std::filesystem::path output;  ///< .html.
+  ReportRequest request;
+};
+/// Writes a campaign as one page.
+ExitCode report_command(const StoreArguments& common, const ReportArguments& arguments);
 /// Prints the table unless it goes to a file; says on stderr what is in it and what is missing.
 ExitCode export_command(const StoreArguments& common, ExportRequest request);
 struct CompareArguments {

@@ -27,6 +27,7 @@ constexpr const char* kFooter =
     "  faultsweep rank --fault F2 --stage gas_storage --by slip\n"
     "  faultsweep rank --where \"F2.slides in gas_storage and not F1.slides\"\n"
     "  faultsweep show 17                            one case: stages, faults, chi history\n"
+    "  faultsweep report -o report.html              all of it on one page, with pictures\n"
     "  faultsweep export -o cases.csv                all cases, for pandas or a spreadsheet\n"
     "  faultsweep compare coarse fine                two campaigns, case by case\n"
     "  faultsweep limits campaign.json               up to which pressure a fault is safe\n"
@@ -102,6 +103,8 @@ struct Arguments {
   TiersArguments tiers;
   SensitivityRequest sensitivity;
   LimitsArguments limits;
+  PlotArguments plot;
+  ReportArguments report;
   ShowRequest show;
   bool list_metrics = false, verify = false;
   ExportRequest exporting;
@@ -403,6 +406,45 @@ void add_tiers(CLI::App& app, Arguments& a, ExitCode& code) {
   command->callback([&] { code = tiers_command(a.common, t); });
 }
 
+void add_seeing(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* plot = app.add_subcommand("plot", "draw a chart as SVG or PNG");
+  std::string charts =
+      "of a campaign: map, sensitivity, probability;\nof a case one of:";
+  for (const faultsim::CaseChartInfo& info : faultsim::case_charts()) {
+    charts += std::string("\n") + info.name + ": " + info.meaning;
+  }
+  plot->add_option("chart", a.plot.chart, charts)->required();
+  plot->add_option("subject", a.plot.subject,
+                   "campaign (default: the newest), or a case: number or CAMPAIGN/CASE");
+  plot->add_option("-o,--output", a.plot.output, "file to write: *.svg, or *.png by rsvg-convert")
+      ->required();
+  plot->add_option("--fault", a.plot.fault, "of a case; default: the one with the largest χ̄");
+  plot->add_option("--step", a.plot.step, "of a case: load step; default: that of its largest χ̄");
+  plot->add_option("--x", a.plot.map.x, "map: parameter along the bottom; default: the first");
+  plot->add_option("--y", a.plot.map.y, "map: parameter along the side; default: the next");
+  plot->add_option("--metrics", a.plot.sensitivity.metrics, "sensitivity: as of `sensitivity`");
+  plot->add_option("--of", a.plot.probability.condition, "probability: as of `probability`");
+  plot->add_option("--by", a.plot.probability.by, "probability: as of `probability`");
+  add_store(plot, a.common);
+  plot->footer(
+      "Examples:\n"
+      "  faultsweep plot map my-sweep --x offset --y friction_angle -o map.svg\n"
+      "  faultsweep plot sensitivity -o tornado.png\n"
+      "  faultsweep plot history my-sweep/17 -o history.svg");
+  plot->callback([&] { code = plot_command(a.common, a.plot); });
+
+  CLI::App* report =
+      app.add_subcommand("report", "a campaign as one HTML page that needs no network");
+  add_campaign(report, a.common);
+  report->add_option("-o,--output", a.report.output, "file to write: *.html")->required();
+  report->add_option("--top", a.report.request.top, "cases that are drawn (default 3)")
+      ->check(CLI::Range(0, 50));
+  add_confidence(report, a.report.request.confidence);
+  a.report.request.program = faultsim::version_text("faultsweep");
+  report->footer("Example: faultsweep report my-sweep -o report.html");
+  report->callback([&] { code = report_command(a.common, a.report); });
+}
+
 void add_limits(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* command = app.add_subcommand(
       "limits", "up to which pressure a fault is safe, in each configuration of a spec");
@@ -608,6 +650,7 @@ ExitCode faultsweep_main(int argc, char** argv) {
   add_reading(app, arguments, code);
   add_answers(app, arguments, code);
   add_tiers(app, arguments, code);
+  add_seeing(app, arguments, code);
   add_limits(app, arguments, code);
   add_export(app, arguments, code);
   add_compare(app, arguments, code);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,14 @@ struct InfluenceArguments {
   std::filesystem::path output;  ///< the HDF5 file.
 };
 
+struct PlotArguments {
+  std::string chart;             ///< a name of case_charts().
+  std::string result;            ///< folder that `run` wrote.
+  std::filesystem::path output;  ///< .svg or .png.
+  std::string fault;             ///< "" = the most critical one.
+  std::optional<int> step;       ///< load step; none = the most critical one.
+};
+
 struct WorkerArguments {
   int requests = 0;  ///< descriptor to read from.
   int replies = 1;   ///< descriptor to write to.
@@ -92,6 +101,8 @@ ExitCode diagnose_command(const DiagnoseArguments& arguments);
 ExitCode export_contact_command(const ExportArguments& arguments);
 /// Writes what a pressure change in each reservoir cell does to the faults (model/influence.h).
 ExitCode influence_command(const InfluenceArguments& arguments);
+/// Draws a chart of a result folder (case_figures/case_figures.h).
+ExitCode plot_command(const PlotArguments& arguments);
 /// Prints what the bits of results depend on besides the scene: processor, BLAS, compiler, flags,
 /// libraries; and their fingerprint. No names of machines, no paths.
 ExitCode environment_command(bool json);

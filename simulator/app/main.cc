@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "simulator/app/commands.h"
+#include "simulator/case_figures/case_figures.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/version.h"
 #include "simulator/linalg/blas_start.h"
@@ -20,6 +21,7 @@ constexpr const char* kFooter =
     "                                             a step's contact problem for other solvers\n"
     "  faultsim influence my-field.json -o influence.h5\n"
     "                                             what pressure in each reservoir cell does\n"
+    "  faultsim plot history out -o history.svg   a chart of a result\n"
     "  faultsim solver-study --h 1/8              preconditioners of the coupled path\n"
     "  faultsim environment                       processor, BLAS, compiler: for bug reports\n"
     "Exit codes: 0 done, 2 input, 3 no convergence, 4 disk or memory, 5 a comparison failed,\n"
@@ -55,6 +57,7 @@ struct Arguments {
   DiagnoseArguments diagnosed;
   ExportArguments exported;
   InfluenceArguments influence;
+  PlotArguments plot;
   WorkerArguments worker;
   SolverStudyArguments study;
   bool environment_json = false;
@@ -206,6 +209,26 @@ void add_influence(CLI::App& app, Arguments& a, ExitCode& code) {
   command->callback([&] { code = influence_command(a.influence); });
 }
 
+void add_plot(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* command = app.add_subcommand("plot", "draw a chart of a result as SVG or PNG");
+  std::string charts = "one of:";
+  for (const CaseChartInfo& info : case_charts()) {
+    charts += concat("\n", info.name, ": ", info.meaning);
+  }
+  command->add_option("chart", a.plot.chart, charts)->required();
+  command->add_option("result", a.plot.result, "folder that run wrote")->required();
+  command->add_option("-o,--output", a.plot.output, "file to write: *.svg, or *.png by rsvg-convert")
+      ->required();
+  command->add_option("--fault", a.plot.fault, "default: the one with the largest χ̄");
+  command->add_option("--step", a.plot.step, "load step; default: that of its largest χ̄");
+  command->footer(
+      "Examples:\n"
+      "  faultsim plot history out -o history.svg\n"
+      "  faultsim plot section out --step 10 -o section.svg\n"
+      "  faultsim plot profiles out --fault F2 -o profiles.png");
+  command->callback([&] { code = plot_command(a.plot); });
+}
+
 void add_worker(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* command =
       app.add_subcommand("worker", "serve cases to faultsweep (schemas/worker_protocol.md)");
@@ -275,7 +298,7 @@ ExitCode faultsim_main(int argc, char** argv) {
   app.set_version_flag("--version", version_text("faultsim"));
   Arguments arguments;
   ExitCode code = ExitCode::done;
-  for (auto* add : {add_init, add_looking, add_run, add_diagnose, add_export_contact, add_influence,
+  for (auto* add : {add_init, add_looking, add_run, add_diagnose, add_export_contact, add_influence, add_plot,
                     add_worker, add_solver_study, add_environment}) {
     add(app, arguments, code);
   }

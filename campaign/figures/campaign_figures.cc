@@ -1,0 +1,206 @@
+#include "campaign/figures/campaign_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "campaign/expansion/expansion.h"
+#include "campaign/report/parameters.h"
+#include "campaign/report/selection.h"
+#include "campaign/report/table_output.h"
+#include "simulator/common/errors.h"
+#include "simulator/figure/axis.h"
+#include "simulator/figure/bar_chart.h"
+#include "simulator/scene/read_scene.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+using faultsim::InputError;
+using faultsim::figure::CaseClass;
+namespace figure = faultsim::figure;
+
+namespace {
+
+/// A parameter as an axis: numbers in its usual unit, or words by their first place.
+struct ParameterAxis {
+  std::size_t index = 0;
+  StoredParameter parameter;
+  std::vector<std::string> words;
+
+  double value(const CaseParameter& one) {
+    if (one.si) {
+      return faultsim::from_si(*one.si, parameter.dimension,
+                               faultsim::usual_unit(parameter.dimension));
+    }
+    const auto found = std::find(words.begin(), words.end(), one.text);
+    if (found != words.end()) return static_cast<double>(found - words.begin());
+    words.push_back(one.text);
+    return static_cast<double>(words.size() - 1);
+  }
+  std::string label() const {
+    const std::string unit = faultsim::usual_unit(parameter.dimension);
+    std::string name = parameter.name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return unit.empty() || parameter.is_text ? name : name + ", " + unit;
+  }
+};
+
+ParameterAxis axis_of(const std::vector<StoredParameter>& parameters, const std::string& option,
+                      const std::string& name, const std::string& other) {
+  std::vector<std::string> names;
+  for (const StoredParameter& one : parameters) names.push_back(one.name);
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    if (name.empty() ? names[k] != other : names[k] == name) return {k, parameters[k], {}};
+  }
+  if (!name.empty()) require_name(option, "parameter", name, names);
+  throw InputError(option, {{"", 0, "the campaign has fewer than two parameters",
+                             "a map needs one for each side"}});
+}
+
+/// What became of each case that has a result, row by row.
+template <typename Visit>
+void for_each_outcome(const Store& store, const CampaignInfo& campaign, const Visit& visit) {
+  Store::TableQuery query;
+  for (const char* metric : {"slides", "jumps"}) {
+    query.columns.push_back({metric_sql(metric), {}});
+  }
+  store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
+    if (!row.rank_class) return;
+    const bool slides = number_of(row.metrics[0]) > 0, jumps = number_of(row.metrics[1]) > 0;
+    visit(row, !row.complete() ? CaseClass::ended_early
+               : jumps         ? CaseClass::event
+               : slides        ? CaseClass::slides
+                               : CaseClass::holds);
+  });
+}
+
+figure::Bounded bounded(const Estimate& estimate) {
+  return {estimate.value, estimate.bounds.low, estimate.bounds.high};
+}
+
+/// Parameters of a metric, by index, largest first.
+std::vector<std::size_t> largest_first(const std::vector<double>& values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return values[a] > values[b]; });
+  return order;
+}
+
+figure::BarChart::Block block_of(const Sensitivity& sensitivity, const MetricSensitivity& one) {
+  figure::BarChart::Block block{one.metric.name, {}};
+  const bool has_totals = !one.sobol.empty();
+  const std::vector<std::string>& names = has_totals ? sensitivity.frozen : sensitivity.parameters;
+  std::vector<double> values;
+  for (std::size_t p = 0; p < names.size(); ++p) {
+    values.push_back(has_totals ? one.sobol[p].total.value : one.first_order[p].value);
+  }
+  for (const std::size_t p : largest_first(values)) {
+    figure::BarRow row{names[p], bounded(has_totals ? one.sobol[p].first : one.first_order[p])};
+    if (has_totals) row.second.push_back(bounded(one.sobol[p].total));
+    block.rows.push_back(std::move(row));
+  }
+  return block;
+}
+
+std::string percent(double confidence) { return figure::plain_number(100 * confidence, 4) + " %"; }
+
+}  // namespace
+
+std::string draw_outcome_map(const Store& store, const CampaignInfo& campaign,
+                             const MapRequest& request) {
+  const std::vector<StoredParameter> parameters = parameters_from_json(campaign.parameters);
+  ParameterAxis x = axis_of(parameters, "--x", request.x, request.y);
+  ParameterAxis y = axis_of(parameters, "--y", request.y, x.parameter.name);
+  figure::OutcomeMap map;
+  for_each_outcome(store, campaign, [&](const CaseRow& row, CaseClass kind) {
+    std::optional<double> at_x, at_y;
+    for (const CaseParameter& one : row.parameters) {
+      if (one.index == static_cast<int>(x.index)) at_x = x.value(one);
+      if (one.index == static_cast<int>(y.index)) at_y = y.value(one);
+    }
+    if (!at_x || !at_y) return;  // of a group that has other parameters
+    map.x.push_back(*at_x);
+    map.y.push_back(*at_y);
+    map.kind.push_back(kind);
+  });
+  map.title = concat("What became of ", figure::plain_number(static_cast<double>(map.x.size()), 9),
+                     " cases of ", campaign.name);
+  map.x_label = x.label();
+  map.y_label = y.label();
+  map.x_words = x.words;
+  map.y_words = y.words;
+  return figure::draw(map);
+}
+
+std::array<long, figure::kCaseClasses> count_outcomes(const Store& store,
+                                                      const CampaignInfo& campaign) {
+  std::array<long, figure::kCaseClasses> counts = {};
+  for_each_outcome(store, campaign, [&](const CaseRow&, CaseClass kind) {
+    ++counts[static_cast<std::size_t>(kind)];
+  });
+  return counts;
+}
+
+std::string draw_sensitivity(const Sensitivity& sensitivity) {
+  figure::BarChart chart;
+  chart.title = "What matters in " + sensitivity.campaign.name;
+  chart.remark = concat("share of the variance that each parameter explains alone; lines: ",
+                        percent(sensitivity.request.confidence), " intervals");
+  chart.label = "share of variance";
+  for (const MetricSensitivity& one : sensitivity.metrics) {
+    chart.blocks.push_back(block_of(sensitivity, one));
+    if (one.sobol.empty()) continue;
+    chart.first_name = "alone";
+    chart.second_name = "with all interactions";
+  }
+  return figure::draw(chart);
+}
+
+std::string draw_probability(const Probability& probability) {
+  figure::IntervalChart chart;
+  const std::string& of = probability.request.condition;
+  const std::string& by = probability.request.by;
+  chart.title = concat("How often", of.empty() ? " a fault slides" : ": " + of,
+                       by.empty() ? "" : ", by " + by);
+  chart.remark =
+      concat(probability.campaign.name, "; lines: exact ", percent(probability.request.confidence),
+             " bounds", probability.sampling.is_random ? "" : "; shares of the cases given");
+  chart.label = "share of cases";
+  for (const Share& share : probability.shares) {
+    const auto count = [](long n) { return figure::plain_number(static_cast<double>(n), 9); };
+    chart.rows.push_back(
+        {share.label,
+         {share.estimate, share.bounds.low, share.bounds.high},
+         concat(count(share.n_holds), " of ", count(share.n - share.n_unknown),
+                share.n_unknown > 0 ? concat(" (", share.n_unknown, " unknown)") : "")});
+  }
+  return figure::draw(chart);
+}
+
+StoredPicture::StoredPicture(const Store& store, const CampaignInfo& campaign,
+                             const StoredCase& one)
+    : name_(concat(campaign.name, "/", one.position)), result_(one.result) {
+  if (!one.has_result) {
+    throw InputError("case", {{"", 0, concat("case ", one.position, " has no result yet"),
+                               concat("faultsweep explain ", name_, " says why")}});
+  }
+  const BaseScene base = store.base_scene(one.scene);
+  scene_ = faultsim::read_scene({base.source, scene_from_changes(base.document, one.changes), {}});
+  if (result_.region_names.empty()) {  // the store keeps pressures in the order of the scene's
+    for (const faultsim::PressureHistory& region : scene_.pressure) {
+      result_.region_names.push_back(region.region);
+    }
+  }
+  std::error_code error;  // what cannot be looked at is not there
+  if (std::filesystem::exists(one.fields_folder / "faults.h5", error)) {
+    fields_ = std::make_unique<faultsim::FieldReader>(one.fields_folder / "faults.h5");
+  }
+}
+
+faultsim::CasePicture StoredPicture::picture() const {
+  return {result_, scene_, fields_.get(), name_};
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,325 @@
+#include "campaign/figures/report_page.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "campaign/answers/probability.h"
+#include "campaign/answers/sensitivity.h"
+#include "campaign/figures/campaign_figures.h"
+#include "campaign/report/parameters.h"
+#include "campaign/report/ranking_report.h"
+#include "campaign/statistics/intervals.h"
+#include "report_css.h"
+#include "report_js.h"
+#include "simulator/common/errors.h"
+#include "simulator/common/fingerprint.h"
+#include "simulator/figure/axis.h"
+#include "simulator/figure/svg.h"
+
+namespace faultsweep {
+namespace {
+
+using faultsim::concat;
+using faultsim::InputError;
+using faultsim::figure::CaseClass;
+using faultsim::figure::escape_xml;
+using faultsim::figure::plain_number;
+
+std::string count_text(long n) { return plain_number(static_cast<double>(n), 12); }
+
+/// "28.6 % (95 %: 26.3 to 31.0 %)".
+std::string share_text(long k, long n, double confidence) {
+  const Interval bounds = proportion_bounds(k, n, confidence);
+  const auto in_percent = [](double share) { return plain_number(100 * share); };
+  return concat(in_percent(static_cast<double>(k) / static_cast<double>(n)), " % (",
+                plain_number(100 * confidence, 4), " %: ", in_percent(bounds.low), " to ",
+                in_percent(bounds.high), " %)");
+}
+
+/// "15.0943434363654 deg" as "15.09 deg": samples have more digits than a reader needs.
+std::string short_label(const std::string& label) {
+  char* end = nullptr;
+  const double value = std::strtod(label.c_str(), &end);
+  constexpr int kDigits = 4;
+  return end == label.c_str() ? label : plain_number(value, kDigits) + end;
+}
+
+/// The page as it is written.
+struct Page {
+  const Store& store;
+  const CampaignInfo& campaign;
+  const ReportRequest& request;
+  std::string html = {};
+
+  void section(const std::string& id, const std::string& title) {
+    html += concat("<h2 id=\"", id, "\">", escape_xml(title), "</h2>\n");
+  }
+  void paragraph(const std::string& text, const char* kind = "") {
+    html += concat("<p", *kind != '\0' ? concat(" class=\"", kind, "\"") : "", ">",
+                   escape_xml(text), "</p>\n");
+  }
+  /// What body adds, or, where the campaign does not have it, the reason: an empty state says why.
+  void unless_refused(const std::function<void()>& body) {
+    try {
+      body();
+    } catch (const InputError& error) {
+      paragraph(error.problems().front().what + "; " + error.problems().front().cure, "faint");
+    }
+  }
+};
+
+/// The answer in sentences.
+void add_summary(Page& page) {
+  const CampaignInfo& c = page.campaign;
+  const auto counts = count_outcomes(page.store, c);
+  const auto of = [&](CaseClass kind) { return counts[static_cast<std::size_t>(kind)]; };
+  const long n_full = of(CaseClass::holds) + of(CaseClass::slides) + of(CaseClass::event);
+  if (n_full == 0) {
+    page.paragraph(concat("None of the ", count_text(c.n_cases),
+                          " cases has a full history yet: faultsweep run ", c.name),
+                   "answer");
+    return;
+  }
+  const long n_slide = of(CaseClass::slides) + of(CaseClass::event);
+  page.paragraph(
+      concat("A fault slides in ", count_text(n_slide), " of ", count_text(n_full),
+             " cases: ", share_text(n_slide, n_full, page.request.confidence), ". ",
+             of(CaseClass::event) == 0
+                 ? std::string("No case has a slip event.")
+                 : concat("A slip event happens in ", count_text(of(CaseClass::event)), ": ",
+                          share_text(of(CaseClass::event), n_full, page.request.confidence), ".")),
+      "answer");
+  const long n_left = c.n_cases - n_full;
+  if (n_left > 0) {
+    page.paragraph(concat("Left out: ", count_text(of(CaseClass::ended_early)),
+                          " cases whose history ends early and ",
+                          count_text(n_left - of(CaseClass::ended_early)), " without a result."),
+                   "faint");
+  }
+}
+
+void add_map(Page& page) {
+  page.section("map", "Where it happens");
+  page.unless_refused([&] { page.html += draw_outcome_map(page.store, page.campaign, {}); });
+}
+
+void add_head(Page& page, const std::vector<std::string>& names) {
+  page.html += "<thead><tr>";
+  for (const std::string& name : names) page.html += "<th>" + escape_xml(name) + "</th>";
+  page.html += "</tr></thead>\n<tbody>\n";
+}
+
+std::string cell(const std::string& text) { return "<td>" + escape_xml(text) + "</td>"; }
+
+std::string measured(double value, int digits = 3) { return cell(plain_number(value, digits)); }
+
+void add_ranking_row(Page& page, const RankedCase& row,
+                     const std::vector<StoredParameter>& parameters) {
+  const faultsim::StageMetrics& m = row.metrics;
+  page.html += "<tr>" + cell(std::to_string(row.position));
+  for (const std::string& label : labels_of(row.parameters, parameters)) {
+    const std::string shown = short_label(label);
+    page.html += cell(shown.substr(0, shown.find(' ')));  // the unit stands in the head
+  }
+  page.html += cell(m.activated_fault) + measured(m.chi_bar) + measured(m.activated_area) +
+               measured(m.max_slip * 1e3) + measured(m.moment) + cell(std::to_string(m.n_events)) +
+               cell(row.outcome) + "</tr>\n";
+}
+
+/// "offset, m" where all cases give the parameter in one unit; else its name alone.
+std::string parameter_head(const std::vector<RankedCase>& rows, std::size_t index,
+                           const StoredParameter& parameter) {
+  std::string unit;
+  for (const RankedCase& row : rows) {
+    for (const CaseParameter& one : row.parameters) {
+      if (static_cast<std::size_t>(one.index) != index || !one.si) continue;
+      const std::size_t blank = one.text.find(' ');
+      const std::string own = blank == std::string::npos ? "" : one.text.substr(blank + 1);
+      if (unit.empty()) unit = own;
+    }
+  }
+  return unit.empty() ? parameter.name : parameter.name + ", " + unit;
+}
+
+/// @return the rows that are listed.
+std::vector<RankedCase> add_ranking(Page& page) {
+  page.section("ranking", "Ranking");
+  RankRequest request;
+  request.top = kMostRanked;
+  const Ranking ranking = make_ranking(page.store, page.campaign, request);
+  if (ranking.rows.empty()) {
+    page.paragraph("No case has a result yet.", "faint");
+    return {};
+  }
+  const auto n = static_cast<long>(ranking.rows.size());
+  page.paragraph(concat("Riskiest first, in the order of faultsweep rank",
+                        n < page.campaign.n_cases ? concat("; the first ", count_text(n), " of ",
+                                                           count_text(page.campaign.n_cases))
+                                                  : std::string(),
+                        ". A click on a head sorts; below it conditions such as > 50, F2 or !F1."),
+                 "faint");
+  page.html +=
+      "<p id=\"rows\" class=\"faint\"></p>\n<div class=\"wide\"><table "
+      "data-filter=\"rows\">\n";
+  const auto parameters = parameters_from_json(page.campaign.parameters);
+  std::vector<std::string> heads = {"case"};
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    heads.push_back(parameter_head(ranking.rows, p, parameters[p]));
+  }
+  const char* per_metre = ranking.kinds.plane_strain ? "/m" : "";
+  heads.insert(heads.end(), {"slides first", "χ̄", concat("sliding area, m²", per_metre), "slip, mm",
+                             concat("M0, N m", per_metre), "events", "outcome"});
+  add_head(page, heads);
+  for (const RankedCase& row : ranking.rows) add_ranking_row(page, row, parameters);
+  page.html += "</tbody></table></div>\n";
+  return ranking.rows;
+}
+
+/// The steps of a case for the slider, without a "<" that could end the script.
+std::string steps_json(const std::vector<faultsim::StepLook>& looks) {
+  nlohmann::json steps = nlohmann::json::array();
+  for (const faultsim::StepLook& look : looks) {
+    nlohmann::json notes = nlohmann::json::object();
+    for (const auto& [name, note] : look.notes) notes[name] = note;
+    steps.push_back(
+        {{"time", look.time}, {"says", look.says}, {"colours", look.colours}, {"notes", notes}});
+  }
+  std::string text = steps.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
+    text.replace(at, 1, "\\u003c");
+  }
+  return text;
+}
+
+void add_case(Page& page, long position) {
+  const StoredCase one = page.store.stored_case(page.campaign.id, std::to_string(position));
+  const StoredPicture stored(page.store, page.campaign, one);
+  const faultsim::CasePicture picture = stored.picture();
+  const auto parameters = parameters_from_json(page.campaign.parameters);
+  const std::vector<std::string> labels = labels_of(one.parameters, parameters);
+  std::string settings;
+  for (std::size_t p = 0; p < labels.size(); ++p) {
+    if (labels[p].empty()) continue;  // of another group
+    settings +=
+        concat(settings.empty() ? "" : ", ", parameters[p].name, " = ", short_label(labels[p]));
+  }
+  page.html += concat("<h3>Case ", position, ": ", escape_xml(settings), "</h3>\n<div data-case=\"",
+                      position, "\">\n");
+  const bool is_field = picture.scene.geometry_kind == faultsim::GeometryKind::field;
+  if (is_field) {
+    const std::vector<faultsim::StepLook> looks = step_looks(picture);
+    const std::size_t critical = faultsim::critical_moment(one.result).step;
+    page.html += concat("<script type=\"application/json\">", steps_json(looks), "</script>\n",
+                        "<div class=\"slider\" hidden><label>load step <input type=\"range\" "
+                        "min=\"0\" max=\"",
+                        looks.size() - 1, "\" value=\"", critical,
+                        "\" aria-label=\"load step\"></label><output></output></div>\n");
+    page.html += draw_case(picture, {faultsim::CaseChart::section, {}, {}, true});
+  }
+  page.html += draw_case(picture, {faultsim::CaseChart::history, {}, {}, is_field});
+  page.html += "</div>\n";
+  if (picture.fields == nullptr) return;
+  for (const auto chart : {faultsim::CaseChart::profiles, faultsim::CaseChart::fault_map,
+                           faultsim::CaseChart::stress_path}) {
+    page.html += draw_case(picture, {chart, {}, {}, false});
+  }
+}
+
+void add_cases(Page& page, const std::vector<RankedCase>& rows) {
+  page.section("cases", "The riskiest cases");
+  const std::size_t n = std::min(rows.size(), static_cast<std::size_t>(page.request.top));
+  if (n == 0) page.paragraph("No case has a result yet.", "faint");
+  for (std::size_t k = 0; k < n; ++k) {
+    page.unless_refused([&] { add_case(page, rows[k].position); });
+  }
+}
+
+void add_answers(Page& page) {
+  page.section("how-often", "How often each fault slides");
+  page.unless_refused([&] {
+    page.html += draw_probability(
+        find_probability(page.store, page.campaign, {.confidence = page.request.confidence}));
+  });
+  page.section("what-matters", "What matters");
+  page.unless_refused([&] {
+    page.html += draw_sensitivity(
+        analyse_sensitivity(page.store, page.campaign, {.confidence = page.request.confidence}));
+  });
+}
+
+void add_outcomes(Page& page) {
+  page.section("outcomes", "Outcomes and failures");
+  const CampaignInfo& c = page.campaign;
+  page.html += "<table>\n";
+  add_head(page, {"cases", "converged", "with events", "events unresolved", "ended early", "failed",
+                  "waiting"});
+  page.html += "<tr>";
+  for (const long n : {c.n_cases, c.n_converged, c.n_event, c.n_unresolved,
+                       c.n_done - c.n_complete(), c.n_failed, c.n_waiting}) {
+    page.html += cell(count_text(n));
+  }
+  page.html += "</tr>\n</tbody></table>\n";
+  constexpr std::size_t kMostReasons = 20;
+  const std::vector<FailureCount> failures = page.store.failure_counts(c.id);
+  if (failures.empty()) {
+    page.paragraph("Nothing failed.", "faint");
+    return;
+  }
+  page.html += "<div class=\"wide\"><table>\n";
+  add_head(page, {"cases", "status", "reason"});
+  for (std::size_t k = 0; k < std::min(failures.size(), kMostReasons); ++k) {
+    page.html += "<tr>" + cell(count_text(failures[k].count)) + cell(failures[k].status) +
+                 cell(failures[k].reason) + "</tr>\n";
+  }
+  page.html += "</tbody></table></div>\n";
+  if (failures.size() > kMostReasons) {
+    page.paragraph(concat("and ", failures.size() - kMostReasons, " further reasons"), "faint");
+  }
+}
+
+void add_provenance(Page& page) {
+  page.section("provenance", "Where this comes from");
+  const Store::SpecCopies spec = page.store.spec_copies(page.campaign.id);
+  page.paragraph(concat("Campaign ", page.campaign.name, ", spec ",
+                        std::filesystem::path(page.campaign.source).filename().string(),
+                        "; expanded cases ", spec.expanded_hash, "; numerics version ",
+                        faultsim::kNumericsVersion, "; page by ", page.request.program,
+                        ". Equal cases give equal bits; each result is stored under the identity "
+                        "of its scene."));
+  page.html += "<details><summary>spec as given</summary><pre>" + escape_xml(spec.given) +
+               "</pre></details>\n<details><summary>spec with all defaults</summary><pre>" +
+               escape_xml(spec.resolved) + "</pre></details>\n";
+}
+
+}  // namespace
+
+std::string report_page(const Store& store, const CampaignInfo& campaign,
+                        const ReportRequest& request) {
+  Page page{store, campaign, request};
+  page.html = concat(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width\">\n"
+      "<link rel=\"icon\" href=\"data:,\">\n<title>",
+      escape_xml(campaign.name), "</title>\n<style>\n", faultsim::embedded::report_css,
+      "</style>\n</head>\n<body>\n<h1>", escape_xml(campaign.name), "</h1>\n");
+  page.html +=
+      "<nav><a href=\"#map\">map</a><a href=\"#ranking\">ranking</a><a "
+      "href=\"#cases\">cases</a><a href=\"#how-often\">how often</a><a "
+      "href=\"#what-matters\">what matters</a><a href=\"#outcomes\">outcomes</a><a "
+      "href=\"#provenance\">provenance</a></nav>\n";
+  add_summary(page);
+  add_map(page);
+  const std::vector<RankedCase> rows = add_ranking(page);
+  add_cases(page, rows);
+  add_answers(page);
+  add_outcomes(page);
+  add_provenance(page);
+  page.html += concat("<script>\n", faultsim::embedded::report_js, "</script>\n</body>\n</html>\n");
+  return page.html;
+}
+
+}  // namespace faultsweep

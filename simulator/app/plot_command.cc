@@ -1,0 +1,46 @@
+#include <optional>
+
+#include "simulator/app/commands.h"
+#include "simulator/case_figures/case_figures.h"
+#include "simulator/case_figures/picture_file.h"
+#include "simulator/common/errors.h"
+#include "simulator/output/write_result.h"
+#include "simulator/scene/json_document.h"
+#include "simulator/scene/read_scene.h"
+
+namespace faultsim {
+namespace {
+
+CaseChart chart_named(const std::string& name) {
+  if (const CaseChartInfo* info = case_chart_named(name)) return info->chart;
+  std::string names;
+  for (const CaseChartInfo& info : case_charts()) {
+    names += (names.empty() ? "" : ", ") + std::string(info.name);
+  }
+  throw InputError("chart",
+                   {{"", 0, concat("\"", name, "\" is no chart"), "choose one of " + names}});
+}
+
+}  // namespace
+
+ExitCode plot_command(const PlotArguments& arguments) {
+  const std::filesystem::path folder = arguments.result;
+  const std::filesystem::path scene_file = folder / "scene.json",
+                              result_file = folder / "result.json",
+                              fields_file = folder / "faults.h5";
+  const CaseChart chart = chart_named(arguments.chart);
+  if (!std::filesystem::exists(result_file) || !std::filesystem::exists(scene_file)) {
+    throw InputError("result", {{"", 0, concat("\"", arguments.result, "\" is no result folder"),
+                                 "name a folder that faultsim run wrote"}});
+  }
+  demand_picture_file(arguments.output, {".svg", ".png"}, {scene_file, result_file, fields_file});
+  const CaseResult result = result_from_json(read_json_file(result_file.string()).value);
+  const Scene scene = read_scene(read_json_file(scene_file.string()));
+  std::optional<FieldReader> fields;
+  if (std::filesystem::exists(fields_file)) fields.emplace(fields_file);
+  write_picture(arguments.output, draw_case({result, scene, fields ? &*fields : nullptr, {}},
+                                            {chart, arguments.fault, arguments.step, false}));
+  return ExitCode::done;
+}
+
+}  // namespace faultsim

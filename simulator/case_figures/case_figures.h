@@ -1,0 +1,70 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "simulator/output/field_reader.h"
+#include "simulator/result/result.h"
+#include "simulator/scene/scene.h"
+
+namespace faultsim {
+
+/// The charts of one case.
+enum class CaseChart {
+  history,      ///< χ̄ of each fault and Δp of each compartment against time.
+  thickness,    ///< down-dip length with χ > 0.8 of each fault against time.
+  slip,         ///< largest slip of each fault against time.
+  section,      ///< cut across a field, faults coloured by χ at a step.
+  profiles,     ///< Δp_f, σ'_n, τ and strength, χ, slip against depth, at a step.
+  fault_map,    ///< χ on a fault's plane at a step; in plane strain against time.
+  stress_path,  ///< traction of a fault's most critical point from step to step.
+};
+struct CaseChartInfo {
+  CaseChart chart;
+  const char* name;     ///< "fault-map".
+  const char* meaning;  ///< for --help.
+  bool needs_fields;    ///< faults.h5.
+};
+const std::vector<CaseChartInfo>& case_charts();
+const CaseChartInfo* case_chart_named(std::string_view name);  ///< nullptr = there is none.
+
+/// What is drawn, and what it is drawn from.
+struct CasePicture {
+  const CaseResult& result;
+  const Scene& scene;
+  const FieldReader* fields = nullptr;  ///< none = only charts that do not need them.
+  std::string name = {};                ///< before the title: "sweep/17"; "" = the result's title.
+};
+struct CaseChartRequest {
+  CaseChart chart = CaseChart::history;
+  std::string fault = {};        ///< "" = that of the largest χ̄.
+  std::optional<int> step = {};  ///< none = of its largest χ̄, or the last one stored before.
+  bool with_cursor = false;      ///< histories: a line at the step, which a page can move.
+};
+
+/// The chart as SVG. Throws InputError: no such fault or step, no fields, a section of a box.
+std::string draw_case(const CasePicture& picture, const CaseChartRequest& request);
+
+/// What a page changes in the section and the histories (with_cursor) when it shows another step.
+struct StepLook {
+  int step = 0;
+  double time = 0;                                ///< in the unit of the histories' axis.
+  std::string says;                               ///< "load step 10, primary production, 10 years".
+  std::vector<std::vector<std::string>> colours;  ///< of a fault's pieces, as the section has them.
+  std::vector<std::pair<std::string, std::string>> notes;  ///< per compartment: its Δp.
+};
+/// Of every step that has metrics. @pre the scene is a field.
+std::vector<StepLook> step_looks(const CasePicture& picture);
+
+/// The fault (index) with the largest χ̄ of the case and the step (index in CaseResult::steps, of
+/// those that have metrics) that has it; among those at their strength the largest area with
+/// χ > 0.8; the first of equals. @pre the result has faults and steps.
+struct CriticalMoment {
+  std::size_t fault = 0, step = 0;
+};
+CriticalMoment critical_moment(const CaseResult& result);
+
+}  // namespace faultsim

@@ -1,0 +1,174 @@
+#include "simulator/figure/depth_chart.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulator/figure/panel.h"
+
+namespace faultsim::figure {
+namespace {
+
+constexpr double kBandWidth = 22;
+
+/// The compartments beside a fault, left and right of a line that is the fault, in a strip.
+void draw_band_strip(Svg& svg, const Box& box, const Axis& depth,
+                     const std::vector<DepthBand>& bands) {
+  const auto y_of = [&](double d) {
+    return box.bottom() - box.height * std::clamp(depth.share(d), 0.0, 1.0);
+  };
+  for (const DepthBand& band : bands) {
+    const double top = y_of(band.top), base = y_of(band.base);
+    const Box block{band.on_plus_side ? box.x + kBandWidth : box.x, top, kBandWidth,
+                    std::max(base - top, 0.0)};
+    svg.rect(block, kReservoir, {kFrame, 0.75});
+    svg.text({block.x + kBandWidth / 2 + 4, (top + base) / 2},
+             fitted(band.name, block.height - 4, kTickSize),
+             {.size = kTickSize, .colour = kInk, .anchor = Anchor::middle, .rotation = -90});
+  }
+  svg.line({box.x + kBandWidth, box.y}, {box.x + kBandWidth, box.bottom()}, {kInk, 1.5});
+}
+
+void draw_band_edges(Panel& panel, const std::vector<DepthBand>& bands) {
+  for (const DepthBand& band : bands) {
+    const Stroke stroke{"#b08900", 1, band.on_plus_side ? "2 3" : "6 3"};
+    panel.line_at_y(band.top, stroke);
+    panel.line_at_y(band.base, stroke);
+  }
+}
+
+std::vector<double> values_of(const DepthColumn& column) {
+  std::vector<double> values;
+  for (const Curve& curve : column.curves) {
+    values.insert(values.end(), curve.values.begin(), curve.values.end());
+  }
+  return values;
+}
+
+/// Names of a column's curves below its axis: a line of each, and what it is.
+void draw_column_key(Svg& svg, const Box& box, const DepthColumn& column) {
+  if (column.curves.size() < 2) return;
+  double y = box.bottom() + 16;
+  for (const Curve& curve : column.curves) {
+    svg.line({box.x, y - 4}, {box.x + 22, y - 4}, fault_stroke(curve.colour));
+    svg.text({box.x + 28, y}, fitted(curve.name, box.width - 28, kTickSize),
+             {kTickSize, fault_stroke(curve.colour).colour});
+    y += 15;
+  }
+}
+
+Axis depth_axis(const std::vector<double>& depths, double height) {
+  Axis axis = axis_over("depth, m", depths, {}, static_cast<int>(height / 45));
+  const auto [low, high] = std::minmax_element(depths.begin(), depths.end());
+  const double from = depths.empty() ? 1 : *high, to = depths.empty() ? 0 : *low;
+  return from > to ? axis_between(axis.label, from, to, static_cast<int>(height / 45))
+                   : axis_between(axis.label, from + 1, to - 1, 4);
+}
+
+}  // namespace
+
+std::string draw(const DepthChart& chart) {
+  constexpr double kLeft = 70, kGap = 26, kColumn = 168, kHeight = 430;
+  std::size_t most = 0;
+  for (const DepthColumn& column : chart.columns) most = std::max(most, column.curves.size());
+  const double n = static_cast<double>(chart.columns.size());
+  const double width = kLeft + 2 * kBandWidth + n * (kColumn + kGap) + 16;
+  const double heading = (chart.remark.empty() ? 30 : 48) + 44;
+  Svg svg(width, heading + kHeight + 14 + (most > 1 ? 15 * static_cast<double>(most) : 0),
+          chart.title);
+  draw_heading(svg, chart.title, chart.remark, 16);
+  const Axis depth = depth_axis(chart.depth, kHeight);
+  // An empty panel is where the scale of depth stands; the strip goes over it.
+  const Box strip{kLeft, heading, 2 * kBandWidth, kHeight};
+  { Panel scale(svg, strip, {"", 0, 1, {}}, depth); }
+  draw_band_strip(svg, strip, depth, chart.bands);
+  double x = strip.right() + kGap;
+  for (const DepthColumn& column : chart.columns) {
+    const Box box{x, heading, kColumn, kHeight};
+    Panel panel(svg, box, axis_over(column.label, values_of(column), column.always, 4), depth,
+                {.y_labels = false, .x_on_top = true});
+    draw_band_edges(panel, chart.bands);
+    for (const Level& level : column.levels) panel.line_at_x(level.value, {kFaint, 1, "5 4"});
+    for (const Curve& curve : column.curves) {
+      panel.curve(curve.values, chart.depth, fault_stroke(curve.colour));
+    }
+    panel.frame();
+    draw_column_key(svg, box, column);
+    x += kColumn + kGap;
+  }
+  return svg.finish();
+}
+
+namespace {
+
+std::string colour_of(const FaultMap& map, double value) {
+  if (!map.range) return chi_colour(value);
+  const auto [low, high] = *map.range;
+  return sequential_colour(high > low ? (value - low) / (high - low) : 0);
+}
+
+void draw_map_scale(Svg& svg, const FaultMap& map, Point place, double width) {
+  if (!map.range) return draw_chi_scale(svg, place, width);
+  constexpr int kParts = 40;
+  constexpr double kHeight = 10;
+  for (int k = 0; k < kParts; ++k) {
+    svg.rect({place.x + width * k / kParts, place.y, width / kParts + 0.3, kHeight},
+             sequential_colour((k + 0.5) / kParts));
+  }
+  svg.rect({place.x, place.y, width, kHeight}, "none", {kFrame, 0.75});
+  svg.text({place.x - 8, place.y + kHeight}, map.quantity, {kLabelSize, kInk, Anchor::end});
+  const auto [low, high] = *map.range;
+  svg.text({place.x, place.y + 23}, plain_number(low), {kTickSize, kFaint, Anchor::middle});
+  svg.text({place.x + width, place.y + 23}, plain_number(high),
+           {kTickSize, kFaint, Anchor::middle});
+}
+
+}  // namespace
+
+std::string draw(const FaultMap& map) {
+  constexpr double kLeft = 70, kWidth = 860, kHeight = 300;
+  std::vector<double> across, depths;
+  for (const FaultCell& cell : map.cells) {
+    for (const Point& corner : cell.corners) {
+      across.push_back(corner.x);
+      depths.push_back(corner.y);
+    }
+  }
+  const double heading = map.remark.empty() ? 44 : 62;
+  Svg svg(kWidth, heading + kHeight + 92, map.title);
+  draw_heading(svg, map.title, map.remark, 16);
+  const Axis depth = depth_axis(depths, kHeight);
+  const Box strip{kLeft, heading, 2 * kBandWidth, kHeight};
+  { Panel scale(svg, strip, {"", 0, 1, {}}, depth); }
+  draw_band_strip(svg, strip, depth, map.bands);
+  double low = 0, high = 1;
+  if (!across.empty()) {
+    low = *std::min_element(across.begin(), across.end());
+    high = *std::max_element(across.begin(), across.end());
+  }
+  if (!(high > low)) high = low + 1;
+  const Box box{strip.right() + 14, heading, kWidth - strip.right() - 14 - 24, kHeight};
+  Panel panel(svg, box, axis_between(map.across, low, high, 8), depth, {.y_labels = false});
+  for (const bool outlines : {false, true}) {  // outlines last, over their neighbours' colours
+    for (const FaultCell& cell : map.cells) {
+      if (outlines && !cell.is_marked) continue;
+      std::vector<Point> corners;
+      for (const Point& corner : cell.corners) corners.push_back(panel.at(corner.x, corner.y));
+      const std::string fill = colour_of(map, cell.value);
+      if (outlines)
+        svg.polygon(corners, "none", {kInk, 0.9});
+      else
+        svg.polygon(corners, fill, {fill, 0.4});  // the seams between cells are closed
+    }
+  }
+  draw_band_edges(panel, map.bands);
+  panel.frame();
+  const double y = box.bottom() + 54;
+  draw_map_scale(svg, map, {box.right() - 250, y}, 240);
+  if (!map.marked.empty()) {
+    svg.rect({box.x, y, 14, 10}, "none", {kInk, 0.9});
+    svg.text({box.x + 20, y + 10}, map.marked, {kLabelSize, kInk});
+  }
+  return svg.finish();
+}
+
+}  // namespace faultsim::figure

@@ -1,0 +1,54 @@
+#include "simulator/figure/palette.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace faultsim::figure {
+namespace {
+
+using Rgb = std::array<double, 3>;
+
+std::string hex(const Rgb& colour) {
+  char text[8];
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", static_cast<unsigned>(std::lround(colour[0])),
+                static_cast<unsigned>(std::lround(colour[1])),
+                static_cast<unsigned>(std::lround(colour[2])));
+  return text;
+}
+
+Rgb between(const Rgb& a, const Rgb& b, double share) {
+  Rgb mixed;
+  for (std::size_t c = 0; c < 3; ++c) mixed[c] = a[c] + (b[c] - a[c]) * share;
+  return mixed;
+}
+
+}  // namespace
+
+Stroke fault_stroke(std::size_t k, double width) {
+  static constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#aa4499",
+                                             "#56b4e9", "#a6761d", "#222222"};
+  static constexpr const char* kDashes[] = {"", "8 3", "3 3", "9 3 2 3"};
+  // 7 colours and 4 dashes have no common factor: 28 lines before the first comes again.
+  return {kColours[k % std::size(kColours)], width, kDashes[k % std::size(kDashes)]};
+}
+
+std::string chi_colour(double chi) {
+  constexpr Rgb kNone = {240, 244, 248}, kBlue = {150, 190, 226}, kOrange = {240, 160, 56},
+                kBrown = {196, 84, 8}, kLimit = {110, 10, 40};
+  if (chi >= kChiAtLimit) return hex(kLimit);
+  if (chi >= 0.8) return hex(between(kOrange, kBrown, (chi - 0.8) / 0.2));
+  return hex(between(kNone, kBlue, std::clamp(chi / 0.8, 0.0, 1.0)));
+}
+
+std::string sequential_colour(double share) {
+  // Lightness falls evenly: pale yellow, green, dark blue (after ColorBrewer's YlGnBu).
+  static constexpr Rgb kStops[] = {
+      {255, 255, 217}, {199, 233, 180}, {65, 182, 196}, {34, 94, 168}, {8, 29, 88}};
+  const double place = std::clamp(share, 0.0, 1.0) * (std::size(kStops) - 1);
+  const auto k = std::min(static_cast<std::size_t>(place), std::size(kStops) - 2);
+  return hex(between(kStops[k], kStops[k + 1], place - static_cast<double>(k)));
+}
+
+}  // namespace faultsim::figure

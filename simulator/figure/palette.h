@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "simulator/figure/svg.h"
+
+/// The one place of colours, sizes of text and line styles.
+namespace faultsim::figure {
+
+inline constexpr double kTitleSize = 15, kLabelSize = 12, kTickSize = 11;
+inline constexpr const char* kInk = "#222222";    ///< text.
+inline constexpr const char* kFaint = "#6b6b6b";  ///< ticks, remarks; 5.3:1 on white.
+inline constexpr const char* kGrid = "#e3e3e3";
+inline constexpr const char* kFrame = "#8c8c8c";
+inline constexpr const char* kShade = "#f3f4f6";      ///< every other stage.
+inline constexpr const char* kReservoir = "#f3e3b3";  ///< rock that is depleted.
+
+/// Line of the k-th fault (from 0), or of the k-th of other things, in every chart: colours of
+/// Okabe and Ito (2008), told apart by all kinds of colour blindness and, as the dashes differ too,
+/// in grey.
+Stroke fault_stroke(std::size_t k, double width = 2);
+
+/// Colour of a critical index: lightness falls throughout, the hue changes at 0.8 (blue to orange)
+/// and at 1 (to dark red), so that both are seen in colour, and the order in grey.
+std::string chi_colour(double chi);
+/// From here on a χ counts as 1: the tolerance to which slipping nodes keep to their strength.
+inline constexpr double kChiAtLimit = 1 - 1e-6;
+/// Colour of a share of the range of anything else, from light (0) to dark (1); cut off at both.
+std::string sequential_colour(double share);
+
+}  // namespace faultsim::figure

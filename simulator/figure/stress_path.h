@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulator/figure/svg.h"
+
+namespace faultsim::figure {
+
+/// How the traction at one point of a fault moves in the plane of effective normal stress
+/// (compression positive) and shear stress, MPa, against the line of its strength.
+struct StressPath {
+  std::string title, remark;
+  std::vector<double> normal, shear;  ///< MPa, per load step.
+  struct Mark {
+    std::size_t step = 0;  ///< index in normal and shear.
+    std::string word;
+  };
+  std::vector<Mark> marks;         ///< places that are named: ends of stages.
+  double cohesion = 0;             ///< MPa.
+  double friction = 0;             ///< tan φ_s.
+  std::optional<double> weakened;  ///< tan φ_d, where friction weakens.
+  /// The circle of the rock around the point before production; principal effective stresses of
+  /// the plane across the fault, MPa, compression positive.
+  struct Circle {
+    double largest = 0, smallest = 0;
+  };
+  std::optional<Circle> circle;
+};
+std::string draw(const StressPath& path);
+
+}  // namespace faultsim::figure
