@@ -174,10 +174,13 @@ std::string local_text(const Why& why) {
   }
   TextTable table({"parameter", "here", "there", "case", why.compared, "change", "slides"});
   for (const Neighbour& one : why.neighbours) {
-    const bool slides =
-        one.row.fault_metrics ? one.row.fault_metrics->activated : one.row.metrics.activated;
-    table.add_row({one.parameter, one.from, one.to, std::to_string(one.row.position),
-                   format_number(one.value), format_number(one.change, 3), slides ? "yes" : "no"});
+    const faultsim::Measures& m =
+        one.row.fault_metrics ? static_cast<const faultsim::Measures&>(*one.row.fault_metrics)
+                              : one.row.metrics;
+    table.add_row(
+        {one.parameter, one.from, one.to, std::to_string(one.row.position),
+         format_number(one.value), format_number(one.change, 3),
+         concat(m.activated ? "yes" : "no", m.activation_resolved ? "" : ", unresolved")});
   }
   const Neighbour& most = why.neighbours.front();
   std::string text = table.text();
