@@ -51,6 +51,9 @@ ExitCode status_command(const StoreArguments& common);
 /// Whether the store is sound; exit code 4 with all problems and the cure if it is not.
 ExitCode verify_store_command(const StoreArguments& common);
 ExitCode rank_command(const StoreArguments& common, const RankRequest& request, bool list_metrics);
+/// Why a case stands where it does in that ranking. @param name  as of show_command.
+ExitCode rank_why_command(const StoreArguments& common, const RankRequest& request,
+                          const std::string& name);
 struct ProbabilityArguments {
   ProbabilityRequest request = {};
   std::optional<CurveAxis> against = std::nullopt;  ///< curves; none = a table.

@@ -106,6 +106,7 @@ struct Arguments {
   PlotArguments plot;
   ReportArguments report;
   ShowRequest show;
+  std::string why;
   bool list_metrics = false, verify = false;
   ExportRequest exporting;
   CompareArguments compare;
@@ -223,6 +224,9 @@ void add_reading(CLI::App& app, Arguments& a, ExitCode& code) {
   rank->add_option("--top", a.rank.top, "how many rows; 0 = all")->check(CLI::NonNegativeNumber);
   rank->add_flag("--ascending", a.rank.ascending, "smallest first");
   rank->add_flag("--list-metrics", a.list_metrics, "what can be ranked by");
+  rank->add_option("--why", a.why,
+                   "CASE: why it stands where it does: what slides first, which parameters matter\n"
+                   "near it and over the campaign, which places are not told apart");
   add_json(rank, a.common);
   add_wide(rank);
   rank->footer(
@@ -230,8 +234,12 @@ void add_reading(CLI::App& app, Arguments& a, ExitCode& code) {
       "  faultsweep rank --by moment --top 10\n"
       "  faultsweep rank my-sweep --where \"friction_angle < 25 deg and activated\" --stage "
       "gas_storage\n"
+      "  faultsweep rank my-sweep --why 17 --stage gas_storage\n"
       "  faultsweep rank --list-metrics");
-  rank->callback([&] { code = rank_command(a.common, a.rank, a.list_metrics); });
+  rank->callback([&] {
+    code = a.why.empty() ? rank_command(a.common, a.rank, a.list_metrics)
+                         : rank_why_command(a.common, a.rank, a.why);
+  });
 
   CLI::App* show =
       app.add_subcommand("show", "one case: parameters, outcome, stages, slip events, chi history");

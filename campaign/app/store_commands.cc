@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "campaign/answers/why.h"
 #include "campaign/app/commands.h"
 #include "campaign/report/case_report.h"
 #include "campaign/report/status_report.h"
@@ -165,6 +166,15 @@ ExitCode rank_command(const StoreArguments& common, const RankRequest& request, 
     std::fprintf(stderr, "Next: faultsweep show %s/%ld\n", c.name.c_str(),
                  ranking.rows[0].position);
   }
+  return ExitCode::done;
+}
+
+ExitCode rank_why_command(const StoreArguments& common, const RankRequest& request,
+                          const std::string& name) {
+  const Store store = Store::open_reader(common.store);
+  const NamedCase found = find_case(store, common, name);
+  const Why why = explain_rank(store, found.campaign, found.stored, request);
+  common.json ? print(why_to_json(why)) : print(why_to_text(why));
   return ExitCode::done;
 }
 

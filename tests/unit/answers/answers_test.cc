@@ -11,6 +11,7 @@
 #include "campaign/answers/probability.h"
 #include "campaign/answers/quantiles.h"
 #include "campaign/answers/sensitivity.h"
+#include "campaign/answers/why.h"
 #include "tests/campaign/made_up_result.h"
 
 namespace faultsweep {
@@ -53,7 +54,10 @@ class AnswersTest : public ::testing::Test {
     }
     json parameters = json::array();
     for (const std::string& name : names) parameters.push_back({{"name", name}});
-    s_.spec_resolved = json{{"groups", {{{"kind", kind}, {"parameters", parameters}}}}}.dump();
+    s_.spec_resolved =
+        json{{"groups",
+              {{{"kind", kind}, {"parameters", parameters}, {"scene", {{"tier", "screening"}}}}}}}
+            .dump();
     store_->submit(s_);
     campaign_ = store_->campaign("");
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -65,6 +69,10 @@ class AnswersTest : public ::testing::Test {
     }
   }
   void record() { store_->record_runs(campaign_.id, runs_); }
+  Why why(long position, RankRequest request = {}) {
+    return explain_rank(*store_, campaign_,
+                        store_->stored_case(campaign_.id, std::to_string(position)), request);
+  }
   Probability probability(ProbabilityRequest request) {
     return find_probability(*store_, campaign_, request);
   }
@@ -138,6 +146,75 @@ TEST_F(AnswersTest, SharesOfChosenCasesAreNoProbabilities) {
   EXPECT_THAT(probability_to_text(probability({.condition = "F1.slides"})),
               HasSubstr("not drawn at random"));
   EXPECT_THROW(analyse_sensitivity(*store_, campaign_, {}), InputError);
+}
+
+/// The rule is "mean" for the odd positions and "min" for the others.
+TEST_F(AnswersTest, WhyListsWhatOneParameterAloneChanges) {
+  submit("list", {{0.8, 100},
+                  {0.8, 0},  // differs in its rule, too
+                  {0.9, 100},
+                  {0.2, 1},
+                  {0.6, 100},
+                  {0.2, 2},
+                  {0.55, 100},  // 0.6 is nearer
+                  {0.8, 100},   // in its rule alone
+                  {0.8, 200}});
+  record();
+  const Why found = why(1);
+  EXPECT_EQ(found.compared, "activated_area");
+  ASSERT_EQ(found.neighbours.size(), 4u);
+  const std::vector<std::pair<std::string, long>> expected = {
+      {"strength", 5}, {"strength", 3}, {"rule", 8}, {"offset", 9}};
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(found.neighbours[k].parameter, expected[k].first) << k;
+    EXPECT_EQ(found.neighbours[k].row.position, expected[k].second) << k;
+  }
+  EXPECT_NEAR(found.neighbours[0].change, -3e4, 1e-6) << "m2, neighbour minus case";
+  EXPECT_NEAR(found.neighbours[1].change, 1.5e4, 1e-6);
+  EXPECT_EQ(found.neighbours[2].change, 0);
+  EXPECT_EQ(found.neighbours[3].change, 0);
+  EXPECT_EQ(found.place.n_ranked, 9);
+  EXPECT_EQ(found.place.ties, (std::vector<long>{2, 8, 9})) << "the very same area";
+  EXPECT_THAT(found.no_global, HasSubstr("no sample"));
+  const std::string text = why_to_text(found);
+  EXPECT_THAT(text,
+              HasSubstr("F1 slides first in primary_production, load step 1 (year 1), at 2000 "
+                        "m depth: west has changed by -10 bar (190 bar absolute)"));
+  EXPECT_THAT(text, HasSubstr("Most changes with strength"));
+  EXPECT_EQ(why_to_json(found).at("local").size(), 4u);
+  EXPECT_EQ(why_to_json(found).at("faults").at(0).at("activation").at("change_minus_pa"), -1e6);
+}
+
+TEST_F(AnswersTest, WhySaysWhichPlacesTheMeshDoesNotTellApart) {
+  submit("list", {{0.30, 1}, {0.31, 1}, {0.32, 1}, {0.2, 1}, {0.1, 1}});
+  record();
+  EXPECT_THAT(why_to_text(why(2)), HasSubstr("was not measured"));
+  EXPECT_TRUE(why(2).place.ties.empty());
+  TradeRecord trade;
+  trade.report = "{}";
+  trade.error_bars = {{"sweep", "screening", "chi_bar", "standard", 8, 0.01, 0.02}};
+  store_->record_trade(trade);
+  const Why found = why(2);
+  EXPECT_EQ(found.compared, "chi_bar");
+  EXPECT_EQ(found.place.place, 2);
+  EXPECT_EQ(found.place.ties, (std::vector<long>{3, 1})) << "within 0.014";
+  EXPECT_TRUE(why(5).place.ties.empty());
+  const std::string text = why_to_text(why(4));
+  EXPECT_THAT(text, HasSubstr("F1 does not slide: its χ̄ comes to 0.2, in gas_storage"));
+  EXPECT_THAT(text, HasSubstr("8 bar more"));
+}
+
+TEST_F(AnswersTest, WhyHasTheIndicesOfASampleAndRefusesWhatIsNotRanked) {
+  submit("monte-carlo", even(40));
+  runs_[3].result.reset(), runs_[3].status = RunStatus::hung;
+  record();
+  const Why found = why(30, {.by = "chi_bar"});
+  ASSERT_TRUE(found.global);
+  EXPECT_GT(found.global->metrics.at(0).first_order.at(0).value, 0.8);
+  EXPECT_THAT(why_to_text(found), HasSubstr("No case of the campaign differs from this one"));
+  EXPECT_FALSE(why(30, {.by = "chi_bar * 2"}).global) << "an expression is no metric";
+  EXPECT_THROW(why(4), InputError) << "no result";
+  EXPECT_THROW(why(30, {.where = "strength < 0.1"}), InputError) << "left out";
 }
 
 TEST_F(AnswersTest, SensitivityNamesTheParameterThatMatters) {

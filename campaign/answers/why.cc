@@ -1,0 +1,149 @@
+#include "campaign/answers/why.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "campaign/report/text_table.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+using faultsim::InputError;
+
+namespace {
+
+const RankedCase& row_of(const Ranking& ranking, const StoredCase& stored) {
+  for (const RankedCase& row : ranking.rows)
+    if (row.position == stored.position) return row;
+  const std::string what = concat("case ", stored.position, " of ", ranking.campaign.name);
+  if (!stored.has_result) {
+    throw InputError("--why", {{"", 0, what + " has no result yet",
+                                concat("run it: faultsweep run ", ranking.campaign.name)}});
+  }
+  throw InputError("--why", {{"", 0, what + " is not among the cases that are ranked",
+                              "leave out --where, or choose a --stage that its history reaches"}});
+}
+
+/// Of the stage that the ranking is of.
+faultsim::StageMetrics stage_of(const faultsim::CaseResult& result, const std::string& stage) {
+  for (const faultsim::StageMetrics& one : result.stages)
+    if (one.stage == stage) return one;
+  return result.whole;
+}
+
+/// What the rows are compared by: the score, or the columns of the default order.
+double compared_value(const RankedCase& row, const std::string& compared, bool by_default) {
+  if (!by_default) return row.score.value_or(std::numeric_limits<double>::quiet_NaN());
+  const faultsim::Measures& m =
+      row.fault_metrics ? static_cast<const faultsim::Measures&>(*row.fault_metrics) : row.metrics;
+  return compared == "chi_bar" ? m.chi_bar : m.activated_area;
+}
+
+/// The only parameter in which two cases differ; none where they differ in more, in none, or do
+/// not have the same parameters (of another group of designs).
+std::optional<std::size_t> only_difference(const CaseParameters& a, const CaseParameters& b) {
+  if (a.size() != b.size()) return std::nullopt;
+  std::optional<std::size_t> found;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    if (a[k].index != b[k].index) return std::nullopt;
+    const bool same = a[k].si && b[k].si ? *a[k].si == *b[k].si : a[k].text == b[k].text;
+    if (same) continue;
+    if (found) return std::nullopt;
+    found = k;
+  }
+  return found;
+}
+
+/// Of a parameter with numbers only the next value on either side is a neighbour's.
+struct NextValues {
+  double below = -std::numeric_limits<double>::infinity();
+  double above = std::numeric_limits<double>::infinity();
+};
+
+std::vector<Neighbour> neighbours_of(const Why& why) {
+  const auto parameters = parameters_from_json(why.ranking.campaign.parameters);
+  const CaseParameters& own = why.row.parameters;
+  std::vector<std::pair<std::size_t, const RankedCase*>> near;
+  std::map<std::size_t, NextValues> next;
+  for (const RankedCase& row : why.ranking.rows) {
+    const auto k = only_difference(own, row.parameters);
+    if (!k || row.rank_class > 1) continue;
+    // Another group may have other fixed settings, which are no parameter's doing.
+    if (parameters[static_cast<std::size_t>(own[*k].index)].name == "group") continue;
+    near.emplace_back(*k, &row);
+    const auto &from = own[*k].si, &to = row.parameters[*k].si;
+    if (!from || !to) continue;
+    NextValues& values = next[*k];
+    if (*to < *from) values.below = std::max(values.below, *to);
+    if (*to > *from) values.above = std::min(values.above, *to);
+  }
+  std::vector<Neighbour> neighbours;
+  const bool by_default = why.ranking.by_default;
+  for (const auto& [k, row] : near) {
+    const CaseParameter &from = own[k], &to = row->parameters[k];
+    const bool numbers = from.si && to.si;
+    if (numbers && *to.si != next[k].below && *to.si != next[k].above) continue;
+    const double value = compared_value(*row, why.compared, by_default);
+    neighbours.push_back({parameters[static_cast<std::size_t>(from.index)].name, from.text, to.text,
+                          *row, value, value - why.value});
+  }
+  // What has no value to compare comes last.
+  const auto size = [](const Neighbour& one) {
+    return std::isfinite(one.change) ? std::abs(one.change) : -1;
+  };
+  std::stable_sort(neighbours.begin(), neighbours.end(),
+                   [&](const Neighbour& a, const Neighbour& b) { return size(a) > size(b); });
+  return neighbours;
+}
+
+Place place_of(const Why& why) {
+  Place place;
+  for (const ErrorBar& bar : why.ranking.error_bars)
+    if (bar.metric == why.compared) place.error = bar;
+  const bool by_default = why.ranking.by_default;
+  const double margin = place.error ? std::sqrt(2.0) * place.error->rms : 0;
+  for (const RankedCase& row : why.ranking.rows) {
+    if (row.rank_class != why.row.rank_class) continue;
+    ++place.n_ranked;
+    if (row.position == why.row.position) {
+      place.place = place.n_ranked;
+    } else if (std::abs(compared_value(row, why.compared, by_default) - why.value) <= margin) {
+      place.ties.push_back(row.position);
+    }
+  }
+  return place;
+}
+
+}  // namespace
+
+Why explain_rank(const Store& store, const CampaignInfo& campaign, const StoredCase& stored,
+                 RankRequest request) {
+  request.top = 0;
+  Why why;
+  why.ranking = make_ranking(store, campaign, request);
+  why.stored = stored;
+  why.row = row_of(why.ranking, stored);
+  why.metrics = stage_of(stored.result, request.stage);
+  const bool slides =
+      why.row.fault_metrics ? why.row.fault_metrics->activated : why.row.metrics.activated;
+  why.compared = !why.ranking.by_default ? why.ranking.request.by
+                 : slides                ? "activated_area"
+                                         : "chi_bar";
+  why.value = compared_value(why.row, why.compared, why.ranking.by_default);
+  why.place = place_of(why);
+  why.neighbours = neighbours_of(why);
+  try {
+    why.global = analyse_sensitivity(
+        store, campaign,
+        {.cases = {.where = request.where, .stage = request.stage, .fault = request.fault},
+         .metrics = why.compared});
+  } catch (const InputError& error) {
+    // Not every campaign is a sample, and not every expression a metric: the rest stands without.
+    why.no_global = error.what();
+  }
+  return why;
+}
+
+}  // namespace faultsweep
