@@ -32,6 +32,7 @@ struct RunArguments {
   std::filesystem::path output;    ///< empty = <scene name>-result beside the current folder.
   bool wide = false;               ///< the step table with all its columns.
   bool trace = false;              ///< how each load step was solved (docs/trace.md).
+  bool exact = false;              ///< the exact operator, whatever the scene says of a surface.
   std::string path = "condensed";  ///< or coupled, automatic.
   std::string leading = "amg-u", schur = "rac";  ///< of the coupled path.
 };

@@ -37,6 +37,10 @@ std::vector<int> regions_named(const Scene& scene, const std::vector<std::string
 
 void refuse_what_has_no_block(const LoadedScene& loaded) {
   std::vector<Problem> problems;
+  if (loaded.scene.numerics.surface.wanted()) {
+    problems.push_back({"/numerics/surface", 0, "influences are those of an exact operator",
+                        "remove the surface from the scene"});
+  }
   if (loaded.plan.creep.active) {
     problems.push_back({"/numerics/creep", 0,
                         "influences are those of elastic rock, and this scene has creeping salt",

@@ -35,8 +35,8 @@ Changes changes_of(const SceneArguments& arguments) {
   return changes;
 }
 
-Simulation load_simulation(const SceneArguments& scene, const OperatorArguments& op) {
-  Simulation simulation = Simulation::from_file(scene.file, changes_of(scene));
+Simulation load_simulation(const SceneArguments& scene, const OperatorArguments& op, bool exact) {
+  Simulation simulation = Simulation::from_file(scene.file, changes_of(scene), exact);
   simulation.keep_operators(cache_policy(op));
   return simulation;
 }

@@ -12,7 +12,8 @@ namespace faultsim {
 Changes changes_of(const SceneArguments& arguments);
 /// The scene of a command, held; its operators are kept where the command says. Throws InputError
 /// with all problems of scene and geometry.
-Simulation load_simulation(const SceneArguments& scene, const OperatorArguments& op);
+Simulation load_simulation(const SceneArguments& scene, const OperatorArguments& op,
+                           bool exact = false);
 /// The same without an operator: for commands that only look.
 LoadedScene load_scene(const SceneArguments& arguments);
 

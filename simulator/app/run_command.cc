@@ -102,8 +102,11 @@ PathChoice path_of(const RunArguments& arguments, const LoadedScene& loaded) {
   return {SolutionPath::coupled, "asked for"};
 }
 
-std::string prepared_text(const FaultOperator& op, bool from_cache, bool coupled) {
+std::string prepared_text(const FaultOperator& op, const std::optional<CaseSurface>& surface,
+                          bool from_cache, bool coupled) {
   const std::string how = coupled      ? "no operator"
+                          : surface    ? concat("operator: interpolated between ",
+                                                surface->n_operators, " exact ones")
                           : from_cache ? "operator: from the cache"
                                        : built_in(op.build_seconds);
   return concat(how, ", ", op.geometry.nodes.size(), " fault node pairs\n");
@@ -113,7 +116,7 @@ std::string prepared_text(const FaultOperator& op, bool from_cache, bool coupled
 
 ExitCode run_command(const RunArguments& arguments) {
   const SolverChoice solver = solver_of(arguments.leading, arguments.schur);
-  Simulation simulation = load_simulation(arguments.scene, arguments.op);
+  Simulation simulation = load_simulation(arguments.scene, arguments.op, arguments.exact);
   const LoadedScene& loaded = simulation.scene();
   check_geometry(loaded);
   Plan plan = loaded.plan;
@@ -159,7 +162,7 @@ ExitCode run_command(const RunArguments& arguments) {
   const PreparedOperator prepared = is_coupled ? PreparedOperator() : simulation.prepared();
   const FaultOperator& faults = is_coupled ? coupled->faults() : *prepared.op;
   monitor.clear();
-  if (!json) std::cerr << prepared_text(faults, prepared.from_cache, is_coupled);
+  if (!json) std::cerr << prepared_text(faults, prepared.surface, prepared.from_cache, is_coupled);
 
   std::optional<FieldWriter> writer;
   if (scene.output.fault_fields) {

@@ -42,6 +42,10 @@ std::vector<Problem> coupled_hindrances(const Scene& scene, const Plan& plan) {
     problems.push_back({"/numerics/creep", 0, "the coupled path knows no creeping salt",
                         concat("switch creep off, or ", path)});
   }
+  if (scene.numerics.surface.wanted()) {
+    problems.push_back({"/numerics/surface", 0, "the coupled path has no operator to interpolate",
+                        concat("remove the surface, or ", path)});
+  }
   for (std::size_t f = 0; f < scene.faults.size(); ++f) {
     const Friction& friction = scene.faults[f].friction;
     if (friction.dynamic_friction_angle != friction.static_friction_angle) {

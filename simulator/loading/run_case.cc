@@ -454,7 +454,11 @@ CaseResult run_case(const Scene& scene, const FaultOperator& op, const RunContex
 
 CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, const RunContext& context,
                     const StepObserver& observer, const CaseProbe& probe) {
-  return CaseRun(scene, *prepared.op, prepared.ladder.get(), context, observer, probe).run();
+  CaseResult result =
+      CaseRun(scene, *prepared.op, prepared.ladder.get(), context, observer, probe).run();
+  result.surface = prepared.surface;
+  if (result.surface) result.warnings.push_back(surface_warning(*result.surface));
+  return result;
 }
 
 CaseResult run_case(const Scene& scene, const FaultOperator& faults, StepSolver& solver,

@@ -204,4 +204,12 @@ std::vector<std::string> case_warnings(const Scene& scene, const FaultOperator& 
   return Warnings(scene, op, meter, result).all();
 }
 
+std::string surface_warning(const CaseSurface& surface) {
+  return concat("the operator is interpolated between ", surface.n_operators, " exact ones (",
+                surface.n_basis, " columns): at ", surface.n_checks,
+                " check points H is off by up to ", brief(surface.stiffness),
+                ", locked tractions by ", brief(surface.traction), ", slip without friction by ",
+                brief(surface.slip), " of themselves; faultsim run --exact takes the exact one");
+}
+
 }  // namespace faultsim

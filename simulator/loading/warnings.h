@@ -17,5 +17,7 @@ namespace faultsim {
 /// @param result  complete but for its warnings.
 std::vector<std::string> case_warnings(const Scene& scene, const FaultOperator& op,
                                        const FaultMeter& meter, const CaseResult& result);
+/// That the result is of an interpolated operator, and how good that is.
+std::string surface_warning(const CaseSurface& surface);
 
 }  // namespace faultsim

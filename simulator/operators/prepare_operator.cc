@@ -82,6 +82,7 @@ PreparedOperator prepare_ladder(const Scene& scene, const Plan& plan, const RunC
 
 PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const CachePolicy& cache,
                                   bool keep_bulk, const RunContext& context) {
+  FAULTSIM_DEMAND(!scene.numerics.surface.wanted(), "an exact operator of a surface's family");
   take_blas_buffer();
   set_blas_threads(1);
   if (plan.creep.active) return prepare_ladder(scene, plan, context);

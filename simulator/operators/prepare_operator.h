@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "simulator/model/fault_operator.h"
 #include "simulator/output/cache_policy.h"
 #include "simulator/plan/plan.h"
+#include "simulator/result/result.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {
@@ -22,12 +24,13 @@ std::vector<int> mirrored_rows(const Scene& scene, const Plan& plan);
 
 /// The operator of the scene: from the cache if it is there and sound, else built (and cached).
 /// Throws ResourceError before anything is built when the plan needs more memory than is available;
-/// a cache that cannot be written is a remark.
+/// a cache that cannot be written is a remark. A scene with a surface has none (simulator/surface).
 struct PreparedOperator {
   std::shared_ptr<const FaultOperator> op;  ///< elastic.
   std::shared_ptr<CreepLadder> ladder;      ///< only when the plan has creep; never cached on disk,
                                             ///< because every time step needs the factors.
   std::shared_ptr<CondensedBulk> bulk;  ///< only when keep_bulk was asked (displacement fields).
+  std::optional<CaseSurface> surface;   ///< only where it is interpolated.
   bool from_cache = false;
   std::string remark;  ///< "damaged operator file moved aside", "not kept", ...
 };

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "simulator/common/fingerprint.h"
 #include "simulator/plan/cost.h"
@@ -238,6 +239,29 @@ nlohmann::json family_of_creep(const Scene& scene, const CreepPlan& creep) {
           {"rungs", numbers(creep.rungs)}};
 }
 
+/// Scenes that differ in the values of a surface's parameters alone share it.
+std::string family_of_surface(Scene scene, const Plan& plan) {
+  const SurfaceRequest surface = std::exchange(scene.numerics.surface, {});
+  nlohmann::json over = nlohmann::json::array();
+  for (const SurfaceParameter& one : surface.over) {
+    over.push_back({static_cast<int>(one.kind), one.index, one.from, one.to});
+    set_value(one, one.from, scene);
+  }
+  return nlohmann::json{{"surface", canonical_family(scene, plan)},
+                        {"over", over},
+                        {"tolerance", surface.tolerance},
+                        {"most_operators", surface.most_operators}}
+      .dump();
+}
+
+/// What a surface of operators takes, check points included: as many nodes as the polynomials of
+/// two digits in each parameter and one in each pair (results/surfaces).
+int predicted_operators(const SurfaceRequest& surface) {
+  if (!surface.wanted()) return 1;
+  const int d = static_cast<int>(surface.over.size());
+  return std::min(surface.most_operators, 1 + 4 * d + 2 * d * (d - 1)) + n_surface_checks(surface);
+}
+
 int material_index(const Scene& scene, const std::string& name) {
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     if (scene.materials[i].name == name) return static_cast<int>(i);
@@ -359,6 +383,7 @@ BoxMeshSpec box_mesh_spec(const Scene& scene, const Plan& plan) {
 }
 
 std::string canonical_family(const Scene& scene, const Plan& plan) {
+  if (scene.numerics.surface.wanted()) return family_of_surface(scene, plan);
   const bool is_field = scene.geometry_kind == GeometryKind::field;
   nlohmann::json j;
   CellSizes sizes{};
@@ -411,6 +436,8 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
     plan.n_added_steps += step.added;
   }
   predict_cost(shape, plan);
+  plan.n_operators = predicted_operators(scene.numerics.surface);
+  plan.operator_seconds *= plan.n_operators;
   plan.family = fingerprint(canonical_family(scene, plan));
   return plan;
 }

@@ -105,6 +105,19 @@ struct CaseCoupled {
   void add(const StepCoupled& step);
 };
 
+/// The surface that a case's operator was interpolated on, and how far it was off the exact
+/// operators at check points that are none of its nodes: the largest relative error there.
+struct CaseSurface {
+  int n_operators = 0;     ///< nodes.
+  int n_basis = 0;         ///< columns that are left of them.
+  int n_checks = 0;        ///< check points.
+  double tolerance = 0;    ///< that was asked for; all errors are below.
+  double stiffness = 0;    ///< of H, in the Frobenius norm.
+  double traction = 0;     ///< of the worst locked traction.
+  double observation = 0;  ///< of the observation rows; 0 without.
+  double slip = 0;         ///< of slip of faults without friction under the worst load.
+};
+
 struct StepResult {
   int step = 0;                         ///< 0 = initial equilibrium.
   std::string stage;                    ///< "initial" for step 0.
@@ -279,6 +292,7 @@ struct CaseResult {
   std::optional<Reactivation> unexpected;  ///< the first unexpected reactivation.
   SolveCounts counts;
   std::optional<CaseCoupled> coupled;  ///< only on the coupled path.
+  std::optional<CaseSurface> surface;  ///< only where the operator is interpolated.
   std::vector<std::string> warnings;
   double seconds = 0;  ///< wall; not compared.
 };

@@ -79,6 +79,18 @@ void for_each_field(Struct& c, Visit&& visit) {
   visit(Field{"solve_s"}, c.solve_seconds);
 }
 
+template <Of<CaseSurface> Struct, typename Visit>
+void for_each_field(Struct& s, Visit&& visit) {
+  visit(Field{"operators"}, s.n_operators);
+  visit(Field{"basis"}, s.n_basis);
+  visit(Field{"checks"}, s.n_checks);
+  visit(Field{"tolerance"}, s.tolerance);
+  visit(Field{"error_of_stiffness"}, s.stiffness);
+  visit(Field{"error_of_traction"}, s.traction);
+  visit(Field{"error_of_observation"}, s.observation);
+  visit(Field{"error_of_slip"}, s.slip);
+}
+
 template <Of<StepResult> Struct, typename Visit>
 void for_each_field(Struct& s, Visit&& visit) {
   visit(Field{"step"}, s.step);
@@ -213,6 +225,7 @@ void for_each_field(Struct& c, Visit&& visit) {
   visit(Field{"unexpected"}, c.unexpected);
   visit(Field{"counts"}, c.counts);
   visit(Field{.key = "coupled", .since = 13}, c.coupled);
+  visit(Field{.key = "surface", .since = 13}, c.surface);
   visit(Field{"warnings"}, c.warnings);
   visit(Field{"wall_s"}, c.seconds);
 }

@@ -180,6 +180,15 @@ json fault(const Fault& fault) {
             {"cohesion_after_slip", friction.cohesion_after_slip}}}};
 }
 
+json surface(const SurfaceRequest& surface) {
+  json over = json::array();
+  for (const SurfaceParameter& one : surface.over)
+    over.push_back({static_cast<int>(one.kind), one.index, plain(one.from), plain(one.to)});
+  return {{"over", over},
+          {"tolerance", plain(surface.tolerance)},
+          {"most_operators", surface.most_operators}};
+}
+
 json numerics(const Numerics& numerics) {
   json result = {{"slip_tolerance", plain(numerics.slip_tolerance)},
                  {"activation_length", plain(numerics.activation_length)},
@@ -195,6 +204,7 @@ json numerics(const Numerics& numerics) {
                  {"plane_strain", static_cast<int>(numerics.plane_strain)}};
   // The added steps follow from stages and histories, which are there.
   if (numerics.turning_points == TurningPoints::report) result["turning_points"] = "report";
+  if (numerics.surface.wanted()) result["surface"] = surface(numerics.surface);
   return result;
 }
 

@@ -269,6 +269,7 @@ class Collector {
         return true;
     }
     return pointer == "/format" || pointer == "/title" || pointer == "/output" ||
+           pointer == "/numerics/surface" ||
            pointer == "/tables" || (!field && pointer == "/tier");
   }
   static bool is_leaf(const SchemaViews& views) {
@@ -322,7 +323,15 @@ std::vector<ParameterInfo> parameters(const JsonDocument& document) {
     if (is_object && !compartments.contains(name)) compartments[name] = json::object();
   }
   collector.walk(&completed, schema_views(scene_schema().root(), completed), "", false);
-  return std::move(collector).rows();
+  std::vector<ParameterInfo> rows = std::move(collector).rows();
+  for (std::size_t i = 0; i < size_at(completed, "/numerics/surface/over"); ++i) {
+    const std::string given =
+        text_at(completed, element("/numerics/surface/over", i) + "/parameter");
+    const auto alias = aliases.pointers().find(given);
+    const std::string& pointer = alias == aliases.pointers().end() ? given : alias->second;
+    for (ParameterInfo& row : rows) row.new_family = row.new_family && row.pointer != pointer;
+  }
+  return rows;
 }
 
 std::map<std::string, std::string> parameter_aliases(const JsonDocument& document) {

@@ -258,6 +258,7 @@ Scene read_scene(const JsonDocument& document, std::vector<Problem>& problems) {
   read_loading(reader, scene);
   scene.n_table_remarks = scene.remarks.size();
   read_output(reader, scene);
+  read_surface(reader, scene);
   relate_parts(reader, problems, scene);
   std::stable_sort(problems.begin(), problems.end(),
                    [](const Problem& a, const Problem& b) { return a.line < b.line; });

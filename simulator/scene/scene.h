@@ -262,6 +262,25 @@ enum class CreepScheme {
 
 /// Knobs of the numerics that are part of a case's identity (those of creep only where something
 /// is made of viscous material).
+/// A parameter in which a surface of operators is continuous, and its range.
+struct SurfaceParameter {
+  enum class Kind { youngs_modulus, poisson_ratio, dip, offset };
+  Kind kind = Kind::youngs_modulus;
+  int index = 0;            ///< into Scene::materials, Scene::faults or FieldGeometry::blocks.
+  double from = 0, to = 0;  ///< Pa, 1, rad or m; from < to.
+  bool operator==(const SurfaceParameter&) const = default;
+};
+
+/// Operators interpolated over parameters in place of exact ones (simulator/surface). Without
+/// parameters: none.
+struct SurfaceRequest {
+  std::vector<SurfaceParameter> over;
+  double tolerance = 1e-3;   ///< relative, at check points.
+  int most_operators = 300;  ///< nodes at most.
+  bool wanted() const { return !over.empty(); }
+  bool operator==(const SurfaceRequest&) const = default;
+};
+
 struct Numerics {
   double slip_tolerance = 1e-4;      ///< m, of `activated`.
   double activation_length = 40;     ///< m, of `activated` and χ̄.
@@ -284,6 +303,7 @@ struct Numerics {
   double creep_tolerance = 2e4;  ///< Pa, largest difference of fault traction between one step of
                                  ///< creep and two of half its length that is accepted.
   CreepScheme creep_scheme = CreepScheme::exponential;
+  SurfaceRequest surface;
   bool operator==(const Numerics&) const = default;
 };
 
@@ -321,6 +341,14 @@ std::string remark_text(const Remark& remark);
 
 /// The material of that name. @pre it exists.
 const Material& material_named(const Scene& scene, const std::string& name);
+/// Points at which the error of a surface is measured.
+inline int n_surface_checks(const SurfaceRequest& surface) {
+  return 4 + 2 * static_cast<int>(surface.over.size());
+}
+
+/// The value of a surface's parameter in a scene, and another one put in its place, SI.
+double value_of(const SurfaceParameter& one, const Scene& scene);
+void set_value(const SurfaceParameter& one, double value, Scene& scene);
 /// Names of the materials that the geometry is made of; the scene may list others.
 std::set<std::string> used_materials(const Scene& scene);
 /// Whether one of those has a viscosity.

@@ -93,6 +93,8 @@ void read_output(SceneReader& reader, Scene& scene);
 void check_geometry(SceneReader& reader, const Scene& scene);
 void check_pressures(SceneReader& reader, const Scene& scene);
 void check_creep(SceneReader& reader, const Scene& scene);
+/// Reads /numerics/surface and holds its parameters against the rest. @pre the rest is read.
+void read_surface(SceneReader& reader, Scene& scene);
 /// No more load steps are added at turning points than /numerics/max_added_steps.
 void check_turning_points(SceneReader& reader, const Scene& scene);
 

@@ -68,14 +68,20 @@ struct OperatorBuild::Shared final : Monitor {
 
 OperatorBuild::OperatorBuild(const Scene& scene, const Plan& plan, const CachePolicy& cache,
                              bool keep_bulk, int n_threads)
+    : OperatorBuild(
+          [=](const RunContext& context) {
+            return prepare_operator(scene, plan, cache, keep_bulk, context);
+          },
+          n_threads) {}
+
+OperatorBuild::OperatorBuild(std::function<PreparedOperator(const RunContext&)> make, int n_threads)
     : shared_(std::make_unique<Shared>()) {
   Shared* shared = shared_.get();
   shared->thread = std::jthread([=] {
     PreparedOperator prepared;
     std::exception_ptr thrown;
     try {
-      prepared = prepare_operator(scene, plan, cache, keep_bulk,
-                                  {*shared, StopToken(shared->stop), n_threads});
+      prepared = make({*shared, StopToken(shared->stop), n_threads});
     } catch (...) {
       thrown = std::current_exception();
     }

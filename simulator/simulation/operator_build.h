@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "simulator/loading/run_case.h"
@@ -15,6 +16,8 @@ class OperatorBuild {
   /// Starts it. Scene and plan are copied.
   OperatorBuild(const Scene& scene, const Plan& plan, const CachePolicy& cache, bool keep_bulk,
                 int n_threads);
+  /// The same of other work that ends with an operator, or keeps what it made elsewhere.
+  OperatorBuild(std::function<PreparedOperator(const RunContext&)> make, int n_threads);
   /// Calls it off and waits for its end.
   ~OperatorBuild();
   OperatorBuild(const OperatorBuild&) = delete;

@@ -13,6 +13,7 @@
 #include "simulator/scene/read_scene.h"
 #include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/operator_build.h"
+#include "simulator/surface/operator_surface.h"
 
 namespace faultsim {
 
@@ -52,18 +53,48 @@ struct Simulation::Impl {
   CachePolicy cache;
   PreparedOperator prepared;
   std::string prepared_key;
+  std::shared_ptr<const OperatorSurface> surface;  ///< of the last scene that wanted one.
+  std::string surface_key;
   std::unique_ptr<OperatorBuild> build;        ///< also one that was called off and has not ended.
   std::map<std::string, std::string> aliases;  ///< of `held`, once asked for.
 
   void take(LoadedScene loaded) {
     at_hand = std::move(loaded);
     key = operator_key(at_hand);
+    for (const SurfaceParameter& one : at_hand.scene.numerics.surface.over)
+      key += concat(" ", value_of(one, at_hand.scene));
   }
+  bool prepare_surface(const RunContext& context);
   void keep();
   bool change_members(const Values& values, const std::string& source);
   bool change(const Values& values, const std::string& source);
   std::optional<Values> values_of(const Changes& changes);
 };
+
+/// The scene's operator from its surface. @returns whether that had to be made.
+bool Simulation::Impl::prepare_surface(const RunContext& context) {
+  const std::string wanted = operator_key(at_hand);
+  const bool is_new = !surface || surface_key != wanted;
+  if (is_new) {
+    surface.reset();
+    if (build) build->wait_for_end(context);
+    context.stop.throw_if_requested("preparing the operator");
+    const auto made = std::make_shared<std::shared_ptr<const OperatorSurface>>();
+    build = std::make_unique<OperatorBuild>(
+        [made, scene = at_hand.scene, kept = cache](const RunContext& inner) {
+          *made = std::make_shared<OperatorSurface>(scene, kept, inner);
+          return PreparedOperator();
+        },
+        context.n_threads);
+    build->wait(context);
+    build.reset();
+    surface = *made;
+    surface_key = wanted;
+  }
+  prepared = surface->at(at_hand.scene, at_hand.plan);
+  prepared_key = key;
+  return is_new;
+}
 
 /// What is changed from now on.
 void Simulation::Impl::keep() {
@@ -140,9 +171,13 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-Simulation Simulation::from_file(const std::string& file, const Changes& changes) {
+Simulation Simulation::from_file(const std::string& file, const Changes& changes, bool exact) {
   Simulation simulation;
-  simulation.hold(read_scene_file(file, changes));
+  JsonDocument document = read_scene_file(file, changes);
+  const auto numerics = document.value.find("numerics");
+  if (exact && numerics != document.value.end() && numerics->is_object())
+    numerics->erase("surface");
+  simulation.hold(std::move(document));
   LoadedScene& loaded = simulation.impl_->at_hand;
   loaded.plan.warnings = pressure_warnings(loaded.scene);
   return simulation;
@@ -207,6 +242,14 @@ bool Simulation::prepare(const RunContext& context, bool keep_bulk) {
   const bool has_bulk = self.prepared.bulk != nullptr || self.at_hand.plan.creep.active;
   if (!needs_operator() && (has_bulk || !keep_bulk)) return false;
   self.prepared = {};  // frees the old operator before the new one is built
+  if (self.at_hand.scene.numerics.surface.wanted()) {
+    if (!keep_bulk) return self.prepare_surface(context);
+    throw InputError(
+        self.at_hand.document.source,
+        {{"/output/volume_fields", 0, "displacements of the whole mesh need the exact operator",
+          "run with --exact, or remove this line"}});
+  }
+  self.surface.reset();
   if (self.build) self.build->wait_for_end(context);  // two would need the memory of both
   context.stop.throw_if_requested("preparing the operator");
   self.build = std::make_unique<OperatorBuild>(self.at_hand.scene, self.at_hand.plan, self.cache,

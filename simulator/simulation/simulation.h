@@ -53,7 +53,9 @@ class Simulation {
  public:
   /// @param file     a scene as `faultsim run` reads it, with the tables that it names.
   /// @param changes  for good: later changes are to the scene with these.
-  static Simulation from_file(const std::string& file, const Changes& changes = {});
+  /// @param exact    without its /numerics/surface, if it has one.
+  static Simulation from_file(const std::string& file, const Changes& changes = {},
+                              bool exact = false);
   /// @param source  what messages call the text; tables are looked for beside it.
   static Simulation from_text(std::string_view text, const std::string& source = "scene");
   Simulation();  ///< holds nothing yet.
@@ -87,7 +89,8 @@ class Simulation {
   /// stiffness or boundary conditions do; friction, stress, pressure and Biot coefficients do not.
   bool needs_operator() const;
   /// Reads or builds the operator of the scene at hand, unless it is there. The old one is freed
-  /// first. @returns whether it was needed. A stop is thrown within milliseconds; what is left of
+  /// first. @returns whether one was read or built: not where it comes from a surface that is there.
+  /// A stop is thrown within milliseconds; what is left of
   /// the build ends by itself, at most some seconds later, and is waited for by the next one and by
   /// the destructor.
   /// @param keep_bulk  with the factor of the bulk, for displacements of the whole mesh.

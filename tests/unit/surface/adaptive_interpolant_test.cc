@@ -1,0 +1,69 @@
+#include "simulator/surface/adaptive_interpolant.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace faultsim {
+namespace {
+
+/// Smooth, stiff along the first axis, odd along the second (no surplus at −1 after 0 and 1),
+/// nearly flat along the third, with a product of the first two.
+Eigen::VectorXd smooth(const Eigen::VectorXd& x) {
+  Eigen::VectorXd value(2);
+  value << 1 / (1.5 + x[0]) + 0.1 * std::sin(x[1]) + 1e-6 * x[2], x[0] * x[1];
+  return value;
+}
+
+AdaptiveInterpolant interpolant(int* n_asked = nullptr) {
+  return {3,
+          [n_asked](const Eigen::VectorXd& x) {
+            if (n_asked != nullptr) ++*n_asked;
+            return smooth(x);
+          },
+          [](const Eigen::VectorXd& one) { return one.norm(); }};
+}
+
+TEST(AdaptiveInterpolant, IsAsGoodBetweenItsNodesAsItsSurplusesSay) {
+  AdaptiveInterpolant f = interpolant();
+  EXPECT_LE(f.grow(1e-6, 500), 1e-6);
+  for (const auto& [a, b, c] : {std::array{0.3, -0.7, 0.2}, std::array{-0.93, 0.41, -0.9}}) {
+    const Eigen::Vector3d x(a, b, c);
+    const Eigen::VectorXd w = f.grid().weights(x);
+    Eigen::VectorXd value = Eigen::VectorXd::Zero(2);
+    for (int k = 0; k < f.grid().n_nodes(); ++k) value += w[k] * f.values()[k];
+    EXPECT_LT((value - smooth(x)).norm(), 2e-5);
+  }
+}
+
+TEST(AdaptiveInterpolant, GrowsWhereTheFunctionBends) {
+  AdaptiveInterpolant f = interpolant();
+  f.grow(1e-5, 500);
+  std::array<int, 3> most = {};
+  for (const SparseGrid::Index& index : f.grid().indices()) {
+    for (std::size_t j = 0; j < 3; ++j) most[j] = std::max(most[j], index[j]);
+  }
+  EXPECT_GT(most[0], most[1] + 2);
+  EXPECT_LE(most[2], 2);  // looked at and left
+}
+
+TEST(AdaptiveInterpolant, AsksForEachNodeOnceAndGoesOnFromWhereItStopped) {
+  int n_asked = 0, n_at_once = 0;
+  AdaptiveInterpolant slow = interpolant(&n_asked), fast = interpolant(&n_at_once);
+  for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4}) slow.grow(tolerance, 500);
+  fast.grow(1e-4, 500);
+  EXPECT_EQ(n_asked, slow.grid().n_nodes());
+  EXPECT_EQ(slow.grid().indices(), fast.grid().indices());
+}
+
+TEST(AdaptiveInterpolant, EndsAtTheMostNodesAndSaysWhatIsLeft) {
+  AdaptiveInterpolant f = interpolant();
+  EXPECT_GT(f.grow(1e-12, 6), 1e-12);
+  EXPECT_GE(f.grid().n_nodes(), 6);
+  EXPECT_LE(f.grid().n_nodes(), 6 + 2);  // an expansion is not cut in its middle
+}
+
+}  // namespace
+}  // namespace faultsim
