@@ -20,16 +20,16 @@ bool looks_like_number(const std::string& text) {
 constexpr std::size_t kGap = 2;         // blanks between columns
 constexpr std::size_t kNarrowest = 20;  // of a column whose texts are broken
 
-struct Column {
+struct TextColumn {
   std::size_t index, width;
   bool to_the_right;
 };
 
-std::vector<Column> used_columns(const std::vector<std::string>& header,
-                                 const std::vector<std::vector<std::string>>& rows) {
-  std::vector<Column> columns;
+std::vector<TextColumn> used_columns(const std::vector<std::string>& header,
+                                     const std::vector<std::vector<std::string>>& rows) {
+  std::vector<TextColumn> columns;
   for (std::size_t k = 0; k < header.size(); ++k) {
-    Column column{k, display_width(header[k]), true};
+    TextColumn column{k, display_width(header[k]), true};
     bool used = false;
     for (const auto& row : rows) {
       column.width = std::max(column.width, display_width(row[k]));
@@ -42,9 +42,9 @@ std::vector<Column> used_columns(const std::vector<std::string>& header,
 }
 
 /// Takes so many columns of the screen from the widest text of a block.
-void narrow(std::vector<Column>& block, std::size_t surplus) {
+void narrow(std::vector<TextColumn>& block, std::size_t surplus) {
   const auto widest =
-      std::max_element(block.begin(), block.end(), [](const Column& a, const Column& b) {
+      std::max_element(block.begin(), block.end(), [](const TextColumn& a, const TextColumn& b) {
         return (a.to_the_right ? 0 : a.width) < (b.to_the_right ? 0 : b.width);
       });
   if (widest->to_the_right || widest->width <= kNarrowest) return;
@@ -68,12 +68,12 @@ std::string cut_line(std::string& rest, std::size_t width) {
 }
 
 /// A row, in as many lines as its texts need.
-void add_lines(const std::vector<Column>& block, std::vector<std::string> cells,
+void add_lines(const std::vector<TextColumn>& block, std::vector<std::string> cells,
                std::string& text) {
   for (bool more = true; more;) {
     std::string line;
     more = false;
-    for (const Column& column : block) {
+    for (const TextColumn& column : block) {
       const std::string cell = cut_line(cells[column.index], column.width);
       more = more || !cells[column.index].empty();
       const std::string fill(column.width - std::min(column.width, display_width(cell)), ' ');
@@ -128,11 +128,11 @@ void TextTable::add_row(std::vector<std::string> cells) {
 }
 
 std::string TextTable::text(std::size_t width) const {
-  const std::vector<Column> columns = used_columns(header_, rows_);
+  const std::vector<TextColumn> columns = used_columns(header_, rows_);
   if (columns.empty()) return "";
   std::string text;
   for (std::size_t first = 1, last = 1; text.empty() || first < columns.size(); first = last) {
-    std::vector<Column> block = {columns[0]};
+    std::vector<TextColumn> block = {columns[0]};
     std::size_t taken = columns[0].width;
     for (last = first; last < columns.size(); ++last) {
       if (last > first && taken + kGap + columns[last].width > width) break;

@@ -7,6 +7,7 @@
 #include "simulator/app/load_scene.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/contact/contact_export.h"
+#include "simulator/output/fclib_writer.h"
 #include "simulator/output/json_text.h"
 #include "simulator/output/output_target.h"
 

@@ -10,7 +10,7 @@
 namespace faultsim {
 namespace {
 
-constexpr int kNodes = 240;  // two shear dofs each: far more than are solved for directly
+constexpr int kManyNodes = 240;  // two shear dofs each: far more than are solved for directly
 
 /// Tangents of sliding nodes with directions of slip, friction and curvature drawn at random.
 struct Tangents {
@@ -68,7 +68,7 @@ struct Tangents {
   }
 
   std::mt19937 engine;
-  FaultOperator op = make_operator(kNodes, 2, Eigen::VectorXd::Ones(kNodes));
+  FaultOperator op = make_operator(kManyNodes, 2, Eigen::VectorXd::Ones(kManyNodes));
   const ContactLaws laws = same_law(op, {});
   std::set<int> open;
 };
