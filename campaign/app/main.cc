@@ -225,7 +225,7 @@ void add_reading(CLI::App& app, Arguments& a, ExitCode& code) {
   rank->add_flag("--ascending", a.rank.ascending, "smallest first");
   rank->add_flag("--list-metrics", a.list_metrics, "what can be ranked by");
   rank->add_option("--why", a.why,
-                   "CASE: why it stands where it does: what slides first, which parameters matter\n"
+                   "CASE: why it stands where it does: what slides first, what matters\n"
                    "near it and over the campaign, which places are not told apart");
   add_json(rank, a.common);
   add_wide(rank);

@@ -138,7 +138,7 @@ void add_run(CLI::App& app, Arguments& a, ExitCode& code) {
   command->add_flag("--trace", a.run.trace,
                     "how each load step was solved, iteration by iteration; also in trace.jsonl");
   command->add_flag("--exact", a.run.exact,
-                    "take the exact operator where the scene asks for a surface (/numerics/surface)");
+                    "the exact operator where the scene asks for a surface (/numerics/surface)");
   command
       ->add_option("--path", a.run.path,
                    "condensed (default); coupled: no operator, both sides of the faults and\n"

@@ -63,13 +63,15 @@ TEST(Schema, RefusesAKeywordThatTheWalkDoesNotCheck) {
   EXPECT_NO_THROW(scene_schema());
 }
 
-/// Quantities without a dimension would slip through unconverted.
+/// Quantities without a dimension, of their own or of the parameter beside them, would slip through
+/// unconverted.
 TEST(SceneSchema, GivesEveryTextOrNumberADimension) {
   int n_quantities = 0;
   const std::function<void(const json&)> visit = [&](const json& schema) {
     if (schema.is_object()) {
       if (schema.contains("type") && schema["type"] == json({"string", "number"})) {
-        EXPECT_TRUE(schema.contains("x-dimension")) << schema.dump();
+        EXPECT_TRUE(schema.contains("x-dimension") || schema.contains("x-dimension-of"))
+            << schema.dump();
         ++n_quantities;
       }
       for (const auto& [key, inner] : schema.items()) visit(inner);
