@@ -163,6 +163,13 @@ std::vector<std::string> stages_of(const std::vector<StepResult>& steps) {
   return stages;
 }
 
+/// A stage that has metrics, as all are read anyway; "" = there is none.
+std::string any_stage(const Selection& selection) {
+  for (const NamedId& one : selection.stages)
+    if (!one.name.empty()) return one.name;
+  return "";
+}
+
 Curve fault_curve(const StageRows& rows, const NamedId& fault, const Ticks& ticks,
                   const CurveRequest& request) {
   std::vector<double> from, unknown_from;
@@ -197,18 +204,18 @@ Curves probability_curves(const Store& store, const CampaignInfo& campaign,
                           const CurveRequest& request) {
   const Selection selection = make_selection(store, campaign, request.stage, "");
   Curves found{campaign, request, sampling_of(store, campaign), 0, {}};
+  const bool each_stage = request.axis == CurveAxis::pressure && request.stage.empty();
   Store::TableQuery query;
   query.where = parse_condition(request.where, campaign, selection);
-  query.stage = request.stage;
-  StageRows rows = read_stage(store, campaign, query);
-  found.n_rows = rows.n;
-  const std::vector<StepResult> steps = reference_steps(store, campaign, rows);
-  const bool each_stage = request.axis == CurveAxis::pressure && request.stage.empty();
+  query.stage = each_stage ? any_stage(selection) : request.stage;
+  const std::string read_first = query.stage;
+  const StageRows first = read_stage(store, campaign, query);
+  found.n_rows = first.n;
+  const std::vector<StepResult> steps = reference_steps(store, campaign, first);
   for (const std::string& stage : each_stage ? stages_of(steps) : std::vector{request.stage}) {
-    if (stage != query.stage) {
-      query.stage = stage;
-      rows = read_stage(store, campaign, query);
-    }
+    query.stage = stage;
+    const StageRows others = stage == read_first ? StageRows{} : read_stage(store, campaign, query);
+    const StageRows& rows = stage == read_first ? first : others;
     const Ticks ticks = ticks_of(steps, stage, rows, request.axis);
     for (const NamedId& fault : selection.faults) {
       found.curves.push_back(fault_curve(rows, fault, ticks, request));

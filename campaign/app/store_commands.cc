@@ -19,6 +19,7 @@
 namespace faultsweep {
 
 using faultsim::concat;
+using faultsim::counted;
 using faultsim::InputError;
 using nlohmann::json;
 
@@ -138,8 +139,8 @@ ExitCode verify_store_command(const StoreArguments& common) {
     for (const std::string& problem : problems) print(problem + "\n");
   }
   if (problems.empty()) return ExitCode::done;
-  throw faultsim::StorageError(concat("the store ", common.store.string(), " has ", problems.size(),
-                                      problems.size() == 1 ? " problem" : " problems", "; ",
+  throw faultsim::StorageError(concat("the store ", common.store.string(), " has ",
+                                      counted(problems.size(), "problem", "problems"), "; ",
                                       kDamageCure));
 }
 

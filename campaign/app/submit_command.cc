@@ -22,6 +22,7 @@
 namespace faultsweep {
 
 using faultsim::concat;
+using faultsim::counted;
 using faultsim::InputError;
 using nlohmann::json;
 
@@ -94,7 +95,7 @@ std::string creep_text(const std::vector<FamilyRecord>& families) {
   }
   if (n_creeping == 0) return "";
   constexpr double kGigabyte = 1e9;
-  return concat("salt creeps in ", n_creeping, n_creeping == 1 ? " family" : " families",
+  return concat("salt creeps in ", counted(n_creeping, "family", "families"),
                 ": operators are built by each worker that runs it, not cached, and stay in its "
                 "memory, at most ",
                 format_number(memory / kGigabyte, 2), " GB per worker\n");
@@ -103,9 +104,10 @@ std::string creep_text(const std::vector<FamilyRecord>& families) {
 std::string report_to_text(const SubmitReport& report) {
   const Submission& s = report.submission;
   std::string text =
-      concat(s.name, ": ", s.cases.size(), " cases in ", s.families.size(), " families; ",
-             report.n_designed, " designed, ", s.n_excluded, " excluded, ", s.n_merged,
-             " merged as the same, ", report.n_cached, " have a result already\n");
+      concat(s.name, ": ", counted(s.cases.size(), "case", "cases"), " in ",
+             counted(s.families.size(), "family", "families"), "; ", report.n_designed,
+             " designed, ", s.n_excluded, " excluded, ", s.n_merged, " merged as the same, ",
+             report.n_cached, " have a result already\n");
   if (s.keep_fields != KeepFields::none) {
     text += concat("fault fields are kept (", to_string(s.keep_fields), ")");
     if (report.n_fields > 0) {

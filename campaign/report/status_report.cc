@@ -10,6 +10,7 @@
 namespace faultsweep {
 
 using faultsim::concat;
+using faultsim::counted;
 using nlohmann::json;
 
 StatusReport make_status(const Store& store, const std::string& campaign) {
@@ -72,7 +73,7 @@ std::string creep_text(const std::vector<Store::FamilyProgress>& families) {
   }
   if (n_creeping == 0) return "";
   constexpr double kGigabyte = 1e9;
-  return concat("salt creeps in ", n_creeping, n_creeping == 1 ? " family" : " families",
+  return concat("salt creeps in ", counted(n_creeping, "family", "families"),
                 ": operators are built by each worker that runs it, at most ",
                 format_number(memory / kGigabyte, 2), " GB each\n");
 }
@@ -95,10 +96,11 @@ std::string status_to_text(const StatusReport& status) {
                             " converged", events_text(c), "), ", c.n_failed, " failed, ",
                             c.n_waiting, " waiting", c.cancelled ? "; cancelled" : "", "\n");
   text += concat("submitted ", format_time(c.submitted_at), " from ", c.source, ", ",
-                 status.families.size(), " families, ", c.n_excluded, " excluded, ", c.n_merged,
-                 " merged, on failure: ", to_string(c.policy.on_failure), "\n");
+                 counted(status.families.size(), "family", "families"), ", ", c.n_excluded,
+                 " excluded, ", c.n_merged, " merged, on failure: ", to_string(c.policy.on_failure),
+                 "\n");
   if (status.rounds.size() > 1 || !c.conclusion.empty()) {
-    text += concat(status.rounds.size(), status.rounds.size() == 1 ? " round" : " rounds", "; ",
+    text += concat(counted(status.rounds.size(), "round", "rounds"), "; ",
                    c.conclusion.empty() ? status.rounds.back().reason : c.conclusion, "\n");
   }
   text += creep_text(status.families);

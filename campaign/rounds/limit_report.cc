@@ -11,6 +11,7 @@
 namespace faultsweep {
 
 using faultsim::concat;
+using faultsim::counted;
 using faultsim::InputError;
 using nlohmann::json;
 
@@ -65,8 +66,7 @@ std::string remark_of(const LimitCell& cell, const LimitSearch& limit) {
     case LimitVerdict::limit:
       break;
   }
-  if (f.n_unknown > 0)
-    add(concat(f.n_unknown, f.n_unknown == 1 ? " case" : " cases", " not known"));
+  if (f.n_unknown > 0) add(concat(counted(f.n_unknown, "case", "cases"), " not known"));
   const Crossing* crossing = f.limit();
   if (crossing != nullptr && !crossing->narrow) add("not narrowed yet");
   const bool is_sure =
@@ -184,7 +184,7 @@ std::string limits_to_text(const LimitTable& table, long top) {
   }
   text += rows.text();
   if (top != 0 && n > top) text += concat("and ", n - top, " more rows\n");
-  text += concat("\n", n, n == 1 ? " row" : " rows",
+  text += concat("\n", counted(n, "row", "rows"),
                  ", narrowest band first: ", count(table, LimitVerdict::limit), " with a limit, ",
                  count(table, LimitVerdict::never), " safe throughout, ",
                  count(table, LimitVerdict::always), " unsafe throughout, ",

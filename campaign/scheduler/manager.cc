@@ -12,6 +12,7 @@
 namespace faultsweep {
 
 using faultsim::concat;
+using faultsim::counted;
 using faultsim::ExitCode;
 using nlohmann::json;
 
@@ -59,8 +60,9 @@ Manager::Manager(Store& store, WorkerLink& link, ProgressDisplay& display, const
   cores_.resize(n_workers, 1);
   if (campaign_.cancelled) plan_->stop();
   store_.record_event(campaign_.id, "started",
-                      concat(campaign_.n_waiting, " cases in ", plan_->n_families(), " families, ",
-                             n_workers, " workers",
+                      concat(counted(campaign_.n_waiting, "case", "cases"), " in ",
+                             counted(plan_->n_families(), "family", "families"), ", ",
+                             counted(n_workers, "worker", "workers"),
                              fields_only_.empty() ? std::string()
                                                   : concat("; ", fields_only_.size(),
                                                            " cases for their fields only"),
@@ -311,7 +313,7 @@ void Manager::beat() {
   for (int worker = 0; worker < link_.n_workers(); ++worker)
     n_building += plan_->is_building(worker);
   if (n_building > 0)
-    progress.doing = concat("building ", n_building, n_building == 1 ? " operator" : " operators");
+    progress.doing = concat("building ", counted(n_building, "operator", "operators"));
   if (n_finished_now_ == 0 && n_building == 0) progress.seconds_left = -1;
   display_.show(progress);
   if (since_beat_.seconds() < kBeatSeconds) return;

@@ -11,6 +11,7 @@ namespace faultsweep {
 namespace {
 
 using faultsim::concat;
+using faultsim::counted;
 
 /// Seconds of a case that nobody has run yet; where salt creeps it has many time steps.
 double guessed_case_seconds(const FamilyRecord& family) {
@@ -63,9 +64,9 @@ std::string head(const SlurmCampaign& campaign, const SlurmRequest& request) {
   std::string text = concat(
       "#!/bin/bash\n# Runs the campaign ", campaign.name,
       ", or what is left of it; printed by `faultsweep slurm`.\n#SBATCH --job-name=", campaign.name,
-      "\n# The manager, which mostly sleeps, and ", size.n_workers,
-      size.n_workers == 1 ? " worker for " : " workers for ", n_cases, " cases in ",
-      campaign.waiting.size(), " families.\n#SBATCH --nodes=", request.nodes,
+      "\n# The manager, which mostly sleeps, and ", counted(size.n_workers, "worker", "workers"),
+      " for ", counted(n_cases, "case", "cases"), " in ",
+      counted(campaign.waiting.size(), "family", "families"), ".\n#SBATCH --nodes=", request.nodes,
       "\n#SBATCH --ntasks=", size.n_workers + 1, "\n");
   if (request.time.empty()) {
     text +=
@@ -144,8 +145,8 @@ std::string slurm_script(const SlurmCampaign& campaign, const SlurmRequest& requ
       "while [ $signalled = yes ]; do signalled=no; wait $run; status=$?; done\n");
   if (request.resubmit > 0) {
     text += concat(
-        "# 75: not all is done. Queue this job again, at most ", request.resubmit,
-        request.resubmit == 1 ? " time" : " times",
+        "# 75: not all is done. Queue this job again, at most ",
+        counted(request.resubmit, "time", "times"),
         " (Slurm counts).\n"
         "if [ $status -eq 75 ] && [ $time_is_over = yes ] && [ \"${SLURM_RESTART_COUNT:-0}\" -lt ",
         request.resubmit, " ]; then\n  scontrol requeue \"$SLURM_JOB_ID\"\nfi\n");

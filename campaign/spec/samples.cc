@@ -12,6 +12,7 @@ namespace faultsweep {
 namespace {
 
 using faultsim::concat;
+using faultsim::counted;
 
 constexpr std::size_t kMostSampleBytes = 100'000'000;  // 10^5 lines of a thousand bytes
 constexpr std::size_t kMostTroubles = 50;
@@ -62,11 +63,10 @@ void read_header(std::string_view line, long number, SampleFile& file) {
 void read_line(std::string_view line, long number, SampleFile& file) {
   const std::vector<std::string_view> cells = sample_cells(line);
   if (cells.size() != file.columns.size()) {
-    file.troubles.push_back(
-        {number,
-         concat(cells.size(), cells.size() == 1 ? " value" : " values", ", and ",
-                file.columns.size(), file.columns.size() == 1 ? " parameter" : " parameters"),
-         "give a value of each"});
+    file.troubles.push_back({number,
+                             concat(counted(cells.size(), "value", "values"), ", and ",
+                                    counted(file.columns.size(), "parameter", "parameters")),
+                             "give a value of each"});
     return;
   }
   for (std::size_t k = 0; k < cells.size(); ++k) {

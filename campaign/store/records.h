@@ -294,7 +294,7 @@ struct CaseOnsets {
   long position = 0;
   std::optional<int> rank_class;  ///< as of CaseRow.
   int last_step = 0;              ///< of the stage that has a result.
-  double end = 0;                 ///< s, of that step.
+  double end = 0;                 ///< s, of that step, where the history ends early; else 0.
   std::vector<Onset> onsets;      ///< of the faults that slide.
   bool complete() const { return rank_class && *rank_class < 2; }
 };

@@ -155,7 +155,8 @@ void Store::for_each_onset(std::int64_t campaign, const TableQuery& query,
       "SELECT cc.position, s.rank_class, coalesce(s.last_step, 0), coalesce(e.time_s, 0),"
       " o.fault_id, o.step, l.time_s, ",
       leading_change_sql("o"), " FROM campaign_cases cc", joins(query),
-      " LEFT JOIN load_steps e ON e.case_id = cc.case_id AND e.step = s.last_step"
+      " LEFT JOIN load_steps e ON s.rank_class > 1 AND e.case_id = cc.case_id"
+      " AND e.step = s.last_step"
       " LEFT JOIN fault_onsets o ON o.case_id = cc.case_id AND o.stage_id = s.stage_id"
       " AND o.opening = 0"
       " LEFT JOIN load_steps l ON l.case_id = o.case_id AND l.step = o.step"

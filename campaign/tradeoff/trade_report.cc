@@ -11,6 +11,7 @@
 namespace faultsweep {
 
 using faultsim::concat;
+using faultsim::counted;
 using nlohmann::json;
 
 namespace {
@@ -218,14 +219,13 @@ std::string plane_strain_sentence(const TradeReport& report) {
 }
 
 std::string ranking_sentence(const RankingTrade& one) {
-  std::string text =
-      concat(one.choice, " ranks ", one.n_cases,
-             " cases with Kendall's τ = ", one.tau ? number(*one.tau) : std::string("(all tied)"),
-             " to ", one.reference, ": ", one.n_top_common, " of its first ", one.n_top,
-             " are among the first ", one.n_top, " there, ", one.n_flips,
-             one.n_flips == 1 ? " activation flips" : " activations flip", ", χ̄ is off by ",
-             number(one.chi_rms, 2), " (rms, at most ", number(one.chi_max, 2), "), in ",
-             number(one.seconds), " s instead of ", number(one.reference_seconds), " s.");
+  std::string text = concat(
+      one.choice, " ranks ", one.n_cases,
+      " cases with Kendall's τ = ", one.tau ? number(*one.tau) : std::string("(all tied)"), " to ",
+      one.reference, ": ", one.n_top_common, " of its first ", one.n_top, " are among the first ",
+      one.n_top, " there, ", counted(one.n_flips, "activation flips", "activations flip"),
+      ", χ̄ is off by ", number(one.chi_rms, 2), " (rms, at most ", number(one.chi_max, 2), "), in ",
+      number(one.seconds), " s instead of ", number(one.reference_seconds), " s.");
   return text;
 }
 

@@ -1,43 +1,23 @@
 #include "simulator/case_figures/field_section.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace faultsim {
 namespace {
 
-struct Reach {
-  double top = 0, base = 0;  ///< m, depth.
-};
-
-/// The reservoir layer at zero offset.
-Reach reservoir_of(const FieldGeometry& field) {
-  for (std::size_t k = 0; k < field.layers.size(); ++k) {
-    if (field.layers[k].name != field.reservoir_layer) continue;
-    return {field.layers[k].top_depth,
-            k + 1 < field.layers.size() ? field.layers[k + 1].top_depth : field.depth};
-  }
-  return {0, field.depth};
-}
-
-Reach reach_of(const Scene& scene, std::size_t fault) {
-  Reach reach{scene.field.depth, 0};
-  for (const figure::DepthBand& band : compartments_beside(scene, fault)) {
-    reach.top = std::min(reach.top, band.top - scene.field.fault_overshoot);
-    reach.base = std::max(reach.base, band.base + scene.field.fault_overshoot);
-  }
-  return {std::max(reach.top, 0.0), std::min(reach.base, scene.field.depth)};
+DepthInterval reach_of(const Scene& scene, std::size_t fault) {
+  const DepthInterval range = fault_range(scene.field, fault);
+  return {std::max(range.top, 0.0), std::min(range.bottom, scene.field.depth)};
 }
 
 }  // namespace
 
 std::vector<figure::DepthBand> compartments_beside(const Scene& scene, std::size_t fault) {
   if (scene.geometry_kind != GeometryKind::field) return {};
-  const Reach reservoir = reservoir_of(scene.field);
   std::vector<figure::DepthBand> bands;
   const auto add = [&](const Block& block, bool plus) {
-    bands.push_back(
-        {block.name, reservoir.top + block.offset, reservoir.base + block.offset, plus});
+    const DepthInterval reservoir = reservoir_range(scene.field, block);
+    bands.push_back({block.name, reservoir.top, reservoir.bottom, plus});
   };
   const std::vector<Block>& blocks = scene.field.blocks;
   if (fault > 0 && fault - 1 < blocks.size()) add(blocks[fault - 1], false);
@@ -45,24 +25,17 @@ std::vector<figure::DepthBand> compartments_beside(const Scene& scene, std::size
   return bands;
 }
 
-double fault_place(const Scene& scene, std::size_t fault, double depth) {
-  const std::vector<Block>& blocks = scene.field.blocks;
-  const double x = fault < blocks.size() ? blocks[fault].from : blocks.back().to;
-  return x + std::tan(scene.faults[fault].dip_from_vertical) * (depth - scene.field.pivot_depth);
-}
-
 figure::Section field_section(const Scene& scene) {
   const FieldGeometry& field = scene.field;
-  const Reach reservoir = reservoir_of(field);
   figure::Section section;
   double shallowest = field.depth, deepest = 0;
   for (std::size_t f = 0; f < scene.faults.size(); ++f) {
-    const Reach reach = reach_of(scene, f);
+    const DepthInterval reach = reach_of(scene, f);
     shallowest = std::min(shallowest, reach.top);
-    deepest = std::max(deepest, reach.base);
+    deepest = std::max(deepest, reach.bottom);
     section.faults.push_back({scene.faults[f].name,
-                              {{fault_place(scene, f, reach.top), reach.top},
-                               {fault_place(scene, f, reach.base), reach.base}},
+                              {{fault_x(scene, f, reach.top), reach.top},
+                               {fault_x(scene, f, reach.bottom), reach.bottom}},
                               {}});
   }
   const double width = field.blocks.back().to - field.blocks.front().from;
@@ -84,13 +57,12 @@ figure::Section field_section(const Scene& scene) {
                              .base = base});
   }
   for (std::size_t b = 0; b < field.blocks.size(); ++b) {
-    const double top = reservoir.top + field.blocks[b].offset;
-    const double base = reservoir.base + field.blocks[b].offset;
+    const auto [top, base] = reservoir_range(field, field.blocks[b]);
     section.rocks.push_back({.name = field.blocks[b].name,
-                             .from = fault_place(scene, b, top),
-                             .to = fault_place(scene, b + 1, top),
-                             .from_base = fault_place(scene, b, base),
-                             .to_base = fault_place(scene, b + 1, base),
+                             .from = fault_x(scene, b, top),
+                             .to = fault_x(scene, b + 1, top),
+                             .from_base = fault_x(scene, b, base),
+                             .to_base = fault_x(scene, b + 1, base),
                              .top = top,
                              .base = base,
                              .is_reservoir = true});

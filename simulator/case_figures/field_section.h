@@ -4,15 +4,13 @@
 
 #include "simulator/figure/depth_chart.h"
 #include "simulator/figure/section.h"
-#include "simulator/scene/scene.h"
+#include "simulator/scene/field_depths.h"
 
 /// Inside of the module: where things lie in a field.
 namespace faultsim {
 
 /// The compartments beside a fault of a field; none of a box.
 std::vector<figure::DepthBand> compartments_beside(const Scene& scene, std::size_t fault);
-/// x of a fault of a field at a depth, m.
-double fault_place(const Scene& scene, std::size_t fault, double depth);
 /// The field's rocks and faults, without χ. @pre the scene is a field.
 figure::Section field_section(const Scene& scene);
 

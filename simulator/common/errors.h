@@ -21,6 +21,12 @@ std::string concat(const Args&... args) {
   return out.str();
 }
 
+/// "1 case", "2 cases".
+template <typename Count>
+std::string counted(const Count& count, const char* one, const char* many) {
+  return concat(count, ' ', count == 1 ? one : many);
+}
+
 /// Base of the errors that are not bugs: a message and context lines, innermost first.
 class Error : public std::exception {
  public:

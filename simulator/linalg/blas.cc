@@ -20,8 +20,7 @@ BlasInfo blas_info() {
 
 std::string blas_description() {
   const BlasInfo info = blas_info();
-  return concat(info.library, " ", info.kernel, ", ", info.n_threads,
-                info.n_threads == 1 ? " thread" : " threads");
+  return concat(info.library, " ", info.kernel, ", ", counted(info.n_threads, "thread", "threads"));
 }
 
 std::string blas_complaint() {

@@ -7,6 +7,7 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/loads/history.h"
+#include "simulator/scene/field_depths.h"
 #include "simulator/scene/initial_state.h"
 
 namespace faultsim {
@@ -45,24 +46,9 @@ double least_stress(const Scene& scene, double depth, DepthSide side) {
   return -solver.eigenvalues()[2];
 }
 
-struct DepthRange {
-  double top, bottom;
-};
-
-DepthRange reservoir_of(const FieldGeometry& field) {
-  for (std::size_t i = 0; i < field.layers.size(); ++i) {
-    if (field.layers[i].name != field.reservoir_layer) continue;
-    const bool is_last = i + 1 == field.layers.size();
-    return {field.layers[i].top_depth, is_last ? field.depth : field.layers[i + 1].top_depth};
-  }
-  return {0, 0};
-}
-
-DepthRange depths_of_region(const Scene& scene, std::size_t region) {
+DepthInterval depths_of_region(const Scene& scene, std::size_t region) {
   if (scene.geometry_kind == GeometryKind::field) {
-    const DepthRange layer = reservoir_of(scene.field);
-    const double offset = scene.field.blocks[region].offset;
-    return {layer.top + offset, layer.bottom + offset};
+    return reservoir_range(scene.field, scene.field.blocks[region]);
   }
   const PressureRegion& box = scene.box.regions[region];
   const bool disc = box.shape == RegionShape::disc;
@@ -73,7 +59,7 @@ DepthRange depths_of_region(const Scene& scene, std::size_t region) {
 
 /// Where a prescribed pressure acts: its window, or the regions beside the fault of a field; of a
 /// box without a window all regions.
-DepthRange depths_of_fault(const Scene& scene, std::size_t fault) {
+DepthInterval depths_of_fault(const Scene& scene, std::size_t fault) {
   const FaultPressure& law = scene.faults[fault].pressure;
   if (law.depth_window) return {(*law.depth_window)[0], (*law.depth_window)[1]};
   std::vector<std::size_t> regions;
@@ -82,10 +68,9 @@ DepthRange depths_of_fault(const Scene& scene, std::size_t fault) {
     if (!is_field || r == fault || r + 1 == fault) regions.push_back(r);
   }
   if (regions.empty()) return {0, 0};
-  DepthRange all = depths_of_region(scene, regions.front());
+  DepthInterval all = depths_of_region(scene, regions.front());
   for (const std::size_t r : regions) {
-    const DepthRange one = depths_of_region(scene, r);
-    all = {std::min(all.top, one.top), std::max(all.bottom, one.bottom)};
+    all.unite(depths_of_region(scene, r));
   }
   return all;
 }
@@ -101,10 +86,8 @@ class PressureWarnings {
       for (std::size_t r = 0; r < changes.size(); ++r) regions[r].see(changes[r], step);
     }
     for (std::size_t r = 0; r < regions.size(); ++r) {
-      const DepthRange depths = depths_of_region(scene_, r);
-      const auto initial = [&](double depth) {
-        return initial_region_pressure(scene_, r, depth);
-      };
+      const DepthInterval depths = depths_of_region(scene_, r);
+      const auto initial = [&](double depth) { return initial_region_pressure(scene_, r, depth); };
       judge("the pressure of " + scene_.pressure[r].region, regions[r], depths, initial);
     }
     for (std::size_t f = 0; f < scene_.faults.size(); ++f) prescribed(f);
@@ -118,19 +101,19 @@ class PressureWarnings {
     Peak peak;
     for (const LoadStep& step : steps_)
       peak.see(prescribed_pressure_change(scene_, law, step.time), step);
-    const DepthRange depths = depths_of_fault(scene_, fault);
+    const DepthInterval depths = depths_of_fault(scene_, fault);
     const auto initial = [&](double depth) {
       return initial_state(scene_, -depth, side_of(depth, depths)).pressure;
     };
     judge("the prescribed pressure of fault " + scene_.faults[fault].name, peak, depths, initial);
   }
 
-  static DepthSide side_of(double depth, const DepthRange& range) {
+  static DepthSide side_of(double depth, const DepthInterval& range) {
     return depth == range.top ? DepthSide::below : DepthSide::above;
   }
 
   template <typename Initial>
-  void judge(const std::string& of, const Peak& peak, const DepthRange& depths,
+  void judge(const std::string& of, const Peak& peak, const DepthInterval& depths,
              const Initial& initial) {
     if (peak.step == nullptr || peak.change <= kRounding) return;
     const std::string when = concat("load step ", peak.step->step, " (", peak.step->stage, ")");

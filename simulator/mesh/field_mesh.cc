@@ -30,7 +30,8 @@ double reservoir_base(const FieldMeshSpec& spec) {
   return below < spec.layer_tops.size() ? spec.layer_tops[below] : spec.depth;
 }
 DepthRange reservoir_of(const FieldMeshSpec& spec, const FieldMeshSpec::Block& block) {
-  return {reservoir_top(spec) + block.offset, reservoir_base(spec) + block.offset};
+  const double top = reservoir_top(spec) + block.offset;
+  return {top, block.thickness ? top + *block.thickness : reservoir_base(spec) + block.offset};
 }
 
 /// x at the pivot depth of fault i.
@@ -124,6 +125,8 @@ void check_blocks(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
     const std::string pointer = concat("/geometry/blocks/", i);
     if (!(block.to - block.from > 2 * kEdgeTolerance))
       problems.push_back({pointer + "/to", 0, "is not east of `from`", "give a block some width"});
+    if (block.thickness && !(*block.thickness > 2 * kEdgeTolerance))
+      problems.push_back({pointer + "/thickness", 0, "is no thickness", "write 1 m or more"});
     if (i > 0 && std::abs(block.from - spec.blocks[i - 1].to) > kEdgeTolerance)
       problems.push_back({pointer + "/from", 0,
                           concat(block.from, " m is not where the block west of it ends, ",

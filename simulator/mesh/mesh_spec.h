@@ -38,6 +38,7 @@ struct FieldMeshSpec {
     double from, to, offset;  ///< m.
     /// m, for which grid lines are laid out before they move to offset; none = offset.
     std::optional<double> mesh_offset = std::nullopt;
+    std::optional<double> thickness = std::nullopt;  ///< m; none = of the layer.
   };
   std::vector<Block> blocks;  ///< contiguous; region index = block index.
   double block_length, fault_length, fault_overshoot, pivot_depth;  ///< m. A fault_length
@@ -87,8 +88,8 @@ struct GridLines {
 /// Field: lines are laid out for the blocks' mesh_offset; between the depths that must be lines
 /// (layers, reservoir edges, tips of faults) they then follow those smoothly to the blocks' offset,
 /// z + δ_low + (δ_high − δ_low) s²(3 − 2s): cells correspond one to one over a range of offsets,
-/// those at reservoir edges nearly keep their height, and positions are analytic in the offset. A problem
-/// where the order of those depths changes or a gap more than halves or grows 2.5 times.
+/// those at reservoir edges nearly keep their height, and positions are analytic in the offset. A
+/// problem where the order of those depths changes or a gap more than halves or grows 2.5 times.
 ///
 /// Box: fine in the plane of the patches within their bounds and fine_margin; without patches
 /// within those of the regions in all directions; without either even. Edges of patches, regions

@@ -11,6 +11,7 @@
 #include "simulator/plan/cost.h"
 #include "simulator/plan/creep_plan.h"
 #include "simulator/plan/influence_plan.h"
+#include "simulator/scene/field_depths.h"
 #include "simulator/scene/load_times.h"
 
 namespace faultsim {
@@ -98,26 +99,15 @@ FaultWindow window(const std::array<std::pair<int, int>, 3>& ranges) {
 std::vector<FaultWindow> field_faults(const Scene& scene, const Plan& plan,
                                       const GridLines& lines) {
   const FieldGeometry& field = scene.field;
-  double top = 0, base = 0;
-  for (std::size_t i = 0; i < field.layers.size(); ++i) {
-    if (field.layers[i].name != field.reservoir_layer) continue;
-    top = field.layers[i].top_depth;
-    base = i + 1 < field.layers.size() ? field.layers[i + 1].top_depth : field.depth;
-  }
   const bool has_ends = field.fault_length < field.length;  // else the model's ends cut it
   const double reach = has_ends ? field.fault_length / 2 : field.length;
   const auto columns = plan.plane_strain ? std::pair{0, 1} : lines_between(lines.y, -reach, reach);
   std::vector<FaultWindow> faults;
   for (std::size_t f = 0; f <= field.blocks.size(); ++f) {
-    double shallow = 1e300, deep = -1e300;
-    for (std::size_t b = f == 0 ? 0 : f - 1; b < std::min(f + 1, field.blocks.size()); ++b) {
-      shallow = std::min(shallow, top + field.blocks[b].offset);
-      deep = std::max(deep, base + field.blocks[b].offset);
-    }
+    const DepthInterval range = fault_range(field, f);
     const double x = f < field.blocks.size() ? field.blocks[f].from : field.blocks[f - 1].to;
-    faults.push_back(window({line_at(lines.x, x), columns,
-                             lines_between(lines.z, -(deep + field.fault_overshoot),
-                                           -(shallow - field.fault_overshoot))}));
+    faults.push_back(
+        window({line_at(lines.x, x), columns, lines_between(lines.z, -range.bottom, -range.top)}));
   }
   return faults;
 }
@@ -197,6 +187,7 @@ nlohmann::json family_of_field(const FieldMeshSpec& spec) {
   for (const auto& block : spec.blocks) {
     j["blocks"].push_back({block.from, block.to, block.offset});
     if (block.mesh_offset) j["blocks"].back().push_back(*block.mesh_offset);
+    if (block.thickness) j["blocks"].back().push_back({{"thickness", *block.thickness}});
   }
   if (!spec.plane_strain && spec.fault_length >= spec.length) j["fault_ends"] = "none";
   return j;
@@ -339,7 +330,7 @@ FieldMeshSpec field_mesh_spec(const Scene& scene, const Plan& plan) {
   }
   spec.sideburden_material = material_index(scene, field.sideburden);
   for (const Block& block : field.blocks)
-    spec.blocks.push_back({block.from, block.to, block.offset, block.mesh_offset});
+    spec.blocks.push_back({block.from, block.to, block.offset, block.mesh_offset, block.thickness});
   spec.block_length = field.block_length;
   spec.fault_length = field.fault_length;
   spec.fault_overshoot = field.fault_overshoot;

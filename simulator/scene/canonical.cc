@@ -47,6 +47,7 @@ json field(const FieldGeometry& field) {
                       {"offset", plain(block.offset)}});
     if (block.overpressure) blocks.back()["overpressure"] = plain(*block.overpressure);
     if (block.mesh_offset) blocks.back()["mesh_offset"] = plain(*block.mesh_offset);
+    if (block.thickness) blocks.back()["thickness"] = plain(*block.thickness);
   }
   return {{"kind", "field"},
           {"width", plain(field.width)},

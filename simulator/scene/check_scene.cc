@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 
+#include "simulator/scene/field_depths.h"
 #include "simulator/scene/initial_state.h"
 #include "simulator/scene/load_times.h"
 #include "simulator/scene/pressure_history.h"
@@ -14,20 +15,6 @@ namespace faultsim {
 namespace {
 
 std::string metres(double value) { return in_unit(value, Dimension::length, "m"); }
-
-struct DepthRange {
-  double top = kNaN;
-  double bottom = kNaN;
-};
-
-DepthRange reservoir_of(const FieldGeometry& field) {
-  for (std::size_t i = 0; i < field.layers.size(); ++i) {
-    if (field.layers[i].name != field.reservoir_layer) continue;
-    const bool is_last = i + 1 == field.layers.size();
-    return {field.layers[i].top_depth, is_last ? field.depth : field.layers[i + 1].top_depth};
-  }
-  return {};
-}
 
 void check_field_extent(SceneReader& reader, const FieldGeometry& field) {
   const std::string at = "/geometry/";
@@ -66,12 +53,12 @@ void check_field_extent(SceneReader& reader, const FieldGeometry& field) {
 }
 
 void check_offsets(SceneReader& reader, const FieldGeometry& field) {
-  const DepthRange reservoir = reservoir_of(field);
   const double margin = field.fault_overshoot;
   for (std::size_t i = 0; i < field.blocks.size(); ++i) {
     const Block& block = field.blocks[i];
-    const double top = reservoir.top + block.offset - margin;
-    const double bottom = reservoir.bottom + block.offset + margin;
+    const DepthInterval reservoir = reservoir_range(field, block);
+    const double top = reservoir.top - margin;
+    const double bottom = reservoir.bottom + margin;
     if (!(top <= 0) && !(bottom >= field.depth)) continue;
     const bool has_offset = block.offset != 0;
     reader.problem(
@@ -79,33 +66,20 @@ void check_offsets(SceneReader& reader, const FieldGeometry& field) {
         "the reservoir of \"" + block.name + "\" with its faults reaches from " + metres(top) +
             " to " + metres(bottom) + " depth, out of the model",
         "keep it between 0 m and " + metres(field.depth) + ": " +
-            (has_offset ? "an offset above " + metres(margin - reservoir.top) + " and below " +
-                              metres(field.depth - margin - reservoir.bottom)
+            (has_offset ? "an offset above " + metres(margin - reservoir.top + block.offset) +
+                              " and below " +
+                              metres(field.depth - margin - reservoir.bottom + block.offset)
                         : "a smaller fault_overshoot or a larger depth"));
   }
-}
-
-/// x of fault i at a depth, m.
-double fault_x(const Scene& scene, std::size_t i, double depth) {
-  const auto& blocks = scene.field.blocks;
-  const double x = i < blocks.size() ? blocks[i].from : blocks.back().to;
-  const double lean = std::tan(scene.faults[i].dip_from_vertical);
-  return x + (depth - scene.field.pivot_depth) * lean;
 }
 
 /// Dipping faults may not meet between the highest and the lowest point of any.
 void check_crossing(SceneReader& reader, const Scene& scene) {
   const FieldGeometry& field = scene.field;
   if (scene.faults.size() != field.blocks.size() + 1 || field.blocks.empty()) return;
-  const DepthRange reservoir = reservoir_of(field);
-  double least = 0;
-  double most = 0;
-  for (const Block& block : field.blocks) {
-    least = std::min(least, block.offset);
-    most = std::max(most, block.offset);
-  }
-  for (const double depth : {reservoir.top + least - field.fault_overshoot,
-                             reservoir.bottom + most + field.fault_overshoot}) {
+  DepthInterval all = reservoir_range(field);
+  for (const Block& block : field.blocks) all.unite(reservoir_range(field, block));
+  for (const double depth : {all.top - field.fault_overshoot, all.bottom + field.fault_overshoot}) {
     for (std::size_t i = 0; i < scene.faults.size(); ++i) {
       const std::string pointer = element("/faults", i) + "/dip_from_vertical";
       const double x = fault_x(scene, i, depth);
@@ -262,13 +236,13 @@ struct Place {
 };
 std::vector<Place> lowest_places(const Scene& scene, std::size_t region) {
   if (scene.geometry_kind == GeometryKind::field) {
-    const DepthRange reservoir = reservoir_of(scene.field);
-    const double offset = scene.field.blocks[region].offset;
+    const DepthInterval layer = reservoir_range(scene.field);
+    const DepthInterval reservoir = reservoir_range(scene.field, scene.field.blocks[region]);
     const bool is_uniform = scene.field.blocks[region].overpressure.has_value();
-    std::vector<Place> places = {{reservoir.top + offset, DepthSide::below}};
-    for (const double jump : {reservoir.top, reservoir.bottom}) {
+    std::vector<Place> places = {{reservoir.top, DepthSide::below}};
+    for (const double jump : {layer.top, layer.bottom}) {
       if (is_uniform) continue;
-      if (jump > reservoir.top + offset && jump < reservoir.bottom + offset) {
+      if (jump > reservoir.top && jump < reservoir.bottom) {
         places.push_back({jump, DepthSide::below});
       }
     }
@@ -362,10 +336,9 @@ void check_prescribed(SceneReader& reader, const Scene& scene, std::size_t fault
   if (rule.depth_window) {
     depth = (*rule.depth_window)[0];
   } else if (scene.geometry_kind == GeometryKind::field) {
-    const auto& blocks = scene.field.blocks;
-    const double top = reservoir_of(scene.field).top;
-    if (fault > 0 && fault - 1 < blocks.size()) depth = top + blocks[fault - 1].offset;
-    if (fault < blocks.size()) depth = std::fmin(depth, top + blocks[fault].offset);
+    for (const Block& block : blocks_beside(scene.field, fault)) {
+      depth = std::fmin(depth, reservoir_range(scene.field, block).top);
+    }
   }
   if (std::isnan(depth)) return;
   const double initial = initial_state(scene, -depth, DepthSide::below).pressure;

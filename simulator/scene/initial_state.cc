@@ -37,16 +37,6 @@ double weight(const std::vector<ColumnPiece>& column, double gravity, double dep
   return sum * gravity;
 }
 
-DepthInterval reservoir_range(const Scene& scene) {
-  const FieldGeometry& field = scene.field;
-  for (std::size_t i = 0; i < field.layers.size(); ++i) {
-    if (field.layers[i].name != field.reservoir_layer) continue;
-    const bool is_last = i + 1 == field.layers.size();
-    return {field.layers[i].top_depth, is_last ? field.depth : field.layers[i + 1].top_depth};
-  }
-  return {};
-}
-
 bool is_viscous(const Scene& scene, const std::string& material) {
   return material_named(scene, material).viscosity.has_value();
 }
@@ -65,8 +55,9 @@ bool is_viscous_at(const Scene& scene, double depth, DepthSide side) {
 }
 
 /// A block's column: reservoir at its offset, sideburden where the layer is left empty.
-std::vector<ColumnPiece> block_column(const Scene& scene, double offset, bool has_reservoir) {
-  const DepthInterval layer = reservoir_range(scene);
+std::vector<ColumnPiece> block_column(const Scene& scene,
+                                      const std::optional<DepthInterval>& reservoir) {
+  const DepthInterval layer = reservoir_range(scene.field);
   const double reservoir_density = [&] {
     for (const Layer& each : scene.field.layers) {
       if (each.name == scene.field.reservoir_layer) {
@@ -77,7 +68,8 @@ std::vector<ColumnPiece> block_column(const Scene& scene, double offset, bool ha
   }();
   const double side_density = material_named(scene, scene.field.sideburden).density;
   const std::vector<ColumnPiece> reference = reference_column(scene);
-  std::vector<double> cuts = {layer.top + offset, layer.bottom + offset};
+  std::vector<double> cuts = {layer.top, layer.bottom};
+  if (reservoir) cuts = {reservoir->top, reservoir->bottom};
   for (const ColumnPiece& piece : reference) cuts.push_back(piece.bottom);
   std::sort(cuts.begin(), cuts.end());
   std::vector<ColumnPiece> column;
@@ -88,8 +80,9 @@ std::vector<ColumnPiece> block_column(const Scene& scene, double offset, bool ha
                                     [&](const ColumnPiece& each) { return middle < each.bottom; });
     double density = piece == reference.end() ? 0.0 : piece->density;
     if (middle > layer.top && middle < layer.bottom) density = side_density;
-    const bool in_reservoir = middle > layer.top + offset && middle < layer.bottom + offset;
-    if (has_reservoir && in_reservoir) density = reservoir_density;
+    if (reservoir && middle > reservoir->top && middle < reservoir->bottom) {
+      density = reservoir_density;
+    }
     column.push_back({bottom, density});
     top = bottom;
   }
@@ -103,21 +96,15 @@ double own_excess(const Scene& scene, std::size_t region, double depth, DepthSid
   const std::optional<double>& own = blocks[region].overpressure;
   if (!own) return 0;
   const bool is_column = scene.initial.kind == InitialStressKind::column;
-  const bool column_has = is_column && reservoir_range(scene).holds(depth, side);
+  const bool column_has = is_column && reservoir_range(scene.field).holds(depth, side);
   return *own - (column_has ? scene.initial.overpressure : 0);
 }
 
 }  // namespace
 
-bool DepthInterval::holds(double depth, DepthSide side) const {
-  const bool inside = depth > top && depth < bottom;
-  return inside || (depth == top && side == DepthSide::below) ||
-         (depth == bottom && side == DepthSide::above);
-}
-
 InitialColumn::InitialColumn(const Scene& scene) : scene_(scene) {
   if (scene.initial.kind == InitialStressKind::column) pieces_ = reference_column(scene);
-  if (scene.geometry_kind == GeometryKind::field) reservoir_ = reservoir_range(scene);
+  if (scene.geometry_kind == GeometryKind::field) reservoir_ = reservoir_range(scene.field);
 }
 
 StressAtDepth InitialColumn::one_sided(double depth, DepthSide side) const {
@@ -167,7 +154,7 @@ StressAtDepth initial_state(const Scene& scene, double z, DepthSide side) {
 
 double region_top(const Scene& scene, std::size_t region) {
   if (scene.geometry_kind == GeometryKind::field) {
-    return reservoir_range(scene).top + scene.field.blocks[region].offset;
+    return reservoir_range(scene.field, scene.field.blocks[region]).top;
   }
   const PressureRegion& box = scene.box.regions[region];
   if (box.shape == RegionShape::disc) return -(box.center[2] + 0.5 * box.thickness);
@@ -200,10 +187,10 @@ std::vector<InitialRegion> initial_regions(const Scene& scene) {
     rows.push_back({name, depth, at.sigma[8], at.sigma[0], at.sigma[4], at.pressure + excess});
   };
   if (scene.geometry_kind == GeometryKind::field) {
-    const DepthInterval layer = reservoir_range(scene);
     for (std::size_t i = 0; i < scene.field.blocks.size(); ++i) {
       const Block& block = scene.field.blocks[i];
-      const double depth = 0.5 * (layer.top + layer.bottom) + block.offset;
+      const DepthInterval reservoir = reservoir_range(scene.field, block);
+      const double depth = 0.5 * (reservoir.top + reservoir.bottom);
       add(block.name, depth, own_pressure_excess(scene, i, -depth));
     }
     return rows;
@@ -233,9 +220,9 @@ double neglected_weight_difference(const Scene& scene) {
       scene.geometry_kind == GeometryKind::field && scene.initial.kind == InitialStressKind::column;
   if (!has_columns) return 0;
   const std::vector<ColumnPiece> reference = reference_column(scene);
-  std::vector<std::vector<ColumnPiece>> columns = {block_column(scene, 0, false)};
+  std::vector<std::vector<ColumnPiece>> columns = {block_column(scene, std::nullopt)};
   for (const Block& block : scene.field.blocks) {
-    columns.push_back(block_column(scene, block.offset, true));
+    columns.push_back(block_column(scene, reservoir_range(scene.field, block)));
   }
   double largest = 0;
   for (const auto& column : columns) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/scene/field_depths.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {
@@ -13,14 +14,6 @@ struct StressAtDepth {
   std::array<double, 9> sigma =
       {};               ///< Pa, σ0, row-major in x (across), y (along), z; tension > 0.
   double pressure = 0;  ///< Pa, p0.
-};
-
-/// Which limit to take where p0 jumps (top and base of an overpressured reservoir layer) or σ_h
-/// does (top and base of a lithostatic viscous layer).
-enum class DepthSide {
-  mean,   ///< of both limits.
-  above,  ///< as seen from smaller depths.
-  below,  ///< as seen from larger depths.
 };
 
 /// Initial state at height z (m, depth = −z), a function of depth only (docs/model.md, section 6):
@@ -40,10 +33,6 @@ StressAtDepth initial_state(const Scene& scene, double z, DepthSide side = Depth
 struct ColumnPiece {
   double bottom;   ///< m, depth.
   double density;  ///< kg/m3
-};
-struct DepthInterval {
-  double top = 0, bottom = 0;  ///< m, depths.
-  bool holds(double depth, DepthSide side) const;
 };
 
 /// initial_state() of one scene at many heights.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kRightAngle = 1.5707963267948966;
 constexpr double kSteepest = kRightAngle / 2;       // 45 deg from the vertical in a box
-constexpr double kSteepestField = kRightAngle / 3;  // 30 deg
+constexpr double kFlattestField = kRightAngle / 2;  // 45 deg
 constexpr double kAngleSlack = 1e-9;                // rad; "90 deg" may come out one bit off
 
 /// Where the value of a key comes from: the fault's own object, else the default one, else "".
@@ -145,9 +145,9 @@ FaultPressure read_fault_pressure(SceneReader& reader, std::size_t fault) {
 
 void check_dip(SceneReader& reader, const std::string& at, bool is_box, double dip) {
   const std::string pointer = at + "dip_from_vertical";
-  if (!is_box && std::abs(dip) > kSteepestField + kAngleSlack) {
+  if (!is_box && std::abs(dip) > kFlattestField + kAngleSlack) {
     reader.problem(pointer, reader.as_given(pointer) + " is too far from the vertical for a field",
-                   "write a dip from -30 deg to 30 deg");
+                   "write a dip from -45 deg to 45 deg");
   }
   const bool is_horizontal = std::abs(std::abs(dip) - kRightAngle) < kAngleSlack;
   if (is_box && std::abs(dip) > kSteepest + kAngleSlack && !is_horizontal) {

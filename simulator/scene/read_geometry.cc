@@ -6,6 +6,7 @@
 #include <string>
 
 #include "simulator/common/near_miss.h"
+#include "simulator/scene/field_depths.h"
 #include "simulator/scene/scene_reader.h"
 
 namespace faultsim {
@@ -48,6 +49,7 @@ void read_blocks(SceneReader& reader, FieldGeometry& field) {
                 reader.quantity(at + "offset", 0)};
     const double mesh_offset = reader.quantity(at + "mesh_offset", block.offset);
     if (mesh_offset != block.offset) block.mesh_offset = mesh_offset;  // else it says nothing
+    if (reader.has(at + "thickness")) block.thickness = reader.quantity(at + "thickness");
     if (reader.has(at + "overpressure")) block.overpressure = reader.quantity(at + "overpressure");
     if (block.to <= block.from) {
       reader.problem(at + "to", "block \"" + block.name + "\" ends west of where it begins",
@@ -91,14 +93,11 @@ void read_field(SceneReader& reader, Scene& scene) {
   field.fault_length = reader.quantity(at + "fault_length");
   constexpr double kDefaultOvershoot = 150;  // m, the reference scene's
   field.fault_overshoot = reader.quantity(at + "fault_overshoot", kDefaultOvershoot);
-  double middle = kNaN;
-  for (std::size_t i = 0; i < field.layers.size(); ++i) {
-    if (field.layers[i].name != field.reservoir_layer) continue;
-    const bool is_last = i + 1 == field.layers.size();
-    middle =
-        0.5 * (field.layers[i].top_depth + (is_last ? field.depth : field.layers[i + 1].top_depth));
+  const DepthInterval reservoir = reservoir_range(field);
+  for (Block& block : field.blocks) {  // that of the layer says nothing
+    if (block.thickness == reservoir.bottom - reservoir.top) block.thickness.reset();
   }
-  field.pivot_depth = reader.quantity(at + "pivot_depth", middle);
+  field.pivot_depth = reader.quantity(at + "pivot_depth", 0.5 * (reservoir.top + reservoir.bottom));
 }
 
 /// None for an unknown word, which only a condition without a (known) kind can have: its other keys

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "simulator/common/errors.h"
+#include "simulator/scene/field_depths.h"
 #include "simulator/scene/load_times.h"
 #include "simulator/scene/scene_reader.h"
 
@@ -282,20 +283,8 @@ class IdleInputs {
       const double half = 0.5 * patch.width * std::abs(std::cos(patch.dip_from_vertical));
       return {-patch.center[2] - half, -patch.center[2] + half};
     }
-    const FieldGeometry& field = scene_.field;
-    double top = 0, base = field.depth;
-    for (std::size_t i = 0; i < field.layers.size(); ++i) {
-      if (field.layers[i].name != field.reservoir_layer) continue;
-      top = field.layers[i].top_depth;
-      if (i + 1 < field.layers.size()) base = field.layers[i + 1].top_depth;
-    }
-    double least = HUGE_VAL, most = -HUGE_VAL;
-    for (std::size_t b = fault == 0 ? 0 : fault - 1; b < std::min(fault + 1, field.blocks.size());
-         ++b) {
-      least = std::min(least, field.blocks[b].offset);
-      most = std::max(most, field.blocks[b].offset);
-    }
-    return {top + least - field.fault_overshoot, base + most + field.fault_overshoot};
+    const DepthInterval range = fault_range(scene_.field, fault);
+    return {range.top, range.bottom};
   }
 
   void loading() {

@@ -35,13 +35,15 @@ struct Block {
   std::string name;   ///< also the name of its pressure region.
   double from = 0;    ///< m.
   double to = 0;      ///< m.
-  double offset = 0;  ///< m, > 0 is down.
+  double offset = 0;  ///< m, > 0 is down: of the reservoir's top.
   /// Pa, of its own: what its initial pressure is above hydrostatic (profile: above the profile),
   /// at all depths of its reservoir. None = that of the column at the same depth.
   std::optional<double> overpressure = std::nullopt;
   /// m: grid lines are laid out for this offset and then moved to `offset` (FieldMeshSpec). None =
   /// for `offset`.
   std::optional<double> mesh_offset = std::nullopt;
+  /// m, of its reservoir from its top down. None = that of the reservoir layer.
+  std::optional<double> thickness = std::nullopt;
   bool operator==(const Block&) const = default;
 };
 

@@ -147,6 +147,21 @@ TEST(FieldMesh, AnUpwardOffsetPullsUpTheUnderburden) {
   EXPECT_EQ(kinds_at(mesh, 1000, 50, 2100, 5000), std::set<int>{underburden});
 }
 
+TEST(FieldMesh, ABlockMayHaveAThicknessOfItsOwn) {
+  FieldMeshSpec spec = reference(100);
+  spec.blocks[1].thickness = 80;
+  spec.blocks[0].thickness = 260;
+  const Mesh mesh = make_mesh(spec);
+  EXPECT_EQ(kinds_at(mesh, 1000, 50, 2000, 2100), std::set<int>{salt});
+  EXPECT_EQ(kinds_at(mesh, 1000, 50, 2100, 2180), std::set<int>{reservoir});
+  EXPECT_EQ(kinds_at(mesh, 1000, 50, 2180, 5000), std::set<int>{underburden});
+  EXPECT_EQ(kinds_at(mesh, -1000, 50, 2000, 2260), std::set<int>{reservoir});
+  EXPECT_EQ(kinds_at(mesh, -1000, 50, 2260, 5000), std::set<int>{underburden});
+  EXPECT_NEAR(mesh.faults[0].points.back().z(), -2260 - 150, 1e-6);
+  EXPECT_NEAR(mesh.faults[1].points.back().z(), -2260 - 150, 1e-6);
+  EXPECT_NEAR(mesh.faults[2].points.back().z(), -2180 - 150, 1e-6);
+}
+
 /// Heights of the cells next to a depth: two above, two below.
 std::vector<double> heights_around(const std::vector<double>& z, double depth) {
   const auto at =

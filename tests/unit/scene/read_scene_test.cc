@@ -340,6 +340,7 @@ TEST(CaseIdentity, IgnoresSpellingTitleCommentsAndOutput) {
       {{"/geometry/depth", "5000.0 m"}},
       {{"/compartments/east/scale", "1"}},
       {{"/geometry/blocks/1/offset", "-0 m"}},
+      {{"/geometry/blocks/1/thickness", "200 m"}},
       {{"/geometry/blocks/1/from", "-0.0 m"}},
       {{"/mesh/growth", "2"}},
       {{"/mesh/dip", "15 m"}},
@@ -361,6 +362,7 @@ TEST(CaseIdentity, ChangesWithWordsAndSwitches) {
   const std::vector<std::vector<std::pair<std::string, std::string>>> other = {
       {{"/fault_pressure/rule", "max"}},
       {{"/tier", "screening"}},
+      {{"/geometry/blocks/1/thickness", "199 m"}},
       {{"/mesh/corner", "4 m"}},
       {{"/mesh/corner", "0 m"}},
       {{"/mesh/corner_growth", "1.2"}},

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "simulator/scene/scene.h"
+
+namespace faultsim {
+
+/// Which limit to take where p0 jumps (top and base of an overpressured reservoir layer) or σ_h
+/// does (top and base of a lithostatic viscous layer).
+enum class DepthSide {
+  mean,   ///< of both limits.
+  above,  ///< as seen from smaller depths.
+  below,  ///< as seen from larger depths.
+};
+
+struct DepthInterval {
+  double top = 0, bottom = 0;  ///< m, depths.
+  bool holds(double depth, DepthSide side) const;
+  /// Grows to hold another one.
+  void unite(const DepthInterval& other);
+};
+
+/// The reservoir layer of a field at zero offset; NaN where no layer has its name.
+DepthInterval reservoir_range(const FieldGeometry& field);
+/// The reservoir of a block: at its offset, of its own thickness if it has one.
+DepthInterval reservoir_range(const FieldGeometry& field, const Block& block);
+
+/// The blocks that a field's fault touches, west to east: one for the outer faults, else two.
+std::span<const Block> blocks_beside(const FieldGeometry& field, std::size_t fault);
+/// From fault_overshoot above the shallowest to fault_overshoot below the deepest edge of the
+/// reservoirs beside the fault.
+DepthInterval fault_range(const FieldGeometry& field, std::size_t fault);
+/// x of a field's fault at a depth, m.
+double fault_x(const Scene& scene, std::size_t fault, double depth);
+
+}  // namespace faultsim
