@@ -83,6 +83,19 @@ struct LimitsArguments {
 };
 /// The code of the run, if there was one.
 ExitCode limits_command(const StoreArguments& common, const LimitsArguments& arguments);
+struct PillarArguments {
+  std::filesystem::path table, scene, folder;
+  std::filesystem::path names;        ///< JSON: what the table calls the columns; "" = as we do.
+  std::string name = "pillars";       ///< of the campaign.
+  std::string stress_azimuth;         ///< "160 deg", of the largest horizontal stress; "" = none.
+  std::vector<double> stress_ratios;  ///< largest, smallest.
+};
+/// Makes a campaign of a table of pillars; submits nothing.
+ExitCode pillars_command(const PillarArguments& arguments);
+struct MapArguments {
+  std::filesystem::path places, output;
+};
+ExitCode map_command(const StoreArguments& common, const MapArguments& arguments);
 /// @param name  case number, beginning of an identity, or CAMPAIGN/either.
 ExitCode show_command(const StoreArguments& common, const std::string& name,
                       const ShowRequest& request);

@@ -31,6 +31,7 @@ constexpr const char* kFooter =
     "  faultsweep export -o cases.csv                all cases, for pandas or a spreadsheet\n"
     "  faultsweep compare coarse fine                two campaigns, case by case\n"
     "  faultsweep limits campaign.json               up to which pressure a fault is safe\n"
+    "  faultsweep pillars pillars.csv --scene section.json -o pillars     your own faults\n"
     "  faultsweep tradeoff scene.json                what each choice costs, in accuracy and time\n"
     "Campaigns are addressed by name, the newest by default; cases by number, or CAMPAIGN/NUMBER.\n"
     "Exit codes: 0 done, 1 done with some cases without a full result, 2 input, 4 disk or memory,\n"
@@ -103,6 +104,8 @@ struct Arguments {
   TiersArguments tiers;
   SensitivityRequest sensitivity;
   LimitsArguments limits;
+  PillarArguments pillars;
+  MapArguments map;
   PlotArguments plot;
   ReportArguments report;
   ShowRequest show;
@@ -416,8 +419,7 @@ void add_tiers(CLI::App& app, Arguments& a, ExitCode& code) {
 
 void add_seeing(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* plot = app.add_subcommand("plot", "draw a chart as SVG or PNG");
-  std::string charts =
-      "of a campaign: map, sensitivity, probability;\nof a case one of:";
+  std::string charts = "of a campaign: map, sensitivity, probability;\nof a case one of:";
   for (const faultsim::CaseChartInfo& info : faultsim::case_charts()) {
     charts += std::string("\n") + info.name + ": " + info.meaning;
   }
@@ -480,6 +482,46 @@ void add_limits(CLI::App& app, Arguments& a, ExitCode& code) {
       "  faultsweep limits storage-limit --csv >limits.csv\n"
       "Each limit is a pair of cases that were computed, one on either side of it.");
   command->callback([&] { code = limits_command(a.common, a.limits); });
+}
+
+void add_pillars(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* pillars =
+      app.add_subcommand("pillars", "a campaign of a table of fault pillars of your own field");
+  pillars->add_option("table", a.pillars.table, "CSV, a line for each pillar")->required();
+  pillars
+      ->add_option("--scene", a.pillars.scene,
+                   "a field of two blocks: west is the footwall, east the hanging wall")
+      ->required();
+  pillars->add_option("-o,--output", a.pillars.folder, "folder for campaign.json and its tables")
+      ->required();
+  pillars->add_option("--names", a.pillars.names,
+                      "JSON: how the table calls the columns, {\"depth\": \"TOP_TVD [m]\"}");
+  pillars->add_option("--name", a.pillars.name, "of the campaign (default pillars)");
+  CLI::Option* azimuth = pillars->add_option("--stress-azimuth", a.pillars.stress_azimuth,
+                                             "\"160 deg\": of the largest horizontal stress");
+  pillars
+      ->add_option("--stress-ratios", a.pillars.stress_ratios,
+                   "largest and smallest effective horizontal stress over the vertical one")
+      ->expected(2)
+      ->needs(azimuth);
+  pillars->footer(
+      "Columns: id, fault, x [m], y [m], azimuth [deg], depth [m], offset [m], thickness [m] or\n"
+      "thickness_foot [m] and thickness_hanging [m], dip [deg] (from the vertical) or\n"
+      "dip_from_horizontal [deg], and any parameter that `faultsim parameters` lists.\n"
+      "Examples:\n"
+      "  faultsweep pillars pillars.csv --scene section.json -o pillars\n"
+      "  faultsweep submit pillars/campaign.json && faultsweep run pillars\n"
+      "  faultsweep map pillars/places.csv pillars -o map.vtu      for ParaView");
+  pillars->callback([&] { code = pillars_command(a.pillars); });
+
+  CLI::App* map = app.add_subcommand("map", "what became of pillars, on a map");
+  map->add_option("places", a.map.places, "places.csv of `faultsweep pillars`")->required();
+  add_campaign(map, a.common);
+  map->add_option("-o,--output", a.map.output,
+                  "file: .csv, .vtu (ParaView) or .ts (GOCAD surfaces with properties)")
+      ->required();
+  map->footer("Example: faultsweep map pillars/places.csv pillars -o map.csv");
+  map->callback([&] { code = map_command(a.common, a.map); });
 }
 
 void add_export(CLI::App& app, Arguments& a, ExitCode& code) {
@@ -660,6 +702,7 @@ ExitCode faultsweep_main(int argc, char** argv) {
   add_tiers(app, arguments, code);
   add_seeing(app, arguments, code);
   add_limits(app, arguments, code);
+  add_pillars(app, arguments, code);
   add_export(app, arguments, code);
   add_compare(app, arguments, code);
   add_nightly(app, arguments, code);

@@ -94,6 +94,18 @@ class Expander {
           "counted"}});
   }
 
+  void note_drawn(const std::vector<std::string>& names, const Group& group) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "\"" : ", \"") + name + "\"";
+    if (names.empty()) return;
+    result_.notes.push_back(
+        list + " of " + group.pointer +
+        (names.size() == 1 ? " is drawn from a range and changes the operator: each of its values "
+                             "is a family of its own; a list of a few values shares operators"
+                           : " are drawn from ranges and change the operator: each row is a family "
+                             "of its own; lists of a few values share operators"));
+  }
+
   void expand_group(int index) {
     const Group& group = result_.spec.groups[index];
     SceneBuilder builder(result_.spec, group);
@@ -120,11 +132,7 @@ class Expander {
     }
     std::vector<int>& case_of_row = result_.case_of_row[index];
     case_of_row.assign(static_cast<std::size_t>(n_rows), -1);
-    for (const std::string& name : families.drawn()) {
-      result_.notes.push_back("\"" + name + "\" of " + group.pointer +
-                              " is drawn from a range and changes the operator: each of its values "
-                              "is a family of its own; a list of a few values shares operators");
-    }
+    note_drawn(families.drawn(), group);
     Row row;
     std::vector<double> derived;
     int n_wrong = 0;

@@ -1,0 +1,152 @@
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "campaign/app/commands.h"
+#include "campaign/pillars/fault_map.h"
+#include "campaign/pillars/pillar_campaign.h"
+#include "campaign/report/table_output.h"
+#include "campaign/spec/pointers.h"
+#include "simulator/common/units.h"
+#include "simulator/output/output_target.h"
+#include "simulator/output/result_folder.h"
+
+namespace faultsweep {
+namespace {
+
+using faultsim::concat;
+using faultsim::counted;
+using faultsim::InputError;
+
+ColumnNames names_in(const std::filesystem::path& file) {
+  ColumnNames names;
+  if (file.empty()) return names;
+  const faultsim::JsonDocument document = faultsim::read_json_file(file.string());
+  for (const auto& [name, header] : document.value.items()) {
+    if (document.value.is_object() && header.is_string()) {
+      names[name] = header.get<std::string>();
+      continue;
+    }
+    throw InputError(file.string(),
+                     {{"/" + name, document.line_of("/" + name), "is no name of a column",
+                       "write { \"depth\": \"TOP_TVD [m]\" }"}});
+  }
+  return names;
+}
+
+std::optional<RegionalStress> stress_of(const PillarArguments& arguments) {
+  if (arguments.stress_azimuth.empty()) return std::nullopt;
+  const auto azimuth =
+      faultsim::parse_quantity(arguments.stress_azimuth, faultsim::Dimension::angle);
+  if (!azimuth.ok) throw InputError("--stress-azimuth", {{"", 0, azimuth.what, azimuth.cure}});
+  if (arguments.stress_ratios.size() != 2 ||
+      !(arguments.stress_ratios[0] >= arguments.stress_ratios[1]))
+    throw InputError("--stress-ratios", {{"", 0, "two ratios go with the azimuth, the larger first",
+                                          "write --stress-ratios 0.83 0.74"}});
+  return RegionalStress{azimuth.value / faultsim::kDegree, arguments.stress_ratios[0],
+                        arguments.stress_ratios[1]};
+}
+
+std::string refused_csv(const PillarCampaign& campaign) {
+  std::string text = "id,line,what,cure\n";
+  for (const RefusedPillar& one : campaign.refused) {
+    text += csv_field(one.id) + "," + std::to_string(one.line) + "," +
+            csv_field(concat(one.problem.pointer, ": ", one.problem.what)) + "," +
+            csv_field(one.problem.cure) + "\n";
+  }
+  return text;
+}
+
+/// Reasons with how many pillars they are of, the most frequent as they come.
+std::string refused_text(const PillarCampaign& campaign) {
+  constexpr std::size_t kShown = 10;
+  std::map<std::string, std::pair<std::size_t, const RefusedPillar*>> reasons;
+  for (const RefusedPillar& one : campaign.refused) {
+    auto& [n, first] = reasons[one.problem.pointer];
+    if (n++ == 0) first = &one;
+  }
+  std::string text;
+  std::size_t n_shown = 0;
+  for (const auto& [pointer, reason] : reasons) {
+    if (n_shown++ == kShown) break;
+    text += concat("  ", reason.first, " at ", pointer, ": pillar ", reason.second->id, " (line ",
+                   reason.second->line, "): ", reason.second->problem.what, "; ",
+                   reason.second->problem.cure, "\n");
+  }
+  return text;
+}
+
+void write(const std::filesystem::path& file, const std::string& text) {
+  TableOutput output(file);
+  output.write(text);
+  output.finish();
+}
+
+}  // namespace
+
+ExitCode pillars_command(const PillarArguments& arguments) {
+  const PillarTable table = read_pillar_table(arguments.table, names_in(arguments.names));
+  const auto base = faultsim::read_json_file(arguments.scene.string());
+  std::vector<std::filesystem::path> inputs = {arguments.table, arguments.scene};
+  if (!arguments.names.empty()) inputs.push_back(arguments.names);
+  faultsim::ResultFolder folder(
+      {.option = "-o",
+       .folder = arguments.folder,
+       .made_by = "faultsweep pillars",
+       .names = {"campaign.json", "samples.csv", "places.csv", "refused.csv"},
+       .inputs = inputs});
+  const std::filesystem::path scene = std::filesystem::proximate(arguments.scene, arguments.folder);
+  const bool shows = isatty(STDERR_FILENO) != 0;
+  const PillarCampaign campaign = make_pillar_campaign(
+      table, base, scene.string(), arguments.name, stress_of(arguments), [&](std::size_t i) {
+        if (shows && i % 100 == 0)
+          std::fprintf(stderr, "\r%zu of %zu pillars looked at", i, table.n_pillars());
+      });
+  if (shows) std::fputs("\r\033[K", stderr);
+  write(folder.path() / "campaign.json", campaign.spec);
+  write(folder.path() / "samples.csv", campaign.samples);
+  write(folder.path() / "places.csv", campaign.places);
+  write(folder.path() / "refused.csv", refused_csv(campaign));
+  folder.commit();
+  std::string text = concat(counted(table.n_pillars(), "pillar", "pillars"), ": ",
+                            counted(campaign.n_cases, "section", "sections"), ", ",
+                            campaign.refused.size(), " refused\n", refused_text(campaign));
+  for (const std::string& one : table.ignored) text += "  column \"" + one + "\" is not used\n";
+  if (campaign.largest_shear_left_out > 0)
+    text += concat("  shear on the section is left out, up to ",
+                   shortest_text(std::round(1000 * campaign.largest_shear_left_out) / 1000),
+                   " of the vertical effective stress\n");
+  std::fputs(text.c_str(), stdout);
+  if (campaign.n_cases == 0)
+    throw InputError(arguments.table.string(),
+                     {{"", 0, "no pillar can be modelled", "see what is said of them"}});
+  std::fprintf(stderr, "Next: faultsweep submit %s\n",
+               (arguments.folder / "campaign.json").c_str());
+  return ExitCode::done;
+}
+
+ExitCode map_command(const StoreArguments& common, const MapArguments& arguments) {
+  const std::string kind = arguments.output.extension().string();
+  if (kind != ".csv" && kind != ".vtu" && kind != ".ts")
+    throw InputError("-o", {{"", 0, concat("\"", kind, "\" is no kind of map"),
+                             "name a file that ends in .csv, .vtu or .ts"}});
+  faultsim::demand_writable_file("-o", arguments.output, faultsim::FileKind::text,
+                                 {arguments.places});
+  const Store store = Store::open_reader(common.store);
+  const FaultMap map = make_fault_map(store, store.campaign(common.campaign), arguments.places);
+  const std::string text = kind == ".csv"   ? fault_map_to_csv(map)
+                           : kind == ".vtu" ? fault_map_to_vtu(map)
+                                            : fault_map_to_tsurf(map);
+  if (text.empty())
+    throw InputError("-o", {{"", 0, "no fault has two pillars: there is no surface between them",
+                             "add a column \"fault\" to the table, or write .vtu"}});
+  write(arguments.output, text);
+  return ExitCode::done;
+}
+
+}  // namespace faultsweep

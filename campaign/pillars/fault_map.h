@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "campaign/store/store.h"
+
+namespace faultsweep {
+
+/// What became of the pillars of a campaign, in space.
+struct FaultMap {
+  /// A pillar and its panel: the fault where it crosses the two reservoirs.
+  struct Place {
+    std::string id, fault;
+    double x = 0, y = 0;                   ///< m, at the top of the panel.
+    double azimuth = 0, dip = 0;           ///< deg; dips to the right of its strike.
+    double top_depth = 0, base_depth = 0;  ///< m.
+  };
+  struct Property {
+    std::string name, unit, meaning;
+    std::vector<double> values;  ///< per place; NaN where there is none.
+  };
+  CampaignInfo campaign;
+  std::vector<Place> places;
+  std::vector<std::string> outcomes;  ///< per place; of the case: "converged", "failed", "waiting".
+  std::vector<Property> properties;
+};
+
+/// Puts the results of a pillar campaign where its pillars are.
+/// @param places  places.csv of make_pillar_campaign. Throws InputError where it is not that of
+///                the campaign.
+FaultMap make_fault_map(const Store& store, const CampaignInfo& campaign,
+                        const std::filesystem::path& places);
+
+/// A line for each pillar.
+std::string fault_map_to_csv(const FaultMap& map);
+/// VTK's unstructured grid in XML, for ParaView and ResInsight: a line down the panel of each
+/// pillar, and quadrilaterals between one pillar and the next of the same fault; z up.
+std::string fault_map_to_vtu(const FaultMap& map);
+/// GOCAD triangulated surfaces with properties at their points, one of each fault with two pillars
+/// or more; z is depth, positive down. Missing values are the file's NO_DATA_VALUES.
+std::string fault_map_to_tsurf(const FaultMap& map);
+
+}  // namespace faultsweep

@@ -1,0 +1,129 @@
+#include "campaign/pillars/pillar_campaign.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "simulator/scene/read_scene.h"
+
+namespace faultsweep {
+namespace {
+
+using Role = PillarRole;
+
+faultsim::JsonDocument section() {
+  return faultsim::read_json_file(std::string(FAULTSIM_SOURCE_DIR) +
+                                  "/docs/examples/pillars/section.json");
+}
+
+PillarTable table_of(const std::map<Role, std::vector<double>>& numbers) {
+  PillarTable table;
+  table.source = "t.csv";
+  table.numbers = numbers;
+  const std::size_t n = numbers.begin()->second.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    table.lines.push_back(static_cast<long>(i) + 2);
+    table.ids.push_back("P" + std::to_string(i));
+    table.faults.emplace_back("F");
+  }
+  table.numbers[Role::x].resize(n, 1000);
+  table.numbers[Role::y].resize(n, 2000);
+  return table;
+}
+
+/// Line `n` of a text, from 0.
+std::string line(const std::string& text, int n) {
+  std::istringstream stream(text);
+  std::string one;
+  for (int i = 0; i <= n; ++i) std::getline(stream, one);
+  return one;
+}
+
+PillarCampaign campaign_of(const PillarTable& table,
+                           const std::optional<RegionalStress>& stress = {}) {
+  return make_pillar_campaign(table, section(), "section.json", "test", stress);
+}
+
+TEST(PillarCampaign, PutsEachPillarIntoTheSection) {
+  const PillarCampaign campaign = campaign_of(table_of({{Role::depth, {2100, 2250.5}},
+                                                        {Role::offset, {50, 100}},
+                                                        {Role::thickness_foot, {180, 190}},
+                                                        {Role::thickness_hanging, {150, 260}},
+                                                        {Role::dip_from_horizontal, {76.7, 95}}}));
+  EXPECT_EQ(campaign.n_cases, 2u);
+  EXPECT_TRUE(campaign.refused.empty());
+  EXPECT_EQ(line(campaign.samples, 0),
+            "/geometry/layers/2/top [m], /geometry/layers/3/top [m], /geometry/pivot_depth [m], "
+            "/geometry/blocks/1/offset [m], /geometry/blocks/0/thickness [m], "
+            "/geometry/blocks/1/thickness [m], /faults/1/dip_from_vertical [deg]");
+  EXPECT_EQ(line(campaign.samples, 1), "2100, 2300, 2200, 50, 180, 150, 13.3");
+  EXPECT_EQ(line(campaign.samples, 2), "2250.5, 2450.5, 2350.5, 100, 190, 260, -5");
+  // The panel reaches from the shallower top to the deeper base: 2250.5 to 2250.5 + 100 + 260.
+  EXPECT_EQ(line(campaign.places, 2), "P1,F,pillar,1000,2000,0,-5,2250.5,2610.5");
+  const auto spec = nlohmann::json::parse(campaign.spec);
+  EXPECT_EQ(spec["base"], "section.json");
+  EXPECT_EQ(spec["design"]["file"], "samples.csv");
+  EXPECT_EQ(spec["set"]["/numerics/plane_strain"], "on");
+}
+
+TEST(PillarCampaign, RatiosFollowTheStrikeInTheRegionalStress) {
+  const RegionalStress stress{160, 0.83, 0.72};
+  const PillarCampaign campaign =
+      campaign_of(table_of({{Role::azimuth, {160, 70, 115, 340}}}), stress);
+  EXPECT_EQ(line(campaign.samples, 0), "/initial_state/ratio_across, /initial_state/ratio_along");
+  const auto ratios = [&](int pillar) {
+    std::istringstream stream(line(campaign.samples, pillar + 1));
+    double across = 0, along = 0;
+    char comma = 0;
+    stream >> across >> comma >> along;
+    return std::pair(across, along);
+  };
+  EXPECT_NEAR(ratios(0).first, 0.72, 1e-12);  // strikes along the largest stress
+  EXPECT_NEAR(ratios(0).second, 0.83, 1e-12);
+  EXPECT_NEAR(ratios(1).first, 0.83, 1e-12);  // across it
+  EXPECT_NEAR(ratios(1).second, 0.72, 1e-12);
+  EXPECT_NEAR(ratios(2).first, 0.775, 1e-12);  // at 45 degrees
+  EXPECT_NEAR(ratios(2).second, 0.775, 1e-12);
+  EXPECT_NEAR(ratios(3).first, 0.72, 1e-12);  // the other way round is the same
+  EXPECT_NEAR(campaign.largest_shear_left_out, 0.055, 1e-12);
+  EXPECT_THROW(campaign_of(table_of({{Role::offset, {1}}}), stress), faultsim::InputError);
+}
+
+TEST(PillarCampaign, LeavesOutWhatCannotBeModelledInTheWordsOfTheScene) {
+  const PillarCampaign campaign = campaign_of(table_of({{Role::depth, {1400, 2100, 2100, 2100}},
+                                                        {Role::dip, {0, 50, 0, 0}},
+                                                        {Role::offset, {0, 0, 2700, 10}}}));
+  EXPECT_EQ(campaign.n_cases, 1u);
+  ASSERT_EQ(campaign.refused.size(), 3u);
+  EXPECT_EQ(campaign.refused[0].id, "P0");
+  EXPECT_NE(campaign.refused[0].problem.what.find("is not below that of \"salt\""),
+            std::string::npos)
+      << campaign.refused[0].problem.what;
+  EXPECT_EQ(campaign.refused[1].problem.pointer, "/faults/1/dip_from_vertical");
+  EXPECT_EQ(campaign.refused[2].problem.pointer, "/geometry/blocks/1/offset");
+  EXPECT_EQ(campaign.refused[2].line, 4);
+  EXPECT_EQ(line(campaign.places, 1).substr(0, 3), "P3,");
+}
+
+TEST(PillarCampaign, OtherColumnsAreParametersOfTheScene) {
+  PillarTable table = table_of({{Role::offset, {10, 20}}});
+  table.parameters = {{"friction_angle", "deg", {20, 25}}};
+  EXPECT_EQ(line(campaign_of(table).samples, 2), "20, 25");
+  EXPECT_NE(line(campaign_of(table).samples, 0).find("friction_angle [deg]"), std::string::npos);
+  table.parameters = {{"frictoin_angle", "deg", {20, 25}}};
+  EXPECT_THROW(campaign_of(table), faultsim::InputError);
+  table.parameters.clear();
+  table.numbers.erase(Role::offset);
+  EXPECT_THROW(campaign_of(table), faultsim::InputError);  // nothing differs
+}
+
+TEST(PillarCampaign, NeedsAFieldOfTwoBlocks) {
+  const auto box = faultsim::parse_json(faultsim::starter_scene("box"), "box.json");
+  EXPECT_THROW(make_pillar_campaign(table_of({{Role::offset, {10}}}), box, "box.json", "x", {}),
+               faultsim::InputError);
+}
+
+}  // namespace
+}  // namespace faultsweep

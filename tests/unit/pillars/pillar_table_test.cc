@@ -1,0 +1,95 @@
+#include "campaign/pillars/pillar_table.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace faultsweep {
+namespace {
+
+using Role = PillarRole;
+
+std::string file_of(const std::string& text) {
+  const std::string file = ::testing::TempDir() +
+                           ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv";
+  std::ofstream(file, std::ios::binary) << text;
+  return file;
+}
+
+PillarTable read(const std::string& text, const ColumnNames& names = {}) {
+  return read_pillar_table(file_of(text), names);
+}
+
+/// "line: what" of all problems.
+std::vector<std::string> problems_of(const std::string& text, const ColumnNames& names = {}) {
+  try {
+    read(text, names);
+  } catch (const faultsim::InputError& error) {
+    std::vector<std::string> lines;
+    for (const faultsim::Problem& one : error.problems())
+      lines.push_back(std::to_string(one.line) + ": " + one.what);
+    return lines;
+  }
+  return {};
+}
+using Lines = std::vector<std::string>;
+
+TEST(PillarTable, ReadsColumnsInTheirUnits) {
+  const PillarTable table = read(
+      "\xEF\xBB\xBF# a comment\n"
+      "id, fault, x [km], y [m], azimuth [rad], depth [ft], dip_from_horizontal [deg], biot\r\n"
+      "A1, \"North\", 200, 5.8e5, 1.5707963267948966, 10000, 70, 0.9\r\n"
+      "\n"
+      "A2, North, 200.1, 580100, 0, 10010, 71, 1\n");
+  ASSERT_EQ(table.n_pillars(), 2u);
+  EXPECT_EQ(table.ids, (Lines{"A1", "A2"}));
+  EXPECT_EQ(table.faults, (Lines{"North", "North"}));
+  EXPECT_EQ(table.lines, (std::vector<long>{3, 5}));
+  EXPECT_DOUBLE_EQ(*table.number(Role::x, 0), 200000);
+  EXPECT_DOUBLE_EQ(*table.number(Role::azimuth, 0), 90);
+  EXPECT_DOUBLE_EQ(*table.number(Role::depth, 0), 3048);
+  EXPECT_EQ(table.number(Role::dip_from_horizontal, 1), 71);
+  EXPECT_FALSE(table.number(Role::offset, 0));
+  ASSERT_EQ(table.parameters.size(), 1u);
+  EXPECT_EQ(table.parameters[0].name, "biot");
+  EXPECT_EQ(table.parameters[0].values, (std::vector<double>{0.9, 1}));
+}
+
+TEST(PillarTable, NamesMapTheColumnsOfOthers) {
+  const PillarTable table = read("X_RD,Y_RD,THROW,REMARK\n1,2,30,what ever\n",
+                                 {{"x", "X_RD [m]"}, {"y", "Y_RD [m]"}, {"offset", "THROW [ft]"}});
+  EXPECT_DOUBLE_EQ(*table.number(Role::offset, 0), 9.144);
+  EXPECT_EQ(table.ids, (Lines{"2"}));  // of its line
+  EXPECT_EQ(table.ignored, (Lines{"REMARK"}));
+}
+
+TEST(PillarTable, SaysAllThatIsWrongAtOnce) {
+  EXPECT_EQ(problems_of("x [m], y [m], offset [m], id\n1, 2, deep, A\n1, 2\n1, 2, 3, A\n"),
+            (Lines{"2: \"deep\" of offset is no number", "3: 2 cells, and there are 4 columns",
+                   "4: pillar \"A\" was there before"}));
+  EXPECT_EQ(problems_of("x, y [m], y [m]\n"),
+            (Lines{"1: \"x\" needs a unit of length", "1: \"y\" has two columns"}));
+  EXPECT_EQ(problems_of("y [m]\n"), (Lines{"1: there is no column \"x\""}));
+  EXPECT_EQ(problems_of("x [m], y [m], thickness_foot [m]\n"),
+            (Lines{"1: the thickness is not that of both sides"}));
+  EXPECT_EQ(problems_of("x [m], y [m], dip [deg], dip_from_horizontal [deg]\n"),
+            (Lines{"1: there are two dips"}));
+  EXPECT_EQ(problems_of("x [m], y [m]\n"), (Lines{"0: there is no pillar in it"}));
+  EXPECT_EQ(problems_of(""), (Lines{"0: there is no pillar in it"}));
+  EXPECT_EQ(problems_of("X,Y\n1,2\n", {{"x", "X [m]"}, {"y", "YY [m]"}}),
+            (Lines{"1: there is no column \"YY\" for y", "1: there is no column \"y\""}));
+  EXPECT_EQ(problems_of("x [m], y [m], offset [m]\n1, 2, nan\n1, 2, inf\n"),
+            (Lines{"2: \"nan\" of offset is no number", "3: \"inf\" of offset is no number"}));
+}
+
+TEST(PillarTable, CountsWhatItDoesNotSay) {
+  std::string text = "x [m], y [m]\n";
+  for (int i = 0; i < 30; ++i) text += "1, a\n";
+  const Lines lines = problems_of(text);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_EQ(lines.back().substr(0, 3), "0: ");
+  EXPECT_NE(lines.back().find("more are wrong"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace faultsweep
