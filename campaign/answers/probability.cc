@@ -151,9 +151,10 @@ std::string percent(double share) {
 std::vector<std::string> default_conditions(const Selection& selection) {
   std::vector<std::string> conditions;
   for (const NamedId& fault : selection.faults) {
-    conditions.push_back(concat(fault.name, ".slides"));
+    const std::string slides = spelled_name(fault.name) + ".slides";
+    conditions.push_back(slides);
     for (const NamedId& stage : selection.stages) {
-      if (!stage.name.empty()) conditions.push_back(concat(fault.name, ".slides in ", stage.name));
+      if (!stage.name.empty()) conditions.push_back(slides + " in " + spelled_name(stage.name));
     }
   }
   return conditions;

@@ -76,6 +76,9 @@ struct Scopes {
   std::vector<std::string> faults, stages;
 };
 
+/// A fault or stage as an expression spells it: in quotes where it is not one word.
+std::string spelled_name(const std::string& name);
+
 /// The grammar was not met, or the types do not fit. what() carries the line, a caret and the cure.
 class ExpressionError : public faultsim::InputError {
  public:

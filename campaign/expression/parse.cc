@@ -493,4 +493,13 @@ ParsedText parse_expression(const std::string& text, const std::vector<std::stri
   return Parser(text, known_names, scopes).parse();
 }
 
+std::string spelled_name(const std::string& name) {
+  const bool is_word =
+      !name.empty() && is_letter(name.front()) && !is_keyword(name) &&
+      std::all_of(name.begin(), name.end(), [](char c) { return is_letter(c) || is_digit(c); });
+  if (is_word) return name;
+  const char quote = name.find('"') == std::string::npos ? '"' : '\'';
+  return quote + name + quote;
+}
+
 }  // namespace faultsweep

@@ -22,6 +22,21 @@ using faultsim::InputError;
 using nlohmann::json;
 using ::testing::HasSubstr;
 
+TEST(DefaultConditions, NameFaultsAndStagesThatAreNoWords) {
+  Selection selection;
+  selection.faults = {{1, "F2"}, {2, "western end"}, {3, "7"}, {4, "F-3"}};
+  selection.stages = {{5, ""}, {6, "first \"year\""}};
+  Symbols symbols;
+  for (const auto& [name, metric] : known_metrics(selection))
+    symbols[name] = {metric.sql, Type{metric.is_flag ? Kind::boolean : Kind::number, {}}};
+  const std::vector<std::string> conditions = default_conditions(selection);
+  EXPECT_EQ(conditions.size(), 8u);
+  EXPECT_EQ(conditions[0], "F2.slides");
+  EXPECT_EQ(conditions[3], "\"western end\".slides in 'first \"year\"'");
+  for (const std::string& one : conditions)
+    EXPECT_NO_THROW(Expression::parse(one, symbols, scopes_of(selection))) << one;
+}
+
 class AnswersTest : public ::testing::Test {
  protected:
   void SetUp() override {
