@@ -108,11 +108,6 @@ ExitCode pillars_command(const PillarArguments& arguments) {
           std::fprintf(stderr, "\r%zu of %zu pillars looked at", i, table.n_pillars());
       });
   if (shows) std::fputs("\r\033[K", stderr);
-  write(folder.path() / "campaign.json", campaign.spec);
-  write(folder.path() / "samples.csv", campaign.samples);
-  write(folder.path() / "places.csv", campaign.places);
-  write(folder.path() / "refused.csv", refused_csv(campaign));
-  folder.commit();
   std::string text = concat(counted(table.n_pillars(), "pillar", "pillars"), ": ",
                             counted(campaign.n_cases, "section", "sections"), ", ",
                             campaign.refused.size(), " refused\n", refused_text(campaign));
@@ -125,6 +120,11 @@ ExitCode pillars_command(const PillarArguments& arguments) {
   if (campaign.n_cases == 0)
     throw InputError(arguments.table.string(),
                      {{"", 0, "no pillar can be modelled", "see what is said of them"}});
+  write(folder.path() / "campaign.json", campaign.spec);
+  write(folder.path() / "samples.csv", campaign.samples);
+  write(folder.path() / "places.csv", campaign.places);
+  write(folder.path() / "refused.csv", refused_csv(campaign));
+  folder.commit();
   std::fprintf(stderr, "Next: faultsweep submit %s\n",
                (arguments.folder / "campaign.json").c_str());
   return ExitCode::done;
