@@ -113,6 +113,9 @@ std::map<long, double> first_times(const Store& store, const CampaignInfo& campa
 FaultMap make_fault_map(const Store& store, const CampaignInfo& campaign,
                         const std::filesystem::path& file) {
   const Places places = read_places(file);
+  if (store.faults(campaign.id).empty())
+    throw InputError(campaign.name, {{"", 0, "no pillar has a result yet",
+                                      "run it first: faultsweep run " + campaign.name}});
   const Selection selection = make_selection(store, campaign, "", places.section_fault);
   const std::map<std::string, ScopedMetric> known = known_metrics(selection);
   FaultMap map{campaign, places.all, {}, {}};
