@@ -1,0 +1,226 @@
+#include "simulator/flow/flow_csv.h"
+
+#include <array>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "simulator/common/errors.h"
+#include "simulator/common/units.h"
+#include "simulator/scene/dates.h"
+
+namespace faultsim {
+namespace {
+
+constexpr std::size_t kMostProblems = 20;
+constexpr std::array<const char*, 6> kPlaces{"x", "y", "depth", "dx", "dy", "dz"};
+constexpr const char* kFlowHeaderCure =
+    "head the columns x [m], y [m], depth [m], dx [m], dy [m], dz [m], then 1990-01-01 [bar] and "
+    "so on, or begin with date and end with pressure [bar]";
+
+using Place = std::array<double, 6>;  ///< x, y, depth, dx, dy, dz; m.
+
+std::string bare(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r\"");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
+}
+
+std::vector<std::string> values_of(const std::string& line) {
+  std::vector<std::string> values;
+  std::size_t from = 0;
+  for (std::size_t to = line.find(','); to != std::string::npos; to = line.find(',', from)) {
+    values.push_back(bare(line.substr(from, to - from)));
+    from = to + 1;
+  }
+  values.push_back(bare(line.substr(from)));
+  return values;
+}
+
+/// Reads rows into reports; keeps every problem until there are too many to be of use.
+class FlowCsvReader {
+ public:
+  explicit FlowCsvReader(std::string given) : given_(std::move(given)) {}
+
+  FlowField read(const std::string& text) {
+    std::istringstream lines(text);
+    std::string line;
+    for (line_ = 1; std::getline(lines, line); ++line_) {
+      if (line_ == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0) line.erase(0, 3);
+      const std::string words = bare(line);
+      if (words.empty() || words[0] == '#') continue;
+      if (units_.empty()) {
+        header(values_of(line));
+        if (!problems_.empty()) break;
+      } else {
+        row(values_of(line));
+      }
+    }
+    line_ = 0;
+    if (problems_.empty() && places_.empty()) refuse("there are no values", kFlowHeaderCure);
+    if (is_long_) demand_every_cell();
+    if (!problems_.empty()) throw InputError(given_, problems_);
+    return result();
+  }
+
+ private:
+  void refuse(const std::string& what, const std::string& cure) {
+    if (problems_.size() < kMostProblems) problems_.push_back({"", line_, what, cure});
+  }
+
+  /// "depth [m]" → name and unit, checked; name "" after a refusal.
+  std::string column(const std::string& text, Dimension dimension) {
+    const auto open = text.rfind('[');
+    const auto close = text.rfind(']');
+    const bool whole = open != std::string::npos && close != std::string::npos && open < close;
+    const std::string unit = whole ? bare(text.substr(open + 1, close - open - 1)) : "";
+    units_.push_back(unit);
+    if (!whole) {
+      refuse("column \"" + text + "\" has no unit in brackets", kFlowHeaderCure);
+      return "";
+    }
+    if (!parse_quantity("1 " + unit, dimension).ok) {
+      refuse("column \"" + text + "\" does not hold " + info_of(dimension).noun, kFlowHeaderCure);
+      return "";
+    }
+    return bare(text.substr(0, open));
+  }
+
+  void header(const std::vector<std::string>& cells) {
+    is_long_ = cells[0] == "date";
+    if (is_long_) units_.emplace_back();
+    const std::size_t first = is_long_ ? 1 : 0;
+    if (cells.size() < first + 7 || (is_long_ && cells.size() != 8)) {
+      units_.resize(cells.size());
+      return refuse(concat("has ", cells.size(), " columns"), kFlowHeaderCure);
+    }
+    for (std::size_t i = 0; i < 6; ++i) {
+      const std::string name = column(cells[first + i], Dimension::length);
+      if (!name.empty() && name != kPlaces[i])
+        refuse(concat("column ", first + i + 1, " is \"", name, "\" and not ", kPlaces[i]),
+               kFlowHeaderCure);
+    }
+    for (std::size_t i = first + 6; i < cells.size(); ++i) {
+      const std::string name = column(cells[i], Dimension::pressure);
+      if (name.empty()) continue;
+      if (!is_long_)
+        next_date(name);
+      else if (name != "pressure")
+        refuse("the last column is \"" + name + "\" and not pressure", kFlowHeaderCure);
+    }
+  }
+
+  /// Adds a report, unless its date is none or does not come after the one before.
+  bool next_date(const std::string& text) {
+    const std::optional<double> date = parse_date(text);
+    if (!date) {
+      refuse("\"" + text + "\" is not a date", "write dates as year-month-day: 1990-01-31");
+      return false;
+    }
+    if (!dates_.empty() && *date == dates_.back() && is_long_) return true;
+    if (!dates_.empty() && *date <= dates_.back()) {
+      refuse("the date " + text + " does not come after the one before",
+             "write the reports in the order of time, each once");
+      return false;
+    }
+    dates_.push_back(*date);
+    date_names_.push_back(text);
+    pressures_.emplace_back();
+    return true;
+  }
+
+  std::optional<double> number(const std::vector<std::string>& cells, std::size_t i,
+                               Dimension dimension) {
+    const ParsedQuantity parsed = parse_quantity(cells[i] + " " + units_[i], dimension);
+    if (parsed.ok) return parsed.value;
+    refuse(concat("\"", cells[i], "\" in column ", i + 1, " is not a number"),
+           "leave inactive cells out; units stand in the header only");
+    return std::nullopt;
+  }
+
+  std::optional<Place> place(const std::vector<std::string>& cells, std::size_t first) {
+    Place place{};
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      const std::optional<double> value = number(cells, first + i, Dimension::length);
+      if (!value) return std::nullopt;
+      if (i >= 3 && *value <= 0) {
+        refuse(concat(kPlaces[i], " is ", cells[first + i]), "write sizes above zero");
+        return std::nullopt;
+      }
+      place[i] = *value;
+    }
+    return place;
+  }
+
+  void row(const std::vector<std::string>& cells) {
+    if (cells.size() != units_.size()) {
+      return refuse(concat("has ", cells.size(), " values for ", units_.size(), " columns"),
+                    "write one value per column");
+    }
+    if (is_long_ && !next_date(cells[0])) return;
+    const std::size_t first = is_long_ ? 1 : 0;
+    const std::optional<Place> at = place(cells, first);
+    if (!at) return;
+    const auto [known, is_new] = numbers_.try_emplace(*at, std::ssize(places_));
+    if (is_new) places_.push_back(*at);
+    for (std::size_t i = first + 6; i < cells.size(); ++i) {
+      const std::optional<double> value = number(cells, i, Dimension::pressure);
+      if (!value) continue;
+      if (*value < 0) {
+        refuse("the pressure " + cells[i] + " is below zero",
+               "write absolute pressures, not changes");
+      }
+      auto& report = is_long_ ? pressures_.back() : pressures_[i - first - 6];
+      if (!report.try_emplace(known->second, *value).second)
+        return refuse("the cell is there twice", "give each cell one value per report");
+    }
+  }
+
+  /// In the long form a cell can be missing at a date.
+  void demand_every_cell() {
+    for (std::size_t t = 0; t < pressures_.size(); ++t) {
+      const std::size_t n_missing = places_.size() - pressures_[t].size();
+      if (n_missing == 0 || !problems_.empty()) continue;
+      refuse(concat(n_missing, " of ", places_.size(), " cells are missing at ", date_names_[t]),
+             "write every cell at every date");
+      return;
+    }
+  }
+
+  FlowField result() const {
+    FlowField field;
+    field.date = dates_;
+    for (const Place& p : places_) {
+      const Eigen::Vector3d centre(p[0], p[1], -p[2]);
+      const Eigen::Vector3d half = 0.5 * Eigen::Vector3d(p[3], p[4], p[5]);
+      field.cells.push_back({.low = centre - half, .high = centre + half});
+    }
+    field.pressure.resize(std::ssize(places_), std::ssize(dates_));
+    for (std::size_t t = 0; t < pressures_.size(); ++t) {
+      for (const auto& [cell, value] : pressures_[t])
+        field.pressure(cell, static_cast<Eigen::Index>(t)) = value;
+    }
+    return field;
+  }
+
+  std::string given_;
+  int line_ = 0;
+  bool is_long_ = false;
+  std::vector<std::string> units_;  ///< of all columns; "" of dates.
+  std::vector<double> dates_;
+  std::vector<std::string> date_names_;
+  std::vector<Place> places_;
+  std::map<Place, Eigen::Index> numbers_;
+  std::vector<std::map<Eigen::Index, double>> pressures_;  ///< per report: cell → Pa.
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+FlowField parse_flow_csv(const std::string& text, const std::string& given) {
+  return FlowCsvReader(given).read(text);
+}
+
+}  // namespace faultsim

@@ -1,0 +1,36 @@
+#include "simulator/flow/flow_field.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+
+namespace faultsim {
+namespace {
+
+constexpr double kHydrostatic = 1e4;  ///< Pa/m
+constexpr double kFarAbove = 4;       ///< beyond rock's own weight, 2.3, with room for shallow gas.
+constexpr double kFarBelow = 0.1;     ///< a field begins depleted at times, but not at 1 bar.
+
+}  // namespace
+
+std::string pressure_doubt(const FlowField& field) {
+  std::vector<double> ratios;
+  for (std::size_t f = 0; f < field.cells.size(); ++f) {
+    const double depth = -0.5 * (field.cells[f].low.z() + field.cells[f].high.z());
+    const Eigen::Index row = static_cast<Eigen::Index>(f);
+    if (depth > 0) ratios.push_back(field.pressure(row, 0) / (kHydrostatic * depth));
+  }
+  if (ratios.empty()) return "";
+  const auto middle = ratios.begin() + std::ssize(ratios) / 2;
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  if (*middle >= kFarBelow && *middle <= kFarAbove) return "";
+  std::ostringstream out;
+  out << "the first report's pressures are " << std::setprecision(3) << *middle
+      << " times hydrostatic (median over cells); "
+      << (*middle > kFarAbove ? "psi read as bar is 14.5 times too high, and depths in another unit"
+                              : "bar read as psi is 14.5 times too low, and depths in another unit")
+      << " look so too: check the units in the header";
+  return out.str();
+}
+
+}  // namespace faultsim

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace faultsim {
+
+/// A cell of a flow grid: an upright box, m, z upwards (z = −depth). @invariant low < high.
+struct FlowCell {
+  Eigen::Vector3d low = Eigen::Vector3d::Zero();
+  Eigen::Vector3d high = Eigen::Vector3d::Zero();
+};
+
+/// Pressures of a flow simulator, cell by cell and report by report.
+struct FlowField {
+  std::vector<FlowCell> cells;    ///< in the order of the file.
+  std::vector<double> date;       ///< s since 1970-01-01, strictly increasing, at least one.
+  Eigen::MatrixXd pressure = {};  ///< absolute, Pa, n_cells x n_reports, all finite and >= 0.
+};
+
+/// What speaks against the unit of the first report's pressures: the median over the cells of
+/// p / (10 kPa/m · depth) is far from hydrostatic, above 4 (psi read as bar: 14.5) or below 0.1.
+/// "" = nothing; else a warning with the median, the likely cause and the cure. Cells at or above
+/// depth 0 say nothing.
+std::string pressure_doubt(const FlowField& field);
+
+}  // namespace faultsim

@@ -1,0 +1,166 @@
+#include "simulator/flow/flow_mapping.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <limits>
+#include <numeric>
+#include <sstream>
+
+#include "simulator/common/errors.h"
+
+namespace faultsim {
+namespace {
+
+/// Flow cells by their low x, so that those near a cell are found without looking at all.
+class FlowCellSearch {
+ public:
+  explicit FlowCellSearch(const std::vector<FlowCell>& cells) : cells_(cells) {
+    order_.resize(cells.size());
+    std::iota(order_.begin(), order_.end(), 0);
+    std::stable_sort(order_.begin(), order_.end(),
+                     [&](int a, int b) { return cells[a].low.x() < cells[b].low.x(); });
+    for (const FlowCell& cell : cells) widest_ = std::max(widest_, cell.high.x() - cell.low.x());
+  }
+
+  /// Numbers of the cells whose extents in x overlap [low, high], ascending.
+  std::vector<int> between(double low, double high) const {
+    const auto starts_before = [&](int c, double x) { return cells_[c].low.x() < x; };
+    auto at = std::lower_bound(order_.begin(), order_.end(), low - widest_, starts_before);
+    std::vector<int> found;
+    for (; at != order_.end() && cells_[*at].low.x() < high; ++at) {
+      if (cells_[*at].high.x() > low) found.push_back(*at);
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+  int nearest(const Eigen::Vector3d& point) const {
+    int best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t f = 0; f < cells_.size(); ++f) {
+      const double distance = (0.5 * (cells_[f].low + cells_[f].high) - point).squaredNorm();
+      if (distance >= least) continue;
+      least = distance;
+      best = static_cast<int>(f);
+    }
+    return best;
+  }
+
+ private:
+  const std::vector<FlowCell>& cells_;
+  std::vector<int> order_;
+  double widest_ = 0;
+};
+
+Eigen::Vector3d centre_of(const CellCorners& corners) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& corner : corners) sum += corner;
+  return sum / 8;
+}
+
+/// Overlaps in place of weights; their sum.
+double overlaps_of(const MappedCell& cell, const FlowField& field, const FlowCellSearch& search,
+                   std::vector<FlowMapping::Weight>& weights) {
+  const auto by_x = [](const auto& a, const auto& b) { return a.x() < b.x(); };
+  const auto [low, high] = std::minmax_element(cell.corners.begin(), cell.corners.end(), by_x);
+  double sum = 0;
+  for (const int f : search.between(low->x(), high->x())) {
+    const double overlap = overlap_volume(cell.corners, field.cells[f]);
+    if (overlap <= 0) continue;
+    weights.push_back({.flow_cell = f, .value = overlap});
+    sum += overlap;
+  }
+  return sum;
+}
+
+std::string where(const MappedCell& cell) {
+  const Eigen::Vector3d c = centre_of(cell.corners);
+  std::ostringstream out;
+  out << "x = " << c.x() << " m, y = " << c.y() << " m, depth " << -c.z() << " m";
+  return out.str();
+}
+
+constexpr double kTwice = 1e-6;  ///< of a cell's volume: below it is rounding of the file's digits.
+
+void demand_some_coverage(const FlowMapping& mapping,
+                          const std::vector<std::string>& region_names) {
+  std::vector<Problem> problems;
+  for (std::size_t r = 0; r < mapping.coverage.size(); ++r) {
+    const RegionCoverage& region = mapping.coverage[r];
+    if (region.n_cells == 0 || region.covered > 0) continue;
+    problems.push_back({"", 0, "no flow cell lies in compartment " + region_names[r],
+                        "check origin, axes and units of x, y and depth, which are the scene's"});
+  }
+  if (!problems.empty()) throw InputError("flow field", problems);
+}
+
+}  // namespace
+
+FlowMapping map_flow(const FlowField& field, const std::vector<MappedCell>& cells,
+                     const std::vector<std::string>& region_names, OutsideRule rule) {
+  FlowMapping mapping;
+  mapping.weights.resize(cells.size());
+  mapping.coverage.resize(region_names.size());
+  const FlowCellSearch search(field.cells);
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const MappedCell& cell = cells[c];
+    auto& weights = mapping.weights[c];
+    const double volume = cell_volume(cell.corners);
+    const double covered = overlaps_of(cell, field, search, weights);
+    if (covered > (1 + kTwice) * volume) {
+      throw InputError("flow field", {{"", 0, "flow cells lie over each other at " + where(cell),
+                                       "give every place one cell, without refined parents"}});
+    }
+    for (FlowMapping::Weight& weight : weights) weight.value /= covered;
+    RegionCoverage& region = mapping.coverage.at(cell.region);
+    region.volume += cell.fraction * volume;
+    region.covered += cell.fraction * std::min(covered, volume);
+    ++region.n_cells;
+    if (covered == 0)
+      ++region.n_outside;
+    else if (covered < (1 - kTwice) * volume)
+      ++region.n_partly;
+    if (covered == 0 && rule == OutsideRule::nearest)
+      weights.push_back({.flow_cell = search.nearest(centre_of(cell.corners)), .value = 1});
+  }
+  demand_some_coverage(mapping, region_names);
+  return mapping;
+}
+
+Eigen::MatrixXd mapped_change(const FlowMapping& mapping, const FlowField& field, int reference) {
+  FAULTSIM_DEMAND(reference >= 0 && reference < field.pressure.cols(), "report ", reference);
+  const Eigen::VectorXd start = field.pressure.col(reference);
+  Eigen::MatrixXd change =
+      Eigen::MatrixXd::Zero(std::ssize(mapping.weights), field.pressure.cols());
+  for (Eigen::Index c = 0; c < change.rows(); ++c) {
+    for (const FlowMapping::Weight& weight : mapping.weights[c]) {
+      const int f = weight.flow_cell;
+      for (Eigen::Index t = 0; t < change.cols(); ++t)
+        change(c, t) += weight.value * (field.pressure(f, t) - start[f]);
+    }
+  }
+  return change;
+}
+
+std::string coverage_text(const FlowMapping& mapping, const std::vector<std::string>& region_names,
+                          OutsideRule rule) {
+  std::ostringstream out;
+  out << std::setprecision(4);
+  for (std::size_t r = 0; r < mapping.coverage.size(); ++r) {
+    const RegionCoverage& region = mapping.coverage[r];
+    if (region.n_cells == 0) continue;
+    out << region_names[r] << ": " << 100 * region.covered / region.volume << " % of "
+        << region.volume << " m3 covered";
+    if (region.n_outside > 0) {
+      out << "; " << region.n_outside << " of " << region.n_cells << " cells outside "
+          << (rule == OutsideRule::nearest ? "take the nearest flow cell's pressure"
+                                           : "keep their pressure");
+    }
+    if (region.n_partly > 0)
+      out << "; " << region.n_partly << " covered in part take that part's mean";
+    out << '\n';
+  }
+  return out.str();
+}
+
+}  // namespace faultsim
