@@ -18,12 +18,14 @@ double sign_of(std::uint64_t index) {
 
 }  // namespace
 
-CaseLoads::CaseLoads(const Scene& scene, const FaultOperator& op, double noise)
+CaseLoads::CaseLoads(const Scene& scene, const FaultOperator& op, double noise,
+                     const FieldHistory* field)
     : scene_(scene),
       op_(op),
       load_factors_(scene, op),
       initial_(initial_traction(scene, op.geometry, load_factors_.region_of_load())),
-      noise_(noise) {}
+      noise_(noise),
+      field_(field) {}
 
 StepLoads CaseLoads::at(double time) const {
   StepLoads loads;
@@ -37,6 +39,10 @@ StepLoads CaseLoads::at(double time) const {
   }
   loads.fault_pressure_change = fault_pressure_change(
       scene_, op_.geometry, load_factors_.region_of_load(), time, loads.pressure_change);
+  if (field_ != nullptr) {
+    loads.locked += at_time(*field_, field_->locked, time);
+    loads.fault_pressure_change += at_time(*field_, field_->fault_pressure, time);
+  }
   for (std::size_t f = 0; f < op_.geometry.faults.size(); ++f) {
     const OperatorFault& fault = op_.geometry.faults[f];
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "simulator/loads/field_history.h"
 #include "simulator/loads/history.h"
 #include "simulator/loads/initial_traction.h"
 #include "simulator/model/fault_operator.h"
@@ -14,8 +15,8 @@ namespace faultsim {
 struct StepLoads {
   std::vector<double> pressure_change;  ///< per region, Pa.
   std::vector<double> factors;          ///< c_k, per operator load.
-  /// t_L = t'_0 + Σ c_k L_k + α_f Δp_f n, n_dofs, Pa; without the sum where the operator is not
-  /// condensed and has no L: what the faults would carry if the rock were rigid.
+  /// t_L = t'_0 + Σ c_k L_k + Σ_c P_c b_c Δp_c + α_f Δp_f n, n_dofs, Pa; without the sum where the
+  /// operator is not condensed and has no L: what the faults would carry if the rock were rigid.
   Eigen::VectorXd locked;
   Eigen::VectorXd fault_pressure_change;  ///< Δp_f, n_nodes, Pa.
 };
@@ -25,7 +26,10 @@ class CaseLoads {
  public:
   /// @pre scene and op outlive this. Throws InputError as initial_traction() does.
   /// @param noise  relative disturbance of every locked traction, to see what it does; 0 = none.
-  CaseLoads(const Scene& scene, const FaultOperator& op, double noise = 0);
+  /// @param field  what a field of pressures adds to the compartments' (its fault pressure too),
+  /// outlives this; nullptr = none.
+  CaseLoads(const Scene& scene, const FaultOperator& op, double noise = 0,
+            const FieldHistory* field = nullptr);
   StepLoads at(double time) const;
   /// Throws InputError where a prescribed fault pressure falls below zero in that step.
   void check_fault_pressure(const LoadStep& step, const StepLoads& loads) const;
@@ -36,6 +40,7 @@ class CaseLoads {
   LoadFactors load_factors_;
   InitialTraction initial_;
   double noise_;
+  const FieldHistory* field_;
 };
 
 }  // namespace faultsim

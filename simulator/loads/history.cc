@@ -29,29 +29,6 @@ double history_value(const PressureHistory& history, double time) {
   return interpolate(history.time, history.pressure_change, time, 0);
 }
 
-double by_rule(const FaultPressure& law, double minus, double plus) {
-  switch (law.rule) {
-    case FaultPressureRule::mean:
-      return 0.5 * (minus + plus);
-    case FaultPressureRule::min:
-      return std::min(minus, plus);
-    case FaultPressureRule::max:
-      return std::max(minus, plus);
-    case FaultPressureRule::minus:
-      return minus;
-    case FaultPressureRule::plus:
-      return plus;
-    case FaultPressureRule::fraction: {
-      const double low = std::min(minus, plus);
-      return low + law.fraction * (std::max(minus, plus) - low);
-    }
-    case FaultPressureRule::prescribed:
-    case FaultPressureRule::none:
-      return 0;
-  }
-  throw_internal("known fault pressure rule", "", __FILE__, __LINE__);
-}
-
 /// Of one region's value beside a node: its share, 0 where there is none.
 double share_of(const std::vector<int>& region_of_load, const std::vector<double>& per_region,
                 int load, double fraction) {
@@ -73,6 +50,29 @@ bool in_window(const FaultPressure& law, const OperatorNode& node, const Pressur
 }
 
 }  // namespace
+
+double pressure_by_rule(const FaultPressure& law, double minus, double plus) {
+  switch (law.rule) {
+    case FaultPressureRule::mean:
+      return 0.5 * (minus + plus);
+    case FaultPressureRule::min:
+      return std::min(minus, plus);
+    case FaultPressureRule::max:
+      return std::max(minus, plus);
+    case FaultPressureRule::minus:
+      return minus;
+    case FaultPressureRule::plus:
+      return plus;
+    case FaultPressureRule::fraction: {
+      const double low = std::min(minus, plus);
+      return low + law.fraction * (std::max(minus, plus) - low);
+    }
+    case FaultPressureRule::prescribed:
+    case FaultPressureRule::none:
+      return 0;
+  }
+  throw_internal("known fault pressure rule", "", __FILE__, __LINE__);
+}
 
 std::vector<LoadStep> load_steps(const Scene& scene) {
   std::vector<LoadStep> steps{{0, "initial", 0}};
@@ -163,9 +163,9 @@ Eigen::VectorXd initial_pressure_excess(const Scene& scene, const FaultGeometry&
       for (const PressurePair& pair : node.pressure) {
         excess[k] +=
             pair.weight *
-            by_rule(law,
-                    share_of(region_of_load, per_region, pair.minus_region, pair.minus_fraction),
-                    share_of(region_of_load, per_region, pair.plus_region, pair.plus_fraction));
+            pressure_by_rule(
+                law, share_of(region_of_load, per_region, pair.minus_region, pair.minus_fraction),
+                share_of(region_of_load, per_region, pair.plus_region, pair.plus_fraction));
       }
     }
   }
@@ -190,10 +190,10 @@ Eigen::VectorXd fault_pressure_change(const Scene& scene, const FaultGeometry& g
       double sum = 0;
       for (const PressurePair& pair : node.pressure) {
         if (!prescribed && !has_region(pair)) continue;  // every rule of 0 and 0 is 0
-        const double value = prescribed
-                                 ? (in_window(law, node, pair) ? given : 0.0)
-                                 : by_rule(law, cell_change(pair.minus_region, pair.minus_fraction),
-                                           cell_change(pair.plus_region, pair.plus_fraction));
+        const double value =
+            prescribed ? (in_window(law, node, pair) ? given : 0.0)
+                       : pressure_by_rule(law, cell_change(pair.minus_region, pair.minus_fraction),
+                                          cell_change(pair.plus_region, pair.plus_fraction));
         sum += pair.weight * value;
       }
       change[k] = sum;

@@ -43,6 +43,10 @@ class LoadFactors {
   std::vector<int> region_of_load_;  // −1 for boundary loads
 };
 
+/// What a fault's rule makes of the pressure changes of the cells on either side, Pa; 0 for the
+/// rules prescribed and none.
+double pressure_by_rule(const FaultPressure& law, double minus, double plus);
+
 /// The change that rule `prescribed` gives at time t, Pa, where it acts.
 double prescribed_pressure_change(const Scene& scene, const FaultPressure& law, double time);
 

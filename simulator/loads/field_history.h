@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace faultsim {
+
+/// What a field of pressures, cell by cell, does to closed faults: at its reports, and linear in
+/// between; before the first and after the last as at that one.
+struct FieldHistory {
+  std::vector<double> time;  ///< s since the scene's start, strictly increasing, at least one.
+  /// Σ_c P_c b_c Δp_c, Pa, n_dofs x n_reports: the rock's part of the locked traction.
+  Eigen::MatrixXd locked = {};
+  /// Δp_f by the faults' rules from the cells beside each node, Pa, n_nodes x n_reports.
+  Eigen::MatrixXd fault_pressure = {};
+};
+
+/// The value at a time of one of the history's tables (n x n_reports).
+Eigen::VectorXd at_time(const FieldHistory& history, const Eigen::MatrixXd& table, double time);
+
+}  // namespace faultsim
