@@ -29,6 +29,7 @@ json scene_of_two_blocks() {
 class FieldLoadsTest : public testing::Test {
  protected:
   FieldLoadsTest() : scene_(read_scene(parse_json(scene_of_two_blocks().dump(), "test"))) {
+    for (Material& material : scene_.materials) material.biot = 0.8;
     std::vector<Problem> problems;
     plan_ = make_plan(scene_, problems);
     prepared_ = prepare_influence(scene_, plan_, {}, {}, monitor_);
