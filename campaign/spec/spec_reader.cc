@@ -95,16 +95,20 @@ CampaignSpec SpecReader::read() {
   return std::move(spec_);
 }
 
-/// The text of the CSV files of a scene becomes part of it: what is read now is what the cases are.
+/// The text of the CSV files of a scene becomes part of it, and of a pressure field what tells that
+/// it is still the same: what is read now is what the cases are.
 void SpecReader::embed_tables() {
   const auto names_a_table = [](const Change& change) {
-    return overlap(change.pointer, "/pressure_csv") || overlap(change.pointer, "/compartments");
+    return overlap(change.pointer, "/pressure_csv") || overlap(change.pointer, "/compartments") ||
+           overlap(change.pointer, "/pressure_field");
   };
   for (Group& group : spec_.groups) {
     const auto embed = [&](const json& scene) {
       for (const std::string& name : faultsim::table_names(scene)) {
         faultsim::embed_table(group.scene, spec_.scene_source, name);
       }
+      if (const std::string name = faultsim::field_name(scene); !name.empty())
+        faultsim::embed_field(group.scene, spec_.scene_source, name);
     };
     embed(json(group.scene));
     for (const Parameter& parameter : group.parameters) {

@@ -110,12 +110,14 @@ ExitCode export_contact_command(const ExportArguments& arguments) {
                        "a load step with creeping salt is not one contact problem but several",
                        "export the elastic case: --set /numerics/creep=off"}});
   }
-  const FaultOperator& op = *prepare_on_screen(simulation, arguments.op, arguments.scene.json).op;
+  const PreparedOperator& prepared =
+      prepare_on_screen(simulation, arguments.op, arguments.scene.json);
+  const FaultOperator& op = *prepared.op;
 
   ExportedStep exported;
   SilentMonitor silent;
   exported.start =
-      start_of_step(loaded.scene, op, arguments.step, context_of(arguments.op, silent));
+      start_of_step(loaded.scene, prepared, arguments.step, context_of(arguments.op, silent));
   if (exported.start.outcome != Outcome::converged) {
     std::cerr << "no problem to write: the case ends before load step " << arguments.step << ": "
               << exported.start.reason << "\n";

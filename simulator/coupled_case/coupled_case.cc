@@ -46,6 +46,10 @@ std::vector<Problem> coupled_hindrances(const Scene& scene, const Plan& plan) {
     problems.push_back({"/numerics/surface", 0, "the coupled path has no operator to interpolate",
                         concat("remove the surface, or ", path)});
   }
+  if (scene.flow.is_given()) {
+    problems.push_back({"/pressure_field", 0, "the coupled path has no loads of single cells",
+                        concat("say the pressures by compartments, or ", path)});
+  }
   for (std::size_t f = 0; f < scene.faults.size(); ++f) {
     const Friction& friction = scene.faults[f].friction;
     if (friction.dynamic_friction_angle != friction.static_friction_angle) {

@@ -9,7 +9,7 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/common/units.h"
-#include "simulator/scene/dates.h"
+#include "simulator/common/dates.h"
 
 namespace faultsim {
 namespace {

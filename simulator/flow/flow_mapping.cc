@@ -127,39 +127,44 @@ FlowMapping map_flow(const FlowField& field, const std::vector<MappedCell>& cell
   return mapping;
 }
 
-Eigen::MatrixXd mapped_change(const FlowMapping& mapping, const FlowField& field, int reference) {
+Eigen::VectorXd mapped_values(const FlowMapping& mapping, const FlowField& field, int report) {
+  FAULTSIM_DEMAND(report >= 0 && report < field.pressure.cols(), "report ", report);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(std::ssize(mapping.weights));
+  for (Eigen::Index c = 0; c < values.size(); ++c) {
+    for (const FlowMapping::Weight& weight : mapping.weights[c])
+      values[c] += weight.value * field.pressure(weight.flow_cell, report);
+  }
+  return values;
+}
+
+Eigen::MatrixXd mapped_change(const FlowMapping& mapping, const FlowField& field, int reference,
+                              std::vector<int> reports) {
   FAULTSIM_DEMAND(reference >= 0 && reference < field.pressure.cols(), "report ", reference);
-  const Eigen::VectorXd start = field.pressure.col(reference);
-  Eigen::MatrixXd change =
-      Eigen::MatrixXd::Zero(std::ssize(mapping.weights), field.pressure.cols());
+  if (reports.empty()) {
+    reports.resize(field.date.size());
+    std::iota(reports.begin(), reports.end(), 0);
+  }
+  Eigen::MatrixXd change = Eigen::MatrixXd::Zero(std::ssize(mapping.weights), std::ssize(reports));
   for (Eigen::Index c = 0; c < change.rows(); ++c) {
     for (const FlowMapping::Weight& weight : mapping.weights[c]) {
       const int f = weight.flow_cell;
       for (Eigen::Index t = 0; t < change.cols(); ++t)
-        change(c, t) += weight.value * (field.pressure(f, t) - start[f]);
+        change(c, t) +=
+            weight.value * (field.pressure(f, reports[t]) - field.pressure(f, reference));
     }
   }
   return change;
 }
 
-std::string coverage_text(const FlowMapping& mapping, const std::vector<std::string>& region_names,
-                          OutsideRule rule) {
+std::string coverage_text(const RegionCoverage& region, OutsideRule rule) {
   std::ostringstream out;
-  out << std::setprecision(4);
-  for (std::size_t r = 0; r < mapping.coverage.size(); ++r) {
-    const RegionCoverage& region = mapping.coverage[r];
-    if (region.n_cells == 0) continue;
-    out << region_names[r] << ": " << 100 * region.covered / region.volume << " % of "
-        << region.volume << " m3 covered";
-    if (region.n_outside > 0) {
-      out << "; " << region.n_outside << " of " << region.n_cells << " cells outside "
-          << (rule == OutsideRule::nearest ? "take the nearest flow cell's pressure"
-                                           : "keep their pressure");
-    }
-    if (region.n_partly > 0)
-      out << "; " << region.n_partly << " covered in part take that part's mean";
-    out << '\n';
+  out << std::setprecision(4) << 100 * region.covered / region.volume << " % of its volume covered";
+  if (region.n_outside > 0) {
+    out << "; " << region.n_outside << " of " << region.n_cells << " cells outside "
+        << (rule == OutsideRule::nearest ? "take the nearest flow cell's pressure"
+                                         : "keep their pressure");
   }
+  if (region.n_partly > 0) out << "; " << region.n_partly << " covered in part take that part's mean";
   return out.str();
 }
 

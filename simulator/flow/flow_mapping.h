@@ -6,6 +6,7 @@
 
 #include "simulator/flow/cell_overlap.h"
 #include "simulator/flow/flow_field.h"
+#include "simulator/flow/outside_rule.h"
 
 namespace faultsim {
 
@@ -14,12 +15,6 @@ struct MappedCell {
   CellCorners corners;
   int region = -1;      ///< compartment, >= 0.
   double fraction = 1;  ///< share of its volume in the compartment, [0, 1].
-};
-
-/// What a cell of which nothing is covered takes.
-enum class OutsideRule {
-  nearest,    ///< the flow cell whose centre is nearest to its own (the first of equals).
-  unchanged,  ///< no flow cell: its pressure does not change.
 };
 
 /// How much of a compartment the flow grid covers.
@@ -48,12 +43,18 @@ struct FlowMapping {
 FlowMapping map_flow(const FlowField& field, const std::vector<MappedCell>& cells,
                      const std::vector<std::string>& region_names, OutsideRule rule);
 
-/// Δp since a report in our cells, Pa (n_cells x n_reports): Σ_f w (p_f − p_f(reference)).
-/// @pre 0 <= reference < n_reports.
-Eigen::MatrixXd mapped_change(const FlowMapping& mapping, const FlowField& field, int reference);
+/// Pressures of a report in our cells, Pa (n_cells): Σ_f w p_f; 0 where a cell is unchanged.
+Eigen::VectorXd mapped_values(const FlowMapping& mapping, const FlowField& field, int report);
 
-/// A line per compartment: "west: 98.2 % of 1.2e9 m3 covered; 3 of 120 cells outside ...".
-std::string coverage_text(const FlowMapping& mapping, const std::vector<std::string>& region_names,
-                          OutsideRule rule);
+/// Δp of reports since another one in our cells, Pa (n_cells x n_reports): Σ_f w (p_f −
+/// p_f(reference)).
+/// @pre reference and reports are reports of the field.
+/// @param reports  empty = all.
+Eigen::MatrixXd mapped_change(const FlowMapping& mapping, const FlowField& field, int reference,
+                              std::vector<int> reports = {});
+
+/// What is covered of a compartment: "98.2 % of its volume covered; 3 of 120 cells outside take the
+/// nearest flow cell's pressure; 5 covered in part take that part's mean".
+std::string coverage_text(const RegionCoverage& region, OutsideRule rule);
 
 }  // namespace faultsim

@@ -17,6 +17,7 @@
 #include "simulator/measures/metrics.h"
 #include "simulator/measures/slip_events.h"
 #include "simulator/measures/stage_summary.h"
+#include "simulator/operators/field_loads.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsim {
@@ -50,7 +51,7 @@ class CaseRun {
         probe_(probe),
         laws_(contact_laws(scene, op.geometry)),
         node_laws_(laws_),
-        loads_(scene, op, probe.noise),
+        loads_(scene, op, probe.noise, probe.field),
         meter_(op, laws_, scene.numerics.slip_tolerance, scene.numerics.activation_length),
         other_(other),
         state_(initial_state(op)),
@@ -186,6 +187,7 @@ void CaseRun::observe(const StepLoads& loads, StepResult& result) const {
     const Eigen::Map<const Eigen::VectorXd> factors(
         loads.factors.data(), static_cast<Eigen::Index>(loads.factors.size()));
     u = op_.observed.per_load * factors + op_.observed.per_jump * state_.jump;
+    if (loads.observed.size() > 0) u += loads.observed;
   }
   result.observed.assign(u.begin(), u.end());
 }
@@ -445,6 +447,11 @@ StepStart CaseRun::start_of(int step) {
   return start;
 }
 
+CaseProbe with_field(CaseProbe probe, const PreparedOperator& prepared) {
+  if (prepared.field) probe.field = &prepared.field->history;
+  return probe;
+}
+
 }  // namespace
 
 CaseResult run_case(const Scene& scene, const FaultOperator& op, const RunContext& context,
@@ -454,8 +461,13 @@ CaseResult run_case(const Scene& scene, const FaultOperator& op, const RunContex
 
 CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, const RunContext& context,
                     const StepObserver& observer, const CaseProbe& probe) {
-  CaseResult result =
-      CaseRun(scene, *prepared.op, prepared.ladder.get(), context, observer, probe).run();
+  CaseResult result = CaseRun(scene, *prepared.op, prepared.ladder.get(), context, observer,
+                              with_field(probe, prepared))
+                          .run();
+  if (prepared.field) {
+    result.warnings.insert(result.warnings.end(), prepared.field->warnings.begin(),
+                           prepared.field->warnings.end());
+  }
   result.surface = prepared.surface;
   if (result.surface) result.warnings.push_back(surface_warning(*result.surface));
   return result;
@@ -466,9 +478,9 @@ CaseResult run_case(const Scene& scene, const FaultOperator& faults, StepSolver&
   return CaseRun(scene, faults, nullptr, context, observer, {}, &solver).run();
 }
 
-StepStart start_of_step(const Scene& scene, const FaultOperator& op, int step,
+StepStart start_of_step(const Scene& scene, const PreparedOperator& prepared, int step,
                         const RunContext& context) {
-  return CaseRun(scene, op, nullptr, context, {}, {}).start_of(step);
+  return CaseRun(scene, *prepared.op, nullptr, context, {}, with_field({}, prepared)).start_of(step);
 }
 
 }  // namespace faultsim

@@ -9,6 +9,7 @@
 #include "simulator/contact/contact.h"
 #include "simulator/contact/step_check.h"
 #include "simulator/loads/case_loads.h"
+#include "simulator/loads/field_history.h"
 #include "simulator/loads/history.h"
 #include "simulator/model/fault_operator.h"
 #include "simulator/operators/prepare_operator.h"
@@ -30,6 +31,7 @@ struct CaseProbe {
   /// Called after each try at a part of a load step, if set, with the number of the step.
   std::function<void(int, const SubStepTrace&)> tried;
   std::string identity;  ///< case_identity of the scene; empty = to be found.
+  const FieldHistory* field = nullptr;  ///< of a scene with a flow result.
 };
 
 /// Who finds the equilibrium of a load step where that is not contact on a condensed operator: the
@@ -81,7 +83,7 @@ struct StepStart {
 /// Runs a case up to the end of load step − 1 (0: the unloaded start, whose step equilibrates the
 /// initial state). Throws InputError when the case has no such step,
 /// Interrupted when the context says so.
-StepStart start_of_step(const Scene& scene, const FaultOperator& op, int step,
+StepStart start_of_step(const Scene& scene, const PreparedOperator& prepared, int step,
                         const RunContext& context = {});
 
 }  // namespace faultsim

@@ -25,7 +25,9 @@ CaseLoads::CaseLoads(const Scene& scene, const FaultOperator& op, double noise,
       load_factors_(scene, op),
       initial_(initial_traction(scene, op.geometry, load_factors_.region_of_load())),
       noise_(noise),
-      field_(field) {}
+      field_(field) {
+  FAULTSIM_DEMAND(scene.flow.is_given() == (field != nullptr), "the loads of the scene's field");
+}
 
 StepLoads CaseLoads::at(double time) const {
   StepLoads loads;
@@ -42,6 +44,10 @@ StepLoads CaseLoads::at(double time) const {
   if (field_ != nullptr) {
     loads.locked += at_time(*field_, field_->locked, time);
     loads.fault_pressure_change += at_time(*field_, field_->fault_pressure, time);
+    const Eigen::VectorXd regions = at_time(*field_, field_->region_change, time);
+    for (std::size_t r = 0; r < loads.pressure_change.size(); ++r)
+      loads.pressure_change[r] += regions[static_cast<Eigen::Index>(r)];
+    loads.observed = at_time(*field_, field_->observed, time);
   }
   for (std::size_t f = 0; f < op_.geometry.faults.size(); ++f) {
     const OperatorFault& fault = op_.geometry.faults[f];

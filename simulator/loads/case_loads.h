@@ -13,12 +13,13 @@ namespace faultsim {
 
 /// The loads of a case at one time: what the faults would carry if they stayed closed.
 struct StepLoads {
-  std::vector<double> pressure_change;  ///< per region, Pa.
+  std::vector<double> pressure_change;  ///< per region, Pa; of a field its mean.
   std::vector<double> factors;          ///< c_k, per operator load.
   /// t_L = t'_0 + Σ c_k L_k + Σ_c P_c b_c Δp_c + α_f Δp_f n, n_dofs, Pa; without the sum where the
   /// operator is not condensed and has no L: what the faults would carry if the rock were rigid.
   Eigen::VectorXd locked;
   Eigen::VectorXd fault_pressure_change;  ///< Δp_f, n_nodes, Pa.
+  Eigen::VectorXd observed;  ///< of a field: what observed points move by, m; empty without one.
 };
 
 /// The loads of a case as functions of time, on an (elastic) operator.

@@ -11,6 +11,10 @@ struct FieldHistory {
   std::vector<double> time;  ///< s since the scene's start, strictly increasing, at least one.
   /// Σ_c P_c b_c Δp_c, Pa, n_dofs x n_reports: the rock's part of the locked traction.
   Eigen::MatrixXd locked = {};
+  /// Σ_c O_c b_c Δp_c, m, n_rows x n_reports: what observed points move by with closed faults.
+  Eigen::MatrixXd observed = {};
+  /// Δp of each region: the mean over its volume, Pa, n_regions x n_reports.
+  Eigen::MatrixXd region_change = {};
   /// Δp_f by the faults' rules from the cells beside each node, Pa, n_nodes x n_reports.
   Eigen::MatrixXd fault_pressure = {};
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "simulator/flow/flow_mapping.h"
@@ -9,31 +9,28 @@
 
 namespace faultsim {
 
-/// How a flow result is taken.
-struct FieldChoice {
-  OutsideRule outside = OutsideRule::nearest;
-  int reference = 0;  ///< report whose pressures are the scene's initial ones: Δp = 0.
-  /// Reports are left out whose locked tractions and fault pressures lie within this of the line
-  /// between their neighbours, Pa; 0 = only what is on the line.
-  double bound = 0;
-};
-
 /// A flow result on the faults of a scene.
 struct FieldLoads {
-  FieldHistory history;      ///< of the reports that are needed; time 0 = the reference report.
-  std::vector<int> reports;  ///< their numbers in the flow result, from the reference on.
+  FieldHistory history;  ///< of the reports that the scene takes.
   FlowMapping mapping;
+  std::vector<std::string> region_names;
+  /// What a user must know: compartments that are not covered whole, a reference report whose
+  /// pressures are not those of the scene's initial state.
+  std::vector<std::string> warnings;
 };
 
-/// Maps the flow result onto the block's cells and condenses it: s_c = b f_c Δp_c with the share
-/// f_c of the cell in its compartment, one product per report from the reference on; Δp_f of a
-/// fault node is its faults' rule on the pairs of cells beside it, as for compartments. Neither
-/// strength nor friction is looked at, so that samples of them share it; Biot coefficients and
-/// fault pressure rules are.
-/// @pre the block has all cells of the compartments; scene and plan are its own.
-/// @throws InputError for a half domain, which has no room for a field that is not symmetric, for a
-/// reference that is no report, and as map_flow() does.
+/// Maps the scene's flow result onto the block's cells and condenses it: s_c = b f_c Δp_c with the
+/// share f_c of the cell in its compartment, one product per report from the reference on; Δp_f of a
+/// fault node is its fault's rule on the pairs of cells beside it, as for compartments. Neither
+/// strength nor friction is looked at, so that samples of them share it; what is looked at is told
+/// by field_loads_key().
+/// @pre the block has all cells of the compartments; scene and plan are its own, the scene has a
+/// flow result and the plan all of the domain.
+/// @throws InputError as map_flow() does.
 FieldLoads field_loads(const Scene& scene, const Plan& plan, const PreparedInfluence& prepared,
-                       const FlowField& field, const FieldChoice& choice, int n_threads = 1);
+                       int n_threads = 1);
+
+/// Scenes of one operator with the same key have the same field loads.
+std::string field_loads_key(const Scene& scene);
 
 }  // namespace faultsim

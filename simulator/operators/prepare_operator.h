@@ -22,6 +22,8 @@ BulkProblem bulk_problem(const Scene& scene, const Plan& plan);
 /// observation point) whose sign is therefore to be turned: their u_y.
 std::vector<int> mirrored_rows(const Scene& scene, const Plan& plan);
 
+struct FieldLoads;
+
 /// The operator of the scene: from the cache if it is there and sound, else built (and cached).
 /// Throws ResourceError before anything is built when the plan needs more memory than is available;
 /// a cache that cannot be written is a remark. A scene with a surface has none (simulator/surface).
@@ -31,6 +33,7 @@ struct PreparedOperator {
                                             ///< because every time step needs the factors.
   std::shared_ptr<CondensedBulk> bulk;  ///< only when keep_bulk was asked (displacement fields).
   std::optional<CaseSurface> surface;   ///< only where it is interpolated.
+  std::shared_ptr<const FieldLoads> field = nullptr;  ///< only of a scene with a flow result.
   bool from_cache = false;
   std::string remark;  ///< "damaged operator file moved aside", "not kept", ...
 };

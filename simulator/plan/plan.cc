@@ -64,6 +64,8 @@ Reduction plan_half_domain(const Scene& scene, bool plane_strain) {
   } else if (scene.numerics.half_domain == Switch::off) {
     r.reason = "switched off";
     r.bound = exact;
+  } else if (scene.flow.is_given()) {
+    r.reason = "a pressure field need not be symmetric";
   } else {
     r.applied = true;
     r.bound = exact;

@@ -241,6 +241,15 @@ json history(const PressureHistory& history) {
           {"lag", plain(history.lag)}};
 }
 
+/// Which file it was does not matter, what was in it does.
+json flow_load(const FlowLoad& flow) {
+  return {{"fingerprint", flow.fingerprint},
+          {"outside", static_cast<int>(flow.outside)},
+          {"reference", flow.reference},
+          {"reports", flow.reports},
+          {"time", list(flow.time)}};
+}
+
 template <typename Struct>
 std::string list_text(const std::vector<Struct>& all, json (*of)(const Struct&)) {
   json result = json::array();
@@ -260,9 +269,11 @@ std::string identity_under(int numerics_version, const std::string& canonical) {
 
 std::string CanonicalParts::text() const {
   const std::string optional = creep.empty() ? "" : "\"creep\":" + creep + ",";
+  const std::string flow =
+      pressure_field.empty() ? "" : ",\"pressure_field\":" + pressure_field;
   return concat("{", optional, "\"faults\":", faults, ",\"format\":1,\"geometry\":", geometry,
                 ",\"initial_state\":", initial_state, ",\"materials\":", materials,
-                ",\"mesh\":", mesh, ",\"numerics\":", numerics, ",\"pressure\":", pressure,
+                ",\"mesh\":", mesh, ",\"numerics\":", numerics, ",\"pressure\":", pressure, flow,
                 ",\"stages\":", stages, "}");
 }
 
@@ -275,9 +286,11 @@ CanonicalParts canonical_parts(const Scene& scene) {
                        .numerics = numerics(scene.numerics).dump(),
                        .pressure = list_text(scene.pressure, history),
                        .stages = list_text(scene.stages, stage),
-                       .creep = {}};
+                       .creep = {},
+                       .pressure_field = {}};
   // An elastic scene has no creep to speak of: it keeps the identity from before there was any.
   if (has_viscous_material(scene)) parts.creep = creep(scene.numerics).dump();
+  if (scene.flow.is_given()) parts.pressure_field = flow_load(scene.flow).dump();
   return parts;
 }
 

@@ -1,10 +1,12 @@
 #include "simulator/scene/csv_tables.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "simulator/common/input_file.h"
+#include "simulator/flow/field_file.h"
 
 namespace faultsim {
 namespace {
@@ -80,6 +82,36 @@ void embed_table(json& scene, const std::string& source, const std::string& name
 void embed_tables(JsonDocument& document) {
   for (const std::string& name : table_names(document.value)) {
     embed_table(document.value, document.source, name);
+  }
+  if (const std::string name = field_name(document.value); !name.empty())
+    embed_field(document.value, document.source, name);
+}
+
+std::string field_name(const json& scene) {
+  const json* name = value_at(scene, "/pressure_field/file");
+  return name != nullptr && name->is_string() ? name->get<std::string>() : "";
+}
+
+FieldPlace field_place(const json& scene, const std::string& source, const std::string& name) {
+  const std::string at = "/fields/" + pointer_token(name);
+  const json* path = value_at(scene, at + "/path");
+  const json* fingerprint = value_at(scene, at + "/fingerprint");
+  const bool is_known = path != nullptr && path->is_string() && fingerprint != nullptr &&
+                        fingerprint->is_string();
+  if (!is_known) return {path_of(source, name), ""};
+  return {path->get<std::string>(), fingerprint->get<std::string>()};
+}
+
+void embed_field(json& scene, const std::string& source, const std::string& name) {
+  const FieldPlace place = field_place(scene, source, name);
+  if (!scene.is_object() || !place.fingerprint.empty()) return;
+  if (scene.contains("fields") && !scene["fields"].is_object()) return;  // the schema refuses it
+  try {
+    const FieldFile file = read_field_file(place.path);
+    scene["fields"][name] = {
+        {"path", std::filesystem::absolute(place.path).lexically_normal().string()},
+        {"fingerprint", file.fingerprint}};
+  } catch (const InputError&) {  // said by who reads the scene
   }
 }
 

@@ -17,7 +17,7 @@ std::vector<std::string> table_names(const nlohmann::json& scene);
 /// be read is left to read_scene, which says so.
 /// @param source  relative names are taken from the folder of this file (JsonDocument::source).
 void embed_table(nlohmann::json& scene, const std::string& source, const std::string& name);
-/// The same for all that the scene uses.
+/// The same for all that the scene uses, and the place of its field.
 void embed_tables(JsonDocument& document);
 
 /// The text of a table: from the scene's "tables", else from its file; or why there is none.
@@ -28,5 +28,20 @@ struct TableText {
 };
 TableText table_text(const nlohmann::json& scene, const std::string& source,
                      const std::string& name);
+
+/// Where the file of a pressure field is, and what was in it when the scene set out on its way.
+struct FieldPlace {
+  std::string path;
+  std::string fingerprint;  ///< "" = nothing is known of it.
+};
+/// From the scene's "fields", else its own path. Fields are too large to travel with a scene.
+FieldPlace field_place(const nlohmann::json& scene, const std::string& source,
+                       const std::string& name);
+
+/// Puts the place and the fingerprint of the scene's field into its "fields", unless they are
+/// there. A file that cannot be read is left to read_scene, which says so.
+void embed_field(nlohmann::json& scene, const std::string& source, const std::string& name);
+/// The name of the file of the scene's field; "" = it has none.
+std::string field_name(const nlohmann::json& scene);
 
 }  // namespace faultsim

@@ -103,6 +103,8 @@ std::vector<TurningPoint> turning_points(const Scene& scene) {
     add_extremes(condition.table.time, condition.table.factor,
                  {"the table of boundary " + std::to_string(i), 0, 0, 0, true}, points);
   }
+  for (const double time : scene.flow.time)
+    points.push_back({.load = "the pressure field", .from = time, .to = time, .is_report = true});
   double end = 0;
   for (const Stage& stage : scene.stages) end += stage.duration;
   std::erase_if(points, [&](const TurningPoint& p) { return p.to <= 0 || p.from >= end; });
@@ -142,11 +144,12 @@ std::vector<TurningPoint> skipped_turning_points(const Scene& scene) {
 }
 
 std::string turning_point_text(const TurningPoint& point) {
+  const std::string when = number_text(from_si(point.from, Dimension::time, "year")) + " year";
+  if (point.is_report) return point.load + " has a report at " + when;
   const std::string value =
       point.is_factor ? number_text(point.value)
                       : number_text(from_si(point.value, Dimension::pressure, "bar")) + " bar";
-  return point.load + " reaches " + value + " at " +
-         number_text(from_si(point.from, Dimension::time, "year")) + " year";
+  return point.load + " reaches " + value + " at " + when;
 }
 
 }  // namespace faultsim

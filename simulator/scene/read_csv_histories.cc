@@ -6,7 +6,6 @@
 
 #include "simulator/common/near_miss.h"
 #include "simulator/scene/csv_tables.h"
-#include "simulator/scene/dates.h"
 #include "simulator/scene/initial_state.h"
 #include "simulator/scene/load_times.h"
 #include "simulator/scene/pressure_csv.h"
@@ -25,13 +24,14 @@ class CsvHistories {
       : reader_(reader), scene_(scene), regions_(region_names(scene)) {}
 
   void read() {
-    read_start();
+    start_ = start_date(reader_, scene_);
     read_tables();
     remark_idle();
   }
 
  private:
   void read_tables() {
+    refuse_beside_field();
     if (const std::string file = reader_.text("/pressure_csv"); !file.empty()) {
       const PressureCsv csv = open(file, "/pressure_csv");
       for (const PressureColumn& column : csv.columns) {
@@ -54,13 +54,26 @@ class CsvHistories {
     }
   }
 
+  /// A flow result says the pressures of all regions.
+  void refuse_beside_field() {
+    if (!reader_.has("/pressure_field")) return;
+    std::vector<std::string> idle = {"/pressure_csv"};
+    for (const std::string& region : reader_.keys("/compartments"))
+      idle.push_back("/compartments/" + pointer_token(region));
+    for (const std::string& pointer : idle) {
+      if (reader_.has(pointer))
+        reader_.problem(pointer, "the pressures are those of /pressure_field", "remove one of the two");
+    }
+  }
+
   void remark(const std::string& pointer, const std::string& why) {
     if (reader_.has(pointer)) scene_.remarks.push_back({pointer, "has no effect: " + why});
   }
   /// What there is no table for.
   void remark_idle() {
     if (!has_table_) remark("/pressure_csv_end", "there is no CSV table");
-    if (!has_dates_) remark("/start_date", "no CSV table has dates");
+    if (!has_dates_ && !scene_.flow.is_given() && !ends_at_dates())
+      remark("/start_date", "no CSV table has dates");
     for (const std::string& region : regions_) {
       if (std::count(absolute_.begin(), absolute_.end(), region) != 0) continue;
       remark("/compartments/" + pointer_token(region) + "/datum",
@@ -68,13 +81,11 @@ class CsvHistories {
     }
   }
 
-  void read_start() {
-    const std::string text = reader_.text("/start_date");
-    if (text.empty()) return;
-    start_ = parse_date(text);
-    if (start_) return;
-    reader_.problem("/start_date", "\"" + text + "\" is not a date",
-                    "write it as year-month-day: 1990-01-31");
+  bool ends_at_dates() const {
+    for (std::size_t i = 0; i < scene_.stages.size(); ++i) {
+      if (reader_.has(element("/stages", i) + "/until")) return true;
+    }
+    return false;
   }
 
   PressureCsv open(const std::string& file, const std::string& pointer) {

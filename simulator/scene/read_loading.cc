@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 
+#include "simulator/common/dates.h"
 #include "simulator/common/near_miss.h"
 #include "simulator/scene/initial_state.h"
 #include "simulator/scene/scene_reader.h"
@@ -21,14 +23,14 @@ class LoadingReader {
 
   void read_stage(std::size_t index) {
     const std::string at = element("/stages", index) + "/";
-    Stage stage{reader_.text(at + "name"), reader_.quantity(at + "duration"),
-                reader_.integer(at + "steps", 1)};
+    Stage stage{reader_.text(at + "name"), duration(at), reader_.integer(at + "steps", 1)};
     const int cycles = reader_.integer(at + "cycles", 1);
     check_keys(at, stage, cycles);
     const bool between = reader_.has(at + "pressure_between");
     // More half cycles than steps are a problem already, and may be millions.
     const int n_halves = between && 2 * cycles <= stage.n_steps ? 2 * cycles : 1;
-    for (std::size_t region = 0; region < regions_.size(); ++region) {
+    const bool has_field = reader_.has("/pressure_field");
+    for (std::size_t region = 0; region < regions_.size() && !has_field; ++region) {
       const std::array<double, 2> targets = {target(at, region, 1), target(at, region, 2)};
       for (int half = 1; half <= n_halves; ++half) {
         const double time = start_ + stage.duration * half / n_halves;
@@ -57,6 +59,37 @@ class LoadingReader {
  private:
   static constexpr long kMostSteps = 100'000;  ///< a step is a row of every table
 
+  /// Of a stage that ends after a time or at a date, s.
+  double duration(const std::string& at) {
+    const std::string date = reader_.text(at + "until");
+    const std::string stage = at.substr(0, at.size() - 1);
+    if (reader_.has(at + "duration") == reader_.has(at + "until")) {
+      const bool both = reader_.has(at + "until");
+      reader_.problem(both ? at + "until" : stage,
+                      both ? "the stage has a duration too" : "the stage has no duration",
+                      both ? "keep one of the two"
+                           : "add \"duration\": \"10 year\", or the date at which it ends: "
+                             "\"until\": \"2000-01-31\"");
+      return kNaN;
+    }
+    if (date.empty()) return reader_.quantity(at + "duration");
+    const std::optional<double> end = parse_date(date), start = start_date(reader_, scene_);
+    if (!end) {
+      reader_.problem(at + "until", "\"" + date + "\" is not a date",
+                      "write it as year-month-day: 2000-01-31");
+    } else if (!start && !reader_.has("/start_date") && !reader_.has("/pressure_field")) {
+      reader_.problem(at + "until", "nothing says which date time 0 is",
+                      "add \"start_date\": \"1990-01-31\" to the scene");
+    }
+    if (!end || !start) return kNaN;
+    const double length = *end - *start - start_;
+    if (length > 0) return length;
+    reader_.problem(at + "until",
+                    concat("the stage begins at ", date_text(*start + start_), ", and ends before"),
+                    "write a later date");
+    return kNaN;
+  }
+
   void count_steps(const std::string& at, const Stage& stage) {
     n_steps_ += stage.n_steps;
     if (has_room()) return;
@@ -80,6 +113,11 @@ class LoadingReader {
     std::vector<std::string> given;
     for (const char* key : {"pressure_change", "pressure", "pressure_between"}) {
       if (reader_.has(at + key)) given.emplace_back(key);
+    }
+    if (!given.empty() && reader_.has("/pressure_field")) {
+      reader_.problem(at + given[0], "the pressures are those of /pressure_field",
+                      "remove one of the two");
+      return;
     }
     if (given.size() > 1) {
       reader_.problem(at + given[1], "the stage has " + given[0] + " too", "keep one of the two");
@@ -152,12 +190,14 @@ class LoadingReader {
 
 void read_loading(SceneReader& reader, Scene& scene) {
   LoadingReader loading(reader, scene);
+  read_flow_load(reader, scene);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < reader.size("/stages") && loading.has_room(); ++i) {
     loading.read_stage(i);
     names.push_back(scene.stages.back().name);
   }
   reader.demand_unique("/stages", "/name", names);
+  choose_reports(reader, scene);
   read_csv_histories(reader, scene);
   loading.read_compartments();
 }

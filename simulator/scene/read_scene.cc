@@ -232,6 +232,7 @@ void relate_parts(SceneReader& reader, const std::vector<Problem>& problems, Sce
   check_geometry(reader, scene);
   check_pressures(reader, scene);
   check_creep(reader, scene);
+  check_flow_load(reader, scene);
   check_turning_points(reader, scene);
   if (problems.empty()) add_remarks(reader, scene);
 }
@@ -313,7 +314,7 @@ bool have_same_body(const Scene& a, const Scene& b) {
   };
   return a.geometry_kind == b.geometry_kind && a.field == b.field && a.box == b.box &&
          a.materials == b.materials && a.mesh == b.mesh && a.numerics == b.numerics &&
-         a.stages == b.stages && a.pressure == b.pressure &&
+         a.stages == b.stages && a.pressure == b.pressure && a.flow == b.flow &&
          std::equal(a.faults.begin(), a.faults.end(), b.faults.begin(), b.faults.end(),
                     is_same_surface);
 }

@@ -1,16 +1,21 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "simulator/flow/outside_rule.h"
 
 /// The scene as plain structs: everything in SI, x east across the faults, y along strike, z up
 /// (z = 0 is the surface of a `field`; depth = -z), tension positive, pressures positive.
 /// Made from JSON by read_scene.h, which has checked all of it. Units, ranges, defaults and the
 /// JSON spelling of each field are in schemas/scene.schema.json.
 namespace faultsim {
+
+struct FlowField;
 
 struct Material {
   std::string name;
@@ -236,6 +241,24 @@ struct PressureHistory {
   bool operator==(const PressureHistory&) const = default;
 };
 
+/// The result of a flow simulator as a load: the pressures of all regions, cell by cell.
+struct FlowLoad {
+  std::shared_ptr<const FlowField> field = nullptr;  ///< none: the regions have histories.
+  std::string fingerprint;                           ///< of the file's bytes.
+  OutsideRule outside = OutsideRule::nearest;
+  int reference = 0;  ///< report whose pressures are the initial ones: Δp = 0.
+  /// The reports that are taken, from the reference on, and their times since the scene's start, s:
+  /// strictly increasing, the first >= 0. The field is linear in between.
+  std::vector<int> reports;
+  std::vector<double> time;
+  bool is_given() const { return field != nullptr; }
+  /// Fields are told by their fingerprints.
+  bool operator==(const FlowLoad& other) const {
+    return fingerprint == other.fingerprint && outside == other.outside &&
+           reference == other.reference && reports == other.reports && time == other.time;
+  }
+};
+
 struct ObservationPoint {
   std::string name;
   std::array<double, 3> position = {0, 0, 0};  ///< m; the nearest node is used and reported.
@@ -327,7 +350,8 @@ struct Scene {
   std::vector<Fault> faults;
   InitialState initial;
   std::vector<Stage> stages;
-  std::vector<PressureHistory> pressure;
+  std::vector<PressureHistory> pressure;  ///< per region; empty histories next to a flow load.
+  FlowLoad flow;
   Numerics numerics;
   OutputRequest output;
   std::vector<Remark> remarks;      ///< never part of a case's identity.

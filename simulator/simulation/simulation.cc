@@ -1,6 +1,7 @@
 #include "simulator/simulation/simulation.h"
 
 #include <algorithm>
+#include <deque>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "simulator/common/stopwatch.h"
 #include "simulator/loading/pressure_warnings.h"
 #include "simulator/loading/run_case.h"
+#include "simulator/operators/field_loads.h"
 #include "simulator/scene/read_scene.h"
 #include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/operator_build.h"
@@ -55,6 +57,9 @@ struct Simulation::Impl {
   std::string prepared_key;
   std::shared_ptr<const OperatorSurface> surface;  ///< of the last scene that wanted one.
   std::string surface_key;
+  std::shared_ptr<const PreparedInfluence> influence;  ///< of the last scene with a flow result.
+  std::string influence_key;
+  std::deque<std::pair<std::string, std::shared_ptr<const FieldLoads>>> field_loads;  ///< by key.
   std::unique_ptr<OperatorBuild> build;        ///< also one that was called off and has not ended.
   std::map<std::string, std::string> aliases;  ///< of `held`, once asked for.
 
@@ -63,8 +68,11 @@ struct Simulation::Impl {
     key = operator_key(at_hand);
     for (const SurfaceParameter& one : at_hand.scene.numerics.surface.over)
       key += concat(" ", value_of(one, at_hand.scene));
+    if (at_hand.scene.flow.is_given()) key += " field " + field_loads_key(at_hand.scene);
   }
   bool prepare_surface(const RunContext& context);
+  bool prepare_field(const RunContext& context);
+  [[noreturn]] void refuse_bulk(const std::string& why, const std::string& cure) const;
   void keep();
   bool change_members(const Values& values, const std::string& source);
   bool change(const Values& values, const std::string& source);
@@ -94,6 +102,67 @@ bool Simulation::Impl::prepare_surface(const RunContext& context) {
   prepared = surface->at(at_hand.scene, at_hand.plan);
   prepared_key = key;
   return is_new;
+}
+
+/// The scene's operator with the influence of its cells, and what its flow result does: the last
+/// ones are kept, as the realisations of an ensemble take turns. @returns whether the influence had
+/// to be read or built.
+bool Simulation::Impl::prepare_field(const RunContext& context) {
+  constexpr std::size_t kMostKept = 16;
+  const std::string wanted = operator_key(at_hand), loads_key = field_loads_key(at_hand.scene);
+  const bool is_new = !influence || influence_key != wanted;
+  if (is_new) {
+    influence.reset();
+    field_loads.clear();
+  }
+  auto known = std::find_if(field_loads.begin(), field_loads.end(),
+                            [&](const auto& one) { return one.first == loads_key; });
+  if (known == field_loads.end()) {
+    if (build) build->wait_for_end(context);
+    context.stop.throw_if_requested("preparing the operator");
+    struct Made {
+      std::shared_ptr<const PreparedInfluence> influence;
+      std::shared_ptr<const FieldLoads> loads;
+    };
+    const auto made = std::make_shared<Made>(influence, nullptr);
+    build = std::make_unique<OperatorBuild>(
+        [made, scene = at_hand.scene, plan = at_hand.plan, kept = cache](const RunContext& inner) {
+          if (!made->influence) {
+            made->influence = std::make_shared<const PreparedInfluence>(
+                prepare_influence(scene, plan, {}, kept, inner));
+          }
+          inner.progress(1, "mapping the pressure field");
+          made->loads = std::make_shared<const FieldLoads>(
+              faultsim::field_loads(scene, plan, *made->influence, inner.n_threads));
+          return PreparedOperator();
+        },
+        context.n_threads);
+    build->wait(context);
+    build.reset();
+    influence = made->influence;
+    influence_key = wanted;
+    field_loads.emplace_front(loads_key, made->loads);
+    if (field_loads.size() > kMostKept) field_loads.pop_back();
+    known = field_loads.begin();
+    for (std::size_t r = 0; r < made->loads->region_names.size(); ++r) {
+      if (made->loads->mapping.coverage[r].n_cells == 0) continue;
+      context.note(concat("pressure field on ", made->loads->region_names[r], ": ",
+                          coverage_text(made->loads->mapping.coverage[r],
+                                        at_hand.scene.flow.outside)));
+    }
+  }
+  prepared.op = influence->op;
+  prepared.from_cache = influence->from_cache;
+  prepared.remark = is_new ? influence->remark : "";
+  prepared.field = known->second;
+  prepared_key = key;
+  if (!prepared.remark.empty()) context.note(prepared.remark);
+  return is_new;
+}
+
+void Simulation::Impl::refuse_bulk(const std::string& why, const std::string& cure) const {
+  throw InputError(at_hand.document.source,
+                   {{"/output/volume_fields", 0, "displacements of the whole mesh " + why, cure}});
 }
 
 /// What is changed from now on.
@@ -243,12 +312,18 @@ bool Simulation::prepare(const RunContext& context, bool keep_bulk) {
   if (!needs_operator() && (has_bulk || !keep_bulk)) return false;
   self.prepared = {};  // frees the old operator before the new one is built
   if (self.at_hand.scene.numerics.surface.wanted()) {
-    if (!keep_bulk) return self.prepare_surface(context);
-    throw InputError(
-        self.at_hand.document.source,
-        {{"/output/volume_fields", 0, "displacements of the whole mesh need the exact operator",
-          "run with --exact, or remove this line"}});
+    if (keep_bulk)
+      self.refuse_bulk("need the exact operator", "run with --exact, or remove this line");
+    return self.prepare_surface(context);
   }
+  if (self.at_hand.scene.flow.is_given()) {
+    if (keep_bulk)
+      self.refuse_bulk("are not made from a pressure field", "remove this line");
+    self.surface.reset();
+    return self.prepare_field(context);
+  }
+  self.influence.reset();
+  self.field_loads.clear();
   self.surface.reset();
   if (self.build) self.build->wait_for_end(context);  // two would need the memory of both
   context.stop.throw_if_requested("preparing the operator");

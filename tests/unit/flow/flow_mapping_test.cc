@@ -109,9 +109,9 @@ TEST(FlowMapping, SaysWhatIsNotCovered) {
   EXPECT_TRUE(held.weights[26].empty());
   EXPECT_EQ(mapped_change(held, field, 0)(26, 1), 0);
   EXPECT_NE(mapped_change(near, field, 0)(26, 1), 0);
-  EXPECT_THAT(coverage_text(near, kNames, OutsideRule::nearest),
+  EXPECT_THAT(coverage_text(near.coverage[0], OutsideRule::nearest),
               HasSubstr("9 of 27 cells outside take the nearest flow cell's pressure"));
-  EXPECT_THAT(coverage_text(held, kNames, OutsideRule::unchanged),
+  EXPECT_THAT(coverage_text(held.coverage[0], OutsideRule::unchanged),
               HasSubstr("9 of 27 cells outside keep their pressure"));
 }
 

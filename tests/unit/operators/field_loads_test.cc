@@ -48,8 +48,18 @@ class FieldLoadsTest : public testing::Test {
     return field;
   }
 
-  FieldLoads loads_of(const FlowField& field, const FieldChoice& choice = {}) const {
-    return field_loads(scene_, plan_, prepared_, field, choice);
+  /// The scene with all of a flow result's reports, the first as its reference.
+  Scene with(const FlowField& field) const {
+    Scene scene = scene_;
+    scene.flow.field = std::make_shared<const FlowField>(field);
+    for (std::size_t t = 0; t < field.date.size(); ++t) {
+      scene.flow.reports.push_back(static_cast<int>(t));
+      scene.flow.time.push_back(field.date[t] - field.date[0]);
+    }
+    return scene;
+  }
+  FieldLoads loads_of(const FlowField& field) const {
+    return field_loads(with(field), plan_, prepared_);
   }
 
   static constexpr double kYear = 365.25 * 86400;
@@ -72,7 +82,7 @@ TEST_F(FieldLoadsTest, OfAUniformFieldAreThoseOfTheCompartments) {
     const FieldLoads loads = loads_of(field);
     for (const RegionCoverage& region : loads.mapping.coverage)
       EXPECT_NEAR(region.covered, region.volume, 1e-12 * region.volume);
-    Scene still = scene_;
+    Scene still = with(field);
     for (PressureHistory& history : still.pressure) history.pressure_change = {0, 0};
     const CaseLoads by_field(still, *prepared_.op, 0, &loads.history);
     const CaseLoads by_compartment(scene_, *prepared_.op);
@@ -82,6 +92,8 @@ TEST_F(FieldLoadsTest, OfAUniformFieldAreThoseOfTheCompartments) {
       EXPECT_LT((a.fault_pressure_change - b.fault_pressure_change).norm(),
                 1e-12 * b.fault_pressure_change.norm() + 1e-6)
           << time;
+      for (std::size_t r = 0; r < a.pressure_change.size(); ++r)
+        EXPECT_NEAR(a.pressure_change[r], b.pressure_change[r], 1e-5) << time;
     }
     EXPECT_GT(by_compartment.at(kYear).fault_pressure_change.norm(), 1e6);
   }
@@ -114,24 +126,43 @@ TEST_F(FieldLoadsTest, OfALinearFieldAreItsOwnDirectSolve) {
   EXPECT_GT(direct.cwiseAbs().maxCoeff(), 1e5);
 }
 
-TEST_F(FieldLoadsTest, BeginAtTheReferenceAndLeaveOutReportsOnALine) {
-  FlowField field = boxes(5);
-  const double fall[5] = {4e6, 0, -1e6, -2e6, -2.5e6};
-  for (int t = 0; t < 5; ++t) field.pressure.col(t).array() += fall[t];
-  const FieldLoads all = loads_of(field, {.reference = 1, .bound = 0.01});
-  EXPECT_EQ(all.reports, (std::vector<int>{1, 3, 4}));
-  EXPECT_EQ(all.history.time, (std::vector<double>{0, 2 * kYear, 3 * kYear}));
-  EXPECT_EQ(all.history.locked.col(0).norm(), 0);
-  EXPECT_EQ(loads_of(field, {.reference = 1, .bound = 1e7}).reports, (std::vector<int>{1, 4}));
+TEST_F(FieldLoadsTest, BeginAtTheReference) {
+  FlowField field = boxes(3);
+  const double fall[3] = {4e6, 0, -1e6};
+  for (int t = 0; t < 3; ++t) field.pressure.col(t).array() += fall[t];
+  Scene scene = with(field);
+  scene.flow.reference = 1;
+  scene.flow.reports = {1, 2};
+  scene.flow.time = {0, kYear};
+  const FieldLoads loads = field_loads(scene, plan_, prepared_);
+  EXPECT_EQ(loads.history.locked.col(0).norm(), 0);
+  EXPECT_NEAR(loads.history.region_change(0, 1), -1e6, 1e-6);
 }
 
-TEST_F(FieldLoadsTest, RefuseWhatTheyCannotBe) {
-  Plan half = plan_;
-  half.half_domain = true;
+TEST_F(FieldLoadsTest, SayWhatIsNotCoveredAndWhereTheyBeginElsewhere) {
   using testing::HasSubstr;
-  EXPECT_THAT(([&] { field_loads(scene_, half, prepared_, boxes(2), {.reference = 2}); }),
-              testing::ThrowsMessage<InputError>(testing::AllOf(HasSubstr("/numerics/half_domain"),
-                                                                HasSubstr("has no report 2"))));
+  FlowField field = boxes(2);
+  std::erase_if(field.cells, [](const FlowCell& cell) { return cell.low.x() > 100; });
+  field.pressure.conservativeResize(std::ssize(field.cells), 2);
+  const std::vector<std::string> said = loads_of(field).warnings;
+  EXPECT_THAT(said, testing::Contains(HasSubstr("does not cover all of east: ")));
+  EXPECT_THAT(said, testing::Contains(HasSubstr("bar above the initial pressure of")));
+}
+
+TEST_F(FieldLoadsTest, HaveAKeyOfWhatTheyLookAt) {
+  const Scene scene = with(boxes(2));
+  const std::string key = field_loads_key(scene);
+  Scene other = scene;
+  other.faults[0].friction.static_friction_angle += 0.1;
+  EXPECT_EQ(field_loads_key(other), key);
+  other.faults[0].pressure.rule = FaultPressureRule::max;
+  EXPECT_NE(field_loads_key(other), key);
+  other = scene;
+  other.materials[0].biot = 0.3;
+  EXPECT_NE(field_loads_key(other), key);
+  other = scene;
+  other.flow.fingerprint = "another";
+  EXPECT_NE(field_loads_key(other), key);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "simulator/scene/dates.h"
+#include "simulator/common/dates.h"
 #include "simulator/scene/initial_state.h"
 #include "simulator/scene/pressure_history.h"
 #include "simulator/scene/read_scene.h"

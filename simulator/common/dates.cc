@@ -1,6 +1,8 @@
-#include "simulator/scene/dates.h"
+#include "simulator/common/dates.h"
 
 #include <chrono>
+#include <cmath>
+#include <cstdio>
 
 namespace faultsim {
 namespace {
@@ -50,6 +52,16 @@ std::optional<double> parse_date(const std::string& text) {
   const std::optional<int> time = parse_time_of_day(clock);
   if (!time) return std::nullopt;
   return seconds + *time;
+}
+
+std::string date_text(double seconds) {
+  constexpr double kDay = 86400;
+  const std::chrono::sys_days days{std::chrono::days(std::lround(std::floor(seconds / kDay)))};
+  const std::chrono::year_month_day date(days);
+  char text[32];
+  std::snprintf(text, sizeof text, "%04d-%02u-%02u", static_cast<int>(date.year()),
+                static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
+  return text;
 }
 
 }  // namespace faultsim

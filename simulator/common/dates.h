@@ -9,4 +9,7 @@ namespace faultsim {
 /// "1990-01-31T12:00:00" (UTC; a final Z is allowed). None = it is no such thing.
 std::optional<double> parse_date(const std::string& text);
 
+/// The day of a time in seconds since 1970-01-01, "1990-01-31".
+std::string date_text(double seconds);
+
 }  // namespace faultsim

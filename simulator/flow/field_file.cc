@@ -1,0 +1,91 @@
+#include "simulator/flow/field_file.h"
+
+#include <algorithm>
+#include <mutex>
+#include <vector>
+
+#include "simulator/common/errors.h"
+#include "simulator/common/fingerprint.h"
+#include "simulator/common/input_file.h"
+#include "simulator/flow/flow_csv.h"
+
+namespace faultsim {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostFileBytes = 1'000'000'000;
+constexpr std::size_t kMostKeptBytes = 1'000'000'000;
+
+/// A file as it stood when it was read.
+struct Stamp {
+  fs::path path;
+  std::uintmax_t n_bytes = 0;
+  fs::file_time_type time;
+  bool operator==(const Stamp&) const = default;
+};
+
+Stamp stamp_of(const fs::path& path) {
+  std::error_code error;
+  Stamp stamp{fs::weakly_canonical(path, error), 0, {}};
+  stamp.n_bytes = fs::file_size(path, error);
+  stamp.time = fs::last_write_time(path, error);
+  return stamp;
+}
+
+std::size_t bytes_of(const FlowField& field) {
+  return field.cells.size() * sizeof(FlowCell) +
+         static_cast<std::size_t>(field.pressure.size()) * sizeof(double);
+}
+
+/// What was read last, the latest first.
+class KeptFiles {
+ public:
+  FieldFile get(const fs::path& path) {
+    const std::lock_guard lock(mutex_);
+    const Stamp stamp = stamp_of(path);
+    const auto known = std::find_if(kept_.begin(), kept_.end(),
+                                    [&](const Kept& one) { return one.stamp == stamp; });
+    if (known != kept_.end()) {
+      std::rotate(kept_.begin(), known, known + 1);
+    } else {
+      kept_.insert(kept_.begin(), {stamp, read(path)});
+      forget();
+    }
+    return kept_.front().file;
+  }
+
+ private:
+  struct Kept {
+    Stamp stamp;
+    FieldFile file;
+  };
+
+  static FieldFile read(const fs::path& path) {
+    const std::string text = read_input_or_throw(path.string(), kMostFileBytes);
+    return {std::make_shared<const FlowField>(parse_flow_csv(text, path.string())),
+            fingerprint(text)};
+  }
+
+  void forget() {
+    std::size_t n_bytes = 0, n_kept = 0;
+    for (const Kept& one : kept_) {
+      n_bytes += bytes_of(*one.file.field);
+      if (n_kept > 0 && n_bytes > kMostKeptBytes) break;
+      ++n_kept;
+    }
+    kept_.resize(n_kept);
+  }
+
+  std::mutex mutex_;
+  std::vector<Kept> kept_;
+};
+
+}  // namespace
+
+FieldFile read_field_file(const fs::path& path) {
+  static KeptFiles files;
+  return files.get(path);
+}
+
+}  // namespace faultsim

@@ -1,0 +1,159 @@
+// The result of a flow simulator in a scene: which reports are taken, what becomes of dates, and what
+// it cannot stand beside.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "simulator/scene/csv_tables.h"
+#include "simulator/scene/load_times.h"
+#include "simulator/scene/read_scene.h"
+#include "tests/unit/scene/rotliegend.h"
+
+namespace faultsim {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+using Changes = std::vector<std::pair<std::string, std::string>>;
+
+constexpr double kDay = 86400;
+const std::string kCells = "x [m], y [m], depth [m], dx [m], dy [m], dz [m]";
+
+class FlowLoads : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = testing::TempDir() + "flow_load_XXXXXX";
+    folder_ = mkdtemp(name.data());
+    document_ = rotliegend();
+    document_.source = (folder_ / "scene.json").string();
+    document_.value["stages"] = {
+        {{"name", "production"}, {"until", "1994-01-01"}, {"steps", 1}},
+    };
+    document_.value.erase("compartments");
+    document_.value["pressure_field"] = {{"file", "p.csv"}};
+    write("p.csv",
+          kCells + ", 1990-01-01 [bar], 1991-01-01 [bar], 1992-01-01 [bar], 1993-01-01 [bar], "
+                   "1994-01-01 [bar]\n"
+                   "0, 0, 3000, 9000, 9000, 900, 350, 300, 250, 240, 260\n");
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  Scene scene(const Changes& changes = {}) const {
+    JsonDocument document = document_;
+    for (const auto& [pointer, text] : changes) set_value(document, pointer, text);
+    return read_scene(document);
+  }
+  std::string refusal(const Changes& changes = {}) const {
+    try {
+      scene(changes);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  std::filesystem::path folder_;
+  JsonDocument document_;
+};
+
+TEST_F(FlowLoads, MakeLoadStepsOfTheReportsThatAreNotOnALine) {
+  const Scene read = scene();
+  EXPECT_THAT(read.flow.reports, ElementsAre(0, 2, 3, 4));
+  EXPECT_THAT(read.flow.time, ElementsAre(0, 730 * kDay, 1096 * kDay, 1461 * kDay));
+  EXPECT_EQ(read.stages[0].duration, 1461 * kDay);
+  std::vector<double> ends;
+  for (const StepEnd& step : step_ends(read)) ends.push_back(step.time);
+  EXPECT_THAT(ends, ElementsAre(730 * kDay, 1096 * kDay, 1461 * kDay));
+  EXPECT_THAT(scene({{"/pressure_field/tolerance", "30 bar"}}).flow.reports, ElementsAre(0, 3, 4));
+  for (const PressureHistory& history : read.pressure) EXPECT_TRUE(history.time.empty());
+}
+
+TEST_F(FlowLoads, CountFromTheirReferenceOrTheStartOfTheScene) {
+  const Scene late = scene({{"/pressure_field/reference", "1992-01-01"}});
+  EXPECT_THAT(late.flow.reports, ElementsAre(2, 3, 4));
+  EXPECT_EQ(late.flow.time[0], 0);
+  EXPECT_EQ(late.stages[0].duration, 731 * kDay);
+  const Scene early = scene({{"/start_date", "1989-01-01"}});
+  EXPECT_EQ(early.flow.time[0], 365 * kDay);
+  EXPECT_EQ(early.stages[0].duration, (365 + 1461) * kDay);
+  EXPECT_THAT(refusal({{"/start_date", "1990-06-01"}}),
+              AllOf(HasSubstr("/start_date: lies after the reference"), HasSubstr("1990-01-01")));
+  EXPECT_THAT(refusal({{"/pressure_field/reference", "1990-06-01"}}),
+              AllOf(HasSubstr("is the day of no report"), HasSubstr("1990-01-01, 1991-01-01")));
+}
+
+TEST_F(FlowLoads, EndWithTheStagesOrTheSceneSaysWhatIsMeant) {
+  const Changes too_long = {{"/stages/0/until", "1996-01-01"}};
+  EXPECT_THAT(refusal(too_long), AllOf(HasSubstr("its reports end at"), HasSubstr("1994-01-01")));
+  Changes held = too_long;
+  held.emplace_back("/pressure_field/end", "hold");
+  EXPECT_THAT(scene(held).flow.reports, ElementsAre(0, 2, 3, 4));
+  const Changes too_short = {{"/stages/0/until", "1992-06-01"}};
+  EXPECT_THAT(refusal(too_short), HasSubstr("its reports go on to"));
+  Changes cut = too_short;
+  cut.emplace_back("/pressure_field/end", "cut");
+  EXPECT_THAT(scene(cut).flow.reports, ElementsAre(0, 2, 3));
+}
+
+TEST_F(FlowLoads, StandBesideNoOtherPressures) {
+  EXPECT_THAT(refusal({{"/stages/0/pressure_change", "-20 bar"}}),
+              HasSubstr("/stages/0/pressure_change: the pressures are those of /pressure_field"));
+  EXPECT_THAT(refusal({{"/compartments/west/scale", "0.5"}}), HasSubstr("/compartments/west"));
+  EXPECT_THAT(refusal({{"/pressure_csv", "q.csv"}}), HasSubstr("/pressure_csv: the pressures are"));
+  EXPECT_THAT(refusal({{"/numerics/half_domain", "on"}}), HasSubstr("half of the domain"));
+  EXPECT_THAT(refusal({{"/materials/salt/viscosity", "1e17 Pa s"}}), HasSubstr("salt creeps"));
+}
+
+TEST_F(FlowLoads, AreRefusedWithTheLineOfTheirFile) {
+  write("p.csv", kCells + ", 1990-01-01 [bar]\n0, 0, 3000, 9, 9, 9, nan\n0, 0, 300, 9, 9, 9, -5\n");
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("p.csv line 2: \"nan\" in column 7 is not a number"),
+                               HasSubstr("p.csv line 3: the pressure -5 is below zero")));
+  EXPECT_THAT(refusal({{"/pressure_field/file", "none.csv"}}), HasSubstr("none.csv"));
+}
+
+TEST_F(FlowLoads, AreDoubtedWhereTheUnitLooksWrong) {
+  write("p.csv", kCells + ", 1990-01-01 [bar], 1994-01-01 [bar]\n0, 0, 3000, 9, 9, 9, 5000, 4000\n");
+  const Scene read = scene();
+  ASSERT_FALSE(read.remarks.empty());
+  EXPECT_THAT(remark_text(read.remarks[0]), HasSubstr("psi read as bar"));
+}
+
+TEST_F(FlowLoads, AreToldByTheirContent) {
+  const Scene one = scene();
+  std::filesystem::copy_file(folder_ / "p.csv", folder_ / "q.csv");
+  EXPECT_EQ(case_identity(scene({{"/pressure_field/file", "q.csv"}})), case_identity(one));
+  EXPECT_NE(case_identity(scene({{"/pressure_field/outside", "unchanged"}})), case_identity(one));
+  EXPECT_NE(case_identity(scene({{"/pressure_field/tolerance", "30 bar"}})), case_identity(one));
+  write("q.csv", kCells + ", 1990-01-01 [bar], 1994-01-01 [bar]\n0, 0, 3000, 9, 9, 9, 300, 200\n");
+  EXPECT_NE(case_identity(scene({{"/pressure_field/file", "q.csv"}})), case_identity(one));
+}
+
+TEST_F(FlowLoads, TravelAsPlaceAndFingerprint) {
+  embed_tables(document_);
+  const auto& place = document_.value["fields"]["p.csv"];
+  EXPECT_EQ(place["path"], (folder_ / "p.csv").string());
+  document_.source = "/elsewhere/scene.json";
+  EXPECT_EQ(refusal(), "accepted");
+  write("p.csv", kCells + ", 1990-01-01 [bar], 1994-01-01 [bar]\n0, 0, 3000, 9, 9, 9, 300, 200\n");
+  EXPECT_THAT(refusal(), HasSubstr("the file has changed"));
+}
+
+TEST_F(FlowLoads, AreWhereStagesMayEndAtDates) {
+  document_.value.erase("pressure_field");
+  EXPECT_THAT(refusal(), HasSubstr("nothing says which date time 0 is"));
+  EXPECT_EQ(scene({{"/start_date", "1993-01-01"}}).stages[0].duration, 365 * kDay);
+  EXPECT_THAT(refusal({{"/start_date", "1995-01-01"}}), HasSubstr("and ends before"));
+  EXPECT_THAT(refusal({{"/start_date", "1993-01-01"}, {"/stages/0/duration", "1 year"}}),
+              HasSubstr("the stage has a duration too"));
+}
+
+}  // namespace
+}  // namespace faultsim
