@@ -67,14 +67,15 @@ StepLoads CaseLoads::at(double time) const {
 void CaseLoads::check_fault_pressure(const LoadStep& step, const StepLoads& loads) const {
   const double slack = 1.0;  // Pa
   for (std::size_t f = 0; f < op_.geometry.faults.size(); ++f) {
-    if (scene_.faults[f].pressure.rule != FaultPressureRule::prescribed) continue;
+    const FaultPressureRule rule = scene_.faults[f].pressure.rule;
+    if (rule != FaultPressureRule::prescribed && rule != FaultPressureRule::table) continue;
     const OperatorFault& fault = op_.geometry.faults[f];
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
       const double p = initial_.pressure[k] + loads.fault_pressure_change[k];
       if (p >= -slack) continue;
       throw InputError(
           "scene", {{concat("/faults/", f, "/fault_pressure"), 0,
-                     concat("the prescribed fault pressure of ", fault.name, " falls to ", p / 1e5,
+                     concat("the given fault pressure of ", fault.name, " falls to ", p / 1e5,
                             " bar at depth ", -op_.geometry.nodes[k].position.z(),
                             " m in load step ", step.step),
                      "prescribe a smaller drop or a narrower depth window"}});

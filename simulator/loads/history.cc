@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "simulator/common/errors.h"
+#include "simulator/loads/fault_pressure_table.h"
 #include "simulator/scene/initial_state.h"
 #include "simulator/scene/load_times.h"
 
@@ -68,6 +69,7 @@ double pressure_by_rule(const FaultPressure& law, double minus, double plus) {
       return low + law.fraction * (std::max(minus, plus) - low);
     }
     case FaultPressureRule::prescribed:
+    case FaultPressureRule::table:
     case FaultPressureRule::none:
       return 0;
   }
@@ -185,6 +187,13 @@ Eigen::VectorXd fault_pressure_change(const Scene& scene, const FaultGeometry& g
     const bool prescribed = law.rule == FaultPressureRule::prescribed;
     const double given = prescribed ? prescribed_pressure_change(scene, law, time) : 0;
     const OperatorFault& fault = geometry.faults[f];
+    if (law.rule == FaultPressureRule::table) {
+      for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
+        const TablePlace at = place_in_table(scene, f, geometry.nodes[k]);
+        change[k] = table_pressure(law.profile, at.dip, at.strike, time);
+      }
+      continue;
+    }
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
       const OperatorNode& node = geometry.nodes[k];
       double sum = 0;

@@ -31,8 +31,9 @@ Eigen::MatrixXd fault_pressures(const Scene& scene, const Mesh& mesh, const Faul
   Eigen::VectorXd area = Eigen::VectorXd::Zero(n_nodes);
   for (std::size_t f = 0; f < geometry.faults.size(); ++f) {
     const FaultPressure& law = scene.faults[f].pressure;
-    const bool from_cells =
-        law.rule != FaultPressureRule::none && law.rule != FaultPressureRule::prescribed;
+    const bool from_cells = law.rule != FaultPressureRule::none &&
+                            law.rule != FaultPressureRule::prescribed &&
+                            law.rule != FaultPressureRule::table;
     for (const FaultFace& face : mesh.faults[f].faces) {
       for (const int point : face.points) {
         const int node = geometry.faults[f].node_of_point[point];

@@ -66,6 +66,10 @@ Reduction plan_half_domain(const Scene& scene, bool plane_strain) {
     r.bound = exact;
   } else if (scene.flow.is_given()) {
     r.reason = "a pressure field need not be symmetric";
+  } else if (std::any_of(scene.faults.begin(), scene.faults.end(), [](const Fault& fault) {
+               return !fault.pressure.profile.strike.empty();
+             })) {
+    r.reason = "a table of fault pressure that varies along strike need not be symmetric";
   } else {
     r.applied = true;
     r.bound = exact;

@@ -156,6 +156,16 @@ json initial_state(const InitialState& state) {
   return result;
 }
 
+/// Thousands of numbers: told by the fingerprint of their bits, −0 as 0.
+std::string profile(const FaultPressureTable& table) {
+  std::vector<double> all = {static_cast<double>(table.place)};
+  for (const auto* values : {&table.dip, &table.strike, &table.time, &table.change}) {
+    all.push_back(static_cast<double>(values->size()));
+    for (const double value : *values) all.push_back(value + 0.0);
+  }
+  return fingerprint(all.data(), all.size() * sizeof(double));
+}
+
 json fault(const Fault& fault) {
   const Friction& friction = fault.friction;
   const FaultPressure& pressure = fault.pressure;
@@ -166,6 +176,7 @@ json fault(const Fault& fault) {
     rule["table"] = table(pressure.table);
     if (pressure.depth_window) rule["depth_window"] = list(*pressure.depth_window);
   }
+  if (pressure.rule == FaultPressureRule::table) rule["profile"] = profile(pressure.profile);
   return {{"name", fault.name},
           {"dip_from_vertical", plain(fault.dip_from_vertical)},
           {"fault_biot", plain(fault.fault_biot)},

@@ -67,6 +67,13 @@ std::vector<std::string> table_names(const json& scene) {
   };
   if (!scene.is_object()) return names;
   add(scene, "pressure_csv");
+  const auto add_fault_pressure = [&](const json& object) {
+    if (object.is_object() && object.contains("fault_pressure")) add(object["fault_pressure"], "csv");
+  };
+  add_fault_pressure(scene);
+  if (const json* faults = child_at(scene, "faults"); faults != nullptr && faults->is_array()) {
+    for (const json& fault : *faults) add_fault_pressure(fault);
+  }
   if (!scene.contains("compartments") || !scene["compartments"].is_object()) return names;
   for (const json& compartment : scene["compartments"]) add(compartment, "csv");
   return names;

@@ -9,8 +9,8 @@
 /// with it in "tables": {"file name": [lines]}, and the files are looked at no more.
 namespace faultsim {
 
-/// The names of the CSV files that a scene uses, each once: of /pressure_csv and
-/// /compartments/*/csv.
+/// The names of the CSV files that a scene uses, each once: of /pressure_csv, /compartments/*/csv,
+/// and the csv of fault pressures.
 std::vector<std::string> table_names(const nlohmann::json& scene);
 
 /// Puts the lines of a CSV file into the scene's "tables", unless it is there. A file that cannot

@@ -94,6 +94,12 @@ std::vector<TurningPoint> turning_points(const Scene& scene) {
   for (const PressureHistory& history : scene.pressure) add_history(history, points);
   for (const Fault& fault : scene.faults) {
     const FaultPressure& pressure = fault.pressure;
+    for (const double time : pressure.profile.turns) {
+      points.push_back({.load = "the fault pressure of " + fault.name,
+                        .from = time,
+                        .to = time,
+                        .is_report = true});
+    }
     if (pressure.rule != FaultPressureRule::prescribed || pressure.prescribed == 0) continue;
     add_extremes(pressure.table.time, pressure.table.factor,
                  {"the table of the fault pressure of " + fault.name, 0, 0, 0, true}, points);
@@ -145,7 +151,7 @@ std::vector<TurningPoint> skipped_turning_points(const Scene& scene) {
 
 std::string turning_point_text(const TurningPoint& point) {
   const std::string when = number_text(from_si(point.from, Dimension::time, "year")) + " year";
-  if (point.is_report) return point.load + " has a report at " + when;
+  if (point.is_report) return point.load + " turns at " + when;
   const std::string value =
       point.is_factor ? number_text(point.value)
                       : number_text(from_si(point.value, Dimension::pressure, "bar")) + " bar";

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <string>
 
+#include "simulator/scene/csv_tables.h"
+#include "simulator/scene/fault_pressure_csv.h"
 #include "simulator/scene/scene_reader.h"
 
 /// Faults: each takes the top-level friction and fault_pressure and overrides them key by key.
@@ -110,14 +112,45 @@ Friction read_friction(SceneReader& reader, std::size_t fault) {
 
 FaultPressureRule rule_named(const std::string& name) {
   static const char* const names[] = {"mean", "min",      "max",        "minus",
-                                      "plus", "fraction", "prescribed", "none"};
+                                      "plus", "fraction", "prescribed", "none", "table"};
   for (unsigned i = 0; i < std::size(names); ++i) {
     if (name == names[i]) return static_cast<FaultPressureRule>(i);
   }
   return FaultPressureRule::mean;
 }
 
-FaultPressure read_fault_pressure(SceneReader& reader, std::size_t fault) {
+/// The table of a fault's pressure, from the scene's own tables or its file.
+FaultPressureTable read_profile(SceneReader& reader, const std::string& rule, const std::string& at,
+                                const Scene& scene) {
+  const std::string name = reader.text(at);
+  if (name.empty()) {
+    reader.problem(rule, "the rule \"table\" needs a table of pressures over place and time",
+                   "add \"csv\": \"fault_pressure.csv\" beside it");
+    return {};
+  }
+  const JsonDocument& document = reader.document();
+  const TableText text = table_text(document.value, document.source, name);
+  FaultPressureCsv csv;
+  if (text.what.empty()) {
+    csv = parse_fault_pressure_csv(text.text, name, start_date(reader, scene));
+  } else {
+    csv.what = name + ": " + text.what;
+    csv.cure = text.cure;
+  }
+  if (!csv.what.empty()) reader.problem(at, csv.what, csv.cure);
+  const bool is_field = scene.geometry_kind == GeometryKind::field;
+  if (is_field && csv.table.place == FaultPressureTable::Place::along_dip) {
+    reader.problem(at, name + ": along_dip is for patches of a box, which have a centre",
+                   "give the depth of the places");
+  }
+  if (!csv.table.strike.empty() && scene.numerics.half_domain == Switch::on) {
+    reader.problem(at, name + " varies along strike, and half of the domain is modelled",
+                   "set /numerics/half_domain to \"off\", or leave along_strike out");
+  }
+  return csv.what.empty() ? csv.table : FaultPressureTable{};
+}
+
+FaultPressure read_fault_pressure(SceneReader& reader, std::size_t fault, const Scene& scene) {
   const Overrides from(reader, "fault_pressure", fault);
   FaultPressure pressure;
   const std::string rule = from.at("rule");
@@ -125,6 +158,8 @@ FaultPressure read_fault_pressure(SceneReader& reader, std::size_t fault) {
   if (pressure.rule == FaultPressureRule::fraction) {
     pressure.fraction = reader.number(from.at("fraction"), pressure.fraction);
   }
+  if (pressure.rule == FaultPressureRule::table)
+    pressure.profile = read_profile(reader, rule, from.at("csv"), scene);
   if (pressure.rule != FaultPressureRule::prescribed) return pressure;
   if (!reader.has(from.at("prescribed"))) {
     reader.problem(rule, "the rule \"prescribed\" needs a pressure change",
@@ -213,7 +248,7 @@ void read_faults(SceneReader& reader, Scene& scene) {
       }
     }
     fault.friction = read_friction(reader, i);
-    fault.pressure = read_fault_pressure(reader, i);
+    fault.pressure = read_fault_pressure(reader, i, scene);
     scene.faults.push_back(fault);
     names.push_back(fault.name);
   }

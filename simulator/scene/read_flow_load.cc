@@ -93,7 +93,7 @@ void read_flow_load(SceneReader& reader, Scene& scene) {
   const std::string name = reader.text(kAt + "/file");
   if (name.empty()) return;
   FlowLoad& flow = scene.flow;
-  if (scene.pressure.empty() && reader.sound("/geometry"))
+  if (region_names(scene).empty() && reader.sound("/geometry"))
     reader.problem(kAt, "there is no region whose pressure could change",
                    "add \"regions\" to the geometry or remove the field");
   if (reader.text(kAt + "/outside") == "unchanged") flow.outside = OutsideRule::unchanged;

@@ -190,7 +190,6 @@ class LoadingReader {
 
 void read_loading(SceneReader& reader, Scene& scene) {
   LoadingReader loading(reader, scene);
-  read_flow_load(reader, scene);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < reader.size("/stages") && loading.has_room(); ++i) {
     loading.read_stage(i);

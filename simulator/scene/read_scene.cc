@@ -255,6 +255,7 @@ Scene read_scene(const JsonDocument& document, std::vector<Problem>& problems) {
   read_geometry(reader, scene);
   read_mesh(reader, scene);
   read_initial_state(reader, scene);
+  read_flow_load(reader, scene);
   read_faults(reader, scene);
   read_loading(reader, scene);
   scene.n_table_remarks = scene.remarks.size();

@@ -27,6 +27,8 @@ bool is_all(const std::vector<double>& values, double value) {
          std::all_of(values.begin(), values.end(), [&](double each) { return each == value; });
 }
 
+bool has_profile(const Fault& fault) { return fault.pressure.rule == FaultPressureRule::table; }
+
 bool prescribes(const Fault& fault) {
   return fault.pressure.rule == FaultPressureRule::prescribed && fault.pressure.prescribed != 0;
 }
@@ -231,6 +233,9 @@ class IdleInputs {
     for (const char* key : {"prescribed", "table", "depth_window"}) {
       shared_key("/fault_pressure", {key}, "it is for the rule \"prescribed\"", is_prescribed);
     }
+    shared_key("/fault_pressure", {"csv"}, "it is for the rule \"table\"", [](const Fault& f) {
+      return f.pressure.rule == FaultPressureRule::table;
+    });
     shared_key("/fault_pressure", {"table"}, "it is 0 at all times", [](const Fault& f) {
       return !prescribes(f) || !is_all(f.pressure.table.factor, 0);
     });
@@ -320,6 +325,7 @@ class IdleInputs {
     const auto& faces = scene_.box.boundary;
     const bool loaded = scene_.flow.is_given() || !std::all_of(regions.begin(), regions.end(), is_zero) ||
                         std::any_of(faults.begin(), faults.end(), prescribes) ||
+                        std::any_of(faults.begin(), faults.end(), has_profile) ||
                         std::any_of(faces.begin(), faces.end(), acts);
     // A box without regions may be there for its start; salt moves by itself; what is scaled off is
     // meant so.

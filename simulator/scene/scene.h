@@ -201,13 +201,30 @@ struct Friction {
   bool operator==(const Friction&) const = default;
 };
 
-enum class FaultPressureRule { mean, min, max, minus, plus, fraction, prescribed, none };
+enum class FaultPressureRule { mean, min, max, minus, plus, fraction, prescribed, none, table };
+
+/// Δp_f(s, t) of a fault: linear in place and time, constant beyond the places and the last time.
+struct FaultPressureTable {
+  enum class Place {
+    depth,      ///< of points of the fault.
+    along_dip,  ///< their distance down dip from the centre of a box's patch.
+  };
+  Place place = Place::depth;
+  std::vector<double> dip;  ///< m, strictly increasing.
+  /// m, from the patch's centre (field: y), strictly increasing; empty: the same along strike.
+  std::vector<double> strike;
+  std::vector<double> time;    ///< s, strictly increasing from 0.
+  std::vector<double> change;  ///< Pa, n_dip x n_strike x n_time, time fastest; 0 at time 0.
+  std::vector<double> turns;   ///< s, of `time`: where it is not linear.
+  bool operator==(const FaultPressureTable&) const = default;
+};
 
 struct FaultPressure {
   FaultPressureRule rule = FaultPressureRule::mean;
   double fraction = 0.5;  ///< rule fraction: Δp_min + f (Δp_max − Δp_min).
   double prescribed = 0;  ///< Pa, change; times table.
   TimeTable table;        ///< rule prescribed.
+  FaultPressureTable profile;  ///< rule table.
   std::optional<std::array<double, 2>> depth_window;  ///< m; prescribed: top, bottom. None = where
                                                       ///< either side is reservoir.
   bool operator==(const FaultPressure&) const = default;

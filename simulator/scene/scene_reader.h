@@ -89,9 +89,9 @@ void read_faults(SceneReader& reader, Scene& scene);
 void read_initial_state(SceneReader& reader, Scene& scene);
 void read_loading(SceneReader& reader, Scene& scene);
 void read_csv_histories(SceneReader& reader, Scene& scene);  ///< part of read_loading.
-/// Parts of read_loading: the file of /pressure_field, before the stages, which may end at dates;
-/// and which of its reports are taken, once it is known when the stages end.
+/// The file of /pressure_field. @pre before faults and stages, whose dates may count from it.
 void read_flow_load(SceneReader& reader, Scene& scene);
+/// Part of read_loading: which of its reports are taken, once it is known when the stages end.
 void choose_reports(SceneReader& reader, Scene& scene);
 /// The date of time 0, s since 1970: /start_date, else that of the flow load's reference. None = it
 /// is not known, or was refused.

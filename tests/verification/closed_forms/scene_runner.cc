@@ -7,6 +7,7 @@
 #include "simulator/loading/run_case.h"
 #include "simulator/plan/plan.h"
 #include "simulator/scene/read_scene.h"
+#include "v11_fluid_driven_slip.h"
 #include "v1_patch_test.h"
 #include "v2_compaction.h"
 #include "v2_geertsma_disc.h"
@@ -37,7 +38,8 @@ std::string_view verification_scene(const std::string& file) {
       {"v6_penny_crack.json", embedded::v6_penny_crack},
       {"v7_slider.json", embedded::v7_slider},
       {"v8_column.json", embedded::v8_column},
-      {"v8_maxwell.json", embedded::v8_maxwell}};
+      {"v8_maxwell.json", embedded::v8_maxwell},
+      {"v11_fluid_driven_slip.json", embedded::v11_fluid_driven_slip}};
   const auto found = scenes.find(file);
   FAULTSIM_DEMAND(found != scenes.end(), "no embedded scene ", file);
   return found->second;

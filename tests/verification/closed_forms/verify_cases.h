@@ -33,6 +33,7 @@ std::vector<VerifyCase> crack_cases();      // V6, plane strain
 std::vector<VerifyCase> penny_cases();      // V6, 3D
 std::vector<VerifyCase> slider_cases();     // V7
 std::vector<VerifyCase> creep_cases();      // V8
+std::vector<VerifyCase> fluid_slip_cases();  // V11
 
 /// Runs one case. What goes wrong in it becomes VerifyReport::failure; only Interrupted (and bugs)
 /// leave.

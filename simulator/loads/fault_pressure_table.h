@@ -1,0 +1,20 @@
+#pragma once
+
+#include "simulator/model/fault_operator.h"
+#include "simulator/scene/scene.h"
+
+namespace faultsim {
+
+/// Δp_f of a fault's table at a place and time, Pa: linear in between, constant beyond the places and
+/// after the last time.
+/// @param dip, strike  m, as the table counts them. @param time  s.
+double table_pressure(const FaultPressureTable& table, double dip, double strike, double time);
+
+/// Where a node is in the table of its fault: depth or distance down dip from the centre of the
+/// patch, and distance along strike from that centre (field: y), m.
+struct TablePlace {
+  double dip = 0, strike = 0;
+};
+TablePlace place_in_table(const Scene& scene, std::size_t fault, const OperatorNode& node);
+
+}  // namespace faultsim
