@@ -48,7 +48,7 @@ std::string describe(const Units& units) {
   for (const faultsim::DimensionInfo& one : faultsim::dimensions()) {
     if (one.powers == units.exponents) return one.noun;
   }
-  static constexpr std::array kBase = {"m", "kg", "s", "rad"};
+  static constexpr std::array kBase = {"m", "kg", "s", "rad", "K"};
   std::string text = "in";
   for (std::size_t i = 0; i < kBase.size(); ++i) {
     if (units.exponents[i] == 0) continue;

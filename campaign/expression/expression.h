@@ -42,7 +42,7 @@ namespace faultsweep {
 /// Exponents of length, mass, time and angle. Angle is a dimension of its own, so that degrees do
 /// not pass for numbers; tan takes an angle and gives a number.
 struct Units {
-  std::array<int, 4> exponents = {0, 0, 0, 0};
+  std::array<int, 5> exponents = {0, 0, 0, 0, 0};
   bool operator==(const Units&) const = default;
 };
 /// Of pressure: {-1, 1, -2, 0}.

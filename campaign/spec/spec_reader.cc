@@ -100,7 +100,8 @@ CampaignSpec SpecReader::read() {
 void SpecReader::embed_tables() {
   const auto names_a_table = [](const Change& change) {
     return overlap(change.pointer, "/pressure_csv") || overlap(change.pointer, "/compartments") ||
-           overlap(change.pointer, "/pressure_field") || overlap(change.pointer, "/fault_pressure") ||
+           overlap(change.pointer, "/pressure_field") ||
+           overlap(change.pointer, "/temperature_field") || overlap(change.pointer, "/fault_pressure") ||
            overlap(change.pointer, "/faults");
   };
   for (Group& group : spec_.groups) {
@@ -108,8 +109,7 @@ void SpecReader::embed_tables() {
       for (const std::string& name : faultsim::table_names(scene)) {
         faultsim::embed_table(group.scene, spec_.scene_source, name);
       }
-      if (const std::string name = faultsim::field_name(scene); !name.empty())
-        faultsim::embed_field(group.scene, spec_.scene_source, name);
+      faultsim::embed_fields(group.scene, spec_.scene_source, scene);
     };
     embed(json(group.scene));
     for (const Parameter& parameter : group.parameters) {

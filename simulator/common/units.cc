@@ -18,7 +18,7 @@
 namespace faultsim {
 namespace {
 
-constexpr std::array<DimensionInfo, 12> kDimensions = {{
+constexpr std::array<DimensionInfo, 14> kDimensions = {{
     {Dimension::number, "number", "a plain number", "", "", "", {0, 0, 0, 0}},
     {Dimension::length, "length", "a length", "m", "m", "_m", {1, 0, 0, 0}},
     {Dimension::area, "area", "an area", "m2", "m2", "_m2", {2, 0, 0, 0}},
@@ -43,6 +43,20 @@ constexpr std::array<DimensionInfo, 12> kDimensions = {{
      "m/s2",
      "_m_per_s2",
      {1, 0, -2, 0}},
+    {Dimension::temperature,
+     "temperature",
+     "a temperature difference",
+     "K",
+     "K",
+     "_k",
+     {0, 0, 0, 0, 1}},
+    {Dimension::expansion,
+     "expansion",
+     "a thermal expansion",
+     "1/K",
+     "1/K",
+     "_per_k",
+     {0, 0, 0, 0, -1}},
 }};
 
 /// udunits' year is the tropical one, ours is 365.25 d; and it has no "deg". Both are spelled out

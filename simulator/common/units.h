@@ -24,6 +24,8 @@ enum class Dimension {
   moment,             ///< N m
   potency,            ///< m3
   acceleration,       ///< m/s2
+  temperature,        ///< K, of a difference
+  expansion,          ///< 1/K
 };
 
 /// All there is to say about a dimension. A new one is a value above and a line in units.cc.
@@ -34,7 +36,7 @@ struct DimensionInfo {
   const char* si;             ///< unit as udunits writes it: "Pa/m"; "" for number
   const char* usual;          ///< unit to suggest: "bar/m"
   const char* suffix;         ///< of columns in SI: "_pa_per_m"
-  std::array<int, 4> powers;  ///< of length, mass, time, angle
+  std::array<int, 5> powers;  ///< of length, mass, time, angle, temperature
 };
 /// In the order of Dimension.
 std::span<const DimensionInfo> dimensions();

@@ -46,7 +46,7 @@ std::vector<Problem> coupled_hindrances(const Scene& scene, const Plan& plan) {
     problems.push_back({"/numerics/surface", 0, "the coupled path has no operator to interpolate",
                         concat("remove the surface, or ", path)});
   }
-  if (scene.flow.is_given()) {
+  if (scene.has_field()) {
     problems.push_back({"/pressure_field", 0, "the coupled path has no loads of single cells",
                         concat("say the pressures by compartments, or ", path)});
   }

@@ -22,12 +22,13 @@ struct Stamp {
   fs::path path;
   std::uintmax_t n_bytes = 0;
   fs::file_time_type time;
+  FlowQuantity quantity = FlowQuantity::pressure;
   bool operator==(const Stamp&) const = default;
 };
 
-Stamp stamp_of(const fs::path& path) {
+Stamp stamp_of(const fs::path& path, FlowQuantity quantity) {
   std::error_code error;
-  Stamp stamp{fs::weakly_canonical(path, error), 0, {}};
+  Stamp stamp{fs::weakly_canonical(path, error), 0, {}, quantity};
   stamp.n_bytes = fs::file_size(path, error);
   stamp.time = fs::last_write_time(path, error);
   return stamp;
@@ -35,21 +36,21 @@ Stamp stamp_of(const fs::path& path) {
 
 std::size_t bytes_of(const FlowField& field) {
   return field.cells.size() * sizeof(FlowCell) +
-         static_cast<std::size_t>(field.pressure.size()) * sizeof(double);
+         static_cast<std::size_t>(field.value.size()) * sizeof(double);
 }
 
 /// What was read last, the latest first.
 class KeptFiles {
  public:
-  FieldFile get(const fs::path& path) {
+  FieldFile get(const fs::path& path, FlowQuantity quantity) {
     const std::lock_guard lock(mutex_);
-    const Stamp stamp = stamp_of(path);
+    const Stamp stamp = stamp_of(path, quantity);
     const auto known = std::find_if(kept_.begin(), kept_.end(),
                                     [&](const Kept& one) { return one.stamp == stamp; });
     if (known != kept_.end()) {
       std::rotate(kept_.begin(), known, known + 1);
     } else {
-      kept_.insert(kept_.begin(), {stamp, read(path)});
+      kept_.insert(kept_.begin(), {stamp, read(path, quantity)});
       forget();
     }
     return kept_.front().file;
@@ -61,9 +62,9 @@ class KeptFiles {
     FieldFile file;
   };
 
-  static FieldFile read(const fs::path& path) {
+  static FieldFile read(const fs::path& path, FlowQuantity quantity) {
     const std::string text = read_input_or_throw(path.string(), kMostFileBytes);
-    return {std::make_shared<const FlowField>(parse_flow_csv(text, path.string())),
+    return {std::make_shared<const FlowField>(parse_flow_csv(text, path.string(), quantity)),
             fingerprint(text)};
   }
 
@@ -83,9 +84,9 @@ class KeptFiles {
 
 }  // namespace
 
-FieldFile read_field_file(const fs::path& path) {
+FieldFile read_field_file(const fs::path& path, FlowQuantity quantity) {
   static KeptFiles files;
-  return files.get(path);
+  return files.get(path, quantity);
 }
 
 }  // namespace faultsim

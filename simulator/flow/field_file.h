@@ -19,6 +19,6 @@ struct FieldFile {
 /// cases of an ensemble take turns among a few files.
 /// Safe to call from several threads, which take turns.
 /// @throws InputError with all that is wrong with the file.
-FieldFile read_field_file(const std::filesystem::path& path);
+FieldFile read_field_file(const std::filesystem::path& path, FlowQuantity quantity);
 
 }  // namespace faultsim

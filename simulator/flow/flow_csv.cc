@@ -1,6 +1,8 @@
 #include "simulator/flow/flow_csv.h"
 
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -19,6 +21,11 @@ constexpr std::array<const char*, 6> kPlaces{"x", "y", "depth", "dx", "dy", "dz"
 constexpr const char* kFlowHeaderCure =
     "head the columns x [m], y [m], depth [m], dx [m], dy [m], dz [m], then 1990-01-01 [bar] and "
     "so on, or begin with date and end with pressure [bar]";
+
+/// A column's value in SI is size · number + zero.
+struct Unit {
+  double size = 1, zero = 0;
+};
 
 using Place = std::array<double, 6>;  ///< x, y, depth, dx, dy, dz; m.
 
@@ -42,7 +49,8 @@ std::vector<std::string> values_of(const std::string& line) {
 /// Reads rows into reports; keeps every problem until there are too many to be of use.
 class FlowCsvReader {
  public:
-  explicit FlowCsvReader(std::string given) : given_(std::move(given)) {}
+  FlowCsvReader(std::string given, FlowQuantity quantity)
+      : given_(std::move(given)), is_pressure_(quantity == FlowQuantity::pressure) {}
 
   FlowField read(const std::string& text) {
     std::istringstream lines(text);
@@ -70,18 +78,31 @@ class FlowCsvReader {
     if (problems_.size() < kMostProblems) problems_.push_back({"", line_, what, cure});
   }
 
+  /// What a unit is in SI; none where it is of another dimension.
+  static std::optional<Unit> unit_of(const std::string& unit, Dimension dimension) {
+    if (dimension == Dimension::temperature) {  // of degrees that do not begin at nothing
+      constexpr double kKelvin = 273.15, kFahrenheit = 459.67, kRankine = 5.0 / 9;
+      if (unit == "degC") return Unit{1, kKelvin};
+      if (unit == "degF") return Unit{kRankine, kFahrenheit * kRankine};
+    }
+    const ParsedQuantity one = parse_quantity("1 " + unit, dimension);
+    if (!one.ok) return std::nullopt;
+    return Unit{one.value, 0};
+  }
+
   /// "depth [m]" → name and unit, checked; name "" after a refusal.
   std::string column(const std::string& text, Dimension dimension) {
     const auto open = text.rfind('[');
     const auto close = text.rfind(']');
     const bool whole = open != std::string::npos && close != std::string::npos && open < close;
     const std::string unit = whole ? bare(text.substr(open + 1, close - open - 1)) : "";
-    units_.push_back(unit);
+    const std::optional<Unit> size = whole ? unit_of(unit, dimension) : std::nullopt;
+    units_.push_back(size.value_or(Unit{}));
     if (!whole) {
       refuse("column \"" + text + "\" has no unit in brackets", kFlowHeaderCure);
       return "";
     }
-    if (!parse_quantity("1 " + unit, dimension).ok) {
+    if (!size) {
       refuse("column \"" + text + "\" does not hold " + info_of(dimension).noun, kFlowHeaderCure);
       return "";
     }
@@ -103,12 +124,13 @@ class FlowCsvReader {
                kFlowHeaderCure);
     }
     for (std::size_t i = first + 6; i < cells.size(); ++i) {
-      const std::string name = column(cells[i], Dimension::pressure);
+      const std::string name =
+          column(cells[i], is_pressure_ ? Dimension::pressure : Dimension::temperature);
       if (name.empty()) continue;
       if (!is_long_)
         next_date(name);
-      else if (name != "pressure")
-        refuse("the last column is \"" + name + "\" and not pressure", kFlowHeaderCure);
+      else if (name != quantity())
+        refuse("the last column is \"" + name + "\" and not " + quantity(), kFlowHeaderCure);
     }
   }
 
@@ -131,10 +153,13 @@ class FlowCsvReader {
     return true;
   }
 
-  std::optional<double> number(const std::vector<std::string>& cells, std::size_t i,
-                               Dimension dimension) {
-    const ParsedQuantity parsed = parse_quantity(cells[i] + " " + units_[i], dimension);
-    if (parsed.ok) return parsed.value;
+  std::string quantity() const { return is_pressure_ ? "pressure" : "temperature"; }
+
+  std::optional<double> number(const std::vector<std::string>& cells, std::size_t i) {
+    char* end = nullptr;
+    const double value = std::strtod(cells[i].c_str(), &end);
+    if (!cells[i].empty() && *end == '\0' && std::isfinite(value))
+      return units_[i].size * value + units_[i].zero;
     refuse(concat("\"", cells[i], "\" in column ", i + 1, " is not a number"),
            "leave inactive cells out; units stand in the header only");
     return std::nullopt;
@@ -143,7 +168,7 @@ class FlowCsvReader {
   std::optional<Place> place(const std::vector<std::string>& cells, std::size_t first) {
     Place place{};
     for (std::size_t i = 0; i < place.size(); ++i) {
-      const std::optional<double> value = number(cells, first + i, Dimension::length);
+      const std::optional<double> value = number(cells, first + i);
       if (!value) return std::nullopt;
       if (i >= 3 && *value <= 0) {
         refuse(concat(kPlaces[i], " is ", cells[first + i]), "write sizes above zero");
@@ -166,11 +191,11 @@ class FlowCsvReader {
     const auto [known, is_new] = numbers_.try_emplace(*at, std::ssize(places_));
     if (is_new) places_.push_back(*at);
     for (std::size_t i = first + 6; i < cells.size(); ++i) {
-      const std::optional<double> value = number(cells, i, Dimension::pressure);
+      const std::optional<double> value = number(cells, i);
       if (!value) continue;
       if (*value < 0) {
-        refuse("the pressure " + cells[i] + " is below zero",
-               "write absolute pressures, not changes");
+        refuse("the " + quantity() + " " + cells[i] + " is below zero",
+               "write absolute " + quantity() + "s, not changes");
       }
       auto& report = is_long_ ? pressures_.back() : pressures_[i - first - 6];
       if (!report.try_emplace(known->second, *value).second)
@@ -197,10 +222,10 @@ class FlowCsvReader {
       const Eigen::Vector3d half = 0.5 * Eigen::Vector3d(p[3], p[4], p[5]);
       field.cells.push_back({.low = centre - half, .high = centre + half});
     }
-    field.pressure.resize(std::ssize(places_), std::ssize(dates_));
+    field.value.resize(std::ssize(places_), std::ssize(dates_));
     for (std::size_t t = 0; t < pressures_.size(); ++t) {
       for (const auto& [cell, value] : pressures_[t])
-        field.pressure(cell, static_cast<Eigen::Index>(t)) = value;
+        field.value(cell, static_cast<Eigen::Index>(t)) = value;
     }
     return field;
   }
@@ -208,7 +233,8 @@ class FlowCsvReader {
   std::string given_;
   int line_ = 0;
   bool is_long_ = false;
-  std::vector<std::string> units_;  ///< of all columns; "" of dates.
+  bool is_pressure_;
+  std::vector<Unit> units_;  ///< of all columns; of dates nothing.
   std::vector<double> dates_;
   std::vector<std::string> date_names_;
   std::vector<Place> places_;
@@ -219,8 +245,9 @@ class FlowCsvReader {
 
 }  // namespace
 
-FlowField parse_flow_csv(const std::string& text, const std::string& given) {
-  return FlowCsvReader(given).read(text);
+FlowField parse_flow_csv(const std::string& text, const std::string& given,
+                         FlowQuantity quantity) {
+  return FlowCsvReader(given, quantity).read(text);
 }
 
 }  // namespace faultsim

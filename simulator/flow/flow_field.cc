@@ -18,7 +18,7 @@ std::string pressure_doubt(const FlowField& field) {
   for (std::size_t f = 0; f < field.cells.size(); ++f) {
     const double depth = -0.5 * (field.cells[f].low.z() + field.cells[f].high.z());
     const Eigen::Index row = static_cast<Eigen::Index>(f);
-    if (depth > 0) ratios.push_back(field.pressure(row, 0) / (kHydrostatic * depth));
+    if (depth > 0) ratios.push_back(field.value(row, 0) / (kHydrostatic * depth));
   }
   if (ratios.empty()) return "";
   const auto middle = ratios.begin() + std::ssize(ratios) / 2;

@@ -12,11 +12,13 @@ struct FlowCell {
   Eigen::Vector3d high = Eigen::Vector3d::Zero();
 };
 
-/// Pressures of a flow simulator, cell by cell and report by report.
+enum class FlowQuantity { pressure, temperature };
+
+/// Pressures or temperatures of a flow simulator, cell by cell and report by report.
 struct FlowField {
   std::vector<FlowCell> cells;    ///< in the order of the file.
   std::vector<double> date;       ///< s since 1970-01-01, strictly increasing, at least one.
-  Eigen::MatrixXd pressure = {};  ///< absolute, Pa, n_cells x n_reports, all finite and >= 0.
+  Eigen::MatrixXd value = {};     ///< absolute, Pa or K, n_cells x n_reports, all finite and >= 0.
 };
 
 /// What speaks against the unit of the first report's pressures: the median over the cells of

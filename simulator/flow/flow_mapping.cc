@@ -128,18 +128,18 @@ FlowMapping map_flow(const FlowField& field, const std::vector<MappedCell>& cell
 }
 
 Eigen::VectorXd mapped_values(const FlowMapping& mapping, const FlowField& field, int report) {
-  FAULTSIM_DEMAND(report >= 0 && report < field.pressure.cols(), "report ", report);
+  FAULTSIM_DEMAND(report >= 0 && report < field.value.cols(), "report ", report);
   Eigen::VectorXd values = Eigen::VectorXd::Zero(std::ssize(mapping.weights));
   for (Eigen::Index c = 0; c < values.size(); ++c) {
     for (const FlowMapping::Weight& weight : mapping.weights[c])
-      values[c] += weight.value * field.pressure(weight.flow_cell, report);
+      values[c] += weight.value * field.value(weight.flow_cell, report);
   }
   return values;
 }
 
 Eigen::MatrixXd mapped_change(const FlowMapping& mapping, const FlowField& field, int reference,
                               std::vector<int> reports) {
-  FAULTSIM_DEMAND(reference >= 0 && reference < field.pressure.cols(), "report ", reference);
+  FAULTSIM_DEMAND(reference >= 0 && reference < field.value.cols(), "report ", reference);
   if (reports.empty()) {
     reports.resize(field.date.size());
     std::iota(reports.begin(), reports.end(), 0);
@@ -150,7 +150,7 @@ Eigen::MatrixXd mapped_change(const FlowMapping& mapping, const FlowField& field
       const int f = weight.flow_cell;
       for (Eigen::Index t = 0; t < change.cols(); ++t)
         change(c, t) +=
-            weight.value * (field.pressure(f, reports[t]) - field.pressure(f, reference));
+            weight.value * (field.value(f, reports[t]) - field.value(f, reference));
     }
   }
   return change;

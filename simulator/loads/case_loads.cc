@@ -26,7 +26,7 @@ CaseLoads::CaseLoads(const Scene& scene, const FaultOperator& op, double noise,
       initial_(initial_traction(scene, op.geometry, load_factors_.region_of_load())),
       noise_(noise),
       field_(field) {
-  FAULTSIM_DEMAND(scene.flow.is_given() == (field != nullptr), "the loads of the scene's field");
+  FAULTSIM_DEMAND(scene.has_field() == (field != nullptr), "the loads of the scene's field");
 }
 
 StepLoads CaseLoads::at(double time) const {
@@ -42,12 +42,12 @@ StepLoads CaseLoads::at(double time) const {
   loads.fault_pressure_change = fault_pressure_change(
       scene_, op_.geometry, load_factors_.region_of_load(), time, loads.pressure_change);
   if (field_ != nullptr) {
-    loads.locked += at_time(*field_, field_->locked, time);
-    loads.fault_pressure_change += at_time(*field_, field_->fault_pressure, time);
-    const Eigen::VectorXd regions = at_time(*field_, field_->region_change, time);
+    loads.locked += at_time(field_->time, field_->locked, time);
+    loads.fault_pressure_change += at_time(field_->time, field_->fault_pressure, time);
+    const Eigen::VectorXd regions = at_time(field_->time, field_->region_change, time);
     for (std::size_t r = 0; r < loads.pressure_change.size(); ++r)
       loads.pressure_change[r] += regions[static_cast<Eigen::Index>(r)];
-    loads.observed = at_time(*field_, field_->observed, time);
+    loads.observed = at_time(field_->time, field_->observed, time);
   }
   for (std::size_t f = 0; f < op_.geometry.faults.size(); ++f) {
     const OperatorFault& fault = op_.geometry.faults[f];

@@ -5,13 +5,13 @@
 
 namespace faultsim {
 
-/// What a field of pressures, cell by cell, does to closed faults: at its reports, and linear in
+/// What fields of pressure and temperature, cell by cell, do to closed faults: at its reports, and linear in
 /// between; before the first and after the last as at that one.
 struct FieldHistory {
   std::vector<double> time;  ///< s since the scene's start, strictly increasing, at least one.
-  /// Σ_c P_c b_c Δp_c, Pa, n_dofs x n_reports: the rock's part of the locked traction.
+  /// Σ_c P_c s_c, Pa, n_dofs x n_reports: the rock's part of the locked traction.
   Eigen::MatrixXd locked = {};
-  /// Σ_c O_c b_c Δp_c, m, n_rows x n_reports: what observed points move by with closed faults.
+  /// Σ_c O_c s_c, m, n_rows x n_reports: what observed points move by with closed faults.
   Eigen::MatrixXd observed = {};
   /// Δp of each region: the mean over its volume, Pa, n_regions x n_reports.
   Eigen::MatrixXd region_change = {};
@@ -19,7 +19,8 @@ struct FieldHistory {
   Eigen::MatrixXd fault_pressure = {};
 };
 
-/// The value at a time of one of the history's tables (n x n_reports).
-Eigen::VectorXd at_time(const FieldHistory& history, const Eigen::MatrixXd& table, double time);
+/// The column at a time of a table with a column per report (n x n_reports).
+/// @param time  s, strictly increasing, of the columns.
+Eigen::VectorXd at_time(const std::vector<double>& time, const Eigen::MatrixXd& table, double at);
 
 }  // namespace faultsim

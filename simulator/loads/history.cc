@@ -98,6 +98,18 @@ std::vector<double> pressure_changes(const Scene& scene, double time) {
   return changes;
 }
 
+std::vector<double> temperature_changes(const Scene& scene, double time) {
+  std::vector<double> changes(scene.pressure.size(), 0);
+  for (const TemperatureHistory& history : scene.temperature)
+    changes[static_cast<std::size_t>(history.region)] =
+        interpolate(history.time, history.change, time, 0);
+  return changes;
+}
+
+double thermal_stress(const Material& material) {
+  return material.youngs_modulus / (1 - 2 * material.poisson_ratio) * material.thermal_expansion;
+}
+
 double table_value(const TimeTable& table, double time) {
   if (table.time.empty()) return 1;
   return interpolate(table.time, table.factor, time, table.factor.front());
@@ -118,11 +130,18 @@ LoadFactors::LoadFactors(const Scene& scene, const FaultOperator& op)
 }
 
 std::vector<double> LoadFactors::at(double time, const std::vector<double>& pressure_change) const {
+  const std::vector<double> temperature_change = temperature_changes(scene_, time);
   std::vector<double> factors;
   for (const LoadKey& key : keys_) {
-    factors.push_back(key.kind == LoadKey::Kind::boundary
-                          ? table_value(scene_.box.boundary[key.index].table, time)
-                          : scene_.materials[key.material].biot * pressure_change[key.index]);
+    if (key.kind == LoadKey::Kind::boundary) {
+      factors.push_back(table_value(scene_.box.boundary[key.index].table, time));
+      continue;
+    }
+    const Material& material = scene_.materials[key.material];
+    double stress = material.biot * pressure_change[key.index];
+    if (temperature_change[key.index] != 0)
+      stress += thermal_stress(material) * temperature_change[key.index];
+    factors.push_back(stress);
   }
   return factors;
 }

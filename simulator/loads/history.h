@@ -24,10 +24,16 @@ bool is_stage_end(const std::vector<LoadStep>& steps, std::size_t i);
 /// Δp of each region at time t, Pa: scale · history(t − lag), 0 before the history starts.
 std::vector<double> pressure_changes(const Scene& scene, double time);
 
+/// ΔT of each region at time t, K: 0 at t = 0.
+std::vector<double> temperature_changes(const Scene& scene, double time);
+
+/// s per kelvin of an isotropic eigenstress −s I, Pa/K: 3 K α_T.
+double thermal_stress(const Material& material);
+
 /// Value of a table at time t: piecewise linear, constant outside; 1 if the table is empty.
 double table_value(const TimeTable& table, double time);
 
-/// The factors c_k of the operator's loads at a time: b Δp for pressure loads, the table's value
+/// The factors c_k of the operator's loads at a time: b Δp + 3 K α_T ΔT for pressure loads, the table's value
 /// for boundary loads. Keys that the scene does not know are our bug (InternalError).
 class LoadFactors {
  public:

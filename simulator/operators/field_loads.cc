@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
@@ -68,23 +69,60 @@ Eigen::MatrixXd region_means(const InfluenceBlock& block, const Eigen::MatrixXd&
   return mean;
 }
 
-std::vector<std::string> coverage_warnings(const FieldLoads& loads, OutsideRule rule) {
+/// A field in the block's cells.
+struct MappedField {
+  const FlowLoad& load;
+  std::string name;  ///< "pressure field".
+  FlowMapping mapping = {};
+  Eigen::MatrixXd change = {};  ///< in the compartment's part of a cell, Pa or K, n_cells x n_reports.
+};
+
+MappedField map_field(const FlowLoad& load, const std::string& name,
+                      const std::vector<MappedCell>& cells, const InfluenceBlock& block) {
+  MappedField field{load, name};
+  if (!load.is_given()) return field;
+  field.mapping = map_flow(*load.field, cells, block.region_names, load.outside);
+  field.change = mapped_change(field.mapping, *load.field, load.reference, load.reports);
+  return field;
+}
+
+/// The times of all reports.
+std::vector<double> all_times(const MappedField& one, const MappedField& other) {
+  std::vector<double> all;
+  std::set_union(one.load.time.begin(), one.load.time.end(), other.load.time.begin(),
+                 other.load.time.end(), std::back_inserter(all));
+  return all;
+}
+
+/// The changes at all times, 0 of a field that is not there.
+Eigen::MatrixXd change_at(const MappedField& field, const std::vector<double>& times,
+                          Eigen::Index n_cells) {
+  Eigen::MatrixXd change = Eigen::MatrixXd::Zero(n_cells, std::ssize(times));
+  for (Eigen::Index t = 0; field.load.is_given() && t < change.cols(); ++t)
+    change.col(t) = at_time(field.load.time, field.change, times[static_cast<std::size_t>(t)]);
+  return change;
+}
+
+void say_coverage(const MappedField& field, const std::vector<std::string>& names,
+                  FieldLoads& loads) {
   constexpr double kWhole = 1 - 1e-6;
-  std::vector<std::string> warnings;
-  for (std::size_t r = 0; r < loads.region_names.size(); ++r) {
-    const RegionCoverage& region = loads.mapping.coverage[r];
+  for (std::size_t r = 0; field.load.is_given() && r < names.size(); ++r) {
+    const RegionCoverage& region = field.mapping.coverage[r];
+    if (region.n_cells == 0) continue;
+    const std::string text = coverage_text(region, field.load.outside);
+    loads.notes.push_back(concat(field.name, " on ", names[r], ": ", text));
     if (region.covered >= kWhole * region.volume) continue;
-    warnings.push_back(concat("the pressure field does not cover all of ", loads.region_names[r],
-                              ": ", coverage_text(region, rule)));
+    loads.warnings.push_back(
+        concat("the ", field.name, " does not cover all of ", names[r], ": ", text));
   }
-  return warnings;
 }
 
 /// Where the pressures of the reference report are not those that the initial state has.
-std::vector<std::string> reference_warnings(const Scene& scene, const InfluenceBlock& block,
-                                            const FlowMapping& mapping) {
+void say_reference(const Scene& scene, const InfluenceBlock& block, const FlowMapping& mapping,
+                   std::vector<std::string>& warnings) {
+  if (!scene.pressure_field.is_given()) return;
   constexpr double kAgrees = 5e5;  // Pa
-  const Eigen::VectorXd pressure = mapped_values(mapping, *scene.flow.field, scene.flow.reference);
+  const Eigen::VectorXd pressure = mapped_values(mapping, *scene.pressure_field.field, scene.pressure_field.reference);
   Eigen::MatrixXd excess = Eigen::MatrixXd::Zero(pressure.size(), 1);
   for (Eigen::Index c = 0; c < pressure.size(); ++c) {
     const InfluenceCell& cell = block.cells[static_cast<std::size_t>(c)];
@@ -94,7 +132,6 @@ std::vector<std::string> reference_warnings(const Scene& scene, const InfluenceB
     if (is_mapped) excess(c, 0) = pressure[c] - initial_region_pressure(scene, region, depth);
   }
   const Eigen::MatrixXd mean = region_means(block, excess);
-  std::vector<std::string> warnings;
   for (Eigen::Index r = 0; r < mean.rows(); ++r) {
     if (std::abs(mean(r, 0)) <= kAgrees) continue;
     warnings.push_back(concat(
@@ -104,45 +141,48 @@ std::vector<std::string> reference_warnings(const Scene& scene, const InfluenceB
         " (mean over its volume): the change since its reference acts on the scene's initial state; "
         "give the initial state the same pressure, as overpressure of the block"));
   }
-  return warnings;
 }
 
 }  // namespace
 
 FieldLoads field_loads(const Scene& scene, const Plan& plan, const PreparedInfluence& prepared,
                        int n_threads) {
-  FAULTSIM_DEMAND(scene.flow.is_given() && !plan.half_domain, "a field on all of the domain");
+  FAULTSIM_DEMAND(scene.has_field() && !plan.half_domain, "a field on all of the domain");
   const InfluenceBlock& block = *prepared.block;
-  const FlowLoad& flow = scene.flow;
   const Mesh mesh = bulk_problem(scene, plan).mesh;
+  const std::vector<MappedCell> cells = mapped_cells(mesh, block);
+  const MappedField pressure = map_field(scene.pressure_field, "pressure field", cells, block);
+  const MappedField temperature =
+      map_field(scene.temperature_field, "temperature field", cells, block);
   FieldLoads loads;
-  loads.region_names = block.region_names;
-  loads.mapping =
-      map_flow(*flow.field, mapped_cells(mesh, block), block.region_names, flow.outside);
-  Eigen::MatrixXd stress = mapped_change(loads.mapping, *flow.field, flow.reference, flow.reports);
   FieldHistory& history = loads.history;
-  history.time = flow.time;
+  history.time = all_times(pressure, temperature);
+  Eigen::MatrixXd stress = change_at(pressure, history.time, std::ssize(cells));
+  const Eigen::MatrixXd heating = change_at(temperature, history.time, std::ssize(cells));
   history.region_change = region_means(block, stress);
   Eigen::MatrixXd change = Eigen::MatrixXd::Zero(std::ssize(mesh.cells), stress.cols());
   for (std::size_t c = 0; c < block.cells.size(); ++c) {
     const InfluenceCell& cell = block.cells[c];
-    auto row = stress.row(static_cast<Eigen::Index>(c));
-    row *= cell.fraction;
-    change.row(cell.cell) = row;
-    row *= scene.materials[cell.material].biot;
+    const Material& material = scene.materials[cell.material];
+    const auto row = static_cast<Eigen::Index>(c);
+    change.row(cell.cell) = cell.fraction * stress.row(row);
+    stress.row(row) = material.biot * change.row(cell.cell) +
+                      thermal_stress(material) * cell.fraction * heating.row(row);
   }
   history.locked = locked_change(block, stress, n_threads);
   history.observed = block.observed * stress;
   history.fault_pressure = fault_pressures(scene, mesh, prepared.op->geometry, change);
-  loads.warnings = coverage_warnings(loads, flow.outside);
-  for (std::string& warning : reference_warnings(scene, block, loads.mapping))
-    loads.warnings.push_back(std::move(warning));
+  for (const MappedField* field : {&pressure, &temperature})
+    say_coverage(*field, block.region_names, loads);
+  say_reference(scene, block, pressure.mapping, loads.warnings);
+  loads.mapping = pressure.mapping;
   return loads;
 }
 
 std::string field_loads_key(const Scene& scene) {
-  std::string key = canonical_parts(scene).pressure_field;
-  for (const Material& material : scene.materials) key += concat(" ", material.biot);
+  std::string key = canonical_parts(scene).fields;
+  for (const Material& material : scene.materials)
+    key += concat(" ", material.biot, " ", material.thermal_expansion);
   for (const Fault& fault : scene.faults)
     key += concat(" ", static_cast<int>(fault.pressure.rule), " ", fault.pressure.fraction);
   return fingerprint(key);

@@ -11,16 +11,16 @@ namespace faultsim {
 
 /// A flow result on the faults of a scene.
 struct FieldLoads {
-  FieldHistory history;  ///< of the reports that the scene takes.
-  FlowMapping mapping;
-  std::vector<std::string> region_names;
+  FieldHistory history;  ///< at the reports of pressure and temperature that the scene takes.
+  FlowMapping mapping;   ///< of the pressure field, if there is one.
+  std::vector<std::string> notes;  ///< how much of each compartment is covered.
   /// What a user must know: compartments that are not covered whole, a reference report whose
   /// pressures are not those of the scene's initial state.
   std::vector<std::string> warnings;
 };
 
-/// Maps the scene's flow result onto the block's cells and condenses it: s_c = b f_c Δp_c with the
-/// share f_c of the cell in its compartment, one product per report from the reference on; Δp_f of a
+/// Maps the scene's fields onto the block's cells and condenses them: s_c = f_c (b Δp_c + 3 K α_T ΔT_c)
+/// with the share f_c of the cell in its compartment, one product per report from the reference on; Δp_f of a
 /// fault node is its fault's rule on the pairs of cells beside it, as for compartments. Neither
 /// strength nor friction is looked at, so that samples of them share it; what is looked at is told
 /// by field_loads_key().

@@ -64,7 +64,7 @@ Reduction plan_half_domain(const Scene& scene, bool plane_strain) {
   } else if (scene.numerics.half_domain == Switch::off) {
     r.reason = "switched off";
     r.bound = exact;
-  } else if (scene.flow.is_given()) {
+  } else if (scene.has_field()) {
     r.reason = "a pressure field need not be symmetric";
   } else if (std::any_of(scene.faults.begin(), scene.faults.end(), [](const Fault& fault) {
                return !fault.pressure.profile.strike.empty();

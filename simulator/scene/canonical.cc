@@ -124,6 +124,8 @@ json materials(const Scene& scene) {
                   {"youngs_modulus", plain(material.youngs_modulus)},
                   {"poisson_ratio", plain(material.poisson_ratio)},
                   {"biot", plain(material.biot)}};
+    if (material.thermal_expansion != 0)
+      entry["thermal_expansion"] = plain(material.thermal_expansion);
     if (material.viscosity) entry["viscosity"] = plain(*material.viscosity);
     result[material.name] = entry;
   }
@@ -280,11 +282,9 @@ std::string identity_under(int numerics_version, const std::string& canonical) {
 
 std::string CanonicalParts::text() const {
   const std::string optional = creep.empty() ? "" : "\"creep\":" + creep + ",";
-  const std::string flow =
-      pressure_field.empty() ? "" : ",\"pressure_field\":" + pressure_field;
   return concat("{", optional, "\"faults\":", faults, ",\"format\":1,\"geometry\":", geometry,
                 ",\"initial_state\":", initial_state, ",\"materials\":", materials,
-                ",\"mesh\":", mesh, ",\"numerics\":", numerics, ",\"pressure\":", pressure, flow,
+                ",\"mesh\":", mesh, ",\"numerics\":", numerics, ",\"pressure\":", pressure, fields,
                 ",\"stages\":", stages, "}");
 }
 
@@ -298,10 +298,18 @@ CanonicalParts canonical_parts(const Scene& scene) {
                        .pressure = list_text(scene.pressure, history),
                        .stages = list_text(scene.stages, stage),
                        .creep = {},
-                       .pressure_field = {}};
+                       .fields = {}};
   // An elastic scene has no creep to speak of: it keeps the identity from before there was any.
   if (has_viscous_material(scene)) parts.creep = creep(scene.numerics).dump();
-  if (scene.flow.is_given()) parts.pressure_field = flow_load(scene.flow).dump();
+  // The same of fields and temperatures.
+  const auto add = [&](const std::string& name, const json& value) {
+    parts.fields += ",\"" + name + "\":" + value.dump();
+  };
+  if (scene.pressure_field.is_given()) add("pressure_field", flow_load(scene.pressure_field));
+  if (scene.temperature_field.is_given())
+    add("temperature_field", flow_load(scene.temperature_field));
+  for (const TemperatureHistory& history : scene.temperature)
+    add(concat("temperature_", history.region), {list(history.time), list(history.change)});
   return parts;
 }
 

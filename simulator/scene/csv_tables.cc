@@ -90,13 +90,7 @@ void embed_tables(JsonDocument& document) {
   for (const std::string& name : table_names(document.value)) {
     embed_table(document.value, document.source, name);
   }
-  if (const std::string name = field_name(document.value); !name.empty())
-    embed_field(document.value, document.source, name);
-}
-
-std::string field_name(const json& scene) {
-  const json* name = value_at(scene, "/pressure_field/file");
-  return name != nullptr && name->is_string() ? name->get<std::string>() : "";
+  embed_fields(document.value, document.source, json(document.value));
 }
 
 FieldPlace field_place(const json& scene, const std::string& source, const std::string& name) {
@@ -109,16 +103,31 @@ FieldPlace field_place(const json& scene, const std::string& source, const std::
   return {path->get<std::string>(), fingerprint->get<std::string>()};
 }
 
-void embed_field(json& scene, const std::string& source, const std::string& name) {
+namespace {
+
+void embed_field(json& scene, const std::string& source, const std::string& name,
+                 FlowQuantity quantity) {
   const FieldPlace place = field_place(scene, source, name);
-  if (!scene.is_object() || !place.fingerprint.empty()) return;
+  if (!place.fingerprint.empty()) return;
   if (scene.contains("fields") && !scene["fields"].is_object()) return;  // the schema refuses it
   try {
-    const FieldFile file = read_field_file(place.path);
+    const FieldFile file = read_field_file(place.path, quantity);
     scene["fields"][name] = {
         {"path", std::filesystem::absolute(place.path).lexically_normal().string()},
         {"fingerprint", file.fingerprint}};
   } catch (const InputError&) {  // said by who reads the scene
+  }
+}
+
+}  // namespace
+
+void embed_fields(json& scene, const std::string& source, const json& named) {
+  for (const auto& [pointer, quantity] :
+       {std::pair{"/pressure_field/file", FlowQuantity::pressure},
+        std::pair{"/temperature_field/file", FlowQuantity::temperature}}) {
+    const json* name = value_at(named, pointer);
+    if (scene.is_object() && name != nullptr && name->is_string())
+      embed_field(scene, source, name->get<std::string>(), quantity);
   }
 }
 

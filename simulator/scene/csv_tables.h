@@ -17,7 +17,7 @@ std::vector<std::string> table_names(const nlohmann::json& scene);
 /// be read is left to read_scene, which says so.
 /// @param source  relative names are taken from the folder of this file (JsonDocument::source).
 void embed_table(nlohmann::json& scene, const std::string& source, const std::string& name);
-/// The same for all that the scene uses, and the place of its field.
+/// The same for all that the scene uses, and the places of its fields.
 void embed_tables(JsonDocument& document);
 
 /// The text of a table: from the scene's "tables", else from its file; or why there is none.
@@ -29,7 +29,7 @@ struct TableText {
 TableText table_text(const nlohmann::json& scene, const std::string& source,
                      const std::string& name);
 
-/// Where the file of a pressure field is, and what was in it when the scene set out on its way.
+/// Where the file of a field is, and what was in it when the scene set out on its way.
 struct FieldPlace {
   std::string path;
   std::string fingerprint;  ///< "" = nothing is known of it.
@@ -38,10 +38,9 @@ struct FieldPlace {
 FieldPlace field_place(const nlohmann::json& scene, const std::string& source,
                        const std::string& name);
 
-/// Puts the place and the fingerprint of the scene's field into its "fields", unless they are
-/// there. A file that cannot be read is left to read_scene, which says so.
-void embed_field(nlohmann::json& scene, const std::string& source, const std::string& name);
-/// The name of the file of the scene's field; "" = it has none.
-std::string field_name(const nlohmann::json& scene);
+/// Puts the places and the fingerprints of the fields that `named` names into the "fields" of a
+/// scene, unless they are there. A file that cannot be read is left to read_scene, which says so.
+/// @param named  a scene, or one as it will be.
+void embed_fields(nlohmann::json& scene, const std::string& source, const nlohmann::json& named);
 
 }  // namespace faultsim

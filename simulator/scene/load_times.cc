@@ -40,7 +40,7 @@ void add_history(const PressureHistory& history, std::vector<TurningPoint>& poin
     x.push_back(history.time[i] + history.lag);
     y.push_back(history.scale * history.pressure_change[i]);
   }
-  add_extremes(x, y, {"the pressure of " + history.region, 0, 0, 0, false}, points);
+  add_extremes(x, y, {.load = "the pressure of " + history.region}, points);
 }
 
 /// Base times of the stages, without looking at any load.
@@ -102,15 +102,27 @@ std::vector<TurningPoint> turning_points(const Scene& scene) {
     }
     if (pressure.rule != FaultPressureRule::prescribed || pressure.prescribed == 0) continue;
     add_extremes(pressure.table.time, pressure.table.factor,
-                 {"the table of the fault pressure of " + fault.name, 0, 0, 0, true}, points);
+                 {.load = "the table of the fault pressure of " + fault.name,
+                  .dimension = Dimension::number}, points);
   }
   for (std::size_t i = 0; i < scene.box.boundary.size(); ++i) {
     const BoundaryCondition& condition = scene.box.boundary[i];
     add_extremes(condition.table.time, condition.table.factor,
-                 {"the table of boundary " + std::to_string(i), 0, 0, 0, true}, points);
+                 {.load = "the table of boundary " + std::to_string(i),
+                  .dimension = Dimension::number}, points);
   }
-  for (const double time : scene.flow.time)
-    points.push_back({.load = "the pressure field", .from = time, .to = time, .is_report = true});
+  for (const TemperatureHistory& history : scene.temperature) {
+    const auto region = static_cast<std::size_t>(history.region);
+    add_extremes(history.time, history.change,
+                 {.load = "the temperature of " + scene.pressure[region].region,
+                  .dimension = Dimension::temperature},
+                 points);
+  }
+  for (const auto& [name, field] : {std::pair{"the pressure field", &scene.pressure_field},
+                                    std::pair{"the temperature field", &scene.temperature_field}}) {
+    for (const double time : field->time)
+      points.push_back({.load = name, .from = time, .to = time, .is_report = true});
+  }
   double end = 0;
   for (const Stage& stage : scene.stages) end += stage.duration;
   std::erase_if(points, [&](const TurningPoint& p) { return p.to <= 0 || p.from >= end; });
@@ -153,8 +165,10 @@ std::string turning_point_text(const TurningPoint& point) {
   const std::string when = number_text(from_si(point.from, Dimension::time, "year")) + " year";
   if (point.is_report) return point.load + " turns at " + when;
   const std::string value =
-      point.is_factor ? number_text(point.value)
-                      : number_text(from_si(point.value, Dimension::pressure, "bar")) + " bar";
+      point.dimension == Dimension::number
+          ? number_text(point.value)
+          : number_text(from_si(point.value, point.dimension, usual_unit(point.dimension))) + " " +
+                usual_unit(point.dimension);
   return point.load + " reaches " + value + " at " + when;
 }
 

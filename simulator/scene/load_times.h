@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/common/units.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {
@@ -23,7 +24,7 @@ struct TurningPoint {
   double from = 0;         ///< s; the extreme is held from here
   double to = 0;           ///< to here; equal for a peak.
   double value = 0;        ///< Pa, or a factor.
-  bool is_factor = false;  ///< of a table.
+  Dimension dimension = Dimension::pressure;  ///< of value; of factors of tables: number.
   bool is_report = false;  ///< has no value.
 };
 

@@ -268,10 +268,11 @@ class Collector {
       if (std::find(std::begin(of_boxes), std::end(of_boxes), key) != std::end(of_boxes))
         return true;
     }
-    const bool flow = document_.value.is_object() && document_.value.contains("pressure_field");
+    const bool absent = (pointer == "/pressure_field" || pointer == "/temperature_field") &&
+                        child_at(document_.value, pointer.substr(1)) == nullptr;
     return pointer == "/format" || pointer == "/title" || pointer == "/output" ||
            pointer == "/numerics/surface" || pointer == "/tables" || pointer == "/fields" ||
-           (!flow && pointer == "/pressure_field") || (!field && pointer == "/tier");
+           absent || (!field && pointer == "/tier");
   }
   static bool is_leaf(const SchemaViews& views) {
     if (keyword(views, "x-dimension") != nullptr || keyword(views, "enum") != nullptr) return true;

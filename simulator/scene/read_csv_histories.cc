@@ -72,7 +72,7 @@ class CsvHistories {
   /// What there is no table for.
   void remark_idle() {
     if (!has_table_) remark("/pressure_csv_end", "there is no CSV table");
-    if (!has_dates_ && !scene_.flow.is_given() && !ends_at_dates())
+    if (!has_dates_ && !scene_.has_field() && !ends_at_dates())
       remark("/start_date", "no CSV table has dates");
     for (const std::string& region : regions_) {
       if (std::count(absolute_.begin(), absolute_.end(), region) != 0) continue;

@@ -15,8 +15,18 @@
 namespace faultsim {
 namespace {
 
-const std::string kAt = "/pressure_field";
 constexpr double kDay = 86400;  // s
+
+/// A field as a scene names it.
+struct FieldKey {
+  const char* at;
+  FlowQuantity quantity;
+  FlowLoad Scene::*load;
+  double tolerance;  ///< Pa or K: the default.
+};
+constexpr FieldKey kFields[] = {
+    {"/pressure_field", FlowQuantity::pressure, &Scene::pressure_field, 1e4},
+    {"/temperature_field", FlowQuantity::temperature, &Scene::temperature_field, 0.1}};
 
 /// The dates of some reports, for a message.
 std::string dates_of(const FlowField& field) {
@@ -39,37 +49,100 @@ std::optional<int> report_at(const FlowField& field, const std::string& date) {
 }
 
 /// Opens the file where the scene, or "fields" of it, says.
-std::optional<FieldFile> open_field(SceneReader& reader, const std::string& name) {
+std::optional<FieldFile> open_field(SceneReader& reader, const FieldKey& key,
+                                    const std::string& name) {
+  const std::string at = std::string(key.at) + "/file";
   const JsonDocument& document = reader.document();
   const FieldPlace place = field_place(document.value, document.source, name);
   try {
-    FieldFile file = read_field_file(place.path);
+    FieldFile file = read_field_file(place.path, key.quantity);
     if (place.fingerprint.empty() || place.fingerprint == file.fingerprint) return file;
-    reader.problem(kAt + "/file", "\"" + name + "\" is no longer what it was: the file has changed",
+    reader.problem(at, "\"" + name + "\" is no longer what it was: the file has changed",
                    "put the old file back, or remove its entry under \"fields\" to take the new one");
   } catch (const InputError& error) {
     for (const Problem& one : error.problems()) {
       const std::string line = one.line > 0 ? concat(" line ", one.line, ": ") : ": ";
-      reader.problem(kAt + "/file", name + line + one.what, one.cure);
+      reader.problem(at, name + line + one.what, one.cure);
     }
   }
   return std::nullopt;
 }
 
 /// The reports must end where the stages do, or the scene says what is meant.
-void check_end(SceneReader& reader, const Scene& scene, double last, double end) {
+void check_end(SceneReader& reader, const std::string& at, const Scene& scene,
+               const FlowField& field, double last, double end) {
   const Stage& stage = scene.stages.back();
   const double near = kMetShare * stage.duration / stage.n_steps;
-  const std::string rule = reader.text(kAt + "/end", "exact");
+  const std::string rule = reader.text(at + "/end", "exact");
   const auto years = [](double time) { return in_unit(time, Dimension::time, "year"); };
+  const std::string until = "end the stages there (\"until\": \"" + date_text(field.date.back()) +
+                            "\"), or write \"end\": ";
   if (last < end - near && rule != "hold") {
-    reader.problem(kAt, "its reports end at " + years(last) + ", the stages at " + years(end),
-                   "end the stages there (\"until\": \"" + date_text(scene.flow.field->date.back()) +
-                       "\"), or write \"end\": \"hold\" to keep the last pressures");
+    reader.problem(at, "its reports end at " + years(last) + ", the stages at " + years(end),
+                   until + "\"hold\" to keep the last values");
   } else if (last > end + near && rule != "cut") {
-    reader.problem(kAt, "its reports go on to " + years(last) + ", the stages end at " + years(end),
-                   "end the stages there (\"until\": \"" + date_text(scene.flow.field->date.back()) +
-                       "\"), or write \"end\": \"cut\" to leave the rest out");
+    reader.problem(at, "its reports go on to " + years(last) + ", the stages end at " + years(end),
+                   until + "\"cut\" to leave the rest out");
+  }
+}
+
+void read_field(SceneReader& reader, const FieldKey& key, Scene& scene) {
+  const std::string at = key.at, name = reader.text(at + "/file");
+  if (name.empty()) return;
+  FlowLoad& load = scene.*key.load;
+  if (region_names(scene).empty() && reader.sound("/geometry")) {
+    reader.problem(at, "there is no region that it could act on",
+                   "add \"regions\" to the geometry or remove the field");
+  }
+  if (reader.text(at + "/outside") == "unchanged") load.outside = OutsideRule::unchanged;
+  const std::optional<FieldFile> file = open_field(reader, key, name);
+  if (!file) return;
+  if (const std::string date = reader.text(at + "/reference"); !date.empty()) {
+    const std::optional<int> report = report_at(*file->field, date);
+    if (!report) {
+      return reader.problem(at + "/reference", "\"" + date + "\" is the day of no report",
+                            "choose one of " + dates_of(*file->field));
+    }
+    load.reference = *report;
+  }
+  load.field = file->field;
+  load.fingerprint = file->fingerprint;
+  if (key.quantity != FlowQuantity::pressure) return;
+  if (const std::string doubt = pressure_doubt(*load.field); !doubt.empty())
+    scene.remarks.push_back({at, "looks wrong: " + doubt});
+}
+
+double reference_date(const FlowLoad& load) {
+  return load.field->date[static_cast<std::size_t>(load.reference)];
+}
+
+void choose(SceneReader& reader, const FieldKey& key, double start, Scene& scene) {
+  FlowLoad& load = scene.*key.load;
+  if (!load.is_given()) return;
+  const FlowField& field = *load.field;
+  const std::string at = key.at;
+  if (reference_date(load) < start) {
+    return reader.problem(reader.has("/start_date") ? "/start_date" : at,
+                          "time 0, " + date_text(start) + ", lies after the reference of " +
+                              at.substr(1),
+                          "begin at " + date_text(reference_date(load)) +
+                              ", or choose a later reference");
+  }
+  double end = 0;
+  for (const Stage& stage : scene.stages) end += stage.duration;
+  check_end(reader, at, scene, field, field.date.back() - start, end);
+  // Up to the first report at or after the end.
+  std::vector<double> time;
+  for (std::size_t i = static_cast<std::size_t>(load.reference); i < field.date.size(); ++i) {
+    time.push_back(field.date[i] - start);
+    if (time.back() >= end) break;
+  }
+  const auto n = static_cast<Eigen::Index>(time.size());
+  const double tolerance = reader.quantity(at + "/tolerance", key.tolerance);
+  if (!(tolerance >= 0)) return;
+  for (const int i : needed_reports(time, field.value.middleCols(load.reference, n), tolerance)) {
+    load.reports.push_back(load.reference + i);
+    load.time.push_back(time[static_cast<std::size_t>(i)]);
   }
 }
 
@@ -85,80 +158,40 @@ std::optional<double> start_date(SceneReader& reader, const Scene& scene) {
     }
     return date;
   }
-  if (!scene.flow.is_given()) return std::nullopt;
-  return scene.flow.field->date[static_cast<std::size_t>(scene.flow.reference)];
+  for (const FieldKey& key : kFields) {
+    if ((scene.*key.load).is_given()) return reference_date(scene.*key.load);
+  }
+  return std::nullopt;
 }
 
-void read_flow_load(SceneReader& reader, Scene& scene) {
-  const std::string name = reader.text(kAt + "/file");
-  if (name.empty()) return;
-  FlowLoad& flow = scene.flow;
-  if (region_names(scene).empty() && reader.sound("/geometry"))
-    reader.problem(kAt, "there is no region whose pressure could change",
-                   "add \"regions\" to the geometry or remove the field");
-  if (reader.text(kAt + "/outside") == "unchanged") flow.outside = OutsideRule::unchanged;
-  const std::optional<FieldFile> file = open_field(reader, name);
-  if (!file) return;
-  if (const std::string date = reader.text(kAt + "/reference"); !date.empty()) {
-    const std::optional<int> report = report_at(*file->field, date);
-    if (!report) {
-      return reader.problem(kAt + "/reference", "\"" + date + "\" is the day of no report",
-                            "choose one of " + dates_of(*file->field));
-    }
-    flow.reference = *report;
-  }
-  flow.field = file->field;
-  flow.fingerprint = file->fingerprint;
-  if (const std::string doubt = pressure_doubt(*flow.field); !doubt.empty())
-    scene.remarks.push_back({kAt, "looks wrong: " + doubt});
+void read_flow_loads(SceneReader& reader, Scene& scene) {
+  for (const FieldKey& key : kFields) read_field(reader, key, scene);
 }
 
 void choose_reports(SceneReader& reader, Scene& scene) {
-  FlowLoad& flow = scene.flow;
   const std::optional<double> start = start_date(reader, scene);
-  if (!flow.is_given() || !start || !reader.sound("/stages") || scene.stages.empty()) return;
-  const FlowField& field = *flow.field;
-  if (field.date[static_cast<std::size_t>(flow.reference)] < *start) {
-    return reader.problem("/start_date", "lies after the reference of the pressure field",
-                          "move it to " + date_text(field.date[flow.reference]) +
-                              ", or choose a later reference");
-  }
-  double end = 0;
-  for (const Stage& stage : scene.stages) end += stage.duration;
-  check_end(reader, scene, field.date.back() - *start, end);
-  // Up to the first report at or after the end.
-  std::vector<double> time;
-  for (std::size_t i = static_cast<std::size_t>(flow.reference); i < field.date.size(); ++i) {
-    time.push_back(field.date[i] - *start);
-    if (time.back() >= end) break;
-  }
-  const auto n = static_cast<Eigen::Index>(time.size());
-  constexpr double kTolerance = 1e4;  // Pa: a tenth of a bar
-  const double tolerance = reader.quantity(kAt + "/tolerance", kTolerance);
-  if (!(tolerance >= 0)) return;
-  for (const int i :
-       needed_reports(time, field.pressure.middleCols(flow.reference, n), tolerance)) {
-    flow.reports.push_back(flow.reference + i);
-    flow.time.push_back(time[static_cast<std::size_t>(i)]);
-  }
+  if (!start || !reader.sound("/stages") || scene.stages.empty()) return;
+  for (const FieldKey& key : kFields) choose(reader, key, *start, scene);
 }
 
 /// A field's influence is that of the elastic operator, on one mesh, of all of the domain.
-void check_flow_load(SceneReader& reader, const Scene& scene) {
-  if (!reader.has(kAt)) return;
-  if (has_viscous_material(scene) && scene.numerics.creep != Switch::off) {
-    reader.problem(kAt, "salt creeps, and a field acts on elastic rock only",
-                   "set /numerics/creep to \"off\", or say the pressures by compartments");
-  }
-  if (scene.numerics.half_domain == Switch::on) {
-    reader.problem(kAt,
-                   "a field need not be symmetric, and half of the domain is modelled",
-                   "set /numerics/half_domain to \"off\", and choose another tier than one for half "
-                   "domains");
-  }
-  if (scene.numerics.surface.wanted()) {
-    reader.problem(kAt, "a surface of operators has no influence of single cells",
-                   "remove /numerics/surface, or say the pressures by compartments");
+void check_flow_loads(SceneReader& reader, const Scene& scene) {
+  for (const FieldKey& key : kFields) {
+    if (!reader.has(key.at)) continue;
+    if (has_viscous_material(scene) && scene.numerics.creep != Switch::off) {
+      reader.problem(key.at, "salt creeps, and a field acts on elastic rock only",
+                     "set /numerics/creep to \"off\", or say the values by compartments");
+    }
+    if (scene.numerics.half_domain == Switch::on) {
+      reader.problem(key.at, "a field need not be symmetric, and half of the domain is modelled",
+                     "set /numerics/half_domain to \"off\", and choose another tier than one for "
+                     "half domains");
+    }
+    if (scene.numerics.surface.wanted()) {
+      reader.problem(key.at, "a surface of operators has no influence of single cells",
+                     "remove /numerics/surface, or say the values by compartments");
+    }
+    return;
   }
 }
 

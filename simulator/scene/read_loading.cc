@@ -18,7 +18,10 @@ class LoadingReader {
  public:
   LoadingReader(SceneReader& reader, Scene& scene)
       : reader_(reader), scene_(scene), regions_(region_names(scene)) {
-    for (const std::string& region : regions_) scene.pressure.push_back({region, {}, {}, 1, 0});
+    for (const std::string& region : regions_) {
+      temperature_.push_back({static_cast<int>(scene.pressure.size()), {0}, {0}});
+      scene.pressure.push_back({region, {}, {}, 1, 0});
+    }
   }
 
   void read_stage(std::size_t index) {
@@ -38,11 +41,21 @@ class LoadingReader {
       }
     }
     start_ += stage.duration;
+    read_temperatures(at);
     scene_.stages.push_back(stage);
     count_steps(at, stage);
   }
   /// False once there are too many steps; no more stages are read then.
   bool has_room() const { return n_steps_ <= kMostSteps; }
+
+  /// Of the regions whose temperature changes at all.
+  void keep_temperatures() {
+    for (TemperatureHistory& history : temperature_) {
+      const bool changes = std::any_of(history.change.begin(), history.change.end(),
+                                       [](double change) { return change != 0; });
+      if (changes) scene_.temperature.push_back(std::move(history));
+    }
+  }
 
   void read_compartments() {
     for (const std::string& region : reader_.keys("/compartments")) {
@@ -145,6 +158,33 @@ class LoadingReader {
     }
   }
 
+  /// Changes at the end of the stage; the last one where nothing is said.
+  void read_temperatures(const std::string& at) {
+    const char* const key = "temperature_change";
+    check_temperatures(at + key);
+    for (std::size_t region = 0; region < regions_.size(); ++region) {
+      const std::string pointer = place(at, key, region);
+      TemperatureHistory& history = temperature_[region];
+      history.time.push_back(start_);
+      history.change.push_back(pointer.empty() ? history.change.back()
+                                               : reader_.quantity(pointer));
+    }
+  }
+  void check_temperatures(const std::string& pointer) {
+    const nlohmann::json* value = reader_.find(pointer);
+    if (value == nullptr) return;
+    if (reader_.has("/temperature_field")) {
+      reader_.problem(pointer, "the temperatures are those of /temperature_field",
+                      "remove one of the two");
+    } else if (value->is_object()) {
+      for (const std::string& region : reader_.keys(pointer))
+        demand_region(pointer + "/" + pointer_token(region), region);
+    } else if (regions_.empty() && reader_.sound("/geometry")) {
+      reader_.problem(pointer, "there is no region whose temperature could change",
+                      "add \"regions\" to the geometry or remove this line");
+    }
+  }
+
   /// Pointer to the value of key for a region; "" when the stage does not say.
   std::string place(const std::string& at, const char* key, std::size_t region) const {
     const std::string pointer = at + key;
@@ -182,6 +222,7 @@ class LoadingReader {
   SceneReader& reader_;
   Scene& scene_;
   std::vector<std::string> regions_;
+  std::vector<TemperatureHistory> temperature_;  ///< per region.
   double start_ = 0;
   long n_steps_ = 0;
 };
@@ -196,6 +237,7 @@ void read_loading(SceneReader& reader, Scene& scene) {
     names.push_back(scene.stages.back().name);
   }
   reader.demand_unique("/stages", "/name", names);
+  loading.keep_temperatures();
   choose_reports(reader, scene);
   read_csv_histories(reader, scene);
   loading.read_compartments();

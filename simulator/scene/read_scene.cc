@@ -169,6 +169,8 @@ void read_materials(SceneReader& reader, Scene& scene) {
     material.youngs_modulus = reader.quantity(at + "youngs_modulus");
     material.poisson_ratio = reader.number(at + "poisson_ratio");
     material.biot = reader.number(at + "biot", material.biot);
+    material.thermal_expansion =
+        reader.quantity(at + "thermal_expansion", material.thermal_expansion);
     if (reader.has(at + "viscosity")) material.viscosity = reader.quantity(at + "viscosity");
     scene.materials.push_back(material);
   }
@@ -232,7 +234,7 @@ void relate_parts(SceneReader& reader, const std::vector<Problem>& problems, Sce
   check_geometry(reader, scene);
   check_pressures(reader, scene);
   check_creep(reader, scene);
-  check_flow_load(reader, scene);
+  check_flow_loads(reader, scene);
   check_turning_points(reader, scene);
   if (problems.empty()) add_remarks(reader, scene);
 }
@@ -255,7 +257,7 @@ Scene read_scene(const JsonDocument& document, std::vector<Problem>& problems) {
   read_geometry(reader, scene);
   read_mesh(reader, scene);
   read_initial_state(reader, scene);
-  read_flow_load(reader, scene);
+  read_flow_loads(reader, scene);
   read_faults(reader, scene);
   read_loading(reader, scene);
   scene.n_table_remarks = scene.remarks.size();
@@ -315,7 +317,8 @@ bool have_same_body(const Scene& a, const Scene& b) {
   };
   return a.geometry_kind == b.geometry_kind && a.field == b.field && a.box == b.box &&
          a.materials == b.materials && a.mesh == b.mesh && a.numerics == b.numerics &&
-         a.stages == b.stages && a.pressure == b.pressure && a.flow == b.flow &&
+         a.stages == b.stages && a.pressure == b.pressure && a.temperature == b.temperature &&
+         a.pressure_field == b.pressure_field && a.temperature_field == b.temperature_field &&
          std::equal(a.faults.begin(), a.faults.end(), b.faults.begin(), b.faults.end(),
                     is_same_surface);
 }

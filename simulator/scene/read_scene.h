@@ -41,7 +41,7 @@ std::string canonical_scene(const Scene& scene);
 struct CanonicalParts {
   std::string faults, geometry, initial_state, materials, mesh, numerics, pressure, stages;
   std::string creep;  ///< may be empty, as may be
-  std::string pressure_field;
+  std::string fields;  ///< of flow simulators, and temperatures.
   std::string text() const;
 };
 CanonicalParts canonical_parts(const Scene& scene);

@@ -91,7 +91,7 @@ class IdleInputs {
     const bool places = std::any_of(scene_.faults.begin(), scene_.faults.end(), [](const Fault& f) {
       return prescribes(f) && !f.pressure.depth_window;
     });
-    for (std::size_t i = 0; !places && !scene_.flow.is_given() && i < scene_.box.regions.size(); ++i) {
+    for (std::size_t i = 0; !places && !scene_.has_field() && i < scene_.box.regions.size(); ++i) {
       const bool is_scaled_off = scene_.pressure[i].scale == 0;  // said on purpose
       if (!is_zero(scene_.pressure[i]) || is_scaled_off) continue;
       idle(element("/geometry/regions", i), "its pressure never changes");
@@ -323,7 +323,7 @@ class IdleInputs {
     const auto& regions = scene_.pressure;
     const auto& faults = scene_.faults;
     const auto& faces = scene_.box.boundary;
-    const bool loaded = scene_.flow.is_given() || !std::all_of(regions.begin(), regions.end(), is_zero) ||
+    const bool loaded = scene_.has_field() || !std::all_of(regions.begin(), regions.end(), is_zero) ||
                         std::any_of(faults.begin(), faults.end(), prescribes) ||
                         std::any_of(faults.begin(), faults.end(), has_profile) ||
                         std::any_of(faces.begin(), faces.end(), acts);

@@ -23,6 +23,7 @@ struct Material {
   double youngs_modulus = 0;        ///< Pa.
   double poisson_ratio = 0;         ///< in [0, 0.4999].
   double biot = 1;                  ///< Biot coefficient b in [0, 1].
+  double thermal_expansion = 0;     ///< α_T >= 0, linear, 1/K.
   std::optional<double> viscosity;  ///< η > 0, Pa s, Maxwell: ε̇_v = s/(2η); none = elastic.
   bool operator==(const Material&) const = default;
 };
@@ -258,12 +259,20 @@ struct PressureHistory {
   bool operator==(const PressureHistory&) const = default;
 };
 
-/// The result of a flow simulator as a load: the pressures of all regions, cell by cell.
+/// Temperature change history of one region: piecewise linear in time from 0 at t = 0.
+struct TemperatureHistory {
+  int region = 0;                  ///< index into Scene::pressure.
+  std::vector<double> time;        ///< s, strictly increasing.
+  std::vector<double> change;      ///< K, ΔT.
+  bool operator==(const TemperatureHistory&) const = default;
+};
+
+/// The result of a flow simulator as a load: pressures or temperatures of all regions, cell by cell.
 struct FlowLoad {
   std::shared_ptr<const FlowField> field = nullptr;  ///< none: the regions have histories.
   std::string fingerprint;                           ///< of the file's bytes.
   OutsideRule outside = OutsideRule::nearest;
-  int reference = 0;  ///< report whose pressures are the initial ones: Δp = 0.
+  int reference = 0;  ///< report whose values are the initial ones, of change 0.
   /// The reports that are taken, from the reference on, and their times since the scene's start, s:
   /// strictly increasing, the first >= 0. The field is linear in between.
   std::vector<int> reports;
@@ -368,7 +377,9 @@ struct Scene {
   InitialState initial;
   std::vector<Stage> stages;
   std::vector<PressureHistory> pressure;  ///< per region; empty histories next to a flow load.
-  FlowLoad flow;
+  std::vector<TemperatureHistory> temperature;  ///< of regions whose temperature changes.
+  FlowLoad pressure_field, temperature_field;
+  bool has_field() const { return pressure_field.is_given() || temperature_field.is_given(); }
   Numerics numerics;
   OutputRequest output;
   std::vector<Remark> remarks;      ///< never part of a case's identity.

@@ -89,11 +89,13 @@ void read_faults(SceneReader& reader, Scene& scene);
 void read_initial_state(SceneReader& reader, Scene& scene);
 void read_loading(SceneReader& reader, Scene& scene);
 void read_csv_histories(SceneReader& reader, Scene& scene);  ///< part of read_loading.
-/// The file of /pressure_field. @pre before faults and stages, whose dates may count from it.
-void read_flow_load(SceneReader& reader, Scene& scene);
-/// Part of read_loading: which of its reports are taken, once it is known when the stages end.
+/// The files of /pressure_field and /temperature_field. @pre before faults and stages, whose dates
+/// may count from them.
+void read_flow_loads(SceneReader& reader, Scene& scene);
+/// Part of read_loading: which of their reports are taken, once it is known when the stages end.
 void choose_reports(SceneReader& reader, Scene& scene);
-/// The date of time 0, s since 1970: /start_date, else that of the flow load's reference. None = it
+/// The date of time 0, s since 1970: /start_date, else that of the reference of the pressure field,
+/// else of the temperature field. None = it
 /// is not known, or was refused.
 std::optional<double> start_date(SceneReader& reader, const Scene& scene);
 void read_output(SceneReader& reader, Scene& scene);
@@ -103,8 +105,8 @@ void check_pressures(SceneReader& reader, const Scene& scene);
 void check_creep(SceneReader& reader, const Scene& scene);
 /// Reads /numerics/surface and holds its parameters against the rest. @pre the rest is read.
 void read_surface(SceneReader& reader, Scene& scene);
-/// What a field of pressures cannot be combined with.
-void check_flow_load(SceneReader& reader, const Scene& scene);
+/// What a field cannot be combined with.
+void check_flow_loads(SceneReader& reader, const Scene& scene);
 /// No more load steps are added at turning points than /numerics/max_added_steps.
 void check_turning_points(SceneReader& reader, const Scene& scene);
 

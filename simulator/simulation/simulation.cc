@@ -68,7 +68,7 @@ struct Simulation::Impl {
     key = operator_key(at_hand);
     for (const SurfaceParameter& one : at_hand.scene.numerics.surface.over)
       key += concat(" ", value_of(one, at_hand.scene));
-    if (at_hand.scene.flow.is_given()) key += " field " + field_loads_key(at_hand.scene);
+    if (at_hand.scene.has_field()) key += " field " + field_loads_key(at_hand.scene);
   }
   bool prepare_surface(const RunContext& context);
   bool prepare_field(const RunContext& context);
@@ -144,12 +144,7 @@ bool Simulation::Impl::prepare_field(const RunContext& context) {
     field_loads.emplace_front(loads_key, made->loads);
     if (field_loads.size() > kMostKept) field_loads.pop_back();
     known = field_loads.begin();
-    for (std::size_t r = 0; r < made->loads->region_names.size(); ++r) {
-      if (made->loads->mapping.coverage[r].n_cells == 0) continue;
-      context.note(concat("pressure field on ", made->loads->region_names[r], ": ",
-                          coverage_text(made->loads->mapping.coverage[r],
-                                        at_hand.scene.flow.outside)));
-    }
+    for (const std::string& text : made->loads->notes) context.note(text);
   }
   prepared.op = influence->op;
   prepared.from_cache = influence->from_cache;
@@ -316,7 +311,7 @@ bool Simulation::prepare(const RunContext& context, bool keep_bulk) {
       self.refuse_bulk("need the exact operator", "run with --exact, or remove this line");
     return self.prepare_surface(context);
   }
-  if (self.at_hand.scene.flow.is_given()) {
+  if (self.at_hand.scene.has_field()) {
     if (keep_bulk)
       self.refuse_bulk("are not made from a pressure field", "remove this line");
     self.surface.reset();

@@ -40,9 +40,9 @@ TEST(FlowCsv, SaysTheSameInBothForms) {
                                      "b");
   EXPECT_EQ(a.cells[1].low, Eigen::Vector3d(125, 170, -3005));
   EXPECT_EQ(a.cells[1].high, Eigen::Vector3d(175, 230, -2995));
-  EXPECT_EQ(a.pressure(1, 1), 299e5);
+  EXPECT_EQ(a.value(1, 1), 299e5);
   EXPECT_EQ(a.date[1] - a.date[0], 1826 * 86400.0);
-  EXPECT_EQ(a.pressure, b.pressure);
+  EXPECT_EQ(a.value, b.value);
   EXPECT_EQ(a.date, b.date);
   EXPECT_EQ(a.cells[0].high, b.cells[0].high);
 }
@@ -53,7 +53,7 @@ TEST(FlowCsv, ReadsFieldUnits) {
       "0, 0, 10000, 10, 10, 10, 5000\n",
       "field units");
   EXPECT_NEAR(field.cells[0].low.z(), -10005 * 0.3048, 1e-9);
-  EXPECT_NEAR(field.pressure(0, 0), 5000 * 6894.757293168, 1e-2);
+  EXPECT_NEAR(field.value(0, 0), 5000 * 6894.757293168, 1e-2);
 }
 
 TEST(FlowCsv, NamesEveryProblemWithItsLine) {
@@ -92,9 +92,9 @@ TEST(FlowCsv, RefusesHeadersThatDoNotSayWhatIsThere) {
 TEST(PressureDoubt, TellsPsiReadAsBar) {
   FlowField field = parse_flow_csv(wide("0, 0, 3000, 50, 50, 10, 350, 340\n"), "good");
   EXPECT_EQ(pressure_doubt(field), "");
-  field.pressure *= 14.5038;
+  field.value *= 14.5038;
   EXPECT_THAT(pressure_doubt(field), HasSubstr("16.9 times hydrostatic"));
-  field.pressure /= 14.5038 * 14.5038;
+  field.value /= 14.5038 * 14.5038;
   EXPECT_THAT(pressure_doubt(field), HasSubstr("bar read as psi"));
 }
 

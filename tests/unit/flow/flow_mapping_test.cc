@@ -22,10 +22,10 @@ FlowField cube(int n) {
     const Eigen::Vector3d low(h * (i % n), h * (i / n % n), -1100 + h * (i / n / n));
     field.cells.push_back({low, low + Eigen::Vector3d::Constant(h)});
   }
-  field.pressure.resize(n * n * n, 2);
+  field.value.resize(n * n * n, 2);
   for (int i = 0; i < n * n * n; ++i) {
-    field.pressure(i, 0) = 2e7 + 1e5 * std::sin(3.0 * i);
-    field.pressure(i, 1) = 1e7 + 5e6 * std::sin(7.0 * i * i);
+    field.value(i, 0) = 2e7 + 1e5 * std::sin(3.0 * i);
+    field.value(i, 1) = 1e7 + 5e6 * std::sin(7.0 * i * i);
   }
   return field;
 }
@@ -63,8 +63,8 @@ TEST(FlowMapping, ConservesWhatBothGridsCover) {
   double mapped = 0, given = 0, size = 0;
   for (std::size_t c = 0; c < cells.size(); ++c)
     mapped += cell_volume(cells[c].corners) * change(static_cast<Eigen::Index>(c), 1);
-  for (Eigen::Index f = 0; f < field.pressure.rows(); ++f) {
-    const double part = std::pow(100.0 / 7, 3) * (field.pressure(f, 1) - field.pressure(f, 0));
+  for (Eigen::Index f = 0; f < field.value.rows(); ++f) {
+    const double part = std::pow(100.0 / 7, 3) * (field.value(f, 1) - field.value(f, 0));
     given += part;
     size += std::abs(part);
   }
@@ -87,8 +87,8 @@ TEST(FlowMapping, ConservesWhatBothGridsCover) {
 
 TEST(FlowMapping, OfAUniformFieldIsUniform) {
   FlowField field = cube(5);
-  field.pressure.col(0).setConstant(3e7);
-  field.pressure.col(1).setConstant(1e7);
+  field.value.col(0).setConstant(3e7);
+  field.value.col(1).setConstant(1e7);
   const FlowMapping mapping = map_flow(field, two_sides(3, 1.4), kNames, OutsideRule::nearest);
   const Eigen::VectorXd change = mapped_change(mapping, field, 0).col(1);
   EXPECT_LT((change.array() + 2e7).abs().maxCoeff(), 1e-14 * 2e7);
@@ -118,7 +118,7 @@ TEST(FlowMapping, SaysWhatIsNotCovered) {
 TEST(FlowMapping, RefusesCellsOverEachOtherAndAGridElsewhere) {
   FlowField field = cube(2);
   field.cells.push_back({{10, 10, -1090}, {20, 20, -1080}});
-  field.pressure.conservativeResize(9, 2);
+  field.value.conservativeResize(9, 2);
   EXPECT_THAT(([&] { map_flow(field, two_sides(2, 1), kNames, OutsideRule::nearest); }),
               ThrowsMessage<InputError>(HasSubstr("flow cells lie over each other at x = ")));
   FlowField far = cube(2);

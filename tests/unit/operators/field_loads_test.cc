@@ -44,17 +44,17 @@ class FieldLoadsTest : public testing::Test {
       for (double z = -4000; z < -2000; z += 40)
         field.cells.push_back({{x, -9000, z}, {x + 250, 9000, z + 40}});
     }
-    field.pressure = Eigen::MatrixXd::Constant(std::ssize(field.cells), n_reports, 3e7);
+    field.value = Eigen::MatrixXd::Constant(std::ssize(field.cells), n_reports, 3e7);
     return field;
   }
 
   /// The scene with all of a flow result's reports, the first as its reference.
   Scene with(const FlowField& field) const {
     Scene scene = scene_;
-    scene.flow.field = std::make_shared<const FlowField>(field);
+    scene.pressure_field.field = std::make_shared<const FlowField>(field);
     for (std::size_t t = 0; t < field.date.size(); ++t) {
-      scene.flow.reports.push_back(static_cast<int>(t));
-      scene.flow.time.push_back(field.date[t] - field.date[0]);
+      scene.pressure_field.reports.push_back(static_cast<int>(t));
+      scene.pressure_field.time.push_back(field.date[t] - field.date[0]);
     }
     return scene;
   }
@@ -78,7 +78,7 @@ TEST_F(FieldLoadsTest, OfAUniformFieldAreThoseOfTheCompartments) {
        {FaultPressureRule::min, FaultPressureRule::max, FaultPressureRule::mean}) {
     for (Fault& fault : scene_.faults) fault.pressure.rule = rule;
     FlowField field = boxes(2);
-    field.pressure.col(1).array() -= 2e7;
+    field.value.col(1).array() -= 2e7;
     const FieldLoads loads = loads_of(field);
     for (const RegionCoverage& region : loads.mapping.coverage)
       EXPECT_NEAR(region.covered, region.volume, 1e-12 * region.volume);
@@ -104,7 +104,7 @@ TEST_F(FieldLoadsTest, OfALinearFieldAreItsOwnDirectSolve) {
   FlowField field = boxes(2);
   for (std::size_t f = 0; f < field.cells.size(); ++f) {
     const FlowCell& cell = field.cells[f];
-    field.pressure(static_cast<Eigen::Index>(f), 1) +=
+    field.value(static_cast<Eigen::Index>(f), 1) +=
         slope.dot(0.5 * (cell.low + cell.high) - Eigen::Vector3d(0, 0, -3000)) - 5e6;
   }
   const FieldLoads loads = loads_of(field);
@@ -129,11 +129,11 @@ TEST_F(FieldLoadsTest, OfALinearFieldAreItsOwnDirectSolve) {
 TEST_F(FieldLoadsTest, BeginAtTheReference) {
   FlowField field = boxes(3);
   const double fall[3] = {4e6, 0, -1e6};
-  for (int t = 0; t < 3; ++t) field.pressure.col(t).array() += fall[t];
+  for (int t = 0; t < 3; ++t) field.value.col(t).array() += fall[t];
   Scene scene = with(field);
-  scene.flow.reference = 1;
-  scene.flow.reports = {1, 2};
-  scene.flow.time = {0, kYear};
+  scene.pressure_field.reference = 1;
+  scene.pressure_field.reports = {1, 2};
+  scene.pressure_field.time = {0, kYear};
   const FieldLoads loads = field_loads(scene, plan_, prepared_);
   EXPECT_EQ(loads.history.locked.col(0).norm(), 0);
   EXPECT_NEAR(loads.history.region_change(0, 1), -1e6, 1e-6);
@@ -143,7 +143,7 @@ TEST_F(FieldLoadsTest, SayWhatIsNotCoveredAndWhereTheyBeginElsewhere) {
   using testing::HasSubstr;
   FlowField field = boxes(2);
   std::erase_if(field.cells, [](const FlowCell& cell) { return cell.low.x() > 100; });
-  field.pressure.conservativeResize(std::ssize(field.cells), 2);
+  field.value.conservativeResize(std::ssize(field.cells), 2);
   const std::vector<std::string> said = loads_of(field).warnings;
   EXPECT_THAT(said, testing::Contains(HasSubstr("does not cover all of east: ")));
   EXPECT_THAT(said, testing::Contains(HasSubstr("bar above the initial pressure of")));
@@ -161,7 +161,7 @@ TEST_F(FieldLoadsTest, HaveAKeyOfWhatTheyLookAt) {
   other.materials[0].biot = 0.3;
   EXPECT_NE(field_loads_key(other), key);
   other = scene;
-  other.flow.fingerprint = "another";
+  other.pressure_field.fingerprint = "another";
   EXPECT_NE(field_loads_key(other), key);
 }
 

@@ -66,26 +66,26 @@ class FlowLoads : public ::testing::Test {
 
 TEST_F(FlowLoads, MakeLoadStepsOfTheReportsThatAreNotOnALine) {
   const Scene read = scene();
-  EXPECT_THAT(read.flow.reports, ElementsAre(0, 2, 3, 4));
-  EXPECT_THAT(read.flow.time, ElementsAre(0, 730 * kDay, 1096 * kDay, 1461 * kDay));
+  EXPECT_THAT(read.pressure_field.reports, ElementsAre(0, 2, 3, 4));
+  EXPECT_THAT(read.pressure_field.time, ElementsAre(0, 730 * kDay, 1096 * kDay, 1461 * kDay));
   EXPECT_EQ(read.stages[0].duration, 1461 * kDay);
   std::vector<double> ends;
   for (const StepEnd& step : step_ends(read)) ends.push_back(step.time);
   EXPECT_THAT(ends, ElementsAre(730 * kDay, 1096 * kDay, 1461 * kDay));
-  EXPECT_THAT(scene({{"/pressure_field/tolerance", "30 bar"}}).flow.reports, ElementsAre(0, 3, 4));
+  EXPECT_THAT(scene({{"/pressure_field/tolerance", "30 bar"}}).pressure_field.reports, ElementsAre(0, 3, 4));
   for (const PressureHistory& history : read.pressure) EXPECT_TRUE(history.time.empty());
 }
 
 TEST_F(FlowLoads, CountFromTheirReferenceOrTheStartOfTheScene) {
   const Scene late = scene({{"/pressure_field/reference", "1992-01-01"}});
-  EXPECT_THAT(late.flow.reports, ElementsAre(2, 3, 4));
-  EXPECT_EQ(late.flow.time[0], 0);
+  EXPECT_THAT(late.pressure_field.reports, ElementsAre(2, 3, 4));
+  EXPECT_EQ(late.pressure_field.time[0], 0);
   EXPECT_EQ(late.stages[0].duration, 731 * kDay);
   const Scene early = scene({{"/start_date", "1989-01-01"}});
-  EXPECT_EQ(early.flow.time[0], 365 * kDay);
+  EXPECT_EQ(early.pressure_field.time[0], 365 * kDay);
   EXPECT_EQ(early.stages[0].duration, (365 + 1461) * kDay);
   EXPECT_THAT(refusal({{"/start_date", "1990-06-01"}}),
-              AllOf(HasSubstr("/start_date: lies after the reference"), HasSubstr("1990-01-01")));
+              AllOf(HasSubstr("/start_date: time 0, 1990-06-01, lies after the reference of pressure_field"), HasSubstr("1990-01-01")));
   EXPECT_THAT(refusal({{"/pressure_field/reference", "1990-06-01"}}),
               AllOf(HasSubstr("is the day of no report"), HasSubstr("1990-01-01, 1991-01-01")));
 }
@@ -95,12 +95,12 @@ TEST_F(FlowLoads, EndWithTheStagesOrTheSceneSaysWhatIsMeant) {
   EXPECT_THAT(refusal(too_long), AllOf(HasSubstr("its reports end at"), HasSubstr("1994-01-01")));
   Changes held = too_long;
   held.emplace_back("/pressure_field/end", "hold");
-  EXPECT_THAT(scene(held).flow.reports, ElementsAre(0, 2, 3, 4));
+  EXPECT_THAT(scene(held).pressure_field.reports, ElementsAre(0, 2, 3, 4));
   const Changes too_short = {{"/stages/0/until", "1992-06-01"}};
   EXPECT_THAT(refusal(too_short), HasSubstr("its reports go on to"));
   Changes cut = too_short;
   cut.emplace_back("/pressure_field/end", "cut");
-  EXPECT_THAT(scene(cut).flow.reports, ElementsAre(0, 2, 3));
+  EXPECT_THAT(scene(cut).pressure_field.reports, ElementsAre(0, 2, 3));
 }
 
 TEST_F(FlowLoads, StandBesideNoOtherPressures) {
