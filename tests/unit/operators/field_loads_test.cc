@@ -99,6 +99,53 @@ TEST_F(FieldLoadsTest, OfAUniformFieldAreThoseOfTheCompartments) {
   }
 }
 
+TEST_F(FieldLoadsTest, OfAUniformTemperatureAreThoseOfTheCompartments) {
+  for (Material& material : scene_.materials) material.thermal_expansion = 1.2e-5;
+  FlowField field = boxes(2);
+  field.value.col(0).setConstant(360);
+  field.value.col(1).setConstant(330);
+  Scene by_field = scene_;
+  by_field.temperature_field = with(field).pressure_field;
+  Scene by_stage = scene_;
+  for (std::size_t r = 0; r < scene_.pressure.size(); ++r)
+    by_stage.temperature.push_back({static_cast<int>(r), {0, kYear}, {0, -30}});
+  const FieldLoads loads = field_loads(by_field, plan_, prepared_);
+  for (Scene* scene : {&by_field, &by_stage}) {
+    for (PressureHistory& history : scene->pressure) history.pressure_change.clear();
+    for (PressureHistory& history : scene->pressure) history.time.clear();
+  }
+  const StepLoads a = CaseLoads(by_field, *prepared_.op, 0, &loads.history).at(0.7 * kYear);
+  const StepLoads b = CaseLoads(by_stage, *prepared_.op).at(0.7 * kYear);
+  const StepLoads start = CaseLoads(by_stage, *prepared_.op).at(0);
+  EXPECT_LT((a.locked - b.locked).norm(), 1e-12 * b.locked.norm());
+  EXPECT_GT((b.locked - start.locked).norm(), 1e6);
+  EXPECT_EQ(b.fault_pressure_change.norm(), 0);
+}
+
+TEST_F(FieldLoadsTest, OfTwoFieldsAreTheSumAtTheTimesOfBoth) {
+  for (Material& material : scene_.materials) material.thermal_expansion = 1.2e-5;
+  FlowField heat = boxes(2), fluid = boxes(3);
+  heat.date = {1e9, 1e9 + 1.5 * kYear};
+  heat.value.col(0).setConstant(360);
+  heat.value.col(1).setConstant(345);
+  fluid.value.col(1).array() -= 1e6;
+  fluid.value.col(2).array() -= 4e6;
+  const Scene wet = with(fluid);
+  Scene both = wet, hot = scene_;
+  both.temperature_field = hot.temperature_field = with(heat).pressure_field;
+  const FieldHistory sum = field_loads(both, plan_, prepared_).history;
+  const FieldHistory a = field_loads(wet, plan_, prepared_).history,
+                     b = field_loads(hot, plan_, prepared_).history;
+  EXPECT_EQ(sum.time, (std::vector<double>{0, kYear, 1.5 * kYear, 2 * kYear}));
+  for (const double t : {0.5, 1.0, 1.2, 1.5, 1.9}) {
+    const Eigen::VectorXd expected =
+        at_time(a.time, a.locked, t * kYear) + at_time(b.time, b.locked, t * kYear);
+    EXPECT_LT((at_time(sum.time, sum.locked, t * kYear) - expected).norm(),
+              1e-12 * expected.norm())
+        << t;
+  }
+}
+
 TEST_F(FieldLoadsTest, OfALinearFieldAreItsOwnDirectSolve) {
   const Eigen::Vector3d slope(3e3, 0, -2e3);  // Pa/m
   FlowField field = boxes(2);

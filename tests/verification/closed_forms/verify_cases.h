@@ -34,6 +34,7 @@ std::vector<VerifyCase> penny_cases();      // V6, 3D
 std::vector<VerifyCase> slider_cases();     // V7
 std::vector<VerifyCase> creep_cases();      // V8
 std::vector<VerifyCase> fluid_slip_cases();  // V11
+std::vector<VerifyCase> thermal_cases();     // V12
 
 /// Runs one case. What goes wrong in it becomes VerifyReport::failure; only Interrupted (and bugs)
 /// leave.
