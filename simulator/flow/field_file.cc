@@ -7,6 +7,8 @@
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/input_file.h"
+#include "simulator/flow/eclipse_files.h"
+#include "simulator/flow/eclipse_result.h"
 #include "simulator/flow/flow_csv.h"
 
 namespace faultsim {
@@ -17,25 +19,38 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostFileBytes = 1'000'000'000;
 constexpr std::size_t kMostKeptBytes = 1'000'000'000;
 
-/// A file as it stood when it was read.
+/// The files of a result as they stood when they were read.
 struct Stamp {
-  fs::path path;
-  std::uintmax_t n_bytes = 0;
-  fs::file_time_type time;
+  struct File {
+    fs::path path;
+    std::uintmax_t n_bytes = 0;
+    fs::file_time_type time;
+    bool operator==(const File&) const = default;
+  };
+  std::vector<File> files;
   FlowQuantity quantity = FlowQuantity::pressure;
   bool operator==(const Stamp&) const = default;
 };
 
+std::vector<fs::path> files_of(const fs::path& path) {
+  if (!is_eclipse_name(path)) return {path};
+  EclipseFiles eclipse = eclipse_files(path);
+  eclipse.restarts.insert(eclipse.restarts.begin(), eclipse.grid);
+  return eclipse.restarts;
+}
+
 Stamp stamp_of(const fs::path& path, FlowQuantity quantity) {
+  Stamp stamp{{}, quantity};
   std::error_code error;
-  Stamp stamp{fs::weakly_canonical(path, error), 0, {}, quantity};
-  stamp.n_bytes = fs::file_size(path, error);
-  stamp.time = fs::last_write_time(path, error);
+  for (const fs::path& file : files_of(path)) {
+    stamp.files.push_back({fs::weakly_canonical(file, error), fs::file_size(file, error),
+                           fs::last_write_time(file, error)});
+  }
   return stamp;
 }
 
 std::size_t bytes_of(const FlowField& field) {
-  return field.cells.size() * sizeof(FlowCell) +
+  return field.cells.size() * sizeof(FlowCell) + field.corners.size() * sizeof(CellCorners) +
          static_cast<std::size_t>(field.value.size()) * sizeof(double);
 }
 
@@ -63,6 +78,14 @@ class KeptFiles {
   };
 
   static FieldFile read(const fs::path& path, FlowQuantity quantity) {
+    if (is_eclipse_name(path)) {
+      FieldFile file{std::make_shared<const FlowField>(read_eclipse(path, quantity)), ""};
+      std::string prints;
+      for (const fs::path& one : files_of(path))
+        prints += fingerprint(read_input_or_throw(one.string(), kMostFileBytes));
+      file.fingerprint = fingerprint(prints);
+      return file;
+    }
     const std::string text = read_input_or_throw(path.string(), kMostFileBytes);
     return {std::make_shared<const FlowField>(parse_flow_csv(text, path.string(), quantity)),
             fingerprint(text)};

@@ -14,7 +14,8 @@ struct FieldFile {
   std::string fingerprint;  ///< of the bytes that were read.
 };
 
-/// Reads a flow result by the kind of its file: a table of cells (flow_csv.h). What was read last is
+/// Reads a flow result by the kind of its file: EGRID and restart files (eclipse_result.h), else a
+/// table of cells (flow_csv.h). What was read last is
 /// kept, up to some 1 GB, and given again while the file's size and time stay what they were: the
 /// cases of an ensemble take turns among a few files.
 /// Safe to call from several threads, which take turns.

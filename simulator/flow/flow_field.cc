@@ -1,6 +1,7 @@
 #include "simulator/flow/flow_field.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -12,6 +13,55 @@ constexpr double kFarAbove = 4;       ///< beyond rock's own weight, 2.3, with r
 constexpr double kFarBelow = 0.1;     ///< a field begins depleted at times, but not at 1 bar.
 
 }  // namespace
+
+FlowCell box_around(const CellCorners& corners) {
+  FlowCell box{corners[0], corners[0]};
+  for (const Eigen::Vector3d& corner : corners) {
+    box.low = box.low.cwiseMin(corner);
+    box.high = box.high.cwiseMax(corner);
+  }
+  return box;
+}
+
+namespace {
+
+CellCorners corners_of(const FlowCell& box) {
+  const Eigen::Vector3d &a = box.low, &b = box.high;
+  return {{{a.x(), a.y(), a.z()},
+           {b.x(), a.y(), a.z()},
+           {b.x(), b.y(), a.z()},
+           {a.x(), b.y(), a.z()},
+           {a.x(), a.y(), b.z()},
+           {b.x(), a.y(), b.z()},
+           {b.x(), b.y(), b.z()},
+           {a.x(), b.y(), b.z()}}};
+}
+
+}  // namespace
+
+FlowField placed(const FlowField& field, const std::array<double, 2>& origin, double azimuth) {
+  FlowField moved = field;
+  const Eigen::Vector3d start(origin[0], origin[1], 0);
+  if (azimuth == 0) {
+    for (FlowCell& cell : moved.cells) cell = {cell.low - start, cell.high - start};
+    for (CellCorners& cell : moved.corners) {
+      for (Eigen::Vector3d& corner : cell) corner -= start;
+    }
+    return moved;
+  }
+  if (moved.corners.empty()) {
+    for (const FlowCell& cell : field.cells) moved.corners.push_back(corners_of(cell));
+  }
+  const double c = std::cos(azimuth), s = std::sin(azimuth);
+  for (std::size_t f = 0; f < moved.cells.size(); ++f) {
+    for (Eigen::Vector3d& corner : moved.corners[f]) {
+      const Eigen::Vector3d from = corner - start;
+      corner = {c * from.x() - s * from.y(), s * from.x() + c * from.y(), from.z()};
+    }
+    moved.cells[f] = box_around(moved.corners[f]);
+  }
+  return moved;
+}
 
 std::string pressure_doubt(const FlowField& field) {
   std::vector<double> ratios;

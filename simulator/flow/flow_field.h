@@ -1,12 +1,16 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
 namespace faultsim {
 
-/// A cell of a flow grid: an upright box, m, z upwards (z = −depth). @invariant low < high.
+using CellCorners = std::array<Eigen::Vector3d, 8>;  ///< of a hexahedron in VTK's order, m.
+
+/// A cell of a flow grid: an upright box, or the one around a hexahedron, m, z upwards (z = −depth).
+/// @invariant low < high.
 struct FlowCell {
   Eigen::Vector3d low = Eigen::Vector3d::Zero();
   Eigen::Vector3d high = Eigen::Vector3d::Zero();
@@ -17,9 +21,17 @@ enum class FlowQuantity { pressure, temperature };
 /// Pressures or temperatures of a flow simulator, cell by cell and report by report.
 struct FlowField {
   std::vector<FlowCell> cells;    ///< in the order of the file.
+  std::vector<CellCorners> corners = {};  ///< of the cells; empty: they are boxes.
   std::vector<double> date;       ///< s since 1970-01-01, strictly increasing, at least one.
   Eigen::MatrixXd value = {};     ///< absolute, Pa or K, n_cells x n_reports, all finite and >= 0.
 };
+
+/// The box around a hexahedron.
+FlowCell box_around(const CellCorners& corners);
+
+/// The field in other coordinates: what lies at `origin` (m) is at (0, 0), and what is towards
+/// `azimuth` (rad, from the field's y clockwise) is along y. Depths stay.
+FlowField placed(const FlowField& field, const std::array<double, 2>& origin, double azimuth);
 
 /// What speaks against the unit of the first report's pressures: the median over the cells of
 /// p / (10 kPa/m · depth) is far from hydrostatic, above 4 (psi read as bar: 14.5) or below 0.1.

@@ -81,7 +81,10 @@ MappedField map_field(const FlowLoad& load, const std::string& name,
                       const std::vector<MappedCell>& cells, const InfluenceBlock& block) {
   MappedField field{load, name};
   if (!load.is_given()) return field;
-  field.mapping = map_flow(*load.field, cells, block.region_names, load.outside);
+  const bool is_moved = load.origin != std::array<double, 2>{0, 0} || load.azimuth != 0;
+  const FlowField moved = is_moved ? placed(*load.field, load.origin, load.azimuth) : FlowField();
+  const FlowField& there = is_moved ? moved : *load.field;
+  field.mapping = map_flow(there, cells, block.region_names, load.outside);
   field.change = mapped_change(field.mapping, *load.field, load.reference, load.reports);
   return field;
 }

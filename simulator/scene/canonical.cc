@@ -256,7 +256,9 @@ json history(const PressureHistory& history) {
 
 /// Which file it was does not matter, what was in it does.
 json flow_load(const FlowLoad& flow) {
-  return {{"fingerprint", flow.fingerprint},
+  return {{"origin", {plain(flow.origin[0]), plain(flow.origin[1])}},
+          {"azimuth", plain(flow.azimuth)},
+          {"fingerprint", flow.fingerprint},
           {"outside", static_cast<int>(flow.outside)},
           {"reference", flow.reference},
           {"reports", flow.reports},

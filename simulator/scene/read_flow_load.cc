@@ -95,6 +95,9 @@ void read_field(SceneReader& reader, const FieldKey& key, Scene& scene) {
                    "add \"regions\" to the geometry or remove the field");
   }
   if (reader.text(at + "/outside") == "unchanged") load.outside = OutsideRule::unchanged;
+  for (std::size_t i = 0; i < 2; ++i)
+    load.origin[i] = reader.quantity(element(at + "/origin", i), load.origin[i]);
+  load.azimuth = reader.quantity(at + "/azimuth", load.azimuth);
   const std::optional<FieldFile> file = open_field(reader, key, name);
   if (!file) return;
   if (const std::string date = reader.text(at + "/reference"); !date.empty()) {

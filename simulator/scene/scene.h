@@ -272,6 +272,8 @@ struct FlowLoad {
   std::shared_ptr<const FlowField> field = nullptr;  ///< none: the regions have histories.
   std::string fingerprint;                           ///< of the file's bytes.
   OutsideRule outside = OutsideRule::nearest;
+  std::array<double, 2> origin = {0, 0};  ///< m, of the scene in the field's coordinates.
+  double azimuth = 0;  ///< rad, of the scene's y there, from y clockwise.
   int reference = 0;  ///< report whose values are the initial ones, of change 0.
   /// The reports that are taken, from the reference on, and their times since the scene's start, s:
   /// strictly increasing, the first >= 0. The field is linear in between.
@@ -281,6 +283,7 @@ struct FlowLoad {
   /// Fields are told by their fingerprints.
   bool operator==(const FlowLoad& other) const {
     return fingerprint == other.fingerprint && outside == other.outside &&
+           origin == other.origin && azimuth == other.azimuth &&
            reference == other.reference && reports == other.reports && time == other.time;
   }
 };

@@ -38,7 +38,7 @@ TEST(CellOverlap, OfBoxesThatTileTheCellAddsUp) {
     for (int j = -5; j < 10; ++j) {
       for (int k = -10; k < 10; ++k) {
         const Eigen::Vector3d low(0.37 * i, 0.53 * j, 0.41 * k);
-        sum += overlap_volume(cell, {low, low + Eigen::Vector3d(0.37, 0.53, 0.41)});
+        sum += overlap_volume(cell, FlowCell{low, low + Eigen::Vector3d(0.37, 0.53, 0.41)});
       }
     }
   }

@@ -1,0 +1,223 @@
+#include "simulator/flow/eclipse_result.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <opm/io/eclipse/EGrid.hpp>
+#include <opm/io/eclipse/ERst.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulator/common/dates.h"
+#include "simulator/common/errors.h"
+#include "simulator/flow/eclipse_files.h"
+
+namespace faultsim {
+namespace {
+
+using Opm::EclIO::EGrid;
+using Opm::EclIO::ERst;
+
+/// A value in SI is size · number + zero.
+struct Scale {
+  double size = 1, zero = 0;
+};
+
+/// Places in INTEHEAD, from 0 (Opm/output/eclipse/VectorItems/intehead.hpp says the same).
+constexpr std::size_t kUnit = 2, kDay = 64, kMonth = 65, kYear = 66, kHour = 206, kMinute = 207,
+                      kMicroseconds = 410;
+
+/// METRIC, FIELD, LAB: bar, psi, atm; °C, °F, °C.
+Scale scale_of(int unit, FlowQuantity quantity) {
+  constexpr double kPsi = 6894.757293168361, kAtmosphere = 101325;  // Pa
+  constexpr double kKelvin = 273.15, kRankine = 5.0 / 9, kFahrenheit = 459.67 * kRankine;
+  if (quantity == FlowQuantity::pressure)
+    return {unit == 1 ? 1e5 : unit == 2 ? kPsi : kAtmosphere, 0};
+  return unit == 2 ? Scale{kRankine, kFahrenheit} : Scale{1, kKelvin};
+}
+
+/// "METRES  ", "FEET    ", "CM      " in m.
+double length_of(const std::string& unit) {
+  if (unit.rfind("FEET", 0) == 0) return 0.3048;
+  return unit.rfind("CM", 0) == 0 ? 0.01 : 1;
+}
+
+class EclipseReader {
+ public:
+  EclipseReader(const std::filesystem::path& path, FlowQuantity quantity)
+      : files_(eclipse_files(path)), quantity_(quantity) {}
+
+  FlowField read() {
+    read_grid();
+    if (files_.restarts.empty()) {
+      refuse(files_.grid, "there is no restart file beside it",
+             "put its .UNRST or .X0000, .X0001, ... into the same folder");
+    }
+    for (const auto& file : files_.restarts) {
+      if (problems_.size() < kMostProblems) guarded(file, [&] { read_restart(file); });
+    }
+    if (!problems_.empty()) throw InputError(files_.grid.string(), problems_);
+    return result();
+  }
+
+ private:
+  static constexpr std::size_t kMostProblems = 20;
+
+  void refuse(const std::filesystem::path& file, const std::string& what, const std::string& cure) {
+    problems_.push_back({"", 0, file.filename().string() + ": " + what, cure});
+  }
+
+  /// What the library throws is about the file.
+  template <typename Work>
+  void guarded(const std::filesystem::path& file, const Work& work) {
+    try {
+      work();
+    } catch (const Error&) {
+      throw;
+    } catch (const std::exception& error) {
+      refuse(file, std::string("cannot be read: ") + error.what(),
+             "copy it anew; it may be cut off");
+    }
+  }
+
+  void read_grid() {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(files_.grid, error)) {
+      refuse(files_.grid, "there is no such grid",
+             "write GRIDFILE with an EGRID in the flow simulator, beside the restarts");
+      throw InputError(files_.grid.string(), problems_);
+    }
+    guarded(files_.grid, [&] { take_cells(); });
+    if (!problems_.empty()) throw InputError(files_.grid.string(), problems_);
+  }
+
+  void take_cells() {
+    EGrid grid(files_.grid.string());
+    if (!grid.list_of_lgrs().empty()) {
+      return refuse(files_.grid, "has local grid refinements (" + grid.list_of_lgrs().front() + ")",
+                    "write the result on the global grid; refined cells are not read");
+    }
+    if (grid.is_radial())
+      return refuse(files_.grid, "is a radial grid", "corner-point grids are read");
+    double metre = 1;
+    if (grid.hasKey("GRIDUNIT")) metre = length_of(grid.get<std::string>("GRIDUNIT").at(0));
+    grid.load_grid_data();
+    for (int cell = 0; cell < grid.totalNumberOfCells(); ++cell) {
+      const std::array<int, 3> ijk = grid.ijk_from_global_index(cell);
+      if (grid.active_index(ijk[0], ijk[1], ijk[2]) < 0) continue;
+      std::array<double, 8> x, y, depth;
+      grid.getCellCorners(cell, x, y, depth);
+      take_cell(x, y, depth, metre);
+    }
+    if (cells_.empty()) refuse(files_.grid, "has no active cell", "");
+  }
+
+  /// Corners come as (i, j) of the top, then of the bottom; VTK begins at the bottom and goes round.
+  void take_cell(const std::array<double, 8>& x, const std::array<double, 8>& y,
+                 const std::array<double, 8>& depth, double metre) {
+    constexpr std::array<std::size_t, 8> kOrder = {4, 5, 7, 6, 0, 1, 3, 2};
+    CellCorners corners;
+    for (std::size_t i = 0; i < 8; ++i) {
+      const std::size_t k = kOrder[i];
+      corners[i] = metre * Eigen::Vector3d(x[k], y[k], -depth[k]);
+    }
+    const FlowCell box = box_around(corners);
+    has_volume_.push_back((box.high - box.low).minCoeff() > 0);
+    cells_.push_back(corners);
+  }
+
+  void read_restart(const std::filesystem::path& file) {
+    ERst restart(file.string());
+    for (const int report : restart.listOfReportStepNumbers()) {
+      if (problems_.size() >= kMostProblems) return;
+      restart.loadReportStepNumber(report);
+      take_report(restart, report, file);
+    }
+  }
+
+  void take_report(ERst& restart, int report, const std::filesystem::path& file) {
+    const std::string key = quantity_ == FlowQuantity::pressure ? "PRESSURE" : "TEMP";
+    const std::string name = concat("report ", report);
+    if (!restart.hasArray(key, report)) {
+      return refuse(file, name + " has no " + key,
+                    "ask the flow simulator for it: RPTRST with BASIC=2");
+    }
+    const std::vector<int> head = restart.getRestartData<int>("INTEHEAD", report);
+    if (head.size() <= kYear) return refuse(file, name + " has no date", "");
+    const std::vector<float> values = restart.getRestartData<float>(key, report);
+    if (values.size() != cells_.size()) {
+      return refuse(file,
+                    concat(name, " is of another grid: it has ", values.size(), " values, and ",
+                           files_.grid.filename().string(), " ", cells_.size(), " active cells"),
+                    "keep the files of one run together");
+    }
+    take_values(values, scale_of(head[kUnit], quantity_), name, file);
+    take_date(head, name, file);
+  }
+
+  void take_values(const std::vector<float>& values, const Scale& scale, const std::string& name,
+                   const std::filesystem::path& file) {
+    std::vector<double> si;
+    for (const float value : values) {
+      si.push_back(scale.size * static_cast<double>(value) + scale.zero);
+      if (std::isfinite(si.back()) && si.back() >= 0) continue;
+      return refuse(file, concat(name, " has the value ", value, " in active cell ", si.size()),
+                    "the values of all active cells are needed, and are absolute");
+    }
+    values_.push_back(std::move(si));
+  }
+
+  void take_date(const std::vector<int>& head, const std::string& name,
+                 const std::filesystem::path& file) {
+    const auto at = [&](std::size_t i) { return i < head.size() ? head[i] : 0; };
+    char text[32];
+    std::snprintf(text, sizeof text, "%04d-%02d-%02d", at(kYear), at(kMonth), at(kDay));
+    const std::optional<double> day = parse_date(text);
+    if (!day) return refuse(file, name + " has the date " + text, "");
+    const double date = *day + 3600.0 * at(kHour) + 60.0 * at(kMinute) + 1e-6 * at(kMicroseconds);
+    if (!dates_.empty() && date <= dates_.back()) {
+      return refuse(file,
+                    name + " of " + text + " does not come after the one before, of " +
+                        date_text(dates_.back()),
+                    "keep the files of one run together, without those of a restarted one");
+    }
+    dates_.push_back(date);
+  }
+
+  FlowField result() const {
+    FlowField field;
+    field.date = dates_;
+    std::vector<std::size_t> kept;
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      if (!has_volume_[c]) continue;
+      kept.push_back(c);
+      field.corners.push_back(cells_[c]);
+      field.cells.push_back(box_around(cells_[c]));
+    }
+    field.value.resize(std::ssize(kept), std::ssize(dates_));
+    for (Eigen::Index t = 0; t < field.value.cols(); ++t) {
+      for (Eigen::Index c = 0; c < field.value.rows(); ++c)
+        field.value(c, t) = values_[static_cast<std::size_t>(t)][kept[static_cast<std::size_t>(c)]];
+    }
+    return field;
+  }
+
+  EclipseFiles files_;
+  FlowQuantity quantity_;
+  std::vector<CellCorners> cells_;  ///< active ones, in the order of the values.
+  std::vector<bool> has_volume_;
+  std::vector<double> dates_;                ///< s since 1970.
+  std::vector<std::vector<double>> values_;  ///< per report, Pa or K.
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+bool reads_eclipse() { return true; }
+
+FlowField read_eclipse(const std::filesystem::path& path, FlowQuantity quantity) {
+  return EclipseReader(path, quantity).read();
+}
+
+}  // namespace faultsim

@@ -1,0 +1,228 @@
+// Results in Eclipse's formats, written here by the library that others write them with.
+#include "simulator/flow/eclipse_result.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <limits>
+#include <opm/io/eclipse/EclOutput.hpp>
+
+#include "simulator/common/dates.h"
+#include "simulator/common/errors.h"
+#include "simulator/flow/cell_overlap.h"
+#include "simulator/flow/eclipse_files.h"
+#include "simulator/flow/field_file.h"
+#include "simulator/flow/flow_mapping.h"
+
+namespace faultsim {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+/// 3 x 2 x 2 cells of 100 x 200 x 10 units that dip along x, with a throw of 5 before the last column;
+/// the cell (1, 0, 0) is not active.
+struct Deck {
+  std::string unit = "METRES";
+  int unit_number = 1;      ///< of INTEHEAD: METRIC.
+  double to_length = 1;     ///< m in units.
+  double to_pressure = 1;   ///< bar in units.
+  std::vector<int> active = {1, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+  std::vector<std::array<int, 3>> dates = {{1, 1, 1990}, {1, 7, 1991}};  ///< day, month, year
+  bool has_refinement = false;
+};
+
+class EclipseResult : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = testing::TempDir() + "eclipse_XXXXXX";
+    folder_ = mkdtemp(name.data());
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  static double top(int i, double x) { return 2000 + 0.1 * x + (i == 2 ? 5 : 0); }
+
+  void write_grid(const Deck& deck, const std::string& name = "CASE.EGRID") const {
+    Opm::EclIO::EclOutput out((folder_ / name).string(), false);
+    std::vector<int> filehead(100, 0), gridhead(100, 0);
+    filehead[0] = 3;
+    filehead[1] = 2007;
+    gridhead[0] = 1;
+    gridhead[1] = 3;
+    gridhead[2] = 2;
+    gridhead[3] = 2;
+    gridhead[24] = 1;
+    out.write("FILEHEAD", filehead);
+    out.write("GRIDUNIT", std::vector<std::string>{deck.unit, ""});
+    out.write("GRIDHEAD", gridhead);
+    std::vector<float> coord, zcorn;
+    const auto put = [&](std::vector<float>& list, double metres) {
+      list.push_back(static_cast<float>(metres * deck.to_length));
+    };
+    for (int j = 0; j <= 2; ++j) {
+      for (int i = 0; i <= 3; ++i) {
+        for (const double depth : {1900.0, 2200.0}) {
+          put(coord, 100 * i);
+          put(coord, 200 * j);
+          put(coord, depth);
+        }
+      }
+    }
+    for (int k = 0; k < 2; ++k) {
+      for (const int bottom : {0, 1}) {
+        for (int row = 0; row < 4; ++row) {
+          for (int i = 0; i < 3; ++i) {
+            for (const int right : {0, 1})
+              put(zcorn, top(i, 100 * (i + right)) + 10 * (k + bottom));
+          }
+        }
+      }
+    }
+    out.write("COORD", coord);
+    out.write("ZCORN", zcorn);
+    out.write("ACTNUM", deck.active);
+    out.write("ENDGRID", std::vector<int>{});
+    if (!deck.has_refinement) return;
+    out.write("LGR", std::vector<std::string>{"FINE"});
+    out.write("ENDLGR", std::vector<int>{});
+  }
+
+  static float pressure(const Deck& deck, int cell, int report) {
+    return static_cast<float>((200 + 3 * cell - 20 * report) * deck.to_pressure);
+  }
+
+  void write_report(Opm::EclIO::EclOutput& out, const Deck& deck, int report, int n_values) const {
+    std::vector<int> head(411, 0);
+    head[2] = deck.unit_number;
+    const auto& [day, month, year] = deck.dates[static_cast<std::size_t>(report)];
+    head[64] = day;
+    head[65] = month;
+    head[66] = year;
+    out.write("SEQNUM", std::vector<int>{report});
+    out.write("INTEHEAD", head);
+    std::vector<float> values;
+    for (int c = 0; c < n_values; ++c) values.push_back(pressure(deck, c, report));
+    out.write("PRESSURE", values);
+  }
+  void write_restart(const Deck& deck, int n_values = 11) const {
+    Opm::EclIO::EclOutput out((folder_ / "CASE.UNRST").string(), false);
+    for (int t = 0; t < static_cast<int>(deck.dates.size()); ++t)
+      write_report(out, deck, t, n_values);
+  }
+  FlowField read() const { return read_eclipse(folder_ / "CASE.EGRID", FlowQuantity::pressure); }
+
+  fs::path folder_;
+};
+
+TEST_F(EclipseResult, HasItsActiveCellsWhereTheyAre) {
+  write_grid({});
+  write_restart({});
+  const FlowField field = read();
+  ASSERT_EQ(field.cells.size(), 11u);
+  EXPECT_EQ(field.date[0], parse_date("1990-01-01"));
+  EXPECT_EQ(field.date[1], parse_date("1991-07-01"));
+  EXPECT_NEAR(field.value(1, 1), (200 + 3 - 20) * 1e5, 1);
+  for (const CellCorners& cell : field.corners) EXPECT_NEAR(cell_volume(cell), 2e5, 1);
+  // The second active cell is the third of its row, below the throw.
+  EXPECT_NEAR(field.cells[1].low.x(), 200, 1e-3);
+  EXPECT_NEAR(field.cells[1].high.z(), -2025, 1e-3);
+  EXPECT_NEAR(field.cells[1].low.z(), -2045, 1e-3);
+}
+
+TEST_F(EclipseResult, IsTheSameInOtherUnits) {
+  write_grid({});
+  write_restart({});
+  const FlowField metric = read();
+  for (const Deck& deck : {Deck{.unit = "FEET",
+                                .unit_number = 2,
+                                .to_length = 1 / 0.3048,
+                                .to_pressure = 1e5 / 6894.757293168361},
+                           Deck{.unit = "CM", .unit_number = 3, .to_length = 100,
+                                .to_pressure = 1 / 1.01325}}) {
+    write_grid(deck);
+    write_restart(deck);
+    const FlowField other = read();
+    EXPECT_LT((other.value - metric.value).norm(), 1e-7 * metric.value.norm()) << deck.unit;
+    for (std::size_t f = 0; f < metric.cells.size(); ++f) {
+      EXPECT_NEAR(other.cells[f].low.z(), metric.cells[f].low.z(), 1e-3);
+      EXPECT_NEAR(other.cells[f].high.x(), metric.cells[f].high.x(), 1e-3);
+    }
+  }
+}
+
+TEST_F(EclipseResult, MayHaveAFilePerReport) {
+  write_grid({});
+  for (int t = 0; t < 2; ++t) {
+    Opm::EclIO::EclOutput out((folder_ / ("CASE.X000" + std::to_string(t))).string(), false);
+    write_report(out, {}, t, 11);
+  }
+  EXPECT_EQ(read().date.size(), 2u);
+  EXPECT_EQ(read_eclipse(folder_ / "CASE", FlowQuantity::pressure).date.size(), 2u);
+  EXPECT_EQ(read_eclipse(folder_ / "CASE.X0001", FlowQuantity::pressure).date.size(), 1u);
+  const FieldFile file = read_field_file(folder_ / "CASE", FlowQuantity::pressure);
+  EXPECT_EQ(file.fingerprint.size(), 32u);
+  write_restart({});  // goes before them
+  EXPECT_EQ(eclipse_files(folder_ / "CASE").restarts.size(), 1u);
+  EXPECT_NE(read_field_file(folder_ / "CASE", FlowQuantity::pressure).fingerprint,
+            file.fingerprint);
+}
+
+TEST_F(EclipseResult, IsRefusedWithWhatIsWrong) {
+  const auto refused = [&](const std::string& what) {
+    EXPECT_THAT([&] { read(); }, ThrowsMessage<InputError>(HasSubstr(what)));
+  };
+  refused("there is no such grid");
+  write_grid({});
+  refused("there is no restart file");
+  write_restart({}, 12);
+  refused("is of another grid: it has 12 values, and CASE.EGRID 11 active cells");
+  write_restart({.dates = {{1, 1, 1991}, {1, 1, 1990}}});
+  refused("report 1 of 1990-01-01 does not come after the one before, of 1991-01-01");
+  write_restart({.to_pressure = -1});
+  refused("has the value -200 in active cell 1");
+  write_restart({.to_pressure = std::numeric_limits<double>::quiet_NaN()});
+  refused("has the value nan");
+  EXPECT_THAT([&] { read_eclipse(folder_ / "CASE", FlowQuantity::temperature); },
+              ThrowsMessage<InputError>(HasSubstr("report 0 has no TEMP")));
+  write_restart({});
+  fs::resize_file(folder_ / "CASE.UNRST", fs::file_size(folder_ / "CASE.UNRST") - 30);
+  EXPECT_THROW(read(), InputError);
+  write_restart({});
+  write_grid({.active = std::vector<int>(12, 0)});
+  refused("has no active cell");
+  write_grid({.has_refinement = true});
+  refused("local grid refinements");
+  write_grid({});
+  fs::resize_file(folder_ / "CASE.EGRID", 700);
+  EXPECT_THROW(read(), InputError);
+}
+
+/// Boxes of our own over a grid with a dip and a throw, within it.
+TEST_F(EclipseResult, IsMappedByTheVolumeOfOverlap) {
+  write_grid({.active = std::vector<int>(12, 1)});
+  write_restart({}, 12);
+  const FlowField field = read();
+  std::vector<MappedCell> cells;
+  for (int i = 0; i < 6; ++i) {
+    const double x = 50 * i, z = -top(i / 2, x) - 5;
+    CellCorners box;
+    for (std::size_t c = 0; c < 8; ++c) {
+      const double right = c % 4 == 1 || c % 4 == 2 ? 30 : 0, back = c % 4 >= 2 ? 250 : 0;
+      box[c] = {x + right, 50 + back, z + (c < 4 ? -10 : -5)};
+    }
+    cells.push_back({box, 0, 1});
+  }
+  const FlowMapping mapping = map_flow(field, cells, {"all"}, OutsideRule::nearest);
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    double overlap = 0;
+    for (const CellCorners& cell : field.corners) overlap += overlap_volume(cells[c].corners, cell);
+    EXPECT_NEAR(overlap, cell_volume(cells[c].corners), 1e-9 * overlap) << c;
+    EXPECT_GE(mapping.weights[c].size(), 2u);
+  }
+  EXPECT_EQ(mapping.coverage[0].n_partly, 0);
+}
+
+}  // namespace
+}  // namespace faultsim
