@@ -9,9 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "simulator/common/csv_text.h"
+#include "simulator/common/dates.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/units.h"
-#include "simulator/common/dates.h"
 
 namespace faultsim {
 namespace {
@@ -29,23 +30,6 @@ struct Unit {
 
 using Place = std::array<double, 6>;  ///< x, y, depth, dx, dy, dz; m.
 
-std::string bare(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r\"");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
-}
-
-std::vector<std::string> values_of(const std::string& line) {
-  std::vector<std::string> values;
-  std::size_t from = 0;
-  for (std::size_t to = line.find(','); to != std::string::npos; to = line.find(',', from)) {
-    values.push_back(bare(line.substr(from, to - from)));
-    from = to + 1;
-  }
-  values.push_back(bare(line.substr(from)));
-  return values;
-}
-
 /// Reads rows into reports; keeps every problem until there are too many to be of use.
 class FlowCsvReader {
  public:
@@ -56,14 +40,14 @@ class FlowCsvReader {
     std::istringstream lines(text);
     std::string line;
     for (line_ = 1; std::getline(lines, line); ++line_) {
-      if (line_ == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0) line.erase(0, 3);
-      const std::string words = bare(line);
+      if (line_ == 1) remove_byte_order_mark(line);
+      const std::string words = trimmed(line);
       if (words.empty() || words[0] == '#') continue;
       if (units_.empty()) {
-        header(values_of(line));
+        header(csv_cells(line));
         if (!problems_.empty()) break;
       } else {
-        row(values_of(line));
+        row(csv_cells(line));
       }
     }
     line_ = 0;
@@ -95,7 +79,7 @@ class FlowCsvReader {
     const auto open = text.rfind('[');
     const auto close = text.rfind(']');
     const bool whole = open != std::string::npos && close != std::string::npos && open < close;
-    const std::string unit = whole ? bare(text.substr(open + 1, close - open - 1)) : "";
+    const std::string unit = whole ? trimmed(text.substr(open + 1, close - open - 1)) : "";
     const std::optional<Unit> size = whole ? unit_of(unit, dimension) : std::nullopt;
     units_.push_back(size.value_or(Unit{}));
     if (!whole) {
@@ -106,7 +90,7 @@ class FlowCsvReader {
       refuse("column \"" + text + "\" does not hold " + info_of(dimension).noun, kFlowHeaderCure);
       return "";
     }
-    return bare(text.substr(0, open));
+    return trimmed(text.substr(0, open));
   }
 
   void header(const std::vector<std::string>& cells) {

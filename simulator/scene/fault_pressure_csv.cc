@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "simulator/common/csv_text.h"
 #include "simulator/common/dates.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/units.h"
@@ -18,22 +19,9 @@
 namespace faultsim {
 namespace {
 
-constexpr const char* kHeaderCure =
+constexpr const char* kTableHeaderCure =
     "head the columns depth [m] (or along_dip [m]), perhaps along_strike [m], then the times: "
     "0 year [bar], 1 year [bar]";
-
-std::string bare(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r\"");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
-}
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(bare(cell));
-  return cells;
-}
 
 /// "1 year [bar]": what stands before the brackets and within.
 struct Heading {
@@ -49,17 +37,17 @@ class TableReader {
     std::istringstream lines(text);
     std::string line;
     for (line_ = 1; result_.what.empty() && std::getline(lines, line); ++line_) {
-      if (line_ == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0) line.erase(0, 3);
-      const std::string words = bare(line);
+      if (line_ == 1) remove_byte_order_mark(line);
+      const std::string words = trimmed(line);
       if (words.empty() || words[0] == '#') continue;
       if (factors_.empty()) {
-        header(cells_of(line));
+        header(csv_cells(line));
       } else {
-        row(cells_of(line));
+        row(csv_cells(line));
       }
     }
     line_ = 0;
-    if (result_.what.empty() && rows_.empty()) refuse("there are no values", kHeaderCure);
+    if (result_.what.empty() && rows_.empty()) refuse("there are no values", kTableHeaderCure);
     if (result_.what.empty()) arrange();
     return std::move(result_);
   }
@@ -75,15 +63,15 @@ class TableReader {
   Heading heading(const std::string& text, Dimension dimension) {
     const auto open = text.rfind('['), close = text.rfind(']');
     const bool whole = open != std::string::npos && close != std::string::npos && open < close;
-    const std::string unit = whole ? bare(text.substr(open + 1, close - open - 1)) : "";
+    const std::string unit = whole ? trimmed(text.substr(open + 1, close - open - 1)) : "";
     const ParsedQuantity one = parse_quantity("1 " + unit, dimension);
     factors_.push_back(one.value);
     if (!whole || !one.ok) {
       refuse("column \"" + text + "\" does not hold " + info_of(dimension).noun + " with its unit",
-             kHeaderCure);
+             kTableHeaderCure);
       return {};
     }
-    return {bare(text.substr(0, open)), unit};
+    return {trimmed(text.substr(0, open)), unit};
   }
 
   void header(const std::vector<std::string>& cells) {
@@ -91,21 +79,21 @@ class TableReader {
     if (place.name == "along_dip") {
       table().place = FaultPressureTable::Place::along_dip;
     } else if (place.name != "depth") {
-      return refuse("the first column is \"" + place.name + "\"", kHeaderCure);
+      return refuse("the first column is \"" + place.name + "\"", kTableHeaderCure);
     }
     has_strike_ = cells.size() > 1 && cells[1].rfind("along_strike", 0) == 0;
     if (has_strike_) heading(cells[1], Dimension::length);
     for (std::size_t i = first_time(); i < cells.size(); ++i) {
       time(heading(cells[i], Dimension::pressure).name);
     }
-    if (table().time.size() < 2) refuse("has fewer than two times", kHeaderCure);
+    if (table().time.size() < 2) refuse("has fewer than two times", kTableHeaderCure);
   }
 
   void time(const std::string& text) {
     const std::optional<double> date = parse_date(text);
     const ParsedQuantity after = parse_quantity(text, Dimension::time);
     if (!date && !after.ok) {
-      return refuse("\"" + text + "\" is neither a time nor a date", kHeaderCure);
+      return refuse("\"" + text + "\" is neither a time nor a date", kTableHeaderCure);
     }
     std::vector<double>& times = table().time;
     if (!times.empty() && date.has_value() != result_.has_dates) {

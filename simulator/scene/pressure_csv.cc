@@ -2,30 +2,16 @@
 
 #include <sstream>
 
+#include "simulator/common/csv_text.h"
+#include "simulator/common/dates.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/input_file.h"
 #include "simulator/common/units.h"
-#include "simulator/common/dates.h"
 
 namespace faultsim {
 namespace {
 
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r\"");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
-}
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::stringstream stream(line);
-  std::string cell;
-  while (std::getline(stream, cell, ',')) cells.push_back(trimmed(cell));
-  if (!line.empty() && line.back() == ',') cells.emplace_back();
-  return cells;
-}
-
-constexpr const char* kHeaderCure =
+constexpr const char* kPressureHeaderCure =
     "the first line names columns and units: time [year], west [bar], east [bar]";
 
 constexpr std::size_t kMostColumns = 1000;  // a scene has 200 regions at most
@@ -41,7 +27,7 @@ class CsvReader {
       return refuse("the columns are separated by semicolons",
                     "separate them by commas, with decimal points in the numbers");
     }
-    const std::vector<std::string> cells = cells_of(line);
+    const std::vector<std::string> cells = csv_cells(line);
     if (cells.size() > kMostColumns) {
       return refuse(concat("has ", cells.size(), " columns"),
                     concat("write at most ", kMostColumns));
@@ -52,13 +38,13 @@ class CsvReader {
     }
     if (result_.columns.empty() || (!result_.has_dates && first_name_ != "time")) {
       return refuse("the first column is not \"time\" or \"date\" with others after it",
-                    kHeaderCure);
+                    kPressureHeaderCure);
     }
     return true;
   }
 
   bool row(const std::string& line) {
-    const std::vector<std::string> cells = cells_of(line);
+    const std::vector<std::string> cells = csv_cells(line);
     if (cells.size() != result_.columns.size() + 1) {
       return refuse(
           concat("has ", cells.size(), " values for ", result_.columns.size() + 1, " columns"),
@@ -97,7 +83,7 @@ class CsvReader {
     const auto open = cell.rfind('[');
     const auto close = cell.rfind(']');
     if (open == std::string::npos || close == std::string::npos || close < open) {
-      return refuse("column \"" + cell + "\" has no unit in brackets", kHeaderCure);
+      return refuse("column \"" + cell + "\" has no unit in brackets", kPressureHeaderCure);
     }
     const std::string name = trimmed(cell.substr(0, open));
     const std::string unit = trimmed(cell.substr(open + 1, close - open - 1));
@@ -107,7 +93,7 @@ class CsvReader {
     units_[index] = unit;
     if (!parse_quantity("1 " + unit, is_time ? Dimension::time : Dimension::pressure).ok) {
       return refuse("column \"" + cell + "\" does not hold a " + (is_time ? "time" : "pressure"),
-                    kHeaderCure);
+                    kPressureHeaderCure);
     }
     if (!kind.empty() && (is_time || (kind != "absolute" && kind != "change"))) {
       return refuse("column \"" + cell + "\" ends with \"" + kind + "\"",
@@ -174,8 +160,7 @@ PressureCsv parse_pressure_csv(const std::string& text, const std::string& given
   std::istringstream lines(text);
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
-    if (number == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0)
-      line.erase(0, 3);  // of spreadsheets
+    if (number == 1) remove_byte_order_mark(line);
     const std::string words = trimmed(line);
     if (words.empty() || words[0] == '#') continue;
     reader.set_line(number);
@@ -184,7 +169,7 @@ PressureCsv parse_pressure_csv(const std::string& text, const std::string& given
     }
   }
   reader.set_line(0);
-  if (!reader.has_rows()) reader.refuse("there are no values", kHeaderCure);
+  if (!reader.has_rows()) reader.refuse("there are no values", kPressureHeaderCure);
   return std::move(reader).result();
 }
 
