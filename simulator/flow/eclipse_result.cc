@@ -11,6 +11,7 @@
 
 #include "simulator/common/dates.h"
 #include "simulator/common/errors.h"
+#include "simulator/flow/cell_overlap.h"
 #include "simulator/flow/eclipse_files.h"
 
 namespace faultsim {
@@ -122,9 +123,7 @@ class EclipseReader {
       const std::size_t k = kOrder[i];
       corners[i] = metre * Eigen::Vector3d(x[k], y[k], -depth[k]);
     }
-    const FlowCell box = box_around(corners);
-    has_volume_.push_back((box.high - box.low).minCoeff() > 0);
-    cells_.push_back(corners);
+    cells_.push_back(flow_cell_around(corners));
   }
 
   void read_restart(const std::filesystem::path& file) {
@@ -190,10 +189,9 @@ class EclipseReader {
     field.date = dates_;
     std::vector<std::size_t> kept;
     for (std::size_t c = 0; c < cells_.size(); ++c) {
-      if (!has_volume_[c]) continue;
+      if (flow_cell_volume(cells_[c]) <= 0) continue;
       kept.push_back(c);
-      field.corners.push_back(cells_[c]);
-      field.cells.push_back(box_around(cells_[c]));
+      field.cells.push_back(cells_[c]);
     }
     field.value.resize(std::ssize(kept), std::ssize(dates_));
     for (Eigen::Index t = 0; t < field.value.cols(); ++t) {
@@ -205,8 +203,7 @@ class EclipseReader {
 
   EclipseFiles files_;
   FlowQuantity quantity_;
-  std::vector<CellCorners> cells_;  ///< active ones, in the order of the values.
-  std::vector<bool> has_volume_;
+  std::vector<FlowCell> cells_;  ///< active ones, in the order of the values.
   std::vector<double> dates_;                ///< s since 1970.
   std::vector<std::vector<double>> values_;  ///< per report, Pa or K.
   std::vector<Problem> problems_;

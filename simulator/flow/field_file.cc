@@ -50,7 +50,7 @@ Stamp stamp_of(const fs::path& path, FlowQuantity quantity) {
 }
 
 std::size_t bytes_of(const FlowField& field) {
-  return field.cells.size() * sizeof(FlowCell) + field.corners.size() * sizeof(CellCorners) +
+  return field.cells.size() * sizeof(FlowCell) +
          static_cast<std::size_t>(field.value.size()) * sizeof(double);
 }
 

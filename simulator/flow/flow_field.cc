@@ -12,19 +12,7 @@ constexpr double kHydrostatic = 1e4;  ///< Pa/m
 constexpr double kFarAbove = 4;       ///< beyond rock's own weight, 2.3, with room for shallow gas.
 constexpr double kFarBelow = 0.1;     ///< a field begins depleted at times, but not at 1 bar.
 
-}  // namespace
-
-FlowCell box_around(const CellCorners& corners) {
-  FlowCell box{corners[0], corners[0]};
-  for (const Eigen::Vector3d& corner : corners) {
-    box.low = box.low.cwiseMin(corner);
-    box.high = box.high.cwiseMax(corner);
-  }
-  return box;
-}
-
-namespace {
-
+/// The corners of a box.
 CellCorners corners_of(const FlowCell& box) {
   const Eigen::Vector3d &a = box.low, &b = box.high;
   return {{{a.x(), a.y(), a.z()},
@@ -39,26 +27,26 @@ CellCorners corners_of(const FlowCell& box) {
 
 }  // namespace
 
+FlowCell flow_cell_around(const CellCorners& corners) {
+  FlowCell cell{.low = corners[0], .high = corners[0]};
+  for (const Eigen::Vector3d& corner : corners) {
+    cell.low = cell.low.cwiseMin(corner);
+    cell.high = cell.high.cwiseMax(corner);
+  }
+  if (corners != corners_of(cell)) cell.corners = corners;
+  return cell;
+}
+
 FlowField placed(const FlowField& field, const std::array<double, 2>& origin, double azimuth) {
   FlowField moved = field;
-  const Eigen::Vector3d start(origin[0], origin[1], 0);
-  if (azimuth == 0) {
-    for (FlowCell& cell : moved.cells) cell = {cell.low - start, cell.high - start};
-    for (CellCorners& cell : moved.corners) {
-      for (Eigen::Vector3d& corner : cell) corner -= start;
-    }
-    return moved;
-  }
-  if (moved.corners.empty()) {
-    for (const FlowCell& cell : field.cells) moved.corners.push_back(corners_of(cell));
-  }
   const double c = std::cos(azimuth), s = std::sin(azimuth);
-  for (std::size_t f = 0; f < moved.cells.size(); ++f) {
-    for (Eigen::Vector3d& corner : moved.corners[f]) {
-      const Eigen::Vector3d from = corner - start;
-      corner = {c * from.x() - s * from.y(), s * from.x() + c * from.y(), from.z()};
+  for (FlowCell& cell : moved.cells) {
+    CellCorners corners = cell.corners.value_or(corners_of(cell));
+    for (Eigen::Vector3d& corner : corners) {
+      const double x = corner.x() - origin[0], y = corner.y() - origin[1];
+      corner = {c * x - s * y, s * x + c * y, corner.z()};
     }
-    moved.cells[f] = box_around(moved.corners[f]);
+    cell = flow_cell_around(corners);
   }
   return moved;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,11 +10,13 @@ namespace faultsim {
 
 using CellCorners = std::array<Eigen::Vector3d, 8>;  ///< of a hexahedron in VTK's order, m.
 
-/// A cell of a flow grid: an upright box, or the one around a hexahedron, m, z upwards (z = −depth).
-/// @invariant low < high.
+/// A cell of a flow grid, m, z upwards (z = −depth): an upright box, or a hexahedron within it. A
+/// hexahedron is the six tetrahedra around its diagonal from corner 0 to 6; so neighbours that share
+/// four corners share the face, plane or not. @invariant low < high, the box is the smallest one.
 struct FlowCell {
   Eigen::Vector3d low = Eigen::Vector3d::Zero();
   Eigen::Vector3d high = Eigen::Vector3d::Zero();
+  std::optional<CellCorners> corners = {};  ///< of a hexahedron, of either handedness; none: a box.
 };
 
 enum class FlowQuantity { pressure, temperature };
@@ -21,13 +24,12 @@ enum class FlowQuantity { pressure, temperature };
 /// Pressures or temperatures of a flow simulator, cell by cell and report by report.
 struct FlowField {
   std::vector<FlowCell> cells;    ///< in the order of the file.
-  std::vector<CellCorners> corners = {};  ///< of the cells; empty: they are boxes.
   std::vector<double> date;       ///< s since 1970-01-01, strictly increasing, at least one.
   Eigen::MatrixXd value = {};     ///< absolute, Pa or K, n_cells x n_reports, all finite and >= 0.
 };
 
-/// The box around a hexahedron.
-FlowCell box_around(const CellCorners& corners);
+/// The smallest cell around eight corners: a box where they are those of one.
+FlowCell flow_cell_around(const CellCorners& corners);
 
 /// The field in other coordinates: what lies at `origin` (m) is at (0, 0), and what is towards
 /// `azimuth` (rad, from the field's y clockwise) is along y. Depths stay.

@@ -2,55 +2,14 @@
 
 #include <algorithm>
 #include <iomanip>
-#include <limits>
 #include <numeric>
 #include <sstream>
 
 #include "simulator/common/errors.h"
+#include "simulator/flow/flow_cell_search.h"
 
 namespace faultsim {
 namespace {
-
-/// Flow cells by their low x, so that those near a cell are found without looking at all.
-class FlowCellSearch {
- public:
-  explicit FlowCellSearch(const std::vector<FlowCell>& cells) : cells_(cells) {
-    order_.resize(cells.size());
-    std::iota(order_.begin(), order_.end(), 0);
-    std::stable_sort(order_.begin(), order_.end(),
-                     [&](int a, int b) { return cells[a].low.x() < cells[b].low.x(); });
-    for (const FlowCell& cell : cells) widest_ = std::max(widest_, cell.high.x() - cell.low.x());
-  }
-
-  /// Numbers of the cells whose extents in x overlap [low, high], ascending.
-  std::vector<int> between(double low, double high) const {
-    const auto starts_before = [&](int c, double x) { return cells_[c].low.x() < x; };
-    auto at = std::lower_bound(order_.begin(), order_.end(), low - widest_, starts_before);
-    std::vector<int> found;
-    for (; at != order_.end() && cells_[*at].low.x() < high; ++at) {
-      if (cells_[*at].high.x() > low) found.push_back(*at);
-    }
-    std::sort(found.begin(), found.end());
-    return found;
-  }
-
-  int nearest(const Eigen::Vector3d& point) const {
-    int best = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t f = 0; f < cells_.size(); ++f) {
-      const double distance = (0.5 * (cells_[f].low + cells_[f].high) - point).squaredNorm();
-      if (distance >= least) continue;
-      least = distance;
-      best = static_cast<int>(f);
-    }
-    return best;
-  }
-
- private:
-  const std::vector<FlowCell>& cells_;
-  std::vector<int> order_;
-  double widest_ = 0;
-};
 
 Eigen::Vector3d centre_of(const CellCorners& corners) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -61,16 +20,10 @@ Eigen::Vector3d centre_of(const CellCorners& corners) {
 /// Overlaps in place of weights; their sum.
 double overlaps_of(const MappedCell& cell, const FlowField& field, const FlowCellSearch& search,
                    std::vector<FlowMapping::Weight>& weights) {
-  const FlowCell around = box_around(cell.corners);
+  const FlowCell box = flow_cell_around(cell.corners);
   double sum = 0;
-  for (const int f : search.between(around.low.x(), around.high.x())) {
-    const FlowCell& box = field.cells[f];
-    if ((box.low.array() >= around.high.array()).any() ||
-        (box.high.array() <= around.low.array()).any())
-      continue;
-    const double overlap = field.corners.empty()
-                               ? overlap_volume(cell.corners, box)
-                               : overlap_volume(cell.corners, field.corners[f]);
+  for (const int f : search.overlapping(box.low, box.high)) {
+    const double overlap = overlap_volume(cell.corners, field.cells[f]);
     if (overlap <= 0) continue;
     weights.push_back({.flow_cell = f, .value = overlap});
     sum += overlap;

@@ -124,7 +124,7 @@ TEST_F(EclipseResult, HasItsActiveCellsWhereTheyAre) {
   EXPECT_EQ(field.date[0], parse_date("1990-01-01"));
   EXPECT_EQ(field.date[1], parse_date("1991-07-01"));
   EXPECT_NEAR(field.value(1, 1), (200 + 3 - 20) * 1e5, 1);
-  for (const CellCorners& cell : field.corners) EXPECT_NEAR(cell_volume(cell), 2e5, 1);
+  for (const FlowCell& cell : field.cells) EXPECT_NEAR(flow_cell_volume(cell), 2e5, 1);
   // The second active cell is the third of its row, below the throw.
   EXPECT_NEAR(field.cells[1].low.x(), 200, 1e-3);
   EXPECT_NEAR(field.cells[1].high.z(), -2025, 1e-3);
@@ -217,7 +217,7 @@ TEST_F(EclipseResult, IsMappedByTheVolumeOfOverlap) {
   const FlowMapping mapping = map_flow(field, cells, {"all"}, OutsideRule::nearest);
   for (std::size_t c = 0; c < cells.size(); ++c) {
     double overlap = 0;
-    for (const CellCorners& cell : field.corners) overlap += overlap_volume(cells[c].corners, cell);
+    for (const FlowCell& cell : field.cells) overlap += overlap_volume(cells[c].corners, cell);
     EXPECT_NEAR(overlap, cell_volume(cells[c].corners), 1e-9 * overlap) << c;
     EXPECT_GE(mapping.weights[c].size(), 2u);
   }
