@@ -101,8 +101,8 @@ void SpecReader::embed_tables() {
   const auto names_a_table = [](const Change& change) {
     return overlap(change.pointer, "/pressure_csv") || overlap(change.pointer, "/compartments") ||
            overlap(change.pointer, "/pressure_field") ||
-           overlap(change.pointer, "/temperature_field") || overlap(change.pointer, "/fault_pressure") ||
-           overlap(change.pointer, "/faults");
+           overlap(change.pointer, "/temperature_field") ||
+           overlap(change.pointer, "/fault_pressure") || overlap(change.pointer, "/faults");
   };
   for (Group& group : spec_.groups) {
     const auto embed = [&](const json& scene) {

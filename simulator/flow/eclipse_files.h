@@ -5,10 +5,12 @@
 
 namespace faultsim {
 
-/// The files of a result in Eclipse's formats: CASE.EGRID with CASE.UNRST or CASE.X0000, CASE.X0001, ...
+/// The files of a result in Eclipse's formats: CASE.EGRID with CASE.UNRST or CASE.X0000,
+/// CASE.X0001, ...
 struct EclipseFiles {
-  std::filesystem::path grid;                   ///< may not exist.
-  std::vector<std::filesystem::path> restarts;  ///< one unified file, or a file per report in order.
+  std::filesystem::path grid;  ///< may not exist.
+  std::vector<std::filesystem::path>
+      restarts;  ///< one unified file, or a file per report in order.
 };
 
 /// Whether a name is that of a grid, of a restart file or, without an ending, of a case.

@@ -114,7 +114,8 @@ class EclipseReader {
     if (cells_.empty()) refuse(files_.grid, "has no active cell", "");
   }
 
-  /// Corners come as (i, j) of the top, then of the bottom; VTK begins at the bottom and goes round.
+  /// Corners come as (i, j) of the top, then of the bottom; VTK begins at the bottom and goes
+  /// round.
   void take_cell(const std::array<double, 8>& x, const std::array<double, 8>& y,
                  const std::array<double, 8>& depth, double metre) {
     constexpr std::array<std::size_t, 8> kOrder = {4, 5, 7, 6, 0, 1, 3, 2};
@@ -203,7 +204,7 @@ class EclipseReader {
 
   EclipseFiles files_;
   FlowQuantity quantity_;
-  std::vector<FlowCell> cells_;  ///< active ones, in the order of the values.
+  std::vector<FlowCell> cells_;              ///< active ones, in the order of the values.
   std::vector<double> dates_;                ///< s since 1970.
   std::vector<std::vector<double>> values_;  ///< per report, Pa or K.
   std::vector<Problem> problems_;

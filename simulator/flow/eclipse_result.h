@@ -7,14 +7,14 @@
 namespace faultsim {
 
 /// Reads pressures (PRESSURE) or temperatures (TEMP) of the active cells of a grid in Eclipse's
-/// formats, with the reports of its restart files. Units are those that the files say: GRIDUNIT of the
-/// grid, METRIC, FIELD or LAB of the restarts. Coordinates are those of the grid: without the shift and
-/// turn of MAPAXES. Cells without volume are left out; connections between cells that do not touch and
-/// throws of faults do not matter here.
+/// formats, with the reports of its restart files. Units are those that the files say: GRIDUNIT of
+/// the grid, METRIC, FIELD or LAB of the restarts. Coordinates are those of the grid: without the
+/// shift and turn of MAPAXES. Cells without volume are left out; connections between cells that do
+/// not touch and throws of faults do not matter here.
 /// @param path  any of the files, or their name without ending (eclipse_files.h).
-/// @throws InputError with all that is wrong: a grid or restart that is missing, cut off or of another
-/// grid, local grid refinements, radial grids, reports without the values or out of order, values that
-/// are none; and where this program was built without opm-common.
+/// @throws InputError with all that is wrong: a grid or restart that is missing, cut off or of
+/// another grid, local grid refinements, radial grids, reports without the values or out of order,
+/// values that are none; and where this program was built without opm-common.
 FlowField read_eclipse(const std::filesystem::path& path, FlowQuantity quantity);
 
 /// Whether this program can read them.

@@ -7,15 +7,15 @@
 
 namespace faultsim {
 
-/// Flow cells in a balanced tree of boxes, so that those near a place are found in O(log n). What is
-/// found depends on the cells alone.
+/// Flow cells in a balanced tree of boxes, so that those near a place are found in O(log n). What
+/// is found depends on the cells alone.
 class FlowCellSearch {
  public:
   /// @param cells  at least one; must outlive the search.
   explicit FlowCellSearch(const std::vector<FlowCell>& cells);
 
-  /// Numbers of the cells whose boxes overlap the box from low to high, m, ascending. Cells that only
-  /// touch it are left out.
+  /// Numbers of the cells whose boxes overlap the box from low to high, m, ascending. Cells that
+  /// only touch it are left out.
   std::vector<int> overlapping(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
 
   /// Number of the cell the centre of whose box is nearest to the point: the first of equals.

@@ -229,8 +229,7 @@ class FlowCsvReader {
 
 }  // namespace
 
-FlowField parse_flow_csv(const std::string& text, const std::string& given,
-                         FlowQuantity quantity) {
+FlowField parse_flow_csv(const std::string& text, const std::string& given, FlowQuantity quantity) {
   return FlowCsvReader(given, quantity).read(text);
 }
 

@@ -11,8 +11,9 @@ namespace faultsim {
 using CellCorners = std::array<Eigen::Vector3d, 8>;  ///< of a hexahedron in VTK's order, m.
 
 /// A cell of a flow grid, m, z upwards (z = −depth): an upright box, or a hexahedron within it. A
-/// hexahedron is the six tetrahedra around its diagonal from corner 0 to 6; so neighbours that share
-/// four corners share the face, plane or not. @invariant low < high, the box is the smallest one.
+/// hexahedron is the six tetrahedra around its diagonal from corner 0 to 6; so neighbours that
+/// share four corners share the face, plane or not. @invariant low < high, the box is the smallest
+/// one.
 struct FlowCell {
   Eigen::Vector3d low = Eigen::Vector3d::Zero();
   Eigen::Vector3d high = Eigen::Vector3d::Zero();
@@ -23,9 +24,9 @@ enum class FlowQuantity { pressure, temperature };
 
 /// Pressures or temperatures of a flow simulator, cell by cell and report by report.
 struct FlowField {
-  std::vector<FlowCell> cells;    ///< in the order of the file.
-  std::vector<double> date;       ///< s since 1970-01-01, strictly increasing, at least one.
-  Eigen::MatrixXd value = {};     ///< absolute, Pa or K, n_cells x n_reports, all finite and >= 0.
+  std::vector<FlowCell> cells;  ///< in the order of the file.
+  std::vector<double> date;     ///< s since 1970-01-01, strictly increasing, at least one.
+  Eigen::MatrixXd value = {};   ///< absolute, Pa or K, n_cells x n_reports, all finite and >= 0.
 };
 
 /// The smallest cell around eight corners: a box where they are those of one.

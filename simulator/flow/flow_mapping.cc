@@ -38,8 +38,8 @@ std::string where(const MappedCell& cell) {
   return out.str();
 }
 
-/// Of a cell's volume: below it are rounding of the file's digits and the curved faces of corner-point
-/// cells beside each other.
+/// Of a cell's volume: below it are rounding of the file's digits and the curved faces of
+/// corner-point cells beside each other.
 constexpr double kTwice = 0.01;
 constexpr double kWhole = 1e-6;  ///< of a cell's volume: less than that is missing of one covered.
 
@@ -110,8 +110,7 @@ Eigen::MatrixXd mapped_change(const FlowMapping& mapping, const FlowField& field
     for (const FlowMapping::Weight& weight : mapping.weights[c]) {
       const int f = weight.flow_cell;
       for (Eigen::Index t = 0; t < change.cols(); ++t)
-        change(c, t) +=
-            weight.value * (field.value(f, reports[t]) - field.value(f, reference));
+        change(c, t) += weight.value * (field.value(f, reports[t]) - field.value(f, reference));
     }
   }
   return change;
@@ -125,7 +124,8 @@ std::string coverage_text(const RegionCoverage& region, OutsideRule rule) {
         << (rule == OutsideRule::nearest ? "take the nearest flow cell's pressure"
                                          : "keep their pressure");
   }
-  if (region.n_partly > 0) out << "; " << region.n_partly << " covered in part take that part's mean";
+  if (region.n_partly > 0)
+    out << "; " << region.n_partly << " covered in part take that part's mean";
   return out.str();
 }
 

@@ -480,7 +480,8 @@ CaseResult run_case(const Scene& scene, const FaultOperator& faults, StepSolver&
 
 StepStart start_of_step(const Scene& scene, const PreparedOperator& prepared, int step,
                         const RunContext& context) {
-  return CaseRun(scene, *prepared.op, nullptr, context, {}, with_field({}, prepared)).start_of(step);
+  return CaseRun(scene, *prepared.op, nullptr, context, {}, with_field({}, prepared))
+      .start_of(step);
 }
 
 }  // namespace faultsim

@@ -30,7 +30,7 @@ struct CaseProbe {
   std::function<void(int, const ContactLaws&, const AcceptedStep&)> accepted;
   /// Called after each try at a part of a load step, if set, with the number of the step.
   std::function<void(int, const SubStepTrace&)> tried;
-  std::string identity;  ///< case_identity of the scene; empty = to be found.
+  std::string identity;                 ///< case_identity of the scene; empty = to be found.
   const FieldHistory* field = nullptr;  ///< of a scene with a flow result.
 };
 

@@ -73,12 +73,12 @@ void CaseLoads::check_fault_pressure(const LoadStep& step, const StepLoads& load
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
       const double p = initial_.pressure[k] + loads.fault_pressure_change[k];
       if (p >= -slack) continue;
-      throw InputError(
-          "scene", {{concat("/faults/", f, "/fault_pressure"), 0,
-                     concat("the given fault pressure of ", fault.name, " falls to ", p / 1e5,
-                            " bar at depth ", -op_.geometry.nodes[k].position.z(),
-                            " m in load step ", step.step),
-                     "prescribe a smaller drop or a narrower depth window"}});
+      throw InputError("scene",
+                       {{concat("/faults/", f, "/fault_pressure"), 0,
+                         concat("the given fault pressure of ", fault.name, " falls to ", p / 1e5,
+                                " bar at depth ", -op_.geometry.nodes[k].position.z(),
+                                " m in load step ", step.step),
+                         "prescribe a smaller drop or a narrower depth window"}});
     }
   }
 }

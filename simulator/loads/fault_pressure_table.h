@@ -5,8 +5,8 @@
 
 namespace faultsim {
 
-/// Δp_f of a fault's table at a place and time, Pa: linear in between, constant beyond the places and
-/// after the last time.
+/// Δp_f of a fault's table at a place and time, Pa: linear in between, constant beyond the places
+/// and after the last time.
 /// @param dip, strike  m, as the table counts them. @param time  s.
 double table_pressure(const FaultPressureTable& table, double dip, double strike, double time);
 

@@ -5,8 +5,8 @@
 
 namespace faultsim {
 
-/// What fields of pressure and temperature, cell by cell, do to closed faults: at its reports, and linear in
-/// between; before the first and after the last as at that one.
+/// What fields of pressure and temperature, cell by cell, do to closed faults: at its reports, and
+/// linear in between; before the first and after the last as at that one.
 struct FieldHistory {
   std::vector<double> time;  ///< s since the scene's start, strictly increasing, at least one.
   /// Σ_c P_c s_c, Pa, n_dofs x n_reports: the rock's part of the locked traction.

@@ -33,8 +33,8 @@ double thermal_stress(const Material& material);
 /// Value of a table at time t: piecewise linear, constant outside; 1 if the table is empty.
 double table_value(const TimeTable& table, double time);
 
-/// The factors c_k of the operator's loads at a time: b Δp + 3 K α_T ΔT for pressure loads, the table's value
-/// for boundary loads. Keys that the scene does not know are our bug (InternalError).
+/// The factors c_k of the operator's loads at a time: b Δp + 3 K α_T ΔT for pressure loads, the
+/// table's value for boundary loads. Keys that the scene does not know are our bug (InternalError).
 class LoadFactors {
  public:
   LoadFactors(const Scene& scene, const FaultOperator& op);

@@ -74,7 +74,8 @@ struct MappedField {
   const FlowLoad& load;
   std::string name;  ///< "pressure field".
   FlowMapping mapping = {};
-  Eigen::MatrixXd change = {};  ///< in the compartment's part of a cell, Pa or K, n_cells x n_reports.
+  Eigen::MatrixXd change =
+      {};  ///< in the compartment's part of a cell, Pa or K, n_cells x n_reports.
 };
 
 MappedField map_field(const FlowLoad& load, const std::string& name,
@@ -125,7 +126,8 @@ void say_reference(const Scene& scene, const InfluenceBlock& block, const FlowMa
                    std::vector<std::string>& warnings) {
   if (!scene.pressure_field.is_given()) return;
   constexpr double kAgrees = 5e5;  // Pa
-  const Eigen::VectorXd pressure = mapped_values(mapping, *scene.pressure_field.field, scene.pressure_field.reference);
+  const Eigen::VectorXd pressure =
+      mapped_values(mapping, *scene.pressure_field.field, scene.pressure_field.reference);
   Eigen::MatrixXd excess = Eigen::MatrixXd::Zero(pressure.size(), 1);
   for (Eigen::Index c = 0; c < pressure.size(); ++c) {
     const InfluenceCell& cell = block.cells[static_cast<std::size_t>(c)];
@@ -137,12 +139,13 @@ void say_reference(const Scene& scene, const InfluenceBlock& block, const FlowMa
   const Eigen::MatrixXd mean = region_means(block, excess);
   for (Eigen::Index r = 0; r < mean.rows(); ++r) {
     if (std::abs(mean(r, 0)) <= kAgrees) continue;
-    warnings.push_back(concat(
-        "the pressure field begins ", std::lround(std::abs(mean(r, 0)) / 1e5), " bar ",
-        mean(r, 0) > 0 ? "above" : "below", " the initial pressure of ",
-        block.region_names[static_cast<std::size_t>(r)],
-        " (mean over its volume): the change since its reference acts on the scene's initial state; "
-        "give the initial state the same pressure, as overpressure of the block"));
+    warnings.push_back(
+        concat("the pressure field begins ", std::lround(std::abs(mean(r, 0)) / 1e5), " bar ",
+               mean(r, 0) > 0 ? "above" : "below", " the initial pressure of ",
+               block.region_names[static_cast<std::size_t>(r)],
+               " (mean over its volume): the change since its reference acts on the scene's "
+               "initial state; "
+               "give the initial state the same pressure, as overpressure of the block"));
   }
 }
 

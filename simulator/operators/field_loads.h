@@ -19,11 +19,11 @@ struct FieldLoads {
   std::vector<std::string> warnings;
 };
 
-/// Maps the scene's fields onto the block's cells and condenses them: s_c = f_c (b Δp_c + 3 K α_T ΔT_c)
-/// with the share f_c of the cell in its compartment, one product per report from the reference on; Δp_f of a
-/// fault node is its fault's rule on the pairs of cells beside it, as for compartments. Neither
-/// strength nor friction is looked at, so that samples of them share it; what is looked at is told
-/// by field_loads_key().
+/// Maps the scene's fields onto the block's cells and condenses them: s_c = f_c (b Δp_c + 3 K α_T
+/// ΔT_c) with the share f_c of the cell in its compartment, one product per report from the
+/// reference on; Δp_f of a fault node is its fault's rule on the pairs of cells beside it, as for
+/// compartments. Neither strength nor friction is looked at, so that samples of them share it; what
+/// is looked at is told by field_loads_key().
 /// @pre the block has all cells of the compartments; scene and plan are its own, the scene has a
 /// flow result and the plan all of the domain.
 /// @throws InputError as map_flow() does.

@@ -68,7 +68,8 @@ std::vector<std::string> table_names(const json& scene) {
   if (!scene.is_object()) return names;
   add(scene, "pressure_csv");
   const auto add_fault_pressure = [&](const json& object) {
-    if (object.is_object() && object.contains("fault_pressure")) add(object["fault_pressure"], "csv");
+    if (object.is_object() && object.contains("fault_pressure"))
+      add(object["fault_pressure"], "csv");
   };
   add_fault_pressure(scene);
   if (const json* faults = child_at(scene, "faults"); faults != nullptr && faults->is_array()) {
@@ -97,8 +98,8 @@ FieldPlace field_place(const json& scene, const std::string& source, const std::
   const std::string at = "/fields/" + pointer_token(name);
   const json* path = value_at(scene, at + "/path");
   const json* fingerprint = value_at(scene, at + "/fingerprint");
-  const bool is_known = path != nullptr && path->is_string() && fingerprint != nullptr &&
-                        fingerprint->is_string();
+  const bool is_known =
+      path != nullptr && path->is_string() && fingerprint != nullptr && fingerprint->is_string();
   if (!is_known) return {path_of(source, name), ""};
   return {path->get<std::string>(), fingerprint->get<std::string>()};
 }

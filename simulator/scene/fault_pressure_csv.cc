@@ -152,8 +152,8 @@ class TableReader {
                     "write a row for every pair");
     }
     constexpr double kSame = 1;  // Pa
-    const Eigen::Map<const Eigen::MatrixXd> by_time(
-        to.change.data(), std::ssize(to.time), static_cast<Eigen::Index>(rows_.size()));
+    const Eigen::Map<const Eigen::MatrixXd> by_time(to.change.data(), std::ssize(to.time),
+                                                    static_cast<Eigen::Index>(rows_.size()));
     for (const int i : needed_reports(to.time, by_time.transpose(), kSame))
       to.turns.push_back(to.time[static_cast<std::size_t>(i)]);
   }

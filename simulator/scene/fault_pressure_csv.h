@@ -21,9 +21,9 @@ struct FaultPressureCsv {
 ///   along_dip [m], along_strike [m], 1990-01-01 [bar], 1995-01-01 [bar]
 ///
 /// The first column is the depth of points or, in a box, their distance down dip from the centre of
-/// the patch; the second, if it is there, the distance along strike from that centre (field: y), and
-/// then every pair of both is a row. The changes are those since the first column of time, which may
-/// hold pressures or changes. Empty lines and lines that begin with # are skipped.
+/// the patch; the second, if it is there, the distance along strike from that centre (field: y),
+/// and then every pair of both is a row. The changes are those since the first column of time,
+/// which may hold pressures or changes. Empty lines and lines that begin with # are skipped.
 /// @param given  its name for messages.
 /// @param start  s since 1970, the date of time 0; none = the first date.
 FaultPressureCsv parse_fault_pressure_csv(const std::string& text, const std::string& given,

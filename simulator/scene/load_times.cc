@@ -103,13 +103,15 @@ std::vector<TurningPoint> turning_points(const Scene& scene) {
     if (pressure.rule != FaultPressureRule::prescribed || pressure.prescribed == 0) continue;
     add_extremes(pressure.table.time, pressure.table.factor,
                  {.load = "the table of the fault pressure of " + fault.name,
-                  .dimension = Dimension::number}, points);
+                  .dimension = Dimension::number},
+                 points);
   }
   for (std::size_t i = 0; i < scene.box.boundary.size(); ++i) {
     const BoundaryCondition& condition = scene.box.boundary[i];
-    add_extremes(condition.table.time, condition.table.factor,
-                 {.load = "the table of boundary " + std::to_string(i),
-                  .dimension = Dimension::number}, points);
+    add_extremes(
+        condition.table.time, condition.table.factor,
+        {.load = "the table of boundary " + std::to_string(i), .dimension = Dimension::number},
+        points);
   }
   for (const TemperatureHistory& history : scene.temperature) {
     const auto region = static_cast<std::size_t>(history.region);

@@ -62,7 +62,8 @@ class CsvHistories {
       idle.push_back("/compartments/" + pointer_token(region));
     for (const std::string& pointer : idle) {
       if (reader_.has(pointer))
-        reader_.problem(pointer, "the pressures are those of /pressure_field", "remove one of the two");
+        reader_.problem(pointer, "the pressures are those of /pressure_field",
+                        "remove one of the two");
     }
   }
 

@@ -111,8 +111,8 @@ Friction read_friction(SceneReader& reader, std::size_t fault) {
 }
 
 FaultPressureRule rule_named(const std::string& name) {
-  static const char* const names[] = {"mean", "min",      "max",        "minus",
-                                      "plus", "fraction", "prescribed", "none", "table"};
+  static const char* const names[] = {"mean",     "min",        "max",  "minus", "plus",
+                                      "fraction", "prescribed", "none", "table"};
   for (unsigned i = 0; i < std::size(names); ++i) {
     if (name == names[i]) return static_cast<FaultPressureRule>(i);
   }

@@ -57,8 +57,9 @@ std::optional<FieldFile> open_field(SceneReader& reader, const FieldKey& key,
   try {
     FieldFile file = read_field_file(place.path, key.quantity);
     if (place.fingerprint.empty() || place.fingerprint == file.fingerprint) return file;
-    reader.problem(at, "\"" + name + "\" is no longer what it was: the file has changed",
-                   "put the old file back, or remove its entry under \"fields\" to take the new one");
+    reader.problem(
+        at, "\"" + name + "\" is no longer what it was: the file has changed",
+        "put the old file back, or remove its entry under \"fields\" to take the new one");
   } catch (const InputError& error) {
     for (const Problem& one : error.problems()) {
       const std::string line = one.line > 0 ? concat(" line ", one.line, ": ") : ": ";
@@ -125,11 +126,10 @@ void choose(SceneReader& reader, const FieldKey& key, double start, Scene& scene
   const FlowField& field = *load.field;
   const std::string at = key.at;
   if (reference_date(load) < start) {
-    return reader.problem(reader.has("/start_date") ? "/start_date" : at,
-                          "time 0, " + date_text(start) + ", lies after the reference of " +
-                              at.substr(1),
-                          "begin at " + date_text(reference_date(load)) +
-                              ", or choose a later reference");
+    return reader.problem(
+        reader.has("/start_date") ? "/start_date" : at,
+        "time 0, " + date_text(start) + ", lies after the reference of " + at.substr(1),
+        "begin at " + date_text(reference_date(load)) + ", or choose a later reference");
   }
   double end = 0;
   for (const Stage& stage : scene.stages) end += stage.duration;

@@ -166,8 +166,7 @@ class LoadingReader {
       const std::string pointer = place(at, key, region);
       TemperatureHistory& history = temperature_[region];
       history.time.push_back(start_);
-      history.change.push_back(pointer.empty() ? history.change.back()
-                                               : reader_.quantity(pointer));
+      history.change.push_back(pointer.empty() ? history.change.back() : reader_.quantity(pointer));
     }
   }
   void check_temperatures(const std::string& pointer) {

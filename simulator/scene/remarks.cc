@@ -233,9 +233,8 @@ class IdleInputs {
     for (const char* key : {"prescribed", "table", "depth_window"}) {
       shared_key("/fault_pressure", {key}, "it is for the rule \"prescribed\"", is_prescribed);
     }
-    shared_key("/fault_pressure", {"csv"}, "it is for the rule \"table\"", [](const Fault& f) {
-      return f.pressure.rule == FaultPressureRule::table;
-    });
+    shared_key("/fault_pressure", {"csv"}, "it is for the rule \"table\"",
+               [](const Fault& f) { return f.pressure.rule == FaultPressureRule::table; });
     shared_key("/fault_pressure", {"table"}, "it is 0 at all times", [](const Fault& f) {
       return !prescribes(f) || !is_all(f.pressure.table.factor, 0);
     });
@@ -323,7 +322,8 @@ class IdleInputs {
     const auto& regions = scene_.pressure;
     const auto& faults = scene_.faults;
     const auto& faces = scene_.box.boundary;
-    const bool loaded = scene_.has_field() || !std::all_of(regions.begin(), regions.end(), is_zero) ||
+    const bool loaded = scene_.has_field() ||
+                        !std::all_of(regions.begin(), regions.end(), is_zero) ||
                         std::any_of(faults.begin(), faults.end(), prescribes) ||
                         std::any_of(faults.begin(), faults.end(), has_profile) ||
                         std::any_of(faces.begin(), faces.end(), acts);

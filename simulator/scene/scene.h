@@ -222,9 +222,9 @@ struct FaultPressureTable {
 
 struct FaultPressure {
   FaultPressureRule rule = FaultPressureRule::mean;
-  double fraction = 0.5;  ///< rule fraction: Δp_min + f (Δp_max − Δp_min).
-  double prescribed = 0;  ///< Pa, change; times table.
-  TimeTable table;        ///< rule prescribed.
+  double fraction = 0.5;       ///< rule fraction: Δp_min + f (Δp_max − Δp_min).
+  double prescribed = 0;       ///< Pa, change; times table.
+  TimeTable table;             ///< rule prescribed.
   FaultPressureTable profile;  ///< rule table.
   std::optional<std::array<double, 2>> depth_window;  ///< m; prescribed: top, bottom. None = where
                                                       ///< either side is reservoir.
@@ -261,19 +261,20 @@ struct PressureHistory {
 
 /// Temperature change history of one region: piecewise linear in time from 0 at t = 0.
 struct TemperatureHistory {
-  int region = 0;                  ///< index into Scene::pressure.
-  std::vector<double> time;        ///< s, strictly increasing.
-  std::vector<double> change;      ///< K, ΔT.
+  int region = 0;              ///< index into Scene::pressure.
+  std::vector<double> time;    ///< s, strictly increasing.
+  std::vector<double> change;  ///< K, ΔT.
   bool operator==(const TemperatureHistory&) const = default;
 };
 
-/// The result of a flow simulator as a load: pressures or temperatures of all regions, cell by cell.
+/// The result of a flow simulator as a load: pressures or temperatures of all regions, cell by
+/// cell.
 struct FlowLoad {
   std::shared_ptr<const FlowField> field = nullptr;  ///< none: the regions have histories.
   std::string fingerprint;                           ///< of the file's bytes.
   OutsideRule outside = OutsideRule::nearest;
   std::array<double, 2> origin = {0, 0};  ///< m, of the scene in the field's coordinates.
-  double azimuth = 0;  ///< rad, of the scene's y there, from y clockwise.
+  double azimuth = 0;                     ///< rad, of the scene's y there, from y clockwise.
   int reference = 0;  ///< report whose values are the initial ones, of change 0.
   /// The reports that are taken, from the reference on, and their times since the scene's start, s:
   /// strictly increasing, the first >= 0. The field is linear in between.
@@ -282,9 +283,9 @@ struct FlowLoad {
   bool is_given() const { return field != nullptr; }
   /// Fields are told by their fingerprints.
   bool operator==(const FlowLoad& other) const {
-    return fingerprint == other.fingerprint && outside == other.outside &&
-           origin == other.origin && azimuth == other.azimuth &&
-           reference == other.reference && reports == other.reports && time == other.time;
+    return fingerprint == other.fingerprint && outside == other.outside && origin == other.origin &&
+           azimuth == other.azimuth && reference == other.reference && reports == other.reports &&
+           time == other.time;
   }
 };
 

@@ -74,6 +74,7 @@ struct Simulation::Impl {
   bool prepare_field(const RunContext& context);
   [[noreturn]] void refuse_bulk(const std::string& why, const std::string& cure) const;
   void keep();
+  bool stays(const std::string& name, const Values& values) const;
   bool change_members(const Values& values, const std::string& source);
   bool change(const Values& values, const std::string& source);
   std::optional<Values> values_of(const Changes& changes);
@@ -169,14 +170,35 @@ void Simulation::Impl::keep() {
   aliases.clear();
 }
 
+/// Whether a member of the held document with these values is what it is in the one at hand.
+bool Simulation::Impl::stays(const std::string& name, const Values& values) const {
+  json after = json::object();
+  if (const json* before = child_at(held->value, name)) after[name] = *before;
+  for (const auto& [pointer, value] : values) {
+    if (member_of(pointer) == name && !put_value(after, pointer, value)) return false;
+  }
+  const json *is = child_at(at_hand.document.value, name), *will_be = child_at(after, name);
+  return is == nullptr || will_be == nullptr ? is == will_be : *is == *will_be;
+}
+
 /// By looking at the members that differ only, without the lines of the file. @returns whether that
 /// was enough; if not, nothing has changed.
 bool Simulation::Impl::change_members(const Values& values, const std::string& source) {
   std::set<std::string> members = changed, next;
   for (const auto& [pointer, value] : values) next.insert(member_of(pointer));
   members.insert(next.begin(), next.end());
-  if (!is_of_held || !std::all_of(members.begin(), members.end(), is_case_member)) return false;
+  if (!is_of_held) return false;
   json& document = at_hand.document.value;
+  // Cases of a family say again what makes it one: such a member may stay as it is.
+  for (auto name = members.begin(); name != members.end();) {
+    if (is_case_member(*name)) {
+      ++name;
+    } else if (stays(*name, values)) {
+      name = members.erase(name);
+    } else {
+      return false;
+    }
+  }
   std::map<std::string, json> before;
   const auto put_back = [&](const std::string& name, const json* value) {
     if (value != nullptr) {
@@ -312,8 +334,7 @@ bool Simulation::prepare(const RunContext& context, bool keep_bulk) {
     return self.prepare_surface(context);
   }
   if (self.at_hand.scene.has_field()) {
-    if (keep_bulk)
-      self.refuse_bulk("are not made from a pressure field", "remove this line");
+    if (keep_bulk) self.refuse_bulk("are not made from a pressure field", "remove this line");
     self.surface.reset();
     return self.prepare_field(context);
   }

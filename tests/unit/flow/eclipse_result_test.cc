@@ -22,13 +22,13 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-/// 3 x 2 x 2 cells of 100 x 200 x 10 units that dip along x, with a throw of 5 before the last column;
-/// the cell (1, 0, 0) is not active.
+/// 3 x 2 x 2 cells of 100 x 200 x 10 units that dip along x, with a throw of 5 before the last
+/// column; the cell (1, 0, 0) is not active.
 struct Deck {
   std::string unit = "METRES";
-  int unit_number = 1;      ///< of INTEHEAD: METRIC.
-  double to_length = 1;     ///< m in units.
-  double to_pressure = 1;   ///< bar in units.
+  int unit_number = 1;     ///< of INTEHEAD: METRIC.
+  double to_length = 1;    ///< m in units.
+  double to_pressure = 1;  ///< bar in units.
   std::vector<int> active = {1, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
   std::vector<std::array<int, 3>> dates = {{1, 1, 1990}, {1, 7, 1991}};  ///< day, month, year
   bool has_refinement = false;
@@ -135,12 +135,12 @@ TEST_F(EclipseResult, IsTheSameInOtherUnits) {
   write_grid({});
   write_restart({});
   const FlowField metric = read();
-  for (const Deck& deck : {Deck{.unit = "FEET",
-                                .unit_number = 2,
-                                .to_length = 1 / 0.3048,
-                                .to_pressure = 1e5 / 6894.757293168361},
-                           Deck{.unit = "CM", .unit_number = 3, .to_length = 100,
-                                .to_pressure = 1 / 1.01325}}) {
+  for (const Deck& deck :
+       {Deck{.unit = "FEET",
+       .unit_number = 2,
+       .to_length = 1 / 0.3048,
+       .to_pressure = 1e5 / 6894.757293168361},
+        Deck{.unit = "CM", .unit_number = 3, .to_length = 100, .to_pressure = 1 / 1.01325}}) {
     write_grid(deck);
     write_restart(deck);
     const FlowField other = read();

@@ -28,7 +28,7 @@ TEST(FlowPlacement, ShiftsBoxesAndLeavesThemBoxes) {
 /// With y of the scene towards the field's east, what was east is north and what was north is west.
 TEST(FlowPlacement, TurnsWhatIsTowardsTheAzimuthAlongY) {
   const FlowField there = placed(one_box(), {1000, 2000}, std::numbers::pi / 2);
-    EXPECT_NEAR((there.cells[0].low - Eigen::Vector3d(-40, 0, -110)).norm(), 0, 1e-9);
+  EXPECT_NEAR((there.cells[0].low - Eigen::Vector3d(-40, 0, -110)).norm(), 0, 1e-9);
   EXPECT_NEAR((there.cells[0].high - Eigen::Vector3d(0, 30, -100)).norm(), 0, 1e-9);
   const FlowField oblique = placed(one_box(), {500, 500}, 0.3);
   EXPECT_NEAR(flow_cell_volume(oblique.cells[0]), 12000, 1e-6);

@@ -15,9 +15,9 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-/// Layers of a corner-point grid of n x n columns over [0, 100]² between the depths 1000 and 1100 of a
-/// box that the layers cross: `height` of a corner (u, v, w in [0, 1]), and a throw in m east of
-/// the middle. Twisted faces where height is not linear.
+/// Layers of a corner-point grid of n x n columns over [0, 100]² between the depths 1000 and 1100
+/// of a box that the layers cross: `height` of a corner (u, v, w in [0, 1]), and a throw in m east
+/// of the middle. Twisted faces where height is not linear.
 template <typename Height>
 std::vector<FlowCell> layers(int n, int n_layers, double throw_, const Height& height) {
   std::vector<FlowCell> cells;
@@ -144,8 +144,7 @@ TEST(FlowHexahedra, PinchedOnOneSideAreWedges) {
 TEST(FlowHexahedra, AreMappedAndRefusedWhereTheyLieOverEachOther) {
   FlowField field{.cells = layers(4, 6, 17, domed), .date = {0}, .value = {}};
   field.value = Eigen::MatrixXd::Constant(std::ssize(field.cells), 1, 2e7);
-  const FlowMapping mapping =
-      map_flow(field, inner_cells(3, 0.1), {"west"}, OutsideRule::nearest);
+  const FlowMapping mapping = map_flow(field, inner_cells(3, 0.1), {"west"}, OutsideRule::nearest);
   EXPECT_NEAR(mapping.coverage[0].covered, mapping.coverage[0].volume, 1e-3);
   EXPECT_EQ(mapping.coverage[0].n_partly, 0);
   for (const auto& weights : mapping.weights) {

@@ -140,8 +140,7 @@ TEST_F(FieldLoadsTest, OfTwoFieldsAreTheSumAtTheTimesOfBoth) {
   for (const double t : {0.5, 1.0, 1.2, 1.5, 1.9}) {
     const Eigen::VectorXd expected =
         at_time(a.time, a.locked, t * kYear) + at_time(b.time, b.locked, t * kYear);
-    EXPECT_LT((at_time(sum.time, sum.locked, t * kYear) - expected).norm(),
-              1e-12 * expected.norm())
+    EXPECT_LT((at_time(sum.time, sum.locked, t * kYear) - expected).norm(), 1e-12 * expected.norm())
         << t;
   }
 }

@@ -45,7 +45,8 @@ TEST(FaultPressureCsv, MayVaryAlongStrikeAndHaveDates) {
 TEST(FaultPressureCsv, IsRefusedWithItsLine) {
   const std::string header = "depth [m], 0 year [bar], 1 year [bar]\n";
   EXPECT_THAT(parse("").what, HasSubstr("there are no values"));
-  EXPECT_THAT(parse("z [m], 0 year [bar], 1 year [bar]\n").what, HasSubstr("first column is \"z\""));
+  EXPECT_THAT(parse("z [m], 0 year [bar], 1 year [bar]\n").what,
+              HasSubstr("first column is \"z\""));
   EXPECT_THAT(parse("depth [bar], 0 year [bar], 1 year [bar]\n").what, HasSubstr("a length"));
   EXPECT_THAT(parse("depth [m], 0 year [m], 1 year [bar]\n").what, HasSubstr("a pressure"));
   EXPECT_THAT(parse("depth [m], 1 year [bar], 2 year [bar]\n").what, HasSubstr("not at time 0"));

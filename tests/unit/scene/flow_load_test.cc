@@ -1,5 +1,5 @@
-// The result of a flow simulator in a scene: which reports are taken, what becomes of dates, and what
-// it cannot stand beside.
+// The result of a flow simulator in a scene: which reports are taken, what becomes of dates, and
+// what it cannot stand beside.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,10 +36,10 @@ class FlowLoads : public ::testing::Test {
     };
     document_.value.erase("compartments");
     document_.value["pressure_field"] = {{"file", "p.csv"}};
-    write("p.csv",
-          kCells + ", 1990-01-01 [bar], 1991-01-01 [bar], 1992-01-01 [bar], 1993-01-01 [bar], "
-                   "1994-01-01 [bar]\n"
-                   "0, 0, 3000, 9000, 9000, 900, 350, 300, 250, 240, 260\n");
+    write("p.csv", kCells +
+                       ", 1990-01-01 [bar], 1991-01-01 [bar], 1992-01-01 [bar], 1993-01-01 [bar], "
+                       "1994-01-01 [bar]\n"
+                       "0, 0, 3000, 9000, 9000, 900, 350, 300, 250, 240, 260\n");
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
@@ -72,7 +72,8 @@ TEST_F(FlowLoads, MakeLoadStepsOfTheReportsThatAreNotOnALine) {
   std::vector<double> ends;
   for (const StepEnd& step : step_ends(read)) ends.push_back(step.time);
   EXPECT_THAT(ends, ElementsAre(730 * kDay, 1096 * kDay, 1461 * kDay));
-  EXPECT_THAT(scene({{"/pressure_field/tolerance", "30 bar"}}).pressure_field.reports, ElementsAre(0, 3, 4));
+  EXPECT_THAT(scene({{"/pressure_field/tolerance", "30 bar"}}).pressure_field.reports,
+              ElementsAre(0, 3, 4));
   for (const PressureHistory& history : read.pressure) EXPECT_TRUE(history.time.empty());
 }
 
@@ -84,8 +85,11 @@ TEST_F(FlowLoads, CountFromTheirReferenceOrTheStartOfTheScene) {
   const Scene early = scene({{"/start_date", "1989-01-01"}});
   EXPECT_EQ(early.pressure_field.time[0], 365 * kDay);
   EXPECT_EQ(early.stages[0].duration, (365 + 1461) * kDay);
-  EXPECT_THAT(refusal({{"/start_date", "1990-06-01"}}),
-              AllOf(HasSubstr("/start_date: time 0, 1990-06-01, lies after the reference of pressure_field"), HasSubstr("1990-01-01")));
+  EXPECT_THAT(
+      refusal({{"/start_date", "1990-06-01"}}),
+      AllOf(
+          HasSubstr("/start_date: time 0, 1990-06-01, lies after the reference of pressure_field"),
+          HasSubstr("1990-01-01")));
   EXPECT_THAT(refusal({{"/pressure_field/reference", "1990-06-01"}}),
               AllOf(HasSubstr("is the day of no report"), HasSubstr("1990-01-01, 1991-01-01")));
 }
@@ -120,7 +124,8 @@ TEST_F(FlowLoads, AreRefusedWithTheLineOfTheirFile) {
 }
 
 TEST_F(FlowLoads, AreDoubtedWhereTheUnitLooksWrong) {
-  write("p.csv", kCells + ", 1990-01-01 [bar], 1994-01-01 [bar]\n0, 0, 3000, 9, 9, 9, 5000, 4000\n");
+  write("p.csv",
+        kCells + ", 1990-01-01 [bar], 1994-01-01 [bar]\n0, 0, 3000, 9, 9, 9, 5000, 4000\n");
   const Scene read = scene();
   ASSERT_FALSE(read.remarks.empty());
   EXPECT_THAT(remark_text(read.remarks[0]), HasSubstr("psi read as bar"));

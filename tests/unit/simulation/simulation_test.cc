@@ -79,6 +79,25 @@ TEST(Simulation, SaysWhenAChangeNeedsAnotherOperator) {
   EXPECT_EQ(bits(moved), bits(fresh.run()));
 }
 
+TEST(Simulation, TakesWhatCasesOfAFamilySayAgainAndWhatTheyNoLongerSay) {
+  Simulation simulation = field();
+  const std::vector<Changes> cases = {{{"offset_east", "50 m"}, {"friction_angle", "18 deg"}},
+                                      {{"offset_east", "50 m"}, {"friction_angle", "20 deg"}},
+                                      {{"offset_east", "50 m"}, {"ratio_across", "0.7"}},
+                                      {{"friction_angle", "20 deg"}},
+                                      {{"offset_east", "60 m"}, {"friction_angle", "20 deg"}},
+                                      {{"offset_east", "60 m"}},
+                                      {}};
+  for (const Changes& changes : cases) {
+    Simulation fresh = field();
+    fresh.change(changes);
+    simulation.change(changes);
+    EXPECT_EQ(simulation.identity(), fresh.identity());
+    EXPECT_EQ(simulation.scene().document.value, fresh.scene().document.value);
+    EXPECT_EQ(bits(simulation.run()), bits(fresh.run()));
+  }
+}
+
 TEST(Simulation, ListsAllThatIsWrongAndStaysAsItWas) {
   Simulation simulation = field();
   simulation.change({{"friction_angle", "18 deg"}});

@@ -59,8 +59,9 @@ VerifyCase disc_case() {
             // Geertsma's disc with α Δp replaced by 3 K α_T ΔT.
             const double stress =
                 rock.youngs_modulus / (1 - 2 * rock.poisson_ratio) * kExpansion * kCooling;
-            const GeertsmaDisc disc{rock.youngs_modulus, rock.poisson_ratio, 1, stress,
-                                    region.thickness,    region.radius,      -region.center[2]};
+            const GeertsmaDisc disc{
+                rock.youngs_modulus, rock.poisson_ratio, 1, stress, region.thickness,
+                region.radius,       -region.center[2]};
             const double scale = std::abs(geertsma_centre_displacement(disc));
             for (const ObservationPoint& point : run.scene.output.observation_points) {
               const std::string row = point.name + ".z";

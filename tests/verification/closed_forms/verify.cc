@@ -17,9 +17,9 @@ namespace faultsim {
 const std::vector<VerifyCase>& verify_cases() {
   static const std::vector<VerifyCase> cases = [] {
     std::vector<VerifyCase> all;
-    for (auto part : {patch_cases(), depletion_cases(), displaced_cases(), crack_cases(),
-                      penny_cases(), slider_cases(), creep_cases(), fluid_slip_cases(),
-                      thermal_cases()})
+    for (auto part :
+         {patch_cases(), depletion_cases(), displaced_cases(), crack_cases(), penny_cases(),
+          slider_cases(), creep_cases(), fluid_slip_cases(), thermal_cases()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

@@ -26,13 +26,13 @@ inline void PrintTo(const VerifyCase& verify_case, std::ostream* out) { *out << 
 const std::vector<VerifyCase>& verify_cases();
 
 /// Cases of one subject each, see the .cc of that name.
-std::vector<VerifyCase> patch_cases();      // V1
-std::vector<VerifyCase> depletion_cases();  // V2, V3
-std::vector<VerifyCase> displaced_cases();  // V4, V5
-std::vector<VerifyCase> crack_cases();      // V6, plane strain
-std::vector<VerifyCase> penny_cases();      // V6, 3D
-std::vector<VerifyCase> slider_cases();     // V7
-std::vector<VerifyCase> creep_cases();      // V8
+std::vector<VerifyCase> patch_cases();       // V1
+std::vector<VerifyCase> depletion_cases();   // V2, V3
+std::vector<VerifyCase> displaced_cases();   // V4, V5
+std::vector<VerifyCase> crack_cases();       // V6, plane strain
+std::vector<VerifyCase> penny_cases();       // V6, 3D
+std::vector<VerifyCase> slider_cases();      // V7
+std::vector<VerifyCase> creep_cases();       // V8
 std::vector<VerifyCase> fluid_slip_cases();  // V11
 std::vector<VerifyCase> thermal_cases();     // V12
 
