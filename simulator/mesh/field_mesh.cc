@@ -457,7 +457,9 @@ GridLines grid_lines(const FieldMeshSpec& spec, std::vector<Problem>& problems) 
   return found.empty() ? lines : GridLines{};
 }
 
-Mesh make_mesh(const FieldMeshSpec& spec) {
+namespace {
+
+StructuredGrid make_grid(const FieldMeshSpec& spec) {
   std::vector<Problem> problems;
   GridLines lines = grid_lines(spec, problems);
   if (!problems.empty()) throw InputError("scene", problems);
@@ -468,9 +470,19 @@ Mesh make_mesh(const FieldMeshSpec& spec) {
   fill_cells(spec, grid);
   for (size_t i = 0; i <= spec.blocks.size(); ++i)
     grid.faults.push_back(field_fault(spec, grid, i));
-  Mesh mesh = cut_faults(std::move(grid));
+  return grid;
+}
+
+}  // namespace
+
+Mesh make_mesh(const FieldMeshSpec& spec) {
+  Mesh mesh = cut_faults(make_grid(spec));
   refuse_bad_cells(mesh);
   return mesh;
+}
+
+std::optional<Mesh> make_faults(const FieldMeshSpec& spec, const Mesh& like) {
+  return cut_as(like, make_grid(spec));
 }
 
 }  // namespace faultsim

@@ -102,6 +102,9 @@ GridLines grid_lines(const BoxMeshSpec& spec, std::vector<Problem>& problems);
 /// Makes the mesh. Throws InputError when geometry is impossible or a cell is bad.
 Mesh make_mesh(const FieldMeshSpec& spec);
 Mesh make_mesh(const BoxMeshSpec& spec);
+/// What make_mesh(spec) says of faults, nodes, materials and regions, without cells, boundary and a
+/// look at their quality; nothing where its topology is not that of `like`.
+std::optional<Mesh> make_faults(const FieldMeshSpec& spec, const Mesh& like);
 
 /// Points a...b with spacing `fine` inside [fine_from, fine_to] (stretched to fit) and growing by
 /// at most `growth` per cell outside, never above `largest` (0 = no cap); always contains `must`.

@@ -51,10 +51,10 @@ Index3 on_plane(const GridFault& fault, size_t column, size_t row) {
   return at;
 }
 
-/// Adds the plus copies and hands them to the cells beyond the plane. @return per point, its plus
-/// copy or -1.
-std::vector<int> split_nodes(const StructuredGrid& grid, Mesh& mesh) {
+/// Per point the number of its plus copy, or -1: behind all points, fault by fault.
+std::vector<int> number_plus_copies(const StructuredGrid& grid) {
   std::vector<int> plus_of(grid.n_points(), -1);
+  size_t next = grid.n_points();
   for (const GridFault& fault : grid.faults) {
     const size_t n_columns = grid.n_lines(fault.column_axis), n_rows = grid.n_lines(fault.row_axis);
     FAULTSIM_DEMAND(fault.split.size() == n_columns * n_rows, fault.split.size());
@@ -64,9 +64,25 @@ std::vector<int> split_nodes(const StructuredGrid& grid, Mesh& mesh) {
         if (!fault.split[column * n_rows + row]) continue;
         const size_t point = grid.point(on_plane(fault, column, row));
         FAULTSIM_DEMAND(plus_of[point] < 0, "two faults split point ", point);
-        plus_of[point] = to_int(mesh.nodes.size());
-        mesh.nodes.push_back(Vector3d(mesh.nodes[point]));
+        plus_of[point] = to_int(next++);
       }
+  }
+  return plus_of;
+}
+
+/// Adds the plus copies at the places of their points.
+void add_plus_copies(const std::vector<int>& plus_of, std::vector<Vector3d>& nodes) {
+  const auto is_split = [](int plus) { return plus >= 0; };
+  nodes.resize(plus_of.size() +
+               static_cast<size_t>(std::count_if(plus_of.begin(), plus_of.end(), is_split)));
+  for (size_t point = 0; point < plus_of.size(); ++point)
+    if (plus_of[point] >= 0) nodes[static_cast<size_t>(plus_of[point])] = nodes[point];
+}
+
+/// Hands the plus copies to the cells beyond the faults' planes.
+void split_cells(const StructuredGrid& grid, const std::vector<int>& plus_of, Mesh& mesh) {
+  for (const GridFault& fault : grid.faults) {
+    const size_t n_columns = grid.n_lines(fault.column_axis), n_rows = grid.n_lines(fault.row_axis);
     for (size_t column = 0; column + 1 < n_columns; ++column)
       for (size_t row = 0; row + 1 < n_rows; ++row)
         for (int& node : mesh.cells[grid.cell(on_plane(fault, column, row))]) {
@@ -80,7 +96,6 @@ std::vector<int> split_nodes(const StructuredGrid& grid, Mesh& mesh) {
             node = plus_of[n];
         }
   }
-  return plus_of;
 }
 
 std::vector<BoundaryFace> boundary_faces(const StructuredGrid& grid, const Mesh& mesh) {
@@ -314,10 +329,12 @@ std::vector<Problem> grid_size_problems(const std::array<std::vector<double>, 3>
            "use larger cells, more growth, the half domain or plane strain"}};
 }
 
-Mesh cut_faults(StructuredGrid grid) {
+namespace {
+
+/// What a mesh takes of its grid as it is.
+Mesh take_grid(StructuredGrid& grid) {
   Mesh mesh;
   mesh.nodes = std::move(grid.position);
-  mesh.cells = grid_cells(grid);
   mesh.material = std::move(grid.material);
   mesh.region = std::move(grid.region);
   mesh.region_fraction = std::move(grid.region_fraction);
@@ -327,11 +344,52 @@ Mesh cut_faults(StructuredGrid grid) {
                   mesh.nodes.size(), " ", mesh.material.size());
   mesh.plane_strain = grid.plane_strain;
   mesh.thickness = grid.plane_strain ? grid.lines[1].back() - grid.lines[1].front() : 1;
-  const std::vector<int> plus_of = split_nodes(grid, mesh);
+  return mesh;
+}
+
+bool same_topology(const FaultSurface& a, const FaultSurface& b) {
+  return a.node_of_point == b.node_of_point &&
+         std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(),
+                    [](const FaultNode& one, const FaultNode& other) {
+                      return one.minus_node == other.minus_node && one.plus_node == other.plus_node;
+                    }) &&
+         std::equal(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(),
+                    [](const FaultFace& one, const FaultFace& other) {
+                      return one.points == other.points && one.nodes == other.nodes &&
+                             one.minus_cell == other.minus_cell && one.plus_cell == other.plus_cell;
+                    });
+}
+
+}  // namespace
+
+Mesh cut_faults(StructuredGrid grid) {
+  Mesh mesh = take_grid(grid);
+  mesh.cells = grid_cells(grid);
+  const std::vector<int> plus_of = number_plus_copies(grid);
+  add_plus_copies(plus_of, mesh.nodes);
+  split_cells(grid, plus_of, mesh);
   mesh.boundary = boundary_faces(grid, mesh);
   tie_faces(grid, plus_of, mesh);
   for (const GridFault& fault : grid.faults)
     mesh.faults.push_back(SurfaceBuilder(grid, fault, plus_of, mesh).build());
+  return mesh;
+}
+
+std::optional<Mesh> cut_as(const Mesh& like, StructuredGrid grid) {
+  // The last cell ends at the last point, the first one tells how long the rows are.
+  const auto row = to_int(grid.n_lines(0)), layer = to_int(grid.n_lines(0) * grid.n_lines(1));
+  const bool same_grid = like.cells.size() == grid.n_cells() && like.cells.front()[3] == row &&
+                         like.cells.front()[4] == layer && like.faults.size() == grid.faults.size();
+  if (!same_grid || like.material != grid.material) return std::nullopt;
+  Mesh mesh = take_grid(grid);
+  const std::vector<int> plus_of = number_plus_copies(grid);
+  add_plus_copies(plus_of, mesh.nodes);
+  if (mesh.nodes.size() != like.nodes.size()) return std::nullopt;
+  mesh.tied_to = like.tied_to;
+  for (size_t f = 0; f < grid.faults.size(); ++f) {
+    mesh.faults.push_back(SurfaceBuilder(grid, grid.faults[f], plus_of, mesh).build());
+    if (!same_topology(mesh.faults.back(), like.faults[f])) return std::nullopt;
+  }
   return mesh;
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,10 @@ struct StructuredGrid {
 /// Throws InputError where opposite tied faces do not match (shape, or a fault cuts one of them
 /// only) or a fault splits no node.
 Mesh cut_faults(StructuredGrid grid);
+/// The same without cells and boundary, in a time of the faults' size beside that of the points:
+/// for a grid whose mesh has the topology of `like`; nothing where it has not. Materials are
+/// compared, regions are not. Grids that are tied across must match, which is not looked at again.
+std::optional<Mesh> cut_as(const Mesh& like, StructuredGrid grid);
 
 /// A problem when more than kMaxCells cells are asked for.
 std::vector<Problem> grid_size_problems(const std::array<std::vector<double>, 3>& lines);

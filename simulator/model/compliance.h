@@ -24,7 +24,9 @@ class Compliance {
   /// as 0.
   virtual void subtract_product(std::span<const int> active, const Eigen::VectorXd& jump,
                                 const Eigen::VectorXd& inverse_area,
-                                Eigen::VectorXd& traction) const = 0;
+                                Eigen::VectorXd& traction) const;
+  /// All of H as a matrix, n x n, for files, diagnosis and tests: null where it cannot be had.
+  virtual const double* matrix_entries() const { return nullptr; }
 };
 
 /// H as a matrix, both triangles stored, column-major.
@@ -39,9 +41,7 @@ class DenseCompliance final : public Compliance {
   int size() const override { return static_cast<int>(matrix().rows()); }
   Column column(int j) const override { return {matrix().col(j).data(), matrix().rows()}; }
   double diagonal(int j) const override { return matrix()(j, j); }
-  void subtract_product(std::span<const int> active, const Eigen::VectorXd& jump,
-                        const Eigen::VectorXd& inverse_area,
-                        Eigen::VectorXd& traction) const override;
+  const double* matrix_entries() const override { return matrix().data(); }
 
  private:
   StoredMatrix h_;

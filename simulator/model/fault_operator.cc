@@ -5,9 +5,10 @@
 namespace faultsim {
 
 Eigen::Map<const Eigen::MatrixXd> FaultOperator::h() const {
-  const auto* dense = dynamic_cast<const DenseCompliance*>(compliance.get());
-  FAULTSIM_DEMAND(dense != nullptr, "H is not stored as a matrix");
-  return dense->matrix();
+  const int n = compliance->size();
+  const double* entries = compliance->matrix_entries();
+  FAULTSIM_DEMAND(entries != nullptr || n == 0, "H is not stored as a matrix");
+  return {entries, n, n};
 }
 
 std::string to_string(const LoadKey& key) {

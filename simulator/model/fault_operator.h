@@ -90,7 +90,7 @@ struct FaultOperator {
   LockedLoads loads;
   Observations observed;
 
-  /// H where it is stored, for files, diagnosis and tests; InternalError where it is not.
+  /// H as a matrix, for files, diagnosis and tests; InternalError where it cannot be had.
   Eigen::Map<const Eigen::MatrixXd> h() const;
 
   // How it was made: reported, never part of the identity.

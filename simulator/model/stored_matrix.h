@@ -8,25 +8,30 @@ namespace faultsim {
 
 /// A constant matrix, column-major, in memory of its own or in that of a mapped file. Copies share
 /// it.
-class StoredMatrix {
+template <typename Scalar>
+class StoredMatrixOf {
  public:
-  StoredMatrix() = default;
-  explicit StoredMatrix(Eigen::MatrixXd values)
-      : StoredMatrix(std::make_shared<const Eigen::MatrixXd>(std::move(values))) {}
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+  StoredMatrixOf() = default;
+  explicit StoredMatrixOf(Matrix values)
+      : StoredMatrixOf(std::make_shared<const Matrix>(std::move(values))) {}
   /// @param owner  keeps the values alive.
-  StoredMatrix(const double* values, Eigen::Index rows, Eigen::Index columns,
-               std::shared_ptr<const void> owner)
+  StoredMatrixOf(const Scalar* values, Eigen::Index rows, Eigen::Index columns,
+                 std::shared_ptr<const void> owner)
       : owner_(std::move(owner)), values_(values), rows_(rows), columns_(columns) {}
 
-  Eigen::Map<const Eigen::MatrixXd> view() const { return {values_, rows_, columns_}; }
+  Eigen::Map<const Matrix> view() const { return {values_, rows_, columns_}; }
 
  private:
-  explicit StoredMatrix(const std::shared_ptr<const Eigen::MatrixXd>& own)
-      : StoredMatrix(own->data(), own->rows(), own->cols(), own) {}
+  explicit StoredMatrixOf(const std::shared_ptr<const Matrix>& own)
+      : StoredMatrixOf(own->data(), own->rows(), own->cols(), own) {}
 
   std::shared_ptr<const void> owner_;
-  const double* values_ = nullptr;
+  const Scalar* values_ = nullptr;
   Eigen::Index rows_ = 0, columns_ = 0;
 };
+using StoredMatrix = StoredMatrixOf<double>;
+using StoredFloats = StoredMatrixOf<float>;
 
 }  // namespace faultsim

@@ -14,7 +14,7 @@ namespace {
 /// order.
 void add_pressure_loads(Mesh& mesh, std::vector<LoadCase>& loads) {
   std::set<std::pair<int, int>> present;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+  for (std::size_t c = 0; c < mesh.region.size(); ++c) {
     if (mesh.region[c] >= 0) present.insert({mesh.region[c], mesh.material[c]});
   }
   std::vector<std::pair<int, int>> order(present.begin(), present.end());
@@ -24,7 +24,7 @@ void add_pressure_loads(Mesh& mesh, std::vector<LoadCase>& loads) {
     load.region = static_cast<int>(k);
     loads.push_back(load);
   }
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+  for (std::size_t c = 0; c < mesh.region.size(); ++c) {
     if (mesh.region[c] < 0) continue;
     const auto found = present.find({mesh.region[c], mesh.material[c]});
     mesh.region[c] = static_cast<int>(std::distance(present.begin(), found));
@@ -74,6 +74,15 @@ BulkProblem bulk_problem(const Scene& scene, const Plan& plan) {
   problem.b_bar = scene.numerics.b_bar;
   problem.half_domain = plan.half_domain;
   return problem;
+}
+
+std::optional<Mesh> moved_faults(const Scene& scene, const Plan& plan, const Mesh& like) {
+  std::optional<Mesh> mesh = make_faults(field_mesh_spec(scene, plan), like);
+  if (!mesh) return mesh;
+  std::vector<LoadCase> loads;
+  add_pressure_loads(*mesh, loads);
+  if (mesh->region != like.region) mesh.reset();
+  return mesh;
 }
 
 std::vector<int> mirrored_rows(const Scene& scene, const Plan& plan) {

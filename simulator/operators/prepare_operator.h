@@ -18,6 +18,10 @@ namespace faultsim {
 
 /// The family of a scene turned into numbers for the bulk.
 BulkProblem bulk_problem(const Scene& scene, const Plan& plan);
+/// The mesh of a field's bulk problem without cells and boundary, which is all that its faults need
+/// and a fraction of the time; nothing where its topology is not that of `like`, the mesh of
+/// another one's bulk problem. The quality of its cells is not looked at.
+std::optional<Mesh> moved_faults(const Scene& scene, const Plan& plan, const Mesh& like);
 /// Points of the half that is not modelled are observed at their mirror image. The rows (three per
 /// observation point) whose sign is therefore to be turned: their u_y.
 std::vector<int> mirrored_rows(const Scene& scene, const Plan& plan);

@@ -155,6 +155,11 @@ void write_array(hid_t file, const std::string& path, const std::vector<hsize_t>
 }
 
 void write_array(hid_t file, const std::string& path, const std::vector<hsize_t>& sizes,
+                 const float* values, const About& about) {
+  write_any(file, path, sizes, H5T_IEEE_F32LE, H5T_NATIVE_FLOAT, values, about);
+}
+
+void write_array(hid_t file, const std::string& path, const std::vector<hsize_t>& sizes,
                  const int* values, const About& about) {
   write_any(file, path, sizes, H5T_STD_I32LE, H5T_NATIVE_INT, values, about);
 }

@@ -64,6 +64,8 @@ struct About {
 void write_array(hid_t file, const std::string& path, const std::vector<hsize_t>& sizes,
                  const double* values, const About& about);
 void write_array(hid_t file, const std::string& path, const std::vector<hsize_t>& sizes,
+                 const float* values, const About& about);
+void write_array(hid_t file, const std::string& path, const std::vector<hsize_t>& sizes,
                  const int* values, const About& about);
 /// One string, ending with a zero byte as C's do.
 void write_text(hid_t file, const std::string& path, const std::string& text);

@@ -176,6 +176,17 @@ std::string move_aside(const SealedFormat& format, const std::filesystem::path& 
 }  // namespace
 
 const double* SealedContent::mapped(const char* path, hsize_t rows, hsize_t columns) const {
+  return reinterpret_cast<const double*>(
+      mapped_any(path, rows, columns, H5T_NATIVE_DOUBLE, sizeof(double)));
+}
+
+const float* SealedContent::mapped_floats(const char* path, hsize_t rows, hsize_t columns) const {
+  return reinterpret_cast<const float*>(
+      mapped_any(path, rows, columns, H5T_NATIVE_FLOAT, sizeof(float)));
+}
+
+const std::byte* SealedContent::mapped_any(const char* path, hsize_t rows, hsize_t columns,
+                                           hid_t wanted, std::size_t bytes_each) const {
   const hdf5::Handle dataset(H5Dopen2(file_, path, H5P_DEFAULT), H5Dclose, path);
   const hdf5::Handle space(H5Dget_space(dataset), H5Sclose, path);
   const hdf5::Handle type(H5Dget_type(dataset), H5Tclose, path);
@@ -183,16 +194,17 @@ const double* SealedContent::mapped(const char* path, hsize_t rows, hsize_t colu
   if (H5Sget_simple_extent_ndims(space) == 2) {
     hdf5::check(H5Sget_simple_extent_dims(space, sizes, nullptr), path);
   }
-  if (sizes[0] != rows || sizes[1] != columns || H5Tequal(type, H5T_NATIVE_DOUBLE) <= 0) {
-    throw StorageError(concat(path, " is not ", rows, " x ", columns, " doubles"));
+  if (sizes[0] != rows || sizes[1] != columns || H5Tequal(type, wanted) <= 0) {
+    throw StorageError(
+        concat(path, " is not ", rows, " x ", columns, " numbers of ", bytes_each, " bytes"));
   }
   if (rows == 0 || columns == 0) return nullptr;
   const haddr_t offset = H5Dget_offset(dataset);
   if (offset == HADDR_UNDEF || offset % kAlignment != 0 || offset > size_ ||
-      size_ - offset < rows * columns * sizeof(double)) {
+      size_ - offset < rows * columns * bytes_each) {
     throw StorageError(concat(path, " lies at the wrong place of the file"));
   }
-  return reinterpret_cast<const double*>(bytes_ + offset);
+  return bytes_ + offset;
 }
 
 void write_sealed(const std::filesystem::path& path, const SealedFormat& format,

@@ -245,6 +245,7 @@ std::string family_of_surface(Scene scene, const Plan& plan) {
     set_value(one, one.from, scene);
   }
   return nlohmann::json{{"surface", canonical_family(scene, plan)},
+                        {"method", kSurfaceMethod},
                         {"over", over},
                         {"tolerance", surface.tolerance},
                         {"most_operators", surface.most_operators}}

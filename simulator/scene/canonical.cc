@@ -199,6 +199,7 @@ json surface(const SurfaceRequest& surface) {
   for (const SurfaceParameter& one : surface.over)
     over.push_back({static_cast<int>(one.kind), one.index, plain(one.from), plain(one.to)});
   return {{"over", over},
+          {"method", kSurfaceMethod},
           {"tolerance", plain(surface.tolerance)},
           {"most_operators", surface.most_operators}};
 }

@@ -80,6 +80,33 @@ struct Simulation::Impl {
   std::optional<Values> values_of(const Changes& changes);
 };
 
+/// The jumps that a case has moved so far.
+class MovedJumps {
+ public:
+  explicit MovedJumps(const FaultOperator& op)
+      : op_(op), moved_(static_cast<std::size_t>(op.geometry.n_dofs), false) {}
+
+  void look(const FaultFields& fields) {
+    for (std::size_t k = 0; k < op_.geometry.nodes.size(); ++k) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const int dof = op_.geometry.nodes[k].dof[c];
+        const double jump = fields.jump(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(k));
+        if (dof >= 0 && jump != 0) moved_[static_cast<std::size_t>(dof)] = true;
+      }
+    }
+  }
+  std::vector<int> list() const {
+    std::vector<int> dofs;
+    for (std::size_t d = 0; d < moved_.size(); ++d)
+      if (moved_[d]) dofs.push_back(static_cast<int>(d));
+    return dofs;
+  }
+
+ private:
+  const FaultOperator& op_;
+  std::vector<bool> moved_;
+};
+
 /// The scene's operator from its surface. @returns whether that had to be made.
 bool Simulation::Impl::prepare_surface(const RunContext& context) {
   const std::string wanted = operator_key(at_hand);
@@ -90,8 +117,8 @@ bool Simulation::Impl::prepare_surface(const RunContext& context) {
     context.stop.throw_if_requested("preparing the operator");
     const auto made = std::make_shared<std::shared_ptr<const OperatorSurface>>();
     build = std::make_unique<OperatorBuild>(
-        [made, scene = at_hand.scene, kept = cache](const RunContext& inner) {
-          *made = std::make_shared<OperatorSurface>(scene, kept, inner);
+        [made, scene = at_hand.scene, plan = at_hand.plan, kept = cache](const RunContext& inner) {
+          *made = std::make_shared<OperatorSurface>(scene, plan, kept, inner);
           return PreparedOperator();
         },
         context.n_threads);
@@ -99,8 +126,10 @@ bool Simulation::Impl::prepare_surface(const RunContext& context) {
     build.reset();
     surface = *made;
     surface_key = wanted;
+    if (!surface->remark().empty()) context.note(surface->remark());
   }
   prepared = surface->at(at_hand.scene, at_hand.plan);
+  prepared.from_cache = surface->from_cache();
   prepared_key = key;
   return is_new;
 }
@@ -362,7 +391,17 @@ CaseResult Simulation::run(const RunContext& context, const RunWatch& watch) {
   CaseProbe probe;
   probe.tried = watch.tried;
   probe.identity = impl_->at_hand.identity;
-  return run_case(impl_->at_hand.scene, impl_->prepared, context, watch.step, probe);
+  const PreparedOperator& prepared = impl_->prepared;
+  if (!prepared.surface)
+    return run_case(impl_->at_hand.scene, prepared, context, watch.step, probe);
+  MovedJumps moved(*prepared.op);
+  const auto look = [&](const StepResult& step, const FaultFields& fields) {
+    moved.look(fields);
+    if (watch.step) watch.step(step, fields);
+  };
+  CaseResult result = run_case(impl_->at_hand.scene, prepared, context, look, probe);
+  demand_definite(*prepared.op, moved.list());
+  return result;
 }
 
 CaseResult Simulation::run(const Changes& changes, const RunContext& context,

@@ -13,9 +13,8 @@ constexpr double kDistrust = 0.1;
 
 }  // namespace
 
-AdaptiveInterpolant::AdaptiveInterpolant(int n_axes, Function function, Size size)
-    : function_(std::move(function)), size_(std::move(size)), grid_(n_axes) {
-  values_.push_back(function_(grid_.node(0)));
+AdaptiveInterpolant::AdaptiveInterpolant(int n_axes, Surplus surplus)
+    : look_(std::move(surplus)), grid_(n_axes) {
   own_.push_back(0);
   surplus_.push_back(std::numeric_limits<double>::infinity());
   is_old_.push_back(false);
@@ -37,11 +36,7 @@ bool AdaptiveInterpolant::may_add(const SparseGrid::Index& index) const {
 
 void AdaptiveInterpolant::add(const SparseGrid::Index& index) {
   const Eigen::VectorXd x = SparseGrid::place(index);
-  const Eigen::VectorXd weights = grid_.weights(x);
-  Eigen::VectorXd value = function_(x), difference = value;
-  for (std::size_t k = 0; k < values_.size(); ++k)
-    difference -= weights[static_cast<Eigen::Index>(k)] * values_[k];
-  const double own = size_(difference);
+  const double own = look_(x, grid_.weights(x));
   double least = 0;
   for (std::size_t axis = 0; axis < index.size(); ++axis) {
     SparseGrid::Index before = index;
@@ -51,7 +46,6 @@ void AdaptiveInterpolant::add(const SparseGrid::Index& index) {
     least = std::max(least, kDistrust * of_before);
   }
   grid_.add(index);
-  values_.push_back(std::move(value));
   own_.push_back(own);
   surplus_.push_back(std::max(own, least));
   is_old_.push_back(false);
@@ -68,8 +62,8 @@ void AdaptiveInterpolant::expand(std::size_t node) {
 double AdaptiveInterpolant::grow(double tolerance, int most) {
   while (true) {
     double largest = 0;
-    std::size_t worst = values_.size();
-    for (std::size_t k = 0; k < values_.size(); ++k) {
+    std::size_t worst = own_.size();
+    for (std::size_t k = 0; k < own_.size(); ++k) {
       if (is_old_[k] || surplus_[k] <= largest) continue;
       largest = surplus_[k];
       worst = k;

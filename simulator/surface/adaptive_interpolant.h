@@ -13,29 +13,27 @@ namespace faultsim {
 /// Griebel 2003, with one node per index). Deterministic: ties go to the node that came first.
 class AdaptiveInterpolant {
  public:
-  using Function = std::function<Eigen::VectorXd(const Eigen::VectorXd& x)>;
-  using Size = std::function<double(const Eigen::VectorXd& difference)>;
+  /// Looks at the function at a new node, x, and says by how much it is off there:
+  /// the size of f(x) − Σ_k w_k f(x_k) over the nodes before. What the values are, and where they
+  /// are kept, is its own business.
+  using Surplus = std::function<double(const Eigen::VectorXd& x, const Eigen::VectorXd& weights)>;
 
-  /// Asks for the value at the centre.
-  /// @param size  of a difference of two values: what surpluses are compared by.
-  AdaptiveInterpolant(int n_axes, Function function, Size size);
+  /// Starts with the centre, whose value is not asked for.
+  AdaptiveInterpolant(int n_axes, Surplus surplus);
 
   /// Grows until no surplus of a node without successors is above `tolerance`, or there are `most`
   /// nodes. @returns the largest one left (infinite where only the centre is there).
   double grow(double tolerance, int most);
 
   const SparseGrid& grid() const { return grid_; }
-  const std::vector<Eigen::VectorXd>& values() const { return values_; }  ///< by node.
 
  private:
   void add(const SparseGrid::Index& index);
   void expand(std::size_t node);
   bool may_add(const SparseGrid::Index& index) const;
 
-  Function function_;
-  Size size_;
+  Surplus look_;
   SparseGrid grid_;
-  std::vector<Eigen::VectorXd> values_;
   std::vector<double> own_;  ///< surplus by node.
   std::vector<double>
       surplus_;               ///< the same, or a tenth of that of a node before where that is more.

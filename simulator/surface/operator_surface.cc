@@ -1,18 +1,15 @@
 #include "simulator/surface/operator_surface.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <random>
+#include <optional>
 #include <utility>
 
-#include "simulator/common/fingerprint.h"
-#include "simulator/common/machine.h"
 #include "simulator/condensation/condensation.h"
 #include "simulator/condensation/fault_geometry.h"
-#include "simulator/surface/adaptive_interpolant.h"
+#include "simulator/linalg/blas_start.h"
+#include "simulator/linalg/dense_cholesky.h"
+#include "simulator/output/operator_cache.h"
+#include "simulator/surface/surface_builder.h"
 
 namespace faultsim {
 namespace {
@@ -20,12 +17,6 @@ namespace {
 const char* const kWhere = "/numerics/surface";
 
 using Kind = SurfaceParameter::Kind;
-
-std::string brief(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", value);
-  return text;
-}
 
 [[noreturn]] void refuse(const std::string& what, const std::string& cure) {
   throw InputError("scene", {{kWhere, 0, what, cure}});
@@ -45,23 +36,27 @@ Plan plan_of(const Scene& scene) {
 }
 
 /// The mesh nodes that stand for the observation points.
-std::vector<int> observed_nodes(const BulkProblem& problem) {
+std::vector<int> observed_nodes(const BulkProblem& of_points, const Mesh& mesh) {
   std::vector<int> nodes;
-  for (const auto& [name, point] : problem.observation_points)
-    nodes.push_back(observed_node(problem.mesh, point));
+  for (const auto& [name, point] : of_points.observation_points)
+    nodes.push_back(observed_node(mesh, point));
   return nodes;
 }
 
-/// Points of the cube, none of them a node: the same for every surface of as many axes.
-std::vector<Eigen::VectorXd> check_points(int n_axes, int n_points) {
-  std::mt19937 random(7);
-  std::vector<Eigen::VectorXd> points;
-  for (int i = 0; i < n_points; ++i) {
-    Eigen::VectorXd x(n_axes);
-    for (double& one : x) one = -1 + 2 * (static_cast<double>(random()) / 4294967296.0);
-    points.push_back(x);
-  }
-  return points;
+[[noreturn]] void refuse_topology() {
+  refuse("the mesh changes its topology over the ranges of the surface",
+         "narrow the ranges of dips and offsets, or take exact operators");
+}
+
+Scene without_surface(Scene scene) {
+  scene.numerics.surface = {};
+  return scene;
+}
+
+SparseGrid grid_of(const std::vector<SparseGrid::Index>& nodes) {
+  SparseGrid grid(static_cast<int>(nodes.front().size()));
+  for (std::size_t k = 1; k < nodes.size(); ++k) grid.add(nodes[k]);
+  return grid;
 }
 
 }  // namespace
@@ -109,88 +104,79 @@ struct OperatorSurface::Frame {
   explicit Frame(BulkProblem bulk)
       : problem(std::move(bulk)),
         dofs(problem.mesh, problem.conditions, static_cast<int>(problem.loads.size())),
-        observed(observed_nodes(problem)) {}
+        observed(observed_nodes(problem, problem.mesh)) {}
   BulkProblem problem;
   DofMap dofs;
   std::vector<int> observed;
 
-  void demand_same_topology(const BulkProblem& other, const Scene& scene) const;
+  void demand_same_points(const Mesh& mesh) const;
+  void demand_same_topology(const Mesh& other) const;
 };
 
-void OperatorSurface::Frame::demand_same_topology(const BulkProblem& other,
-                                                  const Scene& scene) const {
-  const Mesh &a = problem.mesh, &b = other.mesh;
-  if (a.nodes.size() != b.nodes.size() || a.cells != b.cells || a.material != b.material ||
-      a.region != b.region || a.tied_to != b.tied_to) {
-    refuse("the mesh changes its topology over the ranges of the surface",
-           "narrow the ranges of dips and offsets, or take exact operators");
-  }
-  const std::vector<int> nodes = observed_nodes(other);
+void OperatorSurface::Frame::demand_same_points(const Mesh& mesh) const {
+  const std::vector<int> nodes = observed_nodes(problem, mesh);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i] == observed[i]) continue;
-    refuse("the observation point " + scene.output.observation_points[i].name +
+    refuse("the observation point " + problem.observation_points[i].first +
                " is nearest to different nodes of the mesh over the ranges of the surface",
            "leave it out or put it where the mesh does not move, or take exact operators");
   }
 }
 
-OperatorSurface::OperatorSurface(const Scene& scene, const CachePolicy& cache,
+void OperatorSurface::Frame::demand_same_topology(const Mesh& other) const {
+  const Mesh& mesh = problem.mesh;
+  if (mesh.nodes.size() != other.nodes.size() || mesh.cells != other.cells ||
+      mesh.material != other.material || mesh.region != other.region ||
+      mesh.tied_to != other.tied_to) {
+    refuse_topology();
+  }
+  demand_same_points(other);
+}
+
+OperatorSurface::OperatorSurface(const Scene& scene, const Plan& plan, const CachePolicy& cache,
                                  const RunContext& context)
-    : centre_(scene),
+    : centre_(without_surface(scene)),
       request_(scene.numerics.surface),
       axes_(surface_axes(request_, scene)),
       grid_(static_cast<int>(axes_.size())) {
-  centre_.numerics.surface = {};
-  const int n_axes = static_cast<int>(axes_.size());
-  centre_ = scene_at(Eigen::VectorXd::Zero(n_axes));
+  take_blas_buffer();
+  set_blas_threads(1);
+  centre_ = scene_at(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(axes_.size())));
   frame_ = std::make_unique<Frame>(bulk_problem(centre_, plan_of(centre_)));
-  centre_operator_ = exact_at(Eigen::VectorXd::Zero(n_axes), cache, context).op;
-  if (Eigen::LLT<Eigen::MatrixXd>(centre_operator_->h()).info() != Eigen::Success) {
-    refuse("a piece that faults cut loose moves freely, so that H is not positive definite",
-           "take exact operators");
+  const std::string name = operator_fingerprint(scene, plan, blas_description());
+  std::optional<StoredSurface> found;
+  if (!cache.folder.empty()) found = read_surface_file(cache.folder, name, &remark_);
+  from_cache_ = found.has_value();
+  if (found) {
+    surface_ = std::move(*found);
+  } else {
+    build(name, cache, context);
   }
-  values_ = std::make_unique<OperatorValues>(*centre_operator_);
-  const double bytes = 8.0 * static_cast<double>(values_->size());
-  int n_read = 0;
-  const auto value_at = [&](const Eigen::VectorXd& x) {
-    context.progress(0, concat("operator ", ++n_read, " of a surface"));
-    // Its own, that of the check points and the columns that are left of them.
-    if (const auto free = available_memory(); free && 3 * bytes > *free) {
-      throw ResourceError(concat("the ", n_read,
-                                 " operators of the surface do not fit into memory (",
-                                 brief(bytes / 1e9), " GB each); narrow its ranges"));
-    }
-    return values_->pack(*exact_at(x, cache, context).op);
-  };
-  AdaptiveInterpolant interpolant(
-      n_axes, value_at, [&](const Eigen::VectorXd& one) { return values_->largest_block(one); });
-  const auto points = check_points(n_axes, n_surface_checks(request_));
-  std::vector<std::shared_ptr<const FaultOperator>> exact;
-  for (double surplus = request_.tolerance;; surplus /= 4) {
-    interpolant.grow(surplus, request_.most_operators);
-    for (std::size_t i = exact.size(); i < points.size(); ++i) {
-      context.progress(0, concat("check point ", i + 1, " of a surface"));
-      exact.push_back(exact_at(points[i], cache, context).op);
-    }
-    grid_ = interpolant.grid();
-    compress(interpolant.values(), surplus);
-    measure(points, exact);
-    const double error = std::max(std::max(accuracy_.stiffness, accuracy_.traction),
-                                  std::max(accuracy_.observation, accuracy_.slip));
-    if (error <= request_.tolerance) return;
-    constexpr double kRounding = 1e-13;  // nothing is gained below it
-    if (grid_.n_nodes() >= request_.most_operators || surplus < kRounding) {
-      refuse(concat("the surface does not reach its tolerance: with ", grid_.n_nodes(),
-                    " operators H is off by ", brief(accuracy_.stiffness), ", locked tractions by ",
-                    brief(accuracy_.traction), ", observations by ", brief(accuracy_.observation),
-                    ", slip without friction by ", brief(accuracy_.slip), "; ",
-                    brief(request_.tolerance), " is asked for"),
-             "narrow its ranges, raise tolerance or most_operators, or take exact operators");
-    }
-  }
+  grid_ = grid_of(surface_.basis->nodes);
 }
 
 OperatorSurface::~OperatorSurface() = default;
+
+void OperatorSurface::build(const std::string& name, const CachePolicy& cache,
+                            const RunContext& context) {
+  surface_ = build_surface(
+      request_, name, [&](const Eigen::VectorXd& x) { return exact_at(x, cache, context); },
+      context);
+  if (!cache.folder.empty()) keep(name, cache);
+}
+
+/// What was written is read back, so that processes share it. One that cannot be kept is still a
+/// surface.
+void OperatorSurface::keep(const std::string& name, const CachePolicy& cache) {
+  try {
+    write_surface(surface_, cache.folder);
+    if (auto kept = read_surface_file(cache.folder, name)) surface_ = std::move(*kept);
+    prune_operators(cache.folder, cache.max_bytes, name);
+  } catch (const StorageError& error) {
+    if (!remark_.empty()) remark_ += "; ";
+    remark_ += concat("the surface of operators is not kept for other runs: ", error.what());
+  }
+}
 
 Scene OperatorSurface::scene_at(const Eigen::VectorXd& x) const {
   Scene scene = centre_;
@@ -199,94 +185,58 @@ Scene OperatorSurface::scene_at(const Eigen::VectorXd& x) const {
   return scene;
 }
 
-PreparedOperator OperatorSurface::exact_at(const Eigen::VectorXd& x, const CachePolicy& cache,
-                                           const RunContext& context) const {
+std::shared_ptr<const FaultOperator> OperatorSurface::exact_at(const Eigen::VectorXd& x,
+                                                               const CachePolicy& cache,
+                                                               const RunContext& context) const {
   const Scene scene = scene_at(x);
   const Plan plan = plan_of(scene);
-  if (moves_mesh(request_)) frame_->demand_same_topology(bulk_problem(scene, plan), scene);
-  return prepare_operator(scene, plan, cache, false, context);
-}
-
-/// The columns of B beyond which nothing is above a hundredth of `tolerance` in any node.
-void OperatorSurface::compress(const std::vector<Eigen::VectorXd>& values, double tolerance) {
-  mean_ = values.front();
-  const auto n = static_cast<Eigen::Index>(values.size()) - 1;
-  Eigen::MatrixXd moved(mean_.size(), n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    moved.col(i) = values[static_cast<std::size_t>(i) + 1] - mean_;
-  const Eigen::MatrixXd gram = moved.transpose() * moved;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);  // ascending
-  const double least = std::pow(tolerance / 100, 2);
-  Eigen::Index n_left_out = 0;
-  double left_out = 0;  // sum of squares over all nodes
-  while (n_left_out < n && left_out + std::max(0.0, solver.eigenvalues()[n_left_out]) <= least)
-    left_out += std::max(0.0, solver.eigenvalues()[n_left_out++]);
-  const Eigen::MatrixXd directions = solver.eigenvectors().rightCols(n - n_left_out);
-  basis_ = moved * directions;
-  weights_ = directions.transpose();
-}
-
-FaultOperator OperatorSurface::interpolated(const Eigen::VectorXd& x) const {
-  const Eigen::VectorXd of_nodes = grid_.weights(x);
-  const Eigen::VectorXd factors = weights_ * of_nodes.tail(of_nodes.size() - 1);
-  Eigen::VectorXd values = mean_;
-  for (Eigen::Index k = 0; k < basis_.cols(); ++k) values += factors[k] * basis_.col(k);
-  FaultOperator op;
-  op.observed.rows = centre_operator_->observed.rows;
-  op.n_unknowns = centre_operator_->n_unknowns;
-  op.blas = centre_operator_->blas;
-  values_->unpack(values, op);
-  return op;
-}
-
-void OperatorSurface::measure(const std::vector<Eigen::VectorXd>& points,
-                              const std::vector<std::shared_ptr<const FaultOperator>>& exact) {
-  accuracy_ = {.n_operators = grid_.n_nodes(),
-               .n_basis = static_cast<int>(basis_.cols()),
-               .n_checks = static_cast<int>(points.size()),
-               .tolerance = request_.tolerance};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    FaultOperator op = interpolated(points[i]);
-    op.geometry = exact[i]->geometry;
-    const CaseSurface errors = OperatorValues::errors(op, *exact[i]);
-    accuracy_.stiffness = std::max(accuracy_.stiffness, errors.stiffness);
-    accuracy_.traction = std::max(accuracy_.traction, errors.traction);
-    accuracy_.observation = std::max(accuracy_.observation, errors.observation);
-    accuracy_.slip = std::max(accuracy_.slip, errors.slip);
-  }
+  if (moves_mesh(request_)) frame_->demand_same_topology(bulk_problem(scene, plan).mesh);
+  const PreparedOperator prepared = prepare_operator(scene, plan, cache, false, context);
+  if (prepared.from_cache || cache.folder.empty()) return prepared.op;
+  // From its file, whose pages the system may take back; kept in memory where there is none.
+  if (auto mapped = read_operator(cache.folder, prepared.op->fingerprint))
+    return std::make_shared<const FaultOperator>(std::move(*mapped));
+  return prepared.op;
 }
 
 FaultGeometry OperatorSurface::geometry_of(const Scene& scene, const Plan& plan) const {
   std::vector<ElasticMaterial> materials;
   for (const Material& m : scene.materials)
     materials.push_back({m.youngs_modulus, m.poisson_ratio});
-  if (!moves_mesh(request_))
-    return fault_geometry(frame_->problem.mesh, materials, frame_->dofs, plan.half_domain);
-  const BulkProblem problem = bulk_problem(scene, plan);
-  frame_->demand_same_topology(problem, scene);
-  const DofMap dofs(problem.mesh, problem.conditions, static_cast<int>(problem.loads.size()));
-  return fault_geometry(problem.mesh, materials, dofs, plan.half_domain);
+  const Mesh& mesh = frame_->problem.mesh;
+  if (!moves_mesh(request_)) return fault_geometry(mesh, materials, frame_->dofs, plan.half_domain);
+  const std::optional<Mesh> moved = moved_faults(scene, plan, mesh);
+  if (!moved) refuse_topology();
+  frame_->demand_same_points(*moved);
+  return fault_geometry(*moved, materials, frame_->dofs, plan.half_domain);
 }
 
 PreparedOperator OperatorSurface::at(const Scene& scene, const Plan& plan) const {
-  const Eigen::VectorXd x = surface_coordinates(axes_, request_, scene);
-  auto op = std::make_shared<FaultOperator>(interpolated(x));
+  const Eigen::VectorXd weights = grid_.weights(surface_coordinates(axes_, request_, scene));
+  auto op = std::make_shared<FaultOperator>();
+  OperatorBasis::put(surface_.basis, surface_.basis->weights * weights.tail(weights.size() - 1),
+                     *op);
   op->geometry = geometry_of(scene, plan);
   FAULTSIM_DEMAND(op->geometry.faults.size() == scene.faults.size(), op->geometry.faults.size());
   for (std::size_t f = 0; f < scene.faults.size(); ++f)
     op->geometry.faults[f].name = scene.faults[f].name;
-  const Eigen::LLT<Eigen::MatrixXd> factor(op->h());
-  if (factor.info() != Eigen::Success) {
-    refuse("the interpolated H is not positive definite at this case's parameters",
-           "take a smaller tolerance, or exact operators");
-  }
-  std::string key = operator_fingerprint(scene, plan, centre_operator_->blas);
-  for (const double one : x) key += concat(" ", one);
-  op->fingerprint = fingerprint(key);
+  op->fingerprint = surface_.basis->fingerprint;
   PreparedOperator prepared;
   prepared.op = op;
-  prepared.surface = accuracy_;
+  prepared.surface = surface_.accuracy;
   return prepared;
+}
+
+void demand_definite(const FaultOperator& op, const std::vector<int>& dofs) {
+  const auto n = static_cast<Eigen::Index>(dofs.size());
+  Eigen::MatrixXd block(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const auto column = op.compliance->column(dofs[static_cast<std::size_t>(j)]);
+    for (Eigen::Index i = j; i < n; ++i) block(i, j) = column[dofs[static_cast<std::size_t>(i)]];
+  }
+  if (DenseCholesky().factor(std::move(block))) return;
+  refuse("the interpolated H is not positive definite at this case's parameters",
+         "take a smaller tolerance, or exact operators");
 }
 
 }  // namespace faultsim

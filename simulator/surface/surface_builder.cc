@@ -1,0 +1,220 @@
+#include "simulator/surface/surface_builder.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "simulator/common/errors.h"
+#include "simulator/common/machine.h"
+#include "simulator/linalg/dense_cholesky.h"
+#include "simulator/surface/adaptive_interpolant.h"
+#include "simulator/surface/operator_nodes.h"
+
+namespace faultsim {
+namespace {
+
+std::string brief(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", value);
+  return text;
+}
+
+double relative(double error, double size) { return size > 0 ? error / size : error; }
+
+[[noreturn]] void refuse(const std::string& what, const std::string& cure) {
+  throw InputError("scene", {{"/numerics/surface", 0, what, cure}});
+}
+
+/// Points of the cube, none of them a node: the same for every surface of as many axes.
+std::vector<Eigen::VectorXd> check_points(int n_axes, int n_points) {
+  std::mt19937 random(7);
+  std::vector<Eigen::VectorXd> points;
+  for (int i = 0; i < n_points; ++i) {
+    Eigen::VectorXd x(n_axes);
+    for (double& one : x) one = -1 + 2 * (static_cast<double>(random()) / 4294967296.0);
+    points.push_back(x);
+  }
+  return points;
+}
+
+/// Slip of faults without friction, H g = A L_k, a column per load: the softest modes of H, which
+/// its norm does not show, weigh most here. Nothing where H is not positive definite.
+std::optional<Eigen::MatrixXd> slip_without_friction(const FaultOperator& op,
+                                                     const Eigen::VectorXd& area) {
+  DenseCholesky factor;
+  if (!factor.factor(op.h())) return std::nullopt;
+  Eigen::MatrixXd slip(area.size(), op.loads.traction.cols());
+  for (Eigen::Index k = 0; k < slip.cols(); ++k)
+    slip.col(k) = factor.solve(area.cwiseProduct(op.loads.traction.col(k)));
+  return slip;
+}
+
+/// The largest relative error of a column.
+double worst_column(const Eigen::MatrixXd& value, const Eigen::MatrixXd& exact) {
+  double worst = 0;
+  for (Eigen::Index k = 0; k < exact.cols(); ++k)
+    worst = std::max(worst, relative((value.col(k) - exact.col(k)).norm(), exact.col(k).norm()));
+  return worst;
+}
+
+/// A place where the surface is held against the exact operator.
+struct Check {
+  Eigen::VectorXd x;
+  std::shared_ptr<const FaultOperator> exact;
+  Eigen::MatrixXd slip;  ///< of `exact`.
+};
+
+/// What it takes to go from one grid to a finer one.
+class Builder {
+ public:
+  Builder(const SurfaceRequest& request, const ExactOperator& exact, const RunContext& context);
+  StoredSurface build(const std::string& fingerprint);
+
+ private:
+  std::shared_ptr<const FaultOperator> ask(const Eigen::VectorXd& x, const std::string& what);
+  void demand_memory(double bytes, const char* what) const;
+  OperatorBasis compressed(double tolerance) const;
+  CaseSurface measured(const std::shared_ptr<const OperatorBasis>& basis, const SparseGrid& grid);
+  void measure(const std::shared_ptr<const OperatorBasis>& basis, const SparseGrid& grid,
+               Check& check, CaseSurface& worst) const;
+
+  const SurfaceRequest& request_;
+  const ExactOperator& exact_;
+  const RunContext& context_;
+  OperatorNodes nodes_;
+  std::vector<Check> checks_;
+};
+
+Builder::Builder(const SurfaceRequest& request, const ExactOperator& exact,
+                 const RunContext& context)
+    : request_(request),
+      exact_(exact),
+      context_(context),
+      nodes_(ask(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(request.over.size())),
+                 "operator 1")) {
+  DenseCholesky factor;
+  if (!factor.factor(nodes_.centre()->h())) {
+    refuse("a piece that faults cut loose moves freely, so that H is not positive definite",
+           "take exact operators");
+  }
+}
+
+std::shared_ptr<const FaultOperator> Builder::ask(const Eigen::VectorXd& x,
+                                                  const std::string& what) {
+  context_.stop.throw_if_requested("building a surface of operators");
+  context_.progress(0, what + " of a surface");
+  return exact_(x);
+}
+
+void Builder::demand_memory(double bytes, const char* what) const {
+  const auto free = available_memory();
+  if (!free || bytes <= *free) return;
+  throw ResourceError(concat(what, " of the surface need ", brief(bytes / 1e9),
+                             " GB of memory, and there are ", brief(*free / 1e9),
+                             " GB; give operators a cache, narrow the surface's ranges, raise its "
+                             "tolerance, or take a coarser tier"));
+}
+
+/// The directions beyond which nothing is above a hundredth of `tolerance` in any node.
+OperatorBasis Builder::compressed(double tolerance) const {
+  const Eigen::MatrixXd gram = nodes_.gram(context_.stop);
+  const Eigen::Index m = gram.rows();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);  // ascending
+  const double least = std::pow(tolerance / 100, 2);
+  Eigen::Index n_left_out = 0;
+  double left_out = 0;  // sum of squares over all nodes
+  while (n_left_out < m && left_out + std::max(0.0, solver.eigenvalues()[n_left_out]) <= least)
+    left_out += std::max(0.0, solver.eigenvalues()[n_left_out++]);
+  const double n = nodes_.centre()->geometry.n_dofs;
+  const auto k = static_cast<double>(m - n_left_out);
+  demand_memory(sizeof(float) * n * n * k + 2 * sizeof(double) * n * n, "the directions");
+  return nodes_.basis(solver.eigenvectors().rightCols(m - n_left_out), context_.stop);
+}
+
+void Builder::measure(const std::shared_ptr<const OperatorBasis>& basis, const SparseGrid& grid,
+                      Check& check, CaseSurface& worst) const {
+  const FaultOperator& exact = *check.exact;
+  FaultOperator op;
+  const Eigen::VectorXd w = grid.weights(check.x);
+  OperatorBasis::put(basis, basis->weights * w.tail(w.size() - 1), op);
+  const auto raise = [](double& member, double error) { member = std::max(member, error); };
+  raise(worst.stiffness, relative((op.h() - exact.h()).norm(), exact.h().norm()));
+  raise(worst.traction, worst_column(op.loads.traction, exact.loads.traction));
+  const Observations &seen = op.observed, &truth = exact.observed;
+  raise(worst.observation,
+        std::max(relative((seen.per_load - truth.per_load).norm(), truth.per_load.norm()),
+                 relative((seen.per_jump - truth.per_jump).norm(), truth.per_jump.norm())));
+  const auto slip = slip_without_friction(op, exact.geometry.dof_area);
+  raise(worst.slip,
+        slip ? worst_column(*slip, check.slip) : std::numeric_limits<double>::infinity());
+}
+
+CaseSurface Builder::measured(const std::shared_ptr<const OperatorBasis>& basis,
+                              const SparseGrid& grid) {
+  if (checks_.empty()) {
+    const int n_axes = grid.n_axes();
+    for (const Eigen::VectorXd& x : check_points(n_axes, n_surface_checks(request_))) {
+      Check check{x, ask(x, concat("check point ", checks_.size() + 1)), {}};
+      const auto slip = slip_without_friction(*check.exact, check.exact->geometry.dof_area);
+      if (!slip) refuse("an exact H is not positive definite", "take exact operators");
+      check.slip = *slip;
+      checks_.push_back(std::move(check));
+    }
+  }
+  CaseSurface worst{.n_operators = grid.n_nodes(),
+                    .n_basis = static_cast<int>(basis->size()),
+                    .n_checks = static_cast<int>(checks_.size()),
+                    .tolerance = request_.tolerance};
+  for (Check& check : checks_) {
+    context_.stop.throw_if_requested("measuring a surface of operators");
+    measure(basis, grid, check, worst);
+  }
+  return worst;
+}
+
+StoredSurface Builder::build(const std::string& fingerprint) {
+  int n_asked = 1;
+  AdaptiveInterpolant interpolant(static_cast<int>(request_.over.size()),
+                                  [&](const Eigen::VectorXd& x, const Eigen::VectorXd& weights) {
+                                    const double n = nodes_.centre()->geometry.n_dofs;
+                                    demand_memory(3 * sizeof(double) * n * n, "the nodes");
+                                    const auto op = ask(x, concat("operator ", ++n_asked));
+                                    const double surplus =
+                                        nodes_.surplus(*op, weights, context_.stop);
+                                    nodes_.add(op);
+                                    return surplus;
+                                  });
+  for (double surplus = request_.tolerance;; surplus /= 4) {
+    interpolant.grow(surplus, request_.most_operators);
+    const SparseGrid& grid = interpolant.grid();
+    const auto basis = std::make_shared<OperatorBasis>(compressed(surplus));
+    basis->fingerprint = fingerprint;
+    basis->nodes = grid.indices();
+    const CaseSurface found = measured(basis, grid);
+    const double error = std::max(std::max(found.stiffness, found.traction),
+                                  std::max(found.observation, found.slip));
+    if (error <= request_.tolerance) return {basis, found};
+    constexpr double kRounding = 1e-13;  // nothing is gained below it
+    if (grid.n_nodes() < request_.most_operators && surplus >= kRounding) continue;
+    refuse(concat("the surface does not reach its tolerance: with ", grid.n_nodes(),
+                  " operators H is off by ", brief(found.stiffness), ", locked tractions by ",
+                  brief(found.traction), ", observations by ", brief(found.observation),
+                  ", slip without friction by ", brief(found.slip), "; ", brief(request_.tolerance),
+                  " is asked for"),
+           "narrow its ranges, raise tolerance or most_operators, or take exact operators");
+  }
+}
+
+}  // namespace
+
+StoredSurface build_surface(const SurfaceRequest& request, const std::string& fingerprint,
+                            const ExactOperator& exact, const RunContext& context) {
+  return Builder(request, exact, context).build(fingerprint);
+}
+
+}  // namespace faultsim
