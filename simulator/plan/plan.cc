@@ -11,6 +11,7 @@
 #include "simulator/plan/cost.h"
 #include "simulator/plan/creep_plan.h"
 #include "simulator/plan/influence_plan.h"
+#include "simulator/plan/reservoir_cells.h"
 #include "simulator/scene/field_depths.h"
 #include "simulator/scene/load_times.h"
 
@@ -175,6 +176,16 @@ void predict_cost(const GridShape& shape, Plan& plan) {
   plan.operator_seconds = (1 + rungs) * cost.seconds;
   plan.memory_bytes =
       kProgramBytes + cost.peak_bytes + rungs * (cost.factor_bytes + cost.kept_bytes);
+}
+
+/// What a field costs on top: the influence of the cells it acts on, built beside the factor.
+void predict_influence(const Scene& scene, const GridShape& shape, double n_cells, Plan& plan) {
+  if (!scene.has_field()) return;
+  const double n_observed = 3.0 * static_cast<double>(scene.output.observation_points.size());
+  const InfluenceCost cost = influence_cost(shape, n_cells, n_observed);
+  plan.influence_bytes = cost.bytes;
+  plan.operator_seconds += cost.seconds;
+  plan.memory_bytes = std::max(plan.memory_bytes, kProgramBytes + cost.peak_bytes);
 }
 
 nlohmann::json numbers(const std::vector<double>& values) { return nlohmann::json(values); }
@@ -434,6 +445,7 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
     plan.n_added_steps += step.added;
   }
   predict_cost(shape, plan);
+  predict_influence(scene, shape, reservoir_cells(scene, lines, plan.plane_strain), plan);
   plan.n_operators = predicted_operators(scene.numerics.surface);
   plan.operator_seconds *= plan.n_operators;
   plan.family = fingerprint(canonical_family(scene, plan));
@@ -541,6 +553,10 @@ std::string plan_to_text(const Plan& plan) {
                 human_time(plan.operator_seconds).c_str(), human_bytes(plan.memory_bytes).c_str(),
                 plan.family.c_str());
   text += line;
+  if (plan.influence_bytes > 0) {
+    text += "with the influence of the cells that the field acts on, which takes about " +
+            human_bytes(plan.influence_bytes) + "\n";
+  }
   for (const std::string& warning : plan.warnings) text += "warning: " + warning + "\n";
   return text;
 }

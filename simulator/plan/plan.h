@@ -54,10 +54,11 @@ struct Plan : PlannedSize {
   std::vector<Reduction> reductions;
   long n_cells = 0;
   long n_jump = 0;
-  int n_operators = 1;      ///< predicted, that a surface is built of, check points included.
-  double factor_bytes = 0;  ///< predicted, of one operator's factor.
-  int n_steps = 0;          ///< load steps after step 0.
-  int n_added_steps = 0;    ///< of these, those that end at turning points between a stage's own.
+  int n_operators = 1;         ///< predicted, that a surface is built of, check points included.
+  double factor_bytes = 0;     ///< predicted, of one operator's factor.
+  double influence_bytes = 0;  ///< predicted, of the influence of cells; 0 without a field.
+  int n_steps = 0;             ///< load steps after step 0.
+  int n_added_steps = 0;  ///< of these, those that end at turning points between a stage's own.
   std::vector<InitialRegion> initial;  ///< the initial state per pressure region.
   std::vector<std::string> warnings;   ///< of the input, for who reads the plan; one sentence each.
   std::string family;  ///< fingerprint of what defines the linear bulk (without BLAS).

@@ -26,7 +26,7 @@ std::string brief(double value) {
 
 double relative(double error, double size) { return size > 0 ? error / size : error; }
 
-[[noreturn]] void refuse(const std::string& what, const std::string& cure) {
+[[noreturn]] void refuse_surface(const std::string& what, const std::string& cure) {
   throw InputError("scene", {{"/numerics/surface", 0, what, cure}});
 }
 
@@ -99,8 +99,8 @@ Builder::Builder(const SurfaceRequest& request, const ExactOperator& exact,
                  "operator 1")) {
   DenseCholesky factor;
   if (!factor.factor(nodes_.centre()->h())) {
-    refuse("a piece that faults cut loose moves freely, so that H is not positive definite",
-           "take exact operators");
+    refuse_surface("a piece that faults cut loose moves freely, so that H is not positive definite",
+                   "take exact operators");
   }
 }
 
@@ -161,7 +161,7 @@ CaseSurface Builder::measured(const std::shared_ptr<const OperatorBasis>& basis,
     for (const Eigen::VectorXd& x : check_points(n_axes, n_surface_checks(request_))) {
       Check check{x, ask(x, concat("check point ", checks_.size() + 1)), {}};
       const auto slip = slip_without_friction(*check.exact, check.exact->geometry.dof_area);
-      if (!slip) refuse("an exact H is not positive definite", "take exact operators");
+      if (!slip) refuse_surface("an exact H is not positive definite", "take exact operators");
       check.slip = *slip;
       checks_.push_back(std::move(check));
     }
@@ -201,12 +201,12 @@ StoredSurface Builder::build(const std::string& fingerprint) {
     if (error <= request_.tolerance) return {basis, found};
     constexpr double kRounding = 1e-13;  // nothing is gained below it
     if (grid.n_nodes() < request_.most_operators && surplus >= kRounding) continue;
-    refuse(concat("the surface does not reach its tolerance: with ", grid.n_nodes(),
-                  " operators H is off by ", brief(found.stiffness), ", locked tractions by ",
-                  brief(found.traction), ", observations by ", brief(found.observation),
-                  ", slip without friction by ", brief(found.slip), "; ", brief(request_.tolerance),
-                  " is asked for"),
-           "narrow its ranges, raise tolerance or most_operators, or take exact operators");
+    refuse_surface(concat("the surface does not reach its tolerance: with ", grid.n_nodes(),
+                          " operators H is off by ", brief(found.stiffness),
+                          ", locked tractions by ", brief(found.traction), ", observations by ",
+                          brief(found.observation), ", slip without friction by ",
+                          brief(found.slip), "; ", brief(request_.tolerance), " is asked for"),
+                   "narrow its ranges, raise tolerance or most_operators, or take exact operators");
   }
 }
 

@@ -1,0 +1,115 @@
+#include "simulator/case_figures/chosen.h"
+
+#include <algorithm>
+
+#include "simulator/common/errors.h"
+#include "simulator/figure/axis.h"
+#include "simulator/figure/palette.h"
+
+namespace faultsim {
+namespace case_figures {
+namespace {
+
+constexpr double kYearInSeconds = 365.25 * 86400, kDayInSeconds = 86400;
+
+/// By χ̄ and, where both have reached their strength, by the area that is near to it.
+bool is_more_critical(const FaultMetrics& a, const FaultMetrics& b) {
+  const double chi_a = std::min(a.chi_bar, figure::kChiAtLimit),
+               chi_b = std::min(b.chi_bar, figure::kChiAtLimit);
+  return chi_a != chi_b ? chi_a > chi_b : a.area_chi_080 > b.area_chi_080;
+}
+
+}  // namespace
+
+void refuse(const std::string& option, const std::string& what, const std::string& cure) {
+  throw InputError(option, {{"", 0, what, cure}});
+}
+
+std::size_t n_steps_of(const CaseResult& result) {
+  std::size_t n = 0;
+  while (n < result.steps.size() && result.steps[n].faults.size() == result.fault_names.size()) {
+    ++n;
+  }
+  return n;
+}
+
+std::string with_blanks(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string subject_of(const CasePicture& picture) {
+  return picture.name.empty() ? picture.result.title : picture.name;
+}
+
+bool in_days(const CaseResult& result) {
+  return !result.steps.empty() && result.steps.back().time < 2 * kYearInSeconds;
+}
+double time_of(const CaseResult& result, double seconds) {
+  return seconds / (in_days(result) ? kDayInSeconds : kYearInSeconds);
+}
+
+std::string moment_text(const Chosen& chosen) {
+  const StepResult& step = chosen.result().steps[chosen.step];
+  return concat("load step ", step.step, ", ", with_blanks(step.stage), ", ",
+                figure::plain_number(time_of(chosen.result(), step.time)),
+                in_days(chosen.result()) ? " days" : " years");
+}
+
+Chosen choose(const CasePicture& picture, const CaseChartRequest& request) {
+  const CaseResult& result = picture.result;
+  const std::size_t n = n_steps_of(result);
+  if (result.fault_names.empty() || n == 0) {
+    refuse("case", "the result has no faults or no load step to draw", "choose another case");
+  }
+  const CriticalMoment critical = critical_moment(result);
+  Chosen chosen{picture, request, critical.fault, critical.step};
+  if (!request.fault.empty()) {
+    const auto found =
+        std::find(result.fault_names.begin(), result.fault_names.end(), request.fault);
+    if (found == result.fault_names.end()) {
+      std::string names;
+      for (const std::string& name : result.fault_names)
+        names += (names.empty() ? "" : ", ") + name;
+      refuse("--fault", "\"" + request.fault + "\" is no fault of the case",
+             "choose one of " + names);
+    }
+    chosen.fault = static_cast<std::size_t>(found - result.fault_names.begin());
+    chosen.step = 0;
+    for (std::size_t k = 1; k < n; ++k) {
+      const std::size_t f = chosen.fault;
+      if (is_more_critical(result.steps[k].faults[f], result.steps[chosen.step].faults[f]))
+        chosen.step = k;
+    }
+  }
+  if (request.step) {
+    const auto found = std::find_if(result.steps.begin(), result.steps.end(),
+                                    [&](const StepResult& s) { return s.step == *request.step; });
+    if (found == result.steps.end() ||
+        static_cast<std::size_t>(found - result.steps.begin()) >= n) {
+      refuse("--step", concat("the history has no load step ", *request.step),
+             concat("choose 0 to ", result.steps[n - 1].step));
+    }
+    chosen.step = static_cast<std::size_t>(found - result.steps.begin());
+  }
+  return chosen;
+}
+
+}  // namespace case_figures
+
+CriticalMoment critical_moment(const CaseResult& result) {
+  using case_figures::is_more_critical, case_figures::n_steps_of;
+  CriticalMoment critical;
+  const FaultMetrics* most = nullptr;
+  for (std::size_t k = 0; k < n_steps_of(result); ++k) {
+    for (std::size_t f = 0; f < result.steps[k].faults.size(); ++f) {
+      const FaultMetrics& now = result.steps[k].faults[f];
+      if (most != nullptr && !is_more_critical(now, *most)) continue;
+      most = &now;
+      critical = {f, k};
+    }
+  }
+  return critical;
+}
+
+}  // namespace faultsim

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "simulator/case_figures/case_figures.h"
+
+/// What the charts of a case share; for this folder.
+namespace faultsim::case_figures {
+
+inline constexpr double kBarInPascal = 1e5, kMegapascal = 1e6, kMillimetre = 1e-3;  ///< in SI.
+
+/// What is drawn, decided: a fault and a step of the result. Refers to the picture, which outlives
+/// it.
+struct Chosen {
+  const CasePicture& picture;
+  CaseChartRequest request;
+  std::size_t fault = 0;  ///< index in CaseResult::fault_names.
+  std::size_t step = 0;   ///< index in CaseResult::steps.
+
+  const CaseResult& result() const { return picture.result; }
+  const Scene& scene() const { return picture.scene; }
+  const std::string& fault_name() const { return result().fault_names[fault]; }
+};
+
+/// The fault and the step that are asked for; where none are, those of the largest χ̄ (of the case,
+/// or of the fault). Throws InputError: no such fault or step, or nothing to draw at all.
+Chosen choose(const CasePicture& picture, const CaseChartRequest& request);
+
+/// Throws the InputError of one option.
+[[noreturn]] void refuse(const std::string& option, const std::string& what,
+                         const std::string& cure);
+
+std::size_t n_steps_of(const CaseResult& result);  ///< steps that have metrics: the first n.
+
+/// Histories that end within two years are drawn in days, others in years of 365.25 days.
+bool in_days(const CaseResult& result);
+double time_of(const CaseResult& result, double seconds);  ///< in that unit.
+
+std::string with_blanks(std::string name);           ///< "primary production".
+std::string subject_of(const CasePicture& picture);  ///< its name, or the result's title.
+std::string moment_text(const Chosen& chosen);       ///< "load step 10, production, 10 years".
+
+/// The charts, as SVG.
+std::string draw_history(const Chosen& chosen);  ///< χ̄, thickness or slip against time.
+std::string draw_section(const Chosen& chosen);  ///< Throws InputError where the scene is a box.
+std::string draw_profiles(Chosen chosen);        ///< @pre the picture has fields; as below.
+std::string draw_fault_map(Chosen chosen);
+std::string draw_stress_path(Chosen chosen);
+
+}  // namespace faultsim::case_figures

@@ -1,0 +1,111 @@
+#include <algorithm>
+
+#include "simulator/case_figures/field_section.h"
+#include "simulator/case_figures/stored_line.h"
+#include "simulator/common/errors.h"
+#include "simulator/figure/axis.h"
+#include "simulator/figure/palette.h"
+#include "simulator/figure/section.h"
+
+namespace faultsim {
+namespace case_figures {
+namespace {
+
+using figure::plain_number;
+
+/// Pieces of a fault's line with their χ, from the fields on the line through the most critical
+/// point; false where they were not kept.
+bool colour_by_fields(const Chosen& chosen, std::size_t fault, figure::Section::FaultLine& line) {
+  const FieldReader* file = chosen.picture.fields;
+  if (file == nullptr) return false;
+  const int step = chosen.result().steps[chosen.step].step;
+  const auto entry = std::find(file->steps().begin(), file->steps().end(), step);
+  if (entry == file->steps().end()) return false;
+  for (std::size_t f = 0; f < file->faults().size(); ++f) {
+    const StoredFault& stored = file->faults()[f];
+    if (stored.name != chosen.result().fault_names[fault]) continue;
+    const StoredFields now =
+        file->fields(f, static_cast<std::size_t>(entry - file->steps().begin()));
+    const auto most = static_cast<Eigen::Index>(most_critical(stored, now));
+    const std::vector<std::size_t> column = column_through(stored, stored.points(1, most));
+    if (column.size() < 2) return false;
+    line.points.clear();
+    for (std::size_t i = 0; i < column.size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(column[i]);
+      line.points.push_back({stored.points(0, k), -stored.points(2, k)});
+      if (i == 0) continue;
+      line.chi.push_back(std::max(now.critical_index[static_cast<Eigen::Index>(column[i - 1])],
+                                  now.critical_index[k]));
+    }
+    return true;
+  }
+  return false;
+}
+
+/// "Δp −160 bar" of a compartment at a step; "" where its pressure is not given.
+std::string pressure_note(const CaseResult& result, const StepResult& step,
+                          const std::string& name) {
+  for (std::size_t r = 0; r < result.region_names.size(); ++r) {
+    if (result.region_names[r] != name || r >= step.pressure_change.size()) continue;
+    return "Δp " + plain_number(step.pressure_change[r] / kBarInPascal) + " bar";
+  }
+  return "";
+}
+
+/// The section with χ and pressures of the step. @return whether all χ are those of fields.
+bool fill_section(const Chosen& chosen, figure::Section& section) {
+  const StepResult& step = chosen.result().steps[chosen.step];
+  bool all_fields = true;
+  for (std::size_t f = 0; f < section.faults.size() && f < step.faults.size(); ++f) {
+    if (colour_by_fields(chosen, f, section.faults[f])) continue;
+    section.faults[f].chi = {step.faults[f].chi_bar};
+    all_fields = false;
+  }
+  for (figure::Section::Rock& rock : section.rocks) {
+    if (rock.is_reservoir) rock.note = pressure_note(chosen.result(), step, rock.name);
+  }
+  return all_fields;
+}
+
+}  // namespace
+
+std::string draw_section(const Chosen& chosen) {
+  if (chosen.scene().geometry_kind != GeometryKind::field) {
+    refuse("chart", "a section is drawn of a field, and this scene is a box",
+           "choose another chart: history, profiles, fault-map");
+  }
+  figure::Section section = field_section(chosen.scene());
+  const bool all_fields = fill_section(chosen, section);
+  section.title = concat("The field across its faults",
+                         chosen.request.with_cursor ? "" : ": " + moment_text(chosen));
+  section.remark = concat(subject_of(chosen.picture), "; to scale; colour: ",
+                          all_fields ? "χ down dip, on the line where it is largest"
+                                     : "χ̄ of the whole fault (fields were not kept)");
+  return figure::draw(section);
+}
+
+}  // namespace case_figures
+
+std::vector<StepLook> step_looks(const CasePicture& picture) {
+  using namespace case_figures;
+  std::vector<StepLook> looks;
+  Chosen chosen{picture, {}, 0, 0};
+  const figure::Section empty = field_section(picture.scene);
+  for (chosen.step = 0; chosen.step < n_steps_of(picture.result); ++chosen.step) {
+    figure::Section section = empty;
+    fill_section(chosen, section);
+    const StepResult& step = picture.result.steps[chosen.step];
+    StepLook look{step.step, time_of(picture.result, step.time), moment_text(chosen), {}, {}};
+    for (const figure::Section::FaultLine& fault : section.faults) {
+      std::vector<std::string>& colours = look.colours.emplace_back();
+      for (const double chi : fault.chi) colours.push_back(figure::chi_colour(chi));
+    }
+    for (const figure::Section::Rock& rock : section.rocks) {
+      if (rock.is_reservoir) look.notes.emplace_back(rock.name, rock.note);
+    }
+    looks.push_back(std::move(look));
+  }
+  return looks;
+}
+
+}  // namespace faultsim

@@ -1,0 +1,64 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "simulator/case_figures/stored_line.h"
+#include "simulator/common/errors.h"
+#include "simulator/figure/axis.h"
+#include "simulator/figure/stress_path.h"
+#include "simulator/scene/initial_state.h"
+
+namespace faultsim::case_figures {
+namespace {
+
+/// Principal effective stresses across the fault at the start, MPa, compression positive. With
+/// σ_xz = 0 in every initial state but a tensor's, these are σ'_xx and σ'_zz.
+std::optional<figure::StressPath::Circle> initial_circle(const Scene& scene, double z) {
+  if (scene.initial.tensor || scene.geometry_kind != GeometryKind::field) return std::nullopt;
+  const StressAtDepth start = initial_state(scene, z);
+  const double across = -(start.sigma[0] + start.pressure),
+               down = -(start.sigma[8] + start.pressure);
+  return figure::StressPath::Circle{std::max(across, down) / kMegapascal,
+                                    std::min(across, down) / kMegapascal};
+}
+
+}  // namespace
+
+using figure::plain_number;
+
+std::string draw_stress_path(Chosen chosen) {
+  const std::size_t f = stored_fault(chosen), critical = stored_entry(chosen);
+  const FieldReader& file = *chosen.picture.fields;
+  const StoredFault& fault = file.faults()[f];
+  const auto k = static_cast<Eigen::Index>(most_critical(fault, file.fields(f, critical)));
+  const Friction& friction = chosen.scene().faults[chosen.fault].friction;
+  figure::StressPath path;
+  std::map<int, std::string> stages;
+  for (const StepResult& step : chosen.result().steps) stages[step.step] = step.stage;
+  for (std::size_t entry = 0; entry < file.steps().size(); ++entry) {
+    const StoredFields now = file.fields(f, entry);
+    path.normal.push_back(-now.traction(0, k) / kMegapascal);
+    path.shear.push_back(shear_at(now, k) / kMegapascal);
+    const std::string stage = with_blanks(stages[file.steps()[entry]]);
+    const bool is_last = entry + 1 == file.steps().size();
+    const bool ends_stage = is_last || with_blanks(stages[file.steps()[entry + 1]]) != stage;
+    if (entry == 0)
+      path.marks.push_back({entry, "start"});
+    else if (ends_stage)
+      path.marks.push_back({entry, "end of " + stage});
+  }
+  path.title = concat("Stress path of fault ", chosen.fault_name(), " at ",
+                      plain_number(-fault.points(2, k), 4), " m depth");
+  path.remark =
+      concat("where χ is largest at ", moment_text(chosen), "; ", subject_of(chosen.picture));
+  path.cohesion = friction.cohesion / kMegapascal;
+  path.friction = std::tan(friction.static_friction_angle);
+  if (friction.dynamic_friction_angle != friction.static_friction_angle) {
+    path.weakened = std::tan(friction.dynamic_friction_angle);
+  }
+  path.circle = initial_circle(chosen.scene(), fault.points(2, k));
+  return figure::draw(path);
+}
+
+}  // namespace faultsim::case_figures
