@@ -1,0 +1,80 @@
+// An operator that is summed up from a centre and directions, column by column.
+#include "simulator/model/operator_basis.h"
+
+#include <gtest/gtest.h>
+
+namespace faultsim {
+namespace {
+
+constexpr Eigen::Index kN = 6, kK = 2, kLoads = 3;
+
+Eigen::MatrixXd symmetric(unsigned seed) {
+  std::srand(seed);
+  const Eigen::MatrixXd any = Eigen::MatrixXd::Random(kN, kN);
+  return any + any.transpose();
+}
+
+/// Directions of H that single precision holds exactly.
+Eigen::MatrixXd direction(Eigen::Index k) {
+  return symmetric(static_cast<unsigned>(k + 2)).cast<float>().cast<double>();
+}
+
+std::shared_ptr<const OperatorBasis> basis() {
+  auto centre = std::make_shared<FaultOperator>();
+  centre->compliance = std::make_shared<DenseCompliance>(symmetric(1));
+  centre->loads.traction = Eigen::MatrixXd::Random(kN, kLoads);
+  centre->observed.per_load = Eigen::MatrixXd::Random(2, kLoads);
+  centre->observed.per_jump = Eigen::MatrixXd::Random(2, kN);
+  auto made = std::make_shared<OperatorBasis>();
+  made->centre = centre;
+  made->weights = Eigen::MatrixXd::Zero(kK, 4);
+  StoredFloats::Matrix stiffness(kN, kN * kK);
+  made->diagonal.resize(kN, kK);
+  for (Eigen::Index k = 0; k < kK; ++k) {
+    const Eigen::MatrixXd b = direction(k);
+    for (Eigen::Index j = 0; j < kN; ++j) stiffness.col(j * kK + k) = b.col(j).cast<float>();
+    made->diagonal.col(k) = b.diagonal();
+  }
+  made->stiffness = StoredFloats(stiffness);
+  made->traction = Eigen::MatrixXd::Random(kN * kLoads, kK);
+  made->per_load = Eigen::MatrixXd::Random(2 * kLoads, kK);
+  made->per_jump = Eigen::MatrixXd::Random(2 * kN, kK);
+  return made;
+}
+
+const Eigen::Vector2d kFactors(0.3, -1.7);
+
+TEST(OperatorBasis, SumsUpTheColumnsThatAreAskedFor) {
+  const auto made = basis();
+  const InterpolatedCompliance h(made, kFactors);
+  const Eigen::MatrixXd exact =
+      made->centre->h() + kFactors[0] * direction(0) + kFactors[1] * direction(1);
+  EXPECT_EQ(h.n_made(), 0);
+  EXPECT_LT((h.column(4) - exact.col(4)).norm(), 1e-14);
+  EXPECT_EQ(h.column(4).data(), h.column(4).data());
+  EXPECT_EQ(h.n_made(), 1);
+  for (int j = 0; j < h.size(); ++j) EXPECT_NEAR(h.diagonal(j), exact(j, j), 1e-14);
+  const Eigen::Map<const Eigen::MatrixXd> all(h.matrix_entries(), kN, kN);
+  EXPECT_LT((all - exact).norm(), 1e-13);
+  EXPECT_EQ(all, all.transpose()) << "to the last bit";
+  EXPECT_EQ(h.n_made(), kN);
+}
+
+TEST(OperatorBasis, PutsLoadsAndObservationRowsInto) {
+  const auto made = basis();
+  FaultOperator op;
+  OperatorBasis::put(made, kFactors, op);
+  const auto sum = [](const Eigen::MatrixXd& mean, const Eigen::MatrixXd& directions) {
+    const Eigen::VectorXd difference = directions * kFactors;
+    return Eigen::MatrixXd(mean + difference.reshaped(mean.rows(), mean.cols()));
+  };
+  EXPECT_LT((op.loads.traction - sum(made->centre->loads.traction, made->traction)).norm(), 1e-14);
+  EXPECT_LT((op.observed.per_load - sum(made->centre->observed.per_load, made->per_load)).norm(),
+            1e-14);
+  EXPECT_LT((op.observed.per_jump - sum(made->centre->observed.per_jump, made->per_jump)).norm(),
+            1e-14);
+  EXPECT_EQ(op.compliance->size(), kN);
+}
+
+}  // namespace
+}  // namespace faultsim
