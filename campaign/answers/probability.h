@@ -39,7 +39,7 @@ struct Probability {
   /// Rows that a half width of half the present one would take; 0 = not asked of several shares.
   long n_for_half = 0;
   long n_unresolved =
-      0;  ///< rows whose activation or event hangs on the mesh; counted as they are.
+      0;  ///< rows whose activation or event depends on the mesh; counted as they are.
 };
 
 /// Throws InputError on a wrong condition or parameter, and where no case was selected.

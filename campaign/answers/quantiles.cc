@@ -55,7 +55,7 @@ Quantiles find_quantiles(const Store& store, const CampaignInfo& campaign,
                          const QuantileRequest& request) {
   for (const double q : request.at) {
     if (q > 0 && q < 1) continue;
-    throw InputError("--at", {{"", 0, concat(format_number(q), " is no share of the cases"),
+    throw InputError("--at", {{"", 0, concat(format_number(q), " is not a share of the cases"),
                                "write shares between 0 and 1: 0.05,0.5,0.95"}});
   }
   Quantiles found{campaign, request, sampling_of(store, campaign), 0, {}};

@@ -48,7 +48,7 @@ struct Sample {
   long n_rows = 0;                     ///< selected, with those that are left out.
   long n_without = 0;                  ///< left out: no result in the stage.
   long n_early = 0;                    ///< left out: the history ends early.
-  long n_unresolved = 0;  ///< kept: complete, but an activation or event hangs on the mesh.
+  long n_unresolved = 0;  ///< kept: complete, but an activation or event depends on the mesh.
 };
 
 /// Throws InputError as make_selection, parse_condition and choose_metrics.

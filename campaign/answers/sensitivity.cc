@@ -30,7 +30,7 @@ void refuse_what_is_no_sample(const Sensitivity& s) {
   if (!s.sampling.is_random && !s.sampling.is_factorial) {
     throw InputError(
         "sensitivity",
-        {{"", 0, concat("the cases of ", s.campaign.name, " are no sample of its parameters"),
+        {{"", 0, concat("the cases of ", s.campaign.name, " are not a sample of its parameters"),
           "give its spec a design monte-carlo, latin-hypercube, sobol or grid"}});
   }
   const long n = s.sample.n_rows - s.sample.n_without - s.sample.n_early;

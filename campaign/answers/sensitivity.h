@@ -37,8 +37,8 @@ struct Sensitivity {
 };
 
 /// First-order indices by ranks; of a sobol design first and total ones by pick-freeze too. Throws
-/// InputError where the campaign's design is no sample of its parameters, or fewer than kFewestRows
-/// full histories were selected.
+/// InputError where the campaign's design is not a sample of its parameters, or fewer than
+/// kFewestRows full histories were selected.
 Sensitivity analyse_sensitivity(const Store& store, const CampaignInfo& campaign,
                                 const SensitivityRequest& request);
 inline constexpr long kFewestRows = 20;

@@ -70,7 +70,7 @@ std::vector<Neighbour> neighbours_of(const Why& why) {
   for (const RankedCase& row : why.ranking.rows) {
     const auto k = only_difference(own, row.parameters);
     if (!k || row.rank_class > 1) continue;
-    // Another group may have other fixed settings, which are no parameter's doing.
+    // Another group may have other fixed settings, which are not a parameter's doing.
     if (parameters[static_cast<std::size_t>(own[*k].index)].name == "group") continue;
     near.emplace_back(*k, &row);
     const auto &from = own[*k].si, &to = row.parameters[*k].si;

@@ -76,7 +76,7 @@ std::string sliding_stages(const faultsim::CaseResult& result, std::size_t fault
 std::string fault_sentence(const Why& why, std::size_t f) {
   const faultsim::FaultStageMetrics& m = why.metrics.faults[f];
   const faultsim::CaseResult& result = why.stored.result;
-  const std::string sure = m.activation_resolved ? "" : ", which hangs on the mesh";
+  const std::string sure = m.activation_resolved ? "" : ", which depends on the mesh";
   if (!m.activated) {
     return concat(m.fault, m.slips ? " slips but does not slide" : " does not slide", sure,
                   ": its χ̄ comes to ", format_number(m.chi_bar, 3), ", ",

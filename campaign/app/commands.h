@@ -67,8 +67,8 @@ ExitCode posterior_command(const StoreArguments& common, const PosteriorRequest&
 
 struct TiersArguments {
   std::string source;                                          ///< spec.
-  std::vector<std::string> tiers = {"screening", "standard"};  ///< cheap and dear.
-  long budget = 0;                                             ///< samples at the dear one.
+  std::vector<std::string> tiers = {"screening", "standard"};  ///< cheap and expensive.
+  long budget = 0;                                             ///< samples at the expensive one.
   std::optional<int> n_workers;                                ///< as for `run`.
   TierRequest request;
 };

@@ -383,17 +383,18 @@ void add_answers(CLI::App& app, Arguments& a, ExitCode& code) {
 
 void add_tiers(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* command = app.add_subcommand(
-      "tiers", "what a dear tier says of a sample, from few of its cases and many cheap ones");
+      "tiers",
+      "what an expensive tier says of a sample, from few of its cases and many cheap ones");
   TiersArguments& t = a.tiers;
   command->add_option("source", t.source, "spec (JSON) with a monte-carlo design")->required();
   command
       ->add_option("--tier-budget", t.budget,
-                   "how many of the samples are run at the dear tier; all at the cheap one")
+                   "how many of the samples are run at the expensive tier; all at the cheap one")
       ->required()
       ->check(CLI::Range(20, 100000));
   command
       ->add_option("--tiers", t.tiers,
-                   "the cheap one and the dear one (default screening,standard)")
+                   "the cheap one and the expensive one (default screening,standard)")
       ->delimiter(',');
   command->add_option("--metrics", t.request.metrics,
                       "whose means are wanted, with commas; default: chi_bar of each fault");

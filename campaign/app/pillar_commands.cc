@@ -33,7 +33,7 @@ ColumnNames names_in(const std::filesystem::path& file) {
       continue;
     }
     throw InputError(file.string(),
-                     {{"/" + name, document.line_of("/" + name), "is no name of a column",
+                     {{"/" + name, document.line_of("/" + name), "is not a name of a column",
                        "write { \"depth\": \"TOP_TVD [m]\" }"}});
   }
   return names;
@@ -133,10 +133,10 @@ ExitCode pillars_command(const PillarArguments& arguments) {
 ExitCode map_command(const StoreArguments& common, const MapArguments& arguments) {
   const std::string kind = arguments.output.extension().string();
   if (kind != ".csv" && kind != ".vtu" && kind != ".ts")
-    throw InputError("-o", {{"", 0, concat("\"", kind, "\" is no kind of map"),
+    throw InputError("-o", {{"", 0, concat("\"", kind, "\" is not a kind of map"),
                              "name a file that ends in .csv, .vtu or .ts"}});
-  faultsim::demand_writable_file("-o", arguments.output, faultsim::FileKind::text,
-                                 {arguments.places});
+  faultsim::require_writable_file("-o", arguments.output, faultsim::FileKind::text,
+                                  {arguments.places});
   const Store store = Store::open_reader(common.store);
   const FaultMap map = make_fault_map(store, store.campaign(common.campaign), arguments.places);
   const std::string text = kind == ".csv"   ? fault_map_to_csv(map)

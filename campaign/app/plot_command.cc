@@ -23,7 +23,7 @@ std::string draw_campaign(const PlotArguments& arguments, const Store& store) {
   for (const faultsim::CaseChartInfo& info : faultsim::case_charts()) {
     names += std::string(", ") + info.name;
   }
-  throw InputError("chart", {{"", 0, concat("\"", arguments.chart, "\" is no chart"),
+  throw InputError("chart", {{"", 0, concat("\"", arguments.chart, "\" is not a chart"),
                               "choose one of " + names}});
 }
 
@@ -47,7 +47,7 @@ std::string draw_case_of(const PlotArguments& arguments, const faultsim::CaseCha
 }  // namespace
 
 ExitCode plot_command(const StoreArguments& common, const PlotArguments& arguments) {
-  faultsim::demand_picture_file(arguments.output, {".svg", ".png"}, {});
+  faultsim::require_picture_file(arguments.output, {".svg", ".png"}, {});
   const Store store = Store::open_reader(common.store);
   const faultsim::CaseChartInfo* info = faultsim::case_chart_named(arguments.chart);
   faultsim::write_picture(arguments.output, info != nullptr ? draw_case_of(arguments, *info, store)
@@ -56,7 +56,7 @@ ExitCode plot_command(const StoreArguments& common, const PlotArguments& argumen
 }
 
 ExitCode report_command(const StoreArguments& common, const ReportArguments& arguments) {
-  faultsim::demand_picture_file(arguments.output, {".html"}, {});
+  faultsim::require_picture_file(arguments.output, {".html"}, {});
   const Store store = Store::open_reader(common.store);
   const CampaignInfo campaign = store.campaign(common.campaign);
   faultsim::write_picture(arguments.output, report_page(store, campaign, arguments.request));

@@ -55,7 +55,7 @@ std::uint64_t parse_size(const std::string& option, const std::string& text) {
   const bool known = factor != 1 || (unit.empty() && number == 0) || unit == "B";
   if (end == text.c_str() || !(number >= 0) || number > 1e9 || !known) {
     throw InputError(option,
-                     {{"", 0, concat("\"", text, "\" is no size"), "write \"20 GB\" or 0"}});
+                     {{"", 0, concat("\"", text, "\" is not a size"), "write \"20 GB\" or 0"}});
   }
   return static_cast<std::uint64_t>(number * factor);
 }
@@ -411,7 +411,7 @@ ExitCode cache_prune_command(const StoreArguments& common, const std::string& si
 
 ExitCode backup_command(const StoreArguments& common, const std::filesystem::path& target) {
   const Store store = Store::open_reader(common.store);
-  faultsim::demand_writable_file("file", target, faultsim::FileKind::database, {});
+  faultsim::require_writable_file("file", target, faultsim::FileKind::database, {});
   store.backup_to(target);
   std::fprintf(stderr, "backup written to %s\n", target.c_str());
   return ExitCode::done;

@@ -52,7 +52,7 @@ constexpr const char* kStarterSpec = R"({
 }
 )";
 
-void demand_new(const std::filesystem::path& path) {
+void require_new(const std::filesystem::path& path) {
   if (std::filesystem::exists(std::filesystem::symlink_status(path))) {
     throw InputError(path.string(),
                      {{"", 0, "the file is there already", "choose another folder"}});
@@ -207,10 +207,10 @@ SubmitOutcome preview(const std::filesystem::path& store, const Submission& subm
 }  // namespace
 
 ExitCode init_command(const std::filesystem::path& folder) {
-  faultsim::demand_writable_folder("folder", folder);
+  faultsim::require_writable_folder("folder", folder);
   const std::filesystem::path scene = folder / "scene.json", spec = folder / "campaign.json";
-  demand_new(scene);
-  demand_new(spec);
+  require_new(scene);
+  require_new(spec);
   faultsim::create_folders(folder);
   faultsim::write_text(scene, faultsim::starter_scene("field"));
   faultsim::write_text(spec, kStarterSpec);

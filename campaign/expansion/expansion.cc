@@ -257,7 +257,7 @@ class Expander {
       for (const Design& design : group.designs) {
         if (design.kind != DesignKind::sobol || (design.n & (design.n - 1)) == 0) continue;
         result_.notes.push_back(std::to_string(design.n) + " samples of " + design.pointer +
-                                " are no power of two: the sequence is balanced only at those");
+                                " are not a power of two: the sequence is balanced only at those");
       }
     }
     if (result_.n_merged > 0) {

@@ -32,7 +32,7 @@
 ///
 /// `F2.max_slip in gas_storage` is the metric max_slip of fault F2 in that stage; without fault
 /// that of all faults together, without stage that of the stage asked for. Names of faults and
-/// stages that are no words stand in quotes: `"Fault 2".slides in "gas storage"`.
+/// stages that are not words stand in quotes: `"Fault 2".slides in "gas storage"`.
 ///
 /// A number may carry a unit: `30 deg`, `200 bar`, `2.5e3 kg/m3`; a unit that is not one word plus
 /// "/" and words stands in quotes: `"1 Pa s"`. Quoted text that is not a number with a unit is a

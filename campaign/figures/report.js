@@ -31,8 +31,8 @@ for (const table of document.querySelectorAll("table[data-filter]")) {
   function show() {
     let count = 0;
     for (const row of rows) {
-      const stays = inputs.every((input, k) => passes(row.cells[k].textContent, input.value));
-      row.hidden = !stays;
+      const shown = inputs.every((input, k) => passes(row.cells[k].textContent, input.value));
+      row.hidden = !shown;
       count += stays ? 1 : 0;
     }
     document.getElementById(table.dataset.filter).textContent = count + " of " + rows.length + " rows";

@@ -21,7 +21,7 @@ using nlohmann::json;
 
 namespace {
 
-/// What is no number of the store, or (magnitudes) a mere function of one that is compared.
+/// What is not a number of the store, or (magnitudes) a mere function of one that is compared.
 bool is_compared(const std::string& key) {
   static const std::set<std::string> left_out = {"format",
                                                  "title",

@@ -25,7 +25,7 @@ enum class Verdict {
 };
 const char* to_string(Verdict verdict);  ///< "last bits", "activation flipped".
 /// `last_bits` and everything worse.
-inline bool is_regress(Verdict verdict) { return verdict >= Verdict::last_bits; }
+inline bool is_regression(Verdict verdict) { return verdict >= Verdict::last_bits; }
 
 /// How much numbers may differ between environments, as parts of the largest magnitude that the
 /// quantity takes in the case: a ratio would mean nothing where a quantity is nearly 0.

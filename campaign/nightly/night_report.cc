@@ -45,7 +45,7 @@ std::string words_of(const Difference& one) {
 
 void enter(const Agreement& agreement, NightCaseRecord& record) {
   record.verdict = to_string(agreement.verdict);
-  record.regressed = is_regress(agreement.verdict);
+  record.regressed = is_regression(agreement.verdict);
   record.max_ulps = static_cast<double>(agreement.max_ulps);
   if (!agreement.first) return;
   record.load_step = agreement.first->step;

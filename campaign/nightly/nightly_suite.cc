@@ -45,9 +45,9 @@ void check(const JsonDocument& document, const NightlySuite& suite,
     problems.push_back({pointer, document.line_of(pointer), what, cure});
   };
   if (!is_plain_name(suite.name)) {
-    problem("/name", concat("\"", suite.name, "\" is no name for a folder"), kPlainNameCure);
+    problem("/name", concat("\"", suite.name, "\" is not a name for a folder"), kPlainNameCure);
   }
-  std::error_code ignored;  // a name that is too long is no file either
+  std::error_code ignored;  // a name that is too long is not a file either
   for (std::size_t k = 0; k < suite.campaigns.size(); ++k) {
     if (!std::filesystem::is_regular_file(suite.campaigns[k], ignored)) {
       problem(concat("/campaigns/", k), concat("there is no file ", suite.campaigns[k]),
@@ -65,7 +65,7 @@ void check(const JsonDocument& document, const NightlySuite& suite,
   for (const auto& [name, tolerance] : suite.tolerances.of_quantity) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       problem("/tolerances/" + faultsim::pointer_token(name),
-              concat("\"", name, "\" is no quantity that is compared"),
+              concat("\"", name, "\" is not a quantity that is compared"),
               "name it as schemas/result.schema.json does");
     }
   }

@@ -80,7 +80,7 @@ Places read_places(const std::filesystem::path& file) {
     const std::vector<std::string> fields = fields_of(rest.substr(0, end));
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
     if (fields.size() != 9 || (number == 1) != (fields[0] == "id"))
-      throw InputError(file.string(), {{"", number, "is no line of places.csv",
+      throw InputError(file.string(), {{"", number, "is not a line of places.csv",
                                         "take the file that `faultsweep pillars` wrote"}});
     if (number == 1) continue;
     places.section_fault = fields[2];

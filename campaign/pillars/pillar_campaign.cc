@@ -127,7 +127,7 @@ std::optional<Scene> scene_of(JsonDocument document, const std::vector<Setting>&
                               std::vector<Problem>& problems) {
   for (const Setting& one : settings) {
     if (faultsim::put_value(document.value, one.pointer, in_unit(one))) continue;
-    problems.push_back({one.pointer, 0, "the scene has no place for it", "mend the scene"});
+    problems.push_back({one.pointer, 0, "the scene has no place for it", "fix the scene"});
     return std::nullopt;
   }
   Scene scene = faultsim::read_scene(document, problems);

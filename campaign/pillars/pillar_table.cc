@@ -148,7 +148,7 @@ class Reader {
         problem(line, concat("there is no column \"", header_of(theirs).name, "\" for ", name),
                 "correct its name");
     }
-    demand_columns(line);
+    require_columns(line);
   }
 
   void find_meaning(const Header& own, long line, Column& column) {
@@ -175,7 +175,7 @@ class Reader {
 
   bool has(PillarRole role) const { return table_.numbers.contains(role); }
 
-  void demand_columns(long line) {
+  void require_columns(long line) {
     for (const PillarRole role : {PillarRole::x, PillarRole::y}) {
       if (!has(role))
         problem(line, concat("there is no column \"", name_of(role), "\""),
@@ -216,7 +216,7 @@ class Reader {
       double value = 0;
       const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
       if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
-        problem(line, concat("\"", cell, "\" of ", column.name, " is no number"),
+        problem(line, concat("\"", cell, "\" of ", column.name, " is not a number"),
                 "write a number, its unit in the first line");
       if (column.role != nullptr)
         table_.numbers[column.role->role].push_back(value * column.factor);

@@ -365,7 +365,7 @@ std::string case_to_text(const CampaignInfo& campaign, const StoredCase& one,
                 : "UNRESOLVED: the size of its slip events depends on the mesh\n";
   }
   if (!result.whole.activation_resolved) {
-    text += "UNRESOLVED: whether a fault slides hangs on the mesh (? below)\n";
+    text += "UNRESOLVED: whether a fault slides depends on the mesh (? below)\n";
   }
   for (const std::string& warning : result.warnings) text += "warning: " + warning + "\n";
   if (std::isfinite(result.pressure_margin)) {

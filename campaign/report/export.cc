@@ -140,7 +140,7 @@ std::string export_campaign(const Store& store, const CampaignInfo& campaign,
                             const ExportRequest& request) {
   const Selection selection = make_selection(store, campaign, request.stage, request.fault);
   if (request.format != ExportFormat::salib && !request.target.empty()) {
-    faultsim::demand_writable_file("-o", request.target, faultsim::FileKind::text, {});
+    faultsim::require_writable_file("-o", request.target, faultsim::FileKind::text, {});
   }
   if (request.histories && (request.format != ExportFormat::csv || !request.metrics.empty())) {
     throw InputError("--histories", {{"", 0, "histories are written as CSV, with all their columns",

@@ -118,7 +118,7 @@ SqlFragment parse_condition(const std::string& where, const CampaignInfo& campai
   const Expression condition =
       Expression::parse(where, result_symbols(campaign, selection), scopes_of(selection));
   if (condition.type().kind != Kind::boolean) {
-    throw InputError("--where", {{"", 0, concat("'", where, "' is no condition"),
+    throw InputError("--where", {{"", 0, concat("'", where, "' is not a condition"),
                                   "compare it with something: \"chi_bar > 0.8\""}});
   }
   return condition.sql();
@@ -179,7 +179,8 @@ void refuse_mixed(const Store::Kinds& kinds, const std::string& option, const st
         concat(what,
                " is per metre of strike in the plane-strain cases and a total in the others:"
                " the two cannot be compared"),
-        "choose one kind, --where plane_strain or --where \"not plane_strain\", or what is no area,"
+        "choose one kind, --where plane_strain or --where \"not plane_strain\", or what is not an "
+        "area,"
         " potency or moment, such as chi_bar or max_slip"}});
 }
 

@@ -38,7 +38,7 @@ std::string cell_text(const Cell& cell);
 double number_of(const Cell& cell);
 /// A field of a CSV file, in quotes where RFC 4180 wants them.
 std::string csv_field(const std::string& text);
-/// Text as one word: what is no printable ASCII, and quotes, become "_"; "" becomes "_".
+/// Text as one word: what is not printable ASCII, and quotes, become "_"; "" becomes "_".
 std::string one_word(const std::string& text);
 /// "offset", length -> "offset_m": the unit as column names of the store's views have it. Blanks of
 /// "F2.max_slip in gas_storage" become "_".

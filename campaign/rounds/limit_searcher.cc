@@ -33,7 +33,7 @@ double spelled_number(const ordered_json& value) {
                            : std::strtod(value.get_ref<const std::string&>().c_str(), nullptr);
 }
 
-/// Whether the flag of a condition hangs on the cells, as a condition.
+/// Whether the flag of a condition depends on the cells, as a condition.
 std::string doubt_of(const std::string& unsafe) {
   const auto has = [&](const char* word) { return unsafe.find(word) != std::string::npos; };
   const bool slides = has("slides") || has("activated"), events = has("event");

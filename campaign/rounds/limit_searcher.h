@@ -11,7 +11,7 @@ namespace faultsweep {
 ///
 /// The answers' rows are those of the design with the values of its round in each of its rows (see
 /// Design::without_base), and Answer::holds has for each fault of each limit whether it is unsafe
-/// and whether that hangs on the cells.
+/// and whether that depends on the cells.
 class LimitSearcher final : public Proposer {
  public:
   /// @param limits  with all their faults named.

@@ -193,7 +193,7 @@ bool LocalRunner::handle_next(JobEvents& events) {
   const json reply = std::move(*result_);
   result_.reset();
   try {
-    faultsim::demand_sound_result(*bytes);
+    faultsim::require_sound_result(*bytes);
   } catch (const faultsim::StorageError& error) {
     throw Garbled{concat("sent a result that cannot be read: ", error.what())};
   }
@@ -204,7 +204,7 @@ bool LocalRunner::handle_next(JobEvents& events) {
 void LocalRunner::handle(const std::string& line, JobEvents& events) {
   const json reply = json::parse(line, nullptr, false);
   if (!reply.is_object() || !reply.contains("event") || !reply["event"].is_string()) {
-    throw Garbled{concat("wrote '", shortened(line), "', which is no reply")};
+    throw Garbled{concat("wrote '", shortened(line), "', which is not a reply")};
   }
   const std::string event = reply["event"];
   try {
@@ -258,7 +258,7 @@ void LocalRunner::handle_done(const json& reply, std::string result, JobEvents& 
       throw Garbled{"sent a result without the fault fields that it was asked for"};
     }
     run.status = RunStatus::completed;
-    // The first case's time has the operator in it, which is no part of what a case takes.
+    // The first case's time has the operator in it, which is not part of what a case takes.
     run.wall_seconds = std::max(0.0, reply.at("seconds").get<double>() - operator_seconds_);
     operator_known_ = true;
     events.completed.push_back({std::move(run), std::move(result)});

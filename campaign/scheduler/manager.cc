@@ -45,7 +45,7 @@ Manager::Manager(Store& store, WorkerLink& link, ProgressDisplay& display, const
     : store_(store), link_(link), display_(display), options_(options) {
   campaign_ = store_.campaign(options.campaign);
   store_.claim_ownership(campaign_.id, link.n_workers());
-  const long n_lost = store_.want_lost_fields(campaign_);
+  const long n_lost = store_.requeue_missing_fields(campaign_);
   if (n_lost > 0) display_.note(concat("the fields of ", n_lost, " cases are gone: written again"));
   fields_folder_ =
       std::filesystem::absolute(store_.fields_folder(campaign_.name)).lexically_normal();

@@ -24,7 +24,7 @@ double case_seconds(const WaitingFamily& family) {
 }
 
 /// Only letters, digits and what times, sizes and names of partitions are made of.
-void demand_plain(const char* option, const std::string& text) {
+void require_plain(const char* option, const std::string& text) {
   const auto is_plain = [](unsigned char c) {
     return std::isalnum(c) != 0 ||
            std::string("-_.,:+@").find(static_cast<char>(c)) != std::string::npos;
@@ -126,10 +126,10 @@ SlurmSize size_of_job(const std::vector<WaitingFamily>& waiting, const SlurmRequ
 }
 
 std::string slurm_script(const SlurmCampaign& campaign, const SlurmRequest& request) {
-  demand_plain("--time", request.time);
-  demand_plain("--memory-per-node", request.memory_per_node);
-  demand_plain("--partition", request.partition);
-  demand_plain("--account", request.account);
+  require_plain("--time", request.time);
+  require_plain("--memory-per-node", request.memory_per_node);
+  require_plain("--partition", request.partition);
+  require_plain("--account", request.account);
   std::string text = head(campaign, request);
   text += concat(
       "\n# faultsweep starts mpirun, which takes the hosts of the job; workers are its tasks less "

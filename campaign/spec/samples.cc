@@ -52,7 +52,7 @@ void read_header(std::string_view line, long number, SampleFile& file) {
     file.columns.push_back(column_of(cell));
     const std::string& name = file.columns.back().name;
     if (name.empty()) {
-      file.troubles.push_back({number, concat("\"", cell, "\" is no parameter"),
+      file.troubles.push_back({number, concat("\"", cell, "\" is not a parameter"),
                                "write its name and its unit: cohesion [MPa]"});
     } else if (!seen.insert(name).second) {
       file.troubles.push_back({number, concat("\"", name, "\" has two columns"), "remove one"});
@@ -76,7 +76,7 @@ void read_line(std::string_view line, long number, SampleFile& file) {
     if (error != std::errc() || rest != end || !std::isfinite(value)) {
       file.troubles.push_back(
           {number,
-           concat("\"", cells[k], "\" is no number for ",
+           concat("\"", cells[k], "\" is not a number for ",
                   file.columns[k].name.empty() ? concat("column ", k + 1) : file.columns[k].name),
            "write a number; its unit stands in the first line"});
       value = 0;

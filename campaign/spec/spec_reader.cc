@@ -32,8 +32,8 @@ const faultsim::ParameterInfo* SceneNames::find(const std::string& scene_pointer
 namespace {
 
 /// nlohmann's ordered objects look at every key to add one: 10^5 would take minutes.
-void demand_small_objects(const JsonDocument& document, const nlohmann::json& value,
-                          const std::string& pointer) {
+void require_small_objects(const JsonDocument& document, const nlohmann::json& value,
+                           const std::string& pointer) {
   constexpr std::size_t kMost = 2000;
   if (value.is_object() && value.size() > kMost) {
     throw faultsim::InputError(
@@ -44,12 +44,12 @@ void demand_small_objects(const JsonDocument& document, const nlohmann::json& va
   if (value.is_array()) {
     for (std::size_t i = 0; i < value.size(); ++i) {
       if (!value[i].is_structured()) continue;
-      demand_small_objects(document, value[i], pointer + "/" + std::to_string(i));
+      require_small_objects(document, value[i], pointer + "/" + std::to_string(i));
     }
   } else if (value.is_object()) {
     for (const auto& [key, inner] : value.items()) {
       if (!inner.is_structured()) continue;
-      demand_small_objects(document, inner, pointer + "/" + faultsim::pointer_token(key));
+      require_small_objects(document, inner, pointer + "/" + faultsim::pointer_token(key));
     }
   }
 }
@@ -60,7 +60,7 @@ SpecReader::SpecReader(const std::string& text, const std::string& source) {
   spec_.source = source;
   spec_.given = text;
   spec_.document = faultsim::parse_json(text, source);
-  demand_small_objects(spec_.document, spec_.document.value, "");
+  require_small_objects(spec_.document, spec_.document.value, "");
   ordered_ = nlohmann::ordered_json::parse(text);
 }
 
@@ -174,7 +174,7 @@ void SpecReader::read_name() {
   if (is_usable("/name")) {
     spec_.name = at("/name").get<std::string>();
     if (!is_plain_name(spec_.name)) {
-      problem("/name", "\"" + spec_.name + "\" is no name for a campaign", kPlainNameCure);
+      problem("/name", "\"" + spec_.name + "\" is not a name for a campaign", kPlainNameCure);
     }
   }
   if (is_usable("/title")) spec_.title = at("/title").get<std::string>();
@@ -199,7 +199,7 @@ void SpecReader::read_base() {
   spec_.scene_source = file.string();
   try {
     spec_.base = faultsim::read_json_file(spec_.scene_source);
-    if (!spec_.base.value.is_object()) problem("/base", "the base scene is no object", "");
+    if (!spec_.base.value.is_object()) problem("/base", "the base scene is not an object", "");
   } catch (const faultsim::InputError& error) {
     for (const Problem& one : error.problems()) {
       problem("/base",
@@ -211,7 +211,7 @@ void SpecReader::read_base() {
 
 namespace {
 
-/// Bytes of "8 GB", "512 MiB"; nothing when it is no such thing.
+/// Bytes of "8 GB", "512 MiB"; nothing when it is nothing of the kind.
 std::optional<double> parse_bytes(const std::string& text) {
   static constexpr std::array<std::pair<const char*, double>, 9> kUnits = {{
       {"B", 1.0},
@@ -289,7 +289,7 @@ void SpecReader::read_rounds() {
   if (has("/rounds/confidence")) staged.confidence = at("/rounds/confidence").get<double>();
   staged.most = at("/rounds/most_samples").get<long>();
   if (at("/design/kind") != "monte-carlo") {
-    problem("/rounds", "the design is no monte-carlo design, whose samples can be continued",
+    problem("/rounds", "the design is not a monte-carlo design, whose samples can be continued",
             "write \"kind\": \"monte-carlo\", or remove rounds");
   } else if (staged.most < at("/design/samples").get<long>()) {
     problem("/rounds/most_samples", "is less than the samples of the design",

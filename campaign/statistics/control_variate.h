@@ -4,9 +4,9 @@
 
 #include "campaign/statistics/intervals.h"
 
-/// What an exact but dear model says of a sample, from a few runs of it and many of a cheap model
-/// that goes with it. The sample is random; the dear model was run on its first n members, the
-/// cheap one on all N ≥ n.
+/// What an exact but expensive model says of a sample, from a few runs of it and many of a cheap
+/// model that goes with it. The sample is random; the expensive model was run on its first n
+/// members, the cheap one on all N ≥ n.
 namespace faultsweep {
 
 /// Dear values y of the first members and cheap values x of all.
@@ -15,14 +15,14 @@ struct TieredSample {
   std::span<const double> low;   ///< N ≥ n.
 };
 
-/// What it took, and what the dear model alone would have taken.
+/// What it took, and what the expensive model alone would have taken.
 struct TieredEstimate {
-  Estimate estimate;       ///< of the dear model.
+  Estimate estimate;       ///< of the expensive model.
   Estimate direct;         ///< from its n values alone.
   double weight = 0;       ///< with which the cheap values count.
   double correlation = 0;  ///< of x and y, over the n.
-  /// Members of the dear model alone that would be as sure: with the same standard error, or of
-  /// flags as wide an interval (Wilson's); n where the cheap one does not help.
+  /// Members of the expensive model alone that would be as sure: with the same standard error, or
+  /// of flags as wide an interval (Wilson's); n where the cheap one does not help.
   double n_equivalent = 0;
 };
 
@@ -43,7 +43,7 @@ TieredEstimate tiered_mean(const TieredSample& sample, double confidence);
 /// and bounds put those of the three together (Wilson 1927) by their squared distances (Zou &
 /// Donner 2008): P̂ − √Σ (their part to the lower side)², so that they do not shrink to a point
 /// where nothing was seen; the standard error is what they are half as wide as, over z. A stratum
-/// in which no dear run lies may hold anything: the bounds are widened by it.
+/// in which no expensive run lies may hold anything: the bounds are widened by it.
 /// @param sample  values 0 and 1. @pre n ≥ 4, N ≥ n.
 TieredEstimate tiered_probability(const TieredSample& sample, double confidence);
 

@@ -57,7 +57,7 @@ int usable_version(Connection& connection, int newest) {
   return static_cast<int>(version);
 }
 
-void demand_sound_references(Connection& connection, const Migration& migration) {
+void require_sound_references(Connection& connection, const Migration& migration) {
   Statement broken(connection, "PRAGMA foreign_key_check");
   if (!broken.step()) return;
   throw StorageError(concat("migration ", migration.version, " (", migration.name,
@@ -170,7 +170,7 @@ void migrate(Connection& connection, const std::vector<Migration>& migrations) {
     if (version == 0)
       connection.execute(concat("PRAGMA application_id = ", kStoreApplicationId).c_str());
     connection.execute(std::string(migration.sql).c_str());
-    demand_sound_references(connection, migration);
+    require_sound_references(connection, migration);
     connection.execute(concat("PRAGMA user_version = ", migration.version).c_str());
     Statement(connection, "INSERT INTO migrations (version, name, applied_at) VALUES (?, ?, ?)")
         .bind(migration.version, migration.name, static_cast<double>(std::time(nullptr)))

@@ -162,7 +162,7 @@ enum class RunStatus {
   refused,    ///< the simulator says that the scene is wrong.
   crashed,    ///< the process was killed by a signal or ended by itself.
   hung,       ///< over the time limit; killed.
-  garbled,    ///< the process wrote something that is no reply.
+  garbled,    ///< the process wrote something that is not a reply.
   memory,     ///< over the memory limit, or killed for want of memory.
   world,      ///< the simulator reports disk or file trouble.
   bug,        ///< the simulator reports an internal error.

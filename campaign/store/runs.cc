@@ -67,7 +67,7 @@ std::vector<WaitingFamily> Store::waiting_families(std::int64_t campaign) const 
   return families;
 }
 
-long Store::want_lost_fields(const CampaignInfo& campaign) {
+long Store::requeue_missing_fields(const CampaignInfo& campaign) {
   if (campaign.keep_fields == KeepFields::none) return 0;
   Transaction transaction(*connection_);
   Statement query = connection_->prepared(

@@ -150,7 +150,7 @@ std::int64_t Connection::last_insert_id() const { return sqlite3_last_insert_row
 int Connection::changes() const { return sqlite3_changes(handle_); }
 
 void Connection::checkpoint() {
-  // Busy readers only make it incomplete, which is no failure.
+  // Busy readers only make it incomplete, which is not a failure.
   sqlite3_wal_checkpoint_v2(handle_, nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
 }
 

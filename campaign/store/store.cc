@@ -69,7 +69,7 @@ Store::~Store() = default;
 namespace {
 
 /// A migration makes the checksums anew: what they are to find must be found before.
-void demand_sound_checksums(Connection& connection) {
+void require_sound_checksums(Connection& connection) {
   if (!Checksums::exist(connection)) return;
   const std::vector<std::string> problems = Checksums(connection).problems();
   if (problems.empty()) return;
@@ -94,7 +94,7 @@ std::unique_ptr<Connection> open_for_writing(const std::filesystem::path& folder
     connection->execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL");
   }
   if (version > 0 && version < store_migrations().back().version)
-    demand_sound_checksums(*connection);
+    require_sound_checksums(*connection);
   migrate(*connection, store_migrations());
   if (!Checksums(*connection).are_current()) {
     Transaction transaction(*connection);

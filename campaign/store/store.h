@@ -57,7 +57,7 @@ class Store {
   static Store open_writer(const std::filesystem::path& folder) { return open_writer(folder, {}); }
   /// The same for the manager, the only one that checkpoints.
   static Store open_owner(const std::filesystem::path& folder);
-  /// Opens for reading. A missing store is an InputError-free StorageError naming `faultsweep
+  /// Opens for reading. A missing store is a StorageError that names `faultsweep
   /// submit`.
   static Store open_reader(const std::filesystem::path& folder);
   Store(Store&&) noexcept;
@@ -112,7 +112,7 @@ class Store {
     return folder_ / "fields" / campaign;
   }
   /// Fields that were kept but whose files are gone are wanted again; returns of how many cases.
-  long want_lost_fields(const CampaignInfo& campaign);
+  long requeue_missing_fields(const CampaignInfo& campaign);
   CaseInput case_input(std::int64_t campaign, std::int64_t case_id) const;
   /// Commits attempts, in one transaction each group: the run, and with a result also metrics,
   /// stage metrics, histories. A case that is not waiting any more keeps what it has: no second

@@ -31,7 +31,7 @@ struct TradeAxis {
   bool is_mesh =
       false;  ///< a model of the whole scene, with its cost: a point of the Pareto front.
   std::string reference;  ///< else the choice that errors are against; "" = the last that was run.
-  std::vector<TradeChoice> choices;  ///< from cheap to dear.
+  std::vector<TradeChoice> choices;  ///< from cheap to expensive.
 };
 
 struct LadderLimits {

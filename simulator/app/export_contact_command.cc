@@ -103,7 +103,7 @@ void report(const ExportArguments& arguments, const ExportedStep& exported) {
 ExitCode export_contact_command(const ExportArguments& arguments) {
   Simulation simulation = load_simulation(arguments.scene, arguments.op);
   const LoadedScene& loaded = simulation.scene();
-  demand_writable_file("-o", arguments.output, FileKind::hdf5, input_files(loaded));
+  require_writable_file("-o", arguments.output, FileKind::hdf5, input_files(loaded));
   if (loaded.plan.creep.active) {
     throw InputError(loaded.document.source,
                      {{"/numerics/creep", 0,

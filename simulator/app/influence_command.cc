@@ -92,7 +92,7 @@ void report(const InfluenceArguments& arguments, const PreparedInfluence& made) 
 
 ExitCode influence_command(const InfluenceArguments& arguments) {
   const LoadedScene loaded = load_scene(arguments.scene);
-  demand_writable_file("-o", arguments.output, FileKind::hdf5, input_files(loaded));
+  require_writable_file("-o", arguments.output, FileKind::hdf5, input_files(loaded));
   refuse_what_has_no_block(loaded);
   const std::vector<int> regions = regions_named(loaded.scene, arguments.regions);
   ScreenMonitor monitor(arguments.scene.json);

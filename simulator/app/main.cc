@@ -38,7 +38,7 @@ void add_scene(CLI::App* command, SceneArguments& arguments) {
 }
 
 /// A mistyped command is named before CLI11 asks for one.
-void demand_known_command(const CLI::App& app, int argc, char** argv) {
+void require_known_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   std::string names;
   for (const CLI::App* command : app.get_subcommands(nullptr)) {
@@ -219,7 +219,8 @@ void add_plot(CLI::App& app, Arguments& a, ExitCode& code) {
   }
   command->add_option("chart", a.plot.chart, charts)->required();
   command->add_option("result", a.plot.result, "folder that run wrote")->required();
-  command->add_option("-o,--output", a.plot.output, "file to write: *.svg, or *.png by rsvg-convert")
+  command
+      ->add_option("-o,--output", a.plot.output, "file to write: *.svg, or *.png by rsvg-convert")
       ->required();
   command->add_option("--fault", a.plot.fault, "default: the one with the largest χ̄");
   command->add_option("--step", a.plot.step, "load step; default: that of its largest χ̄");
@@ -248,7 +249,7 @@ void add_worker(CLI::App& app, Arguments& a, ExitCode& code) {
 
 void add_solver_study(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* command = app.add_subcommand(
-      "solver-study", "preconditioners of the coupled path on the seed's cracked box");
+      "solver-study", "preconditioners of the coupled path on a published cracked box");
   command->add_option("--h", a.study.cell_sizes, "cell sizes: 1/2,1/4,1/8,1/16 … (default 1/2,1/4)")
       ->delimiter(',');
   command
@@ -300,12 +301,12 @@ ExitCode faultsim_main(int argc, char** argv) {
   app.set_version_flag("--version", version_text("faultsim"));
   Arguments arguments;
   ExitCode code = ExitCode::done;
-  for (auto* add : {add_init, add_looking, add_run, add_diagnose, add_export_contact, add_influence, add_plot,
-                    add_worker, add_solver_study, add_environment}) {
+  for (auto* add : {add_init, add_looking, add_run, add_diagnose, add_export_contact, add_influence,
+                    add_plot, add_worker, add_solver_study, add_environment}) {
     add(app, arguments, code);
   }
   try {
-    demand_known_command(app, argc, argv);
+    require_known_command(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const int status = app.exit(error);

@@ -18,7 +18,7 @@ CaseChart chart_named(const std::string& name) {
     names += (names.empty() ? "" : ", ") + std::string(info.name);
   }
   throw InputError("chart",
-                   {{"", 0, concat("\"", name, "\" is no chart"), "choose one of " + names}});
+                   {{"", 0, concat("\"", name, "\" is not a chart"), "choose one of " + names}});
 }
 
 }  // namespace
@@ -30,10 +30,10 @@ ExitCode plot_command(const PlotArguments& arguments) {
                               fields_file = folder / "faults.h5";
   const CaseChart chart = chart_named(arguments.chart);
   if (!std::filesystem::exists(result_file) || !std::filesystem::exists(scene_file)) {
-    throw InputError("result", {{"", 0, concat("\"", arguments.result, "\" is no result folder"),
+    throw InputError("result", {{"", 0, concat("\"", arguments.result, "\" is not a result folder"),
                                  "name a folder that faultsim run wrote"}});
   }
-  demand_picture_file(arguments.output, {".svg", ".png"}, {scene_file, result_file, fields_file});
+  require_picture_file(arguments.output, {".svg", ".png"}, {scene_file, result_file, fields_file});
   const CaseResult result = result_from_json(read_json_file(result_file.string()).value);
   const Scene scene = read_scene(read_json_file(scene_file.string()));
   std::optional<FieldReader> fields;

@@ -12,8 +12,8 @@
 #include "simulator/coupled_case/path_choice.h"
 #include "simulator/linalg/blas.h"
 #include "simulator/linalg/blas_kernel.h"
-#include "simulator/loads/history.h"
 #include "simulator/loading/run_case.h"
+#include "simulator/loads/history.h"
 #include "simulator/output/json_text.h"
 #include "simulator/output/result_folder.h"
 #include "simulator/output/write_result.h"
@@ -94,7 +94,7 @@ namespace {
 /// path is asked for and cannot take the scene.
 PathChoice path_of(const RunArguments& arguments, const LoadedScene& loaded) {
   if (arguments.path == "condensed") return {SolutionPath::condensed, "asked for"};
-  std::vector<Problem> hindrances = coupled_hindrances(loaded.scene, loaded.plan);
+  std::vector<Problem> hindrances = unsupported_by_coupled(loaded.scene, loaded.plan);
   if (arguments.path == "automatic") {
     return choose_path(loaded.plan, available_memory(), 1, hindrances);
   }
@@ -104,11 +104,11 @@ PathChoice path_of(const RunArguments& arguments, const LoadedScene& loaded) {
 
 std::string prepared_text(const FaultOperator& op, const std::optional<CaseSurface>& surface,
                           bool from_cache, bool coupled) {
-  const std::string how = coupled      ? "no operator"
-                          : surface    ? concat("operator: interpolated between ",
-                                                surface->n_operators, " exact ones")
-                          : from_cache ? "operator: from the cache"
-                                       : built_in(op.build_seconds);
+  const std::string how =
+      coupled      ? "no operator"
+      : surface    ? concat("operator: interpolated between ", surface->n_operators, " exact ones")
+      : from_cache ? "operator: from the cache"
+                   : built_in(op.build_seconds);
   return concat(how, ", ", op.geometry.nodes.size(), " fault node pairs\n");
 }
 
@@ -124,7 +124,7 @@ ExitCode run_command(const RunArguments& arguments) {
   const Scene& scene = loaded.scene;
   const PathChoice choice = path_of(arguments, loaded);
   const bool is_coupled = choice.path == SolutionPath::coupled;
-  if (is_coupled) demand_one_rank();
+  if (is_coupled) require_one_rank();
   const bool json = arguments.scene.json;
   if (const std::string complaint = blas_complaint(); !complaint.empty())
     std::cerr << complaint << "\n";

@@ -46,7 +46,7 @@ ExitCode init_command(const std::string& kind, const std::filesystem::path& file
   if (std::filesystem::exists(file)) {
     throw InputError(file.string(), {{"", 0, "the file exists already", "choose another name"}});
   }
-  demand_writable_file("file", file, FileKind::json, {});
+  require_writable_file("file", file, FileKind::json, {});
   write_text(file, starter_scene(kind));
   std::cerr << "wrote " << file.string() << "\nnext: faultsim plan " << file.string()
             << "   or   faultsim run " << file.string() << "\n";

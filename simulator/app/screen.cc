@@ -108,7 +108,7 @@ std::string step_table_header(const CaseResult& names, bool wide) {
 
 namespace {
 
-/// '*' where the fault slides, '?' where that hangs on the cells.
+/// '*' where the fault slides, '?' where that depends on the cells.
 char mark(const FaultMetrics& fault) {
   if (!fault.activation_resolved) return '?';
   return fault.activated ? '*' : ' ';
@@ -272,7 +272,7 @@ std::string whole_text(const CaseResult& result) {
   }
   if (!whole.activation_resolved) {
     text +=
-        "UNRESOLVED: that hangs on the mesh (? in the table: slip ends within a cell of the "
+        "UNRESOLVED: that depends on the mesh (? in the table: slip ends within a cell of the "
         "activation length, or the window index is 1 within its error)\n";
   }
   if (const FaultOnset* onset = first_opening(whole)) {

@@ -48,7 +48,7 @@ int cells_per_metre(const std::string& h, std::vector<Problem>& problems) {
   const bool read =
       std::sscanf(h.c_str(), "1/%d%n", &n, &length) == 1 && length == static_cast<int>(h.size());
   if (read && n >= 2 && n <= 64 && n % 2 == 0) return n;
-  problems.push_back({"", 0, concat("--h ", h, " is no cell size of the box"),
+  problems.push_back({"", 0, concat("--h ", h, " is not a cell size of the box"),
                       "write 1/2, 1/4, 1/8, 1/16, ... 1/64: the plane z = 1/2 needs cells that "
                       "divide it"});
   return 0;

@@ -85,7 +85,7 @@ class Worker {
     std::string bytes;
     try {
       take_scene(request);
-      demand_identity(request);
+      require_identity(request);
       prepare(run);
       say({{"event", "started"}, {"run", run}});
       bytes = run_one(request, reply);
@@ -104,13 +104,13 @@ class Worker {
   void take_scene(const json& request) {
     const auto base = request.at("base").get<std::int64_t>();
     const auto source = request.value("source", "case");
-    if (base != held_) simulation_.hold_unread({source, bases_.at(base), {}});
+    if (base != held_) simulation_.hold_base({source, bases_.at(base), {}});
     held_ = base;
     simulation_.change_values({source, request.at("changes"), {}});
   }
 
   /// Refuses a scene that is not the case's: its result would be stored under another's name.
-  void demand_identity(const json& request) const {
+  void require_identity(const json& request) const {
     if (!request.contains("identity")) return;
     const auto wanted = request["identity"].get<std::string>();
     const std::string identity = simulation_.identity();

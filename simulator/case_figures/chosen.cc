@@ -71,7 +71,7 @@ Chosen choose(const CasePicture& picture, const CaseChartRequest& request) {
       std::string names;
       for (const std::string& name : result.fault_names)
         names += (names.empty() ? "" : ", ") + name;
-      refuse("--fault", "\"" + request.fault + "\" is no fault of the case",
+      refuse("--fault", "\"" + request.fault + "\" is not a fault of the case",
              "choose one of " + names);
     }
     chosen.fault = static_cast<std::size_t>(found - result.fault_names.begin());

@@ -80,9 +80,9 @@ std::string png_of(const std::string& svg) {
 
 }  // namespace
 
-void demand_picture_file(const std::filesystem::path& target,
-                         const std::vector<std::string>& endings,
-                         const std::vector<std::filesystem::path>& inputs) {
+void require_picture_file(const std::filesystem::path& target,
+                          const std::vector<std::string>& endings,
+                          const std::vector<std::filesystem::path>& inputs) {
   const std::string ending = target.extension().string();
   if (std::find(endings.begin(), endings.end(), ending) == endings.end()) {
     std::string wanted;
@@ -90,7 +90,7 @@ void demand_picture_file(const std::filesystem::path& target,
     throw InputError("-o", {{"", 0, concat("\"", target.string(), "\" does not say what to write"),
                              "let the name end in " + wanted}});
   }
-  demand_writable_file("-o", target, FileKind::text, inputs);
+  require_writable_file("-o", target, FileKind::text, inputs);
 }
 
 void write_picture(const std::filesystem::path& target, const std::string& svg) {

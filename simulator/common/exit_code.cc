@@ -16,7 +16,7 @@ ExitCode say(const char* program, const char* text, ExitCode code) {
   return code;
 }
 
-/// Output that was lost is no success: what was buffered is written now, or it is said.
+/// Output that was lost is not a success: what was buffered is written now, or it is said.
 bool all_is_written() {
   const bool flushed = std::fflush(stdout) == 0;
   return flushed && std::ferror(stdout) == 0 && !std::cout.flush().fail();

@@ -32,7 +32,7 @@ Character character_at(std::string_view text, std::size_t i) {
   return {size, code, true};
 }
 
-bool is_obeyed(std::uint32_t code) {
+bool is_control(std::uint32_t code) {
   constexpr std::array<std::pair<std::uint32_t, std::uint32_t>, 7> kRanges = {{
       {0x00, 0x1F},      // C0
       {0x7F, 0x9F},      // DEL, C1
@@ -66,7 +66,7 @@ std::string printable(std::string_view text, Keep keep) {
   for (std::size_t i = 0; i < text.size();) {
     const Character one = character_at(text, i);
     const bool line_end = one.code == '\n' && keep == Keep::line_ends;
-    if (one.valid && (line_end || !is_obeyed(one.code))) {
+    if (one.valid && (line_end || !is_control(one.code))) {
       result += text.substr(i, one.size);
     } else {
       result += spelled(text, i, one);
@@ -83,7 +83,7 @@ std::string first_unprintable(std::string_view text) {
       continue;
     }
     const Character one = character_at(text, i);
-    if (!one.valid || is_obeyed(one.code)) return spelled(text, i, one);
+    if (!one.valid || is_control(one.code)) return spelled(text, i, one);
     i += one.size;
   }
   return "";

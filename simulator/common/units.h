@@ -59,8 +59,8 @@ struct ParsedQuantity {
 ///
 /// The number's decimal text times the unit factor is formed in long double and rounded once, so
 /// that "200 bar" and "20 MPa" are the same bits. Units with an offset (degC) are refused, and so
-/// are units that differ by radians: "25 %" is no angle, "1 Pa rad" no pressure. A bare number is
-/// right only for Dimension::number. Overflow and NaN are refused.
+/// are units that differ by radians: "25 %" is not an angle, "1 Pa rad" no pressure. A bare number
+/// is right only for Dimension::number. Overflow and NaN are refused.
 ParsedQuantity parse_quantity(std::string_view text, Dimension dimension);
 
 /// value (SI) in the given unit, for printing: from_si(2e7, Dimension::pressure, "bar") = 200.

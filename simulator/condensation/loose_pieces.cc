@@ -13,7 +13,7 @@ namespace faultsim {
 Eigen::VectorXd loose_piece_springs(const BulkProblem& problem, const DofMap& dofs,
                                     const FaultGeometry& geometry) {
   const Mesh& mesh = problem.mesh;
-  demand_held(mesh, dofs);
+  require_held(mesh, dofs);
   const Pieces pieces = find_pieces(mesh);
   const auto piece_of = [&](int node) { return pieces.of_node[node]; };
   const auto is_fixed = [&](int node, int c) {

@@ -95,7 +95,7 @@ bool ScalarSlip::append(int k) {
     row[j] = tangential + own * normal[other.dof[1]];
     column[j] = tangential + coupling(other, signs_[j]) * shear[other.dof[0]];
   }
-  // Pivots far below the diagonal would be a loss of digits, so they end the fast road.
+  // Pivots far below the diagonal would be a loss of digits, so they end the fast path.
   const double diagonal = shear[node.dof[1]] + own * normal[node.dof[1]];
   constexpr double kSmallestPivot = 1e-8;
   if (!(lu_.append(diagonal) > kSmallestPivot * shear[node.dof[1]])) return false;

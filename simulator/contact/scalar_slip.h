@@ -9,7 +9,7 @@
 
 namespace faultsim {
 
-/// The fast road for ContactProblem::scalar while nothing opens. With slip signs σ_i the slip
+/// The fast path for ContactProblem::scalar while nothing opens. With slip signs σ_i the slip
 /// equations are linear,
 ///
 ///   Σ_j (H_TT + σ_i tan φ_i H_NT)_ij Δg_j = A_i σ_i (σ_i t'_T − c + tan φ_i t'_N)_i,

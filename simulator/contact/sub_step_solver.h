@@ -25,7 +25,7 @@ struct SubStepRange {
   double duration = 0;  ///< s, Δt of a damped sub-step; 0 = static equilibrium.
 };
 
-/// Solves one sub-step: rest if it will do, the fast road of plane strain, Newton from rest, Newton
+/// Solves one sub-step: rest if it will do, the fast path of plane strain, Newton from rest, Newton
 /// after relaxation. Every solution is checked against (3)–(5) node by node. A damped sub-step lets
 /// the limit shear traction grow with the slip rate, |t'_T| = τ_L + η |Δg_T|/Δt: for small Δt it
 /// always has a solution.
@@ -38,7 +38,7 @@ class SubStepSolver {
   void begin(const LoadPath& path, const SubStepRange& range, const ContactState& start);
   /// Whether nothing needs to move; then the sub-step is solved.
   bool rest();
-  /// @param last  no smaller sub-step will follow, so the slow roads are tried too.
+  /// @param last  no smaller sub-step will follow, so the fallbacks are tried too.
   Attempt attempt(bool last);
   /// Moves state, the `start` of begin() or a copy of it, to the end of the sub-step.
   void commit(ContactState& state) const;

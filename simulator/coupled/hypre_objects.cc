@@ -36,7 +36,7 @@ void start_hypre() {
   FAULTSIM_DEMAND(started, "hypre");
 }
 
-void demand_one_rank() {
+void require_one_rank() {
   start_hypre();
   int n_ranks = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);

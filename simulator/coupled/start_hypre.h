@@ -7,6 +7,6 @@ namespace faultsim {
 void start_hypre();
 /// Throws InputError under mpirun with several ranks: matrices are not distributed so far, and each
 /// would do the same work and write the same files. Starts MPI.
-void demand_one_rank();
+void require_one_rank();
 
 }  // namespace faultsim

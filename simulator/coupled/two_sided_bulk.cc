@@ -34,12 +34,12 @@ void tie_closed_nodes(const DofMap& condensed, const std::vector<FaultSurface>& 
 TwoSidedBulk::TwoSidedBulk(const BulkProblem& problem, LoosePieces loose) : problem_(problem) {
   const int n_loads = static_cast<int>(problem.loads.size());
   const DofMap condensed(problem.mesh, problem.conditions, n_loads);
-  demand_held(problem.mesh, condensed);
+  require_held(problem.mesh, condensed);
   Mesh& mesh = problem_.mesh;
   faults_.swap(mesh.faults);
   tie_closed_nodes(condensed, faults_, mesh);
   dofs_ = std::make_unique<DofMap>(mesh, problem.conditions, n_loads);
-  if (loose == LoosePieces::refused) demand_pieces_held();
+  if (loose == LoosePieces::refused) require_pieces_held();
   int n_independent = 0;
   rank_.resize(mesh.nodes.size());
   for (int i = 0; i < static_cast<int>(mesh.nodes.size()); ++i) {
@@ -53,7 +53,7 @@ TwoSidedBulk::TwoSidedBulk(const BulkProblem& problem, LoosePieces loose) : prob
 int TwoSidedBulk::dof(int node, int component) const { return 3 * rank_[node] + component; }
 
 /// Every piece must be held by itself: multipliers tie pieces together only in the whole system.
-void TwoSidedBulk::demand_pieces_held() const {
+void TwoSidedBulk::require_pieces_held() const {
   const Pieces pieces = find_pieces(problem_.mesh);
   for (int piece = 0; piece < pieces.n_pieces; ++piece) {
     const RigidModes modes = rigid_modes(

@@ -54,7 +54,7 @@ class TwoSidedBulk {
 
  private:
   void place_fault_nodes(const DofMap& condensed);
-  void demand_pieces_held() const;
+  void require_pieces_held() const;
   void assemble();
 
   BulkProblem problem_;  ///< without faults in its mesh: both copies of a node are independent.

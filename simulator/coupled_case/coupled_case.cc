@@ -35,11 +35,11 @@ FaultOperator uncondensed(const Scene& scene, const Plan& plan, const BulkProble
 
 }  // namespace
 
-std::vector<Problem> coupled_hindrances(const Scene& scene, const Plan& plan) {
+std::vector<Problem> unsupported_by_coupled(const Scene& scene, const Plan& plan) {
   std::vector<Problem> problems;
   const char* path = "take the condensed path (--path condensed)";
   if (plan.creep.active) {
-    problems.push_back({"/numerics/creep", 0, "the coupled path knows no creeping salt",
+    problems.push_back({"/numerics/creep", 0, "the coupled path does not support creeping salt",
                         concat("switch creep off, or ", path)});
   }
   if (scene.numerics.surface.wanted()) {
@@ -231,7 +231,7 @@ Eigen::VectorXd CoupledSteps::observed() const {
 
 CoupledCase::CoupledCase(const Scene& scene, const Plan& plan, const SolverChoice& solver,
                          const RunContext& context) {
-  std::vector<Problem> problems = coupled_hindrances(scene, plan);
+  std::vector<Problem> problems = unsupported_by_coupled(scene, plan);
   if (!problems.empty()) throw InputError("scene", std::move(problems));
   context.progress(0.0, "meshing and assembling");
   impl_ = std::make_unique<Impl>(scene, plan, solver);

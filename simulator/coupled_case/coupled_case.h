@@ -12,7 +12,7 @@ namespace faultsim {
 
 /// What of a scene the coupled path does not do, each with its cure; empty: it can run it. A
 /// function of the scene alone: nothing is meshed.
-std::vector<Problem> coupled_hindrances(const Scene& scene, const Plan& plan);
+std::vector<Problem> unsupported_by_coupled(const Scene& scene, const Plan& plan);
 
 /// A case on the coupled path (docs/model.md, section 11): mesh, bulk and faults of the scene
 /// without a condensed operator, walked through its load steps by loading's run_case, measured and
@@ -21,9 +21,9 @@ std::vector<Problem> coupled_hindrances(const Scene& scene, const Plan& plan);
 /// of the largest traction.
 class CoupledCase {
  public:
-  /// @pre scene and plan outlive this. Throws InputError with all of coupled_hindrances(), and for
-  /// pieces of rock that nothing holds (SchurKind::rac lets faults hold them; the other kinds need
-  /// a K that is regular).
+  /// @pre scene and plan outlive this. Throws InputError with all of unsupported_by_coupled(), and
+  /// for pieces of rock that nothing holds (SchurKind::rac lets faults hold them; the other kinds
+  /// need a K that is regular).
   CoupledCase(const Scene& scene, const Plan& plan, const SolverChoice& solver,
               const RunContext& context = {});
   ~CoupledCase();

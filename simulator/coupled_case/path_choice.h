@@ -27,7 +27,7 @@ double coupled_bytes(const Plan& plan);
 /// fits.
 /// @param available    bytes; none = not known, taken as enough.
 /// @param n_cases      that share the operator.
-/// @param hindrances   coupled_hindrances() of the scene.
+/// @param hindrances   unsupported_by_coupled() of the scene.
 PathChoice choose_path(const Plan& plan, std::optional<double> available, int n_cases,
                        const std::vector<Problem>& hindrances);
 

@@ -46,7 +46,7 @@ void throw_loose(const std::string& what) {
         "three points"}});
 }
 
-void demand_held(const Mesh& mesh, const DofMap& dofs) {
+void require_held(const Mesh& mesh, const DofMap& dofs) {
   if (dofs.n_unknowns() == 0) {
     throw InputError("scene", {{"/geometry/boundary", 0,
                                 "the displacement of every node is prescribed: nothing is left to "

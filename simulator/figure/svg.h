@@ -33,7 +33,7 @@ struct TextStyle {
   double rotation = 0;  ///< degrees, clockwise, about the place.
 };
 
-/// Text of an XML document: & < > " ' are escaped, bytes that are no valid UTF-8 and characters
+/// Text of an XML document: & < > " ' are escaped, bytes that are not valid UTF-8 and characters
 /// that XML 1.0 does not know become U+FFFD.
 std::string escape_xml(std::string_view text);
 /// The number with at most two decimals, without a trailing zero, whatever the locale.

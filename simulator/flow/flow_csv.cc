@@ -52,7 +52,7 @@ class FlowCsvReader {
     }
     line_ = 0;
     if (problems_.empty() && places_.empty()) refuse("there are no values", kFlowHeaderCure);
-    if (is_long_) demand_every_cell();
+    if (is_long_) require_every_cell();
     if (!problems_.empty()) throw InputError(given_, problems_);
     return result();
   }
@@ -188,7 +188,7 @@ class FlowCsvReader {
   }
 
   /// In the long form a cell can be missing at a date.
-  void demand_every_cell() {
+  void require_every_cell() {
     for (std::size_t t = 0; t < pressures_.size(); ++t) {
       const std::size_t n_missing = places_.size() - pressures_[t].size();
       if (n_missing == 0 || !problems_.empty()) continue;

@@ -43,8 +43,8 @@ std::string where(const MappedCell& cell) {
 constexpr double kTwice = 0.01;
 constexpr double kWhole = 1e-6;  ///< of a cell's volume: less than that is missing of one covered.
 
-void demand_some_coverage(const FlowMapping& mapping,
-                          const std::vector<std::string>& region_names) {
+void require_some_coverage(const FlowMapping& mapping,
+                           const std::vector<std::string>& region_names) {
   std::vector<Problem> problems;
   for (std::size_t r = 0; r < mapping.coverage.size(); ++r) {
     const RegionCoverage& region = mapping.coverage[r];
@@ -84,7 +84,7 @@ FlowMapping map_flow(const FlowField& field, const std::vector<MappedCell>& cell
     if (covered == 0 && rule == OutsideRule::nearest)
       weights.push_back({.flow_cell = search.nearest(centre_of(cell.corners)), .value = 1});
   }
-  demand_some_coverage(mapping, region_names);
+  require_some_coverage(mapping, region_names);
   return mapping;
 }
 

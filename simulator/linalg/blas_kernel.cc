@@ -71,7 +71,7 @@ bool library_has(const std::string& kernel) {
 }
 
 /// Throws where the user asks for what the processor cannot execute: it would end in SIGILL.
-void demand_executable(const std::string& asked) {
+void require_executable(const std::string& asked) {
   const std::optional<VectorSet> needed = vector_set_of_kernel(asked);
   if (!needed || *needed <= vector_set_of_processor()) return;
   throw ResourceError(concat(kCoreType, "=", asked, " needs ", to_string(*needed),
@@ -134,7 +134,7 @@ void start_anew(char** argv) {
 void choose_blas_kernel(char** argv) {
   std::string asked = variable(kCoreType);
   const std::string instead_of = variable(kInsteadOf);
-  if (!asked.empty() && instead_of.empty()) return demand_executable(asked);  // the user's
+  if (!asked.empty() && instead_of.empty()) return require_executable(asked);  // the user's
   // Ours, set here or on a host with another processor: what the library would take counts anew.
   const std::string taken = asked.empty() ? blas_info().kernel : instead_of;
   const std::string wanted =
@@ -156,7 +156,7 @@ std::string blas_kernel_reason() {
   const std::string asked = variable(kCoreType), instead_of = variable(kInsteadOf);
   const BlasInfo info = blas_info();
   if (!asked.empty() && !same_name(asked, info.kernel))
-    return concat(kCoreType, "=", asked, " is no kernel of this library, which chose this one");
+    return concat(kCoreType, "=", asked, " is not a kernel of this library, which chose this one");
   if (!instead_of.empty())
     return concat("chosen by faultsim: ", info.library,
                   " does not know this processor and would take ", instead_of,

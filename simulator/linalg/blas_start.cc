@@ -21,7 +21,7 @@ namespace {
 constexpr double kWanted = kBlasBufferBytes + kLeastWorkingBytes;
 
 /// Throws if a limit of the process leaves less than kWanted of what it counts.
-void demand_room(int resource, double used, const char* option, const char* what) {
+void require_room(int resource, double used, const char* option, const char* what) {
   struct rlimit limit = {};
   if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
   const double bytes = static_cast<double>(limit.rlim_cur);
@@ -37,7 +37,7 @@ void demand_room(int resource, double used, const char* option, const char* what
 }
 
 /// The limits above say nothing of a machine that does not overcommit.
-void demand_mapping() {
+void require_mapping() {
   void* probe = mmap(nullptr, static_cast<std::size_t>(kWanted), PROT_READ | PROT_WRITE,
                      MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (probe == MAP_FAILED) {
@@ -67,9 +67,9 @@ void take_blas_buffer() {
   const std::lock_guard lock(mutex);
   if (taken) return;
   const ProcessMemory used = process_memory();
-  demand_room(RLIMIT_AS, used.address_space, "-v", "address space");
-  demand_room(RLIMIT_DATA, used.data, "-d", "data");
-  demand_mapping();
+  require_room(RLIMIT_AS, used.address_space, "-v", "address space");
+  require_room(RLIMIT_DATA, used.data, "-d", "data");
+  require_mapping();
   set_blas_threads(1);
   // Small products do without a buffer; this one, of a millisecond, does not.
   constexpr int kOrder = 128;

@@ -5,8 +5,8 @@
 /// room for a buffer it (0.3.21) asks again for ever: the process hangs.
 namespace faultsim {
 
-/// To be called first in main: one thread (bits depend on how many OpenBLAS has, so it is no choice
-/// of the user's; supernodal_factor.h has threads of its own) and the widest kernel
+/// To be called first in main: one thread (bits depend on how many OpenBLAS has, so it is not a
+/// choice of the user's; supernodal_factor.h has threads of its own) and the widest kernel
 /// (blas_kernel.h). Starts the program anew, at most once, where OpenBLAS has begun otherwise;
 /// children inherit the variables that say so.
 /// @throws ResourceError as choose_blas_kernel().

@@ -54,7 +54,7 @@ class KeptSignalActions {
   std::jthread watch_;
 };
 
-void demand_no_stop(const std::function<bool()>& stop) {
+void require_no_stop(const std::function<bool()>& stop) {
   if (stop && stop()) throw Interrupted("stopped while ordering the unknowns");
 }
 
@@ -63,7 +63,7 @@ std::unique_lock<std::mutex> wait_for_turn(const std::function<bool()>& stop) {
   static std::mutex mutex;
   std::unique_lock turn(mutex, std::try_to_lock);
   while (!turn.owns_lock()) {
-    demand_no_stop(stop);
+    require_no_stop(stop);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     turn.try_lock();
   }
@@ -107,14 +107,14 @@ std::optional<std::vector<Index>> nested_dissection(const GroupGraph& graph,
   std::vector<idx_t> order(n), place(n);
   const std::unique_lock turn = wait_for_turn(stop);
   while (true) {
-    demand_no_stop(stop);
+    require_no_stop(stop);
     int done = METIS_ERROR;
     {
       const KeptSignalActions kept;
       done = METIS_NodeND(&n, full.begin.data(), full.neighbours.data(), nullptr, nullptr,
                           order.data(), place.data());
     }
-    demand_no_stop(stop);
+    require_no_stop(stop);
     if (done == METIS_OK) return std::vector<Index>(order.begin(), order.end());
     if (done == METIS_ERROR_MEMORY) return {};
     FAULTSIM_DEMAND(done == METIS_ERROR, "METIS_NodeND returns ", done);

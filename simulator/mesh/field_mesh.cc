@@ -126,7 +126,7 @@ void check_blocks(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
     if (!(block.to - block.from > 2 * kEdgeTolerance))
       problems.push_back({pointer + "/to", 0, "is not east of `from`", "give a block some width"});
     if (block.thickness && !(*block.thickness > 2 * kEdgeTolerance))
-      problems.push_back({pointer + "/thickness", 0, "is no thickness", "write 1 m or more"});
+      problems.push_back({pointer + "/thickness", 0, "is not a thickness", "write 1 m or more"});
     if (i > 0 && std::abs(block.from - spec.blocks[i - 1].to) > kEdgeTolerance)
       problems.push_back({pointer + "/from", 0,
                           concat(block.from, " m is not where the block west of it ends, ",

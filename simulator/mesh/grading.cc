@@ -18,7 +18,7 @@ constexpr double kRatioTolerance = 1e-9;  // rounding of a length divided by a s
 constexpr int kMaxSmoothing = 40;  // passes that smooth sizes across lines that must be there
 
 /// Called with counts that are still doubles: a length over a size may be beyond every integer.
-void demand_few(double n_cells) {
+void require_few(double n_cells) {
   if (n_cells <= kMostCellsOnAxis) return;
   throw InputError(
       "scene",
@@ -29,7 +29,7 @@ void demand_few(double n_cells) {
 
 int even_count(double length, double size) {
   const double count = std::ceil(length / size - kStretch);
-  demand_few(count);
+  require_few(count);
   return std::max(1, static_cast<int>(count));
 }
 
@@ -69,7 +69,7 @@ int fewest_cells(double length, double first, double last, double growth, double
            length * (1 - kRatioTolerance);
   };
   int high = 1;
-  while (!reaches(high)) demand_few(high *= 2);
+  while (!reaches(high)) require_few(high *= 2);
   int low = high / 2;  // does not reach (0 for high = 1)
   while (high - low > 1) {
     const int middle = low + (high - low) / 2;
@@ -158,7 +158,7 @@ std::vector<double> LineBuilder::build() const {
     double n_cells = 0;
     for (const std::vector<double>& piece : pieces.cells)
       n_cells += static_cast<double>(piece.size());
-    demand_few(n_cells);
+    require_few(n_cells);
     if (!lower_at_jumps(pieces)) break;
   }
   std::vector<double> result;

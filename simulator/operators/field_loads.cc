@@ -107,8 +107,8 @@ Eigen::MatrixXd change_at(const MappedField& field, const std::vector<double>& t
   return change;
 }
 
-void say_coverage(const MappedField& field, const std::vector<std::string>& names,
-                  FieldLoads& loads) {
+void report_coverage(const MappedField& field, const std::vector<std::string>& names,
+                     FieldLoads& loads) {
   constexpr double kWhole = 1 - 1e-6;
   for (std::size_t r = 0; field.load.is_given() && r < names.size(); ++r) {
     const RegionCoverage& region = field.mapping.coverage[r];
@@ -179,7 +179,7 @@ FieldLoads field_loads(const Scene& scene, const Plan& plan, const PreparedInflu
   history.observed = block.observed * stress;
   history.fault_pressure = fault_pressures(scene, mesh, prepared.op->geometry, change);
   for (const MappedField* field : {&pressure, &temperature})
-    say_coverage(*field, block.region_names, loads);
+    report_coverage(*field, block.region_names, loads);
   say_reference(scene, block, pressure.mapping, loads.warnings);
   loads.mapping = pressure.mapping;
   return loads;

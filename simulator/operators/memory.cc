@@ -20,7 +20,7 @@ std::string size_text(double bytes) {
 
 }  // namespace
 
-void demand_memory(const Plan& plan, std::optional<double> available) {
+void require_memory(const Plan& plan, std::optional<double> available) {
   if (!available || plan.memory_bytes <= *available) return;
   const bool creeps = plan.creep.active;
   const std::string what =

@@ -1,15 +1,15 @@
+#include "simulator/operators/prepare_operator.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/machine.h"
 #include "simulator/linalg/blas_start.h"
 #include "simulator/linalg/cholesky.h"
 #include "simulator/operators/memory.h"
-#include "simulator/operators/prepare_operator.h"
 #include "simulator/output/operator_cache.h"
 
 namespace faultsim {
 namespace {
 
-/// Fault names are no part of a family: an operator made for another scene may carry other names.
+/// Fault names are not part of a family: an operator made for another scene may carry other names.
 void take_fault_names(const Scene& scene, FaultOperator& op) {
   FAULTSIM_DEMAND(op.geometry.faults.size() == scene.faults.size(), op.geometry.faults.size());
   for (std::size_t f = 0; f < scene.faults.size(); ++f) {
@@ -58,7 +58,7 @@ std::optional<FaultOperator> find_operator(const std::string& name, const CacheP
 
 /// Every process needs the factors of a creeping family, so its operators are built, never read.
 PreparedOperator prepare_ladder(const Scene& scene, const Plan& plan, const RunContext& context) {
-  demand_memory(plan, available_memory());
+  require_memory(plan, available_memory());
   context.progress(0.0, "meshing");
   const MaxwellScheme scheme = scene.numerics.creep_scheme == CreepScheme::exponential
                                    ? MaxwellScheme::exponential
@@ -96,7 +96,7 @@ PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const Ca
       return prepared;
     }
   }
-  demand_memory(plan, available_memory());
+  require_memory(plan, available_memory());
   context.progress(0.0, "meshing");
   const BulkProblem problem = bulk_problem(scene, plan);
   context.stop.throw_if_requested("meshing");

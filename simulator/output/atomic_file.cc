@@ -56,7 +56,7 @@ std::filesystem::path where_it_leads(const std::filesystem::path& target) {
   const fs::file_status link = fs::symlink_status(target, error);
   if (!fs::exists(link) || fs::is_regular_file(link)) return target;
   if (fs::is_regular_file(fs::status(target, error))) return fs::canonical(target, error);
-  throw StorageError(concat("cannot write ", target.string(), ": it is no regular file"));
+  throw StorageError(concat("cannot write ", target.string(), ": it is not a regular file"));
 }
 
 /// Cuts the last part after a '.' off the text; "" when there is none.

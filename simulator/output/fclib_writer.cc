@@ -42,8 +42,8 @@ void write_matrix(hid_t file, const std::string& group, const Eigen::MatrixXd& w
   hdf5::write_array(file, group + "/x", {row.size()}, w.data(), {});
 }
 
-void demand_sound(const FrictionalContactProblem& problem,
-                  const FrictionalContactSolution* solution) {
+void require_sound(const FrictionalContactProblem& problem,
+                   const FrictionalContactSolution* solution) {
   const Eigen::Index n = problem.n_contacts() * problem.dimension;
   FAULTSIM_DEMAND(problem.dimension == 2 || problem.dimension == 3, problem.dimension);
   FAULTSIM_DEMAND(n > 0 && problem.w.rows() == n && problem.w.cols() == n && problem.q.size() == n,
@@ -62,7 +62,7 @@ void demand_sound(const FrictionalContactProblem& problem,
 
 void write_fclib(const std::filesystem::path& path, const FrictionalContactProblem& problem,
                  const FrictionalContactInfo& info, const FrictionalContactSolution* solution) {
-  demand_sound(problem, solution);
+  require_sound(problem, solution);
   PendingFile target(path);
   const hdf5::Session session;
   const hdf5::Handle file = hdf5::create_in_memory();

@@ -51,7 +51,7 @@ std::string text_attribute(hid_t file, const std::string& path, const std::strin
       H5Aopen_by_name(file, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, path);
   const Handle type(H5Aget_type(attribute), H5Tclose, path);
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) {
-    throw StorageError(path + "/" + name + " is no text of fixed length");
+    throw StorageError(path + "/" + name + " is not a text of fixed length");
   }
   std::string text(H5Tget_size(type), '\0');
   hdf5::check(H5Aread(attribute, type, text.data()), path);
@@ -63,7 +63,7 @@ std::vector<std::vector<int>> read_faces(hid_t file, const std::string& path) {
   const Handle dataset(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, path);
   const Handle space(H5Dget_space(dataset), H5Sclose, path);
   std::array<hsize_t, 2> sizes = {};
-  if (H5Sget_simple_extent_ndims(space) != 2) throw StorageError(path + " is no table");
+  if (H5Sget_simple_extent_ndims(space) != 2) throw StorageError(path + " is not a table");
   H5Sget_simple_extent_dims(space, sizes.data(), nullptr);
   const std::vector<int> corners = hdf5::read_ints(file, path, sizes[1]);
   std::vector<std::vector<int>> faces;

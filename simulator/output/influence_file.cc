@@ -84,7 +84,7 @@ InfluenceTables influence_tables(const InfluenceBlock& block, const FaultOperato
   return t;
 }
 
-void demand_agreement(bool holds, const char* what) {
+void require_agreement(bool holds, const char* what) {
   if (!holds) throw StorageError(concat("the tables of an influence block disagree: ", what));
 }
 
@@ -92,20 +92,20 @@ InfluenceBlock decode_influence(const SealedContent& content) {
   InfluenceTables t;
   for_each_influence_table(t, ReadTables{content.file()});
   const std::size_t n_cells = t.volume.size();
-  demand_agreement(
+  require_agreement(
       t.names.size() == 2 && t.build_seconds.size() == 1 && t.sizes.size() == 1 && t.sizes[0] >= 0,
       "names");
-  demand_agreement(t.cell_numbers.size() == 3 * n_cells && t.fraction.size() == n_cells &&
-                       t.centroid.size() == 3 * n_cells,
-                   "cells");
+  require_agreement(t.cell_numbers.size() == 3 * n_cells && t.fraction.size() == n_cells &&
+                        t.centroid.size() == 3 * n_cells,
+                    "cells");
   InfluenceBlock block{.fingerprint = t.names[0],
                        .operator_fingerprint = t.names[1],
                        .region_names = std::move(t.region_names),
                        .build_seconds = t.build_seconds[0]};
   for (std::size_t c = 0; c < n_cells; ++c) {
     const int* number = &t.cell_numbers[3 * c];
-    demand_agreement(number[1] >= -1 && number[1] < static_cast<int>(block.region_names.size()),
-                     "regions");
+    require_agreement(number[1] >= -1 && number[1] < static_cast<int>(block.region_names.size()),
+                      "regions");
     block.cells.push_back({.cell = number[0],
                            .region = number[1],
                            .fraction = t.fraction[c],

@@ -17,8 +17,8 @@ void write_operator(const FaultOperator& op, const std::filesystem::path& folder
 
 /// Opens folder/FINGERPRINT.h5 if it is there: format version, sizes, fingerprint and checksum are
 /// verified (the checksum once per process and file); H is mapped read-only, so processes share its
-/// pages. A damaged file, or what is no file, is moved aside (".damaged") with a note in `remark`
-/// and counts as absent, as does one that cannot be read.
+/// pages. A damaged file, or what is not a file, is moved aside (".damaged") with a note in
+/// `remark` and counts as absent, as does one that cannot be read.
 std::optional<FaultOperator> read_operator(const std::filesystem::path& folder,
                                            const std::string& fingerprint,
                                            std::string* remark = nullptr);

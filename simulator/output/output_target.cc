@@ -74,7 +74,7 @@ std::vector<Problem> problems_of_place(const fs::path& parent) {
              "make it first, or choose another"}};
   }
   if (!fs::is_directory(status)) {
-    return {{"", 0, concat(parent.string(), " is no folder"), "choose another place"}};
+    return {{"", 0, concat(parent.string(), " is not a folder"), "choose another place"}};
   }
   if (const fs::path store = store_around(parent); !store.empty()) {
     return {{"", 0, concat("it lies in the store ", store.string(), ", which holds campaigns only"),
@@ -86,7 +86,7 @@ std::vector<Problem> problems_of_place(const fs::path& parent) {
 Problem problem_of_special_file(const fs::path& target, const fs::file_status& status) {
   const char* what = fs::is_directory(status) ? " is a folder"
                      : fs::is_symlink(status) ? " is a link to nowhere"
-                                              : " is no regular file";
+                                              : " is not a regular file";
   return {"", 0, concat(target.string(), what),
           fs::is_directory(status) ? "name a file in it" : "name a file"};
 }
@@ -139,13 +139,13 @@ bool is_standard_output(const fs::path& target) {
          target == "/proc/self/fd/1";
 }
 
-void demand_writable_file(const std::string& option, const fs::path& target, FileKind kind,
-                          const std::vector<fs::path>& inputs) {
+void require_writable_file(const std::string& option, const fs::path& target, FileKind kind,
+                           const std::vector<fs::path>& inputs) {
   const std::vector<Problem> problems = problems_of_file(target, kind, inputs);
   if (!problems.empty()) throw InputError(option, problems);
 }
 
-void demand_writable_folder(const std::string& option, const fs::path& folder) {
+void require_writable_folder(const std::string& option, const fs::path& folder) {
   if (is_standard_output(folder)) {
     throw InputError(option,
                      {{"", 0, "a folder cannot be written to standard output", "name a folder"}});
@@ -154,7 +154,8 @@ void demand_writable_folder(const std::string& option, const fs::path& folder) {
   std::error_code error;
   const fs::file_status status = fs::status(target, error);
   if (fs::exists(status) && !fs::is_directory(status)) {
-    throw InputError(option, {{"", 0, concat(target.string(), " is no folder"), "name a folder"}});
+    throw InputError(option,
+                     {{"", 0, concat(target.string(), " is not a folder"), "name a folder"}});
   }
   const std::vector<Problem> problems =
       problems_of_place(fs::is_directory(status) ? target : above(target));

@@ -27,11 +27,11 @@ bool is_standard_output(const std::filesystem::path& target);
 /// folder that exists or a regular file of the same kind that may be replaced.
 /// @param option  printed before the problem: "-o".
 /// @param inputs  files that the command reads.
-void demand_writable_file(const std::string& option, const std::filesystem::path& target,
-                          FileKind kind, const std::vector<std::filesystem::path>& inputs);
+void require_writable_file(const std::string& option, const std::filesystem::path& target,
+                           FileKind kind, const std::vector<std::filesystem::path>& inputs);
 
 /// The same for a folder: it exists, or the one above it does. It is in no store.
-void demand_writable_folder(const std::string& option, const std::filesystem::path& folder);
+void require_writable_folder(const std::string& option, const std::filesystem::path& folder);
 
 /// Files that a document names: every text in it that is the path of a regular file, counted from
 /// the folder of `file`; and `file` itself.

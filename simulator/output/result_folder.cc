@@ -128,7 +128,7 @@ std::optional<FolderContents> contents_of(const fs::path& folder) {
 }
 
 ResultFolder::ResultFolder(Request request) : request_(std::move(request)) {
-  demand_writable_folder(request_.option, request_.folder);
+  require_writable_folder(request_.option, request_.folder);
   folder_ = request_.folder.has_filename() ? request_.folder : request_.folder.parent_path();
   work_ = folder_ / kWork;
   const auto contents = contents_of(folder_);
@@ -153,10 +153,11 @@ void ResultFolder::check_entries() const {
   std::error_code error;
   for (const std::string& name : names) {
     if (!fs::exists(fs::symlink_status(folder_ / name, error)) || contains(old_, name)) continue;
-    problems.push_back({"", 0,
-                        concat((folder_ / name).string(),
-                               " would be replaced and is no result of `", request_.made_by, "`"),
-                        "choose another folder, or move the file away"});
+    problems.push_back(
+        {"", 0,
+         concat((folder_ / name).string(), " would be replaced and is not a result of `",
+                request_.made_by, "`"),
+         "choose another folder, or move the file away"});
   }
   if (fs::exists(fs::symlink_status(work_, error)) && !is_work(work_)) {
     problems.push_back({"", 0, concat(work_.string(), " is in the way and none of ours"),

@@ -244,7 +244,7 @@ bool read_sealed(const std::filesystem::path& path, const SealedFormat& format,
   const int error = mapping->error();
   if (error == ENOENT || error == ENOTDIR) return false;
   if (error == ENOMEM) throw ResourceError(concat("no memory to map ", path.string()));
-  if (error == EISDIR) return say(move_aside(format, path, "it is no regular file"));
+  if (error == EISDIR) return say(move_aside(format, path, "it is not a regular file"));
   if (error != 0) return not_used(concat("it cannot be read: ", std::strerror(error)).c_str());
   try {
     verify_once(format, path, *mapping);

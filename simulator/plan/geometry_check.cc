@@ -16,7 +16,7 @@ std::vector<Problem> geometry_problems(const Scene& scene, const Plan& plan) {
     const auto n_loads = std::count_if(scene.box.boundary.begin(), scene.box.boundary.end(),
                                        [](const auto& one) { return is_load(one.kind); });
     const DofMap dofs(mesh, displacement_conditions(scene, 0), static_cast<int>(n_loads));
-    demand_held(mesh, dofs);
+    require_held(mesh, dofs);
   } catch (const InputError& error) {
     return error.problems();
   }

@@ -312,7 +312,7 @@ Switch& switch_of(const std::string& reduction, Numerics& numerics) {
 }
 
 /// The scene with the decision about one reduction turned round.
-Scene turned_round(Scene scene, const Reduction& reduction) {
+Scene flipped(Scene scene, const Reduction& reduction) {
   const bool switch_is_on = reduction.name == "creep_off" ? reduction.applied : !reduction.applied;
   switch_of(reduction.name, scene.numerics) = switch_is_on ? Switch::on : Switch::off;
   return scene;
@@ -474,7 +474,7 @@ void add_savings(const Scene& scene, Plan& plan) {
   for (Reduction& reduction : plan.reductions) {
     if (reduction.bound.empty()) continue;
     std::vector<Problem> problems;
-    const Plan other = make_plan(turned_round(scene, reduction), problems);
+    const Plan other = make_plan(flipped(scene, reduction), problems);
     if (!problems.empty()) continue;
     reduction.saving =
         reduction.applied ? Reduction::Saving{plan, other} : Reduction::Saving{other, plan};

@@ -74,7 +74,7 @@ class ByteReader {
   void take(const Field& field, double& value) {
     value = plain<double>(field);
     if (!std::isfinite(value) && !(field.may_be_nan && !std::isinf(value)))
-      refuse(field, "is no number");
+      refuse(field, "is not a number");
   }
   void take(const Field& field, int& value) { value = plain<int>(field); }
   void take(const Field& field, bool& value) {
@@ -84,7 +84,7 @@ class ByteReader {
   }
   void take(const Field& field, Outcome& value) {
     const int number = plain<int>(field);
-    if (number < 0 || number > kLastOutcome) refuse(field, "is no outcome");
+    if (number < 0 || number > kLastOutcome) refuse(field, "is not an outcome");
     value = static_cast<Outcome>(number);
   }
   /// Every element takes a byte at least, so that a wrong size asks for no memory.
@@ -175,7 +175,7 @@ std::string result_to_bytes(const CaseResult& result) {
   return bytes;
 }
 
-void demand_sound_result(std::string_view bytes) {
+void require_sound_result(std::string_view bytes) {
   if (bytes.size() < 2 * kPrint) throw StorageError("the result is cut off");
   if (bytes.substr(0, kPrint) != result_layout())
     throw StorageError(
@@ -185,7 +185,7 @@ void demand_sound_result(std::string_view bytes) {
 }
 
 CaseResult result_from_bytes(std::string_view bytes) {
-  demand_sound_result(bytes);
+  require_sound_result(bytes);
   return with_context([] { return "reading a result"; },
                       [&] {
                         ByteReader reader(bytes.substr(2 * kPrint));

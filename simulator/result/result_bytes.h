@@ -15,7 +15,7 @@ const std::string& result_layout();
 std::string result_to_bytes(const CaseResult& result);
 /// Throws StorageError saying why where the bytes are not as they were written: cut off, changed,
 /// or of a program with other fields. Quick: 0.1 ns a byte.
-void demand_sound_result(std::string_view bytes);
+void require_sound_result(std::string_view bytes);
 /// Reads it back, checking that as well, and that every number is one. Throws StorageError.
 CaseResult result_from_bytes(std::string_view bytes);
 

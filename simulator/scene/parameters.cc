@@ -168,7 +168,7 @@ std::string range_text(const SchemaViews& views) {
          (most.empty() ? ")" : most + "]");
 }
 
-/// Keys that exclude each other: where one is given the others are no parameters.
+/// Keys that exclude each other: where one is given the others are not parameters.
 bool has_rival(const json& object, const std::string& key) {
   static const std::vector<std::vector<std::string>> groups = {
       {"friction_angle", "friction_coefficient"},

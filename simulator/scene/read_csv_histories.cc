@@ -144,7 +144,7 @@ class CsvHistories {
                    const std::string& pointer) {
     const auto region = std::find(regions_.begin(), regions_.end(), column.region);
     if (region == regions_.end()) {
-      reader_.problem(pointer, "its column \"" + column.region + "\" is no pressure region",
+      reader_.problem(pointer, "its column \"" + column.region + "\" is not a pressure region",
                       suggest(column.region, regions_));
       return;
     }

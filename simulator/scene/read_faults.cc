@@ -43,8 +43,8 @@ class Overrides {
   std::string shared_;
 };
 
-void demand_one_of(SceneReader& reader, const std::string& object, const std::string& angle,
-                   const std::string& coefficient) {
+void require_one_of(SceneReader& reader, const std::string& object, const std::string& angle,
+                    const std::string& coefficient) {
   if (reader.has(object + "/" + angle) && reader.has(object + "/" + coefficient)) {
     reader.problem(object + "/" + coefficient, angle + " is given too", "remove one of the two");
   }
@@ -85,8 +85,8 @@ Friction read_friction(SceneReader& reader, std::size_t fault) {
   const Overrides from(reader, "friction", fault);
   Friction friction;
   for (const std::string& object : {std::string("/friction"), from.own()}) {
-    demand_one_of(reader, object, "friction_angle", "friction_coefficient");
-    demand_one_of(reader, object, "dynamic_friction_angle", "dynamic_friction_coefficient");
+    require_one_of(reader, object, "friction_angle", "friction_coefficient");
+    require_one_of(reader, object, "dynamic_friction_angle", "dynamic_friction_coefficient");
   }
   const bool by_coefficient = reader.text(from.at("law"), "angle") == "coefficient";
   friction.law = by_coefficient ? FrictionLaw::coefficient : FrictionLaw::angle;
@@ -252,7 +252,7 @@ void read_faults(SceneReader& reader, Scene& scene) {
     scene.faults.push_back(fault);
     names.push_back(fault.name);
   }
-  reader.demand_unique("/faults", "/name", names);
+  reader.require_unique("/faults", "/name", names);
   if (!is_box) check_count(reader, scene);
 }
 

@@ -26,7 +26,7 @@ std::vector<Layer> read_layers(SceneReader& reader, const Scene& scene) {
     const std::string at = element(list, i) + "/";
     Layer layer{reader.text(at + "name"), reader.text(at + "material"),
                 reader.quantity(at + "top")};
-    reader.demand_known(at + "material", layer.material, "material", material_names(scene));
+    reader.require_known(at + "material", layer.material, "material", material_names(scene));
     if (i > 0 && layer.top_depth <= layers.back().top_depth) {
       reader.problem(at + "top",
                      "the top of layer \"" + layer.name + "\" (" + reader.as_given(at + "top") +
@@ -36,7 +36,7 @@ std::vector<Layer> read_layers(SceneReader& reader, const Scene& scene) {
     names.push_back(layer.name);
     layers.push_back(layer);
   }
-  reader.demand_unique(list, "/name", names);
+  reader.require_unique(list, "/name", names);
   return layers;
 }
 
@@ -70,7 +70,7 @@ void read_blocks(SceneReader& reader, FieldGeometry& field) {
     field.blocks.push_back(block);
     names.push_back(block.name);
   }
-  reader.demand_unique(list, "/name", names);
+  reader.require_unique(list, "/name", names);
 }
 
 void read_field(SceneReader& reader, Scene& scene) {
@@ -84,10 +84,10 @@ void read_field(SceneReader& reader, Scene& scene) {
   std::vector<std::string> layer_names;
   for (const Layer& layer : field.layers) layer_names.push_back(layer.name);
   if (reader.sound(at + "layers")) {
-    reader.demand_known(at + "reservoir_layer", field.reservoir_layer, "layer", layer_names);
+    reader.require_known(at + "reservoir_layer", field.reservoir_layer, "layer", layer_names);
   }
   field.sideburden = reader.text(at + "sideburden");
-  reader.demand_known(at + "sideburden", field.sideburden, "material", material_names(scene));
+  reader.require_known(at + "sideburden", field.sideburden, "material", material_names(scene));
   read_blocks(reader, field);
   field.block_length = reader.quantity(at + "block_length");
   field.fault_length = reader.quantity(at + "fault_length");
@@ -203,7 +203,7 @@ void read_regions(SceneReader& reader, BoxGeometry& box) {
     box.regions.push_back(region);
     names.push_back(region.name);
   }
-  reader.demand_unique("/geometry/regions", "/name", names);
+  reader.require_unique("/geometry/regions", "/name", names);
 }
 
 void read_box(SceneReader& reader, Scene& scene) {
@@ -219,7 +219,7 @@ void read_box(SceneReader& reader, Scene& scene) {
                    has_layers ? "material and layers are both given" : "the box has no material",
                    has_layers ? "remove one of the two" : "add \"material\" or \"layers\"");
   }
-  reader.demand_known(at + "material", box.material, "material", material_names(scene));
+  reader.require_known(at + "material", box.material, "material", material_names(scene));
   read_boundary(reader, box);
   read_regions(reader, box);
 }

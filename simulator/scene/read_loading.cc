@@ -60,7 +60,7 @@ class LoadingReader {
   void read_compartments() {
     for (const std::string& region : reader_.keys("/compartments")) {
       const std::string at = "/compartments/" + pointer_token(region);
-      demand_region(at, region);
+      require_region(at, region);
       for (PressureHistory& history : scene_.pressure) {
         if (history.region != region) continue;
         history.scale = reader_.number(at + "/scale", history.scale);
@@ -112,13 +112,13 @@ class LoadingReader {
   }
 
   /// Silent when a mistake in the geometry may have hidden the region.
-  void demand_region(const std::string& pointer, const std::string& region) {
+  void require_region(const std::string& pointer, const std::string& region) {
     const bool certain = reader_.sound("/geometry/kind") && reader_.sound("/geometry/blocks") &&
                          reader_.sound("/geometry/regions");
     if (certain && region.empty()) {
       reader_.problem(pointer, "a pressure region has no empty name", suggest(region, regions_));
     } else if (certain) {
-      reader_.demand_known(pointer, region, "pressure region", regions_);
+      reader_.require_known(pointer, region, "pressure region", regions_);
     }
   }
 
@@ -139,7 +139,7 @@ class LoadingReader {
       const nlohmann::json* value = reader_.find(at + key);
       if (value->is_object()) {
         for (const std::string& region : reader_.keys(at + key)) {
-          demand_region(at + key + "/" + pointer_token(region), region);
+          require_region(at + key + "/" + pointer_token(region), region);
         }
       } else if (regions_.empty() && reader_.sound("/geometry")) {
         reader_.problem(at + key, "there is no region whose pressure could change",
@@ -177,7 +177,7 @@ class LoadingReader {
                       "remove one of the two");
     } else if (value->is_object()) {
       for (const std::string& region : reader_.keys(pointer))
-        demand_region(pointer + "/" + pointer_token(region), region);
+        require_region(pointer + "/" + pointer_token(region), region);
     } else if (regions_.empty() && reader_.sound("/geometry")) {
       reader_.problem(pointer, "there is no region whose temperature could change",
                       "add \"regions\" to the geometry or remove this line");
@@ -235,7 +235,7 @@ void read_loading(SceneReader& reader, Scene& scene) {
     loading.read_stage(i);
     names.push_back(scene.stages.back().name);
   }
-  reader.demand_unique("/stages", "/name", names);
+  reader.require_unique("/stages", "/name", names);
   loading.keep_temperatures();
   choose_reports(reader, scene);
   read_csv_histories(reader, scene);

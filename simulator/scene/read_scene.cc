@@ -84,7 +84,7 @@ void default_creep_refinements(SceneReader& reader, Numerics& numerics) {
 }
 
 /// Without a tier the sizes must be there; they are guessed from nothing.
-void demand_cell_sizes(SceneReader& reader, bool is_box, bool plane_strain) {
+void require_cell_sizes(SceneReader& reader, bool is_box, bool plane_strain) {
   if (!reader.sound("/mesh")) return;
   std::string missing;
   std::string example;
@@ -151,7 +151,7 @@ void read_mesh(SceneReader& reader, Scene& scene) {
   default_creep_refinements(reader, scene.numerics);
   if (scene.tier != "custom") return;
   const bool plane_strain = scene.numerics.plane_strain == Switch::on;
-  demand_cell_sizes(reader, is_box, plane_strain);
+  require_cell_sizes(reader, is_box, plane_strain);
   // One cell along y: its size says nothing and must not tell equal cases apart.
   if (plane_strain && !reader.has("/mesh/strike")) mesh.strike = tiers().front().sizes.strike;
 }
@@ -220,7 +220,7 @@ void read_output(SceneReader& reader, Scene& scene) {
     output.observation_points.push_back({reader.text(at + "name"), reader.point(at + "position")});
     names.push_back(output.observation_points.back().name);
   }
-  reader.demand_unique("/output/observation_points", "/name", names);
+  reader.require_unique("/output/observation_points", "/name", names);
 }
 
 const Schema& scene_schema() {

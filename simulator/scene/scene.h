@@ -391,7 +391,7 @@ struct Scene {
 };
 
 /// Whether two scenes agree in geometry, mesh, materials, loading and numerics: not looked at are
-/// title, tier, output and remarks, the initial state, and of the faults what is no geometry.
+/// title, tier, output and remarks, the initial state, and of the faults what is not a geometry.
 bool have_same_body(const Scene& a, const Scene& b);
 
 /// "/compartments/east/lag has no effect: ...".

@@ -22,7 +22,7 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
 
 /// The limits of a quantity in SI; NaN where there is none.
 struct Range {
-  const DimensionInfo* dimension = nullptr;  ///< nullptr: the value is no quantity.
+  const DimensionInfo* dimension = nullptr;  ///< nullptr: the value is not a quantity.
   double above = kNaN;
   double least = kNaN;
   double most = kNaN;
@@ -253,16 +253,16 @@ void SceneReader::problem(const std::string& pointer, const std::string& what,
   problems_.push_back({pointer, document_.line_of(pointer), what, cure});
 }
 
-void SceneReader::demand_known(const std::string& pointer, const std::string& name,
-                               const std::string& what, const std::vector<std::string>& known) {
+void SceneReader::require_known(const std::string& pointer, const std::string& name,
+                                const std::string& what, const std::vector<std::string>& known) {
   if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
   problem(
       pointer, "there is no " + what + " \"" + name + "\"",
       problems_.size() < kMostSuggestions ? suggest(name, known) : "write a name that is there");
 }
 
-void SceneReader::demand_unique(const std::string& list, const std::string& suffix,
-                                const std::vector<std::string>& names) {
+void SceneReader::require_unique(const std::string& list, const std::string& suffix,
+                                 const std::vector<std::string>& names) {
   std::set<std::string> seen;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i].empty() || seen.insert(names[i]).second) continue;

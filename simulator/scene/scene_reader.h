@@ -53,11 +53,11 @@ class SceneReader {
   /// Adds a problem unless the same was said before.
   void problem(const std::string& pointer, const std::string& what, const std::string& cure);
   /// Adds a problem when name is not one of known; "" is silent.
-  void demand_known(const std::string& pointer, const std::string& name, const std::string& what,
-                    const std::vector<std::string>& known);
+  void require_known(const std::string& pointer, const std::string& name, const std::string& what,
+                     const std::vector<std::string>& known);
   /// Adds a problem per name that was there before. @param suffix  of each element's pointer.
-  void demand_unique(const std::string& list, const std::string& suffix,
-                     const std::vector<std::string>& names);
+  void require_unique(const std::string& list, const std::string& suffix,
+                      const std::vector<std::string>& names);
   /// The value as it stands in the file, without quotes.
   std::string as_given(const std::string& pointer) const;
 

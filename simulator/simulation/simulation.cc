@@ -34,7 +34,7 @@ std::string put_values(const Values& values, json& document) {
   return "";
 }
 
-/// "" where it is no pointer to a member.
+/// "" where it is not a pointer to a member.
 std::string member_of(const std::string& pointer) {
   return pointer.size() < 2 ? "" : pointer.substr(1, pointer.find('/', 1) - 1);
 }
@@ -74,7 +74,7 @@ struct Simulation::Impl {
   bool prepare_field(const RunContext& context);
   [[noreturn]] void refuse_bulk(const std::string& why, const std::string& cure) const;
   void keep();
-  bool stays(const std::string& name, const Values& values) const;
+  bool unchanged(const std::string& name, const Values& values) const;
   bool change_members(const Values& values, const std::string& source);
   bool change(const Values& values, const std::string& source);
   std::optional<Values> values_of(const Changes& changes);
@@ -200,7 +200,7 @@ void Simulation::Impl::keep() {
 }
 
 /// Whether a member of the held document with these values is what it is in the one at hand.
-bool Simulation::Impl::stays(const std::string& name, const Values& values) const {
+bool Simulation::Impl::unchanged(const std::string& name, const Values& values) const {
   json after = json::object();
   if (const json* before = child_at(held->value, name)) after[name] = *before;
   for (const auto& [pointer, value] : values) {
@@ -222,7 +222,7 @@ bool Simulation::Impl::change_members(const Values& values, const std::string& s
   for (auto name = members.begin(); name != members.end();) {
     if (is_case_member(*name)) {
       ++name;
-    } else if (stays(*name, values)) {
+    } else if (unchanged(*name, values)) {
       name = members.erase(name);
     } else {
       return false;
@@ -311,7 +311,7 @@ void Simulation::hold(JsonDocument document) {
   impl_->held.reset();
 }
 
-void Simulation::hold_unread(JsonDocument document) {
+void Simulation::hold_base(JsonDocument document) {
   impl_->held = std::move(document);
   impl_->is_of_held = false;
   impl_->aliases.clear();
@@ -400,7 +400,7 @@ CaseResult Simulation::run(const RunContext& context, const RunWatch& watch) {
     if (watch.step) watch.step(step, fields);
   };
   CaseResult result = run_case(impl_->at_hand.scene, prepared, context, look, probe);
-  demand_definite(*prepared.op, moved.list());
+  require_definite(*prepared.op, moved.list());
   return result;
 }
 

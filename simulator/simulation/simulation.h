@@ -73,7 +73,7 @@ class Simulation {
   void change(const Changes& changes);
 
   /// Holds a scene that is nothing without changes: it is read with the next ones.
-  void hold_unread(JsonDocument document);
+  void hold_base(JsonDocument document);
   /// change() by values as they stand in documents.
   /// @param values  an object of values by JSON pointer; its source is what messages call the case.
   void change_values(const JsonDocument& values);
@@ -89,10 +89,9 @@ class Simulation {
   /// stiffness or boundary conditions do; friction, stress, pressure and Biot coefficients do not.
   bool needs_operator() const;
   /// Reads or builds the operator of the scene at hand, unless it is there. The old one is freed
-  /// first. @returns whether one was read or built: not where it comes from a surface that is there.
-  /// A stop is thrown within milliseconds; what is left of
-  /// the build ends by itself, at most some seconds later, and is waited for by the next one and by
-  /// the destructor.
+  /// first. @returns whether one was read or built: not where it comes from a surface that is
+  /// there. A stop is thrown within milliseconds; what is left of the build ends by itself, at most
+  /// some seconds later, and is waited for by the next one and by the destructor.
   /// @param keep_bulk  with the factor of the bulk, for displacements of the whole mesh.
   bool prepare(const RunContext& context = {}, bool keep_bulk = false);
   const PreparedOperator& prepared() const;  ///< @pre !needs_operator()

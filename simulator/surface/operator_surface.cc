@@ -109,11 +109,11 @@ struct OperatorSurface::Frame {
   DofMap dofs;
   std::vector<int> observed;
 
-  void demand_same_points(const Mesh& mesh) const;
-  void demand_same_topology(const Mesh& other) const;
+  void require_same_points(const Mesh& mesh) const;
+  void require_same_topology(const Mesh& other) const;
 };
 
-void OperatorSurface::Frame::demand_same_points(const Mesh& mesh) const {
+void OperatorSurface::Frame::require_same_points(const Mesh& mesh) const {
   const std::vector<int> nodes = observed_nodes(problem, mesh);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i] == observed[i]) continue;
@@ -123,14 +123,14 @@ void OperatorSurface::Frame::demand_same_points(const Mesh& mesh) const {
   }
 }
 
-void OperatorSurface::Frame::demand_same_topology(const Mesh& other) const {
+void OperatorSurface::Frame::require_same_topology(const Mesh& other) const {
   const Mesh& mesh = problem.mesh;
   if (mesh.nodes.size() != other.nodes.size() || mesh.cells != other.cells ||
       mesh.material != other.material || mesh.region != other.region ||
       mesh.tied_to != other.tied_to) {
     refuse_topology();
   }
-  demand_same_points(other);
+  require_same_points(other);
 }
 
 OperatorSurface::OperatorSurface(const Scene& scene, const Plan& plan, const CachePolicy& cache,
@@ -190,7 +190,7 @@ std::shared_ptr<const FaultOperator> OperatorSurface::exact_at(const Eigen::Vect
                                                                const RunContext& context) const {
   const Scene scene = scene_at(x);
   const Plan plan = plan_of(scene);
-  if (moves_mesh(request_)) frame_->demand_same_topology(bulk_problem(scene, plan).mesh);
+  if (moves_mesh(request_)) frame_->require_same_topology(bulk_problem(scene, plan).mesh);
   const PreparedOperator prepared = prepare_operator(scene, plan, cache, false, context);
   if (prepared.from_cache || cache.folder.empty()) return prepared.op;
   // From its file, whose pages the system may take back; kept in memory where there is none.
@@ -207,7 +207,7 @@ FaultGeometry OperatorSurface::geometry_of(const Scene& scene, const Plan& plan)
   if (!moves_mesh(request_)) return fault_geometry(mesh, materials, frame_->dofs, plan.half_domain);
   const std::optional<Mesh> moved = moved_faults(scene, plan, mesh);
   if (!moved) refuse_topology();
-  frame_->demand_same_points(*moved);
+  frame_->require_same_points(*moved);
   return fault_geometry(*moved, materials, frame_->dofs, plan.half_domain);
 }
 
@@ -227,7 +227,7 @@ PreparedOperator OperatorSurface::at(const Scene& scene, const Plan& plan) const
   return prepared;
 }
 
-void demand_definite(const FaultOperator& op, const std::vector<int>& dofs) {
+void require_definite(const FaultOperator& op, const std::vector<int>& dofs) {
   const auto n = static_cast<Eigen::Index>(dofs.size());
   Eigen::MatrixXd block(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {

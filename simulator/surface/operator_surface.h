@@ -31,7 +31,7 @@ class OperatorSurface {
   ~OperatorSurface();
 
   /// The operator of a scene of the surface's family, whose H is summed up as columns are asked
-  /// for: see demand_definite(). Throws InputError where its mesh has another topology.
+  /// for: see require_definite(). Throws InputError where its mesh has another topology.
   /// @param plan  of the scene.
   PreparedOperator at(const Scene& scene, const Plan& plan) const;
 
@@ -60,7 +60,7 @@ class OperatorSurface {
 
 /// Throws InputError unless H of an interpolated operator is positive definite over the jumps
 /// listed, which is looked at where it was used: of those that moved in a case.
-void demand_definite(const FaultOperator& op, const std::vector<int>& dofs);
+void require_definite(const FaultOperator& op, const std::vector<int>& dofs);
 
 /// A coordinate of a scene on each axis, [-1, 1].
 Eigen::VectorXd surface_coordinates(const std::vector<SurfaceAxis>& axes,

@@ -77,7 +77,7 @@ class Builder {
 
  private:
   std::shared_ptr<const FaultOperator> ask(const Eigen::VectorXd& x, const std::string& what);
-  void demand_memory(double bytes, const char* what) const;
+  void require_memory(double bytes, const char* what) const;
   OperatorBasis compressed(double tolerance) const;
   CaseSurface measured(const std::shared_ptr<const OperatorBasis>& basis, const SparseGrid& grid);
   void measure(const std::shared_ptr<const OperatorBasis>& basis, const SparseGrid& grid,
@@ -111,7 +111,7 @@ std::shared_ptr<const FaultOperator> Builder::ask(const Eigen::VectorXd& x,
   return exact_(x);
 }
 
-void Builder::demand_memory(double bytes, const char* what) const {
+void Builder::require_memory(double bytes, const char* what) const {
   const auto free = available_memory();
   if (!free || bytes <= *free) return;
   throw ResourceError(concat(what, " of the surface need ", brief(bytes / 1e9),
@@ -132,7 +132,7 @@ OperatorBasis Builder::compressed(double tolerance) const {
     left_out += std::max(0.0, solver.eigenvalues()[n_left_out++]);
   const double n = nodes_.centre()->geometry.n_dofs;
   const auto k = static_cast<double>(m - n_left_out);
-  demand_memory(sizeof(float) * n * n * k + 2 * sizeof(double) * n * n, "the directions");
+  require_memory(sizeof(float) * n * n * k + 2 * sizeof(double) * n * n, "the directions");
   return nodes_.basis(solver.eigenvectors().rightCols(m - n_left_out), context_.stop);
 }
 
@@ -182,7 +182,7 @@ StoredSurface Builder::build(const std::string& fingerprint) {
   AdaptiveInterpolant interpolant(static_cast<int>(request_.over.size()),
                                   [&](const Eigen::VectorXd& x, const Eigen::VectorXd& weights) {
                                     const double n = nodes_.centre()->geometry.n_dofs;
-                                    demand_memory(3 * sizeof(double) * n * n, "the nodes");
+                                    require_memory(3 * sizeof(double) * n * n, "the nodes");
                                     const auto op = ask(x, concat("operator ", ++n_asked));
                                     const double surplus =
                                         nodes_.surplus(*op, weights, context_.stop);

@@ -133,7 +133,7 @@ TEST_F(Nightly, NothingComparedIsNoSuccessAndMakesNoBaseline) {
   const auto wrong = nightly();
   EXPECT_EQ(wrong.code, 2);
   EXPECT_THAT(wrong.err, HasSubstr("/campaigns/0: there is no file"));
-  EXPECT_THAT(wrong.err, HasSubstr("/tolerances/momentum: \"momentum\" is no quantity"));
+  EXPECT_THAT(wrong.err, HasSubstr("/tolerances/momentum: \"momentum\" is not a quantity"));
   EXPECT_FALSE(std::filesystem::exists(baselines()));
 }
 

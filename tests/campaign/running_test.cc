@@ -108,7 +108,7 @@ TEST_F(Running, TablesAndComparisonsAsAShellSeesThem) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "salib" / "problem.json"));
   EXPECT_EQ(faultsweep({"export", "--format", "salib"}).code, 2);
   EXPECT_EQ(faultsweep({"export", "--format", "xls"}).code, 2);
-  EXPECT_EQ(faultsweep({"export", "-o", "/dev/full/x"}).code, 2) << "a device is no folder";
+  EXPECT_EQ(faultsweep({"export", "-o", "/dev/full/x"}).code, 2) << "a device is not a folder";
 
   EXPECT_EQ(faultsweep({"compare", "sweep"}).code, 2);
   EXPECT_EQ(faultsweep({"compare", "sweep", "sweep"}).code, 5) << "compares nothing";

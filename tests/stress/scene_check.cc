@@ -83,7 +83,7 @@ class StepJudge {
     if (!holds) violations_.push_back(where_ + what);
   }
   /// value <= limit, and not NaN.
-  void demand_at_most(double value, double limit, const char* what) {
+  void require_at_most(double value, double limit, const char* what) {
     if (value <= limit) return;
     std::ostringstream text;
     text << where_ << what << " " << value << ", at most " << limit;
@@ -141,7 +141,7 @@ void StepJudge::check_counts() {
   constexpr int kHalvings = 60;  // of a damped step
   const double bound = options_.max_iterations +
                        static_cast<double>(search) * (3 * units * (cuts + 1) + kHalvings + 3);
-  demand_at_most(counts.newton_iterations + counts.wasted_newton_iterations, bound, "iterations:");
+  require_at_most(counts.newton_iterations + counts.wasted_newton_iterations, bound, "iterations:");
   demand(counts.sub_steps <= units, "more sub-steps than the step has");
   demand(counts.newton_iterations >= 0 && counts.wasted_newton_iterations >= 0 &&
              counts.active_set_passes >= 0,
@@ -165,21 +165,21 @@ void StepJudge::check_equilibrium() {
   for (Eigen::Index i = 0; i < op_.geometry.dof_area.size(); ++i) {
     softest = std::min(softest, op_.h()(i, i) / op_.geometry.dof_area[i]);
   }
-  demand_at_most(v.tension, traction_, "tension over closed nodes, Pa:");
-  demand_at_most(v.over_limit, traction_, "shear over the limit, Pa:");
-  demand_at_most(v.open_traction, traction_, "traction over open nodes, Pa:");
-  demand_at_most(v.penetration, traction_ / softest, "penetration, m:");
-  demand_at_most(v.equilibrium, equilibrium_, "t' - (t_L - H g/A), Pa:");
-  demand_at_most(v.slip_below_limit, traction_, "slip below the limit, Pa:");
-  demand_at_most(v.misaligned, traction_, "slip not along its traction, Pa:");
+  require_at_most(v.tension, traction_, "tension over closed nodes, Pa:");
+  require_at_most(v.over_limit, traction_, "shear over the limit, Pa:");
+  require_at_most(v.open_traction, traction_, "traction over open nodes, Pa:");
+  require_at_most(v.penetration, traction_ / softest, "penetration, m:");
+  require_at_most(v.equilibrium, equilibrium_, "t' - (t_L - H g/A), Pa:");
+  require_at_most(v.slip_below_limit, traction_, "slip below the limit, Pa:");
+  require_at_most(v.misaligned, traction_, "slip not along its traction, Pa:");
   // Who slips at the end of the step is at the limit there, whatever the way.
   for (std::size_t k = 0; k < step_.after.state.size(); ++k) {
     if (step_.after.state[k] != FaultState::slip) continue;
     const OperatorNode& node = op_.geometry.nodes[k];
     const double limit = NodeLaw(laws_[k]).limit(
         step_.after.traction[node.dof[0]], friction_state(node, step_.after, static_cast<int>(k)));
-    demand_at_most(std::abs(shear(step_.after.traction, k).norm() - limit), traction_,
-                   "a slipping node off its limit, Pa:");
+    require_at_most(std::abs(shear(step_.after.traction, k).norm() - limit), traction_,
+                    "a slipping node off its limit, Pa:");
   }
 }
 
@@ -190,7 +190,8 @@ void StepJudge::check_history() {
     const double path = step_.after.slip_path[i] - step_.before.slip_path[i];
     const double slip = shear(moved, k).norm();
     demand(path >= 0, "a slip path that shrinks");
-    demand_at_most(slip, path + 1e-12 * (1 + step_.after.slip_path[i]), "slip beyond its path, m:");
+    require_at_most(slip, path + 1e-12 * (1 + step_.after.slip_path[i]),
+                    "slip beyond its path, m:");
     demand(step_.after.cohesion_lost[k] || !step_.before.cohesion_lost[k], "cohesion came back");
     demand(step_.after.state[k] != FaultState::open || step_.after.cohesion_lost[k] ||
                laws_[k].cohesion_after_opening,
@@ -207,7 +208,7 @@ void StepJudge::check_energy() {
   for (std::size_t k = 0; k < step_.after.state.size(); ++k) {
     const Eigen::Vector2d slip = shear(moved, k);
     const double work = shear(step_.after.traction, k).dot(slip);
-    demand_at_most(-work, traction_ * slip.norm(), "friction gives energy, J/m2:");
+    require_at_most(-work, traction_ * slip.norm(), "friction gives energy, J/m2:");
   }
 }
 
@@ -221,12 +222,12 @@ void StepJudge::check_jumps() {
            "jumps out of order");
     last = jump.load_before;
     demand(jump.negative_pivots > 0 || jump.n_lost_cohesion > 0, "a jump without evidence");
-    demand_at_most(-jump.dissipated, 0, "a jump's friction gives energy, J:");
+    require_at_most(-jump.dissipated, 0, "a jump's friction gives energy, J:");
     const double rounding = 1e-9 * std::abs(jump.released);
-    demand_at_most(jump.dissipated - jump.released, rounding,
-                   "a jump dissipates more than was released, J:");
-    demand_at_most(jump.residual_before, 5, "a jump does not start from equilibrium:");
-    demand_at_most(jump.residual_after, 5, "a jump does not end in equilibrium:");
+    require_at_most(jump.dissipated - jump.released, rounding,
+                    "a jump dissipates more than was released, J:");
+    require_at_most(jump.residual_before, 5, "a jump does not start from equilibrium:");
+    require_at_most(jump.residual_after, 5, "a jump does not end in equilibrium:");
     demand(jump.jump_after.allFinite() && jump.traction_after.allFinite() && jump.duration > 0 &&
                std::isfinite(jump.duration),
            "a jump that is not finite");

@@ -24,7 +24,7 @@ struct SceneReport {
   std::vector<std::string> violations;  ///< of what must hold; empty if all is well.
   std::string unsolved;                 ///< reason of an unstable or unconverged end.
   Outcome outcome = Outcome::failed;    ///< of the last step.
-  bool excused = false;                 ///< unsolved in a way that is no fault: see check_scene.
+  bool excused = false;                 ///< unsolved in a way that is not a fault: see check_scene.
 };
 
 /// Runs a scene load step by load step, twice, and checks after each step, from definitions and not

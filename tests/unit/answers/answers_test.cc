@@ -227,7 +227,7 @@ TEST_F(AnswersTest, WhyHasTheIndicesOfASampleAndRefusesWhatIsNotRanked) {
   ASSERT_TRUE(found.global);
   EXPECT_GT(found.global->metrics.at(0).first_order.at(0).value, 0.8);
   EXPECT_THAT(why_to_text(found), HasSubstr("No case of the campaign differs from this one"));
-  EXPECT_FALSE(why(30, {.by = "chi_bar * 2"}).global) << "an expression is no metric";
+  EXPECT_FALSE(why(30, {.by = "chi_bar * 2"}).global) << "an expression is not a metric";
   EXPECT_THROW(why(4), InputError) << "no result";
   EXPECT_THROW(why(30, {.where = "strength < 0.1"}), InputError) << "left out";
 }

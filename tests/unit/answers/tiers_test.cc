@@ -1,4 +1,4 @@
-// Two tiers of a made-up campaign: the same samples, of which the dear one has the first few.
+// Two tiers of a made-up campaign: the same samples, of which the expensive one has the first few.
 #include "campaign/answers/tiers.h"
 
 #include <gmock/gmock.h>
@@ -75,7 +75,7 @@ TEST_F(TiersTest, ACheapTierThatGoesWithTheDearOneIsWorthAllItsCases) {
   EXPECT_NEAR(mean.found.estimate.value, truth, 1e-9) << "their difference is the same in all";
   EXPECT_NEAR(mean.low_mean, truth - 0.1, 1e-9);
   EXPECT_NEAR(mean.found.n_equivalent, 200, 60);
-  // 200 dear cases take 200 s; 200 cheap and 39 dear ones took 2 s and 39 s.
+  // 200 expensive cases take 200 s; 200 cheap and 39 expensive ones took 2 s and 39 s.
   EXPECT_NEAR(mean.cost_ratio, mean.found.n_equivalent / 41, 1e-9);
   const TierAnswer& slides = found.answers[1];
   EXPECT_TRUE(slides.is_probability);
@@ -90,7 +90,7 @@ TEST_F(TiersTest, ACheapTierThatGoesWithTheDearOneIsWorthAllItsCases) {
 TEST_F(TiersTest, SaysWhenItDoesNotPay) {
   const CampaignInfo low = run("low", 200, 0, 1), high = run("high", 100, 0.1, 1);
   const Tiers found = compare_tiers(*store_, low, high, {"F1.chi_bar", {"F1.slides"}, 0.95});
-  EXPECT_LT(found.answers[0].cost_ratio, 1) << "300 s for what 200 dear cases tell in 200 s";
+  EXPECT_LT(found.answers[0].cost_ratio, 1) << "300 s for what 200 expensive cases tell in 200 s";
   EXPECT_THAT(tiers_to_text(found), ::testing::HasSubstr("no: "));
 }
 

@@ -109,7 +109,7 @@ TEST(DrawCase, RefusesWhatIsNotThereAndSaysWhatIs) {
   EXPECT_THAT(message_of(picture, {CaseChart::profiles, {}, {}, false}),
               HasSubstr("fields on the faults, which were not kept"));
   EXPECT_THAT(message_of(picture, {CaseChart::history, "F9", {}, false}),
-              HasSubstr("\"F9\" is no fault of the case; choose one of F1, F2, F3"));
+              HasSubstr("\"F9\" is not a fault of the case; choose one of F1, F2, F3"));
   EXPECT_THAT(message_of(picture, {CaseChart::section, {}, 7, false}),
               HasSubstr("no load step 7; choose 0 to 2"));
   CaseResult empty;
@@ -218,11 +218,11 @@ TEST_F(StoredFields2, OfAFileThatIsNoneAreRefused) {
 // Files -------------------------------------------------------------------------------------------
 
 TEST(PictureFile, IsNamedSvgOrPngAndNoInput) {
-  EXPECT_THROW(demand_picture_file("x.pdf", {".svg", ".png"}, {}), InputError);
+  EXPECT_THROW(require_picture_file("x.pdf", {".svg", ".png"}, {}), InputError);
   const auto input = std::filesystem::path(testing::TempDir()) / "input.svg";
   std::ofstream(input) << "<svg/>";
-  EXPECT_THROW(demand_picture_file(input, {".svg"}, {input}), InputError);
-  EXPECT_NO_THROW(demand_picture_file(input, {".svg"}, {}));
+  EXPECT_THROW(require_picture_file(input, {".svg"}, {input}), InputError);
+  EXPECT_NO_THROW(require_picture_file(input, {".svg"}, {}));
 }
 
 }  // namespace

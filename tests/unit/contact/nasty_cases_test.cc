@@ -208,7 +208,7 @@ TEST(NastyContact, FastRoadAgreesWithNewton) {
   DepletedFault fault = depleted_fault(80, 1, false);
   ContactSolver fast(fault.op, fault.laws, {});
   const auto scalar = run_history(fault, fast);
-  // A weakening so slight that it changes nothing keeps the solver off the fast road.
+  // A weakening so slight that it changes nothing keeps the solver off the fast path.
   for (CoulombLaw& law : fault.laws) {
     law.dynamic_friction_angle = law.static_friction_angle * (1 - 1e-15);
     law.slip_weakening_distance = 1e3;

@@ -23,7 +23,7 @@ SubStep sub_step_of(const DepletedFault& fault, const ContactState& start,
   return step;
 }
 
-// ContactSolver would hide a fault of the fast road, as it checks it and falls back on Newton; so
+// ContactSolver would hide a fault of the fast path, as it checks it and falls back on Newton; so
 // here it must stand alone, with strong coupling of slip to normal traction and nodes to release.
 TEST(ScalarSlip, SolvesAWholeHistoryByItself) {
   DepletedFault fault = depleted_fault(120, 1, false);

@@ -227,11 +227,11 @@ TEST(CoupledCase, RefusesWhatItDoesNotDo) {
                        {"slip_weakening_distance", "1 cm"},
                        {"cohesion_after_slip", false}};
   const Planned p(scene);
-  const std::vector<Problem> problems = coupled_hindrances(p.scene, p.plan);
+  const std::vector<Problem> problems = unsupported_by_coupled(p.scene, p.plan);
   EXPECT_EQ(problems.size(), 1 + 2 * p.scene.faults.size()) << "all of them";
   EXPECT_THROW(CoupledCase(p.scene, p.plan, {}), InputError);
   const Planned strong(field());
-  EXPECT_TRUE(coupled_hindrances(strong.scene, strong.plan).empty());
+  EXPECT_TRUE(unsupported_by_coupled(strong.scene, strong.plan).empty());
 }
 
 TEST(CoupledCase, SaysWhereGmresGivesUp) {

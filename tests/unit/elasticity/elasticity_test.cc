@@ -152,7 +152,8 @@ TEST(Elasticity, PressureLoadsACellByTheShareOfItThatLiesInTheRegion) {
   EXPECT_LT((quarter - 0.25 * whole).norm(), 1e-12 * whole.norm());
 }
 
-// Front and back of a slice are not the outside of the body: what its neighbours pull is no load.
+// Front and back of a slice are not the outside of the body: what its neighbours pull is not a
+// load.
 TEST(Elasticity, NothingPullsAtFrontAndBackOfASlice) {
   Mesh mesh = make_box({4, 1, 4}, {40, 5, 40}, {}, test::shear_to_dip(70));
   const Eigen::Matrix3d stress = hooke(kRock[0], some_gradient());

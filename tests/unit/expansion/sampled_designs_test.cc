@@ -300,7 +300,7 @@ TEST(SampledDesigns, SobolLevelsOfAAndBArePairedAtRandom) {
 
 TEST(SampledDesigns, SobolSaysWhenSamplesAreNoPowerOfTwo) {
   const auto odd = expand_kind(R"("sobol", "samples": 12)");
-  EXPECT_EQ(odd.notes, std::vector<std::string>{"12 samples of /design are no power of two: the "
+  EXPECT_EQ(odd.notes, std::vector<std::string>{"12 samples of /design are not a power of two: the "
                                                 "sequence is balanced only at those"});
   EXPECT_THAT(expand_kind(R"("sobol", "samples": 8)").notes, ElementsAre());
 }

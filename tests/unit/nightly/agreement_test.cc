@@ -56,7 +56,7 @@ TEST(Agreement, ARelativeChangeOf1e13IsFoundAndLocated) {
   };
   const Agreement same = after(change);
   EXPECT_EQ(same.verdict, Verdict::last_bits);
-  EXPECT_TRUE(is_regress(same.verdict));
+  EXPECT_TRUE(is_regression(same.verdict));
   ASSERT_TRUE(same.first.has_value());
   EXPECT_EQ(same.first->step, 7);
   EXPECT_EQ(same.first->place, "load step 7 (cushion_gas_injection), fault 2");
@@ -65,7 +65,7 @@ TEST(Agreement, ARelativeChangeOf1e13IsFoundAndLocated) {
   EXPECT_GE(same.max_ulps, same.first->ulps);
   const Agreement other = after(change, false);
   EXPECT_EQ(other.verdict, Verdict::within_tier);
-  EXPECT_FALSE(is_regress(other.verdict));
+  EXPECT_FALSE(is_regression(other.verdict));
   EXPECT_EQ(other.first->step, 7);
 }
 
@@ -133,7 +133,7 @@ TEST(Agreement, EveryNumberCounts) {
     EXPECT_EQ(agreement.worst->place, one.place) << one.quantity;
     EXPECT_EQ(agreement.worst->quantity, one.quantity) << one.place;
     EXPECT_STREQ(to_string(agreement.verdict), to_string(one.verdict)) << one.place;
-    EXPECT_TRUE(is_regress(agreement.verdict));
+    EXPECT_TRUE(is_regression(agreement.verdict));
   }
 }
 

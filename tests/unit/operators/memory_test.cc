@@ -16,10 +16,10 @@ Plan plan_of(double bytes) {
 }
 
 TEST(DemandMemory, SaysWhatIsNeededWhatThereIsAndTheCure) {
-  EXPECT_NO_THROW(demand_memory(plan_of(8e9), 8e9));
-  EXPECT_NO_THROW(demand_memory(plan_of(8e9), std::nullopt));
+  EXPECT_NO_THROW(require_memory(plan_of(8e9), 8e9));
+  EXPECT_NO_THROW(require_memory(plan_of(8e9), std::nullopt));
   try {
-    demand_memory(plan_of(8.04e9), 7.5e9);
+    require_memory(plan_of(8.04e9), 7.5e9);
     FAIL() << "accepted";
   } catch (const ResourceError& error) {
     const std::string text = error.what();
@@ -31,7 +31,7 @@ TEST(DemandMemory, SaysWhatIsNeededWhatThereIsAndTheCure) {
   Plan plane = plan_of(8e9);
   plane.plane_strain = true;
   try {
-    demand_memory(plane, 1e9);
+    require_memory(plane, 1e9);
     FAIL() << "accepted";
   } catch (const ResourceError& error) {
     EXPECT_NE(std::string(error.what()).find("larger cells"), std::string::npos);

@@ -107,8 +107,8 @@ TEST(InfluenceFile, MayBeReplacedAsTheHdf5FileThatItIs) {
   const FaultOperator op = example_operator("a");
   const auto path = folder.path() / "block.h5";
   write_influence(example_block(op, 1), op, path);
-  EXPECT_NO_THROW(demand_writable_file("-o", path, FileKind::hdf5, {}));
-  EXPECT_THROW(demand_writable_file("-o", path, FileKind::json, {}), InputError);
+  EXPECT_NO_THROW(require_writable_file("-o", path, FileKind::hdf5, {}));
+  EXPECT_THROW(require_writable_file("-o", path, FileKind::json, {}), InputError);
 }
 
 }  // namespace

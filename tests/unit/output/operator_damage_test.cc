@@ -181,7 +181,7 @@ TEST(DamagedOperator, WhatIsNoFileIsMovedAsideAndBuiltAgain) {
     }
     std::string remark;
     EXPECT_FALSE(read_operator(folder.path(), op.fingerprint, &remark).has_value());
-    EXPECT_THAT(remark, AllOf(HasSubstr("it is no regular file"), HasSubstr(".damaged")));
+    EXPECT_THAT(remark, AllOf(HasSubstr("it is not a regular file"), HasSubstr(".damaged")));
     EXPECT_TRUE(std::filesystem::exists(aside));
     write_operator(op, folder.path());
     EXPECT_TRUE(read_operator(folder.path(), op.fingerprint).has_value());

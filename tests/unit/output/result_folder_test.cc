@@ -168,7 +168,7 @@ TEST(ResultFolder, ReplacesNothingThatIsNoResultOfItsKind) {
   fs::create_directory(folder);
   write_text(folder / file_name(1), "the user's own");
   const auto open = [&] { ResultFolder refused(request_for(folder)); };
-  EXPECT_THAT(refusal(open), HasSubstr("file1.txt would be replaced and is no result"));
+  EXPECT_THAT(refusal(open), HasSubstr("file1.txt would be replaced and is not a result"));
   fs::remove(folder / file_name(1));
   fs::create_directory(folder / "incomplete");
   write_text(folder / "incomplete" / "thesis.txt", "the user's own");
@@ -192,7 +192,7 @@ TEST(ResultFolder, ReplacesNoInputAndMakesTheLastFolderOnly) {
               HasSubstr("does not exist"));
   EXPECT_FALSE(fs::exists(scratch.path() / "a"));
   EXPECT_THAT(refusal([&] { ResultFolder refused(request_for(folder / file_name(0))); }),
-              HasSubstr("is no folder"));
+              HasSubstr("is not a folder"));
   EXPECT_THAT(refusal([&] { ResultFolder refused(request_for("-")); }), HasSubstr("no"));
 }
 
@@ -225,7 +225,7 @@ class OutputTarget : public testing::Test {
  protected:
   std::string refused(const fs::path& target, FileKind kind = FileKind::text,
                       const std::vector<fs::path>& inputs = {}) const {
-    return refusal([&] { demand_writable_file("-o", target, kind, inputs); });
+    return refusal([&] { require_writable_file("-o", target, kind, inputs); });
   }
   fs::path file(const std::string& name, const std::string& text) const {
     write_text(scratch_.path() / name, text);

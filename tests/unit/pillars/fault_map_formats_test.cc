@@ -125,7 +125,7 @@ TEST(FaultMap, TsurfHasTrianglesBetweenThePillarsOfAFault) {
       EXPECT_EQ(numbers, (std::vector<double>{-99999, -99999}));
     }
   }
-  EXPECT_EQ(n_surfaces, 1);  // a pillar alone is no surface
+  EXPECT_EQ(n_surfaces, 1);  // a pillar alone is not a surface
   ASSERT_EQ(vertices.size(), 4u);
   EXPECT_EQ(vertices[0], (std::vector<double>{1, 100, 0, 2000, 90, 1.5}));
   EXPECT_EQ(vertices[2][4], -99999);

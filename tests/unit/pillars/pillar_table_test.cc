@@ -65,7 +65,7 @@ TEST(PillarTable, NamesMapTheColumnsOfOthers) {
 
 TEST(PillarTable, SaysAllThatIsWrongAtOnce) {
   EXPECT_EQ(problems_of("x [m], y [m], offset [m], id\n1, 2, deep, A\n1, 2\n1, 2, 3, A\n"),
-            (Lines{"2: \"deep\" of offset is no number", "3: 2 cells, and there are 4 columns",
+            (Lines{"2: \"deep\" of offset is not a number", "3: 2 cells, and there are 4 columns",
                    "4: pillar \"A\" was there before"}));
   EXPECT_EQ(problems_of("x, y [m], y [m]\n"),
             (Lines{"1: \"x\" needs a unit of length", "1: \"y\" has two columns"}));
@@ -78,8 +78,9 @@ TEST(PillarTable, SaysAllThatIsWrongAtOnce) {
   EXPECT_EQ(problems_of(""), (Lines{"0: there is no pillar in it"}));
   EXPECT_EQ(problems_of("X,Y\n1,2\n", {{"x", "X [m]"}, {"y", "YY [m]"}}),
             (Lines{"1: there is no column \"YY\" for y", "1: there is no column \"y\""}));
-  EXPECT_EQ(problems_of("x [m], y [m], offset [m]\n1, 2, nan\n1, 2, inf\n"),
-            (Lines{"2: \"nan\" of offset is no number", "3: \"inf\" of offset is no number"}));
+  EXPECT_EQ(
+      problems_of("x [m], y [m], offset [m]\n1, 2, nan\n1, 2, inf\n"),
+      (Lines{"2: \"nan\" of offset is not a number", "3: \"inf\" of offset is not a number"}));
 }
 
 TEST(PillarTable, CountsWhatItDoesNotSay) {

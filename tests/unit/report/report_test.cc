@@ -410,7 +410,7 @@ TEST_F(EventReportTest, ActivationThatHangsOnTheMeshIsSaid) {
     found.push_back(row.position);
   EXPECT_THAT(found, ElementsAre(2));
   const std::string text = show("2");
-  EXPECT_THAT(text, HasSubstr("UNRESOLVED: whether a fault slides hangs on the mesh"));
+  EXPECT_THAT(text, HasSubstr("UNRESOLVED: whether a fault slides depends on the mesh"));
   EXPECT_THAT(text,
               ::testing::ContainsRegex("cushion_gas_injection +5-8 +F1 at step 1, unresolved"));
   EXPECT_THAT(text, ::testing::ContainsRegex("\n +3  primary_production .* yes[?]\n"));

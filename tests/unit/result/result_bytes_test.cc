@@ -81,7 +81,7 @@ TEST(ResultBytes, NoNumberIsRefusedByName) {
     result_from_bytes(result_to_bytes(result));
     ADD_FAILURE() << "NaN came through";
   } catch (const StorageError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("\"chi_bar\" is no number"));
+    EXPECT_THAT(error.what(), HasSubstr("\"chi_bar\" is not a number"));
   }
 }
 
@@ -89,7 +89,7 @@ TEST(ResultBytes, AProgramWithOtherFieldsIsRefused) {
   std::string bytes = result_to_bytes(made_up_result());
   bytes[0] = bytes[0] == 'a' ? 'b' : 'a';
   try {
-    demand_sound_result(bytes);
+    require_sound_result(bytes);
     ADD_FAILURE() << "another build's result was taken";
   } catch (const StorageError& error) {
     EXPECT_THAT(error.what(), HasSubstr("another build wrote it"));

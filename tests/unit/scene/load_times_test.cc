@@ -50,7 +50,7 @@ TEST(StepEnds, AreThoseOfTheStagesWhereNothingTurnsBetweenThem) {
   const std::vector<double> yearly = {1, 2, 3, 4, 5, 6};
   EXPECT_EQ(step_years(scene, {}, {}), yearly);
   EXPECT_EQ(step_years(scene, {6}, {-100}), yearly);
-  EXPECT_EQ(step_years(scene, {2.5, 6}, {-10, -100}), yearly) << "a kink is no turning point";
+  EXPECT_EQ(step_years(scene, {2.5, 6}, {-10, -100}), yearly) << "a kink is not a turning point";
   EXPECT_EQ(step_years(scene, {2.5, 3.5, 6}, {-100, -100, -100}), yearly);
   EXPECT_EQ(step_years(scene, {2, 6}, {-100, -50}), yearly) << "it turns where a step ends";
   EXPECT_EQ(step_years(scene, {1.9, 2.1, 6}, {-100, -100, -50}), yearly)

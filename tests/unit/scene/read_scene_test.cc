@@ -433,7 +433,7 @@ TEST(HasViscousMaterial, AsksWhatTheModelIsMadeOf) {
         R"({"youngs_modulus": "1 GPa", "poisson_ratio": 0.1, "viscosity": "1e17 Pa s"})"}})));
 }
 
-/// Without viscous material creep is no part of a case, with it all of creep is.
+/// Without viscous material creep is not part of a case, with it all of creep is.
 TEST(CaseIdentity, HasCreepWhereSomethingIsViscous) {
   const std::vector<std::pair<std::string, std::string>> keys = {
       {"/numerics/creep", "off"},

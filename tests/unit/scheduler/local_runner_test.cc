@@ -95,8 +95,8 @@ TEST_F(LocalRunnerTest, EachKindOfDeathHasItsReason) {
       {"exit", RunStatus::crashed, "ended with exit code 7"},
       {"killed", RunStatus::memory,
        "killed by SIGKILL (9), as the kernel does when memory runs out"},
-      {"garbage", RunStatus::garbled, "wrote 'Residual norm 1.2e-3', which is no reply"},
-      {"half", RunStatus::garbled, "wrote '{\"event\": \"do', which is no reply"},
+      {"garbage", RunStatus::garbled, "wrote 'Residual norm 1.2e-3', which is not a reply"},
+      {"half", RunStatus::garbled, "wrote '{\"event\": \"do', which is not a reply"},
       {"damaged", RunStatus::garbled,
        "sent a result that cannot be read: the result is cut off or was changed on its way: its "
        "checksum differs"},

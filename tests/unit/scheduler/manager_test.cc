@@ -344,7 +344,7 @@ TEST_F(ManagerTest, GoesOnRoundByRoundUntilThereIsNoFurtherOne) {
   const auto rounds = store.rounds(info.id);
   ASSERT_EQ(rounds.size(), 3u);
   EXPECT_EQ(rounds[2].first_position, 7);
-  EXPECT_EQ(rounds[2].n_cases, 3) << "a case of an earlier round is no case of a later one";
+  EXPECT_EQ(rounds[2].n_cases, 3) << "a case of an earlier round is not a case of a later one";
   EXPECT_EQ(rounds[2].reason, "more");
   EXPECT_TRUE(store.integrity_problems().empty());
   EXPECT_TRUE(store

@@ -75,7 +75,7 @@ void hold_against_the_whole_way(const JsonDocument& held, int n_changes) {
   Simulation simulation;
   simulation.hold(held);
   Simulation unread;
-  unread.hold_unread(held);
+  unread.hold_base(held);
   const std::vector<ParameterInfo> known = parameters(held);
   Draw draw;
   int n_sound = 0, n_alike = 0;

@@ -10,7 +10,7 @@
 namespace faultsweep {
 namespace {
 
-/// A dear model and a cheap one that errs by a curved bias and some scatter.
+/// An expensive model and a cheap one that errs by a curved bias and some scatter.
 struct Tiers {
   std::vector<double> high, low;
   Tiers(std::size_t n, std::size_t all, double scatter, std::mt19937_64& random) {

@@ -61,7 +61,7 @@ TEST(RankSensitivity, MeetsKnownIndices) {
 }
 
 /// Of 1,000 intervals of 95 %, 95 ± 2 % hold the index. Not where nothing is left to explain: there
-/// is no scatter.
+/// is not a scatter.
 TEST(RankSensitivity, ItsIntervalsCover) {
   for (const Known& one : known()) {
     if (one.index == 1) continue;

@@ -525,12 +525,12 @@ TEST_F(FieldsTest, ThatAWaitingCaseCouldNotWriteAreAFailedCase) {
 TEST_F(FieldsTest, WhoseFilesAreGoneAreWantedAgain) {
   record(with_fields(completed(ids_[1], 0.2)));
   write_files(1);
-  EXPECT_EQ(store_->want_lost_fields(store_->campaign("")), 1);
+  EXPECT_EQ(store_->requeue_missing_fields(store_->campaign("")), 1);
   EXPECT_EQ(stored("1").fields, FieldsState::kept);
   EXPECT_EQ(stored("3").fields, FieldsState::wanted);
   EXPECT_EQ(store_->campaign("").n_fields_waiting, 1);
   std::filesystem::remove(store_->fields_folder("sweep", 1) / "faults.xmf");
-  EXPECT_EQ(store_->want_lost_fields(store_->campaign("")), 1);
+  EXPECT_EQ(store_->requeue_missing_fields(store_->campaign("")), 1);
 }
 
 TEST_F(FieldsTest, OfAReplacedResultAreWantedAgain) {
