@@ -6,12 +6,12 @@
 
 namespace faultsim {
 
-void OperatorBasis::put(const std::shared_ptr<const OperatorBasis>& basis,
-                        const Eigen::VectorXd& factors, FaultOperator& op) {
+void OperatorBasis::put(const std::shared_ptr<const OperatorBasis>& basis, const Eigen::VectorXd& w,
+                        FaultOperator& op) {
   const FaultOperator& centre = *basis->centre;
-  const auto at = [&](const Eigen::MatrixXd& mean, const Eigen::MatrixXd& directions) {
+  const auto at = [&](const Eigen::MatrixXd& mean, const Eigen::MatrixXd& differences) {
     Eigen::MatrixXd value = mean;
-    value.reshaped() += directions * factors;
+    value.reshaped() += differences * w;
     return value;
   };
   op.loads.keys = centre.loads.keys;
@@ -19,7 +19,7 @@ void OperatorBasis::put(const std::shared_ptr<const OperatorBasis>& basis,
   op.observed.rows = centre.observed.rows;
   op.observed.per_load = at(centre.observed.per_load, basis->per_load);
   op.observed.per_jump = at(centre.observed.per_jump, basis->per_jump);
-  op.compliance = std::make_shared<InterpolatedCompliance>(basis, factors);
+  op.compliance = std::make_shared<InterpolatedCompliance>(basis, basis->weights * w);
   op.n_unknowns = centre.n_unknowns;
   op.blas = centre.blas;
 }

@@ -10,25 +10,26 @@
 
 namespace faultsim {
 
-/// Operators as a function of parameters θ, compressed (docs/model.md, 12): of H, L, U and V alike
+/// Operators as a function of parameters θ (docs/model.md, 12), from those at nodes with weights
+/// w_i(θ), i = 1 … m without the centre. L, U and V, which are small, as they are; H compressed:
 ///
-///   y(θ) = y_0 + Σ_k c_k(θ) B_k,      k = 1 … K,
+///   L(θ) = L_0 + Σ_i w_i (L_i − L_0),      H(θ) = H_0 + Σ_k c_k B_k,  c = C w,  k = 1 … K,
 ///
-/// y_0 at the centre in double, B_k of H in single precision: what is lost, 6e-8 of a difference
-/// to the centre, is far below the errors of interpolation and part of the errors measured.
+/// H_0 at the centre in double, B_k in single precision: what is lost, 6e-8 of a difference to the
+/// centre, is far below the errors of interpolation and part of the errors measured.
 struct OperatorBasis {
   std::string fingerprint;                      ///< of the surface; also its file's name.
-  std::shared_ptr<const FaultOperator> centre;  ///< y_0, with the faults as they are there.
+  std::shared_ptr<const FaultOperator> centre;  ///< H_0 …, with the faults as they are there.
   std::vector<std::vector<int>> nodes;          ///< multi-indices of the grid, the centre first.
-  Eigen::MatrixXd weights;                      ///< c = weights w(θ): K x (nodes − 1).
-  StoredFloats stiffness;    ///< B of H, n x (n K): column j K + k is B_k e_j, N/m.
+  Eigen::MatrixXd weights;                      ///< C, K x m.
+  StoredFloats stiffness;                       ///< B, n x (n K): column j K + k is B_k e_j, N/m.
   Eigen::MatrixXd diagonal;  ///< entries of `stiffness` on the diagonal of H, n x K.
-  Eigen::MatrixXd traction, per_load, per_jump;  ///< B of L, U, V as columns, each x K.
+  Eigen::MatrixXd traction, per_load, per_jump;  ///< L_i − L_0 … as columns, each x m.
 
   Eigen::Index size() const { return weights.rows(); }  ///< K.
 
-  /// L, U and V at c (K entries) put into `op`, and an InterpolatedCompliance as its H.
-  static void put(const std::shared_ptr<const OperatorBasis>& basis, const Eigen::VectorXd& factors,
+  /// L, U and V at w (m entries) put into `op`, and an InterpolatedCompliance as its H.
+  static void put(const std::shared_ptr<const OperatorBasis>& basis, const Eigen::VectorXd& w,
                   FaultOperator& op);
 };
 

@@ -13,7 +13,7 @@
 namespace faultsim {
 namespace {
 
-constexpr SealedFormat kSurfaceFile{.name = "operator surface", .version = 1};
+constexpr SealedFormat kSurfaceFile{.name = "operator surface", .version = 2};
 constexpr const char* kH = "/h";
 constexpr const char* kStiffness = "/surface/stiffness";
 
@@ -34,9 +34,10 @@ void for_each_surface_table(Tables& t, Archive&& archive) {
           "tolerance; relative errors of H, L, U and V, slip without friction");
   archive("/surface/weights", t.weights, 1, "1", "K x nodes but the centre, column by column");
   archive("/surface/diagonal", t.diagonal, 1, "N/m", "of B, n x K, column by column");
-  archive("/surface/traction", t.traction, 1, "Pa per unit of load", "B of L, by columns");
-  archive("/surface/load", t.per_load, 1, "m per unit of load", "B of U, by columns");
-  archive("/surface/jump", t.per_jump, 1, "m per m", "B of V, by columns");
+  archive("/surface/traction", t.traction, 1, "Pa per unit of load",
+          "differences of L to the centre, by columns");
+  archive("/surface/load", t.per_load, 1, "m per unit of load", "of U, by columns");
+  archive("/surface/jump", t.per_jump, 1, "m per m", "of V, by columns");
 }
 
 std::vector<double> values_of(const Eigen::MatrixXd& matrix) {
@@ -72,15 +73,15 @@ void take_tables(const SurfaceTables& t, StoredSurface& surface, OperatorBasis& 
       t.sizes[0] < 1 || t.sizes[1] < 1 || t.sizes[2] < 0 ||
       t.nodes.size() != static_cast<std::size_t>(t.sizes[0]) * static_cast<std::size_t>(t.sizes[1]))
     throw StorageError("the tables of the surface do not fit together");
-  const Eigen::Index k = t.sizes[2];
+  const Eigen::Index m = t.sizes[0] - 1, k = t.sizes[2];
   basis.fingerprint = t.fingerprint.front();
   for (auto one = t.nodes.begin(); one != t.nodes.end(); one += t.sizes[1])
     basis.nodes.emplace_back(one, one + t.sizes[1]);
-  basis.weights = matrix_of(t.weights, k, t.sizes[0] - 1);
+  basis.weights = matrix_of(t.weights, k, m);
   basis.diagonal = matrix_of(t.diagonal, centre.geometry.n_dofs, k);
-  basis.traction = matrix_of(t.traction, centre.loads.traction.size(), k);
-  basis.per_load = matrix_of(t.per_load, centre.observed.per_load.size(), k);
-  basis.per_jump = matrix_of(t.per_jump, centre.observed.per_jump.size(), k);
+  basis.traction = matrix_of(t.traction, centre.loads.traction.size(), m);
+  basis.per_load = matrix_of(t.per_load, centre.observed.per_load.size(), m);
+  basis.per_jump = matrix_of(t.per_jump, centre.observed.per_jump.size(), m);
   surface.accuracy = {.n_operators = t.sizes[0],
                       .n_basis = t.sizes[2],
                       .n_checks = t.sizes[3],

@@ -400,7 +400,7 @@ std::string remark_text(const Remark& remark);
 /// The material of that name. @pre it exists.
 const Material& material_named(const Scene& scene, const std::string& name);
 /// Raised by hand when a change may alter results on surfaces, and no others.
-inline constexpr int kSurfaceMethod = 2;
+inline constexpr int kSurfaceMethod = 3;
 
 /// Points at which the error of a surface is measured.
 inline int n_surface_checks(const SurfaceRequest& surface) {

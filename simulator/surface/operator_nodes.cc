@@ -13,6 +13,11 @@ using Piece = Eigen::Map<const Eigen::VectorXd>;
 
 Piece all_of(const Eigen::MatrixXd& matrix) { return {matrix.data(), matrix.size()}; }
 
+/// Column j of H from the diagonal down.
+Piece below_diagonal(const FaultOperator& op, Eigen::Index j) {
+  return {op.compliance->column(static_cast<int>(j)).data() + j, op.geometry.n_dofs - j};
+}
+
 /// visit(block, get) for every piece of an operator of this shape, get(op) being that of an
 /// operator: the columns of the lower triangle of H, those of L, U and V.
 template <typename Visit>
@@ -20,9 +25,7 @@ void for_each_piece(const FaultOperator& shape, StopToken stop, const Visit& vis
   const Eigen::Index n = shape.geometry.n_dofs;
   for (Eigen::Index j = 0; j < n; ++j) {
     stop.throw_if_requested("comparing operators");
-    visit(std::size_t{0}, [j, n](const FaultOperator& op) {
-      return Piece(op.compliance->column(static_cast<int>(j)).data() + j, n - j);
-    });
+    visit(std::size_t{0}, [j](const FaultOperator& op) { return below_diagonal(op, j); });
   }
   std::size_t block = 1;
   for (Eigen::Index k = 0; k < shape.loads.traction.cols(); ++k) {
@@ -76,50 +79,65 @@ double OperatorNodes::surplus(const FaultOperator& op, const Eigen::VectorXd& we
   return largest;
 }
 
-Eigen::MatrixXd OperatorNodes::gram(StopToken stop) const {
+Eigen::MatrixXd OperatorNodes::stiffness_gram(StopToken stop) const {
   const auto m = static_cast<Eigen::Index>(nodes_.size()) - 1;
+  const Eigen::Index n = nodes_.front()->geometry.n_dofs;
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(m, m), moved;
-  for_each_piece(*nodes_.front(), stop, [&](std::size_t block, const auto& get) {
-    const Piece centre = get(*nodes_.front());
-    moved.resize(centre.size(), m);
-    for (Eigen::Index i = 0; i < m; ++i)
-      moved.col(i) = (get(*nodes_[static_cast<std::size_t>(i) + 1]) - centre) / scale_[block];
+  for (Eigen::Index j = 0; j < n; ++j) {
+    stop.throw_if_requested("comparing operators");
+    const Piece centre = below_diagonal(*nodes_.front(), j);
+    moved.resize(n - j, m);
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const FaultOperator& node = *nodes_[static_cast<std::size_t>(i) + 1];
+      moved.col(i) = (below_diagonal(node, j) - centre) / scale_.front();
+    }
     sum.noalias() += moved.transpose() * moved;
-  });
+  }
   return sum;
 }
 
-OperatorBasis OperatorNodes::basis(const Eigen::MatrixXd& directions, StopToken stop) const {
+/// B, node by node and not as a product of matrices, whose order of sums depends on the place:
+/// entries (i, j) and (j, i) are to be the same.
+void OperatorNodes::add_directions(const Eigen::MatrixXd& directions, StopToken stop,
+                                   OperatorBasis& basis) const {
   const FaultOperator& centre = *nodes_.front();
   const Eigen::Index n = centre.geometry.n_dofs, k = directions.cols();
-  OperatorBasis basis;
-  basis.centre = nodes_.front();
-  basis.weights = directions.transpose();
-  // Node by node and not as a product of matrices, whose order of sums depends on the place:
-  // entries (i, j) and (j, i) are to be the same.
-  Eigen::VectorXd moved;
-  const auto combine = [&](const auto& get, Eigen::MatrixXd& into) {
-    into = Eigen::MatrixXd::Zero(get(centre).size(), k);
-    for (std::size_t i = 1; i < nodes_.size(); ++i) {
-      moved = get(*nodes_[i]) - get(centre);
-      for (Eigen::Index d = 0; d < k; ++d)
-        into.col(d) += directions(static_cast<Eigen::Index>(i) - 1, d) * moved;
-    }
-  };
   Eigen::MatrixXf stiffness(n, n * k);
   basis.diagonal.resize(n, k);
-  Eigen::MatrixXd column;
+  Eigen::MatrixXd columns(n, k);
+  Eigen::VectorXd moved;
   for (Eigen::Index j = 0; j < n; ++j) {
     stop.throw_if_requested("compressing operators");
-    combine([j](const FaultOperator& op) { return op.compliance->column(static_cast<int>(j)); },
-            column);
-    stiffness.middleCols(j * k, k) = column.cast<float>();
+    const auto at = static_cast<int>(j);
+    columns.setZero();
+    for (std::size_t i = 1; i < nodes_.size(); ++i) {
+      moved = nodes_[i]->compliance->column(at) - centre.compliance->column(at);
+      for (Eigen::Index d = 0; d < k; ++d)
+        columns.col(d) += directions(static_cast<Eigen::Index>(i) - 1, d) * moved;
+    }
+    stiffness.middleCols(j * k, k) = columns.cast<float>();
     basis.diagonal.row(j) = stiffness.row(j).segment(j * k, k).cast<double>();
   }
   basis.stiffness = StoredFloats(std::move(stiffness));
-  combine([](const FaultOperator& op) { return all_of(op.loads.traction); }, basis.traction);
-  combine([](const FaultOperator& op) { return all_of(op.observed.per_load); }, basis.per_load);
-  combine([](const FaultOperator& op) { return all_of(op.observed.per_jump); }, basis.per_jump);
+}
+
+OperatorBasis OperatorNodes::basis(const Eigen::MatrixXd& directions, StopToken stop) const {
+  OperatorBasis basis;
+  basis.centre = nodes_.front();
+  basis.weights = directions.transpose();
+  add_directions(directions, stop, basis);
+  const auto differences = [&](const auto& get) {
+    const Eigen::VectorXd centre = all_of(get(*nodes_.front()));
+    Eigen::MatrixXd columns(centre.size(), static_cast<Eigen::Index>(nodes_.size()) - 1);
+    for (std::size_t i = 1; i < nodes_.size(); ++i)
+      columns.col(static_cast<Eigen::Index>(i) - 1) = all_of(get(*nodes_[i])) - centre;
+    return columns;
+  };
+  basis.traction = differences([](const FaultOperator& op) -> auto& { return op.loads.traction; });
+  basis.per_load =
+      differences([](const FaultOperator& op) -> auto& { return op.observed.per_load; });
+  basis.per_jump =
+      differences([](const FaultOperator& op) -> auto& { return op.observed.per_jump; });
   return basis;
 }
 

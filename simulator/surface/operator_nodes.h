@@ -23,13 +23,16 @@ class OperatorNodes {
 
   /// The largest norm of a block of op − Σ_k w_k node_k, w having an entry per node.
   double surplus(const FaultOperator& op, const Eigen::VectorXd& weights, StopToken stop) const;
-  /// Dᵀ D, D = [node_i − centre] over the nodes but the centre, blocks relative.
-  Eigen::MatrixXd gram(StopToken stop) const;
-  /// B = D V (not relative) with the centre, and weights Vᵀ; nodes and fingerprint are left empty.
+  /// Dᵀ D, D = [H_i − H_0] / |H_0| over the nodes but the centre, triangles by columns.
+  Eigen::MatrixXd stiffness_gram(StopToken stop) const;
+  /// B = D V |H_0|, weights Vᵀ and the differences of L, U and V; nodes and fingerprint stay empty.
   /// @param directions  V: a row for each node but the centre, a column for each direction.
   OperatorBasis basis(const Eigen::MatrixXd& directions, StopToken stop) const;
 
  private:
+  void add_directions(const Eigen::MatrixXd& directions, StopToken stop,
+                      OperatorBasis& basis) const;
+
   std::vector<std::shared_ptr<const FaultOperator>> nodes_;
   std::vector<double> scale_;  ///< per block, what is divided by.
 };

@@ -214,8 +214,7 @@ FaultGeometry OperatorSurface::geometry_of(const Scene& scene, const Plan& plan)
 PreparedOperator OperatorSurface::at(const Scene& scene, const Plan& plan) const {
   const Eigen::VectorXd weights = grid_.weights(surface_coordinates(axes_, request_, scene));
   auto op = std::make_shared<FaultOperator>();
-  OperatorBasis::put(surface_.basis, surface_.basis->weights * weights.tail(weights.size() - 1),
-                     *op);
+  OperatorBasis::put(surface_.basis, weights.tail(weights.size() - 1), *op);
   op->geometry = geometry_of(scene, plan);
   FAULTSIM_DEMAND(op->geometry.faults.size() == scene.faults.size(), op->geometry.faults.size());
   for (std::size_t f = 0; f < scene.faults.size(); ++f)

@@ -120,12 +120,12 @@ void Builder::require_memory(double bytes, const char* what) const {
                              "tolerance, or take a coarser tier"));
 }
 
-/// The directions beyond which nothing is above a hundredth of `tolerance` in any node.
+/// What is left out of H in all nodes together is below a twentieth of `tolerance`.
 OperatorBasis Builder::compressed(double tolerance) const {
-  const Eigen::MatrixXd gram = nodes_.gram(context_.stop);
+  const Eigen::MatrixXd gram = nodes_.stiffness_gram(context_.stop);
   const Eigen::Index m = gram.rows();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);  // ascending
-  const double least = std::pow(tolerance / 100, 2);
+  const double least = std::pow(tolerance / 20, 2);
   Eigen::Index n_left_out = 0;
   double left_out = 0;  // sum of squares over all nodes
   while (n_left_out < m && left_out + std::max(0.0, solver.eigenvalues()[n_left_out]) <= least)
@@ -141,7 +141,7 @@ void Builder::measure(const std::shared_ptr<const OperatorBasis>& basis, const S
   const FaultOperator& exact = *check.exact;
   FaultOperator op;
   const Eigen::VectorXd w = grid.weights(check.x);
-  OperatorBasis::put(basis, basis->weights * w.tail(w.size() - 1), op);
+  OperatorBasis::put(basis, w.tail(w.size() - 1), op);
   const auto raise = [](double& member, double error) { member = std::max(member, error); };
   raise(worst.stiffness, relative((op.h() - exact.h()).norm(), exact.h().norm()));
   raise(worst.traction, worst_column(op.loads.traction, exact.loads.traction));
@@ -157,8 +157,8 @@ void Builder::measure(const std::shared_ptr<const OperatorBasis>& basis, const S
 CaseSurface Builder::measured(const std::shared_ptr<const OperatorBasis>& basis,
                               const SparseGrid& grid) {
   if (checks_.empty()) {
-    const int n_axes = grid.n_axes();
-    for (const Eigen::VectorXd& x : check_points(n_axes, n_surface_checks(request_))) {
+    const int n_checks = n_surface_checks(request_);
+    for (const Eigen::VectorXd& x : check_points(grid.n_axes(), n_checks)) {
       Check check{x, ask(x, concat("check point ", checks_.size() + 1)), {}};
       const auto slip = slip_without_friction(*check.exact, check.exact->geometry.dof_area);
       if (!slip) refuse_surface("an exact H is not positive definite", "take exact operators");
@@ -189,7 +189,7 @@ StoredSurface Builder::build(const std::string& fingerprint) {
                                     nodes_.add(op);
                                     return surplus;
                                   });
-  for (double surplus = request_.tolerance;; surplus /= 4) {
+  for (double surplus = request_.tolerance;; surplus /= 1.5) {
     interpolant.grow(surplus, request_.most_operators);
     const SparseGrid& grid = interpolant.grid();
     const auto basis = std::make_shared<OperatorBasis>(compressed(surplus));

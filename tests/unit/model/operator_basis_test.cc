@@ -6,7 +6,7 @@
 namespace faultsim {
 namespace {
 
-constexpr Eigen::Index kN = 6, kK = 2, kLoads = 3;
+constexpr Eigen::Index kN = 6, kK = 2, kNodes = 4, kLoads = 3;
 
 Eigen::MatrixXd symmetric(unsigned seed) {
   std::srand(seed);
@@ -27,7 +27,7 @@ std::shared_ptr<const OperatorBasis> basis() {
   centre->observed.per_jump = Eigen::MatrixXd::Random(2, kN);
   auto made = std::make_shared<OperatorBasis>();
   made->centre = centre;
-  made->weights = Eigen::MatrixXd::Zero(kK, 4);
+  made->weights = Eigen::MatrixXd::Random(kK, kNodes);
   StoredFloats::Matrix stiffness(kN, kN * kK);
   made->diagonal.resize(kN, kK);
   for (Eigen::Index k = 0; k < kK; ++k) {
@@ -36,9 +36,9 @@ std::shared_ptr<const OperatorBasis> basis() {
     made->diagonal.col(k) = b.diagonal();
   }
   made->stiffness = StoredFloats(stiffness);
-  made->traction = Eigen::MatrixXd::Random(kN * kLoads, kK);
-  made->per_load = Eigen::MatrixXd::Random(2 * kLoads, kK);
-  made->per_jump = Eigen::MatrixXd::Random(2 * kN, kK);
+  made->traction = Eigen::MatrixXd::Random(kN * kLoads, kNodes);
+  made->per_load = Eigen::MatrixXd::Random(2 * kLoads, kNodes);
+  made->per_jump = Eigen::MatrixXd::Random(2 * kN, kNodes);
   return made;
 }
 
@@ -63,9 +63,10 @@ TEST(OperatorBasis, SumsUpTheColumnsThatAreAskedFor) {
 TEST(OperatorBasis, PutsLoadsAndObservationRowsInto) {
   const auto made = basis();
   FaultOperator op;
-  OperatorBasis::put(made, kFactors, op);
-  const auto sum = [](const Eigen::MatrixXd& mean, const Eigen::MatrixXd& directions) {
-    const Eigen::VectorXd difference = directions * kFactors;
+  const Eigen::Vector4d w(0.5, -0.2, 1.1, 0.4);
+  OperatorBasis::put(made, w, op);
+  const auto sum = [&](const Eigen::MatrixXd& mean, const Eigen::MatrixXd& differences) {
+    const Eigen::VectorXd difference = differences * w;
     return Eigen::MatrixXd(mean + difference.reshaped(mean.rows(), mean.cols()));
   };
   EXPECT_LT((op.loads.traction - sum(made->centre->loads.traction, made->traction)).norm(), 1e-14);
@@ -73,7 +74,9 @@ TEST(OperatorBasis, PutsLoadsAndObservationRowsInto) {
             1e-14);
   EXPECT_LT((op.observed.per_jump - sum(made->centre->observed.per_jump, made->per_jump)).norm(),
             1e-14);
-  EXPECT_EQ(op.compliance->size(), kN);
+  const InterpolatedCompliance h(made, made->weights * w);
+  ASSERT_EQ(op.compliance->size(), kN);
+  for (int j = 0; j < kN; ++j) EXPECT_EQ(op.compliance->column(j), h.column(j));
 }
 
 }  // namespace

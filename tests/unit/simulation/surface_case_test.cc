@@ -1,13 +1,18 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "simulator/loading/run_case.h"
+#include "simulator/model/operator_basis.h"
 #include "simulator/result/result_bytes.h"
 #include "simulator/scene/read_scene.h"
 #include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/simulation.h"
+#include "simulator/surface/operator_surface.h"
 
 /// Cases on a surface of operators (/numerics/surface), from the scene's text to the result.
 namespace faultsim {
@@ -29,8 +34,27 @@ JsonDocument field(const Changes& changes) {
   return document;
 }
 
-Simulation on_surface(const char* surface = kOver) {
+/// A folder of one's own for operators, gone at the end.
+class Cache {
+ public:
+  Cache() {
+    std::string name = (std::filesystem::temp_directory_path() / "surface_case_XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+  }
+  ~Cache() { std::filesystem::remove_all(folder_); }
+  CachePolicy policy() const { return {.folder = folder_}; }
+  /// The file of an operator or surface.
+  std::filesystem::path file(const std::string& fingerprint) const {
+    return folder_ / (fingerprint + ".h5");
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+Simulation on_surface(const char* surface = kOver, const CachePolicy& cache = {}) {
   Simulation simulation;
+  simulation.keep_operators(cache);
   simulation.hold(field({{"/numerics/surface", surface}}));
   return simulation;
 }
@@ -82,6 +106,25 @@ TEST(SurfaceCase, IsCloseToTheExactCaseAndSaysThatItIsNoExactOne) {
   EXPECT_NE(found.operator_fingerprint, wanted.operator_fingerprint);
 }
 
+void expect_same(const OperatorNode& a, const OperatorNode& b) {
+  EXPECT_EQ(a.position, b.position);
+  EXPECT_EQ(a.normal, b.normal);
+  EXPECT_EQ(a.strike, b.strike);
+  EXPECT_EQ(a.dip, b.dip);
+  EXPECT_EQ(a.area, b.area);
+  EXPECT_EQ(a.dof, b.dof);
+  EXPECT_EQ(a.effective_shear_modulus, b.effective_shear_modulus);
+  EXPECT_EQ(a.poisson_ratio, b.poisson_ratio);
+  EXPECT_EQ(a.edge_strike, b.edge_strike);
+  EXPECT_EQ(a.edge_dip, b.edge_dip);
+  ASSERT_EQ(a.pressure.size(), b.pressure.size());
+  for (std::size_t i = 0; i < a.pressure.size(); ++i) {
+    EXPECT_EQ(a.pressure[i].minus_region, b.pressure[i].minus_region);
+    EXPECT_EQ(a.pressure[i].plus_region, b.pressure[i].plus_region);
+    EXPECT_EQ(a.pressure[i].weight, b.pressure[i].weight);
+  }
+}
+
 TEST(SurfaceCase, HasExactGeometry) {
   Simulation simulation = on_surface(), exact;
   simulation.change(kSample);
@@ -91,11 +134,56 @@ TEST(SurfaceCase, HasExactGeometry) {
   const FaultGeometry &a = simulation.prepared().op->geometry, &b = exact.prepared().op->geometry;
   ASSERT_EQ(a.nodes.size(), b.nodes.size());
   EXPECT_EQ(a.dof_area, b.dof_area);
-  for (std::size_t k = 0; k < a.nodes.size(); ++k) {
-    EXPECT_EQ(a.nodes[k].position, b.nodes[k].position);
-    EXPECT_EQ(a.nodes[k].normal, b.nodes[k].normal);
-    EXPECT_EQ(a.nodes[k].effective_shear_modulus, b.nodes[k].effective_shear_modulus);
+  EXPECT_EQ(a.locked_positions, b.locked_positions);
+  for (std::size_t k = 0; k < a.nodes.size(); ++k) expect_same(a.nodes[k], b.nodes[k]);
+  for (std::size_t f = 0; f < a.faults.size(); ++f) {
+    EXPECT_EQ(a.faults[f].name, b.faults[f].name);
+    EXPECT_EQ(a.faults[f].points, b.faults[f].points);
+    EXPECT_EQ(a.faults[f].faces, b.faults[f].faces);
   }
+}
+
+TEST(SurfaceCase, SumsUpTheColumnsOfNodesThatMoveAndNoOthers) {
+  Simulation simulation = on_surface();
+  simulation.run(kSample);
+  const auto& h =
+      dynamic_cast<const InterpolatedCompliance&>(*simulation.prepared().op->compliance);
+  EXPECT_GT(h.n_made(), 0);
+  EXPECT_LT(h.n_made(), h.size() / 2);
+  const Eigen::MatrixXd all = simulation.prepared().op->h();
+  EXPECT_EQ(all, all.transpose().eval());
+  for (int j = 0; j < h.size(); ++j) EXPECT_EQ(h.diagonal(j), all(j, j));
+}
+
+TEST(SurfaceCase, IsReadFromTheCacheAndMadeAgainWhereItIsDamaged) {
+  const Cache cache;
+  Simulation builder = on_surface(kOver, cache.policy()),
+             reader = on_surface(kOver, cache.policy());
+  const CaseResult built = builder.run(kSample);
+  const std::filesystem::path file = cache.file(built.operator_fingerprint);
+  ASSERT_TRUE(std::filesystem::is_regular_file(file));
+  reader.change(kSample);
+  reader.prepare();
+  EXPECT_TRUE(reader.prepared().from_cache);
+  const CaseResult read = reader.run(kSample);
+  EXPECT_EQ(bits(read), bits(built));
+  EXPECT_EQ(bits(on_surface().run(kSample)), bits(built)) << "with a cache as without";
+
+  std::fstream(file, std::ios::in | std::ios::out).seekp(-9, std::ios::end).put('x');
+  Simulation again = on_surface(kOver, cache.policy());
+  EXPECT_EQ(bits(again.run(kSample)), bits(built));
+  EXPECT_FALSE(again.prepared().from_cache);
+  EXPECT_TRUE(std::filesystem::is_regular_file(file));
+}
+
+TEST(RequireDefinite, LooksAtTheJumpsListedAndNoOthers) {
+  Eigen::MatrixXd h(3, 3);
+  h << 2, 0, 1, 0, 2, 3, 1, 3, 2;
+  FaultOperator op;
+  op.compliance = std::make_shared<DenseCompliance>(h);
+  EXPECT_NO_THROW(require_definite(op, {}));
+  EXPECT_NO_THROW(require_definite(op, {0, 2}));
+  EXPECT_THROW(require_definite(op, {1, 2}), InputError);
 }
 
 TEST(SurfaceCase, HasTheSameBitsWhateverCaseCameFirst) {
@@ -140,6 +228,30 @@ TEST(SurfaceCase, IsRefusedWhereItCannotBe) {
   EXPECT_THAT(
       refusal_of({with(R"({"parameter": "salt_stiffness", "from": "60 m", "to": "1 GPa"})")}),
       HasSubstr("60 m"));
+}
+
+TEST(SurfaceCase, IsOfMoreThanOneOperator) {
+  EXPECT_THAT(
+      refusal_of({{"/numerics/surface",
+                   R"({"over": [{"parameter": "salt_stiffness", "from": "20 GPa", "to": "60 GPa"}],
+                       "most_operators": 1})"}}),
+      HasSubstr("write a whole number from 2 to 2000"));
+}
+
+TEST(SurfaceCase, IsRefusedWhereAnObservationPointChangesItsNode) {
+  // Near a fault that leans over, the nodes move past the point as the dip changes.
+  JsonDocument document = field({{"/numerics/surface", kOver}});
+  apply({{"/output/observation_points",
+          R"([{"name": "beside_F2", "position": ["60 m", "0 m", "-2500 m"]}])"}},
+        document);
+  Simulation simulation;
+  simulation.hold(document);
+  try {
+    simulation.prepare();
+    ADD_FAILURE() << "no refusal";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("beside_F2 is nearest to different nodes"));
+  }
 }
 
 TEST(SurfaceCase, SaysThatItsToleranceIsNotReached) {
