@@ -20,11 +20,12 @@ namespace {
 
 /// The cases as columns of rows.
 struct WeightedRows {
-  std::vector<double> weights;
+  std::vector<WeightRange> weights;
   std::vector<std::vector<double>> values;      ///< per parameter: SI; NaN for words.
   std::vector<std::vector<std::string>> texts;  ///< per parameter that is words.
   std::vector<std::string> units;               ///< per parameter, as given for the first case.
-  std::vector<std::vector<char>> holds;         ///< per condition.
+  std::vector<std::vector<Holds>> holds;        ///< per condition.
+  std::vector<double> of_complete;              ///< the weights of rows with a history to its end.
 };
 
 std::string unit_of_text(const std::string& text) {
@@ -86,13 +87,9 @@ class PosteriorReader {
     const SampleRows sample(store_, posterior_.campaign);
     static const CaseHistory kQuiet;
     store_.for_each_case(posterior_.campaign.id, query_, [&](const CaseRow& row) {
-      const int count = sample.count(row.position);
-      if (!row.complete()) {
-        posterior_.n_left_out += count;
-        return;
-      }
       const auto found = histories.find(row.position);
-      for (int k = 0; k < count; ++k) add(row, found == histories.end() ? kQuiet : found->second);
+      const CaseHistory& history = found == histories.end() ? kQuiet : found->second;
+      for (int k = 0; k < sample.count(row.position); ++k) add(row, history);
     });
     for (double& one : posterior_.agreement)
       one /= static_cast<double>(std::max(1L, posterior_.n_rows));
@@ -101,7 +98,30 @@ class PosteriorReader {
 
  private:
   void add(const CaseRow& row, const CaseHistory& history) {
-    ++posterior_.n_rows;
+    if (row.complete()) {
+      ++posterior_.n_rows;
+      const double weight = weight_of(row, history);
+      rows_.weights.push_back({weight, weight});
+      rows_.of_complete.push_back(weight);
+    } else {
+      ++posterior_.n_unknown;
+      WeightRange weight = {1, 1};
+      for (const SeenStatement& one : posterior_.seen) {
+        const WeightRange p = likelihood_range(one, history);
+        weight = {weight.least * p.least, weight.most * p.most};
+      }
+      rows_.weights.push_back(weight);
+    }
+    for (std::size_t c = 0; c < rows_.holds.size(); ++c) {
+      rows_.holds[c].push_back(!row.complete()                                    ? Holds::unknown
+                               : number_of(row.metrics[n_seen_columns_ + c]) == 1 ? Holds::yes
+                                                                                  : Holds::no);
+    }
+    add_parameters(row);
+  }
+
+  /// Of a row with a history to its end; its agreement is counted.
+  double weight_of(const CaseRow& row, const CaseHistory& history) {
     double weight = 1;
     std::size_t column = 0;
     for (std::size_t s = 0; s < posterior_.seen.size(); ++s) {
@@ -111,9 +131,10 @@ class PosteriorReader {
       posterior_.agreement[s] += p;
       weight *= p;
     }
-    rows_.weights.push_back(weight);
-    for (std::size_t c = 0; c < rows_.holds.size(); ++c)
-      rows_.holds[c].push_back(number_of(row.metrics[n_seen_columns_ + c]) == 1 ? 1 : 0);
+    return weight;
+  }
+
+  void add_parameters(const CaseRow& row) {
     for (std::size_t p = 0; p < rows_.values.size(); ++p) {
       rows_.values[p].push_back(std::nan(""));
       rows_.texts[p].emplace_back();
@@ -147,7 +168,7 @@ void refuse_few(const Posterior& p) {
 }
 
 std::vector<QuantileBounds> quantiles_of(const std::vector<double>& values,
-                                         const std::vector<double>& weights,
+                                         const std::vector<WeightRange>& weights,
                                          const std::vector<std::size_t>& order, double confidence) {
   std::vector<QuantileBounds> found;
   for (const double q : kPosteriorQuantiles)
@@ -157,7 +178,7 @@ std::vector<QuantileBounds> quantiles_of(const std::vector<double>& values,
 
 /// A parameter of which every row has a number.
 ParameterUpdate update_of(const StoredParameter& parameter, std::vector<double> values,
-                          const std::string& unit, const std::vector<double>& weights,
+                          const std::string& unit, const std::vector<WeightRange>& weights,
                           double confidence) {
   ParameterUpdate update{parameter.name, unit, {}, {}};
   if (!unit.empty()) {
@@ -167,15 +188,15 @@ ParameterUpdate update_of(const StoredParameter& parameter, std::vector<double> 
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-  const std::vector<double> equal(values.size(), 1.0);
+  const std::vector<WeightRange> equal(values.size(), {1, 1});
   update.before = quantiles_of(values, equal, order, confidence);
   update.after = quantiles_of(values, weights, order, confidence);
   return update;
 }
 
-Update update_of(const std::string& label, const std::vector<char>& holds,
-                 const std::vector<double>& weights, double confidence) {
-  const std::vector<double> equal(holds.size(), 1.0);
+Update update_of(const std::string& label, const std::vector<Holds>& holds,
+                 const std::vector<WeightRange>& weights, double confidence) {
+  const std::vector<WeightRange> equal(holds.size(), {1, 1});
   return {label, weighted_probability(holds, equal, confidence),
           weighted_probability(holds, weights, confidence)};
 }
@@ -193,11 +214,12 @@ void update_parameters(Posterior& p, const WeightedRows& rows) {
         p.parameters.push_back(update_of(all[k], values, rows.units[k], rows.weights, confidence));
       continue;
     }
-    std::map<std::string, std::vector<char>> words;
+    std::map<std::string, std::vector<Holds>> words;
     for (const std::string& text : rows.texts[k]) words[text];
     if (words.size() < 2) continue;
     for (auto& [word, holds] : words) {
-      for (const std::string& text : rows.texts[k]) holds.push_back(text == word ? 1 : 0);
+      for (const std::string& text : rows.texts[k])
+        holds.push_back(text == word ? Holds::yes : Holds::no);
       p.words.push_back(update_of(concat(all[k].name, " = ", word.empty() ? "not given" : word),
                                   holds, rows.weights, confidence));
     }
@@ -217,7 +239,7 @@ Posterior find_posterior(const Store& store, const CampaignInfo& campaign,
   const std::vector<std::string> conditions =
       request.conditions.empty() ? default_conditions(selection) : request.conditions;
   const WeightedRows rows = PosteriorReader(store, found, selection, conditions).read();
-  found.effective_size = effective_sample_size(rows.weights);
+  found.effective_size = effective_sample_size(rows.of_complete);
   refuse_few(found);
   update_parameters(found, rows);
   for (std::size_t c = 0; c < conditions.size(); ++c) {
@@ -262,8 +284,11 @@ std::string posterior_to_text(const Posterior& p) {
   }
   std::string text = concat(seen.text(), "\nEffective sample size ",
                             format_number(p.effective_size, 4), " of ", p.n_rows, " cases");
-  if (p.n_left_out > 0)
-    text += concat("; ", p.n_left_out, " without a history to its end are left out");
+  if (p.n_unknown > 0) {
+    text +=
+        concat("; of ", p.n_unknown, " without a history to ", p.n_unknown == 1 ? "its" : "their",
+               " end it is not known:\nestimates are of the others, bounds allow for any outcome");
+  }
   text += "\n\n";
   if (!p.parameters.empty()) text += parameters_to_text(p.parameters) + "\n";
   if (!p.words.empty()) text += updates_to_text("parameter", p.words) + "\n";
@@ -321,7 +346,7 @@ json posterior_to_json(const Posterior& p) {
           {"confidence", p.request.confidence},
           {"seen", seen},
           {"rows", p.n_rows},
-          {"left_out", p.n_left_out},
+          {"unknown", p.n_unknown},
           {"effective_sample_size", p.effective_size},
           {"parameters", parameters},
           {"words", to_json(p.words)},

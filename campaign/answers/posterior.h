@@ -38,7 +38,7 @@ struct Posterior {
   std::vector<SeenStatement> seen;
   std::vector<double> agreement;  ///< per statement: mean of its likelihood over the cases.
   long n_rows = 0;                ///< with a history to its end.
-  long n_left_out = 0;            ///< without.
+  long n_unknown = 0;             ///< without.
   double effective_size = 0;      ///< of the n_rows, by their weights.
   std::vector<ParameterUpdate> parameters;  ///< those that are numbers and vary.
   std::vector<Update> words;                ///< "rule = mean": P of each word of the others.
@@ -47,7 +47,9 @@ struct Posterior {
 
 /// Weights each case by the likelihood of what was seen, the product over the statements: their
 /// errors are taken to be independent. Cases are the prior: what is said is right as far as they
-/// are a sample of it. Cases without a history to their end are left out and counted.
+/// are a sample of it. Cases without a history to their end have their parameters, but their
+/// likelihoods and conditions may be anything that what is known of them allows: estimates are of
+/// the others, bounds reach over all of it, as those of `probability` do.
 /// Throws InputError where a statement or condition cannot be read, and where the effective sample
 /// size is below kFewestEffective: then a few cases would speak for all.
 Posterior find_posterior(const Store& store, const CampaignInfo& campaign,

@@ -199,4 +199,25 @@ double likelihood(const SeenStatement& statement, const CaseHistory& history, do
   return statement.denied ? 1 - p : p;
 }
 
+WeightRange likelihood_range(const SeenStatement& statement, const CaseHistory& history) {
+  const bool has_slid =
+      std::any_of(history.onsets.begin(), history.onsets.end(),
+                  [&](const CaseOnsets::Onset& one) { return one.fault == statement.fault; });
+  switch (statement.kind) {
+    case SeenStatement::Kind::slid:
+      if (!has_slid) return {0, 1};
+      return {likelihood(statement, history, 0), likelihood(statement, history, 0)};
+    case SeenStatement::Kind::event: {  // further ones make it likelier that there was one
+      const double so_far = likelihood(statement, history, 0);
+      return statement.denied ? WeightRange{0, so_far} : WeightRange{so_far, 1};
+    }
+    case SeenStatement::Kind::metric:
+      return {0, 1};
+    case SeenStatement::Kind::condition:
+      return {statement.error, 1 - statement.error};
+  }
+  FAULTSIM_DEMAND(false, static_cast<int>(statement.kind));
+  return {};
+}
+
 }  // namespace faultsweep

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "campaign/report/selection.h"
+#include "campaign/statistics/weighted.h"
 #include "campaign/store/store.h"
 
 /// What was seen in the field, as statements of which each case of a campaign says how likely they
@@ -61,5 +62,10 @@ struct CaseHistory {
 /// @param column  of the case for this statement; unused of slid and event.
 /// @pre each event of the statement's fault has a magnitude.
 double likelihood(const SeenStatement& statement, const CaseHistory& history, double column);
+
+/// Between what P(statement | case) lies of a case whose history ends early: what it did up to
+/// there is known, and anything may follow.
+/// @pre as likelihood.
+WeightRange likelihood_range(const SeenStatement& statement, const CaseHistory& history);
 
 }  // namespace faultsweep

@@ -24,6 +24,19 @@ Interval share_bounds(double share, double n, double confidence) {
           k >= n ? 1 : boost::math::ibetac_inv(k + 1, n - k, tail)};
 }
 
+/// Members with their weights.
+struct Members {
+  std::vector<char> holds;
+  std::vector<double> weights;
+  void add(bool one, double weight) {
+    holds.push_back(one ? 1 : 0);
+    weights.push_back(weight);
+  }
+  Estimate probability(double confidence) const {
+    return weighted_probability(holds, weights, confidence);
+  }
+};
+
 /// How many equal members would have this variance.
 double members_for(double share, double variance, double n_effective, double n) {
   if (share <= 0 || share >= 1 || variance <= 0) return n_effective;
@@ -69,36 +82,88 @@ Estimate weighted_probability(std::span<const char> holds, std::span<const doubl
   return {share, std::sqrt(variance), share_bounds(share, n_members, confidence)};
 }
 
-QuantileBounds weighted_quantile(std::span<const double> values, std::span<const double> weights,
+Estimate weighted_probability(std::span<const Holds> holds, std::span<const WeightRange> weights,
+                              double confidence) {
+  Members known;
+  for (std::size_t i = 0; i < holds.size(); ++i) {
+    if (holds[i] != Holds::unknown && weights[i].is_known())
+      known.add(holds[i] == Holds::yes, weights[i].most);
+  }
+  Estimate found = known.probability(confidence);
+  if (known.holds.size() == holds.size()) return found;
+  for (const Holds side : {Holds::no, Holds::yes}) {
+    // What is on this side, or may be, counts as much as it can, the rest as little.
+    Members all;
+    for (std::size_t i = 0; i < holds.size(); ++i) {
+      const bool on_side = holds[i] == side || holds[i] == Holds::unknown;
+      all.add((side == Holds::yes) == on_side, on_side ? weights[i].most : weights[i].least);
+    }
+    const Interval bounds = all.probability(confidence).bounds;
+    found.bounds.low = std::min(found.bounds.low, bounds.low);
+    found.bounds.high = std::max(found.bounds.high, bounds.high);
+  }
+  return found;
+}
+
+namespace {
+
+/// The first value up to which members carry a share of all weight, if those up to it count
+/// `below` and those beyond it `above`.
+double value_at(double share, std::span<const double> values, std::span<const WeightRange> weights,
+                std::span<const std::size_t> order, double WeightRange::*below,
+                double WeightRange::*above) {
+  double beyond = 0, so_far = 0;
+  for (const WeightRange& one : weights) beyond += one.*above;
+  double last = values[order.front()];
+  for (const std::size_t i : order) {
+    if (weights[i].most <= 0) continue;
+    beyond = std::max(0.0, beyond - weights[i].*above);
+    so_far += weights[i].*below;
+    last = values[i];
+    if (so_far >= (share - 1e-12) * (so_far + beyond)) break;  // rounding of the sums
+  }
+  return last;
+}
+
+}  // namespace
+
+QuantileBounds weighted_quantile(std::span<const double> values,
+                                 std::span<const WeightRange> weights,
                                  std::span<const std::size_t> order, double q, double confidence) {
   FAULTSIM_DEMAND(q > 0 && q < 1, q);
-  const double sum = sum_of(weights);
-  const auto value_at = [&](double share) {
-    double so_far = 0;
-    double last = values[order.front()];
-    for (const std::size_t i : order) {
-      if (weights[i] <= 0) continue;
-      so_far += weights[i] / sum;
-      last = values[i];
-      if (so_far >= share - 1e-12) break;  // rounding of the sum
-    }
-    return last;
-  };
+  std::vector<WeightRange> known(weights.begin(), weights.end());
+  for (WeightRange& one : known)
+    if (!one.is_known()) one = {};
   QuantileBounds found;
-  found.estimate = value_at(q);
+  found.estimate = value_at(q, values, known, order, &WeightRange::most, &WeightRange::most);
   // The share of weight up to the estimate varies as that of any property with probability q.
+  std::vector<double> counted;
+  for (const WeightRange& one : known) counted.push_back(one.most);
+  const double sum = sum_of(counted);
   double variance = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const double one = weights[i] / sum * ((values[i] <= found.estimate ? 1 : 0) - q);
+    const double one = counted[i] / sum * ((values[i] <= found.estimate ? 1 : 0) - q);
     variance += one * one;
   }
   const double n_members =
-      members_for(q, variance, effective_sample_size(weights), static_cast<double>(values.size()));
+      members_for(q, variance, effective_sample_size(counted), static_cast<double>(values.size()));
   const Interval shares = share_bounds(q, n_members, confidence);
-  // Beyond the outermost member nothing is known.
-  if (shares.low * n_members >= 1) found.low = value_at(shares.low);
-  if ((1 - shares.high) * n_members >= 1) found.high = value_at(shares.high);
+  // Beyond the outermost member nothing is known. What is not known counts where it moves an end
+  // outwards: much below the lower and little above it, the other way round for the upper.
+  if (shares.low * n_members >= 1)
+    found.low =
+        value_at(shares.low, values, weights, order, &WeightRange::most, &WeightRange::least);
+  if ((1 - shares.high) * n_members >= 1)
+    found.high =
+        value_at(shares.high, values, weights, order, &WeightRange::least, &WeightRange::most);
   return found;
+}
+
+QuantileBounds weighted_quantile(std::span<const double> values, std::span<const double> weights,
+                                 std::span<const std::size_t> order, double q, double confidence) {
+  std::vector<WeightRange> known;
+  for (const double one : weights) known.push_back({one, one});
+  return weighted_quantile(values, known, order, q, confidence);
 }
 
 }  // namespace faultsweep

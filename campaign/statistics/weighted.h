@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "campaign/statistics/intervals.h"
 
@@ -29,6 +30,26 @@ Estimate weighted_probability(std::span<const char> holds, std::span<const doubl
 /// where fewer than one member lies beyond it.
 /// @param order  of values, ascending. @pre 0 < q < 1, some weight is not 0.
 QuantileBounds weighted_quantile(std::span<const double> values, std::span<const double> weights,
+                                 std::span<const std::size_t> order, double q, double confidence);
+
+/// Between which two numbers the weight of a member lies that is not known to its end; known:
+/// equal.
+struct WeightRange {
+  double least = 0, most = 0;
+  bool is_known() const { return least == most; }
+};
+/// Whether a member has a property.
+enum class Holds : char { no, yes, unknown };
+
+/// The same where weights and property are not known of all: the estimate is of the members of
+/// which both are, the bounds reach over every way in which the others may turn out.
+/// Of equal weights of all they are proportion_bounds.
+/// @pre of some member both are known, with a weight that is not 0.
+Estimate weighted_probability(std::span<const Holds> holds, std::span<const WeightRange> weights,
+                              double confidence);
+/// As above. @pre some weight that is not 0 is known.
+QuantileBounds weighted_quantile(std::span<const double> values,
+                                 std::span<const WeightRange> weights,
                                  std::span<const std::size_t> order, double q, double confidence);
 
 }  // namespace faultsweep

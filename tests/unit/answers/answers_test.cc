@@ -190,7 +190,7 @@ TEST_F(AnswersTest, WhyListsWhatOneParameterAloneChanges) {
   EXPECT_EQ(found.neighbours[3].change, 0);
   EXPECT_EQ(found.place.n_ranked, 9);
   EXPECT_EQ(found.place.ties, (std::vector<long>{2, 8, 9})) << "the very same area";
-  EXPECT_THAT(found.no_global, HasSubstr("no sample"));
+  EXPECT_THAT(found.no_global, HasSubstr("not a sample"));
   const std::string text = why_to_text(found);
   EXPECT_THAT(text,
               HasSubstr("F1 slides first in primary_production, load step 1 (year 1), at 2000 "
@@ -405,7 +405,36 @@ TEST_F(AnswersTest, AFewCasesDoNotSpeakForAll) {
   record();
   EXPECT_THROW(find_posterior(*store_, campaign_, {.seen = {"F1.chi_bar = 0.5 +- 0.01"}}),
                InputError);
-  EXPECT_EQ(find_posterior(*store_, campaign_, {.seen = {"slides"}}).n_left_out, 1);
+  EXPECT_EQ(find_posterior(*store_, campaign_, {.seen = {"slides"}}).n_unknown, 1);
+}
+
+/// Seven histories of eighty are not known to their end.
+TEST_F(AnswersTest, APosteriorOfWhatSaysNothingHasTheBoundsOfTheProbability) {
+  submit("monte-carlo", even(80));
+  for (const std::size_t k : {3u, 17u, 31u, 44u, 58u})
+    runs_[k].result.reset(), runs_[k].status = RunStatus::hung;
+  for (const std::size_t k : {62u, 71u}) {
+    runs_[k].result->outcome = faultsim::Outcome::unstable;
+    for (faultsim::FaultStageMetrics& fault : runs_[k].result->whole.faults)
+      fault.activation.reset();
+  }
+  record();
+  for (const char* condition : {"F1.slides", "F2.slides", "max_slip > -1 mm", "max_slip > 1 km"}) {
+    const Share prior = probability({.condition = condition}).shares.at(0);
+    EXPECT_EQ(prior.n_unknown, 7);
+    for (const std::vector<std::string>& seen : std::vector<std::vector<std::string>>{
+             {}, {"F1.chi_bar = 0.5 +- 1e12"}, {"max_slip > -1 mm, wrong 0.4999999999"}}) {
+      const Posterior p = find_posterior(*store_, campaign_, {seen, {condition}, "", 0.95});
+      EXPECT_EQ(p.n_rows, 73);
+      EXPECT_EQ(p.n_unknown, 7);
+      for (const Estimate& one : {p.probabilities.at(0).before, p.probabilities.at(0).after}) {
+        EXPECT_NEAR(one.value, prior.estimate, 1e-8) << condition;
+        EXPECT_NEAR(one.bounds.low, prior.bounds.low, 1e-8) << condition;
+        EXPECT_NEAR(one.bounds.high, prior.bounds.high, 1e-8) << condition;
+      }
+      EXPECT_THAT(posterior_to_text(p), HasSubstr("bounds allow for any outcome"));
+    }
+  }
 }
 
 TEST_F(AnswersTest, AWidthTakesMoreCases) {

@@ -71,6 +71,26 @@ TEST(Seen, MetricsAreNormalAndConditionsMayBeWrong) {
   EXPECT_EQ(likelihood(read("chi_bar > 0.5 and strength < 2"), {}, 1), 1);
 }
 
+TEST(Seen, OfAHistoryThatEndsEarlyWhatItDidIsKnown) {
+  const auto range_is = [](const std::string& text, const CaseHistory& history, double least,
+                           double most) {
+    const WeightRange range = likelihood_range(read(text), history);
+    EXPECT_NEAR(range.least, least, 1e-12) << text;
+    EXPECT_NEAR(range.most, most, 1e-12) << text;
+  };
+  CaseHistory history;
+  history.onsets = {{7, 3, 6 * kYear, -1e6}};
+  history.events = {{1, 8, 0, -1e7, 3.2}};
+  range_is("F1 slid before 8 yr +- 1 yr", history, below(2), below(2));
+  range_is("F1 did not slide before 8 yr +- 1 yr", history, 1 - below(2), 1 - below(2));
+  range_is("Fault 2 slid before 8 yr", history, 0, 1);
+  range_is("event of Mw 3 +- 0.1 on Fault 2", history, below(2), 1);
+  range_is("no event of Mw 3 +- 0.1 on Fault 2", history, 0, 1 - below(2));
+  range_is("no event of Mw 3 on F1", history, 0, 1);
+  range_is("max_slip = 20 mm +- 5 mm", history, 0, 1);
+  range_is("slides, wrong 0.1", history, 0.1, 0.9);
+}
+
 TEST(Seen, AllThatIsWrongIsSaidAtOnce) {
   try {
     read_seen({"F3 slid before 8 yr", "F1 slid before 8 bar", "event of Mw 3 mm on F1",

@@ -50,6 +50,63 @@ TEST(Weighted, WhatWeighsNothingSaysNothing) {
   EXPECT_FALSE(weighted_quantile(values, weights, order_of(values), 0.99, 0.95).high);
 }
 
+TEST(Weighted, OfEqualWeightsTheUnknownMayBeEither) {
+  std::vector<Holds> holds(80, Holds::no);
+  std::fill_n(holds.begin(), 6, Holds::yes);
+  std::fill_n(holds.begin() + 20, 7, Holds::unknown);
+  std::vector<WeightRange> weights(80, {0.3, 0.3});
+  const Interval exact = proportion_bounds(6, 7, 80, 0.95);
+  for (int pass = 0; pass < 2; ++pass) {
+    const Estimate p = weighted_probability(holds, weights, 0.95);
+    EXPECT_NEAR(p.value, 6.0 / 73, 1e-12);
+    EXPECT_NEAR(p.bounds.low, exact.low, 1e-9);
+    EXPECT_NEAR(p.bounds.high, exact.high, 1e-9);
+    std::fill_n(weights.begin() + 20, 7, WeightRange{0, 0.3});
+  }
+}
+
+/// However what is not known turns out, what would then be said lies within what was said before.
+TEST(Weighted, BoundsHoldHoweverTheUnknownTurnsOut) {
+  std::mt19937_64 random(13);
+  std::uniform_real_distribution<double> uniform;
+  const auto may = [&](double share) { return uniform(random) < share; };
+  for (int repeat = 0; repeat < 300; ++repeat) {
+    const double share = uniform(random), unknown = 0.3 * uniform(random);
+    const double spread = 3 * uniform(random);
+    std::vector<Holds> holds;
+    std::vector<WeightRange> weights;
+    std::vector<double> values;
+    for (int i = 0; i < 200; ++i) {
+      const double w = std::exp(-spread * uniform(random));
+      const bool known = !may(unknown);
+      holds.push_back(!known ? Holds::unknown : may(share) ? Holds::yes : Holds::no);
+      weights.push_back(known ? WeightRange{w, w} : WeightRange{w * uniform(random), w});
+      values.push_back(uniform(random));
+    }
+    const auto order = order_of(values);
+    const Interval said = weighted_probability(holds, weights, 0.95).bounds;
+    const QuantileBounds median = weighted_quantile(values, weights, order, 0.5, 0.95);
+    for (int resolution = 0; resolution < 30; ++resolution) {
+      const double side = resolution == 0 ? 0 : resolution == 1 ? 1 : uniform(random);
+      std::vector<char> holds_then;
+      std::vector<double> weights_then;
+      for (std::size_t i = 0; i < holds.size(); ++i) {
+        const auto [least, most] = weights[i];
+        const bool extreme = may(0.5);
+        weights_then.push_back(extreme ? (may(0.5) ? least : most)
+                                       : std::lerp(least, most, uniform(random)));
+        holds_then.push_back(
+            holds[i] == Holds::yes || (holds[i] == Holds::unknown && may(side)) ? 1 : 0);
+      }
+      const Interval then = weighted_probability(holds_then, weights_then, 0.95).bounds;
+      EXPECT_GE(then.low, said.low - 1e-9);
+      EXPECT_LE(then.high, said.high + 1e-9);
+      const double estimate = weighted_quantile(values, weights_then, order, 0.5, 0.95).estimate;
+      EXPECT_TRUE(median.low.value() <= estimate && estimate <= median.high.value());
+    }
+  }
+}
+
 /// θ ~ N(0, 1)², y = 2 θ1 + θ2 seen as 3 ± 0.5. Then θ1 is normal with mean 2·3 / 5.25 and
 /// variance 1 − 4 / 5.25, and y itself with mean 5·3 / 5.25 and variance 5 · 0.25 / 5.25.
 class LinearGaussian : public ::testing::Test {
