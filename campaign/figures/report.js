@@ -33,7 +33,7 @@ for (const table of document.querySelectorAll("table[data-filter]")) {
     for (const row of rows) {
       const shown = inputs.every((input, k) => passes(row.cells[k].textContent, input.value));
       row.hidden = !shown;
-      count += stays ? 1 : 0;
+      count += shown ? 1 : 0;
     }
     document.getElementById(table.dataset.filter).textContent = count + " of " + rows.length + " rows";
   }
