@@ -1,4 +1,4 @@
--- Migration 10: flags of activation that hang on the mesh (docs/model.md, section 7). The schema
+-- Migration 10: flags of activation that depend on the mesh (docs/model.md, section 7). The schema
 -- before it is store.sql, store_2.sql to store_9.sql.
 --
 -- rank_class of stage_metrics and fault_metrics is 1 also where activation_resolved is 0: complete,

@@ -35,7 +35,7 @@ class SampleRows {
   int count(long position) const;
 
  private:
-  int others_ = 1;           ///< of cases that are no row of `design_rows`.
+  int others_ = 1;           ///< of cases that are not a row of `design_rows`.
   std::vector<int> counts_;  ///< by position; -1 = another case.
 };
 

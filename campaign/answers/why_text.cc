@@ -143,7 +143,7 @@ std::string named_cases(const std::vector<long>& positions) {
 std::string place_text(const Why& why) {
   const Place& place = why.place;
   const char* kinds[] = {"complete histories",
-                         "histories that hang on the mesh, which are ranked apart",
+                         "histories that depend on the mesh, which are ranked apart",
                          "histories that end early, which have no rank"};
   std::string text = concat("Place ", place.place, " of ", place.n_ranked, " ",
                             kinds[std::clamp(why.row.rank_class, 0, 2)], ": ", why.compared, " = ",

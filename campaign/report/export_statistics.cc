@@ -54,7 +54,7 @@ class FactorValues {
   const CaseParameters& values_;
 };
 
-/// Names of what the designs vary. Derived parameters follow from these: they are no factors.
+/// Names of what the designs vary. Derived parameters follow from these: they are not factors.
 std::set<std::string> varied_by_design(const Store& store, const CampaignInfo& campaign) {
   const json spec = json::parse(store.spec_copies(campaign.id).resolved, nullptr, false);
   const json groups = spec.is_object() ? spec.value("groups", json::array()) : json::array();

@@ -24,8 +24,8 @@ std::string describe(const ProcessEnd& end);
 ///
 /// The child gets: its own process group, so that a Ctrl-C at the terminal is ours to handle;
 /// signal mask and handlers reset; descriptors 0 (null), 1 and 2 (the log), 3 (requests), 4
-/// (replies) and no other; an environment without OMPI_*, PMIX_*, PMI_* and SLURM_*, for it is no
-/// rank; an OOM score of 1000, so that the kernel takes it and not a rank. It sees the end of the
+/// (replies) and no other; an environment without OMPI_*, PMIX_*, PMI_* and SLURM_*, for it is not
+/// a rank; an OOM score of 1000, so that the kernel takes it and not a rank. It sees the end of the
 /// request pipe when we die.
 class SimulatorProcess {
  public:
@@ -52,7 +52,7 @@ class SimulatorProcess {
   void exchange(int timeout_ms);
   /// The next whole reply line; nothing = none is there.
   std::optional<std::string> next_reply();
-  /// The next n bytes, which are no line; nothing = they are not all there.
+  /// The next n bytes, which are not a line; nothing = they are not all there.
   std::optional<std::string> next_bytes(std::size_t n);
   /// The reply pipe is at its end: no more replies, the process is ending or gone.
   bool is_silent() const { return replies_ < 0; }

@@ -57,7 +57,7 @@ using Message =
                  message::Drain, message::Quit, message::Release, message::Released>;
 
 std::string encode(const Message& message);
-/// Throws InternalError on bytes that are no message.
+/// Throws InternalError on bytes that are not a message.
 Message decode(std::string_view bytes);
 
 }  // namespace faultsweep

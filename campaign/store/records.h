@@ -275,7 +275,7 @@ struct CaseRow {
   std::string identity, state;
   std::string outcome;            ///< of the result; "" without one.
   std::string status;             ///< how the run that decided the case ended; "" before.
-  std::string reason;             ///< why that is no full history.
+  std::string reason;             ///< why that is not a full history.
   std::optional<int> rank_class;  ///< see RankedCase; none without a result in the stage.
   CaseParameters parameters;
   std::vector<Cell> metrics;  ///< the columns asked for.

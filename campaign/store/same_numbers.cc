@@ -44,7 +44,7 @@ std::vector<std::optional<double>*> later_measures(faultsim::Measures& measures)
   return later;
 }
 
-/// A result from before a measure was added has none, which is no difference.
+/// A result from before a measure was added has none, which is not a difference.
 void forget_unknown(faultsim::Measures stored, faultsim::Measures& again) {
   const auto before = later_measures(stored), now = later_measures(again);
   for (std::size_t k = 0; k < now.size(); ++k) {

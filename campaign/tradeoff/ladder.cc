@@ -233,7 +233,7 @@ class LadderMaker {
 
   void activation_length() {
     TradeAxis& one =
-        axis("activation length", "How much hangs on the length that must slip to count?");
+        axis("activation length", "How much depends on the length that must slip to count?");
     one.reference = metres(scene_.numerics.activation_length);
     for (const double factor : {0.5, 1.0, 2.0}) {
       const std::string length = metres(factor * scene_.numerics.activation_length);

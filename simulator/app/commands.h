@@ -107,8 +107,8 @@ ExitCode plot_command(const PlotArguments& arguments);
 /// Prints what the bits of results depend on besides the scene: processor, BLAS, compiler, flags,
 /// libraries; and their fingerprint. No names of machines, no paths.
 ExitCode environment_command(bool json);
-/// Iterations, time and memory of the coupled path's preconditioners on the box of the seed's
-/// mesh-refinement study. Throws InputError with all names that are none.
+/// Iterations, time and memory of the coupled path's preconditioners on a published cracked box
+/// (coupled/box_study.h). Throws InputError with all names that are none.
 ExitCode solver_study_command(const SolverStudyArguments& arguments);
 /// Serves cases to a campaign; see schemas/worker_protocol.md.
 ExitCode worker_command(const WorkerArguments& arguments);

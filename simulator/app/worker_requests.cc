@@ -24,7 +24,7 @@ struct WorkerRequests::Shared {
   json running;  ///< number of the run that was handed out last.
   std::atomic<bool> stop = false;
   bool ended = false;
-  std::exception_ptr trouble;  ///< a line that is no JSON.
+  std::exception_ptr trouble;  ///< a line that is not JSON.
 
   void take(json request);
   void read_all(int descriptor);

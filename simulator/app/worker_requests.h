@@ -19,7 +19,7 @@ class WorkerRequests {
 
   /// The next request but cancellations, nothing at end of file. Where it is a run, `stop` is its
   /// own from now on: set as soon as it is cancelled, or at once if it was already. Throws what
-  /// nlohmann::json throws at a line that is no JSON.
+  /// nlohmann::json throws at a line that is not JSON.
   std::optional<nlohmann::json> next();
   const std::atomic<bool>& stop() const;
 

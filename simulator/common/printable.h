@@ -14,7 +14,7 @@ enum class Keep {
 
 /// text with what a terminal would obey rather than show spelled out ("\u001b", "\u202e", "\xff"):
 /// C0 and C1 control characters, DEL, marks that turn the direction of writing, line and paragraph
-/// separators; and bytes that are no UTF-8. What remains is safe in a message or table.
+/// separators; and bytes that are not UTF-8. What remains is safe in a message or table.
 std::string printable(std::string_view text, Keep keep = Keep::nothing);
 
 /// The first such character of text as printable() spells it; "" if there is none.

@@ -37,8 +37,8 @@ class CondensedBulk {
   Eigen::Matrix3Xd displacement(const std::vector<double>& load_factors,
                                 const Eigen::VectorXd& jump);
 
-  /// Half of a back-solve for nodal forces that are no load of the family (n_unknowns, N), and its
-  /// two uses.
+  /// Half of a back-solve for nodal forces that are not a load of the family (n_unknowns, N), and
+  /// its two uses.
   Eigen::VectorXd forward(const Eigen::VectorXd& force);
   /// The locked traction A⁻¹ (f_g − K_gr K_rr⁻¹ f_r) of that force, n_dofs, Pa.
   Eigen::VectorXd locked_traction(const Eigen::VectorXd& forward) const;

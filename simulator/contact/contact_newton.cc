@@ -311,7 +311,7 @@ bool ContactNewton::seen_before(const SubStep& sub_step) {
 /// A node that keeps opening and closing has failed in tension: it closes again without cohesion.
 /// Where cohesion outlives opening, open, it would close, and closed, its shear, held by cohesion,
 /// would open it: in a damped sub-step it hops, and slides on the average without cohesion. A
-/// static sub-step knows no hopping and then has no solution.
+/// static sub-step does not allow hopping and then has no solution.
 /// @returns whether some node lost it just now.
 bool ContactNewton::lose_cohesion(SubStep& sub_step) {
   const bool hops = sub_step.per_second > 0;

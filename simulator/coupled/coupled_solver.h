@@ -10,8 +10,8 @@
 
 namespace faultsim {
 
-/// Which factors of J = L U the preconditioner takes: both (two leading solves per iteration, the
-/// seed's) or the upper one (one leading solve).
+/// Which factors of J = L U the preconditioner takes: both (two leading solves per iteration, as
+/// Ferronato et al., SIAM GS 2019) or the upper one (one leading solve).
 enum class BlockForm { full, upper };
 
 struct SolverChoice {

@@ -26,10 +26,10 @@ enum class LoosePieces {
 /// The linear bulk over displacements of both sides of every fault (model section 11):
 /// K (n_u x n_u), unit loads, and where the fault nodes are in it.
 ///
-/// Dofs are 3 i + c for component c of the i-th node that is no other's copy by a tie. Prescribed
-/// displacements stay dofs: their rows and columns of K are those of the identity times the mean
-/// diagonal, so that every node has three dofs, which algebraic multigrid wants. Fault nodes that
-/// the condensed path keeps closed (DofMap) are tied here.
+/// Dofs are 3 i + c for component c of the i-th node that is not another's copy by a tie.
+/// Prescribed displacements stay dofs: their rows and columns of K are those of the identity times
+/// the mean diagonal, so that every node has three dofs, which algebraic multigrid wants. Fault
+/// nodes that the condensed path keeps closed (DofMap) are tied here.
 class TwoSidedBulk {
  public:
   /// Throws InputError when nothing holds a body, or a piece that faults cut loose where those are

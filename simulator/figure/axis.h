@@ -21,7 +21,7 @@ struct Axis {
 };
 
 /// Multiples of 1, 2 or 5 times a power of ten within [low, high], about n of them, with the digits
-/// that tell them apart and a true minus. Nothing where the ends are no finite range, or one
+/// that tell them apart and a true minus. Nothing where the ends are not a finite range, or one
 /// of last digits only.
 std::vector<Tick> ticks_within(double low, double high, int n);
 

@@ -17,7 +17,7 @@ struct Activation {
   double area = 0;      ///< m2, of the extents in profiles that satisfy the criterion.
   double max_slip = 0;  ///< m.
   bool activated = false;
-  /// The flag does not hang on the mesh. Not resolved: extents that reach the activation length
+  /// The flag does not depend on the mesh. Not resolved: extents that reach the activation length
   /// or not depending on where in a cell slip ends, and faults that do not reach it but where χ̄
   /// may be 1 within its error.
   bool resolved = true;

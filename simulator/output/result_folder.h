@@ -33,7 +33,7 @@ class ResultFolder {
     std::vector<std::filesystem::path> inputs;  ///< files that the command reads.
   };
   /// Throws InputError when the folder may not be written to, holds entries of these names that
-  /// are no result, or a result that is read; StorageError when it cannot be written or another
+  /// are not a result, or a result that is read; StorageError when it cannot be written or another
   /// process writes into it.
   explicit ResultFolder(Request request);
   /// Removes what was written, unless commit() or keep_unfinished() was called.

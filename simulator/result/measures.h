@@ -14,13 +14,14 @@ namespace faultsim {
 struct Measures {
   bool activated = false;  ///< *slides*: slip since the start of the stage (whole case: since
                            ///< start) reaches the criterion.
-  bool activation_resolved = true;  ///< for certain, or certainly not: does not hang on the cells.
-  bool slips = false;               ///< some node: mesh-dependent, a bound.
-  bool opens = false;               ///< some node, in one of the steps.
-  double activated_area = 0;        ///< m2, at its maximum over steps, sum over faults.
-  double moment = 0;                ///< M0, N m, at the end (stage: summed over its steps).
-  int n_events = 0;                 ///< *jumps*; of a fault: that nucleated on it.
-  double event_moment = 0;          ///< N m, of the largest event, over all faults that moved.
+  bool activation_resolved =
+      true;                   ///< for certain, or certainly not: does not depend on the cells.
+  bool slips = false;         ///< some node: mesh-dependent, a bound.
+  bool opens = false;         ///< some node, in one of the steps.
+  double activated_area = 0;  ///< m2, at its maximum over steps, sum over faults.
+  double moment = 0;          ///< M0, N m, at the end (stage: summed over its steps).
+  int n_events = 0;           ///< *jumps*; of a fault: that nucleated on it.
+  double event_moment = 0;    ///< N m, of the largest event, over all faults that moved.
   std::optional<double> event_magnitude;    ///< its Mw; none without, or in plane strain.
   std::optional<double> event_stress_drop;  ///< Pa, its drop of shear traction; none without.
   double chi_bar = 0;                       ///< maximum over faults and steps.

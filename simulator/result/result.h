@@ -48,7 +48,7 @@ struct FaultMetrics {
                                 ///< the activation length.
   double activated_length = 0;  ///< m, longest down-dip extent with slip > slip_tolerance.
   bool activated = false;       ///< activated_length ≥ activation_length.
-  bool activation_resolved = true;  ///< that flag does not hang on the cells (docs/model.md).
+  bool activation_resolved = true;  ///< that flag does not depend on the cells (docs/model.md).
   bool activated_at_edge = false;   ///< activated next to an edge of the fault: it might go on.
   double max_slip = 0;              ///< m, |g_T| since start.
   double mean_slip = 0;             ///< m, over the fault's area.

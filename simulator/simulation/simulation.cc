@@ -386,6 +386,19 @@ const PreparedOperator& Simulation::prepared() const {
   return impl_->prepared;
 }
 
+std::vector<FaultPoint> Simulation::points() const {
+  const FaultGeometry& geometry = prepared().op->geometry;
+  std::vector<FaultPoint> points;
+  points.reserve(geometry.nodes.size());
+  for (const OperatorFault& fault : geometry.faults) {
+    for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
+      const OperatorNode& node = geometry.nodes[static_cast<std::size_t>(k)];
+      points.push_back({fault.name, node.position, node.normal, node.strike, node.dip, node.area});
+    }
+  }
+  return points;
+}
+
 CaseResult Simulation::run(const RunContext& context, const RunWatch& watch) {
   prepare(context);
   CaseProbe probe;

@@ -33,6 +33,14 @@ struct Change {
 };
 using Changes = std::vector<Change>;
 
+/// Where an entry of FaultFields lies: column k of its matrices belongs to point k.
+struct FaultPoint {
+  std::string fault;         ///< its name.
+  Eigen::Vector3d position;  ///< m; on the side y >= 0 where only half of a domain is modelled.
+  Eigen::Vector3d normal, strike, dip;  ///< unit vectors of its frame; normal from minus to plus.
+  double area;                          ///< m2; per metre of strike (m) in plane strain.
+};
+
 /// Who looks on while a case runs; the result does not depend on it. Called by the thread that
 /// runs.
 struct RunWatch {
@@ -78,7 +86,8 @@ class Simulation {
   /// @param values  an object of values by JSON pointer; its source is what messages call the case.
   void change_values(const JsonDocument& values);
 
-  /// The scene at hand: held, with the last changes.
+  /// The scene at hand: held, with the last changes. As prepared(), for programs within the
+  /// project.
   const LoadedScene& scene() const;
   /// What will be modelled of it, why, and what it costs, as `faultsim plan` prints it.
   std::string plan_text() const;
@@ -94,7 +103,10 @@ class Simulation {
   /// some seconds later, and is waited for by the next one and by the destructor.
   /// @param keep_bulk  with the factor of the bulk, for displacements of the whole mesh.
   bool prepare(const RunContext& context = {}, bool keep_bulk = false);
+  /// The operator at hand, for programs within the project: outside, its type is incomplete.
   const PreparedOperator& prepared() const;  ///< @pre !needs_operator()
+  /// The points of all faults, in the order of FaultFields. @pre !needs_operator()
+  std::vector<FaultPoint> points() const;
 
   /// Runs the scene at hand, prepared first if it is not. A stop while it runs is an outcome
   /// (`interrupted`), one while the operator is prepared is thrown (Interrupted).

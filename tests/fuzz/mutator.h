@@ -14,7 +14,7 @@ class Mutator {
 
   /// A text of the corpus with one to four changes. JSON is changed as a document (values of
   /// another kind, size or unit, keys misspelt, elements repeated or lost, parts of other texts put
-  /// in), two in ten texts and all that is no JSON as bytes.
+  /// in), two in ten texts and all that is not JSON as bytes.
   std::string json();
   std::string bytes();
 

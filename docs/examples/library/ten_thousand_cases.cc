@@ -28,6 +28,19 @@ int main(int argc, char** argv) try {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   std::printf("a fault slides in %.1f %% of %d cases; %.0f cases/s\n", 100.0 * n_slide / n_cases,
               n_cases, n_cases / took.count());
+
+  const auto points = field.points();  // where the entries of fields lie
+  double largest = -1;
+  std::size_t place = 0;
+  faultsim::RunWatch watch;
+  watch.step = [&](const faultsim::StepResult&, const faultsim::FaultFields& fields) {
+    Eigen::Index k = 0;
+    const double chi = fields.critical_index.maxCoeff(&k);
+    if (chi > largest) largest = chi, place = static_cast<std::size_t>(k);
+  };
+  field.run(faultsim::Changes(), {}, watch);
+  std::printf("the scene as it is comes closest to sliding on %s at %.0f m of depth: chi %.2f\n",
+              points[place].fault.c_str(), -points[place].position.z(), largest);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;

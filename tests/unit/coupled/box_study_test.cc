@@ -8,7 +8,7 @@
 namespace faultsim {
 namespace {
 
-/// Unknowns as the seed's table has them.
+/// Unknowns as the table of Ferronato et al. (SIAM GS 2019) has them.
 void expect_counts(int cells_per_metre, int n_displacements, int n_multipliers) {
   const TwoSidedBulk bulk(box_study(cells_per_metre));
   const SaddlePoint j = make_saddle_point(bulk);
@@ -25,7 +25,7 @@ TEST(BoxStudy, HasTheSeedsNumbersOfUnknowns) {
 
 TEST(BoxStudy, HasTheSeedsNumbersOfUnknownsAtASixteenthSlow) { expect_counts(16, 142659, 6336); }
 
-/// Iterations to 1e-6 with an exact leading block and the physical load, both factors as the seed.
+/// Iterations to 1e-6 with an exact leading block and the physical load, both factors as there.
 int iterations(int cells_per_metre, SchurKind schur) {
   const TwoSidedBulk bulk(box_study(cells_per_metre));
   const SaddlePoint j = make_saddle_point(bulk);
@@ -40,7 +40,7 @@ int iterations(int cells_per_metre, SchurKind schur) {
 
 struct SeedRow {
   SchurKind schur;
-  int half, quarter, eighth;  ///< the seed's counts, at h = 1/2, 1/4 and 1/8.
+  int half, quarter, eighth;  ///< published counts, at h = 1/2, 1/4 and 1/8.
 };
 constexpr SeedRow kSeed[] = {{SchurKind::fsai_direct, 22, 29, 35},
                              {SchurKind::bds, 27, 34, 40},

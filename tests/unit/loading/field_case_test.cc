@@ -193,8 +193,9 @@ TEST(FieldCase, SubsidesAboveDepletionAndNoStepExceedsStrength) {
   EXPECT_LE(result.whole.moment, sum * (1 + 1e-9));
 }
 
-/// The seed's kind: level blocks and an offset of 200 m, a small friction angle, production to −200
-/// bar, then cushion gas and storage. @param recovered  pressure change after production.
+/// The kind of Ferronato et al. (SIAM GS 2019): level blocks and an offset of 200 m, a small
+/// friction angle, production to −200 bar, then cushion gas and storage. @param recovered  pressure
+/// change after production.
 json storage_field(const char* recovered, const char* lower) {
   json scene = field();
   scene["mesh"] = {{"strike", "400 m"}, {"dip", "20 m"}, {"normal", "40 m"}, {"growth", 1.6}};
@@ -233,7 +234,7 @@ TEST(FieldCase, AFaultThatSlidInProductionSlidesBackUnexpectedlyAsPressureRecove
   EXPECT_EQ(again.pressures.region_plus, "east");
 }
 
-/// The seed's preliminary indication: a limited recovery of pressure avoids it. The second stage of
+/// Their preliminary indication: a limited recovery of pressure avoids it. The second stage of
 /// production adds a second episode, which no reactivation is.
 TEST(FieldCase, ALimitedRecoveryIsNotUnexpected) {
   const CaseResult result = run(storage_field("-150 bar", "-170 bar"));

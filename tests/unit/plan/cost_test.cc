@@ -125,7 +125,7 @@ TEST(Savings, AreSaidInShares) {
             "99.9 % of the memory, 1320 times less operator time");
 }
 
-/// Identity must not hang on predicted figures: they change with every new fit.
+/// Identity must not depend on predicted figures: they change with every new fit.
 TEST(Savings, AreNoPartOfTheFamily) {
   const Scene scene = reference({{"/tier", "screening"}});
   std::vector<Problem> problems;

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "simulator/loading/run_case.h"
@@ -61,6 +64,36 @@ TEST(Simulation, ChangesAreToTheHeldSceneAndUseItsOperator) {
 
   Simulation fresh = field();
   EXPECT_EQ(bits(fresh.run({{"friction_angle", "18 deg"}})), bits(weak));
+}
+
+TEST(Simulation, SaysWhereTheFieldsOfAStepLie) {
+  Simulation simulation = field();
+  simulation.prepare();
+  const std::vector<FaultPoint> points = simulation.points();
+  std::map<std::string, double> lowest;  // z, m, by fault
+  RunWatch watch;
+  watch.step = [&](const StepResult&, const FaultFields& fields) {
+    ASSERT_EQ(fields.jump.cols(), static_cast<Eigen::Index>(points.size()));
+  };
+  simulation.run(RunContext(), watch);
+  for (const FaultPoint& point : points) {
+    EXPECT_NEAR(point.normal.cross(point.strike).dot(point.dip), 1, 1e-12) << "right-handed";
+    EXPECT_LT(point.dip.z(), 0) << "dip points down";
+    EXPECT_GT(point.area, 0);
+    lowest[point.fault] = std::min(lowest[point.fault], point.position.z());
+  }
+  EXPECT_EQ(lowest.size(), simulation.scene().scene.faults.size());
+  // Down a plane-strain fault shares of the dip line add up to the length between its ends.
+  for (const auto& [fault, z] : lowest) {
+    double length = 0, highest = z;
+    for (const FaultPoint& point : points) {
+      if (point.fault != fault) continue;
+      length += point.area;
+      highest = std::max(highest, point.position.z());
+    }
+    EXPECT_GT(length, (highest - z) * (1 - 1e-12));
+    EXPECT_LT(length, 1.2 * (highest - z));
+  }
 }
 
 TEST(Simulation, SaysWhenAChangeNeedsAnotherOperator) {
