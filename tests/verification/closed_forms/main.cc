@@ -18,7 +18,7 @@ ExitCode verify_main(int argc, char** argv) {
   app.add_flag("--list", list, "list the problems");
   app.add_flag("--json", json, "machine-readable output on stdout");
   app.add_flag("--slow", slow, "also the members that take minutes");
-  app.add_flag("--markdown", markdown, "tables as in docs/verification.md");
+  app.add_flag("--markdown", markdown, "tables as in results/verification/figures.md");
   app.footer(
       "Examples:\n"
       "  faultsim-verify                  all, under a minute\n"

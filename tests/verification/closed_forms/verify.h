@@ -16,7 +16,7 @@ namespace faultsim {
 /// @param list      only prints names and titles.
 /// @param json      prints one JSON document instead of tables.
 /// @param slow      includes the cases marked slow; a case given by its full name is run anyway.
-/// @param markdown  prints the tables of docs/verification.md.
+/// @param markdown  prints the tables of results/verification/figures.md.
 /// @return done when every comparison passed; regress on any miss, or when nothing was compared.
 ExitCode verify_command(const std::vector<std::string>& names, bool list, bool json, bool slow,
                         bool markdown = false);

@@ -51,7 +51,7 @@ double observed_order(double coarse_error, double fine_error);
 
 /// A table for the screen.
 std::string report_to_text(const VerifyReport& report);
-/// The same for docs/verification.md.
+/// The same for results/verification/figures.md.
 std::string report_to_markdown(const VerifyReport& report);
 nlohmann::json report_to_json(const VerifyReport& report);
 
