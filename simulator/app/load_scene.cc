@@ -54,6 +54,8 @@ nlohmann::json remarks_to_json(const LoadedScene& loaded) {
                        {"line", loaded.document.line_of(remark.pointer)},
                        {"what", remark.what}});
   }
+  for (const std::string& warning : loaded.plan.warnings)
+    remarks.push_back({{"pointer", ""}, {"line", 0}, {"what", warning}});
   return remarks;
 }
 

@@ -64,7 +64,8 @@ ExitCode validate_command(const SceneArguments& arguments) {
     } else {
       std::cout << arguments.file << ": valid, case " << case_identity(loaded.scene).substr(0, 12)
                 << "\n"
-                << remarks_to_text(loaded);
+                << sides_to_text(loaded.plan) << remarks_to_text(loaded);
+      for (const std::string& text : loaded.plan.warnings) std::cout << "warning: " << text << "\n";
     }
     return ExitCode::done;
   } catch (const InputError& error) {

@@ -13,9 +13,6 @@
 
 namespace faultsim {
 
-/// The mesh node whose displacement stands for that of a point: the nearest.
-int observed_node(const Mesh& mesh, const Eigen::Vector3d& point);
-
 /// The factorised bulk of one family: kept while displacement fields, or the creep of salt, still
 /// need it.
 class CondensedBulk {

@@ -6,9 +6,11 @@
 #include <cstdio>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/units.h"
 #include "simulator/loads/history.h"
-#include "simulator/scene/field_depths.h"
+#include "simulator/scene/fault_pressure.h"
 #include "simulator/scene/initial_state.h"
+#include "simulator/scene/pressure_history.h"
 
 namespace faultsim {
 namespace {
@@ -20,22 +22,16 @@ std::string bar(double pascal) {
   std::snprintf(text, sizeof text, "%.1f bar", pascal / 1e5);
   return text;
 }
+std::string years(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g year", from_si(seconds, Dimension::time, "year"));
+  return text;
+}
 std::string metres(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.0f m", value);
   return text;
 }
-
-/// The highest pressure change over the load steps, and when.
-struct Peak {
-  double change = 0;  ///< Pa.
-  const LoadStep* step = nullptr;
-  void see(double value, const LoadStep& when) {
-    if (step != nullptr && value <= change) return;
-    change = value;
-    step = &when;
-  }
-};
 
 /// Least compressive principal total stress of the initial state, as a pressure, Pa.
 double least_stress(const Scene& scene, double depth, DepthSide side) {
@@ -57,81 +53,97 @@ DepthInterval depths_of_region(const Scene& scene, std::size_t region) {
   return {-std::min(top, scene.box.to[2]), -std::max(bottom, scene.box.from[2])};
 }
 
-/// Where a prescribed pressure acts: its window, or the regions beside the fault of a field; of a
-/// box without a window all regions.
-DepthInterval depths_of_fault(const Scene& scene, std::size_t fault) {
-  const FaultPressure& law = scene.faults[fault].pressure;
-  if (law.depth_window) return {(*law.depth_window)[0], (*law.depth_window)[1]};
-  std::vector<std::size_t> regions;
-  const bool is_field = scene.geometry_kind == GeometryKind::field;
-  for (std::size_t r = 0; r < scene.pressure.size(); ++r) {
-    if (!is_field || r == fault || r + 1 == fault) regions.push_back(r);
+/// Where a pressure acts and is judged.
+struct Place {
+  FaultPlace at;
+  double initial = 0;  ///< Pa, before production.
+  double least = 0;    ///< Pa, least total principal stress.
+};
+
+/// The largest value so far, and where and when it was.
+struct Worst {
+  double value = kRounding;
+  double pressure = 0;  ///< Pa, reached.
+  const Place* place = nullptr;
+  const LoadStep* step = nullptr;
+  void see(double now, double reached, const Place& where, const LoadStep& when) {
+    if (!(now > value)) return;
+    *this = {now, reached, &where, &when};
   }
-  if (regions.empty()) return {0, 0};
-  DepthInterval all = depths_of_region(scene, regions.front());
-  for (const std::size_t r : regions) {
-    all.unite(depths_of_region(scene, r));
-  }
-  return all;
-}
+};
 
 class PressureWarnings {
  public:
   explicit PressureWarnings(const Scene& scene) : scene_(scene), steps_(load_steps(scene)) {}
 
   std::vector<std::string> all() {
-    std::vector<Peak> regions(scene_.pressure.size());
-    for (const LoadStep& step : steps_) {
-      const std::vector<double> changes = pressure_changes(scene_, step.time);
-      for (std::size_t r = 0; r < changes.size(); ++r) regions[r].see(changes[r], step);
-    }
-    for (std::size_t r = 0; r < regions.size(); ++r) {
-      const DepthInterval depths = depths_of_region(scene_, r);
-      const auto initial = [&](double depth) { return initial_region_pressure(scene_, r, depth); };
-      judge("the pressure of " + scene_.pressure[r].region, regions[r], depths, initial);
-    }
-    for (std::size_t f = 0; f < scene_.faults.size(); ++f) prescribed(f);
+    for (std::size_t r = 0; r < scene_.pressure.size(); ++r) region(r);
+    for (std::size_t f = 0; f < scene_.faults.size(); ++f) fault(f);
     return std::move(texts_);
   }
 
  private:
-  void prescribed(std::size_t fault) {
-    const FaultPressure& law = scene_.faults[fault].pressure;
-    if (law.rule != FaultPressureRule::prescribed) return;
-    Peak peak;
-    for (const LoadStep& step : steps_)
-      peak.see(prescribed_pressure_change(scene_, law, step.time), step);
-    const DepthInterval depths = depths_of_fault(scene_, fault);
-    const auto initial = [&](double depth) {
-      return initial_state(scene_, -depth, side_of(depth, depths)).pressure;
-    };
-    judge("the prescribed pressure of fault " + scene_.faults[fault].name, peak, depths, initial);
-  }
-
-  static DepthSide side_of(double depth, const DepthInterval& range) {
-    return depth == range.top ? DepthSide::below : DepthSide::above;
-  }
-
-  template <typename Initial>
-  void judge(const std::string& of, const Peak& peak, const DepthInterval& depths,
-             const Initial& initial) {
-    if (peak.step == nullptr || peak.change <= kRounding) return;
-    const std::string when = concat("load step ", peak.step->step, " (", peak.step->stage, ")");
-    texts_.push_back(
-        concat(of, " rises to ", bar(peak.change), " above the initial one in ", when));
-    double worst = 0, place = 0, strength = 0;
+  void region(std::size_t r) {
+    const std::vector<double>& changes = scene_.pressure[r].pressure_change;
+    if (changes.empty()) return;  // a flow result's
+    const DepthInterval depths = depths_of_region(scene_, r);
+    std::vector<Place> places;
     for (const double depth : {depths.top, depths.bottom}) {
-      const double least = least_stress(scene_, depth, side_of(depth, depths));
-      const double excess = initial(depth) + peak.change - least;
-      if (excess <= worst) continue;
-      worst = excess;
-      place = depth;
-      strength = least;
+      const DepthSide side = depth == depths.top ? DepthSide::below : DepthSide::above;
+      places.push_back({{.depth = depth, .side = side},
+                        initial_region_pressure(scene_, r, depth),
+                        least_stress(scene_, depth, side)});
     }
-    if (worst <= kRounding) return;
-    texts_.push_back(concat(of, " reaches ", bar(initial(place) + peak.change), " at ",
-                            metres(place), " depth in ", when,
-                            ", above the least total principal stress of ", bar(strength),
+    judge("the pressure of " + scene_.pressure[r].region, places,
+          [&](const FaultPlace&, double time) {
+            return pressure_change_at(scene_.pressure[r], time);
+          });
+  }
+
+  void fault(std::size_t f) {
+    if (!may_rise(scene_.faults[f].pressure)) return;
+    std::vector<Place> places;
+    for (const FaultPlace& at : given_pressure_places(scene_, f)) {
+      places.push_back({at, initial_state(scene_, -at.depth, at.side).pressure,
+                        least_stress(scene_, at.depth, at.side)});
+    }
+    const bool is_table = scene_.faults[f].pressure.rule == FaultPressureRule::table;
+    judge(concat("the ", is_table ? "tabled" : "prescribed", " pressure of fault ",
+                 scene_.faults[f].name),
+          places, [&](const FaultPlace& at, double time) {
+            return given_pressure_change(scene_, f, at, time);
+          });
+  }
+
+  /// Spares long tables of depletion.
+  static bool may_rise(const FaultPressure& law) {
+    const std::vector<double>& values = law.profile.change;
+    return law.rule != FaultPressureRule::table ||
+           std::any_of(values.begin(), values.end(), [](double v) { return v > kRounding; });
+  }
+
+  template <typename Change>
+  void judge(const std::string& of, const std::vector<Place>& places, const Change& change) {
+    Worst rise, excess;
+    for (const LoadStep& step : steps_) {
+      for (const Place& place : places) {
+        const double now = change(place.at, step.time), reached = place.initial + now;
+        rise.see(now, reached, place, step);
+        excess.see(reached - place.least, reached, place, step);
+      }
+    }
+    if (rise.step == nullptr) return;
+    const auto where = [](const Worst& worst) {
+      return concat(bar(worst.pressure), " at ", metres(worst.place->at.depth),
+                    " depth in load step ", worst.step->step, " (", worst.step->stage, ", after ",
+                    years(worst.step->time), ")");
+    };
+    texts_.push_back(concat(of, " rises to ", where(rise), ", ", bar(rise.value),
+                            " above the initial one of ", bar(rise.place->initial)));
+    if (excess.step == nullptr) return;
+    texts_.push_back(concat(of, " reaches ", where(excess),
+                            ", above the least total principal stress of ",
+                            bar(excess.place->least),
                             " there before production: rock would fracture, which is not "
                             "modelled"));
   }

@@ -1,14 +1,10 @@
 #pragma once
 
 #include "simulator/model/fault_operator.h"
+#include "simulator/scene/fault_pressure.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {
-
-/// Δp_f of a fault's table at a place and time, Pa: linear in between, constant beyond the places
-/// and after the last time.
-/// @param dip, strike  m, as the table counts them. @param time  s.
-double table_pressure(const FaultPressureTable& table, double dip, double strike, double time);
 
 /// Where a node is in the table of its fault: depth or distance down dip from the centre of the
 /// patch, and distance along strike from that centre (field: y), m.

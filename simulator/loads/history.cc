@@ -52,30 +52,6 @@ bool in_window(const FaultPressure& law, const OperatorNode& node, const Pressur
 
 }  // namespace
 
-double pressure_by_rule(const FaultPressure& law, double minus, double plus) {
-  switch (law.rule) {
-    case FaultPressureRule::mean:
-      return 0.5 * (minus + plus);
-    case FaultPressureRule::min:
-      return std::min(minus, plus);
-    case FaultPressureRule::max:
-      return std::max(minus, plus);
-    case FaultPressureRule::minus:
-      return minus;
-    case FaultPressureRule::plus:
-      return plus;
-    case FaultPressureRule::fraction: {
-      const double low = std::min(minus, plus);
-      return low + law.fraction * (std::max(minus, plus) - low);
-    }
-    case FaultPressureRule::prescribed:
-    case FaultPressureRule::table:
-    case FaultPressureRule::none:
-      return 0;
-  }
-  throw_internal("known fault pressure rule", "", __FILE__, __LINE__);
-}
-
 std::vector<LoadStep> load_steps(const Scene& scene) {
   std::vector<LoadStep> steps{{0, "initial", 0}};
   for (const StepEnd& end : step_ends(scene)) {
@@ -144,12 +120,6 @@ std::vector<double> LoadFactors::at(double time, const std::vector<double>& pres
     factors.push_back(stress);
   }
   return factors;
-}
-
-double prescribed_pressure_change(const Scene& scene, const FaultPressure& law, double time) {
-  if (!law.table.time.empty()) return law.prescribed * table_value(law.table, time);
-  const double ramp = scene.stages.empty() ? 0 : scene.stages.front().duration;
-  return law.prescribed * (ramp > 0 ? std::clamp(time / ramp, 0.0, 1.0) : 1.0);
 }
 
 bool prescribed_pressure_acts(const Scene& scene, const FaultGeometry& geometry,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "simulator/model/fault_operator.h"
+#include "simulator/scene/fault_pressure.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {
@@ -48,13 +49,6 @@ class LoadFactors {
   const std::vector<LoadKey>& keys_;
   std::vector<int> region_of_load_;  // −1 for boundary loads
 };
-
-/// What a fault's rule makes of the pressure changes of the cells on either side, Pa; 0 for the
-/// rules prescribed and none.
-double pressure_by_rule(const FaultPressure& law, double minus, double plus);
-
-/// The change that rule `prescribed` gives at time t, Pa, where it acts.
-double prescribed_pressure_change(const Scene& scene, const FaultPressure& law, double time);
 
 /// Whether a prescribed change reaches any node of the fault: its window, or the cells beside it.
 bool prescribed_pressure_acts(const Scene& scene, const FaultGeometry& geometry, std::size_t fault);

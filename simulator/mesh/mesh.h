@@ -77,4 +77,7 @@ struct MeshQuality {
 
 MeshQuality check_quality(const Mesh& mesh);
 
+/// The mesh node whose displacement stands for that of a point: the nearest.
+int observed_node(const Mesh& mesh, const Eigen::Vector3d& point);
+
 }  // namespace faultsim

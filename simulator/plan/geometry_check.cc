@@ -4,10 +4,14 @@
 
 #include "simulator/elasticity/held.h"
 #include "simulator/plan/boundary_conditions.h"
+#include "simulator/plan/surface_check.h"
 
 namespace faultsim {
 
 std::vector<Problem> geometry_problems(const Scene& scene, const Plan& plan) {
+  if (scene.numerics.surface.wanted()) {
+    if (auto problems = surface_problems(scene, plan); !problems.empty()) return problems;
+  }
   if (plan.n_cells > kMostCellsChecked) return {};
   try {
     const bool is_field = scene.geometry_kind == GeometryKind::field;

@@ -10,8 +10,9 @@ namespace faultsim {
 inline constexpr long kMostCellsChecked = 100'000;
 
 /// What a run would refuse once it has the mesh: a fault that splits no node, tied faces that do
-/// not match, cells that are too distorted, a body that nothing holds. Makes the mesh, no matrix;
-/// silent about more than kMostCellsChecked cells. @pre the scene and plan had no problems.
+/// not match, cells that are too distorted, a body that nothing holds; with a surface of operators,
+/// ranges over which it cannot be built (surface_check.h). Makes the mesh, no matrix; silent about
+/// more than kMostCellsChecked cells. @pre the scene and plan had no problems.
 std::vector<Problem> geometry_problems(const Scene& scene, const Plan& plan);
 
 }  // namespace faultsim

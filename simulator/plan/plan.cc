@@ -1,6 +1,7 @@
 #include "simulator/plan/plan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 #include <utility>
 
 #include "simulator/common/fingerprint.h"
+#include "simulator/mesh/patch_frame.h"
 #include "simulator/plan/cost.h"
 #include "simulator/plan/creep_plan.h"
 #include "simulator/plan/influence_plan.h"
@@ -417,6 +419,20 @@ std::string canonical_family(const Scene& scene, const Plan& plan) {
   return j.dump();
 }
 
+namespace {
+
+/// The side that the rule `minus` takes, whatever the strikes: the normals of all faults of a mesh
+/// point along one axis of its grid.
+std::string minus_side(const Scene& scene, const Plan& plan) {
+  if (scene.faults.empty()) return "";
+  if (scene.geometry_kind == GeometryKind::field) return "x-";
+  std::vector<Problem> said_elsewhere;
+  const std::size_t axis = common_axis(patch_frames(box_mesh_spec(scene, plan), said_elsewhere));
+  return axis < 3 ? std::string(1, "xyz"[axis]) + "-" : "";
+}
+
+}  // namespace
+
 Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
   Plan plan;
   plan.initial = initial_regions(scene);
@@ -444,6 +460,7 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
     ++plan.n_steps;
     plan.n_added_steps += step.added;
   }
+  plan.minus_side = minus_side(scene, plan);
   predict_cost(shape, plan);
   predict_influence(scene, shape, reservoir_cells(scene, lines, plan.plane_strain), plan);
   plan.n_operators = predicted_operators(scene.numerics.surface);
@@ -500,6 +517,16 @@ std::string operator_fingerprint(const Scene& scene, const Plan& plan, const std
   return fingerprint(j.dump());
 }
 
+std::string sides_to_text(const Plan& plan) {
+  if (plan.minus_side.empty()) return "";
+  const char axis = plan.minus_side.front();
+  const std::array<const char*, 2> names = axis == 'x'   ? std::array{"west", "east"}
+                                           : axis == 'y' ? std::array{"south", "north"}
+                                                         : std::array{"below", "above"};
+  return concat("sides of faults: minus is that of smaller ", axis, " (", names[0],
+                "), plus that of larger ", axis, " (", names[1], "), whatever the strike\n");
+}
+
 nlohmann::json plan_to_json(const Plan& plan) {
   nlohmann::json j = {{"half_domain", plan.half_domain},
                       {"plane_strain", plan.plane_strain},
@@ -510,6 +537,7 @@ nlohmann::json plan_to_json(const Plan& plan) {
                       {"n_added_steps", plan.n_added_steps},
                       {"predicted_operator_s", plan.operator_seconds},
                       {"predicted_memory_bytes", plan.memory_bytes},
+                      {"minus_side", plan.minus_side},
                       {"family", plan.family},
                       {"creep",
                        {{"active", plan.creep.active},
@@ -539,7 +567,7 @@ std::string plan_to_text(const Plan& plan) {
       text += (r.applied ? "  saves " : "  would save ") + saving_text(*r.saving) + "\n";
     if (!r.bound.empty()) text += "  switch: " + r.switch_ + "\n";
   }
-  text += initial_state_to_text(plan.initial);
+  text += initial_state_to_text(plan.initial) + sides_to_text(plan);
   char line[256];
   std::snprintf(line, sizeof line, "cells %ld, unknowns %ld (of which jumps %ld), load steps %d",
                 plan.n_cells, plan.n_unknowns, plan.n_jump, plan.n_steps);

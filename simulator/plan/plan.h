@@ -61,6 +61,7 @@ struct Plan : PlannedSize {
   int n_added_steps = 0;  ///< of these, those that end at turning points between a stage's own.
   std::vector<InitialRegion> initial;  ///< the initial state per pressure region.
   std::vector<std::string> warnings;   ///< of the input, for who reads the plan; one sentence each.
+  std::string minus_side;              ///< of every fault: "x-", of smaller x; "" without faults.
   std::string family;  ///< fingerprint of what defines the linear bulk (without BLAS).
 };
 
@@ -95,6 +96,10 @@ std::string operator_fingerprint(const Scene& scene, const Plan& plan, const std
 nlohmann::json initial_state_to_json(const std::vector<InitialRegion>& regions);
 /// A line per region, bar, for the screen.
 std::string initial_state_to_text(const std::vector<InitialRegion>& regions);
+
+/// Which sides of the faults are called minus and plus: "minus is the side of smaller x (west)
+/// ...".
+std::string sides_to_text(const Plan& plan);
 
 nlohmann::json plan_to_json(const Plan& plan);
 std::string plan_to_text(const Plan& plan);  ///< for the screen, with reasons.

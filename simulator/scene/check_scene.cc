@@ -5,9 +5,7 @@
 #include <string>
 
 #include "simulator/scene/field_depths.h"
-#include "simulator/scene/initial_state.h"
 #include "simulator/scene/load_times.h"
-#include "simulator/scene/pressure_history.h"
 #include "simulator/scene/scene_reader.h"
 
 /// Checks that relate parts of a scene. NaN marks what was reported before and fails no check.
@@ -229,135 +227,6 @@ void check_observation_points(SceneReader& reader, const Scene& scene) {
   }
 }
 
-/// Where pressure can be lowest in a region: its top and, if within, below an overpressured layer.
-struct Place {
-  double depth;
-  DepthSide side;
-};
-std::vector<Place> lowest_places(const Scene& scene, std::size_t region) {
-  if (scene.geometry_kind == GeometryKind::field) {
-    const DepthInterval layer = reservoir_range(scene.field);
-    const DepthInterval reservoir = reservoir_range(scene.field, scene.field.blocks[region]);
-    const bool is_uniform = scene.field.blocks[region].overpressure.has_value();
-    std::vector<Place> places = {{reservoir.top, DepthSide::below}};
-    for (const double jump : {layer.top, layer.bottom}) {
-      if (is_uniform) continue;
-      if (jump > reservoir.top && jump < reservoir.bottom) {
-        places.push_back({jump, DepthSide::below});
-      }
-    }
-    return places;
-  }
-  const PressureRegion& box = scene.box.regions[region];
-  const bool disc = box.shape == RegionShape::disc;
-  const double top = disc ? box.center[2] + 0.5 * box.thickness : box.to[2];
-  const double bottom = disc ? box.center[2] - 0.5 * box.thickness : box.from[2];
-  return {{-std::min(top, scene.box.to[2]), DepthSide::below},
-          {-std::max(bottom, scene.box.from[2]), DepthSide::above}};
-}
-
-double pressure_at(const Scene& scene, std::size_t region, const Place& place) {
-  if (scene.geometry_kind == GeometryKind::field && scene.field.blocks[region].overpressure) {
-    return initial_region_pressure(scene, region, place.depth);
-  }
-  return initial_state(scene, -place.depth, place.side).pressure;
-}
-
-/// What in the document made the pressure of a region at a step.
-std::string cause(const SceneReader& reader, const PressureHistory& history, std::size_t stage) {
-  const std::string& region = history.region;
-  const std::string csv = "/compartments/" + pointer_token(region) + "/csv";
-  if (reader.has(csv)) return csv;
-  if (history.from_csv) return "/pressure_csv";
-  for (std::size_t i = stage + 1; i-- > 0;) {
-    for (const char* key : {"pressure_change", "pressure", "pressure_between"}) {
-      const std::string pointer = element("/stages", i) + "/" + key;
-      if (reader.has(pointer + "/" + pointer_token(region))) {
-        return pointer + "/" + pointer_token(region);
-      }
-      if (reader.has(pointer) && !reader.find(pointer)->is_object()) return pointer;
-    }
-  }
-  return "/stages";
-}
-
-std::string below_zero(const std::string& where, double depth, double pressure, std::size_t step,
-                       const Stage& stage) {
-  return "the pressure " + where + " falls to " + in_unit(pressure, Dimension::pressure, "bar") +
-         " at " + metres(depth) + " depth in step " + std::to_string(step + 1) + " (stage \"" +
-         stage.name + "\")";
-}
-
-/// The cure rounds towards zero, so that following it to the letter works.
-std::string below_zero_cure(double initial) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.1f bar",
-                std::floor(10 * from_si(initial, Dimension::pressure, "bar")) / 10);
-  return std::string("let it fall by at most ") + text;
-}
-
-/// The least of factor times the values, and of 0: what a change never falls below.
-double least_of(const std::vector<double>& values, double factor) {
-  double least = 0;
-  for (const double value : values) least = std::fmin(least, factor * value);
-  return least;
-}
-
-void check_region(SceneReader& reader, const Scene& scene, std::size_t region) {
-  const PressureHistory& history = scene.pressure[region];
-  // Most histories never get there; only the others are followed step by step.
-  const double least = least_of(history.pressure_change, history.scale);
-  const std::vector<Place> places = lowest_places(scene, region);
-  const bool safe = std::all_of(places.begin(), places.end(), [&](const Place& place) {
-    return pressure_at(scene, region, place) + least >= 0;
-  });
-  if (safe) return;
-  const std::vector<StepEnd> steps = step_ends(scene);
-  for (std::size_t step = 0; step < steps.size(); ++step) {
-    for (const Place& place : places) {
-      const double initial = pressure_at(scene, region, place);
-      const double pressure = initial + pressure_change_at(history, steps[step].time);
-      constexpr double kRounding = 1;  // Pa: "fall to zero" is written in decimal units
-      if (!(pressure < -kRounding)) continue;
-      const std::size_t stage = steps[step].stage;
-      reader.problem(cause(reader, history, stage),
-                     below_zero("in \"" + history.region + "\"", place.depth, pressure, step,
-                                scene.stages[stage]),
-                     initial > 0 ? below_zero_cure(initial)
-                                 : "give the region an initial pressure in initial_state");
-      return;
-    }
-  }
-}
-
-void check_prescribed(SceneReader& reader, const Scene& scene, std::size_t fault) {
-  const FaultPressure& rule = scene.faults[fault].pressure;
-  double depth = kNaN;
-  if (rule.depth_window) {
-    depth = (*rule.depth_window)[0];
-  } else if (scene.geometry_kind == GeometryKind::field) {
-    for (const Block& block : blocks_beside(scene.field, fault)) {
-      depth = std::fmin(depth, reservoir_range(scene.field, block).top);
-    }
-  }
-  if (std::isnan(depth)) return;
-  const double initial = initial_state(scene, -depth, DepthSide::below).pressure;
-  const std::vector<double> once = {1};
-  const std::vector<double>& factors = rule.table.factor.empty() ? once : rule.table.factor;
-  if (initial + least_of(factors, rule.prescribed) >= 0) return;
-  const std::vector<StepEnd> steps = step_ends(scene);
-  for (std::size_t step = 0; step < steps.size(); ++step) {
-    const double pressure = initial + rule.prescribed * factor_at(rule.table, steps[step].time);
-    if (!(pressure < -1)) continue;
-    const std::string own = element("/faults", fault) + "/fault_pressure/prescribed";
-    reader.problem(reader.has(own) ? own : "/fault_pressure/prescribed",
-                   below_zero("in fault \"" + scene.faults[fault].name + "\"", depth, pressure,
-                              step, scene.stages[steps[step].stage]),
-                   below_zero_cure(initial));
-    return;
-  }
-}
-
 }  // namespace
 
 void check_turning_points(SceneReader& reader, const Scene& scene) {
@@ -389,18 +258,6 @@ void check_geometry(SceneReader& reader, const Scene& scene) {
   check_contrast(reader, scene);
   check_column(reader, scene);
   check_observation_points(reader, scene);
-}
-
-void check_pressures(SceneReader& reader, const Scene& scene) {
-  for (const char* part : {"/geometry", "/materials", "/initial_state"}) {
-    if (!reader.has(part) || !reader.sound(part)) return;
-  }
-  for (std::size_t i = 0; i < scene.pressure.size(); ++i) check_region(reader, scene, i);
-  for (std::size_t i = 0; i < scene.faults.size(); ++i) {
-    if (scene.faults[i].pressure.rule == FaultPressureRule::prescribed) {
-      check_prescribed(reader, scene, i);
-    }
-  }
 }
 
 }  // namespace faultsim

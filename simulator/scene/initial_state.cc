@@ -175,7 +175,8 @@ double initial_region_pressure(const Scene& scene, std::size_t region, double de
          own_excess(scene, region, top, DepthSide::below) + gradient * (depth - top);
 }
 
-double own_pressure_excess(const Scene& scene, std::size_t region, double z) {
+double own_pressure_excess(const Scene& scene, std::size_t region, double z, DepthSide side) {
+  if (side != DepthSide::mean) return own_excess(scene, region, -z, side);
   return 0.5 * (own_excess(scene, region, -z, DepthSide::above) +
                 own_excess(scene, region, -z, DepthSide::below));
 }

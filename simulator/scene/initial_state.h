@@ -62,7 +62,8 @@ double initial_region_pressure(const Scene& scene, std::size_t region, double de
 /// What a block's own overpressure adds to the pressure of the column at height z (m), Pa; 0 for
 /// regions without one. It acts in the block's reservoir and on the faults beside it; the total
 /// stress stays that of the column, so that the start stays in equilibrium.
-double own_pressure_excess(const Scene& scene, std::size_t region, double z);
+double own_pressure_excess(const Scene& scene, std::size_t region, double z,
+                           DepthSide side = DepthSide::mean);
 
 /// The initial state of one pressure region, for reports.
 struct InitialRegion {

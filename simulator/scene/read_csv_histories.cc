@@ -73,13 +73,20 @@ class CsvHistories {
   /// What there is no table for.
   void remark_idle() {
     if (!has_table_) remark("/pressure_csv_end", "there is no CSV table");
-    if (!has_dates_ && !scene_.has_field() && !ends_at_dates())
+    if (!has_dates_ && !scene_.has_field() && !ends_at_dates() && !has_fault_table())
       remark("/start_date", "no CSV table has dates");
     for (const std::string& region : regions_) {
       if (std::count(absolute_.begin(), absolute_.end(), region) != 0) continue;
       remark("/compartments/" + pointer_token(region) + "/datum",
              "no CSV table gives its absolute pressure");
     }
+  }
+
+  /// Whose dates count from it, and which is told by dates.
+  bool has_fault_table() const {
+    return std::any_of(scene_.faults.begin(), scene_.faults.end(), [](const Fault& fault) {
+      return fault.pressure.rule == FaultPressureRule::table;
+    });
   }
 
   bool ends_at_dates() const {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "simulator/common/errors.h"
 #include "simulator/scene/csv_tables.h"
 #include "simulator/scene/fault_pressure_csv.h"
 #include "simulator/scene/scene_reader.h"
@@ -81,6 +82,12 @@ void read_weakening(SceneReader& reader, const Overrides& from, Friction& fricti
   }
 }
 
+FrictionLaw law_named(const std::string& name) {
+  if (name == "coefficient") return FrictionLaw::coefficient;
+  FAULTSIM_DEMAND(name == "angle" || name.empty(), "the schema allows the law ", name);
+  return FrictionLaw::angle;  // or was refused
+}
+
 Friction read_friction(SceneReader& reader, std::size_t fault) {
   const Overrides from(reader, "friction", fault);
   Friction friction;
@@ -88,8 +95,7 @@ Friction read_friction(SceneReader& reader, std::size_t fault) {
     require_one_of(reader, object, "friction_angle", "friction_coefficient");
     require_one_of(reader, object, "dynamic_friction_angle", "dynamic_friction_coefficient");
   }
-  const bool by_coefficient = reader.text(from.at("law"), "angle") == "coefficient";
-  friction.law = by_coefficient ? FrictionLaw::coefficient : FrictionLaw::angle;
+  friction.law = law_named(reader.text(from.at("law"), "angle"));
   friction.cohesion = reader.quantity(from.at("cohesion"), friction.cohesion);
   const std::string fixed = from.at_either("friction_angle", "friction_coefficient");
   if (fixed.empty() && reader.sound("/friction") && reader.sound(from.own())) {
@@ -116,7 +122,8 @@ FaultPressureRule rule_named(const std::string& name) {
   for (unsigned i = 0; i < std::size(names); ++i) {
     if (name == names[i]) return static_cast<FaultPressureRule>(i);
   }
-  return FaultPressureRule::mean;
+  FAULTSIM_DEMAND(name.empty(), "the schema allows the rule ", name);
+  return FaultPressureRule::mean;  // was refused
 }
 
 /// The table of a fault's pressure, from the scene's own tables or its file.

@@ -232,11 +232,14 @@ namespace {
 
 void relate_parts(SceneReader& reader, const std::vector<Problem>& problems, Scene& scene) {
   check_geometry(reader, scene);
+  check_fault_tables(reader, scene);
   check_pressures(reader, scene);
   check_creep(reader, scene);
   check_flow_loads(reader, scene);
   check_turning_points(reader, scene);
-  if (problems.empty()) add_remarks(reader, scene);
+  if (!problems.empty()) return;
+  add_remarks(reader, scene);
+  remark_fault_tables(reader, scene);
 }
 
 /// All of the initial state that the histories of pressure depend on.

@@ -63,7 +63,7 @@ double end_at(SceneReader& reader, const std::string& pointer, Kind kind) {
 /// Where the operator is analytic and the mesh keeps its topology.
 void check_range(SceneReader& reader, const std::string& at, const SurfaceParameter& one,
                  const Scene& scene) {
-  constexpr double kMostPoisson = 0.45, kMostDip = 80 * kDegree;
+  constexpr double kMostPoisson = 0.45, kMostDip = 45 * kDegree;
   if (one.from >= one.to)
     reader.problem(at + "/to", "the range is empty", "write a \"to\" above \"from\"");
   if (one.kind == Kind::youngs_modulus && one.from <= 0)
@@ -73,7 +73,7 @@ void check_range(SceneReader& reader, const std::string& at, const SurfaceParame
                    "narrow the range");
   }
   if (one.kind == Kind::dip && (one.from < -kMostDip || one.to > kMostDip))
-    reader.problem(at, "a dip of a surface is within 80 deg of vertical", "narrow the range");
+    reader.problem(at, "a dip of a field is within 45 deg of vertical", "narrow the range");
   if (one.kind == Kind::offset) {
     const Block& block = scene.field.blocks[static_cast<std::size_t>(one.index)];
     if (!block.mesh_offset) {

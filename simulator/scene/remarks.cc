@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "simulator/common/errors.h"
-#include "simulator/scene/field_depths.h"
+#include "simulator/scene/fault_pressure.h"
 #include "simulator/scene/load_times.h"
 #include "simulator/scene/scene_reader.h"
 
@@ -40,6 +40,7 @@ class IdleInputs {
 
   void find() {
     materials();
+    temperatures();
     geometry();
     boundaries();
     mesh_and_creep();
@@ -78,11 +79,45 @@ class IdleInputs {
       // 1 is what is meant where nothing is said.
       const bool never_changes = no_region || (!depleted.empty() && depleted != material.name);
       if (never_changes && material.biot != 1) idle(at + "/biot", "no pressure changes in it");
+      if (material.thermal_expansion != 0 && (never_changes || !has_temperatures()))
+        idle(at + "/thermal_expansion", "no temperature changes in it");
       const bool rests = scene_.initial.lithostatic_viscous_layers;
       if (scene_.numerics.creep == Switch::off && !rests) {
         idle(at + "/viscosity", "/numerics/creep is off");
       }
     }
+  }
+
+  bool has_temperatures() const {
+    return scene_.temperature_field.is_given() || !scene_.temperature.empty();
+  }
+
+  /// Whether a temperature changes in a material that expands.
+  bool heats() const {
+    if (!has_temperatures()) return false;
+    const std::set<std::string> used = used_materials(scene_);
+    const std::string only = depleted_material();
+    return std::any_of(scene_.materials.begin(), scene_.materials.end(), [&](const Material& m) {
+      return m.thermal_expansion > 0 && (only.empty() ? used.count(m.name) != 0 : m.name == only);
+    });
+  }
+
+  void temperatures() {
+    if (!has_temperatures() || heats()) return;
+    const std::string only = depleted_material();
+    const std::string why =
+        only.empty() ? "no material has a thermal_expansion"
+                     : "the regions are of \"" + only + "\", which has no thermal_expansion";
+    idle("/temperature_field", why);
+    for (std::size_t i = 0; i < scene_.stages.size(); ++i)
+      idle(element("/stages", i) + "/temperature_change", why);
+  }
+
+  bool is_heated(std::size_t region) const {
+    return heats() && std::any_of(scene_.temperature.begin(), scene_.temperature.end(),
+                                  [&](const TemperatureHistory& history) {
+                                    return static_cast<std::size_t>(history.region) == region;
+                                  });
   }
 
   void geometry() {
@@ -93,7 +128,7 @@ class IdleInputs {
     });
     for (std::size_t i = 0; !places && !scene_.has_field() && i < scene_.box.regions.size(); ++i) {
       const bool is_scaled_off = scene_.pressure[i].scale == 0;  // said on purpose
-      if (!is_zero(scene_.pressure[i]) || is_scaled_off) continue;
+      if (!is_zero(scene_.pressure[i]) || is_scaled_off || is_heated(i)) continue;
       idle(element("/geometry/regions", i), "its pressure never changes");
     }
   }
@@ -273,22 +308,11 @@ class IdleInputs {
              " it acts where a pressure region lies on either side, and there is none: give a "
              "\"depth_window\"";
     }
-    const auto [top, base] = depths_of(f);
+    const auto [top, base] = depths_of_fault(scene_, f);
     const std::array<double, 2>& window = *fault.pressure.depth_window;
     if (window[0] <= base && window[1] >= top) return "";
     return "fault " + fault.name + " lies between " + in_unit(top, Dimension::length, "m") +
            " and " + in_unit(base, Dimension::length, "m") + " depth";
-  }
-
-  /// Top and base of a fault, m.
-  std::pair<double, double> depths_of(std::size_t fault) const {
-    if (!is_field_) {
-      const PatchGeometry& patch = scene_.box.patches[fault];
-      const double half = 0.5 * patch.width * std::abs(std::cos(patch.dip_from_vertical));
-      return {-patch.center[2] - half, -patch.center[2] + half};
-    }
-    const DepthInterval range = fault_range(scene_.field, fault);
-    return {range.top, range.bottom};
   }
 
   void loading() {
@@ -322,7 +346,7 @@ class IdleInputs {
     const auto& regions = scene_.pressure;
     const auto& faults = scene_.faults;
     const auto& faces = scene_.box.boundary;
-    const bool loaded = scene_.has_field() ||
+    const bool loaded = scene_.pressure_field.is_given() || heats() ||
                         !std::all_of(regions.begin(), regions.end(), is_zero) ||
                         std::any_of(faults.begin(), faults.end(), prescribes) ||
                         std::any_of(faults.begin(), faults.end(), has_profile) ||
@@ -332,7 +356,7 @@ class IdleInputs {
     const bool meant = std::any_of(regions.begin(), regions.end(),
                                    [](const PressureHistory& h) { return h.scale == 0; });
     if (loaded || meant || regions.empty() || has_viscous_material(scene_)) return;
-    idle("/stages", "no pressure changes and no face is moved or loaded");
+    idle("/stages", "no pressure or temperature changes and no face is moved or loaded");
   }
 
   const SceneReader& reader_;

@@ -103,6 +103,8 @@ void read_output(SceneReader& reader, Scene& scene);
 void check_geometry(SceneReader& reader, const Scene& scene);
 void check_pressures(SceneReader& reader, const Scene& scene);
 void check_creep(SceneReader& reader, const Scene& scene);
+/// Tables of fault pressure meet their fault.
+void check_fault_tables(SceneReader& reader, const Scene& scene);
 /// Reads /numerics/surface and holds its parameters against the rest. @pre the rest is read.
 void read_surface(SceneReader& reader, Scene& scene);
 /// What a field cannot be combined with.
@@ -112,6 +114,8 @@ void check_turning_points(SceneReader& reader, const Scene& scene);
 
 /// Fills Scene::remarks. @pre the scene has no problems.
 void add_remarks(const SceneReader& reader, Scene& scene);
+/// Part of it: what is made up beyond the places and times of tables of fault pressure.
+void remark_fault_tables(SceneReader& reader, Scene& scene);
 
 /// Names of the pressure regions: the field's blocks or the box's regions.
 std::vector<std::string> region_names(const Scene& scene);

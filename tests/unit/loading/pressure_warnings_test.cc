@@ -32,25 +32,43 @@ TEST(PressureWarnings, SayNothingOfDepletion) {
 
 TEST(PressureWarnings, SayWhereItRisesAboveTheInitialOne) {
   EXPECT_THAT(warnings({{"west", "20 bar"}, {"east", "-20 bar"}}),
-              ElementsAre("the pressure of west rises to 20.0 bar above the initial one in load "
-                          "step 2 (storage)"));
+              ElementsAre("the pressure of west rises to 241.2 bar at 2000 m depth in load step 2 "
+                          "(storage, after 2 year), 20.0 bar above the initial one of 221.2 bar"));
 }
 
 /// At 2000 m: σ_v = 1500 m x 2200 + 500 m x 2100 kg/m3 = 426.7 bar, p0 = 196.2 + 25 bar, M1 = 0.74:
 /// σ_h = 0.74 (426.7 − 221.2) + 221.2 = 373.3 bar, so that 152.1 bar of rise reach it.
 TEST(PressureWarnings, SayWhereItIsAboveTheLeastTotalStress) {
   EXPECT_EQ(warnings({{"west", "152 bar"}, {"east", "0 bar"}}).size(), 1u);
-  EXPECT_THAT(warnings({{"west", "153 bar"}, {"east", "0 bar"}}),
-              ElementsAre(HasSubstr("153.0 bar above the initial one"),
-                          HasSubstr("the pressure of west reaches 374.2 bar at 2000 m depth in "
-                                    "load step 2 (storage), above the least total principal "
-                                    "stress of 373.3 bar there before production")));
+  EXPECT_THAT(
+      warnings({{"west", "153 bar"}, {"east", "0 bar"}}),
+      ElementsAre(HasSubstr("153.0 bar above the initial one"),
+                  HasSubstr("the pressure of west reaches 374.2 bar at 2000 m depth in "
+                            "load step 2 (storage, after 2 year), above the least total principal "
+                            "stress of 373.3 bar there before production")));
 }
 
 TEST(PressureWarnings, OfAPrescribedFaultPressureToo) {
   const auto all = warnings("-50 bar", {{"rule", "prescribed"}, {"prescribed", "30 bar"}});
   ASSERT_EQ(all.size(), 3u);
-  EXPECT_THAT(all[1], HasSubstr("the prescribed pressure of fault F2 rises to 30.0 bar above"));
+  EXPECT_THAT(all[1], HasSubstr("the prescribed pressure of fault F2 rises to"));
+  EXPECT_THAT(all[1], HasSubstr("30.0 bar above the initial one of"));
+}
+
+TEST(PressureWarnings, OfATableOfFaultPressureToo) {
+  json scene = json::parse(starter_scene("field"));
+  scene["stages"] = {{{"name", "injection"}, {"duration", "2 year"}, {"steps", 2}}};
+  scene.erase("compartments");
+  scene["faults"][1]["fault_pressure"] = {{"rule", "table"}, {"csv", "inj.csv"}};
+  scene["tables"]["inj.csv"] = {"depth [m], 0 year [bar], 1 year [bar], 2 year [bar]",
+                                "1850, 0, 0, 0", "2000, 0, 160, 30", "2500, 0, 0, 0"};
+  const auto all = pressure_warnings(read_scene(parse_json(scene.dump(), "test")));
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_THAT(all[0], HasSubstr("the tabled pressure of fault F2 rises to"));
+  EXPECT_THAT(all[0], HasSubstr("at 2000 m depth in load step 1 (injection, after 1 year), 160.0 "
+                                "bar above the initial one of"));
+  EXPECT_THAT(all[1], HasSubstr("at 2000 m depth in load step 1 (injection, after 1 year), above "
+                                "the least total principal stress"));
 }
 
 }  // namespace

@@ -82,6 +82,30 @@ TEST(Remarks, NameAPrescribedPressureThatReachesNoFault) {
              "/fault_pressure/depth_window has no effect");
 }
 
+TEST(Remarks, TakeCoolingAsALoad) {
+  JsonDocument cooled = box();
+  cooled.value["stages"][0].erase("pressure_change");
+  const Changes cooling = {{"/stages/0/temperature_change", "-40 K"}};
+  Changes expanding = cooling;
+  expanding.emplace_back("/materials/rock/thermal_expansion", "1e-5 1/K");
+  EXPECT_THAT(remarks_of(cooled, expanding), testing::IsEmpty());
+  EXPECT_THAT(remarks_of(cooled, cooling),
+              testing::Contains(testing::StartsWith("/stages/0/temperature_change has no effect: "
+                                                    "no material has a thermal_expansion")));
+  EXPECT_THAT(remarks_of(cooled, cooling),
+              testing::Contains(testing::StartsWith("/stages has no effect")));
+  expect_one(box(), {{"/materials/rock/thermal_expansion", "1e-5 1/K"}},
+             "/materials/rock/thermal_expansion has no effect: no temperature changes in it");
+  JsonDocument field = rotliegend();
+  Changes salt = {{"/materials/salt/thermal_expansion", "1e-5 1/K"},
+                  {"/stages/0/temperature_change", "-10 K"}};
+  EXPECT_THAT(remarks_of(field, salt),
+              testing::IsSupersetOf(
+                  {testing::StartsWith("/materials/salt/thermal_expansion has no effect"),
+                   testing::StartsWith("/stages/0/temperature_change has no effect: the regions "
+                                       "are of \"reservoir\", which has no")}));
+}
+
 TEST(Remarks, NameWhatOtherInputMakesIdle) {
   const JsonDocument field = rotliegend();
   const std::string rock = R"({"density": "2400 kg/m3", "youngs_modulus": "11 GPa",
