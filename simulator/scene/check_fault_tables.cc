@@ -13,9 +13,7 @@
 namespace faultsim {
 namespace {
 
-constexpr double kRounding = 1;  // Pa
-
-std::string metres(double value) { return in_unit(value, Dimension::length, "m"); }
+constexpr double kNoChange = 1;  // Pa
 
 /// One direction in which a table counts places, against the fault.
 struct Direction {
@@ -53,7 +51,7 @@ bool is_zero_at(const FaultPressureTable& table, bool along_dip, bool at_end) {
   for (std::size_t i = 0; i < table.change.size(); ++i) {
     const std::size_t place = i / table.time.size();
     if ((along_dip ? place / n_strike : place % n_strike) == at &&
-        std::abs(table.change[i]) > kRounding)
+        std::abs(table.change[i]) > kNoChange)
       return false;
   }
   return true;

@@ -18,8 +18,6 @@ namespace {
 
 constexpr double kRounding = 1;  // Pa: "fall to zero" is written in decimal units
 
-std::string metres(double value) { return in_unit(value, Dimension::length, "m"); }
-
 /// Where pressure can be lowest in a region: its top and, if within, below an overpressured layer.
 struct Place {
   double depth;

@@ -12,8 +12,6 @@
 namespace faultsim {
 namespace {
 
-std::string metres(double value) { return in_unit(value, Dimension::length, "m"); }
-
 void check_field_extent(SceneReader& reader, const FieldGeometry& field) {
   const std::string at = "/geometry/";
   for (const auto& [key, value] : {std::pair("block_length", field.block_length),

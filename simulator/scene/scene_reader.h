@@ -80,6 +80,8 @@ class SceneReader {
 
 /// "-3.8 bar": for messages, at most six digits.
 std::string in_unit(double value, Dimension dimension, const std::string& unit);
+/// The same of a length: "2080 m".
+inline std::string metres(double value) { return in_unit(value, Dimension::length, "m"); }
 
 // Parts of read_scene, one file each.
 void read_materials(SceneReader& reader, Scene& scene);
