@@ -246,6 +246,7 @@ class Expander {
   }
 
   void write_notes() {
+    note_fields();
     if (families_.n_estimated > 0) {
       const std::size_t n_families = result_.families.size();
       result_.notes.push_back(std::to_string(n_families - families_.n_estimated) + " of " +
@@ -271,6 +272,16 @@ class Expander {
       }
     }
     note_distributions();
+  }
+
+  /// What flow results do not cover, once for all cases.
+  void note_fields() {
+    constexpr std::size_t kShown = 10;
+    const std::vector<FieldRemark>& remarks = families_.field_remarks;
+    for (std::size_t i = 0; i < std::min(kShown, remarks.size()); ++i)
+      result_.notes.push_back(remarks[i].text + " (first where " + remarks[i].where + ")");
+    if (remarks.size() > kShown)
+      result_.notes.push_back(std::to_string(remarks.size() - kShown) + " more of that kind");
   }
 
   /// Leaving cases out changes how the parameters of the others are distributed.

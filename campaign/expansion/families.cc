@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "simulator/common/fingerprint.h"
+#include "simulator/plan/field_check.h"
 #include "simulator/plan/geometry_check.h"
 
 namespace faultsweep {
@@ -13,6 +14,22 @@ FamilyFinder::FamilyFinder(const CampaignSpec& spec, const Group& group, SceneBu
   find_relevant();
 }
 
+void FamiliesSoFar::say(const faultsim::Remark& remark, const std::string& where) {
+  const std::string text = faultsim::remark_text(remark);
+  const auto same = [&](const FieldRemark& one) { return one.text == text; };
+  if (std::none_of(field_remarks.begin(), field_remarks.end(), same))
+    field_remarks.push_back({text, where});
+}
+
+namespace {
+
+/// Where a flow result lies is looked at with the plan.
+bool places_a_field(const std::string& target) {
+  return target.rfind("/pressure_field", 0) == 0 || target.rfind("/temperature_field", 0) == 0;
+}
+
+}  // namespace
+
 /// A parameter is irrelevant only if every target is a number known to leave the operator alone
 /// *and* is listed as such; what is not listed (words, whole objects) may change anything.
 void FamilyFinder::find_relevant() {
@@ -20,7 +37,7 @@ void FamilyFinder::find_relevant() {
   const auto may_matter = [&](const std::string& target) {
     const auto info = std::find_if(infos.begin(), infos.end(),
                                    [&](const auto& one) { return one.pointer == target; });
-    return info == infos.end() || info->new_family;
+    return info == infos.end() || info->new_family || places_a_field(target);
   };
   for (const Parameter& parameter : group_.parameters) {
     relevant_.push_back(
@@ -113,6 +130,11 @@ int FamilyFinder::plan_row(const Row& row, const std::vector<double>& derived,
   if (wrong.empty() && !is_known && plan.n_cells <= found_.cells_to_check) {
     found_.cells_to_check -= plan.n_cells;
     wrong = faultsim::geometry_problems(*scene, plan);
+  }
+  if (wrong.empty()) {
+    const faultsim::FieldCheck fields = faultsim::check_fields(*scene, plan);
+    wrong = fields.problems;
+    for (const faultsim::Remark& one : fields.remarks) found_.say(one, builder_.describe(row));
   }
   for (const auto& one : wrong) problems.push_back(builder_.in_spec(one, row));
   if (!wrong.empty()) return -1;

@@ -12,15 +12,24 @@
 
 namespace faultsweep {
 
+/// What is to be known of a flow result, and of the first case in which it is so.
+struct FieldRemark {
+  std::string text, where;
+};
+
 /// What is found of families over all groups of a campaign.
 struct FamiliesSoFar {
   std::vector<Family> families;  ///< in order of first use.
   std::unordered_map<std::string, int> by_fingerprint;
   /// Of meshes that may still be made to look at them (plan/geometry_check.h); counted down.
-  long cells_to_check = 300'000;  // half a second
-  std::size_t most_planned = 0;   ///< see expand.
-  std::size_t n_planned = 0;      ///< plans made.
-  std::size_t n_estimated = 0;    ///< families that have the plan of another one.
+  long cells_to_check = 300'000;           // half a second
+  std::size_t most_planned = 0;            ///< see expand.
+  std::size_t n_planned = 0;               ///< plans made.
+  std::size_t n_estimated = 0;             ///< families that have the plan of another one.
+  std::vector<FieldRemark> field_remarks;  ///< each once (plan/field_check.h).
+
+  /// Adds a remark unless it was said before.
+  void say(const faultsim::Remark& remark, const std::string& where);
 };
 
 /// Finds the family of each row of one group, looking once at each distinct family key: the values

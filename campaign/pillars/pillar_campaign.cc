@@ -7,6 +7,7 @@
 #include "campaign/report/table_output.h"
 #include "campaign/spec/pointers.h"
 #include "simulator/common/units.h"
+#include "simulator/plan/field_check.h"
 #include "simulator/plan/plan.h"
 #include "simulator/scene/field_depths.h"
 #include "simulator/scene/read_scene.h"
@@ -122,19 +123,67 @@ std::vector<std::string> pointers_of(const PillarTable& table, const JsonDocumen
   return pointers;
 }
 
+/// A pillar's section.
+struct PillarScene {
+  Scene scene;
+  faultsim::Plan plan;
+};
+
 /// The scene of a pillar, looked at as `faultsim plan` does; what is wrong with it, or the scene.
-std::optional<Scene> scene_of(JsonDocument document, const std::vector<Setting>& settings,
-                              std::vector<Problem>& problems) {
+std::optional<PillarScene> scene_of(JsonDocument document, const std::vector<Setting>& settings,
+                                    std::vector<Problem>& problems) {
   for (const Setting& one : settings) {
     if (faultsim::put_value(document.value, one.pointer, in_unit(one))) continue;
     problems.push_back({one.pointer, 0, "the scene has no place for it", "fix the scene"});
     return std::nullopt;
   }
-  Scene scene = faultsim::read_scene(document, problems);
+  PillarScene one{.scene = faultsim::read_scene(document, problems), .plan = {}};
   if (!problems.empty()) return std::nullopt;
-  faultsim::make_plan(scene, problems);
+  one.plan = faultsim::make_plan(one.scene, problems);
   if (!problems.empty()) return std::nullopt;
-  return scene;
+  return one;
+}
+
+struct FieldMember {
+  const char* at;
+  faultsim::FlowLoad Scene::*load;
+};
+constexpr FieldMember kFields[] = {{"/pressure_field", &Scene::pressure_field},
+                                   {"/temperature_field", &Scene::temperature_field}};
+
+/// What places a section in its flow results; the scene need not say it.
+std::vector<std::pair<std::string, json>> placements(const Scene& scene) {
+  std::vector<std::pair<std::string, json>> all;
+  for (const FieldMember& field : kFields) {
+    if (!(scene.*field.load).is_given()) continue;
+    all.emplace_back(std::string(field.at) + "/origin", json{"0 m", "0 m"});
+    all.emplace_back(std::string(field.at) + "/azimuth", "0 deg");
+  }
+  return all;
+}
+
+/// Puts a pillar's section where the pillar is: its fault, at the top of the footwall's reservoir,
+/// at the pillar's x and y, and its y towards the strike. The base scene says where x = y = 0 of
+/// the pillars lies in the coordinates of the field.
+void place_in_fields(const Scene& base, const PillarTable& table, std::size_t pillar, Scene& scene,
+                     std::vector<Setting>& settings) {
+  const double top = faultsim::reservoir_range(scene.field, scene.field.blocks[0]).top;
+  const double fault = faultsim::fault_x(scene, 1, top);
+  const double x = *table.number(Role::x, pillar), y = *table.number(Role::y, pillar);
+  for (const FieldMember& field : kFields) {
+    faultsim::FlowLoad& load = scene.*field.load;
+    if (!load.is_given()) continue;
+    const faultsim::FlowLoad& pillars = base.*field.load;
+    const double own = *table.number(Role::azimuth, pillar) * faultsim::kDegree;
+    const double c = std::cos(pillars.azimuth), s = std::sin(pillars.azimuth);
+    load.azimuth = pillars.azimuth + own;
+    load.origin = {pillars.origin[0] + c * x + s * y - fault * std::cos(load.azimuth),
+                   pillars.origin[1] - s * x + c * y + fault * std::sin(load.azimuth)};
+    const std::string at = field.at;
+    settings.push_back({at + "/origin/0", "m", load.origin[0]});
+    settings.push_back({at + "/origin/1", "m", load.origin[1]});
+    settings.push_back({at + "/azimuth", "deg", load.azimuth / faultsim::kDegree});
+  }
 }
 
 constexpr const char* kPlaces =
@@ -182,6 +231,14 @@ PillarCampaign make_pillar_campaign(const PillarTable& table, const JsonDocument
   JsonDocument section = base;
   faultsim::set_value(section, "/numerics/plane_strain", "on");
   const Scene scene = faultsim::read_scene(section);
+  json set = {{"/numerics/plane_strain", "on"}};
+  for (const auto& [pointer, value] : placements(scene)) {
+    set[pointer] = value;
+    faultsim::put_value(section.value, pointer, value);
+  }
+  if (scene.has_field() && !table.numbers.contains(Role::azimuth))
+    throw InputError(table.source, {{"", 0, "a flow result needs the strike of each pillar",
+                                     "add a column \"azimuth [deg]\""}});
   const Section sections(scene, base);
   const std::vector<std::string> pointers = pointers_of(table, base);
   PillarCampaign campaign;
@@ -191,13 +248,17 @@ PillarCampaign make_pillar_campaign(const PillarTable& table, const JsonDocument
     std::vector<Setting> settings = sections.settings(table, i, stress);
     for (std::size_t k = 0; k < pointers.size(); ++k)
       settings.push_back({pointers[k], table.parameters[k].unit, table.parameters[k].values[i]});
-    if (settings.empty())
+    if (settings.empty() && !scene.has_field())
       throw InputError(table.source, {{"", 0, "nothing differs from pillar to pillar",
                                        "add columns: depth, offset, thickness, dip, azimuth or any "
                                        "parameter that `faultsim parameters` lists"}});
     std::vector<Problem> problems;
-    const std::optional<Scene> one = scene_of(section, settings, problems);
-    if (!one) {
+    std::optional<PillarScene> one = scene_of(section, settings, problems);
+    if (one && scene.has_field()) {
+      place_in_fields(scene, table, i, one->scene, settings);
+      problems = faultsim::check_fields(one->scene, one->plan).problems;
+    }
+    if (!problems.empty()) {
       campaign.refused.push_back({table.ids[i], table.lines[i], problems.front()});
       continue;
     }
@@ -209,13 +270,13 @@ PillarCampaign make_pillar_campaign(const PillarTable& table, const JsonDocument
     }
     if (campaign.n_cases++ == 0) campaign.samples = header_of(settings);
     campaign.samples += values_of(settings);
-    campaign.places += place_of(table, i, *one);
+    campaign.places += place_of(table, i, one->scene);
   }
   campaign.spec = json{{"format", 1},
                        {"name", name},
                        {"title", concat("Pillars of ", table.source)},
                        {"base", scene_file},
-                       {"set", {{"/numerics/plane_strain", "on"}}},
+                       {"set", set},
                        {"design", {{"kind", "samples"}, {"file", "samples.csv"}}}}
                       .dump(2) +
                   "\n";

@@ -40,6 +40,12 @@ std::string owner_of(const nlohmann::json& document, const std::string& pointer)
   return "";
 }
 
+/// What was found of fields is said with the rest.
+void add_remarks(const FieldCheck& fields, LoadedScene& loaded) {
+  loaded.scene.remarks.insert(loaded.scene.remarks.end(), fields.remarks.begin(),
+                              fields.remarks.end());
+}
+
 }  // namespace
 
 ExitCode init_command(const std::string& kind, const std::filesystem::path& file) {
@@ -55,8 +61,9 @@ ExitCode init_command(const std::string& kind, const std::filesystem::path& file
 
 ExitCode validate_command(const SceneArguments& arguments) {
   try {
-    const LoadedScene loaded = load_scene(arguments);
-    check_geometry(loaded);
+    LoadedScene loaded = load_scene(arguments);
+    const FieldCheck fields = check_geometry(loaded);
+    add_remarks(fields, loaded);
     if (arguments.json) {
       std::cout << json_text(nlohmann::json{{"valid", true},
                                             {"identity", case_identity(loaded.scene)},
@@ -82,17 +89,21 @@ ExitCode validate_command(const SceneArguments& arguments) {
 
 ExitCode plan_command(const SceneArguments& arguments) {
   LoadedScene loaded = load_scene(arguments);
-  check_geometry(loaded);
+  const FieldCheck fields = check_geometry(loaded);
+  add_remarks(fields, loaded);
   add_savings(loaded.scene, loaded.plan);
   const bool is_field = loaded.scene.geometry_kind == GeometryKind::field;
   if (arguments.json) {
     nlohmann::json plan = plan_to_json(loaded.plan);
     plan["warnings"] = remarks_to_json(loaded);
     if (is_field) plan["cells"] = mesh_text(loaded.scene);
+    if (!fields.notes.empty()) plan["field_coverage"] = fields.notes;
     std::cout << json_text(std::move(plan));
   } else {
     if (is_field) std::cout << mesh_text(loaded.scene) << "\n";
-    std::cout << plan_to_text(loaded.plan) << remarks_to_text(loaded);
+    std::cout << plan_to_text(loaded.plan);
+    for (const std::string& note : fields.notes) std::cout << note << "\n";
+    std::cout << remarks_to_text(loaded);
   }
   return ExitCode::done;
 }

@@ -30,7 +30,7 @@ void add_pressure_pair(std::vector<PressurePair>& pairs, const PressurePair& pai
 /// Adds a face's quarter to the sums of one of its nodes.
 void add_quarter(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
                  const FaultFace& face, OperatorNode& node) {
-  const double area = face.area / 4;
+  const double area = corner_area(face);
   const auto material = [&](int cell) { return materials.at(mesh.material[cell]); };
   const ElasticMaterial minus = material(face.minus_cell), plus = material(face.plus_cell);
   const double g_minus = shear_modulus(minus), g_plus = shear_modulus(plus);
@@ -62,7 +62,7 @@ void average_over_faces(const Mesh& mesh, const std::vector<ElasticMaterial>& ma
       if (corner < 0) continue;
       OperatorNode& node = nodes[corner];
       add_quarter(mesh, materials, face, node);
-      area[corner] += face.area / 4;
+      area[corner] += corner_area(face);
       add_edges(fault, face, node);
     }
   }

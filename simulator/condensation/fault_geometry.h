@@ -7,6 +7,10 @@
 
 namespace faultsim {
 
+/// What each corner of a fault face has of its area, in whatever is averaged over the faces around
+/// a node: m2, in plane strain m.
+inline double corner_area(const FaultFace& face) { return face.area / 4; }
+
 /// The faults of a mesh as the contact solve sees them: surfaces, frames, areas, jump unknowns, and
 /// per node the means over the fault faces around it, each weighted by the quarter that is the
 /// node's.

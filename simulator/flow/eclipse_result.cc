@@ -44,6 +44,16 @@ double length_of(const std::string& unit) {
   return unit.rfind("CM", 0) == 0 ? 0.01 : 1;
 }
 
+/// Where the grid's own x and y lie on the map: p = origin + x along_x + y along_y.
+struct MapAxes {
+  Eigen::Vector2d origin = {0, 0}, along_x = {1, 0}, along_y = {0, 1};
+
+  Eigen::Vector3d on_map(const Eigen::Vector3d& p) const {
+    const Eigen::Vector2d at = origin + p.x() * along_x + p.y() * along_y;
+    return {at.x(), at.y(), p.z()};
+  }
+};
+
 class EclipseReader {
  public:
   EclipseReader(const std::filesystem::path& path, FlowQuantity quantity)
@@ -101,8 +111,12 @@ class EclipseReader {
     }
     if (grid.is_radial())
       return refuse(files_.grid, "is a radial grid", "corner-point grids are read");
-    double metre = 1;
-    if (grid.hasKey("GRIDUNIT")) metre = length_of(grid.get<std::string>("GRIDUNIT").at(0));
+    std::vector<std::string> unit;
+    if (grid.hasKey("GRIDUNIT")) unit = grid.get<std::string>("GRIDUNIT");
+    const double metre = unit.empty() ? 1 : length_of(unit[0]);
+    const bool is_on_map = unit.size() > 1 && unit[1].rfind("MAP", 0) == 0;
+    if (!is_on_map) take_axes(grid, metre);
+    if (!problems_.empty()) return;
     grid.load_grid_data();
     for (int cell = 0; cell < grid.totalNumberOfCells(); ++cell) {
       const std::array<int, 3> ijk = grid.ijk_from_global_index(cell);
@@ -114,6 +128,26 @@ class EclipseReader {
     if (cells_.empty()) refuse(files_.grid, "has no active cell", "");
   }
 
+  /// A point on the grid's y axis, its origin, a point on its x axis, on the map.
+  void take_axes(const EGrid& grid, double metre) {
+    const std::vector<float>& axes = grid.get_mapaxes();
+    if (axes.size() < 6) return;
+    if (!grid.get_mapunits().empty()) metre = length_of(grid.get_mapunits());
+    const auto point = [&](std::size_t i) {
+      return Eigen::Vector2d(metre * static_cast<double>(axes[i]),
+                             metre * static_cast<double>(axes[i + 1]));
+    };
+    const Eigen::Vector2d y = point(0) - point(2), x = point(4) - point(2);
+    constexpr double kLeastSine = 0.99;  // of the angle between them: axes are at right angles
+    const double sine = std::abs(x.x() * y.y() - x.y() * y.x()) / (x.norm() * y.norm());
+    if (!(sine > kLeastSine)) {
+      return refuse(files_.grid,
+                    "has axes on the map (MAPAXES) that are not at right angles to each other",
+                    "mend MAPAXES in the flow model, or remove it and give the scene's \"origin\"");
+    }
+    axes_ = {point(2), x.normalized(), y.normalized()};
+  }
+
   /// Corners come as (i, j) of the top, then of the bottom; VTK begins at the bottom and goes
   /// round.
   void take_cell(const std::array<double, 8>& x, const std::array<double, 8>& y,
@@ -122,7 +156,7 @@ class EclipseReader {
     CellCorners corners;
     for (std::size_t i = 0; i < 8; ++i) {
       const std::size_t k = kOrder[i];
-      corners[i] = metre * Eigen::Vector3d(x[k], y[k], -depth[k]);
+      corners[i] = axes_.on_map(metre * Eigen::Vector3d(x[k], y[k], -depth[k]));
     }
     cells_.push_back(flow_cell_around(corners));
   }
@@ -204,6 +238,7 @@ class EclipseReader {
 
   EclipseFiles files_;
   FlowQuantity quantity_;
+  MapAxes axes_;
   std::vector<FlowCell> cells_;              ///< active ones, in the order of the values.
   std::vector<double> dates_;                ///< s since 1970.
   std::vector<std::vector<double>> values_;  ///< per report, Pa or K.

@@ -43,24 +43,20 @@ std::string where(const MappedCell& cell) {
 constexpr double kTwice = 0.01;
 constexpr double kWhole = 1e-6;  ///< of a cell's volume: less than that is missing of one covered.
 
-void require_some_coverage(const FlowMapping& mapping,
-                           const std::vector<std::string>& region_names) {
-  std::vector<Problem> problems;
-  for (std::size_t r = 0; r < mapping.coverage.size(); ++r) {
-    const RegionCoverage& region = mapping.coverage[r];
-    if (region.n_cells == 0 || region.covered > 0) continue;
-    problems.push_back({"", 0, "no flow cell lies in compartment " + region_names[r],
-                        "check origin, axes and units of x, y and depth, which are the scene's"});
-  }
-  if (!problems.empty()) throw InputError("flow field", problems);
-}
-
 }  // namespace
+
+CellCorners at_section(CellCorners corners, double y) {
+  constexpr double kHalf = 0.5;  // m
+  const double middle = centre_of(corners).y();
+  for (Eigen::Vector3d& corner : corners) corner.y() = y + (corner.y() < middle ? -kHalf : kHalf);
+  return corners;
+}
 
 FlowMapping map_flow(const FlowField& field, const std::vector<MappedCell>& cells,
                      const std::vector<std::string>& region_names, OutsideRule rule) {
   FlowMapping mapping;
   mapping.weights.resize(cells.size());
+  mapping.covered.resize(cells.size());
   mapping.coverage.resize(region_names.size());
   const FlowCellSearch search(field.cells);
   for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -75,6 +71,7 @@ FlowMapping map_flow(const FlowField& field, const std::vector<MappedCell>& cell
     for (FlowMapping::Weight& weight : weights) weight.value /= covered;
     RegionCoverage& region = mapping.coverage.at(cell.region);
     region.volume += cell.fraction * volume;
+    mapping.covered[c] = std::min(covered / volume, 1.0);
     region.covered += cell.fraction * std::min(covered, volume);
     ++region.n_cells;
     if (covered == 0)
@@ -84,7 +81,6 @@ FlowMapping map_flow(const FlowField& field, const std::vector<MappedCell>& cell
     if (covered == 0 && rule == OutsideRule::nearest)
       weights.push_back({.flow_cell = search.nearest(centre_of(cell.corners)), .value = 1});
   }
-  require_some_coverage(mapping, region_names);
   return mapping;
 }
 
@@ -121,8 +117,7 @@ std::string coverage_text(const RegionCoverage& region, OutsideRule rule) {
   out << std::setprecision(4) << 100 * region.covered / region.volume << " % of its volume covered";
   if (region.n_outside > 0) {
     out << "; " << region.n_outside << " of " << region.n_cells << " cells outside "
-        << (rule == OutsideRule::nearest ? "take the nearest flow cell's pressure"
-                                         : "keep their pressure");
+        << (rule == OutsideRule::nearest ? "take what the nearest flow cell has" : "do not change");
   }
   if (region.n_partly > 0)
     out << "; " << region.n_partly << " covered in part take that part's mean";

@@ -17,6 +17,10 @@ struct MappedCell {
   double fraction = 1;  ///< share of its volume in the compartment, [0, 1].
 };
 
+/// A cell of the one row that plane strain has, as the section at y that it stands for: from half a
+/// metre before y to half a metre behind, m, so that flow cells that meet at y count alike.
+CellCorners at_section(CellCorners corners, double y);
+
 /// How much of a compartment the flow grid covers.
 struct RegionCoverage {
   double volume = 0;   ///< Σ fraction · V_c, m3.
@@ -33,13 +37,14 @@ struct FlowMapping {
     double value;  ///< > 0; those of one cell add up to 1.
   };
   std::vector<std::vector<Weight>> weights;  ///< per cell; empty: unchanged.
+  std::vector<double> covered;               ///< per cell, share of all of it, [0, 1].
   std::vector<RegionCoverage> coverage;      ///< per compartment.
 };
 
 /// The weights V(c ∩ f) / Σ_f V(c ∩ f), f ascending, so that ∫p dV over what both grids cover is
 /// conserved to rounding. A cell half outside of its compartment takes the mean over all of it.
 /// @throws InputError where flow cells lie over each other (a cell is covered more than once, by
-/// 1e-6 of its volume), with the place, and where nothing of a compartment is covered.
+/// 1 % of its volume), with the place.
 FlowMapping map_flow(const FlowField& field, const std::vector<MappedCell>& cells,
                      const std::vector<std::string>& region_names, OutsideRule rule);
 
@@ -53,8 +58,8 @@ Eigen::VectorXd mapped_values(const FlowMapping& mapping, const FlowField& field
 Eigen::MatrixXd mapped_change(const FlowMapping& mapping, const FlowField& field, int reference,
                               std::vector<int> reports = {});
 
-/// What is covered of a compartment: "98.2 % of its volume covered; 3 of 120 cells outside take the
-/// nearest flow cell's pressure; 5 covered in part take that part's mean".
+/// What is covered of a compartment: "98.2 % of its volume covered; 3 of 120 cells outside take
+/// what the nearest flow cell has; 5 covered in part take that part's mean".
 std::string coverage_text(const RegionCoverage& region, OutsideRule rule);
 
 }  // namespace faultsim

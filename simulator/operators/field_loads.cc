@@ -2,22 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <iterator>
+#include <sstream>
 
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
+#include "simulator/condensation/fault_geometry.h"
 #include "simulator/loads/history.h"
-#include "simulator/scene/initial_state.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsim {
 namespace {
 
-std::vector<MappedCell> mapped_cells(const Mesh& mesh, const InfluenceBlock& block) {
+std::vector<MappedCell> mapped_cells(const Mesh& mesh, const InfluenceBlock& block,
+                                     const FlowLoad& load) {
   std::vector<MappedCell> cells;
   for (const InfluenceCell& cell : block.cells) {
     MappedCell mapped{.corners = {}, .region = cell.region, .fraction = cell.fraction};
     for (std::size_t i = 0; i < 8; ++i) mapped.corners[i] = mesh.nodes[mesh.cells[cell.cell][i]];
+    if (mesh.plane_strain) mapped.corners = at_section(mapped.corners, load.y);
     cells.push_back(mapped);
   }
   return cells;
@@ -39,11 +43,10 @@ Eigen::MatrixXd fault_pressures(const Scene& scene, const Mesh& mesh, const Faul
       for (const int point : face.points) {
         const int node = geometry.faults[f].node_of_point[point];
         if (node < 0) continue;
-        area[node] += face.area / 4;
+        area[node] += corner_area(face);
         for (Eigen::Index t = 0; from_cells && t < change.cols(); ++t) {
-          sum(node, t) +=
-              face.area / 4 *
-              pressure_by_rule(law, change(face.minus_cell, t), change(face.plus_cell, t));
+          sum(node, t) += corner_area(face) * pressure_by_rule(law, change(face.minus_cell, t),
+                                                               change(face.plus_cell, t));
         }
       }
     }
@@ -78,14 +81,15 @@ struct MappedField {
       {};  ///< in the compartment's part of a cell, Pa or K, n_cells x n_reports.
 };
 
-MappedField map_field(const FlowLoad& load, const std::string& name,
-                      const std::vector<MappedCell>& cells, const InfluenceBlock& block) {
+MappedField map_field(const FlowLoad& load, const std::string& name, const Mesh& mesh,
+                      const InfluenceBlock& block) {
   MappedField field{load, name};
   if (!load.is_given()) return field;
   const bool is_moved = load.origin != std::array<double, 2>{0, 0} || load.azimuth != 0;
   const FlowField moved = is_moved ? placed(*load.field, load.origin, load.azimuth) : FlowField();
   const FlowField& there = is_moved ? moved : *load.field;
-  field.mapping = map_flow(there, cells, block.region_names, load.outside);
+  field.mapping =
+      map_flow(there, mapped_cells(mesh, block, load), block.region_names, load.outside);
   field.change = mapped_change(field.mapping, *load.field, load.reference, load.reports);
   return field;
 }
@@ -107,45 +111,37 @@ Eigen::MatrixXd change_at(const MappedField& field, const std::vector<double>& t
   return change;
 }
 
-void report_coverage(const MappedField& field, const std::vector<std::string>& names,
-                     FieldLoads& loads) {
-  constexpr double kWhole = 1 - 1e-6;
-  for (std::size_t r = 0; field.load.is_given() && r < names.size(); ++r) {
-    const RegionCoverage& region = field.mapping.coverage[r];
-    if (region.n_cells == 0) continue;
-    const std::string text = coverage_text(region, field.load.outside);
-    loads.notes.push_back(concat(field.name, " on ", names[r], ": ", text));
-    if (region.covered >= kWhole * region.volume) continue;
-    loads.warnings.push_back(
-        concat("the ", field.name, " does not cover all of ", names[r], ": ", text));
+/// How much of the integral of |change| over a compartment at the last report lies in what is
+/// covered, in percent.
+double covered_integral(const MappedField& field, const InfluenceBlock& block, int region) {
+  double covered = 0, whole = 0;
+  for (std::size_t c = 0; c < block.cells.size(); ++c) {
+    const InfluenceCell& cell = block.cells[c];
+    if (cell.region != region) continue;
+    const double part = cell.fraction * std::abs(field.change(static_cast<Eigen::Index>(c),
+                                                              field.change.cols() - 1));
+    whole += part * cell.volume;
+    covered += part * cell.volume * field.mapping.covered[c];
   }
+  return whole > 0 ? 100 * covered / whole : 100;
 }
 
-/// Where the pressures of the reference report are not those that the initial state has.
-void say_reference(const Scene& scene, const InfluenceBlock& block, const FlowMapping& mapping,
-                   std::vector<std::string>& warnings) {
-  if (!scene.pressure_field.is_given()) return;
-  constexpr double kAgrees = 5e5;  // Pa
-  const Eigen::VectorXd pressure =
-      mapped_values(mapping, *scene.pressure_field.field, scene.pressure_field.reference);
-  Eigen::MatrixXd excess = Eigen::MatrixXd::Zero(pressure.size(), 1);
-  for (Eigen::Index c = 0; c < pressure.size(); ++c) {
-    const InfluenceCell& cell = block.cells[static_cast<std::size_t>(c)];
-    const double depth = -cell.centroid.z();
-    const bool is_mapped = !mapping.weights[static_cast<std::size_t>(c)].empty();
-    const auto region = static_cast<std::size_t>(cell.region);
-    if (is_mapped) excess(c, 0) = pressure[c] - initial_region_pressure(scene, region, depth);
-  }
-  const Eigen::MatrixXd mean = region_means(block, excess);
-  for (Eigen::Index r = 0; r < mean.rows(); ++r) {
-    if (std::abs(mean(r, 0)) <= kAgrees) continue;
-    warnings.push_back(
-        concat("the pressure field begins ", std::lround(std::abs(mean(r, 0)) / 1e5), " bar ",
-               mean(r, 0) > 0 ? "above" : "below", " the initial pressure of ",
-               block.region_names[static_cast<std::size_t>(r)],
-               " (mean over its volume): the change since its reference acts on the scene's "
-               "initial state; "
-               "give the initial state the same pressure, as overpressure of the block"));
+/// What became of the cells of each compartment.
+void report_coverage(const MappedField& field, const InfluenceBlock& block,
+                     std::vector<std::string>& notes) {
+  constexpr double kWhole = 1 - 1e-6;
+  for (std::size_t r = 0; field.load.is_given() && r < block.region_names.size(); ++r) {
+    const RegionCoverage& region = field.mapping.coverage[r];
+    if (region.n_cells == 0) continue;
+    std::string text = concat(field.name, " on ", block.region_names[r], ": ",
+                              coverage_text(region, field.load.outside));
+    if (region.covered < kWhole * region.volume) {
+      std::ostringstream share;
+      share << std::setprecision(4) << covered_integral(field, block, static_cast<int>(r));
+      text += concat("; of the integral of its change at the last report ", share.str(),
+                     " % lies in what is covered");
+    }
+    notes.push_back(text);
   }
 }
 
@@ -156,15 +152,15 @@ FieldLoads field_loads(const Scene& scene, const Plan& plan, const PreparedInflu
   FAULTSIM_DEMAND(scene.has_field() && !plan.half_domain, "a field on all of the domain");
   const InfluenceBlock& block = *prepared.block;
   const Mesh mesh = bulk_problem(scene, plan).mesh;
-  const std::vector<MappedCell> cells = mapped_cells(mesh, block);
-  const MappedField pressure = map_field(scene.pressure_field, "pressure field", cells, block);
+  const MappedField pressure = map_field(scene.pressure_field, "pressure field", mesh, block);
   const MappedField temperature =
-      map_field(scene.temperature_field, "temperature field", cells, block);
+      map_field(scene.temperature_field, "temperature field", mesh, block);
+  const Eigen::Index n_cells = std::ssize(block.cells);
   FieldLoads loads;
   FieldHistory& history = loads.history;
   history.time = all_times(pressure, temperature);
-  Eigen::MatrixXd stress = change_at(pressure, history.time, std::ssize(cells));
-  const Eigen::MatrixXd heating = change_at(temperature, history.time, std::ssize(cells));
+  Eigen::MatrixXd stress = change_at(pressure, history.time, n_cells);
+  const Eigen::MatrixXd heating = change_at(temperature, history.time, n_cells);
   history.region_change = region_means(block, stress);
   Eigen::MatrixXd change = Eigen::MatrixXd::Zero(std::ssize(mesh.cells), stress.cols());
   for (std::size_t c = 0; c < block.cells.size(); ++c) {
@@ -179,8 +175,10 @@ FieldLoads field_loads(const Scene& scene, const Plan& plan, const PreparedInflu
   history.observed = block.observed * stress;
   history.fault_pressure = fault_pressures(scene, mesh, prepared.op->geometry, change);
   for (const MappedField* field : {&pressure, &temperature})
-    report_coverage(*field, block.region_names, loads);
-  say_reference(scene, block, pressure.mapping, loads.warnings);
+    report_coverage(*field, block, loads.notes);
+  if (scene.pressure_field.is_given())
+    loads.notes.push_back(
+        "pressures of compartments in tables and results are means over their volumes");
   loads.mapping = pressure.mapping;
   return loads;
 }

@@ -13,10 +13,8 @@ namespace faultsim {
 struct FieldLoads {
   FieldHistory history;  ///< at the reports of pressure and temperature that the scene takes.
   FlowMapping mapping;   ///< of the pressure field, if there is one.
-  std::vector<std::string> notes;  ///< how much of each compartment is covered.
-  /// What a user must know: compartments that are not covered whole, a reference report whose
-  /// pressures are not those of the scene's initial state.
-  std::vector<std::string> warnings;
+  std::vector<std::string> notes;     ///< what became of the cells of each compartment.
+  std::vector<std::string> warnings;  ///< of plan/field_check.h, left for who has looked there.
 };
 
 /// Maps the scene's fields onto the block's cells and condenses them: s_c = f_c (b Δp_c + 3 K α_T

@@ -431,6 +431,18 @@ std::string minus_side(const Scene& scene, const Plan& plan) {
   return axis < 3 ? std::string(1, "xyz"[axis]) + "-" : "";
 }
 
+std::vector<std::string> sections_of_fields(const Scene& scene) {
+  std::vector<std::string> texts;
+  const auto add = [&](const char* name, const FlowLoad& load) {
+    if (!load.is_given()) return;
+    texts.push_back(concat(name, " is taken at y = ", load.y,
+                           " m of the scene, as the mean of half a metre on either side"));
+  };
+  add("pressure_field", scene.pressure_field);
+  add("temperature_field", scene.temperature_field);
+  return texts;
+}
+
 }  // namespace
 
 Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
@@ -438,6 +450,7 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
   plan.initial = initial_regions(scene);
   plan.reductions.push_back(plan_plane_strain(scene));
   plan.plane_strain = plan.reductions.back().applied;
+  if (plan.plane_strain) plan.sections = sections_of_fields(scene);
   plan.reductions.push_back(plan_half_domain(scene, plan.plane_strain));
   plan.half_domain = plan.reductions.back().applied;
 
@@ -544,6 +557,7 @@ nlohmann::json plan_to_json(const Plan& plan) {
                         {"rungs_s", numbers(plan.creep.rungs)},
                         {"bound_pa", nullptr}}},
                       {"initial_state", initial_state_to_json(plan.initial)},
+                      {"field_sections", plan.sections},
                       {"warnings", plan.warnings},
                       {"reductions", nlohmann::json::array()}};
   if (plan.creep.bound) j["creep"]["bound_pa"] = *plan.creep.bound;
@@ -585,6 +599,7 @@ std::string plan_to_text(const Plan& plan) {
     text += "with the influence of the cells that the field acts on, which takes about " +
             human_bytes(plan.influence_bytes) + "\n";
   }
+  for (const std::string& section : plan.sections) text += section + "\n";
   for (const std::string& warning : plan.warnings) text += "warning: " + warning + "\n";
   return text;
 }

@@ -61,8 +61,10 @@ struct Plan : PlannedSize {
   int n_added_steps = 0;  ///< of these, those that end at turning points between a stage's own.
   std::vector<InitialRegion> initial;  ///< the initial state per pressure region.
   std::vector<std::string> warnings;   ///< of the input, for who reads the plan; one sentence each.
-  std::string minus_side;              ///< of every fault: "x-", of smaller x; "" without faults.
-  std::string family;  ///< fingerprint of what defines the linear bulk (without BLAS).
+  /// Where plane strain takes a flow result, one sentence each.
+  std::vector<std::string> sections;
+  std::string minus_side;  ///< of every fault: "x-", of smaller x; "" without faults.
+  std::string family;      ///< fingerprint of what defines the linear bulk (without BLAS).
 };
 
 /// Makes the plan. Geometry problems are appended with pointers into the scene document.

@@ -260,10 +260,12 @@ json flow_load(const FlowLoad& flow) {
   return {{"origin", {plain(flow.origin[0]), plain(flow.origin[1])}},
           {"azimuth", plain(flow.azimuth)},
           {"fingerprint", flow.fingerprint},
+          {"method", kFieldMethod},
           {"outside", static_cast<int>(flow.outside)},
           {"reference", flow.reference},
           {"reports", flow.reports},
-          {"time", list(flow.time)}};
+          {"time", list(flow.time)},
+          {"y", plain(flow.y)}};
 }
 
 template <typename Struct>

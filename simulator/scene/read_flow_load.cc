@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -87,6 +88,17 @@ void check_end(SceneReader& reader, const std::string& at, const Scene& scene,
   }
 }
 
+/// Plane strain takes the field at one y: that of the scene's own section if nothing is said.
+void read_section(SceneReader& reader, const std::string& at, Scene& scene, FlowLoad& load) {
+  if (scene.numerics.plane_strain != Switch::on) {
+    if (reader.has(at + "/y"))
+      scene.remarks.push_back({at + "/y", "has no effect: it is the section of plane strain"});
+    return;
+  }
+  const bool is_box = scene.geometry_kind == GeometryKind::box;
+  load.y = reader.quantity(at + "/y", is_box ? 0.5 * (scene.box.from[1] + scene.box.to[1]) : 0);
+}
+
 void read_field(SceneReader& reader, const FieldKey& key, Scene& scene) {
   const std::string at = key.at, name = reader.text(at + "/file");
   if (name.empty()) return;
@@ -95,10 +107,12 @@ void read_field(SceneReader& reader, const FieldKey& key, Scene& scene) {
     reader.problem(at, "there is no region that it could act on",
                    "add \"regions\" to the geometry or remove the field");
   }
+  load.outside_given = reader.has(at + "/outside");
   if (reader.text(at + "/outside") == "unchanged") load.outside = OutsideRule::unchanged;
   for (std::size_t i = 0; i < 2; ++i)
     load.origin[i] = reader.quantity(element(at + "/origin", i), load.origin[i]);
   load.azimuth = reader.quantity(at + "/azimuth", load.azimuth);
+  read_section(reader, at, scene, load);
   const std::optional<FieldFile> file = open_field(reader, key, name);
   if (!file) return;
   if (const std::string date = reader.text(at + "/reference"); !date.empty()) {
@@ -177,8 +191,34 @@ void choose_reports(SceneReader& reader, Scene& scene) {
   for (const FieldKey& key : kFields) choose(reader, key, *start, scene);
 }
 
+namespace {
+
+/// A temperature moves only rock that expands.
+void remark_rigid_rock(SceneReader& reader, Scene& scene) {
+  if (!scene.temperature_field.is_given()) return;
+  const std::set<std::string> used = used_materials(scene);
+  std::string reservoir;
+  for (const Layer& layer : scene.field.layers) {
+    if (layer.name == scene.field.reservoir_layer) reservoir = layer.material;
+  }
+  const bool is_field = scene.geometry_kind == GeometryKind::field;
+  const auto expands = [&](const Material& one) {
+    const bool is_heated = is_field ? one.name == reservoir : used.count(one.name) != 0;
+    return is_heated && one.thermal_expansion > 0;
+  };
+  if (std::any_of(scene.materials.begin(), scene.materials.end(), expands)) return;
+  if (!reader.sound("/materials")) return;
+  scene.remarks.push_back(
+      {"/temperature_field", is_field
+                                 ? "has no effect: the thermal_expansion of " + reservoir + " is 0"
+                                 : "has no effect: no material has a thermal_expansion"});
+}
+
+}  // namespace
+
 /// A field's influence is that of the elastic operator, on one mesh, of all of the domain.
-void check_flow_loads(SceneReader& reader, const Scene& scene) {
+void check_flow_loads(SceneReader& reader, Scene& scene) {
+  remark_rigid_rock(reader, scene);
   for (const FieldKey& key : kFields) {
     if (!reader.has(key.at)) continue;
     if (has_viscous_material(scene) && scene.numerics.creep != Switch::off) {

@@ -275,7 +275,9 @@ struct FlowLoad {
   OutsideRule outside = OutsideRule::nearest;
   std::array<double, 2> origin = {0, 0};  ///< m, of the scene in the field's coordinates.
   double azimuth = 0;                     ///< rad, of the scene's y there, from y clockwise.
-  int reference = 0;  ///< report whose values are the initial ones, of change 0.
+  double y = 0;                           ///< m, of the section of plane strain; else 0.
+  bool outside_given = false;  ///< whether the scene says `outside`: never part of its identity.
+  int reference = 0;           ///< report whose values are the initial ones, of change 0.
   /// The reports that are taken, from the reference on, and their times since the scene's start, s:
   /// strictly increasing, the first >= 0. The field is linear in between.
   std::vector<int> reports;
@@ -284,8 +286,8 @@ struct FlowLoad {
   /// Fields are told by their fingerprints.
   bool operator==(const FlowLoad& other) const {
     return fingerprint == other.fingerprint && outside == other.outside && origin == other.origin &&
-           azimuth == other.azimuth && reference == other.reference && reports == other.reports &&
-           time == other.time;
+           azimuth == other.azimuth && y == other.y && reference == other.reference &&
+           reports == other.reports && time == other.time;
   }
 };
 
@@ -401,6 +403,8 @@ std::string remark_text(const Remark& remark);
 const Material& material_named(const Scene& scene, const std::string& name);
 /// Raised by hand when a change may alter results on surfaces, and no others.
 inline constexpr int kSurfaceMethod = 3;
+/// The same of flow results: how they are read and mapped.
+inline constexpr int kFieldMethod = 2;
 
 /// Points at which the error of a surface is measured.
 inline int n_surface_checks(const SurfaceRequest& surface) {

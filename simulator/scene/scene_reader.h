@@ -110,7 +110,7 @@ void check_fault_tables(SceneReader& reader, const Scene& scene);
 /// Reads /numerics/surface and holds its parameters against the rest. @pre the rest is read.
 void read_surface(SceneReader& reader, Scene& scene);
 /// What a field cannot be combined with.
-void check_flow_loads(SceneReader& reader, const Scene& scene);
+void check_flow_loads(SceneReader& reader, Scene& scene);
 /// No more load steps are added at turning points than /numerics/max_added_steps.
 void check_turning_points(SceneReader& reader, const Scene& scene);
 

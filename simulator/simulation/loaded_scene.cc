@@ -65,8 +65,13 @@ bool reload_scene(const JsonDocument& document, const LoadedScene& other, Loaded
   return true;
 }
 
-void check_geometry(const LoadedScene& loaded) {
-  throw_problems(loaded.document, geometry_problems(loaded.scene, loaded.plan));
+FieldCheck check_geometry(const LoadedScene& loaded) {
+  std::vector<Problem> problems = geometry_problems(loaded.scene, loaded.plan);
+  FieldCheck fields;
+  if (problems.empty()) fields = check_fields(loaded.scene, loaded.plan);
+  problems.insert(problems.end(), fields.problems.begin(), fields.problems.end());
+  throw_problems(loaded.document, std::move(problems));
+  return fields;
 }
 
 std::vector<std::filesystem::path> input_files(const LoadedScene& loaded) {

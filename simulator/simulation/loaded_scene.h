@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/plan/field_check.h"
 #include "simulator/plan/plan.h"
 #include "simulator/scene/json_document.h"
 #include "simulator/scene/read_scene.h"
@@ -34,9 +35,10 @@ LoadedScene load_scene(JsonDocument document);
 /// a document that differs from its in case_members() only. @returns whether that was enough; if
 /// not, load_scene() has to look.
 bool reload_scene(const JsonDocument& document, const LoadedScene& other, LoadedScene& loaded);
-/// What a run would refuse once it has the mesh (plan/geometry_check.h), thrown as InputError with
-/// its place in the file. Makes the mesh, unless that is large.
-void check_geometry(const LoadedScene& loaded);
+/// What a run would refuse once it has the mesh (plan/geometry_check.h) or maps its flow results
+/// (plan/field_check.h), thrown as InputError with its place in the file. Makes the mesh, unless
+/// that is large. @returns what else is to be said of the flow results.
+FieldCheck check_geometry(const LoadedScene& loaded);
 /// The files that the scene was read from: its own and those that it names.
 std::vector<std::filesystem::path> input_files(const LoadedScene& loaded);
 

@@ -12,6 +12,7 @@
 #include "simulator/loading/pressure_warnings.h"
 #include "simulator/loading/run_case.h"
 #include "simulator/operators/field_loads.h"
+#include "simulator/plan/field_check.h"
 #include "simulator/scene/read_scene.h"
 #include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/operator_build.h"
@@ -156,14 +157,18 @@ bool Simulation::Impl::prepare_field(const RunContext& context) {
     };
     const auto made = std::make_shared<Made>(influence, nullptr);
     build = std::make_unique<OperatorBuild>(
-        [made, scene = at_hand.scene, plan = at_hand.plan, kept = cache](const RunContext& inner) {
+        [made, scene = at_hand.scene, plan = at_hand.plan, kept = cache,
+         source = at_hand.document.source](const RunContext& inner) {
+          const FieldCheck check = check_fields(scene, plan);
+          if (!check.problems.empty()) throw InputError(source, check.problems);
           if (!made->influence) {
             made->influence = std::make_shared<const PreparedInfluence>(
                 prepare_influence(scene, plan, {}, kept, inner));
           }
           inner.progress(1, "mapping the pressure field");
-          made->loads = std::make_shared<const FieldLoads>(
-              faultsim::field_loads(scene, plan, *made->influence, inner.n_threads));
+          FieldLoads loads = faultsim::field_loads(scene, plan, *made->influence, inner.n_threads);
+          for (const Remark& one : check.remarks) loads.warnings.push_back(remark_text(one));
+          made->loads = std::make_shared<const FieldLoads>(std::move(loads));
           return PreparedOperator();
         },
         context.n_threads);

@@ -70,6 +70,41 @@ TEST(Expansion, LoadsMayDecideWhetherSaltCreeps) {
   expect_true_identities(all, 1);
 }
 
+/// The placement of a flow result makes no family, and is looked at before anything is stored: what
+/// is wrong is said once, with the value that places it, whatever else is sampled.
+TEST(Expansion, FlowResultsAreLookedAtBeforeAnythingIsBuilt) {
+  const auto spec = [](const std::string& origins, const std::string& more) {
+    return R"({"format": 1, "name": "test", "base": "docs/examples/flow/field.json",
+        "set": {"/pressure_field/origin": ["0 m", "0 m"])" +
+           more + R"(}, "design": {"kind": "grid", "parameters": {
+        "/pressure_field/origin/0": )" +
+           origins + R"(, "friction_angle": ["20 deg", "25 deg", "30 deg"]}}})";
+  };
+  const auto expanded = [](const std::string& text) {
+    return expand(parse_campaign(text, FAULTSIM_SOURCE_DIR "/test.json"));
+  };
+  const Expansion fine = expanded(spec(R"(["0 m", "100 m"])", ""));
+  EXPECT_EQ(fine.families.size(), 1u);
+  EXPECT_THAT(
+      fine.notes,
+      testing::ElementsAre(
+          testing::AllOf(testing::HasSubstr("% of the volume of east; the rest takes what the "
+                                            "nearest flow cell has (first where "),
+                         testing::HasSubstr("/origin/0 = 100 m, friction_angle = 20 deg)")),
+          testing::HasSubstr("hardly reaches fault F3: 0 % of the reservoir within 100 m")));
+  try {
+    expanded(spec(R"(["0 m", "200 km", "2.5 km"])", ""));
+    FAIL() << "accepted";
+  } catch (const faultsim::InputError& error) {
+    ASSERT_EQ(error.problems().size(), 2u) << error.what();
+    EXPECT_EQ(error.problems()[0].pointer, "/design/parameters/~1pressure_field~1origin~10/1");
+    EXPECT_THAT(error.what(), testing::HasSubstr("no flow cell lies in a compartment"));
+  }
+  const Expansion meant =
+      expanded(spec(R"(["0 m", "2.5 km"])", R"(, "/pressure_field/outside": "unchanged")"));
+  EXPECT_THAT(meant.notes, testing::Contains(testing::HasSubstr("does not change")));
+}
+
 TEST(Expansion, GridLastParameterFastest) {
   const auto all =
       expand_grid(R"({"offset": ["0 m", "50 m"], "friction_angle": ["20 deg", "30 deg"]})");

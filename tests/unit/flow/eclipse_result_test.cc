@@ -32,6 +32,9 @@ struct Deck {
   std::vector<int> active = {1, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
   std::vector<std::array<int, 3>> dates = {{1, 1, 1990}, {1, 7, 1991}};  ///< day, month, year
   bool has_refinement = false;
+  std::vector<float> map_axes = {};  ///< none: MAPAXES is not there.
+  std::string map_unit = "";
+  std::string relative_to = "";  ///< "MAP": coordinates are on the map.
 };
 
 class EclipseResult : public testing::Test {
@@ -55,7 +58,9 @@ class EclipseResult : public testing::Test {
     gridhead[3] = 2;
     gridhead[24] = 1;
     out.write("FILEHEAD", filehead);
-    out.write("GRIDUNIT", std::vector<std::string>{deck.unit, ""});
+    if (!deck.map_unit.empty()) out.write("MAPUNITS", std::vector<std::string>{deck.map_unit});
+    if (!deck.map_axes.empty()) out.write("MAPAXES", deck.map_axes);
+    out.write("GRIDUNIT", std::vector<std::string>{deck.unit, deck.relative_to});
     out.write("GRIDHEAD", gridhead);
     std::vector<float> coord, zcorn;
     const auto put = [&](std::vector<float>& list, double metres) {
@@ -150,6 +155,34 @@ TEST_F(EclipseResult, IsTheSameInOtherUnits) {
       EXPECT_NEAR(other.cells[f].high.x(), metric.cells[f].high.x(), 1e-3);
     }
   }
+}
+
+/// A grid whose x points north and y west, with its origin at 10 km, 20 km.
+TEST_F(EclipseResult, LiesOnTheMapWhereItsAxesSay) {
+  write_grid({});
+  write_restart({});
+  const FlowField own = read();
+  const std::vector<float> turned = {9000, 20000, 10000, 20000, 10000, 25000};
+  const Deck metres{.map_axes = turned, .map_unit = "METRES"};
+  std::vector<float> feet;
+  for (const float value : turned) feet.push_back(value / 0.3048F);
+  for (const Deck& deck : {metres, Deck{.map_axes = feet, .map_unit = "FEET"}}) {
+    write_grid(deck);
+    const FlowField there = read();
+    ASSERT_EQ(there.cells.size(), own.cells.size());
+    for (std::size_t f = 0; f < own.cells.size(); ++f) {
+      EXPECT_NEAR(there.cells[f].low.x(), 10000 - own.cells[f].high.y(), 0.01);
+      EXPECT_NEAR(there.cells[f].low.y(), 20000 + own.cells[f].low.x(), 0.01);
+      EXPECT_EQ(there.cells[f].low.z(), own.cells[f].low.z());
+      EXPECT_NEAR(flow_cell_volume(there.cells[f]), flow_cell_volume(own.cells[f]), 1);
+    }
+  }
+  write_grid({.map_axes = turned, .map_unit = "METRES", .relative_to = "MAP"});
+  EXPECT_EQ(read().cells[3].low, own.cells[3].low);
+  write_grid({.map_axes = {0, 1, 0, 0, 1, 0}, .map_unit = "METRES"});
+  EXPECT_EQ(read().cells[3].low, own.cells[3].low);
+  write_grid({.map_axes = {0, 0, 0, 0, 1, 0}});
+  EXPECT_THAT([&] { read(); }, ThrowsMessage<InputError>(HasSubstr("MAPAXES")));
 }
 
 TEST_F(EclipseResult, MayHaveAFilePerReport) {

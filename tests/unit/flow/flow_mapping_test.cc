@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "simulator/common/errors.h"
@@ -55,6 +56,18 @@ std::vector<MappedCell> two_sides(int m, double stretch) {
 
 const std::vector<std::string> kNames{"west", "east"};
 
+/// Volume of a box of cube() west of the fault of two_sides(): ∫ of the width there, which is
+/// linear in z but for where the fault enters and leaves the box.
+double volume_west_of_fault(const FlowCell& box) {
+  const double dx = box.high.x() - box.low.x(), dy = box.high.y() - box.low.y();
+  const auto width_integral = [&](double x) {  // ∫ from x = −∞ of the width, over x
+    const double u = std::clamp(x - box.low.x(), 0.0, dx);
+    return 0.5 * u * u + dx * std::max(0.0, x - box.high.x());
+  };
+  const auto fault = [](double z) { return 40 + 0.2 * (z + 1100); };
+  return dy / 0.2 * (width_integral(fault(box.high.z())) - width_integral(fault(box.low.z())));
+}
+
 TEST(FlowMapping, ConservesWhatBothGridsCover) {
   const FlowField field = cube(7);
   const std::vector<MappedCell> cells = two_sides(4, 1);
@@ -72,17 +85,36 @@ TEST(FlowMapping, ConservesWhatBothGridsCover) {
   EXPECT_EQ(change.col(0).cwiseAbs().maxCoeff(), 0);
   for (const RegionCoverage& region : mapping.coverage)
     EXPECT_NEAR(region.covered, region.volume, 1e-12 * region.volume);
-  // Per compartment: one cell as wide as the compartment has its mean.
-  const FlowMapping whole = map_flow(field, two_sides(1, 1), kNames, OutsideRule::nearest);
-  for (int side = 0; side < 2; ++side) {
-    double integral = 0;
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      if (cells[c].region == side)
-        integral += cell_volume(cells[c].corners) * change(static_cast<Eigen::Index>(c), 1);
-    }
-    const double mean = mapped_change(whole, field, 0)(side, 1);
-    EXPECT_NEAR(integral, mean * whole.coverage[side].volume, 1e-12 * size);
+  // Of the western compartment, whose part of a flow cell is a prism between two planes of x.
+  double west = 0, west_given = 0;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (cells[c].region == 0)
+      west += cell_volume(cells[c].corners) * change(static_cast<Eigen::Index>(c), 1);
   }
+  for (std::size_t f = 0; f < field.cells.size(); ++f) {
+    const auto row = static_cast<Eigen::Index>(f);
+    west_given +=
+        volume_west_of_fault(field.cells[f]) * (field.value(row, 1) - field.value(row, 0));
+  }
+  EXPECT_NEAR(west, west_given, 1e-12 * size);
+  EXPECT_GT(std::abs(west_given - 0.5 * given), 1e-3 * size);
+}
+
+TEST(FlowMapping, TakesASectionFromBothSidesOfItsY) {
+  CellCorners cell = two_sides(1, 1)[0].corners;
+  for (Eigen::Vector3d& corner : cell) corner.y() /= 100;  // from 0 to 1, as plane strain has it
+  FlowField field;
+  field.date = {0};
+  field.cells = {{{0, -50, -1100}, {100, 0, -1000}}, {{0, 0, -1100}, {100, 50, -1000}}};
+  field.value = Eigen::Vector2d(1e7, 3e7);
+  const auto at = [&](double y) {
+    const std::vector<MappedCell> section{{.corners = at_section(cell, y), .region = 0}};
+    return mapped_values(map_flow(field, section, {"west"}, OutsideRule::nearest), field, 0)[0];
+  };
+  EXPECT_NEAR(at(0), 2e7, 1e-5);
+  EXPECT_NEAR(at(-20), 1e7, 1e-5);
+  EXPECT_NEAR(at(20), 3e7, 1e-5);
+  EXPECT_NEAR(at(0.25), 2.5e7, 1e-5);
 }
 
 TEST(FlowMapping, OfAUniformFieldIsUniform) {
@@ -110,24 +142,27 @@ TEST(FlowMapping, SaysWhatIsNotCovered) {
   EXPECT_EQ(mapped_change(held, field, 0)(26, 1), 0);
   EXPECT_NE(mapped_change(near, field, 0)(26, 1), 0);
   EXPECT_THAT(coverage_text(near.coverage[0], OutsideRule::nearest),
-              HasSubstr("9 of 27 cells outside take the nearest flow cell's pressure"));
+              HasSubstr("9 of 27 cells outside take what the nearest flow cell has"));
   EXPECT_THAT(coverage_text(held.coverage[0], OutsideRule::unchanged),
-              HasSubstr("9 of 27 cells outside keep their pressure"));
+              HasSubstr("9 of 27 cells outside do not change"));
 }
 
-TEST(FlowMapping, RefusesCellsOverEachOtherAndAGridElsewhere) {
+TEST(FlowMapping, RefusesCellsOverEachOther) {
   FlowField field = cube(2);
   field.cells.push_back({{10, 10, -1090}, {20, 20, -1080}});
   field.value.conservativeResize(9, 2);
   EXPECT_THAT(([&] { map_flow(field, two_sides(2, 1), kNames, OutsideRule::nearest); }),
               ThrowsMessage<InputError>(HasSubstr("flow cells lie over each other at x = ")));
-  FlowField far = cube(2);
-  for (FlowCell& cell : far.cells) {
-    cell.low.x() += 5e5;
-    cell.high.x() += 5e5;
-  }
-  EXPECT_THAT(([&] { map_flow(far, two_sides(2, 1), kNames, OutsideRule::nearest); }),
-              ThrowsMessage<InputError>(HasSubstr("no flow cell lies in compartment east")));
+}
+
+TEST(FlowMapping, SaysTheSharesThatAreCovered) {
+  const FlowField field = cube(5);
+  const std::vector<MappedCell> cells = two_sides(1, 1.6);
+  const FlowMapping mapping = map_flow(field, cells, kNames, OutsideRule::nearest);
+  EXPECT_NEAR(mapping.covered[0], mapping.coverage[0].covered / cell_volume(cells[0].corners),
+              1e-12);
+  EXPECT_NEAR(mapping.covered[0] * cell_volume(cells[0].corners), 100 * 100 * 50.0, 1e-6);
+  EXPECT_EQ(mapping.coverage[0].n_partly, 1);
 }
 
 }  // namespace

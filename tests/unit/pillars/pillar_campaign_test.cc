@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "simulator/common/units.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsweep {
@@ -123,6 +127,87 @@ TEST(PillarCampaign, NeedsAFieldOfTwoBlocks) {
   const auto box = faultsim::parse_json(faultsim::starter_scene("box"), "box.json");
   EXPECT_THROW(make_pillar_campaign(table_of({{Role::offset, {10}}}), box, "box.json", "x", {}),
                faultsim::InputError);
+}
+
+/// A section whose pressures come from a flow result on a map: 200 km east, 500 km north.
+class PillarsInAField : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = testing::TempDir() + "pillars_XXXXXX";
+    folder_ = mkdtemp(name.data());
+    std::ofstream(folder_ / "p.csv")
+        << "x [m], y [m], depth [m], dx [m], dy [m], dz [m], 1990-01-01 [bar], 2000-01-01 [bar]\n"
+           "200000, 500000, 2500, 9000, 9000, 2000, 250, 150\n";
+    base_ = section();
+    base_.source = (folder_ / "section.json").string();
+    base_.value["pressure_field"] = {{"file", "p.csv"}};
+    base_.value["stages"] = {{{"name", "production"}, {"until", "2000-01-01"}}};
+    base_.value.erase("compartments");
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  PillarCampaign of(const std::map<Role, std::vector<double>>& numbers) const {
+    return make_pillar_campaign(table_of(numbers), base_, "section.json", "test", {});
+  }
+  /// origin x, y in m and azimuth in deg: the last three columns.
+  static std::array<double, 3> placement(const PillarCampaign& campaign, int pillar) {
+    std::istringstream stream(line(campaign.samples, pillar + 1));
+    std::vector<double> values;
+    for (std::string cell; std::getline(stream, cell, ',');) values.push_back(std::stod(cell));
+    const std::size_t n = values.size();
+    return {values[n - 3], values[n - 2], values[n - 1]};
+  }
+
+  std::filesystem::path folder_;
+  faultsim::JsonDocument base_;
+};
+
+TEST_F(PillarsInAField, TakeItWhereTheyAre) {
+  const PillarCampaign campaign = of({{Role::x, {199000, 200000, 201000}},
+                                      {Role::y, {500000, 501000, 500500}},
+                                      {Role::azimuth, {0, 90, 30}},
+                                      {Role::dip, {0, 0, 45}}});
+  EXPECT_EQ(campaign.n_cases, 3u);
+  EXPECT_NE(line(campaign.samples, 0)
+                .find("/pressure_field/origin/0 [m], /pressure_field/origin/1 [m], "
+                      "/pressure_field/azimuth [deg]"),
+            std::string::npos);
+  EXPECT_EQ(placement(campaign, 0), (std::array<double, 3>{199000, 500000, 0}));
+  EXPECT_EQ(placement(campaign, 1), (std::array<double, 3>{200000, 501000, 90}));
+  // The dipping fault lies 100 m west of x = 0 at the top, 100 m above the pivot: the section's
+  // origin is as far to the right of its strike.
+  const auto [x, y, azimuth] = placement(campaign, 2);
+  EXPECT_NEAR(x, 201000 + 100 * std::cos(30 * faultsim::kDegree), 1e-6);
+  EXPECT_NEAR(y, 500500 - 100 * std::sin(30 * faultsim::kDegree), 1e-6);
+  EXPECT_NEAR(azimuth, 30, 1e-12);
+  const auto spec = nlohmann::json::parse(campaign.spec);
+  EXPECT_EQ(spec["set"]["/pressure_field/origin"], (nlohmann::json{"0 m", "0 m"}));
+}
+
+TEST_F(PillarsInAField, MayHaveAMapOfTheirOwn) {
+  base_.value["pressure_field"]["origin"] = {"200 km", "500 km"};
+  base_.value["pressure_field"]["azimuth"] = "90 deg";
+  const PillarCampaign campaign = of({{Role::x, {100}}, {Role::y, {1000}}, {Role::azimuth, {20}}});
+  ASSERT_EQ(campaign.n_cases, 1u);
+  // Their north is the field's east, their east its south.
+  const auto [x, y, azimuth] = placement(campaign, 0);
+  EXPECT_NEAR(x, 201000, 1e-6);
+  EXPECT_NEAR(y, 499900, 1e-6);
+  EXPECT_NEAR(azimuth, 110, 1e-9);
+}
+
+TEST_F(PillarsInAField, AreRefusedOutsideOfIt) {
+  const PillarCampaign campaign =
+      of({{Role::x, {200000, 300000}}, {Role::y, {500000, 500000}}, {Role::azimuth, {0, 0}}});
+  EXPECT_EQ(campaign.n_cases, 1u);
+  ASSERT_EQ(campaign.refused.size(), 1u);
+  EXPECT_EQ(campaign.refused[0].id, "P1");
+  EXPECT_NE(campaign.refused[0].problem.what.find("no flow cell lies in a compartment"),
+            std::string::npos);
+}
+
+TEST_F(PillarsInAField, NeedTheirStrike) {
+  EXPECT_THROW(of({{Role::x, {200000}}, {Role::y, {500000}}}), faultsim::InputError);
 }
 
 }  // namespace

@@ -131,6 +131,35 @@ TEST_F(FlowLoads, AreDoubtedWhereTheUnitLooksWrong) {
   EXPECT_THAT(remark_text(read.remarks[0]), HasSubstr("psi read as bar"));
 }
 
+TEST_F(FlowLoads, AreTakenAtASectionInPlaneStrain) {
+  const Scene plain = scene({{"/numerics/plane_strain", "on"}});
+  EXPECT_EQ(plain.pressure_field.y, 0);
+  const Scene north = scene({{"/numerics/plane_strain", "on"}, {"/pressure_field/y", "1 km"}});
+  EXPECT_EQ(north.pressure_field.y, 1000);
+  EXPECT_NE(case_identity(north), case_identity(plain));
+  const Scene idle = scene({{"/pressure_field/y", "1 km"}});
+  EXPECT_EQ(idle.pressure_field.y, 0);
+  ASSERT_FALSE(idle.remarks.empty());
+  EXPECT_EQ(remark_text(idle.remarks[0]),
+            "/pressure_field/y has no effect: it is the section of plane strain");
+}
+
+TEST_F(FlowLoads, OfTemperatureAreIdleInRockThatDoesNotExpand) {
+  document_.value.erase("pressure_field");
+  document_.value["temperature_field"] = {{"file", "t.csv"}};
+  write("t.csv", kCells + ", 1990-01-01 [degC], 1994-01-01 [degC]\n0, 0, 3000, 9, 9, 9, 90, 60\n");
+  const auto said = [&](const Changes& changes) {
+    std::string all;
+    for (const Remark& one : scene(changes).remarks) all += remark_text(one) + "\n";
+    return all;
+  };
+  const std::string idle =
+      "/temperature_field has no effect: the thermal_expansion of reservoir is 0";
+  EXPECT_THAT(said({}), HasSubstr(idle));
+  EXPECT_THAT(said({{"/materials/reservoir/thermal_expansion", "1e-5 1/K"}}),
+              testing::Not(HasSubstr(idle)));
+}
+
 TEST_F(FlowLoads, AreToldByTheirContent) {
   const Scene one = scene();
   std::filesystem::copy_file(folder_ / "p.csv", folder_ / "q.csv");

@@ -1,0 +1,85 @@
+#include "simulator/plan/field_bodies.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "simulator/scene/field_depths.h"
+
+namespace faultsim {
+namespace {
+
+/// A hexahedron between two surfaces of x, each at the depths of a reservoir's top and bottom.
+CellCorners between(const std::array<double, 2>& west, const std::array<double, 2>& east,
+                    const DepthInterval& depths, double half_length) {
+  CellCorners corners;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const bool is_top = i >= 4, is_east = i % 4 == 1 || i % 4 == 2, is_north = i % 4 >= 2;
+    corners[i] = {(is_east ? east : west)[is_top ? 0 : 1], is_north ? half_length : -half_length,
+                  is_top ? -depths.top : -depths.bottom};
+  }
+  return corners;
+}
+
+std::vector<MappedCell> bodies_of_blocks(const Scene& scene) {
+  std::vector<MappedCell> bodies;
+  const int n_blocks = static_cast<int>(scene.field.blocks.size());
+  for (int b = 0; b < n_blocks; ++b) {
+    const Block& block = scene.field.blocks[static_cast<std::size_t>(b)];
+    const DepthInterval depths = reservoir_range(scene.field, block);
+    const auto x_of = [&](int fault) {
+      const auto f = static_cast<std::size_t>(fault);
+      return std::array{fault_x(scene, f, depths.top), fault_x(scene, f, depths.bottom)};
+    };
+    const std::array<double, 2> west = x_of(b), east = x_of(b + 1);
+    const double beside = std::min({kBesideFault, east[0] - west[0], east[1] - west[1]});
+    const std::array<double, 2> east_of_west = {west[0] + beside, west[1] + beside},
+                                west_of_east = {east[0] - beside, east[1] - beside};
+    const double half = 0.5 * scene.field.block_length;
+    bodies.push_back({.corners = between(west, east, depths, half), .region = b});
+    bodies.push_back(
+        {.corners = between(west, east_of_west, depths, half), .region = n_blocks + b});
+    bodies.push_back(
+        {.corners = between(west_of_east, east, depths, half), .region = n_blocks + b + 1});
+  }
+  return bodies;
+}
+
+std::vector<MappedCell> bodies_of_box(const Scene& scene, const Plan& plan) {
+  const Mesh mesh = make_mesh(box_mesh_spec(scene, plan));
+  std::vector<MappedCell> bodies;
+  const auto add = [&](int cell, int region) {
+    const auto c = static_cast<std::size_t>(cell);
+    MappedCell body{.corners = {}, .region = region, .fraction = mesh.region_fraction[c]};
+    for (std::size_t i = 0; i < 8; ++i)
+      body.corners[i] = mesh.nodes[static_cast<std::size_t>(mesh.cells[c][i])];
+    bodies.push_back(body);
+  };
+  const auto is_in_region = [&](int c) { return mesh.region[static_cast<std::size_t>(c)] >= 0; };
+  for (int c = 0; c < static_cast<int>(mesh.cells.size()); ++c) {
+    if (is_in_region(c)) add(c, mesh.region[static_cast<std::size_t>(c)]);
+  }
+  for (std::size_t f = 0; f < mesh.faults.size(); ++f) {
+    std::set<int> beside;
+    for (const FaultFace& face : mesh.faults[f].faces)
+      beside.insert({face.minus_cell, face.plus_cell});
+    for (const int c : beside) {
+      if (is_in_region(c)) add(c, static_cast<int>(scene.pressure.size() + f));
+    }
+  }
+  return bodies;
+}
+
+}  // namespace
+
+std::vector<MappedCell> field_bodies(const Scene& scene, const Plan& plan, double y) {
+  std::vector<MappedCell> bodies = scene.geometry_kind == GeometryKind::field
+                                       ? bodies_of_blocks(scene)
+                                       : bodies_of_box(scene, plan);
+  for (MappedCell& body : bodies) {
+    if (plan.plane_strain) body.corners = at_section(body.corners, y);
+  }
+  return bodies;
+}
+
+}  // namespace faultsim

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "simulator/flow/flow_mapping.h"
+#include "simulator/plan/plan.h"
+
+namespace faultsim {
+
+/// What a flow grid should cover, as bodies to map: their `region` is a compartment, or
+/// n_compartments + a fault for the parts of the reservoir beside it.
+///
+/// Of a field: the hexahedron of each block's reservoir between its faults, and the slices of those
+/// within kBesideFault of a fault. Of a box: the cells of its mesh in regions, and those that touch
+/// a fault. In plane strain their section at y (at_section).
+std::vector<MappedCell> field_bodies(const Scene& scene, const Plan& plan, double y);
+
+inline constexpr double kBesideFault = 100;  ///< m, in x.
+
+}  // namespace faultsim
