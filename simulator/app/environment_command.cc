@@ -11,6 +11,8 @@
 #include "simulator/app/commands.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
+#include "simulator/common/machine.h"
+#include "simulator/flow/eclipse_result.h"
 #include "simulator/linalg/blas.h"
 #include "simulator/linalg/blas_kernel.h"
 #include "simulator/linalg/cholesky.h"
@@ -65,6 +67,24 @@ Fields environment() {
       {"flags", flags()}};
 }
 
+/// What this program was built with, and what it has here: none of it changes bits.
+Fields built_in() {
+  return {{"egrid_files", reads_eclipse()},
+          {"hdf5", FAULTSIM_HDF5},
+          {"hypre", FAULTSIM_HYPRE},
+          {"mpi", FAULTSIM_MPI},
+          {"usable_cores", usable_cores()}};
+}
+
+std::string in_words(const std::string& name, const Fields& value) {
+  if (name == "egrid_files") {
+    return value.get<bool>() ? "read, by opm-common"
+                             : "not read: built without opm-common; install libopm-common-dev and "
+                               "build again, or give tables of cells as CSV";
+  }
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
 }  // namespace
 
 ExitCode environment_command(bool json) {
@@ -76,17 +96,18 @@ ExitCode environment_command(bool json) {
                          {"numerics_version", kNumericsVersion},
                          {"blas_kernel_reason", blas_kernel_reason()},
                          {"blas_threads_at_start", blas_info().n_threads}};
+  const Fields programs = built_in();
   const std::string hash = fingerprint(fields.dump());
   if (json) {
-    Fields document = {{"fingerprint", hash}, {"environment", fields}};
+    Fields document = {{"fingerprint", hash}, {"environment", fields}, {"built_in", programs}};
     document.update(others);
     std::cout << json_text(std::move(document));
     return ExitCode::done;
   }
-  for (const Fields& part : {fields, others}) {
+  for (const Fields& part : {fields, others, programs}) {
     for (const auto& [name, value] : part.items()) {
       std::cout << name << std::string(name.size() < 24 ? 24 - name.size() : 1, ' ')
-                << (value.is_string() ? value.get<std::string>() : value.dump()) << "\n";
+                << in_words(name, value) << "\n";
     }
   }
   std::cout << "fingerprint             " << hash << "\n";
