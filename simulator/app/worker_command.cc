@@ -3,11 +3,13 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "simulator/app/commands.h"
+#include "simulator/app/request_check.h"
 #include "simulator/app/worker_requests.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/process_memory.h"
@@ -84,6 +86,7 @@ class Worker {
     };
     std::string bytes;
     try {
+      require_run(request, bases_);
       take_scene(request);
       require_identity(request);
       prepare(run);
@@ -196,7 +199,12 @@ ExitCode worker_command(const WorkerArguments& arguments) {
   std::signal(SIGTERM, SIG_DFL);  // who ended it shows in the campaign
   take_blas_buffer();             // the limit counts it, and must not keep it from being had
   if (arguments.memory_limit > 0) limit_memory(arguments.memory_limit);
-  Worker(arguments).serve();
+  try {
+    Worker(arguments).serve();
+  } catch (const InputError& error) {  // of a line; what was asked before it has been answered
+    std::fprintf(stderr, "faultsim: %s\n", error.what());
+    return ExitCode::input;
+  }
   return ExitCode::done;
 }
 

@@ -13,6 +13,8 @@
 #include <string>
 #include <thread>
 
+#include "simulator/app/request_check.h"
+
 namespace faultsim {
 
 using nlohmann::json;
@@ -24,7 +26,7 @@ struct WorkerRequests::Shared {
   json running;  ///< number of the run that was handed out last.
   std::atomic<bool> stop = false;
   bool ended = false;
-  std::exception_ptr trouble;  ///< a line that is not JSON.
+  std::exception_ptr trouble;  ///< a line that is not a request.
 
   void take(json request);
   void read_all(int descriptor);
@@ -48,6 +50,7 @@ void WorkerRequests::Shared::take(json request) {
 void WorkerRequests::Shared::read_all(int descriptor) {
   std::string buffer;
   std::array<char, 65536> block;
+  int number = 0;  // of the line
   try {
     while (true) {
       const ssize_t n = read(descriptor, block.data(), block.size());
@@ -56,8 +59,7 @@ void WorkerRequests::Shared::read_all(int descriptor) {
       buffer.append(block.data(), static_cast<std::size_t>(n));
       std::size_t begin = 0;
       for (std::size_t end; (end = buffer.find('\n', begin)) != std::string::npos; begin = end + 1)
-        take(json::parse(buffer.begin() + static_cast<std::ptrdiff_t>(begin),
-                         buffer.begin() + static_cast<std::ptrdiff_t>(end)));
+        take(request_of_line(buffer.substr(begin, end - begin), ++number));
       buffer.erase(0, begin);
     }
   } catch (...) {

@@ -18,8 +18,8 @@ class WorkerRequests {
   WorkerRequests& operator=(const WorkerRequests&) = delete;
 
   /// The next request but cancellations, nothing at end of file. Where it is a run, `stop` is its
-  /// own from now on: set as soon as it is cancelled, or at once if it was already. Throws what
-  /// nlohmann::json throws at a line that is not JSON.
+  /// own from now on: set as soon as it is cancelled, or at once if it was already. Throws
+  /// InputError after the last one before a line that is not a request (request_check.h).
   std::optional<nlohmann::json> next();
   const std::atomic<bool>& stop() const;
 

@@ -3,12 +3,17 @@
 #include <cstdio>
 #include <iostream>
 #include <new>
+#include <system_error>
 
 #include "simulator/common/errors.h"
 #include "simulator/common/interrupt.h"
 
 namespace faultsim {
 namespace {
+
+constexpr const char* kNoMemory =
+    "not enough memory, or no further thread is allowed; raise the limits of this process (ulimit "
+    "-v, -d, -u), close other programs, or choose a coarser mesh";
 
 ExitCode say(const char* program, const char* text, ExitCode code) {
   std::fflush(stdout);
@@ -40,7 +45,13 @@ ExitCode run_program(const char* program, ExitCode (*body)(int, char**), int arg
   } catch (const Error& error) {
     return say(program, error.what(), ExitCode::world);
   } catch (const std::bad_alloc&) {
-    return say(program, "out of memory", ExitCode::world);
+    return say(program, kNoMemory, ExitCode::world);
+  } catch (const std::system_error& error) {
+    // No room for the stack of another thread, or no further thread allowed.
+    if (error.code() == std::errc::resource_unavailable_try_again ||
+        error.code() == std::errc::not_enough_memory)
+      return say(program, kNoMemory, ExitCode::world);
+    return say(program, error.what(), ExitCode::bug);
   } catch (const std::exception& error) {
     return say(program, error.what(), ExitCode::bug);
   }

@@ -20,20 +20,22 @@ namespace {
 
 constexpr double kWanted = kBlasBufferBytes + kLeastWorkingBytes;
 
-/// Throws if a limit of the process leaves less than kWanted of what it counts.
-void require_room(int resource, double used, const char* option, const char* what) {
+/// Address space of the thread that builds an operator: its stack, and what malloc reserves for it.
+constexpr double kThreadBytes = (8 + 64) * 1048576.0;
+
+/// Throws if a limit of the process leaves less than `wanted` of what it counts.
+void require_room(int resource, double used, double wanted, const char* option, const char* what) {
   struct rlimit limit = {};
   if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
   const double bytes = static_cast<double>(limit.rlim_cur);
-  if (bytes - used >= kWanted) return;
+  if (bytes - used >= wanted) return;
   constexpr double kStep = 10000;  // kB, what ulimit counts in: a round number
-  const double least = kStep * std::ceil((used + kWanted) / 1024 / kStep);
-  throw ResourceError(concat("not enough memory: this process may have ", std::llround(bytes / 1e6),
-                             " MB of ", what, " (ulimit ", option, "), has ",
-                             std::llround(used / 1e6), " MB already, and needs ",
-                             std::llround(kWanted / 1e6),
-                             " MB more for the linear algebra and a small scene; run: ulimit ",
-                             option, " ", std::llround(least), ", or more"));
+  const double least = kStep * std::ceil((used + wanted) / 1024 / kStep);
+  throw ResourceError(concat(
+      "not enough memory: this process may have ", std::llround(bytes / 1e6), " MB of ", what,
+      " (ulimit ", option, "), has ", std::llround(used / 1e6), " MB already, and needs ",
+      std::llround(wanted / 1e6), " MB more for the linear algebra and a small scene; run: ulimit ",
+      option, " ", std::llround(least), ", or more"));
 }
 
 /// The limits above say nothing of a machine that does not overcommit.
@@ -67,8 +69,8 @@ void take_blas_buffer() {
   const std::lock_guard lock(mutex);
   if (taken) return;
   const ProcessMemory used = process_memory();
-  require_room(RLIMIT_AS, used.address_space, "-v", "address space");
-  require_room(RLIMIT_DATA, used.data, "-d", "data");
+  require_room(RLIMIT_AS, used.address_space, kWanted + kThreadBytes, "-v", "address space");
+  require_room(RLIMIT_DATA, used.data, kWanted, "-d", "data");
   require_mapping();
   set_blas_threads(1);
   // Small products do without a buffer; this one, of a millisecond, does not.

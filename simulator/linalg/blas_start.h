@@ -13,7 +13,8 @@ namespace faultsim {
 void start_blas(char** argv);
 
 /// Takes the work buffer of the one thread, once per process, so that no later call needs another:
-/// to be called before anything computes, and before the process limits its own memory.
+/// to be called before anything computes, and before the process limits its own memory; before
+/// threads are started, so that what it asks for does not depend on what they have taken already.
 /// @throws ResourceError where the limits of the process (ulimit -v, ulimit -d) or of the machine
 ///         leave too little for the buffer and a small scene; it names the least limit.
 void take_blas_buffer();

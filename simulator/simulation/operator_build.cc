@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "simulator/common/errors.h"
+#include "simulator/linalg/blas_start.h"
 
 namespace faultsim {
 namespace {
@@ -76,6 +77,7 @@ OperatorBuild::OperatorBuild(const Scene& scene, const Plan& plan, const CachePo
 
 OperatorBuild::OperatorBuild(std::function<PreparedOperator(const RunContext&)> make, int n_threads)
     : shared_(std::make_unique<Shared>()) {
+  take_blas_buffer();
   Shared* shared = shared_.get();
   shared->thread = std::jthread([=] {
     PreparedOperator prepared;
