@@ -1,5 +1,5 @@
--- The views whose columns are the measures of stages and faults (simulator/result/measures.h), and
--- those with the parameters of cases. MEASURES(s) stands for these columns of the row s: of what is
+-- The views whose columns are the measures of stages and faults (simulator/result/measures.h),
+-- those with the parameters of cases, and failures. MEASURES(s) stands for these columns of the row s: of what is
 -- per metre of strike in plane strain two, of which one is NULL. Every migration from 11 on makes
 -- the views anew.
 
@@ -148,3 +148,19 @@ JOIN case_metrics m ON m.case_id = e.case_id
 JOIN campaign_cases cc ON cc.case_id = e.case_id
 JOIN campaigns k ON k.id = cc.campaign_id
 JOIN case_labels la ON la.campaign_id = cc.campaign_id AND la.position = cc.position;
+
+-- Cases whose last attempt failed or did not get to the end of the history; of those whose fields alone
+-- failed the last attempt at them, which is their campaign's own.
+DROP VIEW IF EXISTS failures;
+CREATE VIEW failures AS
+SELECT k.name AS campaign, s.position AS "case", r.attempt, r.status, r.outcome, r.reason,
+       r.signal, r.exit_code, r.log_tail, s.state, r.fields_only
+FROM runs r
+JOIN campaign_case_states s ON s.case_id = r.case_id
+JOIN campaigns k ON k.id = s.campaign_id
+WHERE (r.status <> 'completed' OR r.outcome NOT IN ('converged', 'event', 'unresolved_event'))
+  AND (r.fields_only = 0 OR r.campaign_id = s.campaign_id)
+  AND NOT EXISTS (
+    SELECT 1 FROM runs later WHERE later.case_id = r.case_id AND later.attempt > r.attempt
+      AND later.fields_only = r.fields_only
+      AND (later.fields_only = 0 OR later.campaign_id = s.campaign_id));

@@ -299,11 +299,10 @@ std::string curves_to_csv(const Curves& curves) {
                             ",estimate,low,high,holds,rows,unknown\n");
   for (const Curve& curve : curves.curves) {
     for (const CurvePoint& point : curve.points) {
-      text +=
-          concat(csv_field(curve.fault), ",", csv_field(curve.stage), ",", exact_number(point.at),
-                 ",", std::isfinite(point.estimate) ? exact_number(point.estimate) : "", ",",
-                 exact_number(point.bounds.low), ",", exact_number(point.bounds.high), ",",
-                 point.n_holds, ",", curves.n_rows, ",", point.n_unknown, "\n");
+      text += concat(csv_name(curve.fault), ",", csv_name(curve.stage), ",", exact_number(point.at),
+                     ",", std::isfinite(point.estimate) ? exact_number(point.estimate) : "", ",",
+                     exact_number(point.bounds.low), ",", exact_number(point.bounds.high), ",",
+                     point.n_holds, ",", curves.n_rows, ",", point.n_unknown, "\n");
     }
   }
   return text;

@@ -21,7 +21,7 @@ std::string default_metrics(const Store& store, const CampaignInfo& campaign) {
   std::string names;
   for (const char* metric : {"chi_bar", "max_slip", "slides"}) {
     for (const NamedId& fault : store.faults(campaign.id))
-      names += concat(names.empty() ? "" : ",", fault.name, ".", metric);
+      names += concat(names.empty() ? "" : ",", spelled_name(fault.name), ".", metric);
   }
   return names;
 }

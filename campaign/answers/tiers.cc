@@ -125,14 +125,16 @@ TierAnswer answer_of(std::string label, bool is_probability, const PairedValues&
   return answer;
 }
 
+/// As lists of metrics have them.
 std::vector<std::string> names_asked(const std::string& list, const Selection& selection) {
   std::vector<std::string> names;
   if (list.empty()) {
-    for (const NamedId& fault : selection.faults) names.push_back(fault.name + ".chi_bar");
+    for (const NamedId& fault : selection.faults)
+      names.push_back(spelled_name(fault.name) + ".chi_bar");
     return names;
   }
   for (const ScopedMetric& one : choose_metrics(selection, list, true, false))
-    names.push_back(one.name);
+    names.push_back(one.spelled);
   return names;
 }
 

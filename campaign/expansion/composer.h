@@ -12,10 +12,10 @@
 #include "campaign/expansion/case_values.h"
 #include "campaign/expansion/scene_builder.h"
 
-/// Reading a scene takes 0.1 ms, planning it 0.3 ms; a campaign may have 10^5. But what a case's
-/// identity and its family are fingerprints of differs from its neighbour's text in a few values
-/// only, so large designs read a few scenes per *choice*, note which values each choice changes,
-/// and compose the texts of all rows from that.
+/// Reading a scene takes 0.1 ms, planning it a few times that; a campaign may have 10^5. But what a
+/// case's identity and its family are fingerprints of differs from its neighbour's text in a few
+/// values only, so large designs read a few scenes per *choice*, note which values each choice
+/// changes, and compose the texts of all rows from that.
 namespace faultsweep {
 
 /// A canonical scene cut at its values: between[0] leaf[0] between[1] leaf[1] ... between[n].

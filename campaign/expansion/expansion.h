@@ -56,15 +56,15 @@ struct Expansion {
   std::vector<ExcludedCases> excluded;  ///< per CampaignSpec::exclude.
   long n_designed = 0;                  ///< cases before exclusion and merging.
   long n_merged = 0;                    ///< cases dropped as the same as an earlier one.
-  std::size_t n_planned = 0;            ///< plans made, a millisecond each.
+  std::size_t n_planned = 0;            ///< plans made.
   std::vector<std::string> notes;       ///< what the user should know: merged cases, ...
 };
 
 /// Expands a spec. Throws InputError with all problems: values that the scene does not accept (each
 /// once, however many cases use it), cases that are invalid only as a combination (the first few).
 ///
-/// Up to 2000 rows of a group are read one by one (about 0.1 ms each) and 200 families are planned
-/// (0.5 ms each). Beyond that identities and families are composed (composer.h, about 5 us each)
+/// Up to 2000 rows of a group are read one by one and 200 families are planned. Beyond that
+/// identities and families are composed (composer.h, about 5 us each)
 /// and plans are made of 200 more families, spread over the design. Tried are each value, of a
 /// parameter with more than 64 the extremes and a spread; of a grid every combination of extremes;
 /// and the mesh of each family that is planned. A case that is wrong in a way that none of these

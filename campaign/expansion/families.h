@@ -34,7 +34,7 @@ struct FamiliesSoFar {
 
 /// Finds the family of each row of one group, looking once at each distinct family key: the values
 /// of the parameters that may change the linear bulk. The first kPlannedOneByOne keys of a group
-/// are planned, a millisecond each; then fingerprints of families are composed (composer.h), and of
+/// are planned; then fingerprints of families are composed (composer.h), and of
 /// the further families one in so many is planned, so that some kPlannedOneByOne more are. The
 /// others have the plan of the last one planned.
 /// A row that may creep is planned by itself: its steps are those of the stages, and whether it

@@ -32,7 +32,8 @@
 ///
 /// `F2.max_slip in gas_storage` is the metric max_slip of fault F2 in that stage; without fault
 /// that of all faults together, without stage that of the stage asked for. Names of faults and
-/// stages that are not words stand in quotes: `"Fault 2".slides in "gas storage"`.
+/// stages that are not words stand in quotes: `"Fault 2".slides in "gas storage"`. Quotes are
+/// double or single ones; within them the same kind is written twice.
 ///
 /// A number may carry a unit: `30 deg`, `200 bar`, `2.5e3 kg/m3`; a unit that is not one word plus
 /// "/" and words stands in quotes: `"1 Pa s"`. Quoted text that is not a number with a unit is a
@@ -78,6 +79,14 @@ struct Scopes {
 
 /// A fault or stage as an expression spells it: in quotes where it is not one word.
 std::string spelled_name(const std::string& name);
+
+/// What stands in quotes, and the place behind them.
+struct QuotedText {
+  std::string inside;
+  std::size_t end = 0;
+};
+/// Nothing where they are not closed. @pre text[start] is a quote.
+std::optional<QuotedText> quoted_at(std::string_view text, std::size_t start);
 
 /// The grammar was not met, or the types do not fit. what() carries the line, a caret and the cure.
 class ExpressionError : public faultsim::InputError {

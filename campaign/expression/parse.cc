@@ -265,26 +265,28 @@ class Parser {
   /// `"Fault 2".slides`; nothing where the quotes are followed by something else.
   NodePointer parse_quoted_fault() {
     const std::size_t start = position_;
-    const std::size_t close = text_.find(text_[start], start + 1);
-    if (close == std::string::npos || close + 2 >= text_.size() || text_[close + 1] != '.' ||
-        !is_letter(text_[close + 2])) {
+    const auto quoted = quoted_at(text_, start);
+    if (!quoted || quoted->end + 1 >= text_.size() || text_[quoted->end] != '.' ||
+        !is_letter(text_[quoted->end + 1])) {
       return nullptr;
     }
-    const std::string fault = text_.substr(start + 1, close - start - 1);
-    position_ = close + 2;
+    position_ = quoted->end + 1;
     const std::string metric(peek_word());
     position_ += metric.size();
     skip_blanks();
-    return make_name(start, fault + "." + metric);
+    return make_name(start, quoted->inside + "." + metric);
+  }
+  /// What stands in the quotes at the position, which moves behind them.
+  std::string take_quoted() {
+    const auto quoted = quoted_at(text_, position_);
+    if (!quoted) fail(position_, "this quote is not closed", "add the closing quote");
+    position_ = quoted->end;
+    return quoted->inside;
   }
 
   NodePointer parse_quoted() {
     const std::size_t start = position_;
-    const std::size_t close = text_.find(text_[start], start + 1);
-    if (close == std::string::npos)
-      fail(start, "this quote is not closed", "add the closing quote");
-    const std::string inside = text_.substr(start + 1, close - start - 1);
-    position_ = close + 1;
+    const std::string inside = take_quoted();
     const bool may_be_number = !inside.empty() && (is_digit(inside[0]) || inside[0] == '-' ||
                                                    inside[0] == '+' || inside[0] == '.');
     const auto quantity = may_be_number ? read_quantity(inside) : std::nullopt;
@@ -401,11 +403,7 @@ class Parser {
     const char quote = text_[position_];
     std::string stage;
     if (quote == '"' || quote == '\'') {
-      const std::size_t close = text_.find(quote, position_ + 1);
-      if (close == std::string::npos)
-        fail(position_, "this quote is not closed", "add the closing quote");
-      stage = text_.substr(position_ + 1, close - position_ - 1);
-      position_ = close + 1;
+      stage = take_quoted();
     } else {
       stage = peek_word();
       if (stage.empty()) fail(position_, "a stage is missing after \"in\"", "name one");
@@ -498,8 +496,25 @@ std::string spelled_name(const std::string& name) {
       !name.empty() && is_letter(name.front()) && !is_keyword(name) &&
       std::all_of(name.begin(), name.end(), [](char c) { return is_letter(c) || is_digit(c); });
   if (is_word) return name;
-  const char quote = name.find('"') == std::string::npos ? '"' : '\'';
-  return quote + name + quote;
+  const bool has_double = name.find('"') != std::string::npos;
+  const char quote = has_double && name.find('\'') == std::string::npos ? '\'' : '"';
+  std::string spelled(1, quote);
+  for (const char c : name) spelled += c == quote ? std::string(2, quote) : std::string(1, c);
+  return spelled + quote;
+}
+
+std::optional<QuotedText> quoted_at(std::string_view text, std::size_t start) {
+  const char quote = text[start];
+  QuotedText found;
+  for (std::size_t i = start + 1; i < text.size(); ++i) {
+    if (text[i] == quote && (i + 1 == text.size() || text[i + 1] != quote)) {
+      found.end = i + 1;
+      return found;
+    }
+    found.inside += text[i];
+    i += text[i] == quote ? 1 : 0;  // doubled
+  }
+  return std::nullopt;
 }
 
 }  // namespace faultsweep

@@ -49,6 +49,7 @@ struct ParameterAxis {
 ParameterAxis axis_of(const std::vector<StoredParameter>& parameters, const std::string& option,
                       const std::string& name, const std::string& other) {
   std::vector<std::string> names;
+  names.reserve(parameters.size());
   for (const StoredParameter& one : parameters) names.push_back(one.name);
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     if (name.empty() ? names[k] != other : names[k] == name) return {k, parameters[k], {}};
@@ -141,6 +142,13 @@ std::array<long, figure::kCaseClasses> count_outcomes(const Store& store,
     ++counts[static_cast<std::size_t>(kind)];
   });
   return counts;
+}
+
+long count_unresolved(const Store& store, const CampaignInfo& campaign) {
+  long count = 0;
+  for_each_outcome(store, campaign,
+                   [&](const CaseRow& row, CaseClass) { count += *row.rank_class == 1 ? 1 : 0; });
+  return count;
 }
 
 std::string draw_sensitivity(const Sensitivity& sensitivity) {

@@ -25,6 +25,9 @@ std::string draw_outcome_map(const Store& store, const CampaignInfo& campaign,
 std::array<long, faultsim::figure::kCaseClasses> count_outcomes(const Store& store,
                                                                 const CampaignInfo& campaign);
 
+/// How many cases with a full history have an activation or event that the cells do not resolve.
+long count_unresolved(const Store& store, const CampaignInfo& campaign);
+
 /// First-order indices as bars, largest first; of a sobol design total ones below them.
 std::string draw_sensitivity(const Sensitivity& sensitivity);
 /// Shares with their bounds.

@@ -1,11 +1,13 @@
 #include "campaign/figures/report_page.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 
 #include "campaign/answers/probability.h"
 #include "campaign/answers/sensitivity.h"
@@ -15,6 +17,7 @@
 #include "campaign/statistics/intervals.h"
 #include "report_css.h"
 #include "report_js.h"
+#include "simulator/common/base64.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/figure/axis.h"
@@ -45,7 +48,8 @@ std::string short_label(const std::string& label) {
   char* end = nullptr;
   const double value = std::strtod(label.c_str(), &end);
   constexpr int kDigits = 4;
-  return end == label.c_str() ? label : plain_number(value, kDigits) + end;
+  const bool is_number = end != label.c_str() && std::isfinite(value) && (*end == ' ' || *end == 0);
+  return is_number ? plain_number(value, kDigits) + end : label;
 }
 
 /// The page as it is written.
@@ -93,6 +97,12 @@ void add_summary(Page& page) {
                  : concat("A slip event happens in ", count_text(of(CaseClass::event)), ": ",
                           share_text(of(CaseClass::event), n_full, page.request.confidence), ".")),
       "answer");
+  if (const long n_unresolved = count_unresolved(page.store, c); n_unresolved > 0) {
+    page.paragraph(concat("In ", count_text(n_unresolved), " of the ", count_text(n_full),
+                          " the cells do not resolve whether a fault slides, or its event: they "
+                          "are counted as they came out."),
+                   "answer");
+  }
   const long n_left = c.n_cases - n_full;
   if (n_left > 0) {
     page.paragraph(concat("Left out: ", count_text(of(CaseClass::ended_early)),
@@ -117,32 +127,38 @@ std::string cell(const std::string& text) { return "<td>" + escape_xml(text) + "
 
 std::string measured(double value, int digits = 3) { return cell(plain_number(value, digits)); }
 
+/// @param units  of parameters, as they stand in the head; "" = none.
 void add_ranking_row(Page& page, const RankedCase& row,
-                     const std::vector<StoredParameter>& parameters) {
+                     const std::vector<StoredParameter>& parameters,
+                     const std::vector<std::string>& units) {
   const faultsim::StageMetrics& m = row.metrics;
   page.html += "<tr>" + cell(std::to_string(row.position));
-  for (const std::string& label : labels_of(row.parameters, parameters)) {
-    const std::string shown = short_label(label);
-    page.html += cell(shown.substr(0, shown.find(' ')));  // the unit stands in the head
+  const std::vector<std::string> labels = labels_of(row.parameters, parameters);
+  for (std::size_t p = 0; p < labels.size(); ++p) {
+    std::string shown = short_label(labels[p]);
+    if (!units[p].empty() && shown.ends_with(" " + units[p]))
+      shown.resize(shown.size() - units[p].size() - 1);
+    page.html += cell(shown);
   }
   page.html += cell(m.activated_fault) + measured(m.chi_bar) + measured(m.activated_area) +
                measured(m.max_slip * 1e3) + measured(m.moment) + cell(std::to_string(m.n_events)) +
                cell(row.outcome) + "</tr>\n";
 }
 
-/// "offset, m" where all cases give the parameter in one unit; else its name alone.
-std::string parameter_head(const std::vector<RankedCase>& rows, std::size_t index,
-                           const StoredParameter& parameter) {
-  std::string unit;
+/// The unit in which all rows give the parameter; "" where it is a plain number or, in some, words.
+std::string common_unit(const std::vector<RankedCase>& rows, std::size_t index) {
+  std::optional<std::string> unit;
   for (const RankedCase& row : rows) {
     for (const CaseParameter& one : row.parameters) {
-      if (static_cast<std::size_t>(one.index) != index || !one.si) continue;
+      if (static_cast<std::size_t>(one.index) != index) continue;
       const std::size_t blank = one.text.find(' ');
-      const std::string own = blank == std::string::npos ? "" : one.text.substr(blank + 1);
-      if (unit.empty()) unit = own;
+      if (!one.si || blank == std::string::npos) return "";
+      const std::string own = one.text.substr(blank + 1);
+      if (unit.value_or(own) != own) return "";
+      unit = own;
     }
   }
-  return unit.empty() ? parameter.name : parameter.name + ", " + unit;
+  return unit.value_or("");
 }
 
 /// @return the rows that are listed.
@@ -166,15 +182,16 @@ std::vector<RankedCase> add_ranking(Page& page) {
       "<p id=\"rows\" class=\"faint\"></p>\n<div class=\"wide\"><table "
       "data-filter=\"rows\">\n";
   const auto parameters = parameters_from_json(page.campaign.parameters);
-  std::vector<std::string> heads = {"case"};
+  std::vector<std::string> heads = {"case"}, units;
   for (std::size_t p = 0; p < parameters.size(); ++p) {
-    heads.push_back(parameter_head(ranking.rows, p, parameters[p]));
+    units.push_back(common_unit(ranking.rows, p));
+    heads.push_back(parameters[p].name + (units[p].empty() ? "" : ", " + units[p]));
   }
   const char* per_metre = ranking.kinds.plane_strain ? "/m" : "";
   heads.insert(heads.end(), {"slides first", "χ̄", concat("sliding area, m²", per_metre), "slip, mm",
                              concat("M0, N m", per_metre), "events", "outcome"});
   add_head(page, heads);
-  for (const RankedCase& row : ranking.rows) add_ranking_row(page, row, parameters);
+  for (const RankedCase& row : ranking.rows) add_ranking_row(page, row, parameters, units);
   page.html += "</tbody></table></div>\n";
   return ranking.rows;
 }
@@ -281,6 +298,17 @@ void add_outcomes(Page& page) {
   }
 }
 
+/// What the page may do: nothing but its own script, known by its hash, its styles and an empty
+/// icon. Whatever a name that broke out of the page might ask for, no browser would load or run it.
+std::string content_policy() {
+  const std::string_view hex = faultsim::embedded::report_js_sha256;
+  std::string hash;
+  for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
+    hash += static_cast<char>(std::stoi(std::string(hex.substr(i, 2)), nullptr, 16));
+  return concat("default-src 'none'; script-src 'sha256-", faultsim::base64(hash),
+                "'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'");
+}
+
 void add_provenance(Page& page) {
   page.section("provenance", "Where this comes from");
   const Store::SpecCopies spec = page.store.spec_copies(page.campaign.id);
@@ -302,7 +330,9 @@ std::string report_page(const Store& store, const CampaignInfo& campaign,
   Page page{store, campaign, request};
   page.html = concat(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"",
+      content_policy(),
+      "\">\n<meta name=\"viewport\" content=\"width=device-width\">\n"
       "<link rel=\"icon\" href=\"data:,\">\n<title>",
       escape_xml(campaign.name), "</title>\n<style>\n", faultsim::embedded::report_css,
       "</style>\n</head>\n<body>\n<h1>", escape_xml(campaign.name), "</h1>\n");
@@ -318,7 +348,7 @@ std::string report_page(const Store& store, const CampaignInfo& campaign,
   add_answers(page);
   add_outcomes(page);
   add_provenance(page);
-  page.html += concat("<script>\n", faultsim::embedded::report_js, "</script>\n</body>\n</html>\n");
+  page.html += concat("<script>", faultsim::embedded::report_js, "</script>\n</body>\n</html>\n");
   return page.html;
 }
 

@@ -13,7 +13,6 @@ namespace faultsweep {
 
 using faultsim::concat;
 using faultsim::counted;
-using faultsim::Dimension;
 using faultsim::InputError;
 
 namespace {
@@ -111,8 +110,8 @@ std::map<long, double> first_times(const Store& store, const CampaignInfo& campa
 }  // namespace
 
 FaultMap make_fault_map(const Store& store, const CampaignInfo& campaign,
-                        const std::filesystem::path& file) {
-  const Places places = read_places(file);
+                        const std::filesystem::path& places_file) {
+  const Places places = read_places(places_file);
   if (store.faults(campaign.id).empty())
     throw InputError(campaign.name, {{"", 0, "no pillar has a result yet",
                                       "run it first: faultsweep run " + campaign.name}});
@@ -138,11 +137,12 @@ FaultMap make_fault_map(const Store& store, const CampaignInfo& campaign,
     map.properties.back().values.push_back(time == times.end() ? kNone : time->second);
   });
   if (map.outcomes.size() != map.places.size())
-    throw InputError(file.string(), {{"", 0,
-                                      concat(counted(map.places.size(), "place", "places"),
-                                             ", but ", campaign.name, " has ",
-                                             counted(map.outcomes.size(), "pillar", "pillars")),
-                                      "take the places.csv that the campaign was made with"}});
+    throw InputError(
+        places_file.string(),
+        {{"", 0,
+          concat(counted(map.places.size(), "place", "places"), ", but ", campaign.name, " has ",
+                 counted(map.outcomes.size(), "pillar", "pillars")),
+          "take the places.csv that the campaign was made with"}});
   return map;
 }
 

@@ -28,18 +28,20 @@ struct FaultMap {
 };
 
 /// Puts the results of a pillar campaign where its pillars are.
-/// @param places  places.csv of make_pillar_campaign. Throws InputError where it is not that of
+/// @param places_file  places.csv of make_pillar_campaign. Throws InputError where it is not that
+/// of
 ///                the campaign.
 FaultMap make_fault_map(const Store& store, const CampaignInfo& campaign,
-                        const std::filesystem::path& places);
+                        const std::filesystem::path& places_file);
 
-/// A line for each pillar.
+/// A line for each pillar; numbers are rounded to 12 digits, texts as csv_name has them.
 std::string fault_map_to_csv(const FaultMap& map);
 /// VTK's unstructured grid in XML, for ParaView and ResInsight: a line down the panel of each
 /// pillar, and quadrilaterals between one pillar and the next of the same fault; z up.
 std::string fault_map_to_vtu(const FaultMap& map);
 /// GOCAD triangulated surfaces with properties at their points, one of each fault with two pillars
-/// or more; z is depth, positive down. Missing values are the file's NO_DATA_VALUES.
+/// or more; z is depth, positive down, numbers as in CSV. Missing values are the file's
+/// NO_DATA_VALUES.
 std::string fault_map_to_tsurf(const FaultMap& map);
 
 }  // namespace faultsweep

@@ -5,7 +5,9 @@
 
 #include "campaign/pillars/fault_map.h"
 #include "campaign/report/table_output.h"
+#include "simulator/common/base64.h"
 #include "simulator/common/errors.h"
+#include "simulator/common/printable.h"
 #include "simulator/common/units.h"
 
 namespace faultsweep {
@@ -45,17 +47,7 @@ std::string binary(const std::vector<Number>& numbers) {
   const std::uint64_t count = numbers.size() * sizeof(Number);
   std::string bytes(reinterpret_cast<const char*>(&count), sizeof count);
   bytes.append(reinterpret_cast<const char*>(numbers.data()), count);
-  constexpr const char* kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      word = word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k > bytes.size() ? '=' : kDigits[word >> (18 - 6 * k) & 63];
-  }
-  return text;
+  return faultsim::base64(bytes);
 }
 
 template <typename Number>
@@ -95,7 +87,9 @@ std::string gocad_name(const std::string& name) {
 }
 
 void add_surface(const FaultMap& map, const std::vector<std::size_t>& trace, std::string& text) {
-  text += concat("GOCAD TSurf 1\nHEADER {\nname:", map.places[trace.front()].fault, "\n}\n");
+  text +=
+      concat("GOCAD TSurf 1\nHEADER {\nname:", faultsim::printable(map.places[trace.front()].fault),
+             "\n}\n");
   text +=
       "GOCAD_ORIGINAL_COORDINATE_SYSTEM\nNAME Default\nAXIS_NAME \"X\" \"Y\" \"Z\"\n"
       "AXIS_UNIT \"m\" \"m\" \"m\"\nZPOSITIVE Depth\nEND_ORIGINAL_COORDINATE_SYSTEM\n";
@@ -111,12 +105,12 @@ void add_surface(const FaultMap& map, const std::vector<std::size_t>& trace, std
     const FaultMap::Place& place = map.places[i];
     std::string values;
     for (const FaultMap::Property& one : map.properties)
-      values += " " + exact_number(std::isnan(one.values[i]) ? kNoData : one.values[i]);
+      values += " " + rounded_number(std::isnan(one.values[i]) ? kNoData : one.values[i]);
     const auto [x, y] = foot_of(place);
-    text += concat("PVRTX ", ++n_points, " ", exact_number(place.x), " ", exact_number(place.y),
-                   " ", exact_number(place.top_depth), values, "\n");
-    text += concat("PVRTX ", ++n_points, " ", exact_number(x), " ", exact_number(y), " ",
-                   exact_number(place.base_depth), values, "\n");
+    text += concat("PVRTX ", ++n_points, " ", rounded_number(place.x), " ", rounded_number(place.y),
+                   " ", rounded_number(place.top_depth), values, "\n");
+    text += concat("PVRTX ", ++n_points, " ", rounded_number(x), " ", rounded_number(y), " ",
+                   rounded_number(place.base_depth), values, "\n");
   }
   for (int a = 1; a + 3 <= n_points; a += 2)
     text += concat("TRGL ", a, " ", a + 2, " ", a + 3, "\nTRGL ", a, " ", a + 3, " ", a + 1, "\n");
@@ -141,13 +135,13 @@ std::string fault_map_to_csv(const FaultMap& map) {
   text += "\n";
   for (std::size_t i = 0; i < map.places.size(); ++i) {
     const FaultMap::Place& place = map.places[i];
-    text += csv_field(place.id) + "," + csv_field(place.fault);
+    text += csv_name(place.id) + "," + csv_name(place.fault);
     for (const double number :
          {place.x, place.y, place.azimuth, place.dip, place.top_depth, place.base_depth})
-      text += "," + exact_number(number);
+      text += "," + rounded_number(number);
     text += "," + map.outcomes[i];
     for (const FaultMap::Property& one : map.properties)
-      text += "," + (std::isnan(one.values[i]) ? "" : exact_number(one.values[i]));
+      text += "," + (std::isnan(one.values[i]) ? "" : rounded_number(one.values[i]));
     text += "\n";
   }
   return text;

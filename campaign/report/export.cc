@@ -21,7 +21,7 @@ class CsvHeader {
  public:
   void add(std::string name) {
     while (!names_.insert(name).second) name = "parameter_" + name;
-    line_ += (line_.empty() ? "" : ",") + csv_field(name);
+    line_ += (line_.empty() ? "" : ",") + csv_name(name);
   }
   std::string line() const { return line_ + "\n"; }
 
@@ -72,7 +72,7 @@ std::string parameter_fields(const std::vector<StoredParameter>& parameters, con
     const bool has_it = value != row.parameters.end() && value->index == static_cast<int>(k);
     const std::string number = has_it && value->si ? exact_number(*value->si) : "";
     const bool plain = !parameters[k].is_text && parameters[k].dimension == Dimension::number;
-    fields += "," + (plain ? number : csv_field(has_it ? value->text : ""));
+    fields += "," + (plain ? number : csv_name(has_it ? value->text : ""));
     if (parameters[k].dimension != Dimension::number) fields += "," + number;
     if (has_it) ++value;
   }
@@ -102,8 +102,8 @@ std::string export_cases(const Store& store, const CampaignInfo& campaign,
     n_early += row.rank_class && !row.complete() ? 1 : 0;
     output.write(concat(row.position, ",", csv_field(row.identity), ",", row.state, ",",
                         row.outcome, ",", row.rank_class ? std::to_string(*row.rank_class) : "",
-                        ",", csv_field(reason_of(row))));
-    for (const Cell& cell : row.metrics) output.write("," + csv_field(cell_text(cell)));
+                        ",", csv_name(reason_of(row))));
+    for (const Cell& cell : row.metrics) output.write("," + csv_cell(cell));
     output.write(parameter_fields(parameters, row) + "\n");
   });
   output.finish();
@@ -124,7 +124,7 @@ std::string export_histories(const Store& store, const CampaignInfo& campaign,
     ++n_rows;
     const char* separator = "";
     for (const Cell& cell : cells) {
-      output.write(separator + csv_field(cell_text(cell)));
+      output.write(separator + csv_cell(cell));
       separator = ",";
     }
     output.write("\n");

@@ -1,7 +1,6 @@
 #include "campaign/report/selection.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "campaign/expression/expression.h"
 #include "campaign/report/parameters.h"
@@ -55,9 +54,10 @@ Selection make_selection(const Store& store, const CampaignInfo& campaign, const
 
 std::map<std::string, ScopedMetric> known_metrics(const Selection& selection) {
   std::map<std::string, ScopedMetric> known;
-  const auto add = [&known](MetricInfo info, std::string name, std::string sql) {
+  const auto add = [&known](MetricInfo info, std::string name, std::string spelled,
+                            std::string sql) {
     info.name = name;
-    known.insert_or_assign(std::move(name), ScopedMetric{info, std::move(sql)});
+    known.insert_or_assign(std::move(name), ScopedMetric{info, std::move(sql), std::move(spelled)});
   };
   std::vector<std::pair<std::string, std::int64_t>> stages;  // as expressions name them
   for (const NamedId& stage : selection.stages) {
@@ -70,17 +70,20 @@ std::map<std::string, ScopedMetric> known_metrics(const Selection& selection) {
       const auto sql = [&](MetricScope scope) {
         return metric_sql(metric.name, scope, selection.stage.id);
       };
-      add(metric, name, metric_sql(metric.name, of_fault));
+      add(metric, name, name, metric_sql(metric.name, of_fault));
       if (!has_stages(metric.name)) continue;
       for (const auto& [stage, id] : stages) {
         const auto fault = of_fault ? std::optional(selection.fault->id) : std::nullopt;
-        add(metric, concat(name, " in ", stage), sql({fault, id}));
+        add(metric, concat(name, " in ", stage), concat(name, " in ", spelled_name(stage)),
+            sql({fault, id}));
       }
       if (!has_faults(metric.name)) continue;
       for (const NamedId& fault : selection.faults) {
-        add(metric, concat(fault.name, ".", name), sql({fault.id, std::nullopt}));
+        const std::string spelled = concat(spelled_name(fault.name), ".", name);
+        add(metric, concat(fault.name, ".", name), spelled, sql({fault.id, std::nullopt}));
         for (const auto& [stage, id] : stages) {
-          add(metric, concat(fault.name, ".", name, " in ", stage), sql({fault.id, id}));
+          add(metric, concat(fault.name, ".", name, " in ", stage),
+              concat(spelled, " in ", spelled_name(stage)), sql({fault.id, id}));
         }
       }
     }
@@ -132,10 +135,34 @@ bool creeps(const Store& store, const CampaignInfo& campaign) {
 
 namespace {
 
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(' ');
-  const std::size_t last = text.find_last_not_of(' ');
-  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+/// Names with commas between them, without the blanks around them and the quotes in which
+/// expressions have what is not a word.
+std::vector<std::string> names_in(const std::string& list) {
+  std::vector<std::string> names(1);
+  std::size_t solid = 0;  // of the name at hand: up to its last letter that is not a blank
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    std::string& name = names.back();
+    const bool may_quote = name.empty() || std::string_view(name).ends_with(" in ");
+    if (may_quote && (list[i] == '"' || list[i] == '\'')) {
+      const auto quoted = quoted_at(list, i);
+      if (!quoted)
+        throw InputError("--metrics", {{"", 0, concat("this quote is not closed: ", list.substr(i)),
+                                        "add the closing quote"}});
+      name += quoted->inside;
+      i = quoted->end - 1;
+      solid = name.size();
+    } else if (list[i] == ',') {
+      name.resize(solid);
+      names.emplace_back();
+      solid = 0;
+    } else if (list[i] != ' ' || !name.empty()) {
+      name += list[i];
+      if (list[i] != ' ') solid = name.size();
+    }
+  }
+  names.back().resize(solid);
+  if (names.size() > 1 && names.back().empty()) names.pop_back();
+  return names;
 }
 
 ScopedMetric metric_named(const std::string& name,
@@ -164,10 +191,7 @@ std::vector<ScopedMetric> choose_metrics(const Selection& selection, const std::
     }
     return chosen;
   }
-  std::istringstream names(list);
-  for (std::string name; std::getline(names, name, ',');) {
-    chosen.push_back(metric_named(trimmed(name), known));
-  }
+  for (const std::string& name : names_in(list)) chosen.push_back(metric_named(name, known));
   return chosen;
 }
 

@@ -28,6 +28,7 @@ void require_name(const std::string& option, const std::string& what, const std:
 /// A metric as SQL. Its name says of what it is: "max_slip", "F2.max_slip in gas_storage".
 struct ScopedMetric : MetricInfo {
   std::string sql;
+  std::string spelled;  ///< the name as expressions and lists of metrics have it (spelled_name).
 };
 /// All metrics by name, synonyms too; those of faults and stages as the expressions spell them (see
 /// Scopes). The whole history is the stage `whole_history`.
@@ -42,7 +43,8 @@ SqlFragment parse_condition(const std::string& where, const CampaignInfo& campai
                             const Selection& selection);
 /// Whether the salt of any of its cases creeps.
 bool creeps(const Store& store, const CampaignInfo& campaign);
-/// "moment, F2.max_slip in gas_storage" as metrics, in this order; "" gives all (those of creep
+/// "moment, F2.max_slip in gas_storage" as metrics, in this order, names of faults and stages with
+/// commas in quotes, as in expressions; "" gives all (those of creep
 /// only with_creep: they are slow to read), or, unless with_missing, those that every full history
 /// has. Throws InputError with the nearest name.
 std::vector<ScopedMetric> choose_metrics(const Selection& selection, const std::string& list,

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/printable.h"
 #include "simulator/output/atomic_file.h"
 
 namespace faultsweep {
@@ -53,6 +54,14 @@ std::string exact_number(double value) {
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
+std::string rounded_number(double value) {
+  if (std::isnan(value)) return "nan";
+  constexpr int kDigits = 12;
+  char text[32];
+  return {text,
+          std::to_chars(text, text + sizeof text, value, std::chars_format::general, kDigits).ptr};
+}
+
 std::string cell_text(const Cell& cell) {
   if (const auto* number = std::get_if<double>(&cell)) return exact_number(*number);
   if (const auto* whole = std::get_if<std::int64_t>(&cell)) return std::to_string(*whole);
@@ -71,6 +80,36 @@ std::string csv_field(const std::string& text) {
   std::string quoted = "\"";
   for (const char letter : text) quoted += letter == '"' ? "\"\"" : std::string(1, letter);
   return quoted + '"';
+}
+
+namespace {
+
+/// "-5", "+1.5e3 bar".
+bool is_quantity(const std::string& text) {
+  double value = 0;
+  const char* begin = text.data() + (text.front() == '+' ? 1 : 0);
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(begin, end, value);
+  if (error != std::errc() || rest == begin) return false;
+  constexpr std::string_view kOfUnits =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/ ";
+  if (rest != end && *rest != ' ') return false;
+  return std::string_view(rest, static_cast<std::size_t>(end - rest)).find_first_not_of(kOfUnits) ==
+         std::string_view::npos;
+}
+
+}  // namespace
+
+std::string csv_name(const std::string& text) {
+  const bool is_formula = !text.empty() &&
+                          std::string_view("=+-@").find(text.front()) != std::string_view::npos &&
+                          !is_quantity(text);
+  return csv_field((is_formula ? "'" : "") + faultsim::printable(text, faultsim::Keep::line_ends));
+}
+
+std::string csv_cell(const Cell& cell) {
+  const auto* text = std::get_if<std::string>(&cell);
+  return text != nullptr ? csv_name(*text) : cell_text(cell);
 }
 
 std::string one_word(const std::string& text) {

@@ -36,8 +36,17 @@ std::string exact_number(double value);
 std::string cell_text(const Cell& cell);
 /// A cell as a number; NaN where it is missing or text.
 double number_of(const Cell& cell);
+/// Of 12 significant digits, the fewest that are needed: 2394.8 for 2394.7999999999997; "nan" for
+/// NaN.
+std::string rounded_number(double value);
 /// A field of a CSV file, in quotes where RFC 4180 wants them.
 std::string csv_field(const std::string& text);
+/// A text of a user as a field of a CSV file: what a terminal would obey is spelled out
+/// (printable.h), and a "'" stands before what a spreadsheet would take for a formula, which begins
+/// with "=", "+", "-" or "@" and is not a number with at most a unit.
+std::string csv_name(const std::string& text);
+/// A number or a text as a field of a CSV file.
+std::string csv_cell(const Cell& cell);
 /// Text as one word: what is not printable ASCII, and quotes, become "_"; "" becomes "_".
 std::string one_word(const std::string& text);
 /// "offset", length -> "offset_m": the unit as column names of the store's views have it. Blanks of

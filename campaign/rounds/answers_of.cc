@@ -33,6 +33,7 @@ std::vector<Answer> stored_answers(const Store& store, const CampaignInfo& campa
                                    const std::vector<Question>& questions, bool by_design_row,
                                    std::unordered_map<std::string, std::size_t>& by_identity) {
   std::vector<std::set<long>> holds;
+  holds.reserve(questions.size());
   for (const Question& one : questions) holds.push_back(positions_where(store, campaign, one));
   Store::TableQuery query;
   query.by_design_row = by_design_row;
@@ -41,7 +42,7 @@ std::vector<Answer> stored_answers(const Store& store, const CampaignInfo& campa
     Answer one;
     one.position = row.position;
     while (one.round + 1 < static_cast<int>(rounds.size()) &&
-           rounds[one.round + 1].first_position <= row.position) {
+           rounds[static_cast<std::size_t>(one.round) + 1].first_position <= row.position) {
       ++one.round;
     }
     one.parameters = row.parameters;

@@ -291,7 +291,7 @@ json limits_to_json(const LimitTable& table) {
 
 std::string limits_to_csv(const LimitTable& table) {
   std::string text = "row";
-  for (const std::string& name : table.parameters) text += "," + csv_field(name);
+  for (const std::string& name : table.parameters) text += "," + csv_name(name);
   text +=
       ",fault,limit,unit,verdict,safe,unsafe,safe_case,unsafe_case,surely_safe,surely_unsafe,"
       "region,datum_m,absolute_pa,unknown_points,band,remark\n";
@@ -304,7 +304,7 @@ std::string limits_to_csv(const LimitTable& table) {
       const LimitCell& cell = *row.cells[l];
       const Crossing* crossing = cell.finding.limit();
       text += std::to_string(row.configuration);
-      for (const std::string& setting : row.settings) text += "," + csv_field(setting);
+      for (const std::string& setting : row.settings) text += "," + csv_name(setting);
       const std::string fields[] = {
           row.fault,
           table.limits[l].name,
@@ -322,7 +322,7 @@ std::string limits_to_csv(const LimitTable& table) {
           std::to_string(cell.finding.n_unknown),
           row.width ? shortest_text(*row.width) : "",
           remark_of(cell, table.limits[l])};
-      for (const std::string& field : fields) text += "," + csv_field(field);
+      for (const std::string& field : fields) text += "," + csv_name(field);
       text += "\n";
     }
   }

@@ -67,6 +67,7 @@ namespace {
 
 std::vector<std::string> names_of_all(const std::vector<NamedId>& all) {
   std::vector<std::string> names;
+  names.reserve(all.size());
   for (const NamedId& one : all) names.push_back(one.name);
   return names;
 }

@@ -8,7 +8,7 @@ namespace faultsweep {
 /// Adds the next round of a campaign whose cases are all decided, in one transaction; false where
 /// there is none, and why is then CampaignInfo::conclusion. A round that would add no case ends the
 /// campaign too. Throws InputError where a proposed scene is wrong.
-bool add_next_round(Store& store, const std::string& campaign);
+bool add_next_round(Store& store, const std::string& name);
 
 /// Throws InputError where the spec's rounds ask for what results of its scenes will not have.
 void check_rounds(const Expansion& expansion);

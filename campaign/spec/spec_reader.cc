@@ -236,6 +236,8 @@ std::optional<double> parse_bytes(const std::string& text) {
 
 }  // namespace
 
+constexpr double kLeastTimeLimit = 1;  // s
+
 std::optional<double> SpecReader::read_time_limit(const std::string& pointer) {
   if (!has(pointer)) return std::nullopt;
   const auto text = at(pointer).get<std::string>();
@@ -244,6 +246,9 @@ std::optional<double> SpecReader::read_time_limit(const std::string& pointer) {
     problem(pointer, parsed.what, "write for example \"10 min\"");
   } else if (parsed.value <= 0) {
     problem(pointer, "\"" + text + "\" is not above zero", "write for example \"10 min\"");
+  } else if (parsed.value < kLeastTimeLimit) {
+    problem(pointer, "\"" + text + "\" is shorter than a limit can be kept",
+            "write at least \"1 s\": processes are looked at some times a second");
   }
   return parsed.value;
 }

@@ -10,6 +10,7 @@
 #include "store_11_sql.h"
 #include "store_13_sql.h"
 #include "store_14_sql.h"
+#include "store_15_sql.h"
 #include "store_2_sql.h"
 #include "store_3_sql.h"
 #include "store_4_sql.h"
@@ -136,6 +137,7 @@ const std::vector<Migration>& store_migrations() {
         {11, "2026-11-22 views of the list of measures", faultsim::embedded::store_11_sql},
         {13, "2026-11-23 parameters of cases, rounds", faultsim::embedded::store_13_sql},
         {14, "2026-11-23 checksums as sums over rows", faultsim::embedded::store_14_sql},
+        {15, "2026-11-24 failures of last attempts", faultsim::embedded::store_15_sql},
     };
     constexpr int kFirstWithViews = 11;
     for (std::size_t k = kFirstWithViews - 1;; ++k) {  // versions are without gaps from 1

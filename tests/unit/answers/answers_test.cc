@@ -24,13 +24,14 @@ using ::testing::HasSubstr;
 
 TEST(DefaultConditions, NameFaultsAndStagesThatAreNoWords) {
   Selection selection;
-  selection.faults = {{1, "F2"}, {2, "western end"}, {3, "7"}, {4, "F-3"}};
+  selection.faults = {
+      {1, "F2"}, {2, "western end"}, {3, "7"}, {4, "F-3"}, {7, R"(5" 'old', \west)"}};
   selection.stages = {{5, ""}, {6, "first \"year\""}};
   Symbols symbols;
   for (const auto& [name, metric] : known_metrics(selection))
     symbols[name] = {metric.sql, Type{metric.is_flag ? Kind::boolean : Kind::number, {}}};
   const std::vector<std::string> conditions = default_conditions(selection);
-  EXPECT_EQ(conditions.size(), 8u);
+  EXPECT_EQ(conditions.size(), 10u);
   EXPECT_EQ(conditions[0], "F2.slides");
   EXPECT_EQ(conditions[3], "\"western end\".slides in 'first \"year\"'");
   for (const std::string& one : conditions)

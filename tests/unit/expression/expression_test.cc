@@ -402,6 +402,29 @@ TEST(Expression, RandomBytesNeverCrash) {
   }
 }
 
+/// Whatever a fault or stage is called, it can be spelled.
+TEST(SpelledName, ComesBackFromEveryName) {
+  std::mt19937 random(11);
+  const std::string letters = "ab1_ .,\"\"''\\()=+-<>\t\xC3\xA9";
+  const auto name = [&] {
+    std::string text;
+    for (auto n = 1 + random() % 8; n > 0; --n) text += letters[random() % letters.size()];
+    return text;
+  };
+  for (int i = 0; i < 20000; ++i) {
+    const std::string fault = name(), stage = name();
+    const std::string metric = fault + ".slides in " + stage;
+    const Symbols known = {{metric, {"column", Type{Kind::boolean, {}}}}};
+    const std::string text = spelled_name(fault) + ".slides in " + spelled_name(stage);
+    const Expression read = Expression::parse(text + " and true", known, {{fault}, {stage}});
+    ASSERT_EQ(read.names(), std::vector<std::string>{metric}) << text;
+  }
+  EXPECT_EQ(spelled_name("F2"), "F2");
+  EXPECT_EQ(spelled_name("Fault 2"), "\"Fault 2\"");
+  EXPECT_EQ(spelled_name("5\""), "'5\"'");
+  EXPECT_EQ(spelled_name("5\" 'old'"), "\"5\"\" 'old'\"");
+}
+
 TEST(Nearest, FarWordsAreNotSuggested) {
   EXPECT_EQ(nearest("ofsfet", {"offset", "other"}), "offset");
   EXPECT_EQ(nearest("banana", {"offset", "other"}), std::nullopt);

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -10,12 +11,14 @@
 #include "campaign/figures/campaign_figures.h"
 #include "campaign/figures/report_page.h"
 #include "campaign/report/parameters.h"
+#include "simulator/common/base64.h"
 #include "tests/campaign/made_up_result.h"
 #include "tests/unit/figure/xml_check.h"
 
 namespace faultsweep {
 namespace {
 
+using faultsim::concat;
 using faultsim::Dimension;
 using faultsim::InputError;
 using faultsim::figure::xml_problem;
@@ -115,6 +118,82 @@ TEST_F(FiguresTest, ThePageSaysTheAnswerAndHasNothingThatBreaksOut) {
        at = page.find("<svg", at + 1)) {
     EXPECT_EQ(xml_problem(page.substr(at, page.find("</svg>", at) + 6 - at)), "");
   }
+}
+
+/// The hex digits that `sha256sum` gives of a text.
+std::string sha256_of(const std::filesystem::path& folder, const std::string& text) {
+  const std::filesystem::path file = folder / "script", sum = folder / "sum";
+  std::ofstream(file) << text;
+  EXPECT_EQ(std::system(concat("sha256sum <", file.string(), " >", sum.string()).c_str()), 0);
+  std::string hex;
+  std::ifstream(sum) >> hex;
+  return hex;
+}
+
+TEST_F(FiguresTest, ThePageMayLoadNothingAndRunItsOwnScriptOnly) {
+  submit(40, 40);
+  const std::string page = report_page(*store_, campaign_, {.program = "faultsweep test"});
+  const std::string tag = "<script>";
+  const std::size_t begin = page.find(tag) + tag.size();
+  EXPECT_EQ(page.find(tag, begin), std::string::npos) << "one script that runs";
+  const std::string hex =
+      sha256_of(folder_, page.substr(begin, page.find("</script>", begin) - begin));
+  std::string bytes;
+  for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
+    bytes += static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16));
+  EXPECT_THAT(page, HasSubstr("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src "
+                              "'none'; script-src 'sha256-" +
+                              faultsim::base64(bytes) + "'; style-src 'unsafe-inline'; "));
+  EXPECT_LT(page.find("Content-Security-Policy"), page.find("<style"));
+  std::string rest = page;  // without the name of SVG, which is never fetched
+  for (const std::string name = "http://www.w3.org/2000/svg"; rest.find(name) != std::string::npos;)
+    rest.erase(rest.find(name), name.size());
+  for (const char* request :
+       {"http:", "https:", "//www", "src=", "url(", "@import", "fetch(", "XMLHttpRequest"})
+    EXPECT_THAT(rest, Not(HasSubstr(request)));
+}
+
+TEST_F(FiguresTest, WordsBesideNumbersAreShownWhole) {
+  Submission s;
+  s.name = "words";
+  s.scenes = {{"scene.json", "{}"}};
+  s.families = {{"family-a", 1000, 100, 1, 1}};
+  s.parameters = parameters_to_json({{"cut", Dimension::pressure, false},
+                                     {"steps", Dimension::number, true},
+                                     {"depth", Dimension::length, false}});
+  s.cases = {
+      {"a",
+       0,
+       0,
+       "{}",
+       {{0, -1e7, "-100 bar"},
+        {1, std::nullopt, "load steps as given"},
+        {2, 2000.0, "2000.00001 m"}}},
+      {"b",
+       0,
+       0,
+       "{}",
+       {{0, std::nullopt, "mean of both"}, {1, std::nullopt, "infill 2"}, {2, 2100.0, "2100 m"}}}};
+  s.spec_resolved = json{{"groups", {{{"kind", "list"}, {"parameters", json::array()}}}}}.dump();
+  store_->submit(s);
+  campaign_ = store_->campaign("");
+  std::vector<RunRecord> runs(2);
+  for (std::size_t k = 0; k < 2; ++k) {
+    runs[k].case_id = static_cast<long>(k) + 1;
+    runs[k].status = RunStatus::completed;
+    runs[k].result = testing::made_up_result(0.8);
+  }
+  runs[0].result->whole.faults[0].activation_resolved = false;
+  runs[0].result->whole.activation_resolved = false;
+  store_->record_runs(campaign_.id, runs);
+  campaign_ = store_->campaign("");
+  const std::string page = report_page(*store_, campaign_, {.program = "faultsweep test"});
+  EXPECT_THAT(page, HasSubstr("<th>depth, m</th>"));
+  EXPECT_THAT(page, HasSubstr("<td>2,000</td>"));
+  EXPECT_THAT(page, HasSubstr("<th>cut</th>"));
+  for (const char* label : {"\u2212100 bar", "mean of both", "load steps as given", "infill 2"})
+    EXPECT_THAT(page, HasSubstr(concat("<td>", label, "</td>")));
+  EXPECT_THAT(page, HasSubstr("In 1 of the 2 the cells do not resolve"));
 }
 
 TEST_F(FiguresTest, APageWithoutResultsSaysSo) {

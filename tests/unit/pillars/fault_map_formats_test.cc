@@ -86,6 +86,22 @@ TEST(FaultMap, CsvHasALineForEachPillarAndNothingWhereThereIsNothing) {
             "c,,7,8,90,0,1000,1100,failed,,\n");
 }
 
+/// What a terminal would obey and a spreadsheet would compute is text; sums of tenths are rounded.
+TEST(FaultMap, NamesAreSafeAndNumbersRounded) {
+  FaultMap map = small_map();
+  map.places[0].id = "=cmd|' /C calc'!A0";
+  map.places[1].id = std::string("\x1b[31m\0", 6) + "\xE2\x80\xAE\xff";
+  map.places[0].fault = map.places[1].fault = "F\n\x1b]0;x\a";
+  map.places[0].base_depth = 2394.7999999999997;
+  map.properties[0].values[0] = 0.1 + 0.2;
+  const std::string csv = fault_map_to_csv(map), surface = fault_map_to_tsurf(map);
+  EXPECT_NE(csv.find("\n'=cmd|' /C calc'!A0,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\n\\u001b[31m\\u0000\\u202e\\xff,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",2394.8,converged,0.3,"), std::string::npos) << csv;
+  EXPECT_NE(surface.find("\nname:F\\u000a\\u001b]0;x\\u0007\n}"), std::string::npos) << surface;
+  EXPECT_NE(surface.find(" 2394.8 "), std::string::npos) << surface;
+}
+
 TEST(FaultMap, VtuHasPanelsThatDipToTheRightOfTheirStrike) {
   const std::string text = fault_map_to_vtu(small_map());
   const auto points = array_of<double>(text, "Points");

@@ -43,6 +43,20 @@ TEST(CsvField, IsQuotedWhereItMustBe) {
   EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
   EXPECT_EQ(csv_field("say \"no\""), "\"say \"\"no\"\"\"");
   EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
+  EXPECT_EQ(csv_name("two\nlines"), "\"two\nlines\"");
+  EXPECT_EQ(csv_name(std::string("a\x1b[31m\a\0b", 9)), "a\\u001b[31m\\u0007\\u0000b");
+  EXPECT_EQ(csv_name("\xE2\x80\xAE"
+                     "exe \xff"),
+            "\\u202eexe \\xff");
+  EXPECT_EQ(csv_name("=1+1"), "'=1+1");
+  EXPECT_EQ(csv_name("@SUM(A1,2)"), "\"'@SUM(A1,2)\"");
+  EXPECT_EQ(csv_name("-2+3|cmd"), "'-2+3|cmd");
+  EXPECT_EQ(csv_name("+A1"), "'+A1");
+  EXPECT_EQ(csv_name("-"), "'-");
+  for (const char* number : {"-5", "+1.5e3 bar", "-100 bar", "-2 kg/m3", "-1e-9"})
+    EXPECT_EQ(csv_name(number), number);
+  EXPECT_EQ(csv_cell(Cell(-0.5)), "-0.5");
+  EXPECT_EQ(csv_cell(Cell(std::string("=A1"))), "'=A1");
 }
 
 TEST(OneWord, HasNoBlanksAndIsNeverEmpty) {
@@ -76,6 +90,24 @@ TEST(ChooseMetrics, KeepsTheOrderAndNamesTheNearest) {
     EXPECT_THAT(error.what(), HasSubstr("did you mean 'moment'?"));
   }
   EXPECT_EQ(choose_metrics(Selection{}, "", true, true).size(), metric_catalogue().size());
+}
+
+TEST(ChooseMetrics, ListsHoldNamesWithCommasAndQuotes) {
+  Selection selection;
+  selection.faults = {{1, "F2"}, {2, "north, old"}, {3, R"(5" 'b', c)"}, {4, " in \"x"}};
+  selection.stages = {{5, ""}, {6, "first, 'year'"}, {7, "a in b"}};
+  std::string list;
+  std::vector<std::string> expected;
+  for (const auto& [name, metric] : known_metrics(selection)) {
+    list += (list.empty() ? "" : " , ") + metric.spelled;
+    expected.push_back(name);
+  }
+  const auto chosen = choose_metrics(selection, list, true, true);
+  ASSERT_EQ(chosen.size(), expected.size());
+  for (std::size_t k = 0; k < chosen.size(); ++k) EXPECT_EQ(chosen[k].name, expected[k]);
+  EXPECT_EQ(choose_metrics(selection, "moment, \"north, old\".slides,", true, true).size(), 2u);
+  EXPECT_THROW(choose_metrics(selection, "north, old.slides", true, true), InputError);
+  EXPECT_THROW(choose_metrics(selection, "\"north, old.slides", true, true), InputError);
 }
 
 /// Lines of a CSV file as fields, as RFC 4180 has it.

@@ -196,8 +196,13 @@ TEST_F(StoreTest, KeepsEachAttemptAndWaitsUntilTheFinalOne) {
   const auto failures = store.failure_counts(campaign);
   ASSERT_EQ(failures.size(), 1u);
   EXPECT_EQ(failures[0].reason, "killed by SIGSEGV");
+  EXPECT_EQ(count("SELECT attempt FROM failures"), 2) << "the last attempt alone";
   EXPECT_EQ(store.retry(campaign, false, std::nullopt), 1);
   EXPECT_EQ(store.campaign("").n_waiting, 2);
+  store.record_runs(campaign, {completed(ids[0], 0.5)});
+  EXPECT_EQ(count("SELECT count(*) FROM failures"), 0) << "a retry that succeeds is no failure";
+  store.record_runs(campaign, {crashed(ids[1], true)});
+  EXPECT_EQ(count("SELECT \"case\" FROM failures"), 2);
 }
 
 TEST_F(StoreTest, ReplacesAnUnconvergedResultWhenItsRetryEnds) {

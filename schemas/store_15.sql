@@ -1,0 +1,2 @@
+-- Migration 15: the view failures has the cases whose last attempt failed (views.sql), no longer each
+-- attempt that did.
