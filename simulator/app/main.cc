@@ -286,7 +286,7 @@ void add_solver_study(CLI::App& app, Arguments& a, ExitCode& code) {
 void add_environment(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* command = app.add_subcommand(
       "environment",
-      "what the last digits depend on: processor, BLAS, compiler, libraries; and what is built in");
+      "what the last digits depend on: processor, BLAS, libraries; what is built in");
   command->add_flag("--json", a.environment_json, "machine-readable output on stdout");
   command->footer("Example: faultsim environment --json");
   command->callback([&] { code = environment_command(a.environment_json); });
