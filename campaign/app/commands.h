@@ -86,7 +86,7 @@ ExitCode limits_command(const StoreArguments& common, const LimitsArguments& arg
 struct PillarArguments {
   std::filesystem::path table, scene, folder;
   std::filesystem::path names;        ///< JSON: what the table calls the columns; "" = as we do.
-  std::string name = "pillars";       ///< of the campaign.
+  std::string name;                   ///< of the campaign; "" = that of the table's file.
   std::string stress_azimuth;         ///< "160 deg", of the largest horizontal stress; "" = none.
   std::vector<double> stress_ratios;  ///< largest, smallest.
 };

@@ -497,7 +497,7 @@ void add_pillars(CLI::App& app, Arguments& a, ExitCode& code) {
       ->required();
   pillars->add_option("--names", a.pillars.names,
                       "JSON: how the table calls the columns, {\"depth\": \"TOP_TVD [m]\"}");
-  pillars->add_option("--name", a.pillars.name, "of the campaign (default pillars)");
+  pillars->add_option("--name", a.pillars.name, "of the campaign (default: as the table's file)");
   CLI::Option* azimuth = pillars->add_option("--stress-azimuth", a.pillars.stress_azimuth,
                                              "\"160 deg\": of the largest horizontal stress");
   pillars

@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -50,6 +51,17 @@ std::optional<RegionalStress> stress_of(const PillarArguments& arguments) {
                                           "write --stress-ratios 0.83 0.74"}});
   return RegionalStress{azimuth.value / faultsim::kDegree, arguments.stress_ratios[0],
                         arguments.stress_ratios[1]};
+}
+
+/// The name of the campaign: the file's, with dashes for what names of campaigns may not hold.
+std::string name_of(const PillarArguments& arguments) {
+  if (!arguments.name.empty()) return arguments.name;
+  std::string name = arguments.table.stem().string();
+  for (char& letter : name) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_';
+    if (!is_plain) letter = '-';
+  }
+  return name;
 }
 
 std::string refused_csv(const PillarCampaign& campaign) {
@@ -103,12 +115,13 @@ ExitCode pillars_command(const PillarArguments& arguments) {
   const std::filesystem::path scene = std::filesystem::proximate(arguments.scene, arguments.folder);
   const bool shows = isatty(STDERR_FILENO) != 0;
   const PillarCampaign campaign = make_pillar_campaign(
-      table, base, scene.string(), arguments.name, stress_of(arguments), [&](std::size_t i) {
+      table, base, scene.string(), name_of(arguments), stress_of(arguments), [&](std::size_t i) {
         if (shows && i % 100 == 0)
           std::fprintf(stderr, "\r%zu of %zu pillars looked at", i, table.n_pillars());
       });
   if (shows) std::fputs("\r\033[K", stderr);
-  std::string text = concat(counted(table.n_pillars(), "pillar", "pillars"), ": ",
+  const std::size_t n_pillars = table.n_pillars() + table.refused.size();
+  std::string text = concat(counted(n_pillars, "pillar", "pillars"), ": ",
                             counted(campaign.n_cases, "section", "sections"), ", ",
                             campaign.refused.size(), " refused\n", refused_text(campaign));
   for (const std::string& one : table.ignored) text += "  column \"" + one + "\" is not used\n";

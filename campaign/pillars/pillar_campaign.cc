@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "campaign/report/table_output.h"
 #include "campaign/spec/pointers.h"
@@ -129,6 +130,17 @@ struct PillarScene {
   faultsim::Plan plan;
 };
 
+/// A key that two columns give: by name and by pointer, or as a part of the section too.
+void require_distinct(const PillarTable& table, const std::vector<Setting>& settings) {
+  std::set<std::string> seen;
+  std::vector<Problem> problems;
+  for (const Setting& one : settings) {
+    if (!seen.insert(one.pointer).second)
+      problems.push_back({"", 0, concat("two columns give ", one.pointer), "keep one of the two"});
+  }
+  if (!problems.empty()) throw InputError(table.source, std::move(problems));
+}
+
 /// The scene of a pillar, looked at as `faultsim plan` does; what is wrong with it, or the scene.
 std::optional<PillarScene> scene_of(JsonDocument document, const std::vector<Setting>& settings,
                                     std::vector<Problem>& problems) {
@@ -243,6 +255,8 @@ PillarCampaign make_pillar_campaign(const PillarTable& table, const JsonDocument
   const std::vector<std::string> pointers = pointers_of(table, base);
   PillarCampaign campaign;
   campaign.places = kPlaces;
+  for (const PillarTable::Refused& one : table.refused)
+    campaign.refused.push_back({one.id, one.problem.line, one.problem});
   for (std::size_t i = 0; i < table.n_pillars(); ++i) {
     if (progress) progress(i);
     std::vector<Setting> settings = sections.settings(table, i, stress);
@@ -252,6 +266,7 @@ PillarCampaign make_pillar_campaign(const PillarTable& table, const JsonDocument
       throw InputError(table.source, {{"", 0, "nothing differs from pillar to pillar",
                                        "add columns: depth, offset, thickness, dip, azimuth or any "
                                        "parameter that `faultsim parameters` lists"}});
+    if (i == 0) require_distinct(table, settings);
     std::vector<Problem> problems;
     std::optional<PillarScene> one = scene_of(section, settings, problems);
     if (one && scene.has_field()) {

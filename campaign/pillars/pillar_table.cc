@@ -2,26 +2,24 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <set>
-#include <string_view>
 
 #include "simulator/common/input_file.h"
-#include "simulator/common/units.h"
+#include "simulator/common/table_reader.h"
 
 namespace faultsweep {
 
 using faultsim::concat;
-using faultsim::counted;
 using faultsim::Dimension;
-using faultsim::InputError;
 using faultsim::Problem;
+using faultsim::table_quote;
+using faultsim::TableColumn;
+using faultsim::TableReader;
 
 namespace {
 
 constexpr std::size_t kMostBytes = 200'000'000;
-constexpr std::size_t kMostProblems = 20;
+constexpr const char* kPillarCure = "give a line of columns, and a line for each pillar";
 
 struct RoleInfo {
   PillarRole role;
@@ -43,65 +41,19 @@ constexpr std::array<RoleInfo, 12> kRoles = {{
     {PillarRole::dip_from_horizontal, "dip_from_horizontal", Dimension::angle},
 }};
 
-std::string_view without_blanks(std::string_view text) {
-  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
-std::vector<std::string> cells_of(std::string_view line) {
-  std::vector<std::string> cells;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    std::string_view cell = without_blanks(line.substr(0, comma));
-    if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"')
-      cell = cell.substr(1, cell.size() - 2);
-    cells.emplace_back(cell);
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
-}
-
-/// "offset [m]" as name and unit.
-struct Header {
-  std::string name, unit;
-};
-Header header_of(const std::string& cell) {
-  const std::size_t open = cell.find('[');
-  if (open == std::string::npos || cell.back() != ']') return {cell, ""};
-  return {std::string(without_blanks(std::string_view(cell).substr(0, open))),
-          cell.substr(open + 1, cell.size() - open - 2)};
-}
-
+/// Reads rows into pillars.
 class Reader {
  public:
-  Reader(std::string source, const ColumnNames& names) : names_(names) {
-    table_.source = std::move(source);
+  Reader(const std::string& text, const std::string& source, const ColumnNames& names)
+      : reader_(text, source), names_(names) {
+    table_.source = source;
   }
 
-  PillarTable read(std::string_view text) {
-    if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
-    for (long number = 1; !text.empty(); ++number) {
-      const std::size_t end = text.find('\n');
-      const std::string_view line = without_blanks(text.substr(0, end));
-      text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-      if (line.empty() || line.front() == '#') continue;
-      if (columns_.empty()) {
-        read_header(cells_of(line), number);
-        if (!problems_.empty()) break;
-      } else {
-        read_line(cells_of(line), number);
-      }
-    }
-    if (columns_.empty() || (table_.lines.empty() && problems_.empty()))
-      problem(0, "there is no pillar in it", "give a line of columns, and a line for each pillar");
-    if (!problems_.empty()) {
-      if (n_problems_ > problems_.size())
-        problems_.push_back({"", 0, concat(n_problems_ - problems_.size(), " more are wrong"),
-                             "correct these first"});
-      throw InputError(table_.source, std::move(problems_));
-    }
+  PillarTable read() {
+    read_header();
+    reader_.require_sound();
+    while (reader_.next_row()) read_pillar();
+    reader_.require_rows(kPillarCure);
     return std::move(table_);
   }
 
@@ -110,53 +62,59 @@ class Reader {
     const RoleInfo* role = nullptr;
     int parameter = -1;  ///< in table_.parameters; both unset: ignored.
     double factor = 1;   ///< of a role's unit.
-    std::string name;    ///< in the file.
+    bool is_number() const {
+      return parameter >= 0 || (role != nullptr && role->dimension != Dimension::number);
+    }
   };
 
-  void problem(long line, std::string what, std::string cure) {
-    if (++n_problems_ > kMostProblems) return;
-    problems_.push_back({"", static_cast<int>(line), std::move(what), std::move(cure)});
-  }
-
   /// What we call a column of the file; "" = nobody asks for it. The unit given with our name wins.
-  Header ours(const Header& given) const {
+  TableColumn ours(const TableColumn& given) const {
     if (names_.empty()) return given;
     for (const auto& [name, theirs] : names_) {
-      const Header wanted = header_of(theirs);
-      if (wanted.name == given.name) return {name, wanted.unit.empty() ? given.unit : wanted.unit};
+      const TableColumn wanted = faultsim::table_column(theirs);
+      if (wanted.name != given.name) continue;
+      TableColumn own = given;
+      own.name = name;
+      if (wanted.unit) own.unit = wanted.unit;
+      return own;
     }
     return {};
   }
 
-  void read_header(const std::vector<std::string>& cells, long line) {
+  void read_header() {
+    if (!reader_.has_header(kPillarCure)) return;
     std::set<std::string> seen;
-    for (const std::string& cell : cells) {
-      const Header given = header_of(cell), own = ours(given);
-      Column column;
-      column.name = given.name;
+    columns_.resize(reader_.columns().size());
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      const TableColumn given = reader_.columns()[i], own = ours(given);
       if (own.name.empty()) {
         table_.ignored.push_back(given.name);
       } else if (!seen.insert(own.name).second) {
-        problem(line, concat("\"", given.name, "\" has two columns"), "remove one");
+        reader_.refuse(table_quote(given.name) + " has two columns", "remove one");
       } else {
-        find_meaning(own, line, column);
+        find_meaning(own, given.name, i);
       }
-      columns_.push_back(column);
     }
     for (const auto& [name, theirs] : names_) {
       if (!seen.contains(name))
-        problem(line, concat("there is no column \"", header_of(theirs).name, "\" for ", name),
-                "correct its name");
+        reader_.refuse(concat("there is no column ",
+                              table_quote(faultsim::table_column(theirs).name), " for ", name),
+                       "correct its name");
     }
-    require_columns(line);
+    require_columns();
   }
 
-  void find_meaning(const Header& own, long line, Column& column) {
+  void find_meaning(const TableColumn& own, const std::string& given, std::size_t i) {
+    Column& column = columns_[i];
     const auto role = std::find_if(kRoles.begin(), kRoles.end(),
                                    [&](const RoleInfo& one) { return own.name == one.name; });
     if (role == kRoles.end()) {
+      if (!own.words.empty())
+        reader_.refuse(
+            table_quote(own.text) + " ends with " + table_quote(own.words) + " behind its unit",
+            "end it with its unit");
       column.parameter = static_cast<int>(table_.parameters.size());
-      table_.parameters.push_back({own.name, own.unit, {}});
+      table_.parameters.push_back({own.name, own.unit.value_or(""), {}});
       return;
     }
     column.role = &*role;
@@ -164,72 +122,74 @@ class Reader {
     table_.numbers[role->role];
     const bool angle = role->dimension == Dimension::angle;
     const std::string usual = angle ? "deg" : "m";
-    if (own.unit == usual) return;
-    const auto one = faultsim::parse_quantity("1 " + own.unit, role->dimension);
-    if (!one.ok) {
-      problem(line, concat("\"", column.name, "\" needs a unit of ", angle ? "angle" : "length"),
-              concat("write \"", column.name, " [", usual, "]\""));
-    }
-    column.factor = angle ? one.value / faultsim::kDegree : one.value;
+    reader_.rename(i, own);
+    const bool has_unit =
+        reader_.set_unit(i, role->dimension, angle ? faultsim::kAngleRange : faultsim::kLengthRange,
+                         concat("write ", table_quote(given + " [" + usual + "]")));
+    if (!has_unit || own.unit == usual) return;
+    const double one = faultsim::parse_quantity("1 " + *own.unit, role->dimension).value;
+    column.factor = angle ? one / faultsim::kDegree : one;
   }
 
   bool has(PillarRole role) const { return table_.numbers.contains(role); }
 
-  void require_columns(long line) {
+  void require_columns() {
     for (const PillarRole role : {PillarRole::x, PillarRole::y}) {
       if (!has(role))
-        problem(line, concat("there is no column \"", name_of(role), "\""),
-                concat("add \"", name_of(role), " [m]\""));
+        reader_.refuse(concat("there is no column \"", name_of(role), "\""),
+                       concat("add \"", name_of(role), " [m]\""));
     }
     const bool one_side = has(PillarRole::thickness_foot) != has(PillarRole::thickness_hanging);
     if (one_side || (has(PillarRole::thickness) && has(PillarRole::thickness_foot)))
-      problem(line, "the thickness is not that of both sides",
-              "give \"thickness\", or \"thickness_foot\" and \"thickness_hanging\"");
+      reader_.refuse("the thickness is not that of both sides",
+                     "give \"thickness\", or \"thickness_foot\" and \"thickness_hanging\"");
     if (has(PillarRole::dip) && has(PillarRole::dip_from_horizontal))
-      problem(line, "there are two dips", "give one of them");
+      reader_.refuse("there are two dips", "give one of them");
   }
 
-  void read_line(const std::vector<std::string>& cells, long line) {
-    if (cells.size() != columns_.size()) {
-      problem(line,
-              concat(counted(cells.size(), "cell", "cells"), ", and there are ",
-                     counted(columns_.size(), "column", "columns")),
-              "give a cell for each column");
-      return;
+  void read_pillar() {
+    std::string id = std::to_string(reader_.line()), fault;
+    std::vector<double> numbers(columns_.size());
+    std::optional<Problem> why;
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      const Column& column = columns_[k];
+      if (column.is_number()) {
+        const faultsim::TableNumber number = reader_.check_number(k);
+        numbers[k] = number.value * column.factor;
+        if (!number.what.empty() && !why)
+          why = Problem{reader_.columns()[k].name, reader_.line(), number.what, number.cure};
+      } else if (column.role != nullptr) {
+        (column.role->role == PillarRole::id ? id : fault) = reader_.cell(k);
+      }
     }
-    table_.lines.push_back(line);
-    table_.ids.push_back(std::to_string(line));
-    table_.faults.emplace_back();
-    for (std::size_t k = 0; k < cells.size(); ++k) read_cell(columns_[k], cells[k], line);
-    if (!ids_.insert(table_.ids.back()).second)
-      problem(line, concat("pillar \"", table_.ids.back(), "\" was there before"),
-              "give each pillar an id of its own");
-  }
-
-  void read_cell(const Column& column, const std::string& cell, long line) {
-    if (column.role == nullptr && column.parameter < 0) return;
-    if (column.role != nullptr && column.role->role == PillarRole::id) {
-      table_.ids.back() = cell;
-    } else if (column.role != nullptr && column.role->role == PillarRole::fault) {
-      table_.faults.back() = cell;
+    if (!ids_.insert(id).second)
+      reader_.refuse(concat("pillar ", table_quote(id), " was there before"),
+                     "give each pillar an id of its own");
+    if (why) {
+      table_.refused.push_back({id, std::move(*why)});
     } else {
-      double value = 0;
-      const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-      if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
-        problem(line, concat("\"", cell, "\" of ", column.name, " is not a number"),
-                "write a number, its unit in the first line");
-      if (column.role != nullptr)
-        table_.numbers[column.role->role].push_back(value * column.factor);
-      else
-        table_.parameters[static_cast<std::size_t>(column.parameter)].values.push_back(value);
+      keep_pillar(id, fault, numbers);
     }
   }
 
+  void keep_pillar(const std::string& id, const std::string& fault,
+                   const std::vector<double>& numbers) {
+    table_.lines.push_back(reader_.line());
+    table_.ids.push_back(id);
+    table_.faults.push_back(fault);
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      const Column& column = columns_[k];
+      if (column.parameter >= 0)
+        table_.parameters[static_cast<std::size_t>(column.parameter)].values.push_back(numbers[k]);
+      else if (column.is_number())
+        table_.numbers[column.role->role].push_back(numbers[k]);
+    }
+  }
+
+  TableReader reader_;
   const ColumnNames& names_;
   PillarTable table_;
   std::vector<Column> columns_;
-  std::vector<Problem> problems_;
-  std::size_t n_problems_ = 0;
   std::set<std::string> ids_;
 };
 
@@ -247,9 +207,14 @@ const char* name_of(PillarRole role) {
       ->name;
 }
 
+PillarTable parse_pillar_table(const std::string& text, const std::string& source,
+                               const ColumnNames& names) {
+  return Reader(text, source, names).read();
+}
+
 PillarTable read_pillar_table(const std::filesystem::path& file, const ColumnNames& names) {
-  return Reader(file.string(), names)
-      .read(faultsim::read_input_or_throw(file.string(), kMostBytes));
+  return parse_pillar_table(faultsim::read_input_or_throw(file.string(), kMostBytes), file.string(),
+                            names);
 }
 
 }  // namespace faultsweep

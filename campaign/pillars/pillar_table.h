@@ -34,12 +34,18 @@ struct PillarTable {
     std::string name, unit;      ///< unit as given; "" = a plain number.
     std::vector<double> values;  ///< in that unit.
   };
+  /// A line whose numbers are not all there.
+  struct Refused {
+    std::string id;
+    faultsim::Problem problem;  ///< the first of its problems; pointer: the column.
+  };
   std::string source;
   std::vector<long> lines;                            ///< of each pillar, from 1.
   std::vector<std::string> ids, faults;               ///< ids are distinct; a fault may be "".
   std::map<PillarRole, std::vector<double>> numbers;  ///< of the columns there are; m, deg.
   std::vector<Parameter> parameters;
   std::vector<std::string> ignored;  ///< columns of the file that nobody asked for.
+  std::vector<Refused> refused;      ///< in order of lines.
 
   std::size_t n_pillars() const { return lines.size(); }
   /// A role's value of a pillar; none where there is no such column.
@@ -49,11 +55,15 @@ struct PillarTable {
 /// How a file calls the columns: "depth" -> "TOP_TVD [m]", "friction_angle" -> "PHI [deg]".
 using ColumnNames = std::map<std::string, std::string>;
 
-/// Reads CSV with commas: a first line of columns, each with its unit in brackets, then a line for
-/// each pillar. Blanks around cells, empty lines and lines that begin with # mean nothing.
+/// Reads a table (common/table_reader.h): a line of columns, each with its unit in brackets, then a
+/// line for each pillar. A pillar with a number that is none or out of range is refused alone, as
+/// tables mark so what is not known of a place; what damages the table refuses all of it.
 /// @param names  empty: the file's columns have the names of roles and of scene parameters; else
 ///               what is not in it is ignored.
-/// Throws InputError with all that is wrong, line by line.
+/// Throws InputError with what is wrong, line by line.
+PillarTable parse_pillar_table(const std::string& text, const std::string& source,
+                               const ColumnNames& names);
+/// The same of a file.
 PillarTable read_pillar_table(const std::filesystem::path& file, const ColumnNames& names);
 
 /// "depth": the name of a role in tables.

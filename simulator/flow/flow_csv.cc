@@ -1,236 +1,243 @@
 #include "simulator/flow/flow_csv.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
+#include <limits>
 #include <map>
 #include <optional>
-#include <sstream>
 #include <utility>
 #include <vector>
 
-#include "simulator/common/csv_text.h"
 #include "simulator/common/dates.h"
-#include "simulator/common/errors.h"
-#include "simulator/common/units.h"
+#include "simulator/common/table_reader.h"
+#include "simulator/flow/regular_cells.h"
 
 namespace faultsim {
 namespace {
 
-constexpr std::size_t kMostProblems = 20;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<const char*, 6> kPlaces{"x", "y", "depth", "dx", "dy", "dz"};
-constexpr const char* kFlowHeaderCure =
-    "head the columns x [m], y [m], depth [m], dx [m], dy [m], dz [m], then 1990-01-01 [bar] and "
-    "so on, or begin with date and end with pressure [bar]";
+constexpr std::size_t kDepth = 2, kFirstSize = 3;  // in kPlaces
 
-/// A column's value in SI is size · number + zero.
-struct Unit {
-  double size = 1, zero = 0;
-};
+using Place = std::array<double, 6>;  ///< as kPlaces, m; 0 where there is no such column.
 
-using Place = std::array<double, 6>;  ///< x, y, depth, dx, dy, dz; m.
-
-/// Reads rows into reports; keeps every problem until there are too many to be of use.
-class FlowCsvReader {
+class FlowTable {
  public:
-  FlowCsvReader(std::string given, FlowQuantity quantity)
-      : given_(std::move(given)), is_pressure_(quantity == FlowQuantity::pressure) {}
+  FlowTable(const std::string& text, const std::string& given, FlowQuantity quantity)
+      : reader_(text, given), is_pressure_(quantity == FlowQuantity::pressure) {
+    const std::string unit = is_pressure_ ? " [bar]" : " [degC]";
+    header_cure_ =
+        "head the columns x [m], y [m], depth [m], dx [m], dy [m], dz [m], then "
+        "1990-01-01" +
+        unit + " and so on, or begin with date and end with " + name_of_value() + unit +
+        "; depth and sizes may be left out of regular grids";
+  }
 
-  FlowField read(const std::string& text) {
-    std::istringstream lines(text);
-    std::string line;
-    for (line_ = 1; std::getline(lines, line); ++line_) {
-      if (line_ == 1) remove_byte_order_mark(line);
-      const std::string words = trimmed(line);
-      if (words.empty() || words[0] == '#') continue;
-      if (units_.empty()) {
-        header(csv_cells(line));
-        if (!problems_.empty()) break;
-      } else {
-        row(csv_cells(line));
-      }
-    }
-    line_ = 0;
-    if (problems_.empty() && places_.empty()) refuse("there are no values", kFlowHeaderCure);
-    if (is_long_) require_every_cell();
-    if (!problems_.empty()) throw InputError(given_, problems_);
-    return result();
+  FlowField read() {
+    header();
+    reader_.require_sound();
+    while (reader_.next_row()) row();
+    reader_.require_rows(header_cure_);
+    require_every_cell();
+    FlowField field;
+    if (reader_.is_sound()) field = result();
+    reader_.require_sound();
+    return field;
   }
 
  private:
-  void refuse(const std::string& what, const std::string& cure) {
-    if (problems_.size() < kMostProblems) problems_.push_back({"", line_, what, cure});
+  std::string name_of_value() const { return is_pressure_ ? "pressure" : "temperature"; }
+
+  void header() {
+    const std::vector<TableColumn>& columns = reader_.columns();
+    if (!reader_.has_header(header_cure_)) return;
+    is_long_ = columns[0].text == "date";
+    for (first_value_ = is_long_ ? 1 : 0; first_value_ < columns.size(); ++first_value_) {
+      const std::string& name = columns[first_value_].name;
+      const auto place = std::find(kPlaces.begin(), kPlaces.end(), name);
+      if (place == kPlaces.end()) break;
+      const auto k = static_cast<std::size_t>(place - kPlaces.begin());
+      if (column_[k]) reader_.refuse("there are two columns " + name, "remove one of the two");
+      column_[k] = first_value_;
+      reader_.set_unit(first_value_, Dimension::length, k < kFirstSize ? kLengthRange : kSizeRange,
+                       header_cure_);
+    }
+    for (const std::size_t k : {0, 1}) {
+      if (!column_[k])
+        reader_.refuse(concat("there is no column ", kPlaces[k], " before the values"),
+                       header_cure_);
+    }
+    if (column_[5] && !column_[kDepth])
+      reader_.refuse("there is a column dz and none of depth", "add depth [m], or leave dz out");
+    value_headings();
   }
 
-  /// What a unit is in SI; none where it is of another dimension.
-  static std::optional<Unit> unit_of(const std::string& unit, Dimension dimension) {
-    if (dimension == Dimension::temperature) {  // of degrees that do not begin at nothing
-      constexpr double kKelvin = 273.15, kFahrenheit = 459.67, kRankine = 5.0 / 9;
-      if (unit == "degC") return Unit{1, kKelvin};
-      if (unit == "degF") return Unit{kRankine, kFahrenheit * kRankine};
-    }
-    const ParsedQuantity one = parse_quantity("1 " + unit, dimension);
-    if (!one.ok) return std::nullopt;
-    return Unit{one.value, 0};
-  }
-
-  /// "depth [m]" → name and unit, checked; name "" after a refusal.
-  std::string column(const std::string& text, Dimension dimension) {
-    const auto open = text.rfind('[');
-    const auto close = text.rfind(']');
-    const bool whole = open != std::string::npos && close != std::string::npos && open < close;
-    const std::string unit = whole ? trimmed(text.substr(open + 1, close - open - 1)) : "";
-    const std::optional<Unit> size = whole ? unit_of(unit, dimension) : std::nullopt;
-    units_.push_back(size.value_or(Unit{}));
-    if (!whole) {
-      refuse("column \"" + text + "\" has no unit in brackets", kFlowHeaderCure);
-      return "";
-    }
-    if (!size) {
-      refuse("column \"" + text + "\" does not hold " + info_of(dimension).noun, kFlowHeaderCure);
-      return "";
-    }
-    return trimmed(text.substr(0, open));
-  }
-
-  void header(const std::vector<std::string>& cells) {
-    is_long_ = cells[0] == "date";
-    if (is_long_) units_.emplace_back();
-    const std::size_t first = is_long_ ? 1 : 0;
-    if (cells.size() < first + 7 || (is_long_ && cells.size() != 8)) {
-      units_.resize(cells.size());
-      return refuse(concat("has ", cells.size(), " columns"), kFlowHeaderCure);
-    }
-    for (std::size_t i = 0; i < 6; ++i) {
-      const std::string name = column(cells[first + i], Dimension::length);
-      if (!name.empty() && name != kPlaces[i])
-        refuse(concat("column ", first + i + 1, " is \"", name, "\" and not ", kPlaces[i]),
-               kFlowHeaderCure);
-    }
-    for (std::size_t i = first + 6; i < cells.size(); ++i) {
-      const std::string name =
-          column(cells[i], is_pressure_ ? Dimension::pressure : Dimension::temperature);
-      if (name.empty()) continue;
-      if (!is_long_)
-        next_date(name);
-      else if (name != quantity())
-        refuse("the last column is \"" + name + "\" and not " + quantity(), kFlowHeaderCure);
+  void value_headings() {
+    const std::vector<TableColumn>& columns = reader_.columns();
+    const std::size_t n_values = columns.size() - first_value_;
+    if (n_values == 0 || (is_long_ && n_values > 1))
+      return reader_.refuse(concat("has ", n_values, " columns of values"), header_cure_);
+    std::optional<std::string> refused_unit;  // the same in all columns is said once
+    for (std::size_t i = first_value_; i < columns.size(); ++i) {
+      const TableColumn& one = columns[i];
+      const bool is_named = is_long_ ? one.name == name_of_value() : next_date(one.name);
+      if (!is_named && is_long_)
+        reader_.refuse(
+            "the last column is " + table_quote(one.name) + " and not " + name_of_value(),
+            header_cure_);
+      if (!is_named) return;
+      const std::string unit = one.text.substr(one.name.size());
+      if (unit == refused_unit) continue;
+      if (!reader_.set_unit(i, is_pressure_ ? Dimension::pressure : Dimension::temperature,
+                            is_pressure_ ? kPressureRange : kTemperatureRange, header_cure_))
+        refused_unit = unit;
     }
   }
 
   /// Adds a report, unless its date is none or does not come after the one before.
-  bool next_date(const std::string& text) {
-    const std::optional<double> date = parse_date(text);
+  bool next_date(std::string_view text) {
+    if (!date_names_.empty() && text == date_names_.back() && is_long_) return true;
+    const std::optional<double> date = parse_date(std::string(text));
     if (!date) {
-      refuse("\"" + text + "\" is not a date", "write dates as year-month-day: 1990-01-31");
+      reader_.refuse(
+          table_quote(text) +
+              (is_long_ ? " is not a date" : " is neither a date nor x, y, depth, dx, dy or dz"),
+          "write dates as year-month-day, behind the columns of the place: 1990-01-31");
       return false;
     }
     if (!dates_.empty() && *date == dates_.back() && is_long_) return true;
     if (!dates_.empty() && *date <= dates_.back()) {
-      refuse("the date " + text + " does not come after the one before",
-             "write the reports in the order of time, each once");
+      reader_.refuse("the date " + std::string(text) + " does not come after the one before",
+                     "write the reports in the order of time, each once");
       return false;
     }
     dates_.push_back(*date);
-    date_names_.push_back(text);
-    pressures_.emplace_back();
+    date_names_.emplace_back(text);
+    values_.emplace_back();
     return true;
   }
 
-  std::string quantity() const { return is_pressure_ ? "pressure" : "temperature"; }
-
-  std::optional<double> number(const std::vector<std::string>& cells, std::size_t i) {
-    char* end = nullptr;
-    const double value = std::strtod(cells[i].c_str(), &end);
-    if (!cells[i].empty() && *end == '\0' && std::isfinite(value))
-      return units_[i].size * value + units_[i].zero;
-    refuse(concat("\"", cells[i], "\" in column ", i + 1, " is not a number"),
-           "leave inactive cells out; units stand in the header only");
-    return std::nullopt;
-  }
-
-  std::optional<Place> place(const std::vector<std::string>& cells, std::size_t first) {
+  std::optional<Place> place() {
     Place place{};
-    for (std::size_t i = 0; i < place.size(); ++i) {
-      const std::optional<double> value = number(cells, first + i);
-      if (!value) return std::nullopt;
-      if (i >= 3 && *value <= 0) {
-        refuse(concat(kPlaces[i], " is ", cells[first + i]), "write sizes above zero");
-        return std::nullopt;
-      }
-      place[i] = *value;
+    bool is_whole = true;
+    for (std::size_t k = 0; k < place.size(); ++k) {
+      if (!column_[k]) continue;
+      const std::optional<double> value = reader_.value(*column_[k]);
+      is_whole = is_whole && value;
+      place[k] = value.value_or(0);
     }
+    if (!is_whole) return std::nullopt;
     return place;
   }
 
-  void row(const std::vector<std::string>& cells) {
-    if (cells.size() != units_.size()) {
-      return refuse(concat("has ", cells.size(), " values for ", units_.size(), " columns"),
-                    "write one value per column");
-    }
-    if (is_long_ && !next_date(cells[0])) return;
-    const std::size_t first = is_long_ ? 1 : 0;
-    const std::optional<Place> at = place(cells, first);
+  void row() {
+    if (is_long_ && !next_date(reader_.cell(0))) return;
+    const std::optional<Place> at = place();
     if (!at) return;
-    const auto [known, is_new] = numbers_.try_emplace(*at, std::ssize(places_));
-    if (is_new) places_.push_back(*at);
-    for (std::size_t i = first + 6; i < cells.size(); ++i) {
-      const std::optional<double> value = number(cells, i);
-      if (!value) continue;
-      if (*value < 0) {
-        refuse("the " + quantity() + " " + cells[i] + " is below zero",
-               "write absolute " + quantity() + "s, not changes");
-      }
-      auto& report = is_long_ ? pressures_.back() : pressures_[i - first - 6];
-      if (!report.try_emplace(known->second, *value).second)
-        return refuse("the cell is there twice", "give each cell one value per report");
+    const auto [known, is_new] = numbers_.try_emplace(*at, places_.size());
+    if (is_new) {
+      places_.push_back(*at);
+      lines_.push_back(reader_.line());
+    }
+    const std::size_t cell = known->second;
+    for (std::size_t i = first_value_; i < reader_.columns().size(); ++i) {
+      const std::optional<double> value = reader_.value(i);
+      std::vector<double>& report = is_long_ ? values_.back() : values_[i - first_value_];
+      if (report.size() < places_.size()) report.resize(places_.size(), kNone);
+      if (!std::isnan(report[cell]))
+        return reader_.refuse("the cell is there twice", "give each cell one value per report");
+      report[cell] = value.value_or(kNone);
     }
   }
 
   /// In the long form a cell can be missing at a date.
   void require_every_cell() {
-    for (std::size_t t = 0; t < pressures_.size(); ++t) {
-      const std::size_t n_missing = places_.size() - pressures_[t].size();
-      if (n_missing == 0 || !problems_.empty()) continue;
-      refuse(concat(n_missing, " of ", places_.size(), " cells are missing at ", date_names_[t]),
-             "write every cell at every date");
-      return;
+    for (std::size_t t = 0; t < values_.size(); ++t) {
+      const auto n_missing =
+          places_.size() - values_[t].size() +
+          static_cast<std::size_t>(std::count_if(values_[t].begin(), values_[t].end(),
+                                                 [](double value) { return std::isnan(value); }));
+      if (n_missing == 0) continue;
+      return reader_.refuse_at(
+          0, concat(n_missing, " of ", places_.size(), " cells are missing at ", date_names_[t]),
+          "write every cell at every date");
     }
   }
 
-  FlowField result() const {
-    FlowField field;
-    field.date = dates_;
+  /// [low, high] of all cells along an axis, downwards for depths; empty after a refusal.
+  std::vector<std::array<double, 2>> reach(std::size_t axis) {
+    std::vector<std::array<double, 2>> given;
+    if (axis == kDepth && !column_[kDepth]) {
+      constexpr double kFar = 1e5;  // m: the values hold at all depths
+      given.assign(places_.size(), {-kFar, kFar});
+    } else if (const std::size_t size = kFirstSize + axis; column_[size]) {
+      for (const Place& p : places_)
+        given.push_back({p[axis] - 0.5 * p[size], p[axis] + 0.5 * p[size]});
+    } else {
+      return inferred_reach(axis);
+    }
+    return given;
+  }
+
+  std::vector<std::array<double, 2>> inferred_reach(std::size_t axis) {
+    std::map<std::array<double, 2>, int> columns;  // of cells above each other
+    std::vector<int> line;
+    std::vector<double> at;
     for (const Place& p : places_) {
-      const Eigen::Vector3d centre(p[0], p[1], -p[2]);
-      const Eigen::Vector3d half = 0.5 * Eigen::Vector3d(p[3], p[4], p[5]);
-      field.cells.push_back({.low = centre - half, .high = centre + half});
+      line.push_back(
+          axis == kDepth
+              ? columns.try_emplace({p[0], p[1]}, static_cast<int>(columns.size())).first->second
+              : 0);
+      at.push_back(p[axis]);
+    }
+    CellReach cells = regular_cells(line, at);
+    if (!cells.what.empty()) {
+      const std::string name = kPlaces[axis], size = kPlaces[kFirstSize + axis];
+      reader_.refuse_at(
+          lines_[cells.cell], name + " " + cells.what + ": the size of the cells is not known",
+          "add a column " + size + " [m]" +
+              (axis == kDepth ? ", or leave depth out: the values then hold at all depths"
+                              : "; x and y are those of the grid's own axes, which the scene turns "
+                                "and shifts with \"azimuth\" and \"origin\""));
+    }
+    return std::move(cells.reach);
+  }
+
+  FlowField result() {
+    FlowField field;
+    const auto x = reach(0), y = reach(1), depth = reach(kDepth);
+    if (!reader_.is_sound()) return field;
+    field.date = dates_;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      field.cells.push_back(
+          {.low = {x[i][0], y[i][0], -depth[i][1]}, .high = {x[i][1], y[i][1], -depth[i][0]}});
     }
     field.value.resize(std::ssize(places_), std::ssize(dates_));
-    for (std::size_t t = 0; t < pressures_.size(); ++t) {
-      for (const auto& [cell, value] : pressures_[t])
-        field.value(cell, static_cast<Eigen::Index>(t)) = value;
-    }
+    for (std::size_t t = 0; t < values_.size(); ++t)
+      field.value.col(static_cast<Eigen::Index>(t)) =
+          Eigen::Map<const Eigen::VectorXd>(values_[t].data(), std::ssize(values_[t]));
     return field;
   }
 
-  std::string given_;
-  int line_ = 0;
-  bool is_long_ = false;
+  TableReader reader_;
   bool is_pressure_;
-  std::vector<Unit> units_;  ///< of all columns; of dates nothing.
+  std::string header_cure_;
+  bool is_long_ = false;
+  std::array<std::optional<std::size_t>, 6> column_;  ///< of kPlaces.
+  std::size_t first_value_ = 0;                       ///< column.
   std::vector<double> dates_;
   std::vector<std::string> date_names_;
   std::vector<Place> places_;
-  std::map<Place, Eigen::Index> numbers_;
-  std::vector<std::map<Eigen::Index, double>> pressures_;  ///< per report: cell → Pa.
-  std::vector<Problem> problems_;
+  std::vector<int> lines_;  ///< where each place stands first.
+  std::map<Place, std::size_t> numbers_;
+  std::vector<std::vector<double>> values_;  ///< per report and cell; NaN: missing.
 };
 
 }  // namespace
 
 FlowField parse_flow_csv(const std::string& text, const std::string& given, FlowQuantity quantity) {
-  return FlowCsvReader(given, quantity).read(text);
+  return FlowTable(text, given, quantity).read();
 }
 
 }  // namespace faultsim

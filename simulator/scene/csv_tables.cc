@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
+#include <optional>
 
 #include "simulator/common/input_file.h"
+#include "simulator/common/printable.h"
+#include "simulator/common/table_reader.h"
 #include "simulator/flow/field_file.h"
 
 namespace faultsim {
@@ -20,29 +22,28 @@ std::string path_of(const std::string& source, const std::string& name) {
   return relative ? source.substr(0, slash + 1) + name : name;
 }
 
-TableText file_text(const std::string& path, const std::string& name) {
+std::string file_text(const std::string& path, const std::string& name) {
   constexpr std::size_t kMostBytes = 16'000'000;  // 10^5 rows of ten columns
   InputText file = read_input_file(path, kMostBytes);
   const bool relative = !name.empty() && name[0] != '/';
   if (!file.what.empty() && relative) file.cure += "; it is taken from the folder of the scene";
-  return {std::move(file.text), std::move(file.what), std::move(file.cure)};
+  if (!file.what.empty()) throw InputError(path, {{"", 0, file.what, file.cure}});
+  return std::move(file.text);
 }
 
-/// Lines as JSON can hold and a screen can show them: without line ends, tabs and stray bytes.
-json lines_of(const std::string& text) {
+/// Lines that say the same where texts must be printable: tabs between cells become semicolons,
+/// other tabs blanks, and what a comment holds is spelled out. None where a table is to be refused.
+std::optional<json> lines_of(std::string_view text) {
   json lines = json::array();
-  std::istringstream stream(text);
-  std::string line;
-  while (std::getline(stream, line)) {
-    if (lines.empty() && line.compare(0, 3, "\xEF\xBB\xBF") == 0) line.erase(0, 3);
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    for (char& letter : line) {
-      const auto byte = static_cast<unsigned char>(letter);
-      if (letter == '\t')
-        letter = ' ';
-      else if (byte < 0x20 || byte >= 0x7f)
-        letter = '?';
-    }
+  std::optional<char> separator;
+  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
+  while (!text.empty()) {
+    std::string line(next_table_line(text));
+    const bool idle = is_idle_table_line(line);
+    if (!idle && !separator) separator = table_separator(line);
+    std::replace(line.begin(), line.end(), '\t', separator == '\t' && !idle ? ';' : ' ');
+    if (idle) line = printable(line);
+    if (!first_unprintable(line).empty()) return std::nullopt;
     lines.push_back(line);
   }
   return lines;
@@ -83,8 +84,11 @@ std::vector<std::string> table_names(const json& scene) {
 void embed_table(json& scene, const std::string& source, const std::string& name) {
   if (!scene.is_object() || table_in(scene, name) != nullptr) return;
   if (scene.contains("tables") && !scene["tables"].is_object()) return;  // the schema refuses it
-  const TableText table = table_text(scene, source, name);
-  if (table.what.empty()) scene["tables"][name] = lines_of(table.text);
+  try {
+    if (auto lines = lines_of(table_text(scene, source, name)))
+      scene["tables"][name] = *std::move(lines);
+  } catch (const InputError&) {  // said by who reads the scene
+  }
 }
 
 void embed_tables(JsonDocument& document) {
@@ -112,11 +116,11 @@ void embed_field(json& scene, const std::string& source, const std::string& name
   if (!place.fingerprint.empty()) return;
   if (scene.contains("fields") && !scene["fields"].is_object()) return;  // the schema refuses it
   try {
+    const std::string path = std::filesystem::absolute(place.path).lexically_normal().string();
     const FieldFile file = read_field_file(place.path, quantity);
-    scene["fields"][name] = {
-        {"path", std::filesystem::absolute(place.path).lexically_normal().string()},
-        {"fingerprint", file.fingerprint}};
-  } catch (const InputError&) {  // said by who reads the scene
+    if (first_unprintable(path).empty())
+      scene["fields"][name] = {{"path", path}, {"fingerprint", file.fingerprint}};
+  } catch (const InputError&) {  // said by who reads the scene, as is an odd path
   }
 }
 
@@ -132,15 +136,15 @@ void embed_fields(json& scene, const std::string& source, const json& named) {
   }
 }
 
-TableText table_text(const json& scene, const std::string& source, const std::string& name) {
+std::string table_text(const json& scene, const std::string& source, const std::string& name) {
   const json* lines = table_in(scene, name);
   if (lines == nullptr) return file_text(path_of(source, name), name);
-  TableText table;
+  std::string text;
   for (const json& line : *lines) {
-    if (line.is_string()) table.text += line.get<std::string>();
-    table.text += '\n';
+    if (line.is_string()) text += line.get<std::string>();
+    text += '\n';
   }
-  return table;
+  return text;
 }
 
 }  // namespace faultsim

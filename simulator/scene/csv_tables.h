@@ -20,14 +20,10 @@ void embed_table(nlohmann::json& scene, const std::string& source, const std::st
 /// The same for all that the scene uses, and the places of its fields.
 void embed_tables(JsonDocument& document);
 
-/// The text of a table: from the scene's "tables", else from its file; or why there is none.
-struct TableText {
-  std::string text;
-  std::string what;  ///< "" = read.
-  std::string cure;
-};
-TableText table_text(const nlohmann::json& scene, const std::string& source,
-                     const std::string& name);
+/// The text of a table: from the scene's "tables", else from its file.
+/// @throws InputError where it cannot be read.
+std::string table_text(const nlohmann::json& scene, const std::string& source,
+                       const std::string& name);
 
 /// Where the file of a field is, and what was in it when the scene set out on its way.
 struct FieldPlace {

@@ -2,18 +2,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdlib>
 #include <map>
-#include <sstream>
 #include <utility>
 #include <vector>
 
-#include "simulator/common/csv_text.h"
 #include "simulator/common/dates.h"
-#include "simulator/common/errors.h"
-#include "simulator/common/units.h"
+#include "simulator/common/table_reader.h"
 #include "simulator/flow/report_choice.h"
 
 namespace faultsim {
@@ -23,114 +17,75 @@ constexpr const char* kTableHeaderCure =
     "head the columns depth [m] (or along_dip [m]), perhaps along_strike [m], then the times: "
     "0 year [bar], 1 year [bar]";
 
-/// "1 year [bar]": what stands before the brackets and within.
-struct Heading {
-  std::string name, unit;
-};
-
-class TableReader {
+class FaultTable {
  public:
-  TableReader(std::string given, std::optional<double> start)
-      : given_(std::move(given)), start_(start) {}
+  FaultTable(const std::string& text, const std::string& given, std::optional<double> start)
+      : reader_(text, given), start_(start) {}
 
-  FaultPressureCsv read(const std::string& text) {
-    std::istringstream lines(text);
-    std::string line;
-    for (line_ = 1; result_.what.empty() && std::getline(lines, line); ++line_) {
-      if (line_ == 1) remove_byte_order_mark(line);
-      const std::string words = trimmed(line);
-      if (words.empty() || words[0] == '#') continue;
-      if (factors_.empty()) {
-        header(csv_cells(line));
-      } else {
-        row(csv_cells(line));
-      }
-    }
-    line_ = 0;
-    if (result_.what.empty() && rows_.empty()) refuse("there are no values", kTableHeaderCure);
-    if (result_.what.empty()) arrange();
+  FaultPressureCsv read() {
+    header();
+    reader_.require_sound();
+    while (reader_.next_row()) row();
+    reader_.require_rows(kTableHeaderCure);
+    arrange();
+    reader_.require_sound();
     return std::move(result_);
   }
 
  private:
-  void refuse(const std::string& what, const std::string& cure) {
-    if (!result_.what.empty()) return;
-    result_.what = given_ + (line_ > 0 ? concat(" line ", line_) : std::string()) + ": " + what;
-    result_.cure = cure;
-  }
-
-  /// A heading with its unit, whose size in SI is kept; an empty name after a refusal.
-  Heading heading(const std::string& text, Dimension dimension) {
-    const auto open = text.rfind('['), close = text.rfind(']');
-    const bool whole = open != std::string::npos && close != std::string::npos && open < close;
-    const std::string unit = whole ? trimmed(text.substr(open + 1, close - open - 1)) : "";
-    const ParsedQuantity one = parse_quantity("1 " + unit, dimension);
-    factors_.push_back(one.value);
-    if (!whole || !one.ok) {
-      refuse("column \"" + text + "\" does not hold " + info_of(dimension).noun + " with its unit",
-             kTableHeaderCure);
-      return {};
-    }
-    return {trimmed(text.substr(0, open)), unit};
-  }
-
-  void header(const std::vector<std::string>& cells) {
-    const Heading place = heading(cells[0], Dimension::length);
-    if (place.name == "along_dip") {
+  void header() {
+    const std::vector<TableColumn>& columns = reader_.columns();
+    if (!reader_.has_header(kTableHeaderCure)) return;
+    if (columns[0].name == "along_dip") {
       table().place = FaultPressureTable::Place::along_dip;
-    } else if (place.name != "depth") {
-      return refuse("the first column is \"" + place.name + "\"", kTableHeaderCure);
+    } else if (columns[0].name != "depth") {
+      return reader_.refuse("the first column is " + table_quote(columns[0].name),
+                            kTableHeaderCure);
     }
-    has_strike_ = cells.size() > 1 && cells[1].rfind("along_strike", 0) == 0;
-    if (has_strike_) heading(cells[1], Dimension::length);
-    for (std::size_t i = first_time(); i < cells.size(); ++i) {
-      time(heading(cells[i], Dimension::pressure).name);
+    first_time_ = columns.size() > 1 && columns[1].name == "along_strike" ? 2 : 1;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const bool is_place = i < first_time_;
+      const bool is_sound =
+          reader_.set_unit(i, is_place ? Dimension::length : Dimension::pressure,
+                           is_place ? kLengthRange : kPressureChangeRange, kTableHeaderCure);
+      if (!is_place && is_sound) time(columns[i].name);
     }
-    if (table().time.size() < 2) refuse("has fewer than two times", kTableHeaderCure);
+    if (reader_.is_sound() && table().time.size() < 2)
+      reader_.refuse("has fewer than two times", kTableHeaderCure);
   }
 
   void time(const std::string& text) {
     const std::optional<double> date = parse_date(text);
     const ParsedQuantity after = parse_quantity(text, Dimension::time);
-    if (!date && !after.ok) {
-      return refuse("\"" + text + "\" is neither a time nor a date", kTableHeaderCure);
-    }
+    if (!date && !(after.ok && after.value <= kTimeRange.high))
+      return reader_.refuse(table_quote(text) + " is neither a time nor a date", kTableHeaderCure);
     std::vector<double>& times = table().time;
-    if (!times.empty() && date.has_value() != result_.has_dates) {
-      return refuse("some columns have dates and some have times", "keep to one of the two");
-    }
+    if (!times.empty() && date.has_value() != result_.has_dates)
+      return reader_.refuse("some columns have dates and some have times",
+                            "keep to one of the two");
     result_.has_dates = date.has_value();
     if (date && !start_) start_ = date;
     const double seconds = date ? *date - *start_ : after.value;
     if (times.empty() && seconds != 0) {
-      refuse("the first column is at " + text + " and not at time 0",
-             "begin with the pressures that the scene starts from");
+      reader_.refuse("the first column is at " + text + " and not at time 0",
+                     "begin with the pressures that the scene starts from");
     } else if (!times.empty() && seconds <= times.back()) {
-      refuse("the time " + text + " does not come after the one before",
-             "write the times in their order, each once");
+      reader_.refuse("the time " + text + " does not come after the one before",
+                     "write the times in their order, each once");
     }
     times.push_back(seconds);
   }
 
-  void row(const std::vector<std::string>& cells) {
-    if (cells.size() != factors_.size()) {
-      return refuse(concat("has ", cells.size(), " values for ", factors_.size(), " columns"),
-                    "write one value per column");
-    }
+  void row() {
     std::vector<double> values;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      char* end = nullptr;
-      const double number = std::strtod(cells[i].c_str(), &end);
-      if (cells[i].empty() || *end != '\0' || !std::isfinite(number)) {
-        return refuse("\"" + cells[i] + "\" is not a number", "units stand in the header only");
-      }
-      values.push_back(number * factors_[i]);
+    for (std::size_t i = 0; i < reader_.columns().size(); ++i) {
+      if (const std::optional<double> value = reader_.value(i)) values.push_back(*value);
     }
-    const std::pair<double, double> place{values[0], has_strike_ ? values[1] : 0};
-    const std::vector<double> pressures(values.begin() + static_cast<long>(first_time()),
-                                        values.end());
-    if (!rows_.try_emplace(place, pressures).second)
-      refuse("the place is there twice", "give each place one row");
+    if (values.size() < reader_.columns().size()) return;
+    const std::pair<double, double> place{values[0], has_strike() ? values[1] : 0};
+    values.erase(values.begin(), values.begin() + static_cast<long>(first_time_));
+    if (!rows_.try_emplace(place, std::move(values)).second)
+      reader_.refuse("the place is there twice", "give each place one row");
   }
 
   /// Rows in order of place, as changes since the first time; and the times at which they turn.
@@ -144,12 +99,14 @@ class TableReader {
     }
     std::sort(strikes.begin(), strikes.end());
     strikes.erase(std::unique(strikes.begin(), strikes.end()), strikes.end());
-    if (has_strike_) to.strike = strikes;
+    if (has_strike()) to.strike = strikes;
     if (rows_.size() != to.dip.size() * strikes.size()) {
-      return refuse(concat("has ", rows_.size(), " places for ", to.dip.size(), " values of ",
-                           to.place == FaultPressureTable::Place::depth ? "depth" : "along_dip",
-                           " and ", strikes.size(), " of along_strike"),
-                    "write a row for every pair");
+      return reader_.refuse_at(
+          0,
+          concat("has ", rows_.size(), " places for ", to.dip.size(), " values of ",
+                 to.place == FaultPressureTable::Place::depth ? "depth" : "along_dip", " and ",
+                 strikes.size(), " of along_strike"),
+          "write a row for every pair");
     }
     constexpr double kSame = 1;  // Pa
     const Eigen::Map<const Eigen::MatrixXd> by_time(to.change.data(), std::ssize(to.time),
@@ -158,14 +115,12 @@ class TableReader {
       to.turns.push_back(to.time[static_cast<std::size_t>(i)]);
   }
 
-  std::size_t first_time() const { return has_strike_ ? 2 : 1; }
+  bool has_strike() const { return first_time_ == 2; }
   FaultPressureTable& table() { return result_.table; }
 
-  std::string given_;
+  TableReader reader_;
   std::optional<double> start_;
-  int line_ = 0;
-  bool has_strike_ = false;
-  std::vector<double> factors_;  ///< of the columns: SI per unit.
+  std::size_t first_time_ = 1;  ///< column.
   std::map<std::pair<double, double>, std::vector<double>> rows_;
   FaultPressureCsv result_;
 };
@@ -174,7 +129,7 @@ class TableReader {
 
 FaultPressureCsv parse_fault_pressure_csv(const std::string& text, const std::string& given,
                                           std::optional<double> start) {
-  return TableReader(given, start).read(text);
+  return FaultTable(text, given, start).read();
 }
 
 }  // namespace faultsim

@@ -7,12 +7,10 @@
 
 namespace faultsim {
 
-/// What a CSV of fault pressure holds, or why it could not be read.
+/// What a CSV of fault pressure holds.
 struct FaultPressureCsv {
   FaultPressureTable table;
   bool has_dates = false;  ///< columns are headed by dates.
-  std::string what;        ///< "" = read; else what is wrong, with the line.
-  std::string cure;
 };
 
 /// Reads p_f(s, t) on a fault: a row per place, a column per time.
@@ -23,9 +21,10 @@ struct FaultPressureCsv {
 /// The first column is the depth of points or, in a box, their distance down dip from the centre of
 /// the patch; the second, if it is there, the distance along strike from that centre (field: y),
 /// and then every pair of both is a row. The changes are those since the first column of time,
-/// which may hold pressures or changes. Empty lines and lines that begin with # are skipped.
+/// which may hold pressures or changes (common/table_reader.h).
 /// @param given  its name for messages.
 /// @param start  s since 1970, the date of time 0; none = the first date.
+/// @throws InputError with all that is wrong, line by line.
 FaultPressureCsv parse_fault_pressure_csv(const std::string& text, const std::string& given,
                                           std::optional<double> start);
 

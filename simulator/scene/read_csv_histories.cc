@@ -47,7 +47,7 @@ class CsvHistories {
                                        [&](const auto& each) { return each.region == region; });
       if (column != csv.columns.end()) {
         take_column(csv, *column, file, pointer);
-      } else if (csv.what.empty()) {
+      } else if (!csv.columns.empty()) {
         reader_.problem(pointer, "\"" + file + "\" has no column \"" + region + "\"",
                         "name a column like the compartment");
       }
@@ -96,20 +96,15 @@ class CsvHistories {
     return false;
   }
 
+  /// Without columns after a refusal.
   PressureCsv open(const std::string& file, const std::string& pointer) {
     const JsonDocument& document = reader_.document();
-    const TableText table = table_text(document.value, document.source, file);
     PressureCsv csv;
-    if (table.what.empty()) {
-      csv = parse_pressure_csv(table.text, file, start_);
-    } else {
-      csv.what = file + ": " + table.what;
-      csv.cure = table.cure;
-    }
-    if (!csv.what.empty()) {
-      reader_.problem(pointer, csv.what, csv.cure);
-      csv.columns.clear();
-      return csv;
+    try {
+      csv = parse_pressure_csv(table_text(document.value, document.source, file), file, start_);
+    } catch (const InputError& error) {
+      reader_.table_problems(pointer, file, error);
+      return {};
     }
     has_table_ = true;
     has_dates_ = has_dates_ || csv.has_dates;

@@ -136,15 +136,14 @@ FaultPressureTable read_profile(SceneReader& reader, const std::string& rule, co
     return {};
   }
   const JsonDocument& document = reader.document();
-  const TableText text = table_text(document.value, document.source, name);
   FaultPressureCsv csv;
-  if (text.what.empty()) {
-    csv = parse_fault_pressure_csv(text.text, name, start_date(reader, scene));
-  } else {
-    csv.what = name + ": " + text.what;
-    csv.cure = text.cure;
+  try {
+    csv = parse_fault_pressure_csv(table_text(document.value, document.source, name), name,
+                                   start_date(reader, scene));
+  } catch (const InputError& error) {
+    reader.table_problems(at, name, error);
+    return {};
   }
-  if (!csv.what.empty()) reader.problem(at, csv.what, csv.cure);
   const bool is_field = scene.geometry_kind == GeometryKind::field;
   if (is_field && csv.table.place == FaultPressureTable::Place::along_dip) {
     reader.problem(at, name + ": along_dip is for patches of a box, which have a centre",
@@ -154,7 +153,7 @@ FaultPressureTable read_profile(SceneReader& reader, const std::string& rule, co
     reader.problem(at, name + " varies along strike, and half of the domain is modelled",
                    "set /numerics/half_domain to \"off\", or leave along_strike out");
   }
-  return csv.what.empty() ? csv.table : FaultPressureTable{};
+  return csv.table;
 }
 
 FaultPressure read_fault_pressure(SceneReader& reader, std::size_t fault, const Scene& scene) {

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "simulator/common/dates.h"
+#include "simulator/common/printable.h"
 #include "simulator/flow/field_file.h"
 #include "simulator/flow/report_choice.h"
 #include "simulator/scene/csv_tables.h"
@@ -55,6 +57,13 @@ std::optional<FieldFile> open_field(SceneReader& reader, const FieldKey& key,
   const std::string at = std::string(key.at) + "/file";
   const JsonDocument& document = reader.document();
   const FieldPlace place = field_place(document.value, document.source, name);
+  const std::string path = std::filesystem::absolute(place.path).lexically_normal().string();
+  if (const std::string odd = first_unprintable(path); !odd.empty()) {
+    reader.problem(at,
+                   "the file lies in a folder whose name holds \"" + odd + "\": " + printable(path),
+                   "rename the folder");
+    return std::nullopt;
+  }
   try {
     FieldFile file = read_field_file(place.path, key.quantity);
     if (place.fingerprint.empty() || place.fingerprint == file.fingerprint) return file;
@@ -62,10 +71,7 @@ std::optional<FieldFile> open_field(SceneReader& reader, const FieldKey& key,
         at, "\"" + name + "\" is no longer what it was: the file has changed",
         "put the old file back, or remove its entry under \"fields\" to take the new one");
   } catch (const InputError& error) {
-    for (const Problem& one : error.problems()) {
-      const std::string line = one.line > 0 ? concat(" line ", one.line, ": ") : ": ";
-      reader.problem(at, name + line + one.what, one.cure);
-    }
+    reader.table_problems(at, name, error);
   }
   return std::nullopt;
 }

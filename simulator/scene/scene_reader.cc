@@ -253,6 +253,14 @@ void SceneReader::problem(const std::string& pointer, const std::string& what,
   problems_.push_back({pointer, document_.line_of(pointer), what, cure});
 }
 
+void SceneReader::table_problems(const std::string& pointer, const std::string& name,
+                                 const InputError& error) {
+  for (const Problem& one : error.problems()) {
+    const std::string line = one.line > 0 ? concat(" line ", one.line) : std::string();
+    problem(pointer, concat(name, line, ": ", one.what), one.cure);
+  }
+}
+
 void SceneReader::require_known(const std::string& pointer, const std::string& name,
                                 const std::string& what, const std::vector<std::string>& known) {
   if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;

@@ -52,6 +52,8 @@ class SceneReader {
 
   /// Adds a problem unless the same was said before.
   void problem(const std::string& pointer, const std::string& what, const std::string& cure);
+  /// Adds the problems of a table, "NAME line 3: WHAT", at the place that names it.
+  void table_problems(const std::string& pointer, const std::string& name, const InputError& error);
   /// Adds a problem when name is not one of known; "" is silent.
   void require_known(const std::string& pointer, const std::string& name, const std::string& what,
                      const std::vector<std::string>& known);

@@ -14,7 +14,6 @@
 #include "campaign/expansion/expansion.h"
 #include "campaign/nightly/nightly_suite.h"
 #include "simulator/plan/geometry_check.h"
-#include "simulator/scene/pressure_csv.h"
 #include "simulator/scene/read_scene.h"
 #include "tests/fuzz/mutator.h"
 
@@ -23,7 +22,7 @@ extern "C" const char* __lsan_default_suppressions() { return "leak:libudunits2"
 
 /// Sieves for every kind of input: whatever is thrown at them, they accept it or refuse it with
 /// problems that have a text, within the time of a blink. Each target tries inputs 0, 1, 2, ... of
-/// its sequence for FAULTSIM_FUZZ_SECONDS (default 10; an hour is 720 for each of five), beginning
+/// its sequence for FAULTSIM_FUZZ_SECONDS (default 10; an hour is 900 for each of four), beginning
 /// at FAULTSIM_FUZZ_FIRST. An input that fails is left in the folder named by the message; make a
 /// case under tests/cases/ of it.
 namespace faultsim {
@@ -164,22 +163,6 @@ TEST_F(Fuzz, Suites) {
       "nightly", [&](unsigned long seed) { return Mutator(corpus, seed).json(); },
       [&](const std::string& text) {
         faultsweep::read_nightly_suite(write("suite.json", text).string());
-      });
-}
-
-TEST_F(Fuzz, PressureTables) {
-  std::vector<std::string> corpus = texts_in({"tests/cases/bad_scenes"}, ".csv");
-  corpus.push_back(
-      "time [year], west [bar], east [MPa]\n# comment\n0, 0, 0\n1, -10, -1.5\n2,-2e1,-2\n");
-  corpus.push_back("\xEF\xBB\xBFtime [d],\"west\" [Pa]\r\n\r\n10,-1e5\r\n20,-2e5\r\n");
-  sieve(
-      "csv", [&](unsigned long seed) { return Mutator(corpus, seed).bytes(); },
-      [&](const std::string& text) {
-        const PressureCsv csv = parse_pressure_csv(text, "table.csv", std::nullopt);
-        if (!csv.what.empty()) throw InputError("table.csv", {{"", 0, csv.what, csv.cure}});
-        ASSERT_FALSE(csv.time.empty());
-        for (const PressureColumn& column : csv.columns)
-          ASSERT_EQ(csv.time.size(), column.pressure.size());
       });
 }
 

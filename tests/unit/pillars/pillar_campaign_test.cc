@@ -50,6 +50,34 @@ PillarCampaign campaign_of(const PillarTable& table,
   return make_pillar_campaign(table, section(), "section.json", "test", stress);
 }
 
+TEST(PillarCampaign, RefusesAKeyThatTwoColumnsGive) {
+  const auto refusal = [](const std::vector<std::string>& names) {
+    PillarTable table = table_of({{Role::dip, {10}}});
+    for (const std::string& name : names) table.parameters.push_back({name, "deg", {20}});
+    try {
+      campaign_of(table);
+    } catch (const faultsim::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal({"friction_angle"}), "");
+  EXPECT_EQ(refusal({"friction_angle", "/friction/friction_angle"}),
+            "t.csv: two columns give /friction/friction_angle; keep one of the two");
+  EXPECT_EQ(refusal({"/faults/1/dip_from_vertical"}),
+            "t.csv: two columns give /faults/1/dip_from_vertical; keep one of the two");
+}
+
+TEST(PillarCampaign, KeepsWhatTheTableRefused) {
+  PillarTable table = table_of({{Role::dip, {10}}});
+  table.refused.push_back({"X", {"offset", 7, "\"nan\" is not a number", "write a number"}});
+  const PillarCampaign campaign = campaign_of(table);
+  EXPECT_EQ(campaign.n_cases, 1U);
+  ASSERT_EQ(campaign.refused.size(), 1U);
+  EXPECT_EQ(campaign.refused[0].id, "X");
+  EXPECT_EQ(campaign.refused[0].line, 7);
+}
+
 TEST(PillarCampaign, PutsEachPillarIntoTheSection) {
   const PillarCampaign campaign = campaign_of(table_of({{Role::depth, {2100, 2250.5}},
                                                         {Role::offset, {50, 100}},

@@ -137,6 +137,44 @@ TEST_F(CsvTables, GoWithTheSceneOnceEmbedded) {
   EXPECT_EQ(case_identity(read_scene(document_)), identity);
 }
 
+TEST_F(CsvTables, SayTheSameOnceEmbedded) {
+  document_.value["pressure_csv"] = "p.csv";
+  document_.value["geometry"]["blocks"][0]["name"] = "S\u00fcd";
+  for (const char* text : {"# \xFF\x01\rtime [year]\tS\u00fcd [bar]\r0\t0\r4\t-100\r",
+                           "time [year]; S\u00fcd [bar]\n0;\t0\n4; -100\n",
+                           "\xEF\xBB\xBFtime [year],\"S\u00fcd [bar]\"\r\n0,\"0\"\r\n4,-100\r\n"}) {
+    write("p.csv", text);
+    JsonDocument embedded = document_;
+    embed_tables(embedded);
+    const nlohmann::json& lines = embedded.value["tables"]["p.csv"];
+    ASSERT_TRUE(lines.is_array()) << text;
+    EXPECT_NO_THROW(lines.dump());
+    EXPECT_EQ(read_scene(embedded).pressure[0].pressure_change, (std::vector<double>{0, -10e6}));
+    EXPECT_EQ(read_scene(document_).pressure[0].pressure_change, (std::vector<double>{0, -10e6}));
+  }
+}
+
+TEST_F(CsvTables, ThatAreRefusedAreNotEmbedded) {
+  document_.value["pressure_csv"] = "p.csv";
+  for (const std::string& odd : {std::string(1, '\0'), std::string("\xFF"), std::string("\x1b")}) {
+    write("p.csv", "time [year], west [bar]\n0, 0\n4, -1" + odd + "00\n");
+    embed_tables(document_);
+    EXPECT_FALSE(document_.value.contains("tables"));
+    EXPECT_THAT(refusal(), testing::HasSubstr("/pressure_csv: p.csv line 3: holds \"\\"));
+  }
+}
+
+TEST_F(CsvTables, SayAllThatIsWrong) {
+  write("p.csv", "time [year], west [bar]\n0, 1\n1, 1e9\n1, 0x10\n-1, nan\n3, 1; 2\n4, -1 bar\n");
+  const std::string said = refusal();
+  for (const char* part :
+       {"line 2: the change at time 0 is 1",
+        "line 3: \"1e9\" in column 2 \"west [bar]\" is not within",
+        "line 4: time 1 does not come after", "line 4: \"0x10\"", "line 5: \"-1\"",
+        "line 5: \"nan\"", "line 6: \"1; 2\"", "line 7: \"-1 bar\""})
+    EXPECT_THAT(said, testing::HasSubstr(part));
+}
+
 TEST_F(CsvTables, ThatCannotBeReadAreNamed) {
   embed_tables(document_);
   EXPECT_FALSE(document_.value.contains("tables"));

@@ -118,8 +118,10 @@ TEST_F(FlowLoads, StandBesideNoOtherPressures) {
 
 TEST_F(FlowLoads, AreRefusedWithTheLineOfTheirFile) {
   write("p.csv", kCells + ", 1990-01-01 [bar]\n0, 0, 3000, 9, 9, 9, nan\n0, 0, 300, 9, 9, 9, -5\n");
-  EXPECT_THAT(refusal(), AllOf(HasSubstr("p.csv line 2: \"nan\" in column 7 is not a number"),
-                               HasSubstr("p.csv line 3: the pressure -5 is below zero")));
+  EXPECT_THAT(
+      refusal(),
+      AllOf(HasSubstr("p.csv line 2: \"nan\" in column 7 \"1990-01-01\" is not a number"),
+            HasSubstr("p.csv line 3: \"-5\" in column 7 \"1990-01-01 [bar]\" is not within 0 to")));
   EXPECT_THAT(refusal({{"/pressure_field/file", "none.csv"}}), HasSubstr("none.csv"));
 }
 
@@ -178,6 +180,18 @@ TEST_F(FlowLoads, TravelAsPlaceAndFingerprint) {
   EXPECT_EQ(refusal(), "accepted");
   write("p.csv", kCells + ", 1990-01-01 [bar], 1994-01-01 [bar]\n0, 0, 3000, 9, 9, 9, 300, 200\n");
   EXPECT_THAT(refusal(), HasSubstr("the file has changed"));
+}
+
+TEST_F(FlowLoads, AreRefusedInAFolderThatNoMessageCanShow) {
+  std::filesystem::create_directory(folder_ / "two\nlines");
+  document_.source = (folder_ / "two\nlines" / "scene.json").string();
+  std::filesystem::copy_file(folder_ / "p.csv", folder_ / "two\nlines" / "p.csv");
+  embed_tables(document_);
+  EXPECT_FALSE(document_.value.contains("fields"));
+  EXPECT_THAT(refusal(),
+              AllOf(HasSubstr("/pressure_field/file: the file lies in a folder whose name holds "
+                              "\"\\u000a\""),
+                    HasSubstr("; rename the folder")));
 }
 
 TEST_F(FlowLoads, AreWhereStagesMayEndAtDates) {
