@@ -22,7 +22,7 @@ json to_json(const Diagnosis& d) {
   for (const Violation& v : d.violations) {
     violations.push_back({{"what", v.what}, {"told_by_result", v.told}});
   }
-  const StepCheck& w = d.worst;
+  const Misses& w = d.worst.relative;
   return {{"identity", d.result.identity},
           {"outcome", to_string(d.result.outcome)},
           {"reason", d.result.reason},
@@ -34,19 +34,20 @@ json to_json(const Diagnosis& d) {
           {"n_steps_with_flow_rule_checked", d.n_at_once},
           {"worst_step", d.worst_step},
           {"residual",
-           {{"worst", number(w.largest_residual())},
+           {{"worst", number(w.largest())},
             {"equilibrium", number(w.equilibrium)},
             {"tension", number(w.tension)},
             {"penetration", number(w.penetration)},
             {"over_limit", number(w.over_limit)},
             {"slip_below_limit", number(w.below_limit)},
             {"misaligned", number(w.misaligned)},
-            {"open_traction", number(w.open_traction)}}},
+            {"open_traction", number(w.open_traction)},
+            {"memory", number(w.memory)}}},
           {"energy",
-           {{"worst", number(w.largest_energy())},
-            {"identity", number(w.energy)},
-            {"negative_dissipation", number(w.negative_dissipation)},
-            {"negative_strain_energy", number(w.negative_energy)}}},
+           {{"worst", number(d.worst.largest_energy())},
+            {"identity", number(d.worst.energy)},
+            {"negative_dissipation", number(d.worst.negative_dissipation)},
+            {"negative_strain_energy", number(d.worst.negative_energy)}}},
           {"operator",
            {{"asymmetry", number(d.op.asymmetry)},
             {"positive_definite", d.op.condition.has_value()},
@@ -62,21 +63,22 @@ json to_json(const Diagnosis& d) {
 }
 
 void print(const Diagnosis& d) {
-  const StepCheck& w = d.worst;
+  const Misses& w = d.worst.relative;
   std::printf("outcome: %s%s%s, %d load steps in equilibrium, %zu slip events\n",
               to_string(d.result.outcome), d.result.reason.empty() ? "" : ", ",
               d.result.reason.c_str(), d.n_steps, d.result.events.size());
   std::printf(
       "residual: %.1e of the traction level at worst, in step %d (equilibrium recomputed in %d "
       "steps, flow rule in %d)\n",
-      w.largest_residual(), d.worst_step, d.n_elastic, d.n_at_once);
+      w.largest(), d.worst_step, d.n_elastic, d.n_at_once);
   std::printf(
       "  equilibrium %.1e, tension %.1e, penetration %.1e, over the limit %.1e,\n"
-      "  slip below the limit %.1e, slip off the traction %.1e, traction of open nodes %.1e\n",
+      "  slip below the limit %.1e, slip off the traction %.1e, traction of open nodes %.1e,\n"
+      "  memory of slip and cohesion %.1e\n",
       w.equilibrium, w.tension, w.penetration, w.over_limit, w.below_limit, w.misaligned,
-      w.open_traction);
+      w.open_traction, w.memory);
   std::printf("energy: identity missed by %.1e, negative dissipation %.1e, strain energy %.1e\n",
-              w.energy, w.negative_dissipation, w.negative_energy);
+              d.worst.energy, d.worst.negative_dissipation, d.worst.negative_energy);
   std::printf("operator: asymmetry %.1e, ", d.op.asymmetry);
   if (d.op.condition) {
     std::printf("positive definite, condition %.1e\n", *d.op.condition);

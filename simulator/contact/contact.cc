@@ -187,34 +187,4 @@ void ContactJump::append(const ContactJump& next) {
   damped_steps += next.damped_steps;
 }
 
-ContactViolation contact_violation(const FaultOperator& op, const ContactLaws& laws,
-                                   const Eigen::VectorXd& locked, const ContactState& before,
-                                   const ContactState& after) {
-  ContactProblem problem(op, laws);
-  SubStep s;
-  s.start = &before;
-  s.locked = locked;
-  s.increment = after.jump - before.jump;
-  s.traction = after.traction;
-  s.state = after.state;
-  s.cohesive.resize(laws.size());
-  ContactViolation violation;
-  for (int k = 0; k < problem.n_nodes(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const ContactNode& node = problem.nodes[i];
-    s.cohesive[i] = !after.cohesion_lost[i];
-    const NodeViolation at = check_node(problem, s, k);
-    violation.tension = std::max(violation.tension, at.tension);
-    violation.over_limit = std::max(violation.over_limit, at.over_limit);
-    violation.slip_below_limit = std::max(violation.slip_below_limit, at.below_limit);
-    violation.misaligned = std::max(violation.misaligned, at.misaligned);
-    violation.open_traction = std::max(violation.open_traction, at.open_traction);
-    violation.penetration = std::max(violation.penetration, -after.jump[node.dof[0]]);
-  }
-  Eigen::VectorXd balanced = locked;
-  problem.subtract_product(after.jump, balanced);
-  violation.equilibrium = (after.traction - balanced).lpNorm<Eigen::Infinity>();
-  return violation;
-}
-
 }  // namespace faultsim

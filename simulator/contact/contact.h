@@ -5,16 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "simulator/contact/contact_state.h"
 #include "simulator/contact/search_record.h"
 #include "simulator/fault/friction_law.h"
 #include "simulator/model/fault_operator.h"
-#include "simulator/result/result.h"
 
 namespace faultsim {
-
-/// What the contact solve needs besides the operator: the law of each operator node, constant over
-/// the steps of a case. Jumps are followed where the laws have damping.
-using ContactLaws = std::vector<CoulombLaw>;
 
 struct ContactOptions {
   double traction_tolerance = 1e-8;  ///< relative to the local traction level; too tight: cycling.
@@ -27,14 +23,7 @@ struct ContactOptions {
   int max_iterations = 10'000'000;
 };
 
-/// The state that a load step starts from and ends in.
-struct ContactState {
-  Eigen::VectorXd jump;             ///< g, n_dofs, m.
-  Eigen::VectorXd traction;         ///< t', n_dofs, Pa.
-  std::vector<FaultState> state;    ///< per node.
-  Eigen::VectorXd slip_path;        ///< Σ|Δg_T| per node, m.
-  std::vector<char> cohesion_lost;  ///< per node: by opening or, where the law says so, by slip.
-};
+/// Rest under no load.
 ContactState initial_state(const FaultOperator& op);
 /// What the friction of a node remembers at the end of a step. @param node  number k of the
 /// operator.
@@ -101,22 +90,5 @@ class ContactSolver {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// Largest violation of (3)–(5) by a state, in Pa and m, measured independently of the solver.
-/// Misalignment of slips below 1e-6 |t'_T| A/H_TT counts in proportion: their direction is
-/// round-off. A step that was cut (sub_steps > 1) need not pass the last two of slip: see
-/// ContactSolver.
-struct ContactViolation {
-  double tension = 0;           ///< max t'_N over closed nodes, Pa.
-  double penetration = 0;       ///< max −g_N, m.
-  double over_limit = 0;        ///< max |t'_T| − τ_L over closed nodes, Pa.
-  double slip_below_limit = 0;  ///< max τ_L − |t'_T| over nodes that slipped in the step, Pa.
-  double misaligned = 0;        ///< max | |t'_T| Δg_T − t'_T |Δg_T| | / |Δg_T|, Pa.
-  double open_traction = 0;     ///< max |t'| over open nodes, Pa.
-  double equilibrium = 0;       ///< max |t' − (t_L − A⁻¹ H g)|, Pa.
-};
-ContactViolation contact_violation(const FaultOperator& op, const ContactLaws& laws,
-                                   const Eigen::VectorXd& locked, const ContactState& before,
-                                   const ContactState& after);
 
 }  // namespace faultsim

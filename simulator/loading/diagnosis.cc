@@ -71,11 +71,11 @@ void judge(const DiagnosisLimits& limits, double traction_tolerance, Diagnosis& 
   violations.clear();
   const CaseResult& result = diagnosis.result;
   const double residual = limits.residual * traction_tolerance / 1e-8;
-  const StepCheck& worst = diagnosis.worst;
-  if (!(worst.largest_residual() <= residual)) {
+  const Verdict& worst = diagnosis.worst;
+  if (!(worst.relative.largest() <= residual)) {
     violations.push_back(
         {concat("a load step misses equilibrium or contact by ",
-                two_digits(worst.largest_residual()), ", allowed are ", two_digits(residual)),
+                two_digits(worst.relative.largest()), ", allowed are ", two_digits(residual)),
          false});
   }
   if (!(worst.largest_energy() <= residual)) {
@@ -120,11 +120,12 @@ Diagnosis diagnose_case(const Scene& scene, const PreparedOperator& prepared,
   diagnosis.op = check_operator(*prepared.op);
   CaseProbe probe;
   probe.accepted = [&](int number, const ContactLaws& laws, const AcceptedStep& step) {
-    const StepCheck check = check_step(*prepared.op, laws, step);
-    if (diagnosis.worst_step < 0 || check.largest_residual() > diagnosis.worst.largest_residual()) {
+    const Verdict verdict = judge_step(*prepared.op, laws, step);
+    if (diagnosis.worst_step < 0 ||
+        verdict.relative.largest() > diagnosis.worst.relative.largest()) {
       diagnosis.worst_step = number;
     }
-    diagnosis.worst.take_worst(check);
+    diagnosis.worst.take_worst(verdict);
     ++diagnosis.n_steps;
     diagnosis.n_elastic += step.elastic;
     diagnosis.n_at_once += step.at_once;

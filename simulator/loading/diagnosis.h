@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/contact/step_check.h"
+#include "simulator/contact/judge.h"
 #include "simulator/loading/run_case.h"
 
 namespace faultsim {
@@ -44,11 +44,11 @@ struct Violation {
   bool told = false;
 };
 
-/// A case run, checked step by step from outside, and run again with disturbed loads.
+/// A case run, judged step by step from outside, and run again with disturbed loads.
 struct Diagnosis {
   CaseResult result;
   OperatorCheck op;     ///< elastic operator.
-  StepCheck worst;      ///< over all steps in equilibrium.
+  Verdict worst;        ///< over all steps in equilibrium.
   int worst_step = -1;  ///< of the largest residual; −1 without steps.
   int n_steps = 0;      ///< in equilibrium.
   int n_elastic = 0;  ///< of those, with equilibrium and energy recomputed (not while salt creeps).

@@ -7,7 +7,7 @@
 
 #include "simulator/common/run_context.h"
 #include "simulator/contact/contact.h"
-#include "simulator/contact/step_check.h"
+#include "simulator/contact/judge.h"
 #include "simulator/loads/case_loads.h"
 #include "simulator/loads/field_history.h"
 #include "simulator/loads/history.h"

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "simulator/contact/contact.h"
+#include "simulator/contact/judge.h"
 
 namespace faultsim {
 
@@ -82,6 +83,13 @@ inline Eigen::MatrixXd half_space_matrix(const FaultOperator& op, double shear_m
     }
   }
   return 0.5 * (h + h.transpose());
+}
+
+/// What the judge says of the end of a load step, and of its slip where it was made at once.
+inline Verdict judged(const FaultOperator& op, const ContactLaws& laws,
+                      const Eigen::VectorXd& locked_before, const Eigen::VectorXd& locked,
+                      const ContactState& before, const ContactState& after, bool at_once = true) {
+  return judge_step(op, laws, {locked_before, locked, before, after, at_once});
 }
 
 }  // namespace faultsim

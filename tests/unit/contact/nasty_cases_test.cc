@@ -124,8 +124,8 @@ TEST(NastyContact, AcceptsNodesWithoutSomeShearDofs) {
     const ContactState start = state;
     ASSERT_EQ(solver.solve_step(Eigen::VectorXd::Zero(5), locked, state).outcome,
               Outcome::converged);
-    const ContactViolation v = contact_violation(op, laws, locked, start, state);
-    EXPECT_LT(v.over_limit + v.slip_below_limit + v.misaligned + v.tension + v.open_traction, 1e-7);
+    EXPECT_LT(judged(op, laws, Eigen::VectorXd::Zero(5), locked, start, state).pascal.largest(),
+              1e-7);
     EXPECT_GT(state.jump[1], 0.1);
     EXPECT_LT(state.jump[4], -0.1);
     EXPECT_EQ(state.state[1], normal_of_second > 0 ? FaultState::open : FaultState::stick);
@@ -177,9 +177,11 @@ std::vector<ContactState> run_history(const DepletedFault& fault, ContactSolver&
     const ContactState start = state;
     const ContactReport report = solver.solve_step(before, locked, state);
     EXPECT_EQ(report.outcome, Outcome::converged) << report.reason;
-    const ContactViolation v = contact_violation(fault.op, fault.laws, locked, start, state);
-    EXPECT_LT(v.over_limit + v.slip_below_limit + v.misaligned + v.tension, 2);  // Pa of 2e7
-    EXPECT_LT(v.equilibrium, 1e-12 * 1e8);
+    const Misses miss =
+        judged(fault.op, fault.laws, before, locked, start, state, report.counts.sub_steps == 1)
+            .pascal;
+    EXPECT_LT(miss.largest(), 2) << "Pa, of 2e7";
+    EXPECT_LT(miss.equilibrium, 1e-12 * 1e8);
     before = locked;
     states.push_back(state);
   }
@@ -270,31 +272,6 @@ TEST(NastyContact, SolvesTheTinyProblemsOfContactLibraries) {
   ASSERT_EQ(solver.solve_step(Eigen::VectorXd::Zero(9), load, state).outcome, Outcome::converged);
   EXPECT_NEAR(state.jump.norm(), 5.30402049429, 1e-9);
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(state.traction[3 * k], -1, 1e-12);
-}
-
-TEST(ContactViolation, MeasuresEachKindByItself) {
-  OneNode node(Eigen::Vector3d(4, 2, 2).asDiagonal(), coulomb(0.5));
-  const ContactState rest = initial_state(node.op);
-  const auto measure = [&](const Eigen::Vector3d& jump, const Eigen::Vector3d& traction,
-                           FaultState at) {
-    ContactState state = rest;
-    state.jump = jump;
-    state.traction = traction;
-    state.state[0] = at;
-    const Eigen::Vector3d locked = traction + Eigen::Vector3d(4, 2, 2).cwiseProduct(jump);
-    return contact_violation(node.op, node.laws, locked, rest, state);
-  };
-  EXPECT_NEAR(measure({0, 0, 0}, {0.3, 0, 0}, FaultState::stick).tension, 0.3, 1e-15);
-  EXPECT_NEAR(measure({-0.2, 0, 0}, {-1, 0, 0}, FaultState::stick).penetration, 0.2, 1e-15);
-  EXPECT_NEAR(measure({0, 0, 0}, {-1, 0.6, 0.8}, FaultState::stick).over_limit, 0.5, 1e-15);
-  EXPECT_NEAR(measure({0, 1, 0}, {-1, 0.2, 0}, FaultState::slip).slip_below_limit, 0.3, 1e-15);
-  EXPECT_NEAR(measure({0, -1, 0}, {-1, 0.5, 0}, FaultState::slip).misaligned, 1, 1e-15);
-  EXPECT_NEAR(measure({0.1, 0, 0}, {0, 0.4, 0}, FaultState::stick).open_traction, 0.4, 1e-15);
-  // A moving node is judged as moving whatever its label says.
-  EXPECT_NEAR(measure({0, 1, 0}, {-1, 0.2, 0}, FaultState::stick).slip_below_limit, 0.3, 1e-15);
-  const ContactViolation v =
-      contact_violation(node.op, node.laws, Eigen::Vector3d(-1, 0, 0.25), rest, rest);
-  EXPECT_NEAR(v.equilibrium, 1, 1e-15);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ TEST(Judge, FindsNothingWhereNothingIs) { EXPECT_TRUE(judged(sound_diagnosis()).
 TEST(Judge, NamesEachLimit) {
   using Plant = void (*)(Diagnosis&);
   const std::pair<Plant, const char*> cases[] = {
-      {[](Diagnosis& d) { d.worst.over_limit = 2e-7; },
+      {[](Diagnosis& d) { d.worst.relative.over_limit = 2e-7; },
        "a load step misses equilibrium or contact by 2e-07, allowed are 1e-07"},
       {[](Diagnosis& d) { d.worst.energy = 1; },
        "the energies of a load step miss their identity by 1, allowed are 1e-07"},
@@ -67,7 +67,7 @@ TEST(Judge, TakesSensitivityAsToldWhereTheOutcomeIsNoFullResult) {
 
 TEST(Judge, FollowsTheToleranceOfTheScene) {
   Diagnosis d = sound_diagnosis();
-  d.worst.equilibrium = 5e-6;
+  d.worst.relative.equilibrium = 5e-6;
   judge({}, 1e-6, d);
   EXPECT_TRUE(d.sound());
 }
@@ -148,7 +148,7 @@ TEST(DiagnoseCase, FindsASlippingFieldSoundAndCountsWhatItChecked) {
   EXPECT_EQ(d.n_elastic, d.n_steps);
   EXPECT_GT(d.n_at_once, 0);
   EXPECT_TRUE(d.sound()) << d.violations.at(0).what;
-  EXPECT_GT(d.worst.largest_residual(), 0);
+  EXPECT_GT(d.worst.relative.largest(), 0);
   EXPECT_GT(d.noise.change(), 0) << "the noise reached the answer";
   EXPECT_LT(d.noise.change(), 1e-6);
 }
