@@ -170,12 +170,7 @@ ExitCode run_command(const RunArguments& arguments) {
   }
   std::optional<VolumeRecorder> volume;
   if (scene.output.volume_fields) volume.emplace(scene, faults, prepared.bulk);
-  CaseResult names;
-  for (const PressureHistory& history : scene.pressure)
-    names.region_names.push_back(history.region);
-  for (const Fault& fault : scene.faults) names.fault_names.push_back(fault.name);
-  names.plane_strain = loaded.plan.plane_strain;
-  if (!json) std::cout << step_table_header(names, arguments.wide);
+  if (!json) std::cout << step_table_header(scene, plan.plane_strain, arguments.wide);
   context.monitor = nullptr;  // the table is progress enough
   RunWatch watch;
   watch.step = [&](const StepResult& step, const FaultFields& fields) {
@@ -190,8 +185,10 @@ ExitCode run_command(const RunArguments& arguments) {
       trace += trace_to_json(step, part).dump() + "\n";
     };
   }
+  CaseProbe probe;
+  probe.tried = watch.tried;
   const CaseResult result =
-      is_coupled ? coupled->run(context, watch.step, watch.tried) : simulation.run(context, watch);
+      is_coupled ? coupled->run(context, watch.step, probe) : simulation.run(context, watch);
   if (arguments.trace) write_text(output.path() / "trace.jsonl", trace);
   if (writer) writer->finish();
   if (volume) write_volume_fields(output.path(), loaded, *volume);

@@ -78,22 +78,22 @@ bool shows_regions(std::size_t n_regions, bool wide) { return wide || n_regions 
 
 }  // namespace
 
-std::string step_table_header(const CaseResult& names, bool wide) {
-  const bool regions = shows_regions(names.region_names.size(), wide);
-  const std::size_t n_regions = regions ? names.region_names.size() : 1;
-  const std::size_t n_faults = names.fault_names.size();
+std::string step_table_header(const Scene& scene, bool plane_strain, bool wide) {
+  const bool regions = shows_regions(scene.pressure.size(), wide);
+  const std::size_t n_regions = regions ? scene.pressure.size() : 1;
+  const std::size_t n_faults = scene.faults.size();
   const std::size_t n_shown = n_fault_columns(n_regions, n_faults, wide);
   std::string line = format("%4s  %-18s%7s", "step", "stage", "year");
   std::string units = format("%4s  %-18s%7s", "", "", "");
   for (std::size_t r = 0; r < n_regions; ++r) {
-    line += format(" %7.7s", regions ? ("dp " + names.region_names[r]).c_str() : "dp min");
+    line += format(" %7.7s", regions ? ("dp " + scene.pressure[r].region).c_str() : "dp min");
     units += format(" %7s", "bar");
   }
   if (wide) line += format(" %6s", "stick"), units += format(" %6s", "nodes");
   line += format(" %5s %4s", "slip", "open");
   units += format(" %5s %4s", "nodes", "");
   for (std::size_t f = 0; f < n_shown; ++f) {
-    line += format(" %7.7s", ("chi " + names.fault_names[f]).c_str());
+    line += format(" %7.7s", ("chi " + scene.faults[f].name).c_str());
     units += format(" %7s", "window");
   }
   if (n_shown < n_faults) {
@@ -101,7 +101,7 @@ std::string step_table_header(const CaseResult& names, bool wide) {
     units += format(" %7s", "window");
   }
   line += format(" %8s %8s", "chi>0.8", "max slip");
-  units += format(" %8s %8s", names.plane_strain ? "m2/m" : "m2", "mm");
+  units += format(" %8s %8s", plane_strain ? "m2/m" : "m2", "mm");
   if (wide) line += format(" %5s %8s", "iter", "time"), units += format(" %5s %8s", "", "ms");
   return line + "\n" + units + "\n";
 }
@@ -321,7 +321,8 @@ std::string coupled_text(const CaseResult& result) {
       "coupled path (%s, %s): %d displacements, %d multipliers; %d iterations of GMRES in "
       "%d of\nNewton, at most %d in one; set-up %.1f s, solve %.1f s of the processor\n",
       c.leading.c_str(), c.schur.c_str(), c.n_displacements, c.n_multipliers, c.krylov_iterations,
-      result.counts.newton_iterations, c.most_krylov_iterations, c.setup_seconds, c.solve_seconds);
+      result.counts.newton_iterations + result.counts.wasted_newton_iterations,
+      c.most_krylov_iterations, c.setup_seconds, c.solve_seconds);
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include "simulator/common/run_context.h"
 #include "simulator/common/stopwatch.h"
 #include "simulator/result/result.h"
+#include "simulator/scene/scene.h"
 
 namespace faultsim {
 
@@ -29,7 +30,7 @@ class ScreenMonitor final : public Monitor {
 /// The table per load step that `faultsim run` prints; ! marks steps with slip events. It keeps
 /// within 100 columns: faults that do not fit share one, with the largest index of them.
 /// @param wide  all faults and regions, sticking nodes, iterations and times, however wide.
-std::string step_table_header(const CaseResult& names, bool wide);
+std::string step_table_header(const Scene& scene, bool plane_strain, bool wide);
 std::string step_table_row(const StepResult& step, bool wide);
 /// The closing lines: outcome, activation, stages, slip events, episodes, warnings.
 std::string case_summary(const CaseResult& result);

@@ -170,7 +170,7 @@ Eigen::VectorXd project_on_friction_cone(const Eigen::VectorXd& x, double fricti
 
 double natural_map_error(const FrictionalContactProblem& problem,
                          const FrictionalContactSolution& solution) {
-  const int d = problem.dimension;
+  const Eigen::Index d = problem.dimension;
   double square = 0;
   for (int k = 0; k < problem.n_contacts(); ++k) {
     const double friction = problem.friction[k];

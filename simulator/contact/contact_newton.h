@@ -32,7 +32,7 @@ class ContactNewton {
   void begin(const SubStep& sub_step);
   int classify(SubStep& sub_step);
   SlipPoint slip_point(const SubStep& sub_step, const Eigen::VectorXd& traction,
-                       const Eigen::VectorXd& increment, int node) const;
+                       const Eigen::VectorXd& increment, int k) const;
   Residual natural_residual(const SubStep& sub_step, const Eigen::VectorXd& traction,
                             const Eigen::VectorXd& increment) const;
   Residual natural_residual(const SubStep& sub_step) const {
@@ -40,7 +40,7 @@ class ContactNewton {
   }
   void prescribe(const SubStep& sub_step);
   void linearise(const SubStep& sub_step);
-  void collect_node(const SubStep& sub_step, int node);
+  void collect_node(const SubStep& sub_step, int k);
   double wanted_residual(const SubStep& sub_step) const;
   bool solve_linear(const SubStep& sub_step);
   double advance(SubStep& sub_step, bool line_search);

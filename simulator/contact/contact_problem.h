@@ -76,7 +76,7 @@ inline Strength strength_after(const ContactNode& node, const SubStep& sub_step,
 }
 
 /// Whether a node slips in the sub-step that still has cohesion and loses it by slip.
-bool loses_cohesion(const ContactProblem& problem, const SubStep& sub_step, int node);
+bool loses_cohesion(const ContactProblem& problem, const SubStep& sub_step, int k);
 
 /// Why a node is not in equilibrium, as the report counts it.
 struct NodeViolation {
@@ -88,8 +88,8 @@ struct NodeViolation {
   double open_traction = 0;
   double worst() const;
 };
-/// Checks (3)–(5) at one node straight from their definition, with nothing from the solver's
-/// residual.
-NodeViolation check_node(const ContactProblem& problem, const SubStep& sub_step, int node);
+/// Checks (3)–(5) at one node, with nothing from the solver's residual but with its friction law:
+/// by this a step is accepted. What judges from outside is judge.h.
+NodeViolation check_node(const ContactProblem& problem, const SubStep& sub_step, int k);
 
 }  // namespace faultsim

@@ -37,7 +37,7 @@ class JumpFollower {
   double first_duration() const;
   bool damped_step(const LoadPath& path, double from, ContactState& state);
   bool try_static(const LoadPath& path, ContactState& state);
-  bool still_weakens(int node) const;
+  bool still_weakens(int k) const;
   double weakening_share() const;
   double hop_share() const;
   void note_stability();

@@ -29,7 +29,7 @@ class ScalarSlip {
   bool add_violators(const SubStep& sub_step, bool& opens);
   bool add_neighbours(const SubStep& sub_step);
   void synchronise();
-  bool append(int node);
+  bool append(int k);
   bool solve_set(const SubStep& sub_step);
   bool release_wrong_way();
   bool seen_before();

@@ -122,7 +122,7 @@ bool SubStepSolver::rests_in_plane(int k, double margin) const {
              node.law->static_limit(normal, sub_step_.cohesive[i] != 0) + margin;
 }
 
-/// (3)–(5) straight from their definition at each node: what decides whether a step is accepted.
+/// (3)–(5) at each node: what decides whether a step is accepted.
 bool SubStepSolver::verified() const {
   constexpr double kMargin = 4;  // the solvers stop at 1 to 1.5
   for (int k = 0; k < problem_.n_nodes(); ++k) {

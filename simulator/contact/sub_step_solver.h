@@ -64,7 +64,7 @@ class SubStepSolver {
   void set_tolerance();
   bool at_rest() const;
   void start_from_rest();
-  bool rests_in_plane(int node, double margin) const;
+  bool rests_in_plane(int k, double margin) const;
   bool verified() const;
   bool solved_by(const char* way, SearchHistory history);
   void conclude(const char* verdict);

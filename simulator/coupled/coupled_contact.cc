@@ -99,6 +99,14 @@ SlippingPoint CoupledContact::point_of(const ContactState& before, const Iterate
   return point;
 }
 
+/// Whether a node went back against the direction in which it was set to slip. It may rest; to let
+/// it slip the other way at once, as its augmented traction says, may repeat for ever.
+bool CoupledContact::turned_back(const Iterate& at, int k) const {
+  if (at.state[k] != FaultState::slip || at.how.empty()) return false;
+  const Node& node = nodes_[k];
+  return shear_of(node.shear, at.increment).dot(at.how[node.fault_node].tangent.traction) < 0;
+}
+
 /// States from the augmented tractions. Leaving stick takes more than the tolerance, going back
 /// nothing, so that round-off changes no state for ever.
 void CoupledContact::classify(const ContactState& before, Iterate& at, double tolerance) const {
@@ -110,7 +118,7 @@ void CoupledContact::classify(const ContactState& before, Iterate& at, double to
     FaultState state = FaultState::stick;
     if (normal > (at.state[k] == FaultState::open ? 0 : tolerance)) {
       state = FaultState::open;
-    } else if (node.n_dofs > 1) {
+    } else if (node.n_dofs > 1 && !turned_back(at, k)) {
       const double excess = node.stiffness * point_of(before, at, k).slip_increment.norm();
       if (excess > (at.state[k] == FaultState::slip ? 0 : tolerance)) state = FaultState::slip;
     }
@@ -172,7 +180,7 @@ double CoupledContact::improve(const Eigen::VectorXd& force, const ContactState&
   }
   CoupledSolver solver(j, options_.solver);
   const CoupledReport solved =
-      solver.solve(r_u, r_l, options_.krylov_tolerance, options_.max_krylov_iterations, du, lambda);
+      solver.solve(r_u, r_l, options_.krylov_tolerance, options_.solver.max_iterations, du, lambda);
   report.linear.krylov_iterations.push_back(static_cast<int>(solved.residuals.size()) - 1);
   report.linear.setup_seconds += solver.setup_seconds();
   report.linear.solve_seconds += solved.seconds;
@@ -200,8 +208,9 @@ double CoupledContact::improve(const Eigen::VectorXd& force, const ContactState&
 }
 
 /// Newton with the active set, until neither states nor values change.
-void CoupledContact::iterate(const Eigen::VectorXd& force, const ContactState& before, Iterate& at,
-                             CoupledStepReport& report) const {
+/// @param level  the largest traction that the load brings, Pa: where faults open, theirs vanish.
+void CoupledContact::iterate(const Eigen::VectorXd& force, double level, const ContactState& before,
+                             Iterate& at, CoupledStepReport& report) const {
   while (!report.converged) {
     if (report.newton_iterations() == options_.max_newton_iterations) {
       report.reason = concat("Newton's method goes on changing after ", report.newton_iterations(),
@@ -210,8 +219,8 @@ void CoupledContact::iterate(const Eigen::VectorXd& force, const ContactState& b
     }
     options_.stop.throw_if_requested("solving a linear step of the coupled path");
     const double change = improve(force, before, at, report);
-    const double largest = std::max(at.traction.cwiseAbs().maxCoeff(), 1.0);
-    const double tolerance = options_.traction_tolerance * largest;
+    const double tolerance =
+        options_.traction_tolerance * std::max(level, at.traction.lpNorm<Eigen::Infinity>());
     classify(before, at, tolerance);
     report.newton.add({.residual = change / tolerance,
                        .length = 1,
@@ -224,7 +233,7 @@ void CoupledContact::iterate(const Eigen::VectorXd& force, const ContactState& b
       report.reason =
           concat("GMRES (", to_string(options_.solver.leading), ", ",
                  to_string(options_.solver.schur), ") does not reach ", options_.krylov_tolerance,
-                 " within ", options_.max_krylov_iterations, " iterations");
+                 " within ", options_.solver.max_iterations, " iterations");
       report.newton.end = SearchEnd::no_progress;
       return;
     }
@@ -248,7 +257,9 @@ CoupledStepReport CoupledContact::advance(const CoupledLoad& load, ContactState&
   for (const FaultState s : state.state) {
     at.state.push_back(s == FaultState::open ? s : FaultState::stick);
   }
-  iterate(force, state, at, report);
+  const double level = std::max(
+      {load.background.lpNorm<Eigen::Infinity>(), state.traction.lpNorm<Eigen::Infinity>(), 1.0});
+  iterate(force, level, state, at, report);
   if (!report.converged) return report;
   for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {
     const Node& node = nodes_[k];  // what is held moves by what the last linear step left over

@@ -11,10 +11,10 @@ namespace faultsim {
 
 struct CoupledContactOptions {
   SolverChoice solver = {};
-  /// Of tractions, relative to the largest: a Newton step that changes less is the last one.
+  /// Of tractions, relative to the largest of the load and of the step: a Newton step that changes
+  /// less is the last one.
   double traction_tolerance = 1e-9;
   double krylov_tolerance = 1e-4;  ///< of each linear step, relative to its right-hand side.
-  int max_krylov_iterations = 500;
   int max_newton_iterations = 60;
   StopToken stop = {};  ///< asked before each linear step: Interrupted.
 };
@@ -69,13 +69,14 @@ class CoupledContact {
   };
   struct Iterate;
   void classify(const ContactState& before, Iterate& at, double tolerance) const;
+  bool turned_back(const Iterate& at, int k) const;
   void linearise(const ContactState& before, Iterate& at) const;
   double improve(const Eigen::VectorXd& force, const ContactState& before, Iterate& at,
                  CoupledStepReport& report) const;
-  void iterate(const Eigen::VectorXd& force, const ContactState& before, Iterate& at,
+  void iterate(const Eigen::VectorXd& force, double level, const ContactState& before, Iterate& at,
                CoupledStepReport& report) const;
   static FrictionState state_of(const Node& node, const ContactState& state, int k);
-  SlippingPoint point_of(const ContactState& before, const Iterate& at, int node) const;
+  SlippingPoint point_of(const ContactState& before, const Iterate& at, int k) const;
 
   const TwoSidedBulk& bulk_;
   CoupledContactOptions options_;

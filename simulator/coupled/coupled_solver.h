@@ -20,6 +20,7 @@ struct SolverChoice {
   BlockForm form = BlockForm::upper;
   FsaiOptions fsai = {};
   IluOptions ilu = {};
+  int max_iterations = 500;  ///< of GMRES: a linear step that takes more is not solved.
 };
 
 /// Names on the command line and in tables: "fsai", "ic".

@@ -69,6 +69,18 @@ std::vector<Problem> unsupported_by_coupled(const Scene& scene, const Plan& plan
   return problems;
 }
 
+std::string parts_warning(const CaseResult& result) {
+  std::string steps;
+  for (const StepResult& step : result.steps) {
+    if (step.counts.sub_steps < 2) continue;
+    steps += concat(steps.empty() ? "" : ", ", step.step, " (", step.counts.sub_steps, " parts)");
+  }
+  if (steps.empty()) return steps;
+  return concat(
+      "load steps were cut because Newton's method did not converge over the whole: ", steps,
+      "; slip depends on the path, so it may differ slightly from that of the condensed path");
+}
+
 struct CoupledCase::Impl final {
   Impl(const Scene& the_scene, const Plan& plan, const SolverChoice& choice)
       : scene(the_scene),
@@ -87,7 +99,6 @@ struct CoupledCase::Impl final {
   TwoSidedBulk bulk;
   ContactLaws laws;
   std::vector<int> mirrored;  ///< rows of observations.
-  int max_krylov = CoupledContactOptions{}.max_krylov_iterations;
 };
 
 namespace {
@@ -167,13 +178,13 @@ bool CoupledSteps::try_part(double from, double to, const CoupledLoad& load, Con
   report.linear.setup_seconds += part.linear.setup_seconds;
   report.linear.solve_seconds += part.linear.solve_seconds;
   SolveCounts& counts = report.contact.counts;
-  counts.newton_iterations += part.newton_iterations();
+  (part.converged ? counts.newton_iterations : counts.wasted_newton_iterations) +=
+      part.newton_iterations();
   counts.active_set_passes += part.newton.passes;
   if (part.converged) {
     ++counts.sub_steps;
   } else {
     may_cut_ = part.newton.end != SearchEnd::no_progress;  // a linear system stays as hard
-    counts.wasted_newton_iterations += part.newton_iterations();
     report.contact.reason = concat(part.reason, " (load ", from, " to ", to, " of the step)");
   }
   if (tried_) {
@@ -240,27 +251,27 @@ CoupledCase::CoupledCase(const Scene& scene, const Plan& plan, const SolverChoic
 CoupledCase::~CoupledCase() = default;
 
 const FaultOperator& CoupledCase::faults() const { return impl_->faults; }
-void CoupledCase::limit_krylov(int max_iterations) { impl_->max_krylov = max_iterations; }
 const Mesh& CoupledCase::mesh() const { return impl_->problem.mesh; }
 
 CaseResult CoupledCase::run(const RunContext& context, const StepObserver& observer,
-                            const std::function<void(int, const SubStepTrace&)>& tried) {
+                            const CaseProbe& probe) {
   Impl& self = *impl_;
   int step = 0;  // of the tries; the observer is told when it is over
   CoupledSteps::Tried told;
-  if (tried) told = [&](const SubStepTrace& part) { tried(step, part); };
+  if (probe.tried) told = [&](const SubStepTrace& part) { probe.tried(step, part); };
   CoupledContactOptions options;
   options.solver = self.solver;
   options.traction_tolerance = self.scene.numerics.traction_tolerance;
-  options.max_krylov_iterations = self.max_krylov;
   options.stop = context.stop;
   CoupledSteps steps(self.bulk, self.problem, self.faults, self.laws, options, self.mirrored,
                      self.scene.numerics.max_step_cuts, told);
-  return run_case(self.scene, self.faults, steps, context,
-                  [&](const StepResult& result, const FaultFields& fields) {
-                    step = result.step + 1;
-                    if (observer) observer(result, fields);
-                  });
+  const auto observed = [&](const StepResult& result, const FaultFields& fields) {
+    step = result.step + 1;
+    if (observer) observer(result, fields);
+  };
+  CaseResult result = run_case(self.scene, self.faults, steps, context, observed, probe);
+  if (std::string text = parts_warning(result); !text.empty()) result.warnings.push_back(text);
+  return result;
 }
 
 }  // namespace faultsim

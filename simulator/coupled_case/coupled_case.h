@@ -1,7 +1,7 @@
 #pragma once
 
-#include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "simulator/common/errors.h"
@@ -14,11 +14,14 @@ namespace faultsim {
 /// function of the scene alone: nothing is meshed.
 std::vector<Problem> unsupported_by_coupled(const Scene& scene, const Plan& plan);
 
+/// That load steps of a result were taken in parts, and what that may change; empty: none was.
+std::string parts_warning(const CaseResult& result);
+
 /// A case on the coupled path (docs/model.md, section 11): mesh, bulk and faults of the scene
 /// without a condensed operator, walked through its load steps by loading's run_case, measured and
 /// summed up by the same code as a case on an operator. A step whose Newton iteration does not end
 /// is halved, /numerics/max_step_cuts times at most; its tolerance is /numerics/traction_tolerance,
-/// of the largest traction.
+/// of the largest traction of load and faults.
 class CoupledCase {
  public:
   /// @pre scene and plan outlive this. Throws InputError with all of unsupported_by_coupled(), and
@@ -34,12 +37,9 @@ class CoupledCase {
   /// of them, bit by bit; no H, no L, no fingerprint.
   const FaultOperator& faults() const;
   const Mesh& mesh() const;
-  /// Iterations of GMRES after which a linear step counts as not solved; default 500.
-  void limit_krylov(int max_iterations);
-  /// As run_case(). Each run starts anew.
-  /// @param tried  after each try at a part of a load step, with the step's number.
+  /// As run_case(), with parts_warning(). Each run starts anew.
   CaseResult run(const RunContext& context = {}, const StepObserver& observer = {},
-                 const std::function<void(int, const SubStepTrace&)>& tried = {});
+                 const CaseProbe& probe = {});
 
  private:
   struct Impl;

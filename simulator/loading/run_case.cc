@@ -301,7 +301,7 @@ void CaseRun::show(const StepLoads* before, const StepLoads& loads, const Contac
   step.locked_before =
       before != nullptr ? before->locked : Eigen::VectorXd::Zero(op_.geometry.n_dofs);
   step.after = state_;
-  step.elastic = !march_ || before == nullptr;
+  step.elastic = other_ == nullptr && (!march_ || before == nullptr);
   const bool one_time_step = !result.creep || result.creep->time_steps <= 1;
   step.at_once = one_time_step && report.counts.sub_steps == 1 && report.jumps.empty();
   probe_.accepted(result.step, laws_, step);
@@ -474,8 +474,9 @@ CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, const 
 }
 
 CaseResult run_case(const Scene& scene, const FaultOperator& faults, StepSolver& solver,
-                    const RunContext& context, const StepObserver& observer) {
-  return CaseRun(scene, faults, nullptr, context, observer, {}, &solver).run();
+                    const RunContext& context, const StepObserver& observer,
+                    const CaseProbe& probe) {
+  return CaseRun(scene, faults, nullptr, context, observer, probe, &solver).run();
 }
 
 StepStart start_of_step(const Scene& scene, const PreparedOperator& prepared, int step,

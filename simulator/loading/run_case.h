@@ -67,7 +67,8 @@ CaseResult run_case(const Scene& scene, const FaultOperator& op, const RunContex
 /// @param faults  an operator that is not condensed (coupled_case.h): geometry, keys of its loads
 /// and observation rows, and nothing of what a load or a jump does.
 CaseResult run_case(const Scene& scene, const FaultOperator& faults, StepSolver& solver,
-                    const RunContext& context, const StepObserver& observer = {});
+                    const RunContext& context, const StepObserver& observer = {},
+                    const CaseProbe& probe = {});
 
 /// One load step of a case before it is solved: what a contact solver would be given.
 struct StepStart {

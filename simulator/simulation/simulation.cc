@@ -155,7 +155,7 @@ bool Simulation::Impl::prepare_field(const RunContext& context) {
       std::shared_ptr<const PreparedInfluence> influence;
       std::shared_ptr<const FieldLoads> loads;
     };
-    const auto made = std::make_shared<Made>(influence, nullptr);
+    const auto made = std::make_shared<Made>(Made{influence, nullptr});
     build = std::make_unique<OperatorBuild>(
         [made, scene = at_hand.scene, plan = at_hand.plan, kept = cache,
          source = at_hand.document.source](const RunContext& inner) {

@@ -22,6 +22,7 @@ struct History {
   CaseResult result;
   std::vector<FaultFields> fields;
   std::vector<SubStepTrace> tried;
+  Verdict worst;  ///< of the steps of the coupled path.
 
   int most(int StepResult::*count) const {
     int most = 0;
@@ -54,9 +55,16 @@ History coupled(const json& document, const SolverChoice& solver) {
   const Planned p(document);
   History history;
   CoupledCase one(p.scene, p.plan, solver);
+  CaseProbe probe;
+  probe.tried = [&](int, const SubStepTrace& part) { history.tried.push_back(part); };
+  probe.accepted = [&](int, const ContactLaws& laws, const AcceptedStep& step) {
+    EXPECT_FALSE(step.elastic) << "there is no H";
+    history.worst.take_worst(judge_step(one.faults(), laws, step));
+  };
   history.result = one.run(
       {}, [&](const StepResult&, const FaultFields& fields) { history.fields.push_back(fields); },
-      [&](int, const SubStepTrace& part) { history.tried.push_back(part); });
+      probe);
+  EXPECT_LT(history.worst.relative.largest(), 1e-6) << "judged by the conditions themselves";
   return history;
 }
 
@@ -162,6 +170,61 @@ TEST(CoupledCase, IsTheCondensedCaseInPlaneStrain) {
   EXPECT_LE(both_sides.result.coupled->most_krylov_iterations, 40) << "on stretched cells";
 }
 
+/// All of the faults open: no traction is left to measure the tolerance by.
+json opened() {
+  json scene = box();
+  scene["friction"] = {{"cohesion", "2 MPa"}, {"friction_angle", "6 deg"}};
+  scene["faults"][0]["width"] = "250 m";
+  scene["fault_pressure"]["prescribed"] = "18 MPa";
+  return scene;
+}
+
+TEST(CoupledCase, OpensFaultsAsAWhole) {
+  const History on_operator = condensed(opened());
+  EXPECT_EQ(on_operator.most(&StepResult::n_open),
+            static_cast<int>(on_operator.fields[0].state.size()));
+  const History both_sides = coupled(opened(), {LeadingKind::amg_by_component, SchurKind::rac});
+  expect_same(both_sides, on_operator, 1e-6);
+  EXPECT_EQ(both_sides.result.counts.wasted_newton_iterations, 0);
+}
+
+/// A large step of weak faults: nodes that are set to slip too far turn back.
+json weak_in_one_step() {
+  json scene = field();
+  scene["friction"] = {{"cohesion", "0.5 MPa"}, {"friction_angle", "8 deg"}};
+  scene["faults"][0]["dip_from_vertical"] = "10 deg";
+  scene["geometry"]["blocks"][0]["offset"] = "50 m";
+  scene["geometry"]["blocks"][1]["offset"] = "150 m";
+  scene["stages"][0]["steps"] = 1;
+  return scene;
+}
+
+TEST(CoupledCase, TakesALargeStepAtOnceWhereNodesTurnBack) {
+  const History on_operator = condensed(weak_in_one_step());
+  const History both_sides =
+      coupled(weak_in_one_step(), {LeadingKind::amg_by_component, SchurKind::rac});
+  expect_same(both_sides, on_operator, 1e-6);
+  EXPECT_EQ(both_sides.result.counts.wasted_newton_iterations, 0);
+  for (const StepResult& step : both_sides.result.steps) EXPECT_EQ(step.counts.sub_steps, 1);
+  EXPECT_EQ(both_sides.result.warnings, on_operator.result.warnings);
+}
+
+TEST(CoupledCase, WarnsOfLoadStepsTakenInParts) {
+  CaseResult result;
+  result.steps.resize(5);
+  for (int i = 0; i < 5; ++i) {
+    result.steps[i].step = i;
+    result.steps[i].counts.sub_steps = 1;
+  }
+  EXPECT_EQ(parts_warning(result), "");
+  result.steps[2].counts.sub_steps = 2;
+  result.steps[4].counts.sub_steps = 8;
+  EXPECT_EQ(parts_warning(result),
+            "load steps were cut because Newton's method did not converge over the whole: 2 (2 "
+            "parts), 4 (8 parts); slip depends on the path, so it may differ slightly from that of "
+            "the condensed path");
+}
+
 TEST(CoupledCase, CountsItsWork) {
   const History& history = box_on_both_sides();
   ASSERT_TRUE(history.result.coupled);
@@ -239,8 +302,8 @@ TEST(CoupledCase, SaysWhereGmresGivesUp) {
   const Planned p(scene);
   SolverChoice poor{LeadingKind::fsai, SchurKind::exact};  // 200 iterations where others take 20
   poor.fsai.steps = 1;
+  poor.max_iterations = 3;
   CoupledCase one(p.scene, p.plan, poor);
-  one.limit_krylov(3);
   const CaseResult result = one.run();
   EXPECT_EQ(result.outcome, Outcome::unconverged);
   EXPECT_EQ(result.failed_step, 0);
