@@ -57,7 +57,7 @@ class AnswersTest : public ::testing::Test {
   }
   /// Cases whose results follow from `strength` alone (made_up_result: F1 slides above 0.5).
   void submit(const std::string& kind, const std::vector<std::array<double, 2>>& values,
-              const std::vector<std::string>& names = {"strength"}) {
+              const std::vector<std::string>& names = {"strength"}, bool second_order = false) {
     for (const auto& [strength, offset] : values) {
       const std::size_t n = s_.cases.size();
       s_.cases.push_back({"identity-" + std::to_string(n),
@@ -70,10 +70,12 @@ class AnswersTest : public ::testing::Test {
     }
     json parameters = json::array();
     for (const std::string& name : names) parameters.push_back({{"name", name}});
-    s_.spec_resolved =
-        json{{"groups",
-              {{{"kind", kind}, {"parameters", parameters}, {"scene", {{"tier", "screening"}}}}}}}
-            .dump();
+    s_.spec_resolved = json{{"groups",
+                             {{{"kind", kind},
+                               {"parameters", parameters},
+                               {"second_order", second_order},
+                               {"scene", {{"tier", "screening"}}}}}}}
+                           .dump();
     store_->submit(s_);
     campaign_ = store_->campaign("");
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -154,6 +156,32 @@ TEST_F(AnswersTest, IsAskedForEachPartOfAParameter) {
   EXPECT_THROW(probability({.by = "ofset"}), InputError);
   EXPECT_THROW(probability({.where = "offset > 1000 m"}), InputError);
   EXPECT_GT(probability({}).shares.size(), 2u) << "each fault, each stage";
+}
+
+/// Ten parts differ by one row at most, and none is left out.
+TEST_F(AnswersTest, PartsHaveAllRowsWhateverTheirNumber) {
+  submit("monte-carlo", even(43));
+  record();
+  const Probability parts = probability({.condition = "F1.slides", .by = "offset"});
+  ASSERT_EQ(parts.shares.size(), 10u);
+  long n = 0, n_holds = 0;
+  for (const Share& one : parts.shares) {
+    EXPECT_GE(one.n, 4);
+    EXPECT_LE(one.n, 5);
+    n += one.n, n_holds += one.n_holds;
+  }
+  EXPECT_EQ(n, 43);
+  EXPECT_EQ(n_holds, probability({.condition = "F1.slides"}).shares.at(0).n_holds);
+}
+
+/// To halve the distance between the bounds takes as many cases as bring the half of it.
+TEST_F(AnswersTest, HalfTheDistanceBetweenTheBoundsIsReachedWithTheCasesSaid) {
+  submit("monte-carlo", even(40));
+  record();
+  const Probability p = probability({.condition = "F1.slides"});
+  const Interval now = p.shares[0].bounds;
+  const Interval then = proportion_bounds(p.n_for_half / 2, p.n_for_half, 0.95);
+  EXPECT_NEAR(then.high - then.low, 0.5 * (now.high - now.low), 0.005);
 }
 
 TEST_F(AnswersTest, SharesOfChosenCasesAreNoProbabilities) {
@@ -294,6 +322,45 @@ TEST_F(AnswersTest, ASobolDesignHasTotalIndices) {
                   .frozen.empty());
 }
 
+/// Activations have no depth where nothing slides: those rows are left out with their parameters.
+TEST_F(AnswersTest, SensitivityOfWhatNotAllCasesHaveIsThatOfThoseThatHaveIt) {
+  submit("monte-carlo", even(200));
+  for (std::size_t k = 0; k < runs_.size(); ++k) {
+    faultsim::FaultStageMetrics& fault = runs_[k].result->whole.faults[0];
+    if (fault.activation) fault.activation->depth = 2000 + *s_.cases[k].parameters[1].si;
+  }
+  record();
+  const Sensitivity some =
+      analyse_sensitivity(*store_, campaign_, {.metrics = "F1.activation_depth"});
+  ASSERT_EQ(some.metrics.at(0).n, 100);
+  EXPECT_LT(std::abs(some.metrics[0].first_order[0].value), 0.4) << "strength";
+  EXPECT_GT(some.metrics[0].first_order[1].value, 0.9) << "offset, of which the depth is made";
+}
+
+/// Rows A, AB_1, AB_2, BA_1, BA_2, B.
+TEST_F(AnswersTest, ASobolDesignOfSecondOrderHasTheSameIndices) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<std::array<double, 2>> values;
+  for (int k = 0; k < 60; ++k) {
+    const std::array<double, 2> a = {uniform(random), uniform(random)};
+    const std::array<double, 2> b = {uniform(random), uniform(random)};
+    values.insert(values.end(), {a, {b[0], a[1]}, {a[0], b[1]}, {a[0], b[1]}, {b[0], a[1]}, b});
+    values[values.size() - 3][1] += 1e-6, values[values.size() - 2][1] += 1e-6;  // no twins
+  }
+  for (long row = 1; row <= 360; ++row) s_.design_rows.push_back({0, row, row});
+  submit("sobol", values, {"strength", "offset"}, true);
+  record();
+  const Sensitivity s = analyse_sensitivity(*store_, campaign_, {.metrics = "F1.chi_bar"});
+  const MetricSensitivity& chi_bar = s.metrics.at(0);
+  EXPECT_EQ(chi_bar.n_base_samples, 60);
+  EXPECT_EQ(chi_bar.n, 120) << "A and B";
+  EXPECT_NEAR(chi_bar.sobol.at(0).first.value, 1, 1e-12) << "B and AB_1 have the same strength";
+  EXPECT_NEAR(chi_bar.sobol.at(0).total.value, 1, 3 * chi_bar.sobol.at(0).total.standard_error);
+  EXPECT_NEAR(chi_bar.sobol.at(1).first.value, 0, 4 * chi_bar.sobol.at(1).first.standard_error);
+  EXPECT_NEAR(chi_bar.sobol.at(1).total.value, 0, 1e-12);
+}
+
 /// Fault f of the k-th of n cases begins to slide at the end of step k, at −k bar, but F2 never.
 TEST_F(AnswersTest, ACurveCountsTheFaultsThatHaveBegunToSlide) {
   submit("monte-carlo", even(12));
@@ -369,6 +436,30 @@ TEST_F(AnswersTest, ACurveAgainstPressureGoesTheWayOfTheStage) {
   EXPECT_THROW(probability_curves(*store_, campaign_, {.where = "offset > 1000 m"}), InputError);
 }
 
+/// A stage begins where the one before has ended, and its curve with it.
+TEST_F(AnswersTest, ACurveAgainstPressureBeginsWhereItsStageDoes) {
+  submit("monte-carlo", even(12));
+  for (RunRecord& run : runs_) {
+    for (faultsim::StageMetrics& stage : run.result->stages)
+      for (faultsim::FaultStageMetrics& fault : stage.faults) fault.activation.reset();
+  }
+  record();
+  const std::vector<faultsim::StepResult>& steps = runs_[0].result->steps;
+  for (const faultsim::StageMetrics& stage : runs_[0].result->stages) {
+    const Curves found =
+        probability_curves(*store_, campaign_, {.axis = CurveAxis::pressure, .stage = stage.stage});
+    const double begin = steps[static_cast<std::size_t>(stage.first_step - 1)].pressure_change[0];
+    const double end = steps[static_cast<std::size_t>(stage.last_step)].pressure_change[0];
+    const std::vector<CurvePoint>& points = found.curves.at(0).points;
+    const double distance = points[0].at - points[1].at;
+    EXPECT_GT(distance, 0) << "it falls";
+    EXPECT_GE(points.front().at, begin - 1) << stage.stage;
+    EXPECT_LT(points.front().at, begin + distance) << stage.stage;
+    EXPECT_LE(points.back().at, end + 1) << stage.stage;
+    EXPECT_GT(points.back().at, end - distance) << stage.stage;
+  }
+}
+
 /// χ̄ of F1 is its strength below 1, so what is seen of the one is seen of the other.
 TEST_F(AnswersTest, APosteriorIsThePriorWeightedByWhatWasSeen) {
   submit("monte-carlo", even(1000));
@@ -398,6 +489,25 @@ TEST_F(AnswersTest, APosteriorIsThePriorWeightedByWhatWasSeen) {
   EXPECT_EQ(slid.probabilities.at(0).after.value, 1);
   EXPECT_NEAR(slid.probabilities.at(0).before.value, 0.5, 1e-9);
   EXPECT_THAT(posterior_to_text(slid), HasSubstr("taken as exact"));
+}
+
+/// Errors are independent: two statements weigh a case by the product of what each does.
+TEST_F(AnswersTest, StatementsWeighTogether) {
+  submit("monte-carlo", even(2000));
+  record();
+  const auto posterior = [&](std::vector<std::string> seen) {
+    return find_posterior(*store_, campaign_, {std::move(seen), {"F1.slides"}, "", 0.95});
+  };
+  // Of two normal errors the weights are those of one: 1/σ² adds, and the mean is weighted by it.
+  const Posterior both = posterior({"F1.chi_bar = 0.4 +- 0.1", "F1.chi_bar = 0.6 +- 0.05"});
+  const Posterior one = posterior({"F1.chi_bar = 0.56 +- 0.0447213595499958"});
+  for (std::size_t q = 0; q < 3; ++q)
+    EXPECT_NEAR(both.parameters[0].after[q].estimate, one.parameters[0].after[q].estimate, 1e-9);
+  EXPECT_NEAR(both.probabilities[0].after.value, one.probabilities[0].after.value, 1e-9);
+  EXPECT_NEAR(both.effective_size, one.effective_size, 1e-6);
+  const Posterior turned = posterior({"F1.chi_bar = 0.6 +- 0.05", "F1.chi_bar = 0.4 +- 0.1"});
+  EXPECT_NEAR(both.effective_size, turned.effective_size, 1e-9);
+  EXPECT_NEAR(both.agreement[0], turned.agreement[1], 1e-12);
 }
 
 TEST_F(AnswersTest, AFewCasesDoNotSpeakForAll) {

@@ -30,7 +30,7 @@ class TiersTest : public ::testing::Test {
   }
   /// The first n samples, whose strength at this tier is 0.9 · sample + shift; each took `seconds`.
   CampaignInfo run(const std::string& name, std::size_t n, double shift, double seconds,
-                   std::size_t failed = 1000) {
+                   std::size_t failed = 1000, double operator_seconds = 0) {
     Submission s;
     s.name = name;
     s.scenes = {{"scene.json", "{}"}};
@@ -44,6 +44,9 @@ class TiersTest : public ::testing::Test {
     }
     store_->submit(s);
     const CampaignInfo campaign = store_->campaign(name);
+    for (const WaitingFamily& family : store_->waiting_families(campaign.id))
+      store_->record_operator(family.family,
+                              {"op-" + name, false, operator_seconds, 1000, 100, 1000, 1000});
     std::vector<RunRecord> runs;
     for (std::size_t k = 0; k < n; ++k) {
       RunRecord one;
@@ -92,6 +95,18 @@ TEST_F(TiersTest, SaysWhenItDoesNotPay) {
   const Tiers found = compare_tiers(*store_, low, high, {"F1.chi_bar", {"F1.slides"}, 0.95});
   EXPECT_LT(found.answers[0].cost_ratio, 1) << "300 s for what 200 expensive cases tell in 200 s";
   EXPECT_THAT(tiers_to_text(found), ::testing::HasSubstr("no: "));
+}
+
+/// What operators took is paid once per tier, whatever the number of cases.
+TEST_F(TiersTest, OperatorsCostToo) {
+  const double cheap = 5, dear = 300;  // s
+  const CampaignInfo low = run("low", 200, 0, 0.01, 1000, cheap),
+                     high = run("high", 40, 0.1, 1, 1000, dear);
+  const Tiers found = compare_tiers(*store_, low, high, {"F1.chi_bar", {"F1.slides"}, 0.95});
+  EXPECT_EQ(found.low_cost.operator_seconds, cheap);
+  EXPECT_EQ(found.high_cost.operator_seconds, dear);
+  const TierAnswer& mean = found.answers.at(0);
+  EXPECT_NEAR(mean.cost_ratio, (dear + mean.found.n_equivalent) / (cheap + 2 + dear + 40), 1e-9);
 }
 
 TEST_F(TiersTest, OtherSamplesAndTooFewAreRefused) {

@@ -3,15 +3,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
 #include "simulator/case_figures/field_section.h"
 #include "simulator/case_figures/picture_file.h"
 #include "simulator/common/errors.h"
+#include "simulator/figure/palette.h"
 #include "simulator/output/write_result.h"
+#include "simulator/scene/initial_state.h"
 #include "simulator/scene/json_document.h"
 #include "simulator/scene/read_scene.h"
+#include "tests/unit/figure/svg_reader.h"
 #include "tests/unit/figure/xml_check.h"
 
 namespace faultsim {
@@ -121,6 +125,106 @@ TEST(DrawCase, RefusesWhatIsNotThereAndSaysWhatIs) {
               HasSubstr("this scene is a box"));
 }
 
+/// Values of the lines of a colour, as the k-th x or y scale of the drawing gives them.
+std::vector<double> read_off(const std::string& svg, std::size_t colour, bool along_x,
+                             std::size_t line = 0, std::size_t scale = 0) {
+  const figure::ReadScale read = figure::read_scale(svg, along_x, scale);
+  const auto lines =
+      figure::elements_of(svg, "polyline", "stroke", figure::fault_stroke(colour).colour);
+  std::vector<double> values;
+  for (const figure::Point& one : lines.at(line).points())
+    values.push_back(read.value(along_x ? one.x : one.y));
+  return values;
+}
+
+void expect_values(const std::vector<double>& read, const std::vector<double>& given,
+                   double error) {
+  ASSERT_EQ(read.size(), given.size());
+  for (std::size_t k = 0; k < read.size(); ++k) EXPECT_NEAR(read[k], given[k], error) << k;
+}
+
+TEST(DrawCase, AHistoryIsInYearsBarAndMillimetres) {
+  const Scene scene = field_scene();
+  CaseResult result = small_result();
+  for (StepResult& step : result.steps) {
+    step.faults[0].max_slip = 0.012 * step.step;
+    step.faults[0].thickness_chi_080_max = 40.0 * step.step;
+  }
+  SlipEvent event;
+  event.fault = "F2", event.time = result.steps[1].time, event.magnitude = 2.345;
+  event.resolved = false;
+  result.events = {event};
+  const CasePicture picture{result, scene, nullptr, {}};
+  const std::string slip = draw_case(picture, {CaseChart::slip, {}, {}, false});
+  expect_values(read_off(slip, 0, true), {0, 5, 10}, 0.02);
+  expect_values(read_off(slip, 0, false), {0, 12, 24}, 0.1);
+  expect_values(read_off(slip, 6, false, 0, 1), {0, -100, -200}, 1.5);  // of the west
+  EXPECT_THAT(slip, HasSubstr(">Mw 2.3 (unresolved) on F2<"));
+  const std::string thickness = draw_case(picture, {CaseChart::thickness, {}, {}, false});
+  expect_values(read_off(thickness, 0, false), {0, 40, 80}, 0.3);
+  const std::string chi = draw_case(picture, {CaseChart::history, {}, {}, false});
+  expect_values(read_off(chi, 0, false), {0, 0.3, 0.6}, 0.005);
+  // The first stage goes from the start to step 1, and is shaded; the second is not.
+  const figure::ReadScale time = figure::read_scale(chi, true);
+  const auto shades = figure::elements_of(chi, "rect", "fill", figure::kShade);
+  ASSERT_EQ(shades.size(), 2U) << "in each of two panels";
+  EXPECT_NEAR(time.value(shades[0].number("x")), 0, 0.02);
+  EXPECT_NEAR(time.value(shades[0].number("x") + shades[0].number("width")), 5, 0.02);
+  double middle = 0;
+  for (const figure::SvgElement& one : figure::elements_of(chi))
+    if (one.text == "gas storage") middle = time.value(one.number("x"));
+  EXPECT_NEAR(middle, 7.5, 0.05);
+}
+
+TEST(DrawCase, IsInDaysWhereAllIsOverInLessThanTwoYears) {
+  const Scene scene = field_scene();
+  CaseResult result = small_result();
+  for (StepResult& step : result.steps) step.time = step.step * 10 * 86400.0;
+  const std::string svg =
+      draw_case({result, scene, nullptr, {}}, {CaseChart::history, {}, {}, false});
+  EXPECT_THAT(svg, HasSubstr("time, days"));
+  expect_values(read_off(svg, 0, true), {0, 10, 20}, 0.03);
+}
+
+TEST(CompartmentsBeside, AreThoseOfTheBlocksOnTheirSides) {
+  const Scene scene = field_scene();
+  for (std::size_t fault = 0; fault < 3; ++fault) {
+    for (const figure::DepthBand& band : compartments_beside(scene, fault)) {
+      const std::size_t block = band.name == scene.field.blocks[0].name ? 0 : 1;
+      EXPECT_EQ(band.on_plus_side, block == fault) << "fault " << fault << " has the block of its "
+                                                   << "number on its plus side";
+      const DepthInterval range = reservoir_range(scene.field, scene.field.blocks[block]);
+      EXPECT_EQ(band.top, range.top);
+      EXPECT_EQ(band.base, range.bottom);
+    }
+  }
+}
+
+TEST(FieldSection, HasLayersToTheNextOneAndBlocksBetweenTheirFaults) {
+  const Scene scene = field_scene();
+  const figure::Section section = field_section(scene);
+  const std::size_t n_layers = scene.field.layers.size();
+  ASSERT_EQ(section.rocks.size(), n_layers + scene.field.blocks.size());
+  for (std::size_t k = 0; k < n_layers; ++k) {
+    EXPECT_EQ(section.rocks[k].top, scene.field.layers[k].top_depth);
+    EXPECT_EQ(section.rocks[k].base,
+              k + 1 < n_layers ? scene.field.layers[k + 1].top_depth : scene.field.depth);
+  }
+  for (std::size_t b = 0; b < scene.field.blocks.size(); ++b) {
+    const figure::Section::Rock& rock = section.rocks[n_layers + b];
+    const DepthInterval range = reservoir_range(scene.field, scene.field.blocks[b]);
+    EXPECT_TRUE(rock.is_reservoir);
+    EXPECT_EQ(rock.top, range.top);
+    EXPECT_EQ(rock.base, range.bottom);
+    EXPECT_EQ(rock.from, fault_x(scene, b, range.top));
+    EXPECT_EQ(rock.to, fault_x(scene, b + 1, range.top));
+    EXPECT_EQ(rock.from_base, fault_x(scene, b, range.bottom));
+    EXPECT_EQ(rock.to_base, fault_x(scene, b + 1, range.bottom));
+  }
+  EXPECT_GE(section.top, 0);
+  EXPECT_LE(section.base, scene.field.depth);
+}
+
 TEST(StepLooks, HaveAColourPerFaultAndTheWordsOfTheStep) {
   const Scene scene = field_scene();
   const CaseResult result = small_result();
@@ -208,6 +312,122 @@ TEST_F(StoredFields2, GiveTheChartsThatNeedThem) {
               HasSubstr("at 2,050 m depth"));
   EXPECT_THAT(message_of(picture, {CaseChart::profiles, "F1", {}, false}),
               HasSubstr("no fields of fault F1 were kept"));
+}
+
+/// Tractions are compression positive in MPa, slips in mm, pressures in bar: at step 2.
+TEST_F(StoredFields2, ProfilesHaveTheFieldsInTheUnitsThatTheyName) {
+  const FieldReader reader(folder_ / "faults.h5");
+  const Scene scene = field_scene();
+  const CaseResult result = small_result();
+  const std::string svg =
+      draw_case({result, scene, &reader, {}}, {CaseChart::profiles, "F2", {}, false});
+  const Friction& friction = scene.faults[1].friction;
+  const double strength =
+      (friction.cohesion + 2e7 * std::tan(friction.static_friction_angle)) / 1e6;
+  const std::vector<std::vector<double>> expected = {
+      {-20, -20, -20}, {20, 20, 20}, {0, 6, 0}, {0.2, 0.8, 0}, {0, 20, 0}};
+  for (std::size_t column = 0; column < expected.size(); ++column) {
+    expect_values(read_off(svg, 0, true, column, column), expected[column],
+                  0.01 * std::max(1.0, std::abs(expected[column][1])));
+    expect_values(read_off(svg, 0, false, column), {2000, 2050, 2100}, 0.1);
+  }
+  expect_values(read_off(svg, 1, true, 0, 2), {strength, strength, strength}, 0.1);
+}
+
+TEST_F(StoredFields2, AStressPathStartsOnTheCircleOfTheInitialState) {
+  const FieldReader reader(folder_ / "faults.h5");
+  const Scene scene = field_scene();
+  const CaseResult result = small_result();
+  const std::string svg =
+      draw_case({result, scene, &reader, {}}, {CaseChart::stress_path, "F2", {}, false});
+  expect_values(read_off(svg, 0, true), {20, 20, 20}, 0.1);
+  expect_values(read_off(svg, 0, false), {0, 3, 6}, 0.1);
+  const figure::ReadScale x = figure::read_scale(svg, true);
+  const auto arc = figure::elements_of(svg, "polyline", "stroke", figure::kFaint).at(0).points();
+  const StressAtDepth start = initial_state(scene, -2050);
+  const double across = -(start.sigma[0] + start.pressure) / 1e6,
+               down = -(start.sigma[8] + start.pressure) / 1e6;
+  EXPECT_NEAR(x.value(arc.front().x), std::max(across, down), 0.1);
+  EXPECT_NEAR(x.value(arc.back().x), std::min(across, down), 0.1);
+  EXPECT_THAT(svg, HasSubstr(">end of primary production<"));
+  EXPECT_THAT(svg, HasSubstr(">end of gas storage<"));
+}
+
+TEST_F(StoredFields2, ASectionHasTheLargerIndexOfItsEndsOnEachPiece) {
+  const FieldReader reader(folder_ / "faults.h5");
+  const Scene scene = field_scene();
+  const CaseResult result = small_result();
+  const std::string svg =
+      draw_case({result, scene, &reader, {}}, {CaseChart::section, {}, 2, false});
+  const figure::ReadScale depth = figure::read_scale(svg, false);
+  const auto pieces = figure::elements_of(svg, "line", "stroke", figure::chi_colour(0.8));
+  ASSERT_EQ(pieces.size(), 2U) << "0.2, 0.8 and 0 down dip";
+  EXPECT_NEAR(depth.value(pieces[0].number("y1")), 2000, 3);
+  EXPECT_NEAR(depth.value(pieces[1].number("y2")), 2100, 3);
+}
+
+/// In plane strain a column per step, which holds since the step before.
+TEST_F(StoredFields2, AMapAgainstTimeHasTheMeanOfEachFace) {
+  const FieldReader reader(folder_ / "faults.h5");
+  const Scene scene = field_scene();
+  CaseResult result = small_result();
+  const std::string svg =
+      draw_case({result, scene, &reader, {}}, {CaseChart::fault_map, "F2", {}, false});
+  const figure::ReadScale time = figure::read_scale(svg, true),
+                          depth = figure::read_scale(svg, false);
+  const auto upper = figure::elements_of(svg, "polygon", "fill", figure::chi_colour(0.5));
+  ASSERT_EQ(upper.size(), 1U) << "of 0.2 and 0.8, at step 2";
+  EXPECT_NEAR(time.value(upper[0].points()[0].x), 5, 0.05);
+  EXPECT_NEAR(time.value(upper[0].points()[2].x), 10, 0.05);
+  EXPECT_NEAR(depth.value(upper[0].points()[0].y), 2000, 0.5);
+  EXPECT_NEAR(depth.value(upper[0].points()[2].y), 2050, 0.5);
+}
+
+/// Two faces beside each other along strike: of the first one corner of four slips, of the second
+/// two do.
+TEST(PlaneMap, MarksFacesOfWhichHalfOfTheCornersMove) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "case_figures_plane";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  FaultGeometry geometry;
+  OperatorFault fault;
+  fault.name = "F2";
+  for (int k = 0; k < 6; ++k) {
+    OperatorNode node;
+    node.position = {7.0, 100.0 * (k / 2), -2000.0 - 50 * (k % 2)};
+    node.normal = {1, 0, 0}, node.strike = {0, 1, 0}, node.dip = {0, 0, -1};
+    node.area = 50;
+    geometry.nodes.push_back(node);
+    fault.points.push_back(node.position);
+    fault.node_of_point.push_back(k);
+  }
+  fault.faces = {{0, 2, 3, 1}, {2, 4, 5, 3}};
+  fault.n_nodes = 6;
+  geometry.faults = {fault};
+  FaultFields fields;
+  fields.traction = fields.jump = Eigen::Matrix3Xd::Zero(3, 6);
+  fields.critical_index.resize(6);
+  fields.critical_index << 0.1, 0.2, 0.3, 0.4, 0.7, 0.6;
+  fields.static_critical_index = fields.critical_index;
+  fields.state.setZero(6);
+  fields.state[2] = fields.state[5] = 1;
+  fields.fault_pressure_change.setZero(6);
+  CaseResult result = small_result();
+  result.plane_strain = false;
+  FieldWriter writer(folder, geometry);
+  for (const StepResult& step : result.steps) writer.add_step(step, fields);
+  writer.finish();
+  const FieldReader reader(folder / "faults.h5");
+  const Scene scene = field_scene();
+  const std::string svg =
+      draw_case({result, scene, &reader, {}}, {CaseChart::fault_map, "F2", {}, false});
+  const auto outlines = figure::elements_of(svg, "polygon", "fill", "none");
+  ASSERT_EQ(outlines.size(), 1U);
+  const figure::ReadScale y = figure::read_scale(svg, true);
+  EXPECT_NEAR(y.value(outlines[0].points()[0].x), 100, 0.5);
+  EXPECT_NEAR(y.value(outlines[0].points()[1].x), 200, 0.5);
+  EXPECT_EQ(figure::elements_of(svg, "polygon", "fill", figure::chi_colour(0.25)).size(), 1U);
+  EXPECT_EQ(figure::elements_of(svg, "polygon", "fill", figure::chi_colour(0.5)).size(), 1U);
 }
 
 TEST_F(StoredFields2, OfAFileThatIsNoneAreRefused) {

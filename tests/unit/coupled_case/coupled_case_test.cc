@@ -225,6 +225,35 @@ TEST(CoupledCase, WarnsOfLoadStepsTakenInParts) {
             "the condensed path");
 }
 
+/// What is observed on the side that is not modelled is that of the other one, mirrored.
+TEST(CoupledCase, IsTheCondensedCaseInHalfADomain) {
+  json scene = field();
+  scene["numerics"] = {{"plane_strain", "off"}, {"half_domain", "on"}};
+  scene["mesh"] = {{"strike", "1500 m"}, {"dip", "150 m"}, {"normal", "400 m"}, {"growth", 2.0}};
+  scene["output"]["observation_points"] = json::parse(
+      R"([{"name": "north", "position": ["300 m", "2500 m", "0 m"]},
+          {"name": "south", "position": ["300 m", "-2500 m", "0 m"]}])");
+  const Planned p(scene);
+  ASSERT_TRUE(p.plan.half_domain);
+  const History both_sides = coupled(scene, {LeadingKind::amg, SchurKind::rac});
+  expect_same(both_sides, condensed(scene), 1e-6);
+  const std::vector<double>& last = both_sides.result.steps.back().observed;
+  ASSERT_EQ(last.size(), 6u);
+  EXPECT_GT(std::abs(last[1]), 1e-4);
+  const CoupledCase one(p.scene, p.plan, {LeadingKind::amg, SchurKind::rac});
+  const auto &rows = one.faults().observed.rows,
+             &others = prepare_operator(p.scene, p.plan, {}, false).op->observed.rows;
+  ASSERT_EQ(rows.size(), others.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    EXPECT_EQ(rows[k].name, others[k].name);
+    EXPECT_EQ(rows[k].position, others[k].position);
+    EXPECT_EQ(rows[k].position.y() > 0, k < 3) << "where the point was asked for";
+  }
+  EXPECT_EQ(last[0], last[3]);
+  EXPECT_EQ(last[1], -last[4]);
+  EXPECT_EQ(last[2], last[5]);
+}
+
 TEST(CoupledCase, CountsItsWork) {
   const History& history = box_on_both_sides();
   ASSERT_TRUE(history.result.coupled);

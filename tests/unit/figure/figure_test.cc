@@ -15,6 +15,7 @@
 #include "simulator/figure/section.h"
 #include "simulator/figure/stress_path.h"
 #include "simulator/figure/svg.h"
+#include "tests/unit/figure/svg_reader.h"
 #include "tests/unit/figure/xml_check.h"
 
 namespace faultsim::figure {
@@ -86,6 +87,43 @@ TEST(PlainNumber, HasSignificantDigitsForPeople) {
   EXPECT_EQ(plain_number(0), "0");
   EXPECT_EQ(plain_number(3.1e9), "3.1e9");
   EXPECT_EQ(plain_number(NAN), "–");
+}
+
+TEST(PlainNumber, IsWithinHalfOfItsLastDigit) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> power(-3.9, 6.9);
+  for (int k = 0; k < 2000; ++k) {
+    const double value = std::pow(10, power(random));
+    for (const int digits : {2, 3, 5}) {
+      double read = 0;
+      ASSERT_TRUE(read_number(plain_number(value, digits), read)) << value;
+      const double last = std::pow(10, std::floor(std::log10(value)) - digits + 1);
+      EXPECT_LE(std::abs(read - value), 0.5 * std::min(last, 1.0) * (1 + 1e-9))
+          << value << " with " << digits << " digits";
+      if (value > 10 || last < 1e-3) continue;
+      EXPECT_LE(plain_number(value, digits).size(), static_cast<std::size_t>(digits) + 4);
+    }
+  }
+}
+
+/// Wherever they want to be, they are within, in order and apart.
+TEST(Spread, StaysWithin) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> place(-50, 150);
+  for (int repeat = 0; repeat < 300; ++repeat) {
+    std::vector<double> wanted;
+    for (int k = 0; k < 1 + repeat % 7; ++k) wanted.push_back(place(random));
+    const std::vector<double> placed = spread(wanted, 12, 0, 100);
+    for (std::size_t a = 0; a < wanted.size(); ++a) {
+      EXPECT_GE(placed[a], -1e-9);
+      EXPECT_LE(placed[a], 100 + 1e-9);
+      for (std::size_t b = 0; b < wanted.size(); ++b) {
+        if (wanted[a] < wanted[b]) {
+          EXPECT_GE(placed[b] - placed[a], 12 - 1e-9);
+        }
+      }
+    }
+  }
 }
 
 TEST(Spread, KeepsOrderAndDistanceAndMovesLittle) {

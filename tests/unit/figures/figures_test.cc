@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -12,7 +13,9 @@
 #include "campaign/figures/report_page.h"
 #include "campaign/report/parameters.h"
 #include "simulator/common/base64.h"
+#include "simulator/figure/palette.h"
 #include "tests/campaign/made_up_result.h"
+#include "tests/unit/figure/svg_reader.h"
 #include "tests/unit/figure/xml_check.h"
 
 namespace faultsweep {
@@ -97,6 +100,84 @@ TEST_F(FiguresTest, TheMapHasEachCaseWithAResultAndSaysWhatParametersThereAre) {
   EXPECT_THAT(svg, HasSubstr("offset, m"));
   EXPECT_EQ(xml_problem(draw_outcome_map(*store_, campaign_, {"rule", "strength"})), "");
   EXPECT_THROW(draw_outcome_map(*store_, campaign_, {"offsett", ""}), InputError);
+}
+
+/// Every case that holds is a circle at its strength, in the row of its rule.
+TEST_F(FiguresTest, TheMapHasEachCaseAtItsParameters) {
+  submit(40, 40);
+  const std::string svg = draw_outcome_map(*store_, campaign_, {"strength", "rule"});
+  const faultsim::figure::ReadScale x = faultsim::figure::read_scale(svg, true);
+  std::map<std::string, double> rows;  // word of the axis -> y
+  for (const auto& one : faultsim::figure::elements_of(svg, "text", "text-anchor", "end"))
+    rows[one.text] = one.number("y") - 4;
+  ASSERT_TRUE(rows.contains("min"));
+  auto dots = faultsim::figure::elements_of(svg, "circle", "r", "3.4");
+  ASSERT_EQ(dots.size(), 20u) << "half of them hold";
+  std::sort(dots.begin(), dots.end(),
+            [](const auto& a, const auto& b) { return a.number("cx") < b.number("cx"); });
+  for (int k = 0; k < 20; ++k) {
+    EXPECT_NEAR(x.value(dots[static_cast<std::size_t>(k)].number("cx")), strength(k, 40), 1e-3);
+    const double off = std::abs(dots[static_cast<std::size_t>(k)].number("cy") - rows.at("min"));
+    EXPECT_EQ(off < 1, k % 2 == 1) << k;
+  }
+}
+
+TEST_F(FiguresTest, BarsAreThoseOfTheirParametersTheLargestFirst) {
+  Sensitivity s;
+  s.campaign.name = "sweep";
+  s.request.confidence = 0.9;
+  s.parameters = {"small", "large", "middle"};
+  MetricSensitivity metric;
+  metric.metric.name = "chi_bar";
+  metric.standard_deviation = 1;
+  metric.first_order = {
+      {0.1, 0.01, {0.05, 0.15}}, {0.6, 0.02, {0.5, 0.7}}, {0.3, 0.02, {0.2, 0.4}}};
+  s.metrics = {metric};
+  const std::string svg = draw_sensitivity(s);
+  EXPECT_THAT(svg, HasSubstr("90 %"));
+  const faultsim::figure::ReadScale x = faultsim::figure::read_scale(svg, true);
+  std::map<std::string, double> lengths;
+  std::vector<std::string> names;
+  const auto bars =
+      faultsim::figure::elements_of(svg, "rect", "fill", faultsim::figure::fault_stroke(0).colour);
+  for (const auto& one : faultsim::figure::elements_of(svg, "text", "text-anchor", "end"))
+    names.push_back(one.text);
+  ASSERT_EQ(bars.size(), 3u);
+  EXPECT_EQ(names, (std::vector<std::string>{"large", "middle", "small"}));
+  const double expected[] = {0.6, 0.3, 0.1};
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(x.per_px * bars[k].number("width"), expected[k], 1e-3) << k;
+  // With total indices these order the bars, and both stand there.
+  s.frozen = s.parameters;
+  for (const double total : {0.9, 0.65, 0.35})
+    s.metrics[0].sobol.push_back({s.metrics[0].first_order[s.metrics[0].sobol.size()],
+                                  {total, 0.01, {total - 0.05, total + 0.05}}});
+  const std::string both = draw_sensitivity(s);
+  names.clear();
+  for (const auto& one : faultsim::figure::elements_of(both, "text", "text-anchor", "end"))
+    names.push_back(one.text);
+  EXPECT_EQ(names, (std::vector<std::string>{"small", "large", "middle"}));
+  auto totals =
+      faultsim::figure::elements_of(both, "rect", "fill", faultsim::figure::fault_stroke(4).colour);
+  ASSERT_EQ(totals.size(), 4u) << "one is of the key";
+  EXPECT_NEAR(x.per_px * totals[1].number("width"), 0.9, 1e-3);
+}
+
+/// The share is of the cases that are known.
+TEST_F(FiguresTest, IntervalsSayOfHowManyCasesTheyAre) {
+  Probability p;
+  p.campaign.name = "sweep";
+  p.request.confidence = 0.95;
+  Share share;
+  share.label = "F1.slides";
+  share.n = 40, share.n_unknown = 2, share.n_holds = 19;
+  share.estimate = 0.5, share.bounds = {0.3, 0.7};
+  p.shares = {share};
+  const std::string svg = draw_probability(p);
+  EXPECT_THAT(svg, HasSubstr(">19 of 38 (2 unknown)<"));
+  const faultsim::figure::ReadScale x = faultsim::figure::read_scale(svg, true);
+  EXPECT_NEAR(x.value(faultsim::figure::elements_of(svg, "circle", "r", "4.5").at(0).number("cx")),
+              0.5, 1e-3);
 }
 
 TEST_F(FiguresTest, OutcomesAreCountedAsTheStoreHasThem) {

@@ -34,7 +34,8 @@ struct Deck {
   bool has_refinement = false;
   std::vector<float> map_axes = {};  ///< none: MAPAXES is not there.
   std::string map_unit = "";
-  std::string relative_to = "";  ///< "MAP": coordinates are on the map.
+  std::string relative_to = "";                ///< "MAP": coordinates are on the map.
+  std::array<int, 3> time_of_day = {0, 0, 0};  ///< hours, minutes, microseconds; of all reports.
 };
 
 class EclipseResult : public testing::Test {
@@ -105,6 +106,9 @@ class EclipseResult : public testing::Test {
     head[64] = day;
     head[65] = month;
     head[66] = year;
+    head[206] = deck.time_of_day[0];
+    head[207] = deck.time_of_day[1];
+    head[410] = deck.time_of_day[2];
     out.write("SEQNUM", std::vector<int>{report});
     out.write("INTEHEAD", head);
     std::vector<float> values;
@@ -134,6 +138,12 @@ TEST_F(EclipseResult, HasItsActiveCellsWhereTheyAre) {
   EXPECT_NEAR(field.cells[1].low.x(), 200, 1e-3);
   EXPECT_NEAR(field.cells[1].high.z(), -2025, 1e-3);
   EXPECT_NEAR(field.cells[1].low.z(), -2045, 1e-3);
+}
+
+TEST_F(EclipseResult, ReportsHaveATimeOfDay) {
+  write_grid({});
+  write_restart({.time_of_day = {5, 42, 12'500'000}});
+  EXPECT_DOUBLE_EQ(read().date[1], *parse_date("1991-07-01") + 5 * 3600 + 42 * 60 + 12.5);
 }
 
 TEST_F(EclipseResult, IsTheSameInOtherUnits) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "simulator/common/errors.h"
@@ -124,6 +125,27 @@ TEST(FlowMapping, OfAUniformFieldIsUniform) {
   const FlowMapping mapping = map_flow(field, two_sides(3, 1.4), kNames, OutsideRule::nearest);
   const Eigen::VectorXd change = mapped_change(mapping, field, 0).col(1);
   EXPECT_LT((change.array() + 2e7).abs().maxCoeff(), 1e-14 * 2e7);
+}
+
+/// Of a cell a third of which lies in the compartment a third counts, covered or not.
+TEST(FlowMapping, CoversTheSharesOfCellsThatLieInTheirCompartment) {
+  const FlowField field = cube(5);
+  for (const double stretch : {1.0, 1.5}) {
+    std::vector<MappedCell> cells = two_sides(3, stretch);
+    std::array<double, 2> volume{}, covered{};
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      cells[c].fraction = 0.1 + 0.05 * static_cast<double>(c % 7);
+      const double part = cells[c].fraction * cell_volume(cells[c].corners);
+      volume[cells[c].region] += part;
+      const double top = cells[c].corners[4].z(), base = cells[c].corners[0].z();
+      covered[cells[c].region] += std::clamp((-1000 - base) / (top - base), 0.0, 1.0) * part;
+    }
+    const FlowMapping mapping = map_flow(field, cells, kNames, OutsideRule::nearest);
+    for (std::size_t side = 0; side < 2; ++side) {
+      EXPECT_NEAR(mapping.coverage[side].volume, volume[side], 1e-9 * volume[side]);
+      EXPECT_NEAR(mapping.coverage[side].covered, covered[side], 1e-9 * volume[side]);
+    }
+  }
 }
 
 TEST(FlowMapping, SaysWhatIsNotCovered) {

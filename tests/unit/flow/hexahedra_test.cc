@@ -114,6 +114,20 @@ TEST(FlowHexahedra, OfEitherHandednessAreTheSame) {
   }
 }
 
+/// A corner is pushed in so far that a tetrahedron is turned inside out: it counts against the
+/// cell, whatever the cell is cut with.
+TEST(FlowHexahedra, CountWhatIsTurnedInsideOutAgainstThem) {
+  CellCorners corners = inner_cells(5, 0)[62].corners;  // 20 m, in the middle
+  corners[6].z() = corners[2].z() - 6;
+  const FlowCell twisted = flow_cell_around(corners);
+  const double inside_out = 20 * 20 * 6 / 6.0;  // of each of the two tetrahedra below corner 6
+  EXPECT_LT(flow_cell_volume(twisted), 8000 - 2 * inside_out);
+  for (const double shear : {0.0, 0.2}) {
+    const CellCorners around = inner_cells(1, shear)[0].corners;
+    EXPECT_NEAR(overlap_volume(around, twisted), flow_cell_volume(twisted), 1e-8) << shear;
+  }
+}
+
 TEST(FlowHexahedra, ThatAreBoxesAreBoxes) {
   const MappedCell box = inner_cells(2, 0)[3];
   const FlowCell cell = flow_cell_around(box.corners);

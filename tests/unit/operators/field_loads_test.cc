@@ -115,8 +115,9 @@ TEST_F(FieldLoadsTest, OfAUniformFieldAreThoseOfTheCompartments) {
     history = {.region = history.region, .time = {0, kYear}, .pressure_change = {0, -2e7}};
   }
   for (const FaultPressureRule rule :
-       {FaultPressureRule::min, FaultPressureRule::max, FaultPressureRule::mean}) {
-    for (Fault& fault : scene_.faults) fault.pressure.rule = rule;
+       {FaultPressureRule::min, FaultPressureRule::max, FaultPressureRule::mean,
+        FaultPressureRule::minus, FaultPressureRule::plus, FaultPressureRule::fraction}) {
+    for (Fault& fault : scene_.faults) fault.pressure.rule = rule, fault.pressure.fraction = 0.3;
     FlowField field = boxes(2);
     field.value.col(1).array() -= 2e7;
     const FieldLoads loads = loads_of(field);

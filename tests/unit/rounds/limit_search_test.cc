@@ -150,6 +150,22 @@ TEST(LimitSearch, PointsThatHangOnTheCellsAreNotSure) {
   EXPECT_EQ(finding.surely_unsafe->value, 4);
 }
 
+/// What lies behind a point whose answer hangs on the cells is not surely safe, however sure
+/// itself.
+TEST(LimitSearch, NothingIsSurelySafeBehindAnAnswerThatIsNotSure) {
+  std::vector<SearchPoint> points;
+  for (int k = 0; k < 8; ++k)
+    points.push_back({1.0 * k, k < 5 ? PointState::safe : PointState::unsafe, k != 2 && k != 5, 1});
+  points[1].state = PointState::unknown;
+  const LimitFinding finding = judge(points, true, 1);
+  EXPECT_EQ(finding.surely_safe->value, 0);
+  EXPECT_EQ(finding.surely_unsafe->value, 6);
+  for (SearchPoint& one : points) one.value *= -1;
+  EXPECT_EQ(judge(points, false, 1).surely_safe->value, 0) << "downwards alike";
+  points[0].resolved = false;
+  EXPECT_FALSE(judge(points, false, 1).surely_safe);
+}
+
 /// One configuration per row of the design; two limits, the first of two faults.
 class LimitSearcherTest : public ::testing::Test {
  protected:

@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -94,6 +96,61 @@ TEST(Simulation, SaysWhereTheFieldsOfAStepLie) {
     EXPECT_GT(length, (highest - z) * (1 - 1e-12));
     EXPECT_LT(length, 1.2 * (highest - z));
   }
+}
+
+/// The same short name means another place where the scene has its blocks in another order.
+TEST(Simulation, ShortNamesAreThoseOfTheSceneThatIsHeld) {
+  JsonDocument one = Simulation::from_text(starter_scene("field"), "field.json").scene().document;
+  apply({{"/tier", "screening"}}, one);
+  JsonDocument other = one;
+  nlohmann::json& blocks = other.value["geometry"]["blocks"];
+  const std::string first = blocks[0]["name"], second = blocks[1]["name"];
+  blocks[0]["name"] = second, blocks[1]["name"] = first;
+  const Changes changes = {{"offset_" + second, "70 m"}};
+  Simulation simulation;
+  simulation.hold_base(one);
+  simulation.change(changes);
+  EXPECT_EQ(simulation.scene().scene.field.blocks[1].offset, 70);
+  simulation.hold_base(other);
+  simulation.change(changes);
+  EXPECT_EQ(simulation.scene().scene.field.blocks[0].offset, 70);
+  EXPECT_NE(simulation.scene().scene.field.blocks[1].offset, 70);
+}
+
+/// What a flow result does is worked out anew where the mesh or the faults' rules are others.
+TEST(Simulation, AFlowResultActsOnTheSceneThatIsHeld) {
+  std::string name = testing::TempDir() + "simulation_XXXXXX";
+  const std::filesystem::path folder = mkdtemp(name.data());
+  std::ofstream(folder / "p.csv")
+      << "x [m], y [m], depth [m], dx [m], dy [m], dz [m], 1990-01-01 [bar], 1994-01-01 [bar]\n"
+         "-5000, 0, 3000, 10000, 9000, 6000, 350, 210\n5000, 0, 3000, 10000, 9000, 6000, 350, "
+         "290\n";
+  const auto document = [&](const Changes& changes) {
+    nlohmann::json scene = nlohmann::json::parse(starter_scene("field"));
+    scene["tier"] = "custom";
+    scene["mesh"] = {{"strike", "400 m"}, {"dip", "100 m"}, {"normal", "300 m"}, {"growth", 2.0}};
+    scene["numerics"] = {{"plane_strain", "on"}};
+    scene["geometry"]["width"] = "10 km", scene["geometry"]["length"] = "8 km";
+    scene["stages"] = {{{"name", "production"}, {"until", "1994-01-01"}, {"steps", 1}}};
+    scene.erase("compartments");
+    scene["pressure_field"] = {{"file", "p.csv"}};
+    JsonDocument made = parse_json(scene.dump(), (folder / "scene.json").string());
+    apply(changes, made);
+    return made;
+  };
+  Simulation simulation;
+  simulation.hold(document({}));
+  const std::string before = bits(simulation.run());
+  for (const Changes& changes : {Changes{{"offset_east", "60 m"}},
+                                 {{"/fault_pressure/rule", "max"}},
+                                 {{"/materials/reservoir/biot", "0.6"}},
+                                 {{"friction_angle", "20 deg"}}}) {
+    Simulation fresh;
+    fresh.hold(document(changes));
+    EXPECT_EQ(bits(simulation.run(changes)), bits(fresh.run())) << changes[0].parameter;
+  }
+  EXPECT_EQ(bits(simulation.run(Changes{})), before);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Simulation, SaysWhenAChangeNeedsAnotherOperator) {

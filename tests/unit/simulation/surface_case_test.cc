@@ -194,6 +194,19 @@ TEST(SurfaceCase, HasTheSameBitsWhateverCaseCameFirst) {
   EXPECT_FALSE(one.prepare()) << "the surface is there";
 }
 
+/// A change outside of the surface's parameters takes another surface.
+TEST(SurfaceCase, OfAnotherFamilyIsNotOfTheSurfaceThatIsThere) {
+  const char* const over =
+      R"({"over": [{"parameter": "salt_stiffness", "from": "30 GPa", "to": "60 GPa"}],
+          "tolerance": 1e-2})";
+  const Change stiffer{"/materials/underburden/youngs_modulus", "60 GPa"};
+  Simulation simulation = on_surface(over);
+  simulation.run(Changes{{"salt_stiffness", "33 GPa"}});
+  const std::string found = bits(simulation.run({{"salt_stiffness", "33 GPa"}, stiffer}));
+  Simulation fresh = on_surface(over);
+  EXPECT_EQ(found, bits(fresh.run({{"salt_stiffness", "33 GPa"}, stiffer})));
+}
+
 TEST(SurfaceCase, SharesItsFamilyAndNotItsIdentity) {
   const auto loaded = [](Changes changes, const char* surface = kOver) {
     changes.push_back({"/numerics/surface", surface});

@@ -55,6 +55,44 @@ TEST(TieredMean, IsExactWhereTheCheapModelIs) {
   EXPECT_NEAR(found.n_equivalent, 2000, 400) << "as good as all of them";
 }
 
+/// A line through the pairs, looked at where all cheap runs have their mean: its variance there by
+/// the normal equations, and what the mean of the cheap runs adds.
+TEST(TieredMean, HasTheStandardErrorOfARegressionAtTheMeanOfAll) {
+  const std::vector<double> high = {1, 3, 2, 5, 4, 8};
+  std::vector<double> low = {0, 1, 2, 3, 4, 7};
+  low.insert(low.end(), {9, 12, 10, 11, 14, 8, 13, 10});
+  double s1 = 0, sx = 0, sxx = 0, sy = 0, sxy = 0, mean = 0;
+  for (std::size_t i = 0; i < high.size(); ++i)
+    s1 += 1, sx += low[i], sxx += low[i] * low[i], sy += high[i], sxy += low[i] * high[i];
+  for (const double x : low) mean += x / 14;
+  const double determinant = s1 * sxx - sx * sx;
+  const double slope = (s1 * sxy - sx * sy) / determinant;
+  const double level = (sxx * sy - sx * sxy) / determinant;
+  double residual = 0, scatter = 0;
+  for (std::size_t i = 0; i < high.size(); ++i)
+    residual += std::pow(high[i] - level - slope * low[i], 2) / 4;  // of 6 points, 2 are used up
+  for (const double x : low) scatter += (x - mean) * (x - mean) / 13;
+  const double of_line = residual * (sxx - 2 * mean * sx + mean * mean * s1) / determinant;
+  const TieredEstimate found = tiered_mean({high, low}, 0.95);
+  EXPECT_NEAR(found.estimate.value, level + slope * mean, 1e-12);
+  EXPECT_NEAR(found.estimate.standard_error, std::sqrt(of_line + slope * slope * scatter / 14),
+              1e-12);
+}
+
+/// In other units, or with its sign changed, the cheap model says the same.
+TEST(TieredMean, DoesNotDependOnTheUnitsOfTheCheapModel) {
+  std::mt19937_64 random(8);
+  const Tiers tiers(12, 60, 0.3, random);
+  std::vector<double> other;
+  for (const double x : tiers.low) other.push_back(5 - 1000 * x);
+  const TieredEstimate one = tiered_mean(tiers.sample(), 0.9);
+  const TieredEstimate same = tiered_mean({tiers.high, other}, 0.9);
+  EXPECT_NEAR(one.estimate.value, same.estimate.value, 1e-10);
+  EXPECT_NEAR(one.estimate.standard_error, same.estimate.standard_error, 1e-10);
+  EXPECT_NEAR(one.weight, -1000 * same.weight, 1e-9);
+  EXPECT_NEAR(one.n_equivalent, same.n_equivalent, 1e-6);
+}
+
 TEST(TieredMean, LeavesOutACheapModelThatSaysNothing) {
   const std::vector<double> high = {1, 2, 3, 4, 5}, low(50, 7.0);
   const TieredEstimate found = tiered_mean({high, low}, 0.95);
@@ -115,6 +153,27 @@ TEST(TieredProbability, CoversAtZeroAndOne) {
       EXPECT_GT(bounds.high - bounds.low, 0.02);
       EXPECT_LT(bounds.high - bounds.low, 0.2);
     }
+  }
+}
+
+/// What does not happen is bounded by what does; and a cheap flag may be turned round.
+TEST(TieredProbability, OfTheOppositeIsTheRest) {
+  std::mt19937_64 random(9);
+  const auto turned = [](std::vector<double> flags) {
+    for (double& one : flags) one = 1 - one;
+    return flags;
+  };
+  for (const double pi : {0.05, 0.4, 0.95}) {
+    const Flags flags(60, 200, pi, 0.9, 0.3, random);
+    const Estimate one = tiered_probability(flags.sample(), 0.95).estimate;
+    const Estimate rest = tiered_probability({turned(flags.high), flags.low}, 0.95).estimate;
+    const Estimate other = tiered_probability({flags.high, turned(flags.low)}, 0.95).estimate;
+    EXPECT_NEAR(rest.value, 1 - one.value, 1e-12) << pi;
+    EXPECT_NEAR(rest.bounds.low, 1 - one.bounds.high, 1e-12) << pi;
+    EXPECT_NEAR(rest.bounds.high, 1 - one.bounds.low, 1e-12) << pi;
+    EXPECT_NEAR(other.value, one.value, 1e-12) << pi;
+    EXPECT_NEAR(other.bounds.low, one.bounds.low, 1e-12) << pi;
+    EXPECT_NEAR(other.bounds.high, one.bounds.high, 1e-12) << pi;
   }
 }
 

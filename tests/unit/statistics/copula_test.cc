@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <random>
 
@@ -55,6 +56,20 @@ TEST(GaussianCopula, GivesTheRankCorrelationsAskedForAndStaysUniform) {
     EXPECT_LT(farthest, 1.63 / 200);
     EXPECT_GT(sorted.front(), 0);
     EXPECT_LT(sorted.back(), 1);
+  }
+}
+
+/// Of two numbers the second is Φ(r z₁ + √(1 − r²) z₂), with r = 2 sin(π ρ / 6) (Pearson 1907).
+TEST(GaussianCopula, IsNormalWithPearsonsCorrelation) {
+  const auto probability = [](double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); };
+  for (const double rank : {-0.8, -0.3, 0.5, 0.95}) {
+    const double r = 2 * std::sin(std::acos(-1.0) * rank / 6);
+    const auto copula = GaussianCopula::make({{1, rank}, {rank, 1}});
+    for (const auto& [a, b] : {std::pair(0.3, -1.2), {-2.0, 0.4}, {1.5, 1.5}}) {
+      std::array<double, 2> u = {probability(a), probability(b)};
+      copula->correlate(u);
+      EXPECT_NEAR(u[1], probability(r * a + std::sqrt(1 - r * r) * b), 1e-9) << rank;
+    }
   }
 }
 

@@ -167,6 +167,20 @@ TEST(Marginal, ALogNormalHasItsMedianAndFactor) {
   EXPECT_EQ(cut.quantile(1), 4);
 }
 
+/// Also where it is cut: the logarithm of a log-normal number is a normal one between the
+/// logarithms of its ends.
+TEST(Marginal, ALogNormalIsTheExponentialOfANormal) {
+  for (const auto& [from, to] : {std::pair(0.5L, 4.0L), {2.0L, 3.0L}, {0.1L, 1.1L}}) {
+    const Marginal log{Distribution::log_normal, from, to, 1.5L, 2.5L};
+    const Marginal normal{Distribution::normal, std::log(from), std::log(to), std::log(1.5L),
+                          std::log(2.5L)};
+    for (const long double u : {0.01L, 0.3L, 0.5L, 0.8L, 0.99L}) {
+      EXPECT_NEAR(static_cast<double>(std::log(log.quantile(u)) - normal.quantile(u)), 0, 1e-12)
+          << static_cast<double>(u);
+    }
+  }
+}
+
 TEST(Marginal, ATriangleHasItsMomentsAndMayLean) {
   for (const double mode : {0.0, 1.0, 4.0}) {
     const Marginal m{Distribution::triangular, 0, 4, mode};

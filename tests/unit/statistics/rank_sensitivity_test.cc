@@ -102,6 +102,29 @@ TEST(RankSensitivity, IsNeverSureOfItselfWhereSomethingVaries) {
   }
 }
 
+/// Neither the way in which x goes nor the units of y say how much of y it explains.
+TEST(RankSensitivity, IsTheSameFromTheOtherEndAndInOtherUnits) {
+  std::mt19937_64 random(12);
+  for (const std::size_t n : {5U, 20U, 200U}) {
+    const Sample s = sample(ishigami(0, 1, 2), n, random);
+    Sample turned = s;
+    for (double& x : turned.x) x = -x;
+    for (double& y : turned.y) y = 7 - 1e5 * y;
+    const Estimate one = first_order_by_ranks(s.y, random_tied_order(s.x), 0.95);
+    const Estimate other = first_order_by_ranks(turned.y, random_tied_order(turned.x), 0.95);
+    EXPECT_NEAR(one.value, other.value, 1e-9) << n;
+    EXPECT_NEAR(one.standard_error, other.standard_error, 1e-9) << n;
+  }
+}
+
+/// Of places 1, 2, 3, 4 with y = 0, 1, 1, 4: deviations −1.5, −0.5, −0.5, 2.5 with squares 9. The
+/// products of neighbours are 0.75, 0.25 and −1.25, and each end counts half once more.
+TEST(RankSensitivity, IsItsDefinitionOnFourRows) {
+  const std::vector<double> x = {1, 2, 3, 4}, y = {0, 1, 1, 4};
+  EXPECT_NEAR(first_order_by_ranks(y, random_tied_order(x), 0.95).value,
+              (0.75 + 0.25 - 1.25 + 0.5 * (0.75 - 1.25)) / 9, 1e-12);
+}
+
 TEST(RankSensitivity, IsZeroWhereNothingVaries) {
   const std::vector<double> x = {1, 2, 3, 4, 5}, y(5, 0.1);
   const Estimate e = first_order_by_ranks(y, random_tied_order(x), 0.95);

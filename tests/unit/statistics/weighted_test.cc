@@ -107,6 +107,47 @@ TEST(Weighted, BoundsHoldHoweverTheUnknownTurnsOut) {
   }
 }
 
+/// Fifty members weigh nine times as much as the other fifty, which alone have the property: its
+/// share is sure, but of a hundred members no more is known than of a hundred equal ones.
+TEST(Weighted, WeightsMakeNoMoreOfTheMembersThanThereAre) {
+  std::vector<double> weights(100, 9);
+  std::vector<char> holds(100, 0);
+  for (std::size_t i = 0; i < 50; ++i) weights[i] = 1, holds[i] = 1;
+  const Estimate p = weighted_probability(holds, weights, 0.95);
+  const Interval exact = proportion_bounds(10, 100, 0.95);
+  EXPECT_NEAR(p.value, 0.1, 1e-12);
+  EXPECT_LE(p.bounds.low, exact.low + 1e-9);
+  EXPECT_GE(p.bounds.high, exact.high - 1e-9);
+}
+
+/// A common factor of the weights says nothing, nor does the order of the members.
+TEST(Weighted, OnlyRatiosOfWeightsCount) {
+  std::mt19937_64 random(13);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<double> values(40), weights(40);
+  std::vector<char> holds(40);
+  for (std::size_t i = 0; i < 40; ++i)
+    values[i] = uniform(random), weights[i] = uniform(random), holds[i] = values[i] > 0.6 ? 1 : 0;
+  std::vector<double> back(values.rbegin(), values.rend()), other(weights.rbegin(), weights.rend());
+  const std::vector<char> held(holds.rbegin(), holds.rend());
+  for (double& one : other) one *= 1e-7;
+  const auto expect_same = [](const Estimate& a, const Estimate& b) {
+    EXPECT_NEAR(a.value, b.value, 1e-9);
+    EXPECT_NEAR(a.standard_error, b.standard_error, 1e-9);
+    EXPECT_NEAR(a.bounds.low, b.bounds.low, 1e-7);
+    EXPECT_NEAR(a.bounds.high, b.bounds.high, 1e-7);
+  };
+  expect_same(weighted_mean(values, weights, 0.95), weighted_mean(back, other, 0.95));
+  expect_same(weighted_probability(holds, weights, 0.95), weighted_probability(held, other, 0.95));
+  for (const double q : {0.1, 0.5, 0.9}) {
+    const QuantileBounds a = weighted_quantile(values, weights, order_of(values), q, 0.95);
+    const QuantileBounds b = weighted_quantile(back, other, order_of(back), q, 0.95);
+    EXPECT_EQ(a.estimate, b.estimate) << q;
+    EXPECT_EQ(a.low, b.low) << q;
+    EXPECT_EQ(a.high, b.high) << q;
+  }
+}
+
 /// θ ~ N(0, 1)², y = 2 θ1 + θ2 seen as 3 ± 0.5. Then θ1 is normal with mean 2·3 / 5.25 and
 /// variance 1 − 4 / 5.25, and y itself with mean 5·3 / 5.25 and variance 5 · 0.25 / 5.25.
 class LinearGaussian : public ::testing::Test {

@@ -6,11 +6,13 @@
 #include <cmath>
 
 #include "simulator/common/errors.h"
+#include "simulator/surface/sparse_grid.h"
 
 namespace faultsim {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr double kSoft = 1e-6;  // N/m, of the second jump; that of the first is 1
 
@@ -59,6 +61,89 @@ TEST(SurfaceBuilder, RefusesWhenTheSlipStaysWrong) {
     ADD_FAILURE() << "no refusal";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("does not reach its tolerance: with 2 operators"));
+  }
+}
+
+/// Which part of an operator bends with the parameter; the others are constant.
+enum class Bends { stiffness, first_load, last_load, per_load, per_jump };
+
+std::shared_ptr<const FaultOperator> bending(Bends part, const Eigen::VectorXd& x) {
+  const double bend = 1 + 0.4 * std::sin(3 * x[0]);
+  const auto at = [&](Bends one) { return one == part ? bend : 1.0; };
+  auto op = std::make_shared<FaultOperator>();
+  op->geometry.n_dofs = 3;
+  op->geometry.dof_area = Eigen::Vector3d(20, 30, 50);
+  Eigen::Matrix3d h;
+  h << 5, 1, 0.5, 1, 4, 1, 0.5, 1, 6;
+  op->compliance = std::make_shared<DenseCompliance>(Eigen::MatrixXd(at(Bends::stiffness) * h));
+  op->loads.keys.resize(2);
+  op->loads.traction.resize(3, 2);
+  op->loads.traction.col(0) = at(Bends::first_load) * Eigen::Vector3d(1e6, 2e6, -1e6);
+  op->loads.traction.col(1) = at(Bends::last_load) * Eigen::Vector3d(3, -1, 2);
+  op->observed.per_load = at(Bends::per_load) * Eigen::MatrixXd::Constant(2, 2, 1e-9);
+  op->observed.per_jump = at(Bends::per_jump) * Eigen::MatrixXd::Constant(2, 3, 0.3);
+  return op;
+}
+
+/// Whatever part bends, and however small its numbers are beside those of the others.
+TEST(SurfaceBuilder, HasEveryPartOfAnOperatorWithinItsTolerance) {
+  constexpr double kTolerance = 1e-4;
+  for (const Bends part :
+       {Bends::stiffness, Bends::first_load, Bends::last_load, Bends::per_load, Bends::per_jump}) {
+    const auto exact = [&](const Eigen::VectorXd& x) { return bending(part, x); };
+    const StoredSurface surface =
+        build_surface(over_one_parameter(kTolerance, 30), "name", exact, {});
+    SparseGrid grid(1);
+    for (std::size_t k = 1; k < surface.basis->nodes.size(); ++k) grid.add(surface.basis->nodes[k]);
+    EXPECT_EQ(surface.accuracy.n_operators, grid.n_nodes());
+    for (const double place : {-0.95, -0.4, 0.11, 0.77}) {
+      const Eigen::VectorXd x = Eigen::VectorXd::Constant(1, place);
+      FaultOperator op;
+      OperatorBasis::put(surface.basis, grid.weights(x).tail(grid.n_nodes() - 1), op);
+      const auto truth = exact(x);
+      const auto expect_near = [&](const auto& value, const auto& wanted) {
+        EXPECT_LT((value - wanted).norm(), 3 * kTolerance * wanted.norm())
+            << static_cast<int>(part) << " at " << place;
+      };
+      expect_near(Eigen::MatrixXd(op.h()), Eigen::MatrixXd(truth->h()));
+      for (int k = 0; k < 2; ++k)
+        expect_near(op.loads.traction.col(k).eval(), truth->loads.traction.col(k).eval());
+      expect_near(op.observed.per_load, truth->observed.per_load);
+      expect_near(op.observed.per_jump, truth->observed.per_jump);
+    }
+  }
+}
+
+/// Two operators say nothing of a bend: each part is refused by its own name.
+TEST(SurfaceBuilder, RefusesWhateverPartStaysWrong) {
+  const std::pair<Bends, const char*> kParts[] = {{Bends::stiffness, "H is off by 0,"},
+                                                  {Bends::first_load, "tractions by 0,"},
+                                                  {Bends::last_load, "tractions by 0,"},
+                                                  {Bends::per_load, "observations by 0,"},
+                                                  {Bends::per_jump, "observations by 0,"}};
+  for (const auto& [part, nothing] : kParts) {
+    const auto exact = [one = part](const Eigen::VectorXd& x) { return bending(one, x); };
+    try {
+      build_surface(over_one_parameter(1e-2, 2), "name", exact, {});
+      ADD_FAILURE() << "no refusal of " << static_cast<int>(part);
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), Not(HasSubstr(nothing)));
+      EXPECT_THAT(error.what(), HasSubstr("does not reach its tolerance: with 2 operators"));
+    }
+  }
+}
+
+/// A case's accuracy is the worst of all check points and of all loads.
+TEST(SurfaceBuilder, ReportsTheErrorOfThePartThatBends) {
+  for (const Bends part : {Bends::first_load, Bends::last_load}) {
+    const auto exact = [&](const Eigen::VectorXd& x) { return bending(part, x); };
+    const CaseSurface found =
+        build_surface(over_one_parameter(1e-2, 30), "name", exact, {}).accuracy;
+    EXPECT_GT(found.traction, 1e-6);
+    EXPECT_LE(found.traction, 1e-2);
+    EXPECT_LT(found.stiffness, 1e-6);
+    EXPECT_EQ(found.observation, 0);
+    EXPECT_NEAR(found.slip, found.traction, 1e-6) << "H⁻¹ of what is in proportion";
   }
 }
 
