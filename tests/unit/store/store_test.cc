@@ -28,6 +28,13 @@ class StoreTest : public ::testing::Test {
     folder_ = mkdtemp(name.data());
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
+  /// The first column of the first row, as another program reads it.
+  std::int64_t count(const char* sql) const {
+    Connection connection(folder_ / "campaign.sqlite", Connection::Mode::read_only);
+    Statement query(connection, sql);
+    query.step();
+    return query.integer(0);
+  }
   std::filesystem::path folder_;
 };
 
@@ -257,12 +264,6 @@ TEST_F(StoreTest, AllViewsWork) {
   const std::int64_t campaign = store.submit(submission(2)).campaign;
   const auto ids = waiting(store, campaign);
   store.record_runs(campaign, {completed(ids[0], 0.8), crashed(ids[1], true)});
-  Connection connection(folder_ / "campaign.sqlite", Connection::Mode::read_only);
-  const auto count = [&](const char* sql) {
-    Statement query(connection, sql);
-    query.step();
-    return query.integer(0);
-  };
   EXPECT_EQ(count("SELECT count(*) FROM ranking"), 1);
   EXPECT_EQ(count("SELECT count(*) FROM stage_ranking"), 4);
   EXPECT_EQ(count("SELECT count(*) FROM chi_history_wide"), 26);
