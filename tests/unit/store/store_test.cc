@@ -203,6 +203,12 @@ TEST_F(StoreTest, KeepsEachAttemptAndWaitsUntilTheFinalOne) {
   const auto failures = store.failure_counts(campaign);
   ASSERT_EQ(failures.size(), 1u);
   EXPECT_EQ(failures[0].reason, "killed by SIGSEGV");
+  Connection connection(folder_ / "campaign.sqlite", Connection::Mode::read_only);
+  const auto count = [&](const char* sql) {
+    Statement query(connection, sql);
+    query.step();
+    return query.integer(0);
+  };
   EXPECT_EQ(count("SELECT attempt FROM failures"), 2) << "the last attempt alone";
   EXPECT_EQ(store.retry(campaign, false, std::nullopt), 1);
   EXPECT_EQ(store.campaign("").n_waiting, 2);
