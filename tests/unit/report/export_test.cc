@@ -235,7 +235,7 @@ TEST_F(ExportTest, CsvHasEveryCaseWithItsBitsAndGapsAreEmpty) {
   const auto rows = csv(to(ExportFormat::csv, "cases.csv"));
   ASSERT_EQ(rows.size(), 5u);
   EXPECT_THAT(said_, HasSubstr("5 cases of sweep, 2 without a result, 1 with a history that ends"));
-  EXPECT_EQ(rows[1].at("rule"), "-100 bar, \"low\"");
+  EXPECT_EQ(rows[1].at("rule"), "'-100 bar, \"low\"") << "not a formula";
   EXPECT_EQ(rows[1].at("offset"), "1/3 hm");
   EXPECT_EQ(std::strtod(rows[1].at("offset_m").c_str(), nullptr), 100.0 / 3);
   EXPECT_EQ(std::strtod(rows[0].at("chi_bar").c_str(), nullptr), 1.0 / 3);
