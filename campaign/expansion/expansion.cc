@@ -158,6 +158,7 @@ class Expander {
       int& place = case_of_row[i];
       place = add_case(index, row, derived, identity, builder, families, found);
       if (place < 0) {
+        if (found.empty()) continue;  // said of an earlier row
         for (Problem& one : found) one.what += " (where " + builder.describe(row) + ")";
         add(found);
         if (++n_wrong < kMaximumWrongCases) continue;

@@ -37,21 +37,24 @@ void FamilyFinder::find_relevant() {
   const auto may_matter = [&](const std::string& target) {
     const auto info = std::find_if(infos.begin(), infos.end(),
                                    [&](const auto& one) { return one.pointer == target; });
-    return info == infos.end() || info->new_family || places_a_field(target);
+    return info == infos.end() || info->new_family;
   };
   for (const Parameter& parameter : group_.parameters) {
-    relevant_.push_back(
-        std::any_of(parameter.targets.begin(), parameter.targets.end(), may_matter));
+    const auto& targets = parameter.targets;
+    makes_families_.push_back(std::any_of(targets.begin(), targets.end(), may_matter));
+    relevant_.push_back(makes_families_.back() ||
+                        std::any_of(targets.begin(), targets.end(), places_a_field));
   }
   for (const Derived& one : spec_.derived) {
-    relevant_.push_back(may_matter(one.scene_pointer));
+    relevant_.push_back(may_matter(one.scene_pointer) || places_a_field(one.scene_pointer));
   }
 }
 
 std::vector<std::string> FamilyFinder::drawn() const {
   std::vector<std::string> names;
   for (std::size_t p = 0; p < group_.parameters.size(); ++p) {
-    if (relevant_[p] && group_.parameters[p].range) names.push_back(group_.parameters[p].name);
+    if (makes_families_[p] && group_.parameters[p].range)
+      names.push_back(group_.parameters[p].name);
   }
   return names;
 }
@@ -92,6 +95,7 @@ int FamilyFinder::family_of(const Row& row, const std::vector<double>& derived,
   Key key = key_of(row, derived);
   const auto known = by_key_.find(key);
   if (known != by_key_.end()) return known->second;
+  if (refused_fields_.count(key) > 0) return -1;
   if (n_planned_ == kPlannedOneByOne && !tried_composing_) start_composing(problems);
   if (!problems.empty()) return -1;
   const long stride = std::max(1L, count_rows(group_) / kPlannedOneByOne);
@@ -134,6 +138,7 @@ int FamilyFinder::plan_row(const Row& row, const std::vector<double>& derived,
   if (wrong.empty()) {
     const faultsim::FieldCheck fields = faultsim::check_fields(*scene, plan);
     wrong = fields.problems;
+    if (!wrong.empty()) refused_fields_.insert(key_of(row, derived));
     for (const faultsim::Remark& one : fields.remarks) found_.say(one, builder_.describe(row));
   }
   for (const auto& one : wrong) problems.push_back(builder_.in_spec(one, row));

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "campaign/expansion/composer.h"
@@ -44,7 +45,8 @@ class FamilyFinder {
   FamilyFinder(const CampaignSpec& spec, const Group& group, SceneBuilder& builder,
                const CaseValues& values, FamiliesSoFar& found);
 
-  /// The index of the row's family. Problems of the geometry are appended; then -1.
+  /// The index of the row's family. Problems of geometry and flow results are appended; then -1,
+  /// without problems where those of the row's flow result have been said for another row.
   int family_of(const Row& row, const std::vector<double>& derived,
                 std::vector<faultsim::Problem>& problems);
   /// Names of parameters that may change the family and are drawn from ranges.
@@ -67,9 +69,12 @@ class FamilyFinder {
   SceneBuilder& builder_;
   const CaseValues& values_;
   FamiliesSoFar& found_;
-  std::vector<bool> relevant_;  ///< per parameter, then per derived one: may change the family.
-  bool may_creep_ = false;      ///< the row planned last: its family takes more than a key.
+  std::vector<bool> makes_families_;  ///< per parameter: may change the family.
+  /// Per parameter, then per derived one: may change the family, or where a flow result lies.
+  std::vector<bool> relevant_;
+  bool may_creep_ = false;  ///< the row planned last: its family takes more than a key.
   std::unordered_map<Key, int, boost::hash<Key>> by_key_;
+  std::unordered_set<Key, boost::hash<Key>> refused_fields_;
   long n_keys_ = 0;     ///< looked at so far.
   long n_planned_ = 0;  ///< of this group.
   bool tried_composing_ = false;
