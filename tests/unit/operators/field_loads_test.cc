@@ -280,9 +280,9 @@ TEST_F(FieldLoadsTest, SayWhatBecameOfCellsThatAreNotCovered) {
   std::erase_if(field.cells, [](const FlowCell& cell) { return cell.low.x() > 100; });
   field.value.conservativeResize(std::ssize(field.cells), 2);
   EXPECT_THAT(loads_of(field).notes,
-              Contains(testing::AllOf(HasSubstr("on east: 12.5 % of its volume covered; "),
+              Contains(testing::AllOf(HasSubstr("on east: 11.72 % of its volume covered; "),
                                       HasSubstr("covered in part take that part's mean; of the "
-                                                "integral of its change at the last report 12.5 % "
+                                                "integral of its change at the last report 11.72 % "
                                                 "lies in what is covered"))));
 }
 
