@@ -107,9 +107,10 @@ class PressureWarnings {
       places.push_back({at, initial_state(scene_, -at.depth, at.side).pressure,
                         least_stress(scene_, at.depth, at.side)});
     }
+    const std::string& name = scene_.faults[f].name;
     const bool is_table = scene_.faults[f].pressure.rule == FaultPressureRule::table;
-    judge(concat("the ", is_table ? "tabled" : "prescribed", " pressure of fault ",
-                 scene_.faults[f].name),
+    judge(is_table ? "the pressure of fault " + name + " from its table"
+                   : "the prescribed pressure of fault " + name,
           places, [&](const FaultPlace& at, double time) {
             return given_pressure_change(scene_, f, at, time);
           });

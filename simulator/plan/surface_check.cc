@@ -91,7 +91,7 @@ class SurfaceCheck {
   }
 
   static std::string text_of(const Problem& problem) {
-    return problem.pointer + " " + problem.what;
+    return problem.pointer + ": " + problem.what;
   }
 
   void refuse(const std::vector<End>& ends, const std::string& what) {

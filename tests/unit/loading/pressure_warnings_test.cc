@@ -64,7 +64,7 @@ TEST(PressureWarnings, OfATableOfFaultPressureToo) {
                                 "1850, 0, 0, 0", "2000, 0, 160, 30", "2500, 0, 0, 0"};
   const auto all = pressure_warnings(read_scene(parse_json(scene.dump(), "test")));
   ASSERT_EQ(all.size(), 2u);
-  EXPECT_THAT(all[0], HasSubstr("the tabled pressure of fault F2 rises to"));
+  EXPECT_THAT(all[0], HasSubstr("the pressure of fault F2 from its table rises to"));
   EXPECT_THAT(all[0], HasSubstr("at 2000 m depth in load step 1 (injection, after 1 year), 160.0 "
                                 "bar above the initial one of"));
   EXPECT_THAT(all[1], HasSubstr("at 2000 m depth in load step 1 (injection, after 1 year), above "

@@ -19,7 +19,7 @@ json over(const std::string& parameter, const std::string& from, const std::stri
   return {{"parameter", parameter}, {"from", from}, {"to", to}};
 }
 
-json field(const json& ranges) {
+json field(const std::vector<json>& ranges) {
   json scene = json::parse(starter_scene("field"));
   scene["output"]["observation_points"] = json::array();
   scene["numerics"]["surface"]["over"] = ranges;
@@ -39,7 +39,7 @@ TEST(SurfaceCheck, SaysNothingOfRangesThatCanBeMeshed) {
   EXPECT_THAT(problems_of(field({over("central_dip", "2 deg", "16 deg")})), IsEmpty());
   json scene = field(
       {over("/geometry/blocks/1/offset", "60 m", "124 m"), over("central_dip", "2 deg", "16 deg")});
-  scene["geometry"]["blocks"][1]["mesh_offset"] = "90 m";
+  scene["geometry"]["blocks"][1]["mesh_offset"] = "100 m";
   EXPECT_THAT(problems_of(scene), IsEmpty());
 }
 
@@ -67,7 +67,7 @@ TEST(SurfaceCheck, NamesTheCornerThatCannotBeMeshed) {
 
 TEST(SurfaceCheck, NamesARangeOverWhichCellsChange) {
   json scene = field({over("/geometry/blocks/1/offset", "60 m", "260 m")});
-  scene["geometry"]["blocks"][1]["mesh_offset"] = "90 m";
+  scene["geometry"]["blocks"][1]["mesh_offset"] = "100 m";
   const std::vector<Problem> problems = problems_of(scene);
   ASSERT_FALSE(problems.empty());
   EXPECT_EQ(problems[0].pointer, "/numerics/surface/over/0/to");

@@ -168,7 +168,8 @@ TEST(Remarks, NameFacesAndRegionsThatDoNothing) {
   expect_one(two, {{"/stages/0/pressure_change", R"({"reservoir": "-50 bar"})"}},
              "/geometry/regions/1 has no effect: its pressure never changes");
   EXPECT_THAT(remarks_of(box(), {{"/stages/0/pressure_change", "0 bar"}}),
-              testing::Contains(testing::StartsWith("/stages has no effect: no pressure changes")));
+              testing::Contains(testing::StartsWith(
+                  "/stages has no effect: no pressure or temperature changes")));
 }
 
 TEST(Remarks, NameStagesThatATableReplaces) {
