@@ -158,10 +158,10 @@ TEST(PillarCampaign, NeedsAFieldOfTwoBlocks) {
 }
 
 /// A section whose pressures come from a flow result on a map: 200 km east, 500 km north.
-class PillarsInAField : public testing::Test {
+class PillarsInAField : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::string name = testing::TempDir() + "pillars_XXXXXX";
+    std::string name = ::testing::TempDir() + "pillars_XXXXXX";
     folder_ = mkdtemp(name.data());
     std::ofstream(folder_ / "p.csv")
         << "x [m], y [m], depth [m], dx [m], dy [m], dz [m], 1990-01-01 [bar], 2000-01-01 [bar]\n"
