@@ -125,9 +125,12 @@ double error_of(faultsim::Simulation& field, const faultsim::Changes& changes) {
   return worst / scale;
 }
 
-TEST(PillarSections, MeetTheDisplacedFaultWhateverTheirShape) {
-  const char* wanted = std::getenv("FAULTSIM_PILLARS");  // results/pillars/make: 100
-  const int n_pillars = wanted != nullptr ? std::atoi(wanted) : 20;
+struct Cells {
+  const char *down_dip, *growth;  ///< between corners; beside the fault.
+};
+
+/// The largest error of n random pillars on such cells, of which each has to be below `asked`.
+double largest_error(int n_pillars, const Cells& cells, double asked) {
   const std::string file = ::testing::TempDir() + "pillar_sections.csv";
   std::mt19937 random(2026);
   const auto within = [&](double low, double high) {
@@ -144,9 +147,11 @@ TEST(PillarSections, MeetTheDisplacedFaultWhateverTheirShape) {
   const auto document = faultsim::parse_json(kField, "field");
   const PillarCampaign campaign =
       make_pillar_campaign(read_pillar_table(file, {}), document, "field.json", "p", {});
-  ASSERT_EQ(campaign.refused.size(), 0u) << campaign.refused.front().problem.what;
+  EXPECT_EQ(campaign.refused.size(), 0u) << campaign.refused.front().problem.what;
   faultsim::Simulation field = faultsim::Simulation::from_text(kField);
-  field.change({{"/numerics/plane_strain", "on"}});
+  field.change({{"/numerics/plane_strain", "on"},
+                {"/mesh/dip", cells.down_dip},
+                {"/mesh/growth", cells.growth}});
   std::istringstream lines(campaign.samples);
   std::string header, line;
   std::getline(lines, header);
@@ -154,12 +159,23 @@ TEST(PillarSections, MeetTheDisplacedFaultWhateverTheirShape) {
   int n = 0;
   for (; std::getline(lines, line); ++n) {
     const double error = error_of(field, changes_of(header, line));
-    EXPECT_LT(error, 0.01) << line;
+    EXPECT_LT(error, asked) << line;
     worst = std::max(worst, error);
   }
   EXPECT_EQ(n, n_pillars);
+  std::printf("%s by %s: largest error of %d pillars: %.4f of the largest change\n", cells.down_dip,
+              cells.growth, n, worst);
+  return worst;
+}
+
+TEST(PillarSections, MeetTheDisplacedFaultWhateverTheirShape) {
+  const char* wanted = std::getenv("FAULTSIM_PILLARS");  // results/pillars/make: 100
+  const int n_pillars = wanted != nullptr ? std::atoi(wanted) : 20;
+  const double worst = largest_error(n_pillars, {"5 m", "1.3"}, 0.01);
   RecordProperty("worst", std::to_string(worst));
-  std::printf("largest error of %d pillars: %.4f of the largest change\n", n, worst);
+  if (wanted == nullptr) return;
+  for (const Cells& others : {Cells{"10 m", "1.7"}, {"5 m", "1.7"}, {"2.5 m", "1.3"}})
+    largest_error(n_pillars, others, 0.05);
 }
 
 }  // namespace
