@@ -382,9 +382,8 @@ void add_answers(CLI::App& app, Arguments& a, ExitCode& code) {
 }
 
 void add_tiers(CLI::App& app, Arguments& a, ExitCode& code) {
-  CLI::App* command = app.add_subcommand(
-      "tiers",
-      "what an expensive tier says of a sample, from few of its cases and many cheap ones");
+  CLI::App* command =
+      app.add_subcommand("tiers", "what an expensive tier says of a sample, from few of its cases");
   TiersArguments& t = a.tiers;
   command->add_option("source", t.source, "spec (JSON) with a monte-carlo design")->required();
   command
