@@ -46,7 +46,7 @@ class LocalRunner final : public JobRunner {
  private:
   void start();
   void send(const Job& job);
-  void handle(const std::string& reply, JobEvents& events);
+  void handle(const std::string& line, JobEvents& events);
   void handle_done(const nlohmann::json& reply, std::string result, JobEvents& events);
   /// The next reply, or the result that the last one announced, is handled; false = not there yet.
   bool handle_next(JobEvents& events);

@@ -13,7 +13,7 @@ namespace faultsweep {
 /// committed; the second tears the job down; the third kills it. All give exit 75: `faultsweep run`
 /// continues. Throws StorageError, InputError before anything is started when the store, the
 /// campaign or the simulator is not usable.
-faultsim::ExitCode start_ranks(const RunOptions& options);
+faultsim::ExitCode start_ranks(const RunOptions& given);
 
 inline constexpr int kMostRestarts = 3;
 

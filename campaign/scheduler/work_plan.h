@@ -134,17 +134,17 @@ class WorkPlan {
   Worker& at(int worker) { return workers_[worker]; }
   const Worker& at(int worker) const { return workers_[worker]; }
   const Family& family(int index) const { return families_[index]; }
-  double case_seconds(const Family& family) const;
-  double build_seconds(const Family& family) const;
-  double total_seconds(const Family& family) const;
-  bool has_operator(int worker, int family) const;
+  double case_seconds(const Family& entry) const;
+  double build_seconds(const Family& entry) const;
+  double total_seconds(const Family& entry) const;
+  bool has_operator(int worker, int index) const;
   int choose_family(int worker) const;
   int family_to_join(int worker) const;
-  bool fits_in_memory(int worker, int family) const;
-  bool pays_to_join(int family) const;
-  void turn_to(int worker, int family);
+  bool fits_in_memory(int worker, int index) const;
+  bool pays_to_join(int index) const;
+  void turn_to(int worker, int index);
   void let_go(Worker& worker);
-  void update_state(int family);
+  void update_state(int index);
   bool has_unclaimed_family() const;
   bool is_short_of_work(const Worker& worker) const;
   Slice cut(int worker, int index);

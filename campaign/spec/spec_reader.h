@@ -133,7 +133,7 @@ class SpecReader {
   void read_limits(const SceneNames& names, Group& group);
   void read_limit(const std::string& name, const SceneNames& names, Group& group);
   void read_tolerance(const std::string& pointer, LimitSearch& search);
-  std::optional<Expression> parse(const std::string& pointer, const Symbols& symbols);
+  std::optional<Expression> parse(const std::string& pointer, const Symbols& known);
 
   CampaignSpec spec_;
   nlohmann::ordered_json ordered_;  ///< the document with its keys in order.

@@ -32,7 +32,7 @@ std::map<std::int64_t, CaseCounts> count_by_family(Connection& connection, std::
 
 /// What a fault did in a stage, with its onsets; without a name where nothing is stored, as of
 /// results from before fault_metrics.
-faultsim::FaultStageMetrics read_fault_row(Connection& connection, const ResultTables& tables,
+faultsim::FaultStageMetrics read_fault_row(Connection& db, const ResultTables& tables,
                                            std::int64_t case_id, std::int64_t stage_id,
                                            std::int64_t fault_id);
 

@@ -233,7 +233,7 @@ class RowFields {
 /// All tables that hold fields of results, with the statements that add rows: first the key columns
 /// as named in result_rows.cc, then the fields.
 struct ResultTables {
-  explicit ResultTables(Connection& connection);
+  explicit ResultTables(Connection& db);
 
   RowFields<faultsim::CaseResult> whole;
   RowFields<faultsim::StageMetrics> stage;

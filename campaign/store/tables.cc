@@ -83,7 +83,7 @@ std::vector<HistoryColumn> history_fields() {
       {"step", "h.step"},      {"stage", "g.name"},
       {"time_s", "l.time_s"},  {"pressure_change_pa", "l.pressure_change_pa"},
       {"outcome", "l.outcome"}};
-  const auto add = [&all](std::string row, std::string_view prefix = "") {
+  const auto add = [&all](const std::string& row, std::string_view prefix = "") {
     return [&all, row, prefix](const faultsim::Field& field, const auto&) {
       const std::string name = concat(prefix, field.key);
       if (field.key != "faults") all.push_back({name, row + name});

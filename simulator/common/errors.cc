@@ -22,10 +22,13 @@ std::string_view in_repository(std::string_view file) {
 
 // Escaped once more where text of a user came in by another way than format_problems: what() ends
 // at a NUL, and a terminal obeys the others.
-Error::Error(std::string message) : text_(printable(message, Keep::line_ends)) {}
+Error::Error(std::string message) : text_(std::move(message)) {
+  text_ = printable(text_, Keep::line_ends);
+}
 
 void Error::add_context(std::string doing) {
-  text_ += " / while " + printable(doing, Keep::line_ends);
+  doing = printable(doing, Keep::line_ends);
+  text_ += " / while " + doing;
 }
 
 InputError::InputError(std::string source, std::vector<Problem> problems)

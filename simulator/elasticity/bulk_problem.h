@@ -36,6 +36,6 @@ int pressure_region(const BulkProblem& problem, int cell);
 /// The nodal forces of one unit load, f_k (n_unknowns, N), in the unknowns of `dofs`.
 /// @pre `dofs` are of problem.mesh and problem.conditions; the load is of exactly one kind
 /// (InternalError).
-Eigen::VectorXd unit_load(const BulkProblem& problem, const DofMap& dofs, int load);
+Eigen::VectorXd unit_load(const BulkProblem& problem, const DofMap& dofs, int index);
 
 }  // namespace faultsim

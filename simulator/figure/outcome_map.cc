@@ -64,20 +64,23 @@ struct Bin {
 
 void draw_bins(Svg& svg, const Panel& panel, const OutcomeMap& map) {
   constexpr int kColumns = 48, kRows = 30;
-  std::vector<Bin> bins(kColumns * kRows);
+  std::vector<Bin> bins(std::size_t{kColumns} * kRows);
+  const auto bin_at = [&bins](int i, int j) -> Bin& {
+    return bins[static_cast<std::size_t>(j) * kColumns + static_cast<std::size_t>(i)];
+  };
   for (std::size_t k = 0; k < map.x.size(); ++k) {
     if (!panel.holds(map.x[k], map.y[k]) || map.kind[k] == CaseClass::ended_early) continue;
     const int i =
         std::clamp(static_cast<int>(panel.x().share(map.x[k]) * kColumns), 0, kColumns - 1);
     const int j = std::clamp(static_cast<int>(panel.y().share(map.y[k]) * kRows), 0, kRows - 1);
-    Bin& bin = bins[static_cast<std::size_t>(j * kColumns + i)];
+    Bin& bin = bin_at(i, j);
     ++bin.n_known;
     bin.n_slide += map.kind[k] == CaseClass::holds ? 0 : 1;
   }
   const double w = panel.box().width / kColumns, h = panel.box().height / kRows;
   for (int j = 0; j < kRows; ++j) {
     for (int i = 0; i < kColumns; ++i) {
-      const Bin& bin = bins[static_cast<std::size_t>(j * kColumns + i)];
+      const Bin& bin = bin_at(i, j);
       if (bin.n_known == 0) continue;
       const double share = static_cast<double>(bin.n_slide) / static_cast<double>(bin.n_known);
       svg.rect({panel.box().x + i * w, panel.box().bottom() - (j + 1) * h, w, h},

@@ -75,7 +75,7 @@ void take_blas_buffer() {
   set_blas_threads(1);
   // Small products do without a buffer; this one, of a millisecond, does not.
   constexpr int kOrder = 128;
-  const std::vector<double> a(kOrder * kOrder, 1.0);
+  const std::vector<double> a(std::size_t{kOrder} * kOrder, 1.0);
   std::vector<double> product(a.size());
   cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, kOrder, kOrder, 1.0, a.data(), kOrder, 0.0,
               product.data(), kOrder);

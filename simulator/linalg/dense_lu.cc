@@ -20,7 +20,7 @@ bool DenseLu::factor(const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
   // Grows by doubling: sizes change often.
   if (factors_.rows() < n) {
     factors_.resize(0, 0);
-    factors_.resize(2 * n, 2 * n);
+    factors_.resize(2L * n, 2L * n);
   }
   factors_.topLeftCorner(n, n) = matrix;
   const int stride = static_cast<int>(factors_.rows());

@@ -43,7 +43,7 @@ bool GrowingLu::grow(int m) {
     cblas_sgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m, m, old, -1, a + old, stride, right,
                 stride, 1, right + old, stride);
   }
-  pivots_.resize(static_cast<std::size_t>(old + m));
+  pivots_.resize(static_cast<std::size_t>(old) + static_cast<std::size_t>(m));
   int* pivots = pivots_.data() + old;
   int info = 0;
   if (m > 0) sgetrf_(&m, &m, right + old, &stride, pivots, &info);

@@ -206,7 +206,9 @@ class SurfaceBuilder {
     return up ? first_row_ + static_cast<size_t>(r) : last_row_ - static_cast<size_t>(r);
   }
   size_t column_line(int c) const { return first_column_ + static_cast<size_t>(c); }
-  size_t grid_index(int c, int r) const { return static_cast<size_t>(c * n_rows_ + r); }
+  size_t grid_index(int c, int r) const {
+    return static_cast<size_t>(c) * static_cast<size_t>(n_rows_) + static_cast<size_t>(r);
+  }
 
   /// The smallest block of points that holds the split ones and one ring around them.
   void find_range() {
@@ -234,7 +236,7 @@ class SurfaceBuilder {
   }
 
   void find_nodes() {
-    node_at_.assign(static_cast<size_t>(n_columns_ * n_rows_), -1);
+    node_at_.assign(grid_index(n_columns_, 0), -1);
     // A tied point lies on the near end of its axis or axes, hence comes first in line order; look
     // it up by its mesh node.
     std::vector<std::pair<int, int>> roots;  // (minus mesh node, surface node)

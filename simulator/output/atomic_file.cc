@@ -76,8 +76,9 @@ bool is_number(const std::string& text) {
 
 }  // namespace
 
-PendingFile::PendingFile(std::filesystem::path target)
-    : target_(where_it_leads(target)), temporary_(temporary_name(target_)) {
+PendingFile::PendingFile(std::filesystem::path target) : target_(std::move(target)) {
+  target_ = where_it_leads(target_);
+  temporary_ = temporary_name(target_);
   descriptor_ = open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail(errno);
 }

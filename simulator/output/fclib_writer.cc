@@ -44,7 +44,7 @@ void write_matrix(hid_t file, const std::string& group, const Eigen::MatrixXd& w
 
 void require_sound(const FrictionalContactProblem& problem,
                    const FrictionalContactSolution* solution) {
-  const Eigen::Index n = problem.n_contacts() * problem.dimension;
+  const Eigen::Index n = Eigen::Index{problem.n_contacts()} * problem.dimension;
   FAULTSIM_DEMAND(problem.dimension == 2 || problem.dimension == 3, problem.dimension);
   FAULTSIM_DEMAND(n > 0 && problem.w.rows() == n && problem.w.cols() == n && problem.q.size() == n,
                   "W ", problem.w.rows(), " x ", problem.w.cols(), ", q ", problem.q.size(), ", ",

@@ -204,7 +204,7 @@ struct FieldWriter::Impl {
   OperatorNode node_of(const FaultPoints& fault, std::size_t point) const;
   void write_geometry(const FaultPoints& fault, const std::string& name);
   void open_fields(const FaultPoints& fault);
-  void append(std::size_t f, const FaultFields& fields);
+  void append(std::size_t f, const FaultFields& step);
   XdmfGrid grid(std::size_t f) const;
 };
 

@@ -158,7 +158,8 @@ H5FD_class_t make_class() {
 void use_disk_driver(hid_t file_access, int* first_error) {
   static const H5FD_class_t driver = make_class();
   static const hid_t id = H5FDregister(&driver);
-  const Settings settings = {first_error};
+  Settings settings = {};
+  settings.first_error = first_error;
   FAULTSIM_DEMAND(id >= 0 && H5Pset_driver(file_access, id, &settings) >= 0, "driver id ", id);
 }
 

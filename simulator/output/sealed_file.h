@@ -32,7 +32,7 @@ class SealedContent {
   const std::shared_ptr<const void>& mapping() const { return mapping_; }
 
  private:
-  const std::byte* mapped_any(const char* path, hsize_t rows, hsize_t columns, hid_t type,
+  const std::byte* mapped_any(const char* path, hsize_t rows, hsize_t columns, hid_t wanted,
                               std::size_t bytes_each) const;
 
   hid_t file_;
