@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -160,6 +161,19 @@ TEST_F(FlowLoads, OfTemperatureAreIdleInRockThatDoesNotExpand) {
   EXPECT_THAT(said({}), HasSubstr(idle));
   EXPECT_THAT(said({{"/materials/reservoir/thermal_expansion", "1e-5 1/K"}}),
               testing::Not(HasSubstr(idle)));
+}
+
+TEST_F(FlowLoads, LieWhereNumbersSayThatCampaignsMayVary) {
+  document_.value["pressure_field"]["origin"] = {"0 m", "0 m"};
+  const std::vector<ParameterInfo> all = parameters(document_);
+  for (const char* key : {"origin/0", "origin/1", "azimuth", "y"}) {
+    const std::string pointer = std::string("/pressure_field/") + key;
+    const auto one = std::find_if(all.begin(), all.end(),
+                                  [&](const auto& row) { return row.pointer == pointer; });
+    ASSERT_NE(one, all.end()) << pointer;
+    EXPECT_FALSE(one->is_text) << pointer;
+    EXPECT_FALSE(one->new_family) << pointer;
+  }
 }
 
 TEST_F(FlowLoads, AreToldByTheirContent) {
