@@ -39,6 +39,7 @@ TEST(SurfaceCheck, SaysNothingOfRangesThatCanBeMeshed) {
   EXPECT_THAT(problems_of(field({over("central_dip", "2 deg", "16 deg")})), IsEmpty());
   json scene = field(
       {over("/geometry/blocks/1/offset", "60 m", "124 m"), over("central_dip", "2 deg", "16 deg")});
+  scene["geometry"]["blocks"][1]["offset"] = "110 m";
   scene["geometry"]["blocks"][1]["mesh_offset"] = "100 m";
   EXPECT_THAT(problems_of(scene), IsEmpty());
 }
@@ -67,6 +68,7 @@ TEST(SurfaceCheck, NamesTheCornerThatCannotBeMeshed) {
 
 TEST(SurfaceCheck, NamesARangeOverWhichCellsChange) {
   json scene = field({over("/geometry/blocks/1/offset", "60 m", "260 m")});
+  scene["geometry"]["blocks"][1]["offset"] = "110 m";
   scene["geometry"]["blocks"][1]["mesh_offset"] = "100 m";
   const std::vector<Problem> problems = problems_of(scene);
   ASSERT_FALSE(problems.empty());
