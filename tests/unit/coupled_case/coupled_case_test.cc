@@ -229,7 +229,9 @@ TEST(CoupledCase, WarnsOfLoadStepsTakenInParts) {
 TEST(CoupledCase, IsTheCondensedCaseInHalfADomain) {
   json scene = field();
   scene["numerics"] = {{"plane_strain", "off"}, {"half_domain", "on"}};
-  scene["mesh"] = {{"strike", "1500 m"}, {"dip", "150 m"}, {"normal", "400 m"}, {"growth", 2.0}};
+  scene["mesh"] = {{"strike", "1500 m"}, {"dip", "200 m"}, {"normal", "1 km"}, {"growth", 2.0}};
+  scene["stages"] = json::parse(
+      R"([{"name": "production", "duration": "4 year", "steps": 2, "pressure_change": "-150 bar"}])");
   scene["output"]["observation_points"] = json::parse(
       R"([{"name": "north", "position": ["300 m", "2500 m", "0 m"]},
           {"name": "south", "position": ["300 m", "-2500 m", "0 m"]}])");
