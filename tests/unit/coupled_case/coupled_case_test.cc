@@ -243,8 +243,9 @@ TEST(CoupledCase, IsTheCondensedCaseInHalfADomain) {
   ASSERT_EQ(last.size(), 6u);
   EXPECT_GT(std::abs(last[1]), 1e-4);
   const CoupledCase one(p.scene, p.plan, {LeadingKind::amg, SchurKind::rac});
-  const auto &rows = one.faults().observed.rows,
-             &others = prepare_operator(p.scene, p.plan, {}, false).op->observed.rows;
+  const PreparedOperator prepared = prepare_operator(p.scene, p.plan, {}, false);
+  const std::vector<ObservationRow>& rows = one.faults().observed.rows;
+  const std::vector<ObservationRow>& others = prepared.op->observed.rows;
   ASSERT_EQ(rows.size(), others.size());
   for (std::size_t k = 0; k < rows.size(); ++k) {
     EXPECT_EQ(rows[k].name, others[k].name);
