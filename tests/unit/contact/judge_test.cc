@@ -230,6 +230,13 @@ TEST_F(ByHand, Tension) {
   expect_miss(&Misses::tension, 0.25);
 }
 
+TEST_F(ByHand, TensionLendsNoFriction) {
+  end_with({0, 0, 0}, {0.25, 1.1, 0}, FaultState::stick);
+  const Misses miss = judge_step(op_, laws_, step_).pascal;
+  EXPECT_NEAR(miss.tension, 0.25, 1e-14);
+  EXPECT_NEAR(miss.over_limit, 1.1 - 1, 1e-14);
+}
+
 TEST_F(ByHand, Penetration) {
   end_with({-0.25, 0, 0}, {-1, 0, 0}, FaultState::stick);
   expect_miss(&Misses::penetration, 4 * 0.25);

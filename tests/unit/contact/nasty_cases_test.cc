@@ -29,8 +29,13 @@ struct OneNode {
   }
   ContactReport go_to(const Eigen::VectorXd& after) {
     ContactSolver solver(op, laws, {});
+    const ContactState before = state;
     const ContactReport report = solver.solve_step(locked, after, state);
-    if (report.outcome == Outcome::converged) locked = after;
+    if (report.outcome != Outcome::converged) return report;
+    const bool at_once = report.counts.sub_steps == 1;
+    const Verdict verdict = judged(op, laws, locked, after, before, state, at_once);
+    EXPECT_LT(verdict.relative.largest(), 1e-7);
+    locked = after;
     return report;
   }
   FaultOperator op;
