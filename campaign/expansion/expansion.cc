@@ -360,10 +360,6 @@ nlohmann::json scene_of(const Expansion& expansion, const Case& one) {
   return scene;
 }
 
-std::string base_fingerprint(const Expansion& expansion, int group) {
-  return faultsim::fingerprint(expansion.spec.groups.at(group).scene.dump());
-}
-
 nlohmann::json scene_from_changes(const std::string& base, const std::string& changes) {
   json scene = json::parse(base);
   const json changed = json::parse(changes);

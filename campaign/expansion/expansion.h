@@ -87,9 +87,6 @@ nlohmann::json changes_of(const Expansion& expansion, const Case& one);
 /// start from CampaignSpec::scene_source.
 nlohmann::json scene_of(const Expansion& expansion, const Case& one);
 
-/// Fingerprint of a group's scene document, for the store's "base hash + parameter vector".
-std::string base_fingerprint(const Expansion& expansion, int group);
-
 /// The same from what a store keeps: the base scene's text and the text of changes_of.
 nlohmann::json scene_from_changes(const std::string& base, const std::string& changes);
 

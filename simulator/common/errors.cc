@@ -40,9 +40,12 @@ std::string format_problems(const std::string& source, const std::vector<Problem
   std::vector<Problem> sorted = problems;
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const Problem& a, const Problem& b) { return a.line < b.line; });
+  constexpr std::size_t kMostSpelledOut = 2000;
   std::string text;
   for (const Problem& problem : sorted) {
     if (!text.empty()) text += '\n';
+    if (&problem - sorted.data() == kMostSpelledOut)
+      return text + concat(printable(source), ": and ", sorted.size() - kMostSpelledOut, " more");
     text += printable(source);
     if (problem.line > 0) text += ":" + std::to_string(problem.line);
     text += ": ";

@@ -61,7 +61,8 @@ class InputError : public Error {
   std::vector<Problem> problems_;
 };
 
-/// The text of an InputError: per problem "SOURCE:LINE: POINTER: WHAT; CURE", sorted by line.
+/// The text of an InputError: per problem "SOURCE:LINE: POINTER: WHAT; CURE", sorted by line; of
+/// more than 2000 the rest is counted.
 std::string format_problems(const std::string& source, const std::vector<Problem>& problems);
 
 /// The world failed: disk full, file locked or corrupt. Exit code 4.

@@ -40,7 +40,7 @@ InputText unreadable(int error) {
 std::string kind_of(mode_t mode) {
   if (S_ISFIFO(mode)) return "a pipe";
   if (S_ISSOCK(mode)) return "a socket";
-  return S_ISCHR(mode) || S_ISBLK(mode) ? "a device" : "no regular file";
+  return S_ISCHR(mode) || S_ISBLK(mode) ? "a device" : "not a regular file";
 }
 
 }  // namespace

@@ -91,8 +91,6 @@ double CreepLadder::duration(int rung) const { return impl_->at(rung).duration; 
 
 const FaultOperator& CreepLadder::op(int rung) const { return impl_->at(rung).op; }
 
-int CreepLadder::n_creeping_cells() const { return impl_->cells->n_cells(); }
-
 BulkState CreepLadder::at_rest() const {
   const auto n_nodes = impl_->at(0).bulk->problem().mesh.nodes.size();
   return {impl_->cells->at_rest(), Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(n_nodes))};

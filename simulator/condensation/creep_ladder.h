@@ -34,7 +34,6 @@ class CreepLadder {
   double duration(int rung) const;
   const FaultOperator& op(int rung) const;
   BulkState at_rest() const;
-  int n_creeping_cells() const;
 
   /// What the history adds to a step of the rung.
   struct History {

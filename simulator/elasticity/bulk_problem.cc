@@ -17,7 +17,7 @@ Eigen::VectorXd unit_load(const BulkProblem& problem, const DofMap& dofs, int in
   const LoadCase& load = problem.loads[index];
   const int n_kinds = (load.region >= 0) + !load.stress_sides.empty() + load.displacement;
   FAULTSIM_DEMAND(n_kinds == 1, "load ", to_string(load.key), " is of ", n_kinds, " kinds");
-  if (load.region >= 0) return pressure_load(problem.mesh, dofs, load.region, problem.b_bar);
+  if (load.region >= 0) return pressure_load(problem.mesh, dofs, load.region);
   if (load.displacement) {
     return displacement_load(problem.mesh, problem.materials, dofs, index, problem.b_bar);
   }

@@ -88,7 +88,7 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticMater
                                 const DofMap& dofs, bool b_bar);
 
 /// f = Pᵀ ∫ div v: b Δp = 1 Pa in the region, times the cells' volume fractions.
-Eigen::VectorXd pressure_load(const Mesh& mesh, const DofMap& dofs, int region, bool b_bar);
+Eigen::VectorXd pressure_load(const Mesh& mesh, const DofMap& dofs, int region);
 /// f = Pᵀ ∫_cell div v: what an isotropic eigenstress −1 Pa in one cell adds to the nodal forces, N
 /// per Pa, as (unknown, value), each unknown once, ascending.
 std::vector<std::pair<int, double>> dilatation_load(const Mesh& mesh, const DofMap& dofs, int cell);

@@ -51,7 +51,7 @@ Eigen::Matrix<double, 3, 4> nodal_area_vectors(const Mesh& mesh, const BoundaryF
 
 }  // namespace
 
-Eigen::VectorXd pressure_load(const Mesh& mesh, const DofMap& dofs, int region, bool) {
+Eigen::VectorXd pressure_load(const Mesh& mesh, const DofMap& dofs, int region) {
   Eigen::Matrix3Xd forces = no_forces(mesh);
   for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
     if (mesh.region[cell] != region || mesh.region_fraction[cell] == 0) continue;

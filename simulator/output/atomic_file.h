@@ -14,7 +14,7 @@ namespace faultsim {
 class PendingFile {
  public:
   /// Creates the temporary file. A target that is a link is written where it leads. Throws
-  /// StorageError, also when the target is there and no regular file.
+  /// StorageError, also when the target is there and not a regular file.
   explicit PendingFile(std::filesystem::path target);
   ~PendingFile();
   PendingFile(const PendingFile&) = delete;

@@ -317,8 +317,6 @@ enum class CreepScheme {
   backward_euler,  ///< first order: what many codes do, to measure the difference.
 };
 
-/// Knobs of the numerics that are part of a case's identity (those of creep only where something
-/// is made of viscous material).
 /// A parameter in which a surface of operators is continuous, and its range.
 struct SurfaceParameter {
   enum class Kind { youngs_modulus, poisson_ratio, dip, offset };
@@ -338,6 +336,8 @@ struct SurfaceRequest {
   bool operator==(const SurfaceRequest&) const = default;
 };
 
+/// Knobs of the numerics that are part of a case's identity (those of creep only where something
+/// is made of viscous material).
 struct Numerics {
   double slip_tolerance = 1e-4;      ///< m, of `activated`.
   double activation_length = 40;     ///< m, of `activated` and χ̄.

@@ -11,8 +11,8 @@
 #include <cmath>
 #include <optional>
 
-#include "simulator/loads/case_loads.h"
 #include "simulator/loading/run_case.h"
+#include "simulator/loads/case_loads.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsim {
@@ -79,7 +79,7 @@ class FullMesh {
     n_ = dofs_->n_unknowns();
     for (const LoadCase& load : problem.loads) {
       Eigen::VectorXd force = Eigen::VectorXd::Zero(n_);
-      if (load.region >= 0) force = pressure_load(mesh_, *dofs_, load.region, problem.b_bar);
+      if (load.region >= 0) force = pressure_load(mesh_, *dofs_, load.region);
       if (!load.stress_sides.empty())
         force = stress_load(mesh_, *dofs_, load.stress_sides, load.stress);
       loads_.push_back(force);

@@ -69,8 +69,7 @@ class SaddlePoint {
     stiffness_ = assemble_stiffness(mesh_, problem.materials, *dofs_, problem.b_bar);
     for (std::size_t k = 0; k < problem.loads.size(); ++k) {
       const LoadCase& load = problem.loads[k];
-      if (load.region >= 0)
-        loads_.push_back(pressure_load(mesh_, *dofs_, load.region, problem.b_bar));
+      if (load.region >= 0) loads_.push_back(pressure_load(mesh_, *dofs_, load.region));
       if (!load.stress_sides.empty())
         loads_.push_back(stress_load(mesh_, *dofs_, load.stress_sides, load.stress));
       if (load.displacement) {

@@ -33,7 +33,7 @@ TEST(CondensedBulk, HIsTheDenseSchurComplement) {
   EXPECT_LT((op.h() - h).norm(), 1e-12 * h.norm());
   EXPECT_EQ(Eigen::MatrixXd(op.h()), Eigen::MatrixXd(op.h().transpose()));
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(op.h()).eigenvalues()[0], 0);
-  const Eigen::VectorXd f = pressure_load(problem.mesh, dofs, 0, true);
+  const Eigen::VectorXd f = pressure_load(problem.mesh, dofs, 0);
   const Eigen::VectorXd load = f.tail(n_g) - k_gr * k_rr.solve(f.head(n_r));
   EXPECT_LT((op.loads.traction.col(0).cwiseProduct(op.geometry.dof_area) - load).norm(),
             1e-11 * load.norm());
@@ -94,7 +94,7 @@ TEST(CondensedBulk, AgreesWithTheSaddlePointSystem) {
   const Eigen::VectorXd g = 1e-3 * Eigen::VectorXd::Random(n_g);
   const double factor = -20e6;
   Eigen::VectorXd right(n_u + n_g);
-  right << factor * pressure_load(open, dofs, 0, true), k.coeff(0, 0) * g;
+  right << factor * pressure_load(open, dofs, 0), k.coeff(0, 0) * g;
   const Eigen::VectorXd solution = lu.solve(right);
   const Eigen::VectorXd traction =
       (k.coeff(0, 0) * solution.tail(n_g)).cwiseQuotient(op.geometry.dof_area);

@@ -52,11 +52,11 @@ struct DenseStep {
     const SparseMatrix lower = assemble_stiffness(problem.mesh, materials, dofs, problem.b_bar);
     k = Eigen::MatrixXd(lower);
     k = Eigen::MatrixXd(k.selfadjointView<Eigen::Lower>());
-    f = factors[0] * pressure_load(problem.mesh, dofs, 0, problem.b_bar) +
+    f = factors[0] * pressure_load(problem.mesh, dofs, 0) +
         factors[1] * stress_load(problem.mesh, dofs, problem.loads[1].stress_sides,
                                  problem.loads[1].stress) +
         factors[2] * displacement_load(problem.mesh, materials, dofs, 2, problem.b_bar) +
-        factors[3] * pressure_load(problem.mesh, dofs, 1, problem.b_bar);
+        factors[3] * pressure_load(problem.mesh, dofs, 1);
     n_bulk = dofs.n_bulk();
   }
   /// x = (r, g) and A Δt of a step with the jumps given.
@@ -80,7 +80,6 @@ TEST(CreepLadder, FirstRungIsTheElasticOperator) {
   EXPECT_EQ(ladder.n_rungs(), 3);
   EXPECT_EQ(ladder.duration(0), 0);
   EXPECT_EQ(ladder.duration(2), 0.1 * kTau);
-  EXPECT_EQ(ladder.n_creeping_cells(), 96);
   BulkProblem elastic = problem;
   elastic.viscosity.clear();
   const FaultOperator op = test::condense(elastic);
@@ -204,12 +203,10 @@ TEST(CreepLadder, RockKeepsItsStiffness) {
   BulkProblem problem = viscous_problem();
   problem.viscosity = {kElastic, kElastic};
   const CreepLadder rigid = ladder_of(problem, {kTau});
-  EXPECT_EQ(rigid.n_creeping_cells(), 0);
   EXPECT_EQ(Eigen::MatrixXd(rigid.op(0).h()), Eigen::MatrixXd(rigid.op(1).h()));
   problem.viscosity = {kElastic, 1e17};
   const CreepLadder ladder = ladder_of(problem, {kTau});
-  EXPECT_GT(ladder.n_creeping_cells(), 0);
-  EXPECT_LT(ladder.n_creeping_cells(), 96);
+  EXPECT_GT((ladder.op(0).h() - ladder.op(1).h()).norm(), 1e-3 * ladder.op(0).h().norm());
 }
 
 TEST(CreepLadder, GivesTheSameBitsWhateverRanBefore) {

@@ -256,12 +256,12 @@ TEST_F(OutputTarget, IsNoInputByAnyName) {
 }
 
 TEST_F(OutputTarget, IsARegularFileInAFolderThatExists) {
-  EXPECT_THAT(refused("/dev/full"), HasSubstr("no regular file"));
+  EXPECT_THAT(refused("/dev/full"), HasSubstr("not a regular file"));
   EXPECT_THAT(refused(scratch_.path()), HasSubstr("is a folder"));
   EXPECT_THAT(refused(scratch_.path() / "no" / "x.csv"), HasSubstr("does not exist"));
-  EXPECT_THAT(refused("/dev/null/x.csv"), HasSubstr("no folder"));
+  EXPECT_THAT(refused("/dev/null/x.csv"), HasSubstr("not a folder"));
   ASSERT_EQ(mkfifo((scratch_.path() / "pipe").c_str(), 0600), 0);
-  EXPECT_THAT(refused(scratch_.path() / "pipe"), HasSubstr("no regular file"));
+  EXPECT_THAT(refused(scratch_.path() / "pipe"), HasSubstr("not a regular file"));
   fs::create_symlink("nowhere", scratch_.path() / "dangling");
   EXPECT_THAT(refused(scratch_.path() / "dangling"), HasSubstr("link to nowhere"));
   EXPECT_THROW(PendingFile("/dev/full"), StorageError);
