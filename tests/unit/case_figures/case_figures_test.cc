@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -239,12 +240,12 @@ TEST(StepLooks, HaveAColourPerFaultAndTheWordsOfTheStep) {
 // Fields ------------------------------------------------------------------------------------------
 
 /// A fault of two faces down dip in plane strain, written as a run writes it.
-class StoredFields2 : public testing::Test {
+class FieldsOfAFault : public testing::Test {
  protected:
+  void TearDown() override { std::filesystem::remove_all(folder_); }
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) / "case_figures_fields";
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
+    std::string name = testing::TempDir() + "case_figures_XXXXXX";
+    folder_ = mkdtemp(name.data());
     FaultGeometry geometry;
     geometry.plane_strain = true;
     OperatorFault fault;
@@ -283,7 +284,7 @@ class StoredFields2 : public testing::Test {
   std::filesystem::path folder_;
 };
 
-TEST_F(StoredFields2, AreReadBackAsTheyWereWritten) {
+TEST_F(FieldsOfAFault, AreReadBackAsTheyWereWritten) {
   const FieldReader reader(folder_ / "faults.h5");
   EXPECT_EQ(reader.steps(), (std::vector<int>{0, 1, 2}));
   ASSERT_EQ(reader.faults().size(), 1U);
@@ -297,7 +298,7 @@ TEST_F(StoredFields2, AreReadBackAsTheyWereWritten) {
   EXPECT_EQ(now.state[1], 2);
 }
 
-TEST_F(StoredFields2, GiveTheChartsThatNeedThem) {
+TEST_F(FieldsOfAFault, GiveTheChartsThatNeedThem) {
   const FieldReader reader(folder_ / "faults.h5");
   const Scene scene = field_scene();
   const CaseResult result = small_result();
@@ -315,7 +316,7 @@ TEST_F(StoredFields2, GiveTheChartsThatNeedThem) {
 }
 
 /// Tractions are compression positive in MPa, slips in mm, pressures in bar: at step 2.
-TEST_F(StoredFields2, ProfilesHaveTheFieldsInTheUnitsThatTheyName) {
+TEST_F(FieldsOfAFault, ProfilesHaveTheFieldsInTheUnitsThatTheyName) {
   const FieldReader reader(folder_ / "faults.h5");
   const Scene scene = field_scene();
   const CaseResult result = small_result();
@@ -334,7 +335,7 @@ TEST_F(StoredFields2, ProfilesHaveTheFieldsInTheUnitsThatTheyName) {
   expect_values(read_off(svg, 1, true, 0, 2), {strength, strength, strength}, 0.1);
 }
 
-TEST_F(StoredFields2, AStressPathStartsOnTheCircleOfTheInitialState) {
+TEST_F(FieldsOfAFault, AStressPathStartsOnTheCircleOfTheInitialState) {
   const FieldReader reader(folder_ / "faults.h5");
   const Scene scene = field_scene();
   const CaseResult result = small_result();
@@ -353,7 +354,7 @@ TEST_F(StoredFields2, AStressPathStartsOnTheCircleOfTheInitialState) {
   EXPECT_THAT(svg, HasSubstr(">end of gas storage<"));
 }
 
-TEST_F(StoredFields2, ASectionHasTheLargerIndexOfItsEndsOnEachPiece) {
+TEST_F(FieldsOfAFault, ASectionHasTheLargerIndexOfItsEndsOnEachPiece) {
   const FieldReader reader(folder_ / "faults.h5");
   const Scene scene = field_scene();
   const CaseResult result = small_result();
@@ -367,7 +368,7 @@ TEST_F(StoredFields2, ASectionHasTheLargerIndexOfItsEndsOnEachPiece) {
 }
 
 /// In plane strain a column per step, which holds since the step before.
-TEST_F(StoredFields2, AMapAgainstTimeHasTheMeanOfEachFace) {
+TEST_F(FieldsOfAFault, AMapAgainstTimeHasTheMeanOfEachFace) {
   const FieldReader reader(folder_ / "faults.h5");
   const Scene scene = field_scene();
   CaseResult result = small_result();
@@ -386,9 +387,8 @@ TEST_F(StoredFields2, AMapAgainstTimeHasTheMeanOfEachFace) {
 /// Two faces beside each other along strike: of the first one corner of four slips, of the second
 /// two do.
 TEST(PlaneMap, MarksFacesOfWhichHalfOfTheCornersMove) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "case_figures_plane";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
+  std::string name = testing::TempDir() + "case_figures_XXXXXX";
+  const std::filesystem::path folder = mkdtemp(name.data());
   FaultGeometry geometry;
   OperatorFault fault;
   fault.name = "F2";
@@ -430,7 +430,7 @@ TEST(PlaneMap, MarksFacesOfWhichHalfOfTheCornersMove) {
   EXPECT_EQ(figure::elements_of(svg, "polygon", "fill", figure::chi_colour(0.5)).size(), 1U);
 }
 
-TEST_F(StoredFields2, OfAFileThatIsNoneAreRefused) {
+TEST_F(FieldsOfAFault, OfAFileThatIsNoneAreRefused) {
   std::ofstream(folder_ / "broken.h5") << "no fields";
   EXPECT_THROW(FieldReader(folder_ / "broken.h5"), StorageError);
 }
