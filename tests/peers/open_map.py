@@ -14,7 +14,8 @@ def number(text):
 
 
 def same(a, b):
-    return (math.isnan(a) and math.isnan(b)) or abs(a - b) <= 1e-12 * max(abs(a), abs(b))
+    """To the twelve digits that CSV and TSurf are rounded to."""
+    return (math.isnan(a) and math.isnan(b)) or abs(a - b) <= 5e-12 * max(abs(a), abs(b))
 
 
 def surfaces(path):
