@@ -138,11 +138,11 @@ class SpecReader {
   CampaignSpec spec_;
   nlohmann::ordered_json ordered_;  ///< the document with its keys in order.
   std::vector<faultsim::Problem> problems_;
-  std::unordered_set<std::string> said_;  ///< pointer and text of each.
-  std::optional<SceneNames> names_;       ///< those that names_of gave last.
-  Symbols symbols_;                       ///< of spec_.identifiers.
+  std::unordered_set<std::string> said_;            ///< pointer and text of each.
+  std::optional<SceneNames> names_;                 ///< those that names_of gave last.
+  Symbols symbols_;                                 ///< of spec_.identifiers.
   std::map<std::string, SampleFile> sample_files_;  ///< by name as given.
-  long double n_cases_ = 0;               ///< before exclusions.
+  long double n_cases_ = 0;                         ///< before exclusions.
 };
 
 }  // namespace faultsweep
