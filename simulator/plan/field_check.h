@@ -26,8 +26,8 @@ inline constexpr double kLeastCovered = 0.5;
 /// initial state's plus the change since the reference, where and when they rise most above the
 /// initial one, exceed the least principal stress most and fall below zero most, looked at flow
 /// cell by flow cell; a reference report whose mean is 5 bar from the initial pressure. Costs the
-/// overlaps of the flow cells with a few hexahedra: some 10 ms for 40,000. Nothing where there is
-/// no field. @pre scene and plan have no problems.
+/// overlaps of the flow cells with a few hexahedra. Nothing where there is no field. @pre scene and
+/// plan have no problems.
 FieldCheck check_fields(const Scene& scene, const Plan& plan);
 
 }  // namespace faultsim
