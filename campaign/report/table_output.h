@@ -51,7 +51,7 @@ std::string csv_cell(const Cell& cell);
 std::string one_word(const std::string& text);
 /// "offset", length -> "offset_m": the unit as column names of the store's views have it. Blanks of
 /// "F2.max_slip in gas_storage" become "_".
-std::string column_name(const std::string& name, faultsim::Dimension dimension);
+std::string column_name(const std::string& given, faultsim::Dimension dimension);
 /// The same of a metric: of plane strain "moment_nm_per_m".
 std::string column_name(const MetricInfo& metric, bool plane_strain);
 

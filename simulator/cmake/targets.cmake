@@ -2,7 +2,7 @@
 option(FAULTSIM_WERROR "Treat warnings as errors" OFF)
 # What ./check chooses; left alone, everything is built and each test is one of ctest's.
 option(FAULTSIM_UNIT_TESTS "Build and register the unit tests" ON)
-option(FAULTSIM_STUDIES "Build the benchmarks and the programs behind results/" ON)
+option(FAULTSIM_STUDIES "Build the benchmarks, the programs behind results/ and the tests beside optional peers" ON)
 option(FAULTSIM_TEST_PROGRAMS "Give ctest whole test programs, not each of their tests" OFF)
 option(FAULTSIM_PRECOMPILE "Compile against precompiled headers: less work from nothing, more after a change" OFF)
 

@@ -15,7 +15,7 @@ namespace faultsim {
 /// "time_s", ...). No NaN: null. The same result gives the same text.
 nlohmann::json result_to_json(const CaseResult& result);
 /// Reads it back (all fields that are written). Throws StorageError on a wrong format version.
-CaseResult result_from_json(const nlohmann::json& json);
+CaseResult result_from_json(const nlohmann::json& document);
 
 /// Writes fault fields as they come: FOLDER/faults.h5 (chunked by step, gzip, units as attributes)
 /// and FOLDER/faults.xmf that ParaView opens: one surface grid per fault and step with traction and

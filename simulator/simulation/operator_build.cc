@@ -79,7 +79,7 @@ OperatorBuild::OperatorBuild(std::function<PreparedOperator(const RunContext&)> 
     : shared_(std::make_unique<Shared>()) {
   take_blas_buffer();
   Shared* shared = shared_.get();
-  shared->thread = std::jthread([=] {
+  shared->thread = std::jthread([make = std::move(make), shared, n_threads] {
     PreparedOperator prepared;
     std::exception_ptr thrown;
     try {

