@@ -16,15 +16,21 @@ target_compile_options(faultsim_options INTERFACE
   $<$<AND:$<BOOL:${FAULTSIM_WERROR}>,$<NOT:$<BOOL:${FAULTSIM_PRECOMPILE}>>>:-Werror>)
 
 # faultsim_precompile(target kind): compiles target against the headers that most units include, of its kind, which are
-# its optimisation and whether it is a test: library, text (no numbers, not optimised under the sanitizers), test,
-# text_test, whole_test (optimised as the library).
+# its optimisation and whether it is a test: library, text (no numbers, not optimised under the sanitizers), shell
+# (commands and pictures, which nobody waits for: -Og compiles in half of -O3's time), test, text_test, whole_test
+# (optimised as the library).
 function(faultsim_precompile target kind)
-  if(kind MATCHES "text")
+  if(kind MATCHES "text|shell")
     target_compile_options(${target} PRIVATE $<$<CONFIG:Debug>:-O0>)
-    if(NOT CMAKE_BUILD_TYPE STREQUAL Debug)   # the same flags
+    if(CMAKE_BUILD_TYPE STREQUAL Debug)   # kinds of the same flags are one
+      string(REPLACE shell text kind ${kind})
+    else()
       string(REPLACE text library kind ${kind})
       string(REPLACE library_test test kind ${kind})
     endif()
+  endif()
+  if(kind STREQUAL shell)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Og> -Wno-maybe-uninitialized)
   endif()
   if(NOT FAULTSIM_PRECOMPILE)
     return()
@@ -50,30 +56,36 @@ function(faultsim_precompile target kind)
                          "SHELL:--param ggc-min-heapsize=1048576")
 endfunction()
 
-# faultsim_library(name [TEXT] SOURCES ... PUBLIC deps ... PRIVATE deps ...): one module of the simulator.
+# faultsim_library(name [TEXT | SHELL] SOURCES ... PUBLIC deps ... PRIVATE deps ...): one module of the simulator.
 function(faultsim_library name)
-  cmake_parse_arguments(ARG "TEXT" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "TEXT;SHELL" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(faultsim_${name} STATIC ${ARG_SOURCES})
   add_library(faultsim::${name} ALIAS faultsim_${name})
   set_target_properties(faultsim_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(faultsim_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   target_link_libraries(faultsim_${name} PUBLIC ${ARG_PUBLIC}
                         PRIVATE $<BUILD_INTERFACE:faultsim_options> ${ARG_PRIVATE})
-  if(ARG_TEXT)
+  if(ARG_SHELL)
+    faultsim_precompile(faultsim_${name} shell)
+  elseif(ARG_TEXT)
     faultsim_precompile(faultsim_${name} text)
   else()
     faultsim_precompile(faultsim_${name} library)
   endif()
 endfunction()
 
-# faultsweep_library(...): the same for a module of the campaign manager.
+# faultsweep_library(name [SHELL] ...): the same for a module of the campaign manager, all of them text.
 function(faultsweep_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "SHELL" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(faultsweep_${name} STATIC ${ARG_SOURCES})
   add_library(faultsweep::${name} ALIAS faultsweep_${name})
   target_include_directories(faultsweep_${name} PUBLIC ${PROJECT_SOURCE_DIR})
   target_link_libraries(faultsweep_${name} PUBLIC ${ARG_PUBLIC} PRIVATE faultsim_options ${ARG_PRIVATE})
-  faultsim_precompile(faultsweep_${name} text)
+  if(ARG_SHELL)
+    faultsim_precompile(faultsweep_${name} shell)
+  else()
+    faultsim_precompile(faultsweep_${name} text)
+  endif()
 endfunction()
 
 # All unit tests, without the binaries and the tests of whole runs: what the sanitizers build.
