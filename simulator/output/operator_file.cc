@@ -15,14 +15,14 @@ namespace faultsim {
 namespace {
 
 constexpr SealedFormat kOperatorFile{.name = "operator", .version = 3};
-constexpr const char* kH = "/h";
 
 FaultOperator decode_operator(const SealedContent& content) {
   OperatorTables tables;
   for_each_table(tables, ReadTables{content.file()});
   FaultOperator op = from_tables(tables);
   const int n = op.geometry.n_dofs;
-  const double* h = content.mapped(kH, static_cast<hsize_t>(n), static_cast<hsize_t>(n));
+  const double* h =
+      content.mapped(kStiffnessTable, static_cast<hsize_t>(n), static_cast<hsize_t>(n));
   op.compliance = std::make_shared<DenseCompliance>(StoredMatrix(h, n, n, content.mapping()));
   return op;
 }
@@ -56,10 +56,6 @@ void check_content(const FaultOperator& op, const OperatorTables& tables) {
   }
 }
 
-std::filesystem::path file_of(const std::filesystem::path& folder, const std::string& fingerprint) {
-  return folder / (fingerprint + ".h5");
-}
-
 }  // namespace
 
 void write_operator(const FaultOperator& op, const std::filesystem::path& folder) {
@@ -67,11 +63,12 @@ void write_operator(const FaultOperator& op, const std::filesystem::path& folder
   check_content(op, tables);
   create_folders(folder);
   write_sealed(
-      file_of(folder, op.fingerprint), kOperatorFile,
+      cached_file(folder, op.fingerprint), kOperatorFile,
       [&](hid_t file) {
         for_each_table(tables, WriteTables{file});
         const auto n = static_cast<hsize_t>(op.geometry.n_dofs);
-        hdf5::write_array(file, kH, {n, n}, op.h().data(), {"N/m", "H, condensed stiffness"});
+        hdf5::write_array(file, kStiffnessTable, {n, n}, op.h().data(),
+                          {"N/m", "H, condensed stiffness"});
       },
       [&](const SealedContent& content) {
         const FaultOperator copy = decode_operator(content);
@@ -91,7 +88,7 @@ std::optional<FaultOperator> read_operator(const std::filesystem::path& folder,
     }
     op = std::move(found);
   };
-  read_sealed(file_of(folder, fingerprint), kOperatorFile, decode, remark);
+  read_sealed(cached_file(folder, fingerprint), kOperatorFile, decode, remark);
   return op;
 }
 

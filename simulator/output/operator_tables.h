@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,15 @@ OperatorTables to_tables(const FaultOperator& op);
 
 /// Rebuilds the operator without H; every length and index is checked. Throws StorageError.
 FaultOperator from_tables(const OperatorTables& tables);
+
+/// H in the files of operators and surfaces, N/m.
+inline constexpr const char* kStiffnessTable = "/h";
+
+/// The file of an operator or surface in a cache.
+inline std::filesystem::path cached_file(const std::filesystem::path& folder,
+                                         const std::string& fingerprint) {
+  return folder / (fingerprint + ".h5");
+}
 
 /// Calls archive(path, values, columns, units, long_name) for every table: the one list that
 /// writing, reading and comparing share.

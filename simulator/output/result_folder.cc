@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr const char* kContents = "contents.json";
 constexpr const char* kMarker = "INCOMPLETE";
 constexpr const char* kWork = "incomplete";
-constexpr int kFormat = 1;
+constexpr int kFolderFormat = 1;
 
 /// Entries are named, not addressed: what a damaged list says can reach nothing outside.
 bool is_plain_name(const std::string& name) {
@@ -115,7 +115,8 @@ std::optional<FolderContents> contents_of(const fs::path& folder) {
   std::ifstream file(folder / kContents);
   if (!file) return std::nullopt;
   const auto json = nlohmann::json::parse(file, nullptr, false);
-  if (!json.is_object() || json.value("format", nlohmann::json()) != kFormat) return std::nullopt;
+  if (!json.is_object() || json.value("format", nlohmann::json()) != kFolderFormat)
+    return std::nullopt;
   const auto made_by = json.find("made_by"), files = json.find("files");
   if (made_by == json.end() || !made_by->is_string() || files == json.end() || !files->is_array())
     return std::nullopt;
@@ -228,8 +229,8 @@ void ResultFolder::commit() {
   }
   write_text(
       work_ / kContents,
-      nlohmann::json{{"format", kFormat}, {"made_by", made.made_by}, {"files", made.files}}.dump(
-          1) +
+      nlohmann::json{{"format", kFolderFormat}, {"made_by", made.made_by}, {"files", made.files}}
+              .dump(1) +
           "\n");
   replace(made);
   keep_ = true;

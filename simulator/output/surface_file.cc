@@ -14,7 +14,6 @@ namespace faultsim {
 namespace {
 
 constexpr SealedFormat kSurfaceFile{.name = "operator surface", .version = 2};
-constexpr const char* kH = "/h";
 constexpr const char* kStiffness = "/surface/stiffness";
 
 /// All but the centre's operator and the directions of H.
@@ -99,7 +98,7 @@ StoredSurface decode_surface(const SealedContent& content) {
   const int n = centre->geometry.n_dofs;
   const auto size = static_cast<hsize_t>(n);
   centre->compliance = std::make_shared<DenseCompliance>(
-      StoredMatrix(content.mapped(kH, size, size), n, n, content.mapping()));
+      StoredMatrix(content.mapped(kStiffnessTable, size, size), n, n, content.mapping()));
   SurfaceTables own;
   for_each_surface_table(own, ReadTables{content.file()});
   const auto basis = std::make_shared<OperatorBasis>();
@@ -128,17 +127,13 @@ std::vector<std::string> digests_of(const StoredSurface& surface) {
   return result;
 }
 
-std::filesystem::path file_of(const std::filesystem::path& folder, const std::string& fingerprint) {
-  return folder / (fingerprint + ".h5");
-}
-
 }  // namespace
 
 void write_surface(const StoredSurface& surface, const std::filesystem::path& folder) {
   const OperatorBasis& basis = *surface.basis;
   create_folders(folder);
   write_sealed(
-      file_of(folder, basis.fingerprint), kSurfaceFile,
+      cached_file(folder, basis.fingerprint), kSurfaceFile,
       [&](hid_t file) {
         const OperatorTables centre = to_tables(*basis.centre);
         for_each_table(centre, WriteTables{file});
@@ -146,7 +141,7 @@ void write_surface(const StoredSurface& surface, const std::filesystem::path& fo
         for_each_surface_table(own, WriteTables{file});
         const auto h = basis.centre->h();
         const auto n = static_cast<hsize_t>(h.rows());
-        hdf5::write_array(file, kH, {n, n}, h.data(), {"N/m", "H at the centre"});
+        hdf5::write_array(file, kStiffnessTable, {n, n}, h.data(), {"N/m", "H at the centre"});
         const auto b = basis.stiffness.view();
         hdf5::write_array(file, kStiffness, {static_cast<hsize_t>(b.cols()), n}, b.data(),
                           {"N/m", "B of H: K vectors for each column of H"});
@@ -167,7 +162,7 @@ std::optional<StoredSurface> read_surface_file(const std::filesystem::path& fold
       throw StorageError("it holds the surface " + found.basis->fingerprint);
     surface = std::move(found);
   };
-  read_sealed(file_of(folder, fingerprint), kSurfaceFile, decode, remark);
+  read_sealed(cached_file(folder, fingerprint), kSurfaceFile, decode, remark);
   return surface;
 }
 
