@@ -8,13 +8,13 @@
 namespace faultsim {
 namespace {
 
-constexpr int kResultFormat = 1;
+constexpr int kDocumentFormat = 1;
 
 template <typename Json>
 std::string text_of(Json document) {
   FAULTSIM_DEMAND(document.is_object(), "a command prints an object, not ", document.type_name());
   if (!document.contains("format")) {
-    Json with_format = {{"format", kResultFormat}};
+    Json with_format = {{"format", kDocumentFormat}};
     with_format.update(document);
     document = std::move(with_format);
   }
