@@ -41,14 +41,14 @@ void apply(const std::vector<std::string>& settings, JsonDocument& document) {
 }
 
 /// What was asked about: a scene, and cases of it where a spec was given.
-struct Question {
+struct TradeQuestion {
   JsonDocument scene;
   std::string name;  ///< of the campaign that answers it.
   std::optional<Expansion> cases;
 };
 
-Question read_question(const TradeoffArguments& arguments) {
-  Question question{faultsim::read_json_file(arguments.source), "", std::nullopt};
+TradeQuestion read_question(const TradeoffArguments& arguments) {
+  TradeQuestion question{faultsim::read_json_file(arguments.source), "", std::nullopt};
   std::string stem = std::filesystem::path(arguments.source).stem();
   for (char& c : stem) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '_') c = '-';
@@ -102,7 +102,7 @@ void write_report(faultsim::ResultFolder& folder, const std::filesystem::path& o
 
 /// The folder that was asked for, before anything is run.
 std::unique_ptr<faultsim::ResultFolder> open_output(const TradeoffArguments& arguments,
-                                                    const Question& question) {
+                                                    const TradeQuestion& question) {
   if (arguments.output.empty() || arguments.dry_run) return nullptr;
   std::vector<std::filesystem::path> inputs =
       faultsim::files_named_in(question.scene.value, question.scene.source);
@@ -159,7 +159,7 @@ ExitCode run_ladder(const StoreArguments& common, const TradeoffArguments& argum
 }  // namespace
 
 ExitCode tradeoff_command(const StoreArguments& common, const TradeoffArguments& arguments) {
-  const Question question = read_question(arguments);
+  const TradeQuestion question = read_question(arguments);
   const std::unique_ptr<faultsim::ResultFolder> output = open_output(arguments, question);
   const std::vector<TradeAxis> axes =
       make_ladder(question.scene, {arguments.operator_seconds, memory_limit(arguments)});
