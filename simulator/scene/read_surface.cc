@@ -86,8 +86,8 @@ void check_range(SceneReader& reader, const std::string& at, const SurfaceParame
     }
   }
   const double value = value_of(one, scene);
-  constexpr double kRounding = 1e-12;  // relative: ends are written with 15 digits
-  const double slack = kRounding * std::max(std::abs(one.from), std::abs(one.to));
+  constexpr double kRoundingOfEnds = 1e-12;  // relative: ends are written with 15 digits
+  const double slack = kRoundingOfEnds * std::max(std::abs(one.from), std::abs(one.to));
   if (value < one.from - slack || value > one.to + slack) {
     reader.problem(at, "the scene's own value lies outside of this range",
                    "widen the range, or change the value");
