@@ -104,7 +104,7 @@ class TableReader {
   /// The number in SI.
   std::optional<double> value(std::size_t column);
 
-  void refuse(std::string what, std::string cure) { refuse_at(line_, what, cure); }
+  void refuse(const std::string& what, const std::string& cure) { refuse_at(line_, what, cure); }
   /// @param line  0: the whole table.
   void refuse_at(int line, const std::string& what, const std::string& cure);
   bool is_sound() const { return problems_.empty(); }
