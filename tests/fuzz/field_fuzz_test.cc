@@ -65,8 +65,7 @@ FlowField random_field(Draws& draws) {
         CellCorners corners;
         for (int q = 0; q < 8; ++q) {
           if (q == 4) {
-            for (double& z : top)
-              z += draws.from_to(0, 4) == 0 ? 0 : draws.between(0.5, 30.0 / nz);
+            for (double& z : top) z += draws.from_to(0, 4) == 0 ? 0 : draws.between(0.5, 30.0 / nz);
           }
           corners[q] = {x[i + along_x(q)], y[j + along_y(q)], top[q % 4]};
         }

@@ -30,8 +30,7 @@ JsonDocument field(const Changes& changes) {
   JsonDocument document = parse_json(starter_scene("field"), "field.json");
   apply({{"/tier", "custom"},
          {"/numerics", R"({"plane_strain": "on"})"},
-         {"/mesh",
-          R"({"strike": "1000 m", "dip": "50 m", "normal": "300 m", "growth": 2})"},
+         {"/mesh", R"({"strike": "1000 m", "dip": "50 m", "normal": "300 m", "growth": 2})"},
          {"friction_angle", "24 deg"},
          {"/output/observation_points", "[]"}},
         document);
