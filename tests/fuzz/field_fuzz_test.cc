@@ -31,8 +31,8 @@ int along_x(int q) { return q % 4 == 1 || q % 4 == 2; }
 int along_y(int q) { return q % 4 >= 2; }
 int along_z(int q) { return q >= 4; }
 
-/// Volume of a hexahedron as the sum over its six faces, each two triangles, of cones from the
-/// origin; faces are cut by the diagonals that meet in corner 0 or 6, as the reference has them.
+/// Volume of a hexahedron as the sum over its six faces, each two triangles, of cones from
+/// corner 6; faces are cut by the diagonals that meet in corner 0 or 6, as flow_field.h has them.
 double volume_by_faces(const CellCorners& c) {
   static constexpr int kTriangles[12][3] = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7},
                                             {0, 1, 5}, {0, 5, 4}, {3, 7, 6}, {3, 6, 2},

@@ -25,7 +25,7 @@ const char* const kOver =
                  {"parameter": "central_dip", "from": "2 deg", "to": "16 deg"}],
         "tolerance": 1e-3})";
 
-/// Cells as coarse as faults that slip allow: a surface has hundreds of operators.
+/// Cells as coarse as faults that slip allow: a surface is built of many operators.
 JsonDocument field(const Changes& changes) {
   JsonDocument document = parse_json(starter_scene("field"), "field.json");
   apply({{"/tier", "custom"},
