@@ -48,12 +48,6 @@ void TableOutput::finish() {
   }
 }
 
-std::string exact_number(double value) {
-  if (std::isnan(value)) return "nan";
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
 std::string rounded_number(double value) {
   if (std::isnan(value)) return "nan";
   constexpr int kDigits = 12;
@@ -73,38 +67,6 @@ double number_of(const Cell& cell) {
   if (const auto* number = std::get_if<double>(&cell)) return *number;
   if (const auto* whole = std::get_if<std::int64_t>(&cell)) return static_cast<double>(*whole);
   return std::numeric_limits<double>::quiet_NaN();
-}
-
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char letter : text) quoted += letter == '"' ? "\"\"" : std::string(1, letter);
-  return quoted + '"';
-}
-
-namespace {
-
-/// "-5", "+1.5e3 bar".
-bool is_quantity(const std::string& text) {
-  double value = 0;
-  const char* begin = text.data() + (text.front() == '+' ? 1 : 0);
-  const char* end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(begin, end, value);
-  if (error != std::errc() || rest == begin) return false;
-  constexpr std::string_view kOfUnits =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/ ";
-  if (rest != end && *rest != ' ') return false;
-  return std::string_view(rest, static_cast<std::size_t>(end - rest)).find_first_not_of(kOfUnits) ==
-         std::string_view::npos;
-}
-
-}  // namespace
-
-std::string csv_name(const std::string& text) {
-  const bool is_formula = !text.empty() &&
-                          std::string_view("=+-@").find(text.front()) != std::string_view::npos &&
-                          !is_quantity(text);
-  return csv_field((is_formula ? "'" : "") + faultsim::printable(text, faultsim::Keep::line_ends));
 }
 
 std::string csv_cell(const Cell& cell) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "campaign/render/render_csv.h"
 #include "campaign/spec/metrics.h"
 #include "campaign/store/records.h"
 #include "simulator/common/units.h"
@@ -30,8 +31,6 @@ class TableOutput {
   std::string buffer_;
 };
 
-/// Fewest digits that read back as the same bits; "nan" for NaN.
-std::string exact_number(double value);
 /// A cell as text; missing = "".
 std::string cell_text(const Cell& cell);
 /// A cell as a number; NaN where it is missing or text.
@@ -39,12 +38,6 @@ double number_of(const Cell& cell);
 /// Of 12 significant digits, the fewest that are needed: 2394.8 for 2394.7999999999997; "nan" for
 /// NaN.
 std::string rounded_number(double value);
-/// A field of a CSV file, in quotes where RFC 4180 wants them.
-std::string csv_field(const std::string& text);
-/// A text of a user as a field of a CSV file: what a terminal would obey is spelled out
-/// (printable.h), and a "'" stands before what a spreadsheet would take for a formula, which begins
-/// with "=", "+", "-" or "@" and is not a number with at most a unit.
-std::string csv_name(const std::string& text);
 /// A number or a text as a field of a CSV file.
 std::string csv_cell(const Cell& cell);
 /// Text as one word: what is not printable ASCII, and quotes, become "_"; "" becomes "_".

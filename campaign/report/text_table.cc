@@ -87,38 +87,6 @@ void add_lines(const std::vector<TextColumn>& block, std::vector<std::string> ce
 
 }  // namespace
 
-std::size_t display_width(const std::string& text) {
-  std::size_t width = 0;
-  for (std::size_t k = 0; k < text.size(); ++k) {
-    const auto byte = static_cast<unsigned char>(text[k]);
-    const bool continues = (byte & 0xC0) == 0x80;
-    // U+0300 to U+036F, such as the bar of χ̄, sit on the letter before: bytes CC 80 to CD AF.
-    const auto next = k + 1 < text.size() ? static_cast<unsigned char>(text[k + 1]) : 0;
-    const bool combines = byte == 0xCC || (byte == 0xCD && next < 0xB0);
-    if (!continues && !combines) ++width;
-  }
-  return width;
-}
-
-std::string format_number(double value, int digits) {
-  if (!std::isfinite(value)) return "-";
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
-}
-
-std::string short_number(const std::string& text) {
-  constexpr std::ptrdiff_t kDigits = 6;
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  const std::string number(text.c_str(), static_cast<const char*>(end));
-  const auto n_digits = std::count_if(number.begin(), number.end(),
-                                      [](unsigned char c) { return std::isdigit(c) != 0; });
-  const bool alone = *end == '\0' || *end == ' ';
-  if (!alone || n_digits <= kDigits || number.find('.') == std::string::npos) return text;
-  return format_number(value, kDigits) + end;
-}
-
 void TextTable::add_row(std::vector<std::string> cells) {
   FAULTSIM_DEMAND(cells.size() == header_.size(), cells.size(), " cells, ", header_.size(),
                   " columns");

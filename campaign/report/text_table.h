@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-namespace faultsweep {
+#include "campaign/render/render_text.h"
+#include "campaign/render/shown.h"
 
-/// The columns that a screen is taken to have; tables keep within them.
-constexpr std::size_t kScreenWidth = 100;
+namespace faultsweep {
 
 /// A table for the screen: columns as wide as they need, numbers to the right, words to the left.
 /// What does not fit beside the first column stands below it, in blocks that repeat that column;
@@ -32,17 +32,9 @@ class TextTable {
   static inline std::size_t width_ = kScreenWidth;
 };
 
-/// At most `digits` significant digits, without needless zeros: "0.52", "1.3e+15"; "-" for NaN.
-std::string format_number(double value, int digits = 4);
-/// "18.9238690858494 deg" -> "18.9239 deg": a number, or one with a unit, of more than six
-/// significant digits has six; whole numbers and other texts stay as they are.
-std::string short_number(const std::string& text);
 inline constexpr double kBar = 1e5;  // Pa
 /// The first fault that did something, and when: "F2 at step 7", "yes" where it has no name; ""
 /// where none did.
 std::string first_fault(bool any, const std::string& fault, const std::optional<int>& step);
-/// Columns that the text takes on a screen: code points without combining ones, as all that we
-/// print are one wide.
-std::size_t display_width(const std::string& text);
 
 }  // namespace faultsweep

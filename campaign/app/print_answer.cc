@@ -1,0 +1,43 @@
+#include "campaign/app/print_answer.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "campaign/render/render_csv.h"
+#include "campaign/render/render_json.h"
+#include "campaign/render/render_text.h"
+#include "simulator/output/json_text.h"
+
+namespace faultsweep {
+namespace {
+
+constexpr std::size_t kNarrowestScreen = 40;
+std::size_t chosen_width = 0;
+
+}  // namespace
+
+void print_answer(const Answer& answer, const Rendering& rendering) {
+  const std::string text = rendering.json  ? faultsim::json_text(render_json(answer))
+                           : rendering.csv ? render_csv(table_named(answer, *rendering.csv))
+                                           : render_text(answer, screen_width());
+  std::fputs(text.c_str(), stdout);
+}
+
+void set_screen_width(std::size_t width) { chosen_width = width; }
+
+std::size_t screen_width() {
+  if (chosen_width > 0) return chosen_width;
+  winsize size = {};
+  std::size_t width = kScreenWidth;
+  if (isatty(STDOUT_FILENO) == 1 && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+    width = size.ws_col;
+  else if (const char* given = std::getenv("COLUMNS"))
+    width = static_cast<std::size_t>(std::max(0L, std::strtol(given, nullptr, 10)));
+  return std::max(width, kNarrowestScreen);
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "simulator/common/units.h"
+#include "simulator/figure/bar_chart.h"
+#include "simulator/figure/history_chart.h"
+#include "simulator/figure/outcome_map.h"
+
+/// An answer as one value. Commands compute it; screen, JSON, CSV and page are renderings of it
+/// (render_text.h, render_json.h, render_csv.h, render_html.h), so that what one of them says the
+/// others say.
+namespace faultsweep {
+
+/// How the numbers of a column are shown; JSON and CSV have them in SI.
+struct ShownUnit {
+  std::string name;  ///< "bar"; "" = a plain number.
+  double size = 1;   ///< in SI: 1e5.
+  std::string si;    ///< "Pa".
+};
+/// The one that users meet: pressures in bar, times in years, else SI.
+/// @param per_metre  of strike, as areas, potencies and moments of plane strain are.
+ShownUnit shown_unit(faultsim::Dimension dimension, bool per_metre = false);
+inline ShownUnit plain() { return {}; }
+/// Shares of 0 to 1, shown in percent.
+inline ShownUnit percent() { return {"%", 0.01, ""}; }
+
+/// Nothing, a flag, a count, a number in SI, or words.
+using AnswerValue = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
+
+struct AnswerCell {
+  AnswerValue value = {};
+  double error = std::numeric_limits<double>::quiet_NaN();  ///< ±, SI; NaN = not known.
+  std::string note = {};                                    ///< words behind it: "unresolved".
+
+  AnswerCell() = default;
+  AnswerCell(AnswerValue v, double plus_minus = std::numeric_limits<double>::quiet_NaN(),
+             std::string words = {})
+      : value(std::move(v)), error(plus_minus), note(std::move(words)) {}
+  AnswerCell(const char* words) : value(std::string(words)) {}
+  AnswerCell(std::string words) : value(std::move(words)) {}
+  AnswerCell(double number) : value(number) {}
+  AnswerCell(bool flag) : value(flag) {}
+  AnswerCell(int count) : value(std::int64_t{count}) {}
+  AnswerCell(long count) : value(std::int64_t{count}) {}
+  AnswerCell(std::size_t count) : value(static_cast<std::int64_t>(count)) {}
+};
+
+/// Which columns a screen does without when it is too narrow for all.
+enum class Need {
+  always,  ///< never left out, nor told as a sentence where all rows have the same.
+  wanted,  ///< left out after all that are `extra`.
+  extra,
+};
+
+struct AnswerColumn {
+  std::string key;      ///< of JSON and CSV, the SI unit at its end: "moment_nm".
+  std::string heading;  ///< of screen and page, without unit: "M0".
+  ShownUnit unit = {};
+  int digits = 4;  ///< significant ones on screen and page, where no error says how many.
+  Need need = Need::wanted;
+  std::string group = {};  ///< the object of a JSON row in which the key stands; "" = the row.
+};
+
+/// Rows of cells, one for each column; a row may end early where nothing follows.
+struct AnswerTable {
+  std::string key;    ///< of the array in JSON: "shares".
+  std::string title;  ///< a line above it; "" = none.
+  std::vector<AnswerColumn> columns;
+  std::vector<std::vector<AnswerCell>> rows = {};
+  std::vector<std::string> notes = {};  ///< sentences below it.
+  std::size_t most_on_screen = 0;       ///< rows that text and page show; 0 = all.
+};
+
+/// A paragraph of its own.
+struct AnswerNote {
+  std::string text;
+};
+
+/// On pages only: its numbers stand in a table.
+using AnswerChart = std::variant<faultsim::figure::BarChart, faultsim::figure::IntervalChart,
+                                 faultsim::figure::HistoryChart, faultsim::figure::OutcomeMap>;
+
+/// Cases to look at next, by number, and why: "slides in storage only".
+struct AnswerCases {
+  std::string key, title;
+  std::vector<std::pair<long, std::string>> cases;
+};
+
+using AnswerBlock = std::variant<AnswerTable, AnswerNote, AnswerChart, AnswerCases>;
+
+struct Answer {
+  std::vector<std::string> headline;  ///< the answer in sentences, the most important first.
+  std::vector<AnswerBlock> blocks = {};
+  /// Further keys of JSON: what was asked, counts, what has a format of its own. In JSON only.
+  nlohmann::ordered_json facts = nlohmann::ordered_json::object();
+
+  AnswerTable& add(AnswerTable table);
+  void note(std::string text) { blocks.emplace_back(AnswerNote{std::move(text)}); }
+  /// Nothing for "".
+  void note_if(const std::string& text) {
+    if (!text.empty()) note(text);
+  }
+};
+
+}  // namespace faultsweep

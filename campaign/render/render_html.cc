@@ -1,0 +1,79 @@
+#include "campaign/render/render_html.h"
+
+#include <cmath>
+
+#include "campaign/render/render_csv.h"
+#include "campaign/render/shown.h"
+#include "simulator/common/errors.h"
+#include "simulator/figure/svg.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+using faultsim::figure::escape_xml;
+
+namespace {
+
+std::string paragraph(const std::string& text, const char* kind) {
+  return concat("<p class=\"", kind, "\">", escape_xml(text), "</p>\n");
+}
+
+/// The number in SI; "" for words.
+std::string data_of(const AnswerValue& value) {
+  if (const auto* count = std::get_if<std::int64_t>(&value)) return std::to_string(*count);
+  if (const auto* number = std::get_if<double>(&value))
+    return std::isfinite(*number) ? exact_number(*number) : "";
+  return "";
+}
+
+std::string cell_of(const AnswerCell& cell, const AnswerColumn& column) {
+  const std::string data = data_of(cell.value);
+  return concat("<td", data.empty() ? "" : concat(" data-value=\"", data, "\""), ">",
+                escape_xml(shown_cell(cell, column)), "</td>");
+}
+
+std::string table_of(const AnswerTable& table) {
+  std::string html = table.title.empty() ? "" : paragraph(table.title, "title");
+  html +=
+      concat("<div class=\"wide\"><table data-table=\"", escape_xml(table.key), "\"><thead><tr>");
+  for (const AnswerColumn& one : table.columns)
+    html += concat("<th>", escape_xml(shown_heading(one)), "</th>");
+  html += "</tr></thead>\n<tbody>\n";
+  const std::size_t n = table.rows.size();
+  const std::size_t n_shown = table.most_on_screen == 0 ? n : std::min(n, table.most_on_screen);
+  for (std::size_t r = 0; r < n_shown; ++r) {
+    html += "<tr>";
+    for (std::size_t k = 0; k < table.columns.size(); ++k)
+      html += cell_of(k < table.rows[r].size() ? table.rows[r][k] : AnswerCell{}, table.columns[k]);
+    html += "</tr>\n";
+  }
+  html += "</tbody></table></div>\n";
+  if (n_shown < n) html += paragraph(concat("and ", n - n_shown, " more rows"), "faint");
+  for (const std::string& note : table.notes) html += paragraph(note, "faint");
+  return html;
+}
+
+struct BlockRenderer {
+  std::string operator()(const AnswerTable& table) const { return table_of(table); }
+  std::string operator()(const AnswerNote& note) const { return paragraph(note.text, "faint"); }
+  std::string operator()(const AnswerChart& chart) const {
+    return std::visit([](const auto& one) { return faultsim::figure::draw(one); }, chart);
+  }
+  std::string operator()(const AnswerCases& cases) const {
+    std::string html = paragraph(cases.title, "title") + "<ul>\n";
+    for (const auto& [position, why] : cases.cases)
+      html += concat("<li>case ", position, ": ", escape_xml(why), "</li>\n");
+    return html + "</ul>\n";
+  }
+};
+
+}  // namespace
+
+std::string render_html(const Answer& answer) {
+  std::string html;
+  for (const std::string& sentence : answer.headline) html += paragraph(sentence, "answer");
+  for (const AnswerBlock& block : answer.blocks) html += std::visit(BlockRenderer{}, block);
+  return html;
+}
+
+}  // namespace faultsweep
