@@ -34,6 +34,7 @@ struct StoreArguments {
   std::filesystem::path store;  ///< --store, FAULTSWEEP_STORE or ./faultsweep-store.
   std::string campaign;         ///< "" = the newest.
   bool json = false;
+  std::optional<std::string> csv = std::nullopt;  ///< of an answer, the table of that key as CSV.
 };
 
 ExitCode init_command(const std::filesystem::path& folder);

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "campaign/app/commands.h"
+#include "campaign/app/print_answer.h"
 #include "campaign/report/text_table.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/version.h"
@@ -87,8 +88,25 @@ void add_json(CLI::App* command, StoreArguments& common) {
 
 void add_wide(CLI::App* command) {
   command->add_flag_callback(
-      "--wide", [] { TextTable::set_screen_width(std::numeric_limits<std::size_t>::max()); },
-      "tables in one piece, however wide");
+      "--wide",
+      [] {
+        constexpr std::size_t kWithoutEnd = 100000;
+        TextTable::set_screen_width(kWithoutEnd);
+        set_screen_width(kWithoutEnd);
+      },
+      "all columns, however wide");
+}
+
+/// The renderings of an answer.
+void add_renderings(CLI::App* command, StoreArguments& common) {
+  add_json(command, common);
+  command
+      ->add_option("--csv", common.csv,
+                   "a table of the answer as CSV, SI units, all digits: its key in --json;\n"
+                   "default: the first")
+      ->expected(0, 1)
+      ->default_str("");
+  add_wide(command);
 }
 
 /// All arguments of all commands; CLI11 fills them.

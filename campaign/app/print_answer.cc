@@ -20,10 +20,10 @@ std::size_t chosen_width = 0;
 
 }  // namespace
 
-void print_answer(const Answer& answer, const Rendering& rendering) {
-  const std::string text = rendering.json  ? faultsim::json_text(render_json(answer))
-                           : rendering.csv ? render_csv(table_named(answer, *rendering.csv))
-                                           : render_text(answer, screen_width());
+void print_answer(const Answer& answer, const StoreArguments& common) {
+  const std::string text = common.json  ? faultsim::json_text(render_json(answer))
+                           : common.csv ? render_csv(table_named(answer, *common.csv))
+                                        : render_text(answer, screen_width());
   std::fputs(text.c_str(), stdout);
 }
 

@@ -1,21 +1,15 @@
 #pragma once
 
-#include <optional>
-#include <string>
+#include <cstddef>
 
+#include "campaign/app/commands.h"
 #include "campaign/render/answer.h"
 
 namespace faultsweep {
 
-/// Which rendering a command prints.
-struct Rendering {
-  bool json = false;
-  std::optional<std::string> csv = std::nullopt;  ///< the table of that key, "" = the first.
-};
-
-/// Prints the answer on stdout, as text at the width of the screen. Throws InputError where there
-/// is no such table.
-void print_answer(const Answer& answer, const Rendering& rendering);
+/// Prints the answer on stdout: as text at the width of the screen, as JSON or one of its tables as
+/// CSV. Throws InputError where there is no such table.
+void print_answer(const Answer& answer, const StoreArguments& common);
 
 /// Columns of the terminal that stdout is; else those of COLUMNS, or kScreenWidth.
 std::size_t screen_width();
