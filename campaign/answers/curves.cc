@@ -3,21 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
-#include "campaign/report/table_output.h"
-#include "campaign/report/text_table.h"
+#include "campaign/render/shown.h"
 
 namespace faultsweep {
 
 using faultsim::concat;
 using faultsim::InputError;
 using faultsim::StepResult;
-using nlohmann::json;
 
 namespace {
 
-constexpr double kYearOfCurves = 31557600;  // s, 365.25 d
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Where the points of a stage's curves lie, and which way they go.
@@ -26,9 +22,10 @@ struct Ticks {
   bool falls = false;
 };
 
-/// What a row says of a fault: from where on it slides, and from where on that is not known.
+/// From where on a fault of a row slides, on the way, which always goes up: as computed, for
+/// certain, possibly, and possibly behind the end of its history.
 struct Row {
-  double from = kNever, unknown_from = kNever;  ///< signed: the way always goes up.
+  double computed = kNever, certain = kNever, possible = kNever, unknown = kNever;
 };
 
 /// Of the region that changes most within the stage, at the steps; the first value is that before.
@@ -88,30 +85,68 @@ double place_of(const CaseOnsets::Onset& onset, CurveAxis axis) {
   return axis == CurveAxis::time ? onset.time : onset.change;
 }
 
-/// A history that ends early says nothing of a fault at rest behind its end. Against pressure it
-/// says nothing at all: how far the pressure was is another question for each region.
-Row row_of(const CaseOnsets& one, const CaseOnsets::Onset* onset, CurveAxis axis, double sign) {
-  if (onset != nullptr) return {sign * place_of(*onset, axis), kNever};
-  if (one.complete()) return {};
-  if (!one.rank_class || axis == CurveAxis::pressure) return {kNever, -kNever};
-  return {kNever, std::nextafter(axis == CurveAxis::step ? one.last_step : one.end, kNever)};
+/// Behind this place the fault may have begun; steps are counted, not divided.
+double place_before(const CaseOnsets::Onset& onset, CurveAxis axis, double sign) {
+  if (axis == CurveAxis::step) return std::nextafter(onset.step, -kNever);
+  if (axis == CurveAxis::time) return onset.began;
+  if (std::isnan(onset.change_before)) return -kNever;
+  // A pressure that came back within the step passed this place only behind it.
+  return std::min(sign * onset.change_before, std::nextafter(sign * onset.change, -kNever));
 }
 
-Curve curve_of(std::vector<double> from, std::vector<double> unknown_from, const Ticks& ticks,
-               double confidence) {
+/// A history that ends early says nothing of a fault at rest behind its end. Against pressure it
+/// says nothing at all: how far the pressure was is another question for each region.
+Row row_of(const CaseOnsets& one, std::int64_t fault, CurveAxis axis, double sign) {
+  const auto found = std::find_if(one.onsets.begin(), one.onsets.end(),
+                                  [&](const auto& onset) { return onset.fault == fault; });
+  Row row;
+  if (found != one.onsets.end()) {
+    row.computed = row.certain = sign * place_of(*found, axis);
+    row.possible = std::nextafter(place_before(*found, axis, sign), kNever);
+  } else if (!one.complete()) {
+    row.unknown = !one.rank_class || axis == CurveAxis::pressure
+                      ? -kNever
+                      : std::nextafter(axis == CurveAxis::step ? one.last_step : one.end, kNever);
+  }
+  const bool is_resolved =
+      std::find(one.unresolved.begin(), one.unresolved.end(), fault) == one.unresolved.end();
+  if (!is_resolved) row.certain = kNever, row.possible = -kNever;
+  return row;
+}
+
+/// The rows of a fault, each kind of place in ascending order.
+struct Onsets {
+  std::vector<double> computed, certain, possible, unknown;
+  void add(const Row& row, int count) {
+    const auto n = static_cast<std::size_t>(count);
+    computed.insert(computed.end(), n, row.computed);
+    certain.insert(certain.end(), n, row.certain);
+    possible.insert(possible.end(), n, row.possible);
+    unknown.insert(unknown.end(), n, row.unknown);
+  }
+  void sort() {
+    for (auto* places : {&computed, &certain, &possible, &unknown})
+      std::sort(places->begin(), places->end());
+  }
+};
+
+Curve curve_of(Onsets onsets, const Ticks& ticks, const Sampling& sampling, double confidence) {
   Curve curve;
   curve.falls = ticks.falls;
-  std::sort(from.begin(), from.end());
-  std::sort(unknown_from.begin(), unknown_from.end());
-  const auto n = static_cast<long>(from.size());
+  onsets.sort();
   const auto count = [](const std::vector<double>& values, double at) {
-    return std::upper_bound(values.begin(), values.end(), at) - values.begin();
+    return static_cast<long>(std::upper_bound(values.begin(), values.end(), at) - values.begin());
   };
   for (const double at : ticks.at) {
     const double place = ticks.falls ? -at : at;
-    CurvePoint point{at, count(from, place), count(unknown_from, place), 0, {}};
-    point.estimate = static_cast<double>(point.n_holds) / static_cast<double>(n - point.n_unknown);
-    point.bounds = proportion_bounds(point.n_holds, point.n_unknown, n, confidence);
+    CurvePoint point{at, {}, {}};
+    ShareCounts& c = point.counts;
+    c.n = static_cast<long>(onsets.computed.size());
+    c.n_yes = count(onsets.certain, place);
+    c.n_undecided = count(onsets.possible, place) - c.n_yes;
+    c.n_holds = count(onsets.computed, place);
+    c.n_unknown = count(onsets.unknown, place);
+    point.bounds = bounds_of(c, sampling, confidence);
     curve.points.push_back(point);
   }
   return curve;
@@ -171,19 +206,12 @@ std::string any_stage(const Selection& selection) {
 }
 
 Curve fault_curve(const StageRows& rows, const NamedId& fault, const Ticks& ticks,
-                  const CurveRequest& request) {
-  std::vector<double> from, unknown_from;
-  for (std::size_t k = 0; k < rows.cases.size(); ++k) {
-    const std::vector<CaseOnsets::Onset>& onsets = rows.cases[k].onsets;
-    const auto found = std::find_if(onsets.begin(), onsets.end(),
-                                    [&](const auto& one) { return one.fault == fault.id; });
-    const Row row = row_of(rows.cases[k], found == onsets.end() ? nullptr : &*found, request.axis,
-                           ticks.falls ? -1 : 1);
-    from.insert(from.end(), static_cast<std::size_t>(rows.counts[k]), row.from);
-    unknown_from.insert(unknown_from.end(), static_cast<std::size_t>(rows.counts[k]),
-                        row.unknown_from);
-  }
-  Curve curve = curve_of(std::move(from), std::move(unknown_from), ticks, request.confidence);
+                  const Curves& curves) {
+  Onsets onsets;
+  const double sign = ticks.falls ? -1 : 1;
+  for (std::size_t k = 0; k < rows.cases.size(); ++k)
+    onsets.add(row_of(rows.cases[k], fault.id, curves.request.axis, sign), rows.counts[k]);
+  Curve curve = curve_of(std::move(onsets), ticks, curves.sampling, curves.request.confidence);
   curve.fault = fault.name;
   return curve;
 }
@@ -218,7 +246,7 @@ Curves probability_curves(const Store& store, const CampaignInfo& campaign,
     const StageRows& rows = stage == read_first ? first : others;
     const Ticks ticks = ticks_of(steps, stage, rows, request.axis);
     for (const NamedId& fault : selection.faults) {
-      found.curves.push_back(fault_curve(rows, fault, ticks, request));
+      found.curves.push_back(fault_curve(rows, fault, ticks, found));
       found.curves.back().stage = stage;
     }
   }
@@ -227,108 +255,117 @@ Curves probability_curves(const Store& store, const CampaignInfo& campaign,
 
 namespace {
 
-std::string column_of(CurveAxis axis) {
-  if (axis == CurveAxis::step) return "step";
-  return axis == CurveAxis::time ? "time_s" : "pressure_change_pa";
-}
-
-std::string percent_of(double share) {
-  return std::isfinite(share) ? format_number(100 * share, 3) : "not known";
-}
-
-std::string place_text(double at, CurveAxis axis) {
-  if (axis == CurveAxis::time) return format_number(at / kYearOfCurves);
-  return axis == CurveAxis::pressure ? format_number(at / kBar, 6) : format_number(at, 9);
-}
-
-/// The curves of one stage side by side.
-std::string stage_to_text(const Curves& curves, std::size_t from, std::size_t to) {
-  const CurveAxis axis = curves.request.axis;
-  std::vector<std::string> header = {axis == CurveAxis::step   ? "step"
-                                     : axis == CurveAxis::time ? "time/a"
-                                                               : "change/bar"};
-  bool any_unknown = false;
-  for (std::size_t c = from; c < to; ++c) {
-    const Curve& curve = curves.curves[c];
-    header.insert(header.end(), {curve.fault + "/%", "from", "to"});
-    for (const CurvePoint& point : curve.points) any_unknown |= point.n_unknown > 0;
-    if (any_unknown) header.emplace_back("not known");
+/// The axis as a column.
+AnswerColumn axis_column(CurveAxis axis) {
+  switch (axis) {
+    case CurveAxis::step:
+      return {"step", "step", {}, 9, Need::always};
+    case CurveAxis::time:
+      return {"time_s", "time", shown_unit(faultsim::Dimension::time), 4, Need::always};
+    default:
+      return {"pressure_change_pa", "Δp", shown_unit(faultsim::Dimension::pressure), 6,
+              Need::always};
   }
-  TextTable table(header);
+}
+
+/// Every point in a row: for files.
+AnswerTable long_table(const Curves& curves) {
+  AnswerTable table{"curves",
+                    "",
+                    {{"fault", "fault"},
+                     {"stage", "stage"},
+                     axis_column(curves.request.axis),
+                     {"estimate", "share", percent()},
+                     {"low", "from", percent()},
+                     {"high", "to", percent()},
+                     {"holds", "true in"},
+                     {"rows", "of"},
+                     {"undecided", "undecided"},
+                     {"unknown", "no full history"}}};
+  table.on_screen = false;
+  for (const Curve& curve : curves.curves) {
+    for (const CurvePoint& point : curve.points) {
+      const ShareCounts& c = point.counts;
+      table.rows.push_back({curve.fault, curve.stage, point.at, c.estimate(), point.bounds.low,
+                            point.bounds.high, c.n_holds, c.n, c.n_undecided, c.n_unknown});
+    }
+  }
+  return table;
+}
+
+/// The curves of one stage side by side: for a screen.
+AnswerTable stage_table(const Curves& curves, std::size_t from, std::size_t to) {
+  const std::string& stage = curves.curves[from].stage;
+  AnswerTable table{"stage " + stage,
+                    stage.empty() ? "" : concat("in ", stage),
+                    {axis_column(curves.request.axis)}};
+  table.in_files = false;
+  for (std::size_t c = from; c < to; ++c) {
+    const std::string& fault = curves.curves[c].fault;
+    for (const char* what : {"", " from", " to"})
+      table.columns.push_back({fault + what, fault + what, percent(), 3, Need::wanted});
+    table.columns.push_back({fault + " open", fault + " undecided, unknown", {}, 4, Need::extra});
+  }
   for (std::size_t k = 0; k < curves.curves[from].points.size(); ++k) {
-    std::vector<std::string> row = {place_text(curves.curves[from].points[k].at, axis)};
+    std::vector<AnswerCell> row = {curves.curves[from].points[k].at};
     for (std::size_t c = from; c < to; ++c) {
       const CurvePoint& point = curves.curves[c].points[k];
-      row.insert(row.end(), {percent_of(point.estimate), percent_of(point.bounds.low),
-                             percent_of(point.bounds.high)});
-      if (row.size() < header.size() && header[row.size()] == "not known")
-        row.push_back(point.n_unknown > 0 ? std::to_string(point.n_unknown) : "");
+      const long n_open = point.counts.n_undecided + point.counts.n_unknown;
+      row.insert(row.end(), {point.counts.estimate(), point.bounds.low, point.bounds.high, n_open});
     }
-    table.add_row(row);
+    table.rows.push_back(std::move(row));
   }
-  const std::string& stage = curves.curves[from].stage;
-  return concat(stage.empty() ? "" : concat("in ", stage, "\n"), table.text(), "\n");
+  return table;
+}
+
+/// "F2: 26.6 % (...) by the end".
+std::string last_point(const Curves& curves) {
+  const Curve* most = nullptr;
+  for (const Curve& one : curves.curves) {
+    if (one.points.empty()) continue;
+    const bool is_more = most == nullptr || one.points.back().counts.estimate() >
+                                                most->points.back().counts.estimate();
+    if (is_more) most = &one;
+  }
+  if (most == nullptr) return "No load step was asked about.";
+  return concat(
+      "Most often ", most->fault, most->stage.empty() ? "" : " in " + most->stage, ": ",
+      share_sentence(most->points.back().counts, curves.sampling, curves.request.confidence),
+      " by the last point.");
 }
 
 }  // namespace
 
-std::string curves_to_text(const Curves& curves) {
-  const std::string what = curves.sampling.is_random ? "Probability" : "Share";
-  std::string text = concat(what, " that a fault has begun to slide by then",
-                            curves.request.axis == CurveAxis::pressure
-                                ? ",\nor by the time that the stage's pressure has come so far"
-                                : "",
-                            ".\n\n");
+Answer to_answer(const Curves& curves) {
+  Answer answer;
+  answer.headline = {last_point(curves)};
+  const AnswerColumn axis = axis_column(curves.request.axis);
+  answer.facts = {
+      {"campaign", curves.campaign.name},        {"against", axis.key},
+      {"confidence", curves.request.confidence}, {"is_probability", curves.sampling.is_random},
+      {"remark", curves.sampling.remark},        {"rows", curves.n_rows}};
+  answer.add(long_table(curves));
   for (std::size_t from = 0; from < curves.curves.size();) {
     std::size_t to = from;
     while (to < curves.curves.size() && curves.curves[to].stage == curves.curves[from].stage) ++to;
-    text += stage_to_text(curves, from, to);
+    answer.add(stage_table(curves, from, to));
     from = to;
   }
-  text += concat(curves.n_rows, " cases. Bounds hold each point with a confidence of ",
-                 format_number(100 * curves.request.confidence, 4),
-                 " %;\na history that ends early may go on either way. A fault that slides at the "
-                 "end of a load "
-                 "step\nbegan somewhere within it.\n");
-  if (!curves.sampling.remark.empty()) text += curves.sampling.remark + "\n";
-  return text;
-}
-
-std::string curves_to_csv(const Curves& curves) {
-  std::string text = concat("fault,stage,", column_of(curves.request.axis),
-                            ",estimate,low,high,holds,rows,unknown\n");
-  for (const Curve& curve : curves.curves) {
-    for (const CurvePoint& point : curve.points) {
-      text += concat(csv_name(curve.fault), ",", csv_name(curve.stage), ",", exact_number(point.at),
-                     ",", std::isfinite(point.estimate) ? exact_number(point.estimate) : "", ",",
-                     exact_number(point.bounds.low), ",", exact_number(point.bounds.high), ",",
-                     point.n_holds, ",", curves.n_rows, ",", point.n_unknown, "\n");
-    }
-  }
-  return text;
-}
-
-json curves_to_json(const Curves& curves) {
-  json list = json::array();
-  for (const Curve& curve : curves.curves) {
-    json points = json::array();
-    for (const CurvePoint& point : curve.points) {
-      points.push_back({{column_of(curves.request.axis), point.at},
-                        {"estimate", std::isfinite(point.estimate) ? json(point.estimate) : json()},
-                        {"low", point.bounds.low},
-                        {"high", point.bounds.high},
-                        {"holds", point.n_holds},
-                        {"unknown", point.n_unknown}});
-    }
-    list.push_back({{"fault", curve.fault}, {"stage", curve.stage}, {"points", points}});
-  }
-  return {{"campaign", curves.campaign.name},
-          {"against", column_of(curves.request.axis)},
-          {"confidence", curves.request.confidence},
-          {"is_probability", curves.sampling.is_random},
-          {"remark", curves.sampling.remark},
-          {"rows", curves.n_rows},
-          {"curves", list}};
+  answer.note(concat(
+      curves.sampling.is_random ? "Probability" : "Share of the cases",
+      " that a fault has begun to slide by then",
+      curves.request.axis == CurveAxis::pressure
+          ? ", or by the time that the stage's pressure has come so far"
+          : "",
+      ", of ", grouped(curves.n_rows),
+      " cases. A fault that slides at the end of a load step began "
+      "somewhere within it: from and to count it by the end of its step and from its beginning on",
+      curves.sampling.is_random ? concat(", and hold each point with a confidence of ",
+                                         format_number(100 * curves.request.confidence, 4), " %")
+                                : "",
+      "; what the cells leave undecided, and a history that ends early, may be either."));
+  answer.note_if(curves.sampling.remark);
+  return answer;
 }
 
 }  // namespace faultsweep

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
-#include "campaign/answers/sample.h"
-#include "campaign/statistics/intervals.h"
+#include "campaign/answers/shares.h"
+#include "campaign/render/answer.h"
 
 namespace faultsweep {
 
@@ -23,13 +22,14 @@ struct CurveRequest {
   double confidence = 0.95;
 };
 
-/// How often a fault has begun to slide by then.
+/// How often a fault has begun to slide by then. A fault that slides at the end of a load step
+/// began somewhere within it: by a place inside of the step it has for certain only if it had
+/// before.
 struct CurvePoint {
-  double at = 0;        ///< on the axis.
-  long n_holds = 0;     ///< rows whose fault has.
-  long n_unknown = 0;   ///< rows whose history ends before, with the fault at rest.
-  double estimate = 0;  ///< of those known; NaN where none is.
-  Interval bounds;      ///< Clopper & Pearson's; unknown rows may be either.
+  double at = 0;       ///< on the axis.
+  ShareCounts counts;  ///< as computed, onsets are at ends of steps. Undecided are those that are
+                       ///< within their step, or of which the cells do not resolve that they slide.
+  Interval bounds;     ///< see bounds_of.
 };
 
 struct Curve {
@@ -50,8 +50,6 @@ struct Curves {
 /// steps, or on the way of a stage's pressure, from the onsets that the store keeps for each case:
 /// 10^5 cases take about half a second.
 ///
-/// Onsets are those at ends of load steps: a fault began somewhere within the step.
-///
 /// Steps, times and the way of the pressure are those of the first full history. Against pressure a
 /// case counts from the pressure at which its fault began to slide, in the direction in which the
 /// stage's pressure first goes away from where it was; a case whose pressure does not go as far and
@@ -60,9 +58,7 @@ struct Curves {
 Curves probability_curves(const Store& store, const CampaignInfo& campaign,
                           const CurveRequest& request);
 
-std::string curves_to_text(const Curves& curves);
-/// Columns: fault, stage, step or time_s or pressure_change_pa, ...; a row for each point.
-std::string curves_to_csv(const Curves& curves);
-nlohmann::json curves_to_json(const Curves& curves);
+/// Table `curves`: a row for each point; on the screen a table for each stage, faults side by side.
+Answer to_answer(const Curves& curves);
 
 }  // namespace faultsweep

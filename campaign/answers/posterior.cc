@@ -3,28 +3,28 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "campaign/answers/probability.h"
+#include "campaign/answers/verdict_columns.h"
+#include "campaign/render/shown.h"
 #include "campaign/report/table_output.h"
-#include "campaign/report/text_table.h"
 
 namespace faultsweep {
 
 using faultsim::concat;
 using faultsim::InputError;
-using nlohmann::json;
 
 namespace {
 
 /// The cases as columns of rows.
 struct WeightedRows {
-  std::vector<WeightRange> weights;
+  std::vector<WeightRange> computed;            ///< weights: of full histories a number.
+  std::vector<WeightRange> open;                ///< the same with what the cells leave open.
   std::vector<std::vector<double>> values;      ///< per parameter: SI; NaN for words.
   std::vector<std::vector<std::string>> texts;  ///< per parameter that is words.
   std::vector<std::string> units;               ///< per parameter, as given for the first case.
-  std::vector<std::vector<Holds>> holds;        ///< per condition.
+  std::vector<std::vector<Held>> held;          ///< per condition.
   std::vector<double> of_complete;              ///< the weights of rows with a history to its end.
 };
 
@@ -46,7 +46,9 @@ std::map<long, CaseHistory> read_histories(const Store& store, const CampaignInf
   query.where = where;
   if (any(SeenStatement::Kind::slid)) {
     store.for_each_onset(campaign.id, query, [&](const CaseOnsets& one) {
-      if (!one.onsets.empty()) histories[one.position].onsets = one.onsets;
+      if (one.onsets.empty() && one.unresolved.empty()) return;
+      histories[one.position].onsets = one.onsets;
+      histories[one.position].unresolved = one.unresolved;
     });
   }
   if (!any(SeenStatement::Kind::event)) return histories;
@@ -63,32 +65,45 @@ std::map<long, CaseHistory> read_histories(const Store& store, const CampaignInf
   return histories;
 }
 
+/// The conditions of statements, then those asked about.
+std::vector<std::string> all_conditions(const std::vector<SeenStatement>& seen,
+                                        const std::vector<std::string>& asked) {
+  std::vector<std::string> all;
+  for (const SeenStatement& one : seen)
+    if (!one.condition.empty()) all.push_back(one.condition);
+  all.insert(all.end(), asked.begin(), asked.end());
+  return all;
+}
+
 class PosteriorReader {
  public:
   PosteriorReader(const Store& store, Posterior& posterior, const Selection& selection,
                   const std::vector<std::string>& conditions)
-      : store_(store), posterior_(posterior) {
+      : store_(store),
+        posterior_(posterior),
+        verdicts_(store, posterior.campaign, selection,
+                  all_conditions(posterior.seen, conditions)) {
     const CampaignInfo& campaign = posterior.campaign;
     query_.where = parse_condition(posterior.request.where, campaign, selection);
     for (const SeenStatement& one : posterior.seen)
       if (!one.column.text.empty()) query_.columns.push_back(one.column);
-    n_seen_columns_ = query_.columns.size();
-    for (const std::string& one : conditions)
-      query_.columns.push_back(parse_condition(one, campaign, selection));
+    first_verdict_ = query_.columns.size();
+    query_.columns.insert(query_.columns.end(), verdicts_.columns().begin(),
+                          verdicts_.columns().end());
+    first_asked_ = verdicts_.columns().size() - conditions.size();
     const std::size_t n_parameters = parameters_from_json(campaign.parameters).size();
     rows_.values.resize(n_parameters), rows_.texts.resize(n_parameters);
-    rows_.units.resize(n_parameters), rows_.holds.resize(conditions.size());
+    rows_.units.resize(n_parameters), rows_.held.resize(conditions.size());
   }
 
   WeightedRows read() {
-    const auto histories =
-        read_histories(store_, posterior_.campaign, query_.where, posterior_.seen);
+    auto histories = read_histories(store_, posterior_.campaign, query_.where, posterior_.seen);
     posterior_.agreement.assign(posterior_.seen.size(), 0);
     const SampleRows sample(store_, posterior_.campaign);
-    static const CaseHistory kQuiet;
     store_.for_each_case(posterior_.campaign.id, query_, [&](const CaseRow& row) {
-      const auto found = histories.find(row.position);
-      const CaseHistory& history = found == histories.end() ? kQuiet : found->second;
+      CaseHistory& history = histories[row.position];
+      history.events_resolved =
+          row.outcome != faultsim::to_string(faultsim::Outcome::unresolved_event);
       for (int k = 0; k < sample.count(row.position); ++k) add(row, history);
     });
     for (double& one : posterior_.agreement)
@@ -98,40 +113,49 @@ class PosteriorReader {
 
  private:
   void add(const CaseRow& row, const CaseHistory& history) {
+    bool is_open = false;
     if (row.complete()) {
       ++posterior_.n_rows;
-      const double weight = weight_of(row, history);
-      rows_.weights.push_back({weight, weight});
-      rows_.of_complete.push_back(weight);
+      add_weights(row, history, is_open);
     } else {
       ++posterior_.n_unknown;
       WeightRange weight = {1, 1};
-      for (const SeenStatement& one : posterior_.seen) {
-        const WeightRange p = likelihood_range(one, history);
-        weight = {weight.least * p.least, weight.most * p.most};
-      }
-      rows_.weights.push_back(weight);
+      for (const SeenStatement& one : posterior_.seen) weight *= likelihood_range(one, history);
+      rows_.computed.push_back(weight);
+      rows_.open.push_back(weight);
     }
-    for (std::size_t c = 0; c < rows_.holds.size(); ++c) {
-      rows_.holds[c].push_back(!row.complete()                                    ? Holds::unknown
-                               : number_of(row.metrics[n_seen_columns_ + c]) == 1 ? Holds::yes
-                                                                                  : Holds::no);
+    for (std::size_t c = 0; c < rows_.held.size(); ++c) {
+      const Held held = verdicts_.held(row, first_asked_ + c, first_verdict_);
+      is_open = is_open || held == Held::undecided_no || held == Held::undecided_yes;
+      rows_.held[c].push_back(held);
     }
+    posterior_.n_undecided += is_open ? 1 : 0;
     add_parameters(row);
   }
 
   /// Of a row with a history to its end; its agreement is counted.
-  double weight_of(const CaseRow& row, const CaseHistory& history) {
-    double weight = 1;
-    std::size_t column = 0;
+  void add_weights(const CaseRow& row, const CaseHistory& history, bool& is_open) {
+    double computed = 1;
+    WeightRange open = {1, 1};
+    std::size_t column = 0, verdict = 0;
     for (std::size_t s = 0; s < posterior_.seen.size(); ++s) {
       const SeenStatement& one = posterior_.seen[s];
-      const double value = one.column.text.empty() ? 0 : number_of(row.metrics[column++]);
+      double value = 0;
+      Held held = Held::no;
+      if (!one.column.text.empty()) value = number_of(row.metrics[column++]);
+      if (!one.condition.empty()) {
+        held = verdicts_.held(row, verdict++, first_verdict_);
+        value = held == Held::yes || held == Held::undecided_yes ? 1 : 0;
+      }
       const double p = likelihood(one, history, value);
       posterior_.agreement[s] += p;
-      weight *= p;
+      computed *= p;
+      open *= likelihood_by_cells(one, history, value, held);
     }
-    return weight;
+    is_open = !open.is_known();
+    rows_.computed.push_back({computed, computed});
+    rows_.open.push_back(open);
+    rows_.of_complete.push_back(computed);
   }
 
   void add_parameters(const CaseRow& row) {
@@ -149,8 +173,10 @@ class PosteriorReader {
 
   const Store& store_;
   Posterior& posterior_;
+  VerdictColumns verdicts_;
   Store::TableQuery query_;
-  std::size_t n_seen_columns_ = 0;
+  std::size_t first_verdict_ = 0;  ///< in a row's metrics.
+  std::size_t first_asked_ = 0;    ///< among the verdicts.
   WeightedRows rows_;
 };
 
@@ -167,19 +193,28 @@ void refuse_few(const Posterior& p) {
   throw InputError("posterior", {{"", 0, what, cure}});
 }
 
+/// Estimates by the weights as computed, bounds by what they may be.
 std::vector<QuantileBounds> quantiles_of(const std::vector<double>& values,
-                                         const std::vector<WeightRange>& weights,
+                                         const std::vector<WeightRange>& computed,
+                                         const std::vector<WeightRange>& open,
                                          const std::vector<std::size_t>& order, double confidence) {
   std::vector<QuantileBounds> found;
-  for (const double q : kPosteriorQuantiles)
-    found.push_back(weighted_quantile(values, weights, order, q, confidence));
+  const bool any_known = std::any_of(open.begin(), open.end(), [](const WeightRange& one) {
+    return one.is_known() && one.most > 0;
+  });
+  for (const double q : kPosteriorQuantiles) {
+    found.push_back(weighted_quantile(values, computed, order, q, confidence));
+    const QuantileBounds bounds =
+        any_known ? weighted_quantile(values, open, order, q, confidence) : QuantileBounds{};
+    found.back().low = bounds.low;
+    found.back().high = bounds.high;
+  }
   return found;
 }
 
 /// A parameter of which every row has a number.
 ParameterUpdate update_of(const StoredParameter& parameter, std::vector<double> values,
-                          const std::string& unit, const std::vector<WeightRange>& weights,
-                          double confidence) {
+                          const std::string& unit, const WeightedRows& rows, double confidence) {
   ParameterUpdate update{parameter.name, unit, {}, {}};
   if (!unit.empty()) {
     for (double& one : values) one = faultsim::from_si(one, parameter.dimension, unit);
@@ -189,16 +224,36 @@ ParameterUpdate update_of(const StoredParameter& parameter, std::vector<double> 
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
   const std::vector<WeightRange> equal(values.size(), {1, 1});
-  update.before = quantiles_of(values, equal, order, confidence);
-  update.after = quantiles_of(values, weights, order, confidence);
+  update.before = quantiles_of(values, equal, equal, order, confidence);
+  update.after = quantiles_of(values, rows.computed, rows.open, order, confidence);
   return update;
 }
 
-Update update_of(const std::string& label, const std::vector<Holds>& holds,
-                 const std::vector<WeightRange>& weights, double confidence) {
-  const std::vector<WeightRange> equal(holds.size(), {1, 1});
-  return {label, weighted_probability(holds, equal, confidence),
-          weighted_probability(holds, weights, confidence)};
+/// The estimate as computed; the bounds over all that is open.
+Estimate probability_of(const std::vector<Held>& held, const std::vector<WeightRange>& computed,
+                        const std::vector<WeightRange>& open, double confidence) {
+  std::vector<Holds> as_computed, as_known;
+  bool any_known = false;
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    const bool is_yes = held[k] == Held::yes || held[k] == Held::undecided_yes;
+    const bool is_known = held[k] == Held::yes || held[k] == Held::no;
+    as_computed.push_back(held[k] == Held::unknown ? Holds::unknown
+                          : is_yes                 ? Holds::yes
+                                                   : Holds::no);
+    as_known.push_back(is_known ? as_computed.back() : Holds::unknown);
+    any_known = any_known || (is_known && open[k].is_known() && open[k].most > 0);
+  }
+  Estimate found = weighted_probability(as_computed, computed, confidence);
+  found.bounds =
+      any_known ? weighted_probability(as_known, open, confidence).bounds : Interval{0, 1};
+  return found;
+}
+
+Update update_of(const std::string& label, const std::vector<Held>& held, const WeightedRows& rows,
+                 double confidence) {
+  const std::vector<WeightRange> equal(held.size(), {1, 1});
+  return {label, probability_of(held, equal, equal, confidence),
+          probability_of(held, rows.computed, rows.open, confidence)};
 }
 
 void update_parameters(Posterior& p, const WeightedRows& rows) {
@@ -211,17 +266,17 @@ void update_parameters(Posterior& p, const WeightedRows& rows) {
     if (are_numbers) {
       const auto [low, high] = std::minmax_element(values.begin(), values.end());
       if (*low < *high)
-        p.parameters.push_back(update_of(all[k], values, rows.units[k], rows.weights, confidence));
+        p.parameters.push_back(update_of(all[k], values, rows.units[k], rows, confidence));
       continue;
     }
-    std::map<std::string, std::vector<Holds>> words;
+    std::map<std::string, std::vector<Held>> words;
     for (const std::string& text : rows.texts[k]) words[text];
     if (words.size() < 2) continue;
     for (auto& [word, holds] : words) {
       for (const std::string& text : rows.texts[k])
-        holds.push_back(text == word ? Holds::yes : Holds::no);
+        holds.push_back(text == word ? Held::yes : Held::no);
       p.words.push_back(update_of(concat(all[k].name, " = ", word.empty() ? "not given" : word),
-                                  holds, rows.weights, confidence));
+                                  holds, rows, confidence));
     }
   }
 }
@@ -243,115 +298,113 @@ Posterior find_posterior(const Store& store, const CampaignInfo& campaign,
   refuse_few(found);
   update_parameters(found, rows);
   for (std::size_t c = 0; c < conditions.size(); ++c) {
-    found.probabilities.push_back(
-        update_of(conditions[c], rows.holds[c], rows.weights, request.confidence));
+    found.probabilities.push_back(update_of(conditions[c], rows.held[c], rows, request.confidence));
   }
   return found;
 }
 
 namespace {
 
-std::string share_text(double share) { return concat(format_number(100 * share, 3), " %"); }
-
-std::string updates_to_text(const std::string& header, const std::vector<Update>& updates) {
-  TextTable table({header, "before", "after", "from", "to"});
-  for (const Update& one : updates) {
-    table.add_row({one.label, share_text(one.before.value), share_text(one.after.value),
-                   share_text(one.after.bounds.low), share_text(one.after.bounds.high)});
-  }
-  return table.text();
+AnswerTable seen_table(const Posterior& p) {
+  AnswerTable table{"seen",
+                    "",
+                    {{"statement", "seen", {}, 4, Need::always},
+                     {"agreement", "agreement", percent(), 3},
+                     {"exact", "taken as exact"}}};
+  for (std::size_t s = 0; s < p.seen.size(); ++s)
+    table.rows.push_back({p.seen[s].text, p.agreement[s], p.seen[s].is_exact()});
+  return table;
 }
 
-std::string parameters_to_text(const std::vector<ParameterUpdate>& parameters) {
-  TextTable table(
-      {"parameter", "unit", "before 5 %", "50 %", "95 %", "after 5 %", "50 % after", "95 % after"});
+AnswerTable update_table(const char* key, const char* heading, const std::vector<Update>& updates) {
+  AnswerTable table{key,
+                    "",
+                    {{"label", heading, {}, 4, Need::always},
+                     {"before", "before", percent(), 3, Need::always},
+                     {"before_low", "before, from", percent(), 3, Need::extra},
+                     {"before_high", "before, to", percent(), 3, Need::extra},
+                     {"after", "after", percent(), 3, Need::always},
+                     {"after_low", "from", percent(), 3, Need::always},
+                     {"after_high", "to", percent(), 3, Need::always}}};
+  for (const Update& one : updates) {
+    table.rows.push_back({one.label, one.before.value, one.before.bounds.low,
+                          one.before.bounds.high, one.after.value, one.after.bounds.low,
+                          one.after.bounds.high});
+  }
+  return table;
+}
+
+AnswerCell end_of(const std::optional<double>& end) {
+  return end ? AnswerCell(*end) : AnswerCell();
+}
+
+/// A row for each quantile of each parameter, in the parameter's unit.
+AnswerTable parameter_table(const std::vector<ParameterUpdate>& parameters) {
+  AnswerTable table{"parameters",
+                    "",
+                    {{"name", "parameter", {}, 4, Need::always},
+                     {"unit", "unit", {}, 4, Need::always},
+                     {"quantile", "share below", percent(), 3, Need::always},
+                     {"before", "before", {}, 4, Need::always},
+                     {"after", "after", {}, 4, Need::always},
+                     {"after_low", "from", {}, 4},
+                     {"after_high", "to", {}, 4}}};
   for (const ParameterUpdate& one : parameters) {
-    std::vector<std::string> row = {one.name, one.unit};
-    for (const auto* side : {&one.before, &one.after})
-      for (const QuantileBounds& q : *side) row.push_back(format_number(q.estimate));
-    table.add_row(row);
+    for (std::size_t q = 0; q < one.after.size(); ++q) {
+      table.rows.push_back({one.name, one.unit, kPosteriorQuantiles[q], one.before[q].estimate,
+                            one.after[q].estimate, end_of(one.after[q].low),
+                            end_of(one.after[q].high)});
+    }
   }
-  return table.text();
+  return table;
+}
+
+std::string headline_of(const Posterior& p) {
+  const std::string sample =
+      concat("What was seen leaves an effective sample of ", format_number(p.effective_size, 4),
+             " of ", grouped(p.n_rows), " cases");
+  if (p.probabilities.empty()) return sample + ".";
+  const Update& most = *std::max_element(
+      p.probabilities.begin(), p.probabilities.end(),
+      [](const Update& a, const Update& b) { return a.after.value < b.after.value; });
+  return concat(p.probabilities.size() == 1 ? "" : "Most likely: ", most.label, ": ",
+                format_percent(most.after.value), " % (", format_percent(most.after.bounds.low),
+                " to ", format_percent(most.after.bounds.high), " %), before ",
+                format_percent(most.before.value), " %. ", sample, ".");
 }
 
 }  // namespace
 
-std::string posterior_to_text(const Posterior& p) {
-  TextTable seen({"seen", "agreement", ""});
-  for (std::size_t s = 0; s < p.seen.size(); ++s) {
-    seen.add_row(
-        {p.seen[s].text, share_text(p.agreement[s]), p.seen[s].is_exact() ? "taken as exact" : ""});
-  }
-  std::string text = concat(seen.text(), "\nEffective sample size ",
-                            format_number(p.effective_size, 4), " of ", p.n_rows, " cases");
+Answer to_answer(const Posterior& p) {
+  Answer answer;
+  answer.headline = {headline_of(p)};
+  answer.facts = {{"campaign", p.campaign.name},
+                  {"confidence", p.request.confidence},
+                  {"rows", p.n_rows},
+                  {"unknown", p.n_unknown},
+                  {"undecided", p.n_undecided},
+                  {"effective_sample_size", p.effective_size},
+                  {"remark", p.sampling.remark}};
+  answer.add(seen_table(p));
+  answer.add(parameter_table(p.parameters));
+  answer.add(update_table("words", "parameter", p.words));
+  answer.add(update_table("probabilities", "condition", p.probabilities));
   if (p.n_unknown > 0) {
-    text +=
-        concat("; of ", p.n_unknown, " without a history to ", p.n_unknown == 1 ? "its" : "their",
-               " end it is not known:\nestimates are of the others, bounds allow for any outcome");
+    answer.note(concat(
+        "Of ", grouped(p.n_unknown), " without a history to ", p.n_unknown == 1 ? "its" : "their",
+        " end it is not known: estimates are of the others, bounds allow for any outcome."));
   }
-  text += "\n\n";
-  if (!p.parameters.empty()) text += parameters_to_text(p.parameters) + "\n";
-  if (!p.words.empty()) text += updates_to_text("parameter", p.words) + "\n";
-  text += updates_to_text("condition", p.probabilities);
-  text += concat("\nBounds hold what is after with a confidence of ",
-                 format_number(100 * p.request.confidence, 4),
-                 " %;\nwhat was seen is taken to have independent errors.\n");
-  if (!p.sampling.remark.empty()) text += p.sampling.remark + "\n";
-  return text;
-}
-
-namespace {
-
-json to_json(const Estimate& one) {
-  return {{"estimate", one.value}, {"low", one.bounds.low}, {"high", one.bounds.high}};
-}
-
-json to_json(const std::vector<QuantileBounds>& quantiles) {
-  json list = json::array();
-  for (std::size_t k = 0; k < quantiles.size(); ++k) {
-    const QuantileBounds& one = quantiles[k];
-    list.push_back({{"quantile", kPosteriorQuantiles[k]},
-                    {"estimate", one.estimate},
-                    {"low", one.low ? json(*one.low) : json()},
-                    {"high", one.high ? json(*one.high) : json()}});
+  if (p.n_undecided > 0) {
+    answer.note(concat("Of ", grouped(p.n_undecided),
+                       " cases the cells leave open what was seen or is asked, or when in a load "
+                       "step a fault began to slide: estimates take them as computed, bounds allow "
+                       "for either."));
   }
-  return list;
-}
-
-json to_json(const std::vector<Update>& updates) {
-  json list = json::array();
-  for (const Update& one : updates) {
-    list.push_back(
-        {{"label", one.label}, {"before", to_json(one.before)}, {"after", to_json(one.after)}});
-  }
-  return list;
-}
-
-}  // namespace
-
-json posterior_to_json(const Posterior& p) {
-  json seen = json::array(), parameters = json::array();
-  for (std::size_t s = 0; s < p.seen.size(); ++s) {
-    seen.push_back({{"statement", p.seen[s].text},
-                    {"agreement", p.agreement[s]},
-                    {"exact", p.seen[s].is_exact()}});
-  }
-  for (const ParameterUpdate& one : p.parameters) {
-    parameters.push_back({{"name", one.name},
-                          {"unit", one.unit},
-                          {"before", to_json(one.before)},
-                          {"after", to_json(one.after)}});
-  }
-  return {{"campaign", p.campaign.name},
-          {"confidence", p.request.confidence},
-          {"seen", seen},
-          {"rows", p.n_rows},
-          {"unknown", p.n_unknown},
-          {"effective_sample_size", p.effective_size},
-          {"parameters", parameters},
-          {"words", to_json(p.words)},
-          {"probabilities", to_json(p.probabilities)},
-          {"remark", p.sampling.remark}};
+  answer.note(concat("Bounds hold what is after with a confidence of ",
+                     format_number(100 * p.request.confidence, 4),
+                     " %; what was seen is taken to have independent errors."));
+  answer.note_if(p.sampling.remark);
+  return answer;
 }
 
 }  // namespace faultsweep

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "campaign/answers/sample.h"
 #include "campaign/answers/seen.h"
+#include "campaign/render/answer.h"
 #include "campaign/statistics/weighted.h"
 
 namespace faultsweep {
@@ -40,6 +40,8 @@ struct Posterior {
   long n_rows = 0;                ///< with a history to its end.
   long n_unknown = 0;             ///< without.
   double effective_size = 0;      ///< of the n_rows, by their weights.
+  long n_undecided = 0;           ///< of the n_rows: of which something that was seen, or is asked,
+                                  ///< is open by the cells.
   std::vector<ParameterUpdate> parameters;  ///< those that are numbers and vary.
   std::vector<Update> words;                ///< "rule = mean": P of each word of the others.
   std::vector<Update> probabilities;
@@ -49,14 +51,15 @@ struct Posterior {
 /// errors are taken to be independent. Cases are the prior: what is said is right as far as they
 /// are a sample of it. Cases without a history to their end have their parameters, but their
 /// likelihoods and conditions may be anything that what is known of them allows: estimates are of
-/// the others, bounds reach over all of it, as those of `probability` do.
+/// the others, bounds reach over all of it, as those of `probability` do. What the cells leave open
+/// (seen.h, likelihood_by_cells) counts in estimates as computed, and widens bounds likewise.
 /// Throws InputError where a statement or condition cannot be read, and where the effective sample
 /// size is below kFewestEffective: then a few cases would speak for all.
 Posterior find_posterior(const Store& store, const CampaignInfo& campaign,
                          const PosteriorRequest& request);
 inline constexpr double kFewestEffective = 50;
 
-std::string posterior_to_text(const Posterior& posterior);
-nlohmann::json posterior_to_json(const Posterior& posterior);
+/// Tables `seen`, `parameters`, `words`, `probabilities`.
+Answer to_answer(const Posterior& posterior);
 
 }  // namespace faultsweep

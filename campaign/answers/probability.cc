@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <unordered_map>
 
+#include "campaign/answers/verdict_columns.h"
+#include "campaign/render/shown.h"
 #include "campaign/report/table_output.h"
-#include "campaign/report/text_table.h"
 
 namespace faultsweep {
 
 using faultsim::concat;
 using faultsim::InputError;
-using nlohmann::json;
+namespace figure = faultsim::figure;
 
 namespace {
 
@@ -23,11 +23,9 @@ constexpr std::size_t kParts = 10;
 
 /// The rows that were asked about.
 struct Rows {
-  std::vector<char> complete;
   std::vector<double> value;             ///< of `by`; NaN for words and where the case has none.
   std::vector<std::string> label;        ///< of `by`.
-  std::vector<std::vector<char>> holds;  ///< of a condition, of a row.
-  long n_unresolved = 0;
+  std::vector<std::vector<Held>> holds;  ///< of a condition, of a row.
 };
 
 int parameter_index(const CampaignInfo& campaign, const std::string& name) {
@@ -43,10 +41,10 @@ int parameter_index(const CampaignInfo& campaign, const std::string& name) {
 Rows read_rows(const Store& store, const CampaignInfo& campaign, const ProbabilityRequest& request,
                const Selection& selection, const std::vector<std::string>& conditions) {
   const int by = request.by.empty() ? -1 : parameter_index(campaign, request.by);
+  const VerdictColumns verdicts(store, campaign, selection, conditions);
   Store::TableQuery query;
   query.where = parse_condition(request.where, campaign, selection);
-  for (const std::string& condition : conditions)
-    query.columns.push_back(parse_condition(condition, campaign, selection));
+  query.columns = verdicts.columns();
   Rows rows;
   rows.holds.resize(conditions.size());
   const SampleRows sample_rows(store, campaign);
@@ -59,39 +57,32 @@ Rows read_rows(const Store& store, const CampaignInfo& campaign, const Probabili
       label = one.text;
     }
     for (int k = 0; k < sample_rows.count(row.position); ++k) {
-      rows.complete.push_back(row.complete() ? 1 : 0);
       rows.value.push_back(value);
       rows.label.push_back(label);
-      rows.n_unresolved += row.rank_class && *row.rank_class == 1 ? 1 : 0;
       for (std::size_t c = 0; c < conditions.size(); ++c)
-        rows.holds[c].push_back(number_of(row.metrics[c]) == 1 ? 1 : 0);
+        rows.holds[c].push_back(verdicts.held(row, c));
     }
   });
   return rows;
 }
 
-Share share_of(std::string label, const std::vector<std::size_t>& chosen,
-               const std::vector<char>& complete, const std::vector<char>& holds,
-               double confidence) {
+Share share_of(std::string label, const std::string& condition,
+               const std::vector<std::size_t>& chosen, const std::vector<Held>& holds,
+               const Probability& p) {
   Share share;
   share.label = std::move(label);
-  share.n = static_cast<long>(chosen.size());
-  for (const std::size_t k : chosen) {
-    share.n_unknown += complete[k] == 0 ? 1 : 0;
-    share.n_holds += complete[k] != 0 && holds[k] != 0 ? 1 : 0;
-  }
-  share.estimate =
-      static_cast<double>(share.n_holds) / static_cast<double>(share.n - share.n_unknown);
-  share.bounds = proportion_bounds(share.n_holds, share.n_unknown, share.n, confidence);
+  share.condition = condition;
+  for (const std::size_t k : chosen) share.counts.add(holds[k]);
+  share.bounds = bounds_of(share.counts, p.sampling, p.request.confidence);
   return share;
 }
 
-void set_more(Share& share, const ProbabilityRequest& request) {
-  const long n_known = share.n - share.n_unknown;
-  if (n_known == 0 || share.bounds.high - share.bounds.low <= request.width) return;
-  share.n_more =
-      std::max(0L, samples_for_half_width(share.estimate, 0.5 * request.width, request.confidence) -
-                       n_known);
+void set_more(Share& share, const Probability& p) {
+  const double wanted = p.request.width;
+  const double estimate = share.counts.estimate();
+  if (std::isnan(estimate) || share.bounds.high - share.bounds.low <= wanted) return;
+  const long needed = samples_for_half_width(estimate, 0.5 * wanted, p.request.confidence);
+  share.n_more = std::max(0L, needed - share.counts.n_known());
 }
 
 using Part = std::pair<std::string, std::vector<std::size_t>>;
@@ -142,10 +133,6 @@ std::vector<Part> parts_asked(const Rows& rows, const std::string& by) {
   return {{"", all}};
 }
 
-std::string percent(double share) {
-  return std::isfinite(share) ? concat(format_number(100 * share, 3), " %") : "not known";
-}
-
 }  // namespace
 
 std::vector<std::string> default_conditions(const Selection& selection) {
@@ -163,7 +150,7 @@ std::vector<std::string> default_conditions(const Selection& selection) {
 Probability find_probability(const Store& store, const CampaignInfo& campaign,
                              const ProbabilityRequest& request) {
   const Selection selection = make_selection(store, campaign, "", "");
-  Probability found{campaign, request, sampling_of(store, campaign), {}, 0, 0};
+  Probability found{campaign, request, sampling_of(store, campaign), {}, 0};
   const std::vector<std::string> conditions = request.condition.empty()
                                                   ? default_conditions(selection)
                                                   : std::vector<std::string>{request.condition};
@@ -172,7 +159,6 @@ Probability find_probability(const Store& store, const CampaignInfo& campaign,
     throw InputError("probability",
                      {{"", 0, "no case was selected", "ask for others with --where"}});
   }
-  found.n_unresolved = rows.n_unresolved;
   const std::vector<Part> parts = parts_asked(rows, request.by);
   for (std::size_t c = 0; c < conditions.size(); ++c) {
     for (const auto& [label, chosen] : parts) {
@@ -183,68 +169,115 @@ Probability find_probability(const Store& store, const CampaignInfo& campaign,
         name = concat(conditions[c], ", ", label);
       }
       found.shares.push_back(
-          share_of(std::move(name), chosen, rows.complete, rows.holds[c], request.confidence));
-      if (request.width > 0) set_more(found.shares.back(), request);
+          share_of(std::move(name), conditions[c], chosen, rows.holds[c], found));
+      if (request.width > 0 && found.sampling.is_random) set_more(found.shares.back(), found);
     }
   }
-  if (found.shares.size() == 1 && found.shares[0].n_unknown < found.shares[0].n) {
-    const Share& one = found.shares[0];
-    found.n_for_half = samples_for_half_width(
-        one.estimate, 0.25 * (one.bounds.high - one.bounds.low), request.confidence);
+  const double half = found.shares.size() == 1
+                          ? by_number(found.shares[0].counts, found.sampling, request.confidence)
+                          : 0;
+  if (half > 0) {
+    found.n_for_half =
+        samples_for_half_width(found.shares[0].counts.estimate(), 0.5 * half, request.confidence);
   }
   return found;
 }
 
-std::string probability_to_text(const Probability& p) {
-  const std::string what = p.sampling.is_random ? "probability" : "share";
-  TextTable table({p.request.by.empty() ? "condition" : p.request.by, what, "from", "to", "true in",
-                   "of", "not known", "more for width"});
+namespace {
+
+AnswerTable share_table(const Probability& p) {
+  const char* what = p.sampling.is_random ? "probability" : "share";
+  AnswerTable table{
+      "shares",
+      p.request.by.empty() ? "" : p.request.condition,
+      {{"label", p.request.by.empty() ? "condition" : p.request.by, {}, 4, Need::always},
+       {"estimate", what, percent(), 3, Need::always},
+       {"low", "from", percent(), 3, Need::always},
+       {"high", "to", percent(), 3, Need::always},
+       {"by_number", "± by number", percent(), 2},
+       {"holds", "true in", {}, 4},
+       {"rows", "of", {}, 4},
+       {"undecided", "undecided by cells", {}, 4},
+       {"unknown", "no full history", {}, 4},
+       {"more_for_width", "more for width", {}, 4}}};
   for (const Share& one : p.shares) {
-    table.add_row({one.label, percent(one.estimate), percent(one.bounds.low),
-                   percent(one.bounds.high), std::to_string(one.n_holds), std::to_string(one.n),
-                   one.n_unknown > 0 ? std::to_string(one.n_unknown) : "",
-                   one.n_more > 0 ? std::to_string(one.n_more) : ""});
+    const ShareCounts& c = one.counts;
+    const bool is_asked = p.request.width > 0 && p.sampling.is_random;
+    table.rows.push_back({one.label, c.estimate(), one.bounds.low, one.bounds.high,
+                          by_number(c, p.sampling, p.request.confidence), c.n_holds, c.n,
+                          c.n_undecided, c.n_unknown,
+                          is_asked ? AnswerCell(one.n_more) : AnswerCell()});
   }
-  std::string text;
-  if (!p.request.condition.empty() && !p.request.by.empty()) text = p.request.condition + "\n";
-  text += table.text();
-  text += concat("\nBounds hold the ", what, " with a confidence of ",
-                 format_number(100 * p.request.confidence, 4),
-                 " %; what is not known may be either.\n");
-  if (p.n_unresolved > 0) {
-    text +=
-        concat(p.n_unresolved,
-               " cases have an activation or event that the cells do not resolve: counted as they "
-               "are\n");
-  }
-  if (p.n_for_half > 0) {
-    text += concat("half the distance between the bounds takes ", p.n_for_half, " cases\n");
-  }
-  if (!p.sampling.remark.empty()) text += p.sampling.remark + "\n";
-  return text;
+  return table;
 }
 
-json probability_to_json(const Probability& p) {
-  json shares = json::array();
-  for (const Share& one : p.shares) {
-    shares.push_back({{"label", one.label},
-                      {"estimate", std::isfinite(one.estimate) ? json(one.estimate) : json()},
-                      {"low", one.bounds.low},
-                      {"high", one.bounds.high},
-                      {"holds", one.n_holds},
-                      {"rows", one.n},
-                      {"unknown", one.n_unknown},
-                      {"more_for_width", one.n_more}});
+/// What from and to are, in a sentence or two.
+std::string meaning_of_bounds(const Probability& p) {
+  const bool any_undecided = std::any_of(p.shares.begin(), p.shares.end(), [](const Share& one) {
+    return one.counts.n_undecided + one.counts.n_unknown > 0;
+  });
+  const std::string open =
+      "what the cells leave undecided and what has no full history may be either";
+  if (!p.sampling.is_random)
+    return any_undecided ? concat("From and to: ", open, "; they are no bounds of a probability.")
+                         : "";
+  return concat("From and to hold the probability with a confidence of ",
+                format_number(100 * p.request.confidence, 4), " %",
+                any_undecided ? concat(": ", open) : "", "; ± is by the number of cases alone.");
+}
+
+const Share& most_often(const Probability& p) {
+  const auto less = [](const Share& a, const Share& b) {
+    return a.counts.estimate() < b.counts.estimate() || std::isnan(a.counts.estimate());
+  };
+  return *std::max_element(p.shares.begin(), p.shares.end(), less);
+}
+
+}  // namespace
+
+figure::IntervalChart chart_of(const Probability& p) {
+  const std::string& of = p.request.condition;
+  figure::IntervalChart chart;
+  chart.title = concat("How often", of.empty() ? " a fault slides" : ": " + of,
+                       p.request.by.empty() ? "" : ", by " + p.request.by);
+  chart.remark = concat(p.campaign.name,
+                        p.sampling.is_random
+                            ? concat("; lines: ", format_number(100 * p.request.confidence, 4),
+                                     " % bounds, what is undecided either way")
+                            : "; shares of the cases given; lines: what is undecided either way");
+  chart.label = "share of cases";
+  for (const Share& share : p.shares) {
+    const ShareCounts& c = share.counts;
+    std::string note = concat(grouped(c.n_holds), " of ", grouped(c.n_known()));
+    if (c.n_undecided > 0) note += concat(", ", grouped(c.n_undecided), " undecided");
+    if (c.n_unknown > 0) note += concat(", ", grouped(c.n_unknown), " unknown");
+    chart.rows.push_back({share.label, {c.estimate(), share.bounds.low, share.bounds.high}, note});
   }
-  return {{"campaign", p.campaign.name},
-          {"condition", p.request.condition},
-          {"by", p.request.by},
-          {"confidence", p.request.confidence},
-          {"is_probability", p.sampling.is_random},
-          {"remark", p.sampling.remark},
-          {"unresolved", p.n_unresolved},
-          {"cases_for_half_the_width", p.n_for_half},
-          {"shares", shares}};
+  return chart;
+}
+
+Answer to_answer(const Probability& p) {
+  Answer answer;
+  const Share& most = most_often(p);
+  answer.headline.push_back(
+      concat(p.shares.size() == 1 ? "" : "Most often: ", most.condition,
+             most.label == most.condition ? "" : concat(" (", p.request.by, " ", most.label, ")"),
+             ": ", share_sentence(most.counts, p.sampling, p.request.confidence), "."));
+  answer.facts = {{"campaign", p.campaign.name},
+                  {"condition", p.request.condition},
+                  {"by", p.request.by},
+                  {"confidence", p.request.confidence},
+                  {"is_probability", p.sampling.is_random},
+                  {"remark", p.sampling.remark},
+                  {"cases_for_half_the_width", p.n_for_half}};
+  answer.add(share_table(p));
+  answer.blocks.emplace_back(AnswerChart(chart_of(p)));
+  answer.note_if(meaning_of_bounds(p));
+  if (p.n_for_half > 0) {
+    answer.note(concat("Half of the ± by the number takes ", grouped(p.n_for_half), " cases."));
+  }
+  answer.note_if(p.sampling.remark);
+  return answer;
 }
 
 }  // namespace faultsweep

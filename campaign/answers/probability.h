@@ -1,11 +1,10 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
-#include "campaign/answers/sample.h"
-#include "campaign/statistics/intervals.h"
+#include "campaign/answers/shares.h"
+#include "campaign/render/answer.h"
 
 namespace faultsweep {
 
@@ -17,17 +16,14 @@ struct ProbabilityRequest {
   double width = 0;  ///< wanted distance of the bounds, in (0, 1]; 0 = not asked.
 };
 
-/// How often something holds. Rows whose case has no history to its end may be either: the bounds
-/// reach from none of them to all.
+/// How often something holds.
 struct Share {
-  std::string label;   ///< the condition, or the values of the parameter that it is for.
-  long n = 0;          ///< rows.
-  long n_unknown = 0;  ///< of these: without a history to its end.
-  long n_holds = 0;
-  double estimate = 0;  ///< of those known; NaN where none is.
-  Interval bounds;      ///< Clopper & Pearson's.
+  std::string label;  ///< the condition, or the values of the parameter that it is for.
+  std::string condition;
+  ShareCounts counts;
+  Interval bounds;  ///< see bounds_of.
   /// Rows that bounds as far apart as ProbabilityRequest::width would take beyond those there are,
-  /// if the share stays as it is; 0 = none, or not asked, or no row is known.
+  /// if the share stays as it is and nothing is open; 0 = none, or not asked, or no sample.
   long n_more = 0;
 };
 
@@ -38,8 +34,6 @@ struct Probability {
   std::vector<Share> shares;
   /// Rows that a half width of half the present one would take; 0 = not asked of several shares.
   long n_for_half = 0;
-  long n_unresolved =
-      0;  ///< rows whose activation or event depends on the mesh; counted as they are.
 };
 
 /// Throws InputError on a wrong condition or parameter, and where no case was selected.
@@ -50,7 +44,9 @@ Probability find_probability(const Store& store, const CampaignInfo& campaign,
 /// and for the whole history.
 std::vector<std::string> default_conditions(const Selection& selection);
 
-std::string probability_to_text(const Probability& probability);
-nlohmann::json probability_to_json(const Probability& probability);
+/// Shares with their bounds.
+faultsim::figure::IntervalChart chart_of(const Probability& probability);
+/// Table `shares`, and the chart.
+Answer to_answer(const Probability& probability);
 
 }  // namespace faultsweep

@@ -127,7 +127,8 @@ class StatementReader {
       problem("a report that is as often wrong as right says nothing", "write a number below 0.5");
     }
     try {
-      statement_.column = parse_condition(parts[1], campaign_, selection_);
+      statement_.condition = parts[1];
+      parse_condition(statement_.condition, campaign_, selection_);
     } catch (const InputError& wrong) {
       take_over(wrong);
     }
@@ -178,7 +179,7 @@ std::vector<SeenStatement> read_seen(const std::vector<std::string>& statements,
   return read;
 }
 
-double likelihood(const SeenStatement& statement, const CaseHistory& history, double column) {
+double likelihood(const SeenStatement& statement, const CaseHistory& history, double value) {
   double p = 0;
   switch (statement.kind) {
     case SeenStatement::Kind::slid:
@@ -190,13 +191,51 @@ double likelihood(const SeenStatement& statement, const CaseHistory& history, do
       p = likelihood_of_events(statement, history.events);
       break;
     case SeenStatement::Kind::metric: {
-      const double distance = (column - statement.value) / statement.error;
+      const double distance = (value - statement.value) / statement.error;
       return std::isfinite(distance) ? std::exp(-0.5 * distance * distance) : 0;
     }
     case SeenStatement::Kind::condition:
-      return column == 1 ? 1 - statement.error : statement.error;
+      return value == 1 ? 1 - statement.error : statement.error;
   }
   return statement.denied ? 1 - p : p;
+}
+
+namespace {
+
+/// T lies behind the end of the step before and not behind that of its own.
+WeightRange likelihood_within_step(const SeenStatement& statement, const CaseOnsets::Onset& onset) {
+  const double by_end = share_below(statement.value - onset.time, statement.error);
+  const double by_begin = statement.error > 0
+                              ? share_below(statement.value - onset.began, statement.error)
+                              : (onset.began < statement.value ? 1.0 : 0.0);
+  return statement.denied ? WeightRange{1 - by_begin, 1 - by_end} : WeightRange{by_end, by_begin};
+}
+
+}  // namespace
+
+WeightRange likelihood_by_cells(const SeenStatement& statement, const CaseHistory& history,
+                                double value, Held held) {
+  const double computed = likelihood(statement, history, value);
+  switch (statement.kind) {
+    case SeenStatement::Kind::slid: {
+      const auto& open = history.unresolved;
+      if (std::find(open.begin(), open.end(), statement.fault) != open.end()) return {0, 1};
+      for (const CaseOnsets::Onset& one : history.onsets)
+        if (one.fault == statement.fault) return likelihood_within_step(statement, one);
+      return {computed, computed};
+    }
+    case SeenStatement::Kind::event:
+      return history.events_resolved ? WeightRange{computed, computed} : WeightRange{0, 1};
+    case SeenStatement::Kind::metric:
+      return {computed, computed};
+    case SeenStatement::Kind::condition: {
+      const bool is_open = held == Held::undecided_no || held == Held::undecided_yes;
+      return is_open ? WeightRange{statement.error, 1 - statement.error}
+                     : WeightRange{computed, computed};
+    }
+  }
+  FAULTSIM_DEMAND(false, static_cast<int>(statement.kind));
+  return {};
 }
 
 WeightRange likelihood_range(const SeenStatement& statement, const CaseHistory& history) {

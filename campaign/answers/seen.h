@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign/answers/shares.h"
 #include "campaign/report/selection.h"
 #include "campaign/statistics/weighted.h"
 #include "campaign/store/store.h"
@@ -34,7 +35,8 @@ struct SeenStatement {
   double error = 0;                ///< of that; of a condition how likely it is wrong. 0 = exact.
   std::optional<double> from, to;  ///< Pa, ascending: where the event was.
   double range_error = 0;          ///< Pa, of each of them.
-  SqlFragment column = {};         ///< of a metric or condition.
+  SqlFragment column = {};         ///< of a metric.
+  std::string condition = {};
   bool is_exact() const { return error == 0 && range_error == 0; }
 };
 
@@ -46,7 +48,8 @@ std::vector<SeenStatement> read_seen(const std::vector<std::string>& statements,
 struct CaseHistory {
   std::vector<CaseOnsets::Onset> onsets;  ///< of the whole history.
   std::vector<SeenEvent> events;
-  std::vector<double> columns;  ///< of the statements that have one, in their order; NaN = none.
+  std::vector<std::int64_t> unresolved;  ///< faults of which it is open whether they slide.
+  bool events_resolved = true;           ///< the sizes of its events do not depend on the cells.
 };
 
 /// P(statement | case), in [0, 1]; of a metric relative to that of a case which has the value. With
@@ -59,9 +62,16 @@ struct CaseHistory {
 ///   wrong w    1 − w where it is true, w where not
 ///
 /// what is denied is 1 less that.
-/// @param column  of the case for this statement; unused of slid and event.
+/// @param value  of a metric; of a condition 1 where it is true. Unused of slid and event.
 /// @pre each event of the statement's fault has a magnitude.
-double likelihood(const SeenStatement& statement, const CaseHistory& history, double column);
+double likelihood(const SeenStatement& statement, const CaseHistory& history, double value);
+
+/// Between what it lies with what the cells of a full history leave open: a fault began to slide
+/// somewhere within its load step, and what is not resolved may be either.
+/// @param held  of a condition.
+/// @pre as likelihood.
+WeightRange likelihood_by_cells(const SeenStatement& statement, const CaseHistory& history,
+                                double value, Held held);
 
 /// Between what P(statement | case) lies of a case whose history ends early: what it did up to
 /// there is known, and anything may follow.

@@ -59,7 +59,6 @@ struct ProbabilityArguments {
   ProbabilityRequest request = {};
   std::optional<CurveAxis> against = std::nullopt;  ///< curves; none = a table.
   std::string stage = {};                           ///< of curves.
-  bool csv = false;                                 ///< of curves.
   QuantileRequest quantiles = {};                   ///< with metrics: quantiles instead.
 };
 ExitCode probability_command(const StoreArguments& common, const ProbabilityArguments& arguments);

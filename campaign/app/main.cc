@@ -306,7 +306,6 @@ void add_curves(CLI::App* command, ProbabilityArguments& a, CLI::Option* of, CLI
                    "curves of slip since the start of this stage; default: of the history,\n"
                    "against pressure each stage")
       ->needs(against);
-  command->add_flag("--csv", a.csv, "curves as CSV")->needs(against);
   CLI::Option* quantiles =
       command
           ->add_option("--quantiles", a.quantiles.metrics,
@@ -339,8 +338,7 @@ void add_posterior(CLI::App& app, Arguments& a, ExitCode& code) {
       ->allow_extra_args(false);
   add_where(command, a.posterior.where);
   add_confidence(command, a.posterior.confidence);
-  add_json(command, a.common);
-  add_wide(command);
+  add_renderings(command, a.common);
   command->footer(
       "Examples:\n"
       "  faultsweep posterior my-sweep --seen \"F2 did not slide before 8 yr\"\n"
@@ -368,8 +366,7 @@ void add_answers(CLI::App& app, Arguments& a, ExitCode& code) {
                    "wanted distance of the bounds, as a share: how many more cases it takes")
       ->check(CLI::Range(1e-4, 1.0));
   add_confidence(probability, request.confidence);
-  add_json(probability, a.common);
-  add_wide(probability);
+  add_renderings(probability, a.common);
   probability->footer(
       "Examples:\n"
       "  faultsweep probability\n"

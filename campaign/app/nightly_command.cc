@@ -10,8 +10,8 @@
 
 #include "campaign/app/child_output.h"
 #include "campaign/app/commands.h"
-#include "campaign/nightly/nightly_sample.h"
 #include "campaign/nightly/night_report.h"
+#include "campaign/nightly/nightly_sample.h"
 #include "campaign/rounds/submission.h"
 #include "campaign/scheduler/starter.h"
 #include "campaign/store/clock.h"

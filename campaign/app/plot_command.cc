@@ -17,7 +17,8 @@ std::string draw_campaign(const PlotArguments& arguments, const Store& store) {
     return draw_sensitivity(analyse_sensitivity(store, campaign, arguments.sensitivity));
   }
   if (arguments.chart == "probability") {
-    return draw_probability(find_probability(store, campaign, arguments.probability));
+    return faultsim::figure::draw(
+        chart_of(find_probability(store, campaign, arguments.probability)));
   }
   std::string names = "map, sensitivity, probability";
   for (const faultsim::CaseChartInfo& info : faultsim::case_charts()) {

@@ -5,6 +5,7 @@
 
 #include "campaign/answers/why.h"
 #include "campaign/app/commands.h"
+#include "campaign/app/print_answer.h"
 #include "campaign/report/case_report.h"
 #include "campaign/report/status_report.h"
 #include "campaign/report/text_table.h"
@@ -203,11 +204,7 @@ ExitCode curves_command(const StoreArguments& common, const Store& store,
   const Curves found =
       probability_curves(store, store.campaign(common.campaign, false),
                          {*arguments.against, request.where, arguments.stage, request.confidence});
-  if (common.json) {
-    print(curves_to_json(found));
-  } else {
-    print(arguments.csv ? curves_to_csv(found) : curves_to_text(found));
-  }
+  print_answer(to_answer(found), common);
   return ExitCode::done;
 }
 
@@ -226,14 +223,14 @@ ExitCode probability_command(const StoreArguments& common, const ProbabilityArgu
   }
   const Probability found =
       find_probability(store, store.campaign(common.campaign, false), arguments.request);
-  common.json ? print(probability_to_json(found)) : print(probability_to_text(found));
+  print_answer(to_answer(found), common);
   return ExitCode::done;
 }
 
 ExitCode posterior_command(const StoreArguments& common, const PosteriorRequest& request) {
   const Store store = Store::open_reader(common.store);
   const Posterior found = find_posterior(store, store.campaign(common.campaign, false), request);
-  common.json ? print(posterior_to_json(found)) : print(posterior_to_text(found));
+  print_answer(to_answer(found), common);
   return ExitCode::done;
 }
 

@@ -144,13 +144,6 @@ std::array<long, figure::kCaseClasses> count_outcomes(const Store& store,
   return counts;
 }
 
-long count_unresolved(const Store& store, const CampaignInfo& campaign) {
-  long count = 0;
-  for_each_outcome(store, campaign,
-                   [&](const CaseRow& row, CaseClass) { count += *row.rank_class == 1 ? 1 : 0; });
-  return count;
-}
-
 std::string draw_sensitivity(const Sensitivity& sensitivity) {
   figure::BarChart chart;
   chart.title = "What matters in " + sensitivity.campaign.name;
@@ -162,27 +155,6 @@ std::string draw_sensitivity(const Sensitivity& sensitivity) {
     if (one.sobol.empty()) continue;
     chart.first_name = "alone";
     chart.second_name = "with all interactions";
-  }
-  return figure::draw(chart);
-}
-
-std::string draw_probability(const Probability& probability) {
-  figure::IntervalChart chart;
-  const std::string& of = probability.request.condition;
-  const std::string& by = probability.request.by;
-  chart.title = concat("How often", of.empty() ? " a fault slides" : ": " + of,
-                       by.empty() ? "" : ", by " + by);
-  chart.remark =
-      concat(probability.campaign.name, "; lines: exact ", percent(probability.request.confidence),
-             " bounds", probability.sampling.is_random ? "" : "; shares of the cases given");
-  chart.label = "share of cases";
-  for (const Share& share : probability.shares) {
-    const auto count = [](long n) { return figure::plain_number(static_cast<double>(n), 9); };
-    chart.rows.push_back(
-        {share.label,
-         {share.estimate, share.bounds.low, share.bounds.high},
-         concat(count(share.n_holds), " of ", count(share.n - share.n_unknown),
-                share.n_unknown > 0 ? concat(" (", share.n_unknown, " unknown)") : "")});
   }
   return figure::draw(chart);
 }

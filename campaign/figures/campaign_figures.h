@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 
-#include "campaign/answers/probability.h"
 #include "campaign/answers/sensitivity.h"
 #include "campaign/store/store.h"
 #include "simulator/case_figures/case_figures.h"
@@ -25,13 +24,8 @@ std::string draw_outcome_map(const Store& store, const CampaignInfo& campaign,
 std::array<long, faultsim::figure::kCaseClasses> count_outcomes(const Store& store,
                                                                 const CampaignInfo& campaign);
 
-/// How many cases with a full history have an activation or event that the cells do not resolve.
-long count_unresolved(const Store& store, const CampaignInfo& campaign);
-
 /// First-order indices as bars, largest first; of a sobol design total ones below them.
 std::string draw_sensitivity(const Sensitivity& sensitivity);
-/// Shares with their bounds.
-std::string draw_probability(const Probability& probability);
 
 /// A case of a store with its scene and, where they were kept, its fields: owns what a CasePicture
 /// refers to.

@@ -12,9 +12,9 @@
 #include "campaign/answers/probability.h"
 #include "campaign/answers/sensitivity.h"
 #include "campaign/figures/campaign_figures.h"
+#include "campaign/render/render_html.h"
 #include "campaign/report/parameters.h"
 #include "campaign/report/ranking_report.h"
-#include "campaign/statistics/intervals.h"
 #include "report_css.h"
 #include "report_js.h"
 #include "simulator/common/base64.h"
@@ -33,15 +33,6 @@ using faultsim::figure::escape_xml;
 using faultsim::figure::plain_number;
 
 std::string count_text(long n) { return plain_number(static_cast<double>(n), 12); }
-
-/// "28.6 % (95 %: 26.3 to 31.0 %)".
-std::string share_text(long k, long n, double confidence) {
-  const Interval bounds = proportion_bounds(k, n, confidence);
-  const auto in_percent = [](double share) { return plain_number(100 * share); };
-  return concat(in_percent(static_cast<double>(k) / static_cast<double>(n)), " % (",
-                plain_number(100 * confidence, 4), " %: ", in_percent(bounds.low), " to ",
-                in_percent(bounds.high), " %)");
-}
 
 /// "15.0943434363654 deg" as "15.09 deg": samples have more digits than a reader needs.
 std::string short_label(const std::string& label) {
@@ -88,21 +79,16 @@ void add_summary(Page& page) {
                    "answer");
     return;
   }
-  const long n_slide = of(CaseClass::slides) + of(CaseClass::event);
-  page.paragraph(
-      concat("A fault slides in ", count_text(n_slide), " of ", count_text(n_full),
-             " cases: ", share_text(n_slide, n_full, page.request.confidence), ". ",
-             of(CaseClass::event) == 0
-                 ? std::string("No case has a slip event.")
-                 : concat("A slip event happens in ", count_text(of(CaseClass::event)), ": ",
-                          share_text(of(CaseClass::event), n_full, page.request.confidence), ".")),
-      "answer");
-  if (const long n_unresolved = count_unresolved(page.store, c); n_unresolved > 0) {
-    page.paragraph(concat("In ", count_text(n_unresolved), " of the ", count_text(n_full),
-                          " the cells do not resolve whether a fault slides, or its event: they "
-                          "are counted as they came out."),
-                   "answer");
-  }
+  const auto sentence = [&](const char* condition) {
+    const Probability p = find_probability(
+        page.store, c, {.condition = condition, .confidence = page.request.confidence});
+    return share_sentence(p.shares.front().counts, p.sampling, page.request.confidence);
+  };
+  page.paragraph(concat("A fault slides in ", sentence("slides"), ". ",
+                        of(CaseClass::event) == 0
+                            ? std::string("No case has a slip event.")
+                            : concat("A slip event happens in ", sentence("jumps"), ".")),
+                 "answer");
   const long n_left = c.n_cases - n_full;
   if (n_left > 0) {
     page.paragraph(concat("Left out: ", count_text(of(CaseClass::ended_early)),
@@ -258,8 +244,8 @@ void add_cases(Page& page, const std::vector<RankedCase>& rows) {
 void add_answers(Page& page) {
   page.section("how-often", "How often each fault slides");
   page.unless_refused([&] {
-    page.html += draw_probability(
-        find_probability(page.store, page.campaign, {.confidence = page.request.confidence}));
+    page.html += render_html(to_answer(
+        find_probability(page.store, page.campaign, {.confidence = page.request.confidence})));
   });
   page.section("what-matters", "What matters");
   page.unless_refused([&] {

@@ -37,6 +37,12 @@ QuantileBounds weighted_quantile(std::span<const double> values, std::span<const
 struct WeightRange {
   double least = 0, most = 0;
   bool is_known() const { return least == most; }
+  /// The range of a product of two that are not known of each other.
+  WeightRange& operator*=(const WeightRange& other) {
+    least *= other.least;
+    most *= other.most;
+    return *this;
+  }
 };
 /// Whether a member has a property.
 enum class Holds : char { no, yes, unknown };

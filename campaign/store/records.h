@@ -290,12 +290,16 @@ struct CaseOnsets {
     int step = 0;            ///< the first at whose end it slides.
     double time = 0;         ///< s, of the end of that step.
     double change = 0;  ///< Pa, Δp there of the side that changed more, or of the fault's fluid.
+    double began = 0;   ///< s, of the end of the step before: it began after that.
+    double change_before = 0;  ///< Pa, Δp then of the region that `change` is of; NaN = not known.
   };
   long position = 0;
   std::optional<int> rank_class;  ///< as of CaseRow.
   int last_step = 0;              ///< of the stage that has a result.
   double end = 0;                 ///< s, of that step, where the history ends early; else 0.
   std::vector<Onset> onsets;      ///< of the faults that slide.
+  /// Faults of which the cells do not resolve whether they slide in the stage.
+  std::vector<std::int64_t> unresolved;
   bool complete() const { return rank_class && *rank_class < 2; }
 };
 

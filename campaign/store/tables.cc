@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <sstream>
 #include <utility>
 
 #include "campaign/store/queries.h"
@@ -149,17 +152,68 @@ void Store::for_each_slip_event(std::int64_t campaign, const TableQuery& query,
   }
 }
 
+namespace {
+
+/// Numbers of "[-1e6,0]".
+std::vector<double> numbers_of(const std::string& text) {
+  std::vector<double> numbers;
+  const char* at = text.c_str();
+  while (*at != '\0') {
+    char* end = nullptr;
+    const double value = std::strtod(at, &end);
+    if (end == at) {
+      ++at;
+    } else {
+      numbers.push_back(value);
+      at = end;
+    }
+  }
+  return numbers;
+}
+
+/// What the region that changes by `change` in a step had changed by in the one before; NaN where
+/// no region does, as that of a place need not.
+double change_before(double change, const std::string& then, const std::string& before) {
+  const std::vector<double> now = numbers_of(then), earlier = numbers_of(before);
+  for (std::size_t region = 0; region < std::min(now.size(), earlier.size()); ++region)
+    if (now[region] == change) return earlier[region];
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// "1 5": numbers with blanks between them.
+std::vector<std::int64_t> ids_of(const std::string& text) {
+  std::vector<std::int64_t> ids;
+  std::istringstream stream(text);
+  for (std::int64_t id = 0; stream >> id;) ids.push_back(id);
+  return ids;
+}
+
+/// Of a stage's row s: the faults that are not resolved there, or NULL.
+/// @param faults  ids; fault_metrics is looked up by stage, fault and case.
+std::string unresolved_faults_sql(const std::vector<NamedId>& faults) {
+  std::string list;
+  for (const NamedId& one : faults) list += concat(list.empty() ? "" : ", ", one.id);
+  return concat(
+      "iif(s.rank_class = 1, (SELECT group_concat(q.fault_id, ' ') FROM fault_metrics q"
+      " WHERE q.stage_id = s.stage_id AND q.fault_id IN (",
+      list, ") AND q.case_id = cc.case_id AND coalesce(q.activation_resolved, 0) = 0), NULL)");
+}
+
+}  // namespace
+
 void Store::for_each_onset(std::int64_t campaign, const TableQuery& query,
                            const std::function<void(const CaseOnsets&)>& visit) const {
   const std::string sql = concat(
       "SELECT cc.position, s.rank_class, coalesce(s.last_step, 0), coalesce(e.time_s, 0),"
       " o.fault_id, o.step, l.time_s, ",
-      leading_change_sql("o"), " FROM campaign_cases cc", joins(query),
+      leading_change_sql("o"), ", b.time_s, l.pressure_change_pa, b.pressure_change_pa, ",
+      unresolved_faults_sql(faults(campaign)), " FROM campaign_cases cc", joins(query),
       " LEFT JOIN load_steps e ON s.rank_class > 1 AND e.case_id = cc.case_id"
       " AND e.step = s.last_step"
       " LEFT JOIN fault_onsets o ON o.case_id = cc.case_id AND o.stage_id = s.stage_id"
       " AND o.opening = 0"
       " LEFT JOIN load_steps l ON l.case_id = o.case_id AND l.step = o.step"
+      " LEFT JOIN load_steps b ON b.case_id = o.case_id AND b.step = o.step - 1"
       " WHERE cc.campaign_id = ?",
       where_sql(query.where), " ORDER BY cc.position");
   Statement rows(*connection_, sql);
@@ -171,12 +225,15 @@ void Store::for_each_onset(std::int64_t campaign, const TableQuery& query,
   while (rows.step()) {
     if (const long position = rows.integer(0); position != one.position) {
       if (one.position > 0) visit(one);
-      one = {position, std::nullopt, static_cast<int>(rows.integer(2)), rows.real(3), {}};
+      one = {position,     std::nullopt, static_cast<int>(rows.integer(2)),
+             rows.real(3), {},           ids_of(rows.text(11))};
       if (const auto rank_class = rows.optional_integer(1))
         one.rank_class = static_cast<int>(*rank_class);
     }
     if (const auto fault = rows.optional_integer(4)) {
-      one.onsets.push_back({*fault, static_cast<int>(rows.integer(5)), rows.real(6), rows.real(7)});
+      const double change = rows.real(7);
+      one.onsets.push_back({*fault, static_cast<int>(rows.integer(5)), rows.real(6), change,
+                            rows.real(8), change_before(change, rows.text(9), rows.text(10))});
     }
   }
   if (one.position > 0) visit(one);

@@ -12,6 +12,9 @@
 #include "campaign/answers/quantiles.h"
 #include "campaign/answers/sensitivity.h"
 #include "campaign/answers/why.h"
+#include "campaign/render/render_csv.h"
+#include "campaign/render/render_json.h"
+#include "campaign/render/render_text.h"
 #include "tests/campaign/made_up_result.h"
 
 namespace faultsweep {
@@ -117,13 +120,14 @@ TEST_F(AnswersTest, AProbabilityIsAShareWithExactBounds) {
   const Probability p = probability({.condition = "F1.slides"});
   ASSERT_EQ(p.shares.size(), 1u);
   EXPECT_TRUE(p.sampling.is_random);
-  EXPECT_EQ(p.shares[0].n, 40);
-  EXPECT_EQ(p.shares[0].n_holds, 20);
-  EXPECT_EQ(p.shares[0].estimate, 0.5);
+  EXPECT_EQ(p.shares[0].counts.n, 40);
+  EXPECT_EQ(p.shares[0].counts.n_holds, 20);
+  EXPECT_EQ(p.shares[0].counts.estimate(), 0.5);
   EXPECT_EQ(p.shares[0].bounds.low, proportion_bounds(20, 40, 0.95).low);
   EXPECT_EQ(p.shares[0].bounds.high, proportion_bounds(20, 40, 0.95).high);
   EXPECT_GT(p.n_for_half, 120);
-  EXPECT_THAT(probability_to_text(p), HasSubstr("50 %"));
+  EXPECT_THAT(render_text(to_answer(p)),
+              HasSubstr("F1.slides: 20 of 40 cases, 50 % (33.8 to 66.2 %)."));
 }
 
 TEST_F(AnswersTest, WhatIsNotKnownMayBeEither) {
@@ -132,10 +136,10 @@ TEST_F(AnswersTest, WhatIsNotKnownMayBeEither) {
   runs_[39].result->outcome = faultsim::Outcome::unstable;
   record();
   const Share share = probability({.condition = "F1.slides"}).shares.at(0);
-  EXPECT_EQ(share.n, 40);
-  EXPECT_EQ(share.n_unknown, 2);
-  EXPECT_EQ(share.n_holds, 19);
-  EXPECT_EQ(share.estimate, 0.5);
+  EXPECT_EQ(share.counts.n, 40);
+  EXPECT_EQ(share.counts.n_unknown, 2);
+  EXPECT_EQ(share.counts.n_holds, 19);
+  EXPECT_EQ(share.counts.estimate(), 0.5);
   EXPECT_EQ(share.bounds.low, proportion_bounds(19, 40, 0.95).low);
   EXPECT_EQ(share.bounds.high, proportion_bounds(21, 40, 0.95).high);
 }
@@ -146,13 +150,13 @@ TEST_F(AnswersTest, IsAskedForEachPartOfAParameter) {
   const Probability parts = probability({.condition = "F1.slides", .by = "strength"});
   ASSERT_EQ(parts.shares.size(), 10u);
   for (std::size_t k = 0; k < 10; ++k) {
-    EXPECT_EQ(parts.shares[k].n, 4) << k;
-    EXPECT_EQ(parts.shares[k].estimate, k < 5 ? 0 : 1) << parts.shares[k].label;
+    EXPECT_EQ(parts.shares[k].counts.n, 4) << k;
+    EXPECT_EQ(parts.shares[k].counts.estimate(), k < 5 ? 0 : 1) << parts.shares[k].label;
   }
   const Probability words = probability({.condition = "F1.slides", .by = "rule"});
   ASSERT_EQ(words.shares.size(), 2u);
   EXPECT_EQ(words.shares[0].label, "mean");
-  EXPECT_EQ(words.shares[0].n, 20);
+  EXPECT_EQ(words.shares[0].counts.n, 20);
   EXPECT_THROW(probability({.by = "ofset"}), InputError);
   EXPECT_THROW(probability({.where = "offset > 1000 m"}), InputError);
   EXPECT_GT(probability({}).shares.size(), 2u) << "each fault, each stage";
@@ -166,12 +170,12 @@ TEST_F(AnswersTest, PartsHaveAllRowsWhateverTheirNumber) {
   ASSERT_EQ(parts.shares.size(), 10u);
   long n = 0, n_holds = 0;
   for (const Share& one : parts.shares) {
-    EXPECT_GE(one.n, 4);
-    EXPECT_LE(one.n, 5);
-    n += one.n, n_holds += one.n_holds;
+    EXPECT_GE(one.counts.n, 4);
+    EXPECT_LE(one.counts.n, 5);
+    n += one.counts.n, n_holds += one.counts.n_holds;
   }
   EXPECT_EQ(n, 43);
-  EXPECT_EQ(n_holds, probability({.condition = "F1.slides"}).shares.at(0).n_holds);
+  EXPECT_EQ(n_holds, probability({.condition = "F1.slides"}).shares.at(0).counts.n_holds);
 }
 
 /// To halve the distance between the bounds takes as many cases as bring the half of it.
@@ -187,8 +191,10 @@ TEST_F(AnswersTest, HalfTheDistanceBetweenTheBoundsIsReachedWithTheCasesSaid) {
 TEST_F(AnswersTest, SharesOfChosenCasesAreNoProbabilities) {
   submit("list", even(24));
   record();
-  EXPECT_THAT(probability_to_text(probability({.condition = "F1.slides"})),
-              HasSubstr("not drawn at random"));
+  const Probability p = probability({.condition = "F1.slides"});
+  EXPECT_THAT(render_text(to_answer(p)), HasSubstr("not drawn at random"));
+  EXPECT_EQ(p.shares.at(0).bounds.low, 0.5) << "no sample, no bound";
+  EXPECT_EQ(p.shares.at(0).bounds.high, 0.5);
   EXPECT_THROW(analyse_sensitivity(*store_, campaign_, {}), InputError);
 }
 
@@ -291,7 +297,8 @@ TEST_F(AnswersTest, OfASobolDesignTheIndependentBlocksCount) {
   store_->submit(s_);
   campaign_ = store_->campaign("");
   record();
-  EXPECT_EQ(probability({.condition = "F1.slides"}).shares.at(0).n, 20) << "of 10 blocks of 3";
+  EXPECT_EQ(probability({.condition = "F1.slides"}).shares.at(0).counts.n, 20)
+      << "of 10 blocks of 3";
 }
 
 /// Rows A, AB_1, AB_2, B of each base sample: what follows from strength alone goes with it wholly.
@@ -391,18 +398,20 @@ TEST_F(AnswersTest, ACurveCountsTheFaultsThatHaveBegunToSlide) {
   for (long k = 0; k <= 12; ++k) {
     const CurvePoint& point = f1.points[static_cast<std::size_t>(k)];
     EXPECT_EQ(point.at, static_cast<double>(k));
-    EXPECT_EQ(point.n_holds, std::min(k, 10L)) << k;
-    EXPECT_EQ(point.n_unknown, k <= 6 ? 1 : 2) << k;
-    const Interval bounds = proportion_bounds(point.n_holds, point.n_unknown, 12, 0.95);
+    const ShareCounts& c = point.counts;
+    EXPECT_EQ(c.n_holds, std::min(k, 10L)) << k;
+    EXPECT_EQ(c.n_unknown, k <= 6 ? 1 : 2) << k;
+    EXPECT_EQ(c.n_undecided, 0) << "steps are whole";
+    const Interval bounds = proportion_bounds(c.n_holds, c.n_unknown, 12, 0.95);
     EXPECT_EQ(point.bounds.low, bounds.low);
     EXPECT_EQ(point.bounds.high, bounds.high);
-    EXPECT_EQ(steps.curves[1].points[static_cast<std::size_t>(k)].n_holds, 0) << "F2 never";
+    EXPECT_EQ(steps.curves[1].points[static_cast<std::size_t>(k)].counts.n_holds, 0) << "F2 never";
   }
   const Curves times = probability_curves(*store_, campaign_, {CurveAxis::time});
   EXPECT_EQ(times.curves[0].points[4].at, 4 * 3.15576e7);
-  EXPECT_EQ(times.curves[0].points[4].n_holds, 4);
-  EXPECT_EQ(times.curves[0].points[7].n_unknown, 2);
-  EXPECT_THAT(curves_to_csv(times), HasSubstr("\nF1,,126230400,"));
+  EXPECT_EQ(times.curves[0].points[4].counts.n_holds, 4);
+  EXPECT_EQ(times.curves[0].points[7].counts.n_unknown, 2);
+  EXPECT_THAT(render_csv(table_named(to_answer(times), "curves")), HasSubstr("\nF1,,126230400,"));
 }
 
 TEST_F(AnswersTest, ACurveAgainstPressureGoesTheWayOfTheStage) {
@@ -425,10 +434,10 @@ TEST_F(AnswersTest, ACurveAgainstPressureGoesTheWayOfTheStage) {
   for (const CurvePoint& point : first.points) {
     long expected = 0;
     for (int k = 0; k < 12; ++k) expected += -5e5 * k >= point.at;
-    EXPECT_EQ(point.n_holds, expected) << point.at;
+    EXPECT_EQ(point.counts.n_holds, expected) << point.at;
   }
-  EXPECT_THAT(curves_to_text(curves), HasSubstr("in gas_storage"));
-  EXPECT_EQ(curves_to_json(curves).at("against"), "pressure_change_pa");
+  EXPECT_THAT(render_text(to_answer(curves)), HasSubstr("in gas_storage"));
+  EXPECT_EQ(render_json(to_answer(curves)).at("against"), "pressure_change_pa");
   EXPECT_EQ(
       probability_curves(*store_, campaign_, {.axis = CurveAxis::pressure, .stage = "gas_storage"})
           .curves.size(),
@@ -480,15 +489,15 @@ TEST_F(AnswersTest, APosteriorIsThePriorWeightedByWhatWasSeen) {
   EXPECT_NEAR(p.effective_size, 1000 * 0.05 * 2 * std::sqrt(std::acos(-1.0)), 2);
   ASSERT_EQ(p.words.size(), 2u);
   EXPECT_NEAR(p.words[0].after.value, 0.5, 0.01);
-  EXPECT_THAT(posterior_to_text(p), HasSubstr("Effective sample size"));
-  EXPECT_EQ(posterior_to_json(p).at("rows"), 1000);
+  EXPECT_THAT(render_text(to_answer(p)), HasSubstr("effective sample of"));
+  EXPECT_EQ(render_json(to_answer(p)).at("rows"), 1000);
   // Half of the cases agree with what is exact, and it makes the condition certain.
   const Posterior slid = posterior({"F1 slid before 2 yr"});
   EXPECT_NEAR(slid.agreement.at(0), 0.5, 1e-9);
   EXPECT_NEAR(slid.effective_size, 500, 1e-6);
   EXPECT_EQ(slid.probabilities.at(0).after.value, 1);
   EXPECT_NEAR(slid.probabilities.at(0).before.value, 0.5, 1e-9);
-  EXPECT_THAT(posterior_to_text(slid), HasSubstr("taken as exact"));
+  EXPECT_THAT(render_text(to_answer(slid)), HasSubstr("taken as exact"));
 }
 
 /// Errors are independent: two statements weigh a case by the product of what each does.
@@ -532,18 +541,18 @@ TEST_F(AnswersTest, APosteriorOfWhatSaysNothingHasTheBoundsOfTheProbability) {
   record();
   for (const char* condition : {"F1.slides", "F2.slides", "max_slip > -1 mm", "max_slip > 1 km"}) {
     const Share prior = probability({.condition = condition}).shares.at(0);
-    EXPECT_EQ(prior.n_unknown, 7);
+    EXPECT_EQ(prior.counts.n_unknown, 7);
     for (const std::vector<std::string>& seen : std::vector<std::vector<std::string>>{
              {}, {"F1.chi_bar = 0.5 +- 1e12"}, {"max_slip > -1 mm, wrong 0.4999999999"}}) {
       const Posterior p = find_posterior(*store_, campaign_, {seen, {condition}, "", 0.95});
       EXPECT_EQ(p.n_rows, 73);
       EXPECT_EQ(p.n_unknown, 7);
       for (const Estimate& one : {p.probabilities.at(0).before, p.probabilities.at(0).after}) {
-        EXPECT_NEAR(one.value, prior.estimate, 1e-8) << condition;
+        EXPECT_NEAR(one.value, prior.counts.estimate(), 1e-8) << condition;
         EXPECT_NEAR(one.bounds.low, prior.bounds.low, 1e-8) << condition;
         EXPECT_NEAR(one.bounds.high, prior.bounds.high, 1e-8) << condition;
       }
-      EXPECT_THAT(posterior_to_text(p), HasSubstr("bounds allow for any outcome"));
+      EXPECT_THAT(render_text(to_answer(p), 500), HasSubstr("bounds allow for any outcome"));
     }
   }
 }
@@ -590,8 +599,8 @@ TEST_F(AnswersTest, MergedRowsCountEach) {
   submit("samples", even(10));
   record();
   const Share share = probability({.condition = "F1.slides"}).shares.at(0);
-  EXPECT_EQ(share.n, 40);
-  EXPECT_EQ(share.n_holds, 5);
+  EXPECT_EQ(share.counts.n, 40);
+  EXPECT_EQ(share.counts.n_holds, 5);
 }
 
 TEST_F(AnswersTest, TooFewCasesAreRefused) {

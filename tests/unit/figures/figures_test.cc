@@ -170,11 +170,11 @@ TEST_F(FiguresTest, IntervalsSayOfHowManyCasesTheyAre) {
   p.request.confidence = 0.95;
   Share share;
   share.label = "F1.slides";
-  share.n = 40, share.n_unknown = 2, share.n_holds = 19;
-  share.estimate = 0.5, share.bounds = {0.3, 0.7};
+  share.counts = {.n = 40, .n_yes = 19, .n_holds = 19, .n_unknown = 2};
+  share.bounds = {0.3, 0.7};
   p.shares = {share};
-  const std::string svg = draw_probability(p);
-  EXPECT_THAT(svg, HasSubstr(">19 of 38 (2 unknown)<"));
+  const std::string svg = faultsim::figure::draw(chart_of(p));
+  EXPECT_THAT(svg, HasSubstr(">19 of 38, 2 unknown<"));
   const faultsim::figure::ReadScale x = faultsim::figure::read_scale(svg, true);
   EXPECT_NEAR(x.value(faultsim::figure::elements_of(svg, "circle", "r", "4.5").at(0).number("cx")),
               0.5, 1e-3);

@@ -128,7 +128,7 @@ TEST(RenderJson, HasRowsUnderTheirKeysAndUnitsOfColumns) {
   const ordered_json document = render_json(answer);
   EXPECT_EQ(
       document.dump(),
-      R"({"headline":["F1 slides."],"campaign":"sweep","faults":[{"fault":"F1","margin_pa":1234000.0,)"
+      R"({"format":2,"headline":["F1 slides."],"campaign":"sweep","faults":[{"fault":"F1","margin_pa":1234000.0,)"
       R"("moment_nm":45000000000000.0,"moment_nm_error":1000000000000.0,"share":0.26637,"run":{"outcome":"converged"}},)"
       R"({"fault":"F2","margin_pa":-250000.0,"moment_nm":null,"share":1e-07,"share_note":"unresolved",)"
       R"("run":{"outcome":"converged"}}],"columns":{"faults":[{"key":"fault","heading":"fault","unit":""},)"
