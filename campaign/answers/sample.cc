@@ -71,17 +71,21 @@ Sampling sampling_of(const Store& store, const CampaignInfo& campaign) {
   sampling.is_factorial = all_are({"grid"});
   if (all_are({"samples"})) {
     sampling.remark =
-        "samples of a file, taken to be independent: of a correlated chain intervals are too "
-        "narrow";
+        "Samples of a file, taken to be independent: of a correlated chain intervals are too "
+        "narrow.";
   } else if (all_are({"latin-hypercube", "sobol"})) {
-    sampling.remark = "samples are spread evenly: intervals are wider than they need be";
+    sampling.remark = "Samples are spread evenly: intervals are wider than they need be.";
   } else if (sampling.is_factorial) {
     sampling.remark =
-        "a grid: shares are of the values given, each as likely as the others, and intervals what "
-        "as many random cases would have";
+        "A grid: shares are of the values given, each as often as the others, no probabilities.";
   } else if (!sampling.is_random) {
     sampling.remark =
-        "the cases were not drawn at random: shares are of these cases, no probabilities";
+        "The cases were not drawn at random: shares are of these cases, no probabilities.";
+  }
+  if (sampling.is_random && campaign.n_excluded > 0) {
+    sampling.remark += concat(sampling.remark.empty() ? "" : " ", campaign.n_excluded,
+                              " rows of the design are excluded by the spec: probabilities are of "
+                              "what is left.");
   }
   return sampling;
 }
