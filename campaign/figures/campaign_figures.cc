@@ -69,10 +69,11 @@ void for_each_outcome(const Store& store, const CampaignInfo& campaign, const Vi
   store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
     if (!row.rank_class) return;
     const bool slides = number_of(row.metrics[0]) > 0, jumps = number_of(row.metrics[1]) > 0;
-    visit(row, !row.complete() ? CaseClass::ended_early
-               : jumps         ? CaseClass::event
-               : slides        ? CaseClass::slides
-                               : CaseClass::holds);
+    visit(row, !row.complete()        ? CaseClass::ended_early
+               : *row.rank_class == 1 ? CaseClass::undecided
+               : jumps                ? CaseClass::event
+               : slides               ? CaseClass::slides
+                                      : CaseClass::holds);
   });
 }
 

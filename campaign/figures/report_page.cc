@@ -72,23 +72,28 @@ void add_summary(Page& page) {
   const CampaignInfo& c = page.campaign;
   const auto counts = count_outcomes(page.store, c);
   const auto of = [&](CaseClass kind) { return counts[static_cast<std::size_t>(kind)]; };
-  const long n_full = of(CaseClass::holds) + of(CaseClass::slides) + of(CaseClass::event);
+  const long n_full = of(CaseClass::holds) + of(CaseClass::undecided) + of(CaseClass::slides) +
+                      of(CaseClass::event);
   if (n_full == 0) {
     page.paragraph(concat("None of the ", count_text(c.n_cases),
                           " cases has a full history yet: faultsweep run ", c.name),
                    "answer");
     return;
   }
-  const auto sentence = [&](const char* condition) {
+  const auto counts_of = [&](const char* condition) {
     const Probability p = find_probability(
         page.store, c, {.condition = condition, .confidence = page.request.confidence});
-    return share_sentence(p.shares.front().counts, p.sampling, page.request.confidence);
+    return std::pair(p.shares.front().counts, p.sampling);
   };
-  page.paragraph(concat("A fault slides in ", sentence("slides"), ". ",
-                        of(CaseClass::event) == 0
-                            ? std::string("No case has a slip event.")
-                            : concat("A slip event happens in ", sentence("jumps"), ".")),
-                 "answer");
+  const auto [slides, sampling] = counts_of("slides");
+  const ShareCounts jumps = counts_of("jumps").first;
+  page.paragraph(
+      concat("A fault slides in ", share_sentence(slides, sampling, page.request.confidence), ". ",
+             jumps.n_holds + jumps.n_undecided == 0
+                 ? std::string("No case has a slip event.")
+                 : concat("A slip event happens in ",
+                          share_sentence(jumps, sampling, page.request.confidence), ".")),
+      "answer");
   const long n_left = c.n_cases - n_full;
   if (n_left > 0) {
     page.paragraph(concat("Left out: ", count_text(of(CaseClass::ended_early)),

@@ -9,15 +9,19 @@
 namespace faultsim::figure {
 namespace {
 
-constexpr std::array<const char*, kCaseClasses> kClassColours = {"#3b82b8", "#e08a1e", "#6e0a28",
-                                                                 "#6b6b6b"};
+constexpr std::array<const char*, kCaseClasses> kClassColours = {"#3b82b8", "#7b5ea7", "#e08a1e",
+                                                                 "#6e0a28", "#6b6b6b"};
 
-/// A dot of a class: circle, square, diamond, cross.
+/// A dot of a class: circle, square with a stroke, square, diamond, cross.
 void draw_case(Svg& svg, Point p, CaseClass kind, double r) {
   const std::string colour = kClassColours[static_cast<std::size_t>(kind)];
   switch (kind) {
     case CaseClass::holds:
       svg.circle(p, r, "#ffffff", {colour, 1.4});
+      return;
+    case CaseClass::undecided:
+      svg.rect({p.x - r, p.y - r, 2 * r, 2 * r}, "#ffffff", {colour, 1.2});
+      svg.line({p.x - r, p.y + r}, {p.x + r, p.y - r}, {colour, 1.2});
       return;
     case CaseClass::slides:
       svg.rect({p.x - r, p.y - r, 2 * r, 2 * r}, colour, {"#ffffff", 0.5});
@@ -59,8 +63,19 @@ void draw_dots(Svg& svg, const Panel& panel, const OutcomeMap& map) {
 }
 
 struct Bin {
-  long n_known = 0, n_slide = 0;
+  long n_decided = 0, n_slide = 0, n_undecided = 0;
 };
+
+void draw_bin(Svg& svg, const Bin& bin, Point corner, double w, double h) {
+  if (bin.n_decided > 0) {
+    const double share = static_cast<double>(bin.n_slide) / static_cast<double>(bin.n_decided);
+    svg.rect({corner.x, corner.y, w, h}, sequential_colour(0.08 + 0.92 * share));
+  }
+  if (bin.n_undecided > bin.n_decided) {
+    const std::string colour = kClassColours[static_cast<std::size_t>(CaseClass::undecided)];
+    svg.line({corner.x, corner.y + h}, {corner.x + w, corner.y}, {colour, 1});
+  }
+}
 
 void draw_bins(Svg& svg, const Panel& panel, const OutcomeMap& map) {
   constexpr int kColumns = 48, kRows = 30;
@@ -74,17 +89,18 @@ void draw_bins(Svg& svg, const Panel& panel, const OutcomeMap& map) {
         std::clamp(static_cast<int>(panel.x().share(map.x[k]) * kColumns), 0, kColumns - 1);
     const int j = std::clamp(static_cast<int>(panel.y().share(map.y[k]) * kRows), 0, kRows - 1);
     Bin& bin = bin_at(i, j);
-    ++bin.n_known;
+    if (map.kind[k] == CaseClass::undecided) {
+      ++bin.n_undecided;
+      continue;
+    }
+    ++bin.n_decided;
     bin.n_slide += map.kind[k] == CaseClass::holds ? 0 : 1;
   }
   const double w = panel.box().width / kColumns, h = panel.box().height / kRows;
   for (int j = 0; j < kRows; ++j) {
     for (int i = 0; i < kColumns; ++i) {
-      const Bin& bin = bin_at(i, j);
-      if (bin.n_known == 0) continue;
-      const double share = static_cast<double>(bin.n_slide) / static_cast<double>(bin.n_known);
-      svg.rect({panel.box().x + i * w, panel.box().bottom() - (j + 1) * h, w, h},
-               sequential_colour(0.08 + 0.92 * share));
+      draw_bin(svg, bin_at(i, j), {panel.box().x + i * w, panel.box().bottom() - (j + 1) * h}, w,
+               h);
     }
   }
 }
@@ -105,8 +121,8 @@ void draw_class_key(Svg& svg, const OutcomeMap& map, Point place) {
 }
 
 void draw_share_key(Svg& svg, Point place) {
-  svg.text({place.x, place.y}, "share of cases with sliding:  0", {kLabelSize, kInk});
-  const double x = place.x + text_width("share of cases with sliding:  0", kLabelSize) + 4;
+  svg.text({place.x, place.y}, "share of decided cases with sliding:  0", {kLabelSize, kInk});
+  const double x = place.x + text_width("share of decided cases with sliding:  0", kLabelSize) + 4;
   for (int k = 0; k < 24; ++k) {
     svg.rect({x + 6 * k, place.y - 10, 6.3, 11}, sequential_colour(0.08 + 0.92 * (k + 0.5) / 24));
   }
@@ -119,6 +135,8 @@ const char* to_string(CaseClass kind) {
   switch (kind) {
     case CaseClass::holds:
       return "no fault slides";
+    case CaseClass::undecided:
+      return "undecided by the cells";
     case CaseClass::slides:
       return "slides, no event";
     case CaseClass::event:

@@ -10,12 +10,14 @@
 namespace faultsim::figure {
 
 /// What became of a case, from good to bad; each has a shape and a colour of its own.
-enum class CaseClass { holds, slides, event, ended_early };
-inline constexpr int kCaseClasses = 4;
+/// Undecided: the cells do not resolve whether a fault slides, or its event.
+enum class CaseClass { holds, undecided, slides, event, ended_early };
+inline constexpr int kCaseClasses = 5;
 const char* to_string(CaseClass kind);  ///< "no fault slides", ...
 
 /// Cases of a campaign over two of its parameters. Up to kMostDots cases are dots; more are counted
-/// in squares coloured by the share that slides, so that the drawing's size has a bound.
+/// in squares coloured by the share that slides of those that are decided, so that the drawing's
+/// size has a bound; a stroke crosses squares of which most are not.
 struct OutcomeMap {
   std::string title, remark;
   std::string x_label, y_label;  ///< with units.

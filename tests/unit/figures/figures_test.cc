@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -50,7 +51,10 @@ class FiguresTest : public ::testing::Test {
     store_.reset();
     std::filesystem::remove_all(folder_);
   }
-  void submit(int n, int n_results) {
+  /// @param change  of the result of each case.
+  void submit(
+      int n, int n_results,
+      const std::function<void(int, faultsim::CaseResult&)>& change = [](int, auto&) {}) {
     Submission s;
     s.name = kNasty;
     s.source = "/somebody/secret/spec.json";
@@ -80,6 +84,7 @@ class FiguresTest : public ::testing::Test {
       run.case_id = k + 1;
       run.status = RunStatus::completed;
       run.result = testing::made_up_result(strength(k, n));
+      change(k, *run.result);
       runs.push_back(run);
     }
     store_->record_runs(campaign_.id, runs);
@@ -183,8 +188,12 @@ TEST_F(FiguresTest, IntervalsSayOfHowManyCasesTheyAre) {
 TEST_F(FiguresTest, OutcomesAreCountedAsTheStoreHasThem) {
   submit(40, 40);
   const auto counts = count_outcomes(*store_, campaign_);
-  EXPECT_EQ(counts[0] + counts[1] + counts[2] + counts[3], 40);
-  EXPECT_EQ(counts[1] + counts[2], 20);  // those that slide, with or without an event
+  const auto of = [&](faultsim::figure::CaseClass kind) {
+    return counts[static_cast<std::size_t>(kind)];
+  };
+  using faultsim::figure::CaseClass;
+  EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0L), 40);
+  EXPECT_EQ(of(CaseClass::slides) + of(CaseClass::event), 20);
 }
 
 TEST_F(FiguresTest, ThePageSaysTheAnswerAndHasNothingThatBreaksOut) {
@@ -274,7 +283,27 @@ TEST_F(FiguresTest, WordsBesideNumbersAreShownWhole) {
   EXPECT_THAT(page, HasSubstr("<th>cut</th>"));
   for (const char* label : {"\u2212100 bar", "mean of both", "load steps as given", "infill 2"})
     EXPECT_THAT(page, HasSubstr(concat("<td>", label, "</td>")));
-  EXPECT_THAT(page, HasSubstr("In 1 of the 2 the cells do not resolve"));
+  EXPECT_THAT(page, HasSubstr("A fault slides in 2 of 2 cases, 100 % (50 to 100 %: 1 undecided by "
+                              "the cells). No case has a slip event."));
+}
+
+/// Nobody may read that 13 of 24 slide where 20 of the 24 hang on the cells.
+TEST_F(FiguresTest, TheFirstSentenceOfAPageSaysHowManyAreUndecided) {
+  submit(24, 24, [](int k, faultsim::CaseResult& result) {
+    result.whole.activation_resolved = k >= 20;
+    for (faultsim::FaultStageMetrics& fault : result.whole.faults)
+      fault.activation_resolved = k >= 20;
+  });
+  const std::string page = report_page(*store_, campaign_, {.program = "faultsweep test"});
+  const std::size_t answer = page.find("class=\"answer\">");
+  ASSERT_NE(answer, std::string::npos);
+  const std::string first = page.substr(answer, page.find("</p>", answer) - answer);
+  EXPECT_THAT(first, HasSubstr("12 of 24 cases, 50 %"));
+  EXPECT_THAT(first, HasSubstr("20 undecided by the cells"));
+  EXPECT_EQ(
+      count_outcomes(*store_,
+                     campaign_)[static_cast<std::size_t>(faultsim::figure::CaseClass::undecided)],
+      20);
 }
 
 TEST_F(FiguresTest, APageWithoutResultsSaysSo) {
