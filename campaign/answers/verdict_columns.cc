@@ -1,5 +1,6 @@
 #include "campaign/answers/verdict_columns.h"
 
+#include "campaign/report/error_bars.h"
 #include "campaign/report/table_output.h"
 
 namespace faultsweep {
@@ -8,18 +9,20 @@ using faultsim::concat;
 
 namespace {
 
-void append(SqlFragment& to, const char* before, const SqlFragment& part) {
+void append(SqlFragment& to, const std::string& before, const SqlFragment& part) {
   to.text += before + part.text;
   to.parameters.insert(to.parameters.end(), part.parameters.begin(), part.parameters.end());
 }
 
-/// 3 certain, 0 impossible, between them what came out: 2 yes, 1 no.
+/// What a column says.
+constexpr int kImpossible = 0, kCameOutNo = 1, kCameOutYes = 2, kCertain = 3;
+
 SqlFragment column_of(const VerdictSql& verdict, const SqlFragment& computed) {
   SqlFragment column;
   append(column, "CASE WHEN ", verdict.certain);
-  append(column, " THEN 3 WHEN NOT coalesce(", verdict.possible);
-  append(column, ", 0) THEN 0 WHEN ", computed);
-  column.text += " THEN 2 ELSE 1 END";
+  append(column, concat(" THEN ", kCertain, " WHEN NOT coalesce("), verdict.possible);
+  append(column, concat(", 0) THEN ", kImpossible, " WHEN "), computed);
+  column.text += concat(" THEN ", kCameOutYes, " ELSE ", kCameOutNo, " END");
   return column;
 }
 
@@ -28,7 +31,7 @@ SqlFragment column_of(const VerdictSql& verdict, const SqlFragment& computed) {
 VerdictColumns::VerdictColumns(const Store& store, const CampaignInfo& campaign,
                                const Selection& selection,
                                const std::vector<std::string>& conditions) {
-  const StatedErrors errors = stated_errors(store, campaign);
+  const StatedErrors errors = stated_errors(error_bars_of(store, campaign));
   for (const std::string& one : conditions) {
     columns_.push_back(column_of(parse_verdict(one, campaign, selection, errors),
                                  parse_condition(one, campaign, selection)));
@@ -36,17 +39,12 @@ VerdictColumns::VerdictColumns(const Store& store, const CampaignInfo& campaign,
 }
 
 Held VerdictColumns::held(const CaseRow& row, std::size_t c, std::size_t first) const {
+  // What is asked of parameters alone is known of every case.
+  const auto code = static_cast<int>(number_of(row.metrics[first + c]));
+  if (code == kCertain) return Held::yes;
+  if (code == kImpossible) return Held::no;
   if (!row.complete()) return Held::unknown;
-  switch (static_cast<int>(number_of(row.metrics[first + c]))) {
-    case 3:
-      return Held::yes;
-    case 2:
-      return Held::undecided_yes;
-    case 1:
-      return Held::undecided_no;
-    default:
-      return Held::no;
-  }
+  return code == kCameOutYes ? Held::undecided_yes : Held::undecided_no;
 }
 
 }  // namespace faultsweep
