@@ -68,6 +68,11 @@ using Value = std::variant<std::monostate, double, bool, std::string>;
 struct Symbol {
   std::string sql;  ///< column expression, trusted; empty where SQL is not wanted.
   Type type;
+  /// SQL condition, trusted, on which the value is not resolved: a flag may then be either, a
+  /// number or text anything, missing too. "" = always resolved; missing counts as resolved.
+  std::string unresolved = {};
+  /// Of a number, half-width of its stated error, SI: it lies in [value − error, value + error].
+  double error = 0;
 };
 using Symbols = std::map<std::string, Symbol>;
 
@@ -109,6 +114,13 @@ struct SqlFragment {
   std::vector<Value> parameters;
 };
 
+/// A condition that may be undecided, as SQL: yes where `certain` holds, undecided where only
+/// `possible` does, else no. Missing counts as false in both.
+struct VerdictSql {
+  SqlFragment certain;   ///< holds however what is not resolved turns out.
+  SqlFragment possible;  ///< holds for some way in which it may turn out; wherever certain holds.
+};
+
 struct Node;
 
 /// A parsed and type-checked expression. Cheap to copy, immutable.
@@ -129,11 +141,20 @@ class Expression {
   bool holds(const std::function<Value(std::size_t)>& lookup) const;
   /// As SQL over Symbol::sql of the symbols given to parse.
   SqlFragment sql() const;
+  /// A condition with what is not resolved, and errors, of its names (see Symbol). Sound: certain
+  /// only where it holds for all values that names may have independently of each other, and
+  /// possible wherever it holds for some; sharp where each name occurs once and is compared after
+  /// + - * / by constants, min, max and abs. Where an operation leaves its domain for some of the
+  /// values (root, logarithm, quotient by 0, tan beyond ±90°), where both base and exponent have
+  /// errors, or where the SQL of a number would pass 20,000 characters, it may be anything. Where
+  /// all is resolved and exact both are sql() in value. Numbers that overflow are not followed.
+  /// @pre type() is boolean.
+  VerdictSql verdict_sql() const;
 
  private:
   std::string text_;
   std::vector<std::string> names_;
-  std::vector<std::string> columns_;  ///< Symbol::sql per name.
+  std::vector<Symbol> symbols_;  ///< per name.
   std::shared_ptr<const Node> root_;
 };
 
