@@ -141,14 +141,14 @@ class Expression {
   bool holds(const std::function<Value(std::size_t)>& lookup) const;
   /// As SQL over Symbol::sql of the symbols given to parse.
   SqlFragment sql() const;
-  /// A condition with what is not resolved, and errors, of its names (see Symbol). Sound: certain
-  /// only where it holds for all values that names may have independently of each other, and
-  /// possible wherever it holds for some; sharp where each name occurs once and is compared after
-  /// + - * / by constants, min, max and abs. Where an operation leaves its domain for some of the
-  /// values (root, logarithm, quotient by 0, tan beyond ±90°), where both base and exponent have
-  /// errors, or where the SQL of a number would pass 20,000 characters, it may be anything. Where
-  /// all is resolved and exact both are sql() in value. Numbers that overflow are not followed.
-  /// @pre type() is boolean.
+  /// A condition, with what is not resolved and the errors of its names (see Symbol). Sound:
+  /// certain only where it holds for all values that names may have, each by itself, and possible
+  /// wherever it holds for some; sharp where each name occurs once and is compared behind + and -,
+  /// * and / by constants, min, max and abs. Wider than need be, a number may be anything: where
+  /// for some values an operation has none (root, logarithm, division by 0, tan beyond 90 deg),
+  /// where a power has an error and neither base nor exponent is a constant, and where its SQL
+  /// would pass 20,000 characters. Where all is resolved and exact both have the value of sql().
+  /// Numbers that overflow are not followed. @pre type() is boolean.
   VerdictSql verdict_sql() const;
 
  private:

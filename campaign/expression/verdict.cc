@@ -57,7 +57,7 @@ struct Range {
   }
 };
 
-/// a < 0 and b >= 0, say: some of the values lie on either side.
+/// low < 0 and high >= 0, say: there are values on both sides.
 SqlFragment spans(const SqlFragment& low, const char* below, const SqlFragment& high,
                   const char* above) {
   return joined("(", low, below, " AND ", high, above, ")");
@@ -73,7 +73,8 @@ VerdictSql unless_any(const std::vector<SqlFragment>& conditions, const VerdictS
 }
 
 // Ranges through operations -----------------------------------------------------------------------
-// The ends are rounded as the values between them would be: rounding keeps the order.
+// The ends are rounded as the values between them would be: rounding keeps the order, that of
+// functions of the C library but for the last bit.
 
 void set_increasing(Range& range, Operation operation, const std::vector<Range>& of) {
   std::vector<SqlFragment> lows, highs;
