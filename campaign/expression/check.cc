@@ -132,7 +132,7 @@ class Checker {
     }
     node.type = Type{};
     if (base.type.units == Units{}) return;
-    const auto value = constant(exponent);
+    const auto value = constant_of(exponent);
     if (!value || *value != std::round(*value)) {
       fail(exponent, sentence(base) + ", so its power must be a whole number",
            "write for example ^2, or divide by a unit first");
@@ -146,13 +146,6 @@ class Checker {
   /// Keeps exponents far from integer overflow; nothing physical has such dimensions.
   void require_small(const Node& node, double exponent) const {
     if (std::abs(exponent) > 1000) fail(node, "this power of a unit is too large", "simplify it");
-  }
-  static std::optional<double> constant(const Node& node) {
-    if (node.operation == Operation::literal) return std::get<double>(node.literal);
-    if (node.operation == Operation::negate) {
-      if (const auto inner = constant(*node.children[0])) return -*inner;
-    }
-    return std::nullopt;
   }
   void check_square_root(Node& node) const {
     const Node& argument = *node.children[0];
@@ -215,6 +208,14 @@ class Checker {
 };
 
 }  // namespace
+
+std::optional<double> constant_of(const Node& node) {
+  if (node.operation == Operation::literal) return std::get<double>(node.literal);
+  if (node.operation == Operation::negate) {
+    if (const auto inner = constant_of(*node.children[0])) return -*inner;
+  }
+  return std::nullopt;
+}
 
 void check_types(Node& root, const std::string& text, const std::vector<std::string>& names,
                  const std::vector<Type>& name_types) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "campaign/expression/node.h"
 #include "simulator/common/near_miss.h"
@@ -77,8 +78,9 @@ Expression Expression::parse(const std::string& text, const Symbols& symbols,
   std::vector<Type> types;
   for (const std::string& name : expression.names_) {
     const Symbol& symbol = symbols.at(name);
+    FAULTSIM_DEMAND(symbol.error >= 0 && std::isfinite(symbol.error), name, ' ', symbol.error);
     types.push_back(symbol.type);
-    expression.columns_.push_back(symbol.sql);
+    expression.symbols_.push_back(symbol);
   }
   check_types(*parsed.root, text, expression.names_, types);
   expression.root_ = std::shared_ptr<const Node>(std::move(parsed.root));

@@ -68,6 +68,11 @@ using Value = std::variant<std::monostate, double, bool, std::string>;
 struct Symbol {
   std::string sql;  ///< column expression, trusted; empty where SQL is not wanted.
   Type type;
+  /// SQL condition, trusted, on which the value is not resolved: a flag may then be either, a
+  /// number or text anything, missing too. "" = always resolved; missing counts as resolved.
+  std::string unresolved = {};
+  /// Of a number, half-width of its stated error, SI: it lies in [value − error, value + error].
+  double error = 0;
 };
 using Symbols = std::map<std::string, Symbol>;
 
@@ -109,6 +114,13 @@ struct SqlFragment {
   std::vector<Value> parameters;
 };
 
+/// A condition that may be undecided, as SQL: yes where `certain` holds, undecided where only
+/// `possible` does, else no. Missing counts as false in both.
+struct VerdictSql {
+  SqlFragment certain;   ///< holds however what is not resolved turns out.
+  SqlFragment possible;  ///< holds for some way in which it may turn out; wherever certain holds.
+};
+
 struct Node;
 
 /// A parsed and type-checked expression. Cheap to copy, immutable.
@@ -129,11 +141,20 @@ class Expression {
   bool holds(const std::function<Value(std::size_t)>& lookup) const;
   /// As SQL over Symbol::sql of the symbols given to parse.
   SqlFragment sql() const;
+  /// A condition, with what is not resolved and the errors of its names (see Symbol). Sound:
+  /// certain only where it holds for all values that names may have, each by itself, and possible
+  /// wherever it holds for some; sharp where each name occurs once and is compared behind + and -,
+  /// * and / by constants, min, max and abs. Wider than need be, a number may be anything: where
+  /// for some values an operation has none (root, logarithm, division by 0, tan beyond 90 deg),
+  /// where a power has an error and neither base nor exponent is a constant, and where its SQL
+  /// would pass 20,000 characters. Where all is resolved and exact both have the value of sql().
+  /// Numbers that overflow are not followed. @pre type() is boolean.
+  VerdictSql verdict_sql() const;
 
  private:
   std::string text_;
   std::vector<std::string> names_;
-  std::vector<std::string> columns_;  ///< Symbol::sql per name.
+  std::vector<Symbol> symbols_;  ///< per name.
   std::shared_ptr<const Node> root_;
 };
 

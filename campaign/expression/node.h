@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,5 +62,13 @@ ParsedText parse_expression(const std::string& text, const std::vector<std::stri
 /// Fills in every Node::type. Throws ExpressionError. name_types: per name of the tree.
 void check_types(Node& root, const std::string& text, const std::vector<std::string>& names,
                  const std::vector<Type>& name_types);
+
+/// The value of a literal number, or of one behind minus signs; nothing of anything else.
+std::optional<double> constant_of(const Node& node);
+
+/// A tree in SQL over Symbol::sql; symbols: per name of the tree.
+SqlFragment sql_of(const Node& node, const std::vector<Symbol>& symbols);
+/// An operation in SQL over operands that are SQL themselves.
+SqlFragment applied(Operation operation, const std::vector<SqlFragment>& operands);
 
 }  // namespace faultsweep

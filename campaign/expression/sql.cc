@@ -12,7 +12,7 @@ const char* infix(Operation operation) {
     case Operation::multiply:
       return " * ";
     case Operation::divide:
-      return " / ";
+      return " / 1.0 / ";  // by itself SQLite divides whole numbers without remainder
     case Operation::less:
       return " < ";
     case Operation::less_equal:
@@ -62,39 +62,59 @@ const char* opening(Operation operation) {
   }
 }
 
-void write(const Node& node, const std::vector<std::string>& columns, SqlFragment& out) {
+struct Spelling {
+  const char* before;
+  const char* between;
+};
+
+Spelling spelling_of(Operation operation) {
+  if (const char* between = infix(operation)) return {"(", between};
+  const char* before = opening(operation);
+  FAULTSIM_DEMAND(before != nullptr, "operation ", static_cast<int>(operation));
+  return {before, ", "};
+}
+
+void write(const Node& node, const std::vector<Symbol>& symbols, SqlFragment& out) {
   if (node.operation == Operation::literal) {
     out.text += '?';
     out.parameters.push_back(node.literal);
     return;
   }
   if (node.operation == Operation::name) {
-    FAULTSIM_DEMAND(!columns[node.name].empty(), "no column for name ", node.name);
-    out.text += columns[node.name];
+    const std::string& column = symbols[node.name].sql;
+    FAULTSIM_DEMAND(!column.empty(), "no column for name ", node.name);
+    out.text += column;
     return;
   }
-  const char* between = infix(node.operation);
-  if (between == nullptr) {
-    const char* name = opening(node.operation);
-    FAULTSIM_DEMAND(name != nullptr, "operation ", static_cast<int>(node.operation));
-    out.text += name;
-    between = ", ";
-  } else {
-    out.text += '(';
-  }
+  const Spelling spelling = spelling_of(node.operation);
+  out.text += spelling.before;
   for (std::size_t i = 0; i < node.children.size(); ++i) {
-    if (i > 0) out.text += between;
-    write(*node.children[i], columns, out);
+    if (i > 0) out.text += spelling.between;
+    write(*node.children[i], symbols, out);
   }
   out.text += ')';
 }
 
 }  // namespace
 
-SqlFragment Expression::sql() const {
+SqlFragment applied(Operation operation, const std::vector<SqlFragment>& operands) {
+  const Spelling spelling = spelling_of(operation);
+  SqlFragment all;
+  for (const SqlFragment& one : operands) {
+    all.text += all.text.empty() ? spelling.before : spelling.between;
+    all.text += one.text;
+    all.parameters.insert(all.parameters.end(), one.parameters.begin(), one.parameters.end());
+  }
+  all.text += ')';
+  return all;
+}
+
+SqlFragment sql_of(const Node& node, const std::vector<Symbol>& symbols) {
   SqlFragment fragment;
-  write(*root_, columns_, fragment);
+  write(node, symbols, fragment);
   return fragment;
 }
+
+SqlFragment Expression::sql() const { return sql_of(*root_, symbols_); }
 
 }  // namespace faultsweep

@@ -1,9 +1,11 @@
 #include "campaign/report/selection.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "campaign/expression/expression.h"
 #include "campaign/report/parameters.h"
+#include "campaign/report/table_output.h"
 
 namespace faultsweep {
 
@@ -54,10 +56,14 @@ Selection make_selection(const Store& store, const CampaignInfo& campaign, const
 
 std::map<std::string, ScopedMetric> known_metrics(const Selection& selection) {
   std::map<std::string, ScopedMetric> known;
-  const auto add = [&known](MetricInfo info, std::string name, std::string spelled,
-                            std::string sql) {
-    info.name = name;
-    known.insert_or_assign(std::move(name), ScopedMetric{info, std::move(sql), std::move(spelled)});
+  const auto add = [&](MetricInfo info, std::string name, std::string spelled,
+                       std::optional<MetricScope> scope) {
+    const bool of_fault = selection.fault && has_faults(info.name);
+    std::string sql =
+        scope ? metric_sql(info.name, *scope, selection.stage.id) : metric_sql(info.name, of_fault);
+    std::string metric = std::exchange(info.name, name);
+    known.insert_or_assign(std::move(name), ScopedMetric{info, std::move(sql), std::move(spelled),
+                                                         std::move(metric), scope});
   };
   std::vector<std::pair<std::string, std::int64_t>> stages;  // as expressions name them
   for (const NamedId& stage : selection.stages) {
@@ -67,23 +73,20 @@ std::map<std::string, ScopedMetric> known_metrics(const Selection& selection) {
     const bool of_fault = selection.fault && has_faults(metric.name);
     for (const std::string& name : {metric.name, metric.synonym}) {
       if (name.empty()) continue;
-      const auto sql = [&](MetricScope scope) {
-        return metric_sql(metric.name, scope, selection.stage.id);
-      };
-      add(metric, name, name, metric_sql(metric.name, of_fault));
+      add(metric, name, name, std::nullopt);
       if (!has_stages(metric.name)) continue;
       for (const auto& [stage, id] : stages) {
         const auto fault = of_fault ? std::optional(selection.fault->id) : std::nullopt;
         add(metric, concat(name, " in ", stage), concat(name, " in ", spelled_name(stage)),
-            sql({fault, id}));
+            MetricScope{fault, id});
       }
       if (!has_faults(metric.name)) continue;
       for (const NamedId& fault : selection.faults) {
         const std::string spelled = concat(spelled_name(fault.name), ".", name);
-        add(metric, concat(fault.name, ".", name), spelled, sql({fault.id, std::nullopt}));
+        add(metric, concat(fault.name, ".", name), spelled, MetricScope{fault.id, std::nullopt});
         for (const auto& [stage, id] : stages) {
           add(metric, concat(fault.name, ".", name, " in ", stage),
-              concat(spelled, " in ", spelled_name(stage)), sql({fault.id, id}));
+              concat(spelled, " in ", spelled_name(stage)), MetricScope{fault.id, id});
         }
       }
     }
@@ -91,7 +94,11 @@ std::map<std::string, ScopedMetric> known_metrics(const Selection& selection) {
   return known;
 }
 
-Symbols result_symbols(const CampaignInfo& campaign, const Selection& selection) {
+namespace {
+
+constexpr const char* kTexts[] = {"outcome", "activated_fault", "opened_fault", "unexpected_fault"};
+
+Symbols symbols_of(const CampaignInfo& campaign, const std::map<std::string, ScopedMetric>& known) {
   Symbols symbols;
   int index = 0;
   for (const StoredParameter& parameter : parameters_from_json(campaign.parameters)) {
@@ -99,14 +106,43 @@ Symbols result_symbols(const CampaignInfo& campaign, const Selection& selection)
     symbols[parameter.name] = {parameter_sql(index++, parameter.is_text), type};
   }
   // After the parameters: a parameter that is called like a metric does not hide it.
-  for (const auto& [name, metric] : known_metrics(selection)) {
+  for (const auto& [name, metric] : known) {
     const Type type = metric.is_flag ? Type{Kind::boolean, {}} : number_type(metric.dimension);
     symbols[name] = {metric.sql, type};
   }
-  for (const char* name : {"outcome", "activated_fault", "opened_fault", "unexpected_fault"}) {
-    symbols[name] = {metric_sql(name), Type{Kind::text, {}}};
-  }
+  for (const char* name : kTexts) symbols[name] = {metric_sql(name), Type{Kind::text, {}}};
   return symbols;
+}
+
+std::vector<std::int64_t> ids_of(const std::vector<NamedId>& all) {
+  std::vector<std::int64_t> ids;
+  for (const NamedId& one : all) ids.push_back(one.id);
+  return ids;
+}
+
+/// Where the metrics among the names are not resolved, and how large their errors are.
+void add_doubts(Symbols& symbols, const std::vector<std::string>& names,
+                const std::map<std::string, ScopedMetric>& known, const Selection& selection,
+                const StatedErrors& errors) {
+  const MetricIds all = {ids_of(selection.faults), ids_of(selection.stages)};
+  for (const std::string& name : names) {
+    if (std::count(std::begin(kTexts), std::end(kTexts), name) > 0)
+      symbols[name].unresolved = unresolved_sql(name, all);
+    const auto found = known.find(name);
+    if (found == known.end()) continue;
+    const ScopedMetric& metric = found->second;
+    symbols[name].unresolved =
+        metric.scope ? unresolved_sql(metric.metric, all, *metric.scope, selection.stage.id)
+                     : unresolved_sql(metric.metric, all, selection.fault.has_value());
+    const auto error = errors.find(metric.metric);
+    if (error != errors.end()) symbols[name].error = error->second;
+  }
+}
+
+}  // namespace
+
+Symbols result_symbols(const CampaignInfo& campaign, const Selection& selection) {
+  return symbols_of(campaign, known_metrics(selection));
 }
 
 Scopes scopes_of(const Selection& selection) {
@@ -115,16 +151,45 @@ Scopes scopes_of(const Selection& selection) {
   return scopes;
 }
 
+namespace {
+
+/// @param option  that the condition is given with, for messages.
+Expression read_condition(const std::string& option, const std::string& condition,
+                          const Symbols& symbols, const Selection& selection) {
+  Expression read = Expression::parse(condition, symbols, scopes_of(selection));
+  if (read.type().kind != Kind::boolean) {
+    throw InputError(option, {{"", 0, concat("'", condition, "' is not a condition"),
+                               "compare it with something: \"chi_bar > 0.8\""}});
+  }
+  return read;
+}
+
+}  // namespace
+
 SqlFragment parse_condition(const std::string& where, const CampaignInfo& campaign,
                             const Selection& selection) {
   if (where.empty()) return {};
-  const Expression condition =
-      Expression::parse(where, result_symbols(campaign, selection), scopes_of(selection));
-  if (condition.type().kind != Kind::boolean) {
-    throw InputError("--where", {{"", 0, concat("'", where, "' is not a condition"),
-                                  "compare it with something: \"chi_bar > 0.8\""}});
-  }
-  return condition.sql();
+  return read_condition("--where", where, result_symbols(campaign, selection), selection).sql();
+}
+
+StatedErrors stated_errors(const std::vector<ErrorBar>& bars) {
+  StatedErrors errors;
+  for (const ErrorBar& bar : bars) errors[bar.metric] = std::max(errors[bar.metric], bar.largest);
+  return errors;
+}
+
+VerdictSql parse_verdict(const std::string& condition, const CampaignInfo& campaign,
+                         const Selection& selection, const StatedErrors& errors) {
+  const auto known = known_metrics(selection);
+  Symbols symbols = symbols_of(campaign, known);
+  const Expression read = read_condition("condition", condition, symbols, selection);
+  add_doubts(symbols, read.names(), known, selection, errors);
+  return Expression::parse(condition, symbols, scopes_of(selection)).verdict_sql();
+}
+
+Verdict verdict_of(const Cell& certain, const Cell& possible) {
+  if (number_of(certain) == 1) return Verdict::yes;
+  return number_of(possible) == 1 ? Verdict::undecided : Verdict::no;
 }
 
 bool creeps(const Store& store, const CampaignInfo& campaign) {

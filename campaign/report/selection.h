@@ -29,6 +29,8 @@ void require_name(const std::string& option, const std::string& what, const std:
 struct ScopedMetric : MetricInfo {
   std::string sql;
   std::string spelled;  ///< the name as expressions and lists of metrics have it (spelled_name).
+  std::string metric;   ///< its name in metric_catalogue().
+  std::optional<MetricScope> scope;  ///< none = the row that the query goes along.
 };
 /// All metrics by name, synonyms too; those of faults and stages as the expressions spell them (see
 /// Scopes). The whole history is the stage `whole_history`.
@@ -41,6 +43,26 @@ Scopes scopes_of(const Selection& selection);
 /// --where as SQL; "" gives the empty fragment. Throws InputError.
 SqlFragment parse_condition(const std::string& where, const CampaignInfo& campaign,
                             const Selection& selection);
+
+/// Half-width of the error of a metric, SI, by its name in metric_catalogue(). It holds for each
+/// fault and stage.
+using StatedErrors = std::map<std::string, double>;
+/// The *largest* error that a trade measured, not the rms: a case may be the worst one. It is that
+/// of the sample that was measured, not a bound. Of several bars of a metric the largest.
+/// @param bars  of the tier of the cases in question.
+StatedErrors stated_errors(const std::vector<ErrorBar>& bars);
+
+/// What a condition about a case comes to.
+enum class Verdict { no, yes, undecided };
+/// A condition about a case as SQL. It is undecided where what it depends on is not resolved
+/// (unresolved_sql: that is so of all results of a case that has none, or whose history ended
+/// early) or within its error of a threshold; parameters are resolved and exact. Throws InputError.
+VerdictSql parse_verdict(const std::string& condition, const CampaignInfo& campaign,
+                         const Selection& selection, const StatedErrors& errors);
+/// @param certain, possible  cells of the columns that parse_verdict gives, of a row of a query of
+///                           the selection's stage.
+Verdict verdict_of(const Cell& certain, const Cell& possible);
+
 /// Whether the salt of any of its cases creeps.
 bool creeps(const Store& store, const CampaignInfo& campaign);
 /// "moment, F2.max_slip in gas_storage" as metrics, in this order, names of faults and stages with

@@ -1,4 +1,5 @@
 #include <map>
+#include <vector>
 
 #include "campaign/store/store.h"
 #include "simulator/result/measures.h"
@@ -94,8 +95,8 @@ const MetricColumn& column_of(const std::string& metric) {
   return found->second;
 }
 
-std::string filled(const MetricColumn& column, const std::string& row, bool of_fault) {
-  const std::string& sql = of_fault || column.together.empty() ? column.sql : column.together;
+/// "$" replaced by the row, "$F" and "$O" by its faults.
+std::string filled(const std::string& sql, const std::string& row, bool of_fault) {
   std::string text;
   for (std::size_t i = 0; i < sql.size(); ++i) {
     if (sql[i] != '$') {
@@ -110,6 +111,136 @@ std::string filled(const MetricColumn& column, const std::string& row, bool of_f
   return text;
 }
 
+const std::string& sql_for(const MetricColumn& column, bool of_fault) {
+  return of_fault || column.together.empty() ? column.sql : column.together;
+}
+
+/// SQL over the row of a scope, as SQL of a query over cc; of no row it stays as it is.
+std::string scoped(const std::string& sql, const MetricScope& scope, std::int64_t stage_of_query) {
+  if (sql.find('$') == std::string::npos) return sql;
+  const bool of_fault = scope.fault.has_value();
+  return concat("(SELECT ", filled(sql, "x", of_fault), " FROM ",
+                of_fault ? "fault_metrics" : "stage_metrics",
+                " x WHERE x.stage_id = ", scope.stage.value_or(stage_of_query),
+                of_fault ? concat(" AND x.fault_id = ", *scope.fault) : "",
+                " AND x.case_id = cc.case_id)");
+}
+
+// What is not resolved ----------------------------------------------------------------------------
+
+/// On what a value depends that cells may leave open, once the history has its end.
+enum class Depends {
+  on_the_run,           ///< nothing where there is a result, even of a history that ended early.
+  on_the_history,       ///< nothing else: taken as of these cells.
+  on_activation,        ///< whether the row's fault slides; together: whether some fault does.
+  on_every_activation,  ///< the same; together: whether each fault of the row slides.
+  on_any_of_the_case,   ///< whether faults slide, in whatever stage.
+  on_events,            ///< sizes of slip events, or whether there is one.
+  on_magnitudes,        ///< the same; in plane strain there are none for certain.
+  on_activation_and_events,  ///< on_every_activation and on_events.
+};
+
+/// The one table of that.
+const std::map<std::string, Depends>& all_dependences() {
+  static const std::map<std::string, Depends> dependences = [] {
+    std::map<std::string, Depends> all;
+    const auto add = [&all](Depends on, const std::vector<const char*>& metrics) {
+      for (const char* one : metrics) all.emplace(one, on);
+    };
+    add(Depends::on_the_run, {"outcome", "plane_strain"});
+    add(Depends::on_the_history, {"activation_resolved",
+                                  "weakening_resolved",
+                                  "slips",
+                                  "opens",
+                                  "open_area",
+                                  "opening_step",
+                                  "opening_depth",
+                                  "opening_pressure_change",
+                                  "opening_pressure_absolute",
+                                  "opening_change_in_fault",
+                                  "opened_fault",
+                                  "chi_bar",
+                                  "chi_max",
+                                  "area_chi_080",
+                                  "thickness_chi_080",
+                                  "creep_normal_min",
+                                  "creep_normal_max",
+                                  "creep_shear_max",
+                                  "creep_time_steps",
+                                  "creep_time_error",
+                                  "creep_time_resolved"});
+    add(Depends::on_activation, {"slides"});
+    add(Depends::on_every_activation,
+        {"activation_step", "activation_depth", "activation_pressure_change",
+         "activation_pressure_absolute", "activation_change_in_fault", "activated_fault"});
+    add(Depends::on_any_of_the_case,
+        {"unexpected", "unexpected_fault", "n_episodes", "pressure_margin"});
+    add(Depends::on_events, {"jumps", "n_events", "event_moment", "event_stress_drop", "moment",
+                             "max_slip", "potency", "slipping_area"});
+    add(Depends::on_magnitudes, {"event_magnitude", "magnitude_if_released_at_once"});
+    add(Depends::on_activation_and_events, {"activated_area"});
+    return all;
+  }();
+  return dependences;
+}
+
+constexpr const char* kEarly = "coalesce(s.rank_class, 2) > 1";   // see CaseRow::complete
+constexpr const char* kUnsure = ".activation_resolved IS NOT 1";  // missing: not known
+constexpr const char* kEventsOpen = "(m.outcome = 'unresolved_event' OR NOT m.weakening_resolved)";
+
+std::string list_of(const std::vector<std::int64_t>& ids) {
+  std::string list;
+  for (const std::int64_t id : ids) list += concat(list.empty() ? "" : ", ", id);
+  return list;
+}
+
+/// That the activation of some fault is not resolved in these stages. Faults are named one by one:
+/// the key of fault_metrics has them before the case.
+std::string some_unsure(const std::string& stages, const MetricIds& all) {
+  return concat("EXISTS (SELECT 1 FROM fault_metrics y WHERE y.stage_id ", stages,
+                " AND y.fault_id IN (", list_of(all.faults), ") AND y.case_id = cc.case_id AND y",
+                kUnsure, ")");
+}
+
+/// Condition on which what a value depends on is left open; "" = never.
+std::string open_sql(Depends depends, bool of_fault, const MetricIds& all) {
+  const std::string own = concat("$", kUnsure);
+  const std::string each =
+      of_fault ? own : concat("(", own, " OR ", some_unsure("= $.stage_id", all), ")");
+  switch (depends) {
+    case Depends::on_the_run:
+    case Depends::on_the_history:
+      return "";
+    case Depends::on_activation:
+      return own;
+    case Depends::on_every_activation:
+      return each;
+    case Depends::on_any_of_the_case:
+      return concat("(s", kUnsure, " OR ",
+                    some_unsure(concat("IN (", list_of(all.stages), ")"), all), ")");
+    case Depends::on_events:
+      return kEventsOpen;
+    case Depends::on_magnitudes:
+      return concat("(", kEventsOpen, " AND NOT m.plane_strain)");
+    case Depends::on_activation_and_events:
+      return concat("(", each, " OR ", kEventsOpen, ")");
+  }
+  FAULTSIM_DEMAND(false, static_cast<int>(depends));
+  return "";
+}
+
+Depends dependence_of(const std::string& metric) {
+  const auto found = all_dependences().find(metric);
+  FAULTSIM_DEMAND(found != all_dependences().end(), metric, ": on what does it depend?");
+  return found->second;
+}
+
+/// The same with the histories that ended early, or results that are missing.
+std::string with_early(Depends depends, const std::string& open) {
+  if (depends == Depends::on_the_run) return "m.outcome IS NULL";
+  return open.empty() ? kEarly : concat(kEarly, " OR ", open);
+}
+
 }  // namespace
 
 bool has_stages(const std::string& metric) {
@@ -120,19 +251,28 @@ bool has_faults(const std::string& metric) { return column_of(metric).of_fault; 
 std::string metric_sql(const std::string& metric, bool of_fault) {
   const MetricColumn& column = column_of(metric);
   const bool one_fault = of_fault && column.of_fault;
-  return filled(column, one_fault ? "q" : "s", one_fault);
+  return filled(sql_for(column, one_fault), one_fault ? "q" : "s", one_fault);
 }
 
 std::string metric_sql(const std::string& metric, const MetricScope& scope,
                        std::int64_t stage_of_query) {
-  const MetricColumn& column = column_of(metric);
   FAULTSIM_DEMAND(has_stages(metric) && (has_faults(metric) || !scope.fault), metric);
-  const bool of_fault = scope.fault.has_value();
-  return concat("(SELECT ", filled(column, "x", of_fault), " FROM ",
-                of_fault ? "fault_metrics" : "stage_metrics",
-                " x WHERE x.stage_id = ", scope.stage.value_or(stage_of_query),
-                of_fault ? concat(" AND x.fault_id = ", *scope.fault) : "",
-                " AND x.case_id = cc.case_id)");
+  return scoped(sql_for(column_of(metric), scope.fault.has_value()), scope, stage_of_query);
+}
+
+std::string unresolved_sql(const std::string& metric, const MetricIds& all, bool of_fault) {
+  const Depends depends = dependence_of(metric);
+  const bool one_fault = of_fault && has_faults(metric);
+  const std::string open = open_sql(depends, one_fault, all);
+  return with_early(depends, filled(open, one_fault ? "q" : "s", one_fault));
+}
+
+std::string unresolved_sql(const std::string& metric, const MetricIds& all,
+                           const MetricScope& scope, std::int64_t stage_of_query) {
+  FAULTSIM_DEMAND(has_stages(metric) && (has_faults(metric) || !scope.fault), metric);
+  const Depends depends = dependence_of(metric);
+  const std::string open = open_sql(depends, scope.fault.has_value(), all);
+  return with_early(depends, scoped(open, scope, stage_of_query));
 }
 
 }  // namespace faultsweep

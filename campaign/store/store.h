@@ -35,6 +35,34 @@ bool has_faults(const std::string& metric);
 /// The same of another fault or stage. @pre has_stages(metric), and has_faults for that of a fault.
 std::string metric_sql(const std::string& metric, const MetricScope& scope,
                        std::int64_t stage_of_query);
+/// Ids of the faults and stages that have metrics in a campaign.
+struct MetricIds {
+  std::vector<std::int64_t> faults, stages;
+};
+/// Where the value of a metric is not resolved, as SQL for Symbol::unresolved, over the same row as
+/// metric_sql of the same arguments: where there is no result; of all but `outcome` and
+/// `plane_strain` where the history ended early; and besides
+///   * slides: where activation_resolved is 0 in its row, which is that of the fault, stage or
+///   whole
+///     history that it is of;
+///   * activation_..., activated_fault, activated_area: there too; of all faults together where it
+///     is 0 for any of them. One that slides for certain resolves whether some fault does, but not
+///     which is the first, when, and what the areas add up to;
+///   * unexpected, unexpected_fault, n_episodes, which follow from slides, and pressure_margin,
+///   which
+///     is there if nothing slides: where it is 0 for any fault in any stage;
+///   * jumps, n_events, event_..., and what an event makes, that is moment, max_slip, potency,
+///     slipping_area, activated_area, magnitude_if_released_at_once: where the outcome is
+///     unresolved_event or weakening_resolved is 0. Both are of the case: an event may be the
+///     mesh's or unproven, its size is, and it loads all other faults. Magnitudes in plane strain
+///     are missing for certain.
+/// slips, opens and what is of openings, of χ̄ and χ are taken as of these cells. Missing counts as
+/// resolved. @pre the metric is in metric_catalogue(), or outcome, activated_fault, opened_fault or
+/// unexpected_fault.
+std::string unresolved_sql(const std::string& metric, const MetricIds& all, bool of_fault = false);
+/// The same of another fault or stage.
+std::string unresolved_sql(const std::string& metric, const MetricIds& all,
+                           const MetricScope& scope, std::int64_t stage_of_query);
 /// The same for the index-th of a campaign's parameters: SI, or words.
 std::string parameter_sql(int index, bool is_text);
 

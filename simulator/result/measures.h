@@ -10,7 +10,8 @@ namespace faultsim {
 /// together: what cases are ranked by. Definitions: docs/model.md, section 7; words: docs/words.md.
 ///
 /// A new one is a member and an entry below with `since` the store's next version, and its value in
-/// measures/stage_summary.cc. JSON, wire, store, views, rank, export and compare follow.
+/// measures/stage_summary.cc; on what it depends that cells may leave open says
+/// campaign/store/metric_columns.cc. JSON, wire, store, views, rank, export and compare follow.
 struct Measures {
   bool activated = false;  ///< *slides*: slip since the start of the stage (whole case: since
                            ///< start) reaches the criterion.
