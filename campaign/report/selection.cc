@@ -187,11 +187,6 @@ VerdictSql parse_verdict(const std::string& condition, const CampaignInfo& campa
   return Expression::parse(condition, symbols, scopes_of(selection)).verdict_sql();
 }
 
-Verdict verdict_of(const Cell& certain, const Cell& possible) {
-  if (number_of(certain) == 1) return Verdict::yes;
-  return number_of(possible) == 1 ? Verdict::undecided : Verdict::no;
-}
-
 bool creeps(const Store& store, const CampaignInfo& campaign) {
   const auto families = store.family_progress(campaign.id);
   return std::any_of(families.begin(), families.end(),

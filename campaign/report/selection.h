@@ -52,16 +52,11 @@ using StatedErrors = std::map<std::string, double>;
 /// @param bars  of the tier of the cases in question.
 StatedErrors stated_errors(const std::vector<ErrorBar>& bars);
 
-/// What a condition about a case comes to.
-enum class Verdict { no, yes, undecided };
 /// A condition about a case as SQL. It is undecided where what it depends on is not resolved
 /// (unresolved_sql: that is so of all results of a case that has none, or whose history ended
 /// early) or within its error of a threshold; parameters are resolved and exact. Throws InputError.
 VerdictSql parse_verdict(const std::string& condition, const CampaignInfo& campaign,
                          const Selection& selection, const StatedErrors& errors);
-/// @param certain, possible  cells of the columns that parse_verdict gives, of a row of a query of
-///                           the selection's stage.
-Verdict verdict_of(const Cell& certain, const Cell& possible);
 
 /// Whether the salt of any of its cases creeps.
 bool creeps(const Store& store, const CampaignInfo& campaign);
