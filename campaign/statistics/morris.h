@@ -37,11 +37,10 @@ class MorrisDesign {
   ///
   /// Bounds of μ and μ*: Student's t with r − 1 degrees of freedom; not below 0 of μ*. Bounds of σ:
   /// ln σ ± t √((κ − (r − 3) / r) / (r − 1)) / 2, with the kurtosis κ of the effects, which need
-  /// not be normal (Bonett 2006), and r / 4 degrees of freedom; its standard error: that root times
-  /// σ / 2. From kFewestTrajectories on 95 % intervals of μ and μ* hold 92 to 97 %, those of σ 88
-  /// to 98 %: less where few effects are much larger than the others (results/coverage). Of fewer
-  /// than two effects nothing is bounded, of none all is NaN; where effects differ by rounding only
-  /// (1e-12 of the largest) σ is 0 ± 0.
+  /// not be normal (Bonett 2006), and r / 4 degrees of freedom; standard error: σ times that
+  /// without t. 95 % intervals hold 93 to 98 % from kFewestTrajectories on, of σ from
+  /// kFewestForDeviation on (results/coverage). Of fewer than two effects nothing is bounded, of
+  /// none all is NaN; where effects differ by rounding only (1e-12 of the largest) σ is 0 ± 0.
   /// @param y  one value per row; NaN: both effects in which it would be are not known.
   std::vector<ElementaryEffects> effects(std::span<const double> y, double confidence) const;
 
@@ -57,6 +56,7 @@ class MorrisDesign {
   std::vector<Move> moves_;  ///< trajectory by trajectory.
 };
 inline constexpr long kFewestTrajectories = 30;
+inline constexpr long kFewestForDeviation = 50;
 
 /// A design, or why the rows are none.
 struct MorrisDesign::Made {

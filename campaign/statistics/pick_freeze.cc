@@ -99,8 +99,10 @@ Estimate estimate_of(const Pairs& pairs, const Blocks& blocks, double confidence
     found.bounds = correlation_bounds(r.value, r.variance, blocks.freedom, confidence);
     return found;
   }
-  // Of few pairs with the rare value the jackknife sees little: not less than without any effect.
-  const double variance = std::max(r.variance, (1 - r.value) * (1 - r.value) / n);
+  // Of few pairs with the rare value the jackknife sees little: not less than if what they do not
+  // share were as large everywhere. Of several outputs it may be less, as they do not go together.
+  const double least = pairs.u.size() == 1 ? (1 - r.value) * (1 - r.value) / n : 0.0;
+  const double variance = std::max(r.variance, least);
   found.bounds =
       flag_correlation_bounds(r.value, variance, *blocks.rare, blocks.freedom, confidence);
   return found;

@@ -31,7 +31,8 @@ struct SobolIndices {
 /// those of a share (Wilson).
 ///
 /// From kFewestForPickFreeze points, and kFewestOfEitherValueInBlocks rows of A and B with each
-/// value of an output that has two, 95 % intervals hold 93 to 98 % (results/coverage).
+/// value of an output that has two, 95 % intervals hold 93 to 97 % (results/coverage), and a total
+/// of 0 always.
 /// @return zeros where nothing varies or N < 4.
 std::vector<SobolIndices> indices_by_pick_freeze(const PickFreezeValues& values, double confidence);
 inline constexpr long kFewestForPickFreeze = 128;

@@ -31,16 +31,20 @@ class Places {
  public:
   void start(std::size_t n) {
     squares_.assign(n, 0.0), next_.assign(n, 0.0), across_.assign(n, 0.0);
+    n_outputs_ = 0;
   }
   /// @param y  deviations from their mean, in the order; at least 4.
   void add(std::span<const double> y) {
     const std::size_t n = y.size();
-    for (std::size_t i = 0; i < n; ++i) squares_[i] += y[i] * y[i];
-    for (std::size_t i = 0; i + 1 < n; ++i) next_[i] += y[i] * y[i + 1];
-    for (std::size_t i = 1; i + 1 < n; ++i) across_[i] += y[i - 1] * y[i + 1];
-    next_[n - 1] += y[n - 1] * y[n - 2];
-    across_[0] += y[1] * y[1];
-    across_[n - 1] += y[n - 2] * y[n - 2];
+    ++n_outputs_;
+    const auto add_at = [&](std::size_t i, double before, double after) {
+      squares_[i] += y[i] * y[i];
+      next_[i] += y[i] * after;
+      across_[i] += before * after;
+    };
+    add_at(0, y[1], y[1]);
+    for (std::size_t i = 1; i + 1 < n; ++i) add_at(i, y[i - 1], y[i + 1]);
+    add_at(n - 1, y[n - 2], y[n - 2]);
   }
   /// @param rare  where all outputs have two values only.
   Estimate index(const std::optional<RareValue>& rare, double confidence) const;
@@ -50,6 +54,7 @@ class Places {
   double variance_of_rows(double value) const;
 
   std::vector<double> squares_, next_, across_;  ///< y_i², y_i y_(i+1), y_(i−1) y_(i+1).
+  int n_outputs_ = 0;
 };
 
 /// Sums of products of numbers with themselves and those one and two before.
@@ -99,8 +104,9 @@ Estimate Places::index(const std::optional<RareValue>& rare, double confidence) 
   const double value = products / squares;
   const double centre = value + (1 - value) / static_cast<double>(n);
   const double of_terms = variance_of_terms(value) / (squares * squares);
-  // What x does not explain, were it as large everywhere: the least variance that there can be.
-  const double least = (1 - value) * (1 - value) / static_cast<double>(n);
+  // What x does not explain, were it as large everywhere: the least variance that there can be. Of
+  // several outputs it is smaller, as they do not go together.
+  const double least = n_outputs_ == 1 ? (1 - value) * (1 - value) / static_cast<double>(n) : 0.0;
   if (rare) {
     const double variance = std::max(of_terms, least);
     const double freedom = kFreedomPerRowOfFlags * effective.count();
@@ -158,13 +164,14 @@ Estimate analyse(const Outputs& outputs, std::span<const std::uint32_t> order, d
   thread_local Places places;
   thread_local std::vector<double> centred;
   places.start(outputs.n);
-  centred.reserve(outputs.n);
+  centred.resize(order.size() + 1);
   for (std::size_t k = 0; k < outputs.values.size(); ++k) {
-    centred.clear();
-    for (const std::uint32_t row : order)
-      if (outputs.is_left_out[row] == 0)
-        centred.push_back(outputs.values[k][row] - outputs.means[k]);
-    places.add(centred);
+    std::size_t n = 0;  // one that does not count is overwritten by the next
+    for (const std::uint32_t row : order) {
+      centred[n] = outputs.values[k][row] - outputs.means[k];
+      n += outputs.is_left_out[row] == 0 ? 1 : 0;
+    }
+    places.add(std::span(centred).first(outputs.n));
   }
   return places.index(outputs.rare, confidence);
 }

@@ -30,13 +30,14 @@ std::vector<std::uint32_t> random_tied_order(std::span<const double> x);
 /// share the rarer one.
 ///
 /// From kFewestForRankIndex rows, and kFewestOfEitherValue with each value of an output that has
-/// two, 95 % intervals hold 93 to 98 % (results/coverage). Of indices above 0.95 it takes 400 rows:
-/// with fewer the estimate is too low by some thousandths.
+/// two, 95 % intervals hold 93 to 97 % (results/coverage). An index above 0.95 takes
+/// kFewestForRankIndexNearOne: with fewer rows the estimate is too low by some thousandths.
 /// @param order  of x, as random_tied_order.
 /// @return zeros where y does not vary or n < 4.
 Estimate first_order_by_ranks(std::span<const double> y, std::span<const std::uint32_t> order,
                               double confidence);
 inline constexpr long kFewestForRankIndex = 128;
+inline constexpr long kFewestForRankIndexNearOne = 400;
 inline constexpr long kFewestOfEitherValue = 20;
 
 /// The same of many outputs: what concerns the parameters alone is done once.

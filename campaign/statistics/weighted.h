@@ -13,9 +13,9 @@ namespace faultsweep {
 /// (Σ w)² / Σ w² (Kish 1965): how many equal members would say as much. 0 where all weights are 0.
 double effective_sample_size(std::span<const double> weights);
 
-/// Below that many effective members, 95 % intervals of what a twentieth of all weight has, or of a
-/// quantile that far out, hold less than 93 % (results/coverage); means and medians do from 50.
-inline constexpr double kFewestEffectiveMembers = 100;
+/// From that many effective members on, 95 % intervals hold 93 to 97 %; means, medians and shares
+/// of a half do from 50, but not what a twentieth of all weight has (results/coverage).
+inline constexpr double kFewestEffectiveMembers = 150;
 
 /// Σ w y / Σ w, with the standard error √(Σ w² (y − mean)² m / (m − 1)) / Σ w of the
 /// self-normalised estimate, m the effective sample size; bounds by Student's t with m − 1 degrees

@@ -39,9 +39,11 @@ class Tally {
     ++n_, width_ += bounds.high - bounds.low;
   }
   void print(const std::string& first, const std::string& second) const {
-    std::printf("| %s | %s | %.1f | %.3g |\n", first.c_str(), second.c_str(),
-                100.0 * static_cast<double>(held_) / static_cast<double>(n_),
-                width_ / static_cast<double>(n_));
+    const double n = static_cast<double>(n_), width = width_ / n;
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", width);
+    std::printf("| %s | %s | %.1f | %s |\n", first.c_str(), second.c_str(),
+                100.0 * static_cast<double>(held_) / n, std::isfinite(width) ? text : "open");
   }
 
  private:
@@ -51,6 +53,11 @@ class Tally {
 
 void heading(const char* title, const char* columns) {
   std::printf("\n### %s\n\n| %s | covers, %% | mean width |\n|---|---|---|---|\n", title, columns);
+}
+
+/// A size of sample, with a remark where it is below what is asked for.
+std::string sized(long n, long fewest) {
+  return std::to_string(n) + (n < fewest ? ", below the minimum" : "");
 }
 
 struct Indices {
@@ -85,7 +92,8 @@ Indices by_midpoints(const Case& one) {
   for (const double one_mean : over_x)
     of_others += one_mean * one_mean / static_cast<double>(over_x.size());
   const double variance = squares - mean * mean;
-  return {(of_x - mean * mean) / variance, (squares - of_others) / variance};
+  const auto share = [&](double part) { return part > 1e-9 * variance ? part / variance : 0; };
+  return {share(of_x - mean * mean), share(squares - of_others)};
 }
 
 Model flag_beyond(double p) {
@@ -96,6 +104,7 @@ std::vector<Case> cases() {
   std::vector<Case> all = {
       {"2 x + y", [](const Point& p) { return 2 * p[0] + p[1]; }},
       {"x + 2 y", [](const Point& p) { return p[0] + 2 * p[1]; }},
+      {"7 x + y", [](const Point& p) { return 7 * p[0] + p[1]; }},
       {"x³ + 0.3 y", [](const Point& p) { return std::pow(p[0], 3) + 0.3 * p[1]; }},
       {"y², nothing of x", [](const Point& p) { return p[1] * p[1]; }},
       {"Ishigami's first", ishigami(0, 1, 2), true},
@@ -132,7 +141,7 @@ bool is_frequent(const Case& one, long n, long fewest) {
 void study_ranks(const std::vector<Case>& all, int repeats) {
   heading("First order by ranks (`rank_sensitivity`)", "output | rows");
   for (const Case& one : all) {
-    for (const long n : {50L, kFewestForRankIndex, 256L, 400L, 1000L}) {
+    for (const long n : {50L, kFewestForRankIndex, 400L, 1000L}) {
       if (!is_frequent(one, n, kFewestOfEitherValue)) continue;
       std::mt19937_64 random(static_cast<std::uint64_t>(n));
       Tally tally;
@@ -146,8 +155,9 @@ void study_ranks(const std::vector<Case>& all, int repeats) {
         tally.add(bounds, one.known.first);
       }
       char text[80];
-      std::snprintf(text, sizeof text, "%s (%.2f)", one.name.c_str(), one.known.first + 0.0);
-      tally.print(text, std::to_string(n));
+      std::snprintf(text, sizeof text, "%s (%.2f)", one.name.c_str(), one.known.first);
+      const bool is_near_one = one.known.first > 0.95;
+      tally.print(text, sized(n, is_near_one ? kFewestForRankIndexNearOne : kFewestForRankIndex));
     }
   }
 }
@@ -155,7 +165,7 @@ void study_ranks(const std::vector<Case>& all, int repeats) {
 void study_pick_freeze(const std::vector<Case>& all, int repeats) {
   heading("First and total order by pick-freeze (`pick_freeze`)", "output | points");
   for (const Case& one : all) {
-    for (const long n : {64L, kFewestForPickFreeze, 256L, 512L}) {
+    for (const long n : {64L, kFewestForPickFreeze, 512L}) {
       if (!is_frequent(one, 2 * n, kFewestOfEitherValueInBlocks)) continue;
       std::mt19937_64 random(static_cast<std::uint64_t>(n));
       Tally first, total;
@@ -172,10 +182,10 @@ void study_pick_freeze(const std::vector<Case>& all, int repeats) {
         total.add(found.total.bounds, one.known.total);
       }
       char text[80];
-      std::snprintf(text, sizeof text, "%s, first (%.2f)", one.name.c_str(), one.known.first + 0.0);
-      first.print(text, std::to_string(n));
-      std::snprintf(text, sizeof text, "%s, total (%.2f)", one.name.c_str(), one.known.total + 0.0);
-      total.print(text, std::to_string(n));
+      std::snprintf(text, sizeof text, "%s, first (%.2f)", one.name.c_str(), one.known.first);
+      first.print(text, sized(n, kFewestForPickFreeze));
+      std::snprintf(text, sizeof text, "%s, total (%.2f)", one.name.c_str(), one.known.total);
+      total.print(text, sized(n, kFewestForPickFreeze));
     }
   }
 }
@@ -263,7 +273,7 @@ void study_tiered_means(int repeats) {
       }
       char text[40];
       std::snprintf(text, sizeof text, "%g", scatter);
-      tally.print(text, std::to_string(n));
+      tally.print(text, sized(n, kFewestPairsForTiers));
     }
   }
 }
@@ -296,7 +306,7 @@ void study_tiered_probabilities(int repeats) {
       }
       char text[60];
       std::snprintf(text, sizeof text, "%g, %g, %g", pi, a, b);
-      tally.print(text, std::to_string(n));
+      tally.print(text, sized(n, kFewestPairsForTiers));
     }
   }
 }
@@ -338,19 +348,18 @@ struct WeightedTallies {
 };
 
 void study_weighted(int repeats) {
-  heading("Weighted members (`weighted`), about so many of them effective", "of | members");
+  heading("Weighted members (`weighted`)", "of | effective members, about");
   struct Size {
     double error;
     long n;
-    const char* effective;
+    long effective;
   };
   for (const auto& [error, n, effective] :
-       {Size{0.5, 400, "50"}, {0.5, 800, "105"}, {0.5, 2000, "265"}, {2, 180, "105"}}) {
+       {Size{0.5, 400, 50}, {0.5, 1150, 150}, {0.5, 2300, 300}, {2, 260, 150}}) {
     std::mt19937_64 random(static_cast<std::uint64_t>(n));
     WeightedTallies all;
     for (int repeat = 0; repeat < repeats; ++repeat) all.add({error}, n, random);
-    char text[40];
-    std::snprintf(text, sizeof text, "%s of %ld", effective, n);
+    const std::string text = sized(effective, static_cast<long>(kFewestEffectiveMembers));
     all.mean.print("mean", text);
     all.even.print("probability 0.5", text);
     all.rare.print("probability 0.05", text);
@@ -389,9 +398,10 @@ class MorrisCase {
       magnitude.add(found.mean_magnitude.bounds, magnitude_);
       deviation.add(found.deviation.bounds, deviation_);
     }
-    mean.print(name_ + ", μ", std::to_string(trajectories));
-    magnitude.print(name_ + ", μ*", std::to_string(trajectories));
-    deviation.print(name_ + ", σ", std::to_string(trajectories));
+    const std::string text = sized(trajectories, kFewestTrajectories);
+    mean.print(name_ + ", μ", text);
+    magnitude.print(name_ + ", μ*", text);
+    deviation.print(name_ + ", σ", sized(trajectories, kFewestForDeviation));
   }
 
  private:
@@ -426,40 +436,48 @@ void study_morris(int repeats) {
          return g_function(p, {9, 1, 0});
        }},
       {"exp(2 x + 1.5 y)", [](const Point& p) { return std::exp(2 * p[0] + 1.5 * p[1]); }},
+      {"exp(x / 5 + 2 y + 1.5 z)",
+       [](const Point& p) { return std::exp(0.2 * p[0] + 2 * p[1] + 1.5 * p[2]); }},
       {"max(0, x + y − 0.9)", [](const Point& p) { return std::max(0.0, p[0] + p[1] - 0.9); }}};
   for (const MorrisCase& one : all)
-    for (const long r : {10L, kFewestTrajectories, 50L}) one.study(static_cast<int>(r), repeats);
+    for (const long r : {10L, kFewestTrajectories, kFewestForDeviation})
+      one.study(static_cast<int>(r), repeats);
 }
 
-/// The least that is covered, whatever an adversary does who decides what is not known.
-void study_exact(int repeats) {
-  heading("Exact bounds with undecided samples, decided by an adversary",
-          "bounds | samples, undecided");
-  for (const long n : {50L, 500L}) {
-    for (const double share : {0.0, 0.1, 0.3}) {
-      const long u = std::lround(share * static_cast<double>(n));
-      char text[60];
-      std::snprintf(text, sizeof text, "%ld, %.0f %%", n, 100 * share);
-      for (const double p : {0.0, 0.02, 0.5, 1.0}) {
-        std::mt19937_64 random(static_cast<std::uint64_t>(n));
-        Tally hides_yes, hides_no;
-        for (int repeat = 0; repeat < repeats; ++repeat) {
-          const long k = std::binomial_distribution<long>(n, p)(random);
-          hides_yes.add(proportion_bounds(std::max(0L, k - u), u, n, kConfidence), p);
-          hides_no.add(proportion_bounds(std::min(k, n - u), u, n, kConfidence), p);
-        }
-        char name[60];
-        std::snprintf(name, sizeof name, "probability %g, those with it undecided", p);
-        hides_yes.print(name, text);
-        std::snprintf(name, sizeof name, "probability %g, those without it undecided", p);
-        hides_no.print(name, text);
-      }
-    }
+/// What is covered whatever an adversary does who hides u of n samples, those with a property or
+/// those without: the least of both, a sum over the binomial distribution and so exact.
+void exact_row(long n, long u, double p) {
+  double hides_yes = 0, hides_no = 0, width = 0;
+  for (long k = 0; k <= n; ++k) {
+    const auto all = static_cast<double>(n), some = static_cast<double>(k);
+    const double chance =
+        p == 0 || p == 1
+            ? (k == (p == 0 ? 0 : n) ? 1 : 0)
+            : std::exp(std::lgamma(all + 1) - std::lgamma(some + 1) - std::lgamma(all - some + 1) +
+                       some * std::log(p) + (all - some) * std::log1p(-p));
+    const auto holds = [p](const Interval& bounds) { return bounds.low <= p && p <= bounds.high; };
+    const Interval yes = proportion_bounds(std::max(0L, k - u), u, n, kConfidence);
+    const Interval no = proportion_bounds(std::min(k, n - u), u, n, kConfidence);
+    if (holds(yes)) hides_yes += chance;
+    if (holds(no)) hides_no += chance;
+    width += chance * 0.5 * (yes.high - yes.low + no.high - no.low);
   }
+  std::printf("| %g | %ld, %ld | %.1f | %.3g |\n", p, n, u,
+              std::floor(1000 * std::min({1.0, hides_yes, hides_no}) + 1e-6) / 10, width);
 }
 
+void study_exact() {
+  heading("Probability with undecided samples (`proportion_bounds`), the least that is covered",
+          "probability | samples, undecided");
+  for (const long n : {50L, 500L})
+    for (const long u : {0L, n / 10, 3 * n / 10})
+      for (const double p : {0.0, 0.02, 0.3, 0.5, 1.0}) exact_row(n, u, p);
+}
+
+/// Here the adversary hides the largest values, or the smallest.
 void study_exact_quantiles(int repeats) {
-  for (const long n : {200L, 500L}) {
+  heading("Quantiles with undecided samples (`quantile_bounds`)", "quantile | samples, undecided");
+  for (const long n : {50L, 500L}) {
     for (const long u : {0L, n / 10, 3 * n / 10}) {
       for (const double q : {0.1, 0.5}) {
         std::mt19937_64 random(static_cast<std::uint64_t>(n));
@@ -479,9 +497,9 @@ void study_exact_quantiles(int repeats) {
         }
         char name[60], text[60];
         std::snprintf(text, sizeof text, "%ld, %ld", n, u);
-        std::snprintf(name, sizeof name, "%g quantile, the largest undecided", q);
+        std::snprintf(name, sizeof name, "%g, the largest undecided", q);
         largest.print(name, text);
-        std::snprintf(name, sizeof name, "%g quantile, the smallest undecided", q);
+        std::snprintf(name, sizeof name, "%g, the smallest undecided", q);
         smallest.print(name, text);
       }
     }
@@ -536,7 +554,7 @@ int main(int argc, char** argv) {
   study_tiered_probabilities(repeats);
   study_weighted(repeats);
   study_morris(repeats);
-  study_exact(repeats);
+  study_exact();
   study_exact_quantiles(repeats);
   study_time();
   return 0;

@@ -209,13 +209,13 @@ TEST_F(LinearGaussian, IntervalsCover) {
   }
 }
 
-/// 800 draws of which about as many are effective as the fewest that are taken.
+/// 1150 draws of which about as many are effective as the fewest that are taken.
 TEST_F(LinearGaussian, IntervalsCoverFromTheFewestEffectiveMembers) {
   std::mt19937_64 random(15);
   int mean = 0, probability = 0, rare = 0, median = 0, repeats = 0;
   double effective = 0;
   for (int repeat = 0; repeat < 1000; ++repeat) {
-    draw(800, random);
+    draw(1150, random);
     const double size = effective_sample_size(weights_);
     if (size < kFewestEffectiveMembers * 0.9) continue;
     ++repeats, effective += size;
@@ -225,8 +225,8 @@ TEST_F(LinearGaussian, IntervalsCoverFromTheFewestEffectiveMembers) {
     };
     mean += in(weighted_mean(theta_, weights_, 0.95).bounds, kMean);
     probability += in(weighted_probability(holds_, weights_, 0.95).bounds, 0.5);
-    std::vector<char> far(800);
-    for (std::size_t i = 0; i < 800; ++i) far[i] = theta_[i] > kMean + 1.644854 * deviation_;
+    std::vector<char> far(1150);
+    for (std::size_t i = 0; i < 1150; ++i) far[i] = theta_[i] > kMean + 1.644854 * deviation_;
     rare += in(weighted_probability(far, weights_, 0.95).bounds, 0.05);
     const QuantileBounds b = weighted_quantile(theta_, weights_, order, 0.5, 0.95);
     median += in({b.low.value(), b.high.value()}, kMean);
