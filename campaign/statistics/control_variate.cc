@@ -57,7 +57,7 @@ double members_as_sure(double p, double width, double least, double confidence) 
   };
   double low = least, high = least;
   while (is_wider(high) && high < 1e12) low = high, high *= 2;
-  while (high - low > 1e-6 * high) {
+  while (high - low > 1e-5 * high) {
     const double middle = 0.5 * (low + high);
     (is_wider(middle) ? low : high) = middle;
   }

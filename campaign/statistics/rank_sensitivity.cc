@@ -135,7 +135,7 @@ Outputs prepare(std::span<const std::span<const double>> all, std::size_t n_rows
   for (const std::span<const double> one : all) {
     FAULTSIM_DEMAND(one.size() == n_rows, one.size(), " values of ", n_rows, " rows");
     for (std::size_t row = 0; row < n_rows; ++row)
-      if (std::isnan(one[row])) outputs.is_left_out[row] = 1;
+      if (!std::isfinite(one[row])) outputs.is_left_out[row] = 1;
   }
   outputs.n = static_cast<std::size_t>(
       std::count(outputs.is_left_out.begin(), outputs.is_left_out.end(), 0));
@@ -159,8 +159,7 @@ Outputs prepare(std::span<const std::span<const double>> all, std::size_t n_rows
 
 Estimate analyse(const Outputs& outputs, std::span<const std::uint32_t> order, double confidence) {
   if (outputs.n < 4 || outputs.values.empty()) return {};
-  // Kept between calls: of many outputs, pages of memory that are new each time would cost as much
-  // as the sums.
+  // Kept between calls, of which there are many: else memory would be mapped anew in each.
   thread_local Places places;
   thread_local std::vector<double> centred;
   places.start(outputs.n);

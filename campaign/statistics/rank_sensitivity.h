@@ -46,7 +46,7 @@ class RankSensitivity {
   /// @param parameters  [parameter][row].
   explicit RankSensitivity(std::span<const std::vector<double>> parameters, int n_threads = 1);
 
-  /// Per parameter. A row without a value (NaN) is left out.
+  /// Per parameter. A row without a finite value is left out.
   /// @param output  one value per row.
   std::vector<Estimate> first_order(std::span<const double> output, double confidence) const;
 
@@ -57,8 +57,8 @@ class RankSensitivity {
   /// Of outputs of the same unit together, as a metric at all steps, each counting as much as it
   /// varies: Σ V S / Σ V (Gamboa, Janon, Klein & Lagnoux 2014). That is the index above with sums
   /// over the outputs in its numerator and denominator, so its interval is found in the same way,
-  /// and how the outputs depend on each other is in it. A row without a value of some output is
-  /// left out of all.
+  /// and how the outputs depend on each other is in it. A row without a finite value of some output
+  /// is left out of all.
   std::vector<Estimate> aggregated(std::span<const std::vector<double>> outputs,
                                    double confidence) const;
 
