@@ -1,9 +1,9 @@
 #include "campaign/statistics/control_variate.h"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
-#include <boost/math/special_functions/erf.hpp>
+#include <boost/math/special_functions/beta.hpp>
 #include <cmath>
+#include <limits>
 
 #include "simulator/common/errors.h"
 
@@ -22,15 +22,12 @@ Moments moments_of(std::span<const double> values) {
   return m;
 }
 
-double deviations(double confidence) { return std::sqrt(2.0) * boost::math::erf_inv(confidence); }
-
-/// Wilson's score interval; of nothing all of [0, 1].
-Interval wilson(double k, double n, double confidence) {
+/// Jeffreys' interval: quantiles of Beta(k + ½, n − k + ½), open where none or all have it.
+Interval jeffreys(double k, double n, double confidence) {
   if (n == 0) return {0, 1};
-  const double z = deviations(confidence), p = k / n, zz = z * z / n;
-  const double centre = (p + zz / 2) / (1 + zz);
-  const double half = std::sqrt(p * (1 - p) * zz + zz * zz / 4) / (1 + zz);
-  return {k == 0 ? 0 : centre - half, k == n ? 1 : centre + half};
+  const double tail = 0.5 * (1 - confidence), a = k + 0.5, b = n - k + 0.5;
+  return {k <= 0 ? 0 : boost::math::ibeta_inv(a, b, tail),
+          k >= n ? 1 : boost::math::ibetac_inv(a, b, tail)};
 }
 
 /// Of the members with one value of x: how many, how many of them with y = 1.
@@ -38,12 +35,6 @@ struct Stratum {
   double n = 0, k = 0;
   double share() const { return n > 0 ? k / n : 0.5; }
 };
-
-Estimate with_t(double value, double error, double freedom, double confidence) {
-  const boost::math::students_t t(freedom);
-  const double reach = boost::math::quantile(t, 0.5 + 0.5 * confidence) * error;
-  return {value, error, {value - reach, value + reach}};
-}
 
 void check(const TieredSample& sample) {
   FAULTSIM_DEMAND(sample.high.size() >= 4 && sample.low.size() >= sample.high.size(),
@@ -57,16 +48,16 @@ double product_sum(std::span<const double> x, double mean_x, std::span<const dou
   return sum;
 }
 
-/// How many members alone, a share p of them with the property, have Wilson's interval as narrow as
-/// that; never fewer than were run.
+/// How many members alone, a share p of them with the property, have Jeffreys' interval as narrow
+/// as that; never fewer than were run.
 double members_as_sure(double p, double width, double least, double confidence) {
   const auto is_wider = [&](double n) {
-    const Interval one = wilson(p * n, n, confidence);
+    const Interval one = jeffreys(p * n, n, confidence);
     return one.high - one.low > width;
   };
   double low = least, high = least;
   while (is_wider(high) && high < 1e12) low = high, high *= 2;
-  for (int step = 0; step < 50; ++step) {
+  while (high - low > 1e-5 * high) {
     const double middle = 0.5 * (low + high);
     (is_wider(middle) ? low : high) = middle;
   }
@@ -86,7 +77,7 @@ TieredEstimate tiered_mean(const TieredSample& sample, double confidence) {
   const auto paired = sample.low.first(sample.high.size());
   const Moments y = moments_of(sample.high), x = moments_of(paired), all = moments_of(sample.low);
   TieredEstimate found;
-  found.direct = with_t(y.mean, std::sqrt(y.variance() / n), n - 1, confidence);
+  found.direct = student_estimate(y.mean, std::sqrt(y.variance() / n), n - 1, confidence);
   found.n_equivalent = n;
   if (!(x.squares > 0)) {
     found.estimate = found.direct;
@@ -99,7 +90,8 @@ TieredEstimate tiered_mean(const TieredSample& sample, double confidence) {
   const double shift = all.mean - x.mean;
   const double variance = residual * (1 / n + shift * shift / x.squares) +
                           found.weight * found.weight * all.variance() / all.n;
-  found.estimate = with_t(y.mean + found.weight * shift, std::sqrt(variance), n - 2, confidence);
+  found.estimate =
+      student_estimate(y.mean + found.weight * shift, std::sqrt(variance), n - 2, confidence);
   found.n_equivalent = equivalent(y.variance(), found.estimate.standard_error, n);
   return found;
 }
@@ -114,16 +106,17 @@ TieredEstimate tiered_probability(const TieredSample& sample, double confidence)
   const Moments y = moments_of(sample.high), all = moments_of(sample.low);
   const double pi = all.mean, a = with.share(), b = without.share(), n = y.n;
   TieredEstimate found;
-  found.direct = {y.mean, std::sqrt(y.mean * (1 - y.mean) / n), wilson(y.mean * n, n, confidence)};
+  found.direct = {y.mean, std::sqrt(y.mean * (1 - y.mean) / n),
+                  jeffreys(y.mean * n, n, confidence)};
   found.weight = with.n > 0 && without.n > 0 ? a - b : 0;
   const Moments x = moments_of(sample.low.first(sample.high.size()));
   if (x.squares > 0 && y.squares > 0) {
     found.correlation =
         product_sum(sample.low, x.mean, sample.high, y.mean) / std::sqrt(x.squares * y.squares);
   }
-  const Interval pis = wilson(pi * all.n, all.n, confidence);
-  const Interval as = wilson(with.k, with.n, confidence),
-                 bs = wilson(without.k, without.n, confidence);
+  const Interval pis = jeffreys(pi * all.n, all.n, confidence);
+  const Interval as = jeffreys(with.k, with.n, confidence),
+                 bs = jeffreys(without.k, without.n, confidence);
   // Without a run in a stratum its probability may be any: so may be what π contributes.
   const double slope = with.n > 0 && without.n > 0 ? a - b : 1;
   const double pi_down = slope >= 0 ? pi - pis.low : pis.high - pi;
@@ -134,7 +127,8 @@ TieredEstimate tiered_probability(const TieredSample& sample, double confidence)
   found.estimate.value = value;
   found.estimate.bounds = {std::max(0.0, value - down), std::min(1.0, value + up)};
   const double width = found.estimate.bounds.high - found.estimate.bounds.low;
-  found.estimate.standard_error = 0.5 * width / deviations(confidence);
+  found.estimate.standard_error =
+      0.5 * width / student_reach(confidence, std::numeric_limits<double>::infinity());
   found.n_equivalent = members_as_sure(value, width, n, confidence);
   return found;
 }

@@ -22,7 +22,7 @@ struct TieredEstimate {
   double weight = 0;       ///< with which the cheap values count.
   double correlation = 0;  ///< of x and y, over the n.
   /// Members of the expensive model alone that would be as sure: with the same standard error, or
-  /// of flags as wide an interval (Wilson's); n where the cheap one does not help.
+  /// of flags as wide an interval; n where the cheap one does not help.
   double n_equivalent = 0;
 };
 
@@ -32,7 +32,8 @@ struct TieredEstimate {
 ///   variance  s_e² (1 / n + (mean(x_N) − mean(x_n))² / S_xx) + β² s_x² / N,
 ///
 /// with s_e² the residual variance (n − 2 in its denominator) and s_x² that of all N; bounds by
-/// Student's t with n − 2 degrees of freedom. Where x does not vary over the n it is left out.
+/// Student's t with n − 2 degrees of freedom. Where x does not vary over the n it is left out. From
+/// kFewestPairsForTiers pairs, 95 % intervals hold 93 to 97 % (results/coverage).
 /// @pre n ≥ 4, N ≥ n.
 TieredEstimate tiered_mean(const TieredSample& sample, double confidence);
 
@@ -40,12 +41,16 @@ TieredEstimate tiered_mean(const TieredSample& sample, double confidence);
 ///
 ///   P = π a + (1 − π) b,   π = P(x = 1) over the N, a and b = P(y = 1 | x) over the n,
 ///
-/// and bounds put those of the three together (Wilson 1927) by their squared distances (Zou &
-/// Donner 2008): P̂ − √Σ (their part to the lower side)², so that they do not shrink to a point
-/// where nothing was seen; the standard error is what they are half as wide as, over z. A stratum
-/// in which no expensive run lies may hold anything: the bounds are widened by it.
+/// and bounds put those of the three together (Jeffreys', quantiles of Beta(k + ½, n − k + ½);
+/// Brown, Cai & DasGupta 2001) by their squared distances (Zou & Donner 2008): P̂ − √Σ (their part
+/// to the lower side)², so that they do not shrink to a point where nothing was seen; the standard
+/// error is what they are half as wide as, over z. A stratum in which no expensive run lies may
+/// hold anything: the bounds are widened by it. From kFewestPairsForTiers pairs, 95 % intervals
+/// hold 93 to 98 % if the models differ in about five pairs or more, and more than that where they
+/// hardly differ: too few have then been seen to say less (results/coverage).
 /// @param sample  values 0 and 1. @pre n ≥ 4, N ≥ n.
 TieredEstimate tiered_probability(const TieredSample& sample, double confidence);
+inline constexpr long kFewestPairsForTiers = 40;
 
 /// The N / n at which cases of the two models, whose costs stand as c = cost_low / cost_high, give
 /// the smallest variance for their price: √(ρ² / (1 − ρ²) / c), at least 1.

@@ -2,17 +2,29 @@
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/beta.hpp>
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
+#include <limits>
 
 #include "simulator/common/errors.h"
 
 namespace faultsweep {
 
+double student_reach(double confidence, double freedom) {
+  if (std::isinf(freedom)) return std::sqrt(2.0) * boost::math::erf_inv(confidence);
+  return boost::math::quantile(boost::math::students_t(freedom), 0.5 + 0.5 * confidence);
+}
+
+Estimate student_estimate(double value, double standard_error, double freedom, double confidence) {
+  const double reach = student_reach(confidence, freedom) * standard_error;
+  return {value, standard_error, {value - reach, value + reach}};
+}
+
 Estimate normal_estimate(double value, double standard_error, double confidence) {
-  const double z = std::sqrt(2.0) * boost::math::erf_inv(confidence);
-  return {value, standard_error, {value - z * standard_error, value + z * standard_error}};
+  return student_estimate(value, standard_error, std::numeric_limits<double>::infinity(),
+                          confidence);
 }
 
 Interval proportion_bounds(long k, long n, double confidence) {
@@ -45,14 +57,15 @@ long samples_for_half_width(double expected, double half_width, double confidenc
   return enough;
 }
 
-QuantileBounds quantile_bounds(std::span<const double> sorted, double q, double confidence) {
-  FAULTSIM_DEMAND(!sorted.empty() && q > 0 && q < 1, sorted.size(), " values, q = ", q);
-  const auto n = static_cast<long>(sorted.size());
-  const double place = q * static_cast<double>(n - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  QuantileBounds bounds;
-  bounds.estimate = std::lerp(sorted[below], sorted[above], place - std::floor(place));
+namespace {
+
+/// Of n values in order, between which two the q-quantile lies: r and s, from 1; 0 and n + 1 where
+/// there are too few.
+struct OrderBounds {
+  long r = 0, s = 0;
+};
+
+OrderBounds order_bounds(long n, double q, double confidence) {
   // B of n samples lie below the quantile: y_(r) is above it iff B < r.
   const boost::math::binomial_distribution<> below_it(static_cast<double>(n), q);
   const double tail = 0.5 * (1 - confidence);
@@ -67,9 +80,30 @@ QuantileBounds quantile_bounds(std::span<const double> sorted, double q, double 
   for (long step = n; step > 0; step /= 2) {
     while (s - step >= 1 && 1 - share_up_to(s - step - 1) <= tail) s -= step;
   }
-  if (r >= 1) bounds.low = sorted[static_cast<std::size_t>(r - 1)];
+  return {r, s};
+}
+
+}  // namespace
+
+QuantileBounds quantile_bounds(std::span<const double> sorted, long n_unknown, double q,
+                               double confidence) {
+  FAULTSIM_DEMAND(!sorted.empty() && q > 0 && q < 1, sorted.size(), " values, q = ", q);
+  const auto n = static_cast<long>(sorted.size());
+  const double place = q * static_cast<double>(n - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  QuantileBounds bounds;
+  bounds.estimate = std::lerp(sorted[below], sorted[above], place - std::floor(place));
+  // All that is unknown may lie below every known value, which moves these up by as many places, or
+  // above.
+  const auto [r, s] = order_bounds(n + n_unknown, q, confidence);
+  if (r > n_unknown) bounds.low = sorted[static_cast<std::size_t>(r - n_unknown - 1)];
   if (s <= n) bounds.high = sorted[static_cast<std::size_t>(s - 1)];
   return bounds;
+}
+
+QuantileBounds quantile_bounds(std::span<const double> sorted, double q, double confidence) {
+  return quantile_bounds(sorted, 0, q, confidence);
 }
 
 }  // namespace faultsweep

@@ -14,9 +14,17 @@ struct Interval {
 struct Estimate {
   double value = 0;
   double standard_error = 0;
-  Interval bounds;  ///< value ± z standard errors.
+  Interval bounds;  ///< not always as far to either side: see who makes it.
 };
-/// With the z between −z and z of which a standard normal number lies with `confidence`.
+
+/// The t between −t and t of which a number of Student's distribution lies with `confidence`.
+/// @param freedom  degrees of freedom > 0; of infinity it is the normal one.
+double student_reach(double confidence, double freedom);
+
+/// value ± t standard errors.
+Estimate student_estimate(double value, double standard_error, double freedom, double confidence);
+/// The same of a standard error that is known as if from many samples: t of the normal
+/// distribution.
 Estimate normal_estimate(double value, double standard_error, double confidence);
 
 /// Two-sided bounds of a probability of which k of n samples had the property, after Clopper &
@@ -40,5 +48,9 @@ struct QuantileBounds {
 };
 /// @param sorted  ascending, not empty. @pre 0 < q < 1.
 QuantileBounds quantile_bounds(std::span<const double> sorted, double q, double confidence);
+/// The same where n_unknown more samples may have any value each: the estimate is of the others,
+/// the bounds hold however these turn out; an end is missing where they may reach beyond it.
+QuantileBounds quantile_bounds(std::span<const double> sorted, long n_unknown, double q,
+                               double confidence);
 
 }  // namespace faultsweep

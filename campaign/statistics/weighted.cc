@@ -3,11 +3,20 @@
 #include <algorithm>
 #include <boost/math/special_functions/beta.hpp>
 #include <cmath>
+#include <limits>
 
 #include "simulator/common/errors.h"
 
 namespace faultsweep {
 namespace {
+
+/// Of fewer a mean has no interval: what little they scatter says nothing.
+constexpr double kLeastMembers = 1.5;
+
+Interval open_interval() {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return {-kInfinity, kInfinity};
+}
 
 double sum_of(std::span<const double> weights) {
   double sum = 0;
@@ -60,7 +69,11 @@ Estimate weighted_mean(std::span<const double> values, std::span<const double> w
     const double one = weights[i] / sum * (values[i] - mean);
     variance += one * one;
   }
-  return normal_estimate(mean, std::sqrt(variance), confidence);
+  // Of m equal members √(m / (m − 1)) larger, as that of any mean.
+  const double members = effective_sample_size(weights);
+  if (members < kLeastMembers) return {mean, std::sqrt(variance), open_interval()};
+  const double error = std::sqrt(variance * members / (members - 1));
+  return student_estimate(mean, error, members - 1, confidence);
 }
 
 Estimate weighted_probability(std::span<const char> holds, std::span<const double> weights,

@@ -13,7 +13,13 @@ namespace faultsweep {
 /// (Σ w)² / Σ w² (Kish 1965): how many equal members would say as much. 0 where all weights are 0.
 double effective_sample_size(std::span<const double> weights);
 
-/// Σ w y / Σ w, with the standard error √(Σ w² (y − mean)²) / Σ w of the self-normalised estimate.
+/// From that many effective members on, 95 % intervals hold 93 to 97 %; means, medians and shares
+/// of a half do from 50, but not what a twentieth of all weight has (results/coverage).
+inline constexpr double kFewestEffectiveMembers = 150;
+
+/// Σ w y / Σ w, with the standard error √(Σ w² (y − mean)² m / (m − 1)) / Σ w of the
+/// self-normalised estimate, m the effective sample size; bounds by Student's t with m − 1 degrees
+/// of freedom, infinite for m < 1.5.
 /// @pre some weight is not 0.
 Estimate weighted_mean(std::span<const double> values, std::span<const double> weights,
                        double confidence);

@@ -111,7 +111,7 @@ TEST(TieredMean, IsSurerThanTheDearRunsAlone) {
 
 TEST(TieredMean, Covers) {
   std::mt19937_64 random(3);
-  for (const auto& [n, scatter] : {std::pair(30, 0.3), {100, 0.05}, {100, 2.0}}) {
+  for (const auto& [n, scatter] : {std::pair(20, 0.3), {40, 0.3}, {100, 0.05}, {100, 2.0}}) {
     int held = 0;
     for (int repeat = 0; repeat < 1000; ++repeat) {
       const Tiers tiers(static_cast<std::size_t>(n), 1000, scatter, random);
@@ -138,6 +138,25 @@ TEST(TieredProbability, Covers) {
     }
     EXPECT_GE(held, 930) << pi;
     EXPECT_LE(held, 970) << pi;
+  }
+}
+
+/// As few pairs as are taken, which differ in five or so of them.
+TEST(TieredProbability, CoversFromTheFewestPairs) {
+  std::mt19937_64 random(14);
+  struct Truth {
+    double pi, a, b;
+  };
+  for (const auto& [pi, a, b] : {Truth{0.3, 0.8, 0.08}, {0.5, 0.85, 0.15}, {0.5, 0.5, 0.5}}) {
+    int held = 0;
+    const double truth = pi * a + (1 - pi) * b;
+    for (int repeat = 0; repeat < 1000; ++repeat) {
+      const Flags flags(kFewestPairsForTiers, 1000, pi, a, b, random);
+      const Interval bounds = tiered_probability(flags.sample(), 0.95).estimate.bounds;
+      held += bounds.low <= truth && truth <= bounds.high;
+    }
+    EXPECT_GE(held, 925) << a;
+    EXPECT_LE(held, 980) << a;
   }
 }
 

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -58,6 +60,30 @@ TEST(ProportionBounds, Cover) {
   }
 }
 
+/// Of 200 samples up to 30 % are not decided: whichever way an adversary decides them who knows the
+/// truth, the bounds hold it.
+TEST(ProportionBounds, CoverHoweverTheUndecidedTurnOut) {
+  constexpr long kSamples = 200;
+  std::mt19937_64 random(31);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (const double p : {0.0, 0.01, 0.1, 0.5, 0.9, 1.0}) {
+    for (const double undecided : {0.0, 0.1, 0.3}) {
+      int hides_yes = 0, hides_no = 0;
+      for (int repeat = 0; repeat < 1000; ++repeat) {
+        // The first to be undecided are those that have the property, or those that do not.
+        const auto k = std::binomial_distribution<long>(kSamples, p)(random);
+        const auto u = static_cast<long>(undecided * kSamples);
+        const Interval with_yes = proportion_bounds(std::max(0L, k - u), u, kSamples, 0.95);
+        const Interval with_no = proportion_bounds(std::min(k, kSamples - u), u, kSamples, 0.95);
+        hides_yes += with_yes.low <= p && p <= with_yes.high;
+        hides_no += with_no.low <= p && p <= with_no.high;
+      }
+      EXPECT_GE(hides_yes, 935) << p << ", " << undecided;
+      EXPECT_GE(hides_no, 935) << p << ", " << undecided;
+    }
+  }
+}
+
 TEST(SamplesForHalfWidth, AreTheFewestThatAreEnough) {
   for (const double p : {0.0, 0.1, 0.5}) {
     const long n = samples_for_half_width(p, 0.02, 0.95);
@@ -99,6 +125,83 @@ TEST(QuantileBounds, Cover) {
     EXPECT_GE(held, 930) << q;
     EXPECT_LE(held, 970) << q;
   }
+}
+
+/// The undecided are the largest of a sample, the smallest, or any.
+TEST(QuantileBounds, CoverHoweverTheUnknownTurnOut) {
+  std::mt19937_64 random(32);
+  std::exponential_distribution<double> draw(1);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr long kSamples = 120;
+  for (const double q : {0.1, 0.5, 0.9}) {
+    for (const long unknown : {0L, 12L, 36L}) {
+      std::array<int, 3> held{};
+      for (int repeat = 0; repeat < 1000; ++repeat) {
+        std::vector<double> values(kSamples);
+        for (double& value : values) value = draw(random);
+        const auto n_known = static_cast<std::size_t>(kSamples - unknown);
+        const std::vector<double> any(values.begin(),
+                                      values.begin() + static_cast<std::ptrdiff_t>(n_known));
+        std::sort(values.begin(), values.end());
+        std::vector<std::vector<double>> known = {any,
+                                                  {values.begin(), values.end() - unknown},
+                                                  {values.begin() + unknown, values.end()}};
+        std::sort(known[0].begin(), known[0].end());
+        for (std::size_t who = 0; who < 3; ++who) {
+          const QuantileBounds bounds = quantile_bounds(known[who], unknown, q, 0.95);
+          const double truth = -std::log1p(-q);
+          held[who] +=
+              bounds.low.value_or(-kInfinity) <= truth && truth <= bounds.high.value_or(kInfinity);
+        }
+      }
+      for (const int one : held) EXPECT_GE(one, 935) << q << ", " << unknown;
+    }
+  }
+}
+
+/// As if those that are unknown were smaller than all others, or larger.
+TEST(QuantileBounds, TakeTheUnknownAsFarOut) {
+  std::mt19937_64 random(33);
+  std::normal_distribution<double> draw;
+  std::vector<double> values(80);
+  for (double& value : values) value = draw(random);
+  std::sort(values.begin(), values.end());
+  std::vector<double> below(10, -1e9), above = values;
+  below.insert(below.end(), values.begin(), values.end());
+  above.insert(above.end(), 10, 1e9);
+  const QuantileBounds found = quantile_bounds(values, 10, 0.5, 0.95);
+  EXPECT_EQ(found.low, quantile_bounds(below, 0.5, 0.95).low);
+  EXPECT_EQ(found.high, quantile_bounds(above, 0.5, 0.95).high);
+  EXPECT_EQ(found.estimate, quantile_bounds(values, 0.5, 0.95).estimate);
+  EXPECT_FALSE(quantile_bounds(values, 30, 0.1, 0.95).low);
+  EXPECT_FALSE(quantile_bounds(values, 30, 0.9, 0.95).high);
+}
+
+/// Of a flag, where values are equal: bounds may lie on them.
+TEST(QuantileBounds, CoverWhereValuesAreEqual) {
+  std::mt19937_64 random(34);
+  for (const double p : {0.3, 0.49, 0.7}) {
+    std::bernoulli_distribution draw(p);
+    int held = 0;
+    for (int repeat = 0; repeat < 1000; ++repeat) {
+      std::vector<double> values(50);
+      for (double& value : values) value = draw(random) ? 1 : 0;
+      std::sort(values.begin(), values.end());
+      const QuantileBounds bounds = quantile_bounds(values, 0.5, 0.95);
+      const double truth = p > 0.5 ? 1 : 0;
+      held += bounds.low.value() <= truth && truth <= bounds.high.value();
+    }
+    EXPECT_GE(held, 935) << p;
+  }
+}
+
+TEST(StudentReach, IsThatOfTheTables) {
+  EXPECT_NEAR(student_reach(0.95, 4), 2.776445, 1e-6);
+  EXPECT_NEAR(student_reach(0.9, 30), 1.697261, 1e-6);
+  EXPECT_NEAR(student_reach(0.95, std::numeric_limits<double>::infinity()), 1.959964, 1e-6);
+  const Estimate e = student_estimate(2, 0.5, 4, 0.95);
+  EXPECT_NEAR(e.bounds.low, 2 - 0.5 * 2.776445, 1e-6);
+  EXPECT_NEAR(e.bounds.high, 2 + 0.5 * 2.776445, 1e-6);
 }
 
 }  // namespace

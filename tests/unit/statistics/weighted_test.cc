@@ -209,5 +209,50 @@ TEST_F(LinearGaussian, IntervalsCover) {
   }
 }
 
+/// 1150 draws of which about as many are effective as the fewest that are taken.
+TEST_F(LinearGaussian, IntervalsCoverFromTheFewestEffectiveMembers) {
+  std::mt19937_64 random(15);
+  int mean = 0, probability = 0, rare = 0, median = 0, repeats = 0;
+  double effective = 0;
+  for (int repeat = 0; repeat < 1000; ++repeat) {
+    draw(1150, random);
+    const double size = effective_sample_size(weights_);
+    if (size < kFewestEffectiveMembers * 0.9) continue;
+    ++repeats, effective += size;
+    const auto order = order_of(theta_);
+    const auto in = [](const Interval& bounds, double truth) {
+      return bounds.low <= truth && truth <= bounds.high ? 1 : 0;
+    };
+    mean += in(weighted_mean(theta_, weights_, 0.95).bounds, kMean);
+    probability += in(weighted_probability(holds_, weights_, 0.95).bounds, 0.5);
+    std::vector<char> far(1150);
+    for (std::size_t i = 0; i < 1150; ++i) far[i] = theta_[i] > kMean + 1.644854 * deviation_;
+    rare += in(weighted_probability(far, weights_, 0.95).bounds, 0.05);
+    const QuantileBounds b = weighted_quantile(theta_, weights_, order, 0.5, 0.95);
+    median += in({b.low.value(), b.high.value()}, kMean);
+  }
+  EXPECT_GT(repeats, 800);
+  EXPECT_LT(effective / repeats, 1.2 * kFewestEffectiveMembers);
+  for (const int held : {mean, probability, rare, median}) {
+    EXPECT_GE(held, 0.925 * repeats);
+    EXPECT_LE(held, 0.98 * repeats);
+  }
+}
+
+/// One member that carries all weight says nothing of how much a mean may be off.
+TEST(Weighted, AMeanOfOneEffectiveMemberHasNoBounds) {
+  const std::vector<double> values = {1, 2, 3}, weights = {1, 1e-9, 1e-9};
+  EXPECT_TRUE(std::isinf(weighted_mean(values, weights, 0.95).bounds.high));
+  EXPECT_NEAR(weighted_mean(values, weights, 0.95).value, 1, 1e-6);
+}
+
+/// Of equal weights it is the mean's usual interval: of 1 .. 5 a variance of 2.5, t of 4 degrees.
+TEST(Weighted, AMeanOfEqualMembersHasStudentsInterval) {
+  const std::vector<double> values = {1, 2, 3, 4, 5}, weights(5, 2.0);
+  const Estimate e = weighted_mean(values, weights, 0.95);
+  EXPECT_NEAR(e.standard_error, std::sqrt(2.5 / 5), 1e-12);
+  EXPECT_NEAR(e.bounds.high, 3 + 2.776445 * std::sqrt(0.5), 1e-5);
+}
+
 }  // namespace
 }  // namespace faultsweep
