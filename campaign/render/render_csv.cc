@@ -100,7 +100,7 @@ const AnswerTable& table_named(const Answer& answer, std::string_view key) {
   std::string names;
   for (const AnswerBlock& block : answer.blocks) {
     const auto* table = std::get_if<AnswerTable>(&block);
-    if (table == nullptr) continue;
+    if (table == nullptr || !table->in_files) continue;
     if (key.empty() || table->key == key) return *table;
     names += concat(names.empty() ? "" : ", ", table->key);
   }

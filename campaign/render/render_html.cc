@@ -54,7 +54,9 @@ std::string table_of(const AnswerTable& table) {
 }
 
 struct BlockRenderer {
-  std::string operator()(const AnswerTable& table) const { return table_of(table); }
+  std::string operator()(const AnswerTable& table) const {
+    return table.on_screen ? table_of(table) : "";
+  }
   std::string operator()(const AnswerNote& note) const { return paragraph(note.text, "faint"); }
   std::string operator()(const AnswerChart& chart) const {
     return std::visit([](const auto& one) { return faultsim::figure::draw(one); }, chart);

@@ -48,12 +48,12 @@ void add_table(ordered_json& document, ordered_json& columns, const AnswerTable&
 }  // namespace
 
 ordered_json render_json(const Answer& answer) {
-  ordered_json document = {{"headline", answer.headline}};
+  ordered_json document = {{"format", kAnswerFormat}, {"headline", answer.headline}};
   document.update(answer.facts);
   ordered_json columns = ordered_json::object(), notes = ordered_json::array();
   for (const AnswerBlock& block : answer.blocks) {
     if (const auto* table = std::get_if<AnswerTable>(&block)) {
-      add_table(document, columns, *table);
+      if (table->in_files) add_table(document, columns, *table);
       for (const std::string& note : table->notes) notes.push_back(note);
     } else if (const auto* note = std::get_if<AnswerNote>(&block)) {
       notes.push_back(note->text);

@@ -244,7 +244,9 @@ std::string laid_out(std::vector<Laid> columns, std::size_t n_rows, std::size_t 
 
 struct BlockRenderer {
   std::size_t width;
-  std::string operator()(const AnswerTable& table) const { return render_text(table, width); }
+  std::string operator()(const AnswerTable& table) const {
+    return table.on_screen ? render_text(table, width) : "";
+  }
   std::string operator()(const AnswerNote& note) const { return wrapped(note.text, width); }
   std::string operator()(const AnswerChart&) const { return ""; }
   std::string operator()(const AnswerCases& cases) const {

@@ -54,10 +54,10 @@ std::string remark_of(const LimitCell& cell, const LimitSearch& limit) {
     case LimitVerdict::unknown:
       add("the safe end is not known");
       break;
-    case LimitVerdict::never:
+    case LimitVerdict::safe_throughout:
       add(concat("safe up to ", value_text(limit.scan.back(), limit)));
       break;
-    case LimitVerdict::always:
+    case LimitVerdict::unsafe_throughout:
       add(concat("unsafe from ", value_text(limit.scan.front(), limit), " on"));
       break;
     case LimitVerdict::non_monotone:
@@ -186,8 +186,8 @@ std::string limits_to_text(const LimitTable& table, long top) {
   if (top != 0 && n > top) text += concat("and ", n - top, " more rows\n");
   text += concat("\n", counted(n, "row", "rows"),
                  ", narrowest band first: ", count(table, LimitVerdict::limit), " with a limit, ",
-                 count(table, LimitVerdict::never), " safe throughout, ",
-                 count(table, LimitVerdict::always), " unsafe throughout, ",
+                 count(table, LimitVerdict::safe_throughout), " safe throughout, ",
+                 count(table, LimitVerdict::unsafe_throughout), " unsafe throughout, ",
                  count(table, LimitVerdict::non_monotone), " non-monotone, ",
                  count(table, LimitVerdict::unknown), " not known\n",
                  "`safe` and `unsafe` were computed, each as the case given (faultsweep show); "

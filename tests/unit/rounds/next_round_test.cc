@@ -107,7 +107,7 @@ TEST_F(NextRound, AnswersAreOfTheRoundThatAskedForThem) {
   const CampaignInfo campaign = store.campaign("");
   const StoredRounds stored = stored_rounds(store, campaign).value();
   const StagedSampler sampler(*parse_spec(stored).staged_sample);
-  const std::vector<Answer> answers = answers_of(store, campaign, stored, sampler, false);
+  const std::vector<RowAnswers> answers = answers_of(store, campaign, stored, sampler, false);
   ASSERT_EQ(answers.size(), 40u);
   for (std::size_t k = 0; k < answers.size(); ++k) {
     EXPECT_EQ(answers[k].position, static_cast<long>(k) + 1);
@@ -214,7 +214,7 @@ TEST_F(NextRound, LimitsAreFoundOnTheStore) {
   };
   decide_all();
   while (add_next_round(store, "sample")) decide_all();
-  EXPECT_EQ(store.campaign("").conclusion, "2 searches: 1 never, 1 limit");
+  EXPECT_EQ(store.campaign("").conclusion, "2 searches: 1 safe throughout, 1 limit");
   const LimitTable table = make_limit_table(store, store.campaign(""));
   EXPECT_TRUE(table.is_finished);
   ASSERT_EQ(table.rows.size(), 2u);
@@ -288,7 +288,7 @@ TEST_F(NextRound, WhatSlidesEverywhereHasNoBand) {
   const LimitTable table = make_limit_table(store, store.campaign(""));
   ASSERT_EQ(table.rows.size(), 2u);
   for (const LimitRow& row : table.rows) {
-    EXPECT_EQ(row.cells[0]->finding.verdict, LimitVerdict::always);
+    EXPECT_EQ(row.cells[0]->finding.verdict, LimitVerdict::unsafe_throughout);
     EXPECT_EQ(row.width.value(), 0);
     EXPECT_FALSE(row.is_open);
   }
