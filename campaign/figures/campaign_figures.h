@@ -5,7 +5,6 @@
 #include <string>
 
 #include "campaign/answers/probability.h"
-#include "campaign/answers/sensitivity.h"
 #include "campaign/store/store.h"
 #include "simulator/case_figures/case_figures.h"
 #include "simulator/figure/outcome_map.h"
@@ -28,8 +27,6 @@ std::array<long, faultsim::figure::kCaseClasses> count_outcomes(const Store& sto
 /// How many cases with a full history have an activation or event that the cells do not resolve.
 long count_unresolved(const Store& store, const CampaignInfo& campaign);
 
-/// First-order indices as bars, largest first; of a sobol design total ones below them.
-std::string draw_sensitivity(const Sensitivity& sensitivity);
 /// Shares with their bounds.
 std::string draw_probability(const Probability& probability);
 

@@ -12,6 +12,7 @@
 #include "campaign/answers/probability.h"
 #include "campaign/answers/sensitivity.h"
 #include "campaign/figures/campaign_figures.h"
+#include "campaign/render/render_html.h"
 #include "campaign/report/parameters.h"
 #include "campaign/report/ranking_report.h"
 #include "campaign/statistics/intervals.h"
@@ -263,8 +264,8 @@ void add_answers(Page& page) {
   });
   page.section("what-matters", "What matters");
   page.unless_refused([&] {
-    page.html += draw_sensitivity(
-        analyse_sensitivity(page.store, page.campaign, {.confidence = page.request.confidence}));
+    page.html += render_html(to_answer(
+        analyse_sensitivity(page.store, page.campaign, {.confidence = page.request.confidence})));
   });
 }
 

@@ -12,6 +12,7 @@
 #include "simulator/scene/json_document.h"
 #include "simulator/scene/read_scene.h"
 #include "tests/campaign/made_up_result.h"
+#include "tests/unit/answers/renderings.h"
 
 namespace faultsweep {
 namespace {
@@ -223,7 +224,15 @@ TEST_F(NextRound, LimitsAreFoundOnTheStore) {
   EXPECT_GT(limit.after.value, -40);
   EXPECT_LE(limit.width(), 2);
   EXPECT_EQ(table.rows[0].settings, std::vector<std::string>{"0 m"});
-  EXPECT_THAT(limits_to_csv(table), HasSubstr("2,100 m,F1,top,bar,never,,,"));
+  const Answer answer = to_answer(table, 0);
+  testing::expect_same_renderings(answer);
+  EXPECT_THAT(render_csv(table_named(answer, "")),
+              HasSubstr("2,100 m,F1,top,Pa,safe throughout,safe in the whole range tried (-110 to "
+                        "-10 bar),,,"));
+  const json first = json(render_json(answer)).at("limits").at(0);
+  EXPECT_NEAR(first.at("safe").get<double>(), 1e5 * limit.before.value, 1e-6);
+  EXPECT_EQ(first.at("safe_case"), limit.before.position);
+  EXPECT_EQ(first.at("parameters").at("offset"), "0 m");
   EXPECT_THAT(store.integrity_problems(), IsEmpty());
 }
 
