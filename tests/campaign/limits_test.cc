@@ -98,10 +98,10 @@ TEST_F(Limits, ANonMonotoneAnswerIsFoundAndSaid) {
         {"faults", {"F2"}},
         {"stage", "primary_production"},
         {"tolerance", "10 m"}}}};
-  const auto end = wait(start({"limits", file(), "--workers", "2"}), 300);
+  const auto end = wait(start({"limits", file(), "--workers", "2", "--wide"}), 300);
   ASSERT_EQ(end.code, 0) << end.err;
   EXPECT_THAT(end.out, HasSubstr("non-monotone: unsafe"));
-  EXPECT_THAT(end.out, HasSubstr("1 non-monotone"));
+  EXPECT_THAT(end.out, HasSubstr("1 of 1 is non-monotone"));
 }
 
 TEST_F(Limits, AWrongQuestionIsRefusedBeforeAnythingIsStored) {

@@ -110,6 +110,13 @@ TEST(LimitAnswer, TellsWhatIsSureFromWhatCameOut) {
   EXPECT_EQ(rows[2].at("surely_unsafe").get<double>(), -10 * kBar);
   EXPECT_THAT(render_text(answer, 1000), HasSubstr("[-60, -10] bar"));
   EXPECT_THAT(render_text(answer, 1000), HasSubstr("what lies between them is undecided"));
+  // One end that is open is enough.
+  std::vector<SearchPoint> points = searched(-30.5).finding.points;
+  for (SearchPoint& one : points) one.resolved = one.value != -30;
+  const Answer half = to_answer(
+      table_of({row(1, "100 m", "20 deg", {judge(points, true, 1), std::nullopt}, 79)}), 0);
+  EXPECT_EQ(render_json(half).at("limits")[0].at("resolved"), false);
+  EXPECT_EQ(render_json(half).at("limits")[0].at("surely_unsafe").get<double>(), -20 * kBar);
   LimitTable sure = all_kinds();
   sure.rows.erase(sure.rows.begin() + 2);
   EXPECT_THAT(render_text(to_answer(sure, 0), 1000), Not(HasSubstr("undecided")));
