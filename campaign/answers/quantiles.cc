@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
-#include "campaign/report/table_output.h"
-#include "campaign/report/text_table.h"
+#include "campaign/render/shown.h"
 
 namespace faultsweep {
 
 using faultsim::concat;
 using faultsim::InputError;
-using nlohmann::json;
 
 namespace {
 
@@ -35,8 +32,15 @@ QuantileBounds bounds_with_unknown(const std::vector<double>& sorted, long n_unk
   return bounds;
 }
 
-MetricQuantiles of_metric(const ScopedMetric& metric, std::vector<double> values, long n_unknown,
-                          const QuantileRequest& request) {
+/// The smallest of the values that no less than the share q of them do not exceed.
+double order_statistic(const std::vector<double>& sorted, double q) {
+  constexpr double kRounding = 1e-9;  // 0.05 of 20 is the first
+  const double place = std::ceil(q * static_cast<double>(sorted.size()) - kRounding);
+  return sorted[static_cast<std::size_t>(std::max(1.0, place)) - 1];
+}
+
+MetricQuantiles of_metric(const ScopedMetric& metric, std::vector<double> values,
+                          const Quantiles& all) {
   MetricQuantiles found{metric, 0, 0, {}};
   const auto n_all = values.size();
   std::erase_if(values, [](double one) { return !std::isfinite(one); });
@@ -44,8 +48,13 @@ MetricQuantiles of_metric(const ScopedMetric& metric, std::vector<double> values
   found.n_without = static_cast<long>(n_all - values.size());
   if (values.empty()) return found;
   std::sort(values.begin(), values.end());
-  for (const double q : request.at)
-    found.values.push_back(bounds_with_unknown(values, n_unknown, q, request.confidence));
+  for (const double q : all.request.at) {
+    if (all.sampling.is_random) {
+      found.values.push_back(bounds_with_unknown(values, all.n_unknown, q, all.request.confidence));
+    } else {
+      found.values.push_back({order_statistic(values, q), std::nullopt, std::nullopt});
+    }
+  }
   return found;
 }
 
@@ -61,65 +70,135 @@ Quantiles find_quantiles(const Store& store, const CampaignInfo& campaign,
   Quantiles found{campaign, request, sampling_of(store, campaign), 0, {}};
   Sample sample = read_sample(store, campaign, {request.where, "", ""}, request.metrics);
   found.n_unknown = sample.n_without + sample.n_early;
+  const Store::Kinds kinds = store.kinds(campaign.id, {});
+  found.plane_strain = kinds.plane_strain;
   for (std::size_t m = 0; m < sample.outputs.size(); ++m) {
     const ScopedMetric& metric = sample.outputs[m];
-    if (metric.is_extensive())
-      refuse_mixed(store.kinds(campaign.id, {}), "--quantiles", metric.name);
-    found.metrics.push_back(of_metric(metric, std::move(sample.y[m]), found.n_unknown, request));
+    if (metric.is_extensive()) refuse_mixed(kinds, "--quantiles", metric.name);
+    found.metrics.push_back(of_metric(metric, std::move(sample.y[m]), found));
   }
   return found;
 }
 
-std::string quantiles_to_text(const Quantiles& q) {
-  TextTable table({"metric", "unit", "share below", "value", "from", "to", "rows"});
-  const auto text = [](const std::optional<double>& end) {
-    return end ? format_number(*end) : std::string("open");
-  };
-  long n_without = 0;
-  for (const MetricQuantiles& one : q.metrics) {
-    n_without = std::max(n_without, one.n_without);
-    for (std::size_t k = 0; k < one.values.size(); ++k) {
-      const QuantileBounds& value = one.values[k];
-      table.add_row({one.metric.name, faultsim::si_unit(one.metric.dimension),
-                     concat(format_number(100 * q.request.at[k]), " %"),
-                     format_number(value.estimate), text(value.low), text(value.high),
-                     std::to_string(one.n)});
-    }
-  }
-  std::string out = concat(table.text(), "\nBounds hold each quantile with a confidence of ",
-                           format_number(100 * q.request.confidence, 4),
-                           " %, whatever the distribution; open: too few cases.\n");
-  if (q.n_unknown > 0)
-    out += concat(q.n_unknown, " cases without a history to its end may have any value.\n");
-  if (n_without > 0)
-    out += concat("up to ", n_without, " full histories have no value: left out\n");
-  if (!q.sampling.remark.empty()) out += q.sampling.remark + "\n";
-  return out;
+namespace {
+
+constexpr std::size_t kMostSentences = 3;  // of the headline
+constexpr int kDigits = 3;
+
+ShownUnit unit_of(const Quantiles& q, const MetricQuantiles& one) {
+  return shown_unit(one.metric.dimension, q.plane_strain);
 }
 
-json quantiles_to_json(const Quantiles& q) {
-  json metrics = json::array();
+AnswerCell end_cell(const std::optional<double>& end) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  return end ? AnswerCell(*end) : AnswerCell({}, kNone, "open");
+}
+
+/// All rows, or those of the metrics with a unit.
+AnswerTable table_of(const Quantiles& q, const ShownUnit* only) {
+  const bool is_sample = q.sampling.is_random;
+  const ShownUnit unit = only != nullptr ? *only : plain();
+  AnswerTable table{
+      "quantiles",
+      "",
+      {{"metric", "metric", {}, 4, Need::always},
+       {"unit", "unit"},
+       {"share", is_sample ? "share below" : "of what was run", percent(), 4, Need::always},
+       {"value", is_sample ? "quantile" : "have at most", unit, kDigits + 1, Need::always}}};
+  if (is_sample) {
+    table.columns.push_back({"low", "from", unit, kDigits, Need::always});
+    table.columns.push_back({"high", "to", unit, kDigits, Need::always});
+  }
+  table.columns.push_back({"rows", "rows"});
+  table.columns.push_back({"without_value", "without a value"});
   for (const MetricQuantiles& one : q.metrics) {
-    json values = json::array();
+    const ShownUnit own = unit_of(q, one);
+    if (only != nullptr && own.name != only->name) continue;
     for (std::size_t k = 0; k < one.values.size(); ++k) {
       const QuantileBounds& value = one.values[k];
-      values.push_back({{"share", q.request.at[k]},
-                        {"estimate", value.estimate},
-                        {"low", value.low ? json(*value.low) : json()},
-                        {"high", value.high ? json(*value.high) : json()}});
+      std::vector<AnswerCell> row = {one.metric.name, only != nullptr ? "" : own.si,
+                                     q.request.at[k], value.estimate};
+      if (is_sample) row.insert(row.end(), {end_cell(value.low), end_cell(value.high)});
+      row.insert(row.end(), {one.n, one.n_without});
+      table.rows.push_back(std::move(row));
     }
-    metrics.push_back({{"metric", one.metric.name},
-                       {"unit", faultsim::si_unit(one.metric.dimension)},
-                       {"rows", one.n},
-                       {"without_value", one.n_without},
-                       {"quantiles", values}});
   }
-  return {{"campaign", q.campaign.name},
-          {"confidence", q.request.confidence},
-          {"is_probability", q.sampling.is_random},
-          {"remark", q.sampling.remark},
-          {"unknown", q.n_unknown},
-          {"metrics", metrics}};
+  return table;
+}
+
+/// A table for each unit, in the order in which metrics have them.
+void add_screen_tables(const Quantiles& q, Answer& answer) {
+  std::vector<std::string> done;
+  for (const MetricQuantiles& one : q.metrics) {
+    const ShownUnit unit = unit_of(q, one);
+    if (one.values.empty() || std::find(done.begin(), done.end(), unit.name) != done.end())
+      continue;
+    done.push_back(unit.name);
+    AnswerTable table = table_of(q, &unit);
+    table.in_files = false;
+    answer.add(std::move(table));
+  }
+}
+
+/// "F1.max_slip: the 5 % quantile is 0.01 m (0.008 to 0.012), the 95 % one 0.2 m (0.18 to open)."
+std::string sentence_of(const Quantiles& q, const MetricQuantiles& one) {
+  const ShownUnit unit = unit_of(q, one);
+  if (one.values.empty()) return concat("No case has a ", one.metric.name, ".");
+  const auto number = [&](double value) { return format_number(value / unit.size, kDigits); };
+  const auto end = [&](const std::optional<double>& value) {
+    return value ? number(*value) : std::string("open");
+  };
+  const bool is_sample = q.sampling.is_random;
+  std::string text =
+      one.metric.name +
+      (is_sample ? ":" : concat(": of the ", one.n, " cases that were run and have a value"));
+  for (std::size_t k = 0; k < one.values.size(); ++k) {
+    const QuantileBounds& value = one.values[k];
+    const std::string share = format_number(100 * q.request.at[k]) + " %";
+    const std::string found = number(value.estimate) + (unit.name.empty() ? "" : " " + unit.name);
+    text += concat(k == 0 ? " " : ", ",
+                   is_sample ? concat("the ", share, k == 0 ? " quantile is " : " one ", found,
+                                      " (", end(value.low), " to ", end(value.high), ")")
+                             : concat(share, k == 0 ? " have at most " : " at most ", found));
+  }
+  return text + ".";
+}
+
+}  // namespace
+
+Answer to_answer(const Quantiles& q) {
+  Answer answer;
+  for (std::size_t k = 0; k < std::min(q.metrics.size(), kMostSentences); ++k)
+    answer.headline.push_back(sentence_of(q, q.metrics[k]));
+  answer.facts = {{"campaign", q.campaign.name},
+                  {"confidence", q.request.confidence},
+                  {"is_probability", q.sampling.is_random},
+                  {"remark", q.sampling.remark},
+                  {"unknown", q.n_unknown}};
+  AnswerTable all = table_of(q, nullptr);
+  all.on_screen = false;
+  answer.add(std::move(all));
+  add_screen_tables(q, answer);
+  if (q.sampling.is_random) {
+    answer.note(concat("Bounds hold each quantile with a confidence of ",
+                       format_number(100 * q.request.confidence, 4),
+                       " %, whatever the distribution; open: too few cases."));
+    if (q.n_unknown > 0)
+      answer.note(concat(q.n_unknown, " cases without a history to its end may have any value."));
+    answer.note_if(q.sampling.remark);
+  } else {
+    answer.note(
+        "Order statistics of what was run, no quantiles of a distribution: the cases were not "
+        "drawn at random, so there are no bounds.");
+    if (q.n_unknown > 0)
+      answer.note(concat(q.n_unknown, " cases without a history to its end have no value here."));
+  }
+  for (const MetricQuantiles& one : q.metrics) {
+    if (one.n_without > 0)
+      answer.note(concat(one.n_without, " full histories have no ", one.metric.name,
+                         ": they are left out."));
+  }
+  return answer;
 }
 
 }  // namespace faultsweep

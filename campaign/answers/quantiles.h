@@ -1,10 +1,10 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "campaign/answers/sample.h"
+#include "campaign/render/answer.h"
 #include "campaign/statistics/intervals.h"
 
 namespace faultsweep {
@@ -16,12 +16,16 @@ struct QuantileRequest {
   double confidence = 0.95;
 };
 
-/// Quantiles of a metric, in SI, with bounds that hold whatever its distribution.
+/// Quantiles of a metric, in SI.
 struct MetricQuantiles {
   ScopedMetric metric;
   long n = 0;          ///< rows with a value.
   long n_without = 0;  ///< full histories without one, such as the magnitude of no event: left out.
-  std::vector<QuantileBounds> values;  ///< per QuantileRequest::at; none where no row has a value.
+  /// Per QuantileRequest::at; none where no row has a value. Of a random sample with bounds that
+  /// hold whatever the distribution. Of other designs there is no distribution: the order statistic
+  /// of what was run, that is the smallest of its values that no less than this share of the rows
+  /// do not exceed, without bounds.
+  std::vector<QuantileBounds> values;
 };
 
 struct Quantiles {
@@ -30,15 +34,16 @@ struct Quantiles {
   Sampling sampling;
   long n_unknown = 0;  ///< rows without a history to its end.
   std::vector<MetricQuantiles> metrics;
+  bool plane_strain = false;  ///< areas, potencies and moments are per metre of strike.
 };
 
 /// Rows without a history to its end may have any value: the lower bound is that with all of them
-/// below, the upper one that with all of them above, and the estimate is of the others. Throws
+/// below, the upper one that with all of them above, and the value is of the others. Throws
 /// InputError on wrong metrics or shares.
 Quantiles find_quantiles(const Store& store, const CampaignInfo& campaign,
                          const QuantileRequest& request);
 
-std::string quantiles_to_text(const Quantiles& quantiles);
-nlohmann::json quantiles_to_json(const Quantiles& quantiles);
+/// Table `quantiles`, a row for each metric and share; on the screen a table for each unit.
+Answer to_answer(const Quantiles& quantiles);
 
 }  // namespace faultsweep

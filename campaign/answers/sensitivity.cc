@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "campaign/report/text_table.h"
+#include "campaign/answers/designs.h"
 
 namespace faultsweep {
 
@@ -49,14 +50,32 @@ std::vector<double> values_at(const std::vector<double>& values,
   return chosen;
 }
 
-MetricSensitivity of_metric(const ScopedMetric& metric, const std::vector<double>& all,
-                            const Sample& sample,
-                            const std::vector<std::vector<std::uint32_t>>& orders,
-                            double confidence) {
+/// Var E[y | x] / Var y of a grid, in which every value of x goes with the same others: the
+/// variance of the means at each value. Zero where y does not vary. Without error or bounds.
+Estimate share_of_levels(const std::vector<double>& y, const std::vector<double>& x, double mean) {
+  std::map<double, std::pair<double, double>> levels;  // sum of y, and how many
+  double all = 0;
+  for (std::size_t k = 0; k < y.size(); ++k) {
+    auto& [sum, n] = levels[x[k]];
+    sum += y[k] - mean, n += 1;
+    all += (y[k] - mean) * (y[k] - mean);
+  }
+  double between = 0;
+  for (const auto& [value, level] : levels) between += level.first * level.first / level.second;
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  return {all > 0 ? between / all : 0, kNone, {kNone, kNone}};
+}
+
+/// Of the sample's parameters, in the order in which each sorts them.
+using Orders = std::vector<std::vector<std::uint32_t>>;
+
+MetricSensitivity of_metric(std::size_t m, const Sensitivity& s, const Orders& orders) {
+  const Sample& sample = s.sample;
+  const std::vector<double>& all = sample.y[m];
   std::vector<std::uint32_t> rows;
   for (std::uint32_t row = 0; row < all.size(); ++row)
     if (std::isfinite(all[row])) rows.push_back(row);
-  MetricSensitivity found{metric, static_cast<long>(rows.size()), 0, 0, {}};
+  MetricSensitivity found{sample.outputs[m], static_cast<long>(rows.size()), 0, 0, {}};
   const bool has_all = rows.size() == all.size();
   const std::vector<double> y = has_all ? all : values_at(all, rows);
   if (y.empty()) return found;
@@ -65,20 +84,39 @@ MetricSensitivity of_metric(const ScopedMetric& metric, const std::vector<double
   double squares = 0;
   for (const double value : y) squares += (value - found.mean) * (value - found.mean);
   found.standard_deviation = std::sqrt(squares / std::max(1.0, n - 1));
+  const double confidence = s.request.confidence;
   for (std::size_t p = 0; p < sample.x.size(); ++p) {
-    found.first_order.push_back(
-        has_all
-            ? first_order_by_ranks(y, orders[p], confidence)
-            : first_order_by_ranks(y, random_tied_order(values_at(sample.x[p], rows)), confidence));
+    if (has_all && !s.sampling.is_factorial) {
+      found.first_order.push_back(first_order_by_ranks(y, orders[p], confidence));
+      continue;
+    }
+    const std::vector<double> x = values_at(sample.x[p], rows);
+    found.first_order.push_back(s.sampling.is_factorial
+                                    ? share_of_levels(y, x, found.mean)
+                                    : first_order_by_ranks(y, random_tied_order(x), confidence));
   }
   return found;
 }
 
-std::string with_error(const Estimate& estimate) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.2f ± %.2f", estimate.value + 0.0,
-                0.5 * (estimate.bounds.high - estimate.bounds.low));
-  return text;
+/// Sensitivity::dependence. What is drawn independently depends on each other where cases are left
+/// out by their parameters.
+std::string dependence_of(const Store& store, const CampaignInfo& campaign,
+                          const SensitivityRequest& request) {
+  const std::vector<json> designs = designs_of(store, campaign);
+  const auto any = [&](const auto& holds) {
+    return std::any_of(designs.begin(), designs.end(), holds);
+  };
+  if (any([](const json& one) { return one.contains("correlated"); }))
+    return "Inputs are correlated";
+  if (any([](const json& one) { return one.at("kind") == "samples"; }))
+    return "Inputs are samples of a file and may be correlated";
+  const json spec = json::parse(store.spec_copies(campaign.id).resolved);
+  if (spec.at("groups").size() > 1)
+    return "Groups of cases are taken together, so that inputs may be correlated";
+  if (!spec.value("exclude", json::array()).empty())
+    return "Cases are excluded, so that inputs are correlated";
+  if (!request.cases.where.empty()) return "Some cases are selected, so that inputs are correlated";
+  return "";
 }
 
 }  // namespace
@@ -90,122 +128,26 @@ Sensitivity analyse_sensitivity(const Store& store, const CampaignInfo& campaign
       request.metrics.empty() ? default_metrics(store, campaign) : request.metrics;
   s.sample = read_sample(store, campaign, request.cases, metrics);
   refuse_what_is_no_sample(s);
+  const Store::Kinds kinds = store.kinds(campaign.id, {});
+  s.plane_strain = kinds.plane_strain;
   for (const ScopedMetric& one : s.sample.outputs)
-    if (one.is_extensive()) refuse_mixed(store.kinds(campaign.id, {}), "--metrics", one.name);
-  std::vector<std::vector<std::uint32_t>> orders;
+    if (one.is_extensive()) refuse_mixed(kinds, "--metrics", one.name);
+  s.dependence = dependence_of(store, campaign, request);
+  Orders orders;
   for (const std::vector<double>& x : s.sample.x) orders.push_back(random_tied_order(x));
   for (const StoredParameter& one : s.sample.parameters) s.parameters.push_back(one.name);
-  for (std::size_t m = 0; m < s.sample.outputs.size(); ++m) {
-    s.metrics.push_back(
-        of_metric(s.sample.outputs[m], s.sample.y[m], s.sample, orders, request.confidence));
-  }
+  for (std::size_t m = 0; m < s.sample.outputs.size(); ++m)
+    s.metrics.push_back(of_metric(m, s, orders));
   s.sample.x.clear(), s.sample.y.clear();
   if (const auto rows = read_sobol_rows(store, campaign, request.cases, s.sample.outputs)) {
     s.frozen = rows->parameters;
+    s.n_base_samples = rows->n_base_samples;
     for (std::size_t m = 0; m < s.metrics.size(); ++m) {
       s.metrics[m].sobol = indices_by_pick_freeze(rows->outputs[m], request.confidence);
       s.metrics[m].n_base_samples = static_cast<long>(rows->outputs[m].a.size());
     }
   }
   return s;
-}
-
-namespace {
-
-/// Total indices where the design gives them; "" elsewhere.
-std::string totals_to_text(const Sensitivity& s) {
-  if (s.frozen.empty()) return "";
-  std::vector<std::string> header = {"metric"};
-  header.insert(header.end(), s.frozen.begin(), s.frozen.end());
-  header.emplace_back("base samples");
-  TextTable table(header);
-  for (const MetricSensitivity& one : s.metrics) {
-    if (!(one.standard_deviation > 0)) continue;
-    std::vector<std::string> row = {one.metric.name};
-    for (const SobolIndices& indices : one.sobol) row.push_back(with_error(indices.total));
-    row.push_back(std::to_string(one.n_base_samples));
-    table.add_row(row);
-  }
-  return concat(
-      "\nShare in which a parameter takes part, interactions included (total order, by "
-      "pick-freeze).\n\n",
-      table.text());
-}
-
-json estimate_to_json(const Estimate& e) {
-  return {{"value", e.value},
-          {"standard_error", e.standard_error},
-          {"low", e.bounds.low},
-          {"high", e.bounds.high}};
-}
-
-}  // namespace
-
-std::string sensitivity_to_text(const Sensitivity& s) {
-  std::vector<std::string> header = {"metric"};
-  header.insert(header.end(), s.parameters.begin(), s.parameters.end());
-  header.insert(header.end(), {"together", "rows"});
-  TextTable table(header);
-  bool any = false;
-  std::string constant;
-  for (const MetricSensitivity& one : s.metrics) {
-    if (!(one.standard_deviation > 0)) {
-      constant += concat(constant.empty() ? "" : ", ", one.metric.name);
-      continue;
-    }
-    std::vector<std::string> row = {one.metric.name};
-    double together = 0;
-    for (const Estimate& estimate : one.first_order) {
-      row.push_back(with_error(estimate));
-      together += estimate.value;
-    }
-    row.insert(row.end(), {format_number(together, 2), std::to_string(one.n)});
-    table.add_row(row);
-    any = true;
-  }
-  std::string text = concat(
-      "Share of a metric's variance that a parameter explains alone (first order, by ranks; ± half "
-      "of "
-      "the interval of ",
-      format_number(100 * s.request.confidence, 4),
-      " %).\n"
-      "What `together` leaves to 1 is interaction.\n\n");
-  if (any) text += table.text();
-  text += totals_to_text(s);
-  if (!constant.empty()) text += concat("the same in all cases: ", constant, "\n");
-  const Sample& sample = s.sample;
-  text += concat("\n", sample.n_rows - sample.n_without - sample.n_early, " of ", sample.n_rows,
-                 " rows; left out: ", sample.n_without, " without a result, ", sample.n_early,
-                 " that end early; ", sample.n_unresolved,
-                 " of these have an activation or event that the cells do not resolve\n");
-  if (!s.sampling.remark.empty()) text += s.sampling.remark + "\n";
-  return text;
-}
-
-json sensitivity_to_json(const Sensitivity& s) {
-  json metrics = json::array();
-  for (const MetricSensitivity& one : s.metrics) {
-    json first_order = json::object();
-    for (std::size_t p = 0; p < one.first_order.size(); ++p) {
-      first_order[s.parameters[p]] = estimate_to_json(one.first_order[p]);
-    }
-    metrics.push_back({{"metric", one.metric.name},
-                       {"rows", one.n},
-                       {"mean", one.mean},
-                       {"standard_deviation", one.standard_deviation},
-                       {"first_order", first_order}});
-    if (s.frozen.empty()) continue;
-    json& frozen = metrics.back()["pick_freeze"];
-    frozen["base_samples"] = one.n_base_samples;
-    for (std::size_t p = 0; p < one.sobol.size(); ++p) {
-      frozen["first_order"][s.frozen[p]] = estimate_to_json(one.sobol[p].first);
-      frozen["total_order"][s.frozen[p]] = estimate_to_json(one.sobol[p].total);
-    }
-  }
-  return {{"campaign", s.campaign.name},    {"confidence", s.request.confidence},
-          {"rows", s.sample.n_rows},        {"without_result", s.sample.n_without},
-          {"ends_early", s.sample.n_early}, {"unresolved", s.sample.n_unresolved},
-          {"remark", s.sampling.remark},    {"metrics", metrics}};
 }
 
 }  // namespace faultsweep

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "campaign/answers/sobol_rows.h"
+#include "campaign/render/answer.h"
 #include "campaign/statistics/rank_sensitivity.h"
 
 namespace faultsweep {
@@ -20,7 +20,9 @@ struct MetricSensitivity {
   ScopedMetric metric;
   long n = 0;  ///< rows that have a value.
   double mean = 0, standard_deviation = 0;
-  std::vector<Estimate> first_order;  ///< per Sensitivity::parameters.
+  /// Per Sensitivity::parameters. Of a grid without error and bounds (NaN): it is no sample, and of
+  /// what was run the shares are exact.
+  std::vector<Estimate> first_order;
   /// Of a sobol design by pick-freeze: per Sensitivity::frozen, from n_base_samples of them.
   std::vector<SobolIndices> sobol = {};
   long n_base_samples = 0;
@@ -34,16 +36,24 @@ struct Sensitivity {
   std::vector<std::string> parameters;
   std::vector<MetricSensitivity> metrics;
   std::vector<std::string> frozen = {};  ///< parameters of a sobol design.
+  long n_base_samples = 0;               ///< of it, with those that are left out of some metric.
+  /// Why parameters may depend on each other, as the beginning of a sentence; "" = they do not.
+  std::string dependence = {};
+  bool plane_strain = false;  ///< areas, potencies and moments are per metre of strike.
 };
 
-/// First-order indices by ranks; of a sobol design first and total ones by pick-freeze too. Throws
-/// InputError where the campaign's design is not a sample of its parameters, or fewer than
-/// kFewestRows full histories were selected.
+/// First-order indices: of a random sample by ranks, of a grid from the means at each value; of a
+/// sobol design first and total ones by pick-freeze too. Throws InputError where the campaign's
+/// design is not a sample of its parameters, or fewer than kFewestRows full histories were
+/// selected.
 Sensitivity analyse_sensitivity(const Store& store, const CampaignInfo& campaign,
                                 const SensitivityRequest& request);
 inline constexpr long kFewestRows = 20;
 
-std::string sensitivity_to_text(const Sensitivity& sensitivity);
-nlohmann::json sensitivity_to_json(const Sensitivity& sensitivity);
+/// Indices as bars, largest first; of a sobol design total ones below them.
+faultsim::figure::BarChart chart_of(const Sensitivity& sensitivity);
+/// Tables `indices`, a row for each metric, parameter and order, and `metrics`; on the screen a row
+/// for each metric; and the chart.
+Answer to_answer(const Sensitivity& sensitivity);
 
 }  // namespace faultsweep

@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "campaign/answers/probability.h"
 #include "campaign/report/parameters.h"
 #include "campaign/report/table_output.h"
-#include "campaign/report/text_table.h"
 
 namespace faultsweep {
 
 using faultsim::concat;
 using faultsim::InputError;
-using nlohmann::json;
 
 namespace {
 
@@ -103,21 +100,15 @@ PairedValues paired(const TierRows& low, const TierRows& high, std::size_t answe
   return pairs;
 }
 
-double cost_of(const TierCost& cost, double rows) {
-  return cost.operator_seconds + rows * cost.case_seconds;
-}
-
-TierAnswer answer_of(std::string label, bool is_probability, const PairedValues& pairs,
-                     const Tiers& tiers) {
+TierAnswer answer_of(TierAnswer asked, const PairedValues& pairs, const Tiers& tiers) {
   const double confidence = tiers.request.confidence;
   const TieredSample sample{pairs.high, pairs.low};
-  TierAnswer answer{std::move(label), is_probability, {}, 0, 0, 1};
-  answer.found =
-      is_probability ? tiered_probability(sample, confidence) : tiered_mean(sample, confidence);
+  TierAnswer answer = std::move(asked);
+  answer.found = answer.is_probability ? tiered_probability(sample, confidence)
+                                       : tiered_mean(sample, confidence);
   for (const double x : pairs.low) answer.low_mean += x / static_cast<double>(pairs.low.size());
-  const double taken = cost_of(tiers.low_cost, static_cast<double>(tiers.low_cost.n_rows)) +
-                       cost_of(tiers.high_cost, static_cast<double>(tiers.high_cost.n_rows));
-  if (taken > 0) answer.cost_ratio = cost_of(tiers.high_cost, answer.found.n_equivalent) / taken;
+  answer.high_alone_seconds = tiers.high_cost.seconds_of(answer.found.n_equivalent);
+  if (tiers.taken_seconds > 0) answer.cost_ratio = answer.high_alone_seconds / tiers.taken_seconds;
   if (tiers.low_cost.case_seconds > 0 && tiers.high_cost.case_seconds > 0) {
     answer.best_ratio = best_ratio(answer.found.correlation,
                                    tiers.low_cost.case_seconds / tiers.high_cost.case_seconds);
@@ -125,28 +116,52 @@ TierAnswer answer_of(std::string label, bool is_probability, const PairedValues&
   return answer;
 }
 
-/// As lists of metrics have them.
-std::vector<std::string> names_asked(const std::string& list, const Selection& selection) {
-  std::vector<std::string> names;
+/// As lists of metrics have them, each with its unit.
+std::vector<TierAnswer> metrics_asked(const Store& store, const CampaignInfo& campaign,
+                                      const std::string& list, const Selection& selection) {
+  std::string names = list;
   if (list.empty()) {
     for (const NamedId& fault : selection.faults)
-      names.push_back(spelled_name(fault.name) + ".chi_bar");
-    return names;
+      names += concat(names.empty() ? "" : ",", spelled_name(fault.name), ".chi_bar");
   }
-  for (const ScopedMetric& one : choose_metrics(selection, list, true, false))
-    names.push_back(one.spelled);
-  return names;
+  const bool plane_strain = store.kinds(campaign.id, {}).plane_strain;
+  std::vector<TierAnswer> asked;
+  for (const ScopedMetric& one : choose_metrics(selection, names, true, false)) {
+    TierAnswer answer;
+    answer.label = one.spelled;
+    answer.unit = shown_unit(one.dimension, plane_strain);
+    asked.push_back(std::move(answer));
+  }
+  return asked;
+}
+
+/// Metrics, then conditions.
+std::vector<TierAnswer> all_asked(const Store& store, const CampaignInfo& campaign,
+                                  const TierRequest& request) {
+  const Selection selection = make_selection(store, campaign, "", "");
+  std::vector<TierAnswer> asked = metrics_asked(store, campaign, request.metrics, selection);
+  for (const std::string& one :
+       request.conditions.empty() ? default_conditions(selection) : request.conditions) {
+    TierAnswer answer;
+    answer.label = one;
+    answer.is_probability = true;
+    answer.unit = percent();
+    asked.push_back(std::move(answer));
+  }
+  return asked;
 }
 
 }  // namespace
 
+double TierCost::seconds_of(double rows) const { return operator_seconds + rows * case_seconds; }
+
 Tiers compare_tiers(const Store& store, const CampaignInfo& low, const CampaignInfo& high,
                     const TierRequest& request) {
-  Tiers tiers{low, high, request, 0, {}, {}, {}};
-  const Selection selection = make_selection(store, low, "", "");
-  const std::vector<std::string> metrics = names_asked(request.metrics, selection);
-  const std::vector<std::string> conditions =
-      request.conditions.empty() ? default_conditions(selection) : request.conditions;
+  Tiers tiers{low, high, request, 0, {}, {}, 0, {}};
+  std::vector<TierAnswer> asked = all_asked(store, low, request);
+  std::vector<std::string> metrics, conditions;
+  for (const TierAnswer& one : asked)
+    (one.is_probability ? conditions : metrics).push_back(one.label);
   const TierRows lows = read_tier(store, low, metrics, conditions, tiers.low_cost);
   const TierRows highs = read_tier(store, high, metrics, conditions, tiers.high_cost);
   refuse_other_samples(lows, highs, high);
@@ -159,91 +174,13 @@ Tiers compare_tiers(const Store& store, const CampaignInfo& low, const CampaignI
                                        "too few"),
                                 concat("run at least ", kFewestPairs, ": --tier-budget")}});
   }
-  for (std::size_t k = 0; k < metrics.size() + conditions.size(); ++k) {
-    const bool is_probability = k >= metrics.size();
-    const std::string& label = is_probability ? conditions[k - metrics.size()] : metrics[k];
-    tiers.answers.push_back(answer_of(label, is_probability, paired(lows, highs, k, label), tiers));
+  tiers.taken_seconds = tiers.low_cost.seconds_of(static_cast<double>(tiers.low_cost.n_rows)) +
+                        tiers.high_cost.seconds_of(static_cast<double>(tiers.high_cost.n_rows));
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    const PairedValues pairs = paired(lows, highs, k, asked[k].label);
+    tiers.answers.push_back(answer_of(std::move(asked[k]), pairs, tiers));
   }
   return tiers;
-}
-
-namespace {
-
-std::string value_text(double value, bool is_probability) {
-  return is_probability ? concat(format_number(100 * value, 3), " %") : format_number(value);
-}
-
-std::string verdict_of(const TierAnswer& answer) {
-  if (answer.cost_ratio > 1) return concat(format_number(answer.cost_ratio, 2), " x");
-  return concat("no: ", format_number(answer.cost_ratio, 2), " x");
-}
-
-std::string cost_text(const std::string& name, const TierCost& cost) {
-  return concat(name, ": ", cost.n_rows, " cases of ", format_number(cost.case_seconds, 2),
-                " s, operators ", format_number(cost.operator_seconds, 2), " s",
-                cost.n_left_out > 0
-                    ? concat("; ", cost.n_left_out, " without a history to its end left out")
-                    : "",
-                "\n");
-}
-
-}  // namespace
-
-std::string tiers_to_text(const Tiers& tiers) {
-  TextTable table({"at the high tier", "value", "from", "to", "its own from", "its own to",
-                   "low alone", "weight", "corr.", "worth", "pays"});
-  for (const TierAnswer& one : tiers.answers) {
-    const auto text = [&](double value) { return value_text(value, one.is_probability); };
-    const TieredEstimate& found = one.found;
-    table.add_row({one.label, text(found.estimate.value), text(found.estimate.bounds.low),
-                   text(found.estimate.bounds.high), text(found.direct.bounds.low),
-                   text(found.direct.bounds.high), text(one.low_mean),
-                   format_number(found.weight, 2), format_number(found.correlation, 3),
-                   format_number(found.n_equivalent, 3), verdict_of(one)});
-  }
-  std::string text = table.text();
-  text +=
-      concat("\n", tiers.n_pairs, " cases at both tiers. Bounds have a confidence of ",
-             format_number(100 * tiers.request.confidence, 4),
-             " %; `its own` are of the high tier's cases alone.\n`worth`: cases of the high tier "
-             "alone that would be as sure. `pays`: what these would take, over what was taken.\n");
-  text += cost_text(tiers.low.name, tiers.low_cost) + cost_text(tiers.high.name, tiers.high_cost);
-  return text;
-}
-
-json tiers_to_json(const Tiers& tiers) {
-  const auto cost = [](const CampaignInfo& campaign, const TierCost& one) {
-    return json{{"campaign", campaign.name},
-                {"rows", one.n_rows},
-                {"left_out", one.n_left_out},
-                {"case_s", one.case_seconds},
-                {"operators_s", one.operator_seconds}};
-  };
-  const auto estimate = [](const Estimate& one) {
-    return json{{"value", one.value},
-                {"standard_error", one.standard_error},
-                {"low", one.bounds.low},
-                {"high", one.bounds.high}};
-  };
-  json answers = json::array();
-  for (const TierAnswer& one : tiers.answers) {
-    answers.push_back({{"label", one.label},
-                       {"is_probability", one.is_probability},
-                       {"estimate", estimate(one.found.estimate)},
-                       {"high_alone", estimate(one.found.direct)},
-                       {"low_alone", one.low_mean},
-                       {"weight", one.found.weight},
-                       {"correlation", one.found.correlation},
-                       {"worth", one.found.n_equivalent},
-                       {"cost_ratio", one.cost_ratio},
-                       {"pays", one.cost_ratio > 1},
-                       {"best_ratio", one.best_ratio}});
-  }
-  return {{"confidence", tiers.request.confidence},
-          {"pairs", tiers.n_pairs},
-          {"low", cost(tiers.low, tiers.low_cost)},
-          {"high", cost(tiers.high, tiers.high_cost)},
-          {"answers", answers}};
 }
 
 }  // namespace faultsweep

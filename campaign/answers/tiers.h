@@ -1,9 +1,9 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "campaign/render/answer.h"
 #include "campaign/report/selection.h"
 #include "campaign/statistics/control_variate.h"
 #include "campaign/store/store.h"
@@ -20,19 +20,23 @@ struct TierRequest {
 struct TierCost {
   long n_rows = 0;              ///< with a history to its end.
   long n_left_out = 0;          ///< without.
-  double case_seconds = 0;      ///< wall, of a case on average.
-  double operator_seconds = 0;  ///< wall, of building all operators that were not in the cache.
+  double case_seconds = 0;      ///< wall clock, of a case on average.
+  double operator_seconds = 0;  ///< wall clock, of building all operators that were not in the
+                                ///< cache.
+  /// Wall clock, of so many cases and the operators, one after the other.
+  double seconds_of(double rows) const;
 };
 
 /// The mean of a metric, or the probability of a condition, at the high tier.
 struct TierAnswer {
   std::string label;
   bool is_probability = false;
+  ShownUnit unit = {};  ///< of the metric; of probabilities percent.
   TieredEstimate found;
-  double low_mean = 0;    ///< of the low tier alone, over all its rows.
-  double cost_ratio = 0;  ///< what the high tier alone would take for the same error, over what was
-                          ///< taken: above 1 it pays.
-  double best_ratio = 1;  ///< rows of the low tier per one of the high that would be best.
+  double low_mean = 0;            ///< of the low tier alone, over all its rows.
+  double high_alone_seconds = 0;  ///< that the high tier alone would take for the same error.
+  double cost_ratio = 0;          ///< of these to Tiers::taken_seconds: above 1 it pays.
+  double best_ratio = 1;          ///< rows of the low tier per one of the high that would be best.
 };
 
 struct Tiers {
@@ -40,6 +44,7 @@ struct Tiers {
   TierRequest request;
   long n_pairs = 0;  ///< rows with a history to its end at both.
   TierCost low_cost, high_cost;
+  double taken_seconds = 0;  ///< of both tiers.
   std::vector<TierAnswer> answers;
 };
 
@@ -56,7 +61,7 @@ Tiers compare_tiers(const Store& store, const CampaignInfo& low, const CampaignI
                     const TierRequest& request);
 inline constexpr long kFewestPairs = 20;
 
-std::string tiers_to_text(const Tiers& tiers);
-nlohmann::json tiers_to_json(const Tiers& tiers);
+/// Table `answers`; on the screen a table for each unit, and what the tiers took.
+Answer to_answer(const Tiers& tiers);
 
 }  // namespace faultsweep

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/answers/why.h"
+#include "campaign/render/render_json.h"
 #include "campaign/report/text_table.h"
 #include "simulator/common/units.h"
 
@@ -294,7 +295,7 @@ json why_to_json(const Why& why) {
             {"ties", place.ties},
             {"mesh_error_rms", place.error ? json(place.error->rms) : json()}}},
           {"local", std::move(local)},
-          {"global", why.global ? sensitivity_to_json(*why.global) : json()},
+          {"global", why.global ? json(render_json(to_answer(*why.global))) : json()},
           {"no_global", why.no_global}};
 }
 

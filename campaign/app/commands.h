@@ -78,7 +78,6 @@ struct LimitsArguments {
   std::string source;                 ///< a spec (*.json) to submit and run first, or a campaign.
   std::optional<int> n_workers;       ///< of the run; as for `run`.
   long top = 20;                      ///< rows; 0 = all.
-  bool csv = false;                   ///< all rows as CSV instead.
   std::vector<std::string> map = {};  ///< two parameters: a table of one against the other instead.
 };
 /// The code of the run, if there was one.

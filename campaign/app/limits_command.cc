@@ -1,14 +1,13 @@
 #include <cstdio>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <tuple>
 
 #include "campaign/app/commands.h"
+#include "campaign/app/print_answer.h"
 #include "campaign/rounds/limit_table.h"
 #include "campaign/rounds/next_round.h"
 #include "campaign/rounds/submission.h"
 #include "campaign/scheduler/starter.h"
-#include "simulator/output/json_text.h"
 
 namespace faultsweep {
 
@@ -46,12 +45,9 @@ ExitCode limits_command(const StoreArguments& common, const LimitsArguments& arg
   }
   const Store store = Store::open_reader(common.store);
   const LimitTable table = make_limit_table(store, store.campaign(name));
-  const std::string text = common.json     ? faultsim::json_text(limits_to_json(table))
-                           : arguments.csv ? limits_to_csv(table)
-                           : !arguments.map.empty()
-                               ? limit_map_to_text(table, arguments.map.at(0), arguments.map.at(1))
-                               : limits_to_text(table, arguments.top);
-  std::fputs(text.c_str(), stdout);
+  print_answer(arguments.map.empty() ? to_answer(table, arguments.top)
+                                     : map_answer(table, arguments.map.at(0), arguments.map.at(1)),
+               common);
   if (!table.is_finished) {
     std::fprintf(stderr, "Next: faultsweep run %s --store %s\n", table.campaign.name.c_str(),
                  common.store.c_str());

@@ -387,8 +387,7 @@ void add_answers(CLI::App& app, Arguments& a, ExitCode& code) {
   add_stage_and_fault(sensitivity, a.sensitivity.cases.stage, a.sensitivity.cases.fault);
   add_where(sensitivity, a.sensitivity.cases.where);
   add_confidence(sensitivity, a.sensitivity.confidence);
-  add_json(sensitivity, a.common);
-  add_wide(sensitivity);
+  add_renderings(sensitivity, a.common);
   sensitivity->footer(
       "Examples:\n"
       "  faultsweep sensitivity\n"
@@ -421,8 +420,7 @@ void add_tiers(CLI::App& app, Arguments& a, ExitCode& code) {
       ->check(CLI::Range(1, 10000));
   add_confidence(command, t.request.confidence);
   add_store(command, a.common);
-  add_json(command, a.common);
-  add_wide(command);
+  add_renderings(command, a.common);
   command->footer(
       "Examples:\n"
       "  faultsweep tiers sample.json --tier-budget 40\n"
@@ -481,15 +479,12 @@ void add_limits(CLI::App& app, Arguments& a, ExitCode& code) {
       ->check(CLI::Range(1, 10000));
   command->add_option("--top", a.limits.top, "how many rows (default 20); 0 = all")
       ->check(CLI::NonNegativeNumber);
-  CLI::Option* csv = command->add_flag("--csv", a.limits.csv, "all rows as CSV");
   command
       ->add_option("--map", a.limits.map,
                    "A B: the limit as a table, parameter A across and B down")
-      ->expected(2)
-      ->excludes(csv);
+      ->expected(2);
   add_store(command, a.common);
-  add_json(command, a.common);
-  add_wide(command);
+  add_renderings(command, a.common);
   command->footer(
       "Examples:\n"
       "  faultsweep limits storage-limit.json             search, then the narrowest bands first\n"

@@ -14,7 +14,8 @@ std::string draw_campaign(const PlotArguments& arguments, const Store& store) {
   const CampaignInfo campaign = store.campaign(arguments.subject, false);
   if (arguments.chart == "map") return draw_outcome_map(store, campaign, arguments.map);
   if (arguments.chart == "sensitivity") {
-    return draw_sensitivity(analyse_sensitivity(store, campaign, arguments.sensitivity));
+    return faultsim::figure::draw(
+        chart_of(analyse_sensitivity(store, campaign, arguments.sensitivity)));
   }
   if (arguments.chart == "probability") {
     return faultsim::figure::draw(

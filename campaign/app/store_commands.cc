@@ -218,7 +218,7 @@ ExitCode probability_command(const StoreArguments& common, const ProbabilityArgu
     request.where = arguments.request.where;
     request.confidence = arguments.request.confidence;
     const Quantiles found = find_quantiles(store, store.campaign(common.campaign, false), request);
-    common.json ? print(quantiles_to_json(found)) : print(quantiles_to_text(found));
+    print_answer(to_answer(found), common);
     return ExitCode::done;
   }
   const Probability found =
@@ -238,7 +238,7 @@ ExitCode sensitivity_command(const StoreArguments& common, const SensitivityRequ
   const Store store = Store::open_reader(common.store);
   const Sensitivity found =
       analyse_sensitivity(store, store.campaign(common.campaign, false), request);
-  common.json ? print(sensitivity_to_json(found)) : print(sensitivity_to_text(found));
+  print_answer(to_answer(found), common);
   return ExitCode::done;
 }
 

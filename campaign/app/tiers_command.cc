@@ -1,10 +1,9 @@
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "campaign/app/commands.h"
+#include "campaign/app/print_answer.h"
 #include "campaign/rounds/submission.h"
 #include "campaign/scheduler/starter.h"
-#include "simulator/output/json_text.h"
 
 namespace faultsweep {
 
@@ -78,9 +77,7 @@ ExitCode tiers_command(const StoreArguments& common, const TiersArguments& argum
   const Store store = Store::open_reader(common.store);
   const Tiers found =
       compare_tiers(store, store.campaign(names[0]), store.campaign(names[1]), arguments.request);
-  const std::string text =
-      common.json ? faultsim::json_text(tiers_to_json(found)) : tiers_to_text(found);
-  std::fputs(text.c_str(), stdout);
+  print_answer(to_answer(found), common);
   return worst;
 }
 

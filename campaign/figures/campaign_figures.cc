@@ -77,37 +77,6 @@ void for_each_outcome(const Store& store, const CampaignInfo& campaign, const Vi
   });
 }
 
-figure::Bounded bounded(const Estimate& estimate) {
-  return {estimate.value, estimate.bounds.low, estimate.bounds.high};
-}
-
-/// Parameters of a metric, by index, largest first.
-std::vector<std::size_t> largest_first(const std::vector<double>& values) {
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return values[a] > values[b]; });
-  return order;
-}
-
-figure::BarChart::Block block_of(const Sensitivity& sensitivity, const MetricSensitivity& one) {
-  figure::BarChart::Block block{one.metric.name, {}};
-  const bool has_totals = !one.sobol.empty();
-  const std::vector<std::string>& names = has_totals ? sensitivity.frozen : sensitivity.parameters;
-  std::vector<double> values;
-  for (std::size_t p = 0; p < names.size(); ++p) {
-    values.push_back(has_totals ? one.sobol[p].total.value : one.first_order[p].value);
-  }
-  for (const std::size_t p : largest_first(values)) {
-    figure::BarRow row{names[p], bounded(has_totals ? one.sobol[p].first : one.first_order[p])};
-    if (has_totals) row.second.push_back(bounded(one.sobol[p].total));
-    block.rows.push_back(std::move(row));
-  }
-  return block;
-}
-
-std::string percent(double confidence) { return figure::plain_number(100 * confidence, 4) + " %"; }
-
 }  // namespace
 
 std::string draw_outcome_map(const Store& store, const CampaignInfo& campaign,
@@ -143,21 +112,6 @@ std::array<long, figure::kCaseClasses> count_outcomes(const Store& store,
     ++counts[static_cast<std::size_t>(kind)];
   });
   return counts;
-}
-
-std::string draw_sensitivity(const Sensitivity& sensitivity) {
-  figure::BarChart chart;
-  chart.title = "What matters in " + sensitivity.campaign.name;
-  chart.remark = concat("share of the variance that each parameter explains alone; lines: ",
-                        percent(sensitivity.request.confidence), " intervals");
-  chart.label = "share of variance";
-  for (const MetricSensitivity& one : sensitivity.metrics) {
-    chart.blocks.push_back(block_of(sensitivity, one));
-    if (one.sobol.empty()) continue;
-    chart.first_name = "alone";
-    chart.second_name = "with all interactions";
-  }
-  return figure::draw(chart);
 }
 
 StoredPicture::StoredPicture(const Store& store, const CampaignInfo& campaign,

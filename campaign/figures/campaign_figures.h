@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 
-#include "campaign/answers/sensitivity.h"
 #include "campaign/store/store.h"
 #include "simulator/case_figures/case_figures.h"
 #include "simulator/figure/outcome_map.h"
@@ -23,9 +22,6 @@ std::string draw_outcome_map(const Store& store, const CampaignInfo& campaign,
 /// How many cases there are of each kind, in the order of figure::CaseClass.
 std::array<long, faultsim::figure::kCaseClasses> count_outcomes(const Store& store,
                                                                 const CampaignInfo& campaign);
-
-/// First-order indices as bars, largest first; of a sobol design total ones below them.
-std::string draw_sensitivity(const Sensitivity& sensitivity);
 
 /// A case of a store with its scene and, where they were kept, its fields: owns what a CasePicture
 /// refers to.

@@ -254,8 +254,8 @@ void add_answers(Page& page) {
   });
   page.section("what-matters", "What matters");
   page.unless_refused([&] {
-    page.html += draw_sensitivity(
-        analyse_sensitivity(page.store, page.campaign, {.confidence = page.request.confidence}));
+    page.html += render_html(to_answer(
+        analyse_sensitivity(page.store, page.campaign, {.confidence = page.request.confidence})));
   });
 }
 

@@ -28,18 +28,18 @@ std::set<long> positions_where(const Store& store, const CampaignInfo& campaign,
 }
 
 /// A row for each of `design_rows`, or for each case.
-std::vector<Answer> stored_answers(const Store& store, const CampaignInfo& campaign,
-                                   const std::vector<RoundRecord>& rounds,
-                                   const std::vector<Question>& questions, bool by_design_row,
-                                   std::unordered_map<std::string, std::size_t>& by_identity) {
+std::vector<RowAnswers> stored_answers(const Store& store, const CampaignInfo& campaign,
+                                       const std::vector<RoundRecord>& rounds,
+                                       const std::vector<Question>& questions, bool by_design_row,
+                                       std::unordered_map<std::string, std::size_t>& by_identity) {
   std::vector<std::set<long>> holds;
   holds.reserve(questions.size());
   for (const Question& one : questions) holds.push_back(positions_where(store, campaign, one));
   Store::TableQuery query;
   query.by_design_row = by_design_row;
-  std::vector<Answer> answers;
+  std::vector<RowAnswers> answers;
   store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
-    Answer one;
+    RowAnswers one;
     one.position = row.position;
     while (one.round + 1 < static_cast<int>(rounds.size()) &&
            rounds[static_cast<std::size_t>(one.round) + 1].first_position <= row.position) {
@@ -80,14 +80,14 @@ CampaignSpec parse_spec(const StoredRounds& stored) {
   return parse_campaign(stored.spec.dump(), stored.source);
 }
 
-std::vector<Answer> answers_of(const Store& store, const CampaignInfo& campaign,
-                               const StoredRounds& stored, const Proposer& proposer,
-                               bool has_limits) {
+std::vector<RowAnswers> answers_of(const Store& store, const CampaignInfo& campaign,
+                                   const StoredRounds& stored, const Proposer& proposer,
+                                   bool has_limits) {
   std::unordered_map<std::string, std::size_t> by_identity;
-  std::vector<Answer> cases = stored_answers(store, campaign, stored.rounds, proposer.questions(),
-                                             !has_limits, by_identity);
+  std::vector<RowAnswers> cases = stored_answers(store, campaign, stored.rounds,
+                                                 proposer.questions(), !has_limits, by_identity);
   if (!has_limits) return cases;
-  std::vector<Answer> answers;
+  std::vector<RowAnswers> answers;
   for (std::size_t k = 0; k < stored.designs.size(); ++k) {
     const ordered_json spec =
         k == 0 ? stored.spec : proposer.spec_of_round(stored.spec, stored.designs[k]);
@@ -97,7 +97,7 @@ std::vector<Answer> answers_of(const Store& store, const CampaignInfo& campaign,
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (rows[i] < 0) continue;
       const std::string& identity = expansion.cases[static_cast<std::size_t>(rows[i])].identity;
-      Answer one = cases[by_identity.at(identity)];
+      RowAnswers one = cases[by_identity.at(identity)];
       one.round = static_cast<int>(k);
       one.row = picked.empty() ? static_cast<long>(i) : picked[i];
       answers.push_back(std::move(one));

@@ -21,8 +21,8 @@ CampaignSpec parse_spec(const StoredRounds& stored);
 
 /// What became of the rows of all rounds, in their order.
 /// Of limits the rows of each round are made anew, as rows may share cases in every way.
-std::vector<Answer> answers_of(const Store& store, const CampaignInfo& campaign,
-                               const StoredRounds& stored, const Proposer& proposer,
-                               bool has_limits);
+std::vector<RowAnswers> answers_of(const Store& store, const CampaignInfo& campaign,
+                                   const StoredRounds& stored, const Proposer& proposer,
+                                   bool has_limits);
 
 }  // namespace faultsweep

@@ -51,7 +51,8 @@ LimitVerdict verdict_of(const LimitFinding& finding) {
   if (known == finding.points.end() || known != finding.points.begin())
     return LimitVerdict::unknown;
   if (finding.crossings.empty())
-    return known->state == PointState::safe ? LimitVerdict::never : LimitVerdict::always;
+    return known->state == PointState::safe ? LimitVerdict::safe_throughout
+                                            : LimitVerdict::unsafe_throughout;
   const bool is_one = finding.crossings.size() == 1 && finding.crossings.front().is_limit();
   return is_one ? LimitVerdict::limit : LimitVerdict::non_monotone;
 }
@@ -96,11 +97,11 @@ double Crossing::width() const { return std::abs(after.value - before.value); }
 const char* to_string(LimitVerdict verdict) {
   switch (verdict) {
     case LimitVerdict::unknown:
-      return "unknown";
-    case LimitVerdict::never:
-      return "never";
-    case LimitVerdict::always:
-      return "always";
+      return "not known";
+    case LimitVerdict::safe_throughout:
+      return "safe throughout";
+    case LimitVerdict::unsafe_throughout:
+      return "unsafe throughout";
     case LimitVerdict::limit:
       return "limit";
     case LimitVerdict::non_monotone:

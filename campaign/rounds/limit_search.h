@@ -33,13 +33,13 @@ struct Crossing {
 
 /// What the points say.
 enum class LimitVerdict {
-  unknown,       ///< no point is known, or that of the safe end is not.
-  never,         ///< every known point is safe.
-  always,        ///< every known point is unsafe.
-  limit,         ///< safe up to one crossing and unsafe behind it.
-  non_monotone,  ///< unsafe at the safe end, or safe again behind unsafe values.
+  unknown,            ///< no point is known, or that of the safe end is not.
+  safe_throughout,    ///< every known point is safe.
+  unsafe_throughout,  ///< every known point is unsafe.
+  limit,              ///< safe up to one crossing and unsafe behind it.
+  non_monotone,       ///< unsafe at the safe end, or safe again behind unsafe values.
 };
-const char* to_string(LimitVerdict verdict);  ///< "never", "non-monotone", ...
+const char* to_string(LimitVerdict verdict);  ///< "safe throughout", "non-monotone", ...
 
 struct LimitFinding {
   LimitVerdict verdict = LimitVerdict::unknown;

@@ -90,24 +90,24 @@ std::vector<std::vector<LimitSearcher::Value>> LimitSearcher::values_of_rounds(
 }
 
 std::vector<LimitSearcher::Search> LimitSearcher::search(
-    const std::vector<Answer>& answers, const std::vector<ordered_json>& designs) const {
+    const std::vector<RowAnswers>& answers, const std::vector<ordered_json>& designs) const {
   const auto rounds = values_of_rounds(designs);
   // Tried: configuration, limit, value -> answer; none where its case was excluded.
-  std::map<std::pair<long, std::size_t>, std::map<double, const Answer*>> tried;
-  const auto note = [&](std::size_t round, long row, const Answer* answer) {
+  std::map<std::pair<long, std::size_t>, std::map<double, const RowAnswers*>> tried;
+  const auto note = [&](std::size_t round, long row, const RowAnswers* answer) {
     const auto n = static_cast<long>(rounds[round].size());
     const Value& value = rounds[round][static_cast<std::size_t>(row % n)];
-    const Answer*& place = tried[{row / n, value.limit}][value.number];
+    const RowAnswers*& place = tried[{row / n, value.limit}][value.number];
     if (answer != nullptr) place = answer;
   };
-  for (const Answer& one : answers) {
+  for (const RowAnswers& one : answers) {
     if (one.round != 0) continue;
     const auto n = static_cast<long>(rounds[0].size());
     for (long k = 0; k < n; ++k) note(0, one.row / n * n + k, nullptr);
   }
   for (std::size_t k = 1; k < designs.size(); ++k)
     for (const ordered_json& row : designs[k].at("rows")) note(k, row.get<long>(), nullptr);
-  for (const Answer& one : answers) note(static_cast<std::size_t>(one.round), one.row, &one);
+  for (const RowAnswers& one : answers) note(static_cast<std::size_t>(one.round), one.row, &one);
 
   std::vector<std::size_t> first_question;
   std::size_t n_questions = 0;
@@ -138,7 +138,7 @@ std::vector<LimitSearcher::Search> LimitSearcher::search(
   return searches;
 }
 
-Proposal LimitSearcher::propose(const std::vector<Answer>& answers,
+Proposal LimitSearcher::propose(const std::vector<RowAnswers>& answers,
                                 const std::vector<ordered_json>& designs) const {
   const std::vector<Search> searches = search(answers, designs);
   const std::string text = counts_text(searches);

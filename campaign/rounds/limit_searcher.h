@@ -10,14 +10,14 @@ namespace faultsweep {
 /// that is still too wide; cases that several of them ask for are one.
 ///
 /// The answers' rows are those of the design with the values of its round in each of its rows (see
-/// Design::without_base), and Answer::holds has for each fault of each limit whether it is unsafe
-/// and whether that depends on the cells.
+/// Design::without_base), and RowAnswers::holds has for each fault of each limit whether it is
+/// unsafe and whether that depends on the cells.
 class LimitSearcher final : public Proposer {
  public:
   /// @param limits  with all their faults named.
   explicit LimitSearcher(std::vector<LimitSearch> limits) : limits_(std::move(limits)) {}
   std::vector<Question> questions() const override;
-  Proposal propose(const std::vector<Answer>& answers,
+  Proposal propose(const std::vector<RowAnswers>& answers,
                    const std::vector<nlohmann::ordered_json>& designs) const override;
   nlohmann::ordered_json spec_of_round(nlohmann::ordered_json spec,
                                        const nlohmann::ordered_json& design) const override;
@@ -30,7 +30,7 @@ class LimitSearcher final : public Proposer {
     LimitFinding finding;
   };
   /// In the order of configurations, limits and faults.
-  std::vector<Search> search(const std::vector<Answer>& answers,
+  std::vector<Search> search(const std::vector<RowAnswers>& answers,
                              const std::vector<nlohmann::ordered_json>& designs) const;
   const std::vector<LimitSearch>& limits() const { return limits_; }
 

@@ -22,7 +22,8 @@ namespace {
 std::optional<double> last_safe(const LimitCell& cell, const LimitSearch& limit) {
   if (const Crossing* crossing = cell.finding.limit()) return crossing->before.value;
   if (cell.finding.verdict == LimitVerdict::unknown) return std::nullopt;
-  return cell.finding.verdict == LimitVerdict::never ? limit.scan.back() : limit.scan.front();
+  return cell.finding.verdict == LimitVerdict::safe_throughout ? limit.scan.back()
+                                                               : limit.scan.front();
 }
 
 void find_width(LimitRow& row, const std::vector<LimitSearch>& limits) {
@@ -31,7 +32,7 @@ void find_width(LimitRow& row, const std::vector<LimitSearch>& limits) {
     if (!row.cells[l]) continue;
     const std::optional<double> safe = last_safe(*row.cells[l], limits[l]);
     if (!safe) return;
-    row.is_open = row.is_open || row.cells[l]->finding.verdict == LimitVerdict::never;
+    row.is_open = row.is_open || row.cells[l]->finding.verdict == LimitVerdict::safe_throughout;
     const double from = limits[l].scan.front();
     if (limits[l].scan.back() > from) upper = std::min(upper.value_or(*safe), *safe);
     if (limits[l].scan.back() < from) lower = std::max(lower.value_or(*safe), *safe);
@@ -125,7 +126,7 @@ LimitTable make_limit_table(const Store& store, const CampaignInfo& campaign) {
                                  "give its spec a section \"limits\""}});
   }
   const LimitSearcher searcher = make_limit_searcher(parse_spec(*stored));
-  const std::vector<Answer> answers = answers_of(store, campaign, *stored, searcher, true);
+  const std::vector<RowAnswers> answers = answers_of(store, campaign, *stored, searcher, true);
   LimitTable table;
   table.campaign = campaign;
   table.limits = searcher.limits();
@@ -135,7 +136,7 @@ LimitTable make_limit_table(const Store& store, const CampaignInfo& campaign) {
   long n_values = 0;
   for (const LimitSearch& limit : table.limits) n_values += static_cast<long>(limit.scan.size());
   std::map<long, std::vector<std::string>> settings;  // by configuration
-  for (const Answer& one : answers) {
+  for (const RowAnswers& one : answers) {
     if (one.round != 0 || settings.contains(one.row / n_values)) continue;
     const std::vector<std::string> labels = labels_of(one.parameters, parameters);
     for (const std::size_t p : places) settings[one.row / n_values].push_back(labels[p]);

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "campaign/render/answer.h"
 #include "campaign/report/parameters.h"
 #include "campaign/rounds/limit_searcher.h"
 #include "campaign/store/store.h"
@@ -48,14 +48,13 @@ struct LimitTable {
 /// Throws InputError where the campaign has no limits.
 LimitTable make_limit_table(const Store& store, const CampaignInfo& campaign);
 
-/// @param top  rows; 0 = all.
-std::string limits_to_text(const LimitTable& table, long top);
-/// A table of two parameters of the design for each fault and limit: the last safe value.
-/// Throws InputError where there are no such parameters, or others have several values.
-std::string limit_map_to_text(const LimitTable& table, const std::string& across,
-                              const std::string& down);
-nlohmann::json limits_to_json(const LimitTable& table);
-/// A row per configuration, fault and limit.
-std::string limits_to_csv(const LimitTable& table);
+/// Tables `limits`, a row per configuration, fault and limit, and `crossings`; on the screen a row
+/// per configuration and fault.
+/// @param top  rows on the screen; 0 = all.
+Answer to_answer(const LimitTable& table, long top);
+/// The same, but on the screen a table of two parameters of the design for each fault and limit:
+/// its bracket. Throws InputError where there are no such parameters, or others have several
+/// values.
+Answer map_answer(const LimitTable& table, const std::string& across, const std::string& down);
 
 }  // namespace faultsweep

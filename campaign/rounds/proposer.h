@@ -13,7 +13,7 @@ namespace faultsweep {
 class LimitSearcher;
 
 /// What became of a row of a design of the campaign.
-struct Answer {
+struct RowAnswers {
   int round = 0;      ///< whose design the row is of.
   long row = 0;       ///< of its round's designs, from 0; 0 where rows are not asked for.
   long position = 0;  ///< of its case, from 1; rows that are the same case share it.
@@ -47,7 +47,7 @@ class Proposer {
   virtual std::vector<Question> questions() const = 0;
   /// @param answers  of all rows of all rounds, in their order; every case is decided.
   /// @param designs  of the rounds so far, that of the spec first.
-  virtual Proposal propose(const std::vector<Answer>& answers,
+  virtual Proposal propose(const std::vector<RowAnswers>& answers,
                            const std::vector<nlohmann::ordered_json>& designs) const = 0;
   /// The spec of a round after the first, from that of the campaign.
   virtual nlohmann::ordered_json spec_of_round(nlohmann::ordered_json spec,

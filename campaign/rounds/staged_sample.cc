@@ -22,15 +22,15 @@ std::string percent(double probability) {
 
 }  // namespace
 
-Proposal StagedSampler::propose(const std::vector<Answer>& answers,
+Proposal StagedSampler::propose(const std::vector<RowAnswers>& answers,
                                 const std::vector<ordered_json>& designs) const {
   long n_drawn = 0;  // with those that were excluded
   for (const ordered_json& design : designs) n_drawn += design.at("samples").get<long>();
   const auto n = static_cast<long>(answers.size());
   const long n_holds = std::count_if(answers.begin(), answers.end(),
-                                     [](const Answer& one) { return one.holds.at(0); });
+                                     [](const RowAnswers& one) { return one.holds.at(0); });
   const long n_unknown = std::count_if(answers.begin(), answers.end(),
-                                       [](const Answer& one) { return !one.complete; });
+                                       [](const RowAnswers& one) { return !one.complete; });
   const Interval known = proportion_bounds(n_holds, n_unknown, n, wanted_.confidence);
   std::string text = concat(percent(known.low), " to ", percent(known.high), " % (confidence ",
                             percent(wanted_.confidence), " %): true in ", n_holds, " of ", n);

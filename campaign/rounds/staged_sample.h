@@ -17,7 +17,7 @@ class StagedSampler final : public Proposer {
   std::vector<Question> questions() const override {
     return {{.condition = wanted_.condition, .pointer = "/rounds/probability_of"}};
   }
-  Proposal propose(const std::vector<Answer>& answers,
+  Proposal propose(const std::vector<RowAnswers>& answers,
                    const std::vector<nlohmann::ordered_json>& designs) const override;
   nlohmann::ordered_json spec_of_round(nlohmann::ordered_json spec,
                                        const nlohmann::ordered_json& design) const override;

@@ -44,14 +44,14 @@ class AnswersTest : public ::testing::Test {
                            {1, offset, std::to_string(offset) + " m"},
                            {2, std::nullopt, n % 2 == 0 ? "mean" : "min"}}});
     }
-    nlohmann::json parameters = nlohmann::json::array();
+    nlohmann::json parameters = json::array();
     for (const std::string& name : names) parameters.push_back({{"name", name}});
-    s_.spec_resolved = nlohmann::json{{"groups",
-                                       {{{"kind", kind},
-                                         {"parameters", parameters},
-                                         {"second_order", second_order},
-                                         {"scene", {{"tier", "screening"}}}}}}}
-                           .dump();
+    nlohmann::json group = {{"kind", kind},
+                            {"parameters", parameters},
+                            {"second_order", second_order},
+                            {"scene", {{"tier", "screening"}}}};
+    group.update(design_keys_);
+    s_.spec_resolved = nlohmann::json{{"groups", {group}}, {"exclude", excluded_}}.dump();
     store_->submit(s_);
     campaign_ = store_->campaign("");
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -74,6 +74,8 @@ class AnswersTest : public ::testing::Test {
   std::filesystem::path folder_;
   std::unique_ptr<Store> store_;
   Submission s_;
+  nlohmann::json design_keys_ = nlohmann::json::object(),
+                 excluded_ = nlohmann::json::array();  ///< of the spec.
   CampaignInfo campaign_;
   std::vector<RunRecord> runs_;
 };

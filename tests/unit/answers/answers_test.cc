@@ -16,6 +16,7 @@
 #include "campaign/render/render_json.h"
 #include "campaign/render/render_text.h"
 #include "tests/unit/answers/answers_fixture.h"
+#include "tests/unit/answers/renderings.h"
 
 namespace faultsweep {
 namespace {
@@ -24,6 +25,7 @@ using faultsim::Dimension;
 using faultsim::InputError;
 using nlohmann::json;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(DefaultConditions, NameFaultsAndStagesThatAreNoWords) {
   Selection selection;
@@ -207,10 +209,77 @@ TEST_F(AnswersTest, SensitivityNamesTheParameterThatMatters) {
     const Estimate& e = s.metrics[0].first_order[other];
     EXPECT_LT(std::abs(e.value), 4 * e.standard_error) << other;
   }
-  const std::string text = sensitivity_to_text(s);
-  EXPECT_THAT(text, HasSubstr("299 of 300 rows"));
-  EXPECT_THAT(text, HasSubstr("1 without a result"));
-  EXPECT_EQ(sensitivity_to_json(s).at("metrics").size(), 2u);
+  const Answer answer = to_answer(s);
+  const std::string text = render_text(answer);
+  EXPECT_THAT(text, HasSubstr("299 of 300 rows; left out: 1 without a result."));
+  EXPECT_THAT(text, HasSubstr("F1.chi_bar depends most on strength: "));
+  EXPECT_THAT(text, HasSubstr("interaction"));
+  testing::expect_same_renderings(answer);
+  const auto indices = render_json(answer).at("indices");
+  ASSERT_EQ(indices.size(), 6u) << "two metrics, three parameters";
+  EXPECT_EQ(indices[0].at("parameter"), "strength");
+  EXPECT_EQ(indices[0].at("method"), "ranks");
+  EXPECT_EQ(indices[0].at("value").get<double>(), s.metrics[0].first_order[0].value);
+  EXPECT_EQ(indices[0].at("low").get<double>(), s.metrics[0].first_order[0].bounds.low);
+}
+
+/// Where inputs depend on each other, indices overlap: their sum says nothing.
+TEST_F(AnswersTest, OfCorrelatedInputsNothingIsSaidOfInteraction) {
+  const auto text = [&](const SensitivityRequest& request) {
+    return render_text(to_answer(analyse_sensitivity(*store_, campaign_, request)), 1000);
+  };
+  design_keys_ = {{"correlated", {{"parameters", {0, 1}}, {"rank", {{1, -0.6}, {-0.6, 1}}}}}};
+  submit("monte-carlo", even(60));
+  record();
+  const std::string correlated = text({.metrics = "F1.chi_bar"});
+  EXPECT_THAT(correlated, HasSubstr("Inputs are correlated: an index is the share that knowing the "
+                                    "parameter alone would explain, shared with what"));
+  EXPECT_THAT(correlated, HasSubstr("is not interaction"));
+  EXPECT_THAT(correlated, Not(HasSubstr("together")));
+}
+
+/// So they do where cases are chosen by them, or come from a file of samples.
+TEST_F(AnswersTest, WhatLeavesCasesOutMakesInputsDependOnEachOther) {
+  excluded_ = {"strength > 0.9 and offset > 200 m"};
+  submit("monte-carlo", even(60));
+  record();
+  EXPECT_THAT(analyse_sensitivity(*store_, campaign_, {}).dependence, HasSubstr("excluded"));
+}
+
+TEST_F(AnswersTest, SelectedCasesAreNotIndependent) {
+  submit("monte-carlo", even(60));
+  record();
+  EXPECT_EQ(analyse_sensitivity(*store_, campaign_, {}).dependence, "");
+  EXPECT_THAT(
+      analyse_sensitivity(*store_, campaign_, {.cases = {.where = "chi_bar > 0.2"}}).dependence,
+      HasSubstr("selected"));
+}
+
+TEST_F(AnswersTest, SamplesOfAFileMayBeCorrelated) {
+  submit("samples", even(60));
+  record();
+  EXPECT_THAT(analyse_sensitivity(*store_, campaign_, {}).dependence, HasSubstr("of a file"));
+}
+
+/// χ̄ of F1 is its strength, 0.1 to 0.4, whatever the offset: of a grid that is known exactly.
+TEST_F(AnswersTest, OfAGridIndicesAreExactAndHaveNoIntervals) {
+  std::vector<std::array<double, 2>> values;
+  for (int k = 0; k < 4; ++k)
+    for (int offset = 0; offset < 10; ++offset) values.push_back({0.1 * (k + 1), 10.0 * offset});
+  submit("grid", values, {"strength", "offset"});
+  record();
+  const Sensitivity s = analyse_sensitivity(*store_, campaign_, {.metrics = "F1.chi_bar"});
+  const MetricSensitivity& chi_bar = s.metrics.at(0);
+  EXPECT_NEAR(chi_bar.first_order.at(0).value, 1, 1e-12);
+  EXPECT_NEAR(chi_bar.first_order.at(1).value, 0, 1e-12);
+  EXPECT_TRUE(std::isnan(chi_bar.first_order[0].bounds.low));
+  const Answer answer = to_answer(s);
+  testing::expect_same_renderings(answer);
+  const std::string text = render_text(answer, 1000);
+  EXPECT_THAT(text, HasSubstr("no intervals"));
+  EXPECT_THAT(text, Not(HasSubstr("±")));
+  EXPECT_TRUE(render_json(answer).at("indices").at(0).at("low").is_null());
+  EXPECT_EQ(render_json(answer).at("indices").at(0).at("method"), "levels");
 }
 
 /// In each block of D + 2 rows only the first and the last are of the sample.
@@ -249,8 +318,17 @@ TEST_F(AnswersTest, ASobolDesignHasTotalIndices) {
   EXPECT_NEAR(chi_bar.sobol.at(0).total.value, 1, 3 * chi_bar.sobol.at(0).total.standard_error);
   EXPECT_NEAR(chi_bar.sobol.at(0).first.value, 1, 1e-12);
   EXPECT_NEAR(chi_bar.sobol.at(1).total.value, 0, 1e-12);
-  EXPECT_THAT(sensitivity_to_text(s), HasSubstr("total order, by pick-freeze"));
-  EXPECT_TRUE(sensitivity_to_json(s).at("metrics").at(0).at("pick_freeze").contains("total_order"));
+  const Answer answer = to_answer(s);
+  testing::expect_same_renderings(answer);
+  EXPECT_THAT(render_text(answer), HasSubstr("total order, by pick-freeze"));
+  EXPECT_THAT(render_text(answer), HasSubstr("59 of 60")) << "beside the totals";
+  const auto document = render_json(answer);
+  EXPECT_EQ(document.at("base_samples"), 60);
+  const auto& total = document.at("indices").back();
+  EXPECT_EQ(total.at("order"), "total");
+  EXPECT_EQ(total.at("parameter"), "offset");
+  EXPECT_EQ(total.at("base_samples"), 59);
+  EXPECT_EQ(total.at("value").get<double>(), chi_bar.sobol.at(1).total.value);
   // Of some of the cases there are no whole base samples.
   EXPECT_TRUE(analyse_sensitivity(*store_, campaign_, {.cases = {.where = "offset < 0.9 m"}})
                   .frozen.empty());
@@ -514,10 +592,37 @@ TEST_F(AnswersTest, QuantilesHaveBoundsWhateverTheDistribution) {
   EXPECT_EQ(some.n_unknown, 2);
   EXPECT_LT(some.metrics.at(0).values.at(0).low.value(), 0.4275);
   EXPECT_GT(some.metrics.at(0).values.at(0).high.value(), 0.5725);
-  EXPECT_THAT(quantiles_to_text(some), HasSubstr("open"));
-  EXPECT_TRUE(
-      quantiles_to_json(some).at("metrics").at(0).at("quantiles").at(1).at("high").is_null());
+  const Answer answer = to_answer(some);
+  testing::expect_same_renderings(answer);
+  EXPECT_THAT(render_text(answer), HasSubstr("open"));
+  const auto rows = render_json(answer).at("quantiles");
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].at("low").get<double>(), some.metrics.at(0).values.at(0).low.value());
+  EXPECT_TRUE(rows[1].at("high").is_null());
   EXPECT_THROW(find_quantiles(*store_, campaign_, {.metrics = "chi_bar", .at = {1}}), InputError);
+}
+
+/// What was chosen has no distribution: a value that was run, and nothing about others.
+TEST_F(AnswersTest, OfChosenCasesOrderStatisticsWithoutBounds) {
+  submit("list", even(20));
+  record();
+  const Quantiles found = find_quantiles(
+      *store_, campaign_, {.metrics = "F1.chi_bar, max_slip", .at = {0.05, 0.5, 0.52, 0.95}});
+  const std::vector<QuantileBounds>& values = found.metrics.at(0).values;
+  const double expected[] = {0.025, 0.475, 0.525, 0.925};  // the 1st, 10th, 11th and 19th
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_NEAR(values.at(k).estimate, expected[k], 1e-9) << k;
+    EXPECT_FALSE(values[k].low) << k;
+    EXPECT_FALSE(values[k].high) << k;
+  }
+  const Answer answer = to_answer(found);
+  testing::expect_same_renderings(answer);
+  const std::string text = render_text(answer, 1000);
+  EXPECT_THAT(text,
+              HasSubstr("of the 20 cases that were run and have a value 5 % have at most 0.025"));
+  EXPECT_THAT(text, HasSubstr("Order statistics of what was run"));
+  EXPECT_THAT(text, Not(HasSubstr("confidence")));
+  EXPECT_FALSE(render_json(answer).at("quantiles").at(0).contains("low"));
 }
 
 /// Rows of a design that are one case count as often as they are rows.

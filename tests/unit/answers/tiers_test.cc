@@ -10,6 +10,7 @@
 
 #include "campaign/report/parameters.h"
 #include "tests/campaign/made_up_result.h"
+#include "tests/unit/answers/renderings.h"
 
 namespace faultsweep {
 namespace {
@@ -86,15 +87,28 @@ TEST_F(TiersTest, ACheapTierThatGoesWithTheDearOneIsWorthAllItsCases) {
   for (const double one : samples_) share += 0.9 * one + 0.1 > 0.5 ? 1.0 / 200 : 0;
   EXPECT_LE(slides.found.estimate.bounds.low, share);
   EXPECT_GE(slides.found.estimate.bounds.high, share);
-  EXPECT_THAT(tiers_to_text(found), ::testing::HasSubstr("39 cases at both tiers"));
-  EXPECT_TRUE(tiers_to_json(found).at("answers").at(0).at("pays"));
+  const Answer answer = to_answer(found);
+  testing::expect_same_renderings(answer);
+  const std::string text = render_text(answer, 1000);
+  EXPECT_THAT(text, ::testing::HasSubstr("39 cases at both tiers"));
+  EXPECT_THAT(text, ::testing::HasSubstr("Mean of F1.chi_bar at the high tier: 0.5"));
+  EXPECT_THAT(text, ::testing::HasSubstr("Costs are seconds of wall clock"));
+  const auto document = render_json(answer);
+  const auto& row = document.at("answers").at(0);
+  EXPECT_TRUE(row.at("pays"));
+  EXPECT_EQ(row.at("value").get<double>(), mean.found.estimate.value);
+  EXPECT_EQ(row.at("high_alone_low").get<double>(), mean.found.direct.bounds.low);
+  EXPECT_NEAR(document.at("taken_s"), 41, 1e-9);
+  EXPECT_NEAR(row.at("high_alone_s"), mean.found.n_equivalent, 1e-9) << "1 s each";
 }
 
 TEST_F(TiersTest, SaysWhenItDoesNotPay) {
   const CampaignInfo low = run("low", 200, 0, 1), high = run("high", 100, 0.1, 1);
   const Tiers found = compare_tiers(*store_, low, high, {"F1.chi_bar", {"F1.slides"}, 0.95});
   EXPECT_LT(found.answers[0].cost_ratio, 1) << "300 s for what 200 expensive cases tell in 200 s";
-  EXPECT_THAT(tiers_to_text(found), ::testing::HasSubstr("no: "));
+  const std::string text = render_text(to_answer(found), 1000);
+  EXPECT_THAT(text, ::testing::HasSubstr("Two tiers do not pay: as sure from the high tier alone"));
+  EXPECT_THAT(text, ::testing::HasSubstr("no: alone 0."));
 }
 
 /// What operators took is paid once per tier, whatever the number of cases.

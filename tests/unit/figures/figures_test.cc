@@ -139,7 +139,7 @@ TEST_F(FiguresTest, BarsAreThoseOfTheirParametersTheLargestFirst) {
   metric.first_order = {
       {0.1, 0.01, {0.05, 0.15}}, {0.6, 0.02, {0.5, 0.7}}, {0.3, 0.02, {0.2, 0.4}}};
   s.metrics = {metric};
-  const std::string svg = draw_sensitivity(s);
+  const std::string svg = faultsim::figure::draw(chart_of(s));
   EXPECT_THAT(svg, HasSubstr("90 %"));
   const faultsim::figure::ReadScale x = faultsim::figure::read_scale(svg, true);
   std::map<std::string, double> lengths;
@@ -158,7 +158,7 @@ TEST_F(FiguresTest, BarsAreThoseOfTheirParametersTheLargestFirst) {
   for (const double total : {0.9, 0.65, 0.35})
     s.metrics[0].sobol.push_back({s.metrics[0].first_order[s.metrics[0].sobol.size()],
                                   {total, 0.01, {total - 0.05, total + 0.05}}});
-  const std::string both = draw_sensitivity(s);
+  const std::string both = faultsim::figure::draw(chart_of(s));
   names.clear();
   for (const auto& one : faultsim::figure::elements_of(both, "text", "text-anchor", "end"))
     names.push_back(one.text);

@@ -71,7 +71,7 @@ TEST(LimitSearch, GoesDownAsWellAsUpAndToFractionsOfAUnit) {
 TEST(LimitSearch, AScanThatIsNoMultipleOfTheToleranceIsHalvedAllTheSame) {
   const Found found =
       search(unsafe_if([](double value) { return value > -30.0001; }), 0.7, -110, 10.0 / 3);
-  ASSERT_EQ(found.finding.verdict, LimitVerdict::never) << "the range ends at -73";
+  ASSERT_EQ(found.finding.verdict, LimitVerdict::safe_throughout) << "the range ends at -73";
   const Found inside =
       search(unsafe_if([](double value) { return value > -80.0001; }), 0.7, -110, 10.0 / 3);
   ASSERT_EQ(inside.finding.verdict, LimitVerdict::limit);
@@ -81,11 +81,11 @@ TEST(LimitSearch, AScanThatIsNoMultipleOfTheToleranceIsHalvedAllTheSame) {
 
 TEST(LimitSearch, NeverAndAlwaysTakeNoFurtherCase) {
   const Found never = search(unsafe_if([](double) { return false; }));
-  EXPECT_EQ(never.finding.verdict, LimitVerdict::never);
+  EXPECT_EQ(never.finding.verdict, LimitVerdict::safe_throughout);
   EXPECT_EQ(never.finding.limit(), nullptr);
   EXPECT_EQ(never.n_rounds, 0);
   const Found always = search(unsafe_if([](double) { return true; }));
-  EXPECT_EQ(always.finding.verdict, LimitVerdict::always);
+  EXPECT_EQ(always.finding.verdict, LimitVerdict::unsafe_throughout);
   EXPECT_EQ(always.n_rounds, 0);
 }
 
@@ -204,7 +204,7 @@ class LimitSearcherTest : public ::testing::Test {
     for (const long row : rows) {
       const auto [limit, value] = values.at(static_cast<std::size_t>(row % n));
       const double edge = -40.5 - 10.0 * static_cast<double>(row / n);
-      Answer one;
+      RowAnswers one;
       one.round = round;
       one.row = row;
       one.position = static_cast<long>(answers_.size()) + 1;
@@ -217,7 +217,7 @@ class LimitSearcherTest : public ::testing::Test {
     designs_.push_back(design);
   }
   std::optional<LimitSearcher> searcher_;
-  std::vector<Answer> answers_;
+  std::vector<RowAnswers> answers_;
   std::vector<json> designs_;
 };
 
@@ -251,7 +251,7 @@ TEST_F(LimitSearcherTest, AFailedCaseAndOneThatWasExcludedAreNotKnown) {
   const auto searches = searcher_->search(answers_, designs_);
   EXPECT_EQ(searches[0].finding.points[1].state, PointState::unknown);
   EXPECT_EQ(searches[0].finding.limit()->n_unknown, 1);
-  EXPECT_EQ(searches[2].finding.verdict, LimitVerdict::never);
+  EXPECT_EQ(searches[2].finding.verdict, LimitVerdict::safe_throughout);
   EXPECT_EQ(searches[2].finding.n_unknown, 1);
 }
 

@@ -12,6 +12,7 @@
 #include "simulator/scene/json_document.h"
 #include "simulator/scene/read_scene.h"
 #include "tests/campaign/made_up_result.h"
+#include "tests/unit/answers/renderings.h"
 
 namespace faultsweep {
 namespace {
@@ -107,7 +108,7 @@ TEST_F(NextRound, AnswersAreOfTheRoundThatAskedForThem) {
   const CampaignInfo campaign = store.campaign("");
   const StoredRounds stored = stored_rounds(store, campaign).value();
   const StagedSampler sampler(*parse_spec(stored).staged_sample);
-  const std::vector<Answer> answers = answers_of(store, campaign, stored, sampler, false);
+  const std::vector<RowAnswers> answers = answers_of(store, campaign, stored, sampler, false);
   ASSERT_EQ(answers.size(), 40u);
   for (std::size_t k = 0; k < answers.size(); ++k) {
     EXPECT_EQ(answers[k].position, static_cast<long>(k) + 1);
@@ -214,7 +215,7 @@ TEST_F(NextRound, LimitsAreFoundOnTheStore) {
   };
   decide_all();
   while (add_next_round(store, "sample")) decide_all();
-  EXPECT_EQ(store.campaign("").conclusion, "2 searches: 1 never, 1 limit");
+  EXPECT_EQ(store.campaign("").conclusion, "2 searches: 1 safe throughout, 1 limit");
   const LimitTable table = make_limit_table(store, store.campaign(""));
   EXPECT_TRUE(table.is_finished);
   ASSERT_EQ(table.rows.size(), 2u);
@@ -223,7 +224,15 @@ TEST_F(NextRound, LimitsAreFoundOnTheStore) {
   EXPECT_GT(limit.after.value, -40);
   EXPECT_LE(limit.width(), 2);
   EXPECT_EQ(table.rows[0].settings, std::vector<std::string>{"0 m"});
-  EXPECT_THAT(limits_to_csv(table), HasSubstr("2,100 m,F1,top,bar,never,,,"));
+  const Answer answer = to_answer(table, 0);
+  testing::expect_same_renderings(answer);
+  EXPECT_THAT(render_csv(table_named(answer, "")),
+              HasSubstr("2,100 m,F1,top,Pa,safe throughout,safe in the whole range tried (-110 to "
+                        "-10 bar),,,"));
+  const json first = json(render_json(answer)).at("limits").at(0);
+  EXPECT_NEAR(first.at("safe").get<double>(), 1e5 * limit.before.value, 1e-6);
+  EXPECT_EQ(first.at("safe_case"), limit.before.position);
+  EXPECT_EQ(first.at("parameters").at("offset"), "0 m");
   EXPECT_THAT(store.integrity_problems(), IsEmpty());
 }
 
@@ -288,7 +297,7 @@ TEST_F(NextRound, WhatSlidesEverywhereHasNoBand) {
   const LimitTable table = make_limit_table(store, store.campaign(""));
   ASSERT_EQ(table.rows.size(), 2u);
   for (const LimitRow& row : table.rows) {
-    EXPECT_EQ(row.cells[0]->finding.verdict, LimitVerdict::always);
+    EXPECT_EQ(row.cells[0]->finding.verdict, LimitVerdict::unsafe_throughout);
     EXPECT_EQ(row.width.value(), 0);
     EXPECT_FALSE(row.is_open);
   }

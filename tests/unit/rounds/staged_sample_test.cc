@@ -12,8 +12,8 @@ using json = nlohmann::ordered_json;
 using ::testing::HasSubstr;
 
 /// n answers of which every other holds; the last n_failed have failed.
-std::vector<Answer> every_other(int n, int n_failed = 0) {
-  std::vector<Answer> answers(n);
+std::vector<RowAnswers> every_other(int n, int n_failed = 0) {
+  std::vector<RowAnswers> answers(n);
   for (int k = 0; k < n; ++k) {
     answers[k].position = k + 1;
     answers[k].failed = k >= n - n_failed;
