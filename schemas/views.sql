@@ -1,7 +1,10 @@
 -- The views whose columns are the measures of stages and faults (simulator/result/measures.h),
 -- those with the parameters of cases, and failures. MEASURES(s) stands for these columns of the row s: of what is
--- per metre of strike in plane strain two, of which one is NULL. Every migration from 11 on makes
--- the views anew.
+-- per metre of strike in plane strain two, of which one is NULL. The last migration makes the views
+-- anew.
+--
+-- How exact a result is (docs/model.md, section 12) stands beside its measures: surface_... are NULL
+-- of exact operators, field_coverage without a flow result.
 
 -- The values of a case's parameters, a row each.
 DROP VIEW IF EXISTS parameters;
@@ -34,11 +37,15 @@ SELECT k.name AS campaign, cc.position AS "case", c.identity, la.parameter_label
        o.depth_m AS opening_depth_m, o.change_pa AS opening_pressure_change_pa,
        o.absolute_pa AS opening_pressure_absolute_pa, s.magnitude_if_released_at_once_mw,
        m.n_episodes, m.unexpected_episode IS NOT NULL AS unexpected, m.unexpected_episode,
-       m.unexpected_after, m.pressure_margin_pa, m.weakening_resolved
+       m.unexpected_after, m.pressure_margin_pa, m.weakening_resolved, u.operators AS surface_operators,
+       u.error_of_stiffness AS surface_error_of_stiffness,
+       u.error_of_traction AS surface_error_of_traction, u.error_of_slip AS surface_error_of_slip,
+       m.field_coverage
 FROM stage_metrics s
 JOIN names n ON n.id = s.stage_id AND n.name = ''
 JOIN cases c ON c.id = s.case_id
 JOIN case_metrics m ON m.case_id = s.case_id
+LEFT JOIN case_surfaces u ON u.case_id = s.case_id
 JOIN campaign_cases cc ON cc.case_id = s.case_id
 JOIN campaigns k ON k.id = cc.campaign_id
 JOIN case_labels la ON la.campaign_id = cc.campaign_id AND la.position = cc.position
@@ -57,10 +64,15 @@ SELECT k.name AS campaign, cc.position AS "case", n.name AS stage, m.outcome, m.
        MEASURES(s), s.n_events > 0 AS jumps, f.name AS activated_fault, s.activation_step,
        a.depth_m AS activation_depth_m, a.change_pa AS activation_pressure_change_pa,
        a.absolute_pa AS activation_pressure_absolute_pa, fo.name AS opened_fault, s.opening_step,
-       s.magnitude_if_released_at_once_mw, s.first_step, s.last_step
+       s.magnitude_if_released_at_once_mw, s.first_step, s.last_step,
+       u.operators AS surface_operators,
+       u.error_of_stiffness AS surface_error_of_stiffness,
+       u.error_of_traction AS surface_error_of_traction, u.error_of_slip AS surface_error_of_slip,
+       m.field_coverage
 FROM stage_metrics s
 JOIN names n ON n.id = s.stage_id
 JOIN case_metrics m ON m.case_id = s.case_id
+LEFT JOIN case_surfaces u ON u.case_id = s.case_id
 JOIN campaign_cases cc ON cc.case_id = s.case_id
 JOIN campaigns k ON k.id = cc.campaign_id
 LEFT JOIN names f ON f.id = s.activated_fault_id
@@ -80,11 +92,16 @@ SELECT k.name AS campaign, cc.position AS "case", n.name AS stage, f.name AS fau
        a.change_in_fault_pa AS activation_change_in_fault_pa, o.step AS opening_step,
        o.depth_m AS opening_depth_m, o.change_minus_pa AS opening_change_minus_pa,
        o.absolute_minus_pa AS opening_absolute_minus_pa,
-       o.change_plus_pa AS opening_change_plus_pa, o.absolute_plus_pa AS opening_absolute_plus_pa
+       o.change_plus_pa AS opening_change_plus_pa, o.absolute_plus_pa AS opening_absolute_plus_pa,
+       u.operators AS surface_operators,
+       u.error_of_stiffness AS surface_error_of_stiffness,
+       u.error_of_traction AS surface_error_of_traction, u.error_of_slip AS surface_error_of_slip,
+       m.field_coverage
 FROM fault_metrics q
 JOIN names n ON n.id = q.stage_id
 JOIN names f ON f.id = q.fault_id
 JOIN case_metrics m ON m.case_id = q.case_id
+LEFT JOIN case_surfaces u ON u.case_id = q.case_id
 JOIN campaign_cases cc ON cc.case_id = q.case_id
 JOIN campaigns k ON k.id = cc.campaign_id
 LEFT JOIN fault_onsets a ON a.case_id = q.case_id AND a.stage_id = q.stage_id AND a.opening = 0

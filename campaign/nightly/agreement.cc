@@ -11,6 +11,7 @@
 #include "campaign/store/same_numbers.h"
 #include "simulator/common/errors.h"
 #include "simulator/output/write_result.h"
+#include "simulator/result/result_fields.h"
 
 namespace faultsweep {
 
@@ -47,14 +48,17 @@ bool is_compared(const std::string& key) {
   return left_out.count(key) == 0;
 }
 
-/// Measures that were added after baselines had been written, which then have none.
-const std::set<std::string>& later_measures() {
+/// Measures and fields of a case that were added after baselines had been written, which then have
+/// none.
+const std::set<std::string>& later_fields() {
   static const std::set<std::string> keys = [] {
     std::set<std::string> later;
-    const faultsim::Measures measures;
-    faultsim::for_each_measure(measures, [&later](const faultsim::Field& field, const auto&) {
+    const auto note = [&later](const faultsim::Field& field, const auto&) {
       if (field.since > 0) later.emplace(field.key);
-    });
+    };
+    const CaseResult result;
+    faultsim::for_each_measure(result.whole, note);
+    faultsim::for_each_field(result, note);
     return later;
   }();
   return keys;
@@ -140,7 +144,7 @@ class Walk {
   }
   void object(const std::string& place, const json& baseline, const json& tonight) {
     for (const auto& [key, value] : baseline.items()) {
-      if (!is_compared(key) || (value.is_null() && later_measures().contains(key))) continue;
+      if (!is_compared(key) || (value.is_null() && later_fields().contains(key))) continue;
       const json& other = tonight.at(key);
       if (value.is_object() && other.is_object()) {
         object(concat(place, ", ", key), value, other);
@@ -203,6 +207,8 @@ std::vector<std::string> quantities() {
   full.steps[0].creep = faultsim::StepCreep{0, 0, true, {{}}};
   full.events.emplace_back();
   full.episodes.emplace_back();
+  full.surface.emplace();
+  full.field_coverage = 0;
   std::map<std::string, double> scales;
   json document = faultsim::result_to_json(full);
   document["pressure_margin_pa"] = 0;

@@ -6,6 +6,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/output/write_result.h"
+#include "simulator/result/result_fields.h"
 
 namespace faultsweep {
 
@@ -229,7 +230,13 @@ void write_baseline(const std::filesystem::path& folder, const Baseline& baselin
 }
 
 std::string result_digest(const CaseResult& result) {
-  return faultsim::fingerprint(faultsim::result_to_json(bare(result)).dump());
+  constexpr int kAlwaysIn = 13;  // the store's version up to whose fields the first digests went
+  json document = faultsim::result_to_json(bare(result));
+  faultsim::for_each_field(result, [&document](const faultsim::Field& field, const auto&) {
+    const std::string key(field.key);
+    if (field.since > kAlwaysIn && document[key].is_null()) document.erase(key);
+  });
+  return faultsim::fingerprint(document.dump());
 }
 
 }  // namespace faultsweep

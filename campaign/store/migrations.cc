@@ -11,6 +11,7 @@
 #include "store_13_sql.h"
 #include "store_14_sql.h"
 #include "store_15_sql.h"
+#include "store_16_sql.h"
 #include "store_2_sql.h"
 #include "store_3_sql.h"
 #include "store_4_sql.h"
@@ -66,12 +67,11 @@ void require_sound_references(Connection& connection, const Migration& migration
                             broken.text(2), "; nothing was changed"));
 }
 
-/// The measures that a store of the version has, as columns of a view on the row.
-std::string measure_columns(const std::string& row, int version) {
+/// The measures as columns of a view on the row.
+std::string measure_columns(const std::string& row) {
   std::string columns;
   const faultsim::Measures measures;
   faultsim::for_each_measure(measures, [&](const faultsim::Field& field, const auto&) {
-    if (field.since > version) return;
     std::string value = field.sql.empty() ? concat("$.", field.key) : std::string(field.sql);
     for (std::size_t at = value.find('$'); at != std::string::npos; at = value.find('$', at)) {
       value.replace(at, 1, row);
@@ -87,8 +87,8 @@ std::string measure_columns(const std::string& row, int version) {
   return columns;
 }
 
-/// schemas/views.sql for a store of the version.
-std::string views(int version) {
+/// schemas/views.sql with the measures in their places.
+std::string views() {
   std::string sql(faultsim::embedded::views_sql);
   constexpr std::string_view kPlace = "MEASURES(";
   // Not in the comment that explains it, which is a line.
@@ -96,7 +96,7 @@ std::string views(int version) {
     const std::size_t line = sql.rfind('\n', at) + 1, end = sql.find(')', at);
     if (sql.compare(line, 2, "--") == 0) continue;
     const std::size_t row = at + kPlace.size();
-    sql.replace(at, end + 1 - at, measure_columns(sql.substr(row, end - row), version));
+    sql.replace(at, end + 1 - at, measure_columns(sql.substr(row, end - row)));
   }
   return sql;
 }
@@ -138,19 +138,22 @@ const std::vector<Migration>& store_migrations() {
         {13, "2026-11-23 parameters of cases, rounds", faultsim::embedded::store_13_sql},
         {14, "2026-11-23 checksums as sums over rows", faultsim::embedded::store_14_sql},
         {15, "2026-11-24 failures of last attempts", faultsim::embedded::store_15_sql},
+        {16, "2026-11-25 how exact results are", faultsim::embedded::store_16_sql},
     };
-    constexpr int kFirstWithViews = 11;
-    for (std::size_t k = kFirstWithViews - 1;; ++k) {  // versions are without gaps from 1
+    for (std::size_t k = 0;; ++k) {  // versions are without gaps from 1
       const int version = static_cast<int>(k) + 1;
       const std::string measures = new_measures(version);
       if (!measures.empty()) {
         all.insert(all.begin() + static_cast<std::ptrdiff_t>(k),
                    {version, "measures added", texts.emplace_back(measures)});
       }
-      if (k == all.size()) return all;
+      if (k == all.size()) break;
       FAULTSIM_DEMAND(all[k].version == version, version);
-      all[k].sql = texts.emplace_back(std::string(all[k].sql) + views(version));
     }
+    // By the last one alone: they name its tables, and SQLite changes no column while a view names
+    // a table that is not there.
+    all.back().sql = texts.emplace_back(std::string(all.back().sql) + views());
+    return all;
   }();
   return migrations;
 }

@@ -41,6 +41,7 @@ void Store::forget_result(std::int64_t case_id) {
   db.prepared("DELETE FROM slip_events WHERE case_id = ?").bind(case_id).run();
   db.prepared("DELETE FROM episodes WHERE case_id = ?").bind(case_id).run();
   db.prepared("DELETE FROM fault_onsets WHERE case_id = ?").bind(case_id).run();
+  db.prepared("DELETE FROM case_surfaces WHERE case_id = ?").bind(case_id).run();
   forget_fault_metrics(case_id);
   db.prepared("DELETE FROM chi_history WHERE case_id = ?").bind(case_id).run();
   db.prepared("DELETE FROM load_steps WHERE case_id = ?").bind(case_id).run();
@@ -75,6 +76,7 @@ class ResultWriter {
               unexpected ? std::optional(unexpected->after) : std::nullopt);
     tables_.whole.bind(add, &result, ids_);
     add.end();
+    if (result.surface) add_surface(*result.surface);
     add_stage(result.whole, result);
     for (const StageMetrics& stage : result.stages) add_stage(stage, result);
     add_list(tables_.add_event, tables_.event, result.events);
@@ -95,6 +97,7 @@ class ResultWriter {
       add.end();
     }
   }
+  void add_surface(const faultsim::CaseSurface& surface);
   void add_stage(const StageMetrics& stage, const CaseResult& result);
   void add_onset(std::int64_t stage_id, bool opening, const std::string& fault,
                  const std::optional<faultsim::FaultOnset>& onset);
@@ -106,6 +109,13 @@ class ResultWriter {
   std::int64_t case_id_;
   RowDigest digest_;
 };
+
+void ResultWriter::add_surface(const faultsim::CaseSurface& surface) {
+  RowWriter add(db_, tables_.add_surface, digest_, 1);
+  add.begin(case_id_);
+  tables_.surface.bind(add, &surface, ids_);
+  add.end();
+}
 
 void ResultWriter::add_stage(const StageMetrics& stage, const CaseResult& result) {
   RowWriter add(db_, tables_.add_stage, digest_, 1);

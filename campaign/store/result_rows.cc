@@ -114,6 +114,7 @@ std::vector<std::string> split_lines(const std::string& text) {
 
 ResultTables::ResultTables(Connection& db)
     : whole(db, "case_metrics"),
+      surface(db, "case_surfaces"),
       stage(db, "stage_metrics"),
       fault(db, "fault_metrics"),
       onset(db, "fault_onsets"),
@@ -127,6 +128,7 @@ ResultTables::ResultTables(Connection& db)
                 "case_id, run_id, n_steps, n_episodes,"
                 " unexpected_episode, unexpected_after" +
                     whole.columns()),
+      add_surface("case_surfaces", "case_id" + surface.columns()),
       add_stage(
           RowInsert("stage_metrics", "case_id, rank_class, pressure_margin_pa" + stage.columns())),
       add_fault(

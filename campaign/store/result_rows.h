@@ -236,6 +236,7 @@ struct ResultTables {
   explicit ResultTables(Connection& db);
 
   RowFields<faultsim::CaseResult> whole;
+  RowFields<faultsim::CaseSurface> surface;
   RowFields<faultsim::StageMetrics> stage;
   RowFields<faultsim::FaultStageMetrics> fault;
   RowFields<faultsim::FaultOnset> onset;
@@ -245,8 +246,8 @@ struct ResultTables {
   RowFields<faultsim::FaultCreep> history_creep;
   RowFields<faultsim::SlipEvent> event;
   RowFields<faultsim::Episode> episode;
-  RowInsert add_whole, add_stage, add_fault, add_onset, add_step, add_history, add_event,
-      add_episode;
+  RowInsert add_whole, add_surface, add_stage, add_fault, add_onset, add_step, add_history,
+      add_event, add_episode;
   std::string read_fault, read_onsets;  ///< by stage_id, fault_id, case_id, as q and o.
 };
 

@@ -60,6 +60,13 @@ bool same_stage(const StageMetrics& stored, StageMetrics again) {
   return stored == again;
 }
 
+/// Whether an operator is interpolated or a flow result is given is part of a case's identity: a
+/// stored result without is one from before this was stored, which is not a difference.
+template <typename Value>
+bool same_if_stored(const std::optional<Value>& stored, const std::optional<Value>& again) {
+  return !stored || stored == again;
+}
+
 }  // namespace
 
 std::string first_difference(const CaseResult& stored, const CaseResult& again) {
@@ -81,6 +88,10 @@ std::string first_difference(const CaseResult& stored, const CaseResult& again) 
   if (stored.events != again.events) return "the slip events";
   if (stored.episodes != again.episodes || stored.unexpected != again.unexpected) {
     return "the episodes";
+  }
+  if (!same_if_stored(stored.surface, again.surface) ||
+      !same_if_stored(stored.field_coverage, again.field_coverage)) {
+    return "how exact it is";
   }
   const bool same_rest = same(stored.pressure_margin, again.pressure_margin) &&
                          same(stored.max_nucleation_ratio, again.max_nucleation_ratio) &&

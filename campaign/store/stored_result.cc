@@ -94,6 +94,17 @@ void read_stages(Connection& db, const ResultTables& tables, std::int64_t case_i
   }
 }
 
+std::optional<faultsim::CaseSurface> read_surface(Connection& db, const ResultTables& tables,
+                                                  std::int64_t case_id) {
+  Statement query = db.prepared(concat("SELECT q.case_id", tables.surface.selected("q"),
+                                       " FROM case_surfaces q WHERE q.case_id = ?"));
+  if (!query.bind(case_id).step()) return std::nullopt;
+  faultsim::CaseSurface surface;
+  int column = 1;
+  tables.surface.read(query, column, surface);
+  return surface;
+}
+
 template <typename Struct>
 std::vector<Struct> read_list(Connection& db, const char* table, const RowFields<Struct>& fields,
                               std::int64_t case_id) {
@@ -129,6 +140,7 @@ std::optional<CaseResult> Store::stored_result(std::int64_t case_id) const {
     result.unexpected =
         faultsim::Reactivation{static_cast<int>(*episode), static_cast<int>(query.integer(4))};
   }
+  result.surface = read_surface(db, tables, case_id);
   read_steps(db, tables, case_id, result);
   read_stages(db, tables, case_id, result);
   result.events = read_list(db, "slip_events", tables.event, case_id);

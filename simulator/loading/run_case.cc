@@ -465,6 +465,7 @@ CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, const 
                               with_field(probe, prepared))
                           .run();
   if (prepared.field) {
+    result.field_coverage = prepared.field->coverage;
     result.warnings.insert(result.warnings.end(), prepared.field->warnings.begin(),
                            prepared.field->warnings.end());
   }

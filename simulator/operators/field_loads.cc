@@ -126,6 +126,16 @@ double covered_integral(const MappedField& field, const InfluenceBlock& block, i
   return whole > 0 ? 100 * covered / whole : 100;
 }
 
+/// Share of the volume of all compartments; 1 of a field that is not there.
+double covered_share(const FlowMapping& mapping) {
+  double covered = 0, volume = 0;
+  for (const RegionCoverage& region : mapping.coverage) {
+    covered += region.covered;
+    volume += region.volume;
+  }
+  return volume > 0 ? std::min(covered / volume, 1.0) : 1;
+}
+
 /// What became of the cells of each compartment.
 void report_coverage(const MappedField& field, const InfluenceBlock& block,
                      std::vector<std::string>& notes) {
@@ -179,6 +189,7 @@ FieldLoads field_loads(const Scene& scene, const Plan& plan, const PreparedInflu
   if (scene.pressure_field.is_given())
     loads.notes.push_back(
         "pressures of compartments in tables and results are means over their volumes");
+  loads.coverage = std::min(covered_share(pressure.mapping), covered_share(temperature.mapping));
   loads.mapping = pressure.mapping;
   return loads;
 }

@@ -13,6 +13,8 @@ namespace faultsim {
 struct FieldLoads {
   FieldHistory history;  ///< at the reports of pressure and temperature that the scene takes.
   FlowMapping mapping;   ///< of the pressure field, if there is one.
+  double coverage = 1;   ///< share of the compartments' volume that is covered, [0, 1]; of pressure
+                         ///< and temperature the smaller one.
   std::vector<std::string> notes;     ///< what became of the cells of each compartment.
   std::vector<std::string> warnings;  ///< of plan/field_check.h, left for who has looked there.
 };

@@ -116,6 +116,8 @@ struct CaseSurface {
   double traction = 0;     ///< of the worst locked traction.
   double observation = 0;  ///< of the observation rows; 0 without.
   double slip = 0;         ///< of slip of faults without friction under the worst load.
+
+  bool operator==(const CaseSurface&) const = default;  ///< the very same numbers.
 };
 
 struct StepResult {
@@ -293,6 +295,9 @@ struct CaseResult {
   SolveCounts counts;
   std::optional<CaseCoupled> coupled;  ///< only on the coupled path.
   std::optional<CaseSurface> surface;  ///< only where the operator is interpolated.
+  /// Share of the compartments' volume that its flow result covers, [0, 1]; of pressure and
+  /// temperature the smaller one. Only of a scene with a flow result.
+  std::optional<double> field_coverage;
   std::vector<std::string> warnings;
   double seconds = 0;  ///< wall; not compared.
 };

@@ -226,6 +226,7 @@ void for_each_field(Struct& c, Visit&& visit) {
   visit(Field{"counts"}, c.counts);
   visit(Field{.key = "coupled", .since = 13}, c.coupled);
   visit(Field{.key = "surface", .since = 13}, c.surface);
+  visit(Field{.key = "field_coverage", .since = 16}, c.field_coverage);
   visit(Field{"warnings"}, c.warnings);
   visit(Field{"wall_s"}, c.seconds);
 }

@@ -94,8 +94,9 @@ inline faultsim::CaseResult made_up_result(double strength, int n_steps = 12) {
   return result;
 }
 
-/// A made-up result with two slip events, two episodes and creeping salt, every field of which
-/// differs from its default and, flags aside, from all other fields.
+/// A made-up result with two slip events, two episodes, creeping salt, an interpolated operator and
+/// a flow result, every field of which differs from its default and, flags aside, from all other
+/// fields.
 inline faultsim::CaseResult made_up_result_with_events(double strength) {
   faultsim::CaseResult result = made_up_result(strength);
   result.outcome = faultsim::Outcome::unresolved_event;
@@ -170,6 +171,15 @@ inline faultsim::CaseResult made_up_result_with_events(double strength) {
     episode.magnitude_if_at_once = number();
     result.episodes.push_back(episode);
   }
+  faultsim::CaseSurface& surface = result.surface.emplace();
+  for (int* value : {&surface.n_operators, &surface.n_basis, &surface.n_checks}) {
+    *value = static_cast<int>(number());
+  }
+  for (double* value : {&surface.tolerance, &surface.stiffness, &surface.traction,
+                        &surface.observation, &surface.slip}) {
+    *value = 1e-6 * number();
+  }
+  result.field_coverage = 1 / number();
   return result;
 }
 

@@ -109,6 +109,11 @@ TEST(Agreement, EveryNumberCounts) {
       {"the case", "unexpected", Verdict::beyond_tier, [](CaseResult& r) { r.unexpected.reset(); }},
       {"the case", "pressure_margin_pa", Verdict::beyond_tier,
        [](CaseResult& r) { r.pressure_margin = 1; }},
+      {"the case, surface", "error_of_slip", Verdict::last_bits,
+       [&](CaseResult& r) { nudge(r.surface->slip); }},
+      {"the case", "surface", Verdict::beyond_tier, [](CaseResult& r) { r.surface.reset(); }},
+      {"the case", "field_coverage", Verdict::last_bits,
+       [&](CaseResult& r) { nudge(*r.field_coverage); }},
       {"the case", "reason", Verdict::last_bits, [](CaseResult& r) { r.reason = "other"; }},
       {"load step 5 (cushion_gas_injection), fault 1", "activated", Verdict::activation_flipped,
        [](CaseResult& r) { r.steps[5].faults[0].activated = false; }},
@@ -162,11 +167,25 @@ TEST(Agreement, TolerancesAreOfTheirQuantityAndNoneHelpsAgainstFlips) {
   EXPECT_EQ(compare_results(baseline, tonight, false, wide).verdict, Verdict::outcome_changed);
 }
 
+/// The surface of a case was not stored when older baselines were written.
+TEST(Agreement, WhatABaselineDoesNotHaveIsNoDifference) {
+  const CaseResult tonight = testing::made_up_result_with_events(0.8);
+  CaseResult baseline = tonight;
+  baseline.surface.reset();
+  baseline.field_coverage.reset();
+  EXPECT_EQ(compare_results(baseline, tonight, true, kTolerances).verdict, Verdict::identical);
+  baseline.whole.moment *= 1 + 1e-13;
+  const Agreement other = compare_results(baseline, tonight, true, kTolerances);
+  EXPECT_EQ(other.verdict, Verdict::last_bits);
+  EXPECT_EQ(other.worst->quantity, "moment_nm");
+}
+
 TEST(Agreement, QuantitiesAreTheKeysOfAResult) {
   const auto names = quantities();
   EXPECT_THAT(names,
               ::testing::IsSupersetOf({"moment_nm", "chi_bar", "pressure_margin_pa", "shear_max_pa",
-                                       "stress_drop_pa", "n_slip", "change_minus_pa"}));
+                                       "stress_drop_pa", "n_slip", "change_minus_pa",
+                                       "error_of_slip", "field_coverage"}));
   EXPECT_THAT(names, ::testing::Not(::testing::Contains("wall_s")));
 }
 

@@ -10,6 +10,7 @@
 #include "campaign/nightly/nightly_suite.h"
 #include "campaign/store/same_numbers.h"
 #include "campaign/store/store.h"
+#include "simulator/output/write_result.h"
 #include "tests/campaign/made_up_result.h"
 
 namespace faultsweep {
@@ -68,6 +69,19 @@ TEST_F(BaselineFile, GivesBackEveryBit) {
     EXPECT_EQ(first_difference(results[k], read), "") << k;
     EXPECT_EQ(result_digest(results[k]), result_digest(read)) << k;
   }
+}
+
+/// Else the first night of a program with a new field would find all cases changed.
+TEST(ResultDigest, StaysWhereALaterFieldHasNoValue) {
+  CaseResult result = testing::made_up_result(0.8);
+  const std::string digest = result_digest(result);
+  result.title.clear();
+  result.operator_fingerprint.clear();
+  nlohmann::json before = faultsim::result_to_json(result);
+  before.erase("field_coverage");
+  EXPECT_EQ(digest, faultsim::fingerprint(before.dump()));
+  result.field_coverage = 1;
+  EXPECT_NE(result_digest(result), digest);
 }
 
 TEST_F(BaselineFile, OfAnotherEnvironmentTheNewestIsTaken) {

@@ -239,6 +239,38 @@ TEST_F(FieldLoadsTest, OfTwoFieldsAreTheSumAtTheTimesOfBoth) {
   }
 }
 
+/// A section stands for half a metre to both sides of it.
+TEST_F(FieldLoadsTest, CoverTheShareOfTheCompartmentsThatTheirCellsLieIn) {
+  for (Material& material : scene_.materials) material.thermal_expansion = 1.2e-5;
+  const auto to = [&](double y) {
+    FlowField field = boxes(2);
+    for (FlowCell& cell : field.cells) cell.high.y() = y;
+    return with(field);
+  };
+  const auto coverage = [&](const Scene& pressure, const Scene& temperature) {
+    Scene both = pressure;
+    both.temperature_field = temperature.pressure_field;
+    return field_loads(both, plan_, prepared_).coverage;
+  };
+  EXPECT_NEAR(coverage(to(9000), scene_), 1, 1e-12);
+  EXPECT_NEAR(coverage(to(0.25), scene_), 0.75, 1e-12);
+  EXPECT_NEAR(coverage(to(0.25), to(0)), 0.5, 1e-12) << "of the temperature";
+  EXPECT_NEAR(coverage(to(-0.1), to(9000)), 0.4, 1e-12) << "of the pressure";
+}
+
+/// Compartments count by their volumes, not each alike.
+TEST_F(FieldLoadsTest, CoverTheVolumeOfAllCompartmentsTogether) {
+  FlowField west = boxes(2);
+  std::erase_if(west.cells, [](const FlowCell& cell) { return cell.low.x() >= -3000; });
+  west.value = Eigen::MatrixXd::Constant(std::ssize(west.cells), 2, 3e7);
+  const FieldLoads loads = loads_of(west);
+  const std::vector<RegionCoverage>& regions = loads.mapping.coverage;
+  ASSERT_EQ(regions.size(), 2u);
+  EXPECT_GT(regions[0].covered, 0.1 * regions[0].volume);
+  EXPECT_EQ(regions[1].covered, 0);
+  EXPECT_DOUBLE_EQ(loads.coverage, regions[0].covered / (regions[0].volume + regions[1].volume));
+}
+
 TEST_F(FieldLoadsTest, OfALinearFieldAreItsOwnDirectSolve) {
   const Eigen::Vector3d slope(3e3, 0, -2e3);  // Pa/m
   FlowField field = boxes(2);

@@ -102,6 +102,8 @@ CaseResult example_result() {
   r.whole = example_stage("", true);
   r.unexpected = Reactivation{2, 1};
   r.counts = {9, 6, 3, 1};
+  r.surface = CaseSurface{75, 70, 12, 1e-3, 1e-4 / 3, 2e-4 / 3, 4e-4 / 3, 5e-4 / 3};
+  r.field_coverage = 0.8 / 3;
   r.warnings = {"a", "b"};
   r.seconds = 1.5;
   return r;
@@ -148,6 +150,8 @@ TEST(ResultJson, ComesBackComplete) {
   EXPECT_EQ(copy.steps[2].counts.wasted_newton_iterations, 2);
   EXPECT_EQ(copy.whole, result.whole);
   EXPECT_EQ(copy.unexpected, result.unexpected);
+  EXPECT_EQ(copy.surface, result.surface);
+  EXPECT_EQ(copy.field_coverage, result.field_coverage);
   EXPECT_FALSE(copy.stages[1].magnitude_if_at_once.has_value());
   EXPECT_FALSE(copy.weakening_resolved);
   EXPECT_EQ(copy.pressure_margin, result.pressure_margin);
@@ -163,6 +167,19 @@ TEST(ResultJson, NamesCarryUnits) {
   EXPECT_EQ(document.at("/stages/0/faults/0/activation/pressures/change_minus_pa"_json_pointer),
             -1.234567890123e7);
   EXPECT_TRUE(document.at("/stages/0/faults/1/activation"_json_pointer).is_null());
+}
+
+/// A result of an older program has no such keys, one without has null.
+TEST(ResultJson, HowExactAResultIsMayBeMissing) {
+  json document = result_to_json(example_result());
+  for (const char* key : {"surface", "field_coverage"}) {
+    EXPECT_TRUE(document.contains(key));
+    document.erase(key);
+    EXPECT_TRUE(result_to_json(CaseResult()).at(key).is_null()) << key;
+  }
+  const CaseResult old = result_from_json(document);
+  EXPECT_FALSE(old.surface);
+  EXPECT_FALSE(old.field_coverage);
 }
 
 TEST(ResultJson, SameResultGivesSameText) {

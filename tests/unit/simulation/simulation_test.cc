@@ -140,7 +140,10 @@ TEST(Simulation, AFlowResultActsOnTheSceneThatIsHeld) {
   };
   Simulation simulation;
   simulation.hold(document({}));
-  const std::string before = bits(simulation.run());
+  const CaseResult first = simulation.run();
+  ASSERT_TRUE(first.field_coverage);
+  EXPECT_NEAR(*first.field_coverage, 1, 1e-12);
+  const std::string before = bits(first);
   for (const Changes& changes : {Changes{{"offset_east", "60 m"}},
                                  {{"/fault_pressure/rule", "max"}},
                                  {{"/materials/reservoir/biot", "0.6"}},
