@@ -165,6 +165,22 @@ TEST(Morris, IsItsDefinitionOnTwoTrajectories) {
   EXPECT_EQ(found.mean_magnitude.bounds.low, 0) << "3 − 12.7 is below what it can be";
 }
 
+/// Twelve effects of one parameter, 0 to 11: their variance is 13, their kurtosis 1.78322, and
+/// √(κ − 9 / 12) / √11 / 2 = 0.15323 the error of ln σ, with three degrees of freedom.
+TEST(Morris, BoundsOfADeviationAreThoseOfItsLogarithm) {
+  std::vector<std::vector<double>> x(1);
+  std::vector<double> y;
+  for (int effect = 0; effect < 12; ++effect) {
+    x[0].insert(x[0].end(), {0, 1});
+    y.insert(y.end(), {0, 0.5 * effect});
+  }
+  const Estimate deviation = MorrisDesign::make(x, 0.5).design->effects(y, 0.95)[0].deviation;
+  EXPECT_NEAR(deviation.value, std::sqrt(13.0), 1e-12);
+  EXPECT_NEAR(deviation.standard_error / deviation.value, 0.15323, 1e-4);
+  EXPECT_NEAR(std::log(deviation.bounds.high / deviation.value), 3.182446 * 0.15323, 1e-3);
+  EXPECT_NEAR(std::log(deviation.bounds.low / deviation.value), -3.182446 * 0.15323, 1e-3);
+}
+
 /// Row 2 of the first trajectory is missing: the moves to it and from it are not known.
 TEST(Morris, ATrajectoryWithAMissingValueGivesTheEffectsThatAreKnown) {
   std::mt19937_64 random(6);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "campaign/statistics/correlation_bounds.h"
 #include "tests/unit/statistics/known_models.h"
 
 namespace faultsweep {
@@ -166,6 +167,41 @@ TEST(PickFreeze, ItsIntervalsCoverOfOutputsTogether) {
     EXPECT_GE(held, 925);
     EXPECT_LE(held, 975);
   }
+}
+
+/// r by its formula, its error by leaving out each point, its bounds from the rows of A and B that
+/// carry the variance.
+TEST(PickFreeze, ItsErrorAndBoundsAreTheirDefinitions) {
+  std::mt19937_64 random(15);
+  const PickFreezeValues values = sobol_sample(ishigami(0, 1, 2), 40, random);
+  const auto r_without = [&](std::size_t left_out) {
+    double n = 0, product = 0, squares = 0, both = 0;
+    for (std::size_t k = 0; k < 40; ++k) {
+      if (k == left_out) continue;
+      const double u = values.b[k], v = values.ab[0][k];
+      n += 1, product += u * v, squares += u * u + v * v, both += u + v;
+    }
+    const double m = both / (2 * n);
+    return (product / n - m * m) / (squares / (2 * n) - m * m);
+  };
+  double sum = 0, changes = 0, mean = 0, squares = 0, fourths = 0;
+  const double r = r_without(40);
+  for (std::size_t k = 0; k < 40; ++k) {
+    const double change = r_without(k) - r;
+    sum += change, changes += change * change, mean += (values.a[k] + values.b[k]) / 80;
+  }
+  for (std::size_t k = 0; k < 40; ++k) {
+    for (const double y : {values.a[k] - mean, values.b[k] - mean})
+      squares += y * y, fourths += y * y * y * y;
+  }
+  const double variance = 39.0 / 40 * (changes - sum * sum / 40);
+  const double effective = 0.5 * squares * squares / fourths;
+  const Interval bounds = correlation_bounds(r, variance, 0.5 * effective, 0.95);
+  const Estimate first = indices_by_pick_freeze(values, 0.95)[0].first;
+  EXPECT_NEAR(first.value, r, 1e-12);
+  EXPECT_NEAR(first.standard_error, std::sqrt(variance), 1e-9);
+  EXPECT_NEAR(first.bounds.low, bounds.low, 1e-9);
+  EXPECT_NEAR(first.bounds.high, bounds.high, 1e-9);
 }
 
 TEST(PickFreeze, IsZeroWhereNothingVaries) {

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 
+#include "campaign/statistics/correlation_bounds.h"
 #include "tests/unit/statistics/known_models.h"
 
 namespace faultsweep {
@@ -275,6 +276,71 @@ TEST(RankSensitivity, ItsIntervalsCoverOfOutputsTogether) {
     }
     EXPECT_GE(held, 930) << is_flag;
     EXPECT_LE(held, 980) << is_flag;
+  }
+}
+
+/// Its error and bounds as the header says them, for values in the order of x: with those beyond
+/// the ends mirrored.
+struct ByDefinition {
+  double value = 0, of_terms = 0, of_rows = 0, least = 0, effective = 0;
+  explicit ByDefinition(std::vector<double> y) {
+    const auto n = static_cast<double>(y.size());
+    const double mean = std::accumulate(y.begin(), y.end(), 0.0) / n;
+    for (double& one : y) one -= mean;
+    const auto at = [&](long i) {
+      const auto last = static_cast<long>(y.size()) - 1;
+      return y[static_cast<std::size_t>(i < 0 ? -i : i > last ? 2 * last - i : i)];
+    };
+    double squares = 0, fourths = 0, products = 0;
+    const auto rows = static_cast<long>(y.size());
+    for (long i = 0; i < rows; ++i) {
+      squares += at(i) * at(i), fourths += std::pow(at(i), 4);
+      products += 0.5 * at(i) * (at(i - 1) + at(i + 1));
+    }
+    value = products / squares, effective = squares * squares / fourths;
+    least = (1 - value) * (1 - value) / n;
+    std::vector<double> terms, left_out;
+    for (long i = 0; i < rows; ++i) {
+      const double half = 0.5 * value;
+      if (i + 1 < rows)
+        terms.push_back(at(i) * at(i + 1) - half * (at(i) * at(i) + at(i + 1) * at(i + 1)));
+      left_out.push_back(at(i) * (at(i - 1) + at(i + 1)) - at(i - 1) * at(i + 1) -
+                         value * at(i) * at(i));
+    }
+    const double sum = std::accumulate(left_out.begin(), left_out.end(), 0.0);
+    of_terms = (lagged(terms, 0) + 2 * lagged(terms, 1) - 2 * lagged(terms, 2)) / squares / squares;
+    of_rows =
+        (lagged(left_out, 0) - sum * sum / n - 2 * lagged(left_out, 1) + 2 * lagged(left_out, 2)) /
+        squares / squares;
+  }
+  static double lagged(const std::vector<double>& values, std::size_t lag) {
+    double sum = 0;
+    for (std::size_t i = lag; i < values.size(); ++i) sum += values[i] * values[i - lag];
+    return sum;
+  }
+};
+
+TEST(RankSensitivity, ItsErrorAndBoundsAreTheirDefinitions) {
+  std::mt19937_64 random(31);
+  for (const Known& one : known()) {
+    const Sample s = sample(one.model, 60, random);
+    const auto order = random_tied_order(s.x);
+    std::vector<double> sorted;
+    for (const std::uint32_t row : order) sorted.push_back(s.y[row]);
+    const ByDefinition known(sorted);
+    const Estimate e = first_order_by_ranks(s.y, order, 0.95);
+    EXPECT_NEAR(e.value, known.value, 1e-12) << one.name;
+    const double centre = known.value + (1 - known.value) / 60;
+    const auto rare = rarer_of_two(s.y);
+    const double of_rows = std::max(known.of_rows, 0.6 * known.least);
+    const double variance = rare ? std::max(known.of_terms, known.least)
+                                 : 0.5 * (of_rows + std::max(of_rows, known.of_terms));
+    EXPECT_NEAR(e.standard_error, std::sqrt(variance), 1e-9) << one.name;
+    const Interval bounds =
+        rare ? flag_correlation_bounds(centre, variance, *rare, 0.5 * known.effective, 0.95)
+             : correlation_bounds(centre, variance, 0.7 * known.effective, 0.95);
+    EXPECT_NEAR(e.bounds.low, bounds.low, 1e-9) << one.name;
+    EXPECT_NEAR(e.bounds.high, bounds.high, 1e-9) << one.name;
   }
 }
 
