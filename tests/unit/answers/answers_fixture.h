@@ -44,7 +44,7 @@ class AnswersTest : public ::testing::Test {
                            {1, offset, std::to_string(offset) + " m"},
                            {2, std::nullopt, n % 2 == 0 ? "mean" : "min"}}});
     }
-    nlohmann::json parameters = json::array();
+    nlohmann::json parameters = nlohmann::json::array();
     for (const std::string& name : names) parameters.push_back({{"name", name}});
     nlohmann::json group = {{"kind", kind},
                             {"parameters", parameters},

@@ -11,6 +11,8 @@
 #include <numeric>
 #include <sstream>
 
+#include "campaign/answers/probability.h"
+#include "campaign/answers/sensitivity.h"
 #include "campaign/figures/campaign_figures.h"
 #include "campaign/figures/report_page.h"
 #include "campaign/report/parameters.h"
