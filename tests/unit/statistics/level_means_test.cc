@@ -197,7 +197,7 @@ TEST(LevelMeans, RefuseWhatIsNoFullGrid) {
 }
 
 TEST(LevelMeans, RefuseAnOutputWithoutAValue) {
-  const Levels levels = full({3, 4});
+  const Levels levels = full({3, 4, 2});
   const FullGrid grid = FullGrid::make(levels).grid.value();
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     std::vector<double> values = values_of(levels, wild);
