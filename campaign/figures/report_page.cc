@@ -92,7 +92,10 @@ void add_summary(Page& page) {
              jumps.n_holds + jumps.n_undecided == 0
                  ? std::string("No case has a slip event.")
                  : concat("A slip event happens in ",
-                          share_sentence(jumps, sampling, page.request.confidence), ".")),
+                          share_sentence(jumps, sampling, page.request.confidence), "."),
+             sampling.is_random ? concat(" Bounds have a confidence of ",
+                                         plain_number(100 * page.request.confidence, 4), " %.")
+                                : std::string()),
       "answer");
   const long n_left = c.n_cases - n_full;
   if (n_left > 0) {

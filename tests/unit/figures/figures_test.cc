@@ -202,7 +202,9 @@ TEST_F(FiguresTest, OutcomesAreCountedAsTheStoreHasThem) {
 TEST_F(FiguresTest, ThePageSaysTheAnswerAndHasNothingThatBreaksOut) {
   submit(40, 40);
   const std::string page = report_page(*store_, campaign_, {.program = "faultsweep test"});
-  EXPECT_THAT(page, HasSubstr("A fault slides in 20 of 40 cases: 50 % (95 %: 33.8 to 66.2 %)"));
+  EXPECT_THAT(page,
+              HasSubstr("A fault slides in 20 of 40 cases, 50 % (33.8 to 66.2 %). No case has a "
+                        "slip event. Bounds have a confidence of 95 %."));
   EXPECT_THAT(page, Not(HasSubstr("<b onload")));
   EXPECT_THAT(page, Not(HasSubstr("/somebody/secret")));  // no paths of the machine
   EXPECT_THAT(page, Not(HasSubstr("src=")));              // nothing is loaded
