@@ -82,7 +82,6 @@ Quantiles find_quantiles(const Store& store, const CampaignInfo& campaign,
 
 namespace {
 
-constexpr std::size_t kMostSentences = 3;  // of the headline
 constexpr int kDigits = 3;
 
 ShownUnit unit_of(const Quantiles& q, const MetricQuantiles& one) {

@@ -12,7 +12,6 @@ namespace figure = faultsim::figure;
 
 namespace {
 
-constexpr std::size_t kMostSentences = 3;  // of the headline
 
 bool varies(const MetricSensitivity& metric) { return metric.standard_deviation > 0; }
 
@@ -21,8 +20,6 @@ std::string confidence_text(const Sensitivity& s) {
 }
 
 /// NaN where there is no interval.
-double half_width(const Estimate& e) { return 0.5 * (e.bounds.high - e.bounds.low); }
-
 /// Parameters of a metric, by index, largest first.
 std::vector<std::size_t> largest_first(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());

@@ -11,10 +11,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::size_t kMostSentences = 3;  // of the headline
 ShownUnit seconds() { return {"s", 1, "s"}; }
-
-double half_width(const Estimate& e) { return 0.5 * (e.bounds.high - e.bounds.low); }
 
 std::string confidence_text(const Tiers& tiers) {
   return format_number(100 * tiers.request.confidence, 4) + " %";

@@ -97,6 +97,9 @@ struct AnswerCases {
 
 using AnswerBlock = std::variant<AnswerTable, AnswerNote, AnswerChart, AnswerCases>;
 
+/// Of a headline that goes along a list.
+inline constexpr std::size_t kMostSentences = 3;
+
 struct Answer {
   std::vector<std::string> headline;  ///< the answer in sentences, the most important first.
   std::vector<AnswerBlock> blocks = {};

@@ -53,7 +53,7 @@ std::string table_of(const AnswerTable& table) {
   return html;
 }
 
-struct BlockRenderer {
+struct HtmlBlocks {
   std::string operator()(const AnswerTable& table) const {
     return table.on_screen ? table_of(table) : "";
   }
@@ -74,7 +74,7 @@ struct BlockRenderer {
 std::string render_html(const Answer& answer) {
   std::string html;
   for (const std::string& sentence : answer.headline) html += paragraph(sentence, "answer");
-  for (const AnswerBlock& block : answer.blocks) html += std::visit(BlockRenderer{}, block);
+  for (const AnswerBlock& block : answer.blocks) html += std::visit(HtmlBlocks{}, block);
   return html;
 }
 

@@ -242,7 +242,7 @@ std::string laid_out(std::vector<Laid> columns, std::size_t n_rows, std::size_t 
   return text;
 }
 
-struct BlockRenderer {
+struct TextBlocks {
   std::size_t width;
   std::string operator()(const AnswerTable& table) const {
     return table.on_screen ? render_text(table, width) : "";
@@ -288,7 +288,7 @@ std::string render_text(const Answer& answer, std::size_t width) {
   for (const std::string& sentence : answer.headline) text += wrapped(sentence, width);
   bool after_note = false;
   for (const AnswerBlock& block : answer.blocks) {
-    const std::string part = std::visit(BlockRenderer{width}, block);
+    const std::string part = std::visit(TextBlocks{width}, block);
     if (part.empty()) continue;
     const bool is_note = std::holds_alternative<AnswerNote>(block);
     if (!text.empty() && !(is_note && after_note)) text += '\n';  // notes stand together

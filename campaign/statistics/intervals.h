@@ -16,6 +16,10 @@ struct Estimate {
   double standard_error = 0;
   Interval bounds;  ///< not always as far to either side: see who makes it.
 };
+/// Half the distance between its bounds, which need not lie evenly about it.
+inline double half_width(const Estimate& estimate) {
+  return 0.5 * (estimate.bounds.high - estimate.bounds.low);
+}
 
 /// The t between −t and t of which a number of Student's distribution lies with `confidence`.
 /// @param freedom  degrees of freedom > 0; of infinity it is the normal one.

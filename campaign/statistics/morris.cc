@@ -18,12 +18,12 @@ constexpr double kRounding = 1e-12;
 constexpr double kFreedomPerEffect = 0.25;
 
 /// Sums of powers of deviations from the mean.
-struct Moments {
+struct FourMoments {
   double n = 0, mean = 0, squares = 0, fourths = 0;
 };
 
-Moments moments_of(std::span<const double> values) {
-  Moments m;
+FourMoments four_moments_of(std::span<const double> values) {
+  FourMoments m;
   m.n = static_cast<double>(values.size());
   double largest = 0;
   for (const double one : values) m.mean += one / m.n, largest = std::max(largest, std::abs(one));
@@ -35,12 +35,12 @@ Moments moments_of(std::span<const double> values) {
   return m;
 }
 
-Estimate mean_of(const Moments& m, double confidence) {
+Estimate mean_of(const FourMoments& m, double confidence) {
   if (m.n < 2) return {m.mean, std::nan(""), {-kInfinity, kInfinity}};
   return student_estimate(m.mean, std::sqrt(m.squares / (m.n * (m.n - 1))), m.n - 1, confidence);
 }
 
-Estimate deviation_of(const Moments& m, double confidence) {
+Estimate deviation_of(const FourMoments& m, double confidence) {
   if (m.n < 2) return {std::nan(""), std::nan(""), {0, kInfinity}};
   const double deviation = std::sqrt(m.squares / (m.n - 1));
   if (deviation == 0) return {0, 0, {0, 0}};
@@ -61,11 +61,11 @@ ElementaryEffects summary_of(std::vector<double> effects, double confidence) {
     found.mean_magnitude.bounds.low = found.deviation.bounds.low = 0;
     return found;
   }
-  const Moments moments = moments_of(effects);
+  const FourMoments moments = four_moments_of(effects);
   found.mean = mean_of(moments, confidence);
   found.deviation = deviation_of(moments, confidence);
   for (double& one : effects) one = std::abs(one);
-  found.mean_magnitude = mean_of(moments_of(effects), confidence);
+  found.mean_magnitude = mean_of(four_moments_of(effects), confidence);
   Interval& bounds = found.mean_magnitude.bounds;
   bounds.low = std::max(0.0, bounds.low);
   return found;
