@@ -10,7 +10,6 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::size_t kMostSentences = 3;  // of the headline
 
 AnswerCell number_cell(const std::optional<SearchPoint>& point, const LimitSearch& limit) {
   return point ? AnswerCell(si_of(point->value, limit)) : AnswerCell();
