@@ -36,6 +36,12 @@ std::string pays_text(const TierAnswer& one) {
                 " times as long");
 }
 
+/// "0.012 s", "355 s".
+std::string seconds_text(double value) {
+  constexpr double kWhole = 100;  // from here on no decimals
+  return format_number(value >= kWhole ? std::round(value) : value, value >= kWhole ? 9 : 2) + " s";
+}
+
 /// Whether it was worth while, over all answers.
 std::string pays_sentence(const Tiers& tiers) {
   const auto less = [](const TierAnswer& a, const TierAnswer& b) {
@@ -54,7 +60,7 @@ std::string pays_sentence(const Tiers& tiers) {
                     to = format_number(most->cost_ratio, 2);
   return concat(pays, ": as sure from the high tier alone would have taken ", from,
                 from == to ? "" : concat(" to ", to), " times the ",
-                format_number(tiers.taken_seconds, 2), " s of wall clock that both took.");
+                seconds_text(tiers.taken_seconds), " of wall clock that both took.");
 }
 
 /// All answers in SI, or for a screen those of a unit.
@@ -102,9 +108,7 @@ AnswerTable screen_table_of(const Tiers& tiers, const ShownUnit& unit) {
                      {"pays", "pays", {}, 4, Need::always},
                      {"high_alone", "high alone", unit, 4},
                      {"low_alone", "low alone", unit, 3},
-                     {"worth", "worth cases", {}, 3},
-                     {"correlation", "correlation", {}, 3, Need::extra},
-                     {"weight", "weight", {}, 2, Need::extra}}};
+                     {"worth", "worth cases", {}, 3}}};
   for (const TierAnswer& one : tiers.answers) {
     if (one.unit.name != unit.name) continue;
     const Estimate &e = one.found.estimate, &alone = one.found.direct;
@@ -115,9 +119,7 @@ AnswerTable screen_table_of(const Tiers& tiers, const ShownUnit& unit) {
                           pays_text(one),
                           {alone.value, half_width(alone)},
                           one.low_mean,
-                          one.found.n_equivalent,
-                          one.found.correlation,
-                          one.found.weight});
+                          one.found.n_equivalent});
   }
   table.in_files = false;
   return table;
@@ -140,9 +142,9 @@ AnswerTable cost_table(const Tiers& tiers) {
                      {"campaign", "campaign", {}, 4, Need::always},
                      {"rows", "cases", {}, 4, Need::always},
                      {"left_out", "left out"},
-                     {"case_s", "a case takes", seconds(), 2, Need::always},
-                     {"operators_s", "operators took", seconds(), 2, Need::always},
-                     {"all_s", "together", seconds(), 2, Need::always}}};
+                     {"case_s", "a case takes", seconds(), 4, Need::always},
+                     {"operators_s", "operators took", seconds(), 4, Need::always},
+                     {"all_s", "together", seconds(), 4, Need::always}}};
   const auto add = [&](const char* tier, const CampaignInfo& campaign, const TierCost& cost) {
     table.rows.push_back({tier, campaign.name, cost.n_rows, cost.n_left_out, cost.case_seconds,
                           cost.operator_seconds,
