@@ -352,7 +352,7 @@ std::string most_sentence(const Why& why) {
   if (why.plane.slopes.empty()) return "";
   constexpr double kSure = 2;  // standard errors
   const Slope most = sorted_slopes(why).front();
-  const std::string& name = parameters_from_json(why.ranking.campaign.parameters)[most.column].name;
+  const std::string name = parameters_from_json(why.ranking.campaign.parameters)[most.column].name;
   const double size = unit_of(why).size;
   const std::string unit = unit_of(why).name;
   if (std::abs(most.per_deviation) < kSure * most.error)
