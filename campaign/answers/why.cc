@@ -5,7 +5,8 @@
 #include <limits>
 #include <map>
 
-#include "campaign/report/text_table.h"
+#include "campaign/report/parameters.h"
+#include "simulator/scene/tiers.h"
 
 namespace faultsweep {
 
@@ -98,10 +99,62 @@ std::vector<Neighbour> neighbours_of(const Why& why) {
   return neighbours;
 }
 
-Place place_of(const Why& why) {
-  Place place;
+/// The cases of the ranking as points; those of other rank classes have no value to compare.
+ParameterSpace space_of(const Why& why) {
+  ParameterSpace space;
+  const std::size_t n = why.ranking.rows.size();
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (const StoredParameter& one : parameters_from_json(why.ranking.campaign.parameters))
+    space.columns.push_back({one.name, std::vector<double>(n, none), one.is_text});
+  std::vector<std::map<std::string, double>> words(space.columns.size());
+  for (std::size_t r = 0; r < n; ++r) {
+    for (const CaseParameter& one : why.ranking.rows[r].parameters) {
+      const auto k = static_cast<std::size_t>(one.index);
+      ParameterSpace::Column& column = space.columns[k];
+      column.is_words = column.is_words || !one.si;
+      const double number = static_cast<double>(words[k].size());
+      column.values[r] = one.si ? *one.si : words[k].try_emplace(one.text, number).first->second;
+    }
+  }
+  return space;
+}
+
+/// What is around a case of which no other differs in one parameter alone.
+void add_neighbourhood(Why& why) {
+  constexpr std::size_t kNearest = 8;
+  const std::vector<RankedCase>& rows = why.ranking.rows;
+  const ParameterSpace space = space_of(why);
+  std::vector<double> values;
+  std::size_t here = 0;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (rows[r].position == why.row.position) here = r;
+    values.push_back(rows[r].rank_class > 1
+                         ? std::numeric_limits<double>::quiet_NaN()
+                         : compared_value(rows[r], why.compared, why.ranking.by_default));
+  }
+  const std::vector<double> distances = distances_from(space, here);
+  for (const std::size_t r : nearest(distances, here, kNearest))
+    why.nearest.push_back({rows[r], distances[r], values[r], values[r] - why.value});
+  why.plane = local_plane(space, values, here);
+}
+
+/// Measured for the campaign, else of χ̄ what its tier names.
+std::optional<ErrorBar> error_of(const Store& store, const Why& why) {
   for (const ErrorBar& bar : why.ranking.error_bars)
-    if (bar.metric == why.compared) place.error = bar;
+    if (bar.metric == why.compared) return bar;
+  const faultsim::Tier* tier = faultsim::find_tier(common_tier(store, why.ranking.campaign));
+  if (why.compared != "chi_bar" || tier == nullptr) return std::nullopt;
+  ErrorBar named;
+  named.tier = tier->name;
+  named.metric = why.compared;
+  named.reference = "the limit of small cells in plane strain";
+  named.rms = tier->chi_rms;
+  return named;
+}
+
+Place place_of(const Store& store, const Why& why) {
+  Place place;
+  place.error = error_of(store, why);
   const bool by_default = why.ranking.by_default;
   const double margin = place.error ? std::sqrt(2.0) * place.error->rms : 0;
   for (const RankedCase& row : why.ranking.rows) {
@@ -132,8 +185,9 @@ Why explain_rank(const Store& store, const CampaignInfo& campaign, const StoredC
                  : slides                ? "activated_area"
                                          : "chi_bar";
   why.value = compared_value(why.row, why.compared, why.ranking.by_default);
-  why.place = place_of(why);
+  why.place = place_of(store, why);
   why.neighbours = neighbours_of(why);
+  if (why.neighbours.empty()) add_neighbourhood(why);
   try {
     why.global = analyse_sensitivity(
         store, campaign,

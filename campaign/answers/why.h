@@ -1,10 +1,10 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "campaign/answers/local_slopes.h"
 #include "campaign/answers/sensitivity.h"
 #include "campaign/report/ranking_report.h"
 
@@ -21,10 +21,18 @@ struct Neighbour {
   double change = 0;  ///< of that, neighbour − case.
 };
 
+/// A case of a sample that is near the one asked about, in whatever parameters.
+struct NearCase {
+  RankedCase row;
+  double distance = 0;           ///< distances_from of local_slopes.h.
+  double value = 0, change = 0;  ///< as of Neighbour.
+};
+
 /// The place of a case among those that are ranked with it (its rank class).
 struct Place {
   long place = 0, n_ranked = 0;  ///< from 1.
-  /// Of what the ranking goes by, at the tier of the campaign; none = never measured.
+  /// Of what the ranking goes by, at the tier of the campaign: measured for it by `faultsweep
+  /// tradeoff`, else of χ̄ what the tier names (n_cases 0); none = not known.
   std::optional<ErrorBar> error;
   /// Cases whose values are the same, or differ by no more than √2 times the rms error (that of a
   /// difference of two independent errors): their order says nothing. Without the case itself.
@@ -41,6 +49,10 @@ struct Why {
   Place place;
   std::vector<Neighbour> neighbours;  ///< largest |change| first; per parameter the values next to
                                       ///< the case's, of words and variants all.
+  /// Where there are no such neighbours, as in random samples: the nearest cases, nearest first,
+  /// and the plane through the cases around it.
+  std::vector<NearCase> nearest;
+  LocalPlane plane;
   std::optional<Sensitivity> global;  ///< of `compared`.
   std::string no_global;              ///< why there is none.
 };
@@ -52,7 +64,8 @@ struct Why {
 Why explain_rank(const Store& store, const CampaignInfo& campaign, const StoredCase& stored,
                  RankRequest request);
 
-std::string why_to_text(const Why& why);
-nlohmann::json why_to_json(const Why& why);
+/// Its place, what happens and what matters most in sentences, then "faults", "local" or "nearest"
+/// and "slopes", and "global" as tables.
+Answer to_answer(const Why& why);
 
 }  // namespace faultsweep

@@ -222,8 +222,7 @@ void add_reading(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* status =
       app.add_subcommand("status", "how a campaign stands: counts, time left, failures");
   add_campaign(status, a.common);
-  add_json(status, a.common);
-  add_wide(status);
+  add_renderings(status, a.common);
   status->add_flag("--verify", a.verify,
                    "read the whole store instead and check it: structure, references,\n"
                    "checksums");
@@ -248,8 +247,7 @@ void add_reading(CLI::App& app, Arguments& a, ExitCode& code) {
   rank->add_option("--why", a.why,
                    "CASE: why it stands where it does: what slides first, what matters\n"
                    "near it and over the campaign, which places are not told apart");
-  add_json(rank, a.common);
-  add_wide(rank);
+  add_renderings(rank, a.common);
   rank->footer(
       "Examples:\n"
       "  faultsweep rank --by moment --top 10\n"
@@ -267,8 +265,7 @@ void add_reading(CLI::App& app, Arguments& a, ExitCode& code) {
   add_case(show, a.common, a.case_name);
   show->add_option("--stage", a.show.stage, "only this stage");
   show->add_option("--fault", a.show.fault, "only this fault");
-  add_json(show, a.common);
-  add_wide(show);
+  add_renderings(show, a.common);
   show->footer(
       "Examples:\n"
       "  faultsweep show 17\n"
@@ -278,7 +275,7 @@ void add_reading(CLI::App& app, Arguments& a, ExitCode& code) {
 
   CLI::App* explain = app.add_subcommand("explain", "why a case will run, or will not");
   add_case(explain, a.common, a.case_name);
-  add_json(explain, a.common);
+  add_renderings(explain, a.common);
   explain->footer("Example: faultsweep explain my-sweep/17");
   explain->callback([&] { code = explain_command(a.common, a.case_name); });
 }
@@ -575,8 +572,7 @@ void add_compare(CLI::App& app, Arguments& a, ExitCode& code) {
                    "how many of the worst cases; 0 = all that differ (default 10)")
       ->check(CLI::NonNegativeNumber);
   add_store(command, a.common);
-  add_json(command, a.common);
-  add_wide(command);
+  add_renderings(command, a.common);
   command->footer(kCompareFooter);
   command->callback([&] { code = compare_command(a.common, a.compare); });
 }

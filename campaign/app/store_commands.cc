@@ -7,6 +7,7 @@
 #include "campaign/app/commands.h"
 #include "campaign/app/print_answer.h"
 #include "campaign/report/case_report.h"
+#include "campaign/report/explain_report.h"
 #include "campaign/report/status_report.h"
 #include "campaign/report/text_table.h"
 #include "campaign/rounds/next_round.h"
@@ -114,11 +115,8 @@ ExitCode slurm_command(const StoreArguments& common, const SlurmRequest& request
 ExitCode status_command(const StoreArguments& common) {
   const Store store = Store::open_reader(common.store);
   const StatusReport status = make_status(store, common.campaign);
-  if (common.json) {
-    print(status_to_json(status));
-    return ExitCode::done;
-  }
-  print(status_to_text(status));
+  print_answer(to_answer(status), common);
+  if (common.json) return ExitCode::done;
   const CampaignInfo& c = status.campaign;
   if (!status.manager && c.n_waiting > 0 && !c.cancelled) {
     std::fprintf(stderr, "Next: faultsweep run %s\n", c.name.c_str());
@@ -147,17 +145,14 @@ ExitCode verify_store_command(const StoreArguments& common) {
 
 ExitCode rank_command(const StoreArguments& common, const RankRequest& request, bool list_metrics) {
   if (list_metrics) {
-    common.json ? print(json{{"metrics", metrics_to_json()}}) : print(metrics_to_text());
+    print_answer(metrics_answer(), common);
     return ExitCode::done;
   }
   const Store store = Store::open_reader(common.store);
   const CampaignInfo c = store.campaign(common.campaign, store.lacks_results());
   const Ranking ranking = make_ranking(store, c, request);
-  if (common.json) {
-    print(ranking_to_json(ranking));
-    return ExitCode::done;
-  }
-  print(ranking_to_text(ranking));
+  print_answer(to_answer(ranking), common);
+  if (common.json) return ExitCode::done;
   const long n_failed = c.n_failed - c.n_fields_failed;
   const long n_waiting = c.n_waiting - c.n_fields_waiting;
   if (n_waiting + n_failed > 0) {
@@ -175,8 +170,7 @@ ExitCode rank_why_command(const StoreArguments& common, const RankRequest& reque
                           const std::string& name) {
   const Store store = Store::open_reader(common.store);
   const NamedCase found = find_case(store, common, name);
-  const Why why = explain_rank(store, found.campaign, found.stored, request);
-  common.json ? print(why_to_json(why)) : print(why_to_text(why));
+  print_answer(to_answer(explain_rank(store, found.campaign, found.stored, request)), common);
   return ExitCode::done;
 }
 
@@ -184,15 +178,7 @@ ExitCode show_command(const StoreArguments& common, const std::string& name,
                       const ShowRequest& request) {
   const Store store = Store::open_reader(common.store);
   const NamedCase found = find_case(store, common, name);
-  const std::vector<faultsim::InitialRegion> initial = initial_state_of(store, found.stored);
-  if (common.json) {
-    nlohmann::json document = case_to_json(found.campaign, found.stored);
-    document["initial_state"] = faultsim::initial_state_to_json(initial);
-    print(document);
-  } else {
-    print(case_to_text(found.campaign, found.stored, request) +
-          (initial.empty() ? "" : "\n" + faultsim::initial_state_to_text(initial)));
-  }
+  print_answer(to_answer(shown_case(store, found.campaign, found.stored, request)), common);
   return ExitCode::done;
 }
 
@@ -263,15 +249,14 @@ ExitCode compare_command(const StoreArguments& common, const CompareArguments& a
   const CampaignInfo a = store_a.campaign(arguments.a);
   const CampaignInfo b = store_b.campaign(arguments.b.empty() ? a.name : arguments.b);
   const Comparison comparison = compare_campaigns(store_a, a, store_b, b, arguments.request);
-  common.json ? print(comparison_to_json(comparison)) : print(comparison_to_text(comparison));
+  print_answer(to_answer(comparison), common);
   return comparison.agrees() ? ExitCode::done : ExitCode::regress;
 }
 
 ExitCode explain_command(const StoreArguments& common, const std::string& name) {
   const Store store = Store::open_reader(common.store);
   const NamedCase found = find_case(store, common, name);
-  common.json ? print(explanation_to_json(store, found.campaign, found.stored))
-              : print(explain_case(store, found.campaign, found.stored));
+  print_answer(explanation(store, found.campaign, found.stored), common);
   return ExitCode::done;
 }
 

@@ -57,6 +57,7 @@ enum class Need {
   always,  ///< never left out, nor told as a sentence where all rows have the same.
   wanted,  ///< left out after all that are `extra`.
   extra,
+  data,  ///< in JSON and CSV only.
 };
 
 struct AnswerColumn {

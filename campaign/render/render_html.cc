@@ -36,15 +36,18 @@ std::string table_of(const AnswerTable& table) {
   std::string html = table.title.empty() ? "" : paragraph(table.title, "title");
   html +=
       concat("<div class=\"wide\"><table data-table=\"", escape_xml(table.key), "\"><thead><tr>");
-  for (const AnswerColumn& one : table.columns)
-    html += concat("<th>", escape_xml(shown_heading(one)), "</th>");
+  for (const AnswerColumn& one : table.columns) {
+    if (one.need != Need::data) html += concat("<th>", escape_xml(shown_heading(one)), "</th>");
+  }
   html += "</tr></thead>\n<tbody>\n";
   const std::size_t n = table.rows.size();
   const std::size_t n_shown = table.most_on_screen == 0 ? n : std::min(n, table.most_on_screen);
   for (std::size_t r = 0; r < n_shown; ++r) {
     html += "<tr>";
-    for (std::size_t k = 0; k < table.columns.size(); ++k)
+    for (std::size_t k = 0; k < table.columns.size(); ++k) {
+      if (table.columns[k].need == Need::data) continue;
       html += cell_of(k < table.rows[r].size() ? table.rows[r][k] : AnswerCell{}, table.columns[k]);
+    }
     html += "</tr>\n";
   }
   html += "</tbody></table></div>\n";

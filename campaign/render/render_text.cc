@@ -59,6 +59,7 @@ std::size_t widest_of(const std::vector<std::string>& texts) {
 std::vector<Laid> used_columns(const AnswerTable& table, std::size_t n_rows) {
   std::vector<Laid> all;
   for (std::size_t k = 0; k < table.columns.size(); ++k) {
+    if (table.columns[k].need == Need::data) continue;
     Laid laid;
     laid.column = &table.columns[k];
     for (std::size_t r = 0; r < n_rows; ++r) {

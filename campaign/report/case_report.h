@@ -1,12 +1,14 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "campaign/render/answer.h"
+#include "campaign/report/place_columns.h"
 #include "campaign/store/store.h"
 #include "simulator/scene/initial_state.h"
 
+/// `faultsweep show CASE`: one case of a campaign, with its result.
 namespace faultsweep {
 
 /// What of a case `faultsweep show` was asked for.
@@ -14,20 +16,28 @@ struct ShowRequest {
   std::string stage = {};  ///< "" = all and the whole history.
   std::string fault = {};  ///< "" = all.
 };
-/// `faultsweep show CASE`: parameters, outcome, stages, what each fault does in each, the χ history
-/// per fault. Throws InputError on a stage or fault that its result does not have.
-std::string case_to_text(const CampaignInfo& campaign, const StoredCase& one,
-                         const ShowRequest& request = {});
-nlohmann::json case_to_json(const CampaignInfo& campaign, const StoredCase& one);
 
-/// The initial state per pressure region of a case, from its scene; none where a store from before
-/// scenes had their tables names a file that is gone.
-std::vector<faultsim::InitialRegion> initial_state_of(const Store& store, const StoredCase& one);
+struct ShownCase {
+  CampaignInfo campaign;
+  StoredCase stored;
+  ShowRequest request = {};
+  RegionPressures pressures = RegionPressures::at_depth;
+  /// Per pressure region, from its scene; none where a store from before scenes had their tables
+  /// names a file that is gone.
+  std::vector<faultsim::InitialRegion> initial = {};
+};
+ShownCase shown_case(const Store& store, const CampaignInfo& campaign, const StoredCase& stored,
+                     const ShowRequest& request);
 
-/// `faultsweep explain CASE`: whether `faultsweep run` will compute it, and why.
-std::string explain_case(const Store& store, const CampaignInfo& campaign, const StoredCase& one);
-/// The same for programs: "will_run", "why", the case, its family and the campaigns that have it.
-nlohmann::json explanation_to_json(const Store& store, const CampaignInfo& campaign,
-                                   const StoredCase& one);
+/// What became of it in sentences; then as tables "settings" (its parameters), "runs", "stages",
+/// "faults" (what each does in each stage), "slip_events", "episodes", "histories" (a row per fault
+/// and load step) and "initial_state". "result" of JSON is that of `faultsim run`, all of it.
+/// Throws InputError on a stage or fault that its result does not have.
+Answer to_answer(const ShownCase& shown);
+
+/// Where the fault fields of a case are, or why not; "" where none were asked for.
+std::string fields_sentence(const CampaignInfo& campaign, const StoredCase& stored);
+/// Files of fields that are said to be kept are there.
+bool fields_are_there(const StoredCase& stored);
 
 }  // namespace faultsweep

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "campaign/render/answer.h"
 #include "campaign/report/ranking_report.h"
 #include "campaign/spec/metrics.h"
 #include "campaign/store/store.h"
@@ -72,8 +72,8 @@ struct Comparison {
 Comparison compare_campaigns(const Store& store_a, const CampaignInfo& a, const Store& store_b,
                              const CampaignInfo& b, const CompareRequest& request);
 
-std::string comparison_to_text(const Comparison& comparison);
-/// SI, units beside the values.
-nlohmann::json comparison_to_json(const Comparison& comparison);
+/// Whether they agree, and how many differ in what; then "metrics", how far each is off, and
+/// "worst", the pairs that differ most, as tables.
+Answer to_answer(const Comparison& comparison);
 
 }  // namespace faultsweep

@@ -1,8 +1,10 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
+#include "campaign/render/answer.h"
+#include "campaign/report/place_columns.h"
 #include "campaign/store/store.h"
 
 namespace faultsweep {
@@ -17,6 +19,15 @@ struct RankRequest {
   long top = 20;           ///< 0 = all.
 };
 
+/// How many cases slide, as far as the cells tell.
+struct SlidingCounts {
+  long n_cases = 0;       ///< with a result in the stage.
+  long n_slide = 0;       ///< in their results, resolved or not.
+  long n_unresolved = 0;  ///< of those that slide: it depends on the cells.
+  long n_perhaps = 0;     ///< that do not slide, which depends on the cells too.
+  void add(bool slides, bool is_resolved);
+};
+
 /// A ranking: complete histories first, then those with unresolved events, whose size is the
 /// mesh's, then unstable cases, then those that ended early otherwise.
 struct Ranking {
@@ -28,6 +39,11 @@ struct Ranking {
   /// in total are ranked.
   bool plane_strain_apart = false;
   std::vector<RankedCase> rows;
+  /// Of all cases that the condition selects; none where the rows are not all of them and the
+  /// campaign is so large that counting would take longer than ranking.
+  std::optional<SlidingCounts> counts;
+  RegionPressures pressures = RegionPressures::at_depth;
+  ShownUnit by_unit;  ///< of the scores; plain for expressions, which are in SI.
   /// Measured by `faultsweep tradeoff` for this campaign at its tier; empty where it was not, or
   /// where the campaign has several tiers or meshes of its own.
   std::vector<ErrorBar> error_bars;
@@ -38,11 +54,19 @@ struct Ranking {
 /// the campaign's own order would, plane-strain cases are left out.
 Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankRequest request);
 
-std::string ranking_to_text(const Ranking& ranking);
-/// SI throughout, units in key names.
-nlohmann::json ranking_to_json(const Ranking& ranking);
+/// How many slide and which is the riskiest, then "cases": the ranking as a table. What the cells
+/// do not resolve says so in its row.
+Answer to_answer(const Ranking& ranking);
 /// The metrics that rank --by and --where know, with unit and meaning.
-std::string metrics_to_text();
-nlohmann::json metrics_to_json();
+Answer metrics_answer();
+
+/// The tier that all groups of a campaign have, without sizes of their own; "" = there is none.
+std::string common_tier(const Store& store, const CampaignInfo& campaign);
+/// What a row is about: the case or, where one is ranked, the fault.
+faultsim::StageMetrics metrics_of(const RankedCase& row);
+/// Neither whether it slides nor the size of its events depends on the cells.
+bool is_resolved(const RankedCase& row);
+/// How often it slides, in a sentence: "24 of 240 cases slide; ...".
+std::string sliding_sentence(const SlidingCounts& counts, const RankRequest& request);
 
 }  // namespace faultsweep

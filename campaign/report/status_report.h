@@ -1,10 +1,10 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "campaign/render/answer.h"
 #include "campaign/store/store.h"
 
 namespace faultsweep {
@@ -22,7 +22,7 @@ struct StatusReport {
 };
 
 StatusReport make_status(const Store& store, const std::string& campaign);
-std::string status_to_text(const StatusReport& status);
-nlohmann::json status_to_json(const StatusReport& status);
+/// Counts in a sentence, then workers, failures, families, rounds and the last events as tables.
+Answer to_answer(const StatusReport& status);
 
 }  // namespace faultsweep

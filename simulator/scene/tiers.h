@@ -15,6 +15,7 @@ struct Tier {
   bool plane_strain;   ///< else 3D.
   bool half_domain;    ///< made for half of the domain, refused for all of it.
   const char* errors;  ///< measured, in words.
+  double chi_rms;      ///< of these the rms error of χ̄.
 };
 
 const std::vector<Tier>& tiers();

@@ -50,14 +50,16 @@ TEST_F(Running, ReadingCommandsAnswer) {
   const auto rank =
       faultsweep({"rank", "--by", "chi_bar", "--where", "strength > 0.005", "--json"});
   EXPECT_EQ(nlohmann::json::parse(rank.out)["cases"][0]["case"], 4);
-  const auto show = faultsweep({"show", "sweep/2"});
+  const auto show = faultsweep({"show", "sweep/2", "--wide"});
   EXPECT_THAT(show.out, HasSubstr("killed by SIGSEGV (11)"));
-  const auto history = faultsweep({"show", "3"});
-  EXPECT_THAT(history.out, HasSubstr("fault F2:"));
-  EXPECT_THAT(faultsweep({"explain", "1"}).out, HasSubstr("will not run: it has a result"));
-  EXPECT_THAT(faultsweep({"explain", "2"}).out, HasSubstr("faultsweep retry sweep --case 2"));
+  const auto history = faultsweep({"show", "3", "--wide"});
+  EXPECT_THAT(history.out, HasSubstr("load steps:"));
+  EXPECT_THAT(faultsweep({"explain", "1", "--wide"}).out,
+              HasSubstr("will not run: it has a result"));
+  EXPECT_THAT(faultsweep({"explain", "2", "--wide"}).out,
+              HasSubstr("faultsweep retry sweep --case 2"));
   EXPECT_EQ(faultsweep({"retry"}).out, "1\n");
-  EXPECT_THAT(faultsweep({"explain", "2"}).out,
+  EXPECT_THAT(faultsweep({"explain", "2", "--wide"}).out,
               HasSubstr("will run: it waits for another attempt"));
   EXPECT_EQ(faultsweep({"show", "99"}).code, 2);
   EXPECT_EQ(faultsweep({"rank", "--by", "nonsense"}).code, 2);
@@ -117,7 +119,7 @@ TEST_F(Running, TablesAndComparisonsAsAShellSeesThem) {
   EXPECT_EQ(faultsweep({"backup", other / "campaign.sqlite"}).code, 0);
   const auto same = faultsweep({"compare", "sweep", "--other-store", other});
   EXPECT_EQ(same.code, 0) << same.out << same.err;
-  EXPECT_THAT(same.out, HasSubstr("compared: 3; identical bit for bit"));
+  EXPECT_THAT(same.out, HasSubstr("in all 3 cases compared; 3 are identical"));
   // The crashed case is tried again and gets a result, in one of the stores.
   Store changed = Store::open_owner(other);
   ASSERT_EQ(changed.retry(1, false, {}), 1);
@@ -157,9 +159,10 @@ TEST_F(Running, CancelAndRetrySayWhatTheyDidAndHowToGoOn) {
   EXPECT_THAT(again.err, HasSubstr("sweep was already cancelled with " +
                                    std::to_string(left.n_waiting) + " of 8 cases waiting"));
   EXPECT_THAT(again.err, HasSubstr("faultsweep submit sweep.json reopens it"));
-  EXPECT_THAT(faultsweep({"explain", "8"}).out,
+  EXPECT_THAT(faultsweep({"explain", "8", "--wide"}).out,
               HasSubstr("will not run: the campaign is cancelled; `faultsweep submit sweep.json`"));
-  EXPECT_THAT(faultsweep({"explain", "1"}).out, HasSubstr("will not run: it has a result"));
+  EXPECT_THAT(faultsweep({"explain", "1", "--wide"}).out,
+              HasSubstr("will not run: it has a result"));
   EXPECT_EQ(faultsweep({"cancel", "other"}).code, 2);
   submit({"good", "hang", "good", "good", "good", "good", "good", "good"}, 0.5, policy);
   EXPECT_FALSE(Store::open_reader(store_).campaign("").cancelled) << "submitting reopens";
@@ -174,7 +177,7 @@ TEST_F(Running, CancelAndRetrySayWhatTheyDidAndHowToGoOn) {
   EXPECT_THAT(hung.err, HasSubstr("1 case of sweep waits again. Next: faultsweep run sweep"));
   EXPECT_THAT(faultsweep({"retry", "--case", "2"}).err, HasSubstr("case 2 waits already"));
   EXPECT_EQ(faultsweep({"run", "-w", "1"}).code, 1);
-  EXPECT_THAT(faultsweep({"explain", "2"}).out, HasSubstr("attempt 2 hung"));
+  EXPECT_THAT(faultsweep({"explain", "2", "--wide"}).out, HasSubstr("attempt 2 hung"));
   EXPECT_THAT(faultsweep({"retry"}).out, "1\n");
 }
 

@@ -69,7 +69,7 @@ TEST_F(Tables, EditedAfterSubmissionChangeNothing) {
   EXPECT_NE(stored("1").identity, first) << "another table is another case";
   EXPECT_NEAR(last_change(stored("1").result), -50, 1e-9);
   std::filesystem::remove(folder_ / "history.csv");
-  const auto shown = faultsweep({"show", "1"});
+  const auto shown = faultsweep({"show", "1", "--wide"});
   EXPECT_EQ(shown.code, 0) << shown.err;
   EXPECT_THAT(shown.out, HasSubstr("initial state at mid-depth"));
   EXPECT_THAT(faultsweep({"show", "1", "--json"}).out, HasSubstr("\"initial_state\""));

@@ -15,6 +15,7 @@
 #include "campaign/render/render_json.h"
 #include "campaign/render/render_text.h"
 #include "campaign/render/shown.h"
+#include "tests/unit/report/renderings.h"
 
 /// What holds of the four renderings of any answer.
 namespace faultsweep::testing {
@@ -40,14 +41,6 @@ inline std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;
-}
-
-/// No line is wider than the screen.
-inline void expect_to_fit(const Answer& answer) {
-  for (const std::size_t width : {60u, 80u, 100u, 200u}) {
-    for (const std::string& line : lines_of(render_text(answer, width)))
-      EXPECT_LE(display_width(line), width) << width << ": " << line;
-  }
 }
 
 /// The number of a cell in SI, NaN for none.

@@ -11,6 +11,7 @@
 #include "campaign/report/kendall.h"
 #include "campaign/report/parameters.h"
 #include "tests/campaign/made_up_result.h"
+#include "tests/unit/report/renderings.h"
 
 namespace faultsweep {
 namespace {
@@ -138,8 +139,9 @@ TEST_F(CompareTest, TheSameNumbersInAnotherStoreAgree) {
   EXPECT_EQ(c.tau_b, 1.0);
   EXPECT_EQ(c.n_top_shared, 4);
   EXPECT_TRUE(c.agrees());
-  EXPECT_THAT(comparison_to_text(c), HasSubstr("identical bit for bit in outcome and all metrics: "
-                                               "4; beyond the tolerance of 1e-09: 0"));
+  EXPECT_THAT(render_text(to_answer(c), 1000),
+              HasSubstr("agree within the tolerance of 1e-09 in all 4 cases compared; 4 are "
+                        "identical bit for bit in outcome and all metrics."));
 }
 
 TEST_F(CompareTest, RefusesToMixPerMetreWithTotals) {
@@ -160,10 +162,14 @@ TEST_F(CompareTest, RefusesToMixPerMetreWithTotals) {
   auto total = base_;
   for (Made& one : plane) one.identity += "-plane";
   for (Made& one : total) one.identity += "-total";
-  EXPECT_THAT(comparison_to_text(compare(submit(0, "plane", plane), 1, b)),
-              HasSubstr("moment/(N m/m)"));
-  EXPECT_THAT(comparison_to_text(compare(a, 1, submit(1, "total", total))),
-              HasSubstr("moment/(N m) "));
+  const auto unit_of_moments = [](const Comparison& c) {
+    const auto json = render_json(to_answer(c));
+    for (const auto& one : json["metrics"])
+      if (one["name"] == "moment") return one["unit"].get<std::string>();
+    return std::string("no moment");
+  };
+  EXPECT_EQ(unit_of_moments(compare(submit(0, "plane", plane), 1, b)), "N m/m");
+  EXPECT_EQ(unit_of_moments(compare(a, 1, submit(1, "total", total))), "N m");
 }
 
 TEST_F(CompareTest, FindsTheCaseThatDiffersAndByHowMuch) {
@@ -188,7 +194,7 @@ TEST_F(CompareTest, FindsTheCaseThatDiffersAndByHowMuch) {
     }
   }
   EXPECT_TRUE(compare(a, 1, b, 1e-5).agrees());
-  const auto json = comparison_to_json(c);
+  const auto json = render_json(to_answer(c));
   EXPECT_EQ(json["worst"][0]["case_a"], 3);
   EXPECT_EQ(json["agrees"], false);
 }
@@ -209,8 +215,10 @@ TEST_F(CompareTest, CountsFlipsOutcomesAndWhatIsMissing) {
   EXPECT_EQ(c.pairs[1].outcome_b, "crashed");
   EXPECT_FALSE(compare(c.a, 1, c.b, 1e9).agrees()) << "an outcome is beyond every tolerance";
   EXPECT_EQ(compare(c.a, 1, c.b, 1e9).n_beyond(), 2) << "a flip is, too";
-  const std::string text = comparison_to_text(c);
-  EXPECT_THAT(text, HasSubstr("other outcome: 1; sliding in one only: 1\n"));
+  const std::string text = render_text(to_answer(c), 1000);
+  EXPECT_THAT(text, HasSubstr("1 have another outcome, 1 slide in one only"));
+  testing::expect_the_same_numbers(to_answer(c));
+  testing::expect_to_fit(to_answer(c));
   EXPECT_THAT(text, HasSubstr("only in B: 1"));
 }
 
@@ -249,7 +257,7 @@ TEST_F(CompareTest, NothingComparedIsNoAgreement) {
   const Comparison self = compare(a, 0, a);
   EXPECT_EQ(self.n_same_result, 4);
   EXPECT_FALSE(self.agrees());
-  EXPECT_THAT(comparison_to_text(self), HasSubstr("COMPARED NOTHING"));
+  EXPECT_THAT(render_text(to_answer(self)), HasSubstr("COMPARED NOTHING"));
   const Comparison strange = compare(a, 1, submit(1, "other", {{"zzzzzz", 77, 0.5}}));
   EXPECT_EQ(strange.n_only_a, 4);
   EXPECT_FALSE(strange.agrees());

@@ -2,9 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "campaign/render/render_json.h"
+#include "campaign/render/render_text.h"
 #include "campaign/report/ranking_report.h"
 #include "tests/campaign/made_up_result.h"
 
@@ -47,22 +50,30 @@ class ErrorBars : public ::testing::Test {
     run.status = RunStatus::completed;
     run.result = testing::made_up_result(0.4);
     store_->record_runs(outcome.campaign, {run});
-    return ranking_to_text(make_ranking(*store_, store_->campaign(outcome.name), {}));
+    answer_ = to_answer(make_ranking(*store_, store_->campaign(outcome.name), {}));
+    return render_text(answer_);
   }
 
   std::string folder_;
   std::unique_ptr<Store> store_;
   int n_cases_ = 0;
+  Answer answer_;  ///< the last one.
 };
 
 TEST_F(ErrorBars, AreThoseOfTheCampaignAtItsTier) {
   const std::string text = ranked("sweep", {R"({"tier": "screening"})"});
-  EXPECT_THAT(text, HasSubstr("0.4 ± 0.02"));
-  EXPECT_THAT(text, HasSubstr("against standard over 32 cases of the campaign, at most 0.05"));
+  EXPECT_THAT(text, HasSubstr("0.40 ± 0.02"));
+  std::string note = text;
+  std::replace(note.begin(), note.end(), '\n', ' ');
+  EXPECT_THAT(note, HasSubstr("against standard over 32 cases of the campaign, at most 0.05"));
+  const auto json = render_json(answer_);
+  EXPECT_EQ(json["cases"][0]["chi_bar_error"], 0.02);
+  EXPECT_FALSE(json["cases"][0].contains("max_slip_m_error")) << "never measured";
+  EXPECT_EQ(json["error_bars"][0]["rms"], 0.02);
 }
 
 TEST_F(ErrorBars, OfTheNextTierAreOthers) {
-  EXPECT_THAT(ranked("sweep", {R"({"tier": "standard"})"}), HasSubstr("0.4 ± 0.007"));
+  EXPECT_THAT(ranked("sweep", {R"({"tier": "standard"})"}), HasSubstr("0.400 ± 0.007"));
 }
 
 TEST_F(ErrorBars, AreNotShownWhereNothingWasMeasured) {
@@ -84,7 +95,7 @@ TEST_F(ErrorBars, AreReplacedByALaterTrade) {
   TradeRecord later{2e9, "sweep.json", "tradeoff-sweep", "0", "{}", {}};
   later.error_bars = {{"sweep", "screening", "chi_bar", "standard", 64, 0.03, 0.04}};
   store_->record_trade(later);
-  EXPECT_THAT(ranked("sweep", {R"({"tier": "screening"})"}), HasSubstr("0.4 ± 0.03"));
+  EXPECT_THAT(ranked("sweep", {R"({"tier": "screening"})"}), HasSubstr("0.40 ± 0.03"));
 }
 
 }  // namespace

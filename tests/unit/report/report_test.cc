@@ -5,12 +5,14 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/report/case_report.h"
+#include "campaign/report/explain_report.h"
 #include "campaign/report/parameters.h"
 #include "campaign/report/ranking_report.h"
 #include "campaign/report/status_report.h"
 #include "campaign/report/text_table.h"
 #include "campaign/spec/metrics.h"
 #include "tests/campaign/made_up_result.h"
+#include "tests/unit/report/renderings.h"
 
 namespace faultsweep {
 namespace {
@@ -140,6 +142,17 @@ class ReportTest : public ::testing::Test {
     return r;
   }
 
+  Answer shown(const CampaignInfo& campaign, const char* name) const {
+    return to_answer(shown_case(*store_, campaign, store_->stored_case(campaign.id, name), {}));
+  }
+  std::string shown_text(const CampaignInfo& campaign, const char* name) const {
+    return render_text(shown(campaign, name), 1000);
+  }
+  std::string explained(const CampaignInfo& campaign, const char* name) const {
+    return render_text(explanation(*store_, campaign, store_->stored_case(campaign.id, name)),
+                       1000);
+  }
+
   std::filesystem::path folder_;
   std::unique_ptr<Store> store_;
   CampaignInfo campaign_;
@@ -173,53 +186,159 @@ TEST_F(ReportTest, UserTextNeverReachesTheDatabase) {
 }
 
 TEST_F(ReportTest, TheTableShowsFlagsAndListsEarlyEndsApart) {
-  const std::string text = ranking_to_text(make_ranking(*store_, campaign_, {}));
-  EXPECT_THAT(text, HasSubstr("rank  case  offset  rule  outcome"));
-  EXPECT_THAT(text, HasSubstr("   1     2  10 m    min   converged"));
-  EXPECT_THAT(text,
-              HasSubstr("   *     5  40 m    mean  unstable, mesh too coarse for its weakening"));
+  const std::string text = render_text(to_answer(make_ranking(*store_, campaign_, {})), 200);
+  EXPECT_THAT(text, HasSubstr("3 of 5 cases slide"));
+  EXPECT_THAT(text, HasSubstr("Riskiest is case 2: F1 slides from step 1 on, χ̄ 0.9"));
+  EXPECT_THAT(text, HasSubstr("rank  case  offset, m  rule  slides  resolved"));
+  EXPECT_THAT(text, ::testing::ContainsRegex("\n1 +2 +10  min +yes +yes"));
+  EXPECT_THAT(text, ::testing::ContainsRegex("\n[*] +5 +40  mean +yes +no .*unstable, mesh too "
+                                             "coarse for its weakening"));
   EXPECT_THAT(text, HasSubstr("* history ends early: listed apart, not ranked"));
-  EXPECT_THAT(ranking_to_text(make_ranking(*store_, campaign_, request("", "chi_bar > 7"))),
-              HasSubstr("no case of sweep matches"));
+  const auto none = render_json(to_answer(make_ranking(*store_, campaign_,
+                                                       request("",
+                                                               "chi_bar > "
+                                                               "7"))));
+  EXPECT_EQ(none["headline"][0], "No case of sweep matches.");
+  EXPECT_TRUE(none["cases"].empty());
 }
 
-TEST_F(ReportTest, TheJsonIsInSiWithUnitsInTheNames) {
-  const auto json = ranking_to_json(make_ranking(*store_, campaign_, request("moment")));
+TEST_F(ReportTest, TheJsonIsInSiWithUnitsInTheColumns) {
+  const auto json = render_json(to_answer(make_ranking(*store_, campaign_, request("moment"))));
   ASSERT_EQ(json["cases"].size(), 5u);
   const auto& first = json["cases"][0];
   EXPECT_EQ(first["rank"], 1);
   EXPECT_EQ(first["case"], 2);
-  EXPECT_EQ(first["parameters"]["offset"]["value"], 10.0);
-  EXPECT_EQ(first["parameters"]["offset"]["unit"], "m");
-  EXPECT_EQ(first["parameters"]["rule"]["value"], "min");
+  EXPECT_EQ(first["parameters"]["offset"], 10.0);
+  EXPECT_EQ(first["parameters"]["rule"], "min");
   EXPECT_EQ(first["score"], first["moment_nm"]);
+  EXPECT_EQ(first["resolved"], true);
+  EXPECT_EQ(first["activation"]["change_minus_pa"], -1e6);
   EXPECT_TRUE(json["cases"][4]["rank"].is_null());
-  EXPECT_EQ(metrics_to_json().size(), metric_catalogue().size());
+  EXPECT_EQ(json["cases"][4]["resolved"], false);
+  for (const auto& column : json["columns"]["cases"]) {
+    if (column["key"] != "offset") continue;
+    EXPECT_EQ(column["unit"], "m");
+    EXPECT_EQ(column["in"], "parameters");
+  }
+  EXPECT_EQ(render_json(metrics_answer())["metrics"].size(), metric_catalogue().size());
+}
+
+TEST_F(ReportTest, ARankingSaysTheSameInAllRenderings) {
+  for (const char* by : {"", "moment", "chi_bar * 2"}) {
+    const Answer answer = to_answer(make_ranking(*store_, campaign_, request(by)));
+    testing::expect_the_same_numbers(answer);
+    testing::expect_to_fit(answer);
+  }
+  testing::expect_to_fit(metrics_answer());
+}
+
+/// What can be done without goes, what cannot stays.
+TEST_F(ReportTest, ANarrowScreenKeepsWhatARankingIsReadFor) {
+  const Answer answer = to_answer(make_ranking(*store_, campaign_, {}));
+  const std::string narrow = render_text(answer, 80);
+  EXPECT_THAT(narrow, ::testing::ContainsRegex("rank +case +m +rule +slides +resolved +χ̄ +m "));
+  EXPECT_THAT(narrow, HasSubstr("Not shown on 80 columns: "));
+  EXPECT_THAT(render_text(answer, 1000), Not(HasSubstr("Not shown")));
+}
+
+/// Where counting would take longer than the ranking, only what is listed is counted.
+TEST_F(ReportTest, TheHeadlineCountsWhatTheConditionSelects) {
+  RankRequest top = request("chi_bar", "offset > 5 m");
+  top.top = 1;
+  const auto json = render_json(to_answer(make_ranking(*store_, campaign_, top)));
+  EXPECT_EQ(json["cases"].size(), 1u);
+  EXPECT_EQ(json["headline"][0], "3 of 4 cases slide.");
+  EXPECT_EQ(json["counted"], 4);
+  EXPECT_EQ(json["sliding"], 3);
+}
+
+TEST(SlidingCounts, TellWhatTheCellsDoNotResolve) {
+  SlidingCounts counts;
+  for (int k = 0; k < 5; ++k) counts.add(k < 3, k != 0 && k != 4);
+  EXPECT_EQ(sliding_sentence(counts, {}),
+            "3 of 5 cases slide; 1 of these are not resolved by the cells; 1 more may slide, which "
+            "the cells do not tell.");
+  EXPECT_EQ(sliding_sentence({7, 0, 0, 0}, {.stage = "storage"}),
+            "None of 7 cases slides in storage.");
+  EXPECT_EQ(sliding_sentence({2, 2, 2, 0}, {.fault = "F2"}),
+            "F2 slides in 2 of 2 cases; all of these are not resolved by the cells.");
+}
+
+TEST(RegionPressures, AreMeansWithAFlowField) {
+  EXPECT_EQ(region_pressures_of(R"({"scene": {"pressure_field": {"file": "a.csv"}}})"),
+            RegionPressures::means);
+  EXPECT_EQ(region_pressures_of(R"({"pointers": ["/pressure_field/file"]})"),
+            RegionPressures::means);
+  EXPECT_EQ(region_pressures_of(R"({"scene": {"title": "pressure fields"}})"),
+            RegionPressures::at_depth);
+  EXPECT_EQ(place_columns(RegionPressures::means, "", Need::data)[1].heading, "mean Δp");
+  EXPECT_THAT(pressure_note(RegionPressures::means), HasSubstr("not the value at the place"));
 }
 
 TEST_F(ReportTest, ShowTellsParametersStagesAndHistory) {
-  const std::string good = case_to_text(campaign_, store_->stored_case(campaign_.id, "2"));
-  EXPECT_THAT(good, HasSubstr("  offset = 10 m\n  rule = min\n"));
-  EXPECT_THAT(good, HasSubstr("primary_production"));
-  EXPECT_THAT(good, HasSubstr("fault F2:"));
-  const std::string failed = case_to_text(campaign_, store_->stored_case(campaign_.id, "6"));
-  EXPECT_THAT(failed, HasSubstr("crashed: killed by SIGSEGV (11)"));
-  EXPECT_THAT(failed, HasSubstr("    | last words\n"));
-  EXPECT_THAT(failed, Not(HasSubstr("fault F")));
-  const auto json = case_to_json(campaign_, store_->stored_case(campaign_.id, "2"));
+  const Answer good = shown(campaign_, "2");
+  const std::string text = render_text(good, 1000);
+  EXPECT_THAT(text, HasSubstr("Case 2 of sweep: converged; 13 load steps"));
+  EXPECT_THAT(text,
+              HasSubstr("F1 slides from step 1 on, first at 2000 m depth, slip 0.004 m; F2 "));
+  EXPECT_THAT(text, ::testing::ContainsRegex("offset +10 m\nrule +min\n"));
+  EXPECT_THAT(text, HasSubstr("primary_production"));
+  const auto json = render_json(good);
   EXPECT_EQ(json["result"]["steps"].size(), 13u);
-  EXPECT_TRUE(case_to_json(campaign_, store_->stored_case(campaign_.id, "6"))["result"].is_null());
+  EXPECT_TRUE(json["result"]["surface"].is_null());
+  EXPECT_EQ(json["parameters"]["offset"], 10.0);
+  EXPECT_EQ(json["stages"].size(), 4u) << "three and the whole history";
+  EXPECT_EQ(json["histories"].size(), 26u) << "13 steps of two faults";
+  EXPECT_EQ(json["histories"][25]["pressure_change_pa"]["region 1"], -2e7);
+  EXPECT_EQ(json["faults"][0]["activation"]["change_pa"], -1e6);
+  const Answer failed = shown(campaign_, "6");
+  EXPECT_THAT(failed.headline.at(0), HasSubstr("has no result: crashed: killed by SIGSEGV (11)"));
+  EXPECT_THAT(render_text(failed), HasSubstr("    | first line\n    | last words\n"));
+  EXPECT_THAT(render_text(failed), Not(HasSubstr("load steps")));
+  EXPECT_TRUE(render_json(failed)["result"].is_null());
+  for (const Answer& one :
+       {good, failed, explanation(*store_, campaign_, store_->stored_case(campaign_.id, "6"))}) {
+    testing::expect_the_same_numbers(one);
+    testing::expect_to_fit(one);
+  }
+}
+
+TEST_F(ReportTest, ShowSaysHowAResultCameAboutAndWhyFiguresDiffer) {
+  ShownCase one{campaign_, store_->stored_case(campaign_.id, "2")};
+  const auto text = [&] { return render_text(to_answer(one), 1000); };
+  EXPECT_THAT(text(), Not(HasSubstr("is summed over its steps")));
+  EXPECT_THAT(text(), Not(HasSubstr("interpolated")));
+  one.initial = {{"west", 2000, -4e7, -3e7, -3e7, 2e7}, {"east", 2100, -4e7, -3e7, -3e7, 2e7}};
+  EXPECT_THAT(text(), HasSubstr("Δp west, bar  Δp east, bar"));
+  EXPECT_EQ(render_json(to_answer(one))["initial_state"][1]["depth_m"], 2100.0);
+  one.stored.result.stages[2].moment = 4.59e14;
+  one.stored.result.whole.moment = 4.52e14;
+  for (const std::size_t k : {0u, 1u}) one.stored.result.stages[k].moment = 0;
+  EXPECT_THAT(text(), HasSubstr("M0 of a stage is summed over its steps, 4.59e+14 N m of all "
+                                "stages, that of the whole history is by the slip at its end, "
+                                "4.52e+14 N m"));
+  one.stored.result.surface = faultsim::CaseSurface{75, 73, 12, 0.01, 2e-3, 3e-3, 4e-3, 5e-3};
+  EXPECT_THAT(text(), HasSubstr("interpolated on a surface of 75 operators; at 12 check points "
+                                "that are none of them it was off by at most 0.002 of H, 0.003 of "
+                                "the locked traction, 0.005 of slip without friction"));
+  EXPECT_EQ(render_json(to_answer(one))["result"]["surface"]["error_of_slip"], 5e-3);
+  EXPECT_THAT(render_html(to_answer(one)), HasSubstr("interpolated on a surface"));
+  one.pressures = RegionPressures::means;
+  EXPECT_THAT(text(), HasSubstr("mean Δp -10 bar"));
+  EXPECT_THAT(text(), HasSubstr("not the value at the place"));
 }
 
 TEST_F(ReportTest, ExplainSaysWhy) {
-  const auto explain = [&](const char* name) {
-    return explain_case(*store_, campaign_, store_->stored_case(campaign_.id, name));
-  };
-  EXPECT_THAT(explain("1"), HasSubstr("will not run: it has a result (converged)"));
-  EXPECT_THAT(explain("6"), HasSubstr("will not run: attempt 1 crashed: killed by SIGSEGV (11); "
-                                      "`faultsweep retry sweep --case 6` lets it run again"));
+  EXPECT_THAT(explained(campaign_, "1"), HasSubstr("will not run: it has a result (converged)"));
+  EXPECT_THAT(explained(campaign_, "6"),
+              HasSubstr("Case 6 of sweep will not run: attempt 1 crashed: killed by SIGSEGV (11); "
+                        "`faultsweep retry sweep --case 6` lets it run again"));
   store_->retry(campaign_.id, false, 6);
-  EXPECT_THAT(explain("6"), HasSubstr("will run: it waits for another attempt"));
+  EXPECT_THAT(explained(campaign_, "6"), HasSubstr("will run: it waits for another attempt"));
+  const auto json =
+      render_json(explanation(*store_, campaign_, store_->stored_case(campaign_.id, "1")));
+  EXPECT_EQ(json["will_run"], false);
+  EXPECT_EQ(json["family"]["done"], 5);
 }
 
 /// The same six cases in a campaign that keeps fields: of the first they are there, of the second
@@ -249,16 +368,12 @@ TEST_F(ReportTest, SaysWhereTheFieldsAre) {
   std::filesystem::create_directories(folder);
   for (const char* file : {"faults.h5", "faults.xmf"}) std::ofstream(folder / file) << "x";
   const CampaignInfo info = store_->campaign("fields");
-  const auto show = [&](const char* name) {
-    return case_to_text(info, store_->stored_case(id, name));
-  };
-  const auto explain = [&](const char* name) {
-    return explain_case(*store_, info, store_->stored_case(id, name));
-  };
+  const auto show = [&](const char* name) { return shown_text(info, name); };
+  const auto explain = [&](const char* name) { return explained(info, name); };
   EXPECT_THAT(show("1"),
               HasSubstr("fault fields (initial state and ends of stages): " +
                         (folder / "faults.xmf").string() + " for ParaView, faults.h5\n"));
-  EXPECT_THAT(show("1"), HasSubstr("for the fields only): completed"));
+  EXPECT_EQ(render_json(shown(info, "1"))["runs"][1]["fields_only"], true);
   EXPECT_THAT(explain("1"), HasSubstr("will not run: it has a result"));
   EXPECT_THAT(show("2"),
               HasSubstr("fault fields: gone from " + (folder_ / "fields/fields/2").string() +
@@ -269,26 +384,23 @@ TEST_F(ReportTest, SaysWhereTheFieldsAre) {
                                       "left on device; `faultsweep retry fields --case 3`"));
   EXPECT_THAT(show("4"), HasSubstr("not yet; `faultsweep run fields` writes them"));
   EXPECT_THAT(explain("4"), HasSubstr("will run, for its fault fields only: it has a result"));
-  EXPECT_THAT(case_to_text(campaign_, store_->stored_case(campaign_.id, "1")),
-              Not(HasSubstr("fault fields")));
-  const auto json = [&](const char* name) {
-    return case_to_json(info, store_->stored_case(id, name))["fields"];
-  };
+  EXPECT_THAT(shown_text(campaign_, "1"), Not(HasSubstr("fault fields")));
+  const auto json = [&](const char* name) { return render_json(shown(info, name))["fields"]; };
   EXPECT_EQ(json("1")["state"], "kept");
   EXPECT_EQ(json("1")["steps"], "stages");
   EXPECT_EQ(json("1")["folder"], folder.string());
   EXPECT_EQ(json("2")["state"], "gone");
   EXPECT_EQ(json("3")["state"], "failed");
-  EXPECT_TRUE(case_to_json(campaign_, store_->stored_case(campaign_.id, "1"))["fields"].is_null());
+  EXPECT_TRUE(render_json(shown(campaign_, "1"))["fields"].is_null());
   const StatusReport status = make_status(*store_, "fields");
-  EXPECT_THAT(status_to_text(status),
+  EXPECT_THAT(render_text(to_answer(status), 200),
               HasSubstr("fault fields: stages; 3 cases have a result and lack them (1 failed)"));
-  EXPECT_THAT(status_to_text(status), HasSubstr("fields: cannot write faults.h5"));
-  EXPECT_EQ(status_to_json(status)["waiting_for_fields_only"], 2);
+  EXPECT_THAT(render_text(to_answer(status), 200), HasSubstr("fields: cannot write faults.h5"));
+  EXPECT_EQ(render_json(to_answer(status))["waiting_for_fields_only"], 2);
 }
 
 TEST_F(ReportTest, SaysWhereOperatorsAreNotShared) {
-  EXPECT_THAT(status_to_text(make_status(*store_, "")), Not(HasSubstr("salt creeps")));
+  EXPECT_THAT(render_text(to_answer(make_status(*store_, "")), 200), Not(HasSubstr("salt creeps")));
   Submission s;
   s.name = "salt";
   s.parameters = "[]";
@@ -299,10 +411,10 @@ TEST_F(ReportTest, SaysWhereOperatorsAreNotShared) {
   EXPECT_FALSE(store_->waiting_families(id).at(0).predicted.creeps());
   EXPECT_TRUE(store_->waiting_families(id).at(1).predicted.creeps());
   const StatusReport status = make_status(*store_, "salt");
-  EXPECT_THAT(status_to_text(status),
+  EXPECT_THAT(render_text(to_answer(status), 200),
               HasSubstr("salt creeps in 1 family: operators are built by each worker that runs it, "
-                        "at most 20 GB each\n"));
-  const auto family = status_to_json(status)["families"].at(1);
+                        "at most 20 GB each"));
+  const auto family = render_json(to_answer(status))["families"].at(1);
   EXPECT_EQ(family["creeps"], true);
   EXPECT_EQ(family["n_operators"], 4);
   EXPECT_EQ(family["predicted_memory_bytes"], 1.98e10);
@@ -337,9 +449,7 @@ class EventReportTest : public ReportTest {
     store_->record_runs(id_, {run});
     events_ = store_->campaign("events");
   }
-  std::string show(const char* name) const {
-    return case_to_text(events_, store_->stored_case(id_, name));
-  }
+  std::string show(const char* name) const { return shown_text(events_, name); }
   std::int64_t id_ = 0;
   CampaignInfo events_;
 };
@@ -359,8 +469,11 @@ TEST_F(EventReportTest, ShowAndRankTellWhatTheSaltDid) {
   EXPECT_THAT(text, HasSubstr("salt creeps: it changed fault tractions by " +
                               format_number(normal / 1e5, 3) + " bar (compression) to "));
   EXPECT_THAT(text, HasSubstr(" bar in shear; " + std::to_string(n_time_steps) + " time steps"));
-  EXPECT_THAT(text, HasSubstr("creep |ΔtT|/bar  time steps"));
-  EXPECT_THAT(text, HasSubstr("time steps of 13 load steps (marked !)"));
+  EXPECT_THAT(text, HasSubstr("creep |ΔtT|, bar  time steps"));
+  EXPECT_THAT(text, HasSubstr("time steps of 13 load steps are coarser"));
+  const auto steps = render_json(shown(events_, "2"))["histories"];
+  EXPECT_EQ(steps[4]["creep_shear_max_pa"], result.steps[4].creep->faults[0].shear_max);
+  EXPECT_EQ(steps[4]["creep_time_resolved"], false);
   EXPECT_THAT(show("1"), Not(HasSubstr("creep")));
   const auto scores = [&](const std::string& by, const std::string& stage = "") {
     RankRequest asked = request(by);
@@ -380,40 +493,40 @@ TEST_F(EventReportTest, ShowAndRankTellWhatTheSaltDid) {
 }
 
 TEST_F(EventReportTest, TheRankingKeepsUnresolvedOnesApart) {
-  const std::string text = ranking_to_text(make_ranking(*store_, events_, {}));
-  EXPECT_THAT(text, HasSubstr("   1     3  event\n"));
-  EXPECT_THAT(text, HasSubstr("   2     1  converged"));
-  EXPECT_THAT(text, HasSubstr("  +1     2  unresolved_event, mesh too coarse for its weakening, "
-                              "UNEXPECTED (F1)\n"));
-  EXPECT_THAT(text,
-              HasSubstr("+ complete, but whether a fault slides (unresolved) or how large its"));
+  const Answer answer = to_answer(make_ranking(*store_, events_, {}));
+  const std::string text = render_text(answer, 200);
+  EXPECT_THAT(text, ::testing::ContainsRegex("\n1 +3 +yes +yes .* event "));
+  EXPECT_THAT(text, ::testing::ContainsRegex("\n2 +1 +yes +yes .* converged "));
+  EXPECT_THAT(text, ::testing::ContainsRegex("\n[+]1 +2 +yes +no .* unresolved_event, mesh too "
+                                             "coarse for its weakening .* yes, F1"));
+  EXPECT_THAT(text, HasSubstr("3 of 3 cases slide; 1 of these are not resolved by the cells."));
+  EXPECT_THAT(text, HasSubstr("+ complete, but whether a fault slides (resolved: no)"));
   EXPECT_THAT(text, Not(HasSubstr("ends early")));
-  const auto json = ranking_to_json(make_ranking(*store_, events_, {}));
+  const auto json = render_json(answer);
   EXPECT_EQ(json["cases"][0]["n_events"], 2);
   EXPECT_EQ(json["cases"][0]["event_moment_nm"], 2e13 / 3);
   EXPECT_EQ(json["cases"][2]["rank_class"], 1);
   EXPECT_EQ(json["cases"][2]["unexpected"], true);
   EXPECT_TRUE(json["cases"][2]["rank"].is_null());
+  EXPECT_EQ(json["cases"][2]["rank_note"], "+1");
 }
 
 TEST_F(EventReportTest, ActivationThatHangsOnTheMeshIsSaid) {
-  EXPECT_THAT(ranking_to_text(make_ranking(*store_, events_, {})),
-              ::testing::ContainsRegex("[+]1  F1 at step 1, unresolved"));
-  EXPECT_THAT(ranking_to_text(make_ranking(*store_, events_, {})),
-              Not(HasSubstr("   1  F1 at step 1, unresolved")));
-  const auto json = ranking_to_json(make_ranking(*store_, events_, {}));
+  const auto json = render_json(to_answer(make_ranking(*store_, events_, {})));
   EXPECT_EQ(json["cases"][0]["activation_resolved"], true);
+  EXPECT_EQ(json["cases"][0]["resolved"], true);
   EXPECT_EQ(json["cases"][2]["activation_resolved"], false);
+  EXPECT_EQ(json["cases"][2]["resolved"], false);
   std::vector<long> found;
   for (const auto& row :
        make_ranking(*store_, events_, request("chi_bar", "not activation_resolved")).rows)
     found.push_back(row.position);
   EXPECT_THAT(found, ElementsAre(2));
-  const std::string text = show("2");
-  EXPECT_THAT(text, HasSubstr("UNRESOLVED: whether a fault slides depends on the mesh"));
-  EXPECT_THAT(text,
-              ::testing::ContainsRegex("cushion_gas_injection +5-8 +F1 at step 1, unresolved"));
-  EXPECT_THAT(text, ::testing::ContainsRegex("\n +3  primary_production .* yes[?]\n"));
+  EXPECT_THAT(show("2"), HasSubstr("UNRESOLVED: whether a fault slides depends on the mesh"));
+  const auto one = render_json(shown(events_, "2"));
+  EXPECT_EQ(one["stages"][1]["slides"], true);
+  EXPECT_EQ(one["stages"][1]["activation_resolved"], false);
+  EXPECT_EQ(one["histories"][13 + 3]["activation_resolved"], false) << "F2 in step 3";
 }
 
 TEST_F(EventReportTest, EventsOrderAndFilter) {
@@ -431,38 +544,47 @@ TEST_F(EventReportTest, EventsOrderAndFilter) {
 }
 
 TEST_F(EventReportTest, ShowListsEventsAndEpisodes) {
-  TextTable::set_screen_width(1000);
-  const std::string text = show("2");
+  const Answer answer = shown(events_, "2");
+  const std::string text = render_text(answer, 1000);
   EXPECT_THAT(text,
               HasSubstr("UNEXPECTED REACTIVATION: fault F1 slides again in gas_storage, steps "));
-  EXPECT_THAT(text, HasSubstr("UNRESOLVED: the size of its slip events depends on the mesh\n"));
-  EXPECT_THAT(text, HasSubstr("\nslip events:\nevent  step  stage "));
-  EXPECT_THAT(text, HasSubstr("NO, mesh too coarse  holds\n"));
-  EXPECT_THAT(text, HasSubstr("\nepisodes (pressures at their first step):\nepisode  stage "));
-  EXPECT_THAT(text, HasSubstr("has recovered"));
+  EXPECT_THAT(text, HasSubstr("UNRESOLVED: the size of its slip events depends on the mesh."));
+  EXPECT_THAT(text, HasSubstr("\nslip events:\n"));
+  EXPECT_THAT(text, HasSubstr("no, mesh too coarse"));
+  EXPECT_THAT(text, HasSubstr("\nepisodes (pressures at their first step):\n"));
+  const auto result = testing::made_up_result_with_events(0.95);
+  const auto json = render_json(answer);
+  EXPECT_EQ(json["slip_events"][1]["stress_drop_pa"], result.events[1].stress_drop);
+  EXPECT_EQ(json["slip_events"][0]["resolved"], false);
+  EXPECT_EQ(json["slip_events"][0]["change_minus_pa"], *result.events[0].pressures.change_minus);
+  EXPECT_EQ(json["episodes"][1]["after_recovery"], true);
+  testing::expect_the_same_numbers(answer);
+  testing::expect_to_fit(answer);
   EXPECT_THAT(show("3"), Not(HasSubstr("UN")));
   EXPECT_THAT(show("1"), Not(HasSubstr("slip events")));
-  TextTable::set_screen_width(kScreenWidth);
 }
 
 TEST_F(EventReportTest, StatusCountsThemAsDoneButNotAsConverged) {
   const StatusReport status = make_status(*store_, "events");
-  EXPECT_THAT(status_to_text(status),
+  EXPECT_THAT(render_text(to_answer(status), 200),
               HasSubstr("events: 3 cases, 3 done (1 converged, 1 with slip events, 1 with "
                         "unresolved slip events), 0 failed, 0 waiting"));
-  EXPECT_THAT(status_to_text(status), Not(HasSubstr("without a full result")));
-  EXPECT_EQ(status_to_json(status)["event"], 1);
-  EXPECT_EQ(status_to_json(status)["unresolved_event"], 1);
+  EXPECT_THAT(render_text(to_answer(status), 200), Not(HasSubstr("without a full result")));
+  EXPECT_EQ(render_json(to_answer(status))["event"], 1);
+  EXPECT_EQ(render_json(to_answer(status))["unresolved_event"], 1);
 }
 
 TEST_F(ReportTest, StatusCountsAndGivesReasons) {
   const StatusReport status = make_status(*store_, "");
-  const std::string text = status_to_text(status);
+  const std::string text = render_text(to_answer(status), 200);
   EXPECT_THAT(text, HasSubstr("sweep: 6 cases, 5 done (4 converged), 1 failed, 0 waiting"));
   EXPECT_THAT(text, HasSubstr("killed by SIGSEGV (11)"));
   EXPECT_THAT(text, HasSubstr("unstable"));
-  const auto json = status_to_json(status);
+  testing::expect_the_same_numbers(to_answer(status));
+  testing::expect_to_fit(to_answer(status));
+  const auto json = render_json(to_answer(status));
   EXPECT_EQ(json["failures"].size(), 2u);
+  EXPECT_EQ(json["headline"][0], "sweep: 6 cases, 5 done (4 converged), 1 failed, 0 waiting.");
   EXPECT_TRUE(json["manager"].is_null());
 }
 

@@ -12,6 +12,7 @@
 #include "campaign/report/ranking_report.h"
 #include "campaign/store/sqlite.h"
 #include "tests/campaign/made_up_result.h"
+#include "tests/unit/report/renderings.h"
 
 namespace faultsweep {
 namespace {
@@ -147,9 +148,16 @@ TEST_F(WordsTest, RankOfOneFaultInOneStage) {
   EXPECT_EQ(two.rows[0].score, 5e-3);
   ASSERT_TRUE(two.rows[0].fault_metrics);
   EXPECT_EQ(two.rows[0].fault_metrics->activation->depth, 2100);
-  const std::string text = ranking_to_text(two);
-  EXPECT_THAT(text, HasSubstr("F2 at step 3"));
-  EXPECT_THAT(text, HasSubstr("no, slips"));
+  const auto json = render_json(to_answer(two));
+  EXPECT_EQ(json["headline"][0], "F2 slides in 1 of 5 cases in gas_storage.");
+  EXPECT_EQ(json["cases"][0]["activated_fault"], "F2");
+  EXPECT_EQ(json["cases"][0]["activation_step"], 3);
+  EXPECT_EQ(json["cases"][0]["activation"]["depth_m"], 2100.0);
+  EXPECT_EQ(json["cases"][0]["activation"]["change_pa"], -5e6);
+  EXPECT_EQ(json["cases"][1]["slides"], false);
+  EXPECT_EQ(json["cases"][1]["slides_note"], "slips");
+  EXPECT_TRUE(json["cases"][1]["activation"]["depth_m"].is_null());
+  EXPECT_THAT(render_text(to_answer(two)), HasSubstr("no, slips"));
 }
 
 TEST_F(WordsTest, ConditionsOfFaultsAndStages) {
@@ -212,17 +220,23 @@ TEST_F(WordsTest, NamesOfFaultsAndStagesAreNoSql) {
 
 TEST_F(WordsTest, ShowTellsWhatEachFaultDoesInEachStage) {
   const auto show = [&](const char* name, const ShowRequest& request = {}) {
-    return case_to_text(campaign_, store_->stored_case(campaign_.id, name), request);
+    return to_answer(
+        shown_case(*store_, campaign_, store_->stored_case(campaign_.id, name), request));
   };
-  const std::string all = show("3");
-  EXPECT_THAT(all, HasSubstr("faults (change and absolute pressure of the regions beside them"));
-  EXPECT_THAT(all, HasSubstr("west: -50, 150"));
+  const std::string all = render_text(show("3"), 1000);
+  EXPECT_THAT(all, HasSubstr("Δp, p: change, and absolute pressure at the depth beside"));
   EXPECT_THAT(all, HasSubstr("sticks"));
-  const std::string one = show("3", {"gas_storage", "F2"});
-  EXPECT_THAT(one, HasSubstr("F2     gas_storage  slides"));
-  EXPECT_THAT(one, Not(HasSubstr("F1 ")));
-  EXPECT_THAT(one, Not(HasSubstr("whole history")));
-  EXPECT_THAT(show("4"), HasSubstr("F2     gas_storage    slips"));
+  const auto faults = render_json(show("3"))["faults"];
+  EXPECT_EQ(faults.size(), 6u) << "two faults, two stages and the whole history";
+  EXPECT_EQ(faults[3]["activation"]["region_minus"], "west");
+  EXPECT_EQ(faults[3]["activation"]["absolute_minus_pa"], 1.5e7);
+  const auto one = render_json(show("3", {"gas_storage", "F2"}));
+  ASSERT_EQ(one["faults"].size(), 1u);
+  EXPECT_EQ(one["faults"][0]["fault"], "F2");
+  EXPECT_EQ(one["faults"][0]["stage"], "gas_storage");
+  EXPECT_EQ(one["faults"][0]["does"], "slides");
+  EXPECT_EQ(one["stages"].size(), 1u);
+  EXPECT_EQ(render_json(show("4"))["faults"][4]["does"], "slips");
   EXPECT_THROW(show("3", {"gas", ""}), InputError);
   EXPECT_THROW(show("3", {"", "F3"}), InputError);
 }
@@ -264,15 +278,20 @@ class MixedTest : public WordsTest {
 
 TEST_F(MixedTest, WhatIsPerMetreSaysSo) {
   campaign_ = plane_;
-  const std::string text = ranking_to_text(ranking({}));
-  EXPECT_THAT(text, HasSubstr("area/(m2/m)"));
-  EXPECT_THAT(text, HasSubstr("M0/(Nm/m)"));
-  const auto json = ranking_to_json(ranking({}))["cases"][0];
+  const Answer answer = to_answer(ranking({}));
+  const std::string text = render_text(answer, 1000);
+  EXPECT_THAT(text, HasSubstr("sliding area, m²/m"));
+  EXPECT_THAT(text, HasSubstr("M0, N m/m"));
+  const auto json = render_json(answer)["cases"][0];
   EXPECT_TRUE(json.contains("moment_nm_per_m"));
   EXPECT_FALSE(json.contains("moment_nm"));
-  const std::string show = case_to_text(plane_, store_->stored_case(plane_.id, "1"));
-  EXPECT_THAT(show, HasSubstr("M0/(Nm/m)"));
-  EXPECT_THAT(show, Not(HasSubstr("M0/Nm")));
+  const Answer show =
+      to_answer(shown_case(*store_, plane_, store_->stored_case(plane_.id, "1"), {}));
+  EXPECT_THAT(render_text(show, 1000), HasSubstr("M0, N m/m"));
+  for (const char* table : {"stages", "faults", "histories"}) {
+    EXPECT_TRUE(render_json(show)[table][0].contains("moment_nm_per_m")) << table;
+    EXPECT_FALSE(render_json(show)[table][0].contains("moment_nm")) << table;
+  }
   ExportRequest request;
   request.target = folder_ / "plane.csv";
   request.metrics = "moment,max_slip";
@@ -296,14 +315,22 @@ TEST_F(MixedTest, NumbersPerMetreAndTotalsAreNotRankedTogether) {
   EXPECT_THAT(refusal({.by = "moment / 1e9"}), HasSubstr("moment is per metre of strike"));
   EXPECT_THAT(refusal({.by = "F2.moment in production"}), HasSubstr("per metre of strike"));
   EXPECT_THAT(order({.by = "slip"}), ElementsAre(2, 1));
-  EXPECT_THAT(ranking_to_text(ranking({.by = "slip"})), HasSubstr("2e+09 /m"));
+  const auto rows = render_json(to_answer(ranking({.by = "slip"})))["cases"];
+  EXPECT_EQ(rows[0]["moment_nm"], 3e9);
+  EXPECT_TRUE(rows[0]["moment_nm_per_m"].is_null());
+  EXPECT_TRUE(rows[1]["moment_nm"].is_null());
+  EXPECT_EQ(rows[1]["moment_nm_per_m"], 2e9);
   EXPECT_THAT(order({.where = "plane_strain"}), ElementsAre(1));
   // The campaign's own order, as `faultsweep rank` asks for it, is that of the totals.
   EXPECT_THAT(order({}), ElementsAre(2));
   EXPECT_THAT(order({.where = "max_slip > 1 m or plane_strain"}), ElementsAre(1));
-  EXPECT_THAT(ranking_to_text(ranking({})), HasSubstr("plane-strain cases have no place here"));
-  EXPECT_EQ(ranking_to_json(ranking({})).at("plane_strain_apart"), true);
-  EXPECT_EQ(ranking_to_json(ranking({.where = "plane_strain"})).at("plane_strain_apart"), false);
+  EXPECT_THAT(render_text(to_answer(ranking({}))),
+              HasSubstr("plane-strain cases have no place here"));
+  const auto is_apart = [&](const RankRequest& request) {
+    return render_json(to_answer(ranking(request))).at("plane_strain_apart");
+  };
+  EXPECT_EQ(is_apart({}), true);
+  EXPECT_EQ(is_apart({.where = "plane_strain"}), false);
   EXPECT_THAT(order({.by = "moment", .where = "not plane_strain"}), ElementsAre(2));
 }
 
