@@ -22,7 +22,7 @@ constexpr std::size_t kMostValues = 12;  ///< of a parameter that is not cut int
 constexpr std::size_t kParts = 10;
 
 /// The rows that were asked about.
-struct Rows {
+struct AskedRows {
   std::vector<double> value;             ///< of `by`; NaN for words and where the case has none.
   std::vector<std::string> label;        ///< of `by`.
   std::vector<std::vector<Held>> holds;  ///< of a condition, of a row.
@@ -38,14 +38,15 @@ int parameter_index(const CampaignInfo& campaign, const std::string& name) {
 }
 
 /// One pass over the cases: every condition is a column.
-Rows read_rows(const Store& store, const CampaignInfo& campaign, const ProbabilityRequest& request,
-               const Selection& selection, const std::vector<std::string>& conditions) {
+AskedRows read_rows(const Store& store, const CampaignInfo& campaign,
+                    const ProbabilityRequest& request, const Selection& selection,
+                    const std::vector<std::string>& conditions) {
   const int by = request.by.empty() ? -1 : parameter_index(campaign, request.by);
   const VerdictColumns verdicts(store, campaign, selection, conditions);
   Store::TableQuery query;
   query.where = parse_condition(request.where, campaign, selection);
   query.columns = verdicts.columns();
-  Rows rows;
+  AskedRows rows;
   rows.holds.resize(conditions.size());
   const SampleRows sample_rows(store, campaign);
   store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
@@ -87,9 +88,9 @@ void set_more(Share& share, const Probability& p) {
 
 using Part = std::pair<std::string, std::vector<std::size_t>>;
 
-/// Rows of equal label, in the order in which labels come first; nothing if there are more than
-/// `most`.
-std::vector<Part> parts_by_label(const std::vector<std::size_t>& order, const Rows& rows,
+/// AskedRows of equal label, in the order in which labels come first; nothing if there are more
+/// than `most`.
+std::vector<Part> parts_by_label(const std::vector<std::size_t>& order, const AskedRows& rows,
                                  std::size_t most) {
   std::vector<Part> parts;
   std::unordered_map<std::string, std::size_t> place;
@@ -104,8 +105,8 @@ std::vector<Part> parts_by_label(const std::vector<std::size_t>& order, const Ro
   return parts;
 }
 
-/// Rows in groups, each with a name: by value where there are few, else ten of equal number.
-std::vector<Part> parts_of(const Rows& rows) {
+/// AskedRows in groups, each with a name: by value where there are few, else ten of equal number.
+std::vector<Part> parts_of(const AskedRows& rows) {
   std::vector<std::size_t> order(rows.label.size());
   std::iota(order.begin(), order.end(), 0u);
   const bool are_numbers = std::none_of(rows.value.begin(), rows.value.end(),
@@ -126,7 +127,7 @@ std::vector<Part> parts_of(const Rows& rows) {
 }
 
 /// All rows, under no name, where nothing is asked by parts.
-std::vector<Part> parts_asked(const Rows& rows, const std::string& by) {
+std::vector<Part> parts_asked(const AskedRows& rows, const std::string& by) {
   if (!by.empty()) return parts_of(rows);
   std::vector<std::size_t> all(rows.label.size());
   std::iota(all.begin(), all.end(), 0u);
@@ -154,7 +155,7 @@ Probability find_probability(const Store& store, const CampaignInfo& campaign,
   const std::vector<std::string> conditions = request.condition.empty()
                                                   ? default_conditions(selection)
                                                   : std::vector<std::string>{request.condition};
-  const Rows rows = read_rows(store, campaign, request, selection, conditions);
+  const AskedRows rows = read_rows(store, campaign, request, selection, conditions);
   if (rows.label.empty()) {
     throw InputError("probability",
                      {{"", 0, "no case was selected", "ask for others with --where"}});

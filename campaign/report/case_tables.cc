@@ -57,7 +57,7 @@ std::vector<AnswerColumn> measures_of(const CaseResult& result) {
   return columns;
 }
 
-AnswerCell words_or_nothing(const std::string& words) {
+AnswerCell text_or_nothing(const std::string& words) {
   return words.empty() ? AnswerCell() : AnswerCell(words);
 }
 
@@ -96,7 +96,7 @@ AnswerTable runs_table(const StoredCase& stored) {
   };
   for (const StoredRun& run : stored.runs) {
     table.rows.push_back({run.attempt, run.ended_at, format_time(run.ended_at), run.status,
-                          words_or_nothing(run.outcome), run.reason, run.wall_seconds, run.rank,
+                          text_or_nothing(run.outcome), run.reason, run.wall_seconds, run.rank,
                           run.host, run.fields_only, count(run.signal), count(run.exit_code),
                           run.log_tail});
   }
@@ -117,8 +117,8 @@ AnswerTable stages_table(const ShownCase& shown) {
   const auto add = [&](const std::string& name, const StageMetrics& m) {
     std::vector<AnswerCell> cells = {name, m.first_step, m.last_step};
     append(cells, measure_cells(m));
-    append(cells, {words_or_nothing(m.activated_fault), optional_cell(m.activation_step),
-                   words_or_nothing(m.opened_fault), optional_cell(m.opening_step)});
+    append(cells, {text_or_nothing(m.activated_fault), optional_cell(m.activation_step),
+                   text_or_nothing(m.opened_fault), optional_cell(m.opening_step)});
     table.rows.push_back(std::move(cells));
   };
   for (const StageMetrics& stage : result.stages)
