@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "campaign/spec/metrics.h"
@@ -10,8 +11,8 @@
 namespace faultsweep {
 namespace {
 
-/// 10^5 cases with 25 load steps on 2 faults: what the commands ask must come in tenths of a
-/// second.
+/// 10^5 cases with 25 load steps on 2 faults: what the commands ask takes a part of the time in
+/// which all cases are read, in the same run.
 TEST(StoreSpeed, SlowHundredThousandCases) {
   constexpr int kCases = 100000, kPerCommit = 500;
   std::string name = ::testing::TempDir() + "store_XXXXXX";
@@ -53,50 +54,56 @@ TEST(StoreSpeed, SlowHundredThousandCases) {
   std::printf("size: %.0f bytes/case\n",
               static_cast<double>(std::filesystem::file_size(folder / "campaign.sqlite")) / kCases);
   Store reader = Store::open_reader(folder);
-  const auto timed = [&](const char* what, double limit, const auto& query) {
-    const faultsim::Stopwatch one;
-    query();
-    std::printf("%s: %.1f ms\n", what, 1e3 * one.seconds());
-    EXPECT_LT(one.seconds(), limit) << what;
-  };
-  // Limits leave room for a loaded machine; an idle one takes a fifth (docs/campaign.md).
-  timed("campaign", 0.5, [&] { reader.campaign(""); });
-  Store::RankingQuery query;
-  query.limit = 20;
-  timed("rank, default order", 0.5, [&] { reader.ranking(campaign, query); });
-  query.by = {metric_sql("chi_max"), {}};
-  timed("rank by metric", 0.5, [&] { reader.ranking(campaign, query); });
-  query.by = {};
-  query.where = {parameter_sql(0, false) + " < ?", {Value(1000.0)}};
-  timed("rank where", 0.5, [&] { reader.ranking(campaign, query); });
-  const std::int64_t f2 = reader.faults(campaign).at(1).id;
-  const std::int64_t storage = reader.stages(campaign).at(3).id;
-  query.fault = f2;
-  query.stage = "gas_storage";
-  query.where = {};
-  timed("rank of a fault and stage, default order", 0.5, [&] { reader.ranking(campaign, query); });
-  query.by = {metric_sql("max_slip", true), {}};
-  timed("rank of a fault and stage by slip", 0.5, [&] { reader.ranking(campaign, query); });
-  query.fault.reset();
-  query.stage.clear();
-  query.by = {};
-  query.where = {metric_sql("slides", {.fault = f2, .stage = storage}, 0), {}};
-  timed("rank where a fault slides in a stage", 1, [&] { reader.ranking(campaign, query); });
-  query.where = {"NOT " + query.where.text, {}};
-  timed("kinds", 0.5, [&] { reader.kinds(campaign, {}); });
-  timed("faults", 0.5, [&] { reader.faults(campaign); });
-  timed("show", 0.5, [&] { reader.stored_case(campaign, "77777"); });
-  timed("failures", 0.5, [&] { reader.failure_counts(campaign); });
-  timed("families", 0.5, [&] { reader.family_progress(campaign); });
-  timed("stages", 0.5, [&] { reader.stages(campaign); });
   Store::TableQuery table;
   for (const MetricInfo& metric : metric_catalogue()) {
     if (!metric.name.starts_with("creep_")) table.columns.push_back({metric_sql(metric.name), {}});
   }
   long n_rows = 0;
-  timed("all cases as a table", 5,
-        [&] { reader.for_each_case(campaign, table, [&](const CaseRow&) { ++n_rows; }); });
+  watch = {};
+  reader.for_each_case(campaign, table, [&](const CaseRow&) { ++n_rows; });
+  const double whole = watch.seconds();
+  std::printf("all cases as a table: %.1f ms\n", 1e3 * whole);
   EXPECT_EQ(n_rows, kCases);
+  const auto timed = [&](const char* what, const auto& query) {
+    double seconds = whole;
+    for (int k = 0; k < 3; ++k) {  // the least disturbed of three
+      const faultsim::Stopwatch one;
+      query();
+      seconds = std::min(seconds, one.seconds());
+    }
+    std::printf("%s: %.1f ms\n", what, 1e3 * seconds);
+    constexpr double kMost = 0.4;
+    EXPECT_LT(seconds, kMost * whole) << what;
+  };
+  timed("campaign", [&] { reader.campaign(""); });
+  Store::RankingQuery query;
+  query.limit = 20;
+  timed("rank, default order", [&] { reader.ranking(campaign, query); });
+  query.by = {metric_sql("chi_max"), {}};
+  timed("rank by metric", [&] { reader.ranking(campaign, query); });
+  query.by = {};
+  query.where = {parameter_sql(0, false) + " < ?", {Value(1000.0)}};
+  timed("rank where", [&] { reader.ranking(campaign, query); });
+  const std::int64_t f2 = reader.faults(campaign).at(1).id;
+  const std::int64_t storage = reader.stages(campaign).at(3).id;
+  query.fault = f2;
+  query.stage = "gas_storage";
+  query.where = {};
+  timed("rank of a fault and stage, default order", [&] { reader.ranking(campaign, query); });
+  query.by = {metric_sql("max_slip", true), {}};
+  timed("rank of a fault and stage by slip", [&] { reader.ranking(campaign, query); });
+  query.fault.reset();
+  query.stage.clear();
+  query.by = {};
+  query.where = {metric_sql("slides", {.fault = f2, .stage = storage}, 0), {}};
+  timed("rank where a fault slides in a stage", [&] { reader.ranking(campaign, query); });
+  query.where = {"NOT " + query.where.text, {}};
+  timed("kinds", [&] { reader.kinds(campaign, {}); });
+  timed("faults", [&] { reader.faults(campaign); });
+  timed("show", [&] { reader.stored_case(campaign, "77777"); });
+  timed("failures", [&] { reader.failure_counts(campaign); });
+  timed("families", [&] { reader.family_progress(campaign); });
+  timed("stages", [&] { reader.stages(campaign); });
   std::filesystem::remove_all(folder);
 }
 
