@@ -12,7 +12,6 @@ namespace figure = faultsim::figure;
 
 namespace {
 
-
 bool varies(const MetricSensitivity& metric) { return metric.standard_deviation > 0; }
 
 std::string confidence_text(const Sensitivity& s) {

@@ -10,7 +10,6 @@ using nlohmann::ordered_json;
 
 namespace {
 
-
 AnswerCell number_cell(const std::optional<SearchPoint>& point, const LimitSearch& limit) {
   return point ? AnswerCell(si_of(point->value, limit)) : AnswerCell();
 }
