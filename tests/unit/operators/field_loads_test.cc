@@ -258,15 +258,26 @@ TEST_F(FieldLoadsTest, CoverTheShareOfTheCompartmentsThatTheirCellsLieIn) {
   EXPECT_NEAR(coverage(to(-0.1), to(9000)), 0.4, 1e-12) << "of the pressure";
 }
 
+class FieldLoadsOfUnequalBlocks : public FieldLoadsTest {
+ protected:
+  FieldLoadsOfUnequalBlocks() : FieldLoadsTest(scene()) {}
+  static json scene() {
+    json scene = scene_of_two_blocks();
+    scene["geometry"]["blocks"][1]["to"] = "3500 m";
+    return scene;
+  }
+};
+
 /// Compartments count by their volumes, not each alike.
-TEST_F(FieldLoadsTest, CoverTheVolumeOfAllCompartmentsTogether) {
+TEST_F(FieldLoadsOfUnequalBlocks, CoverTheVolumeOfAllCompartmentsTogether) {
   FlowField west = boxes(2);
-  std::erase_if(west.cells, [](const FlowCell& cell) { return cell.low.x() >= -3000; });
+  std::erase_if(west.cells, [](const FlowCell& cell) { return cell.low.x() >= -1000; });
   west.value = Eigen::MatrixXd::Constant(std::ssize(west.cells), 2, 3e7);
   const FieldLoads loads = loads_of(west);
   const std::vector<RegionCoverage>& regions = loads.mapping.coverage;
   ASSERT_EQ(regions.size(), 2u);
   EXPECT_GT(regions[0].covered, 0.1 * regions[0].volume);
+  EXPECT_GT(regions[1].volume, 1.5 * regions[0].volume);
   EXPECT_EQ(regions[1].covered, 0);
   EXPECT_DOUBLE_EQ(loads.coverage, regions[0].covered / (regions[0].volume + regions[1].volume));
 }

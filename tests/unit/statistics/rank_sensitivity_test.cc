@@ -33,14 +33,14 @@ Sample sample(const Model& model, std::size_t n, std::mt19937_64& random) {
   return s;
 }
 
-struct KnownIndex {
+struct RankedModel {
   const char* name;
   Model model;
   double index;  ///< of the first coordinate.
 };
 
-const std::vector<KnownIndex>& known_indices() {
-  static const std::vector<KnownIndex> all = {
+const std::vector<RankedModel>& ranked_models() {
+  static const std::vector<RankedModel> all = {
       {"linear, most of it", [](const Point& p) { return 2 * p[0] + p[1]; }, 0.8},
       {"linear, a fifth", [](const Point& p) { return p[0] + 2 * p[1]; }, 0.2},
       {"none", [](const Point& p) { return p[1] * p[1]; }, 0},
@@ -54,7 +54,7 @@ const std::vector<KnownIndex>& known_indices() {
 
 TEST(RankSensitivity, MeetsKnownIndices) {
   std::mt19937_64 random(1);
-  for (const KnownIndex& one : known_indices()) {
+  for (const RankedModel& one : ranked_models()) {
     const Sample s = sample(one.model, 100'000, random);
     const Estimate e = first_order_by_ranks(s.y, random_tied_order(s.x), 0.95);
     EXPECT_NEAR(e.value, one.index, 4 * e.standard_error + 1e-4) << one.name;
@@ -62,7 +62,7 @@ TEST(RankSensitivity, MeetsKnownIndices) {
   }
 }
 
-int held_of(const KnownIndex& one, std::size_t n, int repeats) {
+int held_of(const RankedModel& one, std::size_t n, int repeats) {
   std::mt19937_64 random(7);
   int held = 0;
   for (int repeat = 0; repeat < repeats; ++repeat) {
@@ -76,7 +76,7 @@ int held_of(const KnownIndex& one, std::size_t n, int repeats) {
 /// Of 1,000 intervals of 95 %, 93 to 98 % hold the index. Not where nothing is left to explain:
 /// there is not a scatter.
 TEST(RankSensitivity, ItsIntervalsCover) {
-  for (const KnownIndex& one : known_indices()) {
+  for (const RankedModel& one : ranked_models()) {
     if (one.index == 1) continue;
     for (const std::size_t n : {static_cast<std::size_t>(kFewestForRankIndex), std::size_t{600}}) {
       const int held = held_of(one, n, 1000);
@@ -91,10 +91,10 @@ TEST(RankSensitivity, ItsIntervalsCover) {
 TEST(RankSensitivity, ItsIntervalsCoverOfARareFlag) {
   const double width = std::sqrt(2.0 / 30), p = 1.0 / 30;
   const double index = (width * width * width / 3 - p * p) / (p * (1 - p));
-  const KnownIndex rare[] = {
+  const RankedModel rare[] = {
       {"of both", [=](const Point& at) { return at[0] + at[1] > 2 - width ? 1.0 : 0.0; }, index},
       {"of the other", [=](const Point& at) { return at[1] < p ? 1.0 : 0.0; }, 0}};
-  for (const KnownIndex& one : rare) {
+  for (const RankedModel& one : rare) {
     const int held = held_of(one, 800, 1000);
     EXPECT_GE(held, 925) << one.name;
     EXPECT_LE(held, 982) << one.name;
@@ -322,7 +322,7 @@ struct ByDefinition {
 
 TEST(RankSensitivity, ItsErrorAndBoundsAreTheirDefinitions) {
   std::mt19937_64 random(31);
-  for (const KnownIndex& one : known_indices()) {
+  for (const RankedModel& one : ranked_models()) {
     const Sample s = sample(one.model, 60, random);
     const auto order = random_tied_order(s.x);
     std::vector<double> sorted;
