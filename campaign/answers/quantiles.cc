@@ -13,25 +13,6 @@ using faultsim::InputError;
 
 namespace {
 
-/// An end that only unknown rows reach is none.
-std::optional<double> if_known(const std::optional<double>& end) {
-  return end && std::isfinite(*end) ? end : std::nullopt;
-}
-
-QuantileBounds bounds_with_unknown(const std::vector<double>& sorted, long n_unknown, double q,
-                                   double confidence) {
-  QuantileBounds bounds = quantile_bounds(sorted, q, confidence);
-  if (n_unknown == 0) return bounds;
-  const auto unknown = static_cast<std::size_t>(n_unknown);
-  std::vector<double> all = sorted;
-  all.insert(all.begin(), unknown, -std::numeric_limits<double>::infinity());
-  bounds.low = if_known(quantile_bounds(all, q, confidence).low);
-  all = sorted;
-  all.insert(all.end(), unknown, std::numeric_limits<double>::infinity());
-  bounds.high = if_known(quantile_bounds(all, q, confidence).high);
-  return bounds;
-}
-
 /// The smallest of the values that no less than the share q of them do not exceed.
 double order_statistic(const std::vector<double>& sorted, double q) {
   constexpr double kRounding = 1e-9;  // 0.05 of 20 is the first
@@ -50,7 +31,7 @@ MetricQuantiles of_metric(const ScopedMetric& metric, std::vector<double> values
   std::sort(values.begin(), values.end());
   for (const double q : all.request.at) {
     if (all.sampling.is_random) {
-      found.values.push_back(bounds_with_unknown(values, all.n_unknown, q, all.request.confidence));
+      found.values.push_back(quantile_bounds(values, all.n_unknown, q, all.request.confidence));
     } else {
       found.values.push_back({order_statistic(values, q), std::nullopt, std::nullopt});
     }

@@ -13,6 +13,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/common/printable.h"
 #include "simulator/output/write_result.h"
+#include "simulator/result/approximation.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsweep {
@@ -146,20 +147,6 @@ std::vector<std::string> unresolved_sentences(const CaseResult& result) {
   return sentences;
 }
 
-/// How its operator came about, where it is an approximation; "" where it is exact.
-std::string approximation_note(const CaseResult& result) {
-  if (!result.surface) return "";
-  const faultsim::CaseSurface& s = *result.surface;
-  return concat("Its operator is interpolated on a surface of ",
-                faultsim::counted(s.n_operators, "operator", "operators"), "; at ",
-                faultsim::counted(s.n_checks, "check point", "check points"),
-                " that are none of them it was off by at most ", format_number(s.stiffness, 2),
-                " of H, ", format_number(s.traction, 2), " of the locked traction, ",
-                format_number(s.slip, 2), " of slip without friction and ",
-                format_number(s.observation, 2),
-                " of what is observed (relative; asked for: ", format_number(s.tolerance, 2), ").");
-}
-
 /// Why M0 of the stages does not add up to that of the whole; "" where it does.
 std::string moment_note(const CaseResult& result) {
   double sum = 0;
@@ -270,7 +257,7 @@ Answer to_answer(const ShownCase& shown) {
   answer.add(settings_table(shown));
   answer.add(runs_table(one));
   if (one.has_result) {
-    answer.note_if(approximation_note(result));
+    answer.note_if(faultsim::approximation_sentence(result));
     for (const std::string& warning : result.warnings) answer.note("warning: " + warning);
     answer.note_if(creep_text(result));
     AnswerTable& stages = answer.add(stages_table(shown));
