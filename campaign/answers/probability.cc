@@ -155,6 +155,10 @@ Probability find_probability(const Store& store, const CampaignInfo& campaign,
   const std::vector<std::string> conditions = request.condition.empty()
                                                   ? default_conditions(selection)
                                                   : std::vector<std::string>{request.condition};
+  if (conditions.empty()) {  // faults are known from results
+    throw InputError("probability", {{"", 0, "no case has a result",
+                                      concat("run it: faultsweep run ", campaign.name)}});
+  }
   const AskedRows rows = read_rows(store, campaign, request, selection, conditions);
   if (rows.label.empty()) {
     throw InputError("probability",

@@ -116,8 +116,9 @@ TEST_F(Undecided, AFaultThatMayNotSlideIsOpenAlongItsCurve) {
   leave_open(30);
   leave_open(2);
   record();
-  for (const CurvePoint& point :
-       probability_curves(*store_, campaign_, {CurveAxis::step}).curves.at(0).points)
+  const Curves curves = probability_curves(*store_, campaign_, {CurveAxis::step});
+  ASSERT_FALSE(curves.curves.at(0).points.empty());
+  for (const CurvePoint& point : curves.curves[0].points)
     EXPECT_EQ(point.counts.n_undecided, 2);
 }
 
