@@ -14,8 +14,8 @@ namespace {
 constexpr double kLeastMembers = 1.5;
 
 Interval open_interval() {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  return {-kInfinity, kInfinity};
+  constexpr double kOpen = std::numeric_limits<double>::infinity();
+  return {-kOpen, kOpen};
 }
 
 double sum_of(std::span<const double> weights) {
