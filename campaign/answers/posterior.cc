@@ -389,6 +389,12 @@ Answer to_answer(const Posterior& p) {
   answer.add(parameter_table(p.parameters));
   answer.add(update_table("words", "parameter", p.words));
   answer.add(update_table("probabilities", "condition", p.probabilities));
+  if (p.effective_size < kFewestEffectiveMembers) {
+    answer.note(
+        concat("Bounds of what a twentieth of all cases has hold 93 to 97 times in 100 from an "
+               "effective sample of ",
+               kFewestEffectiveMembers, " on; of smaller ones less."));
+  }
   if (p.n_unknown > 0) {
     answer.note(concat(
         "Of ", grouped(p.n_unknown), " without a history to ", p.n_unknown == 1 ? "its" : "their",

@@ -63,7 +63,7 @@ Quantiles find_quantiles(const Store& store, const CampaignInfo& campaign,
 
 namespace {
 
-constexpr int kDigits = 3;
+constexpr int kQuantileDigits = 3;
 
 ShownUnit unit_of(const Quantiles& q, const MetricQuantiles& one) {
   return shown_unit(one.metric.dimension, q.plane_strain);
@@ -84,10 +84,11 @@ AnswerTable table_of(const Quantiles& q, const ShownUnit* only) {
       {{"metric", "metric", {}, 4, Need::always},
        {"unit", "unit"},
        {"share", is_sample ? "share below" : "of what was run", percent(), 4, Need::always},
-       {"value", is_sample ? "quantile" : "have at most", unit, kDigits + 1, Need::always}}};
+       {"value", is_sample ? "quantile" : "have at most", unit, kQuantileDigits + 1,
+        Need::always}}};
   if (is_sample) {
-    table.columns.push_back({"low", "from", unit, kDigits, Need::always});
-    table.columns.push_back({"high", "to", unit, kDigits, Need::always});
+    table.columns.push_back({"low", "from", unit, kQuantileDigits, Need::always});
+    table.columns.push_back({"high", "to", unit, kQuantileDigits, Need::always});
   }
   table.columns.push_back({"rows", "rows"});
   table.columns.push_back({"without_value", "without a value"});
@@ -124,7 +125,9 @@ void add_screen_tables(const Quantiles& q, Answer& answer) {
 std::string sentence_of(const Quantiles& q, const MetricQuantiles& one) {
   const ShownUnit unit = unit_of(q, one);
   if (one.values.empty()) return concat("No case has a ", one.metric.name, ".");
-  const auto number = [&](double value) { return format_number(value / unit.size, kDigits); };
+  const auto number = [&](double value) {
+    return format_number(value / unit.size, kQuantileDigits);
+  };
   const auto end = [&](const std::optional<double>& value) {
     return value ? number(*value) : std::string("open");
   };

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numeric>
+#include <thread>
 
+#include "campaign/answers/asked_outputs.h"
 #include "campaign/answers/designs.h"
+#include "campaign/statistics/level_means.h"
 
 namespace faultsweep {
 
@@ -17,85 +18,138 @@ using nlohmann::json;
 
 namespace {
 
-/// χ̄, slip and sliding of each fault.
-std::string default_metrics(const Store& store, const CampaignInfo& campaign) {
-  std::string names;
-  for (const char* metric : {"chi_bar", "max_slip", "slides"}) {
-    for (const NamedId& fault : store.faults(campaign.id))
-      names += concat(names.empty() ? "" : ",", spelled_name(fault.name), ".", metric);
-  }
-  return names;
-}
-
 void refuse_what_is_no_sample(const Sensitivity& s) {
   if (!s.sampling.is_random && !s.sampling.is_factorial) {
     throw InputError(
         "sensitivity",
         {{"", 0, concat("the cases of ", s.campaign.name, " are not a sample of its parameters"),
-          "give its spec a design monte-carlo, latin-hypercube, sobol or grid"}});
+          "give its spec one design monte-carlo, latin-hypercube, sobol, grid, morris or "
+          "one-at-a-time"}});
   }
   const long n = s.sample.n_rows - s.sample.n_without - s.sample.n_early;
-  if (n < kFewestRows) {
-    throw InputError("sensitivity", {{"", 0, concat(n, " cases with a full history are too few"),
-                                      concat("run at least ", kFewestRows)}});
+  if (n == 0) {
+    throw InputError("sensitivity", {{"", 0, "no case has a history to its end",
+                                      concat("run it: faultsweep run ", s.campaign.name)}});
+  }
+  if (s.sampling.is_random && n < kFewestForRankIndex) {
+    throw InputError(
+        "sensitivity",
+        {{"", 0,
+          concat(n, n == 1 ? " case with a full history is" : " cases with a full history are",
+                 " too few: intervals of indices hold from ", kFewestForRankIndex, " on"),
+          concat("run at least ", kFewestForRankIndex)}});
   }
 }
 
-/// The rows of x that have a y, in their order by x.
-std::vector<double> values_at(const std::vector<double>& values,
-                              const std::vector<std::uint32_t>& rows) {
-  std::vector<double> chosen;
-  chosen.reserve(rows.size());
-  for (const std::uint32_t row : rows) chosen.push_back(values[row]);
-  return chosen;
-}
+/// Without error or bounds.
+Estimate exactly(double value) { return {value, kNoNumber, {kNoNumber, kNoNumber}}; }
 
-/// Var E[y | x] / Var y of a grid, in which every value of x goes with the same others: the
-/// variance of the means at each value. Zero where y does not vary. Without error or bounds.
-Estimate share_of_levels(const std::vector<double>& y, const std::vector<double>& x, double mean) {
+/// Var E[y | x] / Var y of what is left of a grid: the variance of the means at each value. Zero
+/// where y does not vary.
+double share_of_levels(const std::vector<double>& y, const std::vector<double>& x, double mean) {
   std::map<double, std::pair<double, double>> levels;  // sum of y, and how many
   double all = 0;
   for (std::size_t k = 0; k < y.size(); ++k) {
+    if (!std::isfinite(y[k])) continue;
     auto& [sum, n] = levels[x[k]];
     sum += y[k] - mean, n += 1;
     all += (y[k] - mean) * (y[k] - mean);
   }
   double between = 0;
   for (const auto& [value, level] : levels) between += level.first * level.first / level.second;
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  return {all > 0 ? between / all : 0, kNone, {kNone, kNone}};
+  return all > 0 ? between / all : 0;
 }
 
-/// Of the sample's parameters, in the order in which each sorts them.
-using Orders = std::vector<std::vector<std::uint32_t>>;
+/// The number of each value of x, in ascending order.
+std::vector<std::uint32_t> levels_of(const std::vector<double>& x) {
+  std::vector<double> values = x;
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  std::vector<std::uint32_t> levels;
+  levels.reserve(x.size());
+  for (const double one : x) {
+    const auto at = std::lower_bound(values.begin(), values.end(), one) - values.begin();
+    levels.push_back(static_cast<std::uint32_t>(at));
+  }
+  return levels;
+}
 
-MetricSensitivity of_metric(std::size_t m, const Sensitivity& s, const Orders& orders) {
-  const Sample& sample = s.sample;
-  const std::vector<double>& all = sample.y[m];
-  std::vector<std::uint32_t> rows;
-  for (std::uint32_t row = 0; row < all.size(); ++row)
-    if (std::isfinite(all[row])) rows.push_back(row);
-  MetricSensitivity found{sample.outputs[m], static_cast<long>(rows.size()), 0, 0, {}};
-  const bool has_all = rows.size() == all.size();
-  const std::vector<double> y = has_all ? all : values_at(all, rows);
-  if (y.empty()) return found;
-  const auto n = static_cast<double>(y.size());
-  found.mean = std::accumulate(y.begin(), y.end(), 0.0) / n;
+/// Mean and spread of an output over the rows that have it.
+MetricSensitivity spread_of(const ScopedMetric& metric, const std::vector<double>& y) {
+  MetricSensitivity found{metric, 0, 0, 0, {}};
+  for (const double one : y) {
+    if (!std::isfinite(one)) continue;
+    ++found.n;
+    found.mean += one;
+  }
+  if (found.n == 0) return found;
+  found.mean /= static_cast<double>(found.n);
   double squares = 0;
-  for (const double value : y) squares += (value - found.mean) * (value - found.mean);
-  found.standard_deviation = std::sqrt(squares / std::max(1.0, n - 1));
-  const double confidence = s.request.confidence;
-  for (std::size_t p = 0; p < sample.x.size(); ++p) {
-    if (has_all && !s.sampling.is_factorial) {
-      found.first_order.push_back(first_order_by_ranks(y, orders[p], confidence));
+  for (const double one : y)
+    if (std::isfinite(one)) squares += (one - found.mean) * (one - found.mean);
+  const long freedom = std::max(1L, found.n - 1);
+  found.standard_deviation = std::sqrt(squares / static_cast<double>(freedom));
+  return found;
+}
+
+/// "of F1.magnitude 31 rows": why intervals would not hold; "" where they do.
+/// @param fewest, of_either  rows, and those with each of two values.
+std::string too_few(const MetricSensitivity& one, long n, const char* what, long fewest,
+                    long of_either) {
+  if (n < fewest) return concat(one.metric.name, " (", n, " ", what, " of ", fewest, ")");
+  if (!one.metric.is_flag || !(one.standard_deviation > 0)) return "";
+  const double rarer = std::min(one.mean, 1 - one.mean);
+  const long n_rarer = std::lround(rarer * static_cast<double>(one.n));
+  if (n_rarer >= of_either) return "";
+  return concat(one.metric.name, one.mean < 0.5 ? " (true in " : " (false in ", n_rarer,
+                " rows of ", of_either, ")");
+}
+
+void add_grid_indices(Sensitivity& s) {
+  std::vector<std::vector<std::uint32_t>> levels;
+  for (const std::vector<double>& x : s.sample.x) levels.push_back(levels_of(x));
+  const bool has_rows = !levels.empty() && !levels.front().empty();
+  const FullGrid::Made made = has_rows ? FullGrid::make(levels) : FullGrid::Made{};
+  for (std::size_t m = 0; m < s.metrics.size(); ++m) {
+    MetricSensitivity& one = s.metrics[m];
+    const std::vector<double>& y = s.sample.y[m];
+    if (one.n == 0) continue;
+    if (const auto exact = made.grid ? made.grid->indices(y) : std::nullopt) {
+      for (const ExactIndices& factor : exact->factors) {
+        one.first_order.push_back(exactly(factor.first));
+        one.total_order.push_back(factor.total);
+      }
       continue;
     }
-    const std::vector<double> x = values_at(sample.x[p], rows);
-    found.first_order.push_back(s.sampling.is_factorial
-                                    ? share_of_levels(y, x, found.mean)
-                                    : first_order_by_ranks(y, random_tied_order(x), confidence));
+    for (const std::vector<double>& x : s.sample.x)
+      one.first_order.push_back(exactly(share_of_levels(y, x, one.mean)));
   }
-  return found;
+}
+
+void add_rank_indices(Sensitivity& s) {
+  const int n_threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const RankSensitivity ranks(s.sample.x, n_threads);
+  auto indices = ranks.first_order(s.sample.y, s.request.confidence, n_threads);
+  for (std::size_t m = 0; m < s.metrics.size(); ++m) {
+    MetricSensitivity& one = s.metrics[m];
+    one.unsaid = too_few(one, one.n, "rows", kFewestForRankIndex, kFewestOfEitherValue);
+    if (one.unsaid.empty()) one.first_order = std::move(indices[m]);
+  }
+}
+
+void add_pick_freeze(const Store& store, const CampaignInfo& campaign, Sensitivity& s) {
+  const auto rows = read_sobol_rows(store, campaign, s.request.cases, s.sample.outputs);
+  if (!rows) return;
+  s.frozen = rows->parameters;
+  s.n_base_samples = rows->n_base_samples;
+  for (std::size_t m = 0; m < s.metrics.size(); ++m) {
+    MetricSensitivity& one = s.metrics[m];
+    one.n_base_samples = static_cast<long>(rows->outputs[m].a.size());
+    const std::string few = too_few(one, one.n_base_samples, "base samples", kFewestForPickFreeze,
+                                    kFewestOfEitherValueInBlocks);
+    if (few.empty()) one.sobol = indices_by_pick_freeze(rows->outputs[m], s.request.confidence);
+    if (one.unsaid.empty()) one.unsaid = few;
+  }
 }
 
 /// Sensitivity::dependence. What is drawn independently depends on each other where cases are left
@@ -124,29 +178,23 @@ std::string dependence_of(const Store& store, const CampaignInfo& campaign,
 Sensitivity analyse_sensitivity(const Store& store, const CampaignInfo& campaign,
                                 const SensitivityRequest& request) {
   Sensitivity s{campaign, request, sampling_of(store, campaign), {}, {}, {}};
-  const std::string metrics =
-      request.metrics.empty() ? default_metrics(store, campaign) : request.metrics;
-  s.sample = read_sample(store, campaign, request.cases, metrics);
+  s.sample = read_sample(store, campaign, request.cases, asked_metrics(store, campaign, request));
   refuse_what_is_no_sample(s);
   const Store::Kinds kinds = store.kinds(campaign.id, {});
   s.plane_strain = kinds.plane_strain;
   for (const ScopedMetric& one : s.sample.outputs)
     if (one.is_extensive()) refuse_mixed(kinds, "--metrics", one.name);
   s.dependence = dependence_of(store, campaign, request);
-  Orders orders;
-  for (const std::vector<double>& x : s.sample.x) orders.push_back(random_tied_order(x));
   for (const StoredParameter& one : s.sample.parameters) s.parameters.push_back(one.name);
   for (std::size_t m = 0; m < s.sample.outputs.size(); ++m)
-    s.metrics.push_back(of_metric(m, s, orders));
-  s.sample.x.clear(), s.sample.y.clear();
-  if (const auto rows = read_sobol_rows(store, campaign, request.cases, s.sample.outputs)) {
-    s.frozen = rows->parameters;
-    s.n_base_samples = rows->n_base_samples;
-    for (std::size_t m = 0; m < s.metrics.size(); ++m) {
-      s.metrics[m].sobol = indices_by_pick_freeze(rows->outputs[m], request.confidence);
-      s.metrics[m].n_base_samples = static_cast<long>(rows->outputs[m].a.size());
-    }
+    s.metrics.push_back(spread_of(s.sample.outputs[m], s.sample.y[m]));
+  if (s.sampling.is_factorial) {
+    add_grid_indices(s);
+  } else {
+    add_rank_indices(s);
+    add_pick_freeze(store, campaign, s);
   }
+  s.sample.x.clear(), s.sample.y.clear();
   return s;
 }
 

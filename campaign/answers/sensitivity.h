@@ -20,12 +20,17 @@ struct MetricSensitivity {
   ScopedMetric metric;
   long n = 0;  ///< rows that have a value.
   double mean = 0, standard_deviation = 0;
-  /// Per Sensitivity::parameters. Of a grid without error and bounds (NaN): it is no sample, and of
-  /// what was run the shares are exact.
+  /// Per Sensitivity::parameters; none where its rows are too few. Of a grid without error and
+  /// bounds (NaN): it is no sample, and of what was run the shares are exact.
   std::vector<Estimate> first_order;
-  /// Of a sobol design by pick-freeze: per Sensitivity::frozen, from n_base_samples of them.
+  /// Of a whole grid, exact: the share in which a parameter takes part, interactions included.
+  std::vector<double> total_order = {};
+  /// Of a sobol design by pick-freeze: per Sensitivity::frozen, from n_base_samples of them; none
+  /// where these are too few.
   std::vector<SobolIndices> sobol = {};
   long n_base_samples = 0;
+  /// What is not said of it, as it has fewer rows than intervals take; "" = nothing.
+  std::string unsaid = {};
 };
 
 struct Sensitivity {
@@ -42,13 +47,12 @@ struct Sensitivity {
   bool plane_strain = false;  ///< areas, potencies and moments are per metre of strike.
 };
 
-/// First-order indices: of a random sample by ranks, of a grid from the means at each value; of a
-/// sobol design first and total ones by pick-freeze too. Throws InputError where the campaign's
-/// design is not a sample of its parameters, or fewer than kFewestRows full histories were
-/// selected.
+/// First-order indices: of a random sample by ranks, of a grid from the means at each value, with
+/// total ones where every combination has a value; of a sobol design first and total ones by
+/// pick-freeze too. Throws InputError where the campaign's design is not a sample of its
+/// parameters, or fewer than kFewestForRankIndex rows of a random one have a history to its end.
 Sensitivity analyse_sensitivity(const Store& store, const CampaignInfo& campaign,
                                 const SensitivityRequest& request);
-inline constexpr long kFewestRows = 20;
 
 /// Indices as bars, largest first; of a sobol design total ones below them.
 faultsim::figure::BarChart chart_of(const Sensitivity& sensitivity);

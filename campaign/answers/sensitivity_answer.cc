@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "campaign/answers/asked_outputs.h"
 #include "campaign/answers/sensitivity.h"
 #include "campaign/render/shown.h"
 
@@ -13,12 +14,14 @@ namespace figure = faultsim::figure;
 namespace {
 
 bool varies(const MetricSensitivity& metric) { return metric.standard_deviation > 0; }
+bool is_told(const MetricSensitivity& metric) {
+  return varies(metric) && !metric.first_order.empty();
+}
 
 std::string confidence_text(const Sensitivity& s) {
   return format_number(100 * s.request.confidence, 4) + " %";
 }
 
-/// NaN where there is no interval.
 /// Parameters of a metric, by index, largest first.
 std::vector<std::size_t> largest_first(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
@@ -80,7 +83,7 @@ AnswerTable first_order_table(const Sensitivity& s) {
   if (s.dependence.empty()) table.columns.push_back({"together", "together", {}, 2});
   table.columns.push_back({"rows", "rows", {}, 4});
   for (const MetricSensitivity& one : s.metrics) {
-    if (!varies(one)) continue;
+    if (!is_told(one)) continue;
     std::vector<AnswerCell> row = {one.metric.name};
     for (const std::size_t p : order) row.push_back(index_cell(one.first_order[p]));
     const std::vector<double> values = values_of(one.first_order);
@@ -107,7 +110,7 @@ AnswerTable total_order_table(const Sensitivity& s) {
   for (const std::string& one : s.frozen) table.columns.push_back({one, one, {}, 3});
   bool any_left_out = false;
   for (const MetricSensitivity& one : s.metrics) {
-    if (!varies(one)) continue;
+    if (!varies(one) || one.sobol.empty()) continue;
     std::vector<AnswerCell> row = {one.metric.name, base_samples_of(s, one)};
     for (const SobolIndices& indices : one.sobol) row.push_back(index_cell(indices.total));
     table.rows.push_back(std::move(row));
@@ -117,6 +120,23 @@ AnswerTable total_order_table(const Sensitivity& s) {
     table.notes.emplace_back(
         "A base sample counts where each of its rows has a value. Where few of all do, the indices "
         "are of those few and of no others.");
+  }
+  table.in_files = false;
+  return table;
+}
+
+/// For a screen: total indices of a whole grid.
+AnswerTable grid_total_table(const Sensitivity& s) {
+  AnswerTable table{"total_order",
+                    "Share in which a parameter takes part, interactions included (total order)",
+                    {{"metric", "metric", {}, 4, Need::always}}};
+  constexpr int kDigits = 3;
+  for (const std::string& one : s.parameters) table.columns.push_back({one, one, {}, kDigits});
+  for (const MetricSensitivity& one : s.metrics) {
+    if (!varies(one) || one.total_order.empty()) continue;
+    std::vector<AnswerCell> row = {one.metric.name};
+    for (const double total : one.total_order) row.emplace_back(total);
+    table.rows.push_back(std::move(row));
   }
   table.in_files = false;
   return table;
@@ -146,6 +166,9 @@ AnswerTable index_table(const Sensitivity& s) {
   for (const MetricSensitivity& one : s.metrics) {
     for (std::size_t p = 0; p < one.first_order.size(); ++p)
       add(one, s.parameters[p], "first", method, one.first_order[p], one.n, {});
+    for (std::size_t p = 0; p < one.total_order.size(); ++p)
+      add(one, s.parameters[p], "total", method,
+          {one.total_order[p], kNoNumber, {kNoNumber, kNoNumber}}, one.n, {});
     for (std::size_t p = 0; p < one.sobol.size(); ++p) {
       add(one, s.frozen[p], "first", "pick-freeze", one.sobol[p].first, {}, one.n_base_samples);
       add(one, s.frozen[p], "total", "pick-freeze", one.sobol[p].total, {}, one.n_base_samples);
@@ -175,9 +198,9 @@ AnswerTable metric_table(const Sensitivity& s) {
 void add_meaning(const Sensitivity& s, AnswerTable& table) {
   if (s.sampling.is_factorial) {
     table.notes.emplace_back(
-        "From the means over all cases that have a value of the parameter, each value as likely as "
-        "the others: of what was run these shares are exact, and there are no intervals, as it is "
-        "no random sample.");
+        "Finite sums over the means of all cases that have a value of the parameter, each value as "
+        "likely as the others: of what was run these shares are exact, and there are no intervals, "
+        "as it is no random sample.");
   } else {
     table.notes.push_back(
         concat("By ranks; ± is half of the interval of ", confidence_text(s), "."));
@@ -214,12 +237,33 @@ std::string rows_text(const Sensitivity& s) {
   return text + ".";
 }
 
+/// Metrics of which there are too few rows, and indices that few rows make too low.
+std::string minima_text(const Sensitivity& s) {
+  std::string few, text;
+  bool any_near_one = false;
+  constexpr double kNearOne = 0.95;
+  for (const MetricSensitivity& one : s.metrics) {
+    if (!one.unsaid.empty()) few += (few.empty() ? "" : ", ") + one.unsaid;
+    any_near_one =
+        any_near_one || (!s.sampling.is_factorial && one.n < kFewestForRankIndexNearOne &&
+                         std::any_of(one.first_order.begin(), one.first_order.end(),
+                                     [](const Estimate& e) { return e.value > kNearOne; }));
+  }
+  if (!few.empty()) text = concat("Fewer rows than intervals take, so without indices: ", few, ".");
+  if (any_near_one) {
+    text += concat(text.empty() ? "" : " ", "Indices above ", kNearOne, " from fewer than ",
+                   kFewestForRankIndexNearOne, " rows are some thousandths too low.");
+  }
+  return text;
+}
+
 figure::Bounded bounded(const Estimate& e) { return {e.value, e.bounds.low, e.bounds.high}; }
 
 figure::BarChart::Block block_of(const Sensitivity& s, const MetricSensitivity& one) {
   figure::BarChart::Block block{one.metric.name, {}};
   const bool has_totals = !one.sobol.empty();
   const std::vector<std::string>& names = has_totals ? s.frozen : s.parameters;
+  if (!has_totals && one.first_order.empty()) return block;
   std::vector<double> values;
   for (std::size_t p = 0; p < names.size(); ++p)
     values.push_back(has_totals ? one.sobol[p].total.value : one.first_order[p].value);
@@ -242,7 +286,8 @@ figure::BarChart chart_of(const Sensitivity& s) {
                                      : concat("lines: ", confidence_text(s), " intervals"));
   chart.label = "share of variance";
   for (const MetricSensitivity& one : s.metrics) {
-    chart.blocks.push_back(block_of(s, one));
+    figure::BarChart::Block block = block_of(s, one);
+    if (!block.rows.empty()) chart.blocks.push_back(std::move(block));
     if (one.sobol.empty()) continue;
     chart.first_name = "alone";
     chart.second_name = "with all interactions";
@@ -256,16 +301,23 @@ Answer to_answer(const Sensitivity& s) {
   for (const MetricSensitivity& one : s.metrics) {
     if (!varies(one)) {
       constant += concat(constant.empty() ? "" : ", ", one.metric.name);
-    } else if (answer.headline.size() < kMostSentences && !one.first_order.empty()) {
+    } else if (answer.headline.size() < kMostSentences && is_told(one)) {
       answer.headline.push_back(sentence_of(s, one));
     }
   }
-  if (answer.headline.empty()) answer.headline.emplace_back("Nothing of this varies.");
-  answer.facts = {{"campaign", s.campaign.name},       {"confidence", s.request.confidence},
-                  {"is_sample", s.sampling.is_random}, {"dependence", s.dependence},
-                  {"rows", s.sample.n_rows},           {"without_result", s.sample.n_without},
-                  {"ends_early", s.sample.n_early},    {"unresolved", s.sample.n_unresolved},
-                  {"base_samples", s.n_base_samples},  {"remark", s.sampling.remark}};
+  if (answer.headline.empty()) {
+    answer.headline.emplace_back(
+        std::any_of(s.metrics.begin(), s.metrics.end(),
+                    [](const MetricSensitivity& one) { return varies(one); })
+            ? "What varies has too few rows for indices."
+            : "Nothing of this varies.");
+  }
+  answer.facts = {{"campaign", s.campaign.name},          {"kind", "shares"},
+                  {"confidence", s.request.confidence},   {"is_sample", s.sampling.is_random},
+                  {"dependence", s.dependence},           {"rows", s.sample.n_rows},
+                  {"without_result", s.sample.n_without}, {"ends_early", s.sample.n_early},
+                  {"unresolved", s.sample.n_unresolved},  {"base_samples", s.n_base_samples},
+                  {"remark", s.sampling.remark}};
   answer.add(index_table(s));
   answer.add(metric_table(s));
   AnswerTable first = first_order_table(s);
@@ -273,7 +325,9 @@ Answer to_answer(const Sensitivity& s) {
     add_meaning(s, first);
     answer.add(std::move(first));
   }
-  if (!s.frozen.empty()) answer.add(total_order_table(s));
+  for (AnswerTable total : {total_order_table(s), grid_total_table(s)})
+    if (!total.rows.empty()) answer.add(std::move(total));
+  answer.note_if(minima_text(s));
   if (!constant.empty()) answer.note(concat("The same in all cases: ", constant, "."));
   answer.blocks.emplace_back(AnswerChart(chart_of(s)));
   answer.note(rows_text(s));

@@ -167,12 +167,12 @@ Tiers compare_tiers(const Store& store, const CampaignInfo& low, const CampaignI
   refuse_other_samples(lows, highs, high);
   for (std::size_t row = 0; row < highs.complete.size(); ++row)
     tiers.n_pairs += lows.complete[row] != 0 && highs.complete[row] != 0 ? 1 : 0;
-  if (tiers.n_pairs < kFewestPairs) {
+  if (tiers.n_pairs < kFewestPairsForTiers) {
     throw InputError("tiers", {{"", 0,
                                 concat(tiers.n_pairs,
                                        " full histories at both tiers are "
                                        "too few"),
-                                concat("run at least ", kFewestPairs, ": --tier-budget")}});
+                                concat("run at least ", kFewestPairsForTiers, ": --tier-budget")}});
   }
   tiers.taken_seconds = tiers.low_cost.seconds_of(static_cast<double>(tiers.low_cost.n_rows)) +
                         tiers.high_cost.seconds_of(static_cast<double>(tiers.high_cost.n_rows));

@@ -56,10 +56,9 @@ struct Tiers {
 /// @param low, high  campaigns of the same monte-carlo design; the second has fewer samples, or as
 ///                   many.
 /// Throws InputError where metrics or conditions are wrong, the designs do not fit, or fewer than
-/// kFewestPairs rows are complete at both.
+/// kFewestPairsForTiers rows are complete at both.
 Tiers compare_tiers(const Store& store, const CampaignInfo& low, const CampaignInfo& high,
                     const TierRequest& request);
-inline constexpr long kFewestPairs = 20;
 
 /// Table `answers`; on the screen a table for each unit, and what the tiers took.
 Answer to_answer(const Tiers& tiers);

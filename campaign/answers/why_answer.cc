@@ -133,11 +133,6 @@ ShownUnit unit_of(const Why& why) {
   return why.ranking.by_unit;
 }
 
-/// "12.5 bar".
-std::string in_unit(double value, const ShownUnit& unit) {
-  return concat(format_number(value / unit.size), unit.name.empty() ? "" : " ", unit.name);
-}
-
 std::string named_cases(const std::vector<long>& positions) {
   std::string text;
   for (std::size_t k = 0; k < std::min(positions.size(), kMostNamed); ++k)

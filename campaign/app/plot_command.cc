@@ -1,6 +1,8 @@
+#include "campaign/answers/what_matters.h"
 #include "campaign/app/commands.h"
 #include "campaign/figures/campaign_figures.h"
 #include "campaign/figures/report_page.h"
+#include "campaign/render/render_html.h"
 #include "simulator/case_figures/picture_file.h"
 #include "simulator/common/errors.h"
 
@@ -14,8 +16,9 @@ std::string draw_campaign(const PlotArguments& arguments, const Store& store) {
   const CampaignInfo campaign = store.campaign(arguments.subject, false);
   if (arguments.chart == "map") return draw_outcome_map(store, campaign, arguments.map);
   if (arguments.chart == "sensitivity") {
-    return faultsim::figure::draw(
-        chart_of(analyse_sensitivity(store, campaign, arguments.sensitivity)));
+    const std::string chart = first_chart(what_matters(store, campaign, arguments.sensitivity));
+    if (!chart.empty()) return chart;
+    throw InputError("sensitivity", {{"", 0, "nothing of this varies", "ask for other --metrics"}});
   }
   if (arguments.chart == "probability") {
     return faultsim::figure::draw(

@@ -222,9 +222,7 @@ ExitCode posterior_command(const StoreArguments& common, const PosteriorRequest&
 
 ExitCode sensitivity_command(const StoreArguments& common, const SensitivityRequest& request) {
   const Store store = Store::open_reader(common.store);
-  const Sensitivity found =
-      analyse_sensitivity(store, store.campaign(common.campaign, false), request);
-  print_answer(to_answer(found), common);
+  print_answer(what_matters(store, store.campaign(common.campaign, false), request), common);
   return ExitCode::done;
 }
 

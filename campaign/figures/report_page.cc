@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "campaign/answers/probability.h"
-#include "campaign/answers/sensitivity.h"
+#include "campaign/answers/what_matters.h"
 #include "campaign/figures/campaign_figures.h"
 #include "campaign/render/render_html.h"
 #include "campaign/report/parameters.h"
@@ -257,8 +257,8 @@ void add_answers(Page& page) {
   });
   page.section("what-matters", "What matters");
   page.unless_refused([&] {
-    page.html += render_html(to_answer(
-        analyse_sensitivity(page.store, page.campaign, {.confidence = page.request.confidence})));
+    page.html += render_html(
+        what_matters(page.store, page.campaign, {.confidence = page.request.confidence}));
   });
 }
 

@@ -56,14 +56,16 @@ std::string table_of(const AnswerTable& table) {
   return html;
 }
 
+std::string drawn(const AnswerChart& chart) {
+  return std::visit([](const auto& one) { return faultsim::figure::draw(one); }, chart);
+}
+
 struct HtmlBlocks {
   std::string operator()(const AnswerTable& table) const {
     return table.on_screen ? table_of(table) : "";
   }
   std::string operator()(const AnswerNote& note) const { return paragraph(note.text, "faint"); }
-  std::string operator()(const AnswerChart& chart) const {
-    return std::visit([](const auto& one) { return faultsim::figure::draw(one); }, chart);
-  }
+  std::string operator()(const AnswerChart& chart) const { return drawn(chart); }
   std::string operator()(const AnswerCases& cases) const {
     std::string html = paragraph(cases.title, "title") + "<ul>\n";
     for (const auto& [position, why] : cases.cases)
@@ -79,6 +81,12 @@ std::string render_html(const Answer& answer) {
   for (const std::string& sentence : answer.headline) html += paragraph(sentence, "answer");
   for (const AnswerBlock& block : answer.blocks) html += std::visit(HtmlBlocks{}, block);
   return html;
+}
+
+std::string first_chart(const Answer& answer) {
+  for (const AnswerBlock& block : answer.blocks)
+    if (const auto* chart = std::get_if<AnswerChart>(&block)) return drawn(*chart);
+  return "";
 }
 
 }  // namespace faultsweep

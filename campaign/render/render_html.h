@@ -10,4 +10,7 @@ namespace faultsweep {
 /// on the screen and carry the exact number in SI as data-value. No scripts, no styles.
 std::string render_html(const Answer& answer);
 
+/// The answer's first chart as SVG; "" where it has none.
+std::string first_chart(const Answer& answer);
+
 }  // namespace faultsweep

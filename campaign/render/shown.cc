@@ -20,6 +20,10 @@ std::string format_number(double value, int digits) {
   return text;
 }
 
+std::string in_unit(double value, const ShownUnit& unit, int digits) {
+  return concat(format_number(value / unit.size, digits), unit.name.empty() ? "" : " ", unit.name);
+}
+
 std::string short_number(const std::string& text) {
   constexpr std::ptrdiff_t kDigits = 6;
   char* end = nullptr;

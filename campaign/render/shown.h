@@ -9,6 +9,8 @@ namespace faultsweep {
 
 /// At most `digits` significant digits, without needless zeros: "0.52", "1.3e+15"; "-" for NaN.
 std::string format_number(double value, int digits = 4);
+/// "12.5 bar", of a value in SI.
+std::string in_unit(double value, const ShownUnit& unit, int digits = 4);
 /// "18.9238690858494 deg" -> "18.9239 deg": a number, or one with a unit, of more than six
 /// significant digits has six; whole numbers and other texts stay as they are.
 std::string short_number(const std::string& text);

@@ -1,0 +1,44 @@
+#include "campaign/answers/asked_outputs.h"
+
+#include "campaign/report/table_output.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+
+std::string asked_metrics(const Store& store, const CampaignInfo& campaign,
+                          const SensitivityRequest& request) {
+  if (!request.metrics.empty()) return request.metrics;
+  std::string names;
+  for (const char* metric : {"chi_bar", "max_slip", "slides"}) {
+    for (const NamedId& fault : store.faults(campaign.id))
+      names += concat(names.empty() ? "" : ",", spelled_name(fault.name), ".", metric);
+  }
+  return names;
+}
+
+std::vector<ScopedMetric> asked_outputs(const Store& store, const CampaignInfo& campaign,
+                                        const SensitivityRequest& request,
+                                        const Selection& selection) {
+  std::vector<ScopedMetric> outputs =
+      choose_metrics(selection, asked_metrics(store, campaign, request), true, false);
+  const Store::Kinds kinds = store.kinds(campaign.id, {});
+  for (const ScopedMetric& one : outputs)
+    if (one.is_extensive()) refuse_mixed(kinds, "--metrics", one.name);
+  return outputs;
+}
+
+Store::TableQuery query_of(const Selection& selection, const SensitivityRequest& request,
+                           const std::vector<ScopedMetric>& outputs) {
+  Store::TableQuery query;
+  query.stage = request.cases.stage;
+  if (selection.fault) query.fault = selection.fault->id;
+  for (const ScopedMetric& one : outputs) query.columns.push_back({one.sql, {}});
+  return query;
+}
+
+ShownUnit unit_of(const ScopedMetric& metric, bool plane_strain) {
+  return shown_unit(metric.dimension, plane_strain && metric.is_extensive());
+}
+
+}  // namespace faultsweep

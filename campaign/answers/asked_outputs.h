@@ -1,0 +1,31 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "campaign/answers/sensitivity.h"
+
+/// Inside of the module: what is asked of the parameters of a campaign.
+namespace faultsweep {
+
+inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+
+/// Names with commas; by default χ̄, slip and sliding of each fault.
+std::string asked_metrics(const Store& store, const CampaignInfo& campaign,
+                          const SensitivityRequest& request);
+
+/// These metrics. Throws InputError where they are wrong, or would mix what is per metre of strike
+/// with what is in total.
+std::vector<ScopedMetric> asked_outputs(const Store& store, const CampaignInfo& campaign,
+                                        const SensitivityRequest& request,
+                                        const Selection& selection);
+
+/// The query that has them as columns.
+Store::TableQuery query_of(const Selection& selection, const SensitivityRequest& request,
+                           const std::vector<ScopedMetric>& outputs);
+
+/// Numbers and unit of a metric on a screen.
+ShownUnit unit_of(const ScopedMetric& metric, bool plane_strain);
+
+}  // namespace faultsweep
