@@ -1,5 +1,8 @@
 #include "campaign/answers/asked_outputs.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "campaign/report/table_output.h"
 
 namespace faultsweep {
@@ -35,6 +38,25 @@ Store::TableQuery query_of(const Selection& selection, const SensitivityRequest&
   if (selection.fault) query.fault = selection.fault->id;
   for (const ScopedMetric& one : outputs) query.columns.push_back({one.sql, {}});
   return query;
+}
+
+bool is_rounding(const ScopedMetric& metric, double least, double most) {
+  constexpr double kRounding = 1e-9;
+  const double size = std::max(std::abs(least), std::abs(most));
+  const bool is_number = metric.dimension == faultsim::Dimension::number;
+  return most - least <= kRounding * (is_number ? std::max(size, 1.0) : size);
+}
+
+void flatten_rounding(const ScopedMetric& metric, std::vector<double>& values) {
+  double least = std::numeric_limits<double>::infinity(), most = -least, first = kNoNumber;
+  for (const double one : values) {
+    if (!std::isfinite(one)) continue;
+    if (std::isnan(first)) first = one;
+    least = std::min(least, one), most = std::max(most, one);
+  }
+  if (std::isnan(first) || !is_rounding(metric, least, most)) return;
+  for (double& one : values)
+    if (std::isfinite(one)) one = first;
 }
 
 ShownUnit unit_of(const ScopedMetric& metric, bool plane_strain) {

@@ -25,6 +25,13 @@ std::vector<ScopedMetric> asked_outputs(const Store& store, const CampaignInfo& 
 Store::TableQuery query_of(const Selection& selection, const SensitivityRequest& request,
                            const std::vector<ScopedMetric>& outputs);
 
+/// Whether a metric that lies between these two is the same but for rounding: within a billionth of
+/// the larger, or of 1 for plain numbers, as χ̄ of a fault that nothing loads is 0 but for rounding.
+/// Variances of rounding say nothing of parameters.
+bool is_rounding(const ScopedMetric& metric, double least, double most);
+/// Gives all values that are there the first one where they differ by rounding only.
+void flatten_rounding(const ScopedMetric& metric, std::vector<double>& values);
+
 /// Numbers and unit of a metric on a screen.
 ShownUnit unit_of(const ScopedMetric& metric, bool plane_strain);
 

@@ -168,11 +168,10 @@ std::vector<Swing> swings_of(const OneAtATime& found, const Tornado& tornado, st
 
 bool is_moved(const OneAtATime& found, const Tornado& tornado, std::size_t m) {
   if (!std::isfinite(tornado.base.metrics[m])) return false;
-  // χ̄ of a fault that nothing loads is 0 but for rounding.
-  constexpr double kRounding = 1e-9;
-  const bool is_number = found.outputs[m].dimension == faultsim::Dimension::number;
   const std::vector<Swing> swings = swings_of(found, tornado, m);
-  return !swings.empty() && swings.front().width() > (is_number ? kRounding : 0);
+  return std::any_of(swings.begin(), swings.end(), [&](const Swing& one) {
+    return !is_rounding(found.outputs[m], one.low, one.high);
+  });
 }
 
 std::string place_of(const Move* at) { return at == nullptr ? "base" : at->value; }

@@ -77,12 +77,13 @@ std::optional<Screening> screen(const Store& store, const CampaignInfo& campaign
   for (const ScopedMetric& one : outputs) s.metrics.push_back({one, {}});
   Store::TableQuery query = query_of(selection, request, outputs);
   query.by_design_row = true;
-  const Trajectories rows = read_trajectories(store, query, s);
+  Trajectories rows = read_trajectories(store, query, s);
   const double p = designs[0].value("levels", 4);
   const auto made = MorrisDesign::make(rows.x, p / (2 * (p - 1)));
   if (!made.design) refuse(made.refusal, "submit the campaign's spec again as it was");
   s.n_trajectories = made.design->n_trajectories();
   for (std::size_t m = 0; m < outputs.size(); ++m) {
+    flatten_rounding(outputs[m], rows.y[m]);
     s.metrics[m].effects = made.design->effects(rows.y[m], request.confidence);
     for (ElementaryEffects& one : s.metrics[m].effects) keep_what_holds(one);
   }

@@ -77,13 +77,14 @@ std::vector<std::uint32_t> levels_of(const std::vector<double>& x) {
 /// Mean and spread of an output over the rows that have it.
 MetricSensitivity spread_of(const ScopedMetric& metric, const std::vector<double>& y) {
   MetricSensitivity found{metric, 0, 0, 0, {}};
+  double first = 0, sum = 0;  // of differences from the first: exact where all are the same
   for (const double one : y) {
     if (!std::isfinite(one)) continue;
-    ++found.n;
-    found.mean += one;
+    if (found.n++ == 0) first = one;
+    sum += one - first;
   }
   if (found.n == 0) return found;
-  found.mean /= static_cast<double>(found.n);
+  found.mean = first + sum / static_cast<double>(found.n);
   double squares = 0;
   for (const double one : y)
     if (std::isfinite(one)) squares += (one - found.mean) * (one - found.mean);
@@ -147,7 +148,11 @@ void add_pick_freeze(const Store& store, const CampaignInfo& campaign, Sensitivi
     one.n_base_samples = static_cast<long>(rows->outputs[m].a.size());
     const std::string few = too_few(one, one.n_base_samples, "base samples", kFewestForPickFreeze,
                                     kFewestOfEitherValueInBlocks);
-    if (few.empty()) one.sobol = indices_by_pick_freeze(rows->outputs[m], s.request.confidence);
+    if (few.empty()) {
+      one.sobol = one.standard_deviation > 0
+                      ? indices_by_pick_freeze(rows->outputs[m], s.request.confidence)
+                      : std::vector<SobolIndices>(s.frozen.size());
+    }
     if (one.unsaid.empty()) one.unsaid = few;
   }
 }
@@ -186,8 +191,10 @@ Sensitivity analyse_sensitivity(const Store& store, const CampaignInfo& campaign
     if (one.is_extensive()) refuse_mixed(kinds, "--metrics", one.name);
   s.dependence = dependence_of(store, campaign, request);
   for (const StoredParameter& one : s.sample.parameters) s.parameters.push_back(one.name);
-  for (std::size_t m = 0; m < s.sample.outputs.size(); ++m)
+  for (std::size_t m = 0; m < s.sample.outputs.size(); ++m) {
+    flatten_rounding(s.sample.outputs[m], s.sample.y[m]);
     s.metrics.push_back(spread_of(s.sample.outputs[m], s.sample.y[m]));
+  }
   if (s.sampling.is_factorial) {
     add_grid_indices(s);
   } else {

@@ -241,6 +241,23 @@ TEST_F(WhatMatters, FewRandomCasesAreRefused) {
   }
 }
 
+/// χ̄ that is 1 but for rounding, or 0, does not depend on anything.
+TEST_F(WhatMatters, RoundingIsNotExplained) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int k = 0; k < 200; ++k) {
+    const double friction = uniform(random);
+    add(both(friction, uniform(random)), 0.25 + 1e-15 * friction);
+  }
+  submit_as("monte-carlo");
+  record();
+  const Answer answer = what_matters(*store_, campaign_, {.metrics = "F1.chi_bar"});
+  EXPECT_EQ(answer.headline.at(0), "Nothing of this varies.");
+  EXPECT_THAT(render_text(answer, 1000), HasSubstr("The same in all cases: F1.chi_bar."));
+  const auto indices = render_json(answer).at("indices");
+  for (const auto& one : indices) EXPECT_EQ(one.at("value"), 0);
+}
+
 /// Of a metric that few rows have, and of a flag that is rare, nothing is said, in words.
 TEST_F(WhatMatters, MetricsWithFewRowsHaveNoIndices) {
   std::mt19937_64 random(1);
