@@ -118,8 +118,7 @@ TEST_F(Undecided, AFaultThatMayNotSlideIsOpenAlongItsCurve) {
   record();
   const Curves curves = probability_curves(*store_, campaign_, {CurveAxis::step});
   ASSERT_FALSE(curves.curves.at(0).points.empty());
-  for (const CurvePoint& point : curves.curves[0].points)
-    EXPECT_EQ(point.counts.n_undecided, 2);
+  for (const CurvePoint& point : curves.curves[0].points) EXPECT_EQ(point.counts.n_undecided, 2);
 }
 
 TEST_F(Undecided, APosteriorAllowsForEither) {
