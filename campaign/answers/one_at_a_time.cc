@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "campaign/answers/asked_outputs.h"
 #include "campaign/answers/designs.h"
@@ -53,34 +54,47 @@ std::vector<std::vector<long>> rows_of_groups(const Store& store, const Campaign
   return rows;
 }
 
-/// The place, in the other's parameters, of the one that differs; nothing where none or several do.
-std::optional<std::size_t> the_difference(const CaseParameters& base, const CaseParameters& other,
-                                          bool has_groups) {
-  std::optional<std::size_t> found;
+/// The parameters that a group's design moves, as indices: not those derived from them.
+std::set<int> moved_by(const nlohmann::json& group, const std::vector<std::string>& parameters) {
+  std::set<int> indices;
+  for (const nlohmann::json& one : group.at("parameters")) {
+    const auto at = std::find(parameters.begin(), parameters.end(), one.at("name"));
+    if (at != parameters.end()) indices.insert(static_cast<int>(at - parameters.begin()));
+  }
+  return indices;
+}
+
+/// The places, in the other's parameters, of those in which it differs from the base case.
+std::vector<std::size_t> differences(const CaseParameters& base, const CaseParameters& other,
+                                     const std::set<int>& moved) {
+  std::vector<std::size_t> found;
   for (std::size_t k = 0; k < other.size(); ++k) {
-    if (has_groups && other[k].index == 0) continue;
+    if (!moved.contains(other[k].index)) continue;
     const auto same = std::find_if(base.begin(), base.end(), [&](const CaseParameter& one) {
       return one.index == other[k].index && one.si == other[k].si &&
              (one.si || one.text == other[k].text);
     });
-    if (same != base.end()) continue;
-    if (found) return std::nullopt;
-    found = k;
+    if (same == base.end()) found.push_back(k);
   }
   return found;
 }
 
 Tornado tornado_of(const std::vector<long>& rows, const std::map<long, CaseValues>& cases,
-                   bool has_groups) {
+                   const std::set<int>& moved) {
   const CaseValues& base = cases.at(rows.front());
   Tornado tornado{"", base.move, {}};
   for (const long position : rows) {
     const CaseValues& values = cases.at(position);
-    const auto moved = the_difference(base.parameters, values.parameters, has_groups);
-    if (!moved) continue;  // the base case once more
+    const auto differing = differences(base.parameters, values.parameters, moved);
+    if (differing.empty()) continue;  // the base case once more
+    if (differing.size() > 1) {       // a case of another group, which this row became
+      ++tornado.n_unplaced;
+      continue;
+    }
+    const CaseParameter& parameter = values.parameters[differing.front()];
     Move move = values.move;
-    move.parameter = static_cast<std::size_t>(values.parameters[*moved].index);
-    move.value = values.parameters[*moved].text;
+    move.parameter = static_cast<std::size_t>(parameter.index);
+    move.value = parameter.text;
     tornado.n_without += values.is_complete ? 0 : 1;
     tornado.moves.push_back(std::move(move));
   }
@@ -122,7 +136,7 @@ std::optional<OneAtATime> compare_one_at_a_time(const Store& store, const Campai
       found.without_base.push_back(name);
       continue;
     }
-    found.tornados.push_back(tornado_of(rows[g], cases, has_groups));
+    found.tornados.push_back(tornado_of(rows[g], cases, moved_by(groups[g], found.parameters)));
     found.tornados.back().group = name;
   }
   if (found.tornados.empty()) {
@@ -272,6 +286,11 @@ std::string rows_text(const Tornado& tornado) {
     rows += concat("; ", n_unresolved,
                    " with an activation or event that the cells do not resolve, which count as "
                    "computed");
+  }
+  if (tornado.n_unplaced > 0) {
+    rows += concat("; ", tornado.n_unplaced,
+                   " left out, as they are cases of another group and differ in more than one "
+                   "parameter");
   }
   if (tornado.base.is_unresolved) rows += "; that of the base case is not resolved";
   return rows + ".";

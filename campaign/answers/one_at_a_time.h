@@ -24,6 +24,8 @@ struct Tornado {
   Move base;          ///< without a parameter.
   std::vector<Move> moves;
   long n_without = 0;  ///< moves without a history to its end.
+  long n_unplaced =
+      0;  ///< rows left out: cases of another group that differ in several parameters.
 };
 
 /// What each parameter alone changes.

@@ -171,6 +171,28 @@ TEST_F(WhatMatters, OneAtATimeIsATornado) {
   EXPECT_NE(first_chart(answer).find("<svg"), std::string::npos);
 }
 
+/// What is derived from a parameter moves with it, and is no move of its own.
+TEST_F(WhatMatters, DerivedParametersAreNotMoved) {
+  s_.parameters = parameters_to_json({{"friction", Dimension::number, false},
+                                      {"offset", Dimension::length, false},
+                                      {"throw", Dimension::length, false}});
+  const auto with_throw = [](double friction, double offset) {
+    CaseParameters all = both(friction, offset);
+    all.push_back({2, 2 * offset, std::to_string(2 * offset) + " m"});
+    return all;
+  };
+  add(with_throw(0.5, 60), 0.3);
+  add(with_throw(0.4, 60), 0.45);
+  add(with_throw(0.5, 120), 0.62);
+  submit_as("one-at-a-time");
+  record();
+  const auto found = compare_one_at_a_time(*store_, campaign_, {.metrics = "F1.chi_bar"});
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->tornados.at(0).moves.size(), 2u);
+  EXPECT_EQ(found->tornados[0].moves[1].parameter, 1u);
+  EXPECT_EQ(found->tornados[0].n_unplaced, 0);
+}
+
 TEST_F(WhatMatters, WithoutItsBaseCaseNothingChanges) {
   add(both(0.5, 60), 0.3);
   add(both(0.4, 60), 0.45);
