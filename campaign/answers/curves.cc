@@ -365,6 +365,7 @@ Answer to_answer(const Curves& curves) {
                                 : "",
       "; what the cells leave undecided, and a history that ends early, may be either."));
   answer.note_if(curves.sampling.remark);
+  answer.note_if(curves.sampling.approximation);
   return answer;
 }
 

@@ -410,6 +410,7 @@ Answer to_answer(const Posterior& p) {
                      format_number(100 * p.request.confidence, 4),
                      " %; what was seen is taken to have independent errors."));
   answer.note_if(p.sampling.remark);
+  answer.note_if(p.sampling.approximation);
   return answer;
 }
 

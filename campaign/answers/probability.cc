@@ -282,6 +282,7 @@ Answer to_answer(const Probability& p) {
     answer.note(concat("Half of the ± by the number takes ", grouped(p.n_for_half), " cases."));
   }
   answer.note_if(p.sampling.remark);
+  answer.note_if(p.sampling.approximation);
   return answer;
 }
 

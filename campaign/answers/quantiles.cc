@@ -181,6 +181,7 @@ Answer to_answer(const Quantiles& q) {
       answer.note(concat(one.n_without, " full histories have no ", one.metric.name,
                          ": they are left out."));
   }
+  answer.note_if(q.sampling.approximation);
   return answer;
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "campaign/answers/designs.h"
+#include "campaign/report/approximations.h"
 #include "campaign/report/table_output.h"
 
 namespace faultsweep {
@@ -34,13 +35,14 @@ class Words {
   std::map<std::string, double> numbers_;
 };
 
-/// Leaves out parameters that have one value only.
-void keep_what_varies(Sample& sample) {
+/// Leaves out parameters that have one value only, and those computed from others.
+void keep_what_is_chosen(const std::vector<char>& derived, Sample& sample) {
   for (std::size_t k = sample.x.size(); k-- > 0;) {
     const std::vector<double>& values = sample.x[k];
     const bool varies = std::any_of(values.begin(), values.end(),
                                     [&](double value) { return value != values.front(); });
-    if (varies) continue;
+    if (varies && derived[k] == 0) continue;
+    if (varies) sample.derived.insert(sample.derived.begin(), sample.parameters[k].name);
     sample.x.erase(sample.x.begin() + static_cast<long>(k));
     sample.parameters.erase(sample.parameters.begin() + static_cast<long>(k));
   }
@@ -55,6 +57,24 @@ std::vector<json> designs_of(const Store& store, const CampaignInfo& campaign) {
   return designs;
 }
 
+std::vector<char> derived_parameters(const std::vector<json>& designs,
+                                     const CampaignInfo& campaign) {
+  std::set<std::string> chosen = {"group"};
+  for (const json& design : designs)
+    for (const json& one : design.value("parameters", json::array())) chosen.insert(one.at("name"));
+  std::vector<char> derived;
+  for (const StoredParameter& one : parameters_from_json(campaign.parameters))
+    derived.push_back(chosen.contains(one.name) ? 0 : 1);
+  return derived;
+}
+
+std::string derived_note(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& one : names) list += (list.empty() ? "" : ", ") + one;
+  return list.empty() ? ""
+                      : concat("Computed from others, so not told apart from them: ", list, ".");
+}
+
 long rows_per_base_sample(const json& design) {
   const auto n = static_cast<long>(design.at("parameters").size());
   return (design.value("second_order", false) ? 2 * n : n) + 2;
@@ -67,6 +87,7 @@ Sampling sampling_of(const Store& store, const CampaignInfo& campaign) {
                        [&](const json& one) { return kinds.contains(one.at("kind")); });
   };
   Sampling sampling;
+  sampling.approximation = approximation_note(store.approximations(campaign.id));
   sampling.is_random = all_are({"monte-carlo", "latin-hypercube", "sobol", "samples"});
   sampling.is_factorial = all_are({"grid"});
   if (all_are({"samples"})) {
@@ -112,9 +133,15 @@ int SampleRows::count(long position) const {
 Sample read_sample(const Store& store, const CampaignInfo& campaign, const SampledCases& request,
                    const std::string& metrics) {
   const Selection selection = make_selection(store, campaign, request.stage, request.fault);
+  return read_sample(store, campaign, request, choose_metrics(selection, metrics, true, false));
+}
+
+Sample read_sample(const Store& store, const CampaignInfo& campaign, const SampledCases& request,
+                   std::vector<ScopedMetric> outputs) {
+  const Selection selection = make_selection(store, campaign, request.stage, request.fault);
   Sample sample;
   sample.parameters = parameters_from_json(campaign.parameters);
-  sample.outputs = choose_metrics(selection, metrics, true, false);
+  sample.outputs = std::move(outputs);
   Store::TableQuery query;
   query.stage = request.stage;
   if (selection.fault) query.fault = selection.fault->id;
@@ -141,7 +168,7 @@ Sample read_sample(const Store& store, const CampaignInfo& campaign, const Sampl
         sample.y[m].push_back(number_of(row.metrics[m]));
     }
   });
-  keep_what_varies(sample);
+  keep_what_is_chosen(derived_parameters(designs_of(store, campaign), campaign), sample);
   return sample;
 }
 

@@ -22,6 +22,7 @@ struct Sampling {
   bool is_random = false;     ///< drawn: shares are estimates of probabilities.
   bool is_factorial = false;  ///< every combination: shares are of the values given.
   std::string remark;         ///< what to know of it, in a sentence; "" = nothing.
+  std::string approximation;  ///< of its results: approximation_note().
 };
 /// By the designs of the campaign's spec. Of a sobol design only the rows of its two independent
 /// blocks are a sample.
@@ -41,7 +42,8 @@ class SampleRows {
 
 /// The rows of a sample as columns of numbers.
 struct Sample {
-  std::vector<StoredParameter> parameters;  ///< those that vary.
+  std::vector<StoredParameter> parameters;  ///< those that vary and are chosen by its designs.
+  std::vector<std::string> derived;         ///< that vary, but follow from these: left out.
   std::vector<std::vector<double>> x;       ///< per parameter: SI; words by their first place.
   std::vector<ScopedMetric> outputs;
   std::vector<std::vector<double>> y;  ///< per output; NaN where a full history has no value.
@@ -52,6 +54,8 @@ struct Sample {
 };
 
 /// Throws InputError as make_selection, parse_condition and choose_metrics.
+Sample read_sample(const Store& store, const CampaignInfo& campaign, const SampledCases& request,
+                   std::vector<ScopedMetric> outputs);
 /// @param metrics  names with commas, as of `export --metrics`.
 Sample read_sample(const Store& store, const CampaignInfo& campaign, const SampledCases& request,
                    const std::string& metrics);

@@ -46,6 +46,16 @@ Trajectories read_trajectories(const Store& store, const Store::TableQuery& quer
 
 void forget_bounds(Estimate& e) { e.standard_error = kNoNumber, e.bounds = {kNoNumber, kNoNumber}; }
 
+/// Leaves out parameters that follow from others.
+void keep_what_is_chosen(const std::vector<char>& derived, Trajectories& rows, Screening& s) {
+  for (std::size_t p = derived.size(); p-- > 0;) {
+    if (derived[p] == 0) continue;
+    s.derived.insert(s.derived.begin(), s.parameters[p]);
+    s.parameters.erase(s.parameters.begin() + static_cast<long>(p));
+    rows.x.erase(rows.x.begin() + static_cast<long>(p));
+  }
+}
+
 /// Intervals that would not hold are not told.
 void keep_what_holds(ElementaryEffects& one) {
   if (one.n < kFewestTrajectories) forget_bounds(one.mean), forget_bounds(one.mean_magnitude);
@@ -78,6 +88,7 @@ std::optional<Screening> screen(const Store& store, const CampaignInfo& campaign
   Store::TableQuery query = query_of(selection, request, outputs);
   query.by_design_row = true;
   Trajectories rows = read_trajectories(store, query, s);
+  keep_what_is_chosen(derived_parameters(designs, campaign), rows, s);
   const double p = designs[0].value("levels", 4);
   const auto made = MorrisDesign::make(rows.x, p / (2 * (p - 1)));
   if (!made.design) refuse(made.refusal, "submit the campaign's spec again as it was");
@@ -208,6 +219,7 @@ void add_notes(const Screening& s, Answer& answer) {
                    "computed");
   }
   answer.note(rows + ".");
+  answer.note_if(derived_note(s.derived));
 }
 
 }  // namespace

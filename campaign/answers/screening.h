@@ -23,6 +23,7 @@ struct Screening {
   SensitivityRequest request;
   std::vector<std::string> parameters;
   std::vector<MetricEffects> metrics;
+  std::vector<std::string> derived = {};  ///< parameters that follow from these.
   long n_trajectories = 0;
   long n_rows = 0, n_without = 0;  ///< of the design; without a history to its end.
   long n_unresolved = 0;           ///< which count as computed.

@@ -394,6 +394,7 @@ Answer to_answer(const Why& why) {
   answer.facts = facts_of(why);
   for (std::size_t k = 1; k < happens.size(); ++k) answer.note(happens[k]);
   answer.note(confidence_note(why));
+  answer.note_if(why.ranking.approximation);
   for (AnswerTable table : {faults_table(why), local_table(why), nearest_table(why),
                             slopes_table(why), global_table(why)}) {
     if (table.rows.empty()) {  // its key stands in JSON all the same

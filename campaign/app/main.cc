@@ -381,6 +381,9 @@ void add_answers(CLI::App& app, Arguments& a, ExitCode& code) {
       "--metrics", a.sensitivity.metrics,
       "names of `rank --list-metrics`, with commas, also of a fault and stage:\n"
       "F2.max_slip in gas_storage; default: chi_bar, slip and sliding by fault");
+  sensitivity->add_flag("--by-step", a.sensitivity.by_step,
+                        "at the end of each load step, and of all steps weighted by variance;\n"
+                        "of faults: F2.chi_bar; default: chi_bar of each");
   add_stage_and_fault(sensitivity, a.sensitivity.cases.stage, a.sensitivity.cases.fault);
   add_where(sensitivity, a.sensitivity.cases.where);
   add_confidence(sensitivity, a.sensitivity.confidence);
@@ -388,7 +391,8 @@ void add_answers(CLI::App& app, Arguments& a, ExitCode& code) {
   sensitivity->footer(
       "Examples:\n"
       "  faultsweep sensitivity\n"
-      "  faultsweep sensitivity my-sweep --metrics \"F2.chi_bar in gas_storage, moment\"");
+      "  faultsweep sensitivity my-sweep --metrics \"F2.chi_bar in gas_storage, moment\"\n"
+      "  faultsweep sensitivity my-sweep --by-step --metrics F2.max_slip");
   sensitivity->callback([&] { code = sensitivity_command(a.common, a.sensitivity); });
 }
 
@@ -443,6 +447,7 @@ void add_seeing(CLI::App& app, Arguments& a, ExitCode& code) {
   plot->add_option("--x", a.plot.map.x, "map: parameter along the bottom; default: the first");
   plot->add_option("--y", a.plot.map.y, "map: parameter along the side; default: the next");
   plot->add_option("--metrics", a.plot.sensitivity.metrics, "sensitivity: as of `sensitivity`");
+  plot->add_flag("--by-step", a.plot.sensitivity.by_step, "sensitivity: against time");
   plot->add_option("--of", a.plot.probability.condition, "probability: as of `probability`");
   plot->add_option("--by", a.plot.probability.by, "probability: as of `probability`");
   add_store(plot, a.common);

@@ -1,11 +1,15 @@
 "use strict";
 // Ranking: a click on a head sorts, what is typed below it filters: "> 50", "<= 3", "F2", "!F1".
+function number_of(text) {  // of "0.83 \u00b1 0.02" and "1,440" too; NaN for words
+  const value = text.split(" \u00b1")[0].replace(/,/g, "").replace("\u2212", "-");
+  return value.trim() === "" ? NaN : Number(value);
+}
 function passes(text, condition) {
   const found = condition.trim().match(/^(<=|>=|<|>|=|!)?\s*(.*)$/);
   const sign = found[1], word = found[2];
   if (word === "") return true;
-  const a = Number(text.replace(/,/g, "").replace("\u2212", "-")), b = Number(word.replace("\u2212", "-"));
-  const numbers = text !== "" && !Number.isNaN(a) && !Number.isNaN(b);
+  const a = number_of(text), b = number_of(word);
+  const numbers = !Number.isNaN(a) && !Number.isNaN(b);
   switch (sign) {
     case "<": return numbers && a < b;
     case ">": return numbers && a > b;
@@ -43,8 +47,8 @@ for (const table of document.querySelectorAll("table[data-filter]")) {
     head.addEventListener("click", () => {
       falling = !falling;
       const key = (row) => {
-        const text = row.cells[k].textContent, number = Number(text.replace(/,/g, "").replace("\u2212", "-"));
-        return text !== "" && !Number.isNaN(number) ? number : text;
+        const cell = row.cells[k], number = number_of(cell.dataset.value || cell.textContent);
+        return Number.isNaN(number) ? cell.textContent : number;
       };
       const order = (a, b) => typeof a === typeof b ? (a < b ? -1 : a > b ? 1 : 0) : typeof a === "number" ? -1 : 1;
       const sorted = rows.slice().sort((a, b) => (falling ? -1 : 1) * order(key(a), key(b)));

@@ -119,48 +119,12 @@ void add_head(Page& page, const std::vector<std::string>& names) {
 
 std::string cell(const std::string& text) { return "<td>" + escape_xml(text) + "</td>"; }
 
-std::string measured(double value, int digits = 3) { return cell(plain_number(value, digits)); }
-
-/// @param units  of parameters, as they stand in the head; "" = none.
-void add_ranking_row(Page& page, const RankedCase& row,
-                     const std::vector<StoredParameter>& parameters,
-                     const std::vector<std::string>& units) {
-  const faultsim::StageMetrics& m = row.metrics;
-  page.html += "<tr>" + cell(std::to_string(row.position));
-  const std::vector<std::string> labels = labels_of(row.parameters, parameters);
-  for (std::size_t p = 0; p < labels.size(); ++p) {
-    std::string shown = short_label(labels[p]);
-    if (!units[p].empty() && shown.ends_with(" " + units[p]))
-      shown.resize(shown.size() - units[p].size() - 1);
-    page.html += cell(shown);
-  }
-  page.html += cell(m.activated_fault) + measured(m.chi_bar) + measured(m.activated_area) +
-               measured(m.max_slip * 1e3) + measured(m.moment) + cell(std::to_string(m.n_events)) +
-               cell(row.outcome) + "</tr>\n";
-}
-
-/// The unit in which all rows give the parameter; "" where it is a plain number or, in some, words.
-std::string common_unit(const std::vector<RankedCase>& rows, std::size_t index) {
-  std::optional<std::string> unit;
-  for (const RankedCase& row : rows) {
-    for (const CaseParameter& one : row.parameters) {
-      if (static_cast<std::size_t>(one.index) != index) continue;
-      const std::size_t blank = one.text.find(' ');
-      if (!one.si || blank == std::string::npos) return "";
-      const std::string own = one.text.substr(blank + 1);
-      if (unit.value_or(own) != own) return "";
-      unit = own;
-    }
-  }
-  return unit.value_or("");
-}
-
 /// @return the rows that are listed.
 std::vector<RankedCase> add_ranking(Page& page) {
   page.section("ranking", "Ranking");
   RankRequest request;
   request.top = kMostRanked;
-  const Ranking ranking = make_ranking(page.store, page.campaign, request);
+  Ranking ranking = make_ranking(page.store, page.campaign, request);
   if (ranking.rows.empty()) {
     page.paragraph("No case has a result yet.", "faint");
     return {};
@@ -172,22 +136,8 @@ std::vector<RankedCase> add_ranking(Page& page) {
                                                   : std::string(),
                         ". A click on a head sorts; below it conditions such as > 50, F2 or !F1."),
                  "faint");
-  page.html +=
-      "<p id=\"rows\" class=\"faint\"></p>\n<div class=\"wide\"><table "
-      "data-filter=\"rows\">\n";
-  const auto parameters = parameters_from_json(page.campaign.parameters);
-  std::vector<std::string> heads = {"case"}, units;
-  for (std::size_t p = 0; p < parameters.size(); ++p) {
-    units.push_back(common_unit(ranking.rows, p));
-    heads.push_back(parameters[p].name + (units[p].empty() ? "" : ", " + units[p]));
-  }
-  const char* per_metre = ranking.kinds.plane_strain ? "/m" : "";
-  heads.insert(heads.end(), {"slides first", "χ̄", concat("sliding area, m²", per_metre), "slip, mm",
-                             concat("M0, N m", per_metre), "events", "outcome"});
-  add_head(page, heads);
-  for (const RankedCase& row : ranking.rows) add_ranking_row(page, row, parameters, units);
-  page.html += "</tbody></table></div>\n";
-  return ranking.rows;
+  page.html += render_html(to_answer(ranking));
+  return std::move(ranking.rows);
 }
 
 /// The steps of a case for the slider, without a "<" that could end the script.

@@ -32,20 +32,31 @@ std::string cell_of(const AnswerCell& cell, const AnswerColumn& column) {
                 escape_xml(shown_cell(cell, column)), "</td>");
 }
 
-std::string table_of(const AnswerTable& table) {
+bool is_shown(const AnswerTable& table, const AnswerColumn& column) {
+  return column.need != Need::data && !(table.is_sortable && column.need == Need::extra);
+}
+
+/// The beginning of a table; of one that is sortable with the place where a script says how many
+/// rows pass its filters.
+std::string head_of(const AnswerTable& table) {
+  const std::string key = escape_xml(table.key), place = "rows-" + key;
   std::string html = table.title.empty() ? "" : paragraph(table.title, "title");
-  html +=
-      concat("<div class=\"wide\"><table data-table=\"", escape_xml(table.key), "\"><thead><tr>");
-  for (const AnswerColumn& one : table.columns) {
-    if (one.need != Need::data) html += concat("<th>", escape_xml(shown_heading(one)), "</th>");
-  }
-  html += "</tr></thead>\n<tbody>\n";
+  if (table.is_sortable) html += concat("<p id=\"", place, "\" class=\"faint\"></p>\n");
+  html += concat("<div class=\"wide\"><table data-table=\"", key,
+                 table.is_sortable ? concat("\" data-filter=\"", place) : "", "\"><thead><tr>");
+  for (const AnswerColumn& one : table.columns)
+    if (is_shown(table, one)) html += concat("<th>", escape_xml(shown_heading(one)), "</th>");
+  return html + "</tr></thead>\n<tbody>\n";
+}
+
+std::string table_of(const AnswerTable& table) {
+  std::string html = head_of(table);
   const std::size_t n = table.rows.size();
   const std::size_t n_shown = table.most_on_screen == 0 ? n : std::min(n, table.most_on_screen);
   for (std::size_t r = 0; r < n_shown; ++r) {
     html += "<tr>";
     for (std::size_t k = 0; k < table.columns.size(); ++k) {
-      if (table.columns[k].need == Need::data) continue;
+      if (!is_shown(table, table.columns[k])) continue;
       html += cell_of(k < table.rows[r].size() ? table.rows[r][k] : AnswerCell{}, table.columns[k]);
     }
     html += "</tr>\n";

@@ -230,7 +230,9 @@ std::string fields_sentence(const CampaignInfo& campaign, const StoredCase& stor
 ShownCase shown_case(const Store& store, const CampaignInfo& campaign, const StoredCase& stored,
                      const ShowRequest& request) {
   const BaseScene base = store.base_scene(stored.scene);
-  ShownCase shown{campaign, stored, request, region_pressures_of(base.document + stored.changes)};
+  ShownCase shown{campaign, stored, request,
+                  region_pressures(has_flow_field(base.document + stored.changes),
+                                   stored.result.numerics_version)};
   std::vector<faultsim::Problem> problems;
   const faultsim::Scene scene = faultsim::read_scene(
       {base.source, scene_from_changes(base.document, stored.changes), {}}, problems);

@@ -7,23 +7,35 @@ namespace faultsweep {
 
 using faultsim::Dimension;
 
-RegionPressures region_pressures_of(const std::string& document) {
+bool has_flow_field(const std::string& document) {
   // As a key of a scene, or at the beginning of a pointer into one.
-  const bool has_field = document.find("\"pressure_field\"") != std::string::npos ||
-                         document.find("/pressure_field") != std::string::npos;
-  return has_field ? RegionPressures::means : RegionPressures::at_depth;
+  return document.find("\"pressure_field\"") != std::string::npos ||
+         document.find("/pressure_field") != std::string::npos;
+}
+
+RegionPressures region_pressures(bool has_field, int oldest) {
+  constexpr int kOfCells = 7;  // since that numerics version
+  if (!has_field) return RegionPressures::at_depth;
+  return oldest < kOfCells ? RegionPressures::means : RegionPressures::of_cells;
 }
 
 std::string pressure_note(RegionPressures kind) {
   const std::string side =
       " of the compartment that touches the fault there, on the side that "
       "changed more";
-  if (kind == RegionPressures::means) {
-    return "mean Δp, mean p: with a flow field the mean change over the compartment, not the value "
-           "at the place, and with it its absolute pressure at that depth;" +
-           side;
+  switch (kind) {
+    case RegionPressures::at_depth:
+      return "Δp, p: change, and absolute pressure at the depth beside," + side;
+    case RegionPressures::of_cells:
+      return "Δp, p: change by the flow field's cells beside the place, and absolute pressure at "
+             "its depth," +
+             side;
+    case RegionPressures::means:
+      return "mean Δp, mean p: some results are of an older version, which gave with a flow field "
+             "the mean change over the compartment, not the value at the place;" +
+             side;
   }
-  return "Δp, p: change, and absolute pressure at the depth beside," + side;
+  return "";
 }
 
 std::vector<AnswerColumn> place_columns(RegionPressures kind, const std::string& group,

@@ -12,10 +12,13 @@ namespace faultsweep {
 /// What the pressures of the regions beside a place are.
 enum class RegionPressures {
   at_depth,  ///< of the compartment, at the depth of the place.
-  means,     ///< of a flow field: the mean change of the compartment, wherever in it the place is.
+  of_cells,  ///< of a flow field: of its cells beside the place.
+  means,     ///< the same of results of before numerics 7: the mean change of the compartment.
 };
-/// That of cases whose scenes, or what varies of them, are in the text of a JSON document.
-RegionPressures region_pressures_of(const std::string& document);
+/// Whether cases have a flow field, by the text of JSON documents: their scenes, or what varies.
+bool has_flow_field(const std::string& document);
+/// @param oldest  numerics version of the results in question.
+RegionPressures region_pressures(bool has_field, int oldest);
 /// A sentence: what "Δp" and "p" in the columns are.
 std::string pressure_note(RegionPressures kind);
 

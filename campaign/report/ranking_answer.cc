@@ -163,6 +163,8 @@ std::vector<RankingColumn> columns_of(const Ranking& ranking, const MeasureColum
                      [](const Row& one) -> AnswerCell { return one.row.rank_class; }});
   columns.push_back({{"weakening_resolved", "weakening resolved", {}, 4, data},
                      [](const Row& one) -> AnswerCell { return one.row.weakening_resolved; }});
+  columns.push_back({{"interpolated", "interpolated", {}, 4, data},
+                     [](const Row& one) -> AnswerCell { return one.row.interpolated; }});
   columns.push_back({{"plane_strain", "plane strain", {}, 4, data},
                      [](const Row& one) -> AnswerCell { return one.row.plane_strain; }});
   columns.push_back({{"jumps", "jumps", {}, 4, data},
@@ -180,6 +182,7 @@ AnswerTable table_of(const Ranking& ranking) {
 
   AnswerTable table{
       "cases", "", {{"rank", "rank", {}, 4, Need::always}, {"case", "case", {}, 4, Need::always}}};
+  table.is_sortable = true;
   const auto append = [&](std::vector<AnswerColumn> more) {
     table.columns.insert(table.columns.end(), more.begin(), more.end());
   };
@@ -230,6 +233,7 @@ std::vector<std::string> notes_of(const Ranking& ranking) {
         "plane-strain cases have no place here, their areas and moments are per metre of strike: "
         "--where plane_strain");
   }
+  if (!ranking.approximation.empty()) notes.push_back(ranking.approximation);
   for (const ErrorBar& bar : ranking.error_bars) {
     notes.push_back(concat("± of ", bar.metric, " is its rms error at ", bar.tier, " against ",
                            bar.reference, " over ", bar.n_cases, " cases of the campaign, at most ",

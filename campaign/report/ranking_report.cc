@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "campaign/report/approximations.h"
 #include "campaign/report/error_bars.h"
 #include "campaign/report/selection.h"
 #include "campaign/spec/metrics.h"
@@ -124,7 +125,10 @@ Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankReque
   const bool all = request.top == 0 || static_cast<long>(ranking.rows.size()) < request.top;
   if (all || number_of_cases(store, campaign) <= kMostCounted)
     ranking.counts = all ? count_rows(ranking.rows) : count_sliding(store, campaign, query);
-  ranking.pressures = region_pressures_of(store.spec_copies(campaign.id).resolved);
+  const bool has_field = has_flow_field(store.spec_copies(campaign.id).resolved);
+  ranking.pressures =
+      region_pressures(has_field, has_field ? store.oldest_numerics(campaign.id) : 0);
+  ranking.approximation = approximation_note(store.approximations(campaign.id));
   if (request.stage.empty() && request.fault.empty())
     ranking.error_bars = error_bars_of(store, campaign);
   return ranking;

@@ -43,7 +43,8 @@ struct Ranking {
   /// campaign is so large that counting would take longer than ranking.
   std::optional<SlidingCounts> counts;
   RegionPressures pressures = RegionPressures::at_depth;
-  ShownUnit by_unit;  ///< of the scores; plain for expressions, which are in SI.
+  std::string approximation;  ///< approximation_note of the campaign.
+  ShownUnit by_unit;          ///< of the scores; plain for expressions, which are in SI.
   /// Measured by `faultsweep tradeoff` for this campaign at its tier; empty where it was not, or
   /// where the campaign has several tiers or meshes of its own.
   std::vector<ErrorBar> error_bars;

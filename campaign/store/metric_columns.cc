@@ -71,6 +71,12 @@ std::map<std::string, MetricColumn> all_columns() {
       {"failed_step", {"m.failed_step"}},
       {"plane_strain", {"m.plane_strain"}},
       {"weakening_resolved", {"m.weakening_resolved"}},
+      {"interpolated",
+       {"iif(m.case_id IS NULL, NULL, EXISTS (SELECT 1 FROM case_surfaces u WHERE u.case_id ="
+        " m.case_id))"}},
+      {"surface_error",
+       {"(SELECT u.error_of_slip FROM case_surfaces u WHERE u.case_id = m.case_id)"}},
+      {"field_coverage", {"m.field_coverage"}},
       {"max_nucleation_ratio", {"m.max_nucleation_ratio"}},
       {"unexpected", {"(m.unexpected_episode IS NOT NULL)"}},
       {"unexpected_fault",
@@ -147,7 +153,8 @@ const std::map<std::string, Depends>& all_dependences() {
     const auto add = [&all](Depends on, const std::vector<const char*>& metrics) {
       for (const char* one : metrics) all.emplace(one, on);
     };
-    add(Depends::on_the_run, {"outcome", "plane_strain"});
+    add(Depends::on_the_run,
+        {"outcome", "plane_strain", "interpolated", "surface_error", "field_coverage"});
     add(Depends::on_the_history, {"activation_resolved",
                                   "weakening_resolved",
                                   "slips",

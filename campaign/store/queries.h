@@ -8,6 +8,7 @@
 #include "campaign/store/records.h"
 #include "campaign/store/result_rows.h"
 #include "campaign/store/sqlite.h"
+#include "campaign/store/store.h"
 
 /// What several queries of the store share.
 namespace faultsweep {
@@ -25,6 +26,11 @@ class ParameterReader {
   std::int64_t campaign_;
   Statement query_;
 };
+
+/// What tables are read from, after "cc", a campaign's cases; the query's stage is its parameter.
+std::string joins(const Store::TableQuery& query);
+/// " AND ..." of the query's condition; "" = all.
+std::string where_sql(const SqlFragment& where);
 
 /// The counts of a campaign's cases by family id. In one pass without sorting: with 10^5 cases an
 /// SQL GROUP BY takes twice as long.

@@ -124,14 +124,15 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
         {order.integer(0), static_cast<long>(order.integer(1)), order.optional_real(2)});
   }
   const ResultTables& tables = result_tables();
-  constexpr int kFirstMetric = 10;
+  constexpr int kFirstMetric = 11;
   Statement rows = connection_->prepared(faultsim::concat(
       "SELECT s.rank_class, m.outcome,"
       " m.weakening_resolved, m.pressure_margin_pa, (SELECT n.name FROM episodes e JOIN names n"
       " ON n.id = e.fault_id WHERE e.case_id = s.case_id AND e.number = m.unexpected_episode),"
       " m.plane_strain, s.stage_id, s.activated_fault_id, s.opened_fault_id,"
       " (SELECT q.rank_class FROM fault_metrics q WHERE q.stage_id = s.stage_id"
-      " AND q.fault_id = ?3 AND q.case_id = s.case_id)",
+      " AND q.fault_id = ?3 AND q.case_id = s.case_id),"
+      " EXISTS (SELECT 1 FROM case_surfaces u WHERE u.case_id = s.case_id)",
       tables.stage.selected("s"),
       " FROM stage_metrics s JOIN case_metrics m ON m.case_id = s.case_id"
       " WHERE s.stage_id = (SELECT id FROM names WHERE name = ?1) AND s.case_id = ?2"));
@@ -151,6 +152,7 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
     row.pressure_margin = rows.optional_real(3);
     row.unexpected_fault = rows.text(4);
     row.plane_strain = rows.integer(5) != 0;
+    row.interpolated = rows.integer(10) != 0;
     int column = kFirstMetric;
     tables.stage.read(rows, column, row.metrics);
     const auto fault_row = [&](std::int64_t fault) {

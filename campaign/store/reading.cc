@@ -2,6 +2,7 @@
 
 #include "campaign/store/queries.h"
 #include "campaign/store/store.h"
+#include "simulator/common/fingerprint.h"
 
 namespace faultsweep {
 
@@ -90,6 +91,32 @@ StoredCase Store::stored_case(std::int64_t campaign, const std::string& name) co
   }
   found.result.identity = found.identity;
   return found;
+}
+
+Store::Approximations Store::approximations(std::int64_t campaign) const {
+  Statement query = connection_->prepared(
+      "SELECT count(*), count(u.case_id), coalesce(max(u.error_of_stiffness), 0),"
+      " coalesce(max(u.error_of_slip), 0), coalesce(sum(m.field_coverage < 0.999999), 0),"
+      " coalesce(min(m.field_coverage), 1) FROM campaign_cases cc"
+      " JOIN case_metrics m ON m.case_id = cc.case_id"
+      " LEFT JOIN case_surfaces u ON u.case_id = cc.case_id WHERE cc.campaign_id = ?");
+  FAULTSIM_DEMAND(query.bind(campaign).step(), campaign);
+  return {static_cast<long>(query.integer(0)),
+          static_cast<long>(query.integer(1)),
+          query.real(2),
+          query.real(3),
+          static_cast<long>(query.integer(4)),
+          query.real(5)};
+}
+
+int Store::oldest_numerics(std::int64_t campaign) const {
+  Statement query = connection_->prepared(
+      "SELECT min(r.numerics_version) FROM campaign_cases cc"
+      " JOIN case_metrics m ON m.case_id = cc.case_id JOIN runs r ON r.id = m.run_id"
+      " WHERE cc.campaign_id = ?");
+  const bool any = query.bind(campaign).step();
+  return any ? static_cast<int>(query.optional_integer(0).value_or(faultsim::kNumericsVersion))
+             : faultsim::kNumericsVersion;
 }
 
 std::vector<FailureCount> Store::failure_counts(std::int64_t campaign) const {

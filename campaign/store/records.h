@@ -260,6 +260,7 @@ struct RankedCase {
   bool weakening_resolved = true;
   std::string unexpected_fault;  ///< slides again after its pressure has recovered; "" = none.
   bool plane_strain = false;     ///< areas, potency and moments are per metre of strike.
+  bool interpolated = false;     ///< its operator, on an operator surface.
   std::optional<double> pressure_margin;  ///< Pa.
   faultsim::StageMetrics metrics;         ///< of its faults those that slide and open first.
   std::optional<faultsim::FaultStageMetrics> fault_metrics;  ///< where one fault is ranked.

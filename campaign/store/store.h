@@ -35,6 +35,13 @@ bool has_faults(const std::string& metric);
 /// The same of another fault or stage. @pre has_stages(metric), and has_faults for that of a fault.
 std::string metric_sql(const std::string& metric, const MetricScope& scope,
                        std::int64_t stage_of_query);
+/// Metrics of faults whose value at the end of each load step is kept, slip and what follows from
+/// it since the start of the case.
+std::vector<std::string> history_metrics();
+/// The value of such a metric at a load step, as metric_sql. NULL where the case has no such step.
+/// @param n_faults  that the campaign's results have, all cases together.
+std::string history_sql(const std::string& metric, std::int64_t fault, std::size_t n_faults,
+                        int step);
 /// Ids of the faults and stages that have metrics in a campaign.
 struct MetricIds {
   std::vector<std::int64_t> faults, stages;
@@ -203,12 +210,32 @@ class Store {
   /// Visits the slip events of the query's cases by position, in order of time; the same holds.
   void for_each_slip_event(std::int64_t campaign, const TableQuery& query,
                            const std::function<void(const SeenEvent&)>& visit) const;
+  /// A load step of histories to their end.
+  struct LoadStep {
+    int step = 0;
+    std::string stage;
+    double earliest = 0, latest = 0;  ///< s, its end; alike unless durations differ.
+    long n_cases = 0;                 ///< that have it in this stage.
+  };
+  /// Of the query's cases, in the query's stage; by step.
+  std::vector<LoadStep> load_steps(std::int64_t campaign, const TableQuery& query) const;
   /// Columns of the χ histories, units in their names as in the view chi_history_wide; what is per
   /// metre of strike in plane strain has a column for each kind of result.
   static std::vector<std::string> history_columns(Kinds kinds);
   /// Visits the histories by position, fault and step; cells in the order of history_columns().
   void for_each_history_row(std::int64_t campaign, const TableQuery& query, Kinds kinds,
                             const std::function<void(const std::vector<Cell>&)>& visit) const;
+  /// How many of its results are approximate beyond mesh and time steps, and the worst of them.
+  struct Approximations {
+    long n_results = 0;
+    long n_interpolated = 0;  ///< on an operator surface; with its largest relative errors.
+    double error_of_stiffness = 0, error_of_slip = 0;
+    long n_covered_in_part = 0;  ///< a flow result does not cover the compartments.
+    double least_coverage = 1;   ///< share of their volume.
+  };
+  Approximations approximations(std::int64_t campaign) const;
+  /// The smallest numerics version of its results; that of the program where it has none.
+  int oldest_numerics(std::int64_t campaign) const;
   std::vector<FailureCount> failure_counts(std::int64_t campaign) const;
   std::vector<EventRecord> events(std::int64_t campaign, int limit) const;  ///< newest first.
   struct FamilyProgress : CaseCounts {

@@ -6,7 +6,6 @@
 
 #include "campaign/store/queries.h"
 #include "campaign/store/sqlite.h"
-#include "campaign/store/store.h"
 
 namespace faultsweep {
 
@@ -14,8 +13,8 @@ using faultsim::concat;
 
 namespace {
 
-/// What the tables are read from, after "cc", a campaign's cases. CROSS JOIN fixes the order of the
-/// loops, so that rows come in the order of their keys and nothing is sorted.
+/// CROSS JOIN fixes the order of the loops, so that rows come in the order of their keys and
+/// nothing is sorted.
 constexpr const char* kJoins =
     " CROSS JOIN cases c ON c.id = cc.case_id"
     " LEFT JOIN runs r ON r.id = c.run_id"
@@ -23,6 +22,8 @@ constexpr const char* kJoins =
     " LEFT JOIN stage_metrics s ON s.case_id = cc.case_id"
     " AND s.stage_id = (SELECT id FROM names WHERE name = ?)"
     " LEFT JOIN names f ON f.id = s.activated_fault_id";
+
+}  // namespace
 
 std::string joins(const Store::TableQuery& query) {
   if (!query.fault) return kJoins;
@@ -33,6 +34,8 @@ std::string joins(const Store::TableQuery& query) {
 std::string where_sql(const SqlFragment& where) {
   return where.text.empty() ? "" : " AND coalesce((" + where.text + "), 0)";
 }
+
+namespace {
 
 CaseRow read_case(const Statement& row, std::size_t n_metrics) {
   constexpr int kFirstMetric = 8;
@@ -73,33 +76,6 @@ void visit_cases(Connection& db, const std::string& source, std::int64_t campaig
     one.parameters = parameters.of(one.position);
     visit(one);
   }
-}
-
-struct HistoryColumn {
-  std::string name, sql;
-};
-
-/// Joined as in the view chi_history_wide.
-std::vector<HistoryColumn> history_fields() {
-  std::vector<HistoryColumn> all = {
-      {"case", "cc.position"}, {"fault", "hf.name"},
-      {"step", "h.step"},      {"stage", "g.name"},
-      {"time_s", "l.time_s"},  {"pressure_change_pa", "l.pressure_change_pa"},
-      {"outcome", "l.outcome"}};
-  const auto add = [&all](const std::string& row, std::string_view prefix = "") {
-    return [&all, row, prefix](const faultsim::Field& field, const auto&) {
-      const std::string name = concat(prefix, field.key);
-      if (field.key != "faults") all.push_back({name, row + name});
-    };
-  };
-  const faultsim::FaultMetrics metrics;
-  const faultsim::FaultCreep fault_creep;
-  const faultsim::StepCreep step_creep;
-  faultsim::for_each_field(metrics, add("h."));
-  all.push_back({"newton_iterations", "l.newton_iterations"});
-  faultsim::for_each_field(fault_creep, add("h.", "creep_"));
-  faultsim::for_each_field(step_creep, add("l."));
-  return all;
 }
 
 }  // namespace
@@ -237,57 +213,6 @@ void Store::for_each_onset(std::int64_t campaign, const TableQuery& query,
     }
   }
   if (one.position > 0) visit(one);
-}
-
-namespace {
-
-/// Each column of history_fields() as SQL under its name; of mixed results what is per metre apart.
-std::vector<std::pair<std::string, std::string>> history_sql(Store::Kinds kinds) {
-  std::vector<std::pair<std::string, std::string>> columns;
-  for (const auto& [name, sql] : history_fields()) {
-    if (!faultsim::is_extensive(name) || !kinds.plane_strain) {
-      columns.emplace_back(name, sql);
-    } else if (!kinds.total) {
-      columns.emplace_back(name + "_per_m", sql);
-    } else {
-      columns.emplace_back(name, concat("iif(m.plane_strain, NULL, ", sql, ")"));
-      columns.emplace_back(name + "_per_m", concat("iif(m.plane_strain, ", sql, ", NULL)"));
-    }
-  }
-  return columns;
-}
-
-}  // namespace
-
-std::vector<std::string> Store::history_columns(Kinds kinds) {
-  std::vector<std::string> names;
-  for (const auto& [name, sql] : history_sql(kinds)) names.push_back(name);
-  return names;
-}
-
-void Store::for_each_history_row(std::int64_t campaign, const TableQuery& query, Kinds kinds,
-                                 const std::function<void(const std::vector<Cell>&)>& visit) const {
-  std::string sql;
-  const auto columns = history_sql(kinds);
-  for (const auto& [name, column] : columns) sql += (sql.empty() ? "SELECT " : ", ") + column;
-  sql += concat(" FROM campaign_cases cc", joins(query),
-                " CROSS JOIN chi_history h ON h.case_id = cc.case_id"
-                " CROSS JOIN load_steps l ON l.case_id = h.case_id AND l.step = h.step"
-                " CROSS JOIN names g ON g.id = l.stage_id CROSS JOIN names hf ON hf.id = h.fault_id"
-                " WHERE cc.campaign_id = ?",
-                query.stage.empty() ? "" : " AND h.step BETWEEN s.first_step AND s.last_step",
-                query.fault ? concat(" AND h.fault_id = ", *query.fault) : "",
-                where_sql(query.where), " ORDER BY cc.position, h.fault, h.step");
-  Statement rows(*connection_, sql);
-  int bound = 0;
-  rows.bind_at(++bound, query.stage);
-  rows.bind_at(++bound, campaign);
-  bind_values(rows, bound, query.where.parameters);
-  std::vector<Cell> cells(columns.size());
-  while (rows.step()) {
-    for (std::size_t k = 0; k < cells.size(); ++k) cells[k] = rows.cell(static_cast<int>(k));
-    visit(cells);
-  }
 }
 
 }  // namespace faultsweep

@@ -8,7 +8,17 @@
 namespace faultsim::figure {
 namespace {
 
-constexpr double kHistoryWidth = 860, kHistoryLeft = 72, kHistoryRight = 96, kPanelGap = 18;
+constexpr double kHistoryWidth = 860, kHistoryLeft = 72, kPanelGap = 18;
+
+/// Room for the names at the ends of curves, px; very long ones are cut.
+double right_margin(const HistoryChart& chart) {
+  constexpr double kLeast = 96, kMost = 190, kToTheName = 20, kBold = 1.12;
+  double widest = 0;
+  for (const HistoryPanel& panel : chart.panels)
+    for (const Curve& curve : panel.curves)
+      widest = std::max(widest, kBold * text_width(curve.name, kLabelSize));
+  return std::clamp(widest + kToTheName, kLeast, kMost);
+}
 
 /// A stage's name above its middle; in two lines where one is too short for it.
 void draw_stage_name(Svg& svg, const std::string& name, Point middle, double width) {
@@ -98,7 +108,7 @@ std::string draw(const HistoryChart& chart) {
   if (!(last > first)) last = first + 1;
   const Axis time = axis_between(chart.time_label, first, last, 10);
   double y = heading + 34;
-  Box all{kHistoryLeft, y, kHistoryWidth - kHistoryLeft - kHistoryRight, 0};
+  Box all{kHistoryLeft, y, kHistoryWidth - kHistoryLeft - right_margin(chart), 0};
   for (std::size_t k = 0; k < chart.panels.size(); ++k) {
     const HistoryPanel& content = chart.panels[k];
     std::vector<double> values;

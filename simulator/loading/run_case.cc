@@ -76,7 +76,6 @@ class CaseRun {
             const StepResult& result, AcceptedStep& step) const;
   void record_events(const LoadStep& step, const StepLoads* before, const StepLoads& loads,
                      const std::vector<ContactJump>& jumps);
-  int nucleus_node(const ContactJump& jump, double depth) const;
   void record(const LoadStep& step, const StepLoads& loads, const Eigen::VectorXd& jump_before,
               StepResult& result);
   void record_creep(const StepLoads& loads, StepCreep& creep);
@@ -224,28 +223,16 @@ void CaseRun::record(const LoadStep& step, const StepLoads& loads,
   const auto first = std::find_if(result_.events.begin(), result_.events.end(),
                                   [&](const SlipEvent& e) { return e.step == step.step; });
   const std::span<const SlipEvent> events(first, result_.events.end());
-  whole_.add(result, meter_, neighbours_, nodal_, state_, loads.fault_pressure_change,
-             result_.fault_names, events);
+  whole_.add(result, meter_, neighbours_, nodal_, state_, loads, result_.fault_names, events);
   if (step.step > 0) {
-    episodes_.add(result, nodal_, state_, jump_before, loads.fault_pressure_change);
+    episodes_.add(result, nodal_, state_, jump_before, loads);
     if (!stage_) {
       stage_.emplace(step.stage, step.step, jump_before.isZero(0) ? Eigen::VectorXd() : jump_before,
                      false, op_.geometry.plane_strain);
     }
-    stage_->add(result, meter_, neighbours_, nodal_, state_, loads.fault_pressure_change,
-                result_.fault_names, events);
+    stage_->add(result, meter_, neighbours_, nodal_, state_, loads, result_.fault_names, events);
   }
   if (observer_) observer_(result, fields(loads));
-}
-
-/// The node of the nucleus next to the depth of its centre; -1 without nucleus.
-int CaseRun::nucleus_node(const ContactJump& jump, double depth) const {
-  const auto distance = [&](int node) { return std::abs(neighbours_.depth(node) - depth); };
-  int nearest = -1;
-  for (const int k : jump.nucleus) {
-    if (nearest < 0 || distance(k) < distance(nearest)) nearest = k;
-  }
-  return nearest;
 }
 
 /// Loads are linear within a step, so onset lies where its load factor says.
@@ -257,15 +244,9 @@ void CaseRun::record_events(const LoadStep& step, const StepLoads* before, const
     event.stage = step.stage;
     const double share = jump.load_before;
     event.time = last_time_ + share * (step.time - last_time_);
-    std::vector<double> onset = loads.pressure_change;
-    for (std::size_t r = 0; r < onset.size(); ++r) {
-      const double start = before != nullptr ? before->pressure_change[r] : 0;
-      onset[r] = start + share * (onset[r] - start);
-    }
-    Eigen::VectorXd in_fault = loads.fault_pressure_change * share;
-    if (before != nullptr) in_fault += before->fault_pressure_change * (1 - share);
-    if (const int node = nucleus_node(jump, event.depth); node >= 0)
-      event.pressures = neighbours_.at(node, event.depth, onset, in_fault);
+    const PressureChanges& start = before != nullptr ? *before : loads;
+    if (const int node = nucleus_node(op_.geometry, jump); node >= 0)
+      event.pressures = neighbours_.at(node, event.depth, between(start, loads, share));
     result_.events.push_back(std::move(event));
   }
 }

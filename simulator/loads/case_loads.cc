@@ -18,6 +18,18 @@ double sign_of(std::uint64_t index) {
 
 }  // namespace
 
+PressureChanges between(const PressureChanges& before, const PressureChanges& after, double share) {
+  PressureChanges there = after;
+  for (std::size_t r = 0; r < there.pressure_change.size(); ++r) {
+    const double start = before.pressure_change[r];
+    there.pressure_change[r] = start + share * (after.pressure_change[r] - start);
+  }
+  there.fault_pressure_change =
+      before.fault_pressure_change * (1 - share) + after.fault_pressure_change * share;
+  there.beside = before.beside * (1 - share) + after.beside * share;
+  return there;
+}
+
 CaseLoads::CaseLoads(const Scene& scene, const FaultOperator& op, double noise,
                      const FieldHistory* field)
     : scene_(scene),
@@ -48,6 +60,9 @@ StepLoads CaseLoads::at(double time) const {
     for (std::size_t r = 0; r < loads.pressure_change.size(); ++r)
       loads.pressure_change[r] += regions[static_cast<Eigen::Index>(r)];
     loads.observed = at_time(field_->time, field_->observed, time);
+    loads.beside.resize(field_->beside_minus.rows(), 2);
+    loads.beside.col(0) = at_time(field_->time, field_->beside_minus, time);
+    loads.beside.col(1) = at_time(field_->time, field_->beside_plus, time);
   }
   for (std::size_t f = 0; f < op_.geometry.faults.size(); ++f) {
     const OperatorFault& fault = op_.geometry.faults[f];

@@ -11,14 +11,23 @@
 
 namespace faultsim {
 
+/// Changes of pressure since the start, at one time.
+struct PressureChanges {
+  std::vector<double> pressure_change;    ///< Δp per region, Pa; of a field its mean.
+  Eigen::VectorXd fault_pressure_change;  ///< Δp_f, n_nodes, Pa.
+  /// By how much Δp beside each node differs from its region's, minus and plus side (see
+  /// side_regions), n_nodes x 2, Pa; empty without a field of pressures.
+  Eigen::MatrixX2d beside = {};
+};
+/// Linear from one time to another. @param share  of the way, 0 to 1.
+PressureChanges between(const PressureChanges& before, const PressureChanges& after, double share);
+
 /// The loads of a case at one time: what the faults would carry if they stayed closed.
-struct StepLoads {
-  std::vector<double> pressure_change;  ///< per region, Pa; of a field its mean.
-  std::vector<double> factors;          ///< c_k, per operator load.
+struct StepLoads : PressureChanges {
+  std::vector<double> factors;  ///< c_k, per operator load.
   /// t_L = t'_0 + Σ c_k L_k + Σ_c P_c b_c Δp_c + α_f Δp_f n, n_dofs, Pa; without the sum where the
   /// operator is not condensed and has no L: what the faults would carry if the rock were rigid.
   Eigen::VectorXd locked;
-  Eigen::VectorXd fault_pressure_change;  ///< Δp_f, n_nodes, Pa.
   Eigen::VectorXd observed;  ///< of a field: what observed points move by, m; empty without one.
 };
 

@@ -17,6 +17,10 @@ struct FieldHistory {
   Eigen::MatrixXd region_change = {};
   /// Δp_f by the faults' rules from the cells beside each node, Pa, n_nodes x n_reports.
   Eigen::MatrixXd fault_pressure = {};
+  /// By how much Δp of the cells beside a node, weighted by area and the share in the region,
+  /// differs from region_change of the region there (side_regions), Pa, n_nodes x n_reports; 0
+  /// where none is.
+  Eigen::MatrixXd beside_minus = {}, beside_plus = {};
 };
 
 /// The column at a time of a table with a column per report (n x n_reports).

@@ -19,8 +19,7 @@ void EpisodeTracker::close(std::size_t fault) {
   if (running && running->place >= 0) {
     Episode& episode = running->episode;
     episode.depth = neighbours_.depth(running->place);
-    episode.pressures =
-        neighbours_.at(running->place, episode.depth, running->pressure_change, running->in_fault);
+    episode.pressures = neighbours_.at(running->place, episode.depth, running->pressure);
     if (!plane_strain_) episode.magnitude_if_at_once = moment_magnitude(episode.moment);
     done_.emplace_back(fault, std::move(episode));
   }
@@ -28,8 +27,7 @@ void EpisodeTracker::close(std::size_t fault) {
 }
 
 void EpisodeTracker::add(const StepResult& step, const NodalState& nodal, const ContactState& state,
-                         const Eigen::VectorXd& before,
-                         const Eigen::VectorXd& fault_pressure_change) {
+                         const Eigen::VectorXd& before, const PressureChanges& now) {
   if (step.stage != stage_) {
     for (std::size_t f = 0; f < running_.size(); ++f) close(f);
     stage_ = step.stage;
@@ -51,8 +49,7 @@ void EpisodeTracker::add(const StepResult& step, const NodalState& nodal, const 
       running->episode.first_step = step.step;
       running->episode.after_recovery = recovered;
       if (!before.isZero(0)) running->reference = before;
-      running->pressure_change = step.pressure_change;
-      running->in_fault = fault_pressure_change;
+      running->pressure = now;
     }
     Episode& episode = running->episode;
     episode.last_step = step.step;

@@ -18,8 +18,8 @@ namespace faultsim {
 /// activation criterion.
 ///
 /// The pressure of a fault is that of the most depleted of the regions that touch it (of all
-/// regions where none does); it has recovered while it is above the lowest that it had before, and
-/// that was below the initial one.
+/// regions where none does; of a field the region's mean); it has recovered while it is above the
+/// lowest that it had before, and that was below the initial one.
 class EpisodeTracker {
  public:
   /// @pre meter and neighbours outlive this.
@@ -27,19 +27,18 @@ class EpisodeTracker {
                  std::vector<std::string> fault_names, bool plane_strain);
   /// @param nodal  of this state.
   /// @param before  jump at the start of the step.
-  /// @param fault_pressure_change  Δp_f per fault node, Pa.
+  /// @param now  at the end of the step.
   void add(const StepResult& step, const NodalState& nodal, const ContactState& state,
-           const Eigen::VectorXd& before, const Eigen::VectorXd& fault_pressure_change);
+           const Eigen::VectorXd& before, const PressureChanges& now);
   /// Ends the episodes under way. @returns all, in order of their first step, then of faults.
   std::vector<Episode> finish();
 
  private:
   struct Running {
     Episode episode;
-    Eigen::VectorXd reference;            ///< jump at its start; empty = zero.
-    std::vector<double> pressure_change;  ///< per region, at its first step.
-    Eigen::VectorXd in_fault;             ///< Δp_f per fault node, then.
-    int place = -1;                       ///< node of its largest slip; -1 = not activated.
+    Eigen::VectorXd reference;  ///< jump at its start; empty = zero.
+    PressureChanges pressure;   ///< at the end of its first step.
+    int place = -1;             ///< node of its largest slip; -1 = not activated.
   };
   void close(std::size_t fault);
 

@@ -9,25 +9,12 @@
 namespace faultsim {
 
 FaultNeighbours::FaultNeighbours(const Scene& scene, const FaultOperator& op)
-    : scene_(scene), geometry_(op.geometry), touching_(op.geometry.nodes.size()) {
-  const LoadFactors loads(scene, op);
-  const std::vector<int>& region = loads.region_of_load();
+    : scene_(scene),
+      geometry_(op.geometry),
+      touching_(side_regions(op.geometry, LoadFactors(scene, op).region_of_load())) {
   for (const OperatorFault& fault : geometry_.faults) {
     std::vector<int> regions;
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
-      double most_minus = 0, most_plus = 0;  // of the area beside the node that is in the region
-      for (const PressurePair& pair : geometry_.nodes[k].pressure) {
-        const double minus = pair.weight * pair.minus_fraction;
-        const double plus = pair.weight * pair.plus_fraction;
-        if (pair.minus_region >= 0 && minus > most_minus) {
-          most_minus = minus;
-          touching_[k].minus = region[pair.minus_region];
-        }
-        if (pair.plus_region >= 0 && plus > most_plus) {
-          most_plus = plus;
-          touching_[k].plus = region[pair.plus_region];
-        }
-      }
       for (const int one : {touching_[k].minus, touching_[k].plus}) {
         if (one >= 0 && std::count(regions.begin(), regions.end(), one) == 0)
           regions.push_back(one);
@@ -39,9 +26,10 @@ FaultNeighbours::FaultNeighbours(const Scene& scene, const FaultOperator& op)
 
 double FaultNeighbours::depth(int node) const { return -geometry_.nodes[node].position.z(); }
 
-/// The region of that side at the node, else at the nearest node of its fault that has one.
-int FaultNeighbours::nearest(int node, int Sides::*side) const {
-  if (touching_[node].*side >= 0) return touching_[node].*side;
+/// The node itself where it touches a region on that side, else the nearest one of its fault that
+/// does; -1 = none does.
+int FaultNeighbours::nearest(int node, int SideRegions::*side) const {
+  if (touching_[node].*side >= 0) return node;
   int found = -1;
   double least = std::numeric_limits<double>::infinity();
   for (const OperatorFault& fault : geometry_.faults) {
@@ -52,25 +40,27 @@ int FaultNeighbours::nearest(int node, int Sides::*side) const {
           (geometry_.nodes[k].position - geometry_.nodes[node].position).squaredNorm();
       if (distance >= least) continue;
       least = distance;
-      found = touching_[k].*side;
+      found = k;
     }
   }
   return found;
 }
 
-SidePressures FaultNeighbours::at(int node, double depth, const std::vector<double>& change,
-                                  const Eigen::VectorXd& in_fault) const {
+SidePressures FaultNeighbours::at(int node, double depth, const PressureChanges& now) const {
   SidePressures sides;
-  sides.change_in_fault = in_fault[node];
-  const auto fill = [&](int region, std::string& name, std::optional<double>& relative,
-                        std::optional<double>& absolute) {
-    if (region < 0) return;
+  sides.change_in_fault = now.fault_pressure_change[node];
+  const auto fill = [&](int SideRegions::*side, Eigen::Index column, std::string& name,
+                        std::optional<double>& relative, std::optional<double>& absolute) {
+    const int beside = nearest(node, side);
+    if (beside < 0) return;
+    const int region = touching_[beside].*side;
     name = scene_.pressure[region].region;
-    relative = change[region];
-    absolute = initial_region_pressure(scene_, region, depth) + change[region];
+    relative = now.pressure_change[region];
+    if (now.beside.rows() > 0) *relative += now.beside(beside, column);
+    absolute = initial_region_pressure(scene_, region, depth) + *relative;
   };
-  fill(nearest(node, &Sides::minus), sides.region_minus, sides.change_minus, sides.absolute_minus);
-  fill(nearest(node, &Sides::plus), sides.region_plus, sides.change_plus, sides.absolute_plus);
+  fill(&SideRegions::minus, 0, sides.region_minus, sides.change_minus, sides.absolute_minus);
+  fill(&SideRegions::plus, 1, sides.region_plus, sides.change_plus, sides.absolute_plus);
   return sides;
 }
 

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "simulator/loads/case_loads.h"
+#include "simulator/loads/side_regions.h"
 #include "simulator/model/fault_operator.h"
 #include "simulator/result/result.h"
 #include "simulator/scene/scene.h"
@@ -14,12 +16,10 @@ class FaultNeighbours {
   /// @pre scene and op outlive this.
   FaultNeighbours(const Scene& scene, const FaultOperator& op);
 
+  /// Of a field of pressures those of its cells beside the place, else of the compartments there.
   /// @param node  into FaultGeometry::nodes.
   /// @param depth  m, of the place: where absolute pressures are taken.
-  /// @param change  Δp per region, Pa.
-  /// @param in_fault  Δp_f per fault node, Pa.
-  SidePressures at(int node, double depth, const std::vector<double>& change,
-                   const Eigen::VectorXd& in_fault) const;
+  SidePressures at(int node, double depth, const PressureChanges& now) const;
   /// Δp of the most depleted of the regions that touch the fault, Pa; of all regions where none
   /// does; 0 without regions.
   double lowest(int fault, const std::vector<double>& change) const;
@@ -29,14 +29,11 @@ class FaultNeighbours {
                  const std::vector<FaultState>& state) const;
 
  private:
-  struct Sides {
-    int minus = -1, plus = -1;  ///< regions; -1 = none.
-  };
-  int nearest(int node, int Sides::*side) const;
+  int nearest(int node, int SideRegions::*side) const;
 
   const Scene& scene_;
   const FaultGeometry& geometry_;
-  std::vector<Sides> touching_;             ///< per node.
+  std::vector<SideRegions> touching_;       ///< per node.
   std::vector<std::vector<int>> of_fault_;  ///< regions that touch each fault.
 };
 

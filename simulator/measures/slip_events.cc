@@ -26,17 +26,23 @@ double longest_run(const FaultGeometry& geometry, const std::vector<char>& insid
   return longest;
 }
 
+/// Weighted by area, m. @pre the nucleus has nodes.
+Eigen::Vector3d nucleus_centre(const FaultGeometry& geometry, const ContactJump& jump) {
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  double area = 0;
+  for (const int k : jump.nucleus) {
+    const OperatorNode& node = geometry.nodes[k];
+    moment += node.area * node.position;
+    area += node.area;
+  }
+  return moment / area;
+}
+
 void place_nucleus(const FaultOperator& op, const ContactJump& jump, SlipEvent& event) {
   if (jump.nucleus.empty()) return;
   std::vector<char> inside(op.geometry.nodes.size(), 0);
-  double area = 0;
-  for (const int k : jump.nucleus) {
-    const OperatorNode& node = op.geometry.nodes[k];
-    inside[k] = 1;
-    event.depth -= node.area * node.position.z();
-    area += node.area;
-  }
-  event.depth /= area;
+  for (const int k : jump.nucleus) inside[k] = 1;
+  event.depth = -nucleus_centre(op.geometry, jump).z();
   event.nucleation_length = longest_run(op.geometry, inside);
   for (const OperatorFault& fault : op.geometry.faults) {
     const int k = jump.nucleus.front() - fault.first_node;
@@ -45,6 +51,16 @@ void place_nucleus(const FaultOperator& op, const ContactJump& jump, SlipEvent& 
 }
 
 }  // namespace
+
+int nucleus_node(const FaultGeometry& geometry, const ContactJump& jump) {
+  if (jump.nucleus.empty()) return -1;
+  const Eigen::Vector3d centre = nucleus_centre(geometry, jump);
+  const auto distance = [&](int node) {
+    return (geometry.nodes[node].position - centre).squaredNorm();
+  };
+  return *std::min_element(jump.nucleus.begin(), jump.nucleus.end(),
+                           [&](int a, int b) { return distance(a) < distance(b); });
+}
 
 double nucleation_ratio(const OperatorNode& node, const NodeLaw& law, bool plane_strain,
                         double normal_traction) {

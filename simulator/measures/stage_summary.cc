@@ -61,7 +61,7 @@ void StageSummary::count(const SlipEvent& event) {
 
 void StageSummary::add(const StepResult& step, const FaultMeter& meter,
                        const FaultNeighbours& neighbours, const NodalState& nodal,
-                       const ContactState& state, const Eigen::VectorXd& fault_pressure_change,
+                       const ContactState& state, const PressureChanges& now,
                        const std::vector<std::string>& fault_names,
                        std::span<const SlipEvent> events) {
   StageMetrics& m = metrics_;
@@ -71,8 +71,7 @@ void StageSummary::add(const StepResult& step, const FaultMeter& meter,
   doubtful_.resize(fault_names.size());
   const auto onset_at = [&](int node) {
     const double depth = neighbours.depth(node);
-    return FaultOnset{step.step, depth,
-                      neighbours.at(node, depth, step.pressure_change, fault_pressure_change)};
+    return FaultOnset{step.step, depth, neighbours.at(node, depth, now)};
   };
   double area = 0, slipping = 0, open = 0, activated_area = 0, moment = 0, potency = 0;
   for (std::size_t f = 0; f < step.faults.size(); ++f) {

@@ -17,12 +17,11 @@ class StageSummary {
   StageSummary(std::string name, int first_step, Eigen::VectorXd reference, bool whole,
                bool plane_strain);
   /// @param nodal  of this state.
-  /// @param fault_pressure_change  Δp_f per fault node, Pa.
+  /// @param now  at the end of the step.
   /// @param fault_names  in the order of the scene.
   /// @param events  of this step.
   void add(const StepResult& step, const FaultMeter& meter, const FaultNeighbours& neighbours,
-           const NodalState& nodal, const ContactState& state,
-           const Eigen::VectorXd& fault_pressure_change,
+           const NodalState& nodal, const ContactState& state, const PressureChanges& now,
            const std::vector<std::string>& fault_names, std::span<const SlipEvent> events);
   StageMetrics finish();
 

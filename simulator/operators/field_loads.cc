@@ -10,6 +10,7 @@
 #include "simulator/common/fingerprint.h"
 #include "simulator/condensation/fault_geometry.h"
 #include "simulator/loads/history.h"
+#include "simulator/loads/side_regions.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsim {
@@ -70,6 +71,52 @@ Eigen::MatrixXd region_means(const InfluenceBlock& block, const Eigen::MatrixXd&
     if (volume[r] > 0) mean.row(r) /= volume[r];
   }
   return mean;
+}
+
+/// FieldHistory::beside_minus or beside_plus.
+/// @param cell_of  that side's cell of a face.
+/// @param regions  per node, of that side; -1 = none.
+/// @param change  Δp of the block's cells, Pa (n_cells x n_reports).
+/// @param mean  of each region.
+Eigen::MatrixXd beside(const Mesh& mesh, const FaultGeometry& geometry, const InfluenceBlock& block,
+                       int FaultFace::*cell_of, const std::vector<int>& regions,
+                       const Eigen::MatrixXd& change, const Eigen::MatrixXd& mean) {
+  std::vector<int> row_of(mesh.cells.size(), -1);
+  for (std::size_t c = 0; c < block.cells.size(); ++c)
+    row_of[static_cast<std::size_t>(block.cells[c].cell)] = static_cast<int>(c);
+  const Eigen::Index n_nodes = std::ssize(geometry.nodes);
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n_nodes, change.cols());
+  Eigen::VectorXd area = Eigen::VectorXd::Zero(n_nodes);
+  for (std::size_t f = 0; f < geometry.faults.size(); ++f) {
+    for (const FaultFace& face : mesh.faults[f].faces) {
+      const int row = row_of[static_cast<std::size_t>(face.*cell_of)];
+      for (const int point : face.points) {
+        const int node = geometry.faults[f].node_of_point[point];
+        if (node < 0 || row < 0 || block.cells[row].region != regions[node]) continue;
+        const double part = corner_area(face) * block.cells[row].fraction;
+        area[node] += part;
+        sum.row(node) += part * (change.row(row) - mean.row(regions[node]));
+      }
+    }
+  }
+  for (Eigen::Index k = 0; k < n_nodes; ++k)
+    if (area[k] > 0) sum.row(k) /= area[k];
+  return sum;
+}
+
+/// Both sides of FieldHistory::beside_*.
+void set_beside(const Scene& scene, const Mesh& mesh, const FaultOperator& op,
+                const InfluenceBlock& block, const Eigen::MatrixXd& change, FieldHistory& history) {
+  const FaultGeometry& geometry = op.geometry;
+  std::vector<int> minus, plus;
+  for (const SideRegions& one : side_regions(geometry, LoadFactors(scene, op).region_of_load())) {
+    minus.push_back(one.minus);
+    plus.push_back(one.plus);
+  }
+  history.beside_minus =
+      beside(mesh, geometry, block, &FaultFace::minus_cell, minus, change, history.region_change);
+  history.beside_plus =
+      beside(mesh, geometry, block, &FaultFace::plus_cell, plus, change, history.region_change);
 }
 
 /// A field in the block's cells.
@@ -172,6 +219,7 @@ FieldLoads field_loads(const Scene& scene, const Plan& plan, const PreparedInflu
   Eigen::MatrixXd stress = change_at(pressure, history.time, n_cells);
   const Eigen::MatrixXd heating = change_at(temperature, history.time, n_cells);
   history.region_change = region_means(block, stress);
+  set_beside(scene, mesh, *prepared.op, block, stress, history);
   Eigen::MatrixXd change = Eigen::MatrixXd::Zero(std::ssize(mesh.cells), stress.cols());
   for (std::size_t c = 0; c < block.cells.size(); ++c) {
     const InfluenceCell& cell = block.cells[c];
@@ -188,7 +236,9 @@ FieldLoads field_loads(const Scene& scene, const Plan& plan, const PreparedInflu
     report_coverage(*field, block, loads.notes);
   if (scene.pressure_field.is_given())
     loads.notes.push_back(
-        "pressures of compartments in tables and results are means over their volumes");
+        "pressures of compartments at a load step are means over their volumes; those where a "
+        "fault "
+        "begins to slide or jumps are of the field's cells beside the place");
   loads.coverage = std::min(covered_share(pressure.mapping), covered_share(temperature.mapping));
   loads.mapping = pressure.mapping;
   return loads;

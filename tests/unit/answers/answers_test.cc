@@ -327,7 +327,7 @@ TEST_F(AnswersTest, OfAGridIndicesAreExactAndHaveNoIntervals) {
 
 /// In each block of D + 2 rows only the first and the last are of the sample.
 TEST_F(AnswersTest, OfASobolDesignTheIndependentBlocksCount) {
-  submit("sobol", even(30));
+  submit("sobol", even(30), {"strength"});
   record();
   store_.reset();
   std::filesystem::remove_all(folder_ / "store");

@@ -21,6 +21,7 @@ namespace {
 using faultsim::Dimension;
 using faultsim::InputError;
 using nlohmann::json;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -69,6 +70,16 @@ class WhatMatters : public AnswersTest {
         level[k] += level[k] < 2 ? 2 : -2;
         row();
       }
+    }
+  }
+  /// Each case gets what follows from its offset.
+  void add_throws() {
+    s_.parameters = parameters_to_json({{"friction", Dimension::number, false},
+                                        {"offset", Dimension::length, false},
+                                        {"throw", Dimension::length, false}});
+    for (auto& one : s_.cases) {
+      const double offset = one.parameters.at(1).si.value();
+      one.parameters.push_back({2, 2 * offset, std::to_string(2 * offset) + " m"});
     }
   }
   Screening screened() {
@@ -173,17 +184,10 @@ TEST_F(WhatMatters, OneAtATimeIsATornado) {
 
 /// What is derived from a parameter moves with it, and is no move of its own.
 TEST_F(WhatMatters, DerivedParametersAreNotMoved) {
-  s_.parameters = parameters_to_json({{"friction", Dimension::number, false},
-                                      {"offset", Dimension::length, false},
-                                      {"throw", Dimension::length, false}});
-  const auto with_throw = [](double friction, double offset) {
-    CaseParameters all = both(friction, offset);
-    all.push_back({2, 2 * offset, std::to_string(2 * offset) + " m"});
-    return all;
-  };
-  add(with_throw(0.5, 60), 0.3);
-  add(with_throw(0.4, 60), 0.45);
-  add(with_throw(0.5, 120), 0.62);
+  add(both(0.5, 60), 0.3);
+  add(both(0.4, 60), 0.45);
+  add(both(0.5, 120), 0.62);
+  add_throws();
   submit_as("one-at-a-time");
   record();
   const auto found = compare_one_at_a_time(*store_, campaign_, {.metrics = "F1.chi_bar"});
@@ -191,6 +195,31 @@ TEST_F(WhatMatters, DerivedParametersAreNotMoved) {
   ASSERT_EQ(found->tornados.at(0).moves.size(), 2u);
   EXPECT_EQ(found->tornados[0].moves[1].parameter, 1u);
   EXPECT_EQ(found->tornados[0].n_unplaced, 0);
+}
+
+/// Nor is it a factor of a grid or a move of a trajectory: the throw follows from the offset.
+TEST_F(WhatMatters, DerivedParametersExplainNothingOfTheirOwn) {
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 4; ++b) add(both(a, b), 0.1 * a + 0.05 * b);
+  add_throws();
+  submit_as("grid");
+  record();
+  const Sensitivity s = analyse_sensitivity(*store_, campaign_, {.metrics = "F1.chi_bar"});
+  EXPECT_THAT(s.parameters, ElementsAre("friction", "offset"));
+  EXPECT_NEAR(s.metrics.at(0).total_order.at(0) + s.metrics[0].total_order.at(1), 1, 1e-12);
+  EXPECT_THAT(render_text(to_answer(s), 1000),
+              HasSubstr("Computed from others, so not told apart from them: throw."));
+}
+
+TEST_F(WhatMatters, DerivedParametersAreNoMovesOfTrajectories) {
+  add_trajectories(40);
+  add_throws();
+  submit_as("morris");
+  record();
+  const Screening s = screened();
+  EXPECT_THAT(s.parameters, ElementsAre("friction", "offset"));
+  EXPECT_EQ(s.n_trajectories, 40);
+  EXPECT_THAT(render_text(to_answer(s), 1000), HasSubstr("not told apart from them: throw."));
 }
 
 TEST_F(WhatMatters, WithoutItsBaseCaseNothingChanges) {
@@ -301,6 +330,38 @@ TEST_F(WhatMatters, MetricsWithFewRowsHaveNoIndices) {
   EXPECT_THAT(text,
               HasSubstr("Fewer rows than intervals take, so without indices: F1.slides (true in 12 "
                         "rows of 20), F1.activation_depth (12 rows of 128)."));
+}
+
+/// Answers over interpolated results say so, with their errors, and how many there are.
+TEST_F(AnswersTest, AnswersSayHowTheirResultsCameAbout) {
+  submit("monte-carlo", even(200));
+  for (std::size_t k = 0; k < 50; ++k) {
+    runs_[k].result->surface = faultsim::CaseSurface{75, 73, 12, 0.01, 2e-3, 3e-3, 4e-3, 5e-3};
+    runs_[k].result->surface->slip = k == 7 ? 0.0123 : 5e-3;
+  }
+  for (std::size_t k = 0; k < 200; ++k) runs_[k].result->field_coverage = k == 3 ? 0.74 : 1.0;
+  record();
+  const char* interpolated =
+      "50 of 200 results have an interpolated operator, off by at most 0.002 in H and 0.012 in "
+      "slip without friction, relative, where it was measured; the others have exact ones.";
+  const char* covered =
+      "1 of 200 results take a flow result that does not cover the compartments, 74 % of them at "
+      "least.";
+  const Ranking ranking = make_ranking(*store_, campaign_, {.top = 0});
+  for (const Answer& answer :
+       {to_answer(probability({})), to_answer(analyse_sensitivity(*store_, campaign_, {})),
+        to_answer(ranking), to_answer(why(1))}) {
+    const std::string text = render_text(answer, 100000);
+    EXPECT_THAT(text, HasSubstr(interpolated));
+    EXPECT_THAT(text, HasSubstr(covered));
+  }
+  long n_interpolated = 0;
+  const auto rows = render_json(to_answer(ranking)).at("cases");
+  for (const auto& row : rows) n_interpolated += row.at("interpolated").get<bool>() ? 1 : 0;
+  EXPECT_EQ(n_interpolated, 50);
+  EXPECT_EQ(probability({.condition = "interpolated"}).shares.at(0).counts.n_holds, 50);
+  EXPECT_EQ(probability({.condition = "surface_error > 0.01"}).shares.at(0).counts.n_holds, 1);
+  EXPECT_EQ(probability({.condition = "field_coverage < 0.8"}).shares.at(0).counts.n_holds, 1);
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ class EpisodesTest : public ::testing::Test {
     NodalState nodal;
     meter_.evaluate(faults_.state, nodal);
     tracker_.add(step, nodal, faults_.state, before,
-                 Eigen::VectorXd::Constant(18, west * 1e5 + number_));
+                 {step.pressure_change, Eigen::VectorXd::Constant(18, west * 1e5 + number_)});
   }
   std::vector<Episode> episodes() { return tracker_.finish(); }
 

@@ -52,6 +52,18 @@ TEST_F(EventOfThreeNodes, IsSummedOverWhatSlid) {
   EXPECT_EQ(one.energy_dissipated, 2e6);
 }
 
+/// Of nodes at one depth the one in the middle along strike, not the first.
+TEST_F(EventOfThreeNodes, IsPlacedInTheMiddleOfItsNucleusAlongDipAndStrike) {
+  std::vector<OperatorNode>& nodes = fault_.op.geometry.nodes;
+  for (const int k : {2, 3, 4, 5, 6}) nodes[k].position = {0, 100.0 * k, -2050};
+  jump_.nucleus = {2, 3, 4, 5, 6};
+  EXPECT_EQ(nucleus_node(fault_.op.geometry, jump_), 4);
+  nodes[6].area *= 8;  // the centre, weighted by area, is at 500 m
+  EXPECT_EQ(nucleus_node(fault_.op.geometry, jump_), 5);
+  jump_.nucleus.clear();
+  EXPECT_EQ(nucleus_node(fault_.op.geometry, jump_), -1);
+}
+
 TEST_F(EventOfThreeNodes, IsTwiceAsLargeWithTheOtherHalfOfTheDomain) {
   const SlipEvent half = event();
   fault_.op.geometry.half_domain = true;

@@ -18,7 +18,8 @@ class StageSummaryTest : public ::testing::Test {
     NodalState nodal;
     meter_.evaluate(faults_.state, nodal);
     step.faults = meter_.measure(nodal, faults_.state, before_);
-    summary.add(step, meter_, neighbours_, nodal, faults_.state, in_fault_, {"F1", "F2"}, events);
+    summary.add(step, meter_, neighbours_, nodal, faults_.state,
+                {step.pressure_change, in_fault_, beside_}, {"F1", "F2"}, events);
     before_ = faults_.state.jump;
   }
   FaultsBetweenRegions faults_;
@@ -26,8 +27,30 @@ class StageSummaryTest : public ::testing::Test {
   FaultNeighbours neighbours_ = faults_.neighbours();
   Eigen::VectorXd before_ = faults_.state.jump;
   Eigen::VectorXd in_fault_ = Eigen::VectorXd::LinSpaced(18, 0, 17);  // Pa: the number of the node
+  Eigen::MatrixX2d beside_;                                           // none
   int number_ = 0;
 };
+
+/// With a field the pressures are those of the cells beside the node that slides, or, where no
+/// compartment is, beside the nearest node that has one.
+TEST_F(StageSummaryTest, PressuresOfAFieldAreThoseBesideThePlace) {
+  beside_.resize(18, 2);
+  for (int k = 0; k < 18; ++k) beside_.row(k) << 1e3 * k, -1e4 * k;
+  StageSummary summary("production", 1, {}, false, false);
+  faults_.slip(1, 5e-3);  // most at the node 13, at 2050 m
+  step(summary, -100, -40);
+  const int widest = FaultsBetweenRegions::kNodes + 7;  // at 2080 m, beside no region
+  faults_.state.state[widest] = FaultState::open;
+  faults_.state.jump[2 * widest] = 2e-3;
+  step(summary, -120, -50);
+  const StageMetrics m = summary.finish();
+  const SidePressures slide = first_activation(m)->pressures, open = first_opening(m)->pressures;
+  EXPECT_EQ(slide.change_minus, -100e5 + 13e3);
+  EXPECT_EQ(slide.change_plus, -40e5 - 13e4);
+  EXPECT_EQ(slide.absolute_plus, 2050e4 - 40e5 - 13e4);
+  EXPECT_EQ(open.change_minus, -120e5 + 15e3) << "at 2070 m";
+  EXPECT_EQ(open.change_in_fault, 16);
+}
 
 TEST_F(StageSummaryTest, SlipsSlidesAndOpensPerFaultWithPlaceAndPressures) {
   StageSummary summary("production", 1, {}, false, false);

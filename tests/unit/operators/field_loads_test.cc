@@ -11,6 +11,7 @@
 #include "simulator/elasticity/elasticity.h"
 #include "simulator/flow/cell_overlap.h"
 #include "simulator/loads/case_loads.h"
+#include "simulator/loads/side_regions.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsim {
@@ -309,6 +310,59 @@ TEST_F(FieldLoadsTest, OfALinearFieldAreItsOwnDirectSolve) {
   EXPECT_GT(direct.cwiseAbs().maxCoeff(), 1e5);
 }
 
+/// Δp = 5 MPa below the start and 3 kPa/m across: beside the fault it is that of half a cell to
+/// either side, not the mean of the block.
+TEST_F(FieldLoadsTest, BesideAFaultAreThoseOfTheCellsThere) {
+  FlowField field = boxes(2);
+  for (std::size_t f = 0; f < field.cells.size(); ++f) {
+    const double x = 0.5 * (field.cells[f].low.x() + field.cells[f].high.x());
+    field.value(static_cast<Eigen::Index>(f), 1) += 3e3 * x - 5e6;
+  }
+  const FieldLoads loads = loads_of(field);
+  const FieldHistory& history = loads.history;
+  const auto& nodes = prepared_.op->geometry.nodes;
+  const auto sides =
+      side_regions(prepared_.op->geometry, LoadFactors(scene_, *prepared_.op).region_of_load());
+  int n_minus = 0, n_plus = 0;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    const double there = 3e3 * nodes[k].position.x() - 5e6;
+    constexpr double kHalfACell = 3e3 * 300;  // and the flow's own cells are 250 m wide
+    if (sides[k].minus >= 0) {
+      const double change = history.region_change(sides[k].minus, 1) + history.beside_minus(row, 1);
+      EXPECT_NEAR(change, there, kHalfACell);
+      EXPECT_LT(change, there);
+      ++n_minus;
+    }
+    if (sides[k].plus >= 0) {
+      const double change = history.region_change(sides[k].plus, 1) + history.beside_plus(row, 1);
+      EXPECT_NEAR(change, there, kHalfACell);
+      EXPECT_GT(change, there);
+      ++n_plus;
+    } else {
+      EXPECT_EQ(history.beside_plus(row, 1), 0);
+    }
+    EXPECT_EQ(history.beside_minus(row, 0), 0) << "nothing has changed yet";
+  }
+  EXPECT_GT(n_minus, 2);
+  EXPECT_GT(n_plus, 2);
+  EXPECT_GT(std::abs(history.beside_plus.col(1).cwiseAbs().maxCoeff()), 2e6);
+  const StepLoads half = CaseLoads(with(field), *prepared_.op, 0, &history).at(0.5 * kYear);
+  EXPECT_LT((half.beside.col(1) - 0.5 * history.beside_plus.col(1)).norm(),
+            1e-12 * history.beside_plus.norm());
+}
+
+TEST(PressureChanges, AreLinearFromOneTimeToAnother) {
+  PressureChanges before{{-1, -3}, Eigen::Vector2d(2, 4)}, after{{-5, -7}, Eigen::Vector2d(6, 0)};
+  EXPECT_EQ(between(before, after, 0.25).beside.rows(), 0);
+  before.beside.setConstant(2, 2, 8);
+  after.beside.setZero(2, 2);
+  const PressureChanges there = between(before, after, 0.25);
+  EXPECT_EQ(there.pressure_change, (std::vector<double>{-2, -4}));
+  EXPECT_EQ(there.fault_pressure_change, Eigen::Vector2d(3, 3));
+  EXPECT_EQ(there.beside, Eigen::Matrix2d::Constant(6));
+}
+
 TEST_F(FieldLoadsTest, BeginAtTheReference) {
   FlowField field = boxes(3);
   const double fall[3] = {4e6, 0, -1e6};
@@ -329,7 +383,8 @@ TEST_F(FieldLoadsTest, SayWhatBecameOfCellsThatAreNotCovered) {
   field.value.col(1).array() -= 1e6;
   const std::vector<std::string> whole = loads_of(field).notes;
   EXPECT_THAT(whole, Contains("pressure field on east: 100 % of its volume covered"));
-  EXPECT_THAT(whole, Contains(HasSubstr("are means over their volumes")));
+  EXPECT_THAT(whole, Contains(HasSubstr("are means over their volumes; those where a fault begins "
+                                        "to slide or jumps are of the field's cells")));
   std::erase_if(field.cells, [](const FlowCell& cell) { return cell.low.x() > 100; });
   field.value.conservativeResize(std::ssize(field.cells), 2);
   EXPECT_THAT(loads_of(field).notes,

@@ -265,14 +265,16 @@ TEST(SlidingCounts, TellWhatTheCellsDoNotResolve) {
             "F2 slides in 2 of 2 cases; all of these are not resolved by the cells.");
 }
 
-TEST(RegionPressures, AreMeansWithAFlowField) {
-  EXPECT_EQ(region_pressures_of(R"({"scene": {"pressure_field": {"file": "a.csv"}}})"),
-            RegionPressures::means);
-  EXPECT_EQ(region_pressures_of(R"({"pointers": ["/pressure_field/file"]})"),
-            RegionPressures::means);
-  EXPECT_EQ(region_pressures_of(R"({"scene": {"title": "pressure fields"}})"),
-            RegionPressures::at_depth);
+TEST(RegionPressures, AreOfTheCellsWithAFlowField) {
+  EXPECT_TRUE(has_flow_field(R"({"scene": {"pressure_field": {"file": "a.csv"}}})"));
+  EXPECT_TRUE(has_flow_field(R"({"pointers": ["/pressure_field/file"]})"));
+  EXPECT_FALSE(has_flow_field(R"({"scene": {"title": "pressure fields"}})"));
+  EXPECT_EQ(region_pressures(false, 3), RegionPressures::at_depth);
+  EXPECT_EQ(region_pressures(true, 7), RegionPressures::of_cells);
+  EXPECT_EQ(region_pressures(true, 6), RegionPressures::means);
+  EXPECT_EQ(place_columns(RegionPressures::of_cells, "", Need::data)[1].heading, "Δp");
   EXPECT_EQ(place_columns(RegionPressures::means, "", Need::data)[1].heading, "mean Δp");
+  EXPECT_THAT(pressure_note(RegionPressures::of_cells), HasSubstr("cells beside the place"));
   EXPECT_THAT(pressure_note(RegionPressures::means), HasSubstr("not the value at the place"));
 }
 

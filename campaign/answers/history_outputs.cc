@@ -1,0 +1,100 @@
+#include "campaign/answers/history_outputs.h"
+
+#include <algorithm>
+
+#include "campaign/answers/asked_outputs.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+using faultsim::InputError;
+using faultsim::Problem;
+
+namespace {
+
+std::string default_metrics(const Selection& selection) {
+  if (selection.fault) return "chi_bar";
+  std::string names;
+  for (const NamedId& fault : selection.faults)
+    names += concat(names.empty() ? "" : ",", spelled_name(fault.name), ".chi_bar");
+  return names;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& one : names) text += (text.empty() ? "" : ", ") + one;
+  return text;
+}
+
+/// The fault that each metric is of. Throws one InputError with all that is wrong.
+std::vector<std::int64_t> faults_of(const std::vector<ScopedMetric>& metrics,
+                                    const Selection& selection) {
+  const std::vector<std::string> kept = history_metrics();
+  std::vector<Problem> problems;
+  std::vector<std::int64_t> faults;
+  for (const ScopedMetric& one : metrics) {
+    const auto own = one.scope ? one.scope->fault : std::nullopt;
+    faults.push_back(own ? *own : selection.fault ? selection.fault->id : -1);
+    if (std::count(kept.begin(), kept.end(), one.metric) == 0) {
+      problems.push_back({"", 0, concat(one.name, " is not kept load step by load step"),
+                          concat("choose of ", listed(kept))});
+    } else if (one.scope && one.scope->stage) {
+      problems.push_back({"", 0, concat(one.name, " is of a stage, a load step of none"),
+                          "leave out `in ...`; --stage takes the steps of a stage"});
+    } else if (faults.back() < 0) {
+      problems.push_back(
+          {"", 0, concat(one.name, " at a load step is of a fault"),
+           concat("name the fault: ", selection.faults.front().name, ".", one.name)});
+    }
+  }
+  if (!problems.empty()) throw InputError("--metrics", std::move(problems));
+  return faults;
+}
+
+/// Throws where some case lacks a step: step 5 of one would be compared with another's.
+void require_shared(const std::vector<Store::LoadStep>& steps) {
+  long n_cases = 0;
+  for (const Store::LoadStep& one : steps) n_cases = std::max(n_cases, one.n_cases);
+  const auto other = std::find_if(steps.begin(), steps.end(),
+                                  [&](const auto& one) { return one.n_cases < n_cases; });
+  if (other == steps.end()) return;
+  throw InputError("--by-step", {{"", 0,
+                                  concat("load step ", other->step, " is one of ", other->stage,
+                                         " in ", other->n_cases, " of ", n_cases,
+                                         " cases only: their stages are divided differently"),
+                                  "select cases with the same steps by --where, or one --stage"}});
+}
+
+}  // namespace
+
+HistoryOutputs history_outputs(const Store& store, const CampaignInfo& campaign,
+                               const SensitivityRequest& request, const Selection& selection) {
+  SensitivityRequest asked = request;
+  if (asked.metrics.empty()) asked.metrics = default_metrics(selection);
+  HistoryOutputs found;
+  found.metrics = asked_outputs(store, campaign, asked, selection);
+  const std::vector<std::int64_t> faults = faults_of(found.metrics, selection);
+  Store::TableQuery query;
+  query.stage = request.cases.stage;
+  query.where = parse_condition(request.cases.where, campaign, selection);
+  found.steps = store.load_steps(campaign.id, query);
+  require_shared(found.steps);
+  constexpr std::size_t kMostColumns = 1900;  // a query has at most 2,000
+  if (found.metrics.size() * found.steps.size() > kMostColumns) {
+    throw InputError("--by-step", {{"", 0,
+                                    concat(found.metrics.size(), " metrics at ", found.steps.size(),
+                                           " load steps are more than ", kMostColumns, " numbers"),
+                                    "ask for fewer --metrics, or the steps of one --stage"}});
+  }
+  for (std::size_t m = 0; m < found.metrics.size(); ++m) {
+    for (const Store::LoadStep& step : found.steps) {
+      ScopedMetric output = found.metrics[m];
+      output.sql = history_sql(output.metric, faults[m], selection.faults.size(), step.step);
+      output.name += concat(" at step ", step.step);
+      found.outputs.push_back(std::move(output));
+    }
+  }
+  return found;
+}
+
+}  // namespace faultsweep
