@@ -1,6 +1,6 @@
 cmake_minimum_required(VERSION 3.25)
-# Run by ctest: fails when a file includes a module its own module may not see.
-# Lines of layers.txt read "module: modules it may include", "@file: headers it may include" or
+# Run by ctest: fails when a file includes a module that its own module may not see, or when none does that may be.
+# Lines of layers.txt read "module: modules that it includes", "@file: headers it may include" or
 # "<library header: modules that may include it".
 file(STRINGS ${ROOT}/simulator/cmake/layers.txt lines REGEX "^[a-z]")
 set(broken "")
@@ -9,6 +9,7 @@ foreach(line IN LISTS lines)
   set(module ${CMAKE_MATCH_1})
   separate_arguments(allowed UNIX_COMMAND "${CMAKE_MATCH_2}")
   file(GLOB files ${ROOT}/${module}/*.h ${ROOT}/${module}/*.cc)
+  set(seen "")
   foreach(file IN LISTS files)
     file(STRINGS ${file} includes REGEX "^#include \"(simulator|campaign)/")
     foreach(include IN LISTS includes)
@@ -16,7 +17,13 @@ foreach(line IN LISTS lines)
       if(NOT target STREQUAL module AND NOT target IN_LIST allowed)
         list(APPEND broken "${file} may not include ${target}")
       endif()
+      list(APPEND seen ${target})
     endforeach()
+  endforeach()
+  foreach(target IN LISTS allowed)
+    if(NOT target IN_LIST seen)
+      list(APPEND broken "layers.txt: ${module} includes nothing of ${target}")
+    endif()
   endforeach()
 endforeach()
 file(GLOB_RECURSE every RELATIVE ${ROOT} ${ROOT}/simulator/*.h ${ROOT}/simulator/*.cc ${ROOT}/campaign/*.h ${ROOT}/campaign/*.cc)
