@@ -86,10 +86,13 @@ HistoryOutputs history_outputs(const Store& store, const CampaignInfo& campaign,
                                            " load steps are more than ", kMostColumns, " numbers"),
                                     "ask for fewer --metrics, or the steps of one --stage"}});
   }
+  const auto whole = std::find_if(selection.stages.begin(), selection.stages.end(),
+                                  [](const NamedId& one) { return one.name.empty(); });
+  FAULTSIM_DEMAND(found.steps.empty() || whole != selection.stages.end(), campaign.name);
   for (std::size_t m = 0; m < found.metrics.size(); ++m) {
     for (const Store::LoadStep& step : found.steps) {
       ScopedMetric output = found.metrics[m];
-      output.sql = history_sql(output.metric, faults[m], selection.faults.size(), step.step);
+      output.sql = history_sql(output.metric, faults[m], whole->id, step.step);
       output.name += concat(" at step ", step.step);
       found.outputs.push_back(std::move(output));
     }

@@ -110,16 +110,15 @@ std::vector<std::string> history_metrics() {
   return names;
 }
 
-std::string history_sql(const std::string& metric, std::int64_t fault, std::size_t n_faults,
+std::string history_sql(const std::string& metric, std::int64_t fault, std::int64_t whole_history,
                         int step) {
   static const std::map<std::string, std::string> columns = kept_metrics();
   const auto found = columns.find(metric);
-  FAULTSIM_DEMAND(found != columns.end() && n_faults > 0, metric);
-  std::string places;  // of the fault in the case's list: with them the key of the table is used
-  for (std::size_t k = 0; k < n_faults; ++k) places += concat(k == 0 ? "" : ", ", k);
+  FAULTSIM_DEMAND(found != columns.end(), metric);
+  // The key of the table has the fault's place in the case's list.
   return concat("(SELECT h.", found->second, " FROM chi_history h WHERE h.case_id = cc.case_id",
-                " AND h.fault IN (", places, ") AND h.step = ", step, " AND h.fault_id = ", fault,
-                ")");
+                " AND h.fault = ", value_of_scope("$.fault", {fault, whole_history}),
+                " AND h.step = ", step, ")");
 }
 
 std::vector<Store::LoadStep> Store::load_steps(std::int64_t campaign,

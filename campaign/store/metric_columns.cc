@@ -1,6 +1,10 @@
+#include <algorithm>
+#include <cctype>
 #include <map>
+#include <string_view>
 #include <vector>
 
+#include "campaign/store/queries.h"
 #include "campaign/store/store.h"
 #include "simulator/result/measures.h"
 
@@ -121,15 +125,20 @@ const std::string& sql_for(const MetricColumn& column, bool of_fault) {
   return of_fault || column.together.empty() ? column.sql : column.together;
 }
 
+// A value of a scope is a subquery: kScopeBegin VALUE kScopeFrom TABLE kScopeWhere KEYS kScopeEnd.
+constexpr std::string_view kScopeBegin = "(SELECT /* of a scope */ ";
+constexpr std::string_view kScopeFrom = " FROM /* its row */ ";
+constexpr std::string_view kScopeWhere = " x WHERE x.stage_id = ";
+constexpr std::string_view kScopeEnd = " AND x.case_id = cc.case_id)";
+
 /// SQL over the row of a scope, as SQL of a query over cc; of no row it stays as it is.
 std::string scoped(const std::string& sql, const MetricScope& scope, std::int64_t stage_of_query) {
   if (sql.find('$') == std::string::npos) return sql;
   const bool of_fault = scope.fault.has_value();
-  return concat("(SELECT ", filled(sql, "x", of_fault), " FROM ",
-                of_fault ? "fault_metrics" : "stage_metrics",
-                " x WHERE x.stage_id = ", scope.stage.value_or(stage_of_query),
-                of_fault ? concat(" AND x.fault_id = ", *scope.fault) : "",
-                " AND x.case_id = cc.case_id)");
+  return concat(kScopeBegin, filled(sql, "x", of_fault), kScopeFrom,
+                of_fault ? "fault_metrics" : "stage_metrics", kScopeWhere,
+                scope.stage.value_or(stage_of_query),
+                of_fault ? concat(" AND x.fault_id = ", *scope.fault) : "", kScopeEnd);
 }
 
 // What is not resolved ----------------------------------------------------------------------------
@@ -250,6 +259,10 @@ std::string with_early(Depends depends, const std::string& open) {
 
 }  // namespace
 
+std::string value_of_scope(const std::string& sql, const MetricScope& scope) {
+  return scoped(sql, scope, scope.stage.value());
+}
+
 bool has_stages(const std::string& metric) {
   return column_of(metric).sql.find('$') != std::string::npos;
 }
@@ -280,6 +293,59 @@ std::string unresolved_sql(const std::string& metric, const MetricIds& all,
   const Depends depends = dependence_of(metric);
   const std::string open = open_sql(depends, scope.fault.has_value(), all);
   return with_early(depends, scoped(open, scope, stage_of_query));
+}
+
+namespace {
+
+/// The SQL of a value over row x, over another row.
+std::string over_row(std::string_view sql, const std::string& row) {
+  std::string text;
+  for (std::size_t i = 0; i < sql.size(); ++i) {
+    const bool begins_word =
+        i == 0 || (std::isalnum(static_cast<unsigned char>(sql[i - 1])) == 0 && sql[i - 1] != '_');
+    const bool is_row = begins_word && sql.substr(i, 2) == "x.";
+    text += is_row ? row : std::string(1, sql[i]);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string ScopeJoins::joined(const std::string& sql) {
+  std::string text;
+  std::size_t done = 0;
+  for (std::size_t at = sql.find(kScopeBegin); at != std::string::npos;
+       at = sql.find(kScopeBegin, done)) {
+    text += sql.substr(done, at - done);
+    const std::size_t value = at + kScopeBegin.size(), from = sql.find(kScopeFrom, value);
+    const std::size_t end = sql.find(kScopeEnd, from);
+    FAULTSIM_DEMAND(from != std::string::npos && end != std::string::npos, sql);
+    done = end + kScopeEnd.size();
+    const std::size_t table = from + kScopeFrom.size();
+    const std::string key = sql.substr(table, done - 1 - table);  // without its bracket
+    auto found = std::find(keys_.begin(), keys_.end(), key);
+    if (found == keys_.end() && keys_.size() == kMost) {
+      text += sql.substr(at, done - at);
+      continue;
+    }
+    if (found == keys_.end()) found = keys_.insert(keys_.end(), key);
+    const std::string row = concat("x", found - keys_.begin());
+    // A row that is not there has no value, also where its expression would make one of NULL.
+    text += concat("iif(", row, ".case_id IS NULL, NULL, ",
+                   over_row(std::string_view(sql).substr(value, from - value), row), ")");
+  }
+  return text + sql.substr(done);
+}
+
+std::string ScopeJoins::sql() const {
+  std::string text;
+  for (std::size_t k = 0; k < keys_.size(); ++k) {
+    const std::string row = concat("x", k);
+    const std::size_t where = keys_[k].find(kScopeWhere);
+    text += concat(" LEFT JOIN ", keys_[k].substr(0, where), " ", row, " ON ",
+                   over_row(keys_[k].substr(where + std::string_view(" x WHERE ").size()), row));
+  }
+  return text;
 }
 
 }  // namespace faultsweep

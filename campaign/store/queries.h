@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "campaign/expression/expression.h"
@@ -31,6 +32,24 @@ class ParameterReader {
 std::string joins(const Store::TableQuery& query);
 /// " AND ..." of the query's condition; "" = all.
 std::string where_sql(const SqlFragment& where);
+
+/// SQL over "$", a row of fault_metrics or stage_metrics, of a scope's row.
+/// @pre the scope has a stage.
+std::string value_of_scope(const std::string& sql, const MetricScope& scope);
+
+/// Values of other faults and stages (metric_sql of a scope) as columns of rows that are joined
+/// once, instead of a subquery each: 72 metrics are of eight rows.
+class ScopeJoins {
+ public:
+  /// The same value or condition with these rows; where there are too many rows as it was.
+  std::string joined(const std::string& sql);
+  /// " LEFT JOIN ..." of the rows, behind cc.
+  std::string sql() const;
+
+ private:
+  static constexpr std::size_t kMost = 40;  ///< rows; SQLite joins up to 64 tables.
+  std::vector<std::string> keys_;           ///< of each row: its table and key.
+};
 
 /// The counts of a campaign's cases by family id. In one pass without sorting: with 10^5 cases an
 /// SQL GROUP BY takes twice as long.

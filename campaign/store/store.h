@@ -39,8 +39,8 @@ std::string metric_sql(const std::string& metric, const MetricScope& scope,
 /// it since the start of the case.
 std::vector<std::string> history_metrics();
 /// The value of such a metric at a load step, as metric_sql. NULL where the case has no such step.
-/// @param n_faults  that the campaign's results have, all cases together.
-std::string history_sql(const std::string& metric, std::int64_t fault, std::size_t n_faults,
+/// @param whole_history  id of the stage "".
+std::string history_sql(const std::string& metric, std::int64_t fault, std::int64_t whole_history,
                         int step);
 /// Ids of the faults and stages that have metrics in a campaign.
 struct MetricIds {

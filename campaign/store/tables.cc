@@ -56,15 +56,20 @@ CaseRow read_case(const Statement& row, std::size_t n_metrics) {
   return one;
 }
 
-/// @param source  what gives cc; its text has one parameter, the campaign.
-void visit_cases(Connection& db, const std::string& source, std::int64_t campaign,
-                 const Store::TableQuery& query, const char* order,
+/// @param from  what gives cc.
+/// @param campaign_column  of it.
+void visit_cases(Connection& db, const std::string& from, const char* campaign_column,
+                 std::int64_t campaign, const Store::TableQuery& query, const char* order,
                  const std::function<void(const CaseRow&)>& visit) {
-  std::string sql =
+  ScopeJoins scopes;
+  std::string columns =
       "SELECT cc.case_id, cc.position, c.identity, c.state, coalesce(m.outcome, ''),"
       " coalesce(r.status, ''), coalesce(m.reason, r.reason, ''), s.rank_class";
-  for (const SqlFragment& column : query.columns) sql += ", (" + column.text + ")";
-  Statement rows(db, (sql + source + where_sql(query.where) + order));
+  for (const SqlFragment& column : query.columns)
+    columns += concat(", (", scopes.joined(column.text), ")");
+  const std::string where = scopes.joined(where_sql(query.where));
+  Statement rows(db, concat(columns, from, joins(query), scopes.sql(), " WHERE ", campaign_column,
+                            " = ?", where, order));
   int bound = 0;
   for (const SqlFragment& column : query.columns) bind_values(rows, bound, column.parameters);
   rows.bind_at(++bound, query.stage);
@@ -89,13 +94,12 @@ void Store::for_each_case(std::int64_t campaign, const TableQuery& query,
   const bool has_rows = any_rows.integer(0) != 0;  // else the rows of its designs are its cases
   if (query.by_design_row && has_rows) {
     visit_cases(db,
-                concat(" FROM design_rows d CROSS JOIN campaign_cases cc"
-                       " ON cc.campaign_id = d.campaign_id AND cc.position = d.position",
-                       joins(query), " WHERE d.campaign_id = ?"),
-                campaign, query, " ORDER BY d.design, d.row", visit);
+                " FROM design_rows d CROSS JOIN campaign_cases cc"
+                " ON cc.campaign_id = d.campaign_id AND cc.position = d.position",
+                "d.campaign_id", campaign, query, " ORDER BY d.design, d.row", visit);
   } else {
-    visit_cases(db, concat(" FROM campaign_cases cc", joins(query), " WHERE cc.campaign_id = ?"),
-                campaign, query, " ORDER BY cc.position", visit);
+    visit_cases(db, " FROM campaign_cases cc", "cc.campaign_id", campaign, query,
+                " ORDER BY cc.position", visit);
   }
 }
 

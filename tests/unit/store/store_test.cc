@@ -5,7 +5,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
+#include <map>
 
 #include "campaign/spec/metrics.h"
 #include "campaign/store/migrations.h"
@@ -234,6 +236,70 @@ TEST_F(StoreTest, ReplacesAnUnconvergedResultWhenItsRetryEnds) {
   EXPECT_EQ(stored.result.whole.chi_bar, 0.9);
   EXPECT_EQ(stored.runs.size(), 2u);
   EXPECT_THAT(store.integrity_problems(), IsEmpty());
+}
+
+/// Values of other faults and stages, more of them than rows are joined: each is that of its row as
+/// it was recorded, and a case without a result has none, where an expression of nothing would be 0.
+TEST_F(StoreTest, TablesHaveTheValuesOfManyFaultsAndStages) {
+  Store store = Store::open_owner(folder_);
+  const std::int64_t campaign = store.submit(submission(3)).campaign;
+  std::map<long, faultsim::CaseResult> results;
+  for (const long id : {1, 3}) {
+    RunRecord run = completed(id, 0.5 + 0.1 * static_cast<double>(id));
+    results[id] = *run.result;
+    store.record_runs(campaign, {run});
+  }
+  Store::TableQuery query;
+  struct Asked {
+    std::size_t fault, stage;  // the last stage is the whole history
+  };
+  std::vector<Asked> asked;
+  const auto stages = store.stages(campaign), faults = store.faults(campaign);
+  ASSERT_EQ(stages.size(), 4u);
+  ASSERT_EQ(faults.size(), 2u);
+  const auto id_of = [](const std::vector<NamedId>& all, const std::string& name) {
+    return std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == name; })
+        ->id;
+  };
+  const faultsim::CaseResult& any = results.at(1);  // all have the same faults and stages
+  for (std::size_t f = 0; f < 2; ++f) {
+    for (std::size_t s = 0; s < 4; ++s) {
+      const MetricScope scope{id_of(faults, any.fault_names[f]),
+                              id_of(stages, s < 3 ? any.stages[s].stage : "")};
+      asked.push_back({f, s});
+      for (const char* metric : {"chi_bar", "activation_resolved", "slips"})
+        query.columns.push_back({metric_sql(metric, scope, 0), {}});
+    }
+  }
+  for (int k = 0; k < 60; ++k)  // of stages that there are not
+    query.columns.push_back({metric_sql("chi_bar", {.stage = 1000 + k}, 0), {}});
+  query.where = {
+      "(" + metric_sql("chi_bar", {.stage = id_of(stages, "gas_storage")}, 0) + ") IS NOT 0.7 OR ?",
+      {Value(true)}};
+  long n_cases = 0;
+  store.for_each_case(campaign, query, [&](const CaseRow& row) {
+    ++n_cases;
+    const auto found = results.find(row.position);
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+      const Cell &chi = row.metrics[3 * k], &resolved = row.metrics[3 * k + 1],
+                 &slips = row.metrics[3 * k + 2];
+      if (found == results.end()) {
+        EXPECT_EQ(chi, Cell());
+        EXPECT_EQ(resolved, Cell()) << "not 0";
+        EXPECT_EQ(slips, Cell());
+        continue;
+      }
+      const auto& [f, s] = asked[k];
+      const faultsim::CaseResult& result = found->second;
+      const auto& own = (s < 3 ? result.stages[s] : result.whole).faults[f];
+      EXPECT_EQ(chi, Cell(own.chi_bar));
+      EXPECT_EQ(resolved, Cell(std::int64_t{own.activation_resolved}));
+      EXPECT_EQ(slips, Cell(std::int64_t{own.slips}));
+    }
+    for (std::size_t k = 3 * asked.size(); k < row.metrics.size(); ++k)
+      EXPECT_EQ(row.metrics[k], Cell());
+  });
+  EXPECT_EQ(n_cases, 3);
 }
 
 TEST_F(StoreTest, RanksByAreaMomentMarginAndKeepsUnstableApart) {
