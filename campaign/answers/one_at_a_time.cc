@@ -148,7 +148,8 @@ std::optional<OneAtATime> compare_one_at_a_time(const Store& store, const Campai
 
 namespace {
 
-/// The least and greatest of a metric as one parameter moves, the base case among them.
+/// The least and greatest of a metric as one parameter moves, the base case among them; what
+/// differs by rounding only does not move.
 struct Swing {
   std::size_t parameter = 0;
   double low = 0, high = 0;                          ///< of the metric.
@@ -171,6 +172,10 @@ std::vector<Swing> swings_of(const OneAtATime& found, const Tornado& tornado, st
       if (value < swing.low) swing.low = value, swing.at_low = &one;
       if (value > swing.high) swing.high = value, swing.at_high = &one;
     }
+    if (is_rounding(found.outputs[m], swing.low, swing.high)) {
+      swing.low = swing.high = base;
+      swing.at_low = swing.at_high = nullptr;
+    }
     for (const Move* end : {swing.at_low, swing.at_high})
       swing.is_unresolved = swing.is_unresolved || (end != nullptr && end->is_unresolved);
     if (swing.n > 0) swings.push_back(swing);
@@ -183,9 +188,8 @@ std::vector<Swing> swings_of(const OneAtATime& found, const Tornado& tornado, st
 bool is_moved(const OneAtATime& found, const Tornado& tornado, std::size_t m) {
   if (!std::isfinite(tornado.base.metrics[m])) return false;
   const std::vector<Swing> swings = swings_of(found, tornado, m);
-  return std::any_of(swings.begin(), swings.end(), [&](const Swing& one) {
-    return !is_rounding(found.outputs[m], one.low, one.high);
-  });
+  return std::any_of(swings.begin(), swings.end(),
+                     [](const Swing& one) { return one.width() > 0; });
 }
 
 std::string place_of(const Move* at) { return at == nullptr ? "base" : at->value; }
@@ -269,7 +273,8 @@ figure::IntervalChart chart_of(const OneAtATime& found, const Tornado& tornado, 
     chart.rows.push_back(
         {found.parameters[one.parameter],
          {tornado.base.metrics[m] / unit.size, one.low / unit.size, one.high / unit.size},
-         concat(place_of(one.at_low), " to ", place_of(one.at_high))});
+         one.width() > 0 ? concat(place_of(one.at_low), " to ", place_of(one.at_high))
+                         : std::string("no change")});
   }
   return chart;
 }

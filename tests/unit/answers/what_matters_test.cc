@@ -182,6 +182,19 @@ TEST_F(WhatMatters, OneAtATimeIsATornado) {
   EXPECT_NE(first_chart(answer).find("<svg"), std::string::npos);
 }
 
+/// The offset moves the metric by rounding only: that is no change.
+TEST_F(WhatMatters, RoundingIsNoSwing) {
+  add(both(0.5, 60), 0.3);
+  add(both(0.4, 60), 0.45);
+  add(both(0.5, 120), 0.3 + 1e-14);
+  submit_as("one-at-a-time");
+  record();
+  const Answer answer = what_matters(*store_, campaign_, {.metrics = "F1.chi_bar"});
+  testing::expect_same_renderings(answer);
+  EXPECT_THAT(first_chart(answer), HasSubstr("no change"));
+  EXPECT_THAT(first_chart(answer), Not(HasSubstr("120")));
+}
+
 /// What is derived from a parameter moves with it, and is no move of its own.
 TEST_F(WhatMatters, DerivedParametersAreNotMoved) {
   add(both(0.5, 60), 0.3);
