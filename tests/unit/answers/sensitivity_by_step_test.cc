@@ -31,7 +31,7 @@ class ByStep : public AnswersTest {
     s_.parameters = parameters_to_json(
         {{"friction", Dimension::number, false}, {"offset", Dimension::length, false}});
   }
-  /// χ̄ of F1 is 0.1 + the weighted sum of both, that of F2 half of that.
+  /// χ̄ of F1 is 0.1 + the weighted sum of both, that of F2 with each other's weights.
   void add(double friction, double offset, int n_steps = kSteps) {
     const std::size_t n = s_.cases.size();
     s_.cases.push_back(
@@ -45,9 +45,9 @@ class ByStep : public AnswersTest {
     run.status = RunStatus::completed;
     run.result = testing::made_up_result(0.3, n_steps);
     for (faultsim::StepResult& step : run.result->steps) {
-      const double chi =
-          0.1 + weight_of_friction(step.step) * friction + weight_of_offset(step.step) * offset;
-      step.faults[0].chi_bar = chi, step.faults[1].chi_bar = chi / 2;
+      const double early = weight_of_friction(step.step), late = weight_of_offset(step.step);
+      step.faults[0].chi_bar = 0.1 + early * friction + late * offset;
+      step.faults[1].chi_bar = 0.1 + late * friction + early * offset;
     }
     runs_.push_back(run);
   }
@@ -93,17 +93,19 @@ TEST_F(ByStep, IndicesOfAGridAreFiniteSums) {
   const double v_offset = 0.25 * 0.25 * (kB * kB - 1) / 12.0;
   ASSERT_EQ(s.steps.size(), kSteps + 1u);
   ASSERT_EQ(s.metrics.size(), 2 * s.steps.size());
-  double of_friction = 0, of_both = 0;
-  for (int k = 1; k <= kSteps; ++k) {
-    const double a = std::pow(weight_of_friction(k), 2) * v_friction;
-    const double b = std::pow(weight_of_offset(k), 2) * v_offset;
-    of_friction += a, of_both += a + b;
-    const MetricSensitivity& one = s.metrics[static_cast<std::size_t>(k)];
-    EXPECT_NEAR(one.first_order.at(0).value, a / (a + b), 1e-12) << k;
-    EXPECT_NEAR(one.total_order.at(1), b / (a + b), 1e-12) << k;
-  }
   ASSERT_EQ(s.over_steps.size(), 2u);
-  for (const MetricSensitivity& all : s.over_steps) {
+  for (const std::size_t fault : {0u, 1u}) {
+    double of_friction = 0, of_both = 0;
+    for (int k = 1; k <= kSteps; ++k) {
+      double early = weight_of_friction(k), late = weight_of_offset(k);
+      if (fault == 1) std::swap(early, late);
+      const double a = early * early * v_friction, b = late * late * v_offset;
+      of_friction += a, of_both += a + b;
+      const auto at = fault * s.steps.size() + static_cast<std::size_t>(k);
+      EXPECT_NEAR(s.metrics[at].first_order.at(0).value, a / (a + b), 1e-12) << k;
+      EXPECT_NEAR(s.metrics[at].total_order.at(1), b / (a + b), 1e-12) << k;
+    }
+    const MetricSensitivity& all = s.over_steps[fault];
     EXPECT_NEAR(all.first_order.at(0).value, of_friction / of_both, 1e-12);
     EXPECT_NEAR(all.total_order.at(1), 1 - of_friction / of_both, 1e-12);
   }
@@ -151,6 +153,19 @@ TEST_F(ByStep, OneStepThatVariesSaysAllOfThem) {
   }
   EXPECT_NEAR(s.over_steps[0].standard_deviation,
               s.metrics[5].standard_deviation / std::sqrt(kSteps + 1.0), 1e-12);
+}
+
+/// A flag that is true in few rows has no index at any step, nor of all of them.
+TEST_F(ByStep, ARareFlagHasNoIndices) {
+  add_random(200);
+  for (std::size_t k = 0; k < runs_.size(); ++k)
+    for (faultsim::StepResult& step : runs_[k].result->steps)
+      step.faults[0].activated = k < 12 && step.step > 6;
+  submit_as("monte-carlo");
+  const Sensitivity s = analysed({.metrics = "F1.slides"});
+  EXPECT_TRUE(s.metrics.back().first_order.empty());
+  EXPECT_TRUE(s.over_steps.at(0).first_order.empty());
+  EXPECT_EQ(to_answer(s).headline.at(0), "What varies has too few rows for indices.");
 }
 
 TEST_F(ByStep, AStageHasItsSteps) {
