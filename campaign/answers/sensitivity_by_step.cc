@@ -36,8 +36,8 @@ std::string with_blanks(std::string name) {
   return name;
 }
 
-/// "At first most on friction, from step 9 (12 years, cushion gas injection) on most on offset":
-/// how the parameter that has most changes; "" where it is one and the same.
+/// " At first friction explains most, from step 11 (cushion gas injection) on recovery.": how the
+/// parameter with the largest share changes; "" where it is one and the same.
 std::string changes_of(const Sensitivity& s, std::size_t m) {
   std::string text;
   std::size_t n_changes = 0;
@@ -47,7 +47,7 @@ std::string changes_of(const Sensitivity& s, std::size_t m) {
     if (!is_told(one)) continue;
     const std::string& first = s.parameters[descending_places(values_of(one.first_order)).front()];
     if (leading == nullptr) {
-      text = concat(" At first most has ", first);
+      text = concat(" At first ", first, " explains most");
     } else if (first != *leading) {
       ++n_changes;
       text += concat(", from step ", s.steps[k].step, " (", with_blanks(s.steps[k].stage), ") on ",
@@ -58,7 +58,7 @@ std::string changes_of(const Sensitivity& s, std::size_t m) {
   constexpr std::size_t kMostChanges = 3;
   if (n_changes == 0) return "";
   if (n_changes > kMostChanges)
-    return concat(" Which parameter has most changes ", n_changes, " times.");
+    return concat(" Which parameter explains most changes ", n_changes, " times.");
   return text + ".";
 }
 

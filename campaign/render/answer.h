@@ -79,7 +79,7 @@ struct AnswerTable {
   std::size_t most_on_screen = 0;       ///< rows that text and page show; 0 = all.
   bool on_screen = true;                ///< text and page have it.
   bool is_sortable = false;  ///< long: a page sorts and filters it, without `extra` columns.
-  bool in_files = true;  ///< JSON and CSV have it; else its numbers stand in another table.
+  bool in_files = true;      ///< JSON and CSV have it; else its numbers stand in another table.
 };
 
 /// A paragraph of its own.

@@ -33,7 +33,8 @@ class AnswersTest : public ::testing::Test {
   }
   /// Cases whose results follow from `strength` alone (made_up_result: F1 slides above 0.5).
   void submit(const std::string& kind, const std::vector<std::array<double, 2>>& values,
-              const std::vector<std::string>& names = {"strength", "offset", "rule"}, bool second_order = false) {
+              const std::vector<std::string>& names = {"strength", "offset", "rule"},
+              bool second_order = false) {
     for (const auto& [strength, offset] : values) {
       const std::size_t n = s_.cases.size();
       s_.cases.push_back({"identity-" + std::to_string(n),

@@ -119,7 +119,7 @@ TEST_F(ByStep, OfASampleTheLeadingParameterChanges) {
       what_matters(*store_, campaign_, {.metrics = "F1.chi_bar", .by_step = true});
   testing::expect_same_renderings(answer);
   EXPECT_THAT(answer.headline.at(0), HasSubstr("Over all load steps F1.chi_bar depends most on "));
-  EXPECT_THAT(answer.headline[0], HasSubstr(" At first most has friction, from step "));
+  EXPECT_THAT(answer.headline[0], HasSubstr(" At first friction explains most, from step "));
   EXPECT_THAT(answer.headline[0], HasSubstr(" on offset."));
   const json document = render_json(answer);
   EXPECT_EQ(document.at("kind"), "shares-by-step");

@@ -239,7 +239,8 @@ TEST_F(StoreTest, ReplacesAnUnconvergedResultWhenItsRetryEnds) {
 }
 
 /// Values of other faults and stages, more of them than rows are joined: each is that of its row as
-/// it was recorded, and a case without a result has none, where an expression of nothing would be 0.
+/// it was recorded, and a case without a result has none, where an expression of nothing would be
+/// 0.
 TEST_F(StoreTest, TablesHaveTheValuesOfManyFaultsAndStages) {
   Store store = Store::open_owner(folder_);
   const std::int64_t campaign = store.submit(submission(3)).campaign;
