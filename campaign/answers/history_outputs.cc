@@ -69,6 +69,10 @@ void require_shared(const std::vector<Store::LoadStep>& steps) {
 
 HistoryOutputs history_outputs(const Store& store, const CampaignInfo& campaign,
                                const SensitivityRequest& request, const Selection& selection) {
+  if (selection.faults.empty()) {  // faults are known from results
+    throw InputError("--by-step", {{"", 0, "no case has a result",
+                                    concat("run it: faultsweep run ", campaign.name)}});
+  }
   SensitivityRequest asked = request;
   if (asked.metrics.empty()) asked.metrics = default_metrics(selection);
   HistoryOutputs found;

@@ -76,10 +76,7 @@ void Store::for_each_history_row(std::int64_t campaign, const TableQuery& query,
                 query.fault ? concat(" AND h.fault_id = ", *query.fault) : "",
                 where_sql(query.where), " ORDER BY cc.position, h.fault, h.step");
   Statement rows(*connection_, sql);
-  int bound = 0;
-  rows.bind_at(++bound, query.stage);
-  rows.bind_at(++bound, campaign);
-  bind_values(rows, bound, query.where.parameters);
+  bind_table(rows, campaign, query);
   std::vector<Cell> cells(columns.size());
   while (rows.step()) {
     for (std::size_t k = 0; k < cells.size(); ++k) cells[k] = rows.cell(static_cast<int>(k));
@@ -133,10 +130,7 @@ std::vector<Store::LoadStep> Store::load_steps(std::int64_t campaign,
              " WHERE cc.campaign_id = ? AND s.rank_class < 2",
              query.stage.empty() ? "" : " AND l.step BETWEEN s.first_step AND s.last_step",
              where_sql(query.where), " GROUP BY l.step, l.stage_id ORDER BY 1, 2"));
-  int bound = 0;
-  rows.bind_at(++bound, query.stage);
-  rows.bind_at(++bound, campaign);
-  bind_values(rows, bound, query.where.parameters);
+  bind_table(rows, campaign, query);
   std::vector<LoadStep> steps;
   while (rows.step()) {
     steps.push_back({static_cast<int>(rows.integer(0)), rows.text(1), rows.real(2), rows.real(3),

@@ -33,6 +33,9 @@ std::string joins(const Store::TableQuery& query);
 /// " AND ..." of the query's condition; "" = all.
 std::string where_sql(const SqlFragment& where);
 
+/// Binds what both of these and "WHERE cc.campaign_id = ?" between them leave open.
+void bind_table(Statement& statement, std::int64_t campaign, const Store::TableQuery& query);
+
 /// SQL over "$", a row of fault_metrics or stage_metrics, of a scope's row.
 /// @pre the scope has a stage.
 std::string value_of_scope(const std::string& sql, const MetricScope& scope);

@@ -35,6 +35,13 @@ std::string where_sql(const SqlFragment& where) {
   return where.text.empty() ? "" : " AND coalesce((" + where.text + "), 0)";
 }
 
+void bind_table(Statement& statement, std::int64_t campaign, const Store::TableQuery& query) {
+  int bound = 0;
+  statement.bind_at(++bound, query.stage);
+  statement.bind_at(++bound, campaign);
+  bind_values(statement, bound, query.where.parameters);
+}
+
 namespace {
 
 CaseRow read_case(const Statement& row, std::size_t n_metrics) {
@@ -122,10 +129,7 @@ void Store::for_each_slip_event(std::int64_t campaign, const TableQuery& query,
              " CROSS JOIN slip_events e ON e.case_id = cc.case_id WHERE cc.campaign_id = ?",
              where_sql(query.where), " ORDER BY cc.position, e.number");
   Statement rows(*connection_, sql);
-  int bound = 0;
-  rows.bind_at(++bound, query.stage);
-  rows.bind_at(++bound, campaign);
-  bind_values(rows, bound, query.where.parameters);
+  bind_table(rows, campaign, query);
   while (rows.step()) {
     visit({static_cast<long>(rows.integer(0)), rows.integer(1), rows.real(2), rows.real(4),
            rows.optional_real(3)});
@@ -197,10 +201,7 @@ void Store::for_each_onset(std::int64_t campaign, const TableQuery& query,
       " WHERE cc.campaign_id = ?",
       where_sql(query.where), " ORDER BY cc.position");
   Statement rows(*connection_, sql);
-  int bound = 0;
-  rows.bind_at(++bound, query.stage);
-  rows.bind_at(++bound, campaign);
-  bind_values(rows, bound, query.where.parameters);
+  bind_table(rows, campaign, query);
   CaseOnsets one;
   while (rows.step()) {
     if (const long position = rows.integer(0); position != one.position) {

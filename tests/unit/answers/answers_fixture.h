@@ -81,6 +81,37 @@ class AnswersTest : public ::testing::Test {
   std::vector<RunRecord> runs_;
 };
 
+/// Cases with results of their own, of two parameters: friction and offset.
+class FrictionAndOffset : public AnswersTest {
+ protected:
+  void SetUp() override {
+    AnswersTest::SetUp();
+    s_.parameters = parameters_to_json({{"friction", faultsim::Dimension::number, false},
+                                        {"offset", faultsim::Dimension::length, false}});
+  }
+  static CaseParameters both(double friction, double offset) {
+    return {{0, friction, std::to_string(friction)}, {1, offset, std::to_string(offset) + " m"}};
+  }
+  void add_case(const CaseParameters& parameters, faultsim::CaseResult result) {
+    const std::size_t n = s_.cases.size();
+    s_.cases.push_back({"identity-" + std::to_string(n), 0, 0, "{}", parameters});
+    RunRecord run;
+    run.case_id = static_cast<long>(n) + 1;
+    run.status = RunStatus::completed;
+    run.result = std::move(result);
+    runs_.push_back(std::move(run));
+  }
+  void submit_as(const std::string& kind) {
+    const nlohmann::json group = {{"kind", kind},
+                                  {"parameters", {{{"name", "friction"}}, {{"name", "offset"}}}},
+                                  {"scene", {{"tier", "screening"}}}};
+    s_.spec_resolved =
+        nlohmann::json{{"groups", {group}}, {"exclude", nlohmann::json::array()}}.dump();
+    store_->submit(s_);
+    campaign_ = store_->campaign("");
+  }
+};
+
 /// Strengths evenly in [0, 1], offsets that say nothing.
 inline std::vector<std::array<double, 2>> even(int n) {
   std::mt19937_64 random(5);

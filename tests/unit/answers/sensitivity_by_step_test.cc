@@ -14,7 +14,6 @@
 namespace faultsweep {
 namespace {
 
-using faultsim::Dimension;
 using faultsim::InputError;
 using nlohmann::json;
 using ::testing::HasSubstr;
@@ -24,41 +23,17 @@ constexpr int kSteps = 12;
 double weight_of_friction(int step) { return 0.4 * step / kSteps * (kSteps - step) / kSteps; }
 double weight_of_offset(int step) { return 0.4 * std::pow(1.0 * step / kSteps, 3); }
 
-class ByStep : public AnswersTest {
+class ByStep : public FrictionAndOffset {
  protected:
-  void SetUp() override {
-    AnswersTest::SetUp();
-    s_.parameters = parameters_to_json(
-        {{"friction", Dimension::number, false}, {"offset", Dimension::length, false}});
-  }
   /// χ̄ of F1 is 0.1 + the weighted sum of both, that of F2 with each other's weights.
   void add(double friction, double offset, int n_steps = kSteps) {
-    const std::size_t n = s_.cases.size();
-    s_.cases.push_back(
-        {"identity-" + std::to_string(n),
-         0,
-         0,
-         "{}",
-         {{0, friction, std::to_string(friction)}, {1, offset, std::to_string(offset) + " m"}}});
-    RunRecord run;
-    run.case_id = static_cast<long>(n) + 1;
-    run.status = RunStatus::completed;
-    run.result = testing::made_up_result(0.3, n_steps);
-    for (faultsim::StepResult& step : run.result->steps) {
+    faultsim::CaseResult result = testing::made_up_result(0.3, n_steps);
+    for (faultsim::StepResult& step : result.steps) {
       const double early = weight_of_friction(step.step), late = weight_of_offset(step.step);
       step.faults[0].chi_bar = 0.1 + early * friction + late * offset;
       step.faults[1].chi_bar = 0.1 + late * friction + early * offset;
     }
-    runs_.push_back(run);
-  }
-  void submit_as(const std::string& kind) {
-    const json group = {{"kind", kind},
-                        {"parameters", {{{"name", "friction"}}, {{"name", "offset"}}}},
-                        {"scene", {{"tier", "screening"}}}};
-    s_.spec_resolved = json{{"groups", {group}}, {"exclude", json::array()}}.dump();
-    store_->submit(s_);
-    campaign_ = store_->campaign("");
-    record();
+    add_case(both(friction, offset), std::move(result));
   }
   void add_random(int n) {
     std::mt19937_64 random(7);
@@ -88,6 +63,7 @@ TEST_F(ByStep, IndicesOfAGridAreFiniteSums) {
   for (int a = 0; a < kA; ++a)
     for (int b = 0; b < kB; ++b) add(0.2 * a, 0.25 * b);
   submit_as("grid");
+  record();
   const Sensitivity s = analysed({.metrics = "F1.chi_bar, F2.chi_bar"});
   const double v_friction = 0.2 * 0.2 * (kA * kA - 1) / 12.0;
   const double v_offset = 0.25 * 0.25 * (kB * kB - 1) / 12.0;
@@ -115,6 +91,7 @@ TEST_F(ByStep, IndicesOfAGridAreFiniteSums) {
 TEST_F(ByStep, OfASampleTheLeadingParameterChanges) {
   add_random(400);
   submit_as("monte-carlo");
+  record();
   const Answer answer =
       what_matters(*store_, campaign_, {.metrics = "F1.chi_bar", .by_step = true});
   testing::expect_same_renderings(answer);
@@ -145,6 +122,7 @@ TEST_F(ByStep, OneStepThatVariesSaysAllOfThem) {
     for (faultsim::StepResult& step : run.result->steps)
       if (step.step != 5) step.faults[0].chi_bar = 0.25;
   submit_as("monte-carlo");
+  record();
   const Sensitivity s = analysed({.metrics = "F1.chi_bar"});
   const auto &all = s.over_steps.at(0).first_order, &fifth = s.metrics.at(5).first_order;
   for (std::size_t p = 0; p < 2; ++p) {
@@ -162,6 +140,7 @@ TEST_F(ByStep, ARareFlagHasNoIndices) {
     for (faultsim::StepResult& step : runs_[k].result->steps)
       step.faults[0].activated = k < 12 && step.step > 6;
   submit_as("monte-carlo");
+  record();
   const Sensitivity s = analysed({.metrics = "F1.slides"});
   EXPECT_TRUE(s.metrics.back().first_order.empty());
   EXPECT_TRUE(s.over_steps.at(0).first_order.empty());
@@ -171,6 +150,7 @@ TEST_F(ByStep, ARareFlagHasNoIndices) {
 TEST_F(ByStep, AStageHasItsSteps) {
   add_random(200);
   submit_as("monte-carlo");
+  record();
   const Sensitivity s = analysed({.cases = {.stage = "gas_storage"}});
   ASSERT_EQ(s.steps.size(), 4u);
   EXPECT_EQ(s.steps.front().step, 9);
@@ -180,6 +160,7 @@ TEST_F(ByStep, AStageHasItsSteps) {
 TEST_F(ByStep, WhatHasNoStepsIsRefusedInOneMessage) {
   add_random(200);
   submit_as("monte-carlo");
+  record();
   const std::string text =
       refusal({.metrics = "chi_bar, F1.activation_depth, F2.chi_bar in gas_storage"});
   EXPECT_THAT(text, HasSubstr("chi_bar at a load step is of a fault"));
@@ -190,12 +171,21 @@ TEST_F(ByStep, WhatHasNoStepsIsRefusedInOneMessage) {
 TEST_F(ByStep, OtherLoadStepsAreNotCompared) {
   for (int k = 0; k < 200; ++k) add(0.001 * k, 0.5, k < 150 ? 12 : 6);
   submit_as("monte-carlo");
+  record();
   EXPECT_THAT(refusal({}), HasSubstr("their stages are divided differently"));
+}
+
+TEST_F(ByStep, WithoutAResultThereIsNothingToSay) {
+  add_random(3);
+  submit_as("monte-carlo");
+  EXPECT_THAT(refusal({}), HasSubstr("no case has a result"));
+  EXPECT_THAT(refusal({.metrics = "chi_bar"}), HasSubstr("no case has a result"));
 }
 
 TEST_F(ByStep, TrajectoriesHaveNoSteps) {
   add_random(200);
   submit_as("morris");
+  record();
   EXPECT_THAT(refusal({}), HasSubstr("no sample or grid"));
 }
 

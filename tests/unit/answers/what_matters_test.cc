@@ -25,33 +25,11 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class WhatMatters : public AnswersTest {
+class WhatMatters : public FrictionAndOffset {
  protected:
-  void SetUp() override {
-    AnswersTest::SetUp();
-    s_.parameters = parameters_to_json(
-        {{"friction", Dimension::number, false}, {"offset", Dimension::length, false}});
-  }
   /// A case with χ̄ = strength of F1.
   void add(const CaseParameters& parameters, double strength) {
-    const std::size_t n = s_.cases.size();
-    s_.cases.push_back({"identity-" + std::to_string(n), 0, 0, "{}", parameters});
-    RunRecord run;
-    run.case_id = static_cast<long>(n) + 1;
-    run.status = RunStatus::completed;
-    run.result = testing::made_up_result(strength);
-    runs_.push_back(run);
-  }
-  void submit_as(const std::string& kind) {
-    const json group = {{"kind", kind},
-                        {"parameters", {{{"name", "friction"}}, {{"name", "offset"}}}},
-                        {"scene", {{"tier", "screening"}}}};
-    s_.spec_resolved = json{{"groups", {group}}, {"exclude", json::array()}}.dump();
-    store_->submit(s_);
-    campaign_ = store_->campaign("");
-  }
-  static CaseParameters both(double friction, double offset) {
-    return {{0, friction, std::to_string(friction)}, {1, offset, std::to_string(offset) + " m"}};
+    add_case(parameters, testing::made_up_result(strength));
   }
   /// χ̄ = 0.1 + 0.3 of the whole range of friction, 0.4 to 0.7, + 0.15 of that of the offset, 0 to
   /// 120 m, + 0.06 of both together.
