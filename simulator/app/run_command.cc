@@ -13,7 +13,6 @@
 #include "simulator/linalg/blas.h"
 #include "simulator/linalg/blas_kernel.h"
 #include "simulator/loading/run_case.h"
-#include "simulator/loads/history.h"
 #include "simulator/output/json_text.h"
 #include "simulator/output/result_folder.h"
 #include "simulator/output/write_result.h"
@@ -27,46 +26,13 @@ std::string built_in(double seconds) {
   return text;
 }
 
-/// Displacement of the whole mesh at the end of each stage: of a creeping case as it is, of an
-/// elastic one from the factor kept.
-class VolumeRecorder {
- public:
-  /// @param bulk  null where displacements come with the fields of a step.
-  VolumeRecorder(const Scene& scene, const FaultOperator& op, std::shared_ptr<CondensedBulk> bulk)
-      : factors_(scene, op), op_(op), bulk_(std::move(bulk)), steps_(load_steps(scene)) {}
-  void add(const StepResult& step, const FaultFields& fields) {
-    if (!is_stage_end(steps_, static_cast<std::size_t>(step.step))) return;
-    if (fields.displacement != nullptr) {  // salt creeps, or the coupled path
-      snapshots_.push_back({step.stage, step.time, *fields.displacement});
-      return;
-    }
-    Eigen::VectorXd jump(op_.geometry.n_dofs);
-    for (std::size_t k = 0; k < op_.geometry.nodes.size(); ++k) {
-      for (Eigen::Index c = 0; c < 3; ++c) {
-        const int dof = op_.geometry.nodes[k].dof[static_cast<std::size_t>(c)];
-        if (dof >= 0) jump[dof] = fields.jump(c, static_cast<Eigen::Index>(k));
-      }
-    }
-    snapshots_.push_back({step.stage, step.time,
-                          bulk_->displacement(factors_.at(step.time, step.pressure_change), jump)});
-  }
-  const std::vector<VolumeSnapshot>& snapshots() const { return snapshots_; }
-
- private:
-  LoadFactors factors_;
-  const FaultOperator& op_;
-  std::shared_ptr<CondensedBulk> bulk_;
-  std::vector<LoadStep> steps_;
-  std::vector<VolumeSnapshot> snapshots_;
-};
-
 void write_volume_fields(const std::filesystem::path& folder, const LoadedScene& loaded,
-                         const VolumeRecorder& recorder) {
+                         const std::vector<VolumeSnapshot>& snapshots) {
   const Mesh mesh = bulk_problem(loaded.scene, loaded.plan).mesh;
   Eigen::Matrix3Xd nodes(3, static_cast<Eigen::Index>(mesh.nodes.size()));
   for (Eigen::Index i = 0; i < nodes.cols(); ++i)
     nodes.col(i) = mesh.nodes[static_cast<std::size_t>(i)];
-  write_volume(folder, nodes, mesh.cells, mesh.material, recorder.snapshots());
+  write_volume(folder, nodes, mesh.cells, mesh.material, snapshots);
 }
 
 }  // namespace
@@ -166,18 +132,21 @@ ExitCode run_command(const RunArguments& arguments) {
 
   std::optional<FieldWriter> writer;
   if (scene.output.fault_fields) {
-    writer.emplace(output.path(), faults.geometry, prepared.ladder != nullptr);
+    writer.emplace(output.path(), faults.geometry, loaded.plan.creep.active);
   }
-  std::optional<VolumeRecorder> volume;
-  if (scene.output.volume_fields) volume.emplace(scene, faults, prepared.bulk);
   if (!json) std::cout << step_table_header(scene, plan.plane_strain, arguments.wide);
   context.monitor = nullptr;  // the table is progress enough
   RunWatch watch;
   watch.step = [&](const StepResult& step, const FaultFields& fields) {
     if (!json) std::cout << step_table_row(step, arguments.wide) << std::flush;
     if (writer) writer->add_step(step, fields);
-    if (volume) volume->add(step, fields);
   };
+  std::vector<VolumeSnapshot> volume;
+  if (scene.output.volume_fields) {
+    watch.displaced = [&](const StepResult& step, const Eigen::Matrix3Xd& displacement) {
+      volume.push_back({step.stage, step.time, displacement});
+    };
+  }
   std::string trace;
   if (arguments.trace) {
     watch.tried = [&](int step, const SubStepTrace& part) {
@@ -187,11 +156,12 @@ ExitCode run_command(const RunArguments& arguments) {
   }
   CaseProbe probe;
   probe.tried = watch.tried;
+  probe.displaced = watch.displaced;
   const CaseResult result =
       is_coupled ? coupled->run(context, watch.step, probe) : simulation.run(context, watch);
   if (arguments.trace) write_text(output.path() / "trace.jsonl", trace);
   if (writer) writer->finish();
-  if (volume) write_volume_fields(output.path(), loaded, *volume);
+  if (scene.output.volume_fields) write_volume_fields(output.path(), loaded, volume);
   nlohmann::json document = result_to_json(result);
   document["initial_state"] = initial_state_to_json(loaded.plan.initial);
   const std::string text = json_text(std::move(document));

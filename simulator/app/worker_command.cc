@@ -154,7 +154,7 @@ class Worker {
     RunWatch watch;
     if (wanted.contains("folder")) {
       files.emplace(wanted["folder"].get<std::string>(), steps_of(wanted), scene, geometry,
-                    simulation_.prepared().ladder != nullptr);
+                    simulation_.scene().plan.creep.active);
       watch.step = [&](const StepResult& step, const FaultFields& f) { files->add(step, f); };
     } else if (!wanted.is_null()) {
       in_line.emplace(geometry);

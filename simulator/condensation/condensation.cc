@@ -76,8 +76,8 @@ InfluenceCell influence_cell(const BulkProblem& problem, int cell) {
 }  // namespace
 
 struct CondensedBulk::Impl {
-  explicit Impl(const BulkProblem& bulk_problem)
-      : problem(bulk_problem),
+  explicit Impl(BulkProblem bulk_problem)
+      : problem(std::move(bulk_problem)),
         dofs(problem.mesh, problem.conditions, static_cast<int>(problem.loads.size())),
         geometry(fault_geometry(problem.mesh, problem.materials, dofs, problem.half_domain)) {}
 
@@ -192,11 +192,11 @@ Eigen::VectorXd CondensedBulk::Impl::observation(const Eigen::Vector3d& point,
   return q;
 }
 
-CondensedBulk::CondensedBulk(const BulkProblem& problem, const RunContext& context) {
+CondensedBulk::CondensedBulk(BulkProblem problem, const RunContext& context) {
   check_problem(problem);
   Stopwatch stopwatch;
   set_blas_threads(1);
-  impl_ = std::make_unique<Impl>(problem);
+  impl_ = std::make_unique<Impl>(std::move(problem));
   impl_->factorise(context);
   impl_->make_loads(context);
   impl_->seconds = stopwatch.seconds();

@@ -24,6 +24,7 @@ class ShareMonitor final : public Monitor {
   ShareMonitor(const RunContext& whole, int part, int n_parts)
       : whole_(whole), part_(part), n_parts_(n_parts) {}
   void progress(double share, const std::string& what) override {
+    if (n_parts_ == 1) return whole_.progress(share, what);
     whole_.progress((part_ + share) / n_parts_,
                     concat("operator ", part_ + 1, " of ", n_parts_, ": ", what));
   }
@@ -52,24 +53,27 @@ struct CreepLadder::Impl {
   Rung& at(int rung) { return rungs.at(rung); }
 };
 
-CreepLadder::CreepLadder(const BulkProblem& problem, const std::vector<double>& durations,
+CreepLadder::CreepLadder(BulkProblem problem, const std::vector<double>& durations,
                          MaxwellScheme scheme, const RunContext& context)
     : impl_(std::make_unique<Impl>()) {
   FAULTSIM_DEMAND(problem.viscosity.size() == problem.materials.size(), problem.viscosity.size());
+  for (const auto& [name, point] : problem.observation_points) {
+    impl_->observed_nodes.push_back(observed_node(problem.mesh, point));
+  }
   std::vector<double> all = {0};
   all.insert(all.end(), durations.begin(), durations.end());
   for (std::size_t i = 0; i < all.size(); ++i) {
     ShareMonitor share(context, static_cast<int>(i), static_cast<int>(all.size()));
     const RunContext part(share, context.stop, context.n_threads);
     const std::vector<MaxwellStep> steps = maxwell_steps(problem, all[i], scheme);
-    BulkProblem relaxed = problem;
+    BulkProblem relaxed = i + 1 < all.size() ? problem : std::move(problem);
     for (std::size_t m = 0; m < steps.size(); ++m) {
       relaxed.materials[m].shear_factor = steps[m].shear_factor;
     }
-    auto bulk = std::make_unique<CondensedBulk>(relaxed, part);
+    auto bulk = std::make_unique<CondensedBulk>(std::move(relaxed), part);
     if (i == 0) {
       impl_->cells = std::make_unique<CreepCells>(bulk->problem().mesh, bulk->problem().materials,
-                                                  problem.viscosity, bulk->dofs());
+                                                  bulk->problem().viscosity, bulk->dofs());
     }
     std::vector<MaxwellStep> creeping;
     for (const int m : impl_->cells->materials()) {
@@ -77,9 +81,6 @@ CreepLadder::CreepLadder(const BulkProblem& problem, const std::vector<double>& 
     }
     FaultOperator op = bulk->condense(part);
     impl_->rungs.push_back({all[i], std::move(creeping), std::move(bulk), std::move(op)});
-  }
-  for (const auto& [name, point] : problem.observation_points) {
-    impl_->observed_nodes.push_back(observed_node(problem.mesh, point));
   }
 }
 
@@ -90,6 +91,8 @@ int CreepLadder::n_rungs() const { return static_cast<int>(impl_->rungs.size());
 double CreepLadder::duration(int rung) const { return impl_->at(rung).duration; }
 
 const FaultOperator& CreepLadder::op(int rung) const { return impl_->at(rung).op; }
+
+CondensedBulk& CreepLadder::bulk(int rung) { return *impl_->at(rung).bulk; }
 
 BulkState CreepLadder::at_rest() const {
   const auto n_nodes = impl_->at(0).bulk->problem().mesh.nodes.size();

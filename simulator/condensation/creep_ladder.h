@@ -14,8 +14,8 @@ struct BulkState {
   Eigen::Matrix3Xd displacement;  ///< of all mesh nodes since the start, 3 x n_nodes, m.
 };
 
-/// The linear bulk of a family whose salt creeps, condensed once per time step length Δt and kept
-/// factorised. Rung 0 is elastic (Δt = 0: step 0, instantaneous loads, slip events); rungs 1, 2,
+/// The linear bulk of a family kept factorised: elastic, and where salt creeps once per time step
+/// length Δt. Rung 0 is elastic (Δt = 0: step 0, instantaneous loads, slip events); rungs 1, 2,
 /// ... have the durations asked for. Over a step of a rung, with the history s of the salt,
 ///
 ///   A (t_{n+1} − t_n) = f_g − K_gr K_rr⁻¹ f_r − H_Δt (g_{n+1} − g_n),
@@ -25,14 +25,16 @@ struct BulkState {
 /// substitution for the displacement, after: together one back-solve, and never a factorisation.
 class CreepLadder {
  public:
-  /// Factorises the elastic bulk and one per duration (s, > 0). @pre problem.viscosity is set.
-  CreepLadder(const BulkProblem& problem, const std::vector<double>& durations,
-              MaxwellScheme scheme, const RunContext& context);
+  /// Factorises the elastic bulk and one per duration (s, > 0), which may be none. @pre
+  /// problem.viscosity is set.
+  CreepLadder(BulkProblem problem, const std::vector<double>& durations, MaxwellScheme scheme,
+              const RunContext& context);
   ~CreepLadder();
 
   int n_rungs() const;  ///< with the elastic one.
   double duration(int rung) const;
   const FaultOperator& op(int rung) const;
+  CondensedBulk& bulk(int rung);
   BulkState at_rest() const;
 
   /// What the history adds to a step of the rung.

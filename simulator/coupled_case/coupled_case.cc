@@ -5,7 +5,6 @@
 
 #include "simulator/condensation/fault_geometry.h"
 #include "simulator/coupled/coupled_contact.h"
-#include "simulator/loading/case_contact.h"
 
 namespace faultsim {
 namespace {
@@ -26,7 +25,7 @@ FaultOperator uncondensed(const Scene& scene, const Plan& plan, const BulkProble
     for (int c = 0; c < 3; ++c)
       op.observed.rows.push_back({concat(name, ".", "xyz"[c]), problem.mesh.nodes[node]});
   }
-  for (const int row : mirrored_rows(scene, plan)) {
+  for (const int row : mirrored_rows(scene, plan.half_domain)) {
     for (int c = -1; c < 2; ++c) op.observed.rows[row + c].position.y() *= -1;
   }
   op.n_unknowns = dofs.n_unknowns();
@@ -89,36 +88,41 @@ struct CoupledCase::Impl final {
         faults(uncondensed(scene, plan, problem)),
         bulk(problem,
              choice.schur == SchurKind::rac ? LoosePieces::held_by_faults : LoosePieces::refused),
-        laws(contact_laws(scene, faults.geometry)),
-        mirrored(mirrored_rows(scene, plan)) {}
+        mirrored(mirrored_rows(scene, plan.half_domain)) {}
 
   const Scene& scene;
   SolverChoice solver;
   BulkProblem problem;
   FaultOperator faults;
   TwoSidedBulk bulk;
-  ContactLaws laws;
   std::vector<int> mirrored;  ///< rows of observations.
 };
 
 namespace {
 
+CoupledContactOptions options_of(const SolverChoice& solver, const StepSetting& setting) {
+  CoupledContactOptions options;
+  options.solver = solver;
+  options.traction_tolerance = setting.scene.numerics.traction_tolerance;
+  options.stop = setting.watch.stop;
+  return options;
+}
+
 /// What a run of a case asks of Newton's method on both sides of the faults.
 class CoupledSteps final : public StepSolver {
  public:
-  using Tried = std::function<void(const SubStepTrace&)>;
-  /// @pre bulk, faults and mirrored outlive this.
+  /// @pre all arguments outlive this.
   CoupledSteps(const TwoSidedBulk& bulk, const BulkProblem& problem, const FaultOperator& faults,
-               const ContactLaws& laws, const CoupledContactOptions& options,
-               const std::vector<int>& mirrored, int max_cuts, Tried tried)
+               const std::vector<int>& mirrored, const SolverChoice& solver,
+               const StepSetting& setting)
       : bulk_(bulk),
         problem_(problem),
         faults_(faults),
         mirrored_(mirrored),
-        options_(options),
-        contact_(bulk, laws, options),
-        max_cuts_(max_cuts),
-        tried_(std::move(tried)),
+        options_(options_of(solver, setting)),
+        contact_(bulk, setting.laws, options_),
+        max_cuts_(setting.scene.numerics.max_step_cuts),
+        tried_(setting.watch.tried),
         u_(Eigen::VectorXd::Zero(bulk.n_displacements())) {
     at_.factors.assign(problem.loads.size(), 0);
     at_.background = Eigen::VectorXd::Zero(faults.geometry.n_dofs);
@@ -126,22 +130,17 @@ class CoupledSteps final : public StepSolver {
                     faults.geometry.n_dofs);
   }
 
-  Report advance(const StepLoads& loads, ContactState& state) override;
-  const Eigen::Matrix3Xd& displacement() const override { return displacement_; }
-  Eigen::VectorXd observed() const override;
-  CaseCoupled description() const override {
-    CaseCoupled of;
-    of.leading = to_string(options_.solver.leading);
-    of.schur = to_string(options_.solver.schur);
-    of.n_displacements = bulk_.n_displacements();
-    of.n_multipliers = contact_.n_dofs();
-    return of;
+  SolvedStep advance(const LoadStep& step, const StepLoads& loads, ContactState& state) override;
+  Eigen::VectorXd observed(const StepLoads& loads, const ContactState& state) const override;
+  Eigen::Matrix3Xd displacement(const StepLoads&, const ContactState&) override {
+    return displacement_;
   }
+  void describe(CaseResult& result) const override;
 
  private:
   CoupledLoad between(const CoupledLoad& to, double share) const;
   bool try_part(double from, double to, const CoupledLoad& load, ContactState& state,
-                Eigen::VectorXd& u, Report& report);
+                Eigen::VectorXd& u, SolvedStep& solved);
 
   const TwoSidedBulk& bulk_;
   const BulkProblem& problem_;
@@ -151,7 +150,7 @@ class CoupledSteps final : public StepSolver {
   CoupledContact contact_;
   int max_cuts_;
   bool may_cut_ = true;  ///< after a failure: a smaller step may help.
-  Tried tried_;
+  std::function<void(const SubStepTrace&)> tried_;
   CoupledLoad at_;     ///< of the last equilibrium,
   Eigen::VectorXd u_;  ///< its displacements as unknowns
   Eigen::Matrix3Xd displacement_;
@@ -168,16 +167,17 @@ CoupledLoad CoupledSteps::between(const CoupledLoad& to, double share) const {
 }
 
 /// @returns whether there is equilibrium at the end of that part of the load step; if not,
-/// report.contact.reason says why.
+/// solved.contact.reason says why.
 bool CoupledSteps::try_part(double from, double to, const CoupledLoad& load, ContactState& state,
-                            Eigen::VectorXd& u, Report& report) {
+                            Eigen::VectorXd& u, SolvedStep& solved) {
   const CoupledStepReport part = contact_.advance(load, state, u);
-  report.linear.krylov_iterations.insert(report.linear.krylov_iterations.end(),
-                                         part.linear.krylov_iterations.begin(),
-                                         part.linear.krylov_iterations.end());
-  report.linear.setup_seconds += part.linear.setup_seconds;
-  report.linear.solve_seconds += part.linear.solve_seconds;
-  SolveCounts& counts = report.contact.counts;
+  StepCoupled& linear = *solved.linear;
+  linear.krylov_iterations.insert(linear.krylov_iterations.end(),
+                                  part.linear.krylov_iterations.begin(),
+                                  part.linear.krylov_iterations.end());
+  linear.setup_seconds += part.linear.setup_seconds;
+  linear.solve_seconds += part.linear.solve_seconds;
+  SolveCounts& counts = solved.contact.counts;
   (part.converged ? counts.newton_iterations : counts.wasted_newton_iterations) +=
       part.newton_iterations();
   counts.active_set_passes += part.newton.passes;
@@ -185,7 +185,7 @@ bool CoupledSteps::try_part(double from, double to, const CoupledLoad& load, Con
     ++counts.sub_steps;
   } else {
     may_cut_ = part.newton.end != SearchEnd::no_progress;  // a linear system stays as hard
-    report.contact.reason = concat(part.reason, " (load ", from, " to ", to, " of the step)");
+    solved.contact.reason = concat(part.reason, " (load ", from, " to ", to, " of the step)");
   }
   if (tried_) {
     tried_({.from = from,
@@ -197,26 +197,28 @@ bool CoupledSteps::try_part(double from, double to, const CoupledLoad& load, Con
   return part.converged;
 }
 
-StepSolver::Report CoupledSteps::advance(const StepLoads& loads, ContactState& state) {
+SolvedStep CoupledSteps::advance(const LoadStep&, const StepLoads& loads, ContactState& state) {
   const CoupledLoad to{loads.factors, loads.locked};
-  Report report;
+  SolvedStep solved;
+  solved.linear.emplace();
+  solved.is_elastic = false;
   ContactState next = state;
   Eigen::VectorXd u = u_;
   double done = 0, length = 1;
   for (int cuts = 0; done < 1;) {
     const double end = std::min(done + length, 1.0);
-    if (try_part(done, end, between(to, end), next, u, report)) {
+    if (try_part(done, end, between(to, end), next, u, solved)) {
       done = end;
       continue;
     }
     if (!may_cut_ || cuts++ == max_cuts_) {
-      report.contact.outcome = Outcome::unconverged;
-      return report;
+      solved.contact.outcome = Outcome::unconverged;
+      return solved;
     }
     length /= 2;
   }
-  report.contact.outcome = Outcome::converged;
-  report.contact.reason.clear();
+  solved.contact.outcome = Outcome::converged;
+  solved.contact.reason.clear();
   state = std::move(next);
   u_ = std::move(u);
   at_ = to;
@@ -224,10 +226,18 @@ StepSolver::Report CoupledSteps::advance(const StepLoads& loads, ContactState& s
   for (Eigen::Index i = 0; i < displacement_.cols(); ++i) {
     for (int c = 0; c < 3; ++c) displacement_(c, i) = u_[bulk_.dof(static_cast<int>(i), c)];
   }
-  return report;
+  return solved;
 }
 
-Eigen::VectorXd CoupledSteps::observed() const {
+void CoupledSteps::describe(CaseResult& result) const {
+  CaseCoupled& of = result.coupled.emplace();
+  of.leading = to_string(options_.solver.leading);
+  of.schur = to_string(options_.solver.schur);
+  of.n_displacements = bulk_.n_displacements();
+  of.n_multipliers = contact_.n_dofs();
+}
+
+Eigen::VectorXd CoupledSteps::observed(const StepLoads&, const ContactState&) const {
   Eigen::VectorXd values(static_cast<Eigen::Index>(faults_.observed.rows.size()));
   int row = 0;
   for (const auto& [name, point] : problem_.observation_points) {
@@ -256,20 +266,11 @@ const Mesh& CoupledCase::mesh() const { return impl_->problem.mesh; }
 CaseResult CoupledCase::run(const RunContext& context, const StepObserver& observer,
                             const CaseProbe& probe) {
   Impl& self = *impl_;
-  int step = 0;  // of the tries; the observer is told when it is over
-  CoupledSteps::Tried told;
-  if (probe.tried) told = [&](const SubStepTrace& part) { probe.tried(step, part); };
-  CoupledContactOptions options;
-  options.solver = self.solver;
-  options.traction_tolerance = self.scene.numerics.traction_tolerance;
-  options.stop = context.stop;
-  CoupledSteps steps(self.bulk, self.problem, self.faults, self.laws, options, self.mirrored,
-                     self.scene.numerics.max_step_cuts, told);
-  const auto observed = [&](const StepResult& result, const FaultFields& fields) {
-    step = result.step + 1;
-    if (observer) observer(result, fields);
+  const auto steps = [&self](const StepSetting& setting) {
+    return std::make_unique<CoupledSteps>(self.bulk, self.problem, self.faults, self.mirrored,
+                                          self.solver, setting);
   };
-  CaseResult result = run_case(self.scene, self.faults, steps, context, observed, probe);
+  CaseResult result = run_case(self.scene, self.faults, steps, context, observer, probe);
   if (std::string text = parts_warning(result); !text.empty()) result.warnings.push_back(text);
   return result;
 }

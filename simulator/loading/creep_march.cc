@@ -8,6 +8,7 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/loading/case_contact.h"
+#include "simulator/operators/prepare_operator.h"
 
 namespace faultsim {
 namespace {
@@ -25,8 +26,7 @@ void add_counts(SolveCounts& sum, const SolveCounts& part, bool wasted) {
       part.wasted_newton_iterations + (wasted ? part.newton_iterations : 0);
 }
 
-}  // namespace
-
+/// A⁻¹ H g over the columns with g ≠ 0, n_dofs, Pa.
 Eigen::VectorXd elastic_traction_drop(const FaultOperator& op, const Eigen::VectorXd& jump) {
   Eigen::VectorXd drop = Eigen::VectorXd::Zero(op.geometry.n_dofs);
   for (Eigen::Index d = 0; d < jump.size(); ++d) {
@@ -34,6 +34,8 @@ Eigen::VectorXd elastic_traction_drop(const FaultOperator& op, const Eigen::Vect
   }
   return drop.cwiseQuotient(op.geometry.dof_area);
 }
+
+}  // namespace
 
 struct CreepMarch::Impl {
   /// Everything that a time step changes.
@@ -53,22 +55,25 @@ struct CreepMarch::Impl {
   /// A way from one point to a later one.
   struct Path {
     Point end;  ///< its bulk lags behind while there is a move to be made: see arrive().
-    CreepReport report;
+    ContactReport contact;
+    StepCreep creep;
     std::optional<BulkMove> move;
-    bool good() const { return in_equilibrium(report.contact.outcome); }
+    bool good() const { return in_equilibrium(contact.outcome); }
   };
 
-  Impl(const Scene& given_scene, const CaseLoads& given_loads, CreepLadder& given_ladder,
-       const ContactLaws& laws, const ContactWatch& given_watch)
-      : numerics(given_scene.numerics),
-        watch(given_watch),
-        case_loads(given_loads),
+  Impl(CreepLadder& given_ladder, const StepSetting& setting)
+      : scene(setting.scene),
+        numerics(setting.scene.numerics),
+        watch(setting.watch),
+        case_loads(setting.loads),
         ladder(given_ladder),
-        following_laws(laws),
-        static_laws(without_following(laws)),
+        following_laws(setting.laws),
+        static_laws(without_following(setting.laws)),
         static_solver(static_cast<std::size_t>(ladder.n_rungs())),
         following_solver(static_cast<std::size_t>(ladder.n_rungs())) {}
 
+  ContactReport begin(const StepLoads& loads, ContactState& state);
+  Path walked(double to);
   int rung_of(double duration) const;
   int finer(int rung) const;
   ContactSolver& solver(int rung, bool follows);
@@ -81,13 +86,15 @@ struct CreepMarch::Impl {
   Path fixed(const Point& from, double to);
   Path controlled(const Point& from, double to, Path coarse, int rung);
 
-  Numerics numerics;
+  const Scene& scene;
+  const Numerics& numerics;
   ContactWatch watch;
   const CaseLoads& case_loads;
   CreepLadder& ladder;
   ContactLaws following_laws, static_laws;
   std::vector<std::unique_ptr<ContactSolver>> static_solver, following_solver;  // per rung
   Point now;
+  bool has_begun = false;                 // step 0 is in equilibrium
   double step_from = 0, step_length = 0;  // s, of the load step
   int thrown_away = 0;                    // Newton iterations of paths not taken
 };
@@ -151,10 +158,10 @@ CreepMarch::Impl::Path CreepMarch::Impl::step(const Point& from, const StepLoads
   }
   const Eigen::VectorXd before =
       from.contact.traction + elastic_traction_drop(op, from.contact.jump);
-  Path path{from, {}, {}};
-  path.report.contact = solver(rung, follows).solve_step(before, before + change, path.end.contact);
-  path.report.time_steps = 1;
-  for (ContactJump& jump : path.report.contact.jumps) {
+  Path path{from, {}, {}, {}};
+  path.contact = solver(rung, follows).solve_step(before, before + change, path.end.contact);
+  path.creep.time_steps = 1;
+  for (ContactJump& jump : path.contact.jumps) {
     for (double* factor : {&jump.load_before, &jump.load_after}) {
       *factor = (from.time + *factor * (to - from.time) - step_from) / step_length;
     }
@@ -168,17 +175,15 @@ CreepMarch::Impl::Path CreepMarch::Impl::step(const Point& from, const StepLoads
 }
 
 CreepMarch::Impl::Path CreepMarch::Impl::joined(Path first, Path second) {
-  CreepReport& sum = first.report;
-  const CreepReport& more = second.report;
-  sum.contact.outcome =
-      more.contact.outcome == Outcome::converged ? sum.contact.outcome : more.contact.outcome;
-  sum.contact.reason += more.contact.reason;
-  sum.contact.jumps.insert(sum.contact.jumps.end(), more.contact.jumps.begin(),
-                           more.contact.jumps.end());
-  add_counts(sum.contact.counts, more.contact.counts, false);
-  sum.time_steps += more.time_steps;
-  sum.time_error = std::max(sum.time_error, more.time_error);
-  sum.time_resolved = sum.time_resolved && more.time_resolved;
+  ContactReport& sum = first.contact;
+  const ContactReport& more = second.contact;
+  sum.outcome = more.outcome == Outcome::converged ? sum.outcome : more.outcome;
+  sum.reason += more.reason;
+  sum.jumps.insert(sum.jumps.end(), more.jumps.begin(), more.jumps.end());
+  add_counts(sum.counts, more.counts, false);
+  first.creep.time_steps += second.creep.time_steps;
+  first.creep.time_error = std::max(first.creep.time_error, second.creep.time_error);
+  first.creep.time_resolved = first.creep.time_resolved && second.creep.time_resolved;
   first.end = std::move(second.end);
   first.move = std::move(second.move);
   return first;
@@ -189,15 +194,15 @@ CreepMarch::Impl::Path CreepMarch::Impl::split(const Point& from, double to, int
   const StepLoads loads = case_loads.at(to);
   Path jump = step(from, loads, to, 0, true);
   if (!jump.good()) return jump;
-  jump.report.time_steps = 0;
+  jump.creep.time_steps = 0;
   jump.end.time = from.time;
   Path creep = step(arrive(jump), loads, to, rung, true);
-  creep.report.time_resolved = creep.report.contact.jumps.empty();
+  creep.creep.time_resolved = creep.contact.jumps.empty();
   return joined(std::move(jump), std::move(creep));
 }
 
 void CreepMarch::Impl::discard(const Path& path) {
-  const SolveCounts& counts = path.report.contact.counts;
+  const SolveCounts& counts = path.contact.counts;
   thrown_away += counts.newton_iterations + counts.wasted_newton_iterations;
 }
 
@@ -250,50 +255,79 @@ CreepMarch::Impl::Path CreepMarch::Impl::controlled(const Point& from, double to
   if (!first.good()) return first;
   Path path = joined(std::move(first), std::move(second));
   if (std::isfinite(difference)) {  // else a jump was in the way, and there is nothing to compare
-    path.report.time_error = std::max(path.report.time_error, difference);
-    path.report.time_resolved = path.report.time_resolved && difference <= numerics.creep_tolerance;
+    path.creep.time_error = std::max(path.creep.time_error, difference);
+    path.creep.time_resolved = path.creep.time_resolved && difference <= numerics.creep_tolerance;
   }
   return path;
 }
 
-CreepMarch::CreepMarch(const Scene& scene, const CaseLoads& loads, CreepLadder& ladder,
-                       const ContactLaws& laws, const ContactWatch& watch)
-    : impl_(std::make_unique<Impl>(scene, loads, ladder, laws, watch)) {}
+/// Step 0, elastic: from closed faults to the loads at t = 0.
+ContactReport CreepMarch::Impl::begin(const StepLoads& loads, ContactState& state) {
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(ladder.op(0).geometry.n_dofs);
+  ContactReport report = solver(0, true).solve_step(none, loads.locked, state);
+  if (!in_equilibrium(report.outcome)) return report;
+  now = {0, loads, state, ladder.at_rest()};
+  ladder.advance(0, ladder.history(0, now.bulk), loads.factors, state.jump, now.bulk);
+  has_begun = true;
+  return report;
+}
+
+/// The way to the end of a load step.
+CreepMarch::Impl::Path CreepMarch::Impl::walked(double to) {
+  step_from = now.time;
+  step_length = to - now.time;
+  thrown_away = 0;
+  Path path;
+  if (numerics.creep_time_step > 0) {
+    path = fixed(now, to);
+  } else {
+    const int rung = rung_of(step_length);
+    FAULTSIM_DEMAND(rung > 0, "no rung of ", step_length, " s");
+    const bool only = finer(rung) < 0;
+    path = controlled(now, to, whole(now, to, rung, only), rung);
+  }
+  path.contact.counts.wasted_newton_iterations += thrown_away;
+  return path;
+}
+
+CreepMarch::CreepMarch(CreepLadder& ladder, const StepSetting& setting)
+    : impl_(std::make_unique<Impl>(ladder, setting)) {}
 
 CreepMarch::~CreepMarch() = default;
 
-void CreepMarch::begin(const StepLoads& loads, const ContactState& state) {
+SolvedStep CreepMarch::advance(const LoadStep& step, const StepLoads& loads, ContactState& state) {
   Impl& self = *impl_;
-  self.now = {0, loads, state, self.ladder.at_rest()};
-  self.ladder.advance(0, self.ladder.history(0, self.now.bulk), loads.factors, state.jump,
-                      self.now.bulk);
-}
-
-CreepReport CreepMarch::advance(double to, ContactState& state) {
-  Impl& self = *impl_;
-  self.step_from = self.now.time;
-  self.step_length = to - self.now.time;
-  self.thrown_away = 0;
-  Impl::Path path;
-  if (self.numerics.creep_time_step > 0) {
-    path = self.fixed(self.now, to);
+  SolvedStep solved;
+  if (!self.has_begun) {
+    solved.contact = self.begin(loads, state);
+    if (self.has_begun) solved.creep.emplace();
   } else {
-    const int rung = self.rung_of(self.step_length);
-    FAULTSIM_DEMAND(rung > 0, "no rung of ", self.step_length, " s");
-    const bool only = self.finer(rung) < 0;
-    path = self.controlled(self.now, to, self.whole(self.now, to, rung, only), rung);
+    Impl::Path path = self.walked(step.time);
+    solved.is_elastic = false;
+    if (path.good()) {
+      self.arrive(path);
+      self.now = std::move(path.end);
+      state = self.now.contact;
+    }
+    solved.contact = std::move(path.contact);
+    solved.creep = std::move(path.creep);
   }
-  path.report.contact.counts.wasted_newton_iterations += self.thrown_away;
-  if (path.good()) {
-    self.arrive(path);
-    self.now = std::move(path.end);
-    state = self.now.contact;
+  if (in_equilibrium(solved.contact.outcome)) {
+    solved.creep_traction =
+        state.traction - loads.locked + elastic_traction_drop(self.ladder.op(0), state.jump);
   }
-  return path.report;
+  return solved;
 }
 
-Eigen::VectorXd CreepMarch::observed() const { return impl_->ladder.observed(impl_->now.bulk); }
+Eigen::VectorXd CreepMarch::observed(const StepLoads&, const ContactState&) const {
+  Eigen::VectorXd u = impl_->ladder.observed(impl_->now.bulk);
+  const bool half = impl_->ladder.op(0).geometry.half_domain;
+  for (const int row : mirrored_rows(impl_->scene, half)) u[row] *= -1;
+  return u;
+}
 
-const Eigen::Matrix3Xd& CreepMarch::displacement() const { return impl_->now.bulk.displacement; }
+Eigen::Matrix3Xd CreepMarch::displacement(const StepLoads&, const ContactState&) {
+  return impl_->now.bulk.displacement;
+}
 
 }  // namespace faultsim

@@ -6,12 +6,10 @@
 
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/stopwatch.h"
-#include "simulator/contact/contact.h"
 #include "simulator/loading/case_contact.h"
 #include "simulator/loading/creep_march.h"
+#include "simulator/loading/elastic_steps.h"
 #include "simulator/loading/warnings.h"
-#include "simulator/loads/case_loads.h"
-#include "simulator/loads/history.h"
 #include "simulator/measures/episodes.h"
 #include "simulator/measures/fault_neighbours.h"
 #include "simulator/measures/metrics.h"
@@ -39,11 +37,8 @@ void add_counts(SolveCounts& sum, const SolveCounts& part) {
 /// One case on its way through the load steps.
 class CaseRun {
  public:
-  /// @param ladder  of the family whose elastic operator op is; null = no creep.
-  /// @param other   solves instead of contact on op; null = none.
-  CaseRun(const Scene& scene, const FaultOperator& op, CreepLadder* ladder,
-          const RunContext& context, const StepObserver& observer, const CaseProbe& probe,
-          StepSolver* other = nullptr)
+  CaseRun(const Scene& scene, const FaultOperator& op, const MakeStepSolver& solver,
+          const RunContext& context, const StepObserver& observer, const CaseProbe& probe)
       : scene_(scene),
         op_(op),
         context_(context),
@@ -53,14 +48,11 @@ class CaseRun {
         node_laws_(laws_),
         loads_(scene, op, probe.noise, probe.field),
         meter_(op, laws_, scene.numerics.slip_tolerance, scene.numerics.activation_length),
-        other_(other),
+        solver_(solver({scene, laws_, loads_, watch()})),
         state_(initial_state(op)),
         neighbours_(scene, op),
         episodes_(meter_, neighbours_, fault_names(scene), op.geometry.plane_strain),
-        whole_("", 0, {}, true, op.geometry.plane_strain) {
-    if (other == nullptr) solver_.emplace(op, laws_, contact_options(scene.numerics), watch());
-    if (ladder != nullptr) march_.emplace(scene, loads_, *ladder, laws_, watch());
-  }
+        whole_("", 0, {}, true, op.geometry.plane_strain) {}
 
   CaseResult run();
   StepStart start_of(int step);
@@ -69,17 +61,14 @@ class CaseRun {
   ContactWatch watch() const;
   void name_result();
   void walk(const std::vector<LoadStep>& steps);
-  ContactReport solve(const LoadStep& step, const StepLoads* before, const StepLoads& loads,
-                      StepResult& result);
   bool advance(const LoadStep& step, const StepLoads* before, const StepLoads& loads);
-  void show(const StepLoads* before, const StepLoads& loads, const ContactReport& report,
+  void show(const StepLoads* before, const StepLoads& loads, const SolvedStep& solved,
             const StepResult& result, AcceptedStep& step) const;
   void record_events(const LoadStep& step, const StepLoads* before, const StepLoads& loads,
                      const std::vector<ContactJump>& jumps);
   void record(const LoadStep& step, const StepLoads& loads, const Eigen::VectorXd& jump_before,
               StepResult& result);
-  void record_creep(const StepLoads& loads, StepCreep& creep);
-  void observe(const StepLoads& loads, StepResult& result) const;
+  void record_creep(StepCreep& creep) const;
   Eigen::Matrix3Xd per_node(const Eigen::VectorXd& values) const;
   FaultFields fields(const StepLoads& loads) const;
   void name_events();
@@ -94,8 +83,7 @@ class CaseRun {
   NodeLaws node_laws_;
   CaseLoads loads_;
   FaultMeter meter_;
-  StepSolver* other_;
-  std::optional<ContactSolver> solver_;  ///< none where another one solves.
+  std::unique_ptr<StepSolver> solver_;
   ContactState state_;
   NodalState nodal_;
   CaseResult result_;
@@ -103,7 +91,6 @@ class CaseRun {
   EpisodeTracker episodes_;
   StageSummary whole_;
   std::optional<StageSummary> stage_;
-  std::optional<CreepMarch> march_;
   Eigen::VectorXd creep_traction_;  ///< t'_creep of the last step, n_dofs, Pa; empty without creep.
   double last_time_ = 0;            ///< s, of the last step.
   const LoadStep* at_ = nullptr;    ///< the step being solved.
@@ -142,11 +129,7 @@ FaultFields CaseRun::fields(const StepLoads& loads) const {
   f.critical_index = nodal_.critical_index;
   f.static_critical_index = nodal_.static_critical_index;
   f.fault_pressure_change = loads.fault_pressure_change;
-  if (march_) {
-    f.creep_traction = per_node(creep_traction_);
-    f.displacement = &march_->displacement();
-  }
-  if (other_ != nullptr) f.displacement = &other_->displacement();
+  if (creep_traction_.size() > 0) f.creep_traction = per_node(creep_traction_);
   return f;
 }
 
@@ -172,27 +155,7 @@ void CaseRun::note_weakening(const Eigen::VectorXd& traction, bool trial) {
   }
 }
 
-void CaseRun::observe(const StepLoads& loads, StepResult& result) const {
-  Eigen::VectorXd u;
-  if (other_ != nullptr) {
-    u = other_->observed();
-  } else if (march_) {
-    u = march_->observed();
-    const auto& points = scene_.output.observation_points;
-    for (std::size_t i = 0; op_.geometry.half_domain && i < points.size(); ++i) {
-      if (points[i].position[1] < 0) u[3 * static_cast<Eigen::Index>(i) + 1] *= -1;  // mirrored
-    }
-  } else {
-    const Eigen::Map<const Eigen::VectorXd> factors(
-        loads.factors.data(), static_cast<Eigen::Index>(loads.factors.size()));
-    u = op_.observed.per_load * factors + op_.observed.per_jump * state_.jump;
-    if (loads.observed.size() > 0) u += loads.observed;
-  }
-  result.observed.assign(u.begin(), u.end());
-}
-
-void CaseRun::record_creep(const StepLoads& loads, StepCreep& creep) {
-  creep_traction_ = state_.traction - loads.locked + elastic_traction_drop(op_, state_.jump);
+void CaseRun::record_creep(StepCreep& creep) const {
   const Eigen::Matrix3Xd traction = per_node(creep_traction_);
   for (const OperatorFault& fault : op_.geometry.faults) {
     FaultCreep sum;
@@ -217,8 +180,11 @@ void CaseRun::record(const LoadStep& step, const StepLoads& loads,
   for (const OperatorNode& node : op_.geometry.nodes) {
     result_.max_penetration = std::max(result_.max_penetration, -state_.jump[node.dof[0]]);
   }
-  if (!op_.observed.rows.empty()) observe(loads, result);
-  if (result.creep) record_creep(loads, *result.creep);
+  if (!op_.observed.rows.empty()) {
+    const Eigen::VectorXd u = solver_->observed(loads, state_);
+    result.observed.assign(u.begin(), u.end());
+  }
+  if (result.creep) record_creep(*result.creep);
   if (result.n_slip > 0) note_weakening(state_.traction, false);
   const auto first = std::find_if(result_.events.begin(), result_.events.end(),
                                   [&](const SlipEvent& e) { return e.step == step.step; });
@@ -251,40 +217,17 @@ void CaseRun::record_events(const LoadStep& step, const StepLoads* before, const
   }
 }
 
-/// The faults' way through one step, in place; step 0 (no loads before) is elastic.
-ContactReport CaseRun::solve(const LoadStep& step, const StepLoads* before, const StepLoads& loads,
-                             StepResult& result) {
-  if (march_ && before != nullptr) {
-    CreepReport report = march_->advance(step.time, state_);
-    result.creep = StepCreep{report.time_steps, report.time_error, report.time_resolved, {}};
-    return std::move(report.contact);
-  }
-  if (other_ != nullptr) {
-    StepSolver::Report report = other_->advance(loads, state_);
-    result_.coupled->add(report.linear);
-    result.coupled = std::move(report.linear);
-    return std::move(report.contact);
-  }
-  const Eigen::VectorXd locked_before =
-      before != nullptr ? before->locked : Eigen::VectorXd::Zero(op_.geometry.n_dofs);
-  ContactReport report = solver_->solve_step(locked_before, loads.locked, state_);
-  if (march_ && in_equilibrium(report.outcome)) {
-    march_->begin(loads, state_);
-    result.creep.emplace();
-  }
-  return report;
-}
-
 /// Gives the probe what was accepted. @param step  with the state before.
-void CaseRun::show(const StepLoads* before, const StepLoads& loads, const ContactReport& report,
+void CaseRun::show(const StepLoads* before, const StepLoads& loads, const SolvedStep& solved,
                    const StepResult& result, AcceptedStep& step) const {
   step.locked = loads.locked;
   step.locked_before =
       before != nullptr ? before->locked : Eigen::VectorXd::Zero(op_.geometry.n_dofs);
   step.after = state_;
-  step.elastic = other_ == nullptr && (!march_ || before == nullptr);
+  step.elastic = solved.is_elastic;
   const bool one_time_step = !result.creep || result.creep->time_steps <= 1;
-  step.at_once = one_time_step && report.counts.sub_steps == 1 && report.jumps.empty();
+  step.at_once =
+      one_time_step && solved.contact.counts.sub_steps == 1 && solved.contact.jumps.empty();
   probe_.accepted(result.step, laws_, step);
 }
 
@@ -299,7 +242,12 @@ bool CaseRun::advance(const LoadStep& step, const StepLoads* before, const StepL
   const Eigen::VectorXd jump_before = state_.jump;
   AcceptedStep accepted;
   if (probe_.accepted) accepted.before = state_;
-  const ContactReport report = solve(step, before, loads, result);
+  SolvedStep solved = solver_->advance(step, loads, state_);
+  const ContactReport& report = solved.contact;
+  result.creep = std::move(solved.creep);
+  creep_traction_ = std::move(solved.creep_traction);
+  if (solved.linear) result_.coupled->add(*solved.linear);
+  result.coupled = std::move(solved.linear);
   result.outcome = report.outcome;
   result.reason = report.reason;
   result.counts = report.counts;
@@ -309,7 +257,7 @@ bool CaseRun::advance(const LoadStep& step, const StepLoads* before, const StepL
   result.seconds = stopwatch.seconds();
   if (good) {
     record(step, loads, jump_before, result);
-    if (probe_.accepted) show(before, loads, report, result, accepted);
+    if (probe_.accepted) show(before, loads, solved, result, accepted);
   } else {
     result_.outcome = report.outcome;
     result_.reason = concat("load step ", step.step, " (", step.stage, "): ", report.reason);
@@ -345,7 +293,7 @@ void CaseRun::name_result() {
     result_.region_names.push_back(history.region);
   result_.fault_names = fault_names(scene_);
   for (const ObservationRow& row : op_.observed.rows) result_.observation_names.push_back(row.name);
-  if (other_ != nullptr) result_.coupled = other_->description();
+  solver_->describe(result_);
 }
 
 /// Goes through the load steps to their end, or as far as there is equilibrium.
@@ -363,6 +311,8 @@ void CaseRun::walk(const std::vector<LoadStep>& steps) {
       stage_.reset();
     }
     if (!advance(steps[i], i == 0 ? nullptr : &loads[i - 1], loads[i])) break;
+    if (probe_.displaced && is_stage_end(steps, i))
+      probe_.displaced(result_.steps.back(), solver_->displacement(loads[i], state_));
     context_.progress(static_cast<double>(i + 1) / static_cast<double>(steps.size()),
                       steps[i].stage);
   }
@@ -433,16 +383,28 @@ CaseProbe with_field(CaseProbe probe, const PreparedOperator& prepared) {
   return probe;
 }
 
+/// What solves the steps of cases on an operator.
+MakeStepSolver steps_on(const FaultOperator& op, CreepLadder* bulk) {
+  return [&op, bulk](const StepSetting& setting) -> std::unique_ptr<StepSolver> {
+    if (bulk != nullptr && bulk->n_rungs() > 1) return std::make_unique<CreepMarch>(*bulk, setting);
+    return std::make_unique<ElasticSteps>(op, bulk, setting);
+  };
+}
+
+MakeStepSolver steps_on(const PreparedOperator& prepared) {
+  return steps_on(*prepared.op, prepared.bulk.get());
+}
+
 }  // namespace
 
 CaseResult run_case(const Scene& scene, const FaultOperator& op, const RunContext& context,
                     const StepObserver& observer) {
-  return CaseRun(scene, op, nullptr, context, observer, {}).run();
+  return CaseRun(scene, op, steps_on(op, nullptr), context, observer, {}).run();
 }
 
 CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, const RunContext& context,
                     const StepObserver& observer, const CaseProbe& probe) {
-  CaseResult result = CaseRun(scene, *prepared.op, prepared.ladder.get(), context, observer,
+  CaseResult result = CaseRun(scene, *prepared.op, steps_on(prepared), context, observer,
                               with_field(probe, prepared))
                           .run();
   if (prepared.field) {
@@ -455,15 +417,17 @@ CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, const 
   return result;
 }
 
-CaseResult run_case(const Scene& scene, const FaultOperator& faults, StepSolver& solver,
+CaseResult run_case(const Scene& scene, const FaultOperator& faults, const MakeStepSolver& solver,
                     const RunContext& context, const StepObserver& observer,
                     const CaseProbe& probe) {
-  return CaseRun(scene, faults, nullptr, context, observer, probe, &solver).run();
+  return CaseRun(scene, faults, solver, context, observer, probe).run();
 }
 
 StepStart start_of_step(const Scene& scene, const PreparedOperator& prepared, int step,
                         const RunContext& context) {
-  return CaseRun(scene, *prepared.op, nullptr, context, {}, with_field({}, prepared))
+  const StepObserver unobserved;
+  const CaseProbe probe = with_field({}, prepared);
+  return CaseRun(scene, *prepared.op, steps_on(*prepared.op, nullptr), context, unobserved, probe)
       .start_of(step);
 }
 

@@ -6,11 +6,9 @@
 #include <vector>
 
 #include "simulator/common/run_context.h"
-#include "simulator/contact/contact.h"
 #include "simulator/contact/judge.h"
-#include "simulator/loads/case_loads.h"
+#include "simulator/loading/step_solver.h"
 #include "simulator/loads/field_history.h"
-#include "simulator/loads/history.h"
 #include "simulator/model/fault_operator.h"
 #include "simulator/operators/prepare_operator.h"
 #include "simulator/result/result.h"
@@ -30,27 +28,11 @@ struct CaseProbe {
   std::function<void(int, const ContactLaws&, const AcceptedStep&)> accepted;
   /// Called after each try at a part of a load step, if set, with the number of the step.
   std::function<void(int, const SubStepTrace&)> tried;
+  /// Called at the end of each stage, and of step 0, with the displacement of all mesh nodes (m),
+  /// if set: where that is on a condensed operator, its bulk was kept.
+  std::function<void(const StepResult&, const Eigen::Matrix3Xd&)> displaced;
   std::string identity;                 ///< case_identity of the scene; empty = to be found.
   const FieldHistory* field = nullptr;  ///< of a scene with a flow result.
-};
-
-/// Who finds the equilibrium of a load step where that is not contact on a condensed operator: the
-/// coupled path (coupled_case/), which loading does not know. Remembers the last equilibrium.
-class StepSolver {
- public:
-  virtual ~StepSolver() = default;
-  struct Report {
-    ContactReport contact;  ///< load factors of its jumps are of the load step.
-    StepCoupled linear;
-  };
-  /// Advances from the last equilibrium, the unloaded rest at first, to that under `loads`. Unless
-  /// in equilibrium, `state` is left as it was. Throws Interrupted when it is told to stop.
-  virtual Report advance(const StepLoads& loads, ContactState& state) = 0;
-  /// Displacement there of all mesh nodes, 3 x n_nodes, m, and of the operator's observation rows.
-  virtual const Eigen::Matrix3Xd& displacement() const = 0;
-  virtual Eigen::VectorXd observed() const = 0;
-  /// How it solves, with the sizes; sums are 0.
-  virtual CaseCoupled description() const = 0;
 };
 
 /// Runs one case on its operator: initial state, load steps, contact, metrics. Deterministic: the
@@ -63,10 +45,10 @@ CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, const 
 CaseResult run_case(const Scene& scene, const FaultOperator& op, const RunContext& context,
                     const StepObserver& observer = {});
 
-/// The same by a solver of its own: no creep, no slip events.
-/// @param faults  an operator that is not condensed (coupled_case.h): geometry, keys of its loads
-/// and observation rows, and nothing of what a load or a jump does.
-CaseResult run_case(const Scene& scene, const FaultOperator& faults, StepSolver& solver,
+/// The same by a solver of its own, which has no operator.
+/// @param faults  geometry, keys of its loads and observation rows; nothing of what a load or a
+/// jump does.
+CaseResult run_case(const Scene& scene, const FaultOperator& faults, const MakeStepSolver& solver,
                     const RunContext& context, const StepObserver& observer = {},
                     const CaseProbe& probe = {});
 

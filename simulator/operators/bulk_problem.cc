@@ -85,10 +85,10 @@ std::optional<Mesh> moved_faults(const Scene& scene, const Plan& plan, const Mes
   return mesh;
 }
 
-std::vector<int> mirrored_rows(const Scene& scene, const Plan& plan) {
+std::vector<int> mirrored_rows(const Scene& scene, bool half_domain) {
   std::vector<int> rows;
   const auto& points = scene.output.observation_points;
-  for (int i = 0; plan.half_domain && i < static_cast<int>(points.size()); ++i) {
+  for (int i = 0; half_domain && i < static_cast<int>(points.size()); ++i) {
     if (points[i].position[1] < 0) rows.push_back(3 * i + 1);
   }
   return rows;

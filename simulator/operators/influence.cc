@@ -86,11 +86,11 @@ PreparedInfluence prepare_influence(const Scene& scene, const Plan& plan,
   PreparedOperator prepared = prepare_operator(scene, whole, cache, true, context);
   made.op = prepared.op;
   if (!prepared.remark.empty()) made.remark = prepared.remark;
-  auto block = std::make_shared<InfluenceBlock>(prepared.bulk->influence(cells, context));
+  auto block = std::make_shared<InfluenceBlock>(prepared.bulk->bulk(0).influence(cells, context));
   block->fingerprint = name;
   block->operator_fingerprint = op_name;
   block->region_names = region_names(scene);
-  for (const int row : mirrored_rows(scene, plan)) block->observed.row(row) *= -1;
+  for (const int row : mirrored_rows(scene, plan.half_domain)) block->observed.row(row) *= -1;
   made.block = block;
   if (!cache.folder.empty()) keep_influence(made, cache, made.remark);
   return made;

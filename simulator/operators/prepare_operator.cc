@@ -20,7 +20,7 @@ void take_fault_names(const Scene& scene, FaultOperator& op) {
 void mirror_observations(const Scene& scene, const Plan& plan, Observations& observed) {
   FAULTSIM_DEMAND(observed.rows.size() == 3 * scene.output.observation_points.size(),
                   observed.rows.size());
-  for (const int row : mirrored_rows(scene, plan)) {
+  for (const int row : mirrored_rows(scene, plan.half_domain)) {
     for (int c = -1; c < 2; ++c) observed.rows[row + c].position.y() *= -1;
     observed.per_load.row(row) *= -1;
     observed.per_jump.row(row) *= -1;
@@ -56,26 +56,9 @@ std::optional<FaultOperator> find_operator(const std::string& name, const CacheP
   return found;
 }
 
-/// Every process needs the factors of a creeping family, so its operators are built, never read.
-PreparedOperator prepare_ladder(const Scene& scene, const Plan& plan, const RunContext& context) {
-  require_memory(plan, available_memory());
-  context.progress(0.0, "meshing");
-  const MaxwellScheme scheme = scene.numerics.creep_scheme == CreepScheme::exponential
-                                   ? MaxwellScheme::exponential
-                                   : MaxwellScheme::backward_euler;
-  PreparedOperator prepared;
-  prepared.ladder =
-      std::make_shared<CreepLadder>(bulk_problem(scene, plan), plan.creep.rungs, scheme, context);
-  auto op = std::make_shared<FaultOperator>(prepared.ladder->op(0));  // shares H
-  take_fault_names(scene, *op);
-  mirror_observations(scene, plan, op->observed);
-  op->fingerprint = operator_fingerprint(scene, plan, blas_description());
-  for (int rung = 1; rung < prepared.ladder->n_rungs(); ++rung) {
-    op->build_seconds += prepared.ladder->op(rung).build_seconds;
-    op->factor_bytes += prepared.ladder->op(rung).factor_bytes;
-  }
-  prepared.op = op;
-  return prepared;
+MaxwellScheme scheme_of(const Scene& scene) {
+  return scene.numerics.creep_scheme == CreepScheme::exponential ? MaxwellScheme::exponential
+                                                                 : MaxwellScheme::backward_euler;
 }
 
 }  // namespace
@@ -85,10 +68,10 @@ PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const Ca
   FAULTSIM_DEMAND(!scene.numerics.surface.wanted(), "an exact operator of a surface's family");
   take_blas_buffer();
   set_blas_threads(1);
-  if (plan.creep.active) return prepare_ladder(scene, plan, context);
   PreparedOperator prepared;
   const std::string name = operator_fingerprint(scene, plan, blas_description());
-  if (!cache.folder.empty() && !keep_bulk) {
+  const bool keeps_factors = keep_bulk || plan.creep.active;
+  if (!cache.folder.empty() && !keeps_factors) {
     if (auto found = find_operator(name, cache, prepared.remark)) {
       take_fault_names(scene, *found);
       prepared.op = std::make_shared<FaultOperator>(std::move(*found));
@@ -98,15 +81,21 @@ PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const Ca
   }
   require_memory(plan, available_memory());
   context.progress(0.0, "meshing");
-  const BulkProblem problem = bulk_problem(scene, plan);
+  BulkProblem problem = bulk_problem(scene, plan);
   context.stop.throw_if_requested("meshing");
-  auto bulk = std::make_shared<CondensedBulk>(problem, context);
-  auto op = std::make_shared<FaultOperator>(bulk->condense(context));
+  auto bulk = std::make_shared<CreepLadder>(std::move(problem), plan.creep.rungs, scheme_of(scene),
+                                            context);
+  auto op = std::make_shared<FaultOperator>(bulk->op(0));  // shares H
+  take_fault_names(scene, *op);
   mirror_observations(scene, plan, op->observed);
   op->fingerprint = name;
-  if (!cache.folder.empty()) keep_operator(*op, cache, prepared.remark);
+  for (int rung = 1; rung < bulk->n_rungs(); ++rung) {
+    op->build_seconds += bulk->op(rung).build_seconds;
+    op->factor_bytes += bulk->op(rung).factor_bytes;
+  }
+  if (!cache.folder.empty() && !plan.creep.active) keep_operator(*op, cache, prepared.remark);
   prepared.op = op;
-  if (keep_bulk) prepared.bulk = bulk;
+  if (keeps_factors) prepared.bulk = bulk;
   return prepared;
 }
 

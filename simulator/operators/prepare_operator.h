@@ -24,7 +24,7 @@ BulkProblem bulk_problem(const Scene& scene, const Plan& plan);
 std::optional<Mesh> moved_faults(const Scene& scene, const Plan& plan, const Mesh& like);
 /// Points of the half that is not modelled are observed at their mirror image. The rows (three per
 /// observation point) whose sign is therefore to be turned: their u_y.
-std::vector<int> mirrored_rows(const Scene& scene, const Plan& plan);
+std::vector<int> mirrored_rows(const Scene& scene, bool half_domain);
 
 struct FieldLoads;
 
@@ -33,10 +33,10 @@ struct FieldLoads;
 /// a cache that cannot be written is a remark. A scene with a surface has none (simulator/surface).
 struct PreparedOperator {
   std::shared_ptr<const FaultOperator> op;  ///< elastic.
-  std::shared_ptr<CreepLadder> ladder;      ///< only when the plan has creep; never cached on disk,
-                                            ///< because every time step needs the factors.
-  std::shared_ptr<CondensedBulk> bulk;  ///< only when keep_bulk was asked (displacement fields).
-  std::optional<CaseSurface> surface;   ///< only where it is interpolated.
+  /// The factors, of which nothing is kept in files: where the plan has creep, as every time step
+  /// needs them, or where keep_bulk was asked (displacement fields, influences); else null.
+  std::shared_ptr<CreepLadder> bulk;
+  std::optional<CaseSurface> surface;                 ///< only where it is interpolated.
   std::shared_ptr<const FieldLoads> field = nullptr;  ///< only of a scene with a flow result.
   bool from_cache = false;
   std::string remark;  ///< "damaged operator file moved aside", "not kept", ...

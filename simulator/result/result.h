@@ -233,9 +233,6 @@ struct FaultFields {
   Eigen::VectorXi state;                  ///< FaultState.
   Eigen::VectorXd fault_pressure_change;  ///< Δp_f, Pa.
   Eigen::Matrix3Xd creep_traction;        ///< t'_creep (n, strike, dip), Pa; empty without creep.
-  /// Displacement of all mesh nodes, m: given where salt creeps and on the coupled path, valid
-  /// during the call.
-  const Eigen::Matrix3Xd* displacement = nullptr;
 };
 
 /// Measures of one fault over one stage, or over the whole case.

@@ -359,8 +359,7 @@ bool Simulation::needs_operator() const {
 
 bool Simulation::prepare(const RunContext& context, bool keep_bulk) {
   Impl& self = *impl_;
-  const bool has_bulk = self.prepared.bulk != nullptr || self.at_hand.plan.creep.active;
-  if (!needs_operator() && (has_bulk || !keep_bulk)) return false;
+  if (!needs_operator() && (self.prepared.bulk || !keep_bulk)) return false;
   self.prepared = {};  // frees the old operator before the new one is built
   if (self.at_hand.scene.numerics.surface.wanted()) {
     if (keep_bulk)
@@ -405,9 +404,10 @@ std::vector<FaultPoint> Simulation::points() const {
 }
 
 CaseResult Simulation::run(const RunContext& context, const RunWatch& watch) {
-  prepare(context);
+  prepare(context, watch.displaced != nullptr);
   CaseProbe probe;
   probe.tried = watch.tried;
+  probe.displaced = watch.displaced;
   probe.identity = impl_->at_hand.identity;
   const PreparedOperator& prepared = impl_->prepared;
   if (!prepared.surface)

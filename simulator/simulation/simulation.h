@@ -48,6 +48,9 @@ struct RunWatch {
   std::function<void(const StepResult&, const FaultFields&)> step = nullptr;
   /// After each try at a part of a load step, with the step's number (docs/trace.md).
   std::function<void(int, const SubStepTrace&)> tried = nullptr;
+  /// At the end of each stage, and of step 0, with the displacement of all mesh nodes, m, 3 x
+  /// n_nodes.
+  std::function<void(const StepResult&, const Eigen::Matrix3Xd&)> displaced = nullptr;
 };
 
 /// A scene that is held, and the operator that it and its changes run on.

@@ -53,7 +53,7 @@ void creeping(benchmark::State& state, const Prepared& prepared) {
   for (auto _ : state) result = run_case(prepared.planned_scene.scene, prepared.op, monitor);
   count(state, result);
   const FaultOperator& op = *prepared.op.op;
-  state.counters["operators"] = prepared.op.ladder->n_rungs();
+  state.counters["operators"] = prepared.op.bulk->n_rungs();
   state.counters["build_s"] = prepared.build_seconds;
   state.counters["factors_GB"] = op.factor_bytes / 1e9;
   state.counters["peak_GB_build"] = prepared.build_peak;

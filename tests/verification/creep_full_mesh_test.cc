@@ -334,7 +334,7 @@ TEST(CreepFullMesh, EqualsTheCondensedMarchWithStickSlipAndOpenNodes) {
   ASSERT_TRUE(problems.empty()) << problems[0].what;
   SilentMonitor monitor;
   const PreparedOperator prepared = prepare_operator(scene, plan, {}, false, monitor);
-  ASSERT_TRUE(prepared.ladder);
+  ASSERT_TRUE(prepared.bulk);
   std::vector<FaultFields> fields;
   const CaseResult result =
       run_case(scene, prepared, monitor,

@@ -155,7 +155,7 @@ TEST(DiagnoseCase, FindsASlippingFieldSoundAndCountsWhatItChecked) {
 
 TEST(DiagnoseCase, SaysThatEquilibriumIsNotRecomputedWhileSaltCreeps) {
   const Prepared prepared = field(true);
-  ASSERT_TRUE(prepared.op.ladder);
+  ASSERT_TRUE(prepared.op.bulk);
   SilentMonitor monitor;
   const Diagnosis d = diagnose_case(prepared.scene, prepared.op, monitor);
   EXPECT_EQ(d.n_elastic, 1) << "step 0";
