@@ -192,79 +192,6 @@ void predict_influence(const Scene& scene, const GridShape& shape, double n_cell
 
 nlohmann::json numbers(const std::vector<double>& values) { return nlohmann::json(values); }
 
-nlohmann::json family_of_field(const FieldMeshSpec& spec) {
-  nlohmann::json j = {{"kind", "field"},
-                      {"extent", {spec.width, spec.length, spec.depth}},
-                      {"layer_tops", numbers(spec.layer_tops)},
-                      {"layer_materials", spec.layer_materials},
-                      {"reservoir_layer", spec.reservoir_layer},
-                      {"sideburden", spec.sideburden_material},
-                      {"block_length", spec.block_length},
-                      {"fault", {spec.fault_length, spec.fault_overshoot, spec.pivot_depth}},
-                      {"fault_dips", numbers(spec.fault_dips)},
-                      {"half", spec.half_domain}};
-  for (const auto& block : spec.blocks) {
-    j["blocks"].push_back({block.from, block.to, block.offset});
-    if (block.mesh_offset) j["blocks"].back().push_back(*block.mesh_offset);
-    if (block.thickness) j["blocks"].back().push_back({{"thickness", *block.thickness}});
-  }
-  if (!spec.plane_strain && spec.fault_length >= spec.length) j["fault_ends"] = "none";
-  return j;
-}
-
-nlohmann::json family_of_box(const Scene& scene, const BoxMeshSpec& spec) {
-  nlohmann::json j = {{"kind", "box"},
-                      {"from", spec.from},
-                      {"to", spec.to},
-                      {"layer_tops", spec.layer_tops_z},
-                      {"layer_materials", spec.layer_materials},
-                      {"patches", nlohmann::json::array()},
-                      {"regions", nlohmann::json::array()},
-                      {"boundary", nlohmann::json::array()}};
-  for (const auto& p : spec.patches) {
-    j["patches"].push_back({p.center, p.strike, p.dip_from_vertical, p.length, p.width, p.ellipse});
-  }
-  for (const auto& r : spec.regions) {
-    j["regions"].push_back({r.disc, r.from, r.to, r.center, r.radius, r.thickness});
-  }
-  for (const BoundaryCondition& b : scene.box.boundary) {  // tables only scale the unit loads
-    nlohmann::json sides;
-    for (const Side side : b.sides) sides.push_back(static_cast<int>(side));
-    j["boundary"].push_back(
-        {sides, static_cast<int>(b.kind), b.components, b.translation, b.gradient, b.stress});
-  }
-  return j;
-}
-
-/// Absent where nothing creeps: elastic families are those from before there was creep.
-nlohmann::json family_of_creep(const Scene& scene, const CreepPlan& creep) {
-  const std::set<std::string> used = used_materials(scene);
-  nlohmann::json viscosities = nlohmann::json::array();
-  for (const Material& m : scene.materials) {
-    const bool creeps = m.viscosity && used.count(m.name) != 0;
-    viscosities.push_back(creeps ? nlohmann::json(*m.viscosity) : nlohmann::json());
-  }
-  return {{"viscosities", viscosities},
-          {"scheme", static_cast<int>(scene.numerics.creep_scheme)},
-          {"rungs", numbers(creep.rungs)}};
-}
-
-/// Scenes that differ in the values of a surface's parameters alone share it.
-std::string family_of_surface(Scene scene, const Plan& plan) {
-  const SurfaceRequest surface = std::exchange(scene.numerics.surface, {});
-  nlohmann::json over = nlohmann::json::array();
-  for (const SurfaceParameter& one : surface.over) {
-    over.push_back({static_cast<int>(one.kind), one.index, one.from, one.to});
-    set_value(one, one.from, scene);
-  }
-  return nlohmann::json{{"surface", canonical_family(scene, plan)},
-                        {"method", kSurfaceMethod},
-                        {"over", over},
-                        {"tolerance", surface.tolerance},
-                        {"most_operators", surface.most_operators}}
-      .dump();
-}
-
 /// What a surface of operators takes, check points included: as many nodes as the polynomials of
 /// two digits in each parameter and one in each pair (results/surfaces).
 int predicted_operators(const SurfaceRequest& surface) {
@@ -391,32 +318,6 @@ BoxMeshSpec box_mesh_spec(const Scene& scene, const Plan& plan) {
   spec.sizes = cell_sizes(scene.mesh);
   spec.plane_strain = plan.plane_strain;
   return spec;
-}
-
-std::string canonical_family(const Scene& scene, const Plan& plan) {
-  if (scene.numerics.surface.wanted()) return family_of_surface(scene, plan);
-  const bool is_field = scene.geometry_kind == GeometryKind::field;
-  nlohmann::json j;
-  CellSizes sizes{};
-  if (is_field) {
-    const FieldMeshSpec spec = field_mesh_spec(scene, plan);
-    j = family_of_field(spec);
-    sizes = spec.sizes;
-  } else {
-    const BoxMeshSpec spec = box_mesh_spec(scene, plan);
-    j = family_of_box(scene, spec);
-    sizes = spec.sizes;
-  }
-  j["sizes"] = {sizes.strike, sizes.dip,         sizes.normal,
-                sizes.growth, sizes.fine_margin, sizes.largest};
-  if (sizes.grades_corners()) j["corners"] = {sizes.corner, sizes.corner_growth};
-  j["plane_strain"] = plan.plane_strain;
-  j["b_bar"] = scene.numerics.b_bar;
-  for (const Material& m : scene.materials) {
-    j["materials"].push_back({m.youngs_modulus, m.poisson_ratio});
-  }
-  if (plan.creep.active) j["creep"] = family_of_creep(scene, plan.creep);
-  return j.dump();
 }
 
 namespace {

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <concepts>
-#include <type_traits>
-
+#include "simulator/common/struct_of.h"
 #include "simulator/result/field.h"
 #include "simulator/result/result.h"
 
@@ -11,9 +9,6 @@
 /// columns (campaign/store/result_rows.h) and metrics (campaign/spec/metrics.cc) are written from
 /// it. What is measured of a stage stands in measures.h.
 namespace faultsim {
-
-template <typename Struct, typename Plain>
-concept Of = std::same_as<std::remove_const_t<Struct>, Plain>;
 
 template <Of<FaultMetrics> Struct, typename Visit>
 void for_each_field(Struct& m, Visit&& visit) {

@@ -20,7 +20,7 @@ void check_switch(SceneReader& reader, const Scene& scene) {
 }
 
 void check_initial_state(SceneReader& reader, const Scene& scene) {
-  if (!scene.initial.lithostatic_viscous_layers) return;
+  if (scene.initial.viscous_layers != ViscousLayers::lithostatic) return;
   const std::string at = "/initial_state/viscous_layers";
   if (scene.initial.tensor) {
     reader.problem(at, "the uniform \"tensor\" is the stress of viscous layers too",

@@ -126,7 +126,7 @@ StressAtDepth InitialColumn::one_sided(double depth, DepthSide side) const {
     return result;
   }
   result.sigma[8] = vertical;
-  if (state.lithostatic_viscous_layers && is_viscous_at(scene_, depth, side)) {
+  if (state.viscous_layers == ViscousLayers::lithostatic && is_viscous_at(scene_, depth, side)) {
     result.sigma[0] = result.sigma[4] = vertical;
     return result;
   }

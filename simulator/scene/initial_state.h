@@ -23,7 +23,7 @@ struct StressAtDepth {
 ///   profile:  σ_v = σ_v0 + σ_v' depth,  p0 = p00 + p0' depth
 ///   σ_xx = M1 (σ_v + α_0 p0) − α_0 p0,  σ_yy = M2 (σ_v + α_0 p0) − α_0 p0,  σ_zz = σ_v
 ///
-/// or the uniform tensor in place of the stress. With lithostatic_viscous_layers σ_xx = σ_yy = σ_v
+/// or the uniform tensor in place of the stress. With lithostatic viscous_layers σ_xx = σ_yy = σ_v
 /// in the depth ranges of the layers of viscous material (of a box without layers: everywhere if
 /// its material is viscous). Above the surface of a column both are zero.
 /// @pre the scene comes from read_scene without problems.

@@ -5,6 +5,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/scene/csv_tables.h"
 #include "simulator/scene/fault_pressure_csv.h"
+#include "simulator/scene/read_keys.h"
 #include "simulator/scene/scene_reader.h"
 
 /// Faults: each takes the top-level friction and fault_pressure and overrides them key by key.
@@ -27,6 +28,9 @@ class Overrides {
   std::string at(const std::string& key) const {
     const std::string pointer = own_ + "/" + key;
     return reader_.has(pointer) ? pointer : shared_ + "/" + key;
+  }
+  auto pointers() const {
+    return [this](std::string_view key) { return at(std::string(key)); };
   }
   /// Which of two keys that exclude each other counts: one of the fault's own wins.
   std::string at_either(const std::string& a, const std::string& b) const {
@@ -82,12 +86,6 @@ void read_weakening(SceneReader& reader, const Overrides& from, Friction& fricti
   }
 }
 
-FrictionLaw law_named(const std::string& name) {
-  if (name == "coefficient") return FrictionLaw::coefficient;
-  FAULTSIM_DEMAND(name == "angle" || name.empty(), "the schema allows the law ", name);
-  return FrictionLaw::angle;  // or was refused
-}
-
 Friction read_friction(SceneReader& reader, std::size_t fault) {
   const Overrides from(reader, "friction", fault);
   Friction friction;
@@ -95,8 +93,7 @@ Friction read_friction(SceneReader& reader, std::size_t fault) {
     require_one_of(reader, object, "friction_angle", "friction_coefficient");
     require_one_of(reader, object, "dynamic_friction_angle", "dynamic_friction_coefficient");
   }
-  friction.law = law_named(reader.text(from.at("law"), "angle"));
-  friction.cohesion = reader.quantity(from.at("cohesion"), friction.cohesion);
+  for_each_key(friction, key_reader(reader, from.pointers()));
   const std::string fixed = from.at_either("friction_angle", "friction_coefficient");
   if (fixed.empty() && reader.sound("/friction") && reader.sound(from.own())) {
     reader.problem(reader.has("/friction") ? "/friction" : "/faults", "no friction angle is given",
@@ -105,25 +102,11 @@ Friction read_friction(SceneReader& reader, std::size_t fault) {
   friction.static_friction_angle = angle_at(reader, fixed);
   read_weakening(reader, from, friction);
   const bool weakens = friction.dynamic_friction_angle < friction.static_friction_angle;
-  const bool cumulated = reader.text(from.at("slip_measure")) == "cumulated";
-  // Without weakening neither law nor measure says anything; equal cases stay equal.
-  friction.slip_measure = cumulated && weakens ? SlipMeasure::cumulated : SlipMeasure::current;
-  if (!weakens) friction.law = FrictionLaw::angle;
-  friction.cohesion_after_opening =
-      reader.boolean(from.at("cohesion_after_opening"), friction.cohesion_after_opening);
-  friction.cohesion_after_slip =
-      reader.boolean(from.at("cohesion_after_slip"), friction.cohesion_after_slip);
+  if (weakens) return friction;
+  // Neither law nor measure says anything; equal cases stay equal.
+  friction.law = FrictionLaw::angle;
+  friction.slip_measure = SlipMeasure::current;
   return friction;
-}
-
-FaultPressureRule rule_named(const std::string& name) {
-  static const char* const names[] = {"mean",     "min",        "max",  "minus", "plus",
-                                      "fraction", "prescribed", "none", "table"};
-  for (unsigned i = 0; i < std::size(names); ++i) {
-    if (name == names[i]) return static_cast<FaultPressureRule>(i);
-  }
-  FAULTSIM_DEMAND(name.empty(), "the schema allows the rule ", name);
-  return FaultPressureRule::mean;  // was refused
 }
 
 /// The table of a fault's pressure, from the scene's own tables or its file.
@@ -159,11 +142,8 @@ FaultPressureTable read_profile(SceneReader& reader, const std::string& rule, co
 FaultPressure read_fault_pressure(SceneReader& reader, std::size_t fault, const Scene& scene) {
   const Overrides from(reader, "fault_pressure", fault);
   FaultPressure pressure;
+  for_each_key(pressure, key_reader(reader, from.pointers()));
   const std::string rule = from.at("rule");
-  pressure.rule = rule_named(reader.text(rule, "mean"));
-  if (pressure.rule == FaultPressureRule::fraction) {
-    pressure.fraction = reader.number(from.at("fraction"), pressure.fraction);
-  }
   if (pressure.rule == FaultPressureRule::table)
     pressure.profile = read_profile(reader, rule, from.at("csv"), scene);
   if (pressure.rule != FaultPressureRule::prescribed) return pressure;
@@ -171,15 +151,10 @@ FaultPressure read_fault_pressure(SceneReader& reader, std::size_t fault, const 
     reader.problem(rule, "the rule \"prescribed\" needs a pressure change",
                    "add for example \"prescribed\": \"-100 bar\" beside it");
   }
-  pressure.prescribed = reader.quantity(from.at("prescribed"));
   if (reader.has(from.at("table"))) pressure.table = reader.table(from.at("table"));
-  const std::string window = from.at("depth_window");
-  if (reader.has(window)) {
-    pressure.depth_window = {reader.quantity(window + "/0"), reader.quantity(window + "/1")};
-    if ((*pressure.depth_window)[1] <= (*pressure.depth_window)[0]) {
-      reader.problem(window, "the window ends above where it begins",
-                     "write the top depth, then the bottom depth");
-    }
+  if (pressure.depth_window && (*pressure.depth_window)[1] <= (*pressure.depth_window)[0]) {
+    reader.problem(from.at("depth_window"), "the window ends above where it begins",
+                   "write the top depth, then the bottom depth");
   }
   return pressure;
 }
@@ -198,15 +173,9 @@ void check_dip(SceneReader& reader, const std::string& at, bool is_box, double d
   }
 }
 
-PatchGeometry read_patch(SceneReader& reader, const std::string& at, double dip) {
+PatchGeometry read_patch(SceneReader& reader, const std::string& at) {
   PatchGeometry patch;
-  patch.center = reader.point(at + "center");
-  patch.strike = reader.quantity(at + "strike", patch.strike);
-  patch.dip_from_vertical = dip;
-  patch.length = reader.quantity(at + "length");
-  patch.width = reader.quantity(at + "width");
-  const bool ellipse = reader.text(at + "shape") == "ellipse";
-  patch.shape = ellipse ? PatchShape::ellipse : PatchShape::rectangle;
+  read_keys(reader, at, patch);
   const bool sound = reader.sound(at.substr(0, at.size() - 1));
   for (const char* key : {"center", "length", "width"}) {
     if (sound && !reader.has(at + key)) {
@@ -238,14 +207,13 @@ void read_faults(SceneReader& reader, Scene& scene) {
   for (std::size_t i = 0; i < reader.size("/faults"); ++i) {
     const std::string at = element("/faults", i) + "/";
     Fault fault;
-    fault.name = reader.text(at + "name");
-    fault.dip_from_vertical = reader.quantity(at + "dip_from_vertical", fault.dip_from_vertical);
+    read_keys(reader, at, fault);
     const std::string own_biot = at + "fault_biot";
     fault.fault_biot = reader.number(reader.has(own_biot) ? own_biot : "/fault_pressure/fault_biot",
                                      fault.fault_biot);
     if (known_kind) check_dip(reader, at, is_box, fault.dip_from_vertical);
     if (known_kind && is_box) {
-      scene.box.patches.push_back(read_patch(reader, at, fault.dip_from_vertical));
+      scene.box.patches.push_back(read_patch(reader, at));
     }
     for (const char* key : {"center", "strike", "length", "width", "shape"}) {
       if (known_kind && !is_box && reader.has(at + key)) {

@@ -12,6 +12,7 @@
 #include "simulator/flow/report_choice.h"
 #include "simulator/scene/csv_tables.h"
 #include "simulator/scene/load_times.h"
+#include "simulator/scene/read_keys.h"
 #include "simulator/scene/scene_reader.h"
 
 /// The result of a flow simulator becomes the pressures of all regions.
@@ -114,10 +115,7 @@ void read_field(SceneReader& reader, const FieldKey& key, Scene& scene) {
                    "add \"regions\" to the geometry or remove the field");
   }
   load.outside_given = reader.has(at + "/outside");
-  if (reader.text(at + "/outside") == "unchanged") load.outside = OutsideRule::unchanged;
-  for (std::size_t i = 0; i < 2; ++i)
-    load.origin[i] = reader.quantity(element(at + "/origin", i), load.origin[i]);
-  load.azimuth = reader.quantity(at + "/azimuth", load.azimuth);
+  read_keys(reader, at + "/", load);
   read_section(reader, at, scene, load);
   const std::optional<FieldFile> file = open_field(reader, key, name);
   if (!file) return;

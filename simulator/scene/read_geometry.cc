@@ -1,12 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <optional>
 #include <set>
 #include <string>
 
 #include "simulator/common/near_miss.h"
 #include "simulator/scene/field_depths.h"
+#include "simulator/scene/read_keys.h"
 #include "simulator/scene/scene_reader.h"
 
 namespace faultsim {
@@ -24,8 +23,8 @@ std::vector<Layer> read_layers(SceneReader& reader, const Scene& scene) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < reader.size(list); ++i) {
     const std::string at = element(list, i) + "/";
-    Layer layer{reader.text(at + "name"), reader.text(at + "material"),
-                reader.quantity(at + "top")};
+    Layer layer;
+    read_keys(reader, at, layer);
     reader.require_known(at + "material", layer.material, "material", material_names(scene));
     if (i > 0 && layer.top_depth <= layers.back().top_depth) {
       reader.problem(at + "top",
@@ -45,12 +44,9 @@ void read_blocks(SceneReader& reader, FieldGeometry& field) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < reader.size(list); ++i) {
     const std::string at = element(list, i) + "/";
-    Block block{reader.text(at + "name"), reader.quantity(at + "from"), reader.quantity(at + "to"),
-                reader.quantity(at + "offset", 0)};
-    const double mesh_offset = reader.quantity(at + "mesh_offset", block.offset);
-    if (mesh_offset != block.offset) block.mesh_offset = mesh_offset;  // else it says nothing
-    if (reader.has(at + "thickness")) block.thickness = reader.quantity(at + "thickness");
-    if (reader.has(at + "overpressure")) block.overpressure = reader.quantity(at + "overpressure");
+    Block block;
+    read_keys(reader, at, block);
+    if (block.mesh_offset == block.offset) block.mesh_offset.reset();  // it says nothing
     if (block.to <= block.from) {
       reader.problem(at + "to", "block \"" + block.name + "\" ends west of where it begins",
                      "write \"to\" larger than \"from\" (x grows eastwards)");
@@ -76,23 +72,15 @@ void read_blocks(SceneReader& reader, FieldGeometry& field) {
 void read_field(SceneReader& reader, Scene& scene) {
   FieldGeometry& field = scene.field;
   const std::string at = "/geometry/";
-  field.width = reader.quantity(at + "width");
-  field.length = reader.quantity(at + "length");
-  field.depth = reader.quantity(at + "depth");
+  read_keys(reader, at, field);
   field.layers = read_layers(reader, scene);
-  field.reservoir_layer = reader.text(at + "reservoir_layer");
   std::vector<std::string> layer_names;
   for (const Layer& layer : field.layers) layer_names.push_back(layer.name);
   if (reader.sound(at + "layers")) {
     reader.require_known(at + "reservoir_layer", field.reservoir_layer, "layer", layer_names);
   }
-  field.sideburden = reader.text(at + "sideburden");
   reader.require_known(at + "sideburden", field.sideburden, "material", material_names(scene));
   read_blocks(reader, field);
-  field.block_length = reader.quantity(at + "block_length");
-  field.fault_length = reader.quantity(at + "fault_length");
-  constexpr double kDefaultOvershoot = 150;  // m, the reference scene's
-  field.fault_overshoot = reader.quantity(at + "fault_overshoot", kDefaultOvershoot);
   const DepthInterval reservoir = reservoir_range(field);
   for (Block& block : field.blocks) {  // that of the layer says nothing
     if (block.thickness == reservoir.bottom - reservoir.top) block.thickness.reset();
@@ -100,46 +88,20 @@ void read_field(SceneReader& reader, Scene& scene) {
   field.pivot_depth = reader.quantity(at + "pivot_depth", 0.5 * (reservoir.top + reservoir.bottom));
 }
 
-/// None for an unknown word, which only a condition without a (known) kind can have: its other keys
-/// are not checked, and it is a problem already.
-std::optional<Side> side_named(const std::string& name) {
-  static const std::map<std::string, Side> sides = {{"x-", Side::x_min}, {"x+", Side::x_max},
-                                                    {"y-", Side::y_min}, {"y+", Side::y_max},
-                                                    {"z-", Side::z_min}, {"z+", Side::z_max}};
-  const auto found = sides.find(name);
-  return found == sides.end() ? std::nullopt : std::optional(found->second);
-}
-
-BoundaryKind boundary_kind_named(const std::string& name) {
-  static const std::map<std::string, BoundaryKind> kinds = {
-      {"free", BoundaryKind::free},     {"roller", BoundaryKind::roller},
-      {"fixed", BoundaryKind::fixed},   {"displacement", BoundaryKind::displacement},
-      {"stress", BoundaryKind::stress}, {"tied", BoundaryKind::tied}};
-  const auto found = kinds.find(name);
-  return found == kinds.end() ? BoundaryKind::free : found->second;
-}
-
-void read_motion(SceneReader& reader, const std::string& at, BoundaryCondition& condition) {
-  if (reader.has(at + "components")) {
-    condition.components = {false, false, false};
-    for (std::size_t i = 0; i < reader.size(at + "components"); ++i) {
-      const std::string axis = reader.text(element(at + "components", i));
-      for (std::size_t c = 0; c < 3; ++c) {
-        if (axis == std::string(1, "xyz"[c])) condition.components[c] = true;
-      }
-    }
-  }
-  condition.translation = reader.point(at + "translation", 0);
-  if (reader.has(at + "gradient")) {
-    for (std::size_t i = 0; i < 9; ++i) {
-      condition.gradient[i] = reader.number(element(element(at + "gradient", i / 3), i % 3));
+void read_components(SceneReader& reader, const std::string& at, BoundaryCondition& condition) {
+  if (!reader.has(at + "components")) return;
+  condition.components = {false, false, false};
+  for (std::size_t i = 0; i < reader.size(at + "components"); ++i) {
+    const std::string axis = reader.text(element(at + "components", i));
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (axis == std::string(1, "xyz"[c])) condition.components[c] = true;
     }
   }
 }
 
 void check_tied(SceneReader& reader, const std::string& at, const BoundaryCondition& condition) {
   if (condition.kind != BoundaryKind::tied || !reader.sound(at + "sides")) return;
-  static const char* const names[] = {"x-", "x+", "y-", "y+", "z-", "z+"};
+  constexpr auto names = words(Side());
   for (const Side side : condition.sides) {
     const auto number = static_cast<unsigned>(side);
     const auto opposite = static_cast<Side>(number ^ 1U);
@@ -157,28 +119,22 @@ void read_boundary(SceneReader& reader, BoxGeometry& box) {
   for (std::size_t i = 0; i < reader.size("/geometry/boundary"); ++i) {
     const std::string at = element("/geometry/boundary", i) + "/";
     BoundaryCondition condition;
-    condition.kind = boundary_kind_named(reader.text(at + "kind"));
+    read_keys(reader, at, condition);
     for (std::size_t k = 0; k < reader.size(at + "sides"); ++k) {
       const std::string place = element(at + "sides", k);
       const std::string name = reader.text(place);
-      const std::optional<Side> side = side_named(name);
-      if (!side) continue;
-      condition.sides.push_back(*side);
+      constexpr auto names = words(Side());
+      const auto side = std::find(names.begin(), names.end(), name);
+      if (side == names.end()) continue;  // its condition is of no known kind, and refused
+      condition.sides.push_back(static_cast<Side>(side - names.begin()));
       if (!taken.insert(name).second && reader.sound(place)) {
         reader.problem(place, "side " + name + " has a condition already",
                        "give each side one condition");
       }
     }
     check_tied(reader, at, condition);
-    read_motion(reader, at, condition);
-    if (reader.has(at + "stress")) {
-      condition.stress = reader.tensor(at + "stress");
-      const auto& s = condition.stress;
-      if (reader.sound(at + "stress") && (s[1] != s[3] || s[2] != s[6] || s[5] != s[7])) {
-        reader.problem(at + "stress", "the stress tensor is not symmetric",
-                       "write the same value for xy and yx, xz and zx, yz and zy");
-      }
-    }
+    read_components(reader, at, condition);
+    if (reader.has(at + "stress")) reader.require_symmetric(at + "stress", condition.stress);
     if (reader.has(at + "table")) condition.table = reader.table(at + "table");
     box.boundary.push_back(condition);
   }
@@ -189,17 +145,7 @@ void read_regions(SceneReader& reader, BoxGeometry& box) {
   for (std::size_t i = 0; i < reader.size("/geometry/regions"); ++i) {
     const std::string at = element("/geometry/regions", i) + "/";
     PressureRegion region;
-    region.name = reader.text(at + "name");
-    const bool is_disc = reader.text(at + "shape") == "disc";
-    region.shape = is_disc ? RegionShape::disc : RegionShape::box;
-    if (is_disc) {
-      region.center = reader.point(at + "center");
-      region.radius = reader.quantity(at + "radius");
-      region.thickness = reader.quantity(at + "thickness");
-    } else {
-      region.from = reader.point(at + "from");
-      region.to = reader.point(at + "to");
-    }
+    read_keys(reader, at, region);
     box.regions.push_back(region);
     names.push_back(region.name);
   }
@@ -209,9 +155,7 @@ void read_regions(SceneReader& reader, BoxGeometry& box) {
 void read_box(SceneReader& reader, Scene& scene) {
   BoxGeometry& box = scene.box;
   const std::string at = "/geometry/";
-  box.from = reader.point(at + "from");
-  box.to = reader.point(at + "to");
-  box.material = reader.text(at + "material");
+  read_keys(reader, at, box);
   box.layers = read_layers(reader, scene);
   const bool has_layers = reader.has(at + "layers");
   if (reader.has(at + "material") == has_layers && reader.sound(at + "material")) {

@@ -7,6 +7,7 @@
 #include "simulator/common/dates.h"
 #include "simulator/common/near_miss.h"
 #include "simulator/scene/initial_state.h"
+#include "simulator/scene/read_keys.h"
 #include "simulator/scene/scene_reader.h"
 
 /// Stages and compartments, and CSV tables (read_csv_histories.cc), become one pressure history per
@@ -26,7 +27,9 @@ class LoadingReader {
 
   void read_stage(std::size_t index) {
     const std::string at = element("/stages", index) + "/";
-    Stage stage{reader_.text(at + "name"), duration(at), reader_.integer(at + "steps", 1)};
+    Stage stage;
+    read_keys(reader_, at, stage);
+    stage.duration = duration(at);
     const int cycles = reader_.integer(at + "cycles", 1);
     check_keys(at, stage, cycles);
     const bool between = reader_.has(at + "pressure_between");
@@ -62,9 +65,7 @@ class LoadingReader {
       const std::string at = "/compartments/" + pointer_token(region);
       require_region(at, region);
       for (PressureHistory& history : scene_.pressure) {
-        if (history.region != region) continue;
-        history.scale = reader_.number(at + "/scale", history.scale);
-        history.lag = reader_.quantity(at + "/lag", history.lag);
+        if (history.region == region) read_keys(reader_, at + "/", history);
       }
     }
   }

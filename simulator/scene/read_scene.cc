@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene_schema_json.h"
+#include "simulator/scene/read_keys.h"
 #include "simulator/scene/scene_reader.h"
 #include "simulator/scene/tiers.h"
 #include "starter_box_json.h"
@@ -14,44 +15,6 @@ namespace faultsim {
 namespace {
 
 using nlohmann::json;
-
-Switch switch_at(const SceneReader& reader, const std::string& pointer, Switch fallback) {
-  const std::string text = reader.text(pointer);
-  if (text == "on") return Switch::on;
-  if (text == "off") return Switch::off;
-  return text == "automatic" ? Switch::automatic : fallback;
-}
-
-void read_numerics(const SceneReader& reader, Numerics& numerics) {
-  const std::string at = "/numerics/";
-  numerics.slip_tolerance = reader.quantity(at + "slip_tolerance", numerics.slip_tolerance);
-  numerics.activation_length =
-      reader.quantity(at + "activation_length", numerics.activation_length);
-  numerics.traction_tolerance =
-      reader.number(at + "traction_tolerance", numerics.traction_tolerance);
-  numerics.max_newton_iterations =
-      reader.integer(at + "max_newton_iterations", numerics.max_newton_iterations);
-  numerics.max_active_set_passes =
-      reader.integer(at + "max_active_set_passes", numerics.max_active_set_passes);
-  numerics.max_step_cuts = reader.integer(at + "max_step_cuts", numerics.max_step_cuts);
-  numerics.follow_events = reader.boolean(at + "follow_events", numerics.follow_events);
-  numerics.onset_tolerance = reader.number(at + "onset_tolerance", numerics.onset_tolerance);
-  numerics.max_events = reader.integer(at + "max_events", numerics.max_events);
-  if (reader.text(at + "turning_points") == "report") {
-    numerics.turning_points = TurningPoints::report;
-  }
-  numerics.max_added_steps = reader.integer(at + "max_added_steps", numerics.max_added_steps);
-  numerics.b_bar = reader.boolean(at + "b_bar", numerics.b_bar);
-  numerics.half_domain = switch_at(reader, at + "half_domain", numerics.half_domain);
-  numerics.plane_strain = switch_at(reader, at + "plane_strain", numerics.plane_strain);
-  numerics.creep = switch_at(reader, at + "creep", numerics.creep);
-  numerics.creep_time_step = reader.quantity(at + "creep_time_step", numerics.creep_time_step);
-  numerics.creep_refinements = reader.integer(at + "creep_refinements", numerics.creep_refinements);
-  numerics.creep_tolerance = reader.quantity(at + "creep_tolerance", numerics.creep_tolerance);
-  if (reader.text(at + "creep_scheme") == "backward_euler") {
-    numerics.creep_scheme = CreepScheme::backward_euler;
-  }
-}
 
 /// What a tier says beyond cell sizes; contradicting it is refused rather than renamed.
 void apply_tier_switches(SceneReader& reader, Scene& scene) {
@@ -106,7 +69,10 @@ void require_cell_sizes(SceneReader& reader, bool is_box, bool plane_strain) {
 }  // namespace
 
 void read_mesh(SceneReader& reader, Scene& scene) {
-  read_numerics(reader, scene.numerics);
+  read_keys(reader, "/numerics/", scene.numerics);
+  for_each_creep_key(scene.numerics, key_reader(reader, [](std::string_view key) {
+                       return "/numerics/" + std::string(key);
+                     }));
   scene.tier = reader.text("/tier", "custom");
   const bool is_box = scene.geometry_kind == GeometryKind::box;
   if (is_box && scene.tier != "custom" && reader.sound("/geometry/kind")) {
@@ -123,14 +89,7 @@ void read_mesh(SceneReader& reader, Scene& scene) {
   mesh = {.strike = kNaN, .dip = kNaN, .normal = kNaN};
   const Tier* tier = find_tier(scene.tier);
   if (tier != nullptr) mesh = tier->sizes;
-  mesh.strike = reader.quantity("/mesh/strike", mesh.strike);
-  mesh.dip = reader.quantity("/mesh/dip", mesh.dip);
-  mesh.normal = reader.quantity("/mesh/normal", mesh.normal);
-  mesh.growth = reader.number("/mesh/growth", mesh.growth);
-  mesh.fine_margin = reader.quantity("/mesh/fine_margin", mesh.fine_margin);
-  mesh.largest = reader.quantity("/mesh/largest", mesh.largest);
-  mesh.corner = reader.quantity("/mesh/corner", mesh.corner);
-  mesh.corner_growth = reader.number("/mesh/corner_growth", mesh.corner_growth);
+  read_keys(reader, "/mesh/", mesh);
   for (const char* key : {"corner", "corner_growth"}) {
     const std::string at = std::string("/mesh/") + key;
     if (is_box && reader.has(at)) {
@@ -165,13 +124,7 @@ void read_materials(SceneReader& reader, Scene& scene) {
     }
     Material material;
     material.name = name;
-    material.density = reader.quantity(at + "density", material.density);
-    material.youngs_modulus = reader.quantity(at + "youngs_modulus");
-    material.poisson_ratio = reader.number(at + "poisson_ratio");
-    material.biot = reader.number(at + "biot", material.biot);
-    material.thermal_expansion =
-        reader.quantity(at + "thermal_expansion", material.thermal_expansion);
-    if (reader.has(at + "viscosity")) material.viscosity = reader.quantity(at + "viscosity");
+    read_keys(reader, at, material);
     scene.materials.push_back(material);
   }
 }
@@ -179,45 +132,24 @@ void read_materials(SceneReader& reader, Scene& scene) {
 void read_initial_state(SceneReader& reader, Scene& scene) {
   const std::string at = "/initial_state/";
   InitialState& state = scene.initial;
-  const bool is_profile = reader.text(at + "kind") == "profile";
-  state.kind = is_profile ? InitialStressKind::profile : InitialStressKind::column;
-  state.ratio_across = reader.number(at + "ratio_across", state.ratio_across);
-  state.ratio_along = reader.number(at + "ratio_along", state.ratio_along);
-  state.initial_biot = reader.number(at + "initial_biot", state.initial_biot);
-  state.gravity = reader.quantity(at + "gravity", state.gravity);
-  state.water_density = reader.quantity(at + "water_density", state.water_density);
-  state.overpressure = reader.quantity(at + "overpressure", state.overpressure);
-  state.vertical_stress = reader.quantity(at + "vertical_stress", state.vertical_stress);
-  state.vertical_stress_gradient =
-      reader.quantity(at + "vertical_stress_gradient", state.vertical_stress_gradient);
-  state.pressure = reader.quantity(at + "pressure", state.pressure);
-  state.pressure_gradient = reader.quantity(at + "pressure_gradient", state.pressure_gradient);
-  state.lithostatic_viscous_layers = reader.text(at + "viscous_layers") == "lithostatic";
-  if (!reader.has(at + "tensor")) return;
-  const std::array<double, 9> tensor = reader.tensor(at + "tensor");
-  if (tensor[1] != tensor[3] || tensor[2] != tensor[6] || tensor[5] != tensor[7]) {
-    if (reader.sound(at + "tensor")) {
-      reader.problem(at + "tensor", "the stress tensor is not symmetric",
-                     "write the same value for xy and yx, xz and zx, yz and zy");
-    }
-  }
+  read_keys(reader, at, state);
+  if (!state.tensor) return;
+  reader.require_symmetric(at + "tensor", *state.tensor);
   for (const char* key : {"vertical_stress", "vertical_stress_gradient", "ratio_across",
                           "ratio_along", "initial_biot"}) {
     if (reader.has(at + key)) {
       reader.problem(at + key, "has no effect next to \"tensor\"", "remove one of the two");
     }
   }
-  state.tensor = tensor;
 }
 
 void read_output(SceneReader& reader, Scene& scene) {
   OutputRequest& output = scene.output;
-  output.fault_fields = reader.boolean("/output/fault_fields", output.fault_fields);
-  output.volume_fields = reader.boolean("/output/volume_fields", output.volume_fields);
+  read_keys(reader, "/output/", output);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < reader.size("/output/observation_points"); ++i) {
     const std::string at = element("/output/observation_points", i) + "/";
-    output.observation_points.push_back({reader.text(at + "name"), reader.point(at + "position")});
+    read_keys(reader, at, output.observation_points.emplace_back());
     names.push_back(output.observation_points.back().name);
   }
   reader.require_unique("/output/observation_points", "/name", names);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "simulator/scene/read_keys.h"
 #include "simulator/scene/read_scene.h"
 #include "simulator/scene/scene_reader.h"
 
@@ -123,8 +124,7 @@ void read_surface(SceneReader& reader, Scene& scene) {
   const std::string root = "/numerics/surface";
   if (!reader.has(root) || !reader.sound(root)) return;
   SurfaceRequest& surface = scene.numerics.surface;
-  surface.tolerance = reader.number(root + "/tolerance", surface.tolerance);
-  surface.most_operators = reader.integer(root + "/most_operators", surface.most_operators);
+  read_keys(reader, root + "/", surface);
   for (std::size_t i = 0; i < reader.size(root + "/over"); ++i) {
     const std::string at = element(root + "/over", i);
     std::string pointer = reader.text(at + "/parameter");

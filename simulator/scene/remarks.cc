@@ -81,7 +81,7 @@ class IdleInputs {
       if (never_changes && material.biot != 1) idle(at + "/biot", "no pressure changes in it");
       if (material.thermal_expansion != 0 && (never_changes || !has_temperatures()))
         idle(at + "/thermal_expansion", "no temperature changes in it");
-      const bool rests = scene_.initial.lithostatic_viscous_layers;
+      const bool rests = scene_.initial.viscous_layers == ViscousLayers::lithostatic;
       if (scene_.numerics.creep == Switch::off && !rests) {
         idle(at + "/viscosity", "/numerics/creep is off");
       }

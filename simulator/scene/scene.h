@@ -65,8 +65,8 @@ struct FieldGeometry {
   std::vector<Block> blocks;    ///< west to east, contiguous.
   double block_length = 0;      ///< m, blocks cover |y| <= block_length/2.
   double fault_length = 0;      ///< m, faults cover |y| <= fault_length/2.
-  double fault_overshoot =
-      0;                   ///< m above the shallowest and below the deepest reservoir edge touched.
+  /// m above the shallowest and below the deepest reservoir edge touched.
+  double fault_overshoot = 150;
   double pivot_depth = 0;  ///< m, where a dipping fault keeps its x.
   bool operator==(const FieldGeometry&) const = default;
 };
@@ -160,6 +160,11 @@ struct MeshSizes {
 };
 
 enum class InitialStressKind { column, profile };
+/// Horizontal stress in the layers of viscous material.
+enum class ViscousLayers {
+  ratios,       ///< as in rock.
+  lithostatic,  ///< σ_xx = σ_yy = σ_v whatever the ratios: salt that has come to rest.
+};
 
 /// Initial stress and pressure, functions of depth only (docs/model.md, section 6).
 /// column: σ_v and p0 from the reference column of the field (zero offset).
@@ -178,9 +183,7 @@ struct InitialState {
   double pressure_gradient = 0;         ///< Pa per m of depth (profile).
   std::optional<std::array<double, 9>>
       tensor;  ///< Pa, uniform total σ0; replaces the profile's stress.
-  /// σ_xx = σ_yy = σ_v in the layers of viscous material, whatever the ratios: salt that has come
-  /// to rest. Never next to `tensor`.
-  bool lithostatic_viscous_layers = false;
+  ViscousLayers viscous_layers = ViscousLayers::ratios;  ///< lithostatic: never next to `tensor`.
   bool operator==(const InitialState&) const = default;
 };
 

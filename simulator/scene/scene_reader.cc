@@ -191,6 +191,14 @@ double SceneReader::number(const std::string& pointer, double fallback) const {
   return value->get<double>() + 0.0;  // -0 becomes 0
 }
 
+double SceneReader::real(const std::string& pointer, double fallback) const {
+  const json* value = find(pointer);
+  if (value == nullptr) return fallback;
+  const auto found = quantities_.find(value);
+  if (found != quantities_.end()) return found->second;
+  return value->is_number() && sound(pointer) ? value->get<double>() + 0.0 : kNaN;
+}
+
 int SceneReader::integer(const std::string& pointer, int fallback) const {
   const json* value = find(pointer);
   return value != nullptr && value->is_number_integer() && sound(pointer) ? value->get<int>()
@@ -206,22 +214,6 @@ std::string SceneReader::text(const std::string& pointer, const std::string& fal
 bool SceneReader::boolean(const std::string& pointer, bool fallback) const {
   const json* value = find(pointer);
   return value != nullptr && value->is_boolean() ? value->get<bool>() : fallback;
-}
-
-std::array<double, 3> SceneReader::point(const std::string& pointer, double fallback) const {
-  std::array<double, 3> result{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    result[i] = has(pointer) ? quantity(element(pointer, i)) : fallback;
-  }
-  return result;
-}
-
-std::array<double, 9> SceneReader::tensor(const std::string& pointer) const {
-  std::array<double, 9> result{};
-  for (std::size_t i = 0; i < 9; ++i) {
-    result[i] = quantity(element(element(pointer, i / 3), i % 3));
-  }
-  return result;
 }
 
 TimeTable SceneReader::table(const std::string& pointer) {
@@ -267,6 +259,15 @@ void SceneReader::require_known(const std::string& pointer, const std::string& n
   problem(
       pointer, "there is no " + what + " \"" + name + "\"",
       problems_.size() < kMostSuggestions ? suggest(name, known) : "write a name that is there");
+}
+
+void SceneReader::require_symmetric(const std::string& pointer,
+                                    const std::array<double, 9>& tensor) {
+  const bool is_symmetric =
+      tensor[1] == tensor[3] && tensor[2] == tensor[6] && tensor[5] == tensor[7];
+  if (is_symmetric || !sound(pointer)) return;
+  problem(pointer, "the stress tensor is not symmetric",
+          "write the same value for xy and yx, xz and zx, yz and zy");
 }
 
 void SceneReader::require_unique(const std::string& list, const std::string& suffix,

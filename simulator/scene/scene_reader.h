@@ -42,11 +42,11 @@ class SceneReader {
 
   double quantity(const std::string& pointer, double fallback = kNaN) const;  ///< SI.
   double number(const std::string& pointer, double fallback = kNaN) const;
+  /// quantity() or number(), as the value is.
+  double real(const std::string& pointer, double fallback = kNaN) const;
   int integer(const std::string& pointer, int fallback) const;
   std::string text(const std::string& pointer, const std::string& fallback = "") const;
   bool boolean(const std::string& pointer, bool fallback) const;
-  std::array<double, 3> point(const std::string& pointer, double fallback = kNaN) const;
-  std::array<double, 9> tensor(const std::string& pointer) const;
   /// Empty unless there is one factor per time.
   TimeTable table(const std::string& pointer);
 
@@ -57,6 +57,8 @@ class SceneReader {
   /// Adds a problem when name is not one of known; "" is silent.
   void require_known(const std::string& pointer, const std::string& name, const std::string& what,
                      const std::vector<std::string>& known);
+  /// Adds a problem where a tensor, row-major, is not symmetric.
+  void require_symmetric(const std::string& pointer, const std::array<double, 9>& tensor);
   /// Adds a problem per name that was there before. @param suffix  of each element's pointer.
   void require_unique(const std::string& list, const std::string& suffix,
                       const std::vector<std::string>& names);

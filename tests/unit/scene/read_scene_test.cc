@@ -412,7 +412,7 @@ TEST(ReadScene, ReadsViscousSaltAndItsNumerics) {
   EXPECT_EQ(scene.numerics.creep_refinements, 1);
   EXPECT_EQ(scene.numerics.creep_tolerance, 2e4);
   EXPECT_EQ(scene.numerics.creep_scheme, CreepScheme::exponential);
-  EXPECT_FALSE(scene.initial.lithostatic_viscous_layers);
+  EXPECT_EQ(scene.initial.viscous_layers, ViscousLayers::ratios);
   const Scene other = varied(rotliegend(), {kViscous,
                                             {"/numerics/creep", "on"},
                                             {"/numerics/creep_time_step", "0.5 year"},
@@ -423,7 +423,7 @@ TEST(ReadScene, ReadsViscousSaltAndItsNumerics) {
   EXPECT_EQ(other.numerics.creep_time_step, 0.5 * kYear);
   EXPECT_EQ(other.numerics.creep_tolerance, 1e5);
   EXPECT_EQ(other.numerics.creep_scheme, CreepScheme::backward_euler);
-  EXPECT_TRUE(other.initial.lithostatic_viscous_layers);
+  EXPECT_EQ(other.initial.viscous_layers, ViscousLayers::lithostatic);
 }
 
 TEST(HasViscousMaterial, AsksWhatTheModelIsMadeOf) {

@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "simulator/plan/plan.h"
+#include "simulator/scene/canonical_text.h"
+#include "simulator/scene/scene_keys.h"
+
+/// The text that a family is the fingerprint of: what the linear bulk depends on. Structs of the
+/// scene stand in it as lists of the members that the list of keys says are part of it.
+namespace faultsim {
+namespace {
+
+template <typename Value>
+void append_member(std::string& text, const Value& value) {
+  if constexpr (std::is_same_v<Value, PatchShape> || std::is_same_v<Value, RegionShape>) {
+    append(text, value != Value());  // an ellipse, a disc
+  } else {
+    append(text, value);
+  }
+}
+
+/// A list without the bracket at its end.
+template <typename Struct>
+void append_members(std::string& text, const Struct& one) {
+  char before = '[';
+  const auto add = [&](const auto& value) {
+    text += std::exchange(before, ',');
+    append_member(text, value);
+  };
+  for_each_key(one, [&](const SceneKey& key, const auto& member) {
+    if (!key.in_family) return;
+    if constexpr (requires { member.has_value(); }) {
+      if (member) add(*member);
+    } else if constexpr (requires(std::string & to) { append(to, member); }) {
+      add(member);
+    }
+  });
+}
+
+constexpr auto members = [](std::string& text, const auto& one) {
+  append_members(text, one);
+  text += ']';
+};
+
+/// A function for ObjectText.
+template <typename List>
+auto lists(const List& all) {
+  return [&all](std::string& text) { append_list(text, all, members); };
+}
+
+void append_block(std::string& text, const Block& block) {
+  append_members(text, block);
+  if (block.thickness) {
+    text += ",{\"thickness\":";
+    append(text, *block.thickness);
+    text += '}';
+  }
+  text += ']';
+}
+
+void add_field(const FieldGeometry& field, const FieldMeshSpec& spec, ObjectText& family) {
+  family.add("kind", "field");
+  family.add("extent", std::array{spec.width, spec.length, spec.depth});
+  family.add("layer_tops", spec.layer_tops);
+  family.add("layer_materials", spec.layer_materials);
+  family.add("reservoir_layer", spec.reservoir_layer);
+  family.add("sideburden", spec.sideburden_material);
+  family.add("block_length", spec.block_length);
+  family.add("fault", std::array{spec.fault_length, spec.fault_overshoot, spec.pivot_depth});
+  family.add("fault_dips", spec.fault_dips);
+  family.add("half", spec.half_domain);
+  family.add("blocks", [&](std::string& text) { append_list(text, field.blocks, append_block); });
+  if (!spec.plane_strain && spec.fault_length >= spec.length) family.add("fault_ends", "none");
+}
+
+void add_box(const BoxGeometry& box, const BoxMeshSpec& spec, ObjectText& family) {
+  family.add("kind", "box");
+  family.add("from", box.from);
+  family.add("to", box.to);
+  family.add("layer_tops", spec.layer_tops_z);
+  family.add("layer_materials", spec.layer_materials);
+  family.add("patches", lists(box.patches));
+  family.add("regions", lists(box.regions));
+  family.add("boundary", lists(box.boundary));
+}
+
+/// Absent where nothing creeps: elastic families are those from before there was creep.
+void add_creep(const Scene& scene, const CreepPlan& creep, ObjectText& family) {
+  const std::set<std::string> used = used_materials(scene);
+  const auto viscosity = [&](std::string& text, const Material& m) {
+    const bool creeps = m.viscosity && used.count(m.name) != 0;
+    append(text, creeps ? *m.viscosity : std::numeric_limits<double>::infinity());
+  };
+  ObjectText object;
+  object.add("viscosities",
+             [&](std::string& text) { append_list(text, scene.materials, viscosity); });
+  object.add("scheme", scene.numerics.creep_scheme);
+  object.add("rungs", creep.rungs);
+  family.add("creep", [&](std::string& text) { object.append_to(text); });
+}
+
+/// Scenes that differ in the values of a surface's parameters alone share it.
+std::string family_of_surface(Scene scene, const Plan& plan) {
+  const SurfaceRequest surface = std::exchange(scene.numerics.surface, {});
+  for (const SurfaceParameter& one : surface.over) set_value(one, one.from, scene);
+  ObjectText family;
+  const std::string inner = canonical_family(scene, plan);
+  family.add("surface", std::string_view(inner));
+  family.add("method", kSurfaceMethod);
+  family.add("over", [&](std::string& text) {
+    append_list(text, surface.over, [](std::string& to, const SurfaceParameter& one) {
+      to += concat('[', static_cast<int>(one.kind), ',', one.index, ',');
+      append(to, one.from);
+      to += ',';
+      append(to, one.to);
+      to += ']';
+    });
+  });
+  family.add("tolerance", surface.tolerance);
+  family.add("most_operators", surface.most_operators);
+  return family.text();
+}
+
+}  // namespace
+
+std::string canonical_family(const Scene& scene, const Plan& plan) {
+  if (scene.numerics.surface.wanted()) return family_of_surface(scene, plan);
+  ObjectText family;
+  if (scene.geometry_kind == GeometryKind::field) {
+    add_field(scene.field, field_mesh_spec(scene, plan), family);
+  } else {
+    add_box(scene.box, box_mesh_spec(scene, plan), family);
+  }
+  family.add("sizes", [&](std::string& text) { members(text, scene.mesh); });
+  if (scene.mesh.grades_corners()) {
+    family.add("corners", std::array{scene.mesh.corner, scene.mesh.corner_growth});
+  }
+  family.add("plane_strain", plan.plane_strain);
+  family.add("b_bar", scene.numerics.b_bar);
+  family.add("materials", lists(scene.materials));
+  if (plan.creep.active) add_creep(scene, plan.creep, family);
+  return family.text();
+}
+
+}  // namespace faultsim
