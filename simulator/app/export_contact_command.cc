@@ -1,3 +1,4 @@
+#include <array>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 #include "simulator/output/fclib_writer.h"
 #include "simulator/output/json_text.h"
 #include "simulator/output/output_target.h"
+#include "simulator/plan/combinations.h"
 
 namespace faultsim {
 namespace {
@@ -104,12 +106,9 @@ ExitCode export_contact_command(const ExportArguments& arguments) {
   Simulation simulation = load_simulation(arguments.scene, arguments.op);
   const LoadedScene& loaded = simulation.scene();
   require_writable_file("-o", arguments.output, FileKind::hdf5, input_files(loaded));
-  if (loaded.plan.creep.active) {
-    throw InputError(loaded.document.source,
-                     {{"/numerics/creep", 0,
-                       "a load step with creeping salt is not one contact problem but several",
-                       "export the elastic case: --set /numerics/creep=off"}});
-  }
+  std::vector<Problem> problems =
+      unsupported(loaded.scene, loaded.plan, std::array{Feature::contact_problem});
+  if (!problems.empty()) throw InputError(loaded.document.source, std::move(problems));
   const PreparedOperator& prepared =
       prepare_on_screen(simulation, arguments.op, arguments.scene.json);
   const FaultOperator& op = *prepared.op;

@@ -35,22 +35,24 @@ std::vector<int> regions_named(const Scene& scene, const std::vector<std::string
   return regions;
 }
 
-void refuse_what_has_no_block(const LoadedScene& loaded) {
-  std::vector<Problem> problems;
-  if (loaded.scene.numerics.surface.wanted()) {
-    problems.push_back({"/numerics/surface", 0, "influences are those of an exact operator",
-                        "remove the surface from the scene"});
-  }
-  if (loaded.plan.creep.active) {
-    problems.push_back({"/numerics/creep", 0,
-                        "influences are those of elastic rock, and this scene has creeping salt",
-                        "take the elastic case: --set /numerics/creep=off"});
-  }
+/// The scene as its influences are: those of exact elastic operators. What is left out is told.
+LoadedScene elastic_and_exact(LoadedScene loaded, RunContext& context) {
   if (loaded.scene.pressure.empty()) {
-    problems.push_back({"", 0, "the scene has no compartment whose pressure changes",
-                        "give it a block with a pressure change"});
+    throw InputError(loaded.document.source,
+                     {{"", 0, "the scene has no compartment whose pressure changes",
+                       "give it a block with a pressure change"}});
   }
-  if (!problems.empty()) throw InputError(loaded.document.source, problems);
+  const bool is_surface = loaded.scene.numerics.surface.wanted();
+  if (is_surface) context.note("influences of the exact operator at the scene's own parameters");
+  if (loaded.plan.creep.active)
+    context.note("influences on elastic rock: what creep relaxes afterwards is not in them");
+  if (!is_surface && !loaded.plan.creep.active) return loaded;
+  loaded.scene.numerics.surface = {};
+  loaded.scene.numerics.creep = Switch::off;
+  std::vector<Problem> problems;
+  loaded.plan = make_plan(loaded.scene, problems);
+  FAULTSIM_DEMAND(problems.empty(), problems.front().what);
+  return loaded;
 }
 
 void report(const InfluenceArguments& arguments, const PreparedInfluence& made) {
@@ -91,14 +93,14 @@ void report(const InfluenceArguments& arguments, const PreparedInfluence& made) 
 }  // namespace
 
 ExitCode influence_command(const InfluenceArguments& arguments) {
-  const LoadedScene loaded = load_scene(arguments.scene);
-  require_writable_file("-o", arguments.output, FileKind::hdf5, input_files(loaded));
-  refuse_what_has_no_block(loaded);
-  const std::vector<int> regions = regions_named(loaded.scene, arguments.regions);
   ScreenMonitor monitor(arguments.scene.json);
+  RunContext context = context_of(arguments.op, monitor);
+  LoadedScene as_given = load_scene(arguments.scene);
+  require_writable_file("-o", arguments.output, FileKind::hdf5, input_files(as_given));
+  const LoadedScene loaded = elastic_and_exact(std::move(as_given), context);
+  const std::vector<int> regions = regions_named(loaded.scene, arguments.regions);
   const PreparedInfluence made =
-      prepare_influence(loaded.scene, loaded.plan, regions, cache_policy(arguments.op),
-                        context_of(arguments.op, monitor));
+      prepare_influence(loaded.scene, loaded.plan, regions, cache_policy(arguments.op), context);
   if (!made.remark.empty()) monitor.note(made.remark);
   monitor.clear();
   write_influence(*made.block, *made.op, arguments.output);

@@ -26,9 +26,8 @@ std::string built_in(double seconds) {
   return text;
 }
 
-void write_volume_fields(const std::filesystem::path& folder, const LoadedScene& loaded,
+void write_volume_fields(const std::filesystem::path& folder, const Mesh& mesh,
                          const std::vector<VolumeSnapshot>& snapshots) {
-  const Mesh mesh = bulk_problem(loaded.scene, loaded.plan).mesh;
   Eigen::Matrix3Xd nodes(3, static_cast<Eigen::Index>(mesh.nodes.size()));
   for (Eigen::Index i = 0; i < nodes.cols(); ++i)
     nodes.col(i) = mesh.nodes[static_cast<std::size_t>(i)];
@@ -161,7 +160,10 @@ ExitCode run_command(const RunArguments& arguments) {
       is_coupled ? coupled->run(context, watch.step, probe) : simulation.run(context, watch);
   if (arguments.trace) write_text(output.path() / "trace.jsonl", trace);
   if (writer) writer->finish();
-  if (scene.output.volume_fields) write_volume_fields(output.path(), loaded, volume);
+  if (scene.output.volume_fields) {
+    const Mesh& mesh = is_coupled ? coupled->mesh() : prepared.bulk->bulk(0).problem().mesh;
+    write_volume_fields(output.path(), mesh, volume);
+  }
   nlohmann::json document = result_to_json(result);
   document["initial_state"] = initial_state_to_json(loaded.plan.initial);
   const std::string text = json_text(std::move(document));

@@ -75,6 +75,13 @@ InfluenceCell influence_cell(const BulkProblem& problem, int cell) {
 
 }  // namespace
 
+std::vector<InfluenceCell> influence_cells(const BulkProblem& problem,
+                                           const std::vector<int>& cells) {
+  std::vector<InfluenceCell> list;
+  for (const int cell : cells) list.push_back(influence_cell(problem, cell));
+  return list;
+}
+
 struct CondensedBulk::Impl {
   explicit Impl(BulkProblem bulk_problem)
       : problem(std::move(bulk_problem)),
@@ -222,14 +229,10 @@ FaultOperator CondensedBulk::condense(const RunContext& context) {
 
 InfluenceBlock CondensedBulk::influence(const std::vector<int>& cells, const RunContext& context) {
   Impl& self = *impl_;
-  const Mesh& mesh = self.problem.mesh;
   Stopwatch stopwatch;
   InfluenceBlock block;
-  std::vector<SparseLoad> loads;
-  for (const int cell : cells) {
-    block.cells.push_back(influence_cell(self.problem, cell));
-    loads.push_back(dilatation_load(mesh, self.dofs, cell));
-  }
+  block.cells = influence_cells(self.problem, cells);
+  const std::vector<SparseLoad> loads = dilatations(cells);
   Eigen::MatrixXd traction = self.factor->condense(loads, [&](double share) {
     context.progress(share, concat("influence of ", cells.size(), " cells"));
     context.stop.throw_if_requested("condensing the influence of cells");
@@ -252,6 +255,13 @@ InfluenceBlock CondensedBulk::influence(const std::vector<int>& cells, const Run
   }
   block.build_seconds = stopwatch.seconds();
   return block;
+}
+
+std::vector<SparseLoad> CondensedBulk::dilatations(const std::vector<int>& cells) const {
+  std::vector<SparseLoad> forces;
+  for (const int cell : cells)
+    forces.push_back(dilatation_load(impl_->problem.mesh, impl_->dofs, cell));
+  return forces;
 }
 
 Eigen::Matrix3Xd CondensedBulk::displacement(const std::vector<double>& load_factors,

@@ -13,6 +13,10 @@
 
 namespace faultsim {
 
+/// Cells of a mesh as an influence block lists them. @pre they are cells of the problem's mesh.
+std::vector<InfluenceCell> influence_cells(const BulkProblem& problem,
+                                           const std::vector<int>& cells);
+
 /// The factorised bulk of one family: kept while displacement fields, or the creep of salt, still
 /// need it.
 class CondensedBulk {
@@ -30,6 +34,8 @@ class CondensedBulk {
   /// substitution per cell, P_c = A⁻¹ (f_g − K_gr K_rr⁻¹ f_r); one back-solve per observation row,
   /// K_rr z = q_r, O_c = z·f_c. The bits of a cell do not depend on the others.
   InfluenceBlock influence(const std::vector<int>& cells, const RunContext& context);
+  /// f_c of cells, N: (unknown, force) each.
+  std::vector<SparseLoad> dilatations(const std::vector<int>& cells) const;
   /// Displacement of all mesh nodes for given load factors and jumps: 3 x n_nodes, m.
   Eigen::Matrix3Xd displacement(const std::vector<double>& load_factors,
                                 const Eigen::VectorXd& jump);

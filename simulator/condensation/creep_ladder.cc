@@ -99,14 +99,16 @@ BulkState CreepLadder::at_rest() const {
   return {impl_->cells->at_rest(), Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(n_nodes))};
 }
 
-CreepLadder::History CreepLadder::history(int rung, const BulkState& state) {
+CreepLadder::History CreepLadder::history(int rung, const BulkState& state,
+                                          const Eigen::VectorXd& added) {
   Impl::Rung& r = impl_->at(rung);
   Eigen::VectorXd force = Eigen::VectorXd::Zero(r.op.n_unknowns);
+  if (added.size() > 0) force = added;
   for (std::size_t m = 0; m < r.step.size(); ++m) {
     force += r.step[m].relaxed * state.stress.force.col(static_cast<Eigen::Index>(m));
   }
   History history;
-  if (force.isZero(0)) {  // at rest, or an elastic step
+  if (force.isZero(0)) {  // at rest, or an elastic step, under the loads of the family
     history.forward = force;
     history.traction = Eigen::VectorXd::Zero(r.op.geometry.n_dofs);
     return history;

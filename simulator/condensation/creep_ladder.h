@@ -37,12 +37,13 @@ class CreepLadder {
   CondensedBulk& bulk(int rung);
   BulkState at_rest() const;
 
-  /// What the history adds to a step of the rung.
+  /// What the history, and forces that are no load of the family, add to a step of the rung.
   struct History {
     Eigen::VectorXd traction;  ///< locked traction, n_dofs, Pa.
     Eigen::VectorXd forward;   ///< half of the back-solve, for advance().
   };
-  History history(int rung, const BulkState& state);
+  /// @param force  that the step adds, n_unknowns, N; empty = none.
+  History history(int rung, const BulkState& state, const Eigen::VectorXd& force = {});
 
   /// Moves the bulk over a step of the rung, given the increments of the load factors and jumps.
   void advance(int rung, History history, const std::vector<double>& load_increments,

@@ -78,7 +78,7 @@ ContactLaws frozen_laws(const FaultOperator& op, const ContactLaws& laws, const 
     problems.push_back({"", 0,
                         concat(what, " at ", obstacle.count, " of ", laws.size(),
                                " nodes (first: ", place(problem, static_cast<int>(obstacle.first)),
-                               "), and a friction cone has none"),
+                               "), and a friction cone has no cohesion"),
                         cure});
   };
   refuse(cohesion, "cohesion is at work in the step", "set the cohesion to 0");

@@ -1,10 +1,12 @@
 #include "simulator/coupled_case/coupled_case.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "simulator/condensation/fault_geometry.h"
 #include "simulator/coupled/coupled_contact.h"
+#include "simulator/plan/combinations.h"
 
 namespace faultsim {
 namespace {
@@ -35,37 +37,7 @@ FaultOperator uncondensed(const Scene& scene, const Plan& plan, const BulkProble
 }  // namespace
 
 std::vector<Problem> unsupported_by_coupled(const Scene& scene, const Plan& plan) {
-  std::vector<Problem> problems;
-  const char* path = "take the condensed path (--path condensed)";
-  if (plan.creep.active) {
-    problems.push_back({"/numerics/creep", 0, "the coupled path does not support creeping salt",
-                        concat("switch creep off, or ", path)});
-  }
-  if (scene.numerics.surface.wanted()) {
-    problems.push_back({"/numerics/surface", 0, "the coupled path has no operator to interpolate",
-                        concat("remove the surface, or ", path)});
-  }
-  if (scene.has_field()) {
-    problems.push_back({"/pressure_field", 0, "the coupled path has no loads of single cells",
-                        concat("say the pressures by compartments, or ", path)});
-  }
-  for (std::size_t f = 0; f < scene.faults.size(); ++f) {
-    const Friction& friction = scene.faults[f].friction;
-    if (friction.dynamic_friction_angle != friction.static_friction_angle) {
-      problems.push_back(
-          {concat("/faults/", f), 0,
-           concat("friction of ", scene.faults[f].name,
-                  " weakens with slip: the coupled path neither sees nor follows instabilities"),
-           concat("give it one friction angle, or ", path)});
-    }
-    if (!friction.cohesion_after_slip && friction.cohesion > 0) {
-      problems.push_back({concat("/faults/", f), 0,
-                          concat("the first slip of ", scene.faults[f].name,
-                                 " ends its cohesion: the coupled path does not follow that jump"),
-                          concat("leave cohesion_after_slip at true, or ", path)});
-    }
-  }
-  return problems;
+  return unsupported(scene, plan, std::array{Feature::coupled_path});
 }
 
 std::string parts_warning(const CaseResult& result) {

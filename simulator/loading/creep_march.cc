@@ -147,9 +147,12 @@ CreepMarch::Impl::Path CreepMarch::Impl::step(const Point& from, const StepLoads
   watch.stop.throw_if_requested("solving a step of creep");
   const FaultOperator& op = ladder.op(rung);
   const FaultOperator& elastic = ladder.op(0);
-  CreepLadder::History history = ladder.history(rung, from.bulk);
+  CreepLadder::History history = ladder.history(
+      rung, from.bulk, case_loads.forces(from.loads.time, loads.time, op.n_unknowns));
   std::vector<double> increments(loads.factors.size());
   Eigen::VectorXd change = loads.locked - from.loads.locked + history.traction;
+  if (loads.locked_by_forces.size() > 0)  // elastic; the rung's own is in `history`
+    change -= loads.locked_by_forces - from.loads.locked_by_forces;
   for (std::size_t k = 0; k < increments.size(); ++k) {
     increments[k] = loads.factors[k] - from.loads.factors[k];
     if (increments[k] == 0 || rung == 0) continue;
@@ -267,7 +270,9 @@ ContactReport CreepMarch::Impl::begin(const StepLoads& loads, ContactState& stat
   ContactReport report = solver(0, true).solve_step(none, loads.locked, state);
   if (!in_equilibrium(report.outcome)) return report;
   now = {0, loads, state, ladder.at_rest()};
-  ladder.advance(0, ladder.history(0, now.bulk), loads.factors, state.jump, now.bulk);
+  CreepLadder::History history =
+      ladder.history(0, now.bulk, case_loads.forces_at(loads.time, ladder.op(0).n_unknowns));
+  ladder.advance(0, std::move(history), loads.factors, state.jump, now.bulk);
   has_begun = true;
   return report;
 }

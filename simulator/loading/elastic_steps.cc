@@ -8,6 +8,7 @@ namespace faultsim {
 ElasticSteps::ElasticSteps(const FaultOperator& op, CreepLadder* bulk, const StepSetting& setting)
     : op_(op),
       bulk_(bulk),
+      case_loads_(setting.loads),
       contact_(op, setting.laws, contact_options(setting.scene.numerics), setting.watch),
       locked_(Eigen::VectorXd::Zero(op.geometry.n_dofs)) {}
 
@@ -27,7 +28,10 @@ Eigen::VectorXd ElasticSteps::observed(const StepLoads& loads, const ContactStat
 
 Eigen::Matrix3Xd ElasticSteps::displacement(const StepLoads& loads, const ContactState& state) {
   FAULTSIM_DEMAND(bulk_ != nullptr, "displacements of a bulk that was not kept");
-  return bulk_->bulk(0).displacement(loads.factors, state.jump);
+  CondensedBulk& bulk = bulk_->bulk(0);
+  const Eigen::VectorXd forces = case_loads_.forces_at(loads.time, op_.n_unknowns);
+  if (forces.size() == 0) return bulk.displacement(loads.factors, state.jump);
+  return bulk.displacement(bulk.forward(forces), loads.factors, state.jump);
 }
 
 }  // namespace faultsim

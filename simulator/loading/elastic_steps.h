@@ -20,6 +20,7 @@ class ElasticSteps final : public StepSolver {
  private:
   const FaultOperator& op_;
   CreepLadder* bulk_;
+  const CaseLoads& case_loads_;
   ContactSolver contact_;
   Eigen::VectorXd locked_;  ///< t_L of the last equilibrium, Pa.
 };

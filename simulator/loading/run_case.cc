@@ -15,7 +15,6 @@
 #include "simulator/measures/metrics.h"
 #include "simulator/measures/slip_events.h"
 #include "simulator/measures/stage_summary.h"
-#include "simulator/operators/field_loads.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsim {
@@ -37,8 +36,9 @@ void add_counts(SolveCounts& sum, const SolveCounts& part) {
 /// One case on its way through the load steps.
 class CaseRun {
  public:
-  CaseRun(const Scene& scene, const FaultOperator& op, const MakeStepSolver& solver,
-          const RunContext& context, const StepObserver& observer, const CaseProbe& probe)
+  CaseRun(const Scene& scene, const FaultOperator& op, const LoadSources& further,
+          const MakeStepSolver& solver, const RunContext& context, const StepObserver& observer,
+          const CaseProbe& probe)
       : scene_(scene),
         op_(op),
         context_(context),
@@ -46,7 +46,7 @@ class CaseRun {
         probe_(probe),
         laws_(contact_laws(scene, op.geometry)),
         node_laws_(laws_),
-        loads_(scene, op, probe.noise, probe.field),
+        loads_(scene, op, further, probe.noise),
         meter_(op, laws_, scene.numerics.slip_tolerance, scene.numerics.activation_length),
         solver_(solver({scene, laws_, loads_, watch()})),
         state_(initial_state(op)),
@@ -378,11 +378,6 @@ StepStart CaseRun::start_of(int step) {
   return start;
 }
 
-CaseProbe with_field(CaseProbe probe, const PreparedOperator& prepared) {
-  if (prepared.field) probe.field = &prepared.field->history;
-  return probe;
-}
-
 /// What solves the steps of cases on an operator.
 MakeStepSolver steps_on(const FaultOperator& op, CreepLadder* bulk) {
   return [&op, bulk](const StepSetting& setting) -> std::unique_ptr<StepSolver> {
@@ -399,19 +394,16 @@ MakeStepSolver steps_on(const PreparedOperator& prepared) {
 
 CaseResult run_case(const Scene& scene, const FaultOperator& op, const RunContext& context,
                     const StepObserver& observer) {
-  return CaseRun(scene, op, steps_on(op, nullptr), context, observer, {}).run();
+  return CaseRun(scene, op, {}, steps_on(op, nullptr), context, observer, {}).run();
 }
 
 CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, const RunContext& context,
                     const StepObserver& observer, const CaseProbe& probe) {
-  CaseResult result = CaseRun(scene, *prepared.op, steps_on(prepared), context, observer,
-                              with_field(probe, prepared))
-                          .run();
-  if (prepared.field) {
-    result.field_coverage = prepared.field->coverage;
-    result.warnings.insert(result.warnings.end(), prepared.field->warnings.begin(),
-                           prepared.field->warnings.end());
-  }
+  CaseResult result =
+      CaseRun(scene, *prepared.op, prepared.loads, steps_on(prepared), context, observer, probe)
+          .run();
+  result.field_coverage = prepared.field_coverage;
+  result.warnings.insert(result.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
   result.surface = prepared.surface;
   if (result.surface) result.warnings.push_back(surface_warning(*result.surface));
   return result;
@@ -420,14 +412,15 @@ CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, const 
 CaseResult run_case(const Scene& scene, const FaultOperator& faults, const MakeStepSolver& solver,
                     const RunContext& context, const StepObserver& observer,
                     const CaseProbe& probe) {
-  return CaseRun(scene, faults, solver, context, observer, probe).run();
+  return CaseRun(scene, faults, {}, solver, context, observer, probe).run();
 }
 
 StepStart start_of_step(const Scene& scene, const PreparedOperator& prepared, int step,
                         const RunContext& context) {
   const StepObserver unobserved;
-  const CaseProbe probe = with_field({}, prepared);
-  return CaseRun(scene, *prepared.op, steps_on(*prepared.op, nullptr), context, unobserved, probe)
+  const CaseProbe no_probe;
+  return CaseRun(scene, *prepared.op, prepared.loads, steps_on(*prepared.op, nullptr), context,
+                 unobserved, no_probe)
       .start_of(step);
 }
 

@@ -8,7 +8,6 @@
 #include "simulator/common/run_context.h"
 #include "simulator/contact/judge.h"
 #include "simulator/loading/step_solver.h"
-#include "simulator/loads/field_history.h"
 #include "simulator/model/fault_operator.h"
 #include "simulator/operators/prepare_operator.h"
 #include "simulator/result/result.h"
@@ -31,8 +30,7 @@ struct CaseProbe {
   /// Called at the end of each stage, and of step 0, with the displacement of all mesh nodes (m),
   /// if set: where that is on a condensed operator, its bulk was kept.
   std::function<void(const StepResult&, const Eigen::Matrix3Xd&)> displaced;
-  std::string identity;                 ///< case_identity of the scene; empty = to be found.
-  const FieldHistory* field = nullptr;  ///< of a scene with a flow result.
+  std::string identity;  ///< case_identity of the scene; empty = to be found.
 };
 
 /// Runs one case on its operator: initial state, load steps, contact, metrics. Deterministic: the

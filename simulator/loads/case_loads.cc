@@ -16,6 +16,44 @@ double sign_of(std::uint64_t index) {
   return (z >> 63) != 0 ? 1 : -1;
 }
 
+/// Pressures and temperatures of regions and what is prescribed at the boundary, each by its unit
+/// load: Σ c_k L_k.
+class UnitLoads final : public LoadSource {
+ public:
+  UnitLoads(const Scene& scene, const FaultOperator& op, const LoadFactors& factors)
+      : scene_(scene), op_(op), factors_(factors) {}
+  void add(double time, StepLoads& loads) const override {
+    loads.pressure_change = pressure_changes(scene_, time);
+    loads.factors = factors_.at(time, loads.pressure_change);
+    const std::size_t n_condensed = op_.loads.traction.cols();
+    for (std::size_t k = 0; k < std::min(n_condensed, loads.factors.size()); ++k) {
+      if (loads.factors[k] != 0)
+        loads.locked += loads.factors[k] * op_.loads.traction.col(static_cast<Eigen::Index>(k));
+    }
+  }
+
+ private:
+  const Scene& scene_;
+  const FaultOperator& op_;
+  const LoadFactors& factors_;
+};
+
+/// Pressures in the faults by their rules, from those of the regions.
+class FaultPressureRules final : public LoadSource {
+ public:
+  FaultPressureRules(const Scene& scene, const FaultOperator& op, const LoadFactors& factors)
+      : scene_(scene), op_(op), factors_(factors) {}
+  void add(double time, StepLoads& loads) const override {
+    loads.fault_pressure_change = fault_pressure_change(
+        scene_, op_.geometry, factors_.region_of_load(), time, loads.pressure_change);
+  }
+
+ private:
+  const Scene& scene_;
+  const FaultOperator& op_;
+  const LoadFactors& factors_;
+};
+
 }  // namespace
 
 PressureChanges between(const PressureChanges& before, const PressureChanges& after, double share) {
@@ -30,40 +68,26 @@ PressureChanges between(const PressureChanges& before, const PressureChanges& af
   return there;
 }
 
-CaseLoads::CaseLoads(const Scene& scene, const FaultOperator& op, double noise,
-                     const FieldHistory* field)
+CaseLoads::CaseLoads(const Scene& scene, const FaultOperator& op, const LoadSources& further,
+                     double noise)
     : scene_(scene),
       op_(op),
       load_factors_(scene, op),
       initial_(initial_traction(scene, op.geometry, load_factors_.region_of_load())),
-      noise_(noise),
-      field_(field) {
-  FAULTSIM_DEMAND(scene.has_field() == (field != nullptr), "the loads of the scene's field");
+      sources_{std::make_shared<UnitLoads>(scene, op, load_factors_),
+               std::make_shared<FaultPressureRules>(scene, op, load_factors_)},
+      noise_(noise) {
+  FAULTSIM_DEMAND(!scene.has_field() || !further.empty(), "the loads of the scene's field");
+  sources_.insert(sources_.end(), further.begin(), further.end());
+  has_forces_ = std::any_of(further.begin(), further.end(),
+                            [](const auto& source) { return source->has_forces(); });
 }
 
 StepLoads CaseLoads::at(double time) const {
   StepLoads loads;
-  loads.pressure_change = pressure_changes(scene_, time);
-  loads.factors = load_factors_.at(time, loads.pressure_change);
+  loads.time = time;
   loads.locked = initial_.traction;
-  const std::size_t n_condensed = op_.loads.traction.cols();
-  for (std::size_t k = 0; k < std::min(n_condensed, loads.factors.size()); ++k) {
-    if (loads.factors[k] != 0)
-      loads.locked += loads.factors[k] * op_.loads.traction.col(static_cast<Eigen::Index>(k));
-  }
-  loads.fault_pressure_change = fault_pressure_change(
-      scene_, op_.geometry, load_factors_.region_of_load(), time, loads.pressure_change);
-  if (field_ != nullptr) {
-    loads.locked += at_time(field_->time, field_->locked, time);
-    loads.fault_pressure_change += at_time(field_->time, field_->fault_pressure, time);
-    const Eigen::VectorXd regions = at_time(field_->time, field_->region_change, time);
-    for (std::size_t r = 0; r < loads.pressure_change.size(); ++r)
-      loads.pressure_change[r] += regions[static_cast<Eigen::Index>(r)];
-    loads.observed = at_time(field_->time, field_->observed, time);
-    loads.beside.resize(field_->beside_minus.rows(), 2);
-    loads.beside.col(0) = at_time(field_->time, field_->beside_minus, time);
-    loads.beside.col(1) = at_time(field_->time, field_->beside_plus, time);
-  }
+  for (const auto& source : sources_) source->add(time, loads);
   for (std::size_t f = 0; f < op_.geometry.faults.size(); ++f) {
     const OperatorFault& fault = op_.geometry.faults[f];
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
@@ -77,6 +101,17 @@ StepLoads CaseLoads::at(double time) const {
     }
   }
   return loads;
+}
+
+Eigen::VectorXd CaseLoads::forces_at(double time, Eigen::Index n_unknowns) const {
+  if (!has_forces_) return {};
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(n_unknowns);
+  for (const auto& source : sources_) source->add_forces(time, forces);
+  return forces;
+}
+
+Eigen::VectorXd CaseLoads::forces(double from, double to, Eigen::Index n_unknowns) const {
+  return has_forces_ ? forces_at(to, n_unknowns) - forces_at(from, n_unknowns) : Eigen::VectorXd();
 }
 
 void CaseLoads::check_fault_pressure(const LoadStep& step, const StepLoads& loads) const {

@@ -15,4 +15,26 @@ Eigen::VectorXd at_time(const std::vector<double>& time, const Eigen::MatrixXd& 
   return table.col(i - 1) + share * (table.col(i) - table.col(i - 1));
 }
 
+void FieldHistory::add(double at, StepLoads& loads) const {
+  const Eigen::VectorXd by_cells = at_time(time, locked, at);
+  loads.locked += by_cells;
+  if (has_forces()) loads.locked_by_forces = by_cells;
+  loads.fault_pressure_change += at_time(time, fault_pressure, at);
+  const Eigen::VectorXd regions = at_time(time, region_change, at);
+  for (std::size_t r = 0; r < loads.pressure_change.size(); ++r)
+    loads.pressure_change[r] += regions[static_cast<Eigen::Index>(r)];
+  if (observed.size() > 0) loads.observed = at_time(time, observed, at);
+  loads.beside.resize(beside_minus.rows(), 2);
+  loads.beside.col(0) = at_time(time, beside_minus, at);
+  loads.beside.col(1) = at_time(time, beside_plus, at);
+}
+
+void FieldHistory::add_forces(double at, Eigen::VectorXd& forces) const {
+  const Eigen::VectorXd cells = at_time(time, stress, at);
+  for (std::size_t c = 0; c < cell_forces.size(); ++c) {
+    for (const auto& [unknown, force] : cell_forces[c])
+      forces[unknown] += cells[static_cast<Eigen::Index>(c)] * force;
+  }
+}
+
 }  // namespace faultsim

@@ -82,10 +82,6 @@ std::vector<double> temperature_changes(const Scene& scene, double time) {
   return changes;
 }
 
-double thermal_stress(const Material& material) {
-  return material.youngs_modulus / (1 - 2 * material.poisson_ratio) * material.thermal_expansion;
-}
-
 double table_value(const TimeTable& table, double time) {
   if (table.time.empty()) return 1;
   return interpolate(table.time, table.factor, time, table.factor.front());

@@ -28,9 +28,6 @@ std::vector<double> pressure_changes(const Scene& scene, double time);
 /// ΔT of each region at time t, K: 0 at t = 0.
 std::vector<double> temperature_changes(const Scene& scene, double time);
 
-/// s per kelvin of an isotropic eigenstress −s I, Pa/K: 3 K α_T.
-double thermal_stress(const Material& material);
-
 /// Value of a table at time t: piecewise linear, constant outside; 1 if the table is empty.
 double table_value(const TimeTable& table, double time);
 

@@ -173,6 +173,31 @@ double covered_integral(const MappedField& field, const InfluenceBlock& block, i
   return whole > 0 ? 100 * covered / whole : 100;
 }
 
+/// Locked tractions, observations and forces of stresses in the cells.
+/// @param stress  s_c, Pa, n_cells x n_reports.
+void condense(const FieldCells& cells, Eigen::MatrixXd stress, int n_threads,
+              FieldHistory& history) {
+  if (cells.bulk != nullptr) {
+    std::vector<int> numbers;
+    for (const InfluenceCell& cell : cells.block.cells) numbers.push_back(cell.cell);
+    history.cell_forces = cells.bulk->bulk(0).dilatations(numbers);
+    history.stress = std::move(stress);
+  }
+  const Eigen::MatrixXd& of = cells.bulk != nullptr ? history.stress : stress;
+  if (cells.block.traction.view().size() > 0) {
+    history.locked = locked_change(cells.block, of, n_threads);
+    history.observed = cells.block.observed * of;
+    return;
+  }
+  history.locked.resize(cells.op.geometry.n_dofs, of.cols());
+  for (Eigen::Index t = 0; t < of.cols(); ++t) {
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(cells.op.n_unknowns);
+    history.add_forces(history.time[static_cast<std::size_t>(t)], force);
+    CondensedBulk& bulk = cells.bulk->bulk(0);
+    history.locked.col(t) = bulk.locked_traction(bulk.forward(force));
+  }
+}
+
 /// Share of the volume of all compartments; 1 of a field that is not there.
 double covered_share(const FlowMapping& mapping) {
   double covered = 0, volume = 0;
@@ -204,22 +229,20 @@ void report_coverage(const MappedField& field, const InfluenceBlock& block,
 
 }  // namespace
 
-FieldLoads field_loads(const Scene& scene, const Plan& plan, const PreparedInfluence& prepared,
-                       int n_threads) {
-  FAULTSIM_DEMAND(scene.has_field() && !plan.half_domain, "a field on all of the domain");
-  const InfluenceBlock& block = *prepared.block;
-  const Mesh mesh = bulk_problem(scene, plan).mesh;
+FieldLoads field_loads(const Scene& scene, const FieldCells& cells, int n_threads) {
+  FAULTSIM_DEMAND(scene.has_field(), "loads of a field");
+  const Mesh& mesh = cells.mesh;
+  const InfluenceBlock& block = cells.block;
   const MappedField pressure = map_field(scene.pressure_field, "pressure field", mesh, block);
   const MappedField temperature =
       map_field(scene.temperature_field, "temperature field", mesh, block);
   const Eigen::Index n_cells = std::ssize(block.cells);
-  FieldLoads loads;
-  FieldHistory& history = loads.history;
+  FieldHistory history;
   history.time = all_times(pressure, temperature);
   Eigen::MatrixXd stress = change_at(pressure, history.time, n_cells);
   const Eigen::MatrixXd heating = change_at(temperature, history.time, n_cells);
   history.region_change = region_means(block, stress);
-  set_beside(scene, mesh, *prepared.op, block, stress, history);
+  set_beside(scene, mesh, cells.op, block, stress, history);
   Eigen::MatrixXd change = Eigen::MatrixXd::Zero(std::ssize(mesh.cells), stress.cols());
   for (std::size_t c = 0; c < block.cells.size(); ++c) {
     const InfluenceCell& cell = block.cells[c];
@@ -229,9 +252,9 @@ FieldLoads field_loads(const Scene& scene, const Plan& plan, const PreparedInflu
     stress.row(row) = material.biot * change.row(cell.cell) +
                       thermal_stress(material) * cell.fraction * heating.row(row);
   }
-  history.locked = locked_change(block, stress, n_threads);
-  history.observed = block.observed * stress;
-  history.fault_pressure = fault_pressures(scene, mesh, prepared.op->geometry, change);
+  history.fault_pressure = fault_pressures(scene, mesh, cells.op.geometry, change);
+  condense(cells, std::move(stress), n_threads, history);
+  FieldLoads loads;
   for (const MappedField* field : {&pressure, &temperature})
     report_coverage(*field, block, loads.notes);
   if (scene.pressure_field.is_given())
@@ -241,6 +264,7 @@ FieldLoads field_loads(const Scene& scene, const Plan& plan, const PreparedInflu
         "begins to slide or jumps are of the field's cells beside the place");
   loads.coverage = std::min(covered_share(pressure.mapping), covered_share(temperature.mapping));
   loads.mapping = pressure.mapping;
+  loads.history = std::make_shared<const FieldHistory>(std::move(history));
   return loads;
 }
 

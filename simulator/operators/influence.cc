@@ -26,13 +26,6 @@ std::filesystem::path influence_path(const CachePolicy& cache, const std::string
   return cache.folder / concat(op, "-influence-", name.substr(0, 12), ".h5");
 }
 
-/// No part of the operator: a block made for another scene of the family may carry other names.
-std::vector<std::string> region_names(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const PressureHistory& history : scene.pressure) names.push_back(history.region);
-  return names;
-}
-
 /// A block that cannot be kept is still a block.
 void keep_influence(const PreparedInfluence& made, const CachePolicy& cache, std::string& remark) {
   try {
@@ -47,6 +40,12 @@ void keep_influence(const PreparedInfluence& made, const CachePolicy& cache, std
 
 }  // namespace
 
+std::vector<std::string> pressure_region_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const PressureHistory& history : scene.pressure) names.push_back(history.region);
+  return names;
+}
+
 std::vector<int> reservoir_cells(const BulkProblem& problem, const std::vector<int>& regions) {
   std::vector<int> cells;
   for (int c = 0; c < static_cast<int>(problem.mesh.cells.size()); ++c) {
@@ -60,7 +59,7 @@ std::vector<int> reservoir_cells(const BulkProblem& problem, const std::vector<i
 
 PreparedInfluence prepare_influence(const Scene& scene, const Plan& plan,
                                     const std::vector<int>& regions, const CachePolicy& cache,
-                                    const RunContext& context) {
+                                    const RunContext& context, bool keep_bulk) {
   FAULTSIM_DEMAND(!plan.creep.active, "an influence block is of the elastic operator");
   take_blas_buffer();
   set_blas_threads(1);
@@ -70,10 +69,11 @@ PreparedInfluence prepare_influence(const Scene& scene, const Plan& plan,
   if (!cache.folder.empty()) {
     auto block = read_influence(influence_path(cache, op_name, name), name, &made.remark);
     if (block) {
-      PreparedOperator prepared = prepare_operator(scene, plan, cache, false, context);
+      PreparedOperator prepared = prepare_operator(scene, plan, cache, keep_bulk, context);
       if (!prepared.remark.empty()) made.remark = prepared.remark;
       made.op = prepared.op;
-      block->region_names = region_names(scene);
+      made.bulk = prepared.bulk;
+      block->region_names = pressure_region_names(scene);
       made.block = std::make_shared<InfluenceBlock>(std::move(*block));
       made.from_cache = true;
       return made;
@@ -85,11 +85,12 @@ PreparedInfluence prepare_influence(const Scene& scene, const Plan& plan,
   whole.memory_bytes = std::max(plan.memory_bytes, kProgramBytes + made.predicted.peak_bytes);
   PreparedOperator prepared = prepare_operator(scene, whole, cache, true, context);
   made.op = prepared.op;
+  if (keep_bulk) made.bulk = prepared.bulk;
   if (!prepared.remark.empty()) made.remark = prepared.remark;
   auto block = std::make_shared<InfluenceBlock>(prepared.bulk->bulk(0).influence(cells, context));
   block->fingerprint = name;
   block->operator_fingerprint = op_name;
-  block->region_names = region_names(scene);
+  block->region_names = pressure_region_names(scene);
   for (const int row : mirrored_rows(scene, plan.half_domain)) block->observed.row(row) *= -1;
   made.block = block;
   if (!cache.folder.empty()) keep_influence(made, cache, made.remark);

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "simulator/operators/prepare_operator.h"
 #include "simulator/model/influence.h"
+#include "simulator/operators/prepare_operator.h"
 #include "simulator/plan/cost.h"
 
 namespace faultsim {
@@ -19,9 +19,10 @@ std::vector<int> reservoir_cells(const BulkProblem& problem, const std::vector<i
 struct PreparedInfluence {
   std::shared_ptr<const FaultOperator> op;
   std::shared_ptr<const InfluenceBlock> block;
-  bool from_cache = false;  ///< the block; nothing was factorised.
-  InfluenceCost predicted;  ///< of the block alone, by the plan.
-  std::string remark;       ///< "damaged file moved aside", "not kept", ...
+  std::shared_ptr<CreepLadder> bulk;  ///< its factor, where that was to be kept.
+  bool from_cache = false;            ///< the block.
+  InfluenceCost predicted;            ///< of the block alone, by the plan.
+  std::string remark;                 ///< "damaged file moved aside", "not kept", ...
 };
 
 /// The influence of the regions' cells: from the cache, beside the operator, if it is there and
@@ -29,6 +30,9 @@ struct PreparedInfluence {
 /// prepare_operator() does. @pre no creep in the plan.
 PreparedInfluence prepare_influence(const Scene& scene, const Plan& plan,
                                     const std::vector<int>& regions, const CachePolicy& cache,
-                                    const RunContext& context = {});
+                                    const RunContext& context = {}, bool keep_bulk = false);
+
+/// Names of the scene's compartments, which a block of another scene of its family may not have.
+std::vector<std::string> pressure_region_names(const Scene& scene);
 
 }  // namespace faultsim

@@ -8,6 +8,7 @@
 #include "simulator/common/run_context.h"
 #include "simulator/condensation/condensation.h"
 #include "simulator/condensation/creep_ladder.h"
+#include "simulator/loads/load_source.h"
 #include "simulator/model/fault_operator.h"
 #include "simulator/output/cache_policy.h"
 #include "simulator/plan/plan.h"
@@ -26,8 +27,6 @@ std::optional<Mesh> moved_faults(const Scene& scene, const Plan& plan, const Mes
 /// observation point) whose sign is therefore to be turned: their u_y.
 std::vector<int> mirrored_rows(const Scene& scene, bool half_domain);
 
-struct FieldLoads;
-
 /// The operator of the scene: from the cache if it is there and sound, else built (and cached).
 /// Throws ResourceError before anything is built when the plan needs more memory than is available;
 /// a cache that cannot be written is a remark. A scene with a surface has none (simulator/surface).
@@ -36,8 +35,10 @@ struct PreparedOperator {
   /// The factors, of which nothing is kept in files: where the plan has creep, as every time step
   /// needs them, or where keep_bulk was asked (displacement fields, influences); else null.
   std::shared_ptr<CreepLadder> bulk;
-  std::optional<CaseSurface> surface;                 ///< only where it is interpolated.
-  std::shared_ptr<const FieldLoads> field = nullptr;  ///< only of a scene with a flow result.
+  LoadSources loads = {};                     ///< beside those of the operator.
+  std::optional<CaseSurface> surface = {};    ///< only where it is interpolated.
+  std::optional<double> field_coverage = {};  ///< as in CaseResult.
+  std::vector<std::string> warnings = {};     ///< for every result on it.
   bool from_cache = false;
   std::string remark;  ///< "damaged operator file moved aside", "not kept", ...
 };

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/flow/flow_field.h"
 #include "simulator/scene/initial_state.h"
 #include "simulator/scene/pressure_history.h"
 
@@ -38,8 +39,18 @@ double largest_pressure_change(const PressureHistory& history, double duration) 
   return largest;
 }
 
-double largest_pressure_change(const Scene& scene, double duration) {
+/// Largest change of a flow result's values among the reports that are taken.
+double largest_field_change(const FlowLoad& load) {
   double largest = 0;
+  for (const int report : load.reports) {
+    const auto change = load.field->value.col(report) - load.field->value.col(load.reference);
+    largest = std::max(largest, change.cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
+double largest_pressure_change(const Scene& scene, double duration) {
+  double largest = largest_field_change(scene.pressure_field);
   for (const PressureHistory& history : scene.pressure) {
     largest = std::max(largest, largest_pressure_change(history, duration));
   }
@@ -49,6 +60,17 @@ double largest_pressure_change(const Scene& scene, double duration) {
     largest = std::max(largest, std::abs(fault.pressure.prescribed) * factor);
   }
   return largest;
+}
+
+/// Largest stress that heating or cooling brings, Pa.
+double largest_thermal_stress(const Scene& scene) {
+  double change = largest_field_change(scene.temperature_field), stress = 0;
+  for (const TemperatureHistory& history : scene.temperature)
+    for (const double value : history.change) change = std::max(change, std::abs(value));
+  for (const std::string& name : used_materials(scene)) {
+    if (!name.empty()) stress = std::max(stress, thermal_stress(material_named(scene, name)));
+  }
+  return stress * change;
 }
 
 double shear_modulus(const Material& material) {
@@ -163,8 +185,8 @@ CreepEstimate estimate_creep(const Scene& scene) {
   const bool is_box = scene.geometry_kind == GeometryKind::box;
   const std::optional<double> boundary = is_box ? boundary_stress(scene) : 0;
   if (!boundary) return estimate;
-  estimate.stress =
-      largest_pressure_change(scene, estimate.duration) + *boundary + largest_initial_shear(scene);
+  estimate.stress = largest_pressure_change(scene, estimate.duration) +
+                    largest_thermal_stress(scene) + *boundary + largest_initial_shear(scene);
   estimate.bound = kCreepConcentration * *estimate.stress * estimate.relaxed_share;
   return estimate;
 }

@@ -10,6 +10,7 @@
 
 #include "simulator/common/fingerprint.h"
 #include "simulator/mesh/patch_frame.h"
+#include "simulator/plan/combinations.h"
 #include "simulator/plan/cost.h"
 #include "simulator/plan/creep_plan.h"
 #include "simulator/plan/influence_plan.h"
@@ -57,6 +58,23 @@ Reduction plan_plane_strain(const Scene& scene) {
   return r;
 }
 
+/// Whether the fields of a scene are their own mirror images.
+bool are_symmetric(const Scene& scene) {
+  const auto fits = [](const FlowLoad& load) { return !load.is_given() || load.is_symmetric(); };
+  return fits(scene.pressure_field) && fits(scene.temperature_field);
+}
+
+/// By how much they are not.
+std::string asymmetry_text(const Scene& scene) {
+  for (const FlowLoad* load : {&scene.pressure_field, &scene.temperature_field}) {
+    if (!load->is_given() || load->is_symmetric()) continue;
+    if (!load->asymmetry) return ": its grid is not";
+    return concat(": it differs from its mirror image by up to ", 100 * *load->asymmetry,
+                  " % of its largest value");
+  }
+  return "";
+}
+
 Reduction plan_half_domain(const Scene& scene, bool plane_strain) {
   Reduction r{"half_domain", false, "", "", "/numerics/half_domain", {}};
   const std::string exact = "exact by symmetry: areas, potency and M0 are doubled";
@@ -67,8 +85,8 @@ Reduction plan_half_domain(const Scene& scene, bool plane_strain) {
   } else if (scene.numerics.half_domain == Switch::off) {
     r.reason = "switched off";
     r.bound = exact;
-  } else if (scene.has_field()) {
-    r.reason = "a pressure field need not be symmetric";
+  } else if (!are_symmetric(scene)) {
+    r.reason = "the flow result is not symmetric about y = 0" + asymmetry_text(scene);
   } else if (std::any_of(scene.faults.begin(), scene.faults.end(), [](const Fault& fault) {
                return !fault.pressure.profile.strike.empty();
              })) {
@@ -79,6 +97,16 @@ Reduction plan_half_domain(const Scene& scene, bool plane_strain) {
     r.reason = "layers, blocks, faults, pressure and stress are symmetric about y = 0";
   }
   return r;
+}
+
+/// A half domain that is asked for, and that symmetry forbids, is refused and not left out.
+void require_half_domain(const Scene& scene, const Plan& plan, std::vector<Problem>& problems) {
+  const bool is_asked = scene.numerics.half_domain == Switch::on && !plan.plane_strain &&
+                        scene.geometry_kind == GeometryKind::field;
+  if (!is_asked || plan.half_domain) return;
+  problems.push_back({"/numerics/half_domain", 0,
+                      "half of the domain is asked for, but " + plan.reductions.back().reason,
+                      "set it to \"off\", and choose another tier than one for half domains"});
 }
 
 /// Lines strictly between two coordinates, as a range [first, second).
@@ -182,7 +210,7 @@ void predict_cost(const GridShape& shape, Plan& plan) {
 
 /// What a field costs on top: the influence of the cells it acts on, built beside the factor.
 void predict_influence(const Scene& scene, const GridShape& shape, double n_cells, Plan& plan) {
-  if (!scene.has_field()) return;
+  if (!scene.has_field() || plan.creep.active) return;  // creeping, the factors are asked
   const double n_observed = 3.0 * static_cast<double>(scene.output.observation_points.size());
   const InfluenceCost cost = influence_cost(shape, n_cells, n_observed);
   plan.influence_bytes = cost.bytes;
@@ -354,6 +382,7 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
   if (plan.plane_strain) plan.sections = sections_of_fields(scene);
   plan.reductions.push_back(plan_half_domain(scene, plan.plane_strain));
   plan.half_domain = plan.reductions.back().applied;
+  require_half_domain(scene, plan, problems);
 
   if (has_viscous_material(scene)) {
     const CreepEstimate estimate = estimate_creep(scene);
@@ -362,6 +391,7 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
     plan.creep.bound = estimate.bound;
     if (plan.creep.active) plan.creep.rungs = creep_rungs(scene);
   }
+  for (Problem& problem : unsupported(scene, plan)) problems.push_back(std::move(problem));
 
   const GridLines lines = lines_of(scene, plan, problems);
   if (lines.x.size() < 2 || lines.y.size() < 2 || lines.z.size() < 2) return plan;

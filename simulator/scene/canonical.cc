@@ -130,7 +130,11 @@ std::string numerics(const Numerics& numerics) {
 std::string creep(const Scene& scene) {
   if (!has_viscous_material(scene)) return "";
   ObjectText object;
-  for_each_creep_key(scene.numerics, Canonical::adder(object));
+  const auto add = Canonical::adder(object);
+  for_each_creep_key(scene.numerics, add);
+  // Whether creep is left out did not depend on temperatures once.
+  const bool is_estimated = scene.numerics.creep == Switch::automatic;
+  if (is_estimated && !scene.temperature.empty()) add(SceneKey{"estimate"}, 2);
   return object.text();
 }
 

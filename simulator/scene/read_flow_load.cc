@@ -9,6 +9,7 @@
 #include "simulator/common/dates.h"
 #include "simulator/common/printable.h"
 #include "simulator/flow/field_file.h"
+#include "simulator/flow/mirror.h"
 #include "simulator/flow/report_choice.h"
 #include "simulator/scene/csv_tables.h"
 #include "simulator/scene/load_times.h"
@@ -218,27 +219,22 @@ void remark_rigid_rock(SceneReader& reader, Scene& scene) {
                                  : "has no effect: no material has a thermal_expansion"});
 }
 
+/// How symmetric a field is, where half of the domain may be modelled.
+void measure_symmetry(const Scene& scene, FlowLoad& load) {
+  if (scene.geometry_kind != GeometryKind::field || scene.numerics.half_domain == Switch::off ||
+      scene.numerics.plane_strain == Switch::on)
+    return;
+  const bool is_moved = load.origin != std::array<double, 2>{0, 0} || load.azimuth != 0;
+  load.asymmetry =
+      asymmetry(is_moved ? placed(*load.field, load.origin, load.azimuth) : *load.field);
+}
+
 }  // namespace
 
-/// A field's influence is that of the elastic operator, on one mesh, of all of the domain.
 void check_flow_loads(SceneReader& reader, Scene& scene) {
   remark_rigid_rock(reader, scene);
   for (const FieldKey& key : kFields) {
-    if (!reader.has(key.at)) continue;
-    if (has_viscous_material(scene) && scene.numerics.creep != Switch::off) {
-      reader.problem(key.at, "salt creeps, and a field acts on elastic rock only",
-                     "set /numerics/creep to \"off\", or say the values by compartments");
-    }
-    if (scene.numerics.half_domain == Switch::on) {
-      reader.problem(key.at, "a field need not be symmetric, and half of the domain is modelled",
-                     "set /numerics/half_domain to \"off\", and choose another tier than one for "
-                     "half domains");
-    }
-    if (scene.numerics.surface.wanted()) {
-      reader.problem(key.at, "a surface of operators has no influence of single cells",
-                     "remove /numerics/surface, or say the values by compartments");
-    }
-    return;
+    if ((scene.*key.load).is_given()) measure_symmetry(scene, scene.*key.load);
   }
 }
 

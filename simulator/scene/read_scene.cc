@@ -239,6 +239,10 @@ std::string remark_text(const Remark& remark) {
   return remark.pointer.empty() ? remark.what : remark.pointer + " " + remark.what;
 }
 
+double thermal_stress(const Material& material) {
+  return material.youngs_modulus / (1 - 2 * material.poisson_ratio) * material.thermal_expansion;
+}
+
 const Material& material_named(const Scene& scene, const std::string& name) {
   for (const Material& material : scene.materials) {
     if (material.name == name) return material;

@@ -147,12 +147,6 @@ void read_surface(SceneReader& reader, Scene& scene) {
     if (std::isfinite(one->from) && std::isfinite(one->to)) check_range(reader, at, *one, scene);
     surface.over.push_back(*one);
   }
-  if (has_viscous_material(scene) && scene.numerics.creep != Switch::off) {
-    reader.problem(root,
-                   "salt creeps: every length of a step has an operator of its own, and none of "
-                   "them is interpolated",
-                   "set /numerics/creep to \"off\", or remove the surface");
-  }
 }
 
 }  // namespace faultsim

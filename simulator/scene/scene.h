@@ -285,7 +285,12 @@ struct FlowLoad {
   /// strictly increasing, the first >= 0. The field is linear in between.
   std::vector<int> reports;
   std::vector<double> time;
+  /// asymmetry() of the field about the scene's y = 0, where half of a domain may be modelled;
+  /// follows from the rest.
+  std::optional<double> asymmetry = {};
   bool is_given() const { return field != nullptr; }
+  /// Whether it is its own mirror image, but for rounding of its values.
+  bool is_symmetric() const { return asymmetry && *asymmetry <= 1e-9; }
   /// Fields are told by their fingerprints.
   bool operator==(const FlowLoad& other) const {
     return fingerprint == other.fingerprint && outside == other.outside && origin == other.origin &&
@@ -402,6 +407,8 @@ bool have_same_body(const Scene& a, const Scene& b);
 /// "/compartments/east/lag has no effect: ...".
 std::string remark_text(const Remark& remark);
 
+/// s per kelvin of an isotropic eigenstress −s I, Pa/K: 3 K α_T.
+double thermal_stress(const Material& material);
 /// The material of that name. @pre it exists.
 const Material& material_named(const Scene& scene, const std::string& name);
 /// Raised by hand when a change may alter results on surfaces, and no others.

@@ -44,7 +44,7 @@ struct OperatorBuild::Shared final : Monitor {
   std::pair<double, std::string> last_progress;
   bool progressed = false, ended = false;
   std::vector<std::string> notes;
-  PreparedOperator prepared;
+  OperatorSource::Made made;
   std::exception_ptr thrown;
   std::atomic<bool> stop = false;
   std::jthread thread;  // last: it ends before what it uses
@@ -67,28 +67,21 @@ struct OperatorBuild::Shared final : Monitor {
   }
 };
 
-OperatorBuild::OperatorBuild(const Scene& scene, const Plan& plan, const CachePolicy& cache,
-                             bool keep_bulk, int n_threads)
-    : OperatorBuild(
-          [=](const RunContext& context) {
-            return prepare_operator(scene, plan, cache, keep_bulk, context);
-          },
-          n_threads) {}
-
-OperatorBuild::OperatorBuild(std::function<PreparedOperator(const RunContext&)> make, int n_threads)
+OperatorBuild::OperatorBuild(std::function<OperatorSource::Made(const RunContext&)> make,
+                             int n_threads)
     : shared_(std::make_unique<Shared>()) {
   take_blas_buffer();
   Shared* shared = shared_.get();
   shared->thread = std::jthread([make = std::move(make), shared, n_threads] {
-    PreparedOperator prepared;
+    OperatorSource::Made made;
     std::exception_ptr thrown;
     try {
-      prepared = make({*shared, StopToken(shared->stop), n_threads});
+      made = make({*shared, StopToken(shared->stop), n_threads});
     } catch (...) {
       thrown = std::current_exception();
     }
     const std::lock_guard lock(shared->mutex);
-    shared->prepared = std::move(prepared);
+    shared->made = std::move(made);
     shared->thrown = std::move(thrown);
     shared->ended = true;
     shared->news.notify_one();
@@ -112,10 +105,10 @@ void OperatorBuild::wait_for_end(const RunContext& context) {
   if (!shared.stop) shared.tell(context);
 }
 
-PreparedOperator OperatorBuild::wait(const RunContext& context) {
+OperatorSource::Made OperatorBuild::wait(const RunContext& context) {
   wait_for_end(context);
   if (shared_->thrown) std::rethrow_exception(shared_->thrown);
-  return std::move(shared_->prepared);
+  return std::move(shared_->made);
 }
 
 }  // namespace faultsim

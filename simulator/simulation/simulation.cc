@@ -1,7 +1,6 @@
 #include "simulator/simulation/simulation.h"
 
 #include <algorithm>
-#include <deque>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -11,12 +10,10 @@
 #include "simulator/common/stopwatch.h"
 #include "simulator/loading/pressure_warnings.h"
 #include "simulator/loading/run_case.h"
-#include "simulator/operators/field_loads.h"
-#include "simulator/plan/field_check.h"
 #include "simulator/scene/read_scene.h"
 #include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/operator_build.h"
-#include "simulator/surface/operator_surface.h"
+#include "simulator/simulation/operator_source.h"
 
 namespace faultsim {
 
@@ -56,24 +53,15 @@ struct Simulation::Impl {
   CachePolicy cache;
   PreparedOperator prepared;
   std::string prepared_key;
-  std::shared_ptr<const OperatorSurface> surface;  ///< of the last scene that wanted one.
-  std::string surface_key;
-  std::shared_ptr<const PreparedInfluence> influence;  ///< of the last scene with a flow result.
-  std::string influence_key;
-  std::deque<std::pair<std::string, std::shared_ptr<const FieldLoads>>> field_loads;  ///< by key.
+  /// Shared with a build that was called off and has not ended; nobody else looks at it then.
+  std::shared_ptr<OperatorSource> operators = std::make_shared<OperatorSource>();
   std::unique_ptr<OperatorBuild> build;        ///< also one that was called off and has not ended.
   std::map<std::string, std::string> aliases;  ///< of `held`, once asked for.
 
   void take(LoadedScene loaded) {
     at_hand = std::move(loaded);
-    key = operator_key(at_hand);
-    for (const SurfaceParameter& one : at_hand.scene.numerics.surface.over)
-      key += concat(" ", value_of(one, at_hand.scene));
-    if (at_hand.scene.has_field()) key += " field " + field_loads_key(at_hand.scene);
+    key = operator_case_key(at_hand);
   }
-  bool prepare_surface(const RunContext& context);
-  bool prepare_field(const RunContext& context);
-  [[noreturn]] void refuse_bulk(const std::string& why, const std::string& cure) const;
   void keep();
   bool unchanged(const std::string& name, const Values& values) const;
   bool change_members(const Values& values, const std::string& source);
@@ -107,93 +95,6 @@ class MovedJumps {
   const FaultOperator& op_;
   std::vector<bool> moved_;
 };
-
-/// The scene's operator from its surface. @returns whether that had to be made.
-bool Simulation::Impl::prepare_surface(const RunContext& context) {
-  const std::string wanted = operator_key(at_hand);
-  const bool is_new = !surface || surface_key != wanted;
-  if (is_new) {
-    surface.reset();
-    if (build) build->wait_for_end(context);
-    context.stop.throw_if_requested("preparing the operator");
-    const auto made = std::make_shared<std::shared_ptr<const OperatorSurface>>();
-    build = std::make_unique<OperatorBuild>(
-        [made, scene = at_hand.scene, plan = at_hand.plan, kept = cache](const RunContext& inner) {
-          *made = std::make_shared<OperatorSurface>(scene, plan, kept, inner);
-          return PreparedOperator();
-        },
-        context.n_threads);
-    build->wait(context);
-    build.reset();
-    surface = *made;
-    surface_key = wanted;
-    if (!surface->remark().empty()) context.note(surface->remark());
-  }
-  prepared = surface->at(at_hand.scene, at_hand.plan);
-  prepared.from_cache = surface->from_cache();
-  prepared_key = key;
-  return is_new;
-}
-
-/// The scene's operator with the influence of its cells, and what its flow result does: the last
-/// ones are kept, as the realisations of an ensemble take turns. @returns whether the influence had
-/// to be read or built.
-bool Simulation::Impl::prepare_field(const RunContext& context) {
-  constexpr std::size_t kMostKept = 16;
-  const std::string wanted = operator_key(at_hand), loads_key = field_loads_key(at_hand.scene);
-  const bool is_new = !influence || influence_key != wanted;
-  if (is_new) {
-    influence.reset();
-    field_loads.clear();
-  }
-  auto known = std::find_if(field_loads.begin(), field_loads.end(),
-                            [&](const auto& one) { return one.first == loads_key; });
-  if (known == field_loads.end()) {
-    if (build) build->wait_for_end(context);
-    context.stop.throw_if_requested("preparing the operator");
-    struct Made {
-      std::shared_ptr<const PreparedInfluence> influence;
-      std::shared_ptr<const FieldLoads> loads;
-    };
-    const auto made = std::make_shared<Made>(Made{influence, nullptr});
-    build = std::make_unique<OperatorBuild>(
-        [made, scene = at_hand.scene, plan = at_hand.plan, kept = cache,
-         source = at_hand.document.source](const RunContext& inner) {
-          const FieldCheck check = check_fields(scene, plan);
-          if (!check.problems.empty()) throw InputError(source, check.problems);
-          if (!made->influence) {
-            made->influence = std::make_shared<const PreparedInfluence>(
-                prepare_influence(scene, plan, {}, kept, inner));
-          }
-          inner.progress(1, "mapping the pressure field");
-          FieldLoads loads = faultsim::field_loads(scene, plan, *made->influence, inner.n_threads);
-          for (const Remark& one : check.remarks) loads.warnings.push_back(remark_text(one));
-          made->loads = std::make_shared<const FieldLoads>(std::move(loads));
-          return PreparedOperator();
-        },
-        context.n_threads);
-    build->wait(context);
-    build.reset();
-    influence = made->influence;
-    influence_key = wanted;
-    field_loads.emplace_front(loads_key, made->loads);
-    if (field_loads.size() > kMostKept) field_loads.pop_back();
-    known = field_loads.begin();
-    for (const std::string& text : made->loads->notes) context.note(text);
-  }
-  prepared.op = influence->op;
-  prepared.from_cache = influence->from_cache;
-  prepared.remark = is_new ? influence->remark : "";
-  prepared.field = known->second;
-  prepared_key = key;
-  if (!prepared.remark.empty()) context.note(prepared.remark);
-  return is_new;
-}
-
-void Simulation::Impl::refuse_bulk(const std::string& why, const std::string& cure) const {
-  throw InputError(at_hand.document.source,
-                   {{"/output/volume_fields", 0, "displacements of the whole mesh " + why, cure}});
-}
 
 /// What is changed from now on.
 void Simulation::Impl::keep() {
@@ -361,28 +262,25 @@ bool Simulation::prepare(const RunContext& context, bool keep_bulk) {
   Impl& self = *impl_;
   if (!needs_operator() && (self.prepared.bulk || !keep_bulk)) return false;
   self.prepared = {};  // frees the old operator before the new one is built
-  if (self.at_hand.scene.numerics.surface.wanted()) {
-    if (keep_bulk)
-      self.refuse_bulk("need the exact operator", "run with --exact, or remove this line");
-    return self.prepare_surface(context);
-  }
-  if (self.at_hand.scene.has_field()) {
-    if (keep_bulk) self.refuse_bulk("are not made from a pressure field", "remove this line");
-    self.surface.reset();
-    return self.prepare_field(context);
-  }
-  self.influence.reset();
-  self.field_loads.clear();
-  self.surface.reset();
+  OperatorSource::Made made;
   if (self.build) self.build->wait_for_end(context);  // two would need the memory of both
   context.stop.throw_if_requested("preparing the operator");
-  self.build = std::make_unique<OperatorBuild>(self.at_hand.scene, self.at_hand.plan, self.cache,
-                                               keep_bulk, context.n_threads);
-  self.prepared = self.build->wait(context);
-  self.build.reset();
+  if (self.operators->is_at_hand(self.at_hand, keep_bulk)) {
+    made = self.operators->prepare(self.at_hand, self.cache, keep_bulk, context);
+  } else {
+    self.build = std::make_unique<OperatorBuild>(
+        [operators = self.operators, loaded = self.at_hand, cache = self.cache,
+         keep_bulk](const RunContext& inner) {
+          return operators->prepare(loaded, cache, keep_bulk, inner);
+        },
+        context.n_threads);
+    made = self.build->wait(context);
+    self.build.reset();
+  }
+  self.prepared = std::move(made.prepared);
   self.prepared_key = self.key;
   if (!self.prepared.remark.empty()) context.note(self.prepared.remark);
-  return true;
+  return made.is_new;
 }
 
 const PreparedOperator& Simulation::prepared() const {

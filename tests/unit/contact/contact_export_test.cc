@@ -241,7 +241,7 @@ TEST(FrozenLaws, RefuseCohesionThatIsAtWork) {
   ContactState start = initial_state(op);
   EXPECT_THAT(refusal(op, laws, start),
               HasSubstr("cohesion is at work in the step at 1 of 1 nodes (first: fault 'main' at "
-                        "x = 0 m, y = 0 m, depth = 2000 m), and a friction cone has none; set the "
+                        "x = 0 m, y = 0 m, depth = 2000 m), and a friction cone has no cohesion; set the "
                         "cohesion to 0"));
   start.cohesion_lost[0] = 1;  // gone
   EXPECT_EQ(refusal(op, laws, start), "accepted");

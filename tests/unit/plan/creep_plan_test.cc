@@ -163,6 +163,16 @@ TEST(CreepEstimate, TakesTheLargestPressureChangeOfTheHistory) {
               20e6, 1e-3);
 }
 
+/// 3 K α_T ΔT of the material that expands most.
+TEST(CreepEstimate, AddsTheLargestThermalStress) {
+  const double pressure = *estimate_creep(viscous({})).stress;
+  const double both =
+      *estimate_creep(viscous({{"/materials/reservoir/thermal_expansion", "1e-5 1/K"},
+                               {"/stages/0/temperature_change", "-30 K"}}))
+           .stress;
+  EXPECT_NEAR(both - pressure, 11e9 / (1 - 2 * 0.15) * 1e-5 * 30, 1);
+}
+
 /// A box that nothing but its faces load.
 Scene viscous_box(const std::string& face) {
   JsonDocument document = parse_json(starter_scene("box"), "box");

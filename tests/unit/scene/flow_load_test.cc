@@ -113,8 +113,6 @@ TEST_F(FlowLoads, StandBesideNoOtherPressures) {
               HasSubstr("/stages/0/pressure_change: the pressures are those of /pressure_field"));
   EXPECT_THAT(refusal({{"/compartments/west/scale", "0.5"}}), HasSubstr("/compartments/west"));
   EXPECT_THAT(refusal({{"/pressure_csv", "q.csv"}}), HasSubstr("/pressure_csv: the pressures are"));
-  EXPECT_THAT(refusal({{"/numerics/half_domain", "on"}}), HasSubstr("half of the domain"));
-  EXPECT_THAT(refusal({{"/materials/salt/viscosity", "1e17 Pa s"}}), HasSubstr("salt creeps"));
 }
 
 TEST_F(FlowLoads, AreRefusedWithTheLineOfTheirFile) {

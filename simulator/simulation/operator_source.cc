@@ -1,0 +1,135 @@
+#include "simulator/simulation/operator_source.h"
+
+#include <algorithm>
+
+#include "simulator/operators/influence.h"
+
+namespace faultsim {
+namespace {
+
+Scene without_surface(Scene scene) {
+  scene.numerics.surface = {};
+  return scene;
+}
+
+}  // namespace
+
+std::string operator_case_key(const LoadedScene& loaded) {
+  std::string key = operator_key(loaded);
+  for (const SurfaceParameter& one : loaded.scene.numerics.surface.over)
+    key += concat(" ", value_of(one, loaded.scene));
+  if (loaded.scene.has_field()) key += " field " + field_loads_key(loaded.scene);
+  return key;
+}
+
+const OperatorSource::KnownLoads* OperatorSource::Cells::find(const std::string& wanted) const {
+  const auto known = std::find_if(loads.begin(), loads.end(),
+                                  [&](const KnownLoads& one) { return one.key == wanted; });
+  return known == loads.end() ? nullptr : &*known;
+}
+
+bool OperatorSource::has_cells(const LoadedScene& loaded, bool keep_bulk) const {
+  return cells_.key == operator_key(loaded) && (cells_.prepared.bulk || !keep_bulk);
+}
+
+bool OperatorSource::is_at_hand(const LoadedScene& loaded, bool keep_bulk) const {
+  if (loaded.scene.has_field())
+    return has_cells(loaded, keep_bulk) && cells_.find(field_loads_key(loaded.scene)) != nullptr;
+  return loaded.scene.numerics.surface.wanted() && !keep_bulk && surface_ &&
+         surface_key_ == operator_key(loaded);
+}
+
+OperatorSource::Made OperatorSource::prepare(const LoadedScene& loaded, const CachePolicy& cache,
+                                             bool keep_bulk, const RunContext& context) {
+  const Scene& scene = loaded.scene;
+  if (!scene.numerics.surface.wanted()) surface_.reset();
+  if (!scene.has_field()) cells_ = {};
+  if (scene.has_field()) return with_fields(loaded, cache, keep_bulk, context);
+  if (!scene.numerics.surface.wanted())
+    return {prepare_operator(scene, loaded.plan, cache, keep_bulk, context), true};
+  Made made = from_surface(loaded, cache, context);
+  if (keep_bulk) {  // of the exact bulk, moved by the loads and jumps of the case
+    made.prepared.bulk =
+        prepare_operator(without_surface(scene), loaded.plan, cache, true, context).bulk;
+  }
+  return made;
+}
+
+OperatorSource::Made OperatorSource::from_surface(const LoadedScene& loaded,
+                                                  const CachePolicy& cache,
+                                                  const RunContext& context) {
+  const std::string wanted = operator_key(loaded);
+  const bool is_new = !surface_ || surface_key_ != wanted;
+  if (is_new) {
+    surface_.reset();
+    surface_ = std::make_shared<OperatorSurface>(loaded.scene, loaded.plan, cache, context);
+    surface_key_ = wanted;
+  }
+  Made made{surface_->at(loaded.scene, loaded.plan), is_new};
+  made.prepared.from_cache = surface_->from_cache();
+  if (is_new) made.prepared.remark = surface_->remark();
+  return made;
+}
+
+/// Where salt creeps, every length of a step has its own influence of cells: none is made, and the
+/// factors are asked for the forces of all cells together.
+OperatorSource::Cells OperatorSource::cells_of(const LoadedScene& loaded, const CachePolicy& cache,
+                                               bool keep_bulk, const RunContext& context) {
+  Cells cells;
+  cells.key = operator_key(loaded);
+  if (loaded.plan.creep.active) {
+    cells.prepared = prepare_operator(loaded.scene, loaded.plan, cache, true, context);
+    const BulkProblem& problem = cells.prepared.bulk->bulk(0).problem();
+    auto block = std::make_shared<InfluenceBlock>();
+    block->cells = influence_cells(problem, reservoir_cells(problem, {}));
+    block->region_names = pressure_region_names(loaded.scene);
+    cells.block = block;
+    cells.mesh = std::make_shared<const Mesh>(problem.mesh);
+    return cells;
+  }
+  PreparedInfluence made =
+      prepare_influence(loaded.scene, loaded.plan, {}, cache, context, keep_bulk);
+  cells.prepared.op = made.op;
+  cells.prepared.bulk = made.bulk;
+  cells.prepared.from_cache = made.from_cache;
+  cells.prepared.remark = made.remark;
+  cells.block = made.block;
+  cells.mesh = std::make_shared<const Mesh>(bulk_problem(loaded.scene, loaded.plan).mesh);
+  return cells;
+}
+
+/// The last loads are kept, as the realisations of an ensemble take turns.
+OperatorSource::Made OperatorSource::with_fields(const LoadedScene& loaded,
+                                                 const CachePolicy& cache, bool keep_bulk,
+                                                 const RunContext& context) {
+  constexpr std::size_t kMostKept = 16;
+  const bool is_new = !has_cells(loaded, keep_bulk);
+  const std::string wanted = field_loads_key(loaded.scene);
+  const KnownLoads* known = is_new ? nullptr : cells_.find(wanted);
+  FieldCheck check;
+  if (known == nullptr) check = check_fields(loaded.scene, loaded.plan);
+  if (!check.problems.empty()) throw InputError(loaded.document.source, check.problems);
+  if (is_new) {
+    cells_ = {};
+    cells_ = cells_of(loaded, cache, keep_bulk, context);
+  }
+  if (known == nullptr) {
+    context.progress(1, "mapping the flow result");
+    const FieldCells cells{*cells_.prepared.op, *cells_.mesh, *cells_.block,
+                           cells_.prepared.bulk.get()};
+    KnownLoads made{wanted, field_loads(loaded.scene, cells, context.n_threads), {}};
+    for (const Remark& one : check.remarks) made.warnings.push_back(remark_text(one));
+    for (const std::string& text : made.loads.notes) context.note(text);
+    cells_.loads.push_front(std::move(made));
+    if (cells_.loads.size() > kMostKept) cells_.loads.pop_back();
+    known = &cells_.loads.front();
+  }
+  Made made{cells_.prepared, is_new};
+  if (!is_new) made.prepared.remark.clear();
+  made.prepared.loads = {known->loads.history};
+  made.prepared.field_coverage = known->loads.coverage;
+  made.prepared.warnings = known->warnings;
+  return made;
+}
+
+}  // namespace faultsim
