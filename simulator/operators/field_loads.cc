@@ -189,6 +189,7 @@ void condense(const FieldCells& cells, Eigen::MatrixXd stress, int n_threads,
     history.observed = cells.block.observed * of;
     return;
   }
+  if (cells.bulk == nullptr) return;
   history.locked.resize(cells.op.geometry.n_dofs, of.cols());
   for (Eigen::Index t = 0; t < of.cols(); ++t) {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(cells.op.n_unknowns);

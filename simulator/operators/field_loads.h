@@ -24,7 +24,8 @@ struct FieldCells {
   const Mesh& mesh;             ///< of the operator.
   const InfluenceBlock& block;  ///< all cells of the compartments; P and O may be empty:
   CreepLadder* bulk = nullptr;  ///< then the factor is asked, a forward substitution per report.
-                                ///< Where it is there, the history has forces.
+                                ///< Where it is there, the history has forces; where there is
+                                ///< neither, its `locked` and `observed` stay empty.
 };
 
 /// Maps the scene's fields onto the cells and condenses them: s_c = f_c (b Δp_c + 3 K α_T ΔT_c)

@@ -57,6 +57,13 @@ std::vector<int> reservoir_cells(const BulkProblem& problem, const std::vector<i
   return cells;
 }
 
+InfluenceBlock cells_of_compartments(const Scene& scene, const BulkProblem& problem) {
+  InfluenceBlock block;
+  block.cells = influence_cells(problem, reservoir_cells(problem, {}));
+  block.region_names = pressure_region_names(scene);
+  return block;
+}
+
 PreparedInfluence prepare_influence(const Scene& scene, const Plan& plan,
                                     const std::vector<int>& regions, const CachePolicy& cache,
                                     const RunContext& context, bool keep_bulk) {

@@ -32,6 +32,9 @@ PreparedInfluence prepare_influence(const Scene& scene, const Plan& plan,
                                     const std::vector<int>& regions, const CachePolicy& cache,
                                     const RunContext& context = {}, bool keep_bulk = false);
 
+/// The cells of all compartments, as a block that has no influences yet.
+InfluenceBlock cells_of_compartments(const Scene& scene, const BulkProblem& problem);
+
 /// Names of the scene's compartments, which a block of another scene of its family may not have.
 std::vector<std::string> pressure_region_names(const Scene& scene);
 

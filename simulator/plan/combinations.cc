@@ -10,9 +10,6 @@ constexpr Refusal kRefusals[] = {
      "salt creeps: every length of a step has an operator of its own, and none of them is "
      "interpolated",
      "set /numerics/creep to \"off\", or remove the surface"},
-    {Feature::surface, Feature::flow_result,
-     "a surface of operators has no influence of single cells",
-     "remove /numerics/surface, or say the values by compartments"},
     {Feature::creep, Feature::coupled_path, "the coupled path does not support creeping salt",
      "switch creep off, or take the condensed path (--path condensed)"},
     {Feature::surface, Feature::coupled_path, "the coupled path has no operator to interpolate",

@@ -12,6 +12,13 @@ Scene without_surface(Scene scene) {
   return scene;
 }
 
+/// What is to be said of the scene's flow results. Throws InputError where they do not fit.
+FieldCheck checked_fields(const LoadedScene& loaded) {
+  FieldCheck check = check_fields(loaded.scene, loaded.plan);
+  if (!check.problems.empty()) throw InputError(loaded.document.source, check.problems);
+  return check;
+}
+
 }  // namespace
 
 std::string operator_case_key(const LoadedScene& loaded) {
@@ -33,26 +40,56 @@ bool OperatorSource::has_cells(const LoadedScene& loaded, bool keep_bulk) const 
 }
 
 bool OperatorSource::is_at_hand(const LoadedScene& loaded, bool keep_bulk) const {
-  if (loaded.scene.has_field())
-    return has_cells(loaded, keep_bulk) && cells_.find(field_loads_key(loaded.scene)) != nullptr;
-  return loaded.scene.numerics.surface.wanted() && !keep_bulk && surface_ &&
-         surface_key_ == operator_key(loaded);
+  const Scene& scene = loaded.scene;
+  if (scene.numerics.surface.wanted()) {
+    return !keep_bulk && surface_ && surface_key_ == operator_key(loaded) &&
+           (!scene.has_field() || (fields_ && fields_key_ == canonical_parts(scene).fields));
+  }
+  return scene.has_field() && has_cells(loaded, keep_bulk) &&
+         cells_.find(field_loads_key(scene)) != nullptr;
 }
 
 OperatorSource::Made OperatorSource::prepare(const LoadedScene& loaded, const CachePolicy& cache,
                                              bool keep_bulk, const RunContext& context) {
   const Scene& scene = loaded.scene;
-  if (!scene.numerics.surface.wanted()) surface_.reset();
-  if (!scene.has_field()) cells_ = {};
-  if (scene.has_field()) return with_fields(loaded, cache, keep_bulk, context);
-  if (!scene.numerics.surface.wanted())
-    return {prepare_operator(scene, loaded.plan, cache, keep_bulk, context), true};
-  Made made = from_surface(loaded, cache, context);
-  if (keep_bulk) {  // of the exact bulk, moved by the loads and jumps of the case
-    made.prepared.bulk =
-        prepare_operator(without_surface(scene), loaded.plan, cache, true, context).bulk;
+  const bool on_surface = scene.numerics.surface.wanted();
+  if (!on_surface) {
+    fields_.reset();
+    surface_.reset();
   }
-  return made;
+  if (on_surface || !scene.has_field()) cells_ = {};
+  if (on_surface) {
+    Made made = from_surface(loaded, cache, context);
+    if (keep_bulk) {  // of the exact bulk, moved by the loads and jumps of the case
+      made.prepared.bulk =
+          prepare_operator(without_surface(scene), loaded.plan, cache, true, context).bulk;
+    }
+    if (scene.has_field()) add_fields(loaded, cache, context, made);
+    return made;
+  }
+  if (scene.has_field()) return with_fields(loaded, cache, keep_bulk, context);
+  return {prepare_operator(scene, loaded.plan, cache, keep_bulk, context), true};
+}
+
+/// The loads of a flow result are interpolated as the operator is.
+void OperatorSource::add_fields(const LoadedScene& loaded, const CachePolicy& cache,
+                                const RunContext& context, Made& made) {
+  const std::string wanted = canonical_parts(loaded.scene).fields;
+  const FieldCheck check = checked_fields(loaded);
+  if (made.is_new || !fields_ || fields_key_ != wanted) {
+    fields_.reset();
+    fields_ = std::make_shared<const FieldSurface>(*surface_, loaded.scene, cache, context);
+    fields_key_ = wanted;
+    made.is_new = true;
+  }
+  const FieldLoads loads =
+      fields_->at(loaded.scene, loaded.plan, *made.prepared.op, made.prepared.bulk.get());
+  made.prepared.loads = {loads.history};
+  made.prepared.field_coverage = loads.coverage;
+  for (const Remark& one : check.remarks) made.prepared.warnings.push_back(remark_text(one));
+  CaseSurface& errors = *made.prepared.surface;
+  errors.traction = std::max(errors.traction, fields_->traction_error());
+  errors.observation = std::max(errors.observation, fields_->observation_error());
 }
 
 OperatorSource::Made OperatorSource::from_surface(const LoadedScene& loaded,
@@ -61,6 +98,7 @@ OperatorSource::Made OperatorSource::from_surface(const LoadedScene& loaded,
   const std::string wanted = operator_key(loaded);
   const bool is_new = !surface_ || surface_key_ != wanted;
   if (is_new) {
+    fields_.reset();
     surface_.reset();
     surface_ = std::make_shared<OperatorSurface>(loaded.scene, loaded.plan, cache, context);
     surface_key_ = wanted;
@@ -80,10 +118,8 @@ OperatorSource::Cells OperatorSource::cells_of(const LoadedScene& loaded, const 
   if (loaded.plan.creep.active) {
     cells.prepared = prepare_operator(loaded.scene, loaded.plan, cache, true, context);
     const BulkProblem& problem = cells.prepared.bulk->bulk(0).problem();
-    auto block = std::make_shared<InfluenceBlock>();
-    block->cells = influence_cells(problem, reservoir_cells(problem, {}));
-    block->region_names = pressure_region_names(loaded.scene);
-    cells.block = block;
+    cells.block =
+        std::make_shared<const InfluenceBlock>(cells_of_compartments(loaded.scene, problem));
     cells.mesh = std::make_shared<const Mesh>(problem.mesh);
     return cells;
   }
@@ -107,8 +143,7 @@ OperatorSource::Made OperatorSource::with_fields(const LoadedScene& loaded,
   const std::string wanted = field_loads_key(loaded.scene);
   const KnownLoads* known = is_new ? nullptr : cells_.find(wanted);
   FieldCheck check;
-  if (known == nullptr) check = check_fields(loaded.scene, loaded.plan);
-  if (!check.problems.empty()) throw InputError(loaded.document.source, check.problems);
+  if (known == nullptr) check = checked_fields(loaded);
   if (is_new) {
     cells_ = {};
     cells_ = cells_of(loaded, cache, keep_bulk, context);

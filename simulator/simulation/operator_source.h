@@ -8,6 +8,7 @@
 #include "simulator/operators/field_loads.h"
 #include "simulator/operators/prepare_operator.h"
 #include "simulator/simulation/loaded_scene.h"
+#include "simulator/surface/field_surface.h"
 #include "simulator/surface/operator_surface.h"
 
 namespace faultsim {
@@ -47,6 +48,8 @@ class OperatorSource {
   };
   bool has_cells(const LoadedScene& loaded, bool keep_bulk) const;
   Made from_surface(const LoadedScene& loaded, const CachePolicy& cache, const RunContext& context);
+  void add_fields(const LoadedScene& loaded, const CachePolicy& cache, const RunContext& context,
+                  Made& made);
   Made with_fields(const LoadedScene& loaded, const CachePolicy& cache, bool keep_bulk,
                    const RunContext& context);
   static Cells cells_of(const LoadedScene& loaded, const CachePolicy& cache, bool keep_bulk,
@@ -54,6 +57,8 @@ class OperatorSource {
 
   std::shared_ptr<const OperatorSurface> surface_;
   std::string surface_key_;
+  std::shared_ptr<const FieldSurface> fields_;  ///< the last flow result on surface_.
+  std::string fields_key_;
   Cells cells_;
 };
 

@@ -8,6 +8,7 @@
 #include "simulator/condensation/fault_geometry.h"
 #include "simulator/linalg/blas_start.h"
 #include "simulator/linalg/dense_cholesky.h"
+#include "simulator/operators/influence.h"
 #include "simulator/output/operator_cache.h"
 #include "simulator/surface/surface_builder.h"
 
@@ -26,13 +27,6 @@ bool moves_mesh(const SurfaceRequest& request) {
   return std::any_of(request.over.begin(), request.over.end(), [](const SurfaceParameter& one) {
     return one.kind == Kind::dip || one.kind == Kind::offset;
   });
-}
-
-Plan plan_of(const Scene& scene) {
-  std::vector<Problem> problems;
-  Plan plan = make_plan(scene, problems);
-  if (!problems.empty()) throw InputError("scene at a node of its surface", std::move(problems));
-  return plan;
 }
 
 /// The mesh nodes that stand for the observation points.
@@ -60,6 +54,13 @@ SparseGrid grid_of(const std::vector<SparseGrid::Index>& nodes) {
 }
 
 }  // namespace
+
+Plan exact_plan(const Scene& scene) {
+  std::vector<Problem> problems;
+  Plan plan = make_plan(scene, problems);
+  if (!problems.empty()) throw InputError("scene at a node of its surface", std::move(problems));
+  return plan;
+}
 
 std::vector<SurfaceAxis> surface_axes(const SurfaceRequest& request, const Scene& scene) {
   std::vector<SurfaceAxis> axes;
@@ -142,7 +143,7 @@ OperatorSurface::OperatorSurface(const Scene& scene, const Plan& plan, const Cac
   take_blas_buffer();
   set_blas_threads(1);
   centre_ = scene_at(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(axes_.size())));
-  frame_ = std::make_unique<Frame>(bulk_problem(centre_, plan_of(centre_)));
+  frame_ = std::make_shared<const Frame>(bulk_problem(centre_, exact_plan(centre_)));
   const std::string name = operator_fingerprint(scene, plan, blas_description());
   std::optional<StoredSurface> found;
   if (!cache.folder.empty()) found = read_surface_file(cache.folder, name, &remark_);
@@ -189,8 +190,10 @@ std::shared_ptr<const FaultOperator> OperatorSurface::exact_at(const Eigen::Vect
                                                                const CachePolicy& cache,
                                                                const RunContext& context) const {
   const Scene scene = scene_at(x);
-  const Plan plan = plan_of(scene);
+  const Plan plan = exact_plan(scene);
   if (moves_mesh(request_)) frame_->require_same_topology(bulk_problem(scene, plan).mesh);
+  if (centre_.has_field() && !cache.folder.empty())  // its factor is wanted for cells as well
+    prepare_influence(scene, plan, {}, cache, context);
   const PreparedOperator prepared = prepare_operator(scene, plan, cache, false, context);
   if (prepared.from_cache || cache.folder.empty()) return prepared.op;
   // From its file, whose pages the system may take back; kept in memory where there is none.
@@ -211,8 +214,25 @@ FaultGeometry OperatorSurface::geometry_of(const Scene& scene, const Plan& plan)
   return fault_geometry(*moved, materials, frame_->dofs, plan.half_domain);
 }
 
+std::vector<Scene> OperatorSurface::check_scenes() const {
+  std::vector<Scene> scenes;
+  for (const Eigen::VectorXd& x : check_points(grid_.n_axes(), n_surface_checks(request_)))
+    scenes.push_back(scene_at(x));
+  return scenes;
+}
+
+Eigen::VectorXd OperatorSurface::weights(const Scene& scene) const {
+  return grid_.weights(surface_coordinates(axes_, request_, scene));
+}
+
+std::shared_ptr<const BulkProblem> OperatorSurface::problem_of(const Scene& scene,
+                                                               const Plan& plan) const {
+  if (!moves_mesh(request_)) return {frame_, &frame_->problem};
+  return std::make_shared<const BulkProblem>(bulk_problem(without_surface(scene), plan));
+}
+
 PreparedOperator OperatorSurface::at(const Scene& scene, const Plan& plan) const {
-  const Eigen::VectorXd weights = grid_.weights(surface_coordinates(axes_, request_, scene));
+  const Eigen::VectorXd weights = this->weights(scene);
   auto op = std::make_shared<FaultOperator>();
   OperatorBasis::put(surface_.basis, weights.tail(weights.size() - 1), *op);
   op->geometry = geometry_of(scene, plan);

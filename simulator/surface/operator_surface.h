@@ -35,6 +35,15 @@ class OperatorSurface {
   /// @param plan  of the scene.
   PreparedOperator at(const Scene& scene, const Plan& plan) const;
 
+  int n_nodes() const { return grid_.n_nodes(); }
+  /// The exact scene at a node of the grid, 0 being the centre, and at all check points.
+  Scene node_scene(int node) const { return scene_at(grid_.node(node)); }
+  std::vector<Scene> check_scenes() const;
+  /// w of a scene of the family, an entry per node: a value there is Σ_k w_k value_k.
+  Eigen::VectorXd weights(const Scene& scene) const;
+  /// The bulk problem of such a scene: the centre's, unless the mesh moves.
+  std::shared_ptr<const BulkProblem> problem_of(const Scene& scene, const Plan& plan) const;
+
   const CaseSurface& accuracy() const { return surface_.accuracy; }
   bool from_cache() const { return from_cache_; }
   const std::string& remark() const { return remark_; }  ///< "not kept", ...
@@ -51,7 +60,7 @@ class OperatorSurface {
   Scene centre_;  ///< exact: without a surface.
   SurfaceRequest request_;
   std::vector<SurfaceAxis> axes_;
-  std::unique_ptr<Frame> frame_;
+  std::shared_ptr<const Frame> frame_;
   StoredSurface surface_;
   SparseGrid grid_;
   bool from_cache_ = false;
@@ -65,6 +74,8 @@ void require_definite(const FaultOperator& op, const std::vector<int>& dofs);
 /// A coordinate of a scene on each axis, [-1, 1].
 Eigen::VectorXd surface_coordinates(const std::vector<SurfaceAxis>& axes,
                                     const SurfaceRequest& request, const Scene& scene);
+/// The plan of a scene that is sound. Throws InputError where it cannot be planned.
+Plan exact_plan(const Scene& scene);
 /// The axes of a request.
 std::vector<SurfaceAxis> surface_axes(const SurfaceRequest& request, const Scene& scene);
 

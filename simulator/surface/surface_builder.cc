@@ -30,18 +30,6 @@ double relative(double error, double size) { return size > 0 ? error / size : er
   throw InputError("scene", {{"/numerics/surface", 0, what, cure}});
 }
 
-/// Points of the cube, none of them a node: the same for every surface of as many axes.
-std::vector<Eigen::VectorXd> check_points(int n_axes, int n_points) {
-  std::mt19937 random(7);
-  std::vector<Eigen::VectorXd> points;
-  for (int i = 0; i < n_points; ++i) {
-    Eigen::VectorXd x(n_axes);
-    for (double& one : x) one = -1 + 2 * (static_cast<double>(random()) / 4294967296.0);
-    points.push_back(x);
-  }
-  return points;
-}
-
 /// Slip of faults without friction, H g = A L_k, a column per load: the softest modes of H, which
 /// its norm does not show, weigh most here. Nothing where H is not positive definite.
 std::optional<Eigen::MatrixXd> slip_without_friction(const FaultOperator& op,
@@ -52,14 +40,6 @@ std::optional<Eigen::MatrixXd> slip_without_friction(const FaultOperator& op,
   for (Eigen::Index k = 0; k < slip.cols(); ++k)
     slip.col(k) = factor.solve(area.cwiseProduct(op.loads.traction.col(k)));
   return slip;
-}
-
-/// The largest relative error of a column.
-double worst_column(const Eigen::MatrixXd& value, const Eigen::MatrixXd& exact) {
-  double worst = 0;
-  for (Eigen::Index k = 0; k < exact.cols(); ++k)
-    worst = std::max(worst, relative((value.col(k) - exact.col(k)).norm(), exact.col(k).norm()));
-  return worst;
 }
 
 /// A place where the surface is held against the exact operator.
@@ -211,6 +191,24 @@ StoredSurface Builder::build(const std::string& fingerprint) {
 }
 
 }  // namespace
+
+double worst_column(const Eigen::MatrixXd& value, const Eigen::MatrixXd& exact) {
+  double worst = 0;
+  for (Eigen::Index k = 0; k < exact.cols(); ++k)
+    worst = std::max(worst, relative((value.col(k) - exact.col(k)).norm(), exact.col(k).norm()));
+  return worst;
+}
+
+std::vector<Eigen::VectorXd> check_points(int n_axes, int n_points) {
+  std::mt19937 random(7);
+  std::vector<Eigen::VectorXd> points;
+  for (int i = 0; i < n_points; ++i) {
+    Eigen::VectorXd x(n_axes);
+    for (double& one : x) one = -1 + 2 * (static_cast<double>(random()) / 4294967296.0);
+    points.push_back(x);
+  }
+  return points;
+}
 
 StoredSurface build_surface(const SurfaceRequest& request, const std::string& fingerprint,
                             const ExactOperator& exact, const RunContext& context) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "simulator/common/run_context.h"
 #include "simulator/model/fault_operator.h"
@@ -21,5 +22,11 @@ using ExactOperator = std::function<std::shared_ptr<const FaultOperator>(const E
 /// @param fingerprint  of the surface, which becomes its name.
 StoredSurface build_surface(const SurfaceRequest& request, const std::string& fingerprint,
                             const ExactOperator& exact, const RunContext& context);
+
+/// Points of the cube, none of them a node: the same for every surface of as many axes.
+std::vector<Eigen::VectorXd> check_points(int n_axes, int n_points);
+
+/// The largest relative error of a column.
+double worst_column(const Eigen::MatrixXd& value, const Eigen::MatrixXd& exact);
 
 }  // namespace faultsim

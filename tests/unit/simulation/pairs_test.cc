@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "simulator/loading/run_case.h"
 #include "simulator/scene/csv_tables.h"
 #include "simulator/scene/read_scene.h"
 #include "simulator/simulation/loaded_scene.h"
@@ -53,6 +54,19 @@ std::string uniform(const std::string& unit, double from, double to) {
   return concat("x [m], y [m], depth [m], dx [m], dy [m], dz [m], 1990-01-01 [", unit,
                 "], 2000-01-01 [", unit, "]\n0, 0, 2500, 40000, 40000, 5000, ", from, ", ", to,
                 "\n");
+}
+
+/// Flow cells whose pressures fall more to the east and with depth.
+std::string tilted() {
+  std::string text =
+      "x [m], y [m], depth [m], dx [m], dy [m], dz [m], 1990-01-01 [bar], 1996-01-01 [bar], "
+      "2000-01-01 [bar]\n";
+  for (int x = -5; x <= 5; ++x) {
+    for (int z = 0; z < 10; ++z)
+      text += concat(x * 500, ", 0, ", 1850 + 100 * z, ", 500, 40000, 100, 300, ",
+                     200 - 8 * x - 3 * z, ", ", 150 - 12 * x + 4 * z, "\n");
+  }
+  return text;
 }
 
 const Change kCreeps{"/materials/salt/viscosity", "2e18 Pa s"};
@@ -168,6 +182,51 @@ TEST(TemperatureAndCreep, IsThePressureOfItsStress) {
   expect_same(run(field(by_stage)), expected, 1e-9);
   expect_same(run(field(by_field)), expected, 1e-9);
   EXPECT_GT(expected.fields.back().creep_traction.cwiseAbs().maxCoeff(), 1e5);
+}
+
+/// The largest locked traction of the rock by a field at its end: what the surface interpolates.
+TEST(FieldAndSurface, IsOffTheExactLoadsByNoMoreThanIsSaid) {
+  const Folder folder;
+  const std::string file = folder.write("p.csv", tilted());
+  const std::string warm = folder.write("t.csv", uniform("degC", 90, 70));
+  const Change surface{"/numerics/surface", R"({"over": [
+      {"parameter": "salt_stiffness", "from": "20 GPa", "to": "80 GPa"},
+      {"parameter": "central_dip", "from": "2 deg", "to": "16 deg"}], "tolerance": 1e-3})"};
+  const Changes base = {kStill,
+                        {"/materials/reservoir/thermal_expansion", "1.2e-5 1/K"},
+                        {"/pressure_field", concat(R"({"file": ")", file, R"("})")},
+                        {"/temperature_field", concat(R"({"file": ")", warm, R"("})")}};
+  Changes with_surface = base;
+  with_surface.push_back(surface);
+  Simulation interpolated = field(with_surface), exact = field(base);
+  const auto locked = [](Simulation& simulation) {
+    simulation.prepare();
+    const LoadedScene& loaded = simulation.scene();
+    const CaseLoads loads(loaded.scene, *simulation.prepared().op, simulation.prepared().loads);
+    return std::pair(loads.at(0), loads.at(315532800));
+  };
+  for (const Changes& sample : {Changes{{"salt_stiffness", "33 GPa"}, {"central_dip", "5.5 deg"}},
+                                Changes{{"salt_stiffness", "71 GPa"},
+                                        {"central_dip", "14 deg"},
+                                        {"/materials/reservoir/biot", "0.7"},
+                                        {"/fault_pressure/rule", "max"}}}) {
+    interpolated.change(sample);
+    exact.change(sample);
+    const auto [a0, a] = locked(interpolated);
+    const auto [b0, b] = locked(exact);
+    const double stated = interpolated.prepared().surface->traction;
+    EXPECT_LE(stated, 1e-3);
+    const Eigen::VectorXd found = a.locked - a0.locked, expected = b.locked - b0.locked;
+    EXPECT_LT((found - expected).norm(), 2 * stated * expected.norm());
+    EXPECT_GT((found - expected).norm(), 0) << "it is interpolated";
+    EXPECT_LT((a.fault_pressure_change - b.fault_pressure_change).norm(), 1e-3);
+    EXPECT_LT((a.observed - b.observed).norm(), 1e-3 * b.observed.norm());
+    const CaseResult on_surface = interpolated.run(), of_exact = exact.run();
+    EXPECT_EQ(*on_surface.field_coverage, *of_exact.field_coverage);
+    for (std::size_t f = 0; f < 3; ++f)
+      EXPECT_NEAR(on_surface.steps.back().faults[f].chi_bar,
+                  of_exact.steps.back().faults[f].chi_bar, 2e-3);
+  }
 }
 
 /// What was kept for one family serves no other.
