@@ -83,7 +83,7 @@ ExitCode run_command(const RunArguments& arguments) {
   const SolverChoice solver = solver_of(arguments.leading, arguments.schur);
   Simulation simulation = load_simulation(arguments.scene, arguments.op, arguments.exact);
   const LoadedScene& loaded = simulation.scene();
-  check_geometry(loaded);
+  simulation.check();
   Plan plan = loaded.plan;
   add_savings(loaded.scene, plan);
   const Scene& scene = loaded.scene;
@@ -120,7 +120,8 @@ ExitCode run_command(const RunArguments& arguments) {
   RunContext context = context_of(arguments.op, monitor);
   std::unique_ptr<CoupledCase> coupled;
   if (is_coupled) {
-    coupled = std::make_unique<CoupledCase>(scene, loaded.plan, solver, context);
+    coupled =
+        std::make_unique<CoupledCase>(SceneBulk(scene, loaded.plan, loaded.mesh), solver, context);
   } else {
     simulation.prepare(context, scene.output.volume_fields);
   }

@@ -83,8 +83,9 @@ std::vector<InfluenceCell> influence_cells(const BulkProblem& problem,
 }
 
 struct CondensedBulk::Impl {
-  explicit Impl(BulkProblem bulk_problem)
-      : problem(std::move(bulk_problem)),
+  explicit Impl(std::shared_ptr<const BulkProblem> given)
+      : shared(std::move(given)),
+        problem(*shared),
         dofs(problem.mesh, problem.conditions, static_cast<int>(problem.loads.size())),
         geometry(fault_geometry(problem.mesh, problem.materials, dofs, problem.half_domain)) {}
 
@@ -97,7 +98,8 @@ struct CondensedBulk::Impl {
   /// it is prescribed or held for good.
   Eigen::VectorXd observation(const Eigen::Vector3d& point, int component) const;
 
-  BulkProblem problem;
+  std::shared_ptr<const BulkProblem> shared;
+  const BulkProblem& problem;
   DofMap dofs;
   FaultGeometry geometry;
   Eigen::VectorXd springs;  // D
@@ -199,8 +201,9 @@ Eigen::VectorXd CondensedBulk::Impl::observation(const Eigen::Vector3d& point,
   return q;
 }
 
-CondensedBulk::CondensedBulk(BulkProblem problem, const RunContext& context) {
-  check_problem(problem);
+CondensedBulk::CondensedBulk(std::shared_ptr<const BulkProblem> problem,
+                             const RunContext& context) {
+  check_problem(*problem);
   Stopwatch stopwatch;
   set_blas_threads(1);
   impl_ = std::make_unique<Impl>(std::move(problem));

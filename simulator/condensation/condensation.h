@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "simulator/common/run_context.h"
@@ -24,7 +25,9 @@ class CondensedBulk {
   /// Orders jump unknowns last, factorises K (blocks that faults cut loose get D > 0 on their
   /// jumps, taken off H again), checks H. Throws InputError naming a floating block that nothing
   /// holds, Interrupted when the context says so; so do the other two that take one.
-  CondensedBulk(BulkProblem problem, const RunContext& context);
+  CondensedBulk(std::shared_ptr<const BulkProblem> problem, const RunContext& context);
+  CondensedBulk(BulkProblem problem, const RunContext& context)
+      : CondensedBulk(std::make_shared<const BulkProblem>(std::move(problem)), context) {}
   ~CondensedBulk();
   /// H = K_gg − K_gr K_rr⁻¹ K_rg, L_k = A⁻¹(f_g − K_gr K_rr⁻¹ f_r), observation rows; fingerprint
   /// left empty. One right-hand side at a time, so that the bits do not depend on what else is

@@ -53,32 +53,34 @@ struct CreepLadder::Impl {
   Rung& at(int rung) { return rungs.at(rung); }
 };
 
-CreepLadder::CreepLadder(BulkProblem problem, const std::vector<double>& durations,
-                         MaxwellScheme scheme, const RunContext& context)
+CreepLadder::CreepLadder(std::shared_ptr<const BulkProblem> shared,
+                         const std::vector<double>& durations, MaxwellScheme scheme,
+                         const RunContext& context)
     : impl_(std::make_unique<Impl>()) {
+  const BulkProblem& problem = *shared;
   FAULTSIM_DEMAND(problem.viscosity.size() == problem.materials.size(), problem.viscosity.size());
-  for (const auto& [name, point] : problem.observation_points) {
+  for (const auto& [name, point] : problem.observation_points)
     impl_->observed_nodes.push_back(observed_node(problem.mesh, point));
-  }
   std::vector<double> all = {0};
   all.insert(all.end(), durations.begin(), durations.end());
   for (std::size_t i = 0; i < all.size(); ++i) {
     ShareMonitor share(context, static_cast<int>(i), static_cast<int>(all.size()));
     const RunContext part(share, context.stop, context.n_threads);
     const std::vector<MaxwellStep> steps = maxwell_steps(problem, all[i], scheme);
-    BulkProblem relaxed = i + 1 < all.size() ? problem : std::move(problem);
-    for (std::size_t m = 0; m < steps.size(); ++m) {
-      relaxed.materials[m].shear_factor = steps[m].shear_factor;
+    std::shared_ptr<const BulkProblem> relaxed = shared;
+    if (i > 0) {
+      BulkProblem copy = problem;
+      for (std::size_t m = 0; m < steps.size(); ++m)
+        copy.materials[m].shear_factor = steps[m].shear_factor;
+      relaxed = std::make_shared<const BulkProblem>(std::move(copy));
     }
     auto bulk = std::make_unique<CondensedBulk>(std::move(relaxed), part);
     if (i == 0) {
-      impl_->cells = std::make_unique<CreepCells>(bulk->problem().mesh, bulk->problem().materials,
-                                                  bulk->problem().viscosity, bulk->dofs());
+      impl_->cells = std::make_unique<CreepCells>(problem.mesh, problem.materials,
+                                                  problem.viscosity, bulk->dofs());
     }
     std::vector<MaxwellStep> creeping;
-    for (const int m : impl_->cells->materials()) {
-      creeping.push_back(steps[m]);
-    }
+    for (const int m : impl_->cells->materials()) creeping.push_back(steps[m]);
     FaultOperator op = bulk->condense(part);
     impl_->rungs.push_back({all[i], std::move(creeping), std::move(bulk), std::move(op)});
   }

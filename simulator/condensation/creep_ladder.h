@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "simulator/condensation/condensation.h"
@@ -27,8 +28,12 @@ class CreepLadder {
  public:
   /// Factorises the elastic bulk and one per duration (s, > 0), which may be none. @pre
   /// problem.viscosity is set.
+  CreepLadder(std::shared_ptr<const BulkProblem> problem, const std::vector<double>& durations,
+              MaxwellScheme scheme, const RunContext& context);
   CreepLadder(BulkProblem problem, const std::vector<double>& durations, MaxwellScheme scheme,
-              const RunContext& context);
+              const RunContext& context)
+      : CreepLadder(std::make_shared<const BulkProblem>(std::move(problem)), durations, scheme,
+                    context) {}
   ~CreepLadder();
 
   int n_rungs() const;  ///< with the elastic one.

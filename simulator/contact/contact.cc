@@ -7,6 +7,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/contact/contact_problem.h"
 #include "simulator/contact/jump_follower.h"
+#include "simulator/contact/step_cutter.h"
 #include "simulator/contact/step_report.h"
 #include "simulator/contact/sub_step_solver.h"
 
@@ -108,28 +109,17 @@ bool ContactSolver::Impl::sub_step(const LoadPath& path, int position, int width
   return true;
 }
 
-/// Halves the step where it fails, doubles again where it works, and follows a jump where even the
-/// smallest sub-step fails.
+/// In parts, and where even the smallest one fails by following a jump.
 void ContactSolver::Impl::walk(const LoadPath& path, ContactReport& report) {
-  const int units = 1 << most_cuts;
-  int position = 0;
-  int width = std::max(units / 2, 1);
-  while (position < units) {
-    if (sub_step(path, position, width, report.counts)) {
-      position += width;
-      // One doubling per success, and only onto the grid of the doubled width.
-      if (position % (2 * width) == 0 && position + 2 * width <= units) width *= 2;
-    } else if (width > 1) {
-      width /= 2;
-    } else {
-      if (!follows || !jump(path, position, report)) {
+  const bool arrived = walk_in_parts(
+      most_cuts,
+      [&](int position, int width) { return sub_step(path, position, width, report.counts); },
+      [&](int position) {
+        if (follows && jump(path, position, report)) return true;
         explain(position, report);
-        return;
-      }
-      ++position;
-    }
-  }
-  report.outcome = report.jumps.empty() ? Outcome::converged : Outcome::event;
+        return false;
+      });
+  if (arrived) report.outcome = report.jumps.empty() ? Outcome::converged : Outcome::event;
 }
 
 /// Follows the jump in the smallest sub-step at position. A jump that starts where the last one

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "simulator/condensation/fault_geometry.h"
+#include "simulator/contact/step_cutter.h"
 #include "simulator/coupled/coupled_contact.h"
 #include "simulator/plan/combinations.h"
 
@@ -53,18 +55,20 @@ std::string parts_warning(const CaseResult& result) {
 }
 
 struct CoupledCase::Impl final {
-  Impl(const Scene& the_scene, const Plan& plan, const SolverChoice& choice)
-      : scene(the_scene),
+  Impl(const SceneBulk& of, const SolverChoice& choice)
+      : scene(of.scene()),
         solver(choice),
-        problem(bulk_problem(scene, plan)),
-        faults(uncondensed(scene, plan, problem)),
+        shared(of.problem()),
+        problem(*shared),
+        faults(uncondensed(scene, of.plan(), problem)),
         bulk(problem,
              choice.schur == SchurKind::rac ? LoosePieces::held_by_faults : LoosePieces::refused),
-        mirrored(mirrored_rows(scene, plan.half_domain)) {}
+        mirrored(mirrored_rows(scene, of.plan().half_domain)) {}
 
   const Scene& scene;
   SolverChoice solver;
-  BulkProblem problem;
+  std::shared_ptr<const BulkProblem> shared;
+  const BulkProblem& problem;
   FaultOperator faults;
   TwoSidedBulk bulk;
   std::vector<int> mirrored;  ///< rows of observations.
@@ -176,18 +180,19 @@ SolvedStep CoupledSteps::advance(const LoadStep&, const StepLoads& loads, Contac
   solved.is_elastic = false;
   ContactState next = state;
   Eigen::VectorXd u = u_;
-  double done = 0, length = 1;
-  for (int cuts = 0; done < 1;) {
-    const double end = std::min(done + length, 1.0);
-    if (try_part(done, end, between(to, end), next, u, solved)) {
-      done = end;
-      continue;
-    }
-    if (!may_cut_ || cuts++ == max_cuts_) {
-      solved.contact.outcome = Outcome::unconverged;
-      return solved;
-    }
-    length /= 2;
+  const auto part = [&](double from, double end) {
+    return may_cut_ && try_part(from, end, between(to, end), next, u, solved);
+  };
+  may_cut_ = true;
+  const double unit = std::ldexp(1.0, -max_cuts_);
+  const bool arrived =
+      part(0, 1) ||
+      walk_in_parts(
+          max_cuts_, [&](int from, int width) { return part(from * unit, (from + width) * unit); },
+          [](int) { return false; });
+  if (!arrived) {
+    solved.contact.outcome = Outcome::unconverged;
+    return solved;
   }
   solved.contact.outcome = Outcome::converged;
   solved.contact.reason.clear();
@@ -222,12 +227,12 @@ Eigen::VectorXd CoupledSteps::observed(const StepLoads&, const ContactState&) co
 
 }  // namespace
 
-CoupledCase::CoupledCase(const Scene& scene, const Plan& plan, const SolverChoice& solver,
+CoupledCase::CoupledCase(const SceneBulk& scene, const SolverChoice& solver,
                          const RunContext& context) {
-  std::vector<Problem> problems = unsupported_by_coupled(scene, plan);
+  std::vector<Problem> problems = unsupported_by_coupled(scene.scene(), scene.plan());
   if (!problems.empty()) throw InputError("scene", std::move(problems));
   context.progress(0.0, "meshing and assembling");
-  impl_ = std::make_unique<Impl>(scene, plan, solver);
+  impl_ = std::make_unique<Impl>(scene, solver);
 }
 
 CoupledCase::~CoupledCase() = default;

@@ -20,15 +20,17 @@ std::string parts_warning(const CaseResult& result);
 /// A case on the coupled path (docs/model.md, section 11): mesh, bulk and faults of the scene
 /// without a condensed operator, walked through its load steps by loading's run_case, measured and
 /// summed up by the same code as a case on an operator. A step whose Newton iteration does not end
-/// is halved, /numerics/max_step_cuts times at most; its tolerance is /numerics/traction_tolerance,
-/// of the largest traction of load and faults.
+/// is taken in parts, to its 2^max_step_cuts-th at the smallest; its tolerance is
+/// /numerics/traction_tolerance, of the largest traction of load and faults.
 class CoupledCase {
  public:
   /// @pre scene and plan outlive this. Throws InputError with all of unsupported_by_coupled(), and
   /// for pieces of rock that nothing holds (SchurKind::rac lets faults hold them; the other kinds
   /// need a K that is regular).
+  CoupledCase(const SceneBulk& scene, const SolverChoice& solver, const RunContext& context = {});
   CoupledCase(const Scene& scene, const Plan& plan, const SolverChoice& solver,
-              const RunContext& context = {});
+              const RunContext& context = {})
+      : CoupledCase(SceneBulk(scene, plan), solver, context) {}
   ~CoupledCase();
   CoupledCase(const CoupledCase&) = delete;
   CoupledCase& operator=(const CoupledCase&) = delete;

@@ -53,10 +53,20 @@ void add_boundary_loads(const Scene& scene, std::vector<LoadCase>& loads) {
 }  // namespace
 
 BulkProblem bulk_problem(const Scene& scene, const Plan& plan) {
+  return bulk_problem(scene, plan, scene_mesh(scene, plan));
+}
+
+const std::shared_ptr<const BulkProblem>& SceneBulk::problem() const {
+  if (!problem_) {
+    problem_ = std::make_shared<const BulkProblem>(mesh_ ? bulk_problem(scene_, plan_, *mesh_)
+                                                         : bulk_problem(scene_, plan_));
+  }
+  return problem_;
+}
+
+BulkProblem bulk_problem(const Scene& scene, const Plan& plan, Mesh mesh) {
   BulkProblem problem;
-  const bool is_field = scene.geometry_kind == GeometryKind::field;
-  problem.mesh =
-      is_field ? make_mesh(field_mesh_spec(scene, plan)) : make_mesh(box_mesh_spec(scene, plan));
+  problem.mesh = std::move(mesh);
   for (const Material& m : scene.materials) {
     problem.materials.push_back({m.youngs_modulus, m.poisson_ratio});
     const bool creeps = plan.creep.active && m.viscosity;
@@ -64,7 +74,7 @@ BulkProblem bulk_problem(const Scene& scene, const Plan& plan) {
   }
   add_pressure_loads(problem.mesh, problem.loads);
   problem.conditions = displacement_conditions(scene, static_cast<int>(problem.loads.size()));
-  if (!is_field) add_boundary_loads(scene, problem.loads);
+  if (scene.geometry_kind == GeometryKind::box) add_boundary_loads(scene, problem.loads);
   for (const ObservationPoint& point : scene.output.observation_points) {
     // By symmetry; prepare_operator turns u_y round again.
     const double y = plan.half_domain ? std::abs(point.position[1]) : point.position[1];

@@ -4,6 +4,7 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
+#include "simulator/common/machine.h"
 #include "simulator/linalg/blas.h"
 #include "simulator/linalg/blas_start.h"
 #include "simulator/operators/memory.h"
@@ -64,9 +65,11 @@ InfluenceBlock cells_of_compartments(const Scene& scene, const BulkProblem& prob
   return block;
 }
 
-PreparedInfluence prepare_influence(const Scene& scene, const Plan& plan,
-                                    const std::vector<int>& regions, const CachePolicy& cache,
-                                    const RunContext& context, bool keep_bulk) {
+PreparedInfluence prepare_influence(const SceneBulk& of, const std::vector<int>& regions,
+                                    const CachePolicy& cache, const RunContext& context,
+                                    bool keep_bulk) {
+  const Scene& scene = of.scene();
+  const Plan& plan = of.plan();
   FAULTSIM_DEMAND(!plan.creep.active, "an influence block is of the elastic operator");
   take_blas_buffer();
   set_blas_threads(1);
@@ -76,7 +79,7 @@ PreparedInfluence prepare_influence(const Scene& scene, const Plan& plan,
   if (!cache.folder.empty()) {
     auto block = read_influence(influence_path(cache, op_name, name), name, &made.remark);
     if (block) {
-      PreparedOperator prepared = prepare_operator(scene, plan, cache, keep_bulk, context);
+      PreparedOperator prepared = prepare_operator(of, cache, keep_bulk, context);
       if (!prepared.remark.empty()) made.remark = prepared.remark;
       made.op = prepared.op;
       made.bulk = prepared.bulk;
@@ -86,11 +89,12 @@ PreparedInfluence prepare_influence(const Scene& scene, const Plan& plan,
       return made;
     }
   }
-  const std::vector<int> cells = reservoir_cells(bulk_problem(scene, plan), regions);
+  const std::vector<int> cells = reservoir_cells(*of.problem(), regions);
   made.predicted = plan_influence(scene, plan, static_cast<long>(cells.size()));
   Plan whole = plan;
   whole.memory_bytes = std::max(plan.memory_bytes, kProgramBytes + made.predicted.peak_bytes);
-  PreparedOperator prepared = prepare_operator(scene, whole, cache, true, context);
+  require_memory(whole, available_memory());
+  PreparedOperator prepared = prepare_operator(of, cache, true, context);
   made.op = prepared.op;
   if (keep_bulk) made.bulk = prepared.bulk;
   if (!prepared.remark.empty()) made.remark = prepared.remark;

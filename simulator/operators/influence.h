@@ -28,9 +28,15 @@ struct PreparedInfluence {
 /// The influence of the regions' cells: from the cache, beside the operator, if it is there and
 /// sound; else the bulk is factorised, and operator and block are cached. Throws ResourceError as
 /// prepare_operator() does. @pre no creep in the plan.
-PreparedInfluence prepare_influence(const Scene& scene, const Plan& plan,
-                                    const std::vector<int>& regions, const CachePolicy& cache,
-                                    const RunContext& context = {}, bool keep_bulk = false);
+PreparedInfluence prepare_influence(const SceneBulk& scene, const std::vector<int>& regions,
+                                    const CachePolicy& cache, const RunContext& context = {},
+                                    bool keep_bulk = false);
+inline PreparedInfluence prepare_influence(const Scene& scene, const Plan& plan,
+                                           const std::vector<int>& regions,
+                                           const CachePolicy& cache,
+                                           const RunContext& context = {}) {
+  return prepare_influence(SceneBulk(scene, plan), regions, cache, context);
+}
 
 /// The cells of all compartments, as a block that has no influences yet.
 InfluenceBlock cells_of_compartments(const Scene& scene, const BulkProblem& problem);

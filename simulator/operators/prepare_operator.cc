@@ -63,8 +63,10 @@ MaxwellScheme scheme_of(const Scene& scene) {
 
 }  // namespace
 
-PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const CachePolicy& cache,
-                                  bool keep_bulk, const RunContext& context) {
+PreparedOperator prepare_operator(const SceneBulk& of, const CachePolicy& cache, bool keep_bulk,
+                                  const RunContext& context) {
+  const Scene& scene = of.scene();
+  const Plan& plan = of.plan();
   FAULTSIM_DEMAND(!scene.numerics.surface.wanted(), "an exact operator of a surface's family");
   take_blas_buffer();
   set_blas_threads(1);
@@ -81,10 +83,9 @@ PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const Ca
   }
   require_memory(plan, available_memory());
   context.progress(0.0, "meshing");
-  BulkProblem problem = bulk_problem(scene, plan);
+  const std::shared_ptr<const BulkProblem> problem = of.problem();
   context.stop.throw_if_requested("meshing");
-  auto bulk = std::make_shared<CreepLadder>(std::move(problem), plan.creep.rungs, scheme_of(scene),
-                                            context);
+  auto bulk = std::make_shared<CreepLadder>(problem, plan.creep.rungs, scheme_of(scene), context);
   auto op = std::make_shared<FaultOperator>(bulk->op(0));  // shares H
   take_fault_names(scene, *op);
   mirror_observations(scene, plan, op->observed);

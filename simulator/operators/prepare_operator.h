@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "simulator/common/run_context.h"
@@ -19,6 +20,26 @@ namespace faultsim {
 
 /// The family of a scene turned into numbers for the bulk.
 BulkProblem bulk_problem(const Scene& scene, const Plan& plan);
+/// The same of a mesh that is made already, scene_mesh() of both.
+BulkProblem bulk_problem(const Scene& scene, const Plan& plan, Mesh mesh);
+
+/// A scene with its plan, and its bulk problem, which is made when it is first asked for and once.
+class SceneBulk {
+ public:
+  /// @param mesh  scene_mesh() of both, if it is there. @pre scene and plan outlive this.
+  SceneBulk(const Scene& scene, const Plan& plan, std::shared_ptr<const Mesh> mesh = nullptr)
+      : scene_(scene), plan_(plan), mesh_(std::move(mesh)) {}
+  const Scene& scene() const { return scene_; }
+  const Plan& plan() const { return plan_; }
+  const std::shared_ptr<const BulkProblem>& problem() const;
+
+ private:
+  const Scene& scene_;
+  const Plan& plan_;
+  std::shared_ptr<const Mesh> mesh_;
+  mutable std::shared_ptr<const BulkProblem> problem_;
+};
+
 /// The mesh of a field's bulk problem without cells and boundary, which is all that its faults need
 /// and a fraction of the time; nothing where its topology is not that of `like`, the mesh of
 /// another one's bulk problem. The quality of its cells is not looked at.
@@ -43,7 +64,12 @@ struct PreparedOperator {
   std::string remark;  ///< "damaged operator file moved aside", "not kept", ...
 };
 /// @param keep_bulk  wanted with its factor, so never read from the cache.
-PreparedOperator prepare_operator(const Scene& scene, const Plan& plan, const CachePolicy& cache,
-                                  bool keep_bulk, const RunContext& context = {});
+PreparedOperator prepare_operator(const SceneBulk& scene, const CachePolicy& cache, bool keep_bulk,
+                                  const RunContext& context = {});
+inline PreparedOperator prepare_operator(const Scene& scene, const Plan& plan,
+                                         const CachePolicy& cache, bool keep_bulk,
+                                         const RunContext& context = {}) {
+  return prepare_operator(SceneBulk(scene, plan), cache, keep_bulk, context);
+}
 
 }  // namespace faultsim

@@ -8,19 +8,19 @@
 
 namespace faultsim {
 
-std::vector<Problem> geometry_problems(const Scene& scene, const Plan& plan) {
+std::vector<Problem> geometry_problems(const Scene& scene, const Plan& plan,
+                                       std::shared_ptr<const Mesh>* made) {
   if (scene.numerics.surface.wanted()) {
     if (auto problems = surface_problems(scene, plan); !problems.empty()) return problems;
   }
   if (plan.n_cells > kMostCellsChecked) return {};
   try {
-    const bool is_field = scene.geometry_kind == GeometryKind::field;
-    const Mesh mesh =
-        is_field ? make_mesh(field_mesh_spec(scene, plan)) : make_mesh(box_mesh_spec(scene, plan));
+    const auto mesh = std::make_shared<const Mesh>(scene_mesh(scene, plan));
     const auto n_loads = std::count_if(scene.box.boundary.begin(), scene.box.boundary.end(),
                                        [](const auto& one) { return is_load(one.kind); });
-    const DofMap dofs(mesh, displacement_conditions(scene, 0), static_cast<int>(n_loads));
-    require_held(mesh, dofs);
+    const DofMap dofs(*mesh, displacement_conditions(scene, 0), static_cast<int>(n_loads));
+    require_held(*mesh, dofs);
+    if (made != nullptr) *made = mesh;
   } catch (const InputError& error) {
     return error.problems();
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "simulator/plan/plan.h"
@@ -13,6 +14,8 @@ inline constexpr long kMostCellsChecked = 100'000;
 /// not match, cells that are too distorted, a body that nothing holds; with a surface of operators,
 /// ranges over which it cannot be built (surface_check.h). Makes the mesh, no matrix; silent about
 /// more than kMostCellsChecked cells. @pre the scene and plan had no problems.
-std::vector<Problem> geometry_problems(const Scene& scene, const Plan& plan);
+/// @param made  is given the mesh, where it was made and is sound.
+std::vector<Problem> geometry_problems(const Scene& scene, const Plan& plan,
+                                       std::shared_ptr<const Mesh>* made = nullptr);
 
 }  // namespace faultsim

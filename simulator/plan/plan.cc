@@ -374,6 +374,11 @@ std::vector<std::string> sections_of_fields(const Scene& scene) {
 
 }  // namespace
 
+Mesh scene_mesh(const Scene& scene, const Plan& plan) {
+  return scene.geometry_kind == GeometryKind::field ? make_mesh(field_mesh_spec(scene, plan))
+                                                    : make_mesh(box_mesh_spec(scene, plan));
+}
+
 Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
   Plan plan;
   plan.initial = initial_regions(scene);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/mesh/mesh.h"
 #include "simulator/mesh/mesh_spec.h"
 #include "simulator/scene/initial_state.h"
 #include "simulator/scene/scene.h"
@@ -90,6 +91,8 @@ std::string saving_text(const Reduction::Saving& saving);
 /// The scene's mesh in numbers, as the plan reduces it. @pre geometry_kind agrees.
 FieldMeshSpec field_mesh_spec(const Scene& scene, const Plan& plan);
 BoxMeshSpec box_mesh_spec(const Scene& scene, const Plan& plan);
+/// The mesh itself. Throws InputError where it cannot be made.
+Mesh scene_mesh(const Scene& scene, const Plan& plan);
 
 /// Name of the operator file: fingerprint of family, observation points, numerics version and BLAS.
 std::string operator_fingerprint(const Scene& scene, const Plan& plan, const std::string& blas);

@@ -65,8 +65,8 @@ bool reload_scene(const JsonDocument& document, const LoadedScene& other, Loaded
   return true;
 }
 
-FieldCheck check_geometry(const LoadedScene& loaded) {
-  std::vector<Problem> problems = geometry_problems(loaded.scene, loaded.plan);
+FieldCheck check_geometry(LoadedScene& loaded) {
+  std::vector<Problem> problems = geometry_problems(loaded.scene, loaded.plan, &loaded.mesh);
   FieldCheck fields;
   if (problems.empty()) fields = check_fields(loaded.scene, loaded.plan);
   problems.insert(problems.end(), fields.problems.begin(), fields.problems.end());

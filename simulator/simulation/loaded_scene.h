@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,8 @@ struct LoadedScene {
   Scene scene;
   Plan plan;
   CanonicalParts canonical;
-  std::string identity;  ///< of the case.
+  std::string identity;                        ///< of the case.
+  std::shared_ptr<const Mesh> mesh = nullptr;  ///< where check_geometry() has made it.
 };
 
 /// The file with the changes put in, and the text of the tables that it names: what is read now is
@@ -38,7 +40,7 @@ bool reload_scene(const JsonDocument& document, const LoadedScene& other, Loaded
 /// What a run would refuse once it has the mesh (plan/geometry_check.h) or maps its flow results
 /// (plan/field_check.h), thrown as InputError with its place in the file. Makes the mesh, unless
 /// that is large. @returns what else is to be said of the flow results.
-FieldCheck check_geometry(const LoadedScene& loaded);
+FieldCheck check_geometry(LoadedScene& loaded);
 /// The files that the scene was read from: its own and those that it names.
 std::vector<std::filesystem::path> input_files(const LoadedScene& loaded);
 

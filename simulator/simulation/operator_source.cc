@@ -12,6 +12,8 @@ Scene without_surface(Scene scene) {
   return scene;
 }
 
+SceneBulk bulk_of(const LoadedScene& loaded) { return {loaded.scene, loaded.plan, loaded.mesh}; }
+
 /// What is to be said of the scene's flow results. Throws InputError where they do not fit.
 FieldCheck checked_fields(const LoadedScene& loaded) {
   FieldCheck check = check_fields(loaded.scene, loaded.plan);
@@ -68,7 +70,7 @@ OperatorSource::Made OperatorSource::prepare(const LoadedScene& loaded, const Ca
     return made;
   }
   if (scene.has_field()) return with_fields(loaded, cache, keep_bulk, context);
-  return {prepare_operator(scene, loaded.plan, cache, keep_bulk, context), true};
+  return {prepare_operator(bulk_of(loaded), cache, keep_bulk, context), true};
 }
 
 /// The loads of a flow result are interpolated as the operator is.
@@ -115,22 +117,20 @@ OperatorSource::Cells OperatorSource::cells_of(const LoadedScene& loaded, const 
                                                bool keep_bulk, const RunContext& context) {
   Cells cells;
   cells.key = operator_key(loaded);
+  const SceneBulk bulk = bulk_of(loaded);
+  cells.problem = bulk.problem();
   if (loaded.plan.creep.active) {
-    cells.prepared = prepare_operator(loaded.scene, loaded.plan, cache, true, context);
-    const BulkProblem& problem = cells.prepared.bulk->bulk(0).problem();
+    cells.prepared = prepare_operator(bulk, cache, true, context);
     cells.block =
-        std::make_shared<const InfluenceBlock>(cells_of_compartments(loaded.scene, problem));
-    cells.mesh = std::make_shared<const Mesh>(problem.mesh);
+        std::make_shared<const InfluenceBlock>(cells_of_compartments(loaded.scene, *cells.problem));
     return cells;
   }
-  PreparedInfluence made =
-      prepare_influence(loaded.scene, loaded.plan, {}, cache, context, keep_bulk);
+  PreparedInfluence made = prepare_influence(bulk, {}, cache, context, keep_bulk);
   cells.prepared.op = made.op;
   cells.prepared.bulk = made.bulk;
   cells.prepared.from_cache = made.from_cache;
   cells.prepared.remark = made.remark;
   cells.block = made.block;
-  cells.mesh = std::make_shared<const Mesh>(bulk_problem(loaded.scene, loaded.plan).mesh);
   return cells;
 }
 
@@ -150,7 +150,7 @@ OperatorSource::Made OperatorSource::with_fields(const LoadedScene& loaded,
   }
   if (known == nullptr) {
     context.progress(1, "mapping the flow result");
-    const FieldCells cells{*cells_.prepared.op, *cells_.mesh, *cells_.block,
+    const FieldCells cells{*cells_.prepared.op, cells_.problem->mesh, *cells_.block,
                            cells_.prepared.bulk.get()};
     KnownLoads made{wanted, field_loads(loaded.scene, cells, context.n_threads), {}};
     for (const Remark& one : check.remarks) made.warnings.push_back(remark_text(one));

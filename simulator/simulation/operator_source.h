@@ -42,7 +42,7 @@ class OperatorSource {
     std::string key;  ///< operator_key of the family.
     PreparedOperator prepared;
     std::shared_ptr<const InfluenceBlock> block;
-    std::shared_ptr<const Mesh> mesh;
+    std::shared_ptr<const BulkProblem> problem;
     std::deque<KnownLoads> loads;  ///< the newest first.
     const KnownLoads* find(const std::string& wanted) const;
   };

@@ -250,6 +250,8 @@ void Simulation::change_values(const JsonDocument& values) {
 
 const LoadedScene& Simulation::scene() const { return impl_->at_hand; }
 
+void Simulation::check() { check_geometry(impl_->at_hand); }
+
 std::string Simulation::plan_text() const { return plan_to_text(impl_->at_hand.plan); }
 
 std::string Simulation::identity() const { return impl_->at_hand.identity; }

@@ -92,6 +92,8 @@ class Simulation {
   /// The scene at hand: held, with the last changes. As prepared(), for programs within the
   /// project.
   const LoadedScene& scene() const;
+  /// Throws InputError with what would be refused once the mesh is there (check_geometry()).
+  void check();
   /// What will be modelled of it, why, and what it costs, as `faultsim plan` prints it.
   std::string plan_text() const;
   /// Fingerprint of the case: equal cases have equal ones, however they are spelled.

@@ -65,13 +65,13 @@ FieldSurface::Columns FieldSurface::exact_at(const Scene& scene, const CachePoli
                                              const RunContext& context) const {
   context.stop.throw_if_requested("mapping a flow result onto a surface of operators");
   const Plan plan = exact_plan(scene);
-  const PreparedInfluence made = prepare_influence(scene, plan, {}, cache, context);
-  const Mesh mesh = bulk_problem(scene, plan).mesh;
+  const SceneBulk bulk(scene, plan);
+  const PreparedInfluence made = prepare_influence(bulk, {}, cache, context);
   Columns columns;
   for (std::size_t k = 0; k < strengths_.size(); ++k) {
     const Scene unit = with_unit_strength(scene, strengths_[k].material, strengths_[k].is_thermal);
     const auto history =
-        field_loads(unit, {*made.op, mesh, *made.block}, context.n_threads).history;
+        field_loads(unit, {*made.op, bulk.problem()->mesh, *made.block}, context.n_threads).history;
     const Eigen::Index n = history->locked.cols(), first = static_cast<Eigen::Index>(k) * n;
     const auto n_all = static_cast<Eigen::Index>(strengths_.size()) * n;
     columns.locked.conservativeResize(history->locked.rows(), n_all);

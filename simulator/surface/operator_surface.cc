@@ -191,10 +191,11 @@ std::shared_ptr<const FaultOperator> OperatorSurface::exact_at(const Eigen::Vect
                                                                const RunContext& context) const {
   const Scene scene = scene_at(x);
   const Plan plan = exact_plan(scene);
-  if (moves_mesh(request_)) frame_->require_same_topology(bulk_problem(scene, plan).mesh);
+  const SceneBulk bulk(scene, plan);
+  if (moves_mesh(request_)) frame_->require_same_topology(bulk.problem()->mesh);
   if (centre_.has_field() && !cache.folder.empty())  // its factor is wanted for cells as well
-    prepare_influence(scene, plan, {}, cache, context);
-  const PreparedOperator prepared = prepare_operator(scene, plan, cache, false, context);
+    prepare_influence(bulk, {}, cache, context);
+  const PreparedOperator prepared = prepare_operator(bulk, cache, false, context);
   if (prepared.from_cache || cache.folder.empty()) return prepared.op;
   // From its file, whose pages the system may take back; kept in memory where there is none.
   if (auto mapped = read_operator(cache.folder, prepared.op->fingerprint))
