@@ -17,7 +17,7 @@
 #include "campaign/store/clock.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/stopwatch.h"
-#include "simulator/output/json_text.h"
+#include "simulator/files/json_text.h"
 
 namespace faultsweep {
 

@@ -14,8 +14,8 @@
 #include "campaign/report/table_output.h"
 #include "campaign/spec/pointers.h"
 #include "simulator/common/units.h"
-#include "simulator/output/output_target.h"
-#include "simulator/output/result_folder.h"
+#include "simulator/files/output_target.h"
+#include "simulator/files/result_folder.h"
 
 namespace faultsweep {
 namespace {

@@ -10,7 +10,7 @@
 #include "campaign/render/render_csv.h"
 #include "campaign/render/render_json.h"
 #include "campaign/render/render_text.h"
-#include "simulator/output/json_text.h"
+#include "simulator/files/json_text.h"
 
 namespace faultsweep {
 namespace {

@@ -13,9 +13,9 @@
 #include "campaign/rounds/next_round.h"
 #include "campaign/scheduler/starter.h"
 #include "campaign/store/clock.h"
-#include "simulator/output/json_text.h"
-#include "simulator/output/operator_cache.h"
-#include "simulator/output/output_target.h"
+#include "simulator/cache/operator_cache.h"
+#include "simulator/files/json_text.h"
+#include "simulator/files/output_target.h"
 #include "simulator/plan/plan.h"
 
 namespace faultsweep {

@@ -13,10 +13,9 @@
 #include "campaign/scheduler/resources.h"
 #include "campaign/store/clock.h"
 #include "simulator/common/process_memory.h"
-#include "simulator/output/atomic_file.h"
-#include "simulator/output/json_text.h"
-#include "simulator/output/output_target.h"
-#include "simulator/output/write_result.h"
+#include "simulator/files/atomic_file.h"
+#include "simulator/files/json_text.h"
+#include "simulator/files/output_target.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsweep {

@@ -12,10 +12,10 @@
 #include "campaign/tradeoff/sample.h"
 #include "campaign/tradeoff/stored_ladder.h"
 #include "campaign/tradeoff/trade_report.h"
-#include "simulator/output/json_text.h"
-#include "simulator/output/output_target.h"
-#include "simulator/output/result_folder.h"
-#include "simulator/output/write_result.h"
+#include "simulator/files/atomic_file.h"
+#include "simulator/files/json_text.h"
+#include "simulator/files/output_target.h"
+#include "simulator/files/result_folder.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsweep {

@@ -10,8 +10,8 @@
 
 #include "campaign/store/same_numbers.h"
 #include "simulator/common/errors.h"
-#include "simulator/output/write_result.h"
 #include "simulator/result/result_fields.h"
+#include "simulator/result/result_json.h"
 
 namespace faultsweep {
 

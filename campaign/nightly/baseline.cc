@@ -5,8 +5,9 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
-#include "simulator/output/write_result.h"
+#include "simulator/files/atomic_file.h"
 #include "simulator/result/result_fields.h"
+#include "simulator/result/result_json.h"
 
 namespace faultsweep {
 

@@ -12,8 +12,8 @@
 #include "campaign/report/selection.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/printable.h"
-#include "simulator/output/write_result.h"
 #include "simulator/result/approximation.h"
+#include "simulator/result/result_json.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsweep {

@@ -6,7 +6,7 @@
 #include "campaign/report/parameters.h"
 #include "campaign/report/selection.h"
 #include "campaign/report/table_output.h"
-#include "simulator/output/output_target.h"
+#include "simulator/files/output_target.h"
 
 namespace faultsweep {
 

@@ -8,7 +8,7 @@
 #include "campaign/report/parameters.h"
 #include "campaign/report/selection.h"
 #include "campaign/report/table_output.h"
-#include "simulator/output/result_folder.h"
+#include "simulator/files/result_folder.h"
 
 namespace faultsweep {
 

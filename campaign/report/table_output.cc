@@ -8,7 +8,7 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/common/printable.h"
-#include "simulator/output/atomic_file.h"
+#include "simulator/files/atomic_file.h"
 
 namespace faultsweep {
 

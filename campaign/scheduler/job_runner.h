@@ -38,7 +38,7 @@ struct JobEvents {
   };
   struct Completed {
     RunRecord run;       ///< without reason and result, which are in the bytes.
-    std::string result;  ///< of simulator/output/result_bytes.h; whoever needs it reads it.
+    std::string result;  ///< of simulator/result/result_bytes.h; whoever needs it reads it.
   };
   std::vector<Completed> completed;
   std::vector<Failure> failed;

@@ -22,7 +22,7 @@ struct MetricInfo {
   }
 };
 
-/// All metrics of `rank --list-metrics`, in the order shown: those of simulator/output/measures.h,
+/// All metrics of `rank --list-metrics`, in the order shown: those of simulator/result/measures.h,
 /// then what follows from more than one field.
 const std::vector<MetricInfo>& metric_catalogue();
 /// Its unit: "m2", "m2/m" where it is per metre of strike, "" for numbers.

@@ -5,9 +5,9 @@
 
 #include "simulator/app/commands.h"
 #include "simulator/app/load_scene.h"
+#include "simulator/files/json_text.h"
 #include "simulator/loading/diagnosis.h"
 #include "simulator/loading/run_case.h"
-#include "simulator/output/json_text.h"
 
 namespace faultsim {
 namespace {

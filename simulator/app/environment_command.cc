@@ -12,11 +12,11 @@
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/machine.h"
+#include "simulator/files/json_text.h"
 #include "simulator/flow/eclipse_result.h"
 #include "simulator/linalg/blas.h"
 #include "simulator/linalg/blas_kernel.h"
 #include "simulator/linalg/cholesky.h"
-#include "simulator/output/json_text.h"
 
 namespace faultsim {
 namespace {

@@ -8,10 +8,10 @@
 #include "simulator/app/load_scene.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/contact/contact_export.h"
-#include "simulator/output/fclib_writer.h"
-#include "simulator/output/json_text.h"
-#include "simulator/output/output_target.h"
+#include "simulator/files/json_text.h"
+#include "simulator/files/output_target.h"
 #include "simulator/plan/combinations.h"
+#include "simulator/result_files/fclib_writer.h"
 
 namespace faultsim {
 namespace {

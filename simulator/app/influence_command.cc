@@ -5,10 +5,10 @@
 #include "simulator/app/commands.h"
 #include "simulator/app/load_scene.h"
 #include "simulator/app/screen.h"
+#include "simulator/cache/influence_file.h"
+#include "simulator/files/json_text.h"
+#include "simulator/files/output_target.h"
 #include "simulator/operators/influence.h"
-#include "simulator/output/influence_file.h"
-#include "simulator/output/json_text.h"
-#include "simulator/output/output_target.h"
 
 namespace faultsim {
 namespace {

@@ -4,7 +4,7 @@
 #include "simulator/case_figures/case_figures.h"
 #include "simulator/case_figures/picture_file.h"
 #include "simulator/common/errors.h"
-#include "simulator/output/write_result.h"
+#include "simulator/result/result_json.h"
 #include "simulator/scene/json_document.h"
 #include "simulator/scene/read_scene.h"
 

@@ -10,12 +10,15 @@
 #include "simulator/coupled/start_hypre.h"
 #include "simulator/coupled_case/coupled_case.h"
 #include "simulator/coupled_case/path_choice.h"
+#include "simulator/files/atomic_file.h"
+#include "simulator/files/json_text.h"
+#include "simulator/files/result_folder.h"
 #include "simulator/linalg/blas.h"
 #include "simulator/linalg/blas_kernel.h"
 #include "simulator/loading/run_case.h"
-#include "simulator/output/json_text.h"
-#include "simulator/output/result_folder.h"
-#include "simulator/output/write_result.h"
+#include "simulator/result/result_json.h"
+#include "simulator/result_files/field_writer.h"
+#include "simulator/result_files/volume_writer.h"
 
 namespace faultsim {
 namespace {

@@ -8,11 +8,12 @@
 #include "simulator/app/commands.h"
 #include "simulator/app/load_scene.h"
 #include "simulator/app/screen.h"
+#include "simulator/files/atomic_file.h"
+#include "simulator/files/json_text.h"
+#include "simulator/files/output_target.h"
+#include "simulator/files/result_folder.h"
 #include "simulator/loading/run_case.h"
-#include "simulator/output/json_text.h"
-#include "simulator/output/output_target.h"
-#include "simulator/output/result_folder.h"
-#include "simulator/output/write_result.h"
+#include "simulator/result_files/volume_writer.h"
 #include "simulator/scene/tiers.h"
 
 namespace faultsim {

@@ -6,8 +6,8 @@
 #include "simulator/common/errors.h"
 #include "simulator/coupled/box_study.h"
 #include "simulator/coupled/solver_study.h"
+#include "simulator/files/json_text.h"
 #include "simulator/linalg/blas.h"
-#include "simulator/output/json_text.h"
 
 namespace faultsim {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "simulator/output/field_reader.h"
 #include "simulator/result/result.h"
+#include "simulator/result_files/field_reader.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {

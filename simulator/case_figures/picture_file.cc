@@ -11,8 +11,8 @@
 #include <memory>
 
 #include "simulator/common/errors.h"
-#include "simulator/output/output_target.h"
-#include "simulator/output/write_result.h"
+#include "simulator/files/atomic_file.h"
+#include "simulator/files/output_target.h"
 
 extern char** environ;
 

@@ -20,7 +20,7 @@ install(DIRECTORY schemas/ DESTINATION ${CMAKE_INSTALL_DATADIR}/faultsim/schemas
 
 # The library: find_package(faultsim), faultsim::simulation. Its headers stand as they include each other, below a
 # folder of the project's name; those of modules that the public one does not need stay out.
-set(library_modules common scene mesh rheology fault linalg model result output elasticity condensation contact plan flow loads
+set(library_modules common scene mesh rheology fault linalg model result files hdf5 cache result_files elasticity condensation contact plan flow loads
     operators measures loading surface simulation)
 list(TRANSFORM library_modules PREPEND faultsim_ OUTPUT_VARIABLE library_targets)
 install(TARGETS ${library_targets} EXPORT faultsim COMPONENT library
@@ -29,7 +29,7 @@ target_include_directories(faultsim_simulation INTERFACE
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/faultsim>)
 target_compile_features(faultsim_simulation INTERFACE cxx_std_20)
 install(FILES simulator/simulation/simulation.h COMPONENT library DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/faultsim)
-foreach(header common/errors common/run_context common/units contact/search_record output/cache_policy result/field
+foreach(header common/errors common/run_context common/units contact/search_record cache/cache_policy result/field
         result/measures result/result)
   get_filename_component(module ${header} DIRECTORY)
   install(FILES simulator/${header}.h COMPONENT library

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "simulator/common/errors.h"
-#include "simulator/output/atomic_file.h"
+#include "simulator/files/atomic_file.h"
 
 namespace faultsim {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "simulator/loads/history.h"
 #include "simulator/loading/run_case.h"
-#include "simulator/output/write_result.h"
+#include "simulator/loads/history.h"
+#include "simulator/result_files/field_writer.h"
 
 namespace faultsim {
 

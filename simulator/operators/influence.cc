@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
+#include "simulator/cache/influence_file.h"
+#include "simulator/cache/operator_cache.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/machine.h"
 #include "simulator/linalg/blas.h"
 #include "simulator/linalg/blas_start.h"
 #include "simulator/operators/memory.h"
-#include "simulator/output/influence_file.h"
-#include "simulator/output/operator_cache.h"
 #include "simulator/plan/influence_plan.h"
 
 namespace faultsim {

@@ -1,10 +1,10 @@
 #include "simulator/operators/prepare_operator.h"
+#include "simulator/cache/operator_cache.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/machine.h"
 #include "simulator/linalg/blas_start.h"
 #include "simulator/linalg/cholesky.h"
 #include "simulator/operators/memory.h"
-#include "simulator/output/operator_cache.h"
 
 namespace faultsim {
 namespace {

@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "simulator/cache/cache_policy.h"
 #include "simulator/common/run_context.h"
 #include "simulator/condensation/condensation.h"
 #include "simulator/condensation/creep_ladder.h"
 #include "simulator/loads/load_source.h"
 #include "simulator/model/fault_operator.h"
-#include "simulator/output/cache_policy.h"
 #include "simulator/plan/plan.h"
 #include "simulator/result/result.h"
 #include "simulator/scene/scene.h"

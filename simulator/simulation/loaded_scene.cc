@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "simulator/output/output_target.h"
+#include "simulator/files/output_target.h"
 #include "simulator/plan/geometry_check.h"
 #include "simulator/scene/csv_tables.h"
 #include "simulator/scene/read_scene.h"

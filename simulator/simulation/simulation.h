@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "simulator/cache/cache_policy.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/run_context.h"
 #include "simulator/contact/search_record.h"
-#include "simulator/output/cache_policy.h"
 #include "simulator/result/result.h"
 
 /// faultsim as a library. What programs outside this project include, with the headers above:

@@ -4,12 +4,12 @@
 #include <optional>
 #include <utility>
 
+#include "simulator/cache/operator_cache.h"
 #include "simulator/condensation/condensation.h"
 #include "simulator/condensation/fault_geometry.h"
 #include "simulator/linalg/blas_start.h"
 #include "simulator/linalg/dense_cholesky.h"
 #include "simulator/operators/influence.h"
-#include "simulator/output/operator_cache.h"
 #include "simulator/surface/surface_builder.h"
 
 namespace faultsim {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "simulator/cache/surface_file.h"
 #include "simulator/loading/run_case.h"
-#include "simulator/output/surface_file.h"
 #include "simulator/surface/sparse_grid.h"
 #include "simulator/surface/surface_axis.h"
 

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
+#include "simulator/cache/surface_file.h"
 #include "simulator/common/run_context.h"
 #include "simulator/model/fault_operator.h"
-#include "simulator/output/surface_file.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {

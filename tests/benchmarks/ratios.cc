@@ -16,9 +16,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "simulator/cache/operator_cache.h"
 #include "simulator/loading/run_case.h"
-#include "simulator/output/operator_cache.h"
-#include "simulator/output/write_result.h"
+#include "simulator/result/result_json.h"
 #include "tests/benchmarks/clocks.h"
 #include "tests/benchmarks/instant_workers.h"
 #include "tests/benchmarks/plain_bulk.h"

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "campaign/store/same_numbers.h"
-#include "simulator/output/write_result.h"
+#include "simulator/result/result_json.h"
 #include "tests/campaign/campaign_fixture.h"
 
 namespace faultsweep {

@@ -4,7 +4,7 @@
 
 #include "simulator/scene/read_scene.h"
 #include "tests/campaign/campaign_fixture.h"
-#include "tests/unit/output/h5_file.h"
+#include "tests/unit/result_files/h5_file.h"
 
 namespace faultsweep {
 namespace {

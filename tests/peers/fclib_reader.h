@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "simulator/output/fclib_writer.h"
+#include "simulator/result_files/fclib_writer.h"
 
 namespace faultsim {
 

@@ -9,10 +9,10 @@
 #include <tuple>
 
 #include "simulator/loading/run_case.h"
-#include "simulator/output/write_result.h"
+#include "simulator/result_files/field_writer.h"
 #include "simulator/scene/read_scene.h"
-#include "tests/unit/output/example_operator.h"
-#include "tests/unit/output/h5_file.h"
+#include "tests/unit/cache/example_operator.h"
+#include "tests/unit/result_files/h5_file.h"
 
 namespace faultsim {
 namespace {

@@ -12,7 +12,7 @@
 #include "simulator/case_figures/picture_file.h"
 #include "simulator/common/errors.h"
 #include "simulator/figure/palette.h"
-#include "simulator/output/write_result.h"
+#include "simulator/result_files/field_writer.h"
 #include "simulator/scene/initial_state.h"
 #include "simulator/scene/json_document.h"
 #include "simulator/scene/read_scene.h"

@@ -9,9 +9,9 @@
 #include <filesystem>
 
 #include "simulator/common/errors.h"
-#include "simulator/output/atomic_file.h"
-#include "tests/unit/output/example_operator.h"
-#include "tests/unit/output/h5_file.h"
+#include "simulator/files/atomic_file.h"
+#include "tests/unit/cache/example_operator.h"
+#include "tests/unit/result_files/h5_file.h"
 
 namespace faultsim {
 namespace {

@@ -10,7 +10,7 @@
 #include "campaign/nightly/nightly_suite.h"
 #include "campaign/store/same_numbers.h"
 #include "campaign/store/store.h"
-#include "simulator/output/write_result.h"
+#include "simulator/result/result_json.h"
 #include "tests/campaign/made_up_result.h"
 
 namespace faultsweep {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simulator/scene/read_scene.h"
-#include "tests/unit/output/example_operator.h"
+#include "tests/unit/cache/example_operator.h"
 
 namespace faultsim {
 namespace {

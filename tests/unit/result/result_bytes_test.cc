@@ -8,7 +8,7 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
-#include "simulator/output/write_result.h"
+#include "simulator/result/result_json.h"
 #include "tests/campaign/made_up_result.h"
 
 namespace faultsim {

@@ -11,7 +11,7 @@
 #include "campaign/store/sqlite.h"
 #include "campaign/store/store.h"
 #include "simulator/common/fingerprint.h"
-#include "simulator/output/write_result.h"
+#include "simulator/result/result_json.h"
 #include "tests/campaign/made_up_result.h"
 
 namespace faultsweep {

@@ -8,8 +8,8 @@
 #include "simulator/common/errors.h"
 #include "simulator/common/interrupt.h"
 #include "simulator/common/stopwatch.h"
+#include "simulator/files/json_text.h"
 #include "simulator/linalg/blas_start.h"
-#include "simulator/output/json_text.h"
 #include "tests/verification/closed_forms/verify_cases.h"
 
 namespace faultsim {

@@ -1,0 +1,69 @@
+#include "simulator/result_files/volume_writer.h"
+#include "simulator/common/errors.h"
+#include "simulator/files/atomic_file.h"
+#include "simulator/hdf5/datasets.h"
+#include "simulator/result_files/file_pair.h"
+
+namespace faultsim {
+
+void write_file_pair(const std::filesystem::path& folder, const std::string& name, hid_t file,
+                     const std::vector<XdmfGrid>& grids, const std::vector<double>& times) {
+  const std::string h5_name = name + ".h5";
+  PendingFile h5(folder / h5_name);
+  PendingFile xmf(folder / (name + ".xmf"));
+  const std::vector<std::byte> bytes = hdf5::image(file);
+  h5.write(bytes.data(), bytes.size(), 0);
+  const std::string text = xdmf_text(h5_name, name, grids, times);
+  xmf.write(text.data(), text.size(), 0);
+  xmf.sync();
+  h5.commit();
+  xmf.commit();
+}
+
+void write_volume(const std::filesystem::path& folder, const Eigen::Matrix3Xd& nodes,
+                  const std::vector<std::array<int, 8>>& cells, const std::vector<int>& material,
+                  const std::vector<VolumeSnapshot>& snapshots) {
+  const auto n_nodes = static_cast<std::size_t>(nodes.cols());
+  FAULTSIM_DEMAND(material.size() == cells.size() && n_nodes > 0 && !cells.empty(), cells.size(),
+                  " cells, ", material.size(), " materials, ", n_nodes, " nodes");
+  FAULTSIM_DEMAND(nodes.allFinite(), "a node's position is not finite");
+  const hdf5::Session session;
+  const hdf5::Handle file = hdf5::create_in_memory();
+  // A 3 x n matrix column by column is an n x 3 table row by row.
+  hdf5::write_array(file, "/mesh/nodes", {n_nodes, 3}, nodes.data(), {"m", "node positions"});
+  hdf5::write_array(file, "/mesh/cells", {cells.size(), 8}, cells[0].data(),
+                    {"", "corners of hexahedra, VTK order"});
+  hdf5::write_array(file, "/mesh/material", {cells.size()}, material.data(), {"", "material"});
+  std::vector<double> times;
+  std::vector<std::string> names;
+  for (const VolumeSnapshot& snapshot : snapshots) {
+    times.push_back(snapshot.time);
+    names.push_back(snapshot.name);
+  }
+  XdmfGrid grid{"volume",
+                "Hexahedron",
+                {"/mesh/cells", {cells.size(), 8}, true},
+                {"/mesh/nodes", {n_nodes, 3}},
+                {}};
+  grid.attributes.push_back({"material", {"/mesh/material", {cells.size()}, true}, true});
+  if (!snapshots.empty()) {
+    hdf5::write_array(file, "/time", {times.size()}, times.data(), {"s", "time"});
+    hdf5::write_texts(file, "/name", names);
+    hdf5::GrowingArray displacement(file, "/displacement", H5T_IEEE_F64LE, n_nodes, 3,
+                                    {"m", "displacement since the initial equilibrium"});
+    for (const VolumeSnapshot& snapshot : snapshots) {
+      FAULTSIM_DEMAND(
+          snapshot.displacement.cols() == nodes.cols() && snapshot.displacement.allFinite(),
+          "snapshot ", snapshot.name, " of ", snapshot.displacement.cols(), " nodes");
+      displacement.append(H5T_NATIVE_DOUBLE, snapshot.displacement.data());
+    }
+    grid.attributes.push_back(
+        {"displacement",
+         {.path = "/displacement", .shape = {n_nodes, 3}, .offsets = displacement.offsets()},
+         false,
+         true});
+  }
+  write_file_pair(folder, "volume", file, {grid}, times);
+}
+
+}  // namespace faultsim
