@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "campaign/report/table_output.h"
+#include "campaign/query/table_output.h"
 
 namespace faultsweep {
 

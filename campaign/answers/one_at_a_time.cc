@@ -8,8 +8,8 @@
 
 #include "campaign/answers/asked_outputs.h"
 #include "campaign/answers/designs.h"
+#include "campaign/query/table_output.h"
 #include "campaign/render/shown.h"
-#include "campaign/report/table_output.h"
 
 namespace faultsweep {
 
@@ -119,8 +119,7 @@ std::optional<OneAtATime> compare_one_at_a_time(const Store& store, const Campai
   OneAtATime found{campaign, request, {}, {}, {}, {}};
   found.outputs = asked_outputs(store, campaign, request, selection);
   found.plane_strain = store.kinds(campaign.id, {}).plane_strain;
-  for (const StoredParameter& one : parameters_from_json(campaign.parameters))
-    found.parameters.push_back(one.name);
+  for (const StoredParameter& one : campaign.parameters) found.parameters.push_back(one.name);
   const bool has_groups = !found.parameters.empty() && found.parameters[0] == kGroup;
   std::map<long, CaseValues> cases;
   store.for_each_case(campaign.id, query_of(selection, request, found.outputs),

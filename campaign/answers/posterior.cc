@@ -7,8 +7,8 @@
 
 #include "campaign/answers/probability.h"
 #include "campaign/answers/verdict_columns.h"
+#include "campaign/query/table_output.h"
 #include "campaign/render/shown.h"
-#include "campaign/report/table_output.h"
 
 namespace faultsweep {
 
@@ -91,7 +91,7 @@ class PosteriorReader {
     query_.columns.insert(query_.columns.end(), verdicts_.columns().begin(),
                           verdicts_.columns().end());
     first_asked_ = verdicts_.columns().size() - conditions.size();
-    const std::size_t n_parameters = parameters_from_json(campaign.parameters).size();
+    const std::size_t n_parameters = campaign.parameters.size();
     rows_.values.resize(n_parameters), rows_.texts.resize(n_parameters);
     rows_.units.resize(n_parameters), rows_.held.resize(conditions.size());
   }
@@ -257,7 +257,7 @@ Update update_of(const std::string& label, const std::vector<Held>& held, const 
 }
 
 void update_parameters(Posterior& p, const WeightedRows& rows) {
-  const std::vector<StoredParameter> all = parameters_from_json(p.campaign.parameters);
+  const std::vector<StoredParameter>& all = p.campaign.parameters;
   const double confidence = p.request.confidence;
   for (std::size_t k = 0; k < all.size(); ++k) {
     const std::vector<double>& values = rows.values[k];

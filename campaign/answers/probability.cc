@@ -7,8 +7,8 @@
 #include <unordered_map>
 
 #include "campaign/answers/verdict_columns.h"
+#include "campaign/query/table_output.h"
 #include "campaign/render/shown.h"
-#include "campaign/report/table_output.h"
 
 namespace faultsweep {
 
@@ -30,8 +30,7 @@ struct AskedRows {
 
 int parameter_index(const CampaignInfo& campaign, const std::string& name) {
   std::vector<std::string> names;
-  for (const StoredParameter& one : parameters_from_json(campaign.parameters))
-    names.push_back(one.name);
+  for (const StoredParameter& one : campaign.parameters) names.push_back(one.name);
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) require_name("--by", "parameter", name, names);
   return static_cast<int>(found - names.begin());

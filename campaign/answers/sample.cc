@@ -6,8 +6,8 @@
 #include <set>
 
 #include "campaign/answers/designs.h"
-#include "campaign/report/approximations.h"
-#include "campaign/report/table_output.h"
+#include "campaign/query/approximations.h"
+#include "campaign/query/table_output.h"
 
 namespace faultsweep {
 
@@ -63,7 +63,7 @@ std::vector<char> derived_parameters(const std::vector<json>& designs,
   for (const json& design : designs)
     for (const json& one : design.value("parameters", json::array())) chosen.insert(one.at("name"));
   std::vector<char> derived;
-  for (const StoredParameter& one : parameters_from_json(campaign.parameters))
+  for (const StoredParameter& one : campaign.parameters)
     derived.push_back(chosen.contains(one.name) ? 0 : 1);
   return derived;
 }
@@ -140,7 +140,7 @@ Sample read_sample(const Store& store, const CampaignInfo& campaign, const Sampl
                    std::vector<ScopedMetric> outputs) {
   const Selection selection = make_selection(store, campaign, request.stage, request.fault);
   Sample sample;
-  sample.parameters = parameters_from_json(campaign.parameters);
+  sample.parameters = campaign.parameters;
   sample.outputs = std::move(outputs);
   Store::TableQuery query;
   query.stage = request.stage;

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "campaign/report/parameters.h"
-#include "campaign/report/selection.h"
+#include "campaign/query/parameters.h"
+#include "campaign/query/selection.h"
 #include "campaign/store/store.h"
 
 /// What a campaign's cases answer when they are taken as a sample of its parameters.

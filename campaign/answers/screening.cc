@@ -7,8 +7,8 @@
 
 #include "campaign/answers/asked_outputs.h"
 #include "campaign/answers/designs.h"
+#include "campaign/query/table_output.h"
 #include "campaign/render/shown.h"
-#include "campaign/report/table_output.h"
 
 namespace faultsweep {
 
@@ -82,8 +82,7 @@ std::optional<Screening> screen(const Store& store, const CampaignInfo& campaign
   const auto outputs = asked_outputs(store, campaign, request, selection);
   Screening s{campaign, request, {}, {}};
   s.plane_strain = store.kinds(campaign.id, {}).plane_strain;
-  for (const StoredParameter& one : parameters_from_json(campaign.parameters))
-    s.parameters.push_back(one.name);
+  for (const StoredParameter& one : campaign.parameters) s.parameters.push_back(one.name);
   for (const ScopedMetric& one : outputs) s.metrics.push_back({one, {}});
   Store::TableQuery query = query_of(selection, request, outputs);
   query.by_design_row = true;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "campaign/answers/shares.h"
-#include "campaign/report/selection.h"
+#include "campaign/query/selection.h"
 #include "campaign/statistics/weighted.h"
 #include "campaign/store/store.h"
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/answers/designs.h"
-#include "campaign/report/table_output.h"
+#include "campaign/query/table_output.h"
 
 namespace faultsweep {
 namespace {

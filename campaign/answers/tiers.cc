@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "campaign/answers/probability.h"
-#include "campaign/report/parameters.h"
-#include "campaign/report/table_output.h"
+#include "campaign/query/parameters.h"
+#include "campaign/query/table_output.h"
 
 namespace faultsweep {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "campaign/query/selection.h"
 #include "campaign/render/answer.h"
-#include "campaign/report/selection.h"
 #include "campaign/statistics/control_variate.h"
 #include "campaign/store/store.h"
 

@@ -1,7 +1,7 @@
 #include "campaign/answers/verdict_columns.h"
 
-#include "campaign/report/error_bars.h"
-#include "campaign/report/table_output.h"
+#include "campaign/query/ranking.h"
+#include "campaign/query/table_output.h"
 
 namespace faultsweep {
 

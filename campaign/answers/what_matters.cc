@@ -2,7 +2,7 @@
 
 #include "campaign/answers/one_at_a_time.h"
 #include "campaign/answers/screening.h"
-#include "campaign/report/approximations.h"
+#include "campaign/query/approximations.h"
 
 namespace faultsweep {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "campaign/report/parameters.h"
+#include "campaign/query/parameters.h"
 #include "simulator/scene/tiers.h"
 
 namespace faultsweep {
@@ -64,7 +64,7 @@ struct NextValues {
 };
 
 std::vector<Neighbour> neighbours_of(const Why& why) {
-  const auto parameters = parameters_from_json(why.ranking.campaign.parameters);
+  const auto& parameters = why.ranking.campaign.parameters;
   const CaseParameters& own = why.row.parameters;
   std::vector<std::pair<std::size_t, const RankedCase*>> near;
   std::map<std::size_t, NextValues> next;
@@ -104,7 +104,7 @@ ParameterSpace space_of(const Why& why) {
   ParameterSpace space;
   const std::size_t n = why.ranking.rows.size();
   const double none = std::numeric_limits<double>::quiet_NaN();
-  for (const StoredParameter& one : parameters_from_json(why.ranking.campaign.parameters))
+  for (const StoredParameter& one : why.ranking.campaign.parameters)
     space.columns.push_back({one.name, std::vector<double>(n, none), one.is_text});
   std::vector<std::map<std::string, double>> words(space.columns.size());
   for (std::size_t r = 0; r < n; ++r) {

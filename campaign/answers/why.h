@@ -6,7 +6,7 @@
 
 #include "campaign/answers/local_slopes.h"
 #include "campaign/answers/sensitivity.h"
-#include "campaign/report/ranking_report.h"
+#include "campaign/query/ranking.h"
 
 /// Why a case stands where it does in a ranking: what happens first, what the parameters do to it
 /// near the case and over the campaign, and how sure its place is.

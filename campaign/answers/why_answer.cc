@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/answers/why.h"
+#include "campaign/query/parameters.h"
+#include "campaign/query/place_columns.h"
 #include "campaign/render/shown.h"
-#include "campaign/report/parameters.h"
-#include "campaign/report/place_columns.h"
 #include "campaign/spec/metrics.h"
 #include "simulator/common/errors.h"
 
@@ -151,7 +151,7 @@ const char* kind_of(int rank_class) {
 
 /// "Case 17 of sweep (offset = 100 m) has place 3 of 240 complete histories: chi_bar 0.83."
 std::string place_sentence(const Why& why) {
-  const auto parameters = parameters_from_json(why.ranking.campaign.parameters);
+  const auto& parameters = why.ranking.campaign.parameters;
   const std::vector<std::string> labels = labels_of(why.row.parameters, parameters);
   std::string settings;
   for (std::size_t k = 0; k < labels.size(); ++k) {
@@ -252,7 +252,7 @@ AnswerTable local_table(const Why& why) {
 AnswerTable nearest_table(const Why& why) {
   std::vector<const CaseParameters*> rows;
   for (const NearCase& one : why.nearest) rows.push_back(&one.row.parameters);
-  const ParameterColumns parameters(parameters_from_json(why.ranking.campaign.parameters), rows);
+  const ParameterColumns parameters(why.ranking.campaign.parameters, rows);
   AnswerTable table{
       "nearest",
       "The nearest cases, as none differs in one parameter alone:",
@@ -284,7 +284,7 @@ std::vector<Slope> sorted_slopes(const Why& why) {
 }
 
 AnswerTable slopes_table(const Why& why) {
-  const auto parameters = parameters_from_json(why.ranking.campaign.parameters);
+  const auto& parameters = why.ranking.campaign.parameters;
   AnswerTable table{
       "slopes",
       "What each parameter does near this case:",
@@ -347,7 +347,7 @@ std::string most_sentence(const Why& why) {
   if (why.plane.slopes.empty()) return "";
   constexpr double kSure = 2;  // standard errors
   const Slope most = sorted_slopes(why).front();
-  const std::string name = parameters_from_json(why.ranking.campaign.parameters)[most.column].name;
+  const std::string name = why.ranking.campaign.parameters[most.column].name;
   const double size = unit_of(why).size;
   const std::string unit = unit_of(why).name;
   if (std::abs(most.per_deviation) < kSure * most.error)
@@ -358,7 +358,7 @@ std::string most_sentence(const Why& why) {
 }
 
 nlohmann::ordered_json facts_of(const Why& why) {
-  const auto parameters = parameters_from_json(why.ranking.campaign.parameters);
+  const auto& parameters = why.ranking.campaign.parameters;
   nlohmann::ordered_json settings = nlohmann::ordered_json::object();
   for (const CaseParameter& one : why.row.parameters)
     settings[parameters.at(static_cast<std::size_t>(one.index)).name] = value_to_json(one);

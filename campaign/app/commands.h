@@ -12,10 +12,11 @@
 #include "campaign/answers/tiers.h"
 #include "campaign/figures/campaign_figures.h"
 #include "campaign/figures/report_page.h"
-#include "campaign/report/case_report.h"
-#include "campaign/report/compare.h"
-#include "campaign/report/export.h"
-#include "campaign/report/ranking_report.h"
+#include "campaign/nightly/night.h"
+#include "campaign/reports/case_report.h"
+#include "campaign/reports/compare.h"
+#include "campaign/reports/export.h"
+#include "campaign/reports/ranking_answer.h"
 #include "campaign/scheduler/ranks.h"
 #include "campaign/scheduler/slurm_script.h"
 #include "simulator/common/exit_code.h"
@@ -136,21 +137,10 @@ ExitCode cache_list_command(const StoreArguments& common);
 ExitCode cache_verify_command(const StoreArguments& common);
 /// @param size  "20 GB", "500 MB", "0".
 ExitCode cache_prune_command(const StoreArguments& common, const std::string& size);
-struct NightlyArguments {
-  std::string suite = "nightly.json";
-  std::filesystem::path baselines = "results/baselines";
-  std::filesystem::path store =
-      "faultsweep-nightly";  ///< of the nights, and of the last one's run.
-  std::optional<int> n_workers;
-  bool bless = false;
-  std::string reason;  ///< of bless.
-  bool json = false;
-};
-/// Runs a suite from scratch and compares it with its baseline (docs/nightly.md). Exit code 5 on
-/// any regress, and when nothing was compared.
-ExitCode nightly_command(const NightlyArguments& arguments);
+/// Runs a night (nightly/night.h). Exit code 5 on any regress, and when nothing was compared.
+ExitCode nightly_command(const NightRequest& request, bool json);
 /// Prints the nights in the store.
-ExitCode nightly_history_command(const NightlyArguments& arguments);
+ExitCode nightly_history_command(const std::filesystem::path& store, bool json);
 struct TradeoffArguments {
   std::string source;                 ///< a scene, or a campaign spec.
   std::vector<std::string> settings;  ///< "/json/pointer=value" of a scene.

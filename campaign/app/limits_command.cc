@@ -2,11 +2,11 @@
 #include <filesystem>
 #include <tuple>
 
+#include "campaign/answers/limit_table.h"
 #include "campaign/app/commands.h"
 #include "campaign/app/print_answer.h"
-#include "campaign/rounds/limit_table.h"
+#include "campaign/expansion/submission.h"
 #include "campaign/rounds/next_round.h"
-#include "campaign/rounds/submission.h"
 #include "campaign/scheduler/starter.h"
 
 namespace faultsweep {

@@ -8,7 +8,7 @@
 
 #include "campaign/app/commands.h"
 #include "campaign/app/print_answer.h"
-#include "campaign/report/text_table.h"
+#include "campaign/render/text_table.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/version.h"
 
@@ -132,7 +132,8 @@ struct Arguments {
   ExportRequest exporting;
   CompareArguments compare;
   RetryArguments retry;
-  NightlyArguments nightly;
+  NightRequest nightly;
+  bool nightly_json = false;
   TradeoffArguments tradeoff;
   bool nightly_history = false;
 };
@@ -585,7 +586,7 @@ void add_compare(CLI::App& app, Arguments& a, ExitCode& code) {
 void add_nightly(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* nightly = app.add_subcommand(
       "nightly", "run a suite from scratch and compare it with its baseline, bit for bit");
-  NightlyArguments& n = a.nightly;
+  NightRequest& n = a.nightly;
   nightly->add_option("suite", n.suite, "suite file (default nightly.json)");
   nightly->add_option("--baselines", n.baselines,
                       "folder of the baselines (default results/baselines)");
@@ -597,15 +598,17 @@ void add_nightly(CLI::App& app, Arguments& a, ExitCode& code) {
   reason->needs(bless);
   nightly->add_flag("--history", a.nightly_history, "only print the nights so far")
       ->excludes(bless);
-  nightly->add_flag("--json", n.json, "machine-readable output on stdout");
+  nightly->add_flag("--json", a.nightly_json, "machine-readable output on stdout");
   add_wide(nightly);
   nightly->footer(
       "Examples:\n"
       "  faultsweep nightly nightly.json\n"
       "  faultsweep nightly --bless --reason \"finer cells at the corners\"\n"
       "Exit codes: 0 no regress, 5 a regress, or nothing was compared.");
-  nightly->callback(
-      [&] { code = a.nightly_history ? nightly_history_command(n) : nightly_command(n); });
+  nightly->callback([&] {
+    code = a.nightly_history ? nightly_history_command(n.store, a.nightly_json)
+                             : nightly_command(n, a.nightly_json);
+  });
 }
 
 void add_tradeoff(CLI::App& app, Arguments& a, ExitCode& code) {

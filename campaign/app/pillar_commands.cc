@@ -11,7 +11,7 @@
 #include "campaign/app/commands.h"
 #include "campaign/pillars/fault_map.h"
 #include "campaign/pillars/pillar_campaign.h"
-#include "campaign/report/table_output.h"
+#include "campaign/query/table_output.h"
 #include "campaign/spec/pointers.h"
 #include "simulator/common/units.h"
 #include "simulator/files/output_target.h"

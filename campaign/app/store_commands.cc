@@ -3,13 +3,14 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "campaign/answers/what_matters.h"
 #include "campaign/answers/why.h"
 #include "campaign/app/commands.h"
 #include "campaign/app/print_answer.h"
-#include "campaign/report/case_report.h"
-#include "campaign/report/explain_report.h"
-#include "campaign/report/status_report.h"
-#include "campaign/report/text_table.h"
+#include "campaign/render/text_table.h"
+#include "campaign/reports/case_report.h"
+#include "campaign/reports/explain_report.h"
+#include "campaign/reports/status_report.h"
 #include "campaign/rounds/next_round.h"
 #include "campaign/scheduler/starter.h"
 #include "campaign/store/clock.h"

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/app/commands.h"
-#include "campaign/report/parameters.h"
-#include "campaign/report/text_table.h"
+#include "campaign/expansion/submission.h"
+#include "campaign/query/parameters.h"
+#include "campaign/render/text_table.h"
 #include "campaign/rounds/next_round.h"
-#include "campaign/rounds/submission.h"
 #include "campaign/scheduler/resources.h"
 #include "campaign/store/clock.h"
 #include "simulator/common/process_memory.h"
@@ -164,7 +164,7 @@ json report_to_json(const SubmitReport& report) {
           {"cached", report.n_cached},
           {"keep_fields", to_string(s.keep_fields)},
           {"for_fields_only", report.n_fields},
-          {"parameters", json::parse(s.parameters)},
+          {"parameters", json::parse(parameters_to_json(s.parameters))},
           {"families", families},
           {"predicted_operator_s", report.operator_seconds},
           {"notes", report.notes}};

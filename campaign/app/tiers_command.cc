@@ -2,7 +2,7 @@
 
 #include "campaign/app/commands.h"
 #include "campaign/app/print_answer.h"
-#include "campaign/rounds/submission.h"
+#include "campaign/expansion/submission.h"
 #include "campaign/scheduler/starter.h"
 
 namespace faultsweep {

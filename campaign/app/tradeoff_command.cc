@@ -2,16 +2,16 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "campaign/app/child_output.h"
 #include "campaign/app/commands.h"
-#include "campaign/report/text_table.h"
-#include "campaign/rounds/submission.h"
+#include "campaign/expansion/submission.h"
+#include "campaign/render/text_table.h"
 #include "campaign/scheduler/resources.h"
 #include "campaign/scheduler/starter.h"
 #include "campaign/store/clock.h"
 #include "campaign/tradeoff/sample.h"
 #include "campaign/tradeoff/stored_ladder.h"
 #include "campaign/tradeoff/trade_report.h"
+#include "simulator/common/child_output.h"
 #include "simulator/files/atomic_file.h"
 #include "simulator/files/json_text.h"
 #include "simulator/files/output_target.h"
@@ -91,7 +91,7 @@ void write_report(faultsim::ResultFolder& folder, const std::filesystem::path& o
   faultsim::write_text(folder.path() / "trade.json", faultsim::json_text(trade_to_json(report)));
   faultsim::write_text(folder.path() / "figures.gp", trade_figures(report));
   const char* draw = "cd \"$0\" && gnuplot figures.gp";
-  if (run_child({"/bin/sh", "-c", draw, folder.path().string()}).code != 0) {
+  if (faultsim::run_child({"/bin/sh", "-c", draw, folder.path().string()}).code != 0) {
     std::fprintf(stderr,
                  "faultsweep: no figures: gnuplot did not run; install gnuplot-nox, then "
                  "`gnuplot figures.gp` in %s\n",

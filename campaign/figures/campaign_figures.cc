@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "campaign/expansion/expansion.h"
-#include "campaign/report/parameters.h"
-#include "campaign/report/selection.h"
-#include "campaign/report/table_output.h"
+#include "campaign/query/parameters.h"
+#include "campaign/query/selection.h"
+#include "campaign/query/table_output.h"
 #include "simulator/common/errors.h"
 #include "simulator/figure/axis.h"
 #include "simulator/figure/bar_chart.h"
@@ -81,7 +81,7 @@ void for_each_outcome(const Store& store, const CampaignInfo& campaign, const Vi
 
 std::string draw_outcome_map(const Store& store, const CampaignInfo& campaign,
                              const MapRequest& request) {
-  const std::vector<StoredParameter> parameters = parameters_from_json(campaign.parameters);
+  const std::vector<StoredParameter>& parameters = campaign.parameters;
   ParameterAxis x = axis_of(parameters, "--x", request.x, request.y);
   ParameterAxis y = axis_of(parameters, "--y", request.y, x.parameter.name);
   figure::OutcomeMap map;

@@ -12,9 +12,9 @@
 #include "campaign/answers/probability.h"
 #include "campaign/answers/what_matters.h"
 #include "campaign/figures/campaign_figures.h"
+#include "campaign/query/parameters.h"
 #include "campaign/render/render_html.h"
-#include "campaign/report/parameters.h"
-#include "campaign/report/ranking_report.h"
+#include "campaign/reports/ranking_answer.h"
 #include "report_css.h"
 #include "report_js.h"
 #include "simulator/common/base64.h"
@@ -160,7 +160,7 @@ void add_case(Page& page, long position) {
   const StoredCase one = page.store.stored_case(page.campaign.id, std::to_string(position));
   const StoredPicture stored(page.store, page.campaign, one);
   const faultsim::CasePicture picture = stored.picture();
-  const auto parameters = parameters_from_json(page.campaign.parameters);
+  const auto& parameters = page.campaign.parameters;
   const std::vector<std::string> labels = labels_of(one.parameters, parameters);
   std::string settings;
   for (std::size_t p = 0; p < labels.size(); ++p) {

@@ -4,7 +4,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "campaign/report/text_table.h"
+#include "campaign/render/text_table.h"
 #include "campaign/store/clock.h"
 #include "simulator/common/errors.h"
 

@@ -3,7 +3,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "campaign/report/parameters.h"
+#include "campaign/query/parameters.h"
 #include "simulator/common/errors.h"
 
 namespace faultsweep {
@@ -14,8 +14,7 @@ namespace {
 
 std::string label_of(const StoredCase& stored, const CampaignInfo& campaign) {
   std::string text;
-  for (const std::string& one :
-       settings_of(stored.parameters, parameters_from_json(campaign.parameters))) {
+  for (const std::string& one : settings_of(stored.parameters, campaign.parameters)) {
     text += (text.empty() ? "" : ", ") + one;
   }
   return text;
@@ -91,7 +90,7 @@ StoredSample take_sample(const SampleRequest& request) {
   const Store store = Store::open_reader(request.store);
   const CampaignInfo campaign = store.campaign(request.campaign);
   const std::vector<RankedCase> ranking = store.ranking(campaign.id, {});
-  const std::size_t n_parameters = parameters_from_json(campaign.parameters).size();
+  const std::size_t n_parameters = campaign.parameters.size();
   std::vector<std::string> keys;
   for (const RankedCase& one : ranking) {
     std::vector<nlohmann::json> values(n_parameters);

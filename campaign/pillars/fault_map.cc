@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "campaign/report/selection.h"
-#include "campaign/report/table_output.h"
+#include "campaign/query/selection.h"
+#include "campaign/query/table_output.h"
 #include "simulator/common/input_file.h"
 #include "simulator/common/units.h"
 

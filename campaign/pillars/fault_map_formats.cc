@@ -4,7 +4,7 @@
 #include <map>
 
 #include "campaign/pillars/fault_map.h"
-#include "campaign/report/table_output.h"
+#include "campaign/query/table_output.h"
 #include "simulator/common/base64.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/printable.h"

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "campaign/report/table_output.h"
+#include "campaign/query/table_output.h"
 #include "campaign/spec/pointers.h"
 #include "simulator/common/units.h"
 #include "simulator/plan/field_check.h"

@@ -4,7 +4,7 @@
 #include <unordered_map>
 
 #include "campaign/expansion/expansion.h"
-#include "campaign/report/selection.h"
+#include "campaign/query/selection.h"
 
 namespace faultsweep {
 

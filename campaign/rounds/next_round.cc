@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "campaign/report/selection.h"
+#include "campaign/expansion/submission.h"
+#include "campaign/query/selection.h"
 #include "campaign/rounds/answers_of.h"
 #include "campaign/rounds/limit_searcher.h"
 #include "campaign/rounds/staged_sample.h"
-#include "campaign/rounds/submission.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsweep {

@@ -63,7 +63,7 @@ std::string expanded_hash(const Submission& submission) {
   for (const BaseScene& scene : submission.scenes) {
     text += faultsim::fingerprint(scene.source + '\n' + scene.document) + '\n';
   }
-  text += submission.parameters + '\n';
+  text += parameters_to_json(submission.parameters) + '\n';
   for (const CaseRecord& one : submission.cases) text += one.identity + '\n';
   return faultsim::fingerprint(text);
 }
@@ -135,7 +135,7 @@ CampaignInfo read_info(const Statement& row) {
   info.submitted_at = row.real(2);
   info.cancelled = row.text(3) == "cancelled";
   info.source = row.text(4);
-  info.parameters = row.text(5);
+  info.parameters = parameters_from_json(row.text(5));
   info.rank_by = row.text(6);
   info.n_excluded = row.integer(7);
   info.n_merged = row.integer(8);
@@ -311,9 +311,9 @@ SubmitOutcome Store::submit(const Submission& submission) {
         .bind(place.name, seconds_since_1970(), submission.source, submission.spec_given,
               faultsim::fingerprint(submission.spec_given), submission.spec_resolved,
               faultsim::fingerprint(submission.spec_resolved), expanded_hash(submission),
-              submission.parameters, submission.rank_by, submission.n_excluded, submission.n_merged,
-              to_string(submission.policy.on_failure), submission.policy.retries,
-              submission.policy.time_limit,
+              parameters_to_json(submission.parameters), submission.rank_by, submission.n_excluded,
+              submission.n_merged, to_string(submission.policy.on_failure),
+              submission.policy.retries, submission.policy.time_limit,
               submission.policy.memory_limit
                   ? std::optional(static_cast<std::int64_t>(*submission.policy.memory_limit))
                   : std::nullopt,
@@ -323,7 +323,7 @@ SubmitOutcome Store::submit(const Submission& submission) {
     db.prepared(
           "INSERT INTO campaign_parameters SELECT ?1, key, value ->> 'name', value ->> 'dimension'"
           " FROM json_each(?2)")
-        .bind(outcome.campaign, submission.parameters)
+        .bind(outcome.campaign, parameters_to_json(submission.parameters))
         .run();
     add_round(outcome.campaign, submission, "", "");
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "campaign/spec/spec.h"
+#include "campaign/store/parameters.h"
 #include "simulator/result/result.h"
 
 /// What goes into the store and comes out of it, as plain structs. SI; times of day in seconds
@@ -78,8 +79,8 @@ struct Submission {
   std::string source;         ///< file name.
   std::string spec_given;     ///< text as given.
   std::string spec_resolved;  ///< canonical text with all defaults.
-  std::string parameters;     ///< JSON array of {"name", "dimension"}.
-  std::string rank_by;        ///< expression over the metrics.
+  std::vector<StoredParameter> parameters;
+  std::string rank_by;  ///< expression over the metrics.
   long n_excluded = 0;
   long n_merged = 0;
   Policy policy;
@@ -129,7 +130,7 @@ struct CampaignInfo : CaseCounts {
   double submitted_at = 0;
   bool cancelled = false;
   std::string source;
-  std::string parameters;  ///< JSON array of {"name", "dimension"}.
+  std::vector<StoredParameter> parameters;
   std::string rank_by;
   long n_excluded = 0, n_merged = 0;
   Policy policy;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "campaign/report/kendall.h"
+#include "campaign/statistics/kendall.h"
 #include "campaign/tradeoff/sample.h"
 
 namespace faultsweep {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "campaign/report/text_table.h"
+#include "campaign/render/text_table.h"
 #include "simulator/common/errors.h"
 
 namespace faultsweep {

@@ -100,7 +100,7 @@ TEST_F(Tables, ThatWereEditedInAnOldStoreRefuseTheCase) {
   s.source = "spec.json";
   s.spec_given = "{}";
   s.spec_resolved = R"({"groups": [{"parameters": []}]})";
-  s.parameters = "[]";
+  s.parameters = {};
   s.rank_by = "activated_area";
   s.scenes = {{source, scene_.dump()}};
   s.families = {{faultsim::make_plan(scene, problems).family, 1000, 100, 1, 1e8}};

@@ -23,9 +23,9 @@ class AnswersTest : public ::testing::Test {
     s_.name = "sweep";
     s_.scenes = {{"scene.json", "{}"}};
     s_.families = {{"family-a", 1000, 100, 1, 1}};
-    s_.parameters = parameters_to_json({{"strength", faultsim::Dimension::number, false},
-                                        {"offset", faultsim::Dimension::length, false},
-                                        {"rule", faultsim::Dimension::number, true}});
+    s_.parameters = {{"strength", faultsim::Dimension::number, false},
+                     {"offset", faultsim::Dimension::length, false},
+                     {"rule", faultsim::Dimension::number, true}};
   }
   void TearDown() override {
     store_.reset();
@@ -86,8 +86,8 @@ class FrictionAndOffset : public AnswersTest {
  protected:
   void SetUp() override {
     AnswersTest::SetUp();
-    s_.parameters = parameters_to_json({{"friction", faultsim::Dimension::number, false},
-                                        {"offset", faultsim::Dimension::length, false}});
+    s_.parameters = {{"friction", faultsim::Dimension::number, false},
+                     {"offset", faultsim::Dimension::length, false}};
   }
   static CaseParameters both(double friction, double offset) {
     return {{0, friction, std::to_string(friction)}, {1, offset, std::to_string(offset) + " m"}};

@@ -15,7 +15,7 @@
 #include "campaign/render/render_json.h"
 #include "campaign/render/render_text.h"
 #include "campaign/render/shown.h"
-#include "tests/unit/report/renderings.h"
+#include "tests/unit/reports/renderings.h"
 
 /// What holds of the four renderings of any answer.
 namespace faultsweep::testing {

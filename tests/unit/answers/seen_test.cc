@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "campaign/report/parameters.h"
+#include "campaign/query/parameters.h"
 
 namespace faultsweep {
 namespace {
@@ -23,7 +23,7 @@ Selection two_faults() {
 
 CampaignInfo with_strength() {
   CampaignInfo campaign;
-  campaign.parameters = parameters_to_json({{"strength", faultsim::Dimension::number, false}});
+  campaign.parameters = {{"strength", faultsim::Dimension::number, false}};
   return campaign;
 }
 

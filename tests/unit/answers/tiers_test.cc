@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "campaign/report/parameters.h"
+#include "campaign/query/parameters.h"
 #include "tests/campaign/made_up_result.h"
 #include "tests/unit/answers/renderings.h"
 
@@ -36,7 +36,7 @@ class TiersTest : public ::testing::Test {
     s.name = name;
     s.scenes = {{"scene.json", "{}"}};
     s.families = {{"family-" + name, 1000, 100, 1, 1}};
-    s.parameters = parameters_to_json({{"strength", faultsim::Dimension::number, false}});
+    s.parameters = {{"strength", faultsim::Dimension::number, false}};
     s.spec_resolved =
         R"({"groups": [{"kind": "monte-carlo", "parameters": [{"name": "strength"}]}]})";
     for (std::size_t k = 0; k < n; ++k) {

@@ -52,9 +52,9 @@ class WhatMatters : public FrictionAndOffset {
   }
   /// Each case gets what follows from its offset.
   void add_throws() {
-    s_.parameters = parameters_to_json({{"friction", Dimension::number, false},
-                                        {"offset", Dimension::length, false},
-                                        {"throw", Dimension::length, false}});
+    s_.parameters = {{"friction", Dimension::number, false},
+                     {"offset", Dimension::length, false},
+                     {"throw", Dimension::length, false}};
     for (auto& one : s_.cases) {
       const double offset = one.parameters.at(1).si.value();
       one.parameters.push_back({2, 2 * offset, std::to_string(2 * offset) + " m"});

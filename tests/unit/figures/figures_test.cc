@@ -15,7 +15,7 @@
 #include "campaign/answers/sensitivity.h"
 #include "campaign/figures/campaign_figures.h"
 #include "campaign/figures/report_page.h"
-#include "campaign/report/parameters.h"
+#include "campaign/query/parameters.h"
 #include "simulator/common/base64.h"
 #include "simulator/figure/palette.h"
 #include "tests/campaign/made_up_result.h"
@@ -64,9 +64,9 @@ class FiguresTest : public ::testing::Test {
     s.spec_given = kNasty;
     s.scenes = {{kScene, text_of(kScene)}};
     s.families = {{"family-a", 1000, 100, 1, 1}};
-    s.parameters = parameters_to_json({{"strength", Dimension::number, false},
-                                       {"offset", Dimension::length, false},
-                                       {"rule", Dimension::number, true}});
+    s.parameters = {{"strength", Dimension::number, false},
+                    {"offset", Dimension::length, false},
+                    {"rule", Dimension::number, true}};
     for (int k = 0; k < n; ++k) {
       s.cases.push_back({"identity-" + std::to_string(k),
                          0,
@@ -253,9 +253,9 @@ TEST_F(FiguresTest, WordsBesideNumbersAreShownWhole) {
   s.name = "words";
   s.scenes = {{"scene.json", "{}"}};
   s.families = {{"family-a", 1000, 100, 1, 1}};
-  s.parameters = parameters_to_json({{"cut", Dimension::pressure, false},
-                                     {"steps", Dimension::number, true},
-                                     {"depth", Dimension::length, false}});
+  s.parameters = {{"cut", Dimension::pressure, false},
+                  {"steps", Dimension::number, true},
+                  {"depth", Dimension::length, false}};
   s.cases = {
       {"a",
        0,

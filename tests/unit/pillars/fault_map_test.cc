@@ -8,7 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "campaign/report/parameters.h"
+#include "campaign/query/parameters.h"
 #include "tests/campaign/made_up_result.h"
 
 namespace faultsweep {
@@ -26,7 +26,7 @@ class FaultMapOfResults : public ::testing::Test {
     s.name = "pillars";
     s.scenes = {{"scene.json", "{}"}};
     s.families = {{"family", 1000, 100, 1, 1}};
-    s.parameters = parameters_to_json({{"depth", faultsim::Dimension::length, false}});
+    s.parameters = {{"depth", faultsim::Dimension::length, false}};
     for (int k = 0; k < 3; ++k) {
       s.cases.push_back({"identity-" + std::to_string(k), 0, 0, "{}", {{0, 2000.0 + k, "2000 m"}}});
       s.design_rows.push_back({0, k + 1, k + 1});

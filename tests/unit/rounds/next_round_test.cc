@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "campaign/answers/limit_table.h"
+#include "campaign/expansion/submission.h"
 #include "campaign/rounds/answers_of.h"
-#include "campaign/rounds/limit_table.h"
 #include "campaign/rounds/staged_sample.h"
-#include "campaign/rounds/submission.h"
 #include "simulator/scene/initial_state.h"
 #include "simulator/scene/json_document.h"
 #include "simulator/scene/read_scene.h"

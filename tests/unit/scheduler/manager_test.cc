@@ -145,7 +145,7 @@ class ManagerTest : public ::testing::Test {
     Submission s;
     s.name = name;
     s.keep_fields = keep;
-    s.parameters = "[]";
+    s.parameters = {};
     s.policy = policy;
     s.scenes = {{"scene.json", "{\"title\": \"base\"}"}};
     s.families = {{"a", 1, 1, 2, 1}, {"b", 1, 1, 1, 1}, {"c", 1, 1, 1, 1}};
@@ -314,7 +314,7 @@ bool next_round_of_three(Store& store, const std::string& name, std::vector<long
     return false;
   }
   Submission s;
-  s.parameters = "[]";
+  s.parameters = {};
   s.scenes = {{"scene.json", "{\"title\": \"base\"}"}};
   s.families = {{"a", 1, 1, 2, 1}, {"d", 1, 1, 1, 1}};         // one is known, one is new
   for (int k = 3 * n_rounds - 1; k < 3 * n_rounds + 3; ++k) {  // the first is of the round before
@@ -351,7 +351,7 @@ TEST_F(ManagerTest, GoesOnRoundByRoundUntilThereIsNoFurtherOne) {
                   .submit([] {
                     Submission s;
                     s.name = "sweep";
-                    s.parameters = "[]";
+                    s.parameters = {};
                     s.scenes = {{"scene.json", "{\"title\": \"base\"}"}};
                     s.families = {{"a", 1, 1, 2, 1}};
                     for (int k = 0; k < 3; ++k)

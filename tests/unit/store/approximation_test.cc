@@ -48,7 +48,7 @@ class Approximation : public ::testing::Test {
     Store store = Store::open_owner(folder_);
     Submission s;
     s.name = "sweep";
-    s.parameters = "[]";
+    s.parameters = {};
     s.spec_given = s.spec_resolved = "{}";
     s.scenes = {{"scene.json", "{}"}};
     s.families = {{"family", 1, 1, 1, 1}};

@@ -37,7 +37,7 @@ class EventsTest : public ::testing::Test {
   std::int64_t submit(Store& store, int n) const {
     Submission s;
     s.name = "sweep";
-    s.parameters = "[]";
+    s.parameters = {};
     s.scenes = {{"scene.json", "{}"}};
     s.families = {{"family", 1, 1, 1, 1}};
     for (int k = 0; k < n; ++k) s.cases.push_back({"identity" + std::to_string(k), 0, 0, "{}", {}});

@@ -23,7 +23,7 @@ CaseResult stored(const CaseResult& result) {
     Store store = Store::open_owner(folder);
     Submission s;
     s.name = "sweep";
-    s.parameters = "[]";
+    s.parameters = {};
     s.scenes = {{"scene.json", "{}"}};
     s.families = {{"family", 1, 1, 1, 1}};
     s.cases = {{"identity", 0, 0, "{}", {}}};

@@ -1,0 +1,97 @@
+#include <algorithm>
+
+#include "campaign/answers/limit_words.h"
+#include "campaign/spec/pointers.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+using faultsim::counted;
+using faultsim::Dimension;
+
+namespace {
+
+/// "≥ 110 bar": of a band, in the unit of the first limit.
+AnswerCell band_cell(const LimitTable& table, const LimitRow& row) {
+  if (!row.width) return {};
+  return concat(row.is_open ? "≥ " : "", value_text(*row.width, table.limits.front()));
+}
+
+std::vector<AnswerColumn> screen_columns(const LimitTable& table) {
+  std::vector<AnswerColumn> columns = {{"rank", "rank", {}, 4, Need::always}};
+  for (const std::string& name : table.parameters)
+    columns.push_back({name, name, {}, 4, Need::always});
+  columns.push_back({"fault", "fault", {}, 4, Need::always});
+  columns.push_back({"band", "band"});
+  for (const LimitSearch& limit : table.limits) {
+    const std::string name = table.limits.size() > 1 ? limit.name + " " : "";
+    columns.push_back({"limit", name + "[safe, unsafe]", {}, 4, Need::always});
+    columns.push_back({"surely", name + "surely"});
+    columns.push_back({"datum", name + "safe at the datum", shown_unit(Dimension::pressure), 5});
+    columns.push_back({"cases", name + "cases"});
+    columns.push_back({"remark", name + "remark"});
+  }
+  return columns;
+}
+
+void add_limit(const LimitRow& row, std::size_t l, const LimitSearch& limit,
+               std::vector<AnswerCell>& cells) {
+  if (!row.cells[l]) {
+    cells.resize(cells.size() + 5);
+    return;
+  }
+  const LimitCell& cell = *row.cells[l];
+  const Crossing* c = cell.finding.limit();
+  cells.emplace_back(limit_text(cell, limit));
+  cells.emplace_back(sure_text(cell, limit));
+  cells.push_back(cell.datum ? AnswerCell(cell.datum->absolute) : AnswerCell());
+  cells.push_back(c != nullptr ? AnswerCell(concat(c->before.position, "|", c->after.position))
+                               : AnswerCell());
+  cells.emplace_back(remark_of(cell));
+}
+
+/// For a screen: a row per configuration and fault, the narrowest band first.
+AnswerTable screen_table(const LimitTable& table, long top) {
+  AnswerTable all{"limits", "", screen_columns(table)};
+  for (std::size_t k = 0; k < table.rows.size(); ++k) {
+    const LimitRow& row = table.rows[k];
+    std::vector<AnswerCell> cells = {row.width ? AnswerCell(k + 1) : AnswerCell()};
+    cells.insert(cells.end(), row.settings.begin(), row.settings.end());
+    cells.insert(cells.end(), {row.fault, band_cell(table, row)});
+    for (std::size_t l = 0; l < table.limits.size(); ++l) add_limit(row, l, table.limits[l], cells);
+    all.rows.push_back(std::move(cells));
+  }
+  all.most_on_screen = static_cast<std::size_t>(top);
+  all.in_files = false;
+  return all;
+}
+
+bool all_resolved(const LimitTable& table) {
+  return std::all_of(table.rows.begin(), table.rows.end(), [](const LimitRow& row) {
+    return std::all_of(row.cells.begin(), row.cells.end(),
+                       [](const auto& cell) { return !cell || is_resolved(*cell); });
+  });
+}
+
+}  // namespace
+
+Answer to_answer(const LimitTable& table, long top) {
+  Answer answer = limits_for_files(table);
+  answer.add(screen_table(table, top));
+  for (const LimitSearch& limit : table.limits) answer.note(question_text(limit));
+  answer.note(concat(counted(table.rows.size(), "row", "rows"),
+                     ", narrowest band first. [safe, unsafe]: the last value that is safe and the "
+                     "first that is not, both computed, as the cases given (faultsweep show); "
+                     "between values tried that are alike nothing was."));
+  if (!all_resolved(table)) {
+    answer.note(
+        "The cells do not resolve everywhere whether it happens: [safe, unsafe] is what came out "
+        "on "
+        "these cells; `surely` are the surely safe and the surely unsafe value, and what lies "
+        "between them is undecided. They stand at values that were tried; smaller cells bring them "
+        "together.");
+  }
+  return answer;
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <map>
+
+#include "campaign/answers/limit_words.h"
+#include "campaign/spec/pointers.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+using faultsim::InputError;
+
+namespace {
+
+std::size_t place_of(const LimitTable& table, const std::string& name) {
+  const auto found = std::find(table.parameters.begin(), table.parameters.end(), name);
+  if (found != table.parameters.end())
+    return static_cast<std::size_t>(found - table.parameters.begin());
+  std::string known;
+  for (const std::string& one : table.parameters) known += (known.empty() ? "" : ", ") + one;
+  throw InputError("--map", {{"", 0, concat("there is no parameter '", name, "' in the design"),
+                              concat("there are ", known)}});
+}
+
+/// "[-71, -70]", without its unit; "all safe", "all unsafe".
+std::string cell_text(const LimitCell& cell) {
+  const LimitFinding& f = cell.finding;
+  std::string text;
+  if (const Crossing* crossing = f.limit()) {
+    text = concat("[", shortest_text(crossing->before.value), ", ",
+                  shortest_text(crossing->after.value), "]");
+  } else if (f.verdict == LimitVerdict::safe_throughout) {
+    text = "all safe";
+  } else {
+    text = f.verdict == LimitVerdict::unsafe_throughout ? "all unsafe" : to_string(f.verdict);
+  }
+  if (f.limit() != nullptr && f.verdict == LimitVerdict::non_monotone) text += " *";
+  return text + (f.verdict == LimitVerdict::unknown || is_resolved(cell) ? "" : " ?");
+}
+
+/// Values of a parameter in the order of the configurations.
+std::vector<std::string> values_of(const std::vector<const LimitRow*>& rows, std::size_t place) {
+  std::vector<std::string> values;
+  for (const LimitRow* row : rows) {
+    const std::string& value = row->settings[place];
+    if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+  }
+  return values;
+}
+
+/// A limit of a fault over two parameters.
+struct LimitMap {
+  std::size_t limit = 0;
+  std::string fault;
+  std::map<std::pair<std::string, std::string>, std::string> cells;  ///< by values: down, across.
+};
+
+std::vector<LimitMap> maps_of(const LimitTable& table, const std::vector<const LimitRow*>& rows,
+                              std::size_t across, std::size_t down) {
+  std::map<std::pair<std::size_t, std::string>, LimitMap> maps;
+  for (const LimitRow* row : rows) {
+    for (std::size_t l = 0; l < table.limits.size(); ++l) {
+      if (!row->cells[l]) continue;
+      LimitMap& map = maps[{l, row->fault}];
+      map.limit = l;
+      map.fault = row->fault;
+      const std::pair at(row->settings[down], row->settings[across]);
+      if (!map.cells.emplace(at, cell_text(*row->cells[l])).second) {
+        throw InputError("--map", {{"", 0, "the design varies more than these two parameters",
+                                    "use --csv, or a design with two"}});
+      }
+    }
+  }
+  std::vector<LimitMap> all;
+  for (auto& [key, map] : maps) all.push_back(std::move(map));
+  return all;
+}
+
+}  // namespace
+
+Answer map_answer(const LimitTable& table, const std::string& across, const std::string& down) {
+  const std::size_t a = place_of(table, across), d = place_of(table, down);
+  std::vector<const LimitRow*> rows;
+  for (const LimitRow& row : table.rows) rows.push_back(&row);
+  std::stable_sort(rows.begin(), rows.end(), [](const LimitRow* one, const LimitRow* other) {
+    return one->configuration < other->configuration;
+  });
+  const std::vector<std::string> columns = values_of(rows, a), lines = values_of(rows, d);
+  Answer answer = limits_for_files(table);
+  for (const LimitMap& map : maps_of(table, rows, a, d)) {
+    const LimitSearch& limit = table.limits[map.limit];
+    AnswerTable shown{
+        "map",
+        concat(limit.name, " of ", map.fault, ", [safe, unsafe]", limit.unit.empty() ? "" : " in ",
+               limit.unit, "; down: ", down, ", across: ", across),
+        {{down, down, {}, 4, Need::always}}};
+    for (const std::string& one : columns) shown.columns.push_back({one, one, {}, 4, Need::always});
+    for (const std::string& line : lines) {
+      std::vector<AnswerCell> cells = {line};
+      for (const std::string& column : columns) {
+        const auto found = map.cells.find({line, column});
+        cells.push_back(found == map.cells.end() ? AnswerCell() : AnswerCell(found->second));
+      }
+      shown.rows.push_back(std::move(cells));
+    }
+    shown.notes.push_back(concat("all safe: safe in the whole range tried (", range_text(limit),
+                                 "); all unsafe: unsafe already at ",
+                                 value_text(limit.scan.front(), limit),
+                                 "; *: safe again behind the limit; ?: the cells do not resolve it "
+                                 "there."));
+    shown.in_files = false;
+    answer.add(std::move(shown));
+  }
+  for (const LimitSearch& limit : table.limits) answer.note(question_text(limit));
+  return answer;
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,37 @@
+#include "campaign/query/approximations.h"
+
+#include "campaign/render/shown.h"
+#include "simulator/common/errors.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+
+namespace {
+
+/// "All 300 results", "12 of 300 results".
+std::string so_many(long n, long all) {
+  return n == all ? concat("All ", all, " results") : concat(n, " of ", all, " results");
+}
+
+}  // namespace
+
+std::string approximation_note(const Store::Approximations& found) {
+  std::string text;
+  if (found.n_interpolated > 0) {
+    text = concat(so_many(found.n_interpolated, found.n_results),
+                  " have an interpolated operator, off by at most ",
+                  format_number(found.error_of_stiffness, 2), " in H and ",
+                  format_number(found.error_of_slip, 2),
+                  " in slip without friction, relative, where it was measured",
+                  found.n_interpolated < found.n_results ? "; the others have exact ones." : ".");
+  }
+  if (found.n_covered_in_part > 0) {
+    text += concat(text.empty() ? "" : " ", so_many(found.n_covered_in_part, found.n_results),
+                   " take a flow result that does not cover the compartments, ",
+                   format_number(100 * found.least_coverage, 3), " % of them at least.");
+  }
+  return text;
+}
+
+}  // namespace faultsweep

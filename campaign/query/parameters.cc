@@ -1,0 +1,104 @@
+#include "campaign/query/parameters.h"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "simulator/common/errors.h"
+
+namespace faultsweep {
+
+using nlohmann::json;
+
+namespace {
+
+const StoredParameter& of(const CaseParameter& value,
+                          const std::vector<StoredParameter>& parameters) {
+  const auto index = static_cast<std::size_t>(value.index);
+  if (index < parameters.size()) return parameters[index];
+  throw faultsim::StorageError(faultsim::concat("a case of the store has a parameter number ",
+                                                value.index, ", which its campaign has not"));
+}
+
+}  // namespace
+
+std::vector<std::string> labels_of(const CaseParameters& values,
+                                   const std::vector<StoredParameter>& parameters) {
+  std::vector<std::string> labels(parameters.size());
+  for (const CaseParameter& one : values)
+    labels[&of(one, parameters) - parameters.data()] = one.text;
+  return labels;
+}
+
+std::vector<std::string> settings_of(const CaseParameters& values,
+                                     const std::vector<StoredParameter>& parameters) {
+  std::vector<std::string> settings;
+  for (const CaseParameter& one : values) {
+    if (!one.text.empty()) settings.push_back(of(one, parameters).name + " = " + one.text);
+  }
+  return settings;
+}
+
+namespace {
+
+/// The unit in which all rows give the parameter, "" for plain numbers; none where they differ or
+/// one of them is words.
+std::optional<std::string> common_unit(const std::vector<const CaseParameters*>& rows, int index) {
+  std::optional<std::string> unit;
+  for (const CaseParameters* row : rows) {
+    for (const CaseParameter& one : *row) {
+      if (one.index != index) continue;
+      if (!one.si) return std::nullopt;
+      const std::size_t blank = one.text.find(' ');
+      const std::string own = blank == std::string::npos ? "" : one.text.substr(blank + 1);
+      if (unit.value_or(own) != own) return std::nullopt;
+      unit = own;
+    }
+  }
+  return unit;
+}
+
+}  // namespace
+
+ParameterColumns::ParameterColumns(const std::vector<StoredParameter>& parameters,
+                                   const std::vector<const CaseParameters*>& rows) {
+  constexpr int kDigits = 6;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const StoredParameter& one = parameters[k];
+    const auto unit = one.is_text ? std::nullopt : common_unit(rows, static_cast<int>(k));
+    AnswerColumn column{one.name, one.name, {}, kDigits, Need::always, "parameters"};
+    if (unit && !unit->empty())
+      column.unit = {*unit, 1 / faultsim::from_si(1, one.dimension, *unit),
+                     faultsim::si_unit(one.dimension)};
+    columns_.push_back(std::move(column));
+    as_text_.push_back(unit ? 0 : 1);
+  }
+}
+
+void ParameterColumns::add_cells(const CaseParameters& values, std::vector<AnswerCell>& row) const {
+  const std::size_t first = row.size();
+  row.resize(first + columns_.size());
+  for (const CaseParameter& one : values) {
+    const auto k = static_cast<std::size_t>(one.index);
+    if (k >= columns_.size()) continue;
+    row[first + k] = as_text_[k] != 0 ? AnswerCell(one.text) : AnswerCell(one.si.value());
+  }
+}
+
+nlohmann::json value_to_json(const CaseParameter& value) {
+  return value.si ? json(*value.si) : json(value.text);
+}
+
+nlohmann::json values_to_json(const CaseParameters& values,
+                              const std::vector<StoredParameter>& parameters) {
+  json named = json::object();
+  for (const CaseParameter& one : values) {
+    const StoredParameter& parameter = of(one, parameters);
+    named[parameter.name] = {
+        {"value", value_to_json(one)},
+        {"unit", parameter.is_text ? "" : faultsim::si_unit(parameter.dimension)},
+        {"text", one.text}};
+  }
+  return named;
+}
+
+}  // namespace faultsweep

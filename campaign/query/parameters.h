@@ -1,0 +1,40 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "campaign/render/answer.h"
+#include "campaign/store/records.h"
+
+namespace faultsweep {
+
+/// The texts of a case's parameters, one for each of the campaign's; "" where it has none.
+std::vector<std::string> labels_of(const CaseParameters& values,
+                                   const std::vector<StoredParameter>& parameters);
+/// "offset = 100 m" of each parameter that the case has.
+std::vector<std::string> settings_of(const CaseParameters& values,
+                                     const std::vector<StoredParameter>& parameters);
+/// The parameters of a campaign as columns of an answer, under "parameters" in JSON: numbers in the
+/// unit in which all rows give them, the text as given where their units differ or they are words.
+class ParameterColumns {
+ public:
+  /// @param rows  of all cases that the table will have.
+  ParameterColumns(const std::vector<StoredParameter>& parameters,
+                   const std::vector<const CaseParameters*>& rows);
+  const std::vector<AnswerColumn>& columns() const { return columns_; }
+  /// One for each column, behind the cells that the row has.
+  void add_cells(const CaseParameters& values, std::vector<AnswerCell>& row) const;
+
+ private:
+  std::vector<AnswerColumn> columns_;
+  std::vector<char> as_text_;
+};
+
+/// SI, or words.
+nlohmann::json value_to_json(const CaseParameter& value);
+/// {"offset": {"value": 100, "unit": "m", "text": "100 m"}, ...}
+nlohmann::json values_to_json(const CaseParameters& values,
+                              const std::vector<StoredParameter>& parameters);
+
+}  // namespace faultsweep

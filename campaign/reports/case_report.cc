@@ -1,0 +1,276 @@
+#include "campaign/reports/case_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "campaign/expansion/expansion.h"
+#include "campaign/query/parameters.h"
+#include "campaign/query/selection.h"
+#include "campaign/render/shown.h"
+#include "campaign/reports/case_tables.h"
+#include "simulator/common/errors.h"
+#include "simulator/common/printable.h"
+#include "simulator/result/approximation.h"
+#include "simulator/result/result_json.h"
+#include "simulator/scene/read_scene.h"
+
+namespace faultsweep {
+
+using faultsim::CaseResult;
+using faultsim::concat;
+using faultsim::StageMetrics;
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr double kBar = 1e5;  // Pa
+
+/// The most that creep did to any fault, in one line; "" where nothing creeps.
+std::string creep_text(const CaseResult& result) {
+  faultsim::FaultCreep most;
+  int n_time_steps = 0, n_unresolved = 0;
+  double time_error = 0;
+  bool creeps = false;
+  for (const faultsim::StepResult& step : result.steps) {
+    if (!step.creep) continue;
+    creeps = true;
+    n_time_steps += step.creep->time_steps;
+    n_unresolved += step.creep->time_resolved ? 0 : 1;
+    time_error = std::max(time_error, step.creep->time_error);
+    for (const faultsim::FaultCreep& c : step.creep->faults) {
+      most.normal_min = std::min(most.normal_min, c.normal_min);
+      most.normal_max = std::max(most.normal_max, c.normal_max);
+      most.shear_max = std::max(most.shear_max, c.shear_max);
+    }
+  }
+  if (!creeps) return "";
+  std::string text = concat(
+      "salt creeps: it changed fault tractions by ", format_number(most.normal_min / kBar, 3),
+      " bar (compression) to ", format_number(most.normal_max / kBar, 3),
+      " bar (tension) normal and at most ", format_number(most.shear_max / kBar, 3),
+      " bar in shear; ", n_time_steps, " time steps, halving them changes at most ",
+      format_number(time_error / kBar, 2), " bar");
+  if (n_unresolved > 0) {
+    text += concat("; time steps of ", n_unresolved,
+                   " load steps are coarser than creep_tolerance asks");
+  }
+  return text;
+}
+
+/// The evidence of an unexpected reactivation; "" = none.
+std::string unexpected_text(const CaseResult& result) {
+  if (!result.unexpected) return "";
+  const std::size_t n = result.episodes.size();
+  const auto again = static_cast<std::size_t>(result.unexpected->episode - 1);
+  const auto before = static_cast<std::size_t>(result.unexpected->after - 1);
+  if (again >= n || before >= n) return "UNEXPECTED REACTIVATION.";
+  const auto when = [&](std::size_t k) {
+    const faultsim::Episode& e = result.episodes[k];
+    return concat(e.stage, ", steps ", e.first_step, "-", e.last_step, " (episode ", k + 1, ")");
+  };
+  return concat("UNEXPECTED REACTIVATION: fault ", result.episodes[again].fault,
+                " slides again in ", when(again), " after its pressure has recovered, having slid",
+                " in ", when(before), ".");
+}
+
+void check_request(const CaseResult& result, const ShowRequest& request) {
+  if (!request.fault.empty()) require_name("--fault", "fault", request.fault, result.fault_names);
+  if (request.stage.empty()) return;
+  std::vector<std::string> stages;
+  for (const StageMetrics& stage : result.stages) stages.push_back(stage.stage);
+  require_name("--stage", "stage", request.stage, stages);
+}
+
+ordered_json fields_json(const CampaignInfo& campaign, const StoredCase& one) {
+  if (one.fields == FieldsState::none) return nullptr;
+  const bool gone = one.fields == FieldsState::kept && !fields_are_there(one);
+  return {{"steps", to_string(campaign.keep_fields)},
+          {"state", gone ? "gone" : to_string(one.fields)},
+          {"folder", one.fields_folder.string()}};
+}
+
+/// Which case, and what became of it.
+std::string outcome_sentence(const ShownCase& shown) {
+  const StoredCase& one = shown.stored;
+  std::string text = concat("Case ", one.position, " of ", shown.campaign.name);
+  if (one.has_result) {
+    const CaseResult& result = one.result;
+    return concat(text, ": ", faultsim::to_string(result.outcome),
+                  result.reason.empty() ? "" : ", " + result.reason, "; ", result.steps.size(),
+                  " load steps, ", result.counts.newton_iterations, " Newton iterations.");
+  }
+  text += concat(", ", one.state, ", has no result");
+  if (!one.runs.empty()) {
+    const StoredRun& last = one.runs.back();
+    text += concat(": ", last.status, last.reason.empty() ? "" : ": " + last.reason);
+  }
+  return text + ".";
+}
+
+/// What slides, and how far; what comes nearest where nothing does.
+std::string sliding_sentence(const CaseResult& result) {
+  const StageMetrics& whole = result.whole;
+  std::string text;
+  for (const faultsim::FaultStageMetrics& fault : whole.faults) {
+    if (!fault.activated) continue;
+    text += concat(text.empty() ? "" : "; ", fault.fault, " slides");
+    if (fault.activation) {
+      text += concat(" from step ", fault.activation->step, " on, first at ",
+                     format_number(fault.activation->depth), " m depth");
+    }
+    text += concat(", slip ", format_number(fault.max_slip, 3), " m");
+  }
+  if (!text.empty()) return text + ".";
+  if (whole.activated)
+    return concat("Slip of ", format_number(whole.max_slip, 3), " m: it slides.");
+  text = concat("Nothing slides: χ̄ comes to ", format_number(whole.chi_bar, 3));
+  if (std::isfinite(result.pressure_margin)) {
+    text += concat(", and would be 1 after ", format_number(result.pressure_margin / kBar),
+                   " bar more depletion, extrapolated");
+  }
+  return text + ".";
+}
+
+/// What is not to be taken for certain.
+std::vector<std::string> unresolved_sentences(const CaseResult& result) {
+  std::vector<std::string> sentences;
+  if (result.outcome == faultsim::Outcome::unresolved_event) {
+    sentences.emplace_back(result.weakening_resolved
+                               ? "UNRESOLVED: the evidence of a slip event does not hold."
+                               : "UNRESOLVED: the size of its slip events depends on the mesh.");
+  }
+  if (!result.whole.activation_resolved)
+    sentences.emplace_back("UNRESOLVED: whether a fault slides depends on the mesh.");
+  return sentences;
+}
+
+/// Why M0 of the stages does not add up to that of the whole; "" where it does.
+std::string moment_note(const CaseResult& result) {
+  double sum = 0;
+  for (const StageMetrics& stage : result.stages) sum += stage.moment;
+  const double whole = result.whole.moment;
+  constexpr double kSeen = 5e-4;  // of either: less is not seen in three digits
+  if (std::abs(sum - whole) <= kSeen * std::max(sum, whole)) return "";
+  return concat("M0 of a stage is summed over its steps, ", format_number(sum, 3),
+                " N m of all stages, that of the whole history is by the slip at its end, ",
+                format_number(whole, 3), " N m: slip that turns back counts in the first only.");
+}
+
+/// The last words of the simulator in runs that failed.
+std::string last_words(const StoredCase& one) {
+  std::string text;
+  for (const StoredRun& run : one.runs) {
+    if (run.log_tail.empty()) continue;
+    text += concat(text.empty() ? "" : "\n", "last words of the simulator in attempt ", run.attempt,
+                   ":");
+    std::string line = "\n    | ";
+    for (const char letter : faultsim::printable(run.log_tail, faultsim::Keep::line_ends)) {
+      if (letter != '\n') {
+        line += letter;
+        continue;
+      }
+      text += line;
+      line = "\n    | ";
+    }
+    if (line != "\n    | ") text += line;
+  }
+  return text;
+}
+
+ordered_json facts_of(const ShownCase& shown) {
+  const StoredCase& one = shown.stored;
+  const auto& parameters = shown.campaign.parameters;
+  ordered_json settings = ordered_json::object();
+  for (const CaseParameter& value : one.parameters)
+    settings[parameters.at(static_cast<std::size_t>(value.index)).name] = value_to_json(value);
+  return {{"campaign", shown.campaign.name},
+          {"case", one.position},
+          {"identity", one.identity},
+          {"family", one.family},
+          {"state", one.state},
+          {"parameters", std::move(settings)},
+          {"changes", json::parse(one.changes, nullptr, false)},
+          {"fields", fields_json(shown.campaign, one)},
+          {"result", one.has_result ? faultsim::result_to_json(one.result) : json()}};
+}
+
+}  // namespace
+
+bool fields_are_there(const StoredCase& stored) {
+  std::error_code error;  // what cannot be looked at is not there
+  return std::filesystem::exists(stored.fields_folder / "faults.h5", error) &&
+         std::filesystem::exists(stored.fields_folder / "faults.xmf", error);
+}
+
+std::string fields_sentence(const CampaignInfo& campaign, const StoredCase& stored) {
+  switch (stored.fields) {
+    case FieldsState::none:
+      return "";
+    case FieldsState::wanted:
+      return concat("fault fields: not yet; `faultsweep run ", campaign.name, "` writes them");
+    case FieldsState::failed:
+      return concat("fault fields: not written, see the last attempt; `faultsweep retry ",
+                    campaign.name, " --case ", stored.position, "` lets them be tried again");
+    case FieldsState::kept:
+      break;
+  }
+  if (!fields_are_there(stored)) {
+    return concat("fault fields: gone from ", stored.fields_folder.string(), "; `faultsweep run ",
+                  campaign.name, "` writes them again");
+  }
+  return concat("fault fields (",
+                campaign.keep_fields == KeepFields::all ? "all load steps"
+                                                        : "initial state and ends of stages",
+                "): ", (stored.fields_folder / "faults.xmf").string(), " for ParaView, faults.h5");
+}
+
+ShownCase shown_case(const Store& store, const CampaignInfo& campaign, const StoredCase& stored,
+                     const ShowRequest& request) {
+  const BaseScene base = store.base_scene(stored.scene);
+  ShownCase shown{campaign, stored, request,
+                  region_pressures(has_flow_field(base.document + stored.changes),
+                                   stored.result.numerics_version)};
+  std::vector<faultsim::Problem> problems;
+  const faultsim::Scene scene = faultsim::read_scene(
+      {base.source, scene_from_changes(base.document, stored.changes), {}}, problems);
+  if (problems.empty()) shown.initial = faultsim::initial_regions(scene);
+  return shown;
+}
+
+Answer to_answer(const ShownCase& shown) {
+  const StoredCase& one = shown.stored;
+  const CaseResult& result = one.result;
+  Answer answer{{outcome_sentence(shown)}};
+  if (one.has_result) {
+    check_request(result, shown.request);
+    answer.headline.push_back(sliding_sentence(result));
+    const std::string again = unexpected_text(result);
+    if (!again.empty()) answer.headline.push_back(again);
+    for (std::string& text : unresolved_sentences(result))
+      answer.headline.push_back(std::move(text));
+  }
+  answer.facts = facts_of(shown);
+  answer.note(concat("identity ", one.identity, ", family ", one.family));
+  for (const std::string& note : {fields_sentence(shown.campaign, one), last_words(one)})
+    answer.note_if(note);
+  answer.add(settings_table(shown));
+  answer.add(runs_table(one));
+  if (one.has_result) {
+    answer.note_if(faultsim::approximation_sentence(result));
+    for (const std::string& warning : result.warnings) answer.note("warning: " + warning);
+    answer.note_if(creep_text(result));
+    AnswerTable& stages = answer.add(stages_table(shown));
+    const std::string moments = moment_note(result);
+    if (!moments.empty()) stages.notes.push_back(moments);
+    for (AnswerTable table :
+         {faults_table(shown), events_table(shown), episodes_table(shown), histories_table(shown)})
+      answer.add(std::move(table));
+  }
+  answer.add(initial_table(shown.initial));
+  return answer;
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,343 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "campaign/query/parameters.h"
+#include "campaign/render/shown.h"
+#include "campaign/reports/measure_columns.h"
+#include "campaign/reports/ranking_answer.h"
+#include "campaign/spec/metrics.h"
+#include "simulator/common/errors.h"
+
+namespace faultsweep {
+
+using faultsim::concat;
+using nlohmann::json;
+
+namespace {
+
+/// A row of the ranking, and what its cells are made of.
+struct Row {
+  const RankedCase& row;
+  faultsim::StageMetrics metrics;    ///< of the case or of the fault asked for.
+  std::vector<AnswerCell> measures;  ///< in the order of measure_columns.
+  std::string place;                 ///< "3", "+1", "*".
+};
+
+/// Where its rank stands. Cases that the cells do not resolve compete among themselves, cases
+/// without a full history not at all.
+class PlaceNames {
+ public:
+  std::string next(int rank_class) {
+    if (rank_class == 0) return std::to_string(++complete_);
+    return rank_class == 1 ? concat("+", ++unresolved_) : "*";
+  }
+
+ private:
+  int complete_ = 0, unresolved_ = 0;
+};
+
+/// A ranking of one fault says nothing of what another one does.
+bool is_unexpected(const RankedCase& row) {
+  return !row.unexpected_fault.empty() &&
+         (!row.fault_metrics || row.fault_metrics->fault == row.unexpected_fault);
+}
+
+AnswerCell rank_cell(const Row& one) {
+  if (one.row.rank_class != 0) return AnswerCell({}, NAN, one.place);
+  return std::stol(one.place);
+}
+
+AnswerCell outcome_cell(const Row& one) {
+  const RankedCase& row = one.row;
+  std::string why;
+  if (!row.weakening_resolved) {
+    why = "mesh too coarse for its weakening";
+  } else if (row.outcome == to_string(faultsim::Outcome::unresolved_event)) {
+    why = "evidence of an event does not hold";
+  }
+  return {row.outcome, NAN, why};
+}
+
+AnswerCell unexpected_cell(const Row& one) {
+  const bool is = is_unexpected(one.row);
+  return {is, NAN, is ? one.row.unexpected_fault : ""};
+}
+
+AnswerCell words_or_nothing(const std::string& words) {
+  return words.empty() ? AnswerCell() : AnswerCell(words);
+}
+
+/// A column and how its cell comes about.
+struct RankingColumn {
+  AnswerColumn column;
+  std::function<AnswerCell(const Row&)> cell;
+};
+
+/// The columns of measures, those per metre of strike and in total apart where there are both.
+class MeasureColumns {
+ public:
+  explicit MeasureColumns(const Ranking& ranking) : ranking_(ranking) {
+    columns_ = measure_columns(ranking.kinds.plane_strain && !ranking.kinds.total);
+    if (ranking.kinds.mixed()) per_metre_ = measure_columns(true);
+    if (!ranking.by_default) asked_for_ = measure_called(ranking.request.by);
+  }
+  /// What is ranked by is one of the measures.
+  bool has_score() const { return asked_for_.has_value(); }
+
+  void add(std::string_view name, std::vector<RankingColumn>& columns) const {
+    add(measure_called(name).value(), columns);
+  }
+  /// Those that are not there yet.
+  void add_others(std::vector<RankingColumn>& columns) const {
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      const auto same = [&](const RankingColumn& one) { return one.column.key == columns_[k].key; };
+      if (std::none_of(columns.begin(), columns.end(), same)) add(k, columns);
+    }
+  }
+
+ private:
+  void add(std::size_t k, std::vector<RankingColumn>& columns) const {
+    const bool apart = !per_metre_.empty() && per_metre_[k].key != columns_[k].key;
+    columns.push_back({needed(k, columns_[k]), [this, k, apart](const Row& one) {
+                         return apart && one.row.plane_strain ? AnswerCell() : cell(k, one);
+                       }});
+    if (!apart) return;
+    columns.push_back({needed(k, per_metre_[k]), [this, k](const Row& one) {
+                         return one.row.plane_strain ? cell(k, one) : AnswerCell();
+                       }});
+  }
+  /// What is ranked by is never left out.
+  AnswerColumn needed(std::size_t k, AnswerColumn column) const {
+    if (asked_for_ == k) column.need = Need::always;
+    return column;
+  }
+  AnswerCell cell(std::size_t k, const Row& one) const {
+    AnswerCell found = one.measures[k];
+    if (columns_[k].key == "slides" && one.metrics.slips && !one.metrics.activated)
+      found.note = "slips";
+    for (const ErrorBar& bar : ranking_.error_bars)
+      if (measure_called(bar.metric) == k) found.error = bar.rms;
+    return found;
+  }
+
+  const Ranking& ranking_;
+  std::vector<AnswerColumn> columns_, per_metre_;
+  std::optional<std::size_t> asked_for_;
+};
+
+/// In the order in which a screen that becomes narrower leaves them out, the last first.
+std::vector<RankingColumn> columns_of(const Ranking& ranking, const MeasureColumns& measures) {
+  const Need always = Need::always, wanted = Need::wanted, data = Need::data;
+  std::vector<RankingColumn> columns;
+  measures.add("slides", columns);
+  columns.push_back({{"resolved", "resolved", {}, 4, always},
+                     [](const Row& one) -> AnswerCell { return is_resolved(one.row); }});
+  measures.add("chi_bar", columns);
+  measures.add("max_slip", columns);
+  if (!ranking.by_default) {
+    const std::string& by = ranking.request.by;
+    const Need need = measures.has_score() ? data : always;
+    columns.push_back({{"score", by, ranking.by_unit, 4, need},
+                       [](const Row& one) { return optional_cell(one.row.score); }});
+  }
+  columns.push_back({{"activated_fault", "fault", {}, 4, wanted},
+                     [](const Row& one) { return words_or_nothing(one.metrics.activated_fault); }});
+  columns.push_back({{"activation_step", "from step", {}, 4, wanted},
+                     [](const Row& one) { return optional_cell(one.metrics.activation_step); }});
+  columns.push_back({{"outcome", "outcome", {}, 4, wanted}, outcome_cell});
+  measures.add("activated_area", columns);
+  measures.add("moment", columns);
+  columns.push_back({{"unexpected", "unexpected", {}, 4, wanted}, unexpected_cell});
+  measures.add("n_events", columns);
+  columns.push_back(
+      {{"pressure_margin_pa", "margin", shown_unit(faultsim::Dimension::pressure), 3, wanted},
+       [](const Row& one) { return optional_cell(one.row.pressure_margin); }});
+  measures.add_others(columns);
+  columns.push_back({{"opened_fault", "first to open", {}, 4, Need::extra},
+                     [](const Row& one) { return words_or_nothing(one.metrics.opened_fault); }});
+  columns.push_back({{"opening_step", "open from step", {}, 4, data},
+                     [](const Row& one) { return optional_cell(one.metrics.opening_step); }});
+  columns.push_back({{"rank_class", "rank class", {}, 4, data},
+                     [](const Row& one) -> AnswerCell { return one.row.rank_class; }});
+  columns.push_back({{"weakening_resolved", "weakening resolved", {}, 4, data},
+                     [](const Row& one) -> AnswerCell { return one.row.weakening_resolved; }});
+  columns.push_back({{"interpolated", "interpolated", {}, 4, data},
+                     [](const Row& one) -> AnswerCell { return one.row.interpolated; }});
+  columns.push_back({{"plane_strain", "plane strain", {}, 4, data},
+                     [](const Row& one) -> AnswerCell { return one.row.plane_strain; }});
+  columns.push_back({{"jumps", "jumps", {}, 4, data},
+                     [](const Row& one) -> AnswerCell { return one.metrics.n_events > 0; }});
+  return columns;
+}
+
+AnswerTable table_of(const Ranking& ranking) {
+  std::vector<const CaseParameters*> all;
+  for (const RankedCase& row : ranking.rows) all.push_back(&row.parameters);
+  const ParameterColumns parameters(ranking.campaign.parameters, all);
+  const MeasureColumns measures(ranking);
+  const std::vector<RankingColumn> columns = columns_of(ranking, measures);
+  const Need data = Need::data;
+
+  AnswerTable table{
+      "cases", "", {{"rank", "rank", {}, 4, Need::always}, {"case", "case", {}, 4, Need::always}}};
+  table.is_sortable = true;
+  const auto append = [&](std::vector<AnswerColumn> more) {
+    table.columns.insert(table.columns.end(), more.begin(), more.end());
+  };
+  append(parameters.columns());
+  for (const RankingColumn& one : columns) table.columns.push_back(one.column);
+  std::vector<AnswerColumn> slides = onset_columns(ranking.pressures, "activation", data);
+  slides.front().need = data;  // activation_step stands further in front
+  std::vector<AnswerColumn> opens = onset_columns(ranking.pressures, "opening", data);
+  for (AnswerColumn& one : opens) one.need = data;
+  append(std::move(slides));
+  append(std::move(opens));
+
+  PlaceNames places;
+  for (const RankedCase& row : ranking.rows) {
+    const faultsim::StageMetrics m = metrics_of(row);
+    const Row one{row, m, measure_cells(m), places.next(row.rank_class)};
+    std::vector<AnswerCell> cells = {rank_cell(one), row.position};
+    parameters.add_cells(row.parameters, cells);
+    for (const RankingColumn& column : columns) cells.push_back(column.cell(one));
+    add_onset(first_activation(m), cells);
+    add_onset(first_opening(m), cells);
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+std::vector<std::string> notes_of(const Ranking& ranking) {
+  const auto any = [&](auto&& holds) {
+    return std::any_of(ranking.rows.begin(), ranking.rows.end(), holds);
+  };
+  std::vector<std::string> notes;
+  if (any([](const RankedCase& row) { return row.rank_class == 1; })) {
+    notes.emplace_back(
+        "+ complete, but whether a fault slides (resolved: no) or how large its slip events are "
+        "hangs on the mesh, or events are not evident: ranked apart");
+  }
+  if (any([](const RankedCase& row) { return row.rank_class > 1; }))
+    notes.emplace_back("* history ends early: listed apart, not ranked");
+  if (any(is_unexpected)) {
+    notes.emplace_back(
+        "unexpected: a fault slides after its pressure has recovered that slid before; "
+        "`faultsweep show CASE` says where");
+  }
+  if (any([](const RankedCase& row) { return metrics_of(row).activated; }))
+    notes.push_back(pressure_note(ranking.pressures));
+  if (ranking.plane_strain_apart) {
+    notes.emplace_back(
+        "plane-strain cases have no place here, their areas and moments are per metre of strike: "
+        "--where plane_strain");
+  }
+  if (!ranking.approximation.empty()) notes.push_back(ranking.approximation);
+  for (const ErrorBar& bar : ranking.error_bars) {
+    notes.push_back(concat("± of ", bar.metric, " is its rms error at ", bar.tier, " against ",
+                           bar.reference, " over ", bar.n_cases, " cases of the campaign, at most ",
+                           format_number(bar.largest, 2), " (faultsweep tradeoff)"));
+  }
+  return notes;
+}
+
+json error_bars_json(const std::vector<ErrorBar>& error_bars) {
+  json bars = json::array();
+  for (const ErrorBar& bar : error_bars) {
+    bars.push_back({{"metric", bar.metric},
+                    {"tier", bar.tier},
+                    {"reference", bar.reference},
+                    {"n_cases", bar.n_cases},
+                    {"rms", bar.rms},
+                    {"largest", bar.largest}});
+  }
+  return bars;
+}
+
+/// "case 17: F2 slides from step 7 on, χ̄ 1, slip 0.047 m".
+std::string case_words(const RankedCase& row) {
+  const faultsim::StageMetrics m = metrics_of(row);
+  std::string does = "nothing slides";
+  if (m.activated) {
+    does = concat(m.activated_fault.empty() ? "a fault" : m.activated_fault, " slides");
+    if (m.activation_step) does += concat(" from step ", *m.activation_step, " on");
+  } else if (m.slips) {
+    does += ", something slips";
+  }
+  return concat("case ", row.position, ": ", does, is_resolved(row) ? "" : " (not resolved)",
+                ", χ̄ ", format_number(m.chi_bar, 3), ", slip ", format_number(m.max_slip, 3), " m");
+}
+
+/// Which comes first, and of those that the cells do not resolve where the first slides for none.
+std::string first_sentence(const Ranking& ranking) {
+  const RankRequest& request = ranking.request;
+  const RankedCase& first = ranking.rows.front();
+  const std::string by = ranking.by_default ? "Riskiest is "
+                                            : concat(request.ascending ? "Lowest" : "Highest",
+                                                     " by ", request.by, " is ");
+  std::string text = by + case_words(first);
+  if (!ranking.by_default && first.score) {
+    const ShownUnit& unit = ranking.by_unit;
+    text += concat(", ", request.by, " ", format_number(*first.score / unit.size),
+                   unit.name.empty() ? "" : " ", unit.name);
+  }
+  text += ".";
+  if (metrics_of(first).activated || request.ascending) return text;
+  for (const RankedCase& row : ranking.rows) {
+    if (row.rank_class == 1 && metrics_of(row).activated)
+      return text +
+             concat(" Ranked apart, as the cells do not resolve it, is ", case_words(row), ".");
+  }
+  return text;
+}
+
+std::vector<std::string> headline_of(const Ranking& ranking) {
+  if (ranking.rows.empty()) return {"No case of " + ranking.campaign.name + " matches."};
+  std::vector<std::string> sentences;
+  if (ranking.counts) sentences.push_back(sliding_sentence(*ranking.counts, ranking.request));
+  sentences.push_back(first_sentence(ranking));
+  return sentences;
+}
+
+}  // namespace
+
+std::string sliding_sentence(const SlidingCounts& counts, const RankRequest& request) {
+  const std::string cases = faultsim::counted(counts.n_cases, "case", "cases");
+  std::string text =
+      !request.fault.empty() ? concat(request.fault, " slides in ", counts.n_slide, " of ", cases)
+      : counts.n_slide == 0
+          ? concat("None of ", cases, " slides")
+          : concat(counts.n_slide, " of ", cases, counts.n_slide == 1 ? " slides" : " slide");
+  if (!request.stage.empty()) text += " in " + request.stage;
+  if (counts.n_unresolved > 0) {
+    const bool all = counts.n_unresolved == counts.n_slide;
+    text += concat("; ", all ? std::string("all") : std::to_string(counts.n_unresolved),
+                   " of these are not resolved by the cells");
+  }
+  if (counts.n_perhaps > 0)
+    text += concat("; ", counts.n_perhaps, " more may slide, which the cells do not tell");
+  return text + ".";
+}
+
+Answer to_answer(const Ranking& ranking) {
+  const RankRequest& request = ranking.request;
+  Answer answer{headline_of(ranking)};
+  answer.facts = {{"campaign", ranking.campaign.name},
+                  {"error_bars", error_bars_json(ranking.error_bars)},
+                  {"by", request.by},
+                  {"stage", request.stage},
+                  {"fault", request.fault},
+                  {"where", request.where},
+                  {"plane_strain_apart", ranking.plane_strain_apart}};
+  if (ranking.counts) {
+    answer.facts["counted"] = ranking.counts->n_cases;
+    answer.facts["sliding"] = ranking.counts->n_slide;
+    answer.facts["sliding_unresolved"] = ranking.counts->n_unresolved;
+    answer.facts["perhaps_sliding"] = ranking.counts->n_perhaps;
+  }
+  answer.add(table_of(ranking)).notes = notes_of(ranking);
+  return answer;
+}
+
+}  // namespace faultsweep

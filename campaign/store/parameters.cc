@@ -1,0 +1,43 @@
+#include "campaign/store/parameters.h"
+
+#include <nlohmann/json.hpp>
+
+#include "simulator/common/errors.h"
+
+namespace faultsweep {
+
+using nlohmann::json;
+
+std::string parameters_to_json(const std::vector<StoredParameter>& parameters) {
+  json all = json::array();
+  for (const StoredParameter& one : parameters) {
+    all.push_back({{"name", one.name},
+                   {"dimension", one.is_text ? "text" : faultsim::info_of(one.dimension).key}});
+  }
+  return all.dump();
+}
+
+std::vector<StoredParameter> parameters_from_json(const std::string& text) {
+  std::vector<StoredParameter> parameters;
+  try {
+    for (const json& one : json::parse(text)) {
+      const std::string dimension = one.at("dimension");
+      StoredParameter parameter;
+      parameter.name = one.at("name");
+      parameter.is_text = dimension == "text";
+      const auto* known = faultsim::dimension_named(dimension);
+      if (!parameter.is_text && known == nullptr) {
+        throw faultsim::StorageError("unknown dimension '" + dimension +
+                                     "' in the store's parameters");
+      }
+      if (!parameter.is_text) parameter.dimension = known->dimension;
+      parameters.push_back(std::move(parameter));
+    }
+  } catch (const json::exception& error) {
+    throw faultsim::StorageError(
+        faultsim::concat("the store's parameters cannot be read: ", error.what()));
+  }
+  return parameters;
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,594 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "campaign/query/parameters.h"
+#include "campaign/render/text_table.h"
+#include "campaign/reports/case_report.h"
+#include "campaign/reports/explain_report.h"
+#include "campaign/reports/ranking_answer.h"
+#include "campaign/reports/status_report.h"
+#include "campaign/spec/metrics.h"
+#include "simulator/result/approximation.h"
+#include "tests/campaign/made_up_result.h"
+#include "tests/unit/reports/renderings.h"
+
+namespace faultsweep {
+namespace {
+
+using faultsim::Dimension;
+using faultsim::InputError;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(TextTable, AlignsNumbersRightWordsLeftAndDropsEmptyColumns) {
+  TextTable table({"name", "χ̄", "empty", "n"});
+  table.add_row({"F1", "0.5", "", "12"});
+  table.add_row({"long name", "0.75", "", "3"});
+  EXPECT_EQ(table.text(),
+            "name          χ̄   n\n"
+            "F1          0.5  12\n"
+            "long name  0.75   3\n");
+  EXPECT_THROW(table.add_row({"too few"}), faultsim::InternalError);
+  EXPECT_EQ(format_number(1.23456e15, 3), "1.23e+15");
+  EXPECT_EQ(format_number(std::nan("")), "-");
+}
+
+TEST(TextTable, KeepsWithinTheScreen) {
+  TextTable table({"case", "first metric", "second metric", "reason"});
+  table.add_row(
+      {"17", "0.123456", "12.5", "the history ends in step 9: no convergence of the contact"});
+  table.add_row({"8", "0.9", "3", ""});
+  EXPECT_EQ(table.text(40),
+            "case  first metric  second metric\n"
+            "  17      0.123456           12.5\n"
+            "   8           0.9              3\n"
+            "\n"
+            "case  reason\n"
+            "  17  the history ends in step 9: no\n"
+            "      convergence of the contact\n"
+            "   8\n");
+  EXPECT_THAT(table.text(1000), HasSubstr("case  first metric  second metric  reason\n"));
+  EXPECT_EQ(TextTable({"nothing"}).text(), "");
+}
+
+TEST(TextTable, ShowsTheDigitsThatAScreenNeeds) {
+  EXPECT_EQ(short_number("18.9238690858494 deg"), "18.9239 deg");
+  EXPECT_EQ(short_number("-1.23456789e-07"), "-1.23457e-07");
+  for (const char* kept :
+       {"20 deg", "0.125", "12345678", "min", "", "F1.12345678", "1.5.2345678"}) {
+    EXPECT_EQ(short_number(kept), kept);
+  }
+  TextTable table({"angle"});
+  table.add_row({"18.9238690858494 deg"});
+  EXPECT_EQ(table.text(), "angle\n18.9239 deg\n");
+}
+
+TEST(Parameters, TravelThroughTheStore) {
+  const std::vector<StoredParameter> parameters = {{"offset", Dimension::length, false},
+                                                   {"rule", Dimension::number, true}};
+  const auto back = parameters_from_json(parameters_to_json(parameters));
+  ASSERT_EQ(back.size(), 2u);
+  EXPECT_EQ(back[0].dimension, Dimension::length);
+  EXPECT_TRUE(back[1].is_text);
+  EXPECT_THROW(parameters_from_json("[{}]"), faultsim::StorageError);
+  for (const faultsim::DimensionInfo& one : faultsim::dimensions()) {
+    const auto text = parameters_to_json({{"p", one.dimension, false}});
+    EXPECT_EQ(parameters_from_json(text)[0].dimension, one.dimension);
+  }
+}
+
+/// A store with 6 cases: offset k x 10 m, rule "mean" or "min", strengths that mix the order.
+class ReportTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = ::testing::TempDir() + "report_XXXXXX";
+    folder_ = mkdtemp(name.data());
+    Submission s;
+    s.name = "sweep";
+    s.source = "sweep.json";
+    s.rank_by = "activated_area";
+    s.parameters = {{"offset", Dimension::length, false}, {"rule", Dimension::number, true}};
+    s.scenes = {{"scene.json", "{}"}};
+    s.families = {{"family-a", 1000, 100, 1, 1}};
+    for (int k = 0; k < 6; ++k) {
+      const std::string rule = k % 2 == 0 ? "mean" : "min";
+      s.cases.push_back({"identity-" + std::to_string(k),
+                         0,
+                         0,
+                         "{}",
+                         {{0, 10.0 * k, std::to_string(10 * k) + " m"}, {1, std::nullopt, rule}}});
+    }
+    store_ = std::make_unique<Store>(Store::open_owner(folder_));
+    const std::int64_t id = store_->submit(s).campaign;
+    const double strengths[] = {0.2, 0.9, 0.4, 0.6, 0.95};
+    for (int k = 0; k < 5; ++k) {
+      RunRecord run;
+      run.case_id = k + 1;
+      run.status = RunStatus::completed;
+      run.result = testing::made_up_result(strengths[k]);
+      if (k == 4) {
+        run.result->outcome = faultsim::Outcome::unstable;
+        run.result->reason = "slip weakening outran the stiffness at step 7";
+        run.result->weakening_resolved = false;
+      }
+      store_->record_runs(id, {run});
+    }
+    RunRecord crash;
+    crash.case_id = 6;
+    crash.reason = "killed by SIGSEGV (11)";
+    crash.log_tail = "first line\nlast words";
+    store_->record_runs(id, {crash});
+    campaign_ = store_->campaign("");
+  }
+  void TearDown() override {
+    store_.reset();
+    std::filesystem::remove_all(folder_);
+  }
+  std::vector<long> order(RankRequest request) {
+    std::vector<long> positions;
+    for (const auto& row : make_ranking(*store_, campaign_, std::move(request)).rows) {
+      positions.push_back(row.position);
+    }
+    return positions;
+  }
+  static RankRequest request(const std::string& by, const std::string& where = "") {
+    RankRequest r;
+    r.by = by;
+    r.where = where;
+    return r;
+  }
+
+  Answer shown(const CampaignInfo& campaign, const char* name) const {
+    return to_answer(shown_case(*store_, campaign, store_->stored_case(campaign.id, name), {}));
+  }
+  std::string shown_text(const CampaignInfo& campaign, const char* name) const {
+    return render_text(shown(campaign, name), 1000);
+  }
+  std::string explained(const CampaignInfo& campaign, const char* name) const {
+    return render_text(explanation(*store_, campaign, store_->stored_case(campaign.id, name)),
+                       1000);
+  }
+
+  std::filesystem::path folder_;
+  std::unique_ptr<Store> store_;
+  CampaignInfo campaign_;
+};
+
+TEST_F(ReportTest, EveryMetricOfTheCatalogueCanBeRankedBy) {
+  for (const MetricInfo& metric : metric_catalogue()) {
+    EXPECT_EQ(order(request(metric.name)).size(), 5u) << metric.name;
+  }
+}
+
+TEST_F(ReportTest, ExpressionsOverMetricsAndParametersOrderAndFilter) {
+  EXPECT_THAT(order(request("")), ElementsAre(2, 4, 3, 1, 5));
+  EXPECT_THAT(order(request("chi_bar", "offset > 5 m and not (rule = \"mean\")")),
+              ElementsAre(2, 4));
+  EXPECT_THAT(order(request("-offset", "outcome = \"converged\"")), ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(order(request("moment / activated_area", "activated")), ElementsAre(2, 4, 5));
+  EXPECT_THROW(order(request("chi_bor")), InputError);
+  EXPECT_THROW(order(request("chi_bar", "offset > 5 deg")), InputError);
+  EXPECT_THROW(order(request("chi_bar", "offset")), InputError);
+  EXPECT_THROW(order(request("outcome")), InputError);
+  RankRequest stage;
+  stage.stage = "gas_storrage";
+  EXPECT_THROW(order(stage), InputError);
+}
+
+TEST_F(ReportTest, UserTextNeverReachesTheDatabase) {
+  EXPECT_TRUE(order(request("chi_bar", "rule = \"'; DROP TABLE cases; --\"")).empty());
+  EXPECT_THROW(order(request("1; DROP TABLE cases")), InputError);
+  EXPECT_EQ(order(request("")).size(), 5u);
+}
+
+TEST_F(ReportTest, TheTableShowsFlagsAndListsEarlyEndsApart) {
+  const std::string text = render_text(to_answer(make_ranking(*store_, campaign_, {})), 200);
+  EXPECT_THAT(text, HasSubstr("3 of 5 cases slide"));
+  EXPECT_THAT(text, HasSubstr("Riskiest is case 2: F1 slides from step 1 on, χ̄ 0.9"));
+  EXPECT_THAT(text, HasSubstr("rank  case  offset, m  rule  slides  resolved"));
+  EXPECT_THAT(text, ::testing::ContainsRegex("\n1 +2 +10  min +yes +yes"));
+  EXPECT_THAT(text, ::testing::ContainsRegex("\n[*] +5 +40  mean +yes +no .*unstable, mesh too "
+                                             "coarse for its weakening"));
+  EXPECT_THAT(text, HasSubstr("* history ends early: listed apart, not ranked"));
+  const auto none = render_json(to_answer(make_ranking(*store_, campaign_,
+                                                       request("",
+                                                               "chi_bar > "
+                                                               "7"))));
+  EXPECT_EQ(none["headline"][0], "No case of sweep matches.");
+  EXPECT_TRUE(none["cases"].empty());
+}
+
+TEST_F(ReportTest, TheJsonIsInSiWithUnitsInTheColumns) {
+  const auto json = render_json(to_answer(make_ranking(*store_, campaign_, request("moment"))));
+  ASSERT_EQ(json["cases"].size(), 5u);
+  const auto& first = json["cases"][0];
+  EXPECT_EQ(first["rank"], 1);
+  EXPECT_EQ(first["case"], 2);
+  EXPECT_EQ(first["parameters"]["offset"], 10.0);
+  EXPECT_EQ(first["parameters"]["rule"], "min");
+  EXPECT_EQ(first["score"], first["moment_nm"]);
+  EXPECT_EQ(first["resolved"], true);
+  EXPECT_EQ(first["activation"]["change_minus_pa"], -1e6);
+  EXPECT_TRUE(json["cases"][4]["rank"].is_null());
+  EXPECT_EQ(json["cases"][4]["resolved"], false);
+  for (const auto& column : json["columns"]["cases"]) {
+    if (column["key"] != "offset") continue;
+    EXPECT_EQ(column["unit"], "m");
+    EXPECT_EQ(column["in"], "parameters");
+  }
+  EXPECT_EQ(render_json(metrics_answer())["metrics"].size(), metric_catalogue().size());
+}
+
+TEST_F(ReportTest, ARankingSaysTheSameInAllRenderings) {
+  for (const char* by : {"", "moment", "chi_bar * 2"}) {
+    const Answer answer = to_answer(make_ranking(*store_, campaign_, request(by)));
+    testing::expect_the_same_numbers(answer);
+    testing::expect_to_fit(answer);
+  }
+  testing::expect_to_fit(metrics_answer());
+}
+
+/// What can be done without goes, what cannot stays.
+TEST_F(ReportTest, ANarrowScreenKeepsWhatARankingIsReadFor) {
+  const Answer answer = to_answer(make_ranking(*store_, campaign_, {}));
+  const std::string narrow = render_text(answer, 80);
+  EXPECT_THAT(narrow, ::testing::ContainsRegex("rank +case +m +rule +slides +resolved +χ̄ +m "));
+  EXPECT_THAT(narrow, HasSubstr("Not shown on 80 columns: "));
+  EXPECT_THAT(render_text(answer, 1000), Not(HasSubstr("Not shown")));
+}
+
+/// Where counting would take longer than the ranking, only what is listed is counted.
+TEST_F(ReportTest, TheHeadlineCountsWhatTheConditionSelects) {
+  RankRequest top = request("chi_bar", "offset > 5 m");
+  top.top = 1;
+  const auto json = render_json(to_answer(make_ranking(*store_, campaign_, top)));
+  EXPECT_EQ(json["cases"].size(), 1u);
+  EXPECT_EQ(json["headline"][0], "3 of 4 cases slide.");
+  EXPECT_EQ(json["counted"], 4);
+  EXPECT_EQ(json["sliding"], 3);
+}
+
+TEST(SlidingCounts, TellWhatTheCellsDoNotResolve) {
+  SlidingCounts counts;
+  for (int k = 0; k < 5; ++k) counts.add(k < 3, k != 0 && k != 4);
+  EXPECT_EQ(sliding_sentence(counts, {}),
+            "3 of 5 cases slide; 1 of these are not resolved by the cells; 1 more may slide, which "
+            "the cells do not tell.");
+  EXPECT_EQ(sliding_sentence({7, 0, 0, 0}, {.stage = "storage"}),
+            "None of 7 cases slides in storage.");
+  EXPECT_EQ(sliding_sentence({2, 2, 2, 0}, {.fault = "F2"}),
+            "F2 slides in 2 of 2 cases; all of these are not resolved by the cells.");
+}
+
+TEST(RegionPressures, AreOfTheCellsWithAFlowField) {
+  EXPECT_TRUE(has_flow_field(R"({"scene": {"pressure_field": {"file": "a.csv"}}})"));
+  EXPECT_TRUE(has_flow_field(R"({"pointers": ["/pressure_field/file"]})"));
+  EXPECT_FALSE(has_flow_field(R"({"scene": {"title": "pressure fields"}})"));
+  EXPECT_EQ(region_pressures(false, 3), RegionPressures::at_depth);
+  EXPECT_EQ(region_pressures(true, 7), RegionPressures::of_cells);
+  EXPECT_EQ(region_pressures(true, 6), RegionPressures::means);
+  EXPECT_EQ(place_columns(RegionPressures::of_cells, "", Need::data)[1].heading, "Δp");
+  EXPECT_EQ(place_columns(RegionPressures::means, "", Need::data)[1].heading, "mean Δp");
+  EXPECT_THAT(pressure_note(RegionPressures::of_cells), HasSubstr("cells beside the place"));
+  EXPECT_THAT(pressure_note(RegionPressures::means), HasSubstr("not the value at the place"));
+}
+
+TEST_F(ReportTest, ShowTellsParametersStagesAndHistory) {
+  const Answer good = shown(campaign_, "2");
+  const std::string text = render_text(good, 1000);
+  EXPECT_THAT(text, HasSubstr("Case 2 of sweep: converged; 13 load steps"));
+  EXPECT_THAT(text,
+              HasSubstr("F1 slides from step 1 on, first at 2000 m depth, slip 0.004 m; F2 "));
+  EXPECT_THAT(text, ::testing::ContainsRegex("offset +10 m\nrule +min\n"));
+  EXPECT_THAT(text, HasSubstr("primary_production"));
+  const auto json = render_json(good);
+  EXPECT_EQ(json["result"]["steps"].size(), 13u);
+  EXPECT_TRUE(json["result"]["surface"].is_null());
+  EXPECT_EQ(json["parameters"]["offset"], 10.0);
+  EXPECT_EQ(json["stages"].size(), 4u) << "three and the whole history";
+  EXPECT_EQ(json["histories"].size(), 26u) << "13 steps of two faults";
+  EXPECT_EQ(json["histories"][25]["pressure_change_pa"]["region 1"], -2e7);
+  EXPECT_EQ(json["faults"][0]["activation"]["change_pa"], -1e6);
+  const Answer failed = shown(campaign_, "6");
+  EXPECT_THAT(failed.headline.at(0), HasSubstr("has no result: crashed: killed by SIGSEGV (11)"));
+  EXPECT_THAT(render_text(failed), HasSubstr("    | first line\n    | last words\n"));
+  EXPECT_THAT(render_text(failed), Not(HasSubstr("load steps")));
+  EXPECT_TRUE(render_json(failed)["result"].is_null());
+  for (const Answer& one :
+       {good, failed, explanation(*store_, campaign_, store_->stored_case(campaign_.id, "6"))}) {
+    testing::expect_the_same_numbers(one);
+    testing::expect_to_fit(one);
+  }
+}
+
+TEST_F(ReportTest, ShowSaysHowAResultCameAboutAndWhyFiguresDiffer) {
+  ShownCase one{campaign_, store_->stored_case(campaign_.id, "2")};
+  const auto text = [&] { return render_text(to_answer(one), 1000); };
+  EXPECT_THAT(text(), Not(HasSubstr("is summed over its steps")));
+  EXPECT_THAT(text(), Not(HasSubstr("interpolated")));
+  one.initial = {{"west", 2000, -4e7, -3e7, -3e7, 2e7}, {"east", 2100, -4e7, -3e7, -3e7, 2e7}};
+  EXPECT_THAT(text(), HasSubstr("Δp west, bar  Δp east, bar"));
+  EXPECT_EQ(render_json(to_answer(one))["initial_state"][1]["depth_m"], 2100.0);
+  one.stored.result.stages[2].moment = 4.59e14;
+  one.stored.result.whole.moment = 4.52e14;
+  for (const std::size_t k : {0u, 1u}) one.stored.result.stages[k].moment = 0;
+  EXPECT_THAT(text(), HasSubstr("M0 of a stage is summed over its steps, 4.59e+14 N m of all "
+                                "stages, that of the whole history is by the slip at its end, "
+                                "4.52e+14 N m"));
+  one.stored.result.surface = faultsim::CaseSurface{75, 73, 12, 0.01, 2e-3, 3e-3, 4e-3, 5e-3};
+  const std::string sentence = faultsim::approximation_sentence(one.stored.result);
+  EXPECT_THAT(sentence, HasSubstr("interpolated on 75 exact ones"));
+  EXPECT_THAT(render_text(to_answer(one), 1000), HasSubstr(sentence));
+  EXPECT_EQ(render_json(to_answer(one))["result"]["surface"]["error_of_slip"], 5e-3);
+  EXPECT_THAT(render_html(to_answer(one)), HasSubstr(sentence));
+  one.pressures = RegionPressures::means;
+  EXPECT_THAT(text(), HasSubstr("mean Δp -10 bar"));
+  EXPECT_THAT(text(), HasSubstr("not the value at the place"));
+}
+
+TEST_F(ReportTest, ExplainSaysWhy) {
+  EXPECT_THAT(explained(campaign_, "1"), HasSubstr("will not run: it has a result (converged)"));
+  EXPECT_THAT(explained(campaign_, "6"),
+              HasSubstr("Case 6 of sweep will not run: attempt 1 crashed: killed by SIGSEGV (11); "
+                        "`faultsweep retry sweep --case 6` lets it run again"));
+  store_->retry(campaign_.id, false, 6);
+  EXPECT_THAT(explained(campaign_, "6"), HasSubstr("will run: it waits for another attempt"));
+  const auto json =
+      render_json(explanation(*store_, campaign_, store_->stored_case(campaign_.id, "1")));
+  EXPECT_EQ(json["will_run"], false);
+  EXPECT_EQ(json["family"]["done"], 5);
+}
+
+/// The same six cases in a campaign that keeps fields: of the first they are there, of the second
+/// gone, of the third failed.
+TEST_F(ReportTest, SaysWhereTheFieldsAre) {
+  Submission s;
+  s.name = "fields";
+  s.parameters = {};
+  s.keep_fields = KeepFields::stages;
+  s.scenes = {{"scene.json", "{}"}};
+  s.families = {{"family-a", 1000, 100, 1, 1}};
+  for (int k = 0; k < 6; ++k) {
+    s.cases.push_back({"identity-" + std::to_string(k), 0, 0, "{}", {}});
+  }
+  const std::int64_t id = store_->submit(s).campaign;
+  for (int k = 1; k <= 3; ++k) {
+    RunRecord run;
+    run.case_id = k;
+    run.fields_only = true;
+    run.status = k == 3 ? RunStatus::world : RunStatus::completed;
+    run.reason = k == 3 ? "cannot write faults.h5: No space left on device" : "";
+    run.has_fields = k != 3;
+    if (k != 3) run.result = testing::made_up_result(0.2);
+    store_->record_runs(id, {run});
+  }
+  const auto folder = folder_ / "fields" / "fields" / "1";
+  std::filesystem::create_directories(folder);
+  for (const char* file : {"faults.h5", "faults.xmf"}) std::ofstream(folder / file) << "x";
+  const CampaignInfo info = store_->campaign("fields");
+  const auto show = [&](const char* name) { return shown_text(info, name); };
+  const auto explain = [&](const char* name) { return explained(info, name); };
+  EXPECT_THAT(show("1"),
+              HasSubstr("fault fields (initial state and ends of stages): " +
+                        (folder / "faults.xmf").string() + " for ParaView, faults.h5\n"));
+  EXPECT_EQ(render_json(shown(info, "1"))["runs"][1]["fields_only"], true);
+  EXPECT_THAT(explain("1"), HasSubstr("will not run: it has a result"));
+  EXPECT_THAT(show("2"),
+              HasSubstr("fault fields: gone from " + (folder_ / "fields/fields/2").string() +
+                        "; `faultsweep run fields` writes them again"));
+  EXPECT_THAT(explain("2"), HasSubstr("will run, for its fault fields only: their files are gone"));
+  EXPECT_THAT(show("3"), HasSubstr("`faultsweep retry fields --case 3` lets them be tried again"));
+  EXPECT_THAT(explain("3"), HasSubstr("could not be added: world, cannot write faults.h5: No space "
+                                      "left on device; `faultsweep retry fields --case 3`"));
+  EXPECT_THAT(show("4"), HasSubstr("not yet; `faultsweep run fields` writes them"));
+  EXPECT_THAT(explain("4"), HasSubstr("will run, for its fault fields only: it has a result"));
+  EXPECT_THAT(shown_text(campaign_, "1"), Not(HasSubstr("fault fields")));
+  const auto json = [&](const char* name) { return render_json(shown(info, name))["fields"]; };
+  EXPECT_EQ(json("1")["state"], "kept");
+  EXPECT_EQ(json("1")["steps"], "stages");
+  EXPECT_EQ(json("1")["folder"], folder.string());
+  EXPECT_EQ(json("2")["state"], "gone");
+  EXPECT_EQ(json("3")["state"], "failed");
+  EXPECT_TRUE(render_json(shown(campaign_, "1"))["fields"].is_null());
+  const StatusReport status = make_status(*store_, "fields");
+  EXPECT_THAT(render_text(to_answer(status), 200),
+              HasSubstr("fault fields: stages; 3 cases have a result and lack them (1 failed)"));
+  EXPECT_THAT(render_text(to_answer(status), 200), HasSubstr("fields: cannot write faults.h5"));
+  EXPECT_EQ(render_json(to_answer(status))["waiting_for_fields_only"], 2);
+}
+
+TEST_F(ReportTest, SaysWhereOperatorsAreNotShared) {
+  EXPECT_THAT(render_text(to_answer(make_status(*store_, "")), 200), Not(HasSubstr("salt creeps")));
+  Submission s;
+  s.name = "salt";
+  s.parameters = {};
+  s.scenes = {{"scene.json", "{}"}};
+  s.families = {{"family-a", 1000, 100, 1, 1}, {"family-b", 1000, 100, 1, 1.98e10, 4}};
+  s.cases = {{"elastic", 0, 0, "{}", {}}, {"viscous", 1, 0, "{}", {}}};
+  const std::int64_t id = store_->submit(s).campaign;
+  EXPECT_FALSE(store_->waiting_families(id).at(0).predicted.creeps());
+  EXPECT_TRUE(store_->waiting_families(id).at(1).predicted.creeps());
+  const StatusReport status = make_status(*store_, "salt");
+  EXPECT_THAT(render_text(to_answer(status), 200),
+              HasSubstr("salt creeps in 1 family: operators are built by each worker that runs it, "
+                        "at most 20 GB each"));
+  const auto family = render_json(to_answer(status))["families"].at(1);
+  EXPECT_EQ(family["creeps"], true);
+  EXPECT_EQ(family["n_operators"], 4);
+  EXPECT_EQ(family["predicted_memory_bytes"], 1.98e10);
+}
+
+/// The first three cases again, with events, in a campaign with two new ones: resolved, unresolved.
+class EventReportTest : public ReportTest {
+ protected:
+  void SetUp() override {
+    ReportTest::SetUp();
+    Submission s;
+    s.name = "events";
+    s.parameters = {};
+    s.scenes = {{"scene.json", "{}"}};
+    s.families = {{"family-a", 1000, 100, 1, 1}};
+    for (const char* identity : {"identity-1", "event-1", "event-2"}) {
+      s.cases.push_back({identity, 0, 0, "{}", {}});
+    }
+    id_ = store_->submit(s).campaign;
+    const auto ids = store_->waiting_families(id_).at(0).cases;
+    RunRecord run;
+    run.status = RunStatus::completed;
+    run.case_id = ids.at(0);
+    run.result = testing::made_up_result_with_events(0.95);
+    store_->record_runs(id_, {run});
+    run.case_id = ids.at(1);
+    run.result->outcome = faultsim::Outcome::event;
+    run.result->weakening_resolved = true;
+    run.result->unexpected.reset();
+    run.result->whole.activation_resolved = true;
+    for (faultsim::SlipEvent& event : run.result->events) event.resolved = true;
+    store_->record_runs(id_, {run});
+    events_ = store_->campaign("events");
+  }
+  std::string show(const char* name) const { return shown_text(events_, name); }
+  std::int64_t id_ = 0;
+  CampaignInfo events_;
+};
+
+TEST_F(EventReportTest, ShowAndRankTellWhatTheSaltDid) {
+  const std::string text = show("2");
+  const auto result = testing::made_up_result_with_events(0.95);
+  double shear = 0, normal = 0;
+  int n_time_steps = 0;
+  for (const faultsim::StepResult& step : result.steps) {
+    n_time_steps += step.creep->time_steps;
+    for (const faultsim::FaultCreep& one : step.creep->faults) {
+      shear = std::max(shear, one.shear_max);
+      normal = std::min(normal, one.normal_min);
+    }
+  }
+  EXPECT_THAT(text, HasSubstr("salt creeps: it changed fault tractions by " +
+                              format_number(normal / 1e5, 3) + " bar (compression) to "));
+  EXPECT_THAT(text, HasSubstr(" bar in shear; " + std::to_string(n_time_steps) + " time steps"));
+  EXPECT_THAT(text, HasSubstr("creep |ΔtT|, bar  time steps"));
+  EXPECT_THAT(text, HasSubstr("time steps of 13 load steps are coarser"));
+  const auto steps = render_json(shown(events_, "2"))["histories"];
+  EXPECT_EQ(steps[4]["creep_shear_max_pa"], result.steps[4].creep->faults[0].shear_max);
+  EXPECT_EQ(steps[4]["creep_time_resolved"], false);
+  EXPECT_THAT(show("1"), Not(HasSubstr("creep")));
+  const auto scores = [&](const std::string& by, const std::string& stage = "") {
+    RankRequest asked = request(by);
+    asked.stage = stage;
+    std::vector<std::optional<double>> found;
+    for (const RankedCase& row : make_ranking(*store_, events_, asked).rows) {
+      found.push_back(row.score);
+    }
+    return found;
+  };
+  // Case 3 is complete and creeps, case 1 has no creep, case 2 has unresolved events.
+  EXPECT_THAT(scores("creep_shear_max"), ElementsAre(shear, std::nullopt, shear));
+  EXPECT_THAT(scores("creep_normal_min"), ElementsAre(normal, std::nullopt, normal));
+  EXPECT_THAT(scores("creep_time_steps"), ElementsAre(n_time_steps, std::nullopt, n_time_steps));
+  EXPECT_EQ(scores("creep_shear_max", "primary_production")[0],
+            result.steps[4].creep->faults[1].shear_max);
+}
+
+TEST_F(EventReportTest, TheRankingKeepsUnresolvedOnesApart) {
+  const Answer answer = to_answer(make_ranking(*store_, events_, {}));
+  const std::string text = render_text(answer, 200);
+  EXPECT_THAT(text, ::testing::ContainsRegex("\n1 +3 +yes +yes .* event "));
+  EXPECT_THAT(text, ::testing::ContainsRegex("\n2 +1 +yes +yes .* converged "));
+  EXPECT_THAT(text, ::testing::ContainsRegex("\n[+]1 +2 +yes +no .* unresolved_event, mesh too "
+                                             "coarse for its weakening .* yes, F1"));
+  EXPECT_THAT(text, HasSubstr("3 of 3 cases slide; 1 of these are not resolved by the cells."));
+  EXPECT_THAT(text, HasSubstr("+ complete, but whether a fault slides (resolved: no)"));
+  EXPECT_THAT(text, Not(HasSubstr("ends early")));
+  const auto json = render_json(answer);
+  EXPECT_EQ(json["cases"][0]["n_events"], 2);
+  EXPECT_EQ(json["cases"][0]["event_moment_nm"], 2e13 / 3);
+  EXPECT_EQ(json["cases"][2]["rank_class"], 1);
+  EXPECT_EQ(json["cases"][2]["unexpected"], true);
+  EXPECT_TRUE(json["cases"][2]["rank"].is_null());
+  EXPECT_EQ(json["cases"][2]["rank_note"], "+1");
+}
+
+TEST_F(EventReportTest, ActivationThatHangsOnTheMeshIsSaid) {
+  const auto json = render_json(to_answer(make_ranking(*store_, events_, {})));
+  EXPECT_EQ(json["cases"][0]["activation_resolved"], true);
+  EXPECT_EQ(json["cases"][0]["resolved"], true);
+  EXPECT_EQ(json["cases"][2]["activation_resolved"], false);
+  EXPECT_EQ(json["cases"][2]["resolved"], false);
+  std::vector<long> found;
+  for (const auto& row :
+       make_ranking(*store_, events_, request("chi_bar", "not activation_resolved")).rows)
+    found.push_back(row.position);
+  EXPECT_THAT(found, ElementsAre(2));
+  EXPECT_THAT(show("2"), HasSubstr("UNRESOLVED: whether a fault slides depends on the mesh"));
+  const auto one = render_json(shown(events_, "2"));
+  EXPECT_EQ(one["stages"][1]["slides"], true);
+  EXPECT_EQ(one["stages"][1]["activation_resolved"], false);
+  EXPECT_EQ(one["histories"][13 + 3]["activation_resolved"], false) << "F2 in step 3";
+}
+
+TEST_F(EventReportTest, EventsOrderAndFilter) {
+  const auto positions = [&](const std::string& where) {
+    std::vector<long> all;
+    for (const auto& row : make_ranking(*store_, events_, request("event_moment", where)).rows) {
+      all.push_back(row.position);
+    }
+    return all;
+  };
+  EXPECT_THAT(positions("n_events >= 1 and event_magnitude > 2"), ElementsAre(3, 2));
+  EXPECT_THAT(positions("unexpected"), ElementsAre(2));
+  EXPECT_THAT(positions("not weakening_resolved"), ElementsAre(2));
+  EXPECT_THAT(positions("n_episodes = 0"), ElementsAre(1));
+}
+
+TEST_F(EventReportTest, ShowListsEventsAndEpisodes) {
+  const Answer answer = shown(events_, "2");
+  const std::string text = render_text(answer, 1000);
+  EXPECT_THAT(text,
+              HasSubstr("UNEXPECTED REACTIVATION: fault F1 slides again in gas_storage, steps "));
+  EXPECT_THAT(text, HasSubstr("UNRESOLVED: the size of its slip events depends on the mesh."));
+  EXPECT_THAT(text, HasSubstr("\nslip events:\n"));
+  EXPECT_THAT(text, HasSubstr("no, mesh too coarse"));
+  EXPECT_THAT(text, HasSubstr("\nepisodes (pressures at their first step):\n"));
+  const auto result = testing::made_up_result_with_events(0.95);
+  const auto json = render_json(answer);
+  EXPECT_EQ(json["slip_events"][1]["stress_drop_pa"], result.events[1].stress_drop);
+  EXPECT_EQ(json["slip_events"][0]["resolved"], false);
+  EXPECT_EQ(json["slip_events"][0]["change_minus_pa"], *result.events[0].pressures.change_minus);
+  EXPECT_EQ(json["episodes"][1]["after_recovery"], true);
+  testing::expect_the_same_numbers(answer);
+  testing::expect_to_fit(answer);
+  EXPECT_THAT(show("3"), Not(HasSubstr("UN")));
+  EXPECT_THAT(show("1"), Not(HasSubstr("slip events")));
+}
+
+TEST_F(EventReportTest, StatusCountsThemAsDoneButNotAsConverged) {
+  const StatusReport status = make_status(*store_, "events");
+  EXPECT_THAT(render_text(to_answer(status), 200),
+              HasSubstr("events: 3 cases, 3 done (1 converged, 1 with slip events, 1 with "
+                        "unresolved slip events), 0 failed, 0 waiting"));
+  EXPECT_THAT(render_text(to_answer(status), 200), Not(HasSubstr("without a full result")));
+  EXPECT_EQ(render_json(to_answer(status))["event"], 1);
+  EXPECT_EQ(render_json(to_answer(status))["unresolved_event"], 1);
+}
+
+TEST_F(ReportTest, StatusCountsAndGivesReasons) {
+  const StatusReport status = make_status(*store_, "");
+  const std::string text = render_text(to_answer(status), 200);
+  EXPECT_THAT(text, HasSubstr("sweep: 6 cases, 5 done (4 converged), 1 failed, 0 waiting"));
+  EXPECT_THAT(text, HasSubstr("killed by SIGSEGV (11)"));
+  EXPECT_THAT(text, HasSubstr("unstable"));
+  testing::expect_the_same_numbers(to_answer(status));
+  testing::expect_to_fit(to_answer(status));
+  const auto json = render_json(to_answer(status));
+  EXPECT_EQ(json["failures"].size(), 2u);
+  EXPECT_EQ(json["headline"][0], "sweep: 6 cases, 5 done (4 converged), 1 failed, 0 waiting.");
+  EXPECT_TRUE(json["manager"].is_null());
+}
+
+}  // namespace
+}  // namespace faultsweep
