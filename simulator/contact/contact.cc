@@ -13,23 +13,12 @@
 
 namespace faultsim {
 
-ContactState initial_state(const FaultOperator& op) {
-  const std::size_t n = op.geometry.nodes.size();
-  ContactState state;
-  state.jump = Eigen::VectorXd::Zero(op.geometry.n_dofs);
-  state.traction = state.jump;
-  state.state.assign(n, FaultState::stick);
-  state.slip_path = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
-  state.cohesion_lost.assign(n, 0);
-  return state;
-}
+namespace {
 
-FrictionState friction_state(const OperatorNode& node, const ContactState& state, int k) {
-  const auto [normal, strike, dip] = node.dof;
-  return {{strike >= 0 ? state.jump[strike] : 0, dip >= 0 ? state.jump[dip] : 0},
-          state.slip_path[k],
-          state.cohesion_lost[k] == 0};
-}
+/// Newton iterations of a load step after which no jump is followed further: a bound on the work.
+constexpr int kMostIterations = 10'000'000;
+
+}  // namespace
 
 /// A load step in halves of halves. Position and width are in units of the smallest sub-step.
 struct ContactSolver::Impl {
@@ -126,8 +115,8 @@ void ContactSolver::Impl::walk(const LoadPath& path, ContactReport& report) {
 /// ended belongs to it.
 bool ContactSolver::Impl::jump(const LoadPath& path, int position, ContactReport& report) {
   if (static_cast<int>(report.jumps.size()) >= options.max_jumps) return false;
-  const int budget = options.max_iterations - report.counts.newton_iterations -
-                     report.counts.wasted_newton_iterations;
+  const int budget =
+      kMostIterations - report.counts.newton_iterations - report.counts.wasted_newton_iterations;
   JumpFollower::Report followed =
       follower.follow(path, factor(position), factor(position + 1), budget, rolling);
   report.counts.newton_iterations += followed.counts.newton_iterations;
@@ -162,19 +151,6 @@ void ContactSolver::Impl::explain(int position, ContactReport& report) const {
   }
   const std::string search = trace_summary(solver.trace());
   if (!search.empty()) report.reason += "; last search: " + search;
-}
-
-void ContactJump::append(const ContactJump& next) {
-  load_after = next.load_after;
-  jump_after = next.jump_after;
-  traction_after = next.traction_after;
-  n_lost_cohesion += next.n_lost_cohesion;
-  negative_pivots = std::max(negative_pivots, next.negative_pivots);
-  residual_after = next.residual_after;
-  released += next.released;
-  dissipated += next.dissipated;
-  duration += next.duration;
-  damped_steps += next.damped_steps;
 }
 
 }  // namespace faultsim

@@ -6,6 +6,7 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/contact/contact_problem.h"
+#include "simulator/contact/node_state.h"
 #include "simulator/contact/step_report.h"
 
 namespace faultsim {

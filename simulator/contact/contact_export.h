@@ -1,6 +1,7 @@
 #pragma once
 
-#include "simulator/contact/contact.h"
+#include "simulator/contact/contact_state.h"
+#include "simulator/model/fault_operator.h"
 #include "simulator/model/frictional_contact.h"
 
 namespace faultsim {

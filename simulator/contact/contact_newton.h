@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "simulator/contact/contact_options.h"
 #include "simulator/contact/contact_problem.h"
 #include "simulator/contact/search_record.h"
 #include "simulator/contact/slip_residual.h"

@@ -5,7 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include "simulator/contact/contact.h"
+#include "simulator/contact/contact_state.h"
+#include "simulator/laws/friction_law.h"
+#include "simulator/model/fault_operator.h"
 
 namespace faultsim {
 

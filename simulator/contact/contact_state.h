@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "simulator/fault/coulomb_law.h"
+#include "simulator/laws/coulomb_law.h"
 #include "simulator/result/result.h"
 
 namespace faultsim {

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "simulator/contact/contact_report.h"
 #include "simulator/contact/sub_step_solver.h"
 
 namespace faultsim {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "simulator/fault/friction_law.h"
+#include "simulator/laws/friction_law.h"
 
 namespace faultsim {
 

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "simulator/contact/contact.h"
 #include "simulator/contact/contact_newton.h"
+#include "simulator/contact/contact_options.h"
 #include "simulator/contact/contact_problem.h"
 #include "simulator/contact/load_path.h"
 #include "simulator/contact/scalar_slip.h"

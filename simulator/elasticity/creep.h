@@ -5,7 +5,7 @@
 
 #include "simulator/elasticity/elasticity.h"
 #include "simulator/elasticity/element.h"
-#include "simulator/rheology/maxwell.h"
+#include "simulator/laws/maxwell.h"
 
 namespace faultsim {
 

@@ -6,7 +6,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/common/units.h"
 #include "simulator/contact/contact.h"
-#include "simulator/fault/friction_law.h"
+#include "simulator/laws/friction_law.h"
 #include "tests/verification/closed_forms/friction_solutions.h"
 #include "tests/verification/closed_forms/verify_cases.h"
 

@@ -1,4 +1,4 @@
-#include "simulator/rheology/maxwell.h"
+#include "simulator/laws/maxwell.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "simulator/fault/friction_law.h"
+#include "simulator/laws/friction_law.h"
 
 #include <cmath>
 #include <limits>

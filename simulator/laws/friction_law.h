@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "simulator/fault/coulomb_law.h"
+#include "simulator/laws/coulomb_law.h"
 
 namespace faultsim {
 
