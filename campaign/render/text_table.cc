@@ -17,9 +17,6 @@ bool looks_like_number(const std::string& text) {
   return !text.empty() && text.find_first_not_of("0123456789.+-e%*") == std::string::npos;
 }
 
-constexpr std::size_t kGap = 2;         // blanks between columns
-constexpr std::size_t kNarrowest = 20;  // of a column whose texts are broken
-
 struct TextColumn {
   std::size_t index, width;
   bool to_the_right;
@@ -49,22 +46,6 @@ void narrow(std::vector<TextColumn>& block, std::size_t surplus) {
       });
   if (widest->to_the_right || widest->width <= kNarrowest) return;
   widest->width = std::max(kNarrowest, widest->width - std::min(widest->width, surplus));
-}
-
-/// The beginning of a text that is at most so wide, up to a blank where there is one, and what is
-/// left of it.
-std::string cut_line(std::string& rest, std::size_t width) {
-  if (display_width(rest) <= width) return std::exchange(rest, "");
-  std::size_t end = 0, blank = std::string::npos;
-  while (end < rest.size() && display_width(rest.substr(0, end + 1)) <= width) {
-    if (rest[end] == ' ' && end > 0) blank = end;
-    ++end;
-  }
-  while (end < rest.size() && (static_cast<unsigned char>(rest[end]) & 0xC0) == 0x80) ++end;
-  if (blank != std::string::npos && rest[end] != ' ') end = blank;
-  const std::string line = rest.substr(0, end);
-  rest.erase(0, rest.find_first_not_of(' ', end));
-  return line;
 }
 
 /// A row, in as many lines as its texts need.
