@@ -8,7 +8,6 @@
 
 #include "campaign/app/commands.h"
 #include "campaign/app/print_answer.h"
-#include "campaign/render/text_table.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/version.h"
 
@@ -91,7 +90,6 @@ void add_wide(CLI::App* command) {
       "--wide",
       [] {
         constexpr std::size_t kWithoutEnd = 100000;
-        TextTable::set_screen_width(kWithoutEnd);
         set_screen_width(kWithoutEnd);
       },
       "all columns, however wide");

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/app/commands.h"
+#include "campaign/app/print_answer.h"
 #include "campaign/nightly/night_report.h"
 #include "simulator/files/json_text.h"
 
@@ -24,13 +25,14 @@ ExitCode nightly_command(const NightRequest& request, bool json) {
       run_night(request, {simulator_binary(), FAULTSIM_VERSION});
   if (!night) return ExitCode::regress;
   print(json ? faultsim::json_text(night_to_json(night->record, night->remarks, night->advice))
-             : night_to_text(night->record, night->remarks, night->advice));
+             : night_to_text(night->record, night->remarks, night->advice, screen_width()));
   return static_cast<ExitCode>(night->record.exit_code);
 }
 
 ExitCode nightly_history_command(const std::filesystem::path& store, bool json) {
   const std::vector<NightRecord> nights = Store::open_reader(store).nights("", kNightsShown);
-  print(json ? faultsim::json_text(history_to_json(nights)) : history_to_text(nights));
+  print(json ? faultsim::json_text(history_to_json(nights))
+             : history_to_text(nights, screen_width()));
   return ExitCode::done;
 }
 

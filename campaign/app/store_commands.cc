@@ -7,7 +7,7 @@
 #include "campaign/answers/why.h"
 #include "campaign/app/commands.h"
 #include "campaign/app/print_answer.h"
-#include "campaign/render/text_table.h"
+#include "campaign/render/render_text.h"
 #include "campaign/reports/case_report.h"
 #include "campaign/reports/explain_report.h"
 #include "campaign/reports/status_report.h"
@@ -338,19 +338,22 @@ ExitCode cancel_command(const StoreArguments& common) {
 ExitCode cache_list_command(const StoreArguments& common) {
   const auto entries = faultsim::list_operators(common.store / "operators");
   json document = json::array();
-  TextTable table({"operator", "MB", "last used"});
-  constexpr double kMegabyte = 1e6;
+  AnswerTable table{"operators",
+                    "",
+                    {{"operator", "operator", {}, 4, Need::always},
+                     {"bytes", "size", {"MB", 1e6, "B"}, 4, Need::always},
+                     {"last_used", "last used", {}, 4, Need::always}}};
   for (const faultsim::CacheEntry& entry : entries) {
     document.push_back({{"operator", entry.fingerprint},
                         {"bytes", entry.bytes},
                         {"last_used_at", entry.last_used}});
-    table.add_row({entry.fingerprint, format_number(static_cast<double>(entry.bytes) / kMegabyte),
-                   format_time(static_cast<double>(entry.last_used))});
+    table.rows.push_back({entry.fingerprint, static_cast<double>(entry.bytes),
+                          format_time(static_cast<double>(entry.last_used))});
   }
   if (common.json) {
     print(json{{"operators", document}});
   } else {
-    print(table.empty() ? std::string("the cache is empty\n") : table.text());
+    print(entries.empty() ? "the cache is empty\n" : render_text(table, screen_width()));
   }
   return ExitCode::done;
 }

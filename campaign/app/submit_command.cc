@@ -6,9 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/app/commands.h"
+#include "campaign/app/print_answer.h"
 #include "campaign/expansion/submission.h"
 #include "campaign/query/parameters.h"
-#include "campaign/render/text_table.h"
+#include "campaign/render/render_json.h"
+#include "campaign/render/render_text.h"
+#include "campaign/render/shown.h"
 #include "campaign/rounds/next_round.h"
 #include "campaign/scheduler/resources.h"
 #include "campaign/store/clock.h"
@@ -100,6 +103,30 @@ std::string creep_text(const std::vector<FamilyRecord>& families) {
                 format_number(memory / kGigabyte, 2), " GB per worker\n");
 }
 
+/// The first families on the screen, all of them in JSON.
+AnswerTable families_table(const SubmitReport& report) {
+  constexpr std::size_t kShown = 20;
+  const Need all = Need::always, data = Need::data;
+  AnswerTable table{"families",
+                    "",
+                    {{"family", "family", {}, 4, all},
+                     {"cases", "cases", {}, 4, all},
+                     {"unknowns", "unknowns", {}, 4, all},
+                     {"jump_unknowns", "on faults", {}, 4, all},
+                     {"creeps", "creeps", {}, 4, data},
+                     {"n_operators", "operators", {}, 4, all},
+                     {"predicted_operator_s", "build", {"s", 1, "s"}, 2, all},
+                     {"predicted_memory_bytes", "memory", {"GB", 1e9, "B"}, 2, all}}};
+  table.most_on_screen = kShown;
+  for (std::size_t k = 0; k < report.submission.families.size(); ++k) {
+    const FamilyRecord& one = report.submission.families[k];
+    table.rows.push_back({one.fingerprint, report.cases_per_family[k], one.unknowns,
+                          one.jump_unknowns, one.creeps(), one.n_operators, one.operator_seconds,
+                          one.memory_bytes});
+  }
+  return table;
+}
+
 std::string report_to_text(const SubmitReport& report) {
   const Submission& s = report.submission;
   std::string text =
@@ -118,20 +145,7 @@ std::string report_to_text(const SubmitReport& report) {
   for (const ExcludedCases& excluded : report.excluded) {
     text += concat("  excluded ", excluded.n_cases, ": ", excluded.reason, "\n");
   }
-  TextTable table(
-      {"family", "cases", "unknowns", "on faults", "operators", "build/s", "memory/GB"});
-  constexpr std::size_t kShown = 20;
-  constexpr double kGigabyte = 1e9;
-  for (std::size_t k = 0; k < std::min(kShown, s.families.size()); ++k) {
-    const FamilyRecord& family = s.families[k];
-    table.add_row({family.fingerprint.substr(0, 8), std::to_string(report.cases_per_family[k]),
-                   std::to_string(family.unknowns), std::to_string(family.jump_unknowns),
-                   std::to_string(family.n_operators), format_number(family.operator_seconds, 2),
-                   format_number(family.memory_bytes / kGigabyte, 2)});
-  }
-  text += table.text();
-  if (s.families.size() > kShown)
-    text += concat("and ", s.families.size() - kShown, " more families\n");
+  text += render_text(families_table(report), screen_width());
   text += concat("predicted: ", format_duration(report.operator_seconds),
                  " for the operators that are not cached, on one core\n");
   return text + creep_text(s.families);
@@ -143,18 +157,6 @@ json report_to_json(const SubmitReport& report) {
   for (const ExcludedCases& one : report.excluded) {
     excluded.push_back({{"expression", one.reason}, {"cases", one.n_cases}});
   }
-  json families = json::array();
-  for (std::size_t k = 0; k < s.families.size(); ++k) {
-    const FamilyRecord& family = s.families[k];
-    families.push_back({{"family", family.fingerprint},
-                        {"cases", report.cases_per_family[k]},
-                        {"unknowns", family.unknowns},
-                        {"jump_unknowns", family.jump_unknowns},
-                        {"creeps", family.creeps()},
-                        {"n_operators", family.n_operators},
-                        {"predicted_operator_s", family.operator_seconds},
-                        {"predicted_memory_bytes", family.memory_bytes}});
-  }
   return {{"campaign", s.name},
           {"cases", s.cases.size()},
           {"designed", report.n_designed},
@@ -165,7 +167,7 @@ json report_to_json(const SubmitReport& report) {
           {"keep_fields", to_string(s.keep_fields)},
           {"for_fields_only", report.n_fields},
           {"parameters", json::parse(parameters_to_json(s.parameters))},
-          {"families", families},
+          {"families", json_rows(families_table(report))},
           {"predicted_operator_s", report.operator_seconds},
           {"notes", report.notes}};
 }

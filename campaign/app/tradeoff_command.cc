@@ -3,8 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/app/commands.h"
+#include "campaign/app/print_answer.h"
 #include "campaign/expansion/submission.h"
-#include "campaign/render/text_table.h"
+#include "campaign/render/render_json.h"
+#include "campaign/render/render_text.h"
 #include "campaign/scheduler/resources.h"
 #include "campaign/scheduler/starter.h"
 #include "campaign/store/clock.h"
@@ -116,34 +118,24 @@ std::unique_ptr<faultsim::ResultFolder> open_output(const TradeoffArguments& arg
 }
 
 /// The ladder before anything is run.
-std::string ladder_to_text(const std::vector<TradeAxis>& axes) {
-  TextTable table({"axis", "choice", "unknowns", "jumps", "operator/s", "memory/GB", "left out"});
+AnswerTable ladder_table(const std::vector<TradeAxis>& axes) {
+  const Need all = Need::always;
+  AnswerTable table{"choices",
+                    "",
+                    {{"axis", "axis", {}, 4, all},
+                     {"choice", "choice", {}, 4, all},
+                     {"unknowns", "unknowns", {}, 4, all},
+                     {"jump_unknowns", "jumps", {}, 4, all},
+                     {"predicted_operator_s", "operator", {"s", 1, "s"}, 3, all},
+                     {"predicted_memory_bytes", "memory", {"GB", 1e9, "B"}, 3, all},
+                     {"left_out", "left out", {}, 4, all}}};
   for (const TradeAxis& axis : axes) {
     for (const TradeChoice& choice : axis.choices) {
-      table.add_row({axis.name, choice.name, std::to_string(choice.n_unknowns),
-                     std::to_string(choice.n_jump), format_number(choice.predicted_seconds, 3),
-                     format_number(choice.predicted_bytes / 1e9, 3), choice.left_out});
+      table.rows.push_back({axis.name, choice.name, choice.n_unknowns, choice.n_jump,
+                            choice.predicted_seconds, choice.predicted_bytes, choice.left_out});
     }
   }
-  return table.text();
-}
-
-json ladder_to_json(const std::vector<TradeAxis>& axes, const Expansion& expansion) {
-  json choices = json::array();
-  for (const TradeAxis& axis : axes) {
-    for (const TradeChoice& choice : axis.choices) {
-      choices.push_back({{"axis", axis.name},
-                         {"choice", choice.name},
-                         {"unknowns", choice.n_unknowns},
-                         {"jump_unknowns", choice.n_jump},
-                         {"predicted_operator_s", choice.predicted_seconds},
-                         {"predicted_memory_bytes", choice.predicted_bytes},
-                         {"left_out", choice.left_out}});
-    }
-  }
-  return {{"choices", std::move(choices)},
-          {"cases", expansion.cases.size()},
-          {"families", expansion.families.size()}};
+  return table;
 }
 
 ExitCode run_ladder(const StoreArguments& common, const TradeoffArguments& arguments,
@@ -169,8 +161,12 @@ ExitCode tradeoff_command(const StoreArguments& common, const TradeoffArguments&
   }
   const Expansion expansion = expand(parse_campaign(spec.dump(), question.scene.source));
   if (arguments.dry_run) {
+    const AnswerTable ladder = ladder_table(axes);
     const std::string text =
-        common.json ? faultsim::json_text(ladder_to_json(axes, expansion)) : ladder_to_text(axes);
+        common.json ? faultsim::json_text(json{{"choices", json_rows(ladder)},
+                                               {"cases", expansion.cases.size()},
+                                               {"families", expansion.families.size()}})
+                    : render_text(ladder, screen_width());
     std::fputs(text.c_str(), stdout);
     std::fprintf(stderr, "%zu cases in %zu families\n", expansion.cases.size(),
                  expansion.families.size());
@@ -203,7 +199,8 @@ ExitCode tradeoff_command(const StoreArguments& common, const TradeoffArguments&
   record.report = document.dump();
   store.record_trade(record);
   if (output) write_report(*output, arguments.output, report);
-  std::fputs(common.json ? faultsim::json_text(document).c_str() : trade_to_text(report).c_str(),
+  std::fputs(common.json ? faultsim::json_text(document).c_str()
+                         : trade_to_text(report, screen_width()).c_str(),
              stdout);
   return status;
 }

@@ -4,7 +4,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "campaign/render/text_table.h"
+#include "campaign/render/render_text.h"
+#include "campaign/render/shown.h"
 #include "campaign/store/clock.h"
 #include "simulator/common/errors.h"
 
@@ -183,17 +184,24 @@ std::string counts_text(const NightRecord& night) {
 }  // namespace
 
 std::string night_to_text(const NightRecord& night, const std::vector<std::string>& remarks,
-                          const std::vector<std::string>& advice) {
+                          const std::vector<std::string>& advice, std::size_t width) {
   std::string text = concat("suite ", night.suite, ", ", format_time(night.at), ", ",
                             format_duration(night.wall_seconds), "\n");
   for (const std::string& remark : remarks) text += remark + "\n";
-  TextTable table({"verdict", "case", "max ulp", "first difference", "parameters"});
+  AnswerTable table{"cases",
+                    "",
+                    {{"verdict", "verdict", {}, 4, Need::always},
+                     {"case", "case", {}, 4, Need::always},
+                     {"max_ulps", "max ulp", {}, 6, Need::always},
+                     {"remark", "first difference", {}, 4, Need::always},
+                     {"label", "parameters", {}, 4, Need::always}}};
   for (const NightCaseRecord& one : night.cases) {
     if (one.verdict == to_string(Verdict::identical)) continue;
-    table.add_row({one.verdict, name_of(one),
-                   one.max_ulps > 0 ? format_number(one.max_ulps, 6) : "", one.remark, one.label});
+    table.rows.push_back({one.verdict, name_of(one),
+                          one.max_ulps > 0 ? AnswerCell(one.max_ulps) : AnswerCell(), one.remark,
+                          one.label});
   }
-  if (!table.empty()) text += table.text();
+  text += render_text(table, width);
   for (const std::string& one : advice) text += "note: " + one + "\n";
   text += concat(night.n_compared, " compared: ", counts_text(night), "\n");
   if (night.n_compared == 0) text += "NOTHING WAS COMPARED\n";
@@ -257,20 +265,31 @@ long n_changed(const std::vector<NightRecord>& nights, std::size_t k) {
 
 }  // namespace
 
-std::string history_to_text(const std::vector<NightRecord>& nights) {
-  TextTable table({"night", "suite", "environment", "version", "numerics", "compared", "regressed",
-                   "changed", "exit", "time/s", "blessed"});
+std::string history_to_text(const std::vector<NightRecord>& nights, std::size_t width) {
+  const Need all = Need::always;
+  AnswerTable table{"nights",
+                    "",
+                    {{"at", "night", {}, 4, all},
+                     {"suite", "suite", {}, 4, all},
+                     {"environment", "environment", {}, 4, all},
+                     {"version", "version", {}, 4, all},
+                     {"numerics_version", "numerics", {}, 4, all},
+                     {"compared", "compared", {}, 4, all},
+                     {"regressed", "regressed", {}, 4, all},
+                     {"changed", "changed", {}, 4, all},
+                     {"exit_code", "exit", {}, 4, all},
+                     {"wall_s", "time", {"s", 1, "s"}, 3, all},
+                     {"blessed", "blessed", {}, 4, all}}};
   for (std::size_t k = 0; k < nights.size(); ++k) {
     const NightRecord& night = nights[k];
     const bool own = night.environment == night.baseline_environment;
-    table.add_row({format_time(night.at), night.suite,
-                   night.environment.substr(0, 8) + (own ? "" : " (other)"), night.program_version,
-                   std::to_string(night.numerics_version), std::to_string(night.n_compared),
-                   std::to_string(night.n_regressed), std::to_string(n_changed(nights, k)),
-                   std::to_string(night.exit_code), format_number(night.wall_seconds, 3),
-                   night.blessed.value_or("")});
+    table.rows.push_back({format_time(night.at), night.suite,
+                          night.environment.substr(0, 8) + (own ? "" : " (other)"),
+                          night.program_version, night.numerics_version, night.n_compared,
+                          night.n_regressed, n_changed(nights, k), night.exit_code,
+                          night.wall_seconds, night.blessed.value_or("")});
   }
-  return table.text();
+  return render_text(table, width);
 }
 
 json history_to_json(const std::vector<NightRecord>& nights) {

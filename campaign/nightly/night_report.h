@@ -23,12 +23,13 @@ std::vector<std::string> night_advice(const NightRecord& tonight,
                                       const std::vector<NightRecord>& earlier);
 
 /// @param remarks  sentences about environment and baseline, printed first.
+/// @param width    columns of the screen.
 std::string night_to_text(const NightRecord& night, const std::vector<std::string>& remarks,
-                          const std::vector<std::string>& advice);
+                          const std::vector<std::string>& advice, std::size_t width);
 nlohmann::json night_to_json(const NightRecord& night, const std::vector<std::string>& remarks,
                              const std::vector<std::string>& advice);
 /// A line per night; how many cases changed their numbers since the night before.
-std::string history_to_text(const std::vector<NightRecord>& nights);
+std::string history_to_text(const std::vector<NightRecord>& nights, std::size_t width);
 nlohmann::json history_to_json(const std::vector<NightRecord>& nights);
 
 }  // namespace faultsweep

@@ -33,19 +33,26 @@ ordered_json row_of(const AnswerTable& table, const std::vector<AnswerCell>& cel
   return row;
 }
 
+ordered_json rows_of(const AnswerTable& table) {
+  ordered_json rows = ordered_json::array();
+  for (const auto& cells : table.rows) rows.push_back(row_of(table, cells));
+  return rows;
+}
+
 void add_table(ordered_json& document, ordered_json& columns, const AnswerTable& table) {
   FAULTSIM_DEMAND(!document.contains(table.key), "two tables are called ", table.key);
-  ordered_json rows = ordered_json::array(), described = ordered_json::array();
-  for (const auto& cells : table.rows) rows.push_back(row_of(table, cells));
+  ordered_json described = ordered_json::array();
   for (const AnswerColumn& one : table.columns) {
     described.push_back({{"key", one.key}, {"heading", one.heading}, {"unit", one.unit.si}});
     if (!one.group.empty()) described.back()["in"] = one.group;
   }
-  document[table.key] = std::move(rows);
+  document[table.key] = rows_of(table);
   columns[table.key] = std::move(described);
 }
 
 }  // namespace
+
+nlohmann::json json_rows(const AnswerTable& table) { return rows_of(table); }
 
 ordered_json render_json(const Answer& answer) {
   ordered_json document = {{"format", kAnswerFormat}, {"headline", answer.headline}};

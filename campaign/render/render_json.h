@@ -13,5 +13,7 @@ namespace faultsweep {
 /// key.
 inline constexpr int kAnswerFormat = 2;  ///< of commands.schema.json.
 nlohmann::ordered_json render_json(const Answer& answer);
+/// The rows of a table as objects, for documents of another format.
+nlohmann::json json_rows(const AnswerTable& table);
 
 }  // namespace faultsweep

@@ -14,6 +14,26 @@ using faultsim::concat;
 
 namespace {
 
+constexpr std::size_t kGap = 2;         // blanks between columns
+constexpr std::size_t kNarrowest = 20;  // of a column whose texts are broken
+
+/// The beginning of a text that is at most so wide, up to a blank where there is one, and what is
+/// left of it.
+std::string cut_line(std::string& rest, std::size_t width) {
+  if (display_width(rest) <= width) return std::exchange(rest, "");
+  std::size_t end = 0, blank = std::string::npos;
+  while (end < rest.size() && display_width(rest.substr(0, end + 1)) <= width) {
+    if (rest[end] == ' ' && end > 0) blank = end;
+    ++end;
+  }
+  while (end < rest.size() && (static_cast<unsigned char>(rest[end]) & 0xC0) == 0x80) ++end;
+  if (blank != std::string::npos && rest[end] != ' ') end = blank;
+  const std::string line = rest.substr(0, end);
+  const std::size_t next = rest.find_first_not_of(' ', end);
+  rest.erase(0, next == std::string::npos ? rest.size() : next);
+  return line;
+}
+
 /// A column as it is laid out.
 struct Laid {
   const AnswerColumn* column = nullptr;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <utility>
 
 #include "simulator/common/errors.h"
 #include "simulator/common/printable.h"
@@ -104,21 +103,6 @@ std::size_t display_width(const std::string& text) {
     if (!continues && !combines) ++width;
   }
   return width;
-}
-
-std::string cut_line(std::string& rest, std::size_t width) {
-  if (display_width(rest) <= width) return std::exchange(rest, "");
-  std::size_t end = 0, blank = std::string::npos;
-  while (end < rest.size() && display_width(rest.substr(0, end + 1)) <= width) {
-    if (rest[end] == ' ' && end > 0) blank = end;
-    ++end;
-  }
-  while (end < rest.size() && (static_cast<unsigned char>(rest[end]) & 0xC0) == 0x80) ++end;
-  if (blank != std::string::npos && rest[end] != ' ') end = blank;
-  const std::string line = rest.substr(0, end);
-  const std::size_t next = rest.find_first_not_of(' ', end);
-  rest.erase(0, next == std::string::npos ? rest.size() : next);
-  return line;
 }
 
 }  // namespace faultsweep

@@ -30,10 +30,4 @@ std::string shown_heading(const AnswerColumn& column);
 /// print are one wide.
 std::size_t display_width(const std::string& text);
 
-inline constexpr std::size_t kGap = 2;         ///< blanks between columns of a screen.
-inline constexpr std::size_t kNarrowest = 20;  ///< of a column whose texts are broken.
-/// The beginning of a text that is at most so wide, up to a blank where there is one; `rest` is
-/// what is left of it.
-std::string cut_line(std::string& rest, std::size_t width);
-
 }  // namespace faultsweep

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "campaign/render/text_table.h"
+#include "campaign/render/render_json.h"
+#include "campaign/render/render_text.h"
+#include "campaign/render/shown.h"
 #include "simulator/common/errors.h"
 
 namespace faultsweep {
@@ -16,19 +17,16 @@ using nlohmann::json;
 
 namespace {
 
+constexpr double kBar = 1e5;  // Pa
+const ShownUnit kSeconds = {"s", 1, "s"}, kBars = {"bar", kBar, "Pa"},
+                kGigabytes = {"GB", 1e9, "B"};
+
 std::string number(double value, int digits = 3) {
   return std::isnan(value) ? "" : format_number(value, digits);
-}
-std::string percent(double share) {
-  if (std::isnan(share)) return "";
-  char text[32];
-  std::snprintf(text, sizeof text, "%+.3g", 100 * share);
-  return share == 0 ? "0" : text;
 }
 std::string in_bar(double pressure) {
   return std::isnan(pressure) ? "" : format_number(pressure / kBar, 4);
 }
-std::string in_gigabytes(double bytes) { return std::isnan(bytes) ? "" : number(bytes / 1e9, 3); }
 
 std::string remark_of(const TradeRow& row) {
   if (!row.choice.left_out.empty()) return row.choice.left_out;
@@ -42,34 +40,61 @@ std::string remark_of(const TradeRow& row) {
   return text;
 }
 
-struct Cells {
-  std::vector<std::string> header;
-  std::vector<std::vector<std::string>> rows;
-};
-
-Cells cells_of(const TradeTable& table) {
-  Cells cells;
-  cells.header = {"choice", "unknowns", "χ̄ off by"};
-  if (table.axis.is_mesh) cells.header.insert(cells.header.end(), {"χ̄ in all", "front"});
-  for (const char* name : {"activation/bar", "off by", "area/%", "slip/%", "M0/%", "operator/s",
-                           "case/s", "memory/GB", "remark"}) {
-    cells.header.emplace_back(name);
+/// A choice per row; in files as trade.json has them, but for what the choice changes.
+AnswerTable table_of(const TradeTable& trade) {
+  const Need mesh = trade.axis.is_mesh ? Need::always : Need::data, all = Need::always,
+             data = Need::data;
+  AnswerTable table{"choices",
+                    "",
+                    {{"choice", "choice", {}, 4, all},
+                     {"size", "size", {"m", 1, "m"}, 4, data},
+                     {"unknowns", "unknowns", {}, 4, all},
+                     {"jump_unknowns", "jumps", {}, 4, data},
+                     {"error_chi", "χ̄ off by", {}, 2, all},
+                     {"error_chi_where", "where", {}, 4, data},
+                     {"error_chi_in_all", "χ̄ in all", {}, 2, mesh},
+                     {"pareto", "front", {}, 4, mesh},
+                     {"activation_pressure_pa", "activation", kBars, 4, all, "metrics"},
+                     {"activated_area_m2", "sliding area", {"m2", 1, "m2"}, 4, data, "metrics"},
+                     {"max_slip_m", "slip", {"m", 1, "m"}, 4, data, "metrics"},
+                     {"moment_nm", "M0", {"N m", 1, "N m"}, 4, data, "metrics"},
+                     {"error_activation_pressure_pa", "off by", kBars, 4, all},
+                     {"activation_flips", "activation flips", {}, 4, data},
+                     {"relative_error_area", "area", percent(), 3, all},
+                     {"relative_error_slip", "slip", percent(), 3, all},
+                     {"relative_error_moment", "M0", percent(), 3, all},
+                     {"operator_s", "operator", kSeconds, 3, all},
+                     {"case_s", "case", kSeconds, 3, all},
+                     {"peak_bytes", "memory", kGigabytes, 3, all},
+                     {"outcome", "outcome", {}, 4, data},
+                     {"remark", "remark", {}, 4, all}}};
+  for (const TradeRow& row : trade.rows) {
+    const TradeMetrics& m = row.metrics;
+    const auto& result = row.run.result;
+    table.rows.push_back({row.choice.name,
+                          row.choice.size > 0 ? AnswerCell(row.choice.size) : AnswerCell(),
+                          row.choice.n_unknowns,
+                          row.choice.n_jump,
+                          row.error.chi,
+                          row.error.where,
+                          row.total_chi,
+                          row.on_front,
+                          m.activation_pressure,
+                          m.area,
+                          m.slip,
+                          m.moment,
+                          row.error.activation_pressure,
+                          row.error.activation_flips,
+                          row.error.area,
+                          row.error.slip,
+                          row.error.moment,
+                          row.run.operator_seconds,
+                          row.run.case_seconds,
+                          row.run.peak_bytes,
+                          result ? AnswerCell(faultsim::to_string(result->outcome)) : AnswerCell(),
+                          remark_of(row)});
   }
-  for (const TradeRow& row : table.rows) {
-    std::vector<std::string> line = {
-        row.choice.name,
-        row.choice.n_unknowns > 0 ? std::to_string(row.choice.n_unknowns) : std::string(),
-        number(row.error.chi, 2)};
-    if (table.axis.is_mesh)
-      line.insert(line.end(), {number(row.total_chi, 2), row.on_front ? "*" : ""});
-    line.insert(line.end(),
-                {in_bar(row.metrics.activation_pressure), in_bar(row.error.activation_pressure),
-                 percent(row.error.area), percent(row.error.slip), percent(row.error.moment),
-                 number(row.run.operator_seconds), number(row.run.case_seconds),
-                 in_gigabytes(row.run.peak_bytes), remark_of(row)});
-    cells.rows.push_back(std::move(line));
-  }
-  return cells;
+  return table;
 }
 
 /// What `χ̄ in all` is measured against.
@@ -94,42 +119,47 @@ std::string reference_of(const TradeTable& table) {
   return text;
 }
 
-Cells cells_of(const std::vector<RankingTrade>& rankings) {
-  Cells cells;
-  cells.header = {
-      "choice", "against",          "cases", "Kendall τ",         "same of the first", "χ̄ rms",
-      "χ̄ max",  "activation flips", "s",     "s of the reference"};
+AnswerTable table_of(const std::vector<RankingTrade>& rankings) {
+  const Need all = Need::always;
+  AnswerTable table{"rankings",
+                    "",
+                    {{"choice", "choice", {}, 4, all},
+                     {"reference", "against", {}, 4, all},
+                     {"n_cases", "cases", {}, 4, all},
+                     {"kendall_tau_b", "Kendall τ", {}, 3, all},
+                     {"n_top_common", "the same", {}, 4, all},
+                     {"n_top", "of the first", {}, 4, all},
+                     {"chi_rms", "χ̄ rms", {}, 2, all},
+                     {"chi_max", "χ̄ max", {}, 2, all},
+                     {"activation_flips", "activation flips", {}, 4, all},
+                     {"seconds", "it takes", kSeconds, 3, all},
+                     {"reference_seconds", "the reference", kSeconds, 3, all}}};
   for (const RankingTrade& one : rankings) {
-    cells.rows.push_back({one.choice, one.reference, std::to_string(one.n_cases),
-                          one.tau ? number(*one.tau) : "",
-                          concat(one.n_top_common, " of ", one.n_top), number(one.chi_rms, 2),
-                          number(one.chi_max, 2), std::to_string(one.n_flips), number(one.seconds),
-                          number(one.reference_seconds)});
+    table.rows.push_back({one.choice, one.reference, one.n_cases,
+                          one.tau ? AnswerCell(*one.tau) : AnswerCell(), one.n_top_common,
+                          one.n_top, one.chi_rms, one.chi_max, one.n_flips, one.seconds,
+                          one.reference_seconds});
   }
-  return cells;
+  return table;
 }
 
-std::string screen_table(const Cells& cells) {
-  TextTable table(cells.header);
-  for (const auto& row : cells.rows) table.add_row(row);
-  return table.text();
-}
-
-std::string markdown_table(const Cells& cells) {
-  std::vector<bool> is_used(cells.header.size(), false);
-  for (const auto& row : cells.rows) {
-    for (std::size_t k = 0; k < row.size(); ++k) is_used[k] = is_used[k] || !row[k].empty();
+/// Of the columns that a screen has, those with something in them.
+std::string markdown_table(const AnswerTable& table) {
+  std::string heading = "|", rule = "|";
+  std::vector<std::string> lines(table.rows.size(), "|");
+  for (std::size_t k = 0; k < table.columns.size(); ++k) {
+    const AnswerColumn& column = table.columns[k];
+    if (column.need == Need::data) continue;
+    std::vector<std::string> cells;
+    for (const auto& row : table.rows) cells.push_back(shown_cell(row[k], column));
+    if (std::all_of(cells.begin(), cells.end(), [](const auto& cell) { return cell.empty(); }))
+      continue;
+    heading += " " + shown_heading(column) + " |";
+    rule += " --- |";
+    for (std::size_t r = 0; r < cells.size(); ++r) lines[r] += " " + cells[r] + " |";
   }
-  const auto line = [&](const std::vector<std::string>& row) {
-    std::string text = "|";
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      if (is_used[k]) text += " " + row[k] + " |";
-    }
-    return text + "\n";
-  };
-  std::string text = line(cells.header);
-  text += line(std::vector<std::string>(cells.header.size(), "---"));
-  for (const auto& row : cells.rows) text += line(row);
+  std::string text = heading + "\n" + rule + "\n";
+  for (const std::string& line : lines) text += line + "\n";
   return text;
 }
 
@@ -241,14 +271,14 @@ std::vector<std::string> trade_answers(const TradeReport& report) {
   return all;
 }
 
-std::string trade_to_text(const TradeReport& report) {
+std::string trade_to_text(const TradeReport& report, std::size_t width) {
   std::string text;
   for (const TradeTable& table : report.trade.tables) {
     text += concat("== ", table.axis.name, ": ", table.axis.question, "\n",
-                   screen_table(cells_of(table)), reference_of(table), "\n\n");
+                   render_text(table_of(table), width), reference_of(table), "\n\n");
   }
   if (!report.rankings.empty()) {
-    text += concat("== ranking\n", screen_table(cells_of(report.rankings)), "\n");
+    text += concat("== ranking\n", render_text(table_of(report.rankings), width), "\n");
   }
   text += reference_of_meshes(report);
   for (const std::string& answer : trade_answers(report)) text += answer + "\n";
@@ -261,11 +291,11 @@ std::string trade_to_markdown(const TradeReport& report) {
   text += "\n![Error against cost](pareto.svg) ![Error against size](convergence.svg)\n";
   text += "\n" + reference_of_meshes(report);
   if (!report.rankings.empty()) {
-    text += concat("\n## Ranking\n\n", markdown_table(cells_of(report.rankings)));
+    text += concat("\n## Ranking\n\n", markdown_table(table_of(report.rankings)));
   }
   for (const TradeTable& table : report.trade.tables) {
     text += concat("\n## ", table.axis.name, "\n\n", table.axis.question, "\n\n",
-                   markdown_table(cells_of(table)), "\n", reference_of(table), "\n");
+                   markdown_table(table_of(table)), "\n", reference_of(table), "\n");
   }
   return text;
 }
@@ -281,29 +311,14 @@ json metrics_json(const TradeMetrics& metrics) {
           {"moment_nm", known(metrics.moment)}};
 }
 
-json row_json(const TradeRow& row) {
-  json changes = json::object();
-  for (const Change& change : row.choice.changes) changes[change.pointer] = change.value;
-  return {{"choice", row.choice.name},
-          {"changes", changes},
-          {"size", row.choice.size > 0 ? json(row.choice.size) : json()},
-          {"unknowns", row.choice.n_unknowns},
-          {"jump_unknowns", row.choice.n_jump},
-          {"remark", remark_of(row)},
-          {"outcome", row.run.result ? json(faultsim::to_string(row.run.result->outcome)) : json()},
-          {"metrics", metrics_json(row.metrics)},
-          {"error_chi", known(row.error.chi)},
-          {"error_chi_where", row.error.where},
-          {"error_chi_in_all", known(row.total_chi)},
-          {"activation_flips", row.error.activation_flips},
-          {"error_activation_pressure_pa", known(row.error.activation_pressure)},
-          {"relative_error_area", known(row.error.area)},
-          {"relative_error_slip", known(row.error.slip)},
-          {"relative_error_moment", known(row.error.moment)},
-          {"operator_s", known(row.run.operator_seconds)},
-          {"case_s", known(row.run.case_seconds)},
-          {"peak_bytes", known(row.run.peak_bytes)},
-          {"pareto", row.on_front}};
+json choices_json(const TradeTable& table) {
+  json rows = json_rows(table_of(table));
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    json& changes = rows[k]["changes"] = json::object();
+    for (const Change& change : table.rows[k].choice.changes)
+      changes[change.pointer] = change.value;
+  }
+  return rows;
 }
 
 }  // namespace
@@ -311,8 +326,6 @@ json row_json(const TradeRow& row) {
 json trade_to_json(const TradeReport& report) {
   json axes = json::array();
   for (const TradeTable& table : report.trade.tables) {
-    json rows = json::array();
-    for (const TradeRow& row : table.rows) rows.push_back(row_json(row));
     axes.push_back({{"axis", table.axis.name},
                     {"question", table.axis.question},
                     {"reference", table.reference},
@@ -320,21 +333,7 @@ json trade_to_json(const TradeReport& report) {
                     {"order", known(table.chi.order)},
                     {"extrapolated", table.chi.extrapolated},
                     {"uncertainty_chi", known(table.chi_uncertainty)},
-                    {"choices", rows}});
-  }
-  json rankings = json::array();
-  for (const RankingTrade& one : report.rankings) {
-    rankings.push_back({{"choice", one.choice},
-                        {"reference", one.reference},
-                        {"n_cases", one.n_cases},
-                        {"kendall_tau_b", one.tau ? json(*one.tau) : json()},
-                        {"n_top", one.n_top},
-                        {"n_top_common", one.n_top_common},
-                        {"activation_flips", one.n_flips},
-                        {"chi_rms", known(one.chi_rms)},
-                        {"chi_max", known(one.chi_max)},
-                        {"seconds", one.seconds},
-                        {"reference_seconds", one.reference_seconds}});
+                    {"choices", choices_json(table)}});
   }
   return {{"format", 1},
           {"title", report.title},
@@ -344,7 +343,7 @@ json trade_to_json(const TradeReport& report) {
           {"reference", report.trade.reference.text},
           {"reference_uncertainty_chi", known(report.trade.reference.uncertainty)},
           {"axes", axes},
-          {"rankings", rankings}};
+          {"rankings", json_rows(table_of(report.rankings))}};
 }
 
 }  // namespace faultsweep

@@ -20,7 +20,7 @@ struct TradeReport {
 /// One sentence per question: plane strain, each tier in the ranking, steps of salt, and so on.
 std::vector<std::string> trade_answers(const TradeReport& report);
 
-std::string trade_to_text(const TradeReport& report);      ///< for the screen.
+std::string trade_to_text(const TradeReport& report, std::size_t width);  ///< for a screen.
 std::string trade_to_markdown(const TradeReport& report);  ///< for a file beside the figures.
 nlohmann::json trade_to_json(const TradeReport& report);   ///< SI; null where unknown.
 

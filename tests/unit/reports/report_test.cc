@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/query/parameters.h"
-#include "campaign/render/text_table.h"
+#include "campaign/render/shown.h"
 #include "campaign/reports/case_report.h"
 #include "campaign/reports/explain_report.h"
 #include "campaign/reports/ranking_answer.h"
@@ -24,47 +24,15 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST(TextTable, AlignsNumbersRightWordsLeftAndDropsEmptyColumns) {
-  TextTable table({"name", "χ̄", "empty", "n"});
-  table.add_row({"F1", "0.5", "", "12"});
-  table.add_row({"long name", "0.75", "", "3"});
-  EXPECT_EQ(table.text(),
-            "name          χ̄   n\n"
-            "F1          0.5  12\n"
-            "long name  0.75   3\n");
-  EXPECT_THROW(table.add_row({"too few"}), faultsim::InternalError);
+TEST(ShownNumbers, HaveTheDigitsThatAScreenNeeds) {
   EXPECT_EQ(format_number(1.23456e15, 3), "1.23e+15");
   EXPECT_EQ(format_number(std::nan("")), "-");
-}
-
-TEST(TextTable, KeepsWithinTheScreen) {
-  TextTable table({"case", "first metric", "second metric", "reason"});
-  table.add_row(
-      {"17", "0.123456", "12.5", "the history ends in step 9: no convergence of the contact"});
-  table.add_row({"8", "0.9", "3", ""});
-  EXPECT_EQ(table.text(40),
-            "case  first metric  second metric\n"
-            "  17      0.123456           12.5\n"
-            "   8           0.9              3\n"
-            "\n"
-            "case  reason\n"
-            "  17  the history ends in step 9: no\n"
-            "      convergence of the contact\n"
-            "   8\n");
-  EXPECT_THAT(table.text(1000), HasSubstr("case  first metric  second metric  reason\n"));
-  EXPECT_EQ(TextTable({"nothing"}).text(), "");
-}
-
-TEST(TextTable, ShowsTheDigitsThatAScreenNeeds) {
   EXPECT_EQ(short_number("18.9238690858494 deg"), "18.9239 deg");
   EXPECT_EQ(short_number("-1.23456789e-07"), "-1.23457e-07");
   for (const char* kept :
        {"20 deg", "0.125", "12345678", "min", "", "F1.12345678", "1.5.2345678"}) {
     EXPECT_EQ(short_number(kept), kept);
   }
-  TextTable table({"angle"});
-  table.add_row({"18.9238690858494 deg"});
-  EXPECT_EQ(table.text(), "angle\n18.9239 deg\n");
 }
 
 TEST(Parameters, TravelThroughTheStore) {

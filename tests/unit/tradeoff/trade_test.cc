@@ -194,7 +194,7 @@ TEST(Trade, SaysWhereActivationFlips) {
   EXPECT_FALSE(tables[0].rows[1].error.activation_flips);
   TradeReport report;
   report.trade = trade;
-  EXPECT_THAT(trade_to_text(report), HasSubstr("ACTIVATION FLIPS"));
+  EXPECT_THAT(trade_to_text(report, 200), HasSubstr("ACTIVATION FLIPS"));
 }
 
 TEST(Trade, RecommendsOnlyWhatWasMeasured) {
@@ -225,13 +225,13 @@ TEST(Trade, SurvivesChoicesWithoutResult) {
   EXPECT_EQ(tables[1].reference, "40 m");  // two are left: nothing to extrapolate from
   TradeReport report;
   report.trade = trade;
-  EXPECT_THAT(trade_to_text(report), HasSubstr("memory: killed"));
+  EXPECT_THAT(trade_to_text(report, 200), HasSubstr("memory: killed"));
   EXPECT_THAT(trade_to_markdown(report), HasSubstr("No mesh can be recommended"));
   for (MadeUpAxis& axis : axes) {
     for (TradeRun& run : axis.runs) run = TradeRun();
   }
   report.trade = made_up_trade(axes);
-  EXPECT_THAT(trade_to_text(report), HasSubstr("nothing to compare with"));
+  EXPECT_THAT(trade_to_text(report, 200), HasSubstr("nothing to compare with"));
   EXPECT_TRUE(trade_to_json(report).at("axes").at(0).at("choices").at(0).at("error_chi").is_null());
 }
 
