@@ -14,7 +14,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/files/atomic_file.h"
 #include "simulator/files/output_target.h"
-#include "tests/unit/cache/example_operator.h"
+#include "tests/unit/files/scratch_folder.h"
 
 namespace faultsim {
 namespace {
