@@ -86,9 +86,9 @@ std::vector<std::size_t> design_parameters(const std::vector<StoredParameter>& a
 }
 
 /// A row per configuration and fault.
-class Rows {
+class LimitRows {
  public:
-  Rows(const Store& store, const LimitTable& table) : store_(store), table_(table) {}
+  LimitRows(const Store& store, const LimitTable& table) : store_(store), table_(table) {}
   void add(const LimitSearcher::Search& search, const std::vector<std::string>& settings) {
     const LimitSearch& limit = table_.limits[search.limit];
     LimitRow& row = rows_[{search.configuration, limit.faults[search.fault]}];
@@ -142,7 +142,7 @@ LimitTable make_limit_table(const Store& store, const CampaignInfo& campaign) {
     const std::vector<std::string> labels = labels_of(one.parameters, parameters);
     for (const std::size_t p : places) settings[one.row / n_values].push_back(labels[p]);
   }
-  Rows rows(store, table);
+  LimitRows rows(store, table);
   table.is_finished = campaign.n_waiting == 0;
   for (const LimitSearcher::Search& one : searcher.search(answers, stored->designs)) {
     const LimitSearch& limit = table.limits[one.limit];

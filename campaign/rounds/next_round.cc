@@ -51,7 +51,7 @@ bool add_next_round(Store& store, const std::string& name) {
     }
     const ordered_json spec = proposer->spec_of_round(stored->spec, proposal.design);
     const Submission round = make_submission(expand(parse_campaign(spec.dump(), stored->source)));
-    FAULTSIM_DEMAND(round.parameters == campaign.parameters, round.parameters);
+    FAULTSIM_DEMAND(round.parameters == campaign.parameters, campaign.name);
     const long n_new =
         store.record_round(campaign.id, round, proposal.design.dump(), proposal.reason);
     if (n_new > 0) return true;

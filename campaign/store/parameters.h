@@ -12,6 +12,7 @@ struct StoredParameter {
   std::string name;
   faultsim::Dimension dimension = faultsim::Dimension::number;
   bool is_text = false;
+  bool operator==(const StoredParameter&) const = default;
 };
 
 /// The JSON array of {"name", "dimension"} that the store keeps.
