@@ -130,23 +130,15 @@ constexpr const char* kInfoColumns =
 
 CampaignInfo read_info(const Statement& row) {
   CampaignInfo info;
-  info.id = row.integer(0);
-  info.name = row.text(1);
-  info.submitted_at = row.real(2);
-  info.cancelled = row.text(3) == "cancelled";
-  info.source = row.text(4);
-  info.parameters = parameters_from_json(row.text(5));
-  info.rank_by = row.text(6);
-  info.n_excluded = row.integer(7);
-  info.n_merged = row.integer(8);
-  info.policy.on_failure = failure_action_from_string(row.text(9));
-  info.policy.retries = static_cast<int>(row.integer(10));
-  info.policy.time_limit = row.optional_real(11);
-  info.policy.memory_limit = row.optional_real(12);
-  info.policy.operator_time_limit = row.optional_real(14);
-  info.conclusion = row.text(15);
-  const auto keep = keep_fields_named(row.text(13));
-  if (!keep) throw StorageError(concat("unknown keep_fields '", row.text(13), "' in the store"));
+  std::string state, parameters, on_failure, keep_fields;
+  row.read(info.id, info.name, info.submitted_at, state, info.source, parameters, info.rank_by,
+           info.n_excluded, info.n_merged, on_failure, info.policy.retries, info.policy.time_limit,
+           info.policy.memory_limit, keep_fields, info.policy.operator_time_limit, info.conclusion);
+  info.cancelled = state == "cancelled";
+  info.parameters = parameters_from_json(parameters);
+  info.policy.on_failure = failure_action_from_string(on_failure);
+  const auto keep = keep_fields_named(keep_fields);
+  if (!keep) throw StorageError(concat("unknown keep_fields '", keep_fields, "' in the store"));
   info.keep_fields = *keep;
   return info;
 }

@@ -16,9 +16,7 @@ void Store::record_night(const NightRecord& night) {
             night.baseline_environment, night.program_version, night.numerics_version,
             night.n_compared, night.n_regressed, night.exit_code, night.blessed)
       .run();
-  Statement last(db, "SELECT last_insert_rowid()");
-  last.step();
-  const std::int64_t id = last.integer(0);
+  const std::int64_t id = db.last_insert_id();
   for (const NightCaseRecord& one : night.cases) {
     db.prepared(
           "INSERT INTO night_cases (night_id, campaign, position, identity, label, verdict,"
@@ -44,23 +42,9 @@ std::vector<NightCaseRecord> read_night_cases(Connection& db, std::int64_t night
   rows.bind(night);
   while (rows.step()) {
     NightCaseRecord one;
-    one.campaign = rows.text(0);
-    one.position = static_cast<long>(rows.integer(1));
-    one.identity = rows.text(2);
-    one.label = rows.text(3);
-    one.verdict = rows.text(4);
-    one.regressed = rows.integer(5) != 0;
-    one.max_ulps = rows.real(6);
-    if (const auto step = rows.optional_integer(7)) one.load_step = static_cast<int>(*step);
-    one.place = rows.text(8);
-    one.quantity = rows.text(9);
-    one.remark = rows.text(10);
-    one.digest = rows.text(11);
-    one.wall_seconds = rows.optional_real(12);
-    one.outcome = rows.text(13);
-    one.activated_area = rows.optional_real(14);
-    one.moment = rows.optional_real(15);
-    one.chi_bar = rows.optional_real(16);
+    rows.read(one.campaign, one.position, one.identity, one.label, one.verdict, one.regressed,
+              one.max_ulps, one.load_step, one.place, one.quantity, one.remark, one.digest,
+              one.wall_seconds, one.outcome, one.activated_area, one.moment, one.chi_bar);
     cases.push_back(std::move(one));
   }
   return cases;
@@ -78,19 +62,10 @@ std::vector<NightRecord> Store::nights(const std::string& suite, int limit) cons
   rows.bind(suite, limit);
   while (rows.step()) {
     NightRecord night;
-    night.id = rows.integer(0);
-    night.at = rows.real(1);
-    night.wall_seconds = rows.real(2);
-    night.suite = rows.text(3);
-    night.environment = rows.text(4);
-    night.environment_fields = rows.text(5);
-    night.baseline_environment = rows.text(6);
-    night.program_version = rows.text(7);
-    night.numerics_version = static_cast<int>(rows.integer(8));
-    night.n_compared = static_cast<long>(rows.integer(9));
-    night.n_regressed = static_cast<long>(rows.integer(10));
-    night.exit_code = static_cast<int>(rows.integer(11));
-    night.blessed = rows.optional_text(12);
+    rows.read(night.id, night.at, night.wall_seconds, night.suite, night.environment,
+              night.environment_fields, night.baseline_environment, night.program_version,
+              night.numerics_version, night.n_compared, night.n_regressed, night.exit_code,
+              night.blessed);
     all.push_back(std::move(night));
   }
   for (NightRecord& night : all) night.cases = read_night_cases(db, night.id);

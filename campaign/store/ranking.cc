@@ -146,12 +146,8 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
     row.position = one.position;
     row.score = one.score;
     row.parameters = parameters.of(one.position);
-    row.rank_class = static_cast<int>(rows.integer(0));
-    row.outcome = rows.text(1);
-    row.weakening_resolved = rows.integer(2) != 0;
-    row.pressure_margin = rows.optional_real(3);
-    row.unexpected_fault = rows.text(4);
-    row.plane_strain = rows.integer(5) != 0;
+    rows.read(row.rank_class, row.outcome, row.weakening_resolved, row.pressure_margin,
+              row.unexpected_fault, row.plane_strain);
     row.interpolated = rows.integer(10) != 0;
     int column = kFirstMetric;
     tables.stage.read(rows, column, row.metrics);

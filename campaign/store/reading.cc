@@ -20,20 +20,9 @@ std::vector<StoredRun> read_runs(Connection& db, std::int64_t case_id) {
   query.bind(case_id);
   while (query.step()) {
     StoredRun run;
-    run.id = query.integer(0);
-    run.attempt = static_cast<int>(query.integer(1));
-    run.ended_at = query.real(2);
-    run.wall_seconds = query.real(3);
-    run.status = query.text(4);
-    run.outcome = query.text(5);
-    run.reason = query.text(6);
-    run.log_tail = query.text(7);
-    run.operator_fingerprint = query.text(8);
-    run.host = query.text(9);
-    run.rank = static_cast<int>(query.integer(10));
-    run.signal = query.optional_integer(11);
-    run.exit_code = query.optional_integer(12);
-    run.fields_only = query.integer(13) != 0;
+    query.read(run.id, run.attempt, run.ended_at, run.wall_seconds, run.status, run.outcome,
+               run.reason, run.log_tail, run.operator_fingerprint, run.host, run.rank, run.signal,
+               run.exit_code, run.fields_only);
     runs.push_back(std::move(run));
   }
   return runs;
@@ -65,16 +54,12 @@ StoredCase find_case(Connection& db, std::int64_t campaign, const std::string& n
                                                 kShortestPrefix, " digits of its identity")}});
   }
   StoredCase found;
-  found.id = query.integer(0);
-  found.position = query.integer(1);
-  found.identity = query.text(2);
-  found.family = query.text(3);
-  found.state = query.text(4);
-  found.changes = query.text(5);
+  std::string fields, folder;
+  query.read(found.id, found.position, found.identity, found.family, found.state, found.changes,
+             found.scene, fields, folder);
   found.parameters = ParameterReader(db, campaign).of(found.position);
-  found.scene = query.integer(6);
-  found.fields = fields_state_from_string(query.text(7));
-  found.fields_folder = query.text(8);
+  found.fields = fields_state_from_string(fields);
+  found.fields_folder = folder;
   return found;
 }
 
@@ -101,12 +86,10 @@ Store::Approximations Store::approximations(std::int64_t campaign) const {
       " JOIN case_metrics m ON m.case_id = cc.case_id"
       " LEFT JOIN case_surfaces u ON u.case_id = cc.case_id WHERE cc.campaign_id = ?");
   FAULTSIM_DEMAND(query.bind(campaign).step(), campaign);
-  return {static_cast<long>(query.integer(0)),
-          static_cast<long>(query.integer(1)),
-          query.real(2),
-          query.real(3),
-          static_cast<long>(query.integer(4)),
-          query.real(5)};
+  Approximations found;
+  query.read(found.n_results, found.n_interpolated, found.error_of_stiffness, found.error_of_slip,
+             found.n_covered_in_part, found.least_coverage);
+  return found;
 }
 
 int Store::oldest_numerics(std::int64_t campaign) const {
@@ -157,12 +140,8 @@ std::vector<Store::FamilyProgress> Store::family_progress(std::int64_t campaign)
     FAULTSIM_DEMAND(query.bind(family).step(), family);
     FamilyProgress one;
     static_cast<CaseCounts&>(one) = counts;
-    one.fingerprint = query.text(0);
-    one.operator_fingerprint = query.text(1);
-    one.build_seconds = query.optional_real(2);
-    one.n_operators = static_cast<int>(query.integer(3));
-    one.memory_bytes = query.real(4);
-    one.peak_bytes = query.optional_integer(5);
+    query.read(one.fingerprint, one.operator_fingerprint, one.build_seconds, one.n_operators,
+               one.memory_bytes, one.peak_bytes);
     all.push_back(std::move(one));
   }
   return all;

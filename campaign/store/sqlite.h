@@ -94,6 +94,13 @@ class Statement {
   void run();
   void reset();
 
+  /// The row's columns from 0 into these, each by its type: flags and counts, numbers, text,
+  /// optional ones.
+  template <typename... Values>
+  void read(Values&... values) const {
+    int column = 0;
+    (read_one(column++, values), ...);
+  }
   std::int64_t integer(int column) const;
   double real(int column) const;
   std::string text(int column) const;
@@ -124,6 +131,21 @@ class Statement {
       bind_null(position);
     }
   }
+  template <std::integral Value>
+  void read_one(int column, Value& value) const {
+    value = static_cast<Value>(integer(column));
+  }
+  void read_one(int column, double& value) const { value = real(column); }
+  void read_one(int column, std::string& value) const { value = text(column); }
+  template <typename Value>
+  void read_one(int column, std::optional<Value>& value) const {
+    if (is_null(column)) {
+      value.reset();
+    } else {
+      read_one(column, value.emplace());
+    }
+  }
+  bool is_null(int column) const;
   void bind_integer(int position, std::int64_t value);
   void bind_real(int position, double value);  ///< NaN and infinity are refused: InternalError.
   void bind_text(int position, std::string_view value);

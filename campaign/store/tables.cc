@@ -47,16 +47,8 @@ namespace {
 CaseRow read_case(const Statement& row, std::size_t n_metrics) {
   constexpr int kFirstMetric = 8;
   CaseRow one;
-  one.id = row.integer(0);
-  one.position = static_cast<long>(row.integer(1));
-  one.identity = row.text(2);
-  one.state = row.text(3);
-  one.outcome = row.text(4);
-  one.status = row.text(5);
-  one.reason = row.text(6);
-  if (const auto rank_class = row.optional_integer(7))
-    one.rank_class = static_cast<int>(*rank_class);
-  one.metrics.reserve(n_metrics);
+  row.read(one.id, one.position, one.identity, one.state, one.outcome, one.status, one.reason,
+           one.rank_class);
   for (std::size_t k = 0; k < n_metrics; ++k) {
     one.metrics.push_back(row.cell(kFirstMetric + static_cast<int>(k)));
   }

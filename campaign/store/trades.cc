@@ -11,9 +11,7 @@ void Store::record_trade(const TradeRecord& trade) {
         " VALUES (?, ?, ?, ?, ?)")
       .bind(trade.at, trade.source, trade.campaign, trade.program_version, trade.report)
       .run();
-  Statement last(db, "SELECT last_insert_rowid()");
-  last.step();
-  const std::int64_t id = last.integer(0);
+  const std::int64_t id = db.last_insert_id();
   for (const ErrorBar& bar : trade.error_bars) {
     db.prepared(
           "INSERT OR REPLACE INTO error_bars (campaign, tier, metric, reference, n_cases, rms,"
@@ -32,8 +30,8 @@ std::vector<ErrorBar> Store::error_bars(const std::string& campaign) const {
       " WHERE campaign = ? ORDER BY tier, metric");
   rows.bind(campaign);
   while (rows.step()) {
-    all.push_back({rows.text(0), rows.text(1), rows.text(2), rows.text(3),
-                   static_cast<long>(rows.integer(4)), rows.real(5), rows.real(6)});
+    ErrorBar& bar = all.emplace_back();
+    rows.read(bar.campaign, bar.tier, bar.metric, bar.reference, bar.n_cases, bar.rms, bar.largest);
   }
   return all;
 }
