@@ -19,7 +19,7 @@ const MetricSensitivity& at_step(const Sensitivity& s, std::size_t m, std::size_
 
 /// Times of steps on screens and charts: days for histories of less than two years.
 ShownUnit time_unit(const Sensitivity& s) {
-  constexpr double kDay = 86400, kYear = 365.25 * kDay;
+  constexpr double kDay = 86400;
   if (s.steps.back().latest < 2 * kYear) return {"days", kDay, "s"};
   return {"years", kYear, "s"};
 }

@@ -11,8 +11,6 @@ using nlohmann::ordered_json;
 
 namespace {
 
-ShownUnit seconds() { return {"s", 1, "s"}; }
-
 std::string confidence_text(const Tiers& tiers) {
   return format_number(100 * tiers.request.confidence, 4) + " %";
 }

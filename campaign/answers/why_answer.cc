@@ -16,8 +16,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double kYear = 31557600;     // s, 365.25 d
-constexpr double kBar = 1e5;           // Pa
 constexpr std::size_t kMostNamed = 8;  // cases in a sentence
 
 const faultsim::StepResult* step_of(const faultsim::CaseResult& result, int step) {

@@ -115,8 +115,8 @@ AnswerTable families_table(const SubmitReport& report) {
                      {"jump_unknowns", "on faults", {}, 4, all},
                      {"creeps", "creeps", {}, 4, data},
                      {"n_operators", "operators", {}, 4, all},
-                     {"predicted_operator_s", "build", {"s", 1, "s"}, 2, all},
-                     {"predicted_memory_bytes", "memory", {"GB", 1e9, "B"}, 2, all}}};
+                     {"predicted_operator_s", "build", seconds(), 2, all},
+                     {"predicted_memory_bytes", "memory", gigabytes(), 2, all}}};
   table.most_on_screen = kShown;
   for (std::size_t k = 0; k < report.submission.families.size(); ++k) {
     const FamilyRecord& one = report.submission.families[k];

@@ -126,8 +126,8 @@ AnswerTable ladder_table(const std::vector<TradeAxis>& axes) {
                      {"choice", "choice", {}, 4, all},
                      {"unknowns", "unknowns", {}, 4, all},
                      {"jump_unknowns", "jumps", {}, 4, all},
-                     {"predicted_operator_s", "operator", {"s", 1, "s"}, 3, all},
-                     {"predicted_memory_bytes", "memory", {"GB", 1e9, "B"}, 3, all},
+                     {"predicted_operator_s", "operator", seconds(), 3, all},
+                     {"predicted_memory_bytes", "memory", gigabytes(), 3, all},
                      {"left_out", "left out", {}, 4, all}}};
   for (const TradeAxis& axis : axes) {
     for (const TradeChoice& choice : axis.choices) {

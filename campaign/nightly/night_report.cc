@@ -278,7 +278,7 @@ std::string history_to_text(const std::vector<NightRecord>& nights, std::size_t 
                      {"regressed", "regressed", {}, 4, all},
                      {"changed", "changed", {}, 4, all},
                      {"exit_code", "exit", {}, 4, all},
-                     {"wall_s", "time", {"s", 1, "s"}, 3, all},
+                     {"wall_s", "time", seconds(), 3, all},
                      {"blessed", "blessed", {}, 4, all}}};
   for (std::size_t k = 0; k < nights.size(); ++k) {
     const NightRecord& night = nights[k];

@@ -6,6 +6,7 @@
 
 #include "campaign/query/selection.h"
 #include "campaign/query/table_output.h"
+#include "campaign/render/answer.h"
 #include "simulator/common/input_file.h"
 #include "simulator/common/units.h"
 
@@ -19,7 +20,6 @@ namespace {
 
 constexpr std::size_t kMostPlacesBytes = 500'000'000;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kYear = 365.25 * 86400;  // s, as of scenes
 
 /// A metric of the pillar's fault, in the unit of maps.
 struct Mapped {

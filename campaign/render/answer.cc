@@ -4,7 +4,6 @@ namespace faultsweep {
 
 ShownUnit shown_unit(faultsim::Dimension dimension, bool per_metre) {
   using faultsim::Dimension;
-  constexpr double kBar = 1e5, kYear = 31557600;  // Pa; s, 365.25 d
   const std::string si = faultsim::si_unit(dimension);
   switch (dimension) {
     case Dimension::pressure:

@@ -28,6 +28,12 @@ struct ShownUnit {
 /// @param per_metre  of strike, as areas, potencies and moments of plane strain are.
 ShownUnit shown_unit(faultsim::Dimension dimension, bool per_metre = false);
 inline ShownUnit plain() { return {}; }
+inline constexpr double kBar = 1e5;              ///< Pa.
+inline constexpr double kYear = 365.25 * 86400;  ///< s.
+inline ShownUnit metres() { return {"m", 1, "m"}; }
+inline ShownUnit seconds() { return {"s", 1, "s"}; }
+inline ShownUnit bars() { return {"bar", kBar, "Pa"}; }
+inline ShownUnit gigabytes() { return {"GB", 1e9, "B"}; }
 /// Shares of 0 to 1, shown in percent.
 inline ShownUnit percent() { return {"%", 0.01, ""}; }
 

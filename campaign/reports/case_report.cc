@@ -26,8 +26,6 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr double kBar = 1e5;  // Pa
-
 /// The most that creep did to any fault, in one line; "" where nothing creeps.
 std::string creep_text(const CaseResult& result) {
   faultsim::FaultCreep most;

@@ -38,9 +38,6 @@ AnswerColumn extensive(const CaseResult& result, const std::string& key, std::st
                 shown_unit(faultsim::dimension_of(key), result.plane_strain), digits, need);
 }
 
-ShownUnit metres() { return shown_unit(Dimension::length); }
-ShownUnit bars() { return shown_unit(Dimension::pressure); }
-
 void append(std::vector<AnswerColumn>& columns, const std::vector<AnswerColumn>& more) {
   columns.insert(columns.end(), more.begin(), more.end());
 }
@@ -79,14 +76,13 @@ AnswerTable settings_table(const ShownCase& shown) {
 }
 
 AnswerTable runs_table(const StoredCase& stored) {
-  const ShownUnit seconds{"s", 1, "s"};
   AnswerTable table{
       "runs",
       stored.runs.empty() ? "" : "runs:",
-      {column("attempt", "attempt"), column("ended_at", "ended", seconds, 4, Need::data),
+      {column("attempt", "attempt"), column("ended_at", "ended", seconds(), 4, Need::data),
        column("when", "ended", Need::wanted), column("status", "status"),
        column("outcome", "outcome"), column("reason", "why"),
-       column("wall_s", "took", seconds, 3, Need::wanted), column("rank", "rank", Need::wanted),
+       column("wall_s", "took", seconds(), 3, Need::wanted), column("rank", "rank", Need::wanted),
        column("host", "host", Need::extra),
        column("fields_only", "for the fields only", Need::wanted),
        column("signal", "signal", Need::extra), column("exit_code", "exit code", Need::extra),

@@ -157,7 +157,6 @@ AnswerTable failures_table(const std::vector<FailureCount>& failures) {
 }
 
 AnswerTable families_table(const std::vector<Store::FamilyProgress>& families) {
-  constexpr double kGigabyte = 1e9;
   constexpr std::size_t kMostOnScreen = 12;
   AnswerTable table{"families",
                     families.empty() ? "" : "families:",
@@ -166,8 +165,8 @@ AnswerTable families_table(const std::vector<Store::FamilyProgress>& families) {
                      {"done", "done", {}, 4, Need::always},
                      {"failed", "failed", {}, 4, Need::always},
                      {"operator", "operator", {}, 4, Need::wanted},
-                     {"build_s", "built in", {"s", 1, "s"}, 3, Need::wanted},
-                     {"predicted_memory_bytes", "memory", {"GB", kGigabyte, "B"}, 2, Need::wanted},
+                     {"build_s", "built in", seconds(), 3, Need::wanted},
+                     {"predicted_memory_bytes", "memory", gigabytes(), 2, Need::wanted},
                      {"creeps", "creeps", {}, 4, Need::extra},
                      {"n_operators", "operators", {}, 4, Need::extra}}};
   table.most_on_screen = kMostOnScreen;
@@ -195,7 +194,7 @@ AnswerTable rounds_table(const std::vector<RoundRecord>& rounds) {
 AnswerTable events_table(const std::vector<EventRecord>& events) {
   AnswerTable table{"events",
                     events.empty() ? "" : "last events:",
-                    {{"at", "s since 1970", {"s", 1, "s"}, 4, Need::data},
+                    {{"at", "s since 1970", seconds(), 4, Need::data},
                      {"when", "when", {}, 4, Need::always},
                      {"kind", "what", {}, 4, Need::always},
                      {"text", "", {}, 4, Need::always}}};

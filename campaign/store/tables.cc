@@ -49,6 +49,7 @@ CaseRow read_case(const Statement& row, std::size_t n_metrics) {
   CaseRow one;
   row.read(one.id, one.position, one.identity, one.state, one.outcome, one.status, one.reason,
            one.rank_class);
+  one.metrics.reserve(n_metrics);
   for (std::size_t k = 0; k < n_metrics; ++k) {
     one.metrics.push_back(row.cell(kFirstMetric + static_cast<int>(k)));
   }

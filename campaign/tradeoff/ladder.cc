@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "campaign/render/answer.h"
 #include "simulator/plan/plan.h"
 #include "simulator/scene/read_scene.h"
 #include "simulator/scene/tiers.h"
@@ -19,14 +20,12 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double kYear = 365.25 * 86400;
-
 /// Shortest text that reads back as the same number.
 std::string shortest(double value) {
   const std::string text = json(value).dump();
   return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
 }
-std::string metres(double value) { return shortest(value) + " m"; }
+std::string in_metres(double value) { return shortest(value) + " m"; }
 std::string kilometres(double value) { return shortest(value / 1000) + " km"; }
 
 std::string duration(double seconds) {
@@ -66,11 +65,11 @@ MeshSizes scaled(MeshSizes sizes, double factor) {
 /// Cells of these sizes, whatever the scene's own tier and mesh.
 std::vector<Change> cells(const MeshSizes& sizes) {
   std::vector<Change> changes = {{"/tier", "custom"},
-                                 {"/mesh/strike", metres(sizes.strike)},
-                                 {"/mesh/dip", metres(sizes.dip)},
-                                 {"/mesh/normal", metres(sizes.normal)}};
+                                 {"/mesh/strike", in_metres(sizes.strike)},
+                                 {"/mesh/dip", in_metres(sizes.dip)},
+                                 {"/mesh/normal", in_metres(sizes.normal)}};
   if (!sizes.grades_corners()) return changes;
-  changes.push_back({"/mesh/corner", metres(sizes.corner)});
+  changes.push_back({"/mesh/corner", in_metres(sizes.corner)});
   changes.push_back({"/mesh/corner_growth", sizes.corner_growth});
   changes.push_back({"/mesh/growth", sizes.growth});
   return changes;
@@ -154,7 +153,7 @@ class LadderMaker {
       const bool is_reference = from_tier_ && factor == 0.5;
       const MeshSizes sizes = is_reference ? find_tier("reference")->sizes : scaled(sizes_, factor);
       std::string name =
-          concat(shortest(sizes.strike), " x ", dip_text(sizes), " x ", metres(sizes.normal));
+          concat(shortest(sizes.strike), " x ", dip_text(sizes), " x ", in_metres(sizes.normal));
       if (from_tier_ && factor == 1) name += " (standard)";
       if (is_reference) name += " (reference)";
       add(one, name, cells(sizes), in_plane(false), sizes.dip);
@@ -173,7 +172,7 @@ class LadderMaker {
     TradeAxis& one = axis(name, question);
     for (const double factor : factors) {
       add(one, kilometres(factor * given) + (factor == 1 ? " (as given)" : ""), base,
-          {{pointer, metres(factor * given)}});
+          {{pointer, in_metres(factor * given)}});
     }
   }
 
@@ -234,9 +233,9 @@ class LadderMaker {
   void activation_length() {
     TradeAxis& one =
         axis("activation length", "How much depends on the length that must slip to count?");
-    one.reference = metres(scene_.numerics.activation_length);
+    one.reference = in_metres(scene_.numerics.activation_length);
     for (const double factor : {0.5, 1.0, 2.0}) {
-      const std::string length = metres(factor * scene_.numerics.activation_length);
+      const std::string length = in_metres(factor * scene_.numerics.activation_length);
       add(one, length, plane_, {{"/numerics/activation_length", length}});
     }
   }

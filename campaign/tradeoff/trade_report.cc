@@ -17,10 +17,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double kBar = 1e5;  // Pa
-const ShownUnit kSeconds = {"s", 1, "s"}, kBars = {"bar", kBar, "Pa"},
-                kGigabytes = {"GB", 1e9, "B"};
-
 std::string number(double value, int digits = 3) {
   return std::isnan(value) ? "" : format_number(value, digits);
 }
@@ -47,25 +43,25 @@ AnswerTable table_of(const TradeTable& trade) {
   AnswerTable table{"choices",
                     "",
                     {{"choice", "choice", {}, 4, all},
-                     {"size", "size", {"m", 1, "m"}, 4, data},
+                     {"size", "size", metres(), 4, data},
                      {"unknowns", "unknowns", {}, 4, all},
                      {"jump_unknowns", "jumps", {}, 4, data},
                      {"error_chi", "χ̄ off by", {}, 2, all},
                      {"error_chi_where", "where", {}, 4, data},
                      {"error_chi_in_all", "χ̄ in all", {}, 2, mesh},
                      {"pareto", "front", {}, 4, mesh},
-                     {"activation_pressure_pa", "activation", kBars, 4, all, "metrics"},
+                     {"activation_pressure_pa", "activation", bars(), 4, all, "metrics"},
                      {"activated_area_m2", "sliding area", {"m2", 1, "m2"}, 4, data, "metrics"},
-                     {"max_slip_m", "slip", {"m", 1, "m"}, 4, data, "metrics"},
+                     {"max_slip_m", "slip", metres(), 4, data, "metrics"},
                      {"moment_nm", "M0", {"N m", 1, "N m"}, 4, data, "metrics"},
-                     {"error_activation_pressure_pa", "off by", kBars, 4, all},
+                     {"error_activation_pressure_pa", "off by", bars(), 4, all},
                      {"activation_flips", "activation flips", {}, 4, data},
                      {"relative_error_area", "area", percent(), 3, all},
                      {"relative_error_slip", "slip", percent(), 3, all},
                      {"relative_error_moment", "M0", percent(), 3, all},
-                     {"operator_s", "operator", kSeconds, 3, all},
-                     {"case_s", "case", kSeconds, 3, all},
-                     {"peak_bytes", "memory", kGigabytes, 3, all},
+                     {"operator_s", "operator", seconds(), 3, all},
+                     {"case_s", "case", seconds(), 3, all},
+                     {"peak_bytes", "memory", gigabytes(), 3, all},
                      {"outcome", "outcome", {}, 4, data},
                      {"remark", "remark", {}, 4, all}}};
   for (const TradeRow& row : trade.rows) {
@@ -132,8 +128,8 @@ AnswerTable table_of(const std::vector<RankingTrade>& rankings) {
                      {"chi_rms", "χ̄ rms", {}, 2, all},
                      {"chi_max", "χ̄ max", {}, 2, all},
                      {"activation_flips", "activation flips", {}, 4, all},
-                     {"seconds", "it takes", kSeconds, 3, all},
-                     {"reference_seconds", "the reference", kSeconds, 3, all}}};
+                     {"seconds", "it takes", seconds(), 3, all},
+                     {"reference_seconds", "the reference", seconds(), 3, all}}};
   for (const RankingTrade& one : rankings) {
     table.rows.push_back({one.choice, one.reference, one.n_cases,
                           one.tau ? AnswerCell(*one.tau) : AnswerCell(), one.n_top_common,
