@@ -13,7 +13,6 @@
 #include "campaign/tradeoff/sample.h"
 #include "campaign/tradeoff/stored_ladder.h"
 #include "campaign/tradeoff/trade_report.h"
-#include "simulator/common/child_output.h"
 #include "simulator/files/atomic_file.h"
 #include "simulator/files/json_text.h"
 #include "simulator/files/output_target.h"
@@ -87,18 +86,15 @@ double memory_limit(const TradeoffArguments& arguments) {
   return static_cast<double>(parse_size("--memory", arguments.memory));
 }
 
-void write_report(faultsim::ResultFolder& folder, const std::filesystem::path& output,
-                  const TradeReport& report) {
-  faultsim::write_text(folder.path() / "report.md", trade_to_markdown(report));
-  faultsim::write_text(folder.path() / "trade.json", faultsim::json_text(trade_to_json(report)));
-  faultsim::write_text(folder.path() / "figures.gp", trade_figures(report));
-  const char* draw = "cd \"$0\" && gnuplot figures.gp";
-  if (faultsim::run_child({"/bin/sh", "-c", draw, folder.path().string()}).code != 0) {
-    std::fprintf(stderr,
-                 "faultsweep: no figures: gnuplot did not run; install gnuplot-nox, then "
-                 "`gnuplot figures.gp` in %s\n",
-                 output.c_str());
-  }
+void write_report(faultsim::ResultFolder& folder, const TradeReport& report) {
+  const auto write = [&](const char* name, const std::string& text) {
+    faultsim::write_text(folder.path() / name, text);
+  };
+  write("report.md", trade_to_markdown(report));
+  write("trade.json", faultsim::json_text(trade_to_json(report)));
+  const TradeFigures figures = trade_figures(report);
+  if (!figures.pareto.series.empty()) write("pareto.svg", draw(figures.pareto));
+  if (!figures.convergence.series.empty()) write("convergence.svg", draw(figures.convergence));
   folder.commit();
 }
 
@@ -113,7 +109,7 @@ std::unique_ptr<faultsim::ResultFolder> open_output(const TradeoffArguments& arg
       .option = "-o",
       .folder = arguments.output,
       .made_by = "faultsweep tradeoff",
-      .names = {"report.md", "trade.json", "figures.gp", "pareto.svg", "convergence.svg"},
+      .names = {"report.md", "trade.json", "pareto.svg", "convergence.svg"},
       .inputs = std::move(inputs)});
 }
 
@@ -198,7 +194,7 @@ ExitCode tradeoff_command(const StoreArguments& common, const TradeoffArguments&
   const json document = trade_to_json(report);
   record.report = document.dump();
   store.record_trade(record);
-  if (output) write_report(*output, arguments.output, report);
+  if (output) write_report(*output, report);
   std::fputs(common.json ? faultsim::json_text(document).c_str()
                          : trade_to_text(report, screen_width()).c_str(),
              stdout);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "campaign/tradeoff/trade.h"
+#include "simulator/figure/log_chart.h"
 
 namespace faultsweep {
 
@@ -24,7 +25,10 @@ std::string trade_to_text(const TradeReport& report, std::size_t width);  ///< f
 std::string trade_to_markdown(const TradeReport& report);  ///< for a file beside the figures.
 nlohmann::json trade_to_json(const TradeReport& report);   ///< SI; null where unknown.
 
-/// A gnuplot script, with its data, that draws pareto.svg and convergence.svg.
-std::string trade_figures(const TradeReport& report);
+/// Errors of χ̄ against cost and against size; without series where nothing has both.
+struct TradeFigures {
+  faultsim::figure::LogChart pareto, convergence;
+};
+TradeFigures trade_figures(const TradeReport& report);
 
 }  // namespace faultsweep

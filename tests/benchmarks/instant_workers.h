@@ -62,7 +62,7 @@ inline void submit(Store& store, int n_cases) {
   constexpr int kFamilies = 20;
   Submission s;
   s.name = "sweep";
-  s.parameters = R"([{"name": "strength", "dimension": "number"}])";
+  s.parameters = {{"strength", faultsim::Dimension::number, false}};
   s.rank_by = "activated_area";
   s.scenes = {{"scene.json", "{}"}};
   for (int k = 0; k < kFamilies; ++k)

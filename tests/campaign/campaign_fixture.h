@@ -42,7 +42,7 @@ class CampaignTest : public ::testing::Test {
     s.source = "sweep.json";
     s.spec_given = "{}";
     s.spec_resolved = R"({"groups": [{"parameters": [{"name": "strength"}]}]})";
-    s.parameters = R"([{"name": "strength", "dimension": "number"}])";
+    s.parameters = {{"strength", faultsim::Dimension::number, false}};
     s.rank_by = "activated_area";
     s.policy = policy;
     s.scenes = {

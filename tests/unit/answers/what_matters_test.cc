@@ -12,6 +12,7 @@
 #include "campaign/render/render_html.h"
 #include "campaign/render/render_json.h"
 #include "campaign/render/render_text.h"
+#include "campaign/reports/ranking_answer.h"
 #include "tests/unit/answers/answers_fixture.h"
 #include "tests/unit/answers/renderings.h"
 

@@ -50,7 +50,7 @@ class Damage : public ::testing::Test {
     s.name = "sweep";
     s.source = "sweep.json";
     s.spec_given = s.spec_resolved = "{}";
-    s.parameters = R"([{"name": "strength", "dimension": "number"}])";
+    s.parameters = {{"strength", faultsim::Dimension::number, false}};
     s.rank_by = "activated_area";
     s.scenes = {{"scene.json", R"({"title": "base"})"}};
     s.families = {{"family", 1000, 100, 2.5, 1e8}};

@@ -19,7 +19,7 @@ TEST(StoreSpeed, SlowHundredThousandCases) {
   const std::filesystem::path folder = mkdtemp(name.data());
   Submission s;
   s.name = "sweep";
-  s.parameters = R"([{"name": "strength", "dimension": "number"}])";
+  s.parameters = {{"strength", faultsim::Dimension::number, false}};
   s.rank_by = "activated_area";
   s.scenes = {{"scene.json", "{}"}};
   for (int k = 0; k < 50; ++k)
