@@ -6,6 +6,7 @@
 #include "simulator/figure/bar_chart.h"
 #include "simulator/figure/depth_chart.h"
 #include "simulator/figure/history_chart.h"
+#include "simulator/figure/log_chart.h"
 #include "simulator/figure/outcome_map.h"
 #include "simulator/figure/palette.h"
 #include "simulator/figure/panel.h"
@@ -51,6 +52,19 @@ TEST(ReadOff, AHistoryHasItsValuesAtItsTimes) {
   const SvgElement event = elements_of(svg, "line", "stroke-dasharray", "2 2").at(0);
   EXPECT_NEAR(x.value(event.number("x1")), 2.5, 0.01);
   EXPECT_NEAR(x.value(of_colour(svg, "line", kInk).back().number("x1")), 7.5, 0.01) << "cursor";
+}
+
+TEST(ReadOff, EqualRatiosAreEqualStepsOnLogarithmicAxes) {
+  const LogChart chart{"trade",
+                       "s",
+                       "error",
+                       {{"cells", {{1, 0.1, "40 m"}, {10, 0.01, "20 m"}, {1000, 1e-4, "10 m"}}}}};
+  const std::string svg = draw(chart);
+  const std::vector<Point> line = of_colour(svg, "polyline", fault_stroke(0).colour).at(0).points();
+  ASSERT_EQ(line.size(), 3U);
+  EXPECT_NEAR(line[2].x - line[1].x, 2 * (line[1].x - line[0].x), 0.05);
+  EXPECT_NEAR(line[2].y - line[1].y, 2 * (line[1].y - line[0].y), 0.05);
+  EXPECT_NE(svg.find(">20 m<"), std::string::npos) << "points have their names";
 }
 
 TEST(ReadOff, ColumnsAgainstDepthGrowDownwards) {

@@ -216,6 +216,20 @@ TEST(Trade, RecommendsOnlyWhatWasMeasured) {
   EXPECT_THAT(answer(), HasSubstr("judge by slip"));
 }
 
+TEST(Trade, DrawsErrorsOfMeshesAgainstTheirCost) {
+  TradeReport report;
+  report.trade = made_up_trade(made_up_axes());
+  const TradeFigures figures = trade_figures(report);
+  ASSERT_FALSE(figures.pareto.series.empty());
+  const auto& drawn = figures.pareto.series[0];
+  const TradeRow& row = report.trade.tables[0].rows[0];
+  EXPECT_EQ(drawn.name, report.trade.tables[0].axis.name);
+  EXPECT_EQ(drawn.points.at(0).name, row.choice.name);
+  EXPECT_EQ(drawn.points.at(0).x, row.seconds());
+  EXPECT_EQ(drawn.points.at(0).y, row.total_chi);
+  EXPECT_FALSE(figures.convergence.series.empty());
+}
+
 TEST(Trade, SurvivesChoicesWithoutResult) {
   auto axes = made_up_axes();
   axes[1].runs[2] = TradeRun();
