@@ -1,0 +1,61 @@
+#include "campaign/app/options.h"
+#include "campaign/app/print_answer.h"
+
+namespace faultsweep {
+
+void add_store(CLI::App* command, StoreArguments& common) {
+  command->add_option("--store", common.store,
+                      "store folder (default FAULTSWEEP_STORE or ./faultsweep-store)");
+}
+void add_campaign(CLI::App* command, StoreArguments& common) {
+  command->add_option("campaign", common.campaign, "its name; default: the newest");
+  add_store(command, common);
+}
+void add_case(CLI::App* command, StoreArguments& common, std::string& name) {
+  command->add_option("case", name, "number, beginning of its identity, or CAMPAIGN/either")
+      ->required();
+  command->add_option("--campaign", common.campaign, "default: the newest");
+  add_store(command, common);
+}
+void add_where(CLI::App* command, std::string& where) {
+  command->add_option(
+      "--where", where,
+      "only cases where this holds of metrics and parameters: \"offset > 50 m and\n"
+      "slides\"; of a fault, a stage, or both: \"F2.max_slip in gas_storage > 10 mm\"");
+}
+void add_stage_and_fault(CLI::App* command, std::string& stage, std::string& fault) {
+  command->add_option("--stage", stage, "metrics of this stage; default: the whole history");
+  command->add_option("--fault", fault,
+                      "metrics of this fault; default: of all faults of a case together");
+}
+void add_json(CLI::App* command, StoreArguments& common) {
+  command->add_flag("--json", common.json, "machine-readable output on stdout");
+}
+
+void add_wide(CLI::App* command) {
+  command->add_flag_callback(
+      "--wide",
+      [] {
+        constexpr std::size_t kWithoutEnd = 100000;
+        set_screen_width(kWithoutEnd);
+      },
+      "all columns, however wide");
+}
+
+void add_renderings(CLI::App* command, StoreArguments& common) {
+  add_json(command, common);
+  command
+      ->add_option("--csv", common.csv,
+                   "a table of the answer as CSV, SI units, all digits: its key in --json;\n"
+                   "default: the first")
+      ->expected(0, 1)
+      ->default_str("");
+  add_wide(command);
+}
+
+CLI::Option* add_confidence(CLI::App* command, double& confidence) {
+  return command->add_option("--confidence", confidence, "of the intervals (default 0.95)")
+      ->check(CLI::Range(0.5, 0.9999));
+}
+
+}  // namespace faultsweep
