@@ -5,16 +5,7 @@
 #include <vector>
 
 #include "simulator/common/errors.h"
-
-// LAPACK of OpenBLAS.
-extern "C" {
-double dlansy_(const char* norm, const char* uplo, const int* n, const double* a, const int* lda,
-               double* work, std::size_t norm_length, std::size_t uplo_length);
-void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info,
-             std::size_t uplo_length);
-void dpocon_(const char* uplo, const int* n, const double* a, const int* lda, const double* norm,
-             double* reciprocal, double* work, int* iwork, int* info, std::size_t uplo_length);
-}
+#include "simulator/linalg/lapack.h"
 
 namespace faultsim {
 

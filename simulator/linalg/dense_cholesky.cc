@@ -3,13 +3,7 @@
 #include <utility>
 
 #include "simulator/common/errors.h"
-
-extern "C" {
-void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info,
-             std::size_t uplo_length);
-void dpotrs_(const char* uplo, const int* n, const int* nrhs, const double* a, const int* lda,
-             double* b, const int* ldb, int* info, std::size_t uplo_length);
-}
+#include "simulator/linalg/lapack.h"
 
 namespace faultsim {
 

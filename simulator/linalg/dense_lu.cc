@@ -3,13 +3,7 @@
 #include <algorithm>
 
 #include "simulator/common/errors.h"
-
-// LAPACK of OpenBLAS.
-extern "C" {
-void dgetrf_(const int* m, const int* n, double* a, const int* lda, int* pivots, int* info);
-void dgetrs_(const char* trans, const int* n, const int* nrhs, const double* a, const int* lda,
-             const int* pivots, double* b, const int* ldb, int* info, std::size_t trans_length);
-}
+#include "simulator/linalg/lapack.h"
 
 namespace faultsim {
 

@@ -3,15 +3,7 @@
 #include <cblas.h>
 
 #include "simulator/common/errors.h"
-
-// LAPACK of OpenBLAS.
-extern "C" {
-void sgetrf_(const int* m, const int* n, float* a, const int* lda, int* pivots, int* info);
-void sgetrs_(const char* trans, const int* n, const int* nrhs, const float* a, const int* lda,
-             const int* pivots, float* b, const int* ldb, int* info, std::size_t trans_length);
-void slaswp_(const int* n, float* a, const int* lda, const int* k1, const int* k2,
-             const int* pivots, const int* increment);
-}
+#include "simulator/linalg/lapack.h"
 
 namespace faultsim {
 

@@ -13,10 +13,8 @@
 #include <vector>
 
 #include "simulator/common/process_memory.h"
+#include "simulator/linalg/lapack.h"
 #include "simulator/linalg/panels.h"
-
-extern "C" void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info,
-                        std::size_t);
 
 namespace faultsim {
 namespace {
