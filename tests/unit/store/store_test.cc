@@ -447,8 +447,10 @@ TEST_F(StoreTest, BringsAStoreOfTheFirstVersionUpToDate) {
     connection.execute(
         "INSERT INTO scenes VALUES (1, 'h', 'scene.json', '{}');"
         "INSERT INTO families VALUES (1, 'family', 1, 1, 1, 1, NULL);"
-        "INSERT INTO campaigns VALUES (1, 'old', 5, 'open', 'f', '{}', 'h', '{}', 'h', 'h', '[{}, "
-        "{}, {}]',"
+        "INSERT INTO campaigns VALUES (1, 'old', 5, 'open', 'f', '{}', 'h', '{}', 'h', 'h',"
+        " '[{\"name\": \"a\", \"dimension\": \"length\"},"
+        " {\"name\": \"b\", \"dimension\": \"text\"},"
+        " {\"name\": \"c\", \"dimension\": \"text\"}]',"
         " 'moment', 0, 0, 'continue', 0, NULL, NULL);"
         "INSERT INTO cases VALUES (1, 'id-1', 1, 1, '{}', 'done', 'converged', 1);"
         "INSERT INTO cases VALUES (2, 'id-2', 1, 1, '{}', 'waiting', NULL, NULL);"
