@@ -7,11 +7,11 @@
 #include <unordered_map>
 
 #include "campaign/expansion/case_values.h"
-#include "campaign/expansion/composer.h"
+#include "campaign/expansion/extreme_rows.h"
 #include "campaign/expansion/families.h"
+#include "campaign/expansion/row_reader.h"
 #include "campaign/expansion/sampled_rows.h"
 #include "campaign/expansion/scene_builder.h"
-#include "simulator/common/fingerprint.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsweep {
@@ -20,14 +20,10 @@ namespace {
 using faultsim::Problem;
 using nlohmann::json;
 
-constexpr long kRowsReadOneByOne = 2000;   ///< beyond, identities are composed (composer.h).
-constexpr std::size_t kChoicesTried = 64;  ///< per parameter; the extremes are among them.
-constexpr int kMaximumWrongCases = 20;     ///< of cases wrong only as a combination.
+constexpr long kRowsCheckedOneByOne = 2000;  ///< beyond, some are (extreme_rows.h).
+constexpr std::size_t kChoicesTried = 64;    ///< per parameter; the extremes are among them.
+constexpr int kMaximumWrongCases = 20;       ///< of cases wrong only as a combination.
 constexpr std::size_t kMaximumProblems = 100;
-
-/// What faultsim::case_identity puts before the canonical scene.
-const std::string identity_preamble =
-    faultsim::concat("numerics ", faultsim::kNumericsVersion, "\n");
 
 class Expander {
  public:
@@ -113,53 +109,35 @@ class Expander {
     if (!check_choices(group, builder, values)) return;
     FamilyFinder families(result_.spec, group, builder, values, families_);
     const long n_rows = count_rows(group);
-    std::optional<Composer> composer;
-    // Each line of a file is somebody's own: nothing but reading it tells whether it is sound.
+    // Each line of a file is somebody's own: nothing but checking it tells whether it is sound.
     const bool has_file =
         std::any_of(group.designs.begin(), group.designs.end(),
                     [](const Design& one) { return one.kind == DesignKind::samples; });
-    if (n_rows > kRowsReadOneByOne && !has_file) {
-      std::vector<Problem> found;
-      composer.emplace(
-          result_.spec, group, builder, values,
-          [](const faultsim::Scene& scene, std::vector<Problem>&) {
-            return std::optional(faultsim::canonical_scene(scene));
-          },
-          std::vector<bool>(group.parameters.size() + result_.spec.derived.size(), true));
-      if (!composer->prepare(found)) composer.reset();
-      add(found);
-      if (!found.empty()) return;
-    }
+    const bool is_large = n_rows > kRowsCheckedOneByOne && !has_file;
+    if (is_large && !check_extremes(group, builder, values)) return;
+    const auto relations = is_large ? faultsim::Relations::trusted : faultsim::Relations::checked;
     std::vector<int>& case_of_row = result_.case_of_row[index];
     case_of_row.assign(static_cast<std::size_t>(n_rows), -1);
     note_drawn(families.drawn(), group);
-    Row row;
-    std::vector<double> derived;
+    RowReader rows(result_.spec, group, values, relations);
     int n_wrong = 0;
     for (long i = 0; i < n_rows; ++i) {
-      row_at(group, i, row);
-      values.derive(row, derived);
-      if (const int e = values.excluded_by(row, derived); e >= 0) {
-        ++result_.excluded[e].n_cases;
+      ReadRow& read = rows.next(families.are_many());
+      if (read.excluded >= 0) {
+        ++result_.excluded[read.excluded].n_cases;
         if (const Design* whole = whole_design(group)) {
-          refuse_exclusion(*whole, static_cast<std::size_t>(e), builder.describe(row));
+          refuse_exclusion(*whole, static_cast<std::size_t>(read.excluded),
+                           builder.describe(read.row));
           return;
         }
         continue;
       }
-      std::vector<Problem> found;
-      std::string identity;
-      const auto text = composer ? composer->text(row, derived) : std::nullopt;
-      if (text) {
-        identity_text_ = identity_preamble;
-        identity_text_ += *text;
-        identity = faultsim::fingerprint(identity_text_);
-      }
+      std::vector<Problem>& found = read.problems;
       int& place = case_of_row[i];
-      place = add_case(index, row, derived, identity, builder, families, found);
+      place = read.identity.empty() ? -1 : add_case(index, read, builder, families);
       if (place < 0) {
         if (found.empty()) continue;  // said of an earlier row
-        for (Problem& one : found) one.what += " (where " + builder.describe(row) + ")";
+        for (Problem& one : found) one.what += " (where " + builder.describe(read.row) + ")";
         add(found);
         if (++n_wrong < kMaximumWrongCases) continue;
         add({{group.pointer, result_.spec.document.line_of(group.pointer),
@@ -170,6 +148,22 @@ class Expander {
     }
   }
 
+  /// False where extreme rows of a large design have problems.
+  bool check_extremes(const Group& group, SceneBuilder& builder, const CaseValues& values) {
+    const std::vector<bool> all(group.parameters.size(), true);
+    std::vector<double> derived;
+    std::vector<Problem> found;
+    for (const Row& row : extreme_rows(group, values, all)) {
+      values.derive(row, derived);
+      const std::size_t n_before = found.size();
+      builder.scene(row, derived, faultsim::Relations::checked, found);
+      for (std::size_t i = n_before; i < found.size(); ++i)
+        found[i].what += " (where " + builder.describe(row) + ")";
+    }
+    add(found);
+    return found.empty();
+  }
+
   /// Tries every choice once, in the first row of the design with that choice put in, so that a
   /// wrong value is reported once and not in each of 10^5 cases.
   bool check_choices(const Group& group, SceneBuilder& builder, const CaseValues& values) {
@@ -177,7 +171,8 @@ class Expander {
     std::vector<Problem> found;
     for (const Row& row : rows_to_try(group)) {
       values.derive(row, derived);
-      if (values.excluded_by(row, derived) < 0) builder.scene(row, derived, found);
+      if (values.excluded_by(row, derived) >= 0) continue;
+      builder.scene(row, derived, faultsim::Relations::checked, found);
     }
     std::set<std::string> places;
     for (const Problem& one : found) places.insert(one.pointer);
@@ -216,32 +211,24 @@ class Expander {
   }
 
   /// The index of the row's case, or -1 where problems were found.
-  /// @param identity  of the row's scene; "" where the scene must be read to know it.
-  int add_case(int group, const Row& row, const std::vector<double>& derived,
-               const std::string& identity, SceneBuilder& builder, FamilyFinder& families,
-               std::vector<Problem>& problems) {
+  int add_case(int group, ReadRow& read, const SceneBuilder& builder, FamilyFinder& families) {
     Case one;
     one.index = static_cast<int>(result_.cases.size());
     one.group = group;
-    one.choices = row;
-    one.derived = derived;
-    one.identity = identity;
-    if (identity.empty()) {
-      const auto scene = builder.scene(row, derived, problems);
-      if (!scene) return -1;
-      one.identity = faultsim::case_identity(*scene);
-    }
+    one.identity = read.identity;
     const auto [known, is_new] = by_identity_.emplace(one.identity, one.index);
     if (!is_new) {
       ++result_.n_merged;
       if (first_merged_.empty()) {
-        first_merged_ =
-            builder.describe(row) + " is the same as case " + std::to_string(known->second + 1);
+        first_merged_ = builder.describe(read.row) + " is the same as case " +
+                        std::to_string(known->second + 1);
       }
       return known->second;
     }
-    one.family = families.family_of(row, derived, problems);
+    one.family = families.family_of(read);
     if (one.family < 0) return -1;
+    one.choices = std::move(read.row);
+    one.derived = std::move(read.derived);
     result_.cases.push_back(std::move(one));
     return result_.cases.back().index;
   }
@@ -312,7 +299,6 @@ class Expander {
   FamiliesSoFar families_;
   std::unordered_map<std::string, int> by_identity_;
   std::string first_merged_;
-  std::string identity_text_;
 };
 
 const Group& group_of(const Expansion& expansion, const Case& one) {

@@ -63,17 +63,15 @@ struct Expansion {
 /// Expands a spec. Throws InputError with all problems: values that the scene does not accept (each
 /// once, however many cases use it), cases that are invalid only as a combination (the first few).
 ///
-/// Up to 2000 rows of a group are read one by one and 200 families are planned. Beyond that
-/// identities and families are composed (composer.h, about 5 us each)
-/// and plans are made of 200 more families, spread over the design. Tried are each value, of a
-/// parameter with more than 64 the extremes and a spread; of a grid every combination of extremes;
-/// and the mesh of each family that is planned. A case that is wrong in a way that none of these
-/// shows is found when it runs, and is then a failed case with its reason.
+/// Up to 2000 rows of a group are checked one by one and 200 families are planned. Beyond that rows
+/// are read without what relates their values (row_reader.h), families are told by their
+/// fingerprints, and plans are made of 200 more families, spread over the design. Checked are each
+/// value, of a parameter with more than 64 the extremes and a spread; of a grid every combination of
+/// extremes; and the mesh of each family that is planned. A case that is wrong in a way that none of
+/// these shows is found when it runs, and is then a failed case with its reason.
 ///
-/// @param most_planned  plans to make. Where families cannot be composed (salt creeps), those
-/// beyond
-///                      are counted by their parameters and have no fingerprint of use: for a look
-///                      at a campaign, not for a store.
+/// @param most_planned  plans to make. Families beyond are counted by their parameters and have no
+///                      fingerprint of use: for a look at a campaign, not for a store.
 Expansion expand(CampaignSpec spec,
                  std::size_t most_planned = std::numeric_limits<std::size_t>::max());
 

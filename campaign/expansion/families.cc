@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "simulator/common/fingerprint.h"
+#include "campaign/expansion/extreme_rows.h"
 #include "simulator/plan/field_check.h"
 #include "simulator/plan/geometry_check.h"
 
@@ -70,19 +70,20 @@ FamilyFinder::Key FamilyFinder::key_of(const Row& row, const std::vector<double>
   return key;
 }
 
-/// Families that cannot be composed go on being planned one by one.
-void FamilyFinder::start_composing(std::vector<faultsim::Problem>& problems) {
-  tried_composing_ = true;
-  if (may_creep_) return;
-  composer_.emplace(
-      spec_, group_, builder_, values_,
-      [](const faultsim::Scene& scene, std::vector<faultsim::Problem>& wrong) {
-        const faultsim::Plan plan = faultsim::make_plan(scene, wrong);
-        return wrong.empty() ? std::optional(faultsim::canonical_family(scene, plan))
-                             : std::nullopt;
-      },
-      relevant_);
-  if (!composer_->prepare(problems)) composer_.reset();
+/// Plans rows with extreme values, before others are trusted.
+void FamilyFinder::check_extremes(std::vector<faultsim::Problem>& problems) {
+  std::vector<double> derived;
+  for (const Row& row : extreme_rows(group_, values_, relevant_)) {
+    values_.derive(row, derived);
+    std::vector<faultsim::Problem> found, wrong;
+    const auto* changed = builder_.scene(row, derived, faultsim::Relations::checked, found);
+    if (changed != nullptr) faultsim::make_plan(changed->scene, wrong);
+    for (const auto& one : wrong) found.push_back(builder_.in_spec(one, row));
+    for (faultsim::Problem& one : found) {
+      one.what += " (where " + builder_.describe(row) + ")";
+      problems.push_back(one);
+    }
+  }
 }
 
 void FamilyFinder::add_estimated(const std::string& fingerprint) {
@@ -90,58 +91,65 @@ void FamilyFinder::add_estimated(const std::string& fingerprint) {
   ++found_.n_estimated;
 }
 
-int FamilyFinder::family_of(const Row& row, const std::vector<double>& derived,
-                            std::vector<faultsim::Problem>& problems) {
-  Key key = key_of(row, derived);
+int FamilyFinder::family_of(ReadRow& read) {
+  Key key = key_of(read.row, read.derived);
   const auto known = by_key_.find(key);
   if (known != by_key_.end()) return known->second;
   if (refused_fields_.count(key) > 0) return -1;
-  if (n_planned_ == kPlannedOneByOne && !tried_composing_) start_composing(problems);
-  if (!problems.empty()) return -1;
+  if (n_planned_ == kPlannedOneByOne && !are_many_ && !may_creep_) {
+    are_many_ = true;
+    check_extremes(read.problems);
+  }
+  if (!read.problems.empty()) return -1;
   const long stride = std::max(1L, count_rows(group_) / kPlannedOneByOne);
-  const auto text = composer_ ? composer_->text(row, derived) : std::nullopt;
   int family = static_cast<int>(found_.families.size());
   const bool is_beyond = found_.n_planned >= found_.most_planned;
-  if (text && (++n_keys_ % stride != 0 || is_beyond)) {
-    const auto [place, is_new] =
-        found_.by_fingerprint.emplace(faultsim::fingerprint(*text), family);
+  if (are_many_ && (++n_keys_ % stride != 0 || is_beyond)) {
+    const auto [place, is_new] = found_.by_fingerprint.emplace(fingerprint_of(read), family);
     family = place->second;
     if (is_new) add_estimated(place->first);
   } else if (is_beyond) {
     add_estimated("not planned");
   } else {
-    family = plan_row(row, derived, problems);
-    if (text && family >= 0) {
-      const std::string& planned = found_.families[family].fingerprint;
-      FAULTSIM_DEMAND(planned == faultsim::fingerprint(*text), builder_.describe(row));
-    }
+    family = plan_row(read);
   }
   if (family >= 0 && !may_creep_) by_key_.emplace(std::move(key), family);
   return family;
 }
 
-int FamilyFinder::plan_row(const Row& row, const std::vector<double>& derived,
-                           std::vector<faultsim::Problem>& problems) {
-  const auto scene = builder_.scene(row, derived, problems);
-  if (!scene) return -1;
+/// Rows that were read before families were many do not have it.
+std::string FamilyFinder::fingerprint_of(ReadRow& read) {
+  if (!read.family.empty()) return read.family;
+  const auto* changed =
+      builder_.scene(read.row, read.derived, faultsim::Relations::trusted, read.problems);
+  FAULTSIM_DEMAND(changed != nullptr, builder_.describe(read.row));
+  return faultsim::family_of(changed->scene);
+}
+
+int FamilyFinder::plan_row(ReadRow& read) {
+  std::vector<faultsim::Problem>& problems = read.problems;
+  const auto* changed =
+      builder_.scene(read.row, read.derived, faultsim::Relations::trusted, problems);
+  if (changed == nullptr) return -1;
+  const faultsim::Scene& scene = changed->scene;
   std::vector<faultsim::Problem> wrong;
-  faultsim::Plan plan = faultsim::make_plan(*scene, wrong);
+  faultsim::Plan plan = faultsim::make_plan(scene, wrong);
   ++n_planned_;
   ++found_.n_planned;
   may_creep_ =
-      faultsim::has_viscous_material(*scene) && scene->numerics.creep != faultsim::Switch::off;
+      faultsim::has_viscous_material(scene) && scene.numerics.creep != faultsim::Switch::off;
   const bool is_known = found_.by_fingerprint.count(plan.family) != 0;
   if (wrong.empty() && !is_known && plan.n_cells <= found_.cells_to_check) {
     found_.cells_to_check -= plan.n_cells;
-    wrong = faultsim::geometry_problems(*scene, plan);
+    wrong = faultsim::geometry_problems(scene, plan);
   }
   if (wrong.empty()) {
-    const faultsim::FieldCheck fields = faultsim::check_fields(*scene, plan);
+    const faultsim::FieldCheck fields = faultsim::check_fields(scene, plan);
     wrong = fields.problems;
-    if (!wrong.empty()) refused_fields_.insert(key_of(row, derived));
-    for (const faultsim::Remark& one : fields.remarks) found_.say(one, builder_.describe(row));
+    if (!wrong.empty()) refused_fields_.insert(key_of(read.row, read.derived));
+    for (const faultsim::Remark& one : fields.remarks) found_.say(one, builder_.describe(read.row));
   }
-  for (const auto& one : wrong) problems.push_back(builder_.in_spec(one, row));
+  for (const auto& one : wrong) problems.push_back(builder_.in_spec(one, read.row));
   if (!wrong.empty()) return -1;
   const auto [place, is_new] =
       found_.by_fingerprint.emplace(plan.family, static_cast<int>(found_.families.size()));

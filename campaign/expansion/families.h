@@ -1,14 +1,13 @@
 #pragma once
 
 #include <boost/container_hash/hash.hpp>
-#include <optional>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
-#include "campaign/expansion/composer.h"
 #include "campaign/expansion/expansion.h"
+#include "campaign/expansion/row_reader.h"
 #include "campaign/expansion/scene_builder.h"
 
 namespace faultsweep {
@@ -35,9 +34,8 @@ struct FamiliesSoFar {
 
 /// Finds the family of each row of one group, looking once at each distinct family key: the values
 /// of the parameters that may change the linear bulk. The first kPlannedOneByOne keys of a group
-/// are planned; then fingerprints of families are composed (composer.h), and of
-/// the further families one in so many is planned, so that some kPlannedOneByOne more are. The
-/// others have the plan of the last one planned.
+/// are planned; of further families one in so many, so that some kPlannedOneByOne more are. The
+/// others have their own fingerprint, and the plan of the last one planned.
 /// A row that may creep is planned by itself: its steps are those of the stages, and whether it
 /// creeps may depend on the loads.
 class FamilyFinder {
@@ -47,8 +45,9 @@ class FamilyFinder {
 
   /// The index of the row's family. Problems of geometry and flow results are appended; then -1,
   /// without problems where those of the row's flow result have been said for another row.
-  int family_of(const Row& row, const std::vector<double>& derived,
-                std::vector<faultsim::Problem>& problems);
+  int family_of(ReadRow& read);
+  /// Whether most of them are told by the fingerprints that rows have.
+  bool are_many() const { return are_many_; }
   /// Names of parameters that may change the family and are drawn from ranges.
   std::vector<std::string> drawn() const;
 
@@ -60,9 +59,9 @@ class FamilyFinder {
   void find_relevant();
   Key key_of(const Row& row, const std::vector<double>& derived) const;
   void add_estimated(const std::string& fingerprint);
-  void start_composing(std::vector<faultsim::Problem>& problems);
-  int plan_row(const Row& row, const std::vector<double>& derived,
-               std::vector<faultsim::Problem>& problems);
+  void check_extremes(std::vector<faultsim::Problem>& problems);
+  std::string fingerprint_of(ReadRow& read);
+  int plan_row(ReadRow& read);
 
   const CampaignSpec& spec_;
   const Group& group_;
@@ -75,10 +74,9 @@ class FamilyFinder {
   bool may_creep_ = false;  ///< the row planned last: its family takes more than a key.
   std::unordered_map<Key, int, boost::hash<Key>> by_key_;
   std::unordered_set<Key, boost::hash<Key>> refused_fields_;
-  long n_keys_ = 0;     ///< looked at so far.
-  long n_planned_ = 0;  ///< of this group.
-  bool tried_composing_ = false;
-  std::optional<Composer> composer_;
+  long n_keys_ = 0;        ///< looked at so far.
+  long n_planned_ = 0;     ///< of this group.
+  bool are_many_ = false;  ///< so many were planned that the others are told by fingerprints.
 };
 
 }  // namespace faultsweep

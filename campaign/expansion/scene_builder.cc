@@ -29,46 +29,33 @@ std::vector<Change> changes_of_row(const CampaignSpec& spec, const Group& group,
 }
 
 SceneBuilder::SceneBuilder(const CampaignSpec& spec, const Group& group)
-    : spec_(spec), group_(group), document_{spec.scene_source, group.scene, spec.base.lines} {}
-
-void SceneBuilder::take_back_changes() {
-  for (const std::string& name : changed_) {
-    if (const json* before = faultsim::value_at(group_.scene, name)) {
-      faultsim::put_value(document_.value, name, *before);
-    } else if (document_.value.is_object()) {
-      document_.value.erase(json::json_pointer(name).back());
-    }
-  }
-  changed_.clear();
+    : spec_(spec), group_(group), base_{spec.scene_source, group.scene, spec.base.lines} {
+  changed_.document = base_;
 }
 
-std::optional<faultsim::Scene> SceneBuilder::scene(const Row& row,
-                                                   const std::vector<double>& derived,
-                                                   std::vector<Problem>& problems) {
-  bool ok = true;
+const faultsim::ChangedScene* SceneBuilder::scene(const Row& row,
+                                                  const std::vector<double>& derived,
+                                                  faultsim::Relations relations,
+                                                  std::vector<Problem>& problems) {
+  const std::size_t n_before = problems.size();
   for (std::size_t d = 0; d < derived.size(); ++d) {
     if (!std::isnan(derived[d])) continue;
-    ok = false;
     const Derived& one = spec_.derived[d];
     problems.push_back({one.pointer, spec_.document.line_of(one.pointer),
                         "\"" + one.text + "\" has no value where " + describe(row),
                         "a name in it has no value in the scene, or a division is by zero"});
   }
-  take_back_changes();
-  for (Change& change : changes_of_row(spec_, group_, row, derived)) {
-    changed_.insert(change.pointer.substr(0, change.pointer.find('/', 1)));
-    if (faultsim::put_value(document_.value, change.pointer, std::move(change.value))) continue;
-    ok = false;
-    problems.push_back(in_spec({change.pointer, 0, "the base scene has no place " + change.pointer,
+  std::vector<Problem> found;
+  const std::vector<std::string> placeless = faultsim::change_scene(
+      base_, changes_of_row(spec_, group_, row, derived), relations, changed_, found);
+  for (const std::string& pointer : placeless) {
+    problems.push_back(in_spec({pointer, 0, "the base scene has no place " + pointer,
                                 "faultsim parameters lists what can be varied"},
                                row));
   }
-  if (!ok) return std::nullopt;
-  std::vector<Problem> found;
-  faultsim::Scene scene = faultsim::read_scene(document_, found);
+  if (problems.size() > n_before) return nullptr;
   for (const Problem& one : found) problems.push_back(in_spec(one, row));
-  if (!found.empty()) return std::nullopt;
-  return scene;
+  return found.empty() ? &changed_ : nullptr;
 }
 
 Problem SceneBuilder::in_spec(const Problem& problem, const Row& row) const {

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <optional>
-#include <set>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "campaign/expansion/rows.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/scene/changed_scene.h"
 
 namespace faultsweep {
 
@@ -22,10 +21,11 @@ class SceneBuilder {
  public:
   SceneBuilder(const CampaignSpec& spec, const Group& group);
 
-  /// The checked scene of a row; problems (in terms of the spec) are appended, and then it is
-  /// empty.
-  std::optional<faultsim::Scene> scene(const Row& row, const std::vector<double>& derived,
-                                       std::vector<faultsim::Problem>& problems);
+  /// The scene of a row, until the next one; problems (in terms of the spec) are appended, and then
+  /// it is null. Large designs trust the relations between values, which their extremes show.
+  const faultsim::ChangedScene* scene(const Row& row, const std::vector<double>& derived,
+                                      faultsim::Relations relations,
+                                      std::vector<faultsim::Problem>& problems);
   /// Puts a problem of a row's scene where the spec's author can mend it: the value in the design,
   /// in `set`, in `derived`, or the base scene.
   faultsim::Problem in_spec(const faultsim::Problem& problem, const Row& row) const;
@@ -33,12 +33,10 @@ class SceneBuilder {
   std::string describe(const Row& row) const;
 
  private:
-  void take_back_changes();
-
   const CampaignSpec& spec_;
   const Group& group_;
-  faultsim::JsonDocument document_;  ///< the group's scene with the changes of the last row.
-  std::set<std::string> changed_;    ///< members of it that hold changes.
+  faultsim::JsonDocument base_;     ///< the group's scene.
+  faultsim::ChangedScene changed_;  ///< that of the last row.
 };
 
 }  // namespace faultsweep

@@ -21,10 +21,7 @@ namespace faultsweep {
 inline constexpr long kMaximumCases = 100'000;
 
 /// One value put into the scene document.
-struct Change {
-  std::string pointer;  ///< JSON Pointer into the scene.
-  nlohmann::json value;
-};
+using Change = faultsim::PlacedValue;
 
 /// One value of a parameter and what it does to the scene.
 struct Choice {

@@ -50,7 +50,7 @@ constexpr auto members = [](std::string& text, const auto& one) {
 /// A function for ObjectText.
 template <typename List>
 auto lists(const List& all) {
-  return [&all](std::string& text) { append_list(text, all, members); };
+  return [&all](std::string& to) { append_list(to, all, members); };
 }
 
 void append_block(std::string& text, const Block& block) {
@@ -74,7 +74,7 @@ void add_field(const FieldGeometry& field, const FieldMeshSpec& spec, ObjectText
   family.add("fault", std::array{spec.fault_length, spec.fault_overshoot, spec.pivot_depth});
   family.add("fault_dips", spec.fault_dips);
   family.add("half", spec.half_domain);
-  family.add("blocks", [&](std::string& text) { append_list(text, field.blocks, append_block); });
+  family.add("blocks", [&](std::string& to) { append_list(to, field.blocks, append_block); });
   if (!spec.plane_strain && spec.fault_length >= spec.length) family.add("fault_ends", "none");
 }
 
@@ -92,28 +92,31 @@ void add_box(const BoxGeometry& box, const BoxMeshSpec& spec, ObjectText& family
 /// Absent where nothing creeps: elastic families are those from before there was creep.
 void add_creep(const Scene& scene, const CreepPlan& creep, ObjectText& family) {
   const std::set<std::string> used = used_materials(scene);
-  const auto viscosity = [&](std::string& text, const Material& m) {
+  const auto viscosity = [&](std::string& to, const Material& m) {
     const bool creeps = m.viscosity && used.count(m.name) != 0;
-    append(text, creeps ? *m.viscosity : std::numeric_limits<double>::infinity());
+    append(to, creeps ? *m.viscosity : std::numeric_limits<double>::infinity());
   };
-  ObjectText object;
-  object.add("viscosities",
-             [&](std::string& text) { append_list(text, scene.materials, viscosity); });
-  object.add("scheme", scene.numerics.creep_scheme);
-  object.add("rungs", creep.rungs);
-  family.add("creep", [&](std::string& text) { object.append_to(text); });
+  family.add("creep", [&](std::string& text) {
+    ObjectText object(text);
+    object.add("viscosities",
+               [&](std::string& to) { append_list(to, scene.materials, viscosity); });
+    object.add("scheme", scene.numerics.creep_scheme);
+    object.add("rungs", creep.rungs);
+    object.close();
+  });
 }
 
 /// Scenes that differ in the values of a surface's parameters alone share it.
 std::string family_of_surface(Scene scene, const Plan& plan) {
   const SurfaceRequest surface = std::exchange(scene.numerics.surface, {});
   for (const SurfaceParameter& one : surface.over) set_value(one, one.from, scene);
-  ObjectText family;
+  std::string text;
+  ObjectText family(text);
   const std::string inner = canonical_family(scene, plan);
   family.add("surface", std::string_view(inner));
   family.add("method", kSurfaceMethod);
-  family.add("over", [&](std::string& text) {
-    append_list(text, surface.over, [](std::string& to, const SurfaceParameter& one) {
+  family.add("over", [&](std::string& all) {
+    append_list(all, surface.over, [](std::string& to, const SurfaceParameter& one) {
       to += concat('[', static_cast<int>(one.kind), ',', one.index, ',');
       append(to, one.from);
       to += ',';
@@ -123,20 +126,22 @@ std::string family_of_surface(Scene scene, const Plan& plan) {
   });
   family.add("tolerance", surface.tolerance);
   family.add("most_operators", surface.most_operators);
-  return family.text();
+  family.close();
+  return text;
 }
 
 }  // namespace
 
 std::string canonical_family(const Scene& scene, const Plan& plan) {
   if (scene.numerics.surface.wanted()) return family_of_surface(scene, plan);
-  ObjectText family;
+  std::string text;
+  ObjectText family(text);
   if (scene.geometry_kind == GeometryKind::field) {
     add_field(scene.field, field_mesh_spec(scene, plan), family);
   } else {
     add_box(scene.box, box_mesh_spec(scene, plan), family);
   }
-  family.add("sizes", [&](std::string& text) { members(text, scene.mesh); });
+  family.add("sizes", [&](std::string& to) { members(to, scene.mesh); });
   if (scene.mesh.grades_corners()) {
     family.add("corners", std::array{scene.mesh.corner, scene.mesh.corner_growth});
   }
@@ -144,7 +149,8 @@ std::string canonical_family(const Scene& scene, const Plan& plan) {
   family.add("b_bar", scene.numerics.b_bar);
   family.add("materials", lists(scene.materials));
   if (plan.creep.active) add_creep(scene, plan.creep, family);
-  return family.text();
+  family.close();
+  return text;
 }
 
 }  // namespace faultsim

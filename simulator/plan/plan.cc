@@ -372,6 +372,22 @@ std::vector<std::string> sections_of_fields(const Scene& scene) {
   return texts;
 }
 
+/// What is left out of a scene, and whether it creeps.
+Plan plan_reductions(const Scene& scene) {
+  Plan plan;
+  plan.reductions.push_back(plan_plane_strain(scene));
+  plan.plane_strain = plan.reductions.back().applied;
+  plan.reductions.push_back(plan_half_domain(scene, plan.plane_strain));
+  plan.half_domain = plan.reductions.back().applied;
+  if (!has_viscous_material(scene)) return plan;
+  const CreepEstimate estimate = estimate_creep(scene);
+  plan.reductions.push_back(plan_creep_off(scene, estimate));
+  plan.creep.active = !plan.reductions.back().applied;
+  plan.creep.bound = estimate.bound;
+  if (plan.creep.active) plan.creep.rungs = creep_rungs(scene);
+  return plan;
+}
+
 }  // namespace
 
 Mesh scene_mesh(const Scene& scene, const Plan& plan) {
@@ -379,23 +395,15 @@ Mesh scene_mesh(const Scene& scene, const Plan& plan) {
                                                     : make_mesh(box_mesh_spec(scene, plan));
 }
 
-Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
-  Plan plan;
-  plan.initial = initial_regions(scene);
-  plan.reductions.push_back(plan_plane_strain(scene));
-  plan.plane_strain = plan.reductions.back().applied;
-  if (plan.plane_strain) plan.sections = sections_of_fields(scene);
-  plan.reductions.push_back(plan_half_domain(scene, plan.plane_strain));
-  plan.half_domain = plan.reductions.back().applied;
-  require_half_domain(scene, plan, problems);
+std::string family_of(const Scene& scene) {
+  return fingerprint(canonical_family(scene, plan_reductions(scene)));
+}
 
-  if (has_viscous_material(scene)) {
-    const CreepEstimate estimate = estimate_creep(scene);
-    plan.reductions.push_back(plan_creep_off(scene, estimate));
-    plan.creep.active = !plan.reductions.back().applied;
-    plan.creep.bound = estimate.bound;
-    if (plan.creep.active) plan.creep.rungs = creep_rungs(scene);
-  }
+Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
+  Plan plan = plan_reductions(scene);
+  plan.initial = initial_regions(scene);
+  if (plan.plane_strain) plan.sections = sections_of_fields(scene);
+  require_half_domain(scene, plan, problems);
   for (Problem& problem : unsupported(scene, plan)) problems.push_back(std::move(problem));
 
   const GridLines lines = lines_of(scene, plan, problems);

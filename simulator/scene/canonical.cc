@@ -63,9 +63,9 @@ struct Canonical {
   }
   template <HasKeys Struct>
   void write(const Struct& one) {
-    ObjectText object;
+    ObjectText object(text);
     for_each_key(one, adder(object));
-    object.append_to(text);
+    object.close();
   }
 
   struct Element {
@@ -106,12 +106,14 @@ std::string text_of(const Value& value) {
 /// Only materials that something is made of: an unused one is a remark.
 std::string materials(const Scene& scene) {
   const std::set<std::string> used = used_materials(scene);
-  ObjectText object;
+  std::string text;
+  ObjectText object(text);
   for (const Material& material : scene.materials) {
     if (used.count(material.name) == 0) continue;
-    object.add(material.name, [&](std::string& text) { Canonical{text}.write(material); });
+    object.add(material.name, [&](std::string& to) { Canonical{to}.write(material); });
   }
-  return object.text();
+  object.close();
+  return text;
 }
 
 std::string geometry(const Scene& scene) {
@@ -119,23 +121,27 @@ std::string geometry(const Scene& scene) {
 }
 
 std::string numerics(const Numerics& numerics) {
-  ObjectText object;
+  std::string text;
+  ObjectText object(text);
   const auto add = Canonical::adder(object);
   for_each_key(numerics, add);
   if (numerics.surface.wanted()) add(SceneKey{"surface"}, numerics.surface);
-  return object.text();
+  object.close();
+  return text;
 }
 
 /// An elastic scene has no creep to speak of: it keeps the identity from before there was any.
 std::string creep(const Scene& scene) {
-  if (!has_viscous_material(scene)) return "";
-  ObjectText object;
+  std::string text;
+  if (!has_viscous_material(scene)) return text;
+  ObjectText object(text);
   const auto add = Canonical::adder(object);
   for_each_creep_key(scene.numerics, add);
   // Whether creep is left out did not depend on temperatures once.
   const bool is_estimated = scene.numerics.creep == Switch::automatic;
   if (is_estimated && !scene.temperature.empty()) add(SceneKey{"estimate"}, 2);
-  return object.text();
+  object.close();
+  return text;
 }
 
 /// The same of flow results and temperatures: members of the scene, each with a comma before it.
@@ -166,24 +172,30 @@ std::string CanonicalParts::text() const {
                 ",\"stages\":", stages, "}");
 }
 
-CanonicalParts canonical_parts(const Scene& scene) {
-  return {.faults = text_of(scene.faults),
-          .geometry = geometry(scene),
-          .initial_state = text_of(scene.initial),
-          .materials = materials(scene),
-          .mesh = text_of(scene.mesh),
-          .numerics = numerics(scene.numerics),
-          .pressure = text_of(scene.pressure),
-          .stages = text_of(scene.stages),
-          .creep = creep(scene),
-          .fields = fields(scene)};
+void write_parts(const Scene& scene, unsigned sections, CanonicalParts& parts) {
+  if ((sections & kFaults) != 0) parts.faults = text_of(scene.faults);
+  // The patches of a box are faults, and what a material is used for makes it count.
+  const bool has_patches = scene.geometry_kind == GeometryKind::box;
+  if ((sections & (kGeometry | (has_patches ? kFaults : 0U))) != 0)
+    parts.geometry = geometry(scene);
+  if ((sections & (kGeometry | kMaterials)) != 0) parts.materials = materials(scene);
+  // Whether something creeps may depend on temperatures.
+  if ((sections & (kGeometry | kMaterials | kLoading)) != 0) parts.creep = creep(scene);
+  if ((sections & kInitialState) != 0) parts.initial_state = text_of(scene.initial);
+  if ((sections & kLoading) != 0) {
+    parts.pressure = text_of(scene.pressure);
+    parts.stages = text_of(scene.stages);
+    parts.fields = fields(scene);
+  }
+  if (sections != kAll) return;
+  parts.mesh = text_of(scene.mesh);
+  parts.numerics = numerics(scene.numerics);
 }
 
-CanonicalParts canonical_parts(const Scene& scene, const Scene& other, CanonicalParts of_other) {
-  if (!have_same_body(scene, other)) return canonical_parts(scene);
-  if (scene.faults != other.faults) of_other.faults = text_of(scene.faults);
-  if (scene.initial != other.initial) of_other.initial_state = text_of(scene.initial);
-  return of_other;
+CanonicalParts canonical_parts(const Scene& scene) {
+  CanonicalParts parts;
+  write_parts(scene, kAll, parts);
+  return parts;
 }
 
 std::string canonical_scene(const Scene& scene) { return canonical_parts(scene).text(); }

@@ -28,18 +28,20 @@ void append(std::string& text, std::string_view value) {
   }
 }
 
-void ObjectText::append_to(std::string& text) {
+void ObjectText::close() {
   std::sort(members_.begin(), members_.end(),
             [](const Member& a, const Member& b) { return a.key < b.key; });
-  char before = '{';
+  std::string object;
+  object.reserve(text_.size() - begin_ + 32 * members_.size() + 2);
+  object += '{';
   for (const Member& member : members_) {
-    text += before;
-    append(text, member.key);
-    text += ':';
-    text.append(values_, member.begin, member.end - member.begin);
-    before = ',';
+    if (object.size() > 1) object += ',';
+    append(object, member.key);
+    object += ':';
+    object.append(text_, member.begin, member.end - member.begin);
   }
-  text += members_.empty() ? "{}" : "}";
+  object += '}';
+  text_.replace(begin_, std::string::npos, object);
 }
 
 }  // namespace faultsim

@@ -42,35 +42,35 @@ void append(std::string& text, const std::array<Value, n>& list) {
   append_list(text, list, [](std::string& to, const Value& one) { append(to, one); });
 }
 
-/// An object, whose members are added in any order.
+/// An object at the end of a text, whose members are added in any order.
 class ObjectText {
  public:
-  /// @param write  appends the value to a text.
+  explicit ObjectText(std::string& text) : text_(text), begin_(text.size()) {
+    members_.reserve(20);
+  }
+  /// @param write  appends the value to the text.
   template <typename Write>
   requires std::is_invocable_v<Write, std::string&>
   void add(std::string_view key, Write&& write) {
-    const std::size_t begin = values_.size();
-    write(values_);
-    members_.push_back({key, begin, values_.size()});
+    members_.push_back({key, text_.size(), 0});
+    write(text_);
+    members_.back().end = text_.size();
   }
   template <typename Value>
   requires(!std::is_invocable_v<Value, std::string&>) void add(std::string_view key,
                                                                const Value& value) {
     add(key, [&](std::string& text) { append(text, value); });
   }
-  void append_to(std::string& text);
-  std::string text() {
-    std::string result;
-    append_to(result);
-    return result;
-  }
+  /// Puts the members in order and ends the object.
+  void close();
 
  private:
   struct Member {
     std::string_view key;    ///< stays where it is.
     std::size_t begin, end;  ///< of its value.
   };
-  std::string values_;
+  std::string& text_;
+  std::size_t begin_;
   std::vector<Member> members_;
 };
 

@@ -49,6 +49,11 @@ inline std::string element(const std::string& list, std::size_t i) {
 const nlohmann::json* value_at(const nlohmann::json& document, std::string_view pointer);
 /// A member by its token, an element by its number.
 const nlohmann::json* child_at(const nlohmann::json& parent, std::string_view token);
+/// A value in place of the one at a pointer.
+struct PlacedValue {
+  std::string pointer;
+  nlohmann::json value;
+};
 /// Puts value at pointer; missing objects on the way are made. False where a list has no such
 /// element or something else stands in the way.
 bool put_value(nlohmann::json& document, std::string_view pointer, nlohmann::json value);

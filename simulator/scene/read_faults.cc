@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "simulator/common/errors.h"
@@ -21,16 +22,28 @@ constexpr double kAngleSlack = 1e-9;                // rad; "90 deg" may come ou
 class Overrides {
  public:
   Overrides(const SceneReader& reader, const std::string& name, std::size_t fault)
-      : reader_(reader), own_(element("/faults", fault) + "/" + name), shared_("/" + name) {}
+      : reader_(reader),
+        own_(element("/faults", fault) + "/" + name),
+        shared_("/" + name),
+        own_at_(own_ + "/"),
+        shared_at_(shared_ + "/"),
+        has_own_(reader.has(own_)) {}
 
   const std::string& own() const { return own_; }
+  /// Whether the fault says anything of its own; else all such faults are alike.
+  bool has_own() const { return has_own_; }
   /// Pointer to the key where it is given; where it is given nowhere, a pointer to nothing.
   std::string at(const std::string& key) const {
-    const std::string pointer = own_ + "/" + key;
-    return reader_.has(pointer) ? pointer : shared_ + "/" + key;
+    if (has_own_ && reader_.has(own_ + "/" + key)) return own_ + "/" + key;
+    return shared_ + "/" + key;
   }
-  auto pointers() const {
-    return [this](std::string_view key) { return at(std::string(key)); };
+  /// The places of keys, for key_reader.
+  auto places() const {
+    return [own = places_in(reader_, own_at_),
+            shared = places_in(reader_, shared_at_)](std::string_view key) {
+      const KeyPlace place = own(key);
+      return place.value != nullptr ? place : shared(key);
+    };
   }
   /// Which of two keys that exclude each other counts: one of the fault's own wins.
   std::string at_either(const std::string& a, const std::string& b) const {
@@ -46,6 +59,8 @@ class Overrides {
   const SceneReader& reader_;
   std::string own_;
   std::string shared_;
+  std::string own_at_, shared_at_;  ///< with a slash.
+  bool has_own_;
 };
 
 void require_one_of(SceneReader& reader, const std::string& object, const std::string& angle,
@@ -86,14 +101,14 @@ void read_weakening(SceneReader& reader, const Overrides& from, Friction& fricti
   }
 }
 
-Friction read_friction(SceneReader& reader, std::size_t fault) {
-  const Overrides from(reader, "friction", fault);
+Friction read_friction(SceneReader& reader, const Overrides& from) {
   Friction friction;
   for (const std::string& object : {std::string("/friction"), from.own()}) {
+    if (!from.has_own() && object == from.own()) continue;
     require_one_of(reader, object, "friction_angle", "friction_coefficient");
     require_one_of(reader, object, "dynamic_friction_angle", "dynamic_friction_coefficient");
   }
-  for_each_key(friction, key_reader(reader, from.pointers()));
+  for_each_key(friction, key_reader(reader, from.places()));
   const std::string fixed = from.at_either("friction_angle", "friction_coefficient");
   if (fixed.empty() && reader.sound("/friction") && reader.sound(from.own())) {
     reader.problem(reader.has("/friction") ? "/friction" : "/faults", "no friction angle is given",
@@ -139,10 +154,9 @@ FaultPressureTable read_profile(SceneReader& reader, const std::string& rule, co
   return csv.table;
 }
 
-FaultPressure read_fault_pressure(SceneReader& reader, std::size_t fault, const Scene& scene) {
-  const Overrides from(reader, "fault_pressure", fault);
+FaultPressure read_fault_pressure(SceneReader& reader, const Overrides& from, const Scene& scene) {
   FaultPressure pressure;
-  for_each_key(pressure, key_reader(reader, from.pointers()));
+  for_each_key(pressure, key_reader(reader, from.places()));
   const std::string rule = from.at("rule");
   if (pressure.rule == FaultPressureRule::table)
     pressure.profile = read_profile(reader, rule, from.at("csv"), scene);
@@ -187,6 +201,17 @@ PatchGeometry read_patch(SceneReader& reader, const std::string& at) {
   return patch;
 }
 
+/// What fault i says, or what is read once for all faults that say nothing.
+template <typename Struct, typename Read>
+Struct own_or_shared(const SceneReader& reader, const char* name, std::size_t fault,
+                     std::optional<Struct>& shared, const Read& read) {
+  if (shared && !reader.has(element("/faults", fault) + "/" + name)) return *shared;
+  const Overrides from(reader, name, fault);
+  const Struct result = read(from);
+  if (!from.has_own()) shared = result;
+  return result;
+}
+
 void check_count(SceneReader& reader, const Scene& scene) {
   const std::size_t wanted = scene.field.blocks.size() + 1;
   if (scene.field.blocks.empty() || scene.faults.size() == wanted) return;
@@ -204,6 +229,8 @@ void read_faults(SceneReader& reader, Scene& scene) {
   const bool is_box = scene.geometry_kind == GeometryKind::box;
   const bool known_kind = reader.sound("/geometry/kind");
   std::vector<std::string> names;
+  std::optional<Friction> friction;  // of those that say nothing
+  std::optional<FaultPressure> pressure;
   for (std::size_t i = 0; i < reader.size("/faults"); ++i) {
     const std::string at = element("/faults", i) + "/";
     Fault fault;
@@ -215,14 +242,19 @@ void read_faults(SceneReader& reader, Scene& scene) {
     if (known_kind && is_box) {
       scene.box.patches.push_back(read_patch(reader, at));
     }
+    const auto place_of = places_in(reader, at);
     for (const char* key : {"center", "strike", "length", "width", "shape"}) {
-      if (known_kind && !is_box && reader.has(at + key)) {
+      if (known_kind && !is_box && place_of(key).value != nullptr) {
         reader.problem(at + key, "faults of a field lie at the ends of the blocks",
                        "remove it; blocks, fault_length and fault_overshoot say where faults are");
       }
     }
-    fault.friction = read_friction(reader, i);
-    fault.pressure = read_fault_pressure(reader, i, scene);
+    fault.friction = own_or_shared(reader, "friction", i, friction, [&](const Overrides& from) {
+      return read_friction(reader, from);
+    });
+    fault.pressure = own_or_shared(
+        reader, "fault_pressure", i, pressure,
+        [&](const Overrides& from) { return read_fault_pressure(reader, from, scene); });
     scene.faults.push_back(fault);
     names.push_back(fault.name);
   }

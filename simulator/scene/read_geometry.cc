@@ -19,13 +19,14 @@ std::vector<std::string> material_names(const Scene& scene) {
 
 std::vector<Layer> read_layers(SceneReader& reader, const Scene& scene) {
   const std::string list = "/geometry/layers";
+  const std::vector<std::string> materials = material_names(scene);
   std::vector<Layer> layers;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < reader.size(list); ++i) {
     const std::string at = element(list, i) + "/";
     Layer layer;
     read_keys(reader, at, layer);
-    reader.require_known(at + "material", layer.material, "material", material_names(scene));
+    reader.require_known(at + "material", layer.material, "material", materials);
     if (i > 0 && layer.top_depth <= layers.back().top_depth) {
       reader.problem(at + "top",
                      "the top of layer \"" + layer.name + "\" (" + reader.as_given(at + "top") +

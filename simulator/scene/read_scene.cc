@@ -70,9 +70,7 @@ void require_cell_sizes(SceneReader& reader, bool is_box, bool plane_strain) {
 
 void read_mesh(SceneReader& reader, Scene& scene) {
   read_keys(reader, "/numerics/", scene.numerics);
-  for_each_creep_key(scene.numerics, key_reader(reader, [](std::string_view key) {
-                       return "/numerics/" + std::string(key);
-                     }));
+  for_each_creep_key(scene.numerics, key_reader(reader, places_in(reader, "/numerics/")));
   scene.tier = reader.text("/tier", "custom");
   const bool is_box = scene.geometry_kind == GeometryKind::box;
   if (is_box && scene.tier != "custom" && reader.sound("/geometry/kind")) {
@@ -160,8 +158,6 @@ const Schema& scene_schema() {
   return schema;
 }
 
-namespace {
-
 void relate_parts(SceneReader& reader, const std::vector<Problem>& problems, Scene& scene) {
   check_geometry(reader, scene);
   check_fault_tables(reader, scene);
@@ -173,15 +169,6 @@ void relate_parts(SceneReader& reader, const std::vector<Problem>& problems, Sce
   add_remarks(reader, scene);
   remark_fault_tables(reader, scene);
 }
-
-/// All of the initial state that the histories of pressure depend on.
-bool have_same_pressure(const InitialState& a, const InitialState& b) {
-  return a.kind == b.kind && a.gravity == b.gravity && a.water_density == b.water_density &&
-         a.overpressure == b.overpressure && a.pressure == b.pressure &&
-         a.pressure_gradient == b.pressure_gradient;
-}
-
-}  // namespace
 
 Scene read_scene(const JsonDocument& document, std::vector<Problem>& problems) {
   SceneReader reader(document, problems);
@@ -208,30 +195,6 @@ Scene read_scene(const JsonDocument& document) {
   std::vector<Problem> problems;
   Scene scene = read_scene(document, problems);
   if (!problems.empty()) throw InputError(document.source, problems);
-  return scene;
-}
-
-std::span<const std::string> case_members() {
-  static const std::array<std::string, 4> members = {"fault_pressure", "faults", "friction",
-                                                     "initial_state"};
-  return members;
-}
-
-std::optional<Scene> reread_scene(const JsonDocument& document, const Scene& other) {
-  std::vector<Problem> problems;
-  SceneReader reader(document, problems, case_members());
-  if (!problems.empty()) return std::nullopt;
-  Scene scene = other;
-  scene.faults.clear();
-  scene.box.patches.clear();
-  scene.initial = {};
-  scene.remarks.resize(scene.n_table_remarks);
-  read_initial_state(reader, scene);
-  read_faults(reader, scene);
-  if (!problems.empty()) return std::nullopt;
-  if (!have_same_pressure(scene.initial, other.initial)) return std::nullopt;
-  relate_parts(reader, problems, scene);
-  if (!problems.empty()) return std::nullopt;
   return scene;
 }
 

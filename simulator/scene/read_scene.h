@@ -2,7 +2,6 @@
 
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -25,14 +24,6 @@ Scene read_scene(const JsonDocument& document);
 /// The same without throwing: problems are appended; the scene is meaningful only if none were.
 Scene read_scene(const JsonDocument& document, std::vector<Problem>& problems);
 
-/// Members of a document that say what differs between the cases of a family, and little else.
-std::span<const std::string> case_members();
-/// The scene of a document that differs from another sound one in case_members() only, which alone
-/// are read. @param other  the scene of the other one.
-/// @returns what read_scene() would; nothing where there is a problem, or where the initial
-/// pressure differs, which histories of pressure may follow from.
-std::optional<Scene> reread_scene(const JsonDocument& document, const Scene& other);
-
 /// The canonical text of the *resolved physical and numerical* scene: every default filled in, SI,
 /// keys sorted, 1 = 1.0, -0 = 0, shortest round-trip numbers. Without title and outputs. A field
 /// added later appears only when it differs from the value that reproduces the old behaviour.
@@ -45,8 +36,17 @@ struct CanonicalParts {
   std::string text() const;
 };
 CanonicalParts canonical_parts(const Scene& scene);
-/// The same, where another scene's are known: what both have in common is not written again.
-CanonicalParts canonical_parts(const Scene& scene, const Scene& other, CanonicalParts of_other);
+/// What is read, and written, together.
+enum SceneSection : unsigned {
+  kMaterials = 1,
+  kGeometry = 2,
+  kInitialState = 4,
+  kFaults = 8,
+  kLoading = 16,
+  kAll = 63,  ///< and all the rest.
+};
+/// Writes again what follows from some sections of a scene.
+void write_parts(const Scene& scene, unsigned sections, CanonicalParts& parts);
 std::string case_identity(const CanonicalParts& parts);
 
 /// Identity of a case: fingerprint of canonical_scene and kNumericsVersion.

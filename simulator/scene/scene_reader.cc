@@ -92,8 +92,9 @@ ParsedQuantity parse_given(const json& value, const Range& range) {
 }  // namespace
 
 SceneReader::SceneReader(const JsonDocument& document, std::vector<Problem>& problems,
-                         std::span<const std::string> members)
-    : document_(document), problems_(problems) {
+                         std::span<const std::string> members,
+                         std::unordered_map<const json*, double> quantities)
+    : document_(document), problems_(problems), quantities_(std::move(quantities)) {
   // Problems of quantities come after those of the schema, which decide what is sound.
   struct Leaf {
     std::string pointer;
@@ -131,6 +132,26 @@ bool SceneReader::read_quantity(const json& value, const SchemaViews& views) {
   return fine;
 }
 
+bool SceneReader::read_again(std::string_view pointer) {
+  const json* value = &document_.value;
+  SchemaViews scratch[2] = {schema_views(scene_schema().root(), *value), {}};
+  const SchemaViews* views = &scratch[0];
+  for (std::size_t depth = 1; !pointer.empty(); ++depth) {
+    const std::string_view token = pointer.substr(1, pointer.find('/', 1) - 1);
+    const json* child = child_at(*value, token);
+    if (child == nullptr || token.find('~') != std::string_view::npos) return false;
+    SchemaViews& next = scratch[depth % 2];
+    views = value->is_array() ? &item_views(*views, *child, next)
+                              : &member_views(*views, std::string(token), *child, next);
+    value = child;
+    pointer.remove_prefix(token.size() + 1);
+  }
+  const bool has_unit = keyword(*views, "x-dimension") != nullptr;
+  if (!value->is_number() && !(has_unit && value->is_string())) return false;
+  return keyword(*views, "enum") == nullptr && accepts_alone(*views, *value) &&
+         read_quantity(*value, *views);
+}
+
 void SceneReader::explain_quantity(const std::string& pointer, const json& value,
                                    const SchemaViews& views) {
   Range scratch;
@@ -155,12 +176,11 @@ const json* SceneReader::find(const std::string& pointer) const {
   const std::size_t slash = pointer.rfind('/');
   if (slash == std::string::npos) return &document_.value;
   const std::string_view above = std::string_view(pointer).substr(0, slash);
-  if (above != parent_pointer_) {
-    parent_ = value_at(document_.value, above);
-    parent_pointer_ = above;
-  }
-  return parent_ == nullptr ? nullptr
-                            : child_at(*parent_, std::string_view(pointer).substr(slash + 1));
+  if (above != last_.pointer) std::swap(last_, before_);
+  if (above != last_.pointer) last_ = {std::string(above), value_at(document_.value, above)};
+  return last_.value == nullptr
+             ? nullptr
+             : child_at(*last_.value, std::string_view(pointer).substr(slash + 1));
 }
 
 std::size_t SceneReader::size(const std::string& pointer) const {
@@ -191,28 +211,26 @@ double SceneReader::number(const std::string& pointer, double fallback) const {
   return value->get<double>() + 0.0;  // -0 becomes 0
 }
 
-double SceneReader::real(const std::string& pointer, double fallback) const {
-  const json* value = find(pointer);
-  if (value == nullptr) return fallback;
-  const auto found = quantities_.find(value);
+double SceneReader::real(const KeyPlace& place, double fallback) const {
+  if (place.value == nullptr) return fallback;
+  const auto found = quantities_.find(place.value);
   if (found != quantities_.end()) return found->second;
-  return value->is_number() && sound(pointer) ? value->get<double>() + 0.0 : kNaN;
+  return place.value->is_number() && is_sound(place) ? place.value->get<double>() + 0.0 : kNaN;
 }
 
-int SceneReader::integer(const std::string& pointer, int fallback) const {
-  const json* value = find(pointer);
-  return value != nullptr && value->is_number_integer() && sound(pointer) ? value->get<int>()
-                                                                          : fallback;
+int SceneReader::integer(const KeyPlace& place, int fallback) const {
+  const json* value = place.value;
+  return value != nullptr && value->is_number_integer() && is_sound(place) ? value->get<int>()
+                                                                           : fallback;
 }
 
-std::string SceneReader::text(const std::string& pointer, const std::string& fallback) const {
-  const json* value = find(pointer);
-  if (value == nullptr) return fallback;
-  return value->is_string() && sound(pointer) ? value->get<std::string>() : "";
+std::string SceneReader::text(const KeyPlace& place, const std::string& fallback) const {
+  if (place.value == nullptr) return fallback;
+  return place.value->is_string() && is_sound(place) ? place.value->get<std::string>() : "";
 }
 
-bool SceneReader::boolean(const std::string& pointer, bool fallback) const {
-  const json* value = find(pointer);
+bool SceneReader::boolean(const KeyPlace& place, bool fallback) const {
+  const json* value = place.value;
   return value != nullptr && value->is_boolean() ? value->get<bool>() : fallback;
 }
 

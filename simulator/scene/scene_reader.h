@@ -5,8 +5,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "simulator/common/units.h"
@@ -20,12 +22,31 @@ namespace faultsim {
 
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
+/// A value by the key of an object; its pointer is written where it is needed.
+struct KeyPlace {
+  const nlohmann::json* value = nullptr;  ///< none: it is not there.
+  std::string_view object;                ///< pointer to the object, with a slash at its end.
+  std::string_view key;
+  std::string pointer() const { return std::string(object).append(key); }
+};
+
 class SceneReader {
  public:
   /// Checks document against the schema and reads all quantities of it.
-  /// @param members  of the document that are checked and read; none = all.
+  /// @param members     of the document that are checked and read; none = all.
+  /// @param quantities  of the others, as far as they are asked for.
   SceneReader(const JsonDocument& document, std::vector<Problem>& problems,
-              std::span<const std::string> members = {});
+              std::span<const std::string> members = {},
+              std::unordered_map<const nlohmann::json*, double> quantities = {});
+  /// Of a document that was found sound. @param quantities  all of it.
+  SceneReader(const JsonDocument& document, std::vector<Problem>& problems,
+              std::unordered_map<const nlohmann::json*, double> quantities)
+      : document_(document), problems_(problems), quantities_(std::move(quantities)) {}
+  /// What was read, for later.
+  std::unordered_map<const nlohmann::json*, double>& quantities() { return quantities_; }
+  /// Reads a number or quantity that has taken the place of a sound one. @returns false where it is
+  /// something else, or wrong.
+  bool read_again(std::string_view pointer);
 
   const JsonDocument& document() const { return document_; }
   /// The value at pointer; nullptr when it is not there.
@@ -43,10 +64,20 @@ class SceneReader {
   double quantity(const std::string& pointer, double fallback = kNaN) const;  ///< SI.
   double number(const std::string& pointer, double fallback = kNaN) const;
   /// quantity() or number(), as the value is.
-  double real(const std::string& pointer, double fallback = kNaN) const;
-  int integer(const std::string& pointer, int fallback) const;
-  std::string text(const std::string& pointer, const std::string& fallback = "") const;
-  bool boolean(const std::string& pointer, bool fallback) const;
+  double real(const KeyPlace& place, double fallback = kNaN) const;
+  int integer(const KeyPlace& place, int fallback) const;
+  std::string text(const KeyPlace& place, const std::string& fallback = "") const;
+  bool boolean(const KeyPlace& place, bool fallback) const;
+  double real(const std::string& pointer, double fallback = kNaN) const {
+    return real(place(pointer), fallback);
+  }
+  int integer(const std::string& pointer, int fallback) const {
+    return integer(place(pointer), fallback);
+  }
+  std::string text(const std::string& pointer, const std::string& fallback = "") const {
+    return text(place(pointer), fallback);
+  }
+  KeyPlace place(const std::string& pointer) const { return {find(pointer), pointer, {}}; }
   /// Empty unless there is one factor per time.
   TimeTable table(const std::string& pointer);
 
@@ -66,6 +97,7 @@ class SceneReader {
   std::string as_given(const std::string& pointer) const;
 
  private:
+  bool is_sound(const KeyPlace& place) const { return problems_.empty() || sound(place.pointer()); }
   /// False where there is something to explain.
   bool read_quantity(const nlohmann::json& value, const SchemaViews& views);
   void explain_quantity(const std::string& pointer, const nlohmann::json& value,
@@ -77,9 +109,12 @@ class SceneReader {
   std::unordered_set<std::string> said_;                ///< pointer and text of each.
   std::unordered_set<const nlohmann::json*> too_long_;  ///< lists.
   std::unordered_map<const nlohmann::json*, double> quantities_;
-  /// Neighbours are asked for one after the other: where the last one stood.
-  mutable std::string parent_pointer_;
-  mutable const nlohmann::json* parent_ = &document_.value;
+  /// Neighbours are asked for one after the other: where the last ones stood.
+  struct Parent {
+    std::string pointer;
+    const nlohmann::json* value;
+  };
+  mutable Parent last_{"", &document_.value}, before_ = last_;
 };
 
 /// "-3.8 bar": for messages, at most six digits.
@@ -117,6 +152,9 @@ void read_surface(SceneReader& reader, Scene& scene);
 void check_flow_loads(SceneReader& reader, Scene& scene);
 /// No more load steps are added at turning points than /numerics/max_added_steps.
 void check_turning_points(SceneReader& reader, const Scene& scene);
+
+/// All of these, and then remarks if there are no problems.
+void relate_parts(SceneReader& reader, const std::vector<Problem>& problems, Scene& scene);
 
 /// Fills Scene::remarks. @pre the scene has no problems.
 void add_remarks(const SceneReader& reader, Scene& scene);

@@ -173,6 +173,15 @@ const SchemaViews& item_views(const SchemaViews& parent, const json& value, Sche
                         [&](const SchemaRules& view) { return view.items; });
 }
 
+bool accepts_alone(const SchemaViews& views, const json& value) {
+  return std::all_of(views.begin(), views.end(), [&](const SchemaRules* view) {
+    if ((view->types & bit(value.type())) == 0) return false;
+    if (!value.is_number()) return true;
+    const auto number = value.get<double>();
+    return number >= view->least && number <= view->most && number > view->above;
+  });
+}
+
 const json* keyword(const SchemaViews& views, const char* name) {
   for (const SchemaRules* view : views) {
     if (const auto found = view->text->find(name); found != view->text->end()) return &*found;

@@ -100,6 +100,9 @@ const SchemaViews& member_views(const SchemaViews& parent, const std::string& ke
 const SchemaViews& item_views(const SchemaViews& parent, const nlohmann::json& value,
                               SchemaViews& scratch);
 
+/// Whether a number or text is of the type and in the range that its views demand.
+bool accepts_alone(const SchemaViews& views, const nlohmann::json& value);
+
 /// The first view that has the keyword, its value; nullptr if none.
 const nlohmann::json* keyword(const SchemaViews& views, const char* name);
 /// The keyword as text, "" if none.

@@ -49,20 +49,24 @@ LoadedScene load_scene(JsonDocument document) {
   if (problems.empty()) loaded.plan = make_plan(loaded.scene, problems);
   throw_problems(loaded.document, std::move(problems));
   loaded.canonical = canonical_parts(loaded.scene);
+  loaded.is_of_base = true;  // with no values
   loaded.identity = case_identity(loaded.canonical);
   return loaded;
 }
 
-bool reload_scene(const JsonDocument& document, const LoadedScene& other, LoadedScene& loaded) {
-  std::optional<Scene> scene = reread_scene(document, other.scene);
-  if (!scene) return false;
+std::optional<LoadedScene> reload_scene(const JsonDocument& base, std::vector<PlacedValue> values,
+                                        const std::string& source, const LoadedScene& other) {
+  LoadedScene loaded = other;
+  loaded.document.source = source;
+  loaded.document.lines.clear();
+  loaded.mesh.reset();
   std::vector<Problem> problems;
-  loaded.plan = make_plan(*scene, problems, other.scene, other.plan);
-  if (!problems.empty()) return false;
-  loaded.canonical = canonical_parts(*scene, other.scene, other.canonical);
+  if (!change_scene(base, std::move(values), Relations::checked, loaded, problems).empty())
+    return std::nullopt;
+  if (problems.empty()) loaded.plan = make_plan(loaded.scene, problems, other.scene, other.plan);
+  throw_problems(loaded.document, std::move(problems));
   loaded.identity = case_identity(loaded.canonical);
-  loaded.scene = std::move(*scene);
-  return true;
+  return loaded;
 }
 
 FieldCheck check_geometry(LoadedScene& loaded) {

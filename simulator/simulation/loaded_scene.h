@@ -2,24 +2,20 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "simulator/plan/field_check.h"
 #include "simulator/plan/plan.h"
-#include "simulator/scene/json_document.h"
-#include "simulator/scene/read_scene.h"
-#include "simulator/scene/scene.h"
+#include "simulator/scene/changed_scene.h"
 #include "simulator/simulation/simulation.h"
 
 namespace faultsim {
 
 /// A scene that was read and found sound, and what will be modelled of it.
-struct LoadedScene {
-  JsonDocument document;
-  Scene scene;
+struct LoadedScene : ChangedScene {
   Plan plan;
-  CanonicalParts canonical;
   std::string identity;                        ///< of the case.
   std::shared_ptr<const Mesh> mesh = nullptr;  ///< where check_geometry() has made it.
 };
@@ -33,10 +29,11 @@ void apply(const Changes& changes, JsonDocument& document);
 /// Checks everything and plans, without the plan's warnings. Throws InputError with all problems of
 /// scene and geometry.
 LoadedScene load_scene(JsonDocument document);
-/// The same by reading, planning and writing only what may differ from a scene that was loaded, of
-/// a document that differs from its in case_members() only. @returns whether that was enough; if
-/// not, load_scene() has to look.
-bool reload_scene(const JsonDocument& document, const LoadedScene& other, LoadedScene& loaded);
+/// A scene that was loaded with other values put into its base, of which only what they touch is
+/// read and planned again. Throws InputError like load_scene().
+/// @returns nothing where a value has no place in base.
+std::optional<LoadedScene> reload_scene(const JsonDocument& base, std::vector<PlacedValue> values,
+                                        const std::string& source, const LoadedScene& other);
 /// What a run would refuse once it has the mesh (plan/geometry_check.h) or maps its flow results
 /// (plan/field_check.h), thrown as InputError with its place in the file. Makes the mesh, unless
 /// that is large. @returns what else is to be said of the flow results.

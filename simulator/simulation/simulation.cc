@@ -21,35 +21,14 @@ using nlohmann::json;
 
 namespace {
 
-using Values = std::vector<std::pair<std::string, json>>;  // by pointer
-
-/// Puts values into a document. @returns the first pointer that has no place in it; empty: all
-/// have.
-std::string put_values(const Values& values, json& document) {
-  for (const auto& [pointer, value] : values) {
-    if (!put_value(document, pointer, value)) return pointer;
-  }
-  return "";
-}
-
-/// "" where it is not a pointer to a member.
-std::string member_of(const std::string& pointer) {
-  return pointer.size() < 2 ? "" : pointer.substr(1, pointer.find('/', 1) - 1);
-}
-
-bool is_case_member(const std::string& name) {
-  const auto members = case_members();
-  return std::find(members.begin(), members.end(), name) != members.end();
-}
+using Values = std::vector<PlacedValue>;
 
 }  // namespace
 
 struct Simulation::Impl {
   std::optional<JsonDocument> held;  ///< none: the scene at hand is the one held.
-  bool is_of_held = true;            ///< the scene at hand is the held one, changed.
-  std::set<std::string> changed;     ///< members in which it differs then.
-  LoadedScene at_hand;
-  std::string key;  ///< of the operator that the scene at hand needs.
+  LoadedScene at_hand;               ///< may be of that base.
+  std::string key;                   ///< of the operator that the scene at hand needs.
   CachePolicy cache;
   PreparedOperator prepared;
   std::string prepared_key;
@@ -63,9 +42,7 @@ struct Simulation::Impl {
     key = operator_case_key(at_hand);
   }
   void keep();
-  bool unchanged(const std::string& name, const Values& values) const;
-  bool change_members(const Values& values, const std::string& source);
-  bool change(const Values& values, const std::string& source);
+  bool change(Values values, const std::string& source);
   std::optional<Values> values_of(const Changes& changes);
 };
 
@@ -100,78 +77,14 @@ class MovedJumps {
 void Simulation::Impl::keep() {
   if (held) return;
   held = at_hand.document;
-  is_of_held = true;
-  changed.clear();
   aliases.clear();
 }
 
-/// Whether a member of the held document with these values is what it is in the one at hand.
-bool Simulation::Impl::unchanged(const std::string& name, const Values& values) const {
-  json after = json::object();
-  if (const json* before = child_at(held->value, name)) after[name] = *before;
-  for (const auto& [pointer, value] : values) {
-    if (member_of(pointer) == name && !put_value(after, pointer, value)) return false;
-  }
-  const json *is = child_at(at_hand.document.value, name), *will_be = child_at(after, name);
-  return is == nullptr || will_be == nullptr ? is == will_be : *is == *will_be;
-}
-
-/// By looking at the members that differ only, without the lines of the file. @returns whether that
-/// was enough; if not, nothing has changed.
-bool Simulation::Impl::change_members(const Values& values, const std::string& source) {
-  std::set<std::string> members = changed, next;
-  for (const auto& [pointer, value] : values) next.insert(member_of(pointer));
-  members.insert(next.begin(), next.end());
-  if (!is_of_held) return false;
-  json& document = at_hand.document.value;
-  // Cases of a family say again what makes it one: such a member may stay as it is.
-  for (auto name = members.begin(); name != members.end();) {
-    if (is_case_member(*name)) {
-      ++name;
-    } else if (unchanged(*name, values)) {
-      name = members.erase(name);
-    } else {
-      return false;
-    }
-  }
-  std::map<std::string, json> before;
-  const auto put_back = [&](const std::string& name, const json* value) {
-    if (value != nullptr) {
-      document[name] = *value;
-    } else {
-      document.erase(name);
-    }
-  };
-  for (const std::string& name : members) {
-    if (const auto old = document.find(name); old != document.end()) before[name] = std::move(*old);
-    put_back(name, child_at(held->value, name));
-  }
-  LoadedScene loaded;
-  if (put_values(values, document).empty() && reload_scene(at_hand.document, at_hand, loaded)) {
-    loaded.document = std::move(at_hand.document);
-    loaded.document.source = source;
-    loaded.document.lines.clear();
-    take(std::move(loaded));
-    changed = std::move(next);
-    return true;
-  }
-  for (const std::string& name : members) {
-    const auto old = before.find(name);
-    put_back(name, old == before.end() ? nullptr : &old->second);
-  }
-  return false;
-}
-
 /// Throws InputError where the scene is wrong. @returns false where a value has no place in it.
-bool Simulation::Impl::change(const Values& values, const std::string& source) {
-  if (change_members(values, source)) return true;
-  JsonDocument document{source, held->value, {}};
-  if (!put_values(values, document.value).empty()) return false;
-  take(load_scene(std::move(document)));
-  is_of_held = true;
-  changed.clear();
-  for (const auto& [pointer, value] : values) changed.insert(member_of(pointer));
-  return true;
+bool Simulation::Impl::change(Values values, const std::string& source) {
+  std::optional<LoadedScene> loaded = reload_scene(*held, std::move(values), source, at_hand);
+  if (loaded) take(std::move(*loaded));
+  return loaded.has_value();
 }
 
 /// None where there is something to explain.
@@ -182,7 +95,7 @@ std::optional<Values> Simulation::Impl::values_of(const Changes& changes) {
     const auto found = aliases.find(change.parameter);
     const std::string& pointer = found != aliases.end() ? found->second : change.parameter;
     if (pointer.size() < 2 || pointer[0] != '/') return std::nullopt;
-    values.emplace_back(pointer, value_of_text(change.value, held->source, pointer));
+    values.push_back({pointer, value_of_text(change.value, held->source, pointer)});
   }
   return values;
 }
@@ -219,7 +132,7 @@ void Simulation::hold(JsonDocument document) {
 
 void Simulation::hold_base(JsonDocument document) {
   impl_->held = std::move(document);
-  impl_->is_of_held = false;
+  impl_->at_hand.is_of_base = false;
   impl_->aliases.clear();
 }
 
@@ -227,25 +140,27 @@ void Simulation::change(const Changes& changes) {
   Impl& self = *impl_;
   self.keep();
   try {
-    const std::optional<Values> values = self.values_of(changes);
-    if (values && self.change(*values, self.held->source)) return;
+    std::optional<Values> values = self.values_of(changes);
+    if (values && self.change(std::move(*values), self.held->source)) return;
   } catch (const InputError&) {  // said again below, with the lines of the file
   }
   JsonDocument document = *self.held;
   apply(changes, document);
   self.take(load_scene(std::move(document)));
-  self.is_of_held = false;
+  self.at_hand.is_of_base = false;
 }
 
 void Simulation::change_values(const JsonDocument& values) {
   Impl& self = *impl_;
   self.keep();
   Values all;
-  for (const auto& [pointer, value] : values.value.items()) all.emplace_back(pointer, value);
-  if (self.change(all, values.source)) return;
   json document = self.held->value;
-  throw InputError(values.source,
-                   {{put_values(all, document), 0, "the base scene has no place for it", ""}});
+  for (const auto& [pointer, value] : values.value.items()) all.push_back({pointer, value});
+  if (self.change(all, values.source)) return;
+  for (const auto& [pointer, value] : all) {
+    if (put_value(document, pointer, value)) continue;
+    throw InputError(values.source, {{pointer, 0, "the base scene has no place for it", ""}});
+  }
 }
 
 const LoadedScene& Simulation::scene() const { return impl_->at_hand; }

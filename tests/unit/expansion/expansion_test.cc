@@ -7,7 +7,6 @@
 #include <numeric>
 #include <set>
 
-#include "campaign/expansion/composer.h"
 #include "simulator/common/stopwatch.h"
 #include "simulator/scene/read_scene.h"
 #include "tests/unit/expansion/long_way.h"
@@ -239,7 +238,7 @@ TEST(Expansion, AWrongCornerOfALargeGridIsFound) {
   }
 }
 
-TEST(Expansion, ComposedIdentitiesAreTrue) {
+TEST(Expansion, IdentitiesOfALargeGridAreTrue) {
   // Words of other shape, values that meet in one place (both angles), factors, derived values.
   const auto all = expand_grid(R"({
       "offset": ["0 m", "100 m", "200 m"],
@@ -255,7 +254,7 @@ TEST(Expansion, ComposedIdentitiesAreTrue) {
   expect_true_identities(all, 23);
 }
 
-TEST(Expansion, ComposedListsAreTrue) {
+TEST(Expansion, IdentitiesOfALargeListAreTrue) {
   std::string cases;
   for (int i = 0; i < 1000; ++i) {
     const double angle = 15 + 0.017 * i;
@@ -300,7 +299,7 @@ TEST(Expansion, HundredThousandCasesExpandInSeconds) {
 }
 
 /// Work, not time: 10^5 families are told apart by their fingerprints, and a few hundred planned.
-TEST(Expansion, ManyFamiliesAreComposedAndFewArePlanned) {
+TEST(Expansion, ManyFamiliesAreToldApartAndFewArePlanned) {
   const auto all =
       expand_grid(R"({
       "offset": {"from": "0 m", "to": "290 m", "count": 30},
@@ -348,18 +347,6 @@ TEST(Expansion, ExamplesExpand) {
   EXPECT_EQ(sampled.cases.size(), 24u);
   EXPECT_EQ(sampled.families.size(), 2u) << "as docs/campaign.md says";
   EXPECT_EQ(expand(read_campaign(folder + "morris.json")).case_of_row[0].size(), 30u);
-}
-
-TEST(CutAtValues, KeysAreNoValues) {
-  const std::string text = R"({"a":[1.5,-2e-7,true],"b\"c":{"d":"x,y:\"z\""},"e":null,"f":[]})";
-  const CanonicalPieces pieces = cut_at_values(text);
-  EXPECT_EQ(pieces.leaves,
-            (std::vector<std::string>{"1.5", "-2e-7", "true", R"("x,y:\"z\"")", "null"}));
-  std::string again;
-  for (std::size_t i = 0; i < pieces.leaves.size(); ++i) {
-    again += pieces.between[i] + pieces.leaves[i];
-  }
-  EXPECT_EQ(again + pieces.between.back(), text);
 }
 
 }  // namespace

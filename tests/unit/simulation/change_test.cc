@@ -86,9 +86,11 @@ void hold_against_the_whole_way(const JsonDocument& held, int n_changes) {
     for (int k = draw.below(4); k >= 0; --k) {
       const ParameterInfo* parameter = &known[draw.below(known.size())];
       const auto is_small = [&] {
-        return std::any_of(case_members().begin(), case_members().end(), [&](const auto& member) {
-          return parameter->pointer.starts_with("/" + member + "/");
-        });
+        const auto lies_in = [&](const char* member) {
+          return parameter->pointer.starts_with(std::string("/") + member + "/");
+        };
+        return lies_in("fault_pressure") || lies_in("faults") || lies_in("friction") ||
+               lies_in("initial_state");
       };
       while (small && !is_small()) parameter = &known[draw.below(known.size())];
       const bool by_alias = !parameter->alias.empty() && draw.with(0.5);
@@ -160,18 +162,6 @@ TEST(Change, OfTheInitialPressureMovesHistoriesOfAbsolutePressure) {
   EXPECT_LT(simulation.scene().scene.pressure[0].pressure_change.front(), before - 1e6);
   simulation.change({{"/initial_state/ratio_across", "0.8"}});
   EXPECT_EQ(simulation.scene().scene.pressure[0].pressure_change.front(), before);
-}
-
-TEST(Change, OfFrictionAndStressAloneIsNotReadWhole) {
-  JsonDocument document = starter("field");
-  const Scene scene = read_scene(document);
-  set_value(document, "/friction/friction_angle", "19 deg");
-  set_value(document, "/initial_state/ratio_across", "0.7");
-  const std::optional<Scene> reread = reread_scene(document, scene);
-  ASSERT_TRUE(reread);
-  EXPECT_EQ(canonical_scene(*reread), canonical_scene(read_scene(document)));
-  set_value(document, "/initial_state/water_density", "1100 kg/m3");
-  EXPECT_FALSE(reread_scene(document, scene));
 }
 
 }  // namespace
