@@ -30,7 +30,7 @@ void for_each_surface_table(Tables& t, Archive&& archive) {
   archive("/surface/sizes", t.sizes, 1, "", "nodes, axes, K, check points");
   archive("/surface/nodes", t.nodes, 1, "", "multi-indices of the grid");
   archive("/surface/accuracy", t.accuracy, 1, "1",
-          "tolerance; relative errors of H, L, U and V, slip without friction");
+          "tolerance; relative errors of H, L, U and V, slip without friction, stability limits");
   archive("/surface/weights", t.weights, 1, "1", "K x nodes but the centre, column by column");
   archive("/surface/diagonal", t.diagonal, 1, "N/m", "of B, n x K, column by column");
   archive("/surface/traction", t.traction, 1, "Pa per unit of load",
@@ -52,6 +52,7 @@ SurfaceTables to_surface_tables(const StoredSurface& surface) {
              static_cast<int>(basis.size()), a.n_checks};
   for (const auto& index : basis.nodes) t.nodes.insert(t.nodes.end(), index.begin(), index.end());
   t.accuracy = {a.tolerance, a.stiffness, a.traction, a.observation, a.slip};
+  if (a.stability) t.accuracy.push_back(*a.stability);
   t.weights = values_of(basis.weights);
   t.diagonal = values_of(basis.diagonal);
   t.traction = values_of(basis.traction);
@@ -68,7 +69,7 @@ Eigen::MatrixXd matrix_of(const std::vector<double>& values, Eigen::Index rows, 
 
 void take_tables(const SurfaceTables& t, StoredSurface& surface, OperatorBasis& basis) {
   const FaultOperator& centre = *basis.centre;
-  if (t.fingerprint.size() != 1 || t.sizes.size() != 4 || t.accuracy.size() != 5 ||
+  if (t.fingerprint.size() != 1 || t.sizes.size() != 4 || t.accuracy.size() < 5 ||
       t.sizes[0] < 1 || t.sizes[1] < 1 || t.sizes[2] < 0 ||
       t.nodes.size() != static_cast<std::size_t>(t.sizes[0]) * static_cast<std::size_t>(t.sizes[1]))
     throw StorageError("the tables of the surface do not fit together");
@@ -89,6 +90,7 @@ void take_tables(const SurfaceTables& t, StoredSurface& surface, OperatorBasis& 
                       .traction = t.accuracy[2],
                       .observation = t.accuracy[3],
                       .slip = t.accuracy[4]};
+  if (t.accuracy.size() > 5) surface.accuracy.stability = t.accuracy[5];
 }
 
 StoredSurface decode_surface(const SealedContent& content) {

@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "simulator/common/errors.h"
-#include "simulator/loads/history.h"
 #include "simulator/loading/pressure_warnings.h"
+#include "simulator/loads/history.h"
 #include "simulator/scene/initial_state.h"
 
 namespace faultsim {
@@ -205,11 +205,15 @@ std::vector<std::string> case_warnings(const Scene& scene, const FaultOperator& 
 }
 
 std::string surface_warning(const CaseSurface& surface) {
+  const std::string stability =
+      surface.stability ? ", the weakening at which faults jump by " + brief(*surface.stability)
+                        : std::string();
   return concat("the operator is interpolated between ", surface.n_operators, " exact ones (",
                 surface.n_basis, " columns): at ", surface.n_checks,
                 " check points H is off by up to ", brief(surface.stiffness),
                 ", locked tractions by ", brief(surface.traction), ", slip without friction by ",
-                brief(surface.slip), " of themselves; faultsim run --exact takes the exact one");
+                brief(surface.slip), stability,
+                " of themselves; faultsim run --exact takes the exact one");
 }
 
 }  // namespace faultsim

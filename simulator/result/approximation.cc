@@ -27,9 +27,13 @@ std::string surface_sentence(const CaseSurface& surface) {
                               " in the locked traction");
   if (surface.observation > 0)
     errors += concat(", ", at_most(surface.observation), " in what is observed");
+  const std::string stability = surface.stability ? " and " + at_most(*surface.stability) +
+                                                        " in the weakening at which faults jump"
+                                                  : std::string();
   return concat("Its operator is interpolated on ", surface.n_operators,
-                " exact ones, off by at most ", errors, " and ", at_most(surface.slip),
-                " in slip without friction at ", surface.n_checks, " check points.");
+                " exact ones, off by at most ", errors, surface.stability ? ", " : " and ",
+                at_most(surface.slip), " in slip without friction", stability, " at ",
+                surface.n_checks, " check points.");
 }
 
 /// "26 %", "99.9 %": no more than the share.

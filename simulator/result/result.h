@@ -116,6 +116,9 @@ struct CaseSurface {
   double traction = 0;     ///< of the worst locked traction.
   double observation = 0;  ///< of the observation rows; 0 without.
   double slip = 0;         ///< of slip of faults without friction under the worst load.
+  /// Of the weakening with slip at which a fault becomes unstable (surface/stability_limit.h): what
+  /// the onset of events hangs on. Beside the tolerance; none where it was not measured.
+  std::optional<double> stability = {};
 
   bool operator==(const CaseSurface&) const = default;  ///< the very same numbers.
 };

@@ -84,6 +84,7 @@ void for_each_field(Struct& s, Visit&& visit) {
   visit(Field{"error_of_traction"}, s.traction);
   visit(Field{"error_of_observation"}, s.observation);
   visit(Field{"error_of_slip"}, s.slip);
+  visit(Field{"error_of_stability"}, s.stability);
 }
 
 template <Of<StepResult> Struct, typename Visit>

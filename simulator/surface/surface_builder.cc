@@ -14,6 +14,7 @@
 #include "simulator/linalg/dense_cholesky.h"
 #include "simulator/surface/adaptive_interpolant.h"
 #include "simulator/surface/operator_nodes.h"
+#include "simulator/surface/stability_limit.h"
 
 namespace faultsim {
 namespace {
@@ -46,7 +47,8 @@ std::optional<Eigen::MatrixXd> slip_without_friction(const FaultOperator& op,
 struct Check {
   Eigen::VectorXd x;
   std::shared_ptr<const FaultOperator> exact;
-  Eigen::MatrixXd slip;  ///< of `exact`.
+  Eigen::MatrixXd slip;  ///< of `exact`,
+  std::vector<double> stability;
 };
 
 /// What it takes to go from one grid to a finer one.
@@ -132,6 +134,12 @@ void Builder::measure(const std::shared_ptr<const OperatorBasis>& basis, const S
   const auto slip = slip_without_friction(op, exact.geometry.dof_area);
   raise(worst.slip,
         slip ? worst_column(*slip, check.slip) : std::numeric_limits<double>::infinity());
+  const std::vector<double> limits = stability_limits(exact.geometry, op.h());
+  for (std::size_t f = 0; f < limits.size(); ++f) {
+    if (std::isnan(check.stability[f])) continue;
+    const double error = std::abs(limits[f] / check.stability[f] - 1);
+    worst.stability = std::max(worst.stability.value_or(0), error);
+  }
 }
 
 CaseSurface Builder::measured(const std::shared_ptr<const OperatorBasis>& basis,
@@ -139,10 +147,11 @@ CaseSurface Builder::measured(const std::shared_ptr<const OperatorBasis>& basis,
   if (checks_.empty()) {
     const int n_checks = n_surface_checks(request_);
     for (const Eigen::VectorXd& x : check_points(grid.n_axes(), n_checks)) {
-      Check check{x, ask(x, concat("check point ", checks_.size() + 1)), {}};
+      Check check{x, ask(x, concat("check point ", checks_.size() + 1)), {}, {}};
       const auto slip = slip_without_friction(*check.exact, check.exact->geometry.dof_area);
       if (!slip) refuse_surface("an exact H is not positive definite", "take exact operators");
       check.slip = *slip;
+      check.stability = stability_limits(check.exact->geometry, check.exact->h());
       checks_.push_back(std::move(check));
     }
   }

@@ -229,6 +229,37 @@ TEST(FieldAndSurface, IsOffTheExactLoadsByNoMoreThanIsSaid) {
   }
 }
 
+/// Events of faults that weaken: when they come depends on the weakening at which they lose their
+/// stability, how large they are on slip.
+TEST(WeakeningAndSurface, EventsAreOffTheExactOnesByWhatIsSaid) {
+  const Changes base = {kDepleted,
+                        {"friction_angle", "22 deg"},
+                        {"/friction/dynamic_friction_angle", "10 deg"},
+                        {"/friction/slip_weakening_distance", "2 cm"}};
+  Changes with_surface = base;
+  with_surface.push_back({"/numerics/surface", R"({"over": [
+      {"parameter": "salt_stiffness", "from": "20 GPa", "to": "80 GPa"},
+      {"parameter": "central_dip", "from": "2 deg", "to": "16 deg"}], "tolerance": 1e-3})"});
+  Simulation interpolated = field(with_surface), exact = field(base);
+  int n_events = 0;
+  for (const Changes& sample : {Changes{{"salt_stiffness", "33 GPa"}, {"central_dip", "5.5 deg"}},
+                                Changes{{"salt_stiffness", "71 GPa"}, {"central_dip", "14 deg"}}}) {
+    const CaseResult a = interpolated.run(sample), b = exact.run(sample);
+    ASSERT_TRUE(a.surface && a.surface->stability);
+    const double off = std::max(*a.surface->stability, a.surface->slip);
+    EXPECT_GT(off, 0);
+    EXPECT_LT(off, 5e-3);
+    ASSERT_EQ(a.events.size(), b.events.size());
+    for (std::size_t i = 0; i < b.events.size(); ++i) {
+      ++n_events;
+      EXPECT_EQ(a.events[i].step, b.events[i].step);
+      EXPECT_NEAR(a.events[i].time, b.events[i].time, off * b.events[i].time);
+      EXPECT_NEAR(a.events[i].moment, b.events[i].moment, 5 * off * b.events[i].moment);
+    }
+  }
+  EXPECT_GT(n_events, 1);
+}
+
 /// What was kept for one family serves no other.
 TEST(FieldAndFamily, AreLookedAtTogether) {
   const Folder folder;
