@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "simulator/common/errors.h"
+#include "simulator/loads/regional_stress.h"
 
 namespace faultsim {
 namespace {
@@ -75,7 +76,8 @@ CaseLoads::CaseLoads(const Scene& scene, const FaultOperator& op, const LoadSour
       load_factors_(scene, op),
       initial_(initial_traction(scene, op.geometry, load_factors_.region_of_load())),
       sources_{std::make_shared<UnitLoads>(scene, op, load_factors_),
-               std::make_shared<FaultPressureRules>(scene, op, load_factors_)},
+               std::make_shared<FaultPressureRules>(scene, op, load_factors_),
+               std::make_shared<RegionalStress>(scene, op.geometry)},
       noise_(noise) {
   FAULTSIM_DEMAND(!scene.has_field() || !further.empty(), "the loads of the scene's field");
   sources_.insert(sources_.end(), further.begin(), further.end());

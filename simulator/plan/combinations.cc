@@ -10,6 +10,10 @@ constexpr Refusal kRefusals[] = {
      "salt creeps: every length of a step has an operator of its own, and none of them is "
      "interpolated",
      "set /numerics/creep to \"off\", or remove the surface"},
+    {Feature::creep, Feature::stress_change,
+     "salt creeps: a change of the regional stress would relax in it, and acts on elastic rock "
+     "only",
+     "set /numerics/creep to \"off\", or remove stress_change"},
     {Feature::creep, Feature::coupled_path, "the coupled path does not support creeping salt",
      "switch creep off, or take the condensed path (--path condensed)"},
     {Feature::surface, Feature::coupled_path, "the coupled path has no operator to interpolate",
@@ -40,6 +44,7 @@ constexpr Named kNames[] = {
     {Feature::surface, "surface", "/numerics/surface"},
     {Feature::flow_result, "flow result", "/pressure_field"},
     {Feature::temperature, "temperature", "/stages"},
+    {Feature::stress_change, "regional stress", "/stages"},
     {Feature::half_domain, "half domain", "/numerics/half_domain"},
     {Feature::plane_strain, "plane strain", "/numerics/plane_strain"},
     {Feature::weakening, "weakening", "/faults"},
@@ -49,7 +54,7 @@ constexpr Named kNames[] = {
     {Feature::contact_problem, "`export-contact`", ""},
     {Feature::influences, "`influence`", ""},
 };
-constexpr std::size_t kSceneFeatures = 8;
+constexpr std::size_t kSceneFeatures = 9;
 
 bool weakens(const Fault& fault) {
   return fault.friction.dynamic_friction_angle != fault.friction.static_friction_angle;
@@ -100,6 +105,9 @@ std::vector<Feature> features_of(const Scene& scene, const Plan& plan) {
   add(scene.numerics.surface.wanted(), Feature::surface);
   add(scene.has_field(), Feature::flow_result);
   add(!scene.temperature.empty(), Feature::temperature);
+  add(std::any_of(scene.stages.begin(), scene.stages.end(),
+                  [](const Stage& stage) { return stage.stress_change.has_value(); }),
+      Feature::stress_change);
   add(plan.half_domain, Feature::half_domain);
   add(plan.plane_strain, Feature::plane_strain);
   add(std::any_of(faults.begin(), faults.end(), weakens), Feature::weakening);

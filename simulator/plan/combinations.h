@@ -12,11 +12,12 @@ namespace faultsim {
 
 /// What a scene may have, and what may be asked of it, that not everything else goes with.
 enum class Feature {
-  creep,        ///< of viscous material.
-  surface,      ///< operators interpolated over parameters.
-  flow_result,  ///< pressures or temperatures cell by cell.
-  temperature,  ///< of compartments.
-  half_domain,  ///< modelled by symmetry.
+  creep,          ///< of viscous material.
+  surface,        ///< operators interpolated over parameters.
+  flow_result,    ///< pressures or temperatures cell by cell.
+  temperature,    ///< of compartments.
+  stress_change,  ///< of the region.
+  half_domain,    ///< modelled by symmetry.
   plane_strain,
   weakening,      ///< friction that falls with slip: events.
   cohesion_loss,  ///< by the first slip.

@@ -30,6 +30,7 @@ class LoadingReader {
     Stage stage;
     read_keys(reader_, at, stage);
     stage.duration = duration(at);
+    if (stage.stress_change) reader_.require_symmetric(at + "stress_change", *stage.stress_change);
     const int cycles = reader_.integer(at + "cycles", 1);
     check_keys(at, stage, cycles);
     const bool between = reader_.has(at + "pressure_between");

@@ -248,6 +248,9 @@ struct Stage {
   std::string name;
   double duration = 0;  ///< s.
   int n_steps = 1;
+  /// Change of the regional stress since the start, reached linearly at the stage's end: total,
+  /// tension > 0, rows x y z, Pa; none: as at its start.
+  std::optional<std::array<double, 9>> stress_change = {};
   bool operator==(const Stage&) const = default;
 };
 

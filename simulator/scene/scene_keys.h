@@ -239,6 +239,8 @@ void for_each_key(Struct& s, Visit&& visit) {
   visit(SceneKey{"name"}, s.name);
   visit(SceneKey{.name = "duration", .by_hand = true}, s.duration);
   visit(SceneKey{"steps"}, s.n_steps);
+  visit(SceneKey{.name = "stress_change", .in_identity = s.stress_change.has_value()},
+        s.stress_change);
 }
 
 /// A compartment; its history is what the stages or a CSV file say.

@@ -16,9 +16,10 @@
 namespace faultsim {
 namespace {
 
-constexpr Feature kOfScenes[] = {Feature::creep,       Feature::surface,      Feature::flow_result,
-                                 Feature::temperature, Feature::half_domain,  Feature::plane_strain,
-                                 Feature::weakening,   Feature::cohesion_loss};
+constexpr Feature kOfScenes[] = {
+    Feature::creep,        Feature::surface,       Feature::flow_result,
+    Feature::temperature,  Feature::stress_change, Feature::half_domain,
+    Feature::plane_strain, Feature::weakening,     Feature::cohesion_loss};
 constexpr Feature kAskedFor[] = {Feature::coupled_path, Feature::displacements,
                                  Feature::contact_problem, Feature::influences};
 
@@ -69,6 +70,10 @@ class Combinations : public testing::Test {
     nlohmann::json stage = {{"name", "production"}, {"until", "2000-01-01"}, {"steps", 2}};
     if (!has(Feature::flow_result)) stage["pressure_change"] = "-150 bar";
     if (has(Feature::temperature)) stage["temperature_change"] = "-10 K";
+    if (has(Feature::stress_change)) {
+      const nlohmann::json none = {"0 MPa", "0 MPa", "0 MPa"};
+      stage["stress_change"] = {{"-1 MPa", "0 MPa", "0 MPa"}, none, none};
+    }
     Changes changes = {
         {"/tier", "custom"},
         {"/numerics", is_plane ? R"({"plane_strain": "on"})" : "{}"},

@@ -275,6 +275,59 @@ TEST(FieldAndFamily, AreLookedAtTogether) {
   EXPECT_EQ(a.steps.back().observed, b.steps.back().observed);
 }
 
+/// A change of the regional stress leads to where it might have begun.
+TEST(RegionalStress, IsTheInitialStateThatItLeadsTo) {
+  const auto tensor = [](double across) {
+    return concat(R"([["-)", across, R"( MPa", "0 MPa", "1 MPa"], ["0 MPa", "-35 MPa", "0 MPa"],
+                     ["1 MPa", "0 MPa", "-45 MPa"]])");
+  };
+  const auto scene = [&](double across, const std::string& change) {
+    JsonDocument document = parse_json(starter_scene("box"), "box.json");
+    apply({{"/mesh", R"({"strike": "250 m", "dip": "100 m", "normal": "100 m",
+                        "fine_margin": "0 m"})"},
+           {"/initial_state",
+            concat(R"({"kind": "profile", "pressure": "20 MPa", "tensor": )", tensor(across), "}")},
+           {"/friction", R"({"cohesion": "50 MPa", "friction_angle": "30 deg"})"},
+           {"/stages", concat(R"([{"name": "plates", "duration": "2 year", "steps": 2)", change,
+                              R"(}, {"name": "rest", "duration": "1 year"}])")}},
+          document);
+    Simulation simulation;
+    simulation.hold(std::move(document));
+    return simulation;
+  };
+  const History moved = run(
+      scene(30, R"(, "stress_change": [["-4 MPa", "0 MPa", "0 MPa"], ["0 MPa", "0 MPa", "0 MPa"],
+                                 ["0 MPa", "0 MPa", "0 MPa"]])"));
+  const History half = run(scene(32, "")), end = run(scene(34, ""));
+  ASSERT_EQ(moved.fields.size(), 4U);
+  const double size = end.fields[0].traction.norm();
+  EXPECT_LT((moved.fields[1].traction - half.fields[0].traction).norm(), 1e-12 * size);
+  EXPECT_LT((moved.fields[2].traction - end.fields[0].traction).norm(), 1e-12 * size);
+  EXPECT_LT((moved.fields[3].traction - end.fields[0].traction).norm(), 1e-12 * size);
+  EXPECT_GT((moved.fields[2].traction - moved.fields[0].traction).norm(), 1e-3 * size);
+}
+
+TEST(RegionalStress, IsRefusedWhereItIsNotSymmetricOrRelaxes) {
+  const auto refusal = [](const Changes& changes) {
+    try {
+      field(changes).prepare();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const Change pushed{"/stages/0/stress_change",
+                      R"([["-4 MPa", "0 MPa", "0 MPa"], ["0 MPa", "0 MPa", "0 MPa"],
+                          ["0 MPa", "0 MPa", "0 MPa"]])"};
+  EXPECT_EQ(refusal({pushed}), "");
+  EXPECT_THAT(refusal({{"/stages/0/stress_change",
+                        R"([["-4 MPa", "1 MPa", "0 MPa"], ["0 MPa", "0 MPa", "0 MPa"],
+                            ["0 MPa", "0 MPa", "0 MPa"]])"}}),
+              testing::HasSubstr("/stages/0/stress_change: the stress tensor is not symmetric"));
+  EXPECT_THAT(refusal({pushed, kCreeps, {"/numerics/creep", "on"}}),
+              testing::HasSubstr("acts on elastic rock only"));
+}
+
 /// Flow cells of 1 km along y about y = 0 whose pressures fall more in the middle.
 /// @param lopsided  bar, that one of them falls more on one side.
 std::string bulging(double lopsided) {
