@@ -40,6 +40,7 @@ SELECT k.name AS campaign, cc.position AS "case", c.identity, la.parameter_label
        m.unexpected_after, m.pressure_margin_pa, m.weakening_resolved, u.operators AS surface_operators,
        u.error_of_stiffness AS surface_error_of_stiffness,
        u.error_of_traction AS surface_error_of_traction, u.error_of_slip AS surface_error_of_slip,
+       u.error_of_stability AS surface_error_of_stability,
        m.field_coverage
 FROM stage_metrics s
 JOIN names n ON n.id = s.stage_id AND n.name = ''
@@ -68,6 +69,7 @@ SELECT k.name AS campaign, cc.position AS "case", n.name AS stage, m.outcome, m.
        u.operators AS surface_operators,
        u.error_of_stiffness AS surface_error_of_stiffness,
        u.error_of_traction AS surface_error_of_traction, u.error_of_slip AS surface_error_of_slip,
+       u.error_of_stability AS surface_error_of_stability,
        m.field_coverage
 FROM stage_metrics s
 JOIN names n ON n.id = s.stage_id
@@ -96,6 +98,7 @@ SELECT k.name AS campaign, cc.position AS "case", n.name AS stage, f.name AS fau
        u.operators AS surface_operators,
        u.error_of_stiffness AS surface_error_of_stiffness,
        u.error_of_traction AS surface_error_of_traction, u.error_of_slip AS surface_error_of_slip,
+       u.error_of_stability AS surface_error_of_stability,
        m.field_coverage
 FROM fault_metrics q
 JOIN names n ON n.id = q.stage_id

@@ -207,7 +207,7 @@ std::vector<std::string> quantities() {
   full.steps[0].creep = faultsim::StepCreep{0, 0, true, {{}}};
   full.events.emplace_back();
   full.episodes.emplace_back();
-  full.surface.emplace();
+  full.surface.emplace().stability = 0;
   full.field_coverage = 0;
   std::map<std::string, double> scales;
   json document = faultsim::result_to_json(full);

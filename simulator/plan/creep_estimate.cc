@@ -73,6 +73,13 @@ double largest_thermal_stress(const Scene& scene) {
   return stress * change;
 }
 
+double largest_stress_change(const Scene& scene) {
+  double largest = 0;
+  for (const Stage& stage : scene.stages)
+    if (stage.stress_change) largest = std::max(largest, norm(*stage.stress_change));
+  return largest;
+}
+
 double shear_modulus(const Material& material) {
   return material.youngs_modulus / (2 * (1 + material.poisson_ratio));
 }
@@ -186,7 +193,8 @@ CreepEstimate estimate_creep(const Scene& scene) {
   const std::optional<double> boundary = is_box ? boundary_stress(scene) : 0;
   if (!boundary) return estimate;
   estimate.stress = largest_pressure_change(scene, estimate.duration) +
-                    largest_thermal_stress(scene) + *boundary + largest_initial_shear(scene);
+                    largest_thermal_stress(scene) + largest_stress_change(scene) + *boundary +
+                    largest_initial_shear(scene);
   estimate.bound = kCreepConcentration * *estimate.stress * estimate.relaxed_share;
   return estimate;
 }

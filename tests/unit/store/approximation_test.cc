@@ -22,7 +22,7 @@ using testing::made_up_result;
 CaseResult approximate() {
   CaseResult result = made_up_result(0.8);
   result.surface =
-      faultsim::CaseSurface{75, 70, 12, 1e-3 / 3, 1.2e-4 / 7, 3e-5 / 7, 2e-6 / 7, 6e-4 / 7};
+      faultsim::CaseSurface{75, 70, 12, 1e-3 / 3, 1.2e-4 / 7, 3e-5 / 7, 2e-6 / 7, 6e-4 / 7, 9e-4 / 7};
   result.field_coverage = 0.26 / 3;
   return result;
 }
@@ -118,7 +118,8 @@ TEST_F(Approximation, IsSealedWithItsResultAndBackedUp) {
   EXPECT_EQ(Store::open_reader(folder_ / "copy").stored_result(1)->surface, approximate().surface);
   const auto differs = ElementsAre("the result of case identity-0 differs from its checksum");
   for (const char* column : {"operators", "basis", "checks", "tolerance", "error_of_stiffness",
-                             "error_of_traction", "error_of_observation", "error_of_slip"}) {
+                             "error_of_traction", "error_of_observation", "error_of_slip",
+                             "error_of_stability"}) {
     change(concat("UPDATE case_surfaces SET ", column, " = ", column, " + 1"));
     EXPECT_THAT(problems(), differs) << column;
     for (const char* end : {"", "-wal", "-shm"}) {
@@ -142,6 +143,7 @@ TEST_F(Approximation, StandsBesideTheMeasuresInTheViews) {
     EXPECT_EQ(of("surface_error_of_stiffness", 1), surface.stiffness);
     EXPECT_EQ(of("surface_error_of_traction", 1), surface.traction);
     EXPECT_EQ(of("surface_error_of_slip", 1), surface.slip);
+    EXPECT_EQ(of("surface_error_of_stability", 1), *surface.stability);
     EXPECT_EQ(of("field_coverage", 1), 0.26 / 3);
     const char* none =
         "coalesce(surface_operators, surface_error_of_stiffness, surface_error_of_traction,"
