@@ -88,17 +88,4 @@ nlohmann::json value_to_json(const CaseParameter& value) {
   return value.si ? json(*value.si) : json(value.text);
 }
 
-nlohmann::json values_to_json(const CaseParameters& values,
-                              const std::vector<StoredParameter>& parameters) {
-  json named = json::object();
-  for (const CaseParameter& one : values) {
-    const StoredParameter& parameter = of(one, parameters);
-    named[parameter.name] = {
-        {"value", value_to_json(one)},
-        {"unit", parameter.is_text ? "" : faultsim::si_unit(parameter.dimension)},
-        {"text", one.text}};
-  }
-  return named;
-}
-
 }  // namespace faultsweep

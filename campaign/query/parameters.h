@@ -33,8 +33,5 @@ class ParameterColumns {
 
 /// SI, or words.
 nlohmann::json value_to_json(const CaseParameter& value);
-/// {"offset": {"value": 100, "unit": "m", "text": "100 m"}, ...}
-nlohmann::json values_to_json(const CaseParameters& values,
-                              const std::vector<StoredParameter>& parameters);
 
 }  // namespace faultsweep

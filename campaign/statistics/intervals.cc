@@ -22,11 +22,6 @@ Estimate student_estimate(double value, double standard_error, double freedom, d
   return {value, standard_error, {value - reach, value + reach}};
 }
 
-Estimate normal_estimate(double value, double standard_error, double confidence) {
-  return student_estimate(value, standard_error, std::numeric_limits<double>::infinity(),
-                          confidence);
-}
-
 Interval proportion_bounds(long k, long n, double confidence) {
   FAULTSIM_DEMAND(0 <= k && k <= n && confidence > 0 && confidence < 1, k, " of ", n);
   const double tail = 0.5 * (1 - confidence);

@@ -27,9 +27,6 @@ double student_reach(double confidence, double freedom);
 
 /// value ± t standard errors.
 Estimate student_estimate(double value, double standard_error, double freedom, double confidence);
-/// The same of a standard error that is known as if from many samples: t of the normal
-/// distribution.
-Estimate normal_estimate(double value, double standard_error, double confidence);
 
 /// Two-sided bounds of a probability of which k of n samples had the property, after Clopper &
 /// Pearson (1934): exact, so they cover it with at least `confidence`. [0, 1] for n = 0.

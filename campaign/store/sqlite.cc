@@ -262,10 +262,6 @@ std::optional<double> Statement::optional_real(int column) const {
   if (is_null(column)) return std::nullopt;
   return real(column);
 }
-std::optional<std::string> Statement::optional_text(int column) const {
-  if (is_null(column)) return std::nullopt;
-  return text(column);
-}
 
 int Statement::n_columns() const { return sqlite3_column_count(statement_); }
 

@@ -106,8 +106,7 @@ class Statement {
   std::string text(int column) const;
   std::optional<std::int64_t> optional_integer(int column) const;
   std::optional<double> optional_real(int column) const;  ///< NULL reads as none.
-  std::optional<std::string> optional_text(int column) const;
-  Cell cell(int column) const;  ///< whatever is there.
+  Cell cell(int column) const;                            ///< whatever is there.
   int n_columns() const;
   std::string column_name(int column) const;
 

@@ -125,13 +125,6 @@ void Panel::band_in_x(double from, double to, const std::string& fill) {
   svg_.rect({box_.x + box_.width * left, box_.y, box_.width * (right - left), box_.height}, fill);
 }
 
-void Panel::band_in_y(double from, double to, const std::string& fill) {
-  const auto [low, high] = std::minmax({y_.share(from), y_.share(to)});  // values, no references
-  const double bottom = std::clamp(low, 0.0, 1.0), top = std::clamp(high, 0.0, 1.0);
-  svg_.rect({box_.x, box_.bottom() - box_.height * top, box_.width, box_.height * (top - bottom)},
-            fill);
-}
-
 double draw_heading(Svg& svg, const std::string& title, const std::string& remark, double x) {
   const double room = svg.width() - x - 10;
   svg.text({x, 22}, fitted(title, room, kTitleSize), {.size = kTitleSize, .bold = true});

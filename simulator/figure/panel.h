@@ -36,7 +36,6 @@ class Panel {
   void line_at_x(double x, const Stroke& stroke);
   void line_at_y(double y, const Stroke& stroke);
   void band_in_x(double from, double to, const std::string& fill);
-  void band_in_y(double from, double to, const std::string& fill);
   /// The frame again, over what was drawn since.
   void frame();
 

@@ -169,15 +169,6 @@ void Svg::circle(Point centre, double radius, const std::string& fill, const Str
                   fill, "\"", stroke_text(stroke), "/>\n");
 }
 
-void Svg::hatch(const Box& box, const Stroke& stroke, double distance) {
-  // Lines x + y = c, cut at the edges of the box: no clip path, which would need an id.
-  for (double c = distance; c < box.width + box.height; c += distance) {
-    const Point low{box.x + std::min(c, box.width), box.y + std::max(0.0, c - box.width)};
-    const Point high{box.x + std::max(0.0, c - box.height), box.y + std::min(c, box.height)};
-    line(low, high, stroke);
-  }
-}
-
 void Svg::text(Point place, const std::string& text, const TextStyle& style) {
   if (text.empty()) return;
   body_ += concat("<text", pair_of("x", "y", place), " font-size=\"", coordinate(style.size),

@@ -62,8 +62,6 @@ class Svg {
   void rect(const Box& box, const std::string& fill, const Stroke& stroke = {"none", 0});
   void circle(Point centre, double radius, const std::string& fill,
               const Stroke& stroke = {"none", 0});
-  /// Lines at 45 degrees over a box: what is not certain, or open, beside its colour.
-  void hatch(const Box& box, const Stroke& stroke, double distance = 5);
   /// The place is on the base line.
   void text(Point place, const std::string& text, const TextStyle& style = {});
   /// What follows belongs together, for a page that changes it: attributes such as data-fault.
