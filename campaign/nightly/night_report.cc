@@ -271,14 +271,14 @@ std::string history_to_text(const std::vector<NightRecord>& nights, std::size_t 
                     "",
                     {{"at", "night", {}, 4, all},
                      {"suite", "suite", {}, 4, all},
-                     {"environment", "environment", {}, 4, all},
-                     {"version", "version", {}, 4, all},
-                     {"numerics_version", "numerics", {}, 4, all},
+                     {"environment", "environment", {}, 4, Need::wanted},
+                     {"version", "version", {}, 4, Need::extra},
+                     {"numerics_version", "numerics", {}, 4, Need::extra},
                      {"compared", "compared", {}, 4, all},
                      {"regressed", "regressed", {}, 4, all},
-                     {"changed", "changed", {}, 4, all},
-                     {"exit_code", "exit", {}, 4, all},
-                     {"wall_s", "time", seconds(), 3, all},
+                     {"changed", "changed", {}, 4, Need::wanted},
+                     {"exit_code", "exit", {}, 4, Need::extra},
+                     {"wall_s", "time", seconds(), 3, Need::wanted},
                      {"blessed", "blessed", {}, 4, all}}};
   for (std::size_t k = 0; k < nights.size(); ++k) {
     const NightRecord& night = nights[k];
