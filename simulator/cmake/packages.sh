@@ -6,7 +6,6 @@ build_packages="g++ cmake ninja-build pkg-config libeigen3-dev libsuitesparse-de
   libopenmpi-dev openmpi-bin libcli11-dev libxxhash-dev libboost-dev"
 test_packages="libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev python3"
 flow_packages="libopm-common-dev"   # optional: EGRID and restart files of flow simulators
-plot_packages="gnuplot-nox"
 peer_packages="slurmctld slurmd slurm-client iproute2 procps libfclib-dev libsiconos-numerics-dev
   paraview python3-paraview"
 lint_packages="clang-tidy"
