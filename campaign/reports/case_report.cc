@@ -14,6 +14,7 @@
 #include "simulator/common/printable.h"
 #include "simulator/result/approximation.h"
 #include "simulator/result/result_json.h"
+#include "simulator/result/result_sentences.h"
 #include "simulator/scene/read_scene.h"
 
 namespace faultsweep {
@@ -25,54 +26,6 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 namespace {
-
-/// The most that creep did to any fault, in one line; "" where nothing creeps.
-std::string creep_text(const CaseResult& result) {
-  faultsim::FaultCreep most;
-  int n_time_steps = 0, n_unresolved = 0;
-  double time_error = 0;
-  bool creeps = false;
-  for (const faultsim::StepResult& step : result.steps) {
-    if (!step.creep) continue;
-    creeps = true;
-    n_time_steps += step.creep->time_steps;
-    n_unresolved += step.creep->time_resolved ? 0 : 1;
-    time_error = std::max(time_error, step.creep->time_error);
-    for (const faultsim::FaultCreep& c : step.creep->faults) {
-      most.normal_min = std::min(most.normal_min, c.normal_min);
-      most.normal_max = std::max(most.normal_max, c.normal_max);
-      most.shear_max = std::max(most.shear_max, c.shear_max);
-    }
-  }
-  if (!creeps) return "";
-  std::string text = concat(
-      "salt creeps: it changed fault tractions by ", format_number(most.normal_min / kBar, 3),
-      " bar (compression) to ", format_number(most.normal_max / kBar, 3),
-      " bar (tension) normal and at most ", format_number(most.shear_max / kBar, 3),
-      " bar in shear; ", n_time_steps, " time steps, halving them changes at most ",
-      format_number(time_error / kBar, 2), " bar");
-  if (n_unresolved > 0) {
-    text += concat("; time steps of ", n_unresolved,
-                   " load steps are coarser than creep_tolerance asks");
-  }
-  return text;
-}
-
-/// The evidence of an unexpected reactivation; "" = none.
-std::string unexpected_text(const CaseResult& result) {
-  if (!result.unexpected) return "";
-  const std::size_t n = result.episodes.size();
-  const auto again = static_cast<std::size_t>(result.unexpected->episode - 1);
-  const auto before = static_cast<std::size_t>(result.unexpected->after - 1);
-  if (again >= n || before >= n) return "UNEXPECTED REACTIVATION.";
-  const auto when = [&](std::size_t k) {
-    const faultsim::Episode& e = result.episodes[k];
-    return concat(e.stage, ", steps ", e.first_step, "-", e.last_step, " (episode ", k + 1, ")");
-  };
-  return concat("UNEXPECTED REACTIVATION: fault ", result.episodes[again].fault,
-                " slides again in ", when(again), " after its pressure has recovered, having slid",
-                " in ", when(before), ".");
-}
 
 void check_request(const CaseResult& result, const ShowRequest& request) {
   if (!request.fault.empty()) require_name("--fault", "fault", request.fault, result.fault_names);
@@ -106,43 +59,6 @@ std::string outcome_sentence(const ShownCase& shown) {
     text += concat(": ", last.status, last.reason.empty() ? "" : ": " + last.reason);
   }
   return text + ".";
-}
-
-/// What slides, and how far; what comes nearest where nothing does.
-std::string sliding_sentence(const CaseResult& result) {
-  const StageMetrics& whole = result.whole;
-  std::string text;
-  for (const faultsim::FaultStageMetrics& fault : whole.faults) {
-    if (!fault.activated) continue;
-    text += concat(text.empty() ? "" : "; ", fault.fault, " slides");
-    if (fault.activation) {
-      text += concat(" from step ", fault.activation->step, " on, first at ",
-                     format_number(fault.activation->depth), " m depth");
-    }
-    text += concat(", slip ", format_number(fault.max_slip, 3), " m");
-  }
-  if (!text.empty()) return text + ".";
-  if (whole.activated)
-    return concat("Slip of ", format_number(whole.max_slip, 3), " m: it slides.");
-  text = concat("Nothing slides: χ̄ comes to ", format_number(whole.chi_bar, 3));
-  if (std::isfinite(result.pressure_margin)) {
-    text += concat(", and would be 1 after ", format_number(result.pressure_margin / kBar),
-                   " bar more depletion, extrapolated");
-  }
-  return text + ".";
-}
-
-/// What is not to be taken for certain.
-std::vector<std::string> unresolved_sentences(const CaseResult& result) {
-  std::vector<std::string> sentences;
-  if (result.outcome == faultsim::Outcome::unresolved_event) {
-    sentences.emplace_back(result.weakening_resolved
-                               ? "UNRESOLVED: the evidence of a slip event does not hold."
-                               : "UNRESOLVED: the size of its slip events depends on the mesh.");
-  }
-  if (!result.whole.activation_resolved)
-    sentences.emplace_back("UNRESOLVED: whether a fault slides depends on the mesh.");
-  return sentences;
 }
 
 /// Why M0 of the stages does not add up to that of the whole; "" where it does.
@@ -244,10 +160,10 @@ Answer to_answer(const ShownCase& shown) {
   Answer answer{{outcome_sentence(shown)}};
   if (one.has_result) {
     check_request(result, shown.request);
-    answer.headline.push_back(sliding_sentence(result));
-    const std::string again = unexpected_text(result);
+    answer.headline.push_back(faultsim::sliding_sentence(result));
+    const std::string again = faultsim::unexpected_sentence(result);
     if (!again.empty()) answer.headline.push_back(again);
-    for (std::string& text : unresolved_sentences(result))
+    for (std::string& text : faultsim::unresolved_sentences(result))
       answer.headline.push_back(std::move(text));
   }
   answer.facts = facts_of(shown);
@@ -259,7 +175,7 @@ Answer to_answer(const ShownCase& shown) {
   if (one.has_result) {
     answer.note_if(faultsim::approximation_sentence(result));
     for (const std::string& warning : result.warnings) answer.note("warning: " + warning);
-    answer.note_if(creep_text(result));
+    answer.note_if(faultsim::creep_sentence(result));
     AnswerTable& stages = answer.add(stages_table(shown));
     const std::string moments = moment_note(result);
     if (!moments.empty()) stages.notes.push_back(moments);

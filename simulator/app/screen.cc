@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <span>
 
+#include "simulator/result/result_sentences.h"
+
 namespace faultsim {
 namespace {
 
@@ -205,80 +207,17 @@ std::string episodes_text(const CaseResult& result) {
                e.after_recovery ? ", its pressure having recovered" : "", e.max_slip * 1e3,
                e.moment, moment_unit(result));
   }
-  if (!result.unexpected) return text;
-  const Episode& again = result.episodes.at(result.unexpected->episode - 1);
-  const Episode& before = result.episodes.at(result.unexpected->after - 1);
-  return text + format(
-                    "UNEXPECTED REACTIVATION: fault %s slides again in %s (episode %d) after "
-                    "its pressure has recovered, having slid in %s (episode %d)\n",
-                    again.fault.c_str(), steps_text(again).c_str(), result.unexpected->episode,
-                    steps_text(before).c_str(), result.unexpected->after);
+  return text;
 }
 
-/// How creep was stepped and the most that it changed on each fault.
-std::string creep_text(const CaseResult& result) {
-  int n_steps = 0;
-  double error = 0;
-  std::vector<double> shear(result.fault_names.size()), normal(shear);
-  for (const StepResult& step : result.steps) {
-    if (!step.creep) continue;
-    n_steps += step.creep->time_steps;
-    error = std::max(error, step.creep->time_error);
-    for (std::size_t f = 0; f < step.creep->faults.size(); ++f) {
-      const FaultCreep& fault = step.creep->faults[f];
-      shear[f] = std::max(shear[f], fault.shear_max);
-      normal[f] = std::max({normal[f], fault.normal_max, -fault.normal_min});
-    }
-  }
-  if (n_steps == 0) return "";
-  std::string text = format("creep: %d time steps", n_steps);
-  if (error > 0) text += format(", halving them changes tractions by up to %.3g MPa", error / 1e6);
-  text += "; salt changed shear and normal traction by up to";
-  for (std::size_t f = 0; f < shear.size(); ++f) {
-    text += format("%s %.1f and %.1f MPa on %s", f == 0 ? "" : ",", shear[f] / 1e6, normal[f] / 1e6,
-                   result.fault_names[f].c_str());
-  }
-  return text + "\n";
-}
-
-}  // namespace
-
-namespace {
-
-/// What a fault does first and where: "slides: fault F2 from load step 7 (gas_storage), west …".
-std::string onset_text(const CaseResult& result, const char* what, const std::string& fault,
-                       const FaultOnset& onset) {
-  std::string stage;
-  for (const StepResult& step : result.steps) {
-    if (step.step == onset.step) stage = step.stage;
-  }
-  return format("%s: fault %s from load step %d (%s), %s", what, fault.c_str(), onset.step,
-                stage.c_str(), pressures_text(onset.pressures, onset.depth).c_str());
-}
-
-/// Whether any fault slips, slides, jumps or opens (docs/words.md).
+/// What slides, what comes unexpectedly, and what depends on the mesh (docs/words.md).
 std::string whole_text(const CaseResult& result) {
-  const StageMetrics& whole = result.whole;
-  std::string text;
-  if (const FaultOnset* onset = first_activation(whole)) {
-    text = onset_text(result, "slides", whole.activated_fault, *onset) + " (* in the table)\n";
-  } else {
-    text = whole.slips ? "slides: no fault; nodes slip, over less than the activation length"
-                       : "slides: no fault";
-    if (result.pressure_margin > 0)
-      text += format(", about %s bar more depletion to a window index of 1",
-                     bar(result.pressure_margin).c_str());
-    text += "\n";
-  }
-  if (!whole.activation_resolved) {
-    text +=
-        "UNRESOLVED: that depends on the mesh (? in the table: slip ends within a cell of the "
-        "activation length, or the window index is 1 within its error)\n";
-  }
-  if (const FaultOnset* onset = first_opening(whole)) {
-    text += onset_text(result, "OPENS", whole.opened_fault, *onset) +
-            format(", up to %.4g %s\n", whole.open_area, area_unit(result));
-  }
+  std::string text =
+      sliding_sentence(result) + (result.whole.activated ? " (* in the table)\n" : "\n");
+  std::vector<std::string> more = unresolved_sentences(result);
+  if (!result.whole.activation_resolved) more.back() += " (? in the table)";
+  if (const std::string again = unexpected_sentence(result); !again.empty()) more.push_back(again);
+  for (const std::string& sentence : more) text += sentence + "\n";
   return text;
 }
 
@@ -308,10 +247,6 @@ std::string stage_text(const CaseResult& result, const StageMetrics& stage) {
   return text;
 }
 
-}  // namespace
-
-namespace {
-
 std::string coupled_text(const CaseResult& result) {
   if (!result.coupled) return "";
   const CaseCoupled& c = *result.coupled;
@@ -333,7 +268,9 @@ std::string case_summary(const CaseResult& result) {
   if (!result.reason.empty()) text += ", " + result.reason;
   text += "\n" + whole_text(result);
   for (const StageMetrics& stage : result.stages) text += stage_text(result, stage);
-  text += events_text(result) + episodes_text(result) + creep_text(result) + coupled_text(result);
+  text += events_text(result) + episodes_text(result);
+  if (const std::string creep = creep_sentence(result); !creep.empty()) text += creep + "\n";
+  text += coupled_text(result);
   for (const std::string& warning : result.warnings) text += "warning: " + warning + "\n";
   return text;
 }
