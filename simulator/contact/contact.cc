@@ -13,13 +13,6 @@
 
 namespace faultsim {
 
-namespace {
-
-/// Newton iterations of a load step after which no jump is followed further: a bound on the work.
-constexpr int kMostIterations = 10'000'000;
-
-}  // namespace
-
 /// A load step in halves of halves. Position and width are in units of the smallest sub-step.
 struct ContactSolver::Impl {
   Impl(const FaultOperator& op, const ContactLaws& laws, const ContactOptions& given,
@@ -115,8 +108,8 @@ void ContactSolver::Impl::walk(const LoadPath& path, ContactReport& report) {
 /// ended belongs to it.
 bool ContactSolver::Impl::jump(const LoadPath& path, int position, ContactReport& report) {
   if (static_cast<int>(report.jumps.size()) >= options.max_jumps) return false;
-  const int budget =
-      kMostIterations - report.counts.newton_iterations - report.counts.wasted_newton_iterations;
+  const int budget = options.max_iterations - report.counts.newton_iterations -
+                     report.counts.wasted_newton_iterations;
   JumpFollower::Report followed =
       follower.follow(path, factor(position), factor(position + 1), budget, rolling);
   report.counts.newton_iterations += followed.counts.newton_iterations;

@@ -10,6 +10,8 @@ struct ContactOptions {
   int max_step_cuts = 6;            ///< halvings of a load step before giving up.
   double onset_tolerance = 2.5e-4;  ///< of a load step, to which an instability is located.
   int max_jumps = 256;              ///< per load step.
+  /// Newton iterations per load step after which no jump is followed further: a bound on the work.
+  int max_iterations = 10'000'000;
 };
 
 }  // namespace faultsim
