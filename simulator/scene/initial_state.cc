@@ -100,6 +100,12 @@ double own_excess(const Scene& scene, std::size_t region, double depth, DepthSid
   return *own - (column_has ? scene.initial.overpressure : 0);
 }
 
+/// p0 at z = 0, Pa: of a column the weight of the sea above it.
+double surface_pressure(const InitialState& state) {
+  if (state.kind == InitialStressKind::profile) return state.pressure;
+  return state.water_density * state.gravity * state.water_depth;
+}
+
 }  // namespace
 
 InitialColumn::InitialColumn(const Scene& scene) : scene_(scene) {
@@ -113,8 +119,8 @@ StressAtDepth InitialColumn::one_sided(double depth, DepthSide side) const {
   double vertical = 0;
   if (state.kind == InitialStressKind::column) {
     depth = std::max(depth, 0.0);
-    vertical = -weight(pieces_, state.gravity, depth);
-    result.pressure = state.water_density * state.gravity * depth;
+    vertical = -weight(pieces_, state.gravity, depth) - surface_pressure(state);
+    result.pressure = state.water_density * state.gravity * depth + surface_pressure(state);
     if (scene_.geometry_kind == GeometryKind::field && reservoir_.holds(depth, side))
       result.pressure += state.overpressure;
   } else {
@@ -167,7 +173,7 @@ double initial_region_pressure(const Scene& scene, std::size_t region, double de
   const double gradient =
       is_profile ? state.pressure_gradient : state.water_density * state.gravity;
   if (is_profile || scene.geometry_kind == GeometryKind::box) {
-    return (is_profile ? state.pressure : 0) + gradient * depth +
+    return surface_pressure(state) + gradient * depth +
            own_excess(scene, region, depth, DepthSide::below);
   }
   const double top = region_top(scene, region);

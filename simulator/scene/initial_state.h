@@ -18,8 +18,9 @@ struct StressAtDepth {
 
 /// Initial state at height z (m, depth = −z), a function of depth only (docs/model.md, section 6):
 ///
-///   column:   σ_v = −g ∫ ρ d(depth) over the layers at zero offset;  p0 = ρ_w g depth, plus the
-///             overpressure within the depth range of the reservoir layer at zero offset
+///   column:   σ_v = −g ∫ ρ d(depth) − ρ_w g h over the layers at zero offset, h = water_depth;
+///             p0 = ρ_w g (depth + h), plus the overpressure within the depth range of the
+///             reservoir layer at zero offset
 ///   profile:  σ_v = σ_v0 + σ_v' depth,  p0 = p00 + p0' depth
 ///   σ_xx = M1 (σ_v + α_0 p0) − α_0 p0,  σ_yy = M2 (σ_v + α_0 p0) − α_0 p0,  σ_zz = σ_v
 ///

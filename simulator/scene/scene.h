@@ -176,6 +176,7 @@ struct InitialState {
   double initial_biot = 1;              ///< α_0 in σ_h = M(σ_v + α_0 p0) − α_0 p0.
   double gravity = 9.81;                ///< m/s2.
   double water_density = 1000;          ///< kg/m3, hydrostatic p0 (column).
+  double water_depth = 0;               ///< m, of the sea above the surface z = 0 (column).
   double overpressure = 0;              ///< Pa, in the depth range of the reservoir at zero offset.
   double vertical_stress = 0;           ///< Pa at z = 0, negative in compression (profile).
   double vertical_stress_gradient = 0;  ///< Pa per m of depth, negative (profile).

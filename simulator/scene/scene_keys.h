@@ -179,6 +179,8 @@ void for_each_key(Struct& s, Visit&& visit) {
   visit(SceneKey{.name = "initial_biot", .in_identity = has_ratios}, s.initial_biot);
   visit(SceneKey{.name = "gravity", .in_identity = is_column}, s.gravity);
   visit(SceneKey{.name = "water_density", .in_identity = is_column}, s.water_density);
+  visit(SceneKey{.name = "water_depth", .in_identity = is_column && s.water_depth != 0},
+        s.water_depth);
   visit(SceneKey{.name = "overpressure", .in_identity = is_column}, s.overpressure);
   const bool is_linear = !is_column && has_ratios;
   visit(SceneKey{.name = "vertical_stress", .in_identity = is_linear}, s.vertical_stress);

@@ -27,6 +27,22 @@ TEST(InitialState, WeighsTheReferenceColumnByHand) {
   EXPECT_EQ(initial_state(scene, 10).sigma[8], 0);
 }
 
+TEST(InitialState, OfAnOffshoreFieldCarriesTheSea) {
+  JsonDocument document = parse_json(starter_scene("field"), "field");
+  const Scene dry = read_scene(document);
+  set_value(document, "/initial_state/water_depth", "30 m");
+  const Scene scene = read_scene(document);
+  const double sea = 30 * 1000 * 9.81;
+  for (const double z : {-10.0, -2000.0, -3000.0}) {
+    const StressAtDepth with = initial_state(scene, z), without = initial_state(dry, z);
+    EXPECT_NEAR(with.pressure - without.pressure, sea, 1e-6);
+    EXPECT_NEAR(with.sigma[8] - without.sigma[8], -sea, 1e-6) << "σ'_v stays";
+  }
+  EXPECT_NEAR(initial_region_pressure(scene, 0, 2500) - initial_region_pressure(dry, 0, 2500), sea,
+              1e-6);
+  EXPECT_NE(case_identity(scene), case_identity(dry));
+}
+
 TEST(InitialState, TakesTheMeanWhereThePressureJumps) {
   const Scene scene = read_scene(rotliegend());
   const double above = initial_state(scene, -2000, DepthSide::above).pressure;
