@@ -8,8 +8,8 @@
 #include "campaign/query/parameters.h"
 #include "campaign/rounds/answers_of.h"
 #include "campaign/spec/pointers.h"
-#include "simulator/scene/initial_state.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/initial_state/initial_state.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsweep {
 

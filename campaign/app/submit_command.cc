@@ -19,7 +19,7 @@
 #include "simulator/files/atomic_file.h"
 #include "simulator/files/json_text.h"
 #include "simulator/files/output_target.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsweep {
 

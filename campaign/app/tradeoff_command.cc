@@ -17,7 +17,7 @@
 #include "simulator/files/json_text.h"
 #include "simulator/files/output_target.h"
 #include "simulator/files/result_folder.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsweep {
 

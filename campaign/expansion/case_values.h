@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "campaign/expansion/rows.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsweep {
 

@@ -12,7 +12,7 @@
 #include "campaign/expansion/row_reader.h"
 #include "campaign/expansion/sampled_rows.h"
 #include "campaign/expansion/scene_builder.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/scene/identity.h"
 
 namespace faultsweep {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "campaign/expansion/rows.h"
-#include "simulator/scene/changed_scene.h"
+#include "simulator/reading/changed_scene.h"
 
 namespace faultsweep {
 

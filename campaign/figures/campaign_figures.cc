@@ -11,7 +11,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/figure/axis.h"
 #include "simulator/figure/bar_chart.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsweep {
 

@@ -7,7 +7,7 @@
 #include "campaign/spec/spec.h"
 #include "nightly_schema.h"
 #include "simulator/common/fingerprint.h"
-#include "simulator/scene/schema.h"
+#include "simulator/documents/schema.h"
 
 namespace faultsweep {
 

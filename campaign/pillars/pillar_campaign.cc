@@ -10,8 +10,8 @@
 #include "simulator/common/units.h"
 #include "simulator/plan/field_check.h"
 #include "simulator/plan/plan.h"
+#include "simulator/reading/read_scene.h"
 #include "simulator/scene/field_depths.h"
-#include "simulator/scene/read_scene.h"
 
 namespace faultsweep {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "campaign/pillars/pillar_table.h"
-#include "simulator/scene/json_document.h"
+#include "simulator/documents/json_document.h"
 
 namespace faultsweep {
 

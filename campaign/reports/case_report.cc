@@ -12,10 +12,10 @@
 #include "campaign/reports/case_tables.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/printable.h"
+#include "simulator/reading/read_scene.h"
 #include "simulator/result/approximation.h"
 #include "simulator/result/result_json.h"
 #include "simulator/result/result_sentences.h"
-#include "simulator/scene/read_scene.h"
 
 namespace faultsweep {
 

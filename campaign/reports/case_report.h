@@ -6,7 +6,7 @@
 #include "campaign/query/place_columns.h"
 #include "campaign/render/answer.h"
 #include "campaign/store/store.h"
-#include "simulator/scene/initial_state.h"
+#include "simulator/initial_state/initial_state.h"
 
 /// `faultsweep show CASE`: one case of a campaign, with its result.
 namespace faultsweep {

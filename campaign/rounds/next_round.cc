@@ -7,7 +7,7 @@
 #include "campaign/rounds/answers_of.h"
 #include "campaign/rounds/limit_searcher.h"
 #include "campaign/rounds/staged_sample.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsweep {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "campaign/spec/spec_reader.h"
-#include "simulator/scene/schema.h"
+#include "simulator/documents/schema.h"
 
 namespace faultsweep {
 namespace {

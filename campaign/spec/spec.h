@@ -9,8 +9,8 @@
 #include "campaign/statistics/copula.h"
 #include "campaign/statistics/marginal.h"
 #include "simulator/common/units.h"
-#include "simulator/scene/json_document.h"
-#include "simulator/scene/schema.h"
+#include "simulator/documents/json_document.h"
+#include "simulator/documents/schema.h"
 
 /// A campaign's specification: what to vary, checked and resolved against its base scene. The JSON
 /// spelling is in schemas/campaign.schema.json, the meaning of each key in its descriptions.

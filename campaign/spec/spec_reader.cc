@@ -10,7 +10,7 @@
 #include "campaign/spec/pointers.h"
 #include "simulator/common/near_miss.h"
 #include "simulator/common/process_memory.h"
-#include "simulator/scene/csv_tables.h"
+#include "simulator/reading/csv_tables.h"
 
 namespace faultsweep {
 

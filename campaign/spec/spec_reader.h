@@ -12,7 +12,7 @@
 #include "campaign/spec/pointers.h"
 #include "campaign/spec/sample_file.h"
 #include "campaign/spec/spec.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 
 /// Inside of the module: the steps from a spec's document to a CampaignSpec. Problems are
 /// collected, each once; what depends on a wrong value is left out.

@@ -6,7 +6,7 @@
 
 #include "campaign/render/answer.h"
 #include "simulator/plan/plan.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 #include "simulator/scene/tiers.h"
 
 namespace faultsweep {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "campaign/spec/spec.h"
-#include "simulator/scene/json_document.h"
+#include "simulator/documents/json_document.h"
 
 /// The choices that trade accuracy for speed, on one scene (docs/tradeoff.md).
 namespace faultsweep {

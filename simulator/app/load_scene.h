@@ -2,7 +2,7 @@
 
 #include "simulator/app/commands.h"
 #include "simulator/loading/run_case.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 #include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/simulation.h"
 

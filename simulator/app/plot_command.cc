@@ -4,9 +4,9 @@
 #include "simulator/case_figures/case_figures.h"
 #include "simulator/case_figures/picture_file.h"
 #include "simulator/common/errors.h"
+#include "simulator/documents/json_document.h"
+#include "simulator/reading/read_scene.h"
 #include "simulator/result/result_json.h"
-#include "simulator/scene/json_document.h"
-#include "simulator/scene/read_scene.h"
 
 namespace faultsim {
 namespace {

@@ -7,7 +7,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/figure/axis.h"
 #include "simulator/figure/stress_path.h"
-#include "simulator/scene/initial_state.h"
+#include "simulator/initial_state/initial_state.h"
 
 namespace faultsim::case_figures {
 namespace {

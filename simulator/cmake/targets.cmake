@@ -114,7 +114,7 @@ function(faultsim_test target label)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Og>
                            -Wno-maybe-uninitialized)   # false alarms in Eigen below -O2
     set(kind test)
-    if(ARG_LIBS MATCHES "faultsweep::|^faultsim::(scene|figure|case_figures)$")
+    if(ARG_LIBS MATCHES "faultsweep::|^faultsim::(reading|figure|case_figures)$")
       set(kind text_test)
     endif()
   endif()

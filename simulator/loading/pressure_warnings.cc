@@ -7,10 +7,10 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/common/units.h"
+#include "simulator/initial_state/fault_pressure.h"
+#include "simulator/initial_state/initial_state.h"
+#include "simulator/initial_state/pressure_history.h"
 #include "simulator/loads/history.h"
-#include "simulator/scene/fault_pressure.h"
-#include "simulator/scene/initial_state.h"
-#include "simulator/scene/pressure_history.h"
 
 namespace faultsim {
 namespace {

@@ -15,7 +15,7 @@
 #include "simulator/measures/metrics.h"
 #include "simulator/measures/slip_events.h"
 #include "simulator/measures/stage_summary.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/scene/identity.h"
 
 namespace faultsim {
 namespace {

@@ -4,9 +4,9 @@
 #include <cstdio>
 
 #include "simulator/common/errors.h"
+#include "simulator/initial_state/initial_state.h"
 #include "simulator/loading/pressure_warnings.h"
 #include "simulator/loads/history.h"
-#include "simulator/scene/initial_state.h"
 
 namespace faultsim {
 namespace {

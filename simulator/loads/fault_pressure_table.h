@@ -1,7 +1,7 @@
 #pragma once
 
+#include "simulator/initial_state/fault_pressure.h"
 #include "simulator/model/fault_operator.h"
-#include "simulator/scene/fault_pressure.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "simulator/common/errors.h"
+#include "simulator/initial_state/initial_state.h"
+#include "simulator/initial_state/load_times.h"
 #include "simulator/loads/fault_pressure_table.h"
-#include "simulator/scene/initial_state.h"
-#include "simulator/scene/load_times.h"
 
 namespace faultsim {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "simulator/initial_state/fault_pressure.h"
 #include "simulator/model/fault_operator.h"
-#include "simulator/scene/fault_pressure.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "simulator/initial_state/initial_state.h"
 #include "simulator/loads/history.h"
-#include "simulator/scene/initial_state.h"
 
 namespace faultsim {
 

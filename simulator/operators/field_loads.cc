@@ -11,7 +11,7 @@
 #include "simulator/condensation/fault_geometry.h"
 #include "simulator/loads/history.h"
 #include "simulator/loads/side_regions.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/scene/identity.h"
 
 namespace faultsim {
 namespace {

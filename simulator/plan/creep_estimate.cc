@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "simulator/flow/flow_field.h"
-#include "simulator/scene/initial_state.h"
-#include "simulator/scene/pressure_history.h"
+#include "simulator/initial_state/initial_state.h"
+#include "simulator/initial_state/pressure_history.h"
 
 namespace faultsim {
 namespace {

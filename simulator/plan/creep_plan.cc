@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "simulator/common/errors.h"
-#include "simulator/scene/load_times.h"
+#include "simulator/initial_state/load_times.h"
 
 namespace faultsim {
 namespace {

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "simulator/documents/canonical_text.h"
 #include "simulator/plan/plan.h"
-#include "simulator/scene/canonical_text.h"
-#include "simulator/scene/scene_keys.h"
+#include "simulator/scene/scene.h"
 
 /// The text that a family is the fingerprint of: what the linear bulk depends on. Structs of the
 /// scene stand in it as lists of the members that the list of keys says are part of it.
@@ -33,7 +33,7 @@ void append_members(std::string& text, const Struct& one) {
     append_member(text, value);
   };
   for_each_key(one, [&](const SceneKey& key, const auto& member) {
-    if (!key.in_family) return;
+    if (!key.is(kFamily)) return;
     if constexpr (requires { member.has_value(); }) {
       if (member) add(*member);
     } else if constexpr (requires(std::string & to) { append(to, member); }) {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "simulator/common/dates.h"
+#include "simulator/initial_state/initial_state.h"
 #include "simulator/plan/field_bodies.h"
-#include "simulator/scene/initial_state.h"
 
 namespace faultsim {
 namespace {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "simulator/common/fingerprint.h"
+#include "simulator/initial_state/load_times.h"
 #include "simulator/mesh/patch_frame.h"
 #include "simulator/plan/combinations.h"
 #include "simulator/plan/cost.h"
@@ -16,7 +17,6 @@
 #include "simulator/plan/influence_plan.h"
 #include "simulator/plan/reservoir_cells.h"
 #include "simulator/scene/field_depths.h"
-#include "simulator/scene/load_times.h"
 
 namespace faultsim {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "simulator/initial_state/initial_state.h"
 #include "simulator/mesh/mesh.h"
 #include "simulator/mesh/mesh_spec.h"
-#include "simulator/scene/initial_state.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {

@@ -8,163 +8,30 @@
 #include <vector>
 
 #include "simulator/flow/outside_rule.h"
+#include "simulator/scene/geometry.h"
 
 /// The scene as plain structs: everything in SI, x east across the faults, y along strike, z up
 /// (z = 0 is the surface of a `field`; depth = -z), tension positive, pressures positive.
-/// Made from JSON by read_scene.h, which has checked all of it. Units, ranges, defaults and the
-/// JSON spelling of each field are in schemas/scene.schema.json.
+/// Made from JSON by reading/read_scene.h, which has checked all of it. Units, ranges, defaults and
+/// the JSON spelling of each field are in schemas/scene.schema.json.
 namespace faultsim {
 
 struct FlowField;
 
-struct Material {
-  std::string name;
-  double density = 0;               ///< kg/m3, bulk.
-  double youngs_modulus = 0;        ///< Pa.
-  double poisson_ratio = 0;         ///< in [0, 0.4999].
-  double biot = 1;                  ///< Biot coefficient b in [0, 1].
-  double thermal_expansion = 0;     ///< α_T >= 0, linear, 1/K.
-  std::optional<double> viscosity;  ///< η > 0, Pa s, Maxwell: ε̇_v = s/(2η); none = elastic.
-  bool operator==(const Material&) const = default;
-};
-
-/// A horizontal layer by its top; it reaches to the next layer's top or the base of the model.
-struct Layer {
-  std::string name;
-  std::string material;
-  double top_depth = 0;  ///< m, at zero offset.
-  bool operator==(const Layer&) const = default;
-};
-
-/// One compartment of a field: x in [from, to], the reservoir shifted down by `offset`.
-struct Block {
-  std::string name;   ///< also the name of its pressure region.
-  double from = 0;    ///< m.
-  double to = 0;      ///< m.
-  double offset = 0;  ///< m, > 0 is down: of the reservoir's top.
-  /// Pa, of its own: what its initial pressure is above hydrostatic (profile: above the profile),
-  /// at all depths of its reservoir. None = that of the column at the same depth.
-  std::optional<double> overpressure = std::nullopt;
-  /// m: grid lines are laid out for this offset and then moved to `offset` (FieldMeshSpec). None =
-  /// for `offset`.
-  std::optional<double> mesh_offset = std::nullopt;
-  /// m, of its reservoir from its top down. None = that of the reservoir layer.
-  std::optional<double> thickness = std::nullopt;
-  bool operator==(const Block&) const = default;
-};
-
-/// The conceptual Dutch field: layers, a row of contiguous reservoir blocks, a
-/// fault at every block boundary (n_blocks + 1 faults, from west to east, see Scene::faults).
-struct FieldGeometry {
-  double width = 0;             ///< m, extent in x, centred on 0.
-  double length = 0;            ///< m, extent in y, centred on 0.
-  double depth = 0;             ///< m, base of the model.
-  std::vector<Layer> layers;    ///< from the surface down.
-  std::string reservoir_layer;  ///< the layer that the blocks shift and that is depleted.
-  std::string sideburden;       ///< material beside the blocks at reservoir level.
-  std::vector<Block> blocks;    ///< west to east, contiguous.
-  double block_length = 0;      ///< m, blocks cover |y| <= block_length/2.
-  double fault_length = 0;      ///< m, faults cover |y| <= fault_length/2.
-  /// m above the shallowest and below the deepest reservoir edge touched.
-  double fault_overshoot = 150;
-  double pivot_depth = 0;  ///< m, where a dipping fault keeps its x.
-  bool operator==(const FieldGeometry&) const = default;
-};
-
-enum class PatchShape { rectangle, ellipse };
-
-/// Where a fault patch of a `box` lies. A node splits iff strictly inside the patch; a patch that
-/// cuts the whole body is made larger than the body.
-struct PatchGeometry {
-  std::array<double, 3> center = {0, 0, 0};  ///< m.
-  double strike = 0;             ///< rad from north (+y) clockwise towards east (+x): 0 = along y.
-  double dip_from_vertical = 0;  ///< rad; 0 vertical, > 0 dips to the right of strike (east for
-                                 ///< strike 0), pi/2 = horizontal.
-  double length = 0;             ///< m along strike (full length).
-  double width = 0;              ///< m down dip (full width).
-  PatchShape shape = PatchShape::rectangle;
-  bool operator==(const PatchGeometry&) const = default;
-};
-
-/// The six faces of a box: x- x+ y- y+ z- z+.
-enum class Side { x_min, x_max, y_min, y_max, z_min, z_max };
-
-enum class BoundaryKind {
-  free,          ///< no traction change.
-  roller,        ///< no displacement normal to the face.
-  fixed,         ///< no displacement.
-  displacement,  ///< u = factor(t) (translation + gradient x) for the components listed.
-  stress,        ///< traction change factor(t) Δσ n.
-  tied,          ///< with the opposite face: same displacement (periodic).
-};
-
-/// A piecewise-linear function of time, constant outside. Empty = 1 at all times.
-struct TimeTable {
-  std::vector<double> time;    ///< s, strictly increasing.
-  std::vector<double> factor;  ///< dimensionless.
-  bool operator==(const TimeTable&) const = default;
-};
-
-struct BoundaryCondition {
-  std::vector<Side> sides;
-  BoundaryKind kind = BoundaryKind::roller;
-  std::array<bool, 3> components = {true, true, true};  ///< of `displacement`: which of x, y, z.
-  std::array<double, 3> translation = {0, 0, 0};        ///< m.
-  std::array<double, 9> gradient = {0, 0, 0, 0, 0, 0, 0, 0, 0};  ///< row-major ∂u_i/∂x_j.
-  std::array<double, 9> stress = {0, 0, 0, 0, 0, 0, 0, 0, 0};  ///< Pa, Δσ, symmetric, row-major.
-  TimeTable table;
-  bool operator==(const BoundaryCondition&) const = default;
-};
-
-enum class RegionShape { box, disc };
-
-/// A pressure region of a `box` body: cells take the volume fraction that lies inside.
-struct PressureRegion {
-  std::string name;
-  RegionShape shape = RegionShape::box;
-  std::array<double, 3> from = {0, 0, 0};  ///< box: corner; on a sheared mesh x and y are taken
-  std::array<double, 3> to = {0, 0, 0};  ///< in the unsheared grid, so a region ends on the fault.
-  std::array<double, 3> center = {0, 0, 0};  ///< disc: centre of a vertical cylinder
-  double radius = 0;                         ///< disc, m.
-  double thickness = 0;                      ///< disc, m.
-  bool operator==(const PressureRegion&) const = default;
-};
-
-struct BoxGeometry {
-  std::array<double, 3> from = {0, 0, 0};   ///< m, lower corner.
-  std::array<double, 3> to = {0, 0, 0};     ///< m, upper corner.
-  std::string material;                     ///< fills the box unless layers are given.
-  std::vector<Layer> layers;                ///< top_depth is -z of the top; may be empty.
-  std::vector<PatchGeometry> patches;       ///< one per Scene::faults, same order.
-  std::vector<BoundaryCondition> boundary;  ///< faces not mentioned: free.
-  std::vector<PressureRegion> regions;
-  bool operator==(const BoxGeometry&) const = default;
-};
-
-enum class GeometryKind { field, box };
-enum class Switch { automatic, on, off };
-
-/// Cell sizes. A `tier` fills them; explicit values win.
-struct MeshSizes {
-  double strike = 0;       ///< m, along y at the faults (box: y).
-  double dip = 0;          ///< m, down dip at reservoir level (box: z in the fine window); with
-                           ///< `corner` the largest there.
-  double normal = 0;       ///< m, first cell beside a fault.
-  double growth = 1.3;     ///< largest ratio of neighbouring cell sizes away from the faults.
-  double fine_margin = 0;  ///< m, box: how far beyond patches and regions the fine size is kept.
-  double largest = 0;      ///< m, cap of graded cells; 0 = none.
-  double corner = 0;  ///< m, field: down dip at the corners of compartments; 0 or ≥ dip: as dip.
-  double corner_growth = 1.5;  ///< largest ratio of neighbouring cells between corners and `dip`.
-  bool grades_corners() const { return corner > 0 && corner < dip; }
-  bool operator==(const MeshSizes&) const = default;
-};
+/// The same of flow results: how they are read and mapped.
+inline constexpr int kFieldMethod = 2;
+/// Raised by hand when a change may alter results on surfaces, and no others.
+inline constexpr int kSurfaceMethod = 3;
+constexpr auto words(OutsideRule) { return std::array{"nearest", "unchanged"}; }
 
 enum class InitialStressKind { column, profile };
+constexpr auto words(InitialStressKind) { return std::array{"column", "profile"}; }
 /// Horizontal stress in the layers of viscous material.
 enum class ViscousLayers {
   ratios,       ///< as in rock.
   lithostatic,  ///< σ_xx = σ_yy = σ_v whatever the ratios: salt that has come to rest.
 };
+constexpr auto words(ViscousLayers) { return std::array{"ratios", "lithostatic"}; }
 
 /// Initial stress and pressure, functions of depth only (docs/model.md, section 6).
 /// column: σ_v and p0 from the reference column of the field (zero offset).
@@ -187,12 +54,34 @@ struct InitialState {
   ViscousLayers viscous_layers = ViscousLayers::ratios;  ///< lithostatic: never next to `tensor`.
   bool operator==(const InitialState&) const = default;
 };
+void for_each_key(Of<InitialState> auto& s, auto&& visit) {
+  visit({"kind", kWord}, s.kind);
+  const bool is_column = s.kind == InitialStressKind::column;
+  const bool has_ratios = !s.tensor;
+  visit({"ratio_across", unless(has_ratios, kSilent)}, s.ratio_across);
+  visit({"ratio_along", unless(has_ratios, kSilent)}, s.ratio_along);
+  visit({"initial_biot", unless(has_ratios, kSilent)}, s.initial_biot);
+  visit({"gravity", unless(is_column, kSilent)}, s.gravity);
+  visit({"water_density", unless(is_column, kSilent)}, s.water_density);
+  visit({"water_depth", unless(is_column && s.water_depth != 0, kSilent)}, s.water_depth);
+  visit({"overpressure", unless(is_column, kSilent)}, s.overpressure);
+  const bool is_linear = !is_column && has_ratios;
+  visit({"vertical_stress", unless(is_linear, kSilent)}, s.vertical_stress);
+  visit({"vertical_stress_gradient", unless(is_linear, kSilent)}, s.vertical_stress_gradient);
+  visit({"pressure", unless(!is_column, kSilent)}, s.pressure);
+  visit({"pressure_gradient", unless(!is_column, kSilent)}, s.pressure_gradient);
+  visit({"tensor", unless(!is_column, kSilent)}, s.tensor);
+  visit({"viscous_layers", unless(s.viscous_layers != ViscousLayers::ratios, kSilent) | kWord},
+        s.viscous_layers);
+}
 
 enum class FrictionLaw {
   angle,        ///< φ(s) = φ_s + (φ_d − φ_s) min(s/d_c, 1)           (docs/model.md, 6)
   coefficient,  ///< tan φ weakens linearly instead.
 };
+constexpr auto words(FrictionLaw) { return std::array{"angle", "coefficient"}; }
 enum class SlipMeasure { current, cumulated };
+constexpr auto words(SlipMeasure) { return std::array{"current", "cumulated"}; }
 
 struct Friction {
   FrictionLaw law = FrictionLaw::angle;
@@ -205,8 +94,23 @@ struct Friction {
   bool cohesion_after_slip = true;  ///< false: the first slip ends cohesion.
   bool operator==(const Friction&) const = default;
 };
+/// A fault's own friction overrides the scene's key by key; angles may be given as coefficients.
+void for_each_key(Of<Friction> auto& f, auto&& visit) {
+  visit({"law"}, f.law);
+  visit({"cohesion"}, f.cohesion);
+  visit({"friction_angle", kByHand, "static"}, f.static_friction_angle);
+  visit({"dynamic_friction_angle", kByHand, "dynamic"}, f.dynamic_friction_angle);
+  visit({"slip_weakening_distance", kByHand, "distance"}, f.slip_weakening_distance);
+  visit({"slip_measure"}, f.slip_measure);
+  visit({"cohesion_after_opening"}, f.cohesion_after_opening);
+  visit({"cohesion_after_slip"}, f.cohesion_after_slip);
+}
 
 enum class FaultPressureRule { mean, min, max, minus, plus, fraction, prescribed, none, table };
+constexpr auto words(FaultPressureRule) {
+  return std::array{"mean",     "min",        "max",  "minus", "plus",
+                    "fraction", "prescribed", "none", "table"};
+}
 
 /// Δp_f(s, t) of a fault: linear in place and time, constant beyond the places and the last time.
 struct FaultPressureTable {
@@ -234,6 +138,16 @@ struct FaultPressure {
                                                       ///< either side is reservoir.
   bool operator==(const FaultPressure&) const = default;
 };
+/// A fault's own fault_pressure overrides the scene's key by key.
+void for_each_key(Of<FaultPressure> auto& p, auto&& visit) {
+  visit({"rule"}, p.rule);
+  visit({"fraction", unless(p.rule == FaultPressureRule::fraction, kIdle)}, p.fraction);
+  const bool is_prescribed = p.rule == FaultPressureRule::prescribed;
+  visit({"prescribed", kRequired | unless(is_prescribed, kIdle)}, p.prescribed);
+  visit({"table", kByHand | unless(is_prescribed, kIdle)}, p.table);
+  visit({"csv", kByHand | unless(p.rule == FaultPressureRule::table, kIdle), "profile"}, p.profile);
+  visit({"depth_window", unless(is_prescribed, kIdle)}, p.depth_window);
+}
 
 struct Fault {
   std::string name;
@@ -243,6 +157,13 @@ struct Fault {
   FaultPressure pressure;
   bool operator==(const Fault&) const = default;
 };
+void for_each_key(Of<Fault> auto& f, auto&& visit) {
+  visit({"name"}, f.name);
+  visit({"dip_from_vertical"}, f.dip_from_vertical);
+  visit({"fault_biot", kByHand}, f.fault_biot);
+  visit({"friction", kByHand}, f.friction);
+  visit({"fault_pressure", kByHand, "pressure"}, f.pressure);
+}
 
 /// One named stage of the loading; steps are equal in time unless times are given.
 struct Stage {
@@ -254,6 +175,12 @@ struct Stage {
   std::optional<std::array<double, 9>> stress_change = {};
   bool operator==(const Stage&) const = default;
 };
+void for_each_key(Of<Stage> auto& s, auto&& visit) {
+  visit({"name"}, s.name);
+  visit({"duration", kByHand}, s.duration);
+  visit({"steps"}, s.n_steps);
+  visit({"stress_change"}, s.stress_change);
+}
 
 /// Pressure change history of one compartment or region: piecewise linear in time from 0 at t = 0.
 struct PressureHistory {
@@ -265,6 +192,14 @@ struct PressureHistory {
   bool from_csv = false;  ///< a CSV file replaced what the stages say; for messages only.
   bool operator==(const PressureHistory&) const = default;
 };
+/// A compartment; its history is what the stages or a CSV file say.
+void for_each_key(Of<PressureHistory> auto& h, auto&& visit) {
+  visit({"region", kByHand}, h.region);
+  visit({"time", kByHand}, h.time);
+  visit({"pressure_change", kByHand}, h.pressure_change);
+  visit({"scale"}, h.scale);
+  visit({"lag"}, h.lag);
+}
 
 /// Temperature change history of one region: piecewise linear in time from 0 at t = 0.
 struct TemperatureHistory {
@@ -302,12 +237,28 @@ struct FlowLoad {
            reports == other.reports && time == other.time;
   }
 };
+/// Which file it was does not matter, what was in it does.
+void for_each_key(Of<FlowLoad> auto& l, auto&& visit) {
+  visit({"method", kByHand}, kFieldMethod);
+  visit({"outside"}, l.outside);
+  visit({"origin"}, l.origin);
+  visit({"azimuth"}, l.azimuth);
+  visit({"y", kByHand}, l.y);
+  visit({"file", kByHand, "fingerprint"}, l.fingerprint);
+  visit({"reference", kByHand}, l.reference);
+  visit({"reports", kByHand}, l.reports);
+  visit({"time", kByHand}, l.time);
+}
 
 struct ObservationPoint {
   std::string name;
   std::array<double, 3> position = {0, 0, 0};  ///< m; the nearest node is used and reported.
   bool operator==(const ObservationPoint&) const = default;
 };
+void for_each_key(Of<ObservationPoint> auto& p, auto&& visit) {
+  visit({"name"}, p.name);
+  visit({"position", kRequired}, p.position);
+}
 
 /// What to write. Never part of a case's identity.
 struct OutputRequest {
@@ -316,18 +267,24 @@ struct OutputRequest {
   std::vector<ObservationPoint> observation_points;
   bool operator==(const OutputRequest&) const = default;
 };
+void for_each_key(Of<OutputRequest> auto& o, auto&& visit) {
+  visit({"fault_fields"}, o.fault_fields);
+  visit({"volume_fields"}, o.volume_fields);
+}
 
 /// What becomes of the turning points of histories that lie within the steps of a stage.
 enum class TurningPoints {
   steps,   ///< each becomes the end of a load step.
   report,  ///< they are skipped, and the case is warned about.
 };
+constexpr auto words(TurningPoints) { return std::array{"steps", "report"}; }
 
 /// How the viscous strain of a step follows from the stresses (docs/model.md, 13).
 enum class CreepScheme {
   exponential,     ///< exact for a strain rate that is constant in the step.
   backward_euler,  ///< first order: what many codes do, to measure the difference.
 };
+constexpr auto words(CreepScheme) { return std::array{"exponential", "backward_euler"}; }
 
 /// A parameter in which a surface of operators is continuous, and its range.
 struct SurfaceParameter {
@@ -347,6 +304,12 @@ struct SurfaceRequest {
   bool wanted() const { return !over.empty(); }
   bool operator==(const SurfaceRequest&) const = default;
 };
+void for_each_key(Of<SurfaceRequest> auto& s, auto&& visit) {
+  visit({"over", kByHand}, s.over);
+  visit({"method", kByHand}, kSurfaceMethod);
+  visit({"tolerance"}, s.tolerance);
+  visit({"most_operators"}, s.most_operators);
+}
 
 /// Knobs of the numerics that are part of a case's identity (those of creep only where something
 /// is made of viscous material).
@@ -375,6 +338,33 @@ struct Numerics {
   SurfaceRequest surface;
   bool operator==(const Numerics&) const = default;
 };
+/// What creeps is told by the keys of for_each_creep_key besides.
+void for_each_key(Of<Numerics> auto& n, auto&& visit) {
+  visit({"slip_tolerance"}, n.slip_tolerance);
+  visit({"activation_length"}, n.activation_length);
+  visit({"traction_tolerance"}, n.traction_tolerance);
+  visit({"max_newton_iterations"}, n.max_newton_iterations);
+  visit({"max_active_set_passes"}, n.max_active_set_passes);
+  visit({"max_step_cuts"}, n.max_step_cuts);
+  visit({"follow_events"}, n.follow_events);
+  visit({"onset_tolerance"}, n.onset_tolerance);
+  visit({"max_events"}, n.max_events);
+  // The added steps follow from stages and histories, which are there.
+  visit({"turning_points", unless(n.turning_points == TurningPoints::report, kSilent) | kWord},
+        n.turning_points);
+  visit({"max_added_steps", kSilent}, n.max_added_steps);
+  visit({"b_bar"}, n.b_bar);
+  visit({"half_domain"}, n.half_domain);
+  visit({"plane_strain"}, n.plane_strain);
+}
+
+void for_each_creep_key(Of<Numerics> auto& n, auto&& visit) {
+  visit({"creep", 0, "switch"}, n.creep);
+  visit({"creep_time_step", 0, "time_step"}, n.creep_time_step);
+  visit({"creep_refinements", 0, "refinements"}, n.creep_refinements);
+  visit({"creep_tolerance", 0, "tolerance"}, n.creep_tolerance);
+  visit({"creep_scheme", 0, "scheme"}, n.creep_scheme);
+}
 
 /// Something that the user of a scene should know before running it: what has no effect, what is
 /// left out. No problem: the scene can be run.
@@ -415,10 +405,6 @@ std::string remark_text(const Remark& remark);
 double thermal_stress(const Material& material);
 /// The material of that name. @pre it exists.
 const Material& material_named(const Scene& scene, const std::string& name);
-/// Raised by hand when a change may alter results on surfaces, and no others.
-inline constexpr int kSurfaceMethod = 3;
-/// The same of flow results: how they are read and mapped.
-inline constexpr int kFieldMethod = 2;
 
 /// Points at which the error of a surface is measured.
 inline int n_surface_checks(const SurfaceRequest& surface) {
@@ -428,6 +414,8 @@ inline int n_surface_checks(const SurfaceRequest& surface) {
 /// The value of a surface's parameter in a scene, and another one put in its place, SI.
 double value_of(const SurfaceParameter& one, const Scene& scene);
 void set_value(const SurfaceParameter& one, double value, Scene& scene);
+/// Names of the pressure regions: the field's blocks or the box's regions.
+std::vector<std::string> region_names(const Scene& scene);
 /// Names of the materials that the geometry is made of; the scene may list others.
 std::set<std::string> used_materials(const Scene& scene);
 /// Whether one of those has a viscosity.

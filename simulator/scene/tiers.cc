@@ -54,23 +54,11 @@ std::string cells_text(const MeshSizes& sizes, bool plane_strain) {
   return text + concat(sizes.normal, " m beside faults, growing by ", sizes.growth);
 }
 
-namespace {
-
-bool same_cells(const MeshSizes& a, const MeshSizes& b) {
-  const auto values = [](const MeshSizes& m) {
-    return std::array{m.strike,      m.dip,     m.normal, m.growth,
-                      m.fine_margin, m.largest, m.corner, m.corner_growth};
-  };
-  return values(a) == values(b);
-}
-
-}  // namespace
-
 std::string mesh_text(const Scene& scene) {
   const std::string cells = cells_text(scene.mesh, scene.numerics.plane_strain == Switch::on);
   const Tier* tier = find_tier(scene.tier);
   if (tier == nullptr) return "cells: " + cells;
-  if (!same_cells(tier->sizes, scene.mesh))
+  if (tier->sizes != scene.mesh)
     return concat("cells: ", cells, "; tier ", tier->name, " with sizes of its own");
   return concat("cells: tier ", tier->name, ", ", cells,
                 "\n  measured in plane strain: ", tier->errors);

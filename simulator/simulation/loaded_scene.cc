@@ -5,8 +5,8 @@
 
 #include "simulator/files/output_target.h"
 #include "simulator/plan/geometry_check.h"
-#include "simulator/scene/csv_tables.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/csv_tables.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsim {
 namespace {

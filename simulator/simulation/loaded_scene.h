@@ -8,7 +8,7 @@
 
 #include "simulator/plan/field_check.h"
 #include "simulator/plan/plan.h"
-#include "simulator/scene/changed_scene.h"
+#include "simulator/reading/changed_scene.h"
 #include "simulator/simulation/simulation.h"
 
 namespace faultsim {

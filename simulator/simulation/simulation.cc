@@ -10,7 +10,7 @@
 #include "simulator/common/stopwatch.h"
 #include "simulator/loading/pressure_warnings.h"
 #include "simulator/loading/run_case.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 #include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/operator_build.h"
 #include "simulator/simulation/operator_source.h"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/scene/json_document.h"
+#include "simulator/documents/json_document.h"
 
 namespace faultsim {
 

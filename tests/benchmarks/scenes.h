@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "simulator/plan/plan.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsim::benchmarks {
 

@@ -2,7 +2,7 @@
 // faultsim.
 #include <nlohmann/json.hpp>
 
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 #include "tests/campaign/campaign_fixture.h"
 #include "tests/unit/result_files/h5_file.h"
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simulator/plan/plan.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 #include "tests/campaign/campaign_fixture.h"
 
 namespace faultsweep {

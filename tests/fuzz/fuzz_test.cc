@@ -14,7 +14,7 @@
 #include "campaign/expansion/expansion.h"
 #include "campaign/nightly/nightly_suite.h"
 #include "simulator/plan/geometry_check.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 #include "tests/fuzz/mutator.h"
 
 // UDUNITS 2.2 does not free the name in some units that it refuses: some bytes per refusal.

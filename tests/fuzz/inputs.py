@@ -7,7 +7,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 def scene(**changes):
     """The starter box with values put at pointers ('/a/0/b': value)."""
-    return changed(json.loads((ROOT / 'simulator/scene/starter_box.json').read_text()), changes)
+    return changed(json.loads((ROOT / 'simulator/reading/starter_box.json').read_text()), changes)
 
 
 def field(**changes):

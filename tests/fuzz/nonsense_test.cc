@@ -5,7 +5,7 @@
 
 #include "campaign/expansion/expansion.h"
 #include "simulator/plan/geometry_check.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 
 /// Nonsense that a person may write and a program may swallow: each is refused at the place where
 /// it stands, with a cure.

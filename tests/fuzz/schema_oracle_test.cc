@@ -12,8 +12,8 @@
 #include <valijson/validator.hpp>
 
 #include "campaign/spec/spec.h"
-#include "simulator/scene/read_scene.h"
-#include "simulator/scene/schema.h"
+#include "simulator/documents/schema.h"
+#include "simulator/reading/read_scene.h"
 #include "tests/fuzz/mutator.h"
 
 /// Our walk over a schema against a validator of others: the same documents are refused, at the

@@ -8,8 +8,8 @@
 #include "campaign/pillars/pillar_table.h"
 #include "campaign/spec/sample_file.h"
 #include "simulator/flow/flow_csv.h"
-#include "simulator/scene/fault_pressure_csv.h"
-#include "simulator/scene/pressure_csv.h"
+#include "simulator/reading/fault_pressure_csv.h"
+#include "simulator/reading/pressure_csv.h"
 #include "tests/fuzz/mutator.h"
 
 /// Random tables for every reader of tables with units, in any style that programs write. A sound

@@ -14,7 +14,7 @@
 #include "simulator/linalg/blas_start.h"
 #include "simulator/operators/influence.h"
 #include "simulator/plan/influence_plan.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsim {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "simulator/linalg/blas_start.h"
 #include "simulator/loading/run_case.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 #include "simulator/surface/sparse_grid.h"
 #include "simulator/surface/surface_axis.h"
 

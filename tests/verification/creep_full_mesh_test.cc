@@ -13,7 +13,7 @@
 
 #include "simulator/loading/run_case.h"
 #include "simulator/loads/case_loads.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsim {
 namespace {

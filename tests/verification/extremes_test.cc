@@ -8,7 +8,7 @@
 
 #include "campaign/expansion/expansion.h"
 #include "simulator/loading/diagnosis.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsim {
 namespace {

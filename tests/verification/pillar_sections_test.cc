@@ -13,8 +13,8 @@
 #include "campaign/pillars/pillar_campaign.h"
 #include "simulator/loading/run_case.h"
 #include "simulator/model/fault_operator.h"
+#include "simulator/reading/read_scene.h"
 #include "simulator/scene/field_depths.h"
-#include "simulator/scene/read_scene.h"
 #include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/simulation.h"
 

@@ -9,8 +9,8 @@
 #include <tuple>
 
 #include "simulator/loading/run_case.h"
+#include "simulator/reading/read_scene.h"
 #include "simulator/result_files/field_writer.h"
-#include "simulator/scene/read_scene.h"
 #include "tests/unit/cache/example_operator.h"
 #include "tests/unit/result_files/h5_file.h"
 

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "simulator/common/stopwatch.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 #include "tests/unit/expansion/long_way.h"
 
 namespace faultsweep {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "campaign/expansion/expansion.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsweep {
 

@@ -12,7 +12,7 @@
 #include "campaign/expansion/rows.h"
 #include "campaign/expansion/unit_samples.h"
 #include "simulator/common/stopwatch.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 #include "tests/unit/expansion/long_way.h"
 
 /// Rows of Latin hypercube, Sobol' and Morris designs, checked by what defines each of them.

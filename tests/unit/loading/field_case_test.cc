@@ -9,7 +9,7 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/loading/run_case.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsim {
 namespace {

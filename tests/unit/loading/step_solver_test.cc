@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "simulator/loading/run_case.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsim {
 namespace {

@@ -12,7 +12,7 @@
 #include "simulator/flow/cell_overlap.h"
 #include "simulator/loads/case_loads.h"
 #include "simulator/loads/side_regions.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsim {
 namespace {

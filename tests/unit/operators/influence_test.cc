@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 #include "tests/unit/cache/example_operator.h"
 
 namespace faultsim {

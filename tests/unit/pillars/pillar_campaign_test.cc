@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "simulator/common/units.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsweep {
 namespace {

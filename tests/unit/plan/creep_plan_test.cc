@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsim {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "simulator/common/dates.h"
 #include "simulator/flow/flow_field.h"
+#include "simulator/initial_state/initial_state.h"
 #include "simulator/plan/field_bodies.h"
-#include "simulator/scene/initial_state.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsim {
 namespace {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simulator/plan/geometry_check.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsim {
 namespace {

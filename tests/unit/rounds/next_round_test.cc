@@ -8,9 +8,9 @@
 #include "campaign/expansion/submission.h"
 #include "campaign/rounds/answers_of.h"
 #include "campaign/rounds/staged_sample.h"
-#include "simulator/scene/initial_state.h"
-#include "simulator/scene/json_document.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/documents/json_document.h"
+#include "simulator/initial_state/initial_state.h"
+#include "simulator/reading/read_scene.h"
 #include "tests/campaign/made_up_result.h"
 #include "tests/unit/answers/renderings.h"
 

@@ -9,8 +9,8 @@
 #include <optional>
 #include <set>
 
-#include "simulator/scene/read_scene.h"
-#include "simulator/scene/schema.h"
+#include "simulator/documents/schema.h"
+#include "simulator/reading/read_scene.h"
 #include "tests/unit/scene/rotliegend.h"
 
 namespace faultsim {

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "simulator/scene/json_document.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/documents/json_document.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsim {
 

@@ -8,7 +8,7 @@
 
 #include "simulator/app/commands.h"
 #include "simulator/plan/combinations.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 #include "simulator/simulation/simulation.h"
 
 /// Each pair of features either runs, as a user would run it, or is refused with the reason of the

@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "simulator/loading/run_case.h"
-#include "simulator/scene/csv_tables.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/csv_tables.h"
+#include "simulator/reading/read_scene.h"
 #include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/simulation.h"
 

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "simulator/loading/run_case.h"
+#include "simulator/reading/read_scene.h"
 #include "simulator/result/result_bytes.h"
-#include "simulator/scene/read_scene.h"
 #include "simulator/simulation/loaded_scene.h"
 
 namespace faultsim {

@@ -8,8 +8,8 @@
 
 #include "simulator/loading/run_case.h"
 #include "simulator/model/operator_basis.h"
+#include "simulator/reading/read_scene.h"
 #include "simulator/result/result_bytes.h"
-#include "simulator/scene/read_scene.h"
 #include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/simulation.h"
 #include "simulator/surface/operator_surface.h"

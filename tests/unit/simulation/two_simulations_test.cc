@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <thread>
 
+#include "simulator/reading/read_scene.h"
 #include "simulator/result/result_bytes.h"
-#include "simulator/scene/read_scene.h"
 #include "simulator/simulation/simulation.h"
 
 namespace faultsim {

@@ -6,7 +6,7 @@
 #include "simulator/linalg/cholesky.h"
 #include "simulator/loading/run_case.h"
 #include "simulator/plan/plan.h"
-#include "simulator/scene/read_scene.h"
+#include "simulator/reading/read_scene.h"
 #include "v11_fluid_driven_slip.h"
 #include "v1_patch_test.h"
 #include "v2_compaction.h"

@@ -1,0 +1,181 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "simulator/common/near_miss.h"
+#include "simulator/reading/read_keys.h"
+#include "simulator/reading/scene_reader.h"
+#include "simulator/scene/field_depths.h"
+
+namespace faultsim {
+namespace {
+
+std::vector<std::string> material_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Material& material : scene.materials) names.push_back(material.name);
+  return names;
+}
+
+std::vector<Layer> read_layers(SceneReader& reader, const Scene& scene) {
+  const std::string list = "/geometry/layers";
+  const std::vector<std::string> materials = material_names(scene);
+  std::vector<Layer> layers;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < reader.size(list); ++i) {
+    const std::string at = element(list, i) + "/";
+    Layer layer;
+    read_keys(reader, at, layer);
+    reader.require_known(at + "material", layer.material, "material", materials);
+    if (i > 0 && layer.top_depth <= layers.back().top_depth) {
+      reader.problem(at + "top",
+                     "the top of layer \"" + layer.name + "\" (" + reader.as_given(at + "top") +
+                         ") is not below that of \"" + layers.back().name + "\"",
+                     "write layers from the surface down");
+    }
+    names.push_back(layer.name);
+    layers.push_back(layer);
+  }
+  reader.require_unique(list, "/name", names);
+  return layers;
+}
+
+void read_blocks(SceneReader& reader, FieldGeometry& field) {
+  const std::string list = "/geometry/blocks";
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < reader.size(list); ++i) {
+    const std::string at = element(list, i) + "/";
+    Block block;
+    read_keys(reader, at, block);
+    if (block.mesh_offset == block.offset) block.mesh_offset.reset();  // it says nothing
+    if (block.to <= block.from) {
+      reader.problem(at + "to", "block \"" + block.name + "\" ends west of where it begins",
+                     "write \"to\" larger than \"from\" (x grows eastwards)");
+    }
+    if (i > 0 && block.from != field.blocks.back().to) {
+      const Block& west = field.blocks.back();
+      const bool overlap = block.from < west.to;
+      if (overlap || block.from > west.to) {
+        reader.problem(at + "from",
+                       "block \"" + block.name + "\" begins at " + reader.as_given(at + "from") +
+                           (overlap ? ", inside" : ", away from") + " block \"" + west.name +
+                           "\", which ends at " + in_unit(west.to, Dimension::length, "m"),
+                       "write \"" + in_unit(west.to, Dimension::length, "m") +
+                           "\": blocks lie side by side from west to east");
+      }
+    }
+    field.blocks.push_back(block);
+    names.push_back(block.name);
+  }
+  reader.require_unique(list, "/name", names);
+}
+
+void read_field(SceneReader& reader, Scene& scene) {
+  FieldGeometry& field = scene.field;
+  const std::string at = "/geometry/";
+  read_keys(reader, at, field);
+  field.layers = read_layers(reader, scene);
+  std::vector<std::string> layer_names;
+  for (const Layer& layer : field.layers) layer_names.push_back(layer.name);
+  if (reader.sound(at + "layers")) {
+    reader.require_known(at + "reservoir_layer", field.reservoir_layer, "layer", layer_names);
+  }
+  reader.require_known(at + "sideburden", field.sideburden, "material", material_names(scene));
+  read_blocks(reader, field);
+  const DepthInterval reservoir = reservoir_range(field);
+  for (Block& block : field.blocks) {  // that of the layer says nothing
+    if (block.thickness == reservoir.bottom - reservoir.top) block.thickness.reset();
+  }
+  field.pivot_depth = reader.real(at + "pivot_depth", 0.5 * (reservoir.top + reservoir.bottom));
+}
+
+void read_components(SceneReader& reader, const std::string& at, BoundaryCondition& condition) {
+  if (!reader.has(at + "components")) return;
+  condition.components = {false, false, false};
+  for (std::size_t i = 0; i < reader.size(at + "components"); ++i) {
+    const std::string axis = reader.text(element(at + "components", i));
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (axis == std::string(1, "xyz"[c])) condition.components[c] = true;
+    }
+  }
+}
+
+void check_tied(SceneReader& reader, const std::string& at, const BoundaryCondition& condition) {
+  if (condition.kind != BoundaryKind::tied || !reader.sound(at + "sides")) return;
+  constexpr auto names = words(Side());
+  for (const Side side : condition.sides) {
+    const auto number = static_cast<unsigned>(side);
+    const auto opposite = static_cast<Side>(number ^ 1U);
+    const bool paired = std::find(condition.sides.begin(), condition.sides.end(), opposite) !=
+                        condition.sides.end();
+    if (paired) continue;
+    reader.problem(at + "sides",
+                   std::string("side ") + names[number] + " is tied but its opposite is not",
+                   std::string("add \"") + names[number ^ 1U] + "\" to the same list");
+  }
+}
+
+void read_boundary(SceneReader& reader, BoxGeometry& box) {
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < reader.size("/geometry/boundary"); ++i) {
+    const std::string at = element("/geometry/boundary", i) + "/";
+    BoundaryCondition condition;
+    read_keys(reader, at, condition);
+    for (std::size_t k = 0; k < reader.size(at + "sides"); ++k) {
+      const std::string place = element(at + "sides", k);
+      const std::string name = reader.text(place);
+      constexpr auto names = words(Side());
+      const auto side = std::find(names.begin(), names.end(), name);
+      if (side == names.end()) continue;  // its condition is of no known kind, and refused
+      condition.sides.push_back(static_cast<Side>(side - names.begin()));
+      if (!taken.insert(name).second && reader.sound(place)) {
+        reader.problem(place, "side " + name + " has a condition already",
+                       "give each side one condition");
+      }
+    }
+    check_tied(reader, at, condition);
+    read_components(reader, at, condition);
+    if (reader.has(at + "stress")) reader.require_symmetric(at + "stress", condition.stress);
+    if (reader.has(at + "table")) condition.table = reader.table(at + "table");
+    box.boundary.push_back(condition);
+  }
+}
+
+void read_regions(SceneReader& reader, BoxGeometry& box) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < reader.size("/geometry/regions"); ++i) {
+    const std::string at = element("/geometry/regions", i) + "/";
+    PressureRegion region;
+    read_keys(reader, at, region);
+    box.regions.push_back(region);
+    names.push_back(region.name);
+  }
+  reader.require_unique("/geometry/regions", "/name", names);
+}
+
+void read_box(SceneReader& reader, Scene& scene) {
+  BoxGeometry& box = scene.box;
+  const std::string at = "/geometry/";
+  read_keys(reader, at, box);
+  box.layers = read_layers(reader, scene);
+  const bool has_layers = reader.has(at + "layers");
+  if (reader.has(at + "material") == has_layers && reader.sound(at + "material")) {
+    reader.problem(has_layers ? at + "material" : "/geometry",
+                   has_layers ? "material and layers are both given" : "the box has no material",
+                   has_layers ? "remove one of the two" : "add \"material\" or \"layers\"");
+  }
+  reader.require_known(at + "material", box.material, "material", material_names(scene));
+  read_boundary(reader, box);
+  read_regions(reader, box);
+}
+
+}  // namespace
+
+void read_geometry(SceneReader& reader, Scene& scene) {
+  const std::string kind = reader.text("/geometry/kind");
+  scene.geometry_kind = kind == "box" ? GeometryKind::box : GeometryKind::field;
+  if (kind == "field") read_field(reader, scene);
+  if (kind == "box") read_box(reader, scene);
+}
+
+}  // namespace faultsim

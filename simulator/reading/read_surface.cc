@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "simulator/reading/read_keys.h"
+#include "simulator/reading/read_scene.h"
+#include "simulator/reading/scene_reader.h"
+
+/// What a surface of operators may be over, and where: moduli, Poisson ratios, dips of a field's
+/// faults, and offsets within an interval in which the mesh keeps its topology.
+namespace faultsim {
+namespace {
+
+using nlohmann::json;
+using Kind = SurfaceParameter::Kind;
+
+/// Which parameter a pointer is; none where a surface cannot be over it.
+std::optional<SurfaceParameter> parameter_at(const std::string& pointer, const Scene& scene) {
+  const std::size_t slash = pointer.rfind('/');
+  const std::string object = pointer.substr(0, slash), key = pointer.substr(slash + 1);
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    if (object != "/materials/" + pointer_token(scene.materials[i].name)) continue;
+    if (key == "youngs_modulus") return SurfaceParameter{Kind::youngs_modulus, static_cast<int>(i)};
+    if (key == "poisson_ratio") return SurfaceParameter{Kind::poisson_ratio, static_cast<int>(i)};
+  }
+  if (scene.geometry_kind != GeometryKind::field) return std::nullopt;
+  for (std::size_t i = 0; key == "dip_from_vertical" && i < scene.faults.size(); ++i) {
+    if (object == element("/faults", i)) return SurfaceParameter{Kind::dip, static_cast<int>(i)};
+  }
+  for (std::size_t i = 0; key == "offset" && i < scene.field.blocks.size(); ++i) {
+    if (object == element("/geometry/blocks", i))
+      return SurfaceParameter{Kind::offset, static_cast<int>(i)};
+  }
+  return std::nullopt;
+}
+
+Dimension dimension_of(Kind kind) {
+  switch (kind) {
+    case Kind::youngs_modulus:
+      return Dimension::pressure;
+    case Kind::poisson_ratio:
+      return Dimension::number;
+    case Kind::dip:
+      return Dimension::angle;
+    case Kind::offset:
+      return Dimension::length;
+  }
+  throw_internal("a kind of parameter", "", __FILE__, __LINE__);
+}
+
+double end_at(SceneReader& reader, const std::string& pointer, Kind kind) {
+  const json* value = reader.find(pointer);
+  if (value == nullptr || !reader.sound(pointer)) return kNaN;
+  const Dimension dimension = dimension_of(kind);
+  if (value->is_number() && dimension == Dimension::number) return value->get<double>();
+  const std::string text = value->is_string() ? value->get<std::string>() : value->dump();
+  const ParsedQuantity parsed = parse_quantity(text, dimension);
+  if (!parsed.ok) reader.problem(pointer, parsed.what, parsed.cure);
+  return parsed.value;
+}
+
+/// Where the operator is analytic and the mesh keeps its topology.
+void check_range(SceneReader& reader, const std::string& at, const SurfaceParameter& one,
+                 const Scene& scene) {
+  constexpr double kMostPoisson = 0.45, kMostDip = 45 * kDegree;
+  if (one.from >= one.to)
+    reader.problem(at + "/to", "the range is empty", "write a \"to\" above \"from\"");
+  if (one.kind == Kind::youngs_modulus && one.from <= 0)
+    reader.problem(at + "/from", "a Young's modulus is above 0", "write a positive one");
+  if (one.kind == Kind::poisson_ratio && (one.from < 0 || one.to > kMostPoisson)) {
+    reader.problem(at, "a surface in Poisson's ratio is for 0 to 0.45: towards 0.5 it has a pole",
+                   "narrow the range");
+  }
+  if (one.kind == Kind::dip && (one.from < -kMostDip || one.to > kMostDip))
+    reader.problem(at, "a dip of a field is within 45 deg of vertical", "narrow the range");
+  if (one.kind == Kind::offset) {
+    const Block& block = scene.field.blocks[static_cast<std::size_t>(one.index)];
+    if (!block.mesh_offset) {
+      reader.problem(at, "the block has no mesh_offset: cells of two offsets do not correspond",
+                     "add \"mesh_offset\", for example the middle of the range, to the block");
+    }
+    if (one.from <= 0 && one.to >= 0) {
+      reader.problem(at, "the range holds 0 m, where the fault's two sides meet at other cells",
+                     "keep to one side of 0 m; offset 0 is an operator of its own");
+    }
+  }
+  const double value = value_of(one, scene);
+  constexpr double kRoundingOfEnds = 1e-12;  // relative: ends are written with 15 digits
+  const double slack = kRoundingOfEnds * std::max(std::abs(one.from), std::abs(one.to));
+  if (value < one.from - slack || value > one.to + slack) {
+    reader.problem(at, "the scene's own value lies outside of this range",
+                   "widen the range, or change the value");
+  }
+}
+
+}  // namespace
+
+void read_surface(SceneReader& reader, Scene& scene) {
+  const std::string root = "/numerics/surface";
+  if (!reader.has(root) || !reader.sound(root)) return;
+  SurfaceRequest& surface = scene.numerics.surface;
+  read_keys(reader, root + "/", surface);
+  for (std::size_t i = 0; i < reader.size(root + "/over"); ++i) {
+    const std::string at = element(root + "/over", i);
+    std::string pointer = reader.text(at + "/parameter");
+    const auto aliases = parameter_aliases(reader.document());
+    if (const auto found = aliases.find(pointer); found != aliases.end()) pointer = found->second;
+    std::optional<SurfaceParameter> one = parameter_at(pointer, scene);
+    if (!one) {
+      reader.problem(at + "/parameter",
+                     "no surface can be over " + reader.as_given(at + "/parameter"),
+                     "name Young's modulus or Poisson's ratio of a material, the dip of a field's "
+                     "fault, or the offset of a block");
+      continue;
+    }
+    one->from = end_at(reader, at + "/from", one->kind);
+    one->to = end_at(reader, at + "/to", one->kind);
+    const bool twice = std::any_of(
+        surface.over.begin(), surface.over.end(),
+        [&](const auto& other) { return other.kind == one->kind && other.index == one->index; });
+    if (twice) reader.problem(at, "the parameter is there twice", "remove one");
+    if (std::isfinite(one->from) && std::isfinite(one->to)) check_range(reader, at, *one, scene);
+    surface.over.push_back(*one);
+  }
+}
+
+}  // namespace faultsim

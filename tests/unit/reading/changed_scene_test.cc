@@ -1,0 +1,113 @@
+#include "simulator/reading/changed_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace faultsim {
+namespace {
+
+nlohmann::json parsed(const char* text) { return nlohmann::json::parse(text); }
+
+class ChangedSceneTest : public testing::TestWithParam<Relations> {
+ protected:
+  ChangedSceneTest() { changed_.document = base_; }
+  /// Changes the scene at hand, and holds it against the whole document read anew.
+  void change(const std::vector<PlacedValue>& values) {
+    std::vector<Problem> problems;
+    ASSERT_TRUE(change_scene(base_, values, GetParam(), changed_, problems).empty());
+    JsonDocument document = base_;
+    for (const PlacedValue& one : values)
+      ASSERT_TRUE(put_value(document.value, one.pointer, one.value));
+    std::vector<Problem> expected;
+    const Scene scene = read_scene(document, expected);
+    if (GetParam() == Relations::trusted && problems.empty() && !expected.empty()) return;
+    ASSERT_EQ(problems.size(), expected.size()) << format_problems("", problems);
+    for (std::size_t i = 0; i < problems.size(); ++i) EXPECT_EQ(problems[i].what, expected[i].what);
+    EXPECT_EQ(changed_.is_of_base, expected.empty());
+    if (expected.empty()) {
+      EXPECT_EQ(changed_.document.value, document.value);
+      EXPECT_EQ(changed_.canonical.text(), canonical_scene(scene));
+    }
+  }
+
+  JsonDocument base_ = parse_json(starter_scene("field"), "field");
+  ChangedScene changed_;
+};
+
+TEST_P(ChangedSceneTest, IsWhatTheWholeDocumentSays) {
+  const std::string offset = "/geometry/blocks/1/offset", angle = "/friction/friction_angle";
+  change({});
+  change({{offset, "80 m"}, {angle, "25 deg"}});
+  change({{offset, "80 m"}, {angle, "27 deg"}});
+  change({{offset, "-40 m"}, {angle, "27 deg"}});
+  change({{angle, "27 deg"}});
+  change({{angle, "27 deg"}, {"/materials/salt/youngs_modulus", "31 GPa"}});
+  change({{"/fault_pressure", parsed(R"({"rule": "max"})")}});
+  change({{"/fault_pressure", parsed(R"({"rule": "min"})")}});
+  change({{"/fault_pressure", parsed(R"({"rule": "prescribed", "prescribed": "-9 bar"})")}});
+  change({{"/tier", "screening"}});
+  change({});
+}
+
+TEST_P(ChangedSceneTest, LaterValuesWinWherePlacesMeet) {
+  const std::string angle = "/friction/friction_angle";
+  change({{angle, "25 deg"}, {angle, "30 deg"}});
+  change({{angle, "20 deg"}, {angle, "30 deg"}});
+  change(
+      {{"/friction", parsed(R"({"friction_angle": "22 deg"})")}, {"/friction/cohesion", "1 MPa"}});
+  change(
+      {{"/friction", parsed(R"({"friction_angle": "23 deg"})")}, {"/friction/cohesion", "1 MPa"}});
+}
+
+TEST_P(ChangedSceneTest, WordsInPlaceOfWordsAreRead) {
+  for (const char* rule : {"mean", "max", "min", "max"}) change({{"/fault_pressure/rule", rule}});
+}
+
+TEST_P(ChangedSceneTest, AWrongValueIsSaidAndForgotten) {
+  const std::string angle = "/friction/friction_angle";
+  change({{angle, "25 deg"}});
+  change({{angle, "25 m"}});
+  change({{angle, "26 deg"}});
+  change({{angle, "260 deg"}});
+  change({{angle, 25}});
+  change({{angle, "25 deg"}});
+}
+
+/// Pressures that are not given as changes are held against the initial ones.
+TEST_P(ChangedSceneTest, TheInitialPressureMovesHistoriesOfAbsolutePressure) {
+  auto& stage = base_.value["stages"][0];
+  stage.erase("pressure_change");
+  stage["pressure"] = "150 bar";
+  changed_.document = base_;
+  change({{"/initial_state/ratio_across", 0.7}});
+  change({{"/initial_state/water_density", "1200 kg/m3"}});
+  change({{"/initial_state/water_density", "1100 kg/m3"}});
+  change({{"/geometry/blocks/1/offset", "60 m"}});
+}
+
+TEST_P(ChangedSceneTest, ABoxHasItsPatchesAgain) {
+  base_ = parse_json(starter_scene("box"), "box");
+  changed_.document = base_;
+  change({{"/faults/0/length", "900 m"}});
+  change({{"/faults/0/length", "800 m"}});
+  change({{"/geometry/from", parsed(R"(["-2000 m", "-2000 m", "-4000 m"])")}});
+}
+
+TEST(ChangedScene, SaysWhatHasNoPlace) {
+  const JsonDocument base = parse_json(starter_scene("field"), "field");
+  ChangedScene changed;
+  changed.document = base;
+  std::vector<Problem> problems;
+  EXPECT_EQ(change_scene(base, {{"/faults/99/name", "x"}}, Relations::checked, changed, problems),
+            std::vector<std::string>{"/faults/99/name"});
+  EXPECT_FALSE(changed.is_of_base);
+  EXPECT_TRUE(change_scene(base, {}, Relations::checked, changed, problems).empty());
+  EXPECT_TRUE(changed.is_of_base);
+}
+
+INSTANTIATE_TEST_SUITE_P(Relations, ChangedSceneTest,
+                         testing::Values(Relations::checked, Relations::trusted));
+
+}  // namespace
+}  // namespace faultsim

@@ -1,0 +1,219 @@
+// The result of a flow simulator in a scene: which reports are taken, what becomes of dates, and
+// what it cannot stand beside.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "simulator/initial_state/load_times.h"
+#include "simulator/reading/csv_tables.h"
+#include "simulator/reading/read_scene.h"
+#include "tests/unit/scene/rotliegend.h"
+
+namespace faultsim {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+using Changes = std::vector<std::pair<std::string, std::string>>;
+
+constexpr double kDay = 86400;
+const std::string kCells = "x [m], y [m], depth [m], dx [m], dy [m], dz [m]";
+
+class FlowLoads : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = testing::TempDir() + "flow_load_XXXXXX";
+    folder_ = mkdtemp(name.data());
+    document_ = rotliegend();
+    document_.source = (folder_ / "scene.json").string();
+    document_.value["stages"] = {
+        {{"name", "production"}, {"until", "1994-01-01"}, {"steps", 1}},
+    };
+    document_.value.erase("compartments");
+    document_.value["pressure_field"] = {{"file", "p.csv"}};
+    write("p.csv", kCells +
+                       ", 1990-01-01 [bar], 1991-01-01 [bar], 1992-01-01 [bar], 1993-01-01 [bar], "
+                       "1994-01-01 [bar]\n"
+                       "0, 0, 3000, 9000, 9000, 900, 350, 300, 250, 240, 260\n");
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  Scene scene(const Changes& changes = {}) const {
+    JsonDocument document = document_;
+    for (const auto& [pointer, text] : changes) set_value(document, pointer, text);
+    return read_scene(document);
+  }
+  std::string refusal(const Changes& changes = {}) const {
+    try {
+      scene(changes);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  std::filesystem::path folder_;
+  JsonDocument document_;
+};
+
+TEST_F(FlowLoads, MakeLoadStepsOfTheReportsThatAreNotOnALine) {
+  const Scene read = scene();
+  EXPECT_THAT(read.pressure_field.reports, ElementsAre(0, 2, 3, 4));
+  EXPECT_THAT(read.pressure_field.time, ElementsAre(0, 730 * kDay, 1096 * kDay, 1461 * kDay));
+  EXPECT_EQ(read.stages[0].duration, 1461 * kDay);
+  std::vector<double> ends;
+  for (const StepEnd& step : step_ends(read)) ends.push_back(step.time);
+  EXPECT_THAT(ends, ElementsAre(730 * kDay, 1096 * kDay, 1461 * kDay));
+  EXPECT_THAT(scene({{"/pressure_field/tolerance", "30 bar"}}).pressure_field.reports,
+              ElementsAre(0, 3, 4));
+  for (const PressureHistory& history : read.pressure) EXPECT_TRUE(history.time.empty());
+}
+
+TEST_F(FlowLoads, CountFromTheirReferenceOrTheStartOfTheScene) {
+  const Scene late = scene({{"/pressure_field/reference", "1992-01-01"}});
+  EXPECT_THAT(late.pressure_field.reports, ElementsAre(2, 3, 4));
+  EXPECT_EQ(late.pressure_field.time[0], 0);
+  EXPECT_EQ(late.stages[0].duration, 731 * kDay);
+  const Scene early = scene({{"/start_date", "1989-01-01"}});
+  EXPECT_EQ(early.pressure_field.time[0], 365 * kDay);
+  EXPECT_EQ(early.stages[0].duration, (365 + 1461) * kDay);
+  EXPECT_THAT(
+      refusal({{"/start_date", "1990-06-01"}}),
+      AllOf(
+          HasSubstr("/start_date: time 0, 1990-06-01, lies after the reference of pressure_field"),
+          HasSubstr("1990-01-01")));
+  EXPECT_THAT(refusal({{"/pressure_field/reference", "1990-06-01"}}),
+              AllOf(HasSubstr("is the day of no report"), HasSubstr("1990-01-01, 1991-01-01")));
+}
+
+TEST_F(FlowLoads, EndWithTheStagesOrTheSceneSaysWhatIsMeant) {
+  const Changes too_long = {{"/stages/0/until", "1996-01-01"}};
+  EXPECT_THAT(refusal(too_long), AllOf(HasSubstr("its reports end at"), HasSubstr("1994-01-01")));
+  Changes held = too_long;
+  held.emplace_back("/pressure_field/end", "hold");
+  EXPECT_THAT(scene(held).pressure_field.reports, ElementsAre(0, 2, 3, 4));
+  const Changes too_short = {{"/stages/0/until", "1992-06-01"}};
+  EXPECT_THAT(refusal(too_short), HasSubstr("its reports go on to"));
+  Changes cut = too_short;
+  cut.emplace_back("/pressure_field/end", "cut");
+  EXPECT_THAT(scene(cut).pressure_field.reports, ElementsAre(0, 2, 3));
+}
+
+TEST_F(FlowLoads, StandBesideNoOtherPressures) {
+  EXPECT_THAT(refusal({{"/stages/0/pressure_change", "-20 bar"}}),
+              HasSubstr("/stages/0/pressure_change: the pressures are those of /pressure_field"));
+  EXPECT_THAT(refusal({{"/compartments/west/scale", "0.5"}}), HasSubstr("/compartments/west"));
+  EXPECT_THAT(refusal({{"/pressure_csv", "q.csv"}}), HasSubstr("/pressure_csv: the pressures are"));
+}
+
+TEST_F(FlowLoads, AreRefusedWithTheLineOfTheirFile) {
+  write("p.csv", kCells + ", 1990-01-01 [bar]\n0, 0, 3000, 9, 9, 9, nan\n0, 0, 300, 9, 9, 9, -5\n");
+  EXPECT_THAT(
+      refusal(),
+      AllOf(HasSubstr("p.csv line 2: \"nan\" in column 7 \"1990-01-01\" is not a number"),
+            HasSubstr("p.csv line 3: \"-5\" in column 7 \"1990-01-01 [bar]\" is not within 0 to")));
+  EXPECT_THAT(refusal({{"/pressure_field/file", "none.csv"}}), HasSubstr("none.csv"));
+}
+
+TEST_F(FlowLoads, AreDoubtedWhereTheUnitLooksWrong) {
+  write("p.csv",
+        kCells + ", 1990-01-01 [bar], 1994-01-01 [bar]\n0, 0, 3000, 9, 9, 9, 5000, 4000\n");
+  const Scene read = scene();
+  ASSERT_FALSE(read.remarks.empty());
+  EXPECT_THAT(remark_text(read.remarks[0]), HasSubstr("psi read as bar"));
+}
+
+TEST_F(FlowLoads, AreTakenAtASectionInPlaneStrain) {
+  const Scene plain = scene({{"/numerics/plane_strain", "on"}});
+  EXPECT_EQ(plain.pressure_field.y, 0);
+  const Scene north = scene({{"/numerics/plane_strain", "on"}, {"/pressure_field/y", "1 km"}});
+  EXPECT_EQ(north.pressure_field.y, 1000);
+  EXPECT_NE(case_identity(north), case_identity(plain));
+  const Scene idle = scene({{"/pressure_field/y", "1 km"}});
+  EXPECT_EQ(idle.pressure_field.y, 0);
+  ASSERT_FALSE(idle.remarks.empty());
+  EXPECT_EQ(remark_text(idle.remarks[0]),
+            "/pressure_field/y has no effect: it is the section of plane strain");
+}
+
+TEST_F(FlowLoads, OfTemperatureAreIdleInRockThatDoesNotExpand) {
+  document_.value.erase("pressure_field");
+  document_.value["temperature_field"] = {{"file", "t.csv"}};
+  write("t.csv", kCells + ", 1990-01-01 [degC], 1994-01-01 [degC]\n0, 0, 3000, 9, 9, 9, 90, 60\n");
+  const auto said = [&](const Changes& changes) {
+    std::string all;
+    for (const Remark& one : scene(changes).remarks) all += remark_text(one) + "\n";
+    return all;
+  };
+  const std::string idle =
+      "/temperature_field has no effect: the thermal_expansion of reservoir is 0";
+  EXPECT_THAT(said({}), HasSubstr(idle));
+  EXPECT_THAT(said({{"/materials/reservoir/thermal_expansion", "1e-5 1/K"}}),
+              testing::Not(HasSubstr(idle)));
+}
+
+TEST_F(FlowLoads, LieWhereNumbersSayThatCampaignsMayVary) {
+  document_.value["pressure_field"]["origin"] = {"0 m", "0 m"};
+  const std::vector<ParameterInfo> all = parameters(document_);
+  for (const char* key : {"origin/0", "origin/1", "azimuth", "y"}) {
+    const std::string pointer = std::string("/pressure_field/") + key;
+    const auto one = std::find_if(all.begin(), all.end(),
+                                  [&](const auto& row) { return row.pointer == pointer; });
+    ASSERT_NE(one, all.end()) << pointer;
+    EXPECT_FALSE(one->is_text) << pointer;
+    EXPECT_FALSE(one->new_family) << pointer;
+  }
+}
+
+TEST_F(FlowLoads, AreToldByTheirContent) {
+  const Scene one = scene();
+  std::filesystem::copy_file(folder_ / "p.csv", folder_ / "q.csv");
+  EXPECT_EQ(case_identity(scene({{"/pressure_field/file", "q.csv"}})), case_identity(one));
+  EXPECT_NE(case_identity(scene({{"/pressure_field/outside", "unchanged"}})), case_identity(one));
+  EXPECT_NE(case_identity(scene({{"/pressure_field/tolerance", "30 bar"}})), case_identity(one));
+  write("q.csv", kCells + ", 1990-01-01 [bar], 1994-01-01 [bar]\n0, 0, 3000, 9, 9, 9, 300, 200\n");
+  EXPECT_NE(case_identity(scene({{"/pressure_field/file", "q.csv"}})), case_identity(one));
+}
+
+TEST_F(FlowLoads, TravelAsPlaceAndFingerprint) {
+  embed_tables(document_);
+  const auto& place = document_.value["fields"]["p.csv"];
+  EXPECT_EQ(place["path"], (folder_ / "p.csv").string());
+  document_.source = "/elsewhere/scene.json";
+  EXPECT_EQ(refusal(), "accepted");
+  write("p.csv", kCells + ", 1990-01-01 [bar], 1994-01-01 [bar]\n0, 0, 3000, 9, 9, 9, 300, 200\n");
+  EXPECT_THAT(refusal(), HasSubstr("the file has changed"));
+}
+
+TEST_F(FlowLoads, AreRefusedInAFolderThatNoMessageCanShow) {
+  std::filesystem::create_directory(folder_ / "two\nlines");
+  document_.source = (folder_ / "two\nlines" / "scene.json").string();
+  std::filesystem::copy_file(folder_ / "p.csv", folder_ / "two\nlines" / "p.csv");
+  embed_tables(document_);
+  EXPECT_FALSE(document_.value.contains("fields"));
+  EXPECT_THAT(refusal(),
+              AllOf(HasSubstr("/pressure_field/file: the file lies in a folder whose name holds "
+                              "\"\\u000a\""),
+                    HasSubstr("; rename the folder")));
+}
+
+TEST_F(FlowLoads, AreWhereStagesMayEndAtDates) {
+  document_.value.erase("pressure_field");
+  EXPECT_THAT(refusal(), HasSubstr("nothing says which date time 0 is"));
+  EXPECT_EQ(scene({{"/start_date", "1993-01-01"}}).stages[0].duration, 365 * kDay);
+  EXPECT_THAT(refusal({{"/start_date", "1995-01-01"}}), HasSubstr("and ends before"));
+  EXPECT_THAT(refusal({{"/start_date", "1993-01-01"}, {"/stages/0/duration", "1 year"}}),
+              HasSubstr("the stage has a duration too"));
+}
+
+}  // namespace
+}  // namespace faultsim
