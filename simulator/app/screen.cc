@@ -210,12 +210,33 @@ std::string episodes_text(const CaseResult& result) {
   return text;
 }
 
-/// What slides, what comes unexpectedly, and what depends on the mesh (docs/words.md).
+/// Which fault is the first to do something, when and beside which pressures: "OPENS: fault F2 from
+/// load step 7 (gas_storage), west …".
+std::string onset_text(const CaseResult& result, const char* what, const std::string& fault,
+                       const FaultOnset& onset) {
+  std::string stage;
+  for (const StepResult& step : result.steps) {
+    if (step.step == onset.step) stage = step.stage;
+  }
+  return format("%s: fault %s from load step %d (%s), %s", what, fault.c_str(), onset.step,
+                stage.c_str(), pressures_text(onset.pressures, onset.depth).c_str());
+}
+
+/// What slides and opens, what comes unexpectedly, and what depends on the mesh (docs/words.md).
 std::string whole_text(const CaseResult& result) {
-  std::string text =
-      sliding_sentence(result) + (result.whole.activated ? " (* in the table)\n" : "\n");
+  const StageMetrics& whole = result.whole;
+  std::string text = sliding_sentence(result) + (whole.activated ? " (* in the table)\n" : "\n");
+  if (const FaultOnset* onset = first_activation(whole)) {
+    text += onset_text(result, "first to slide", whole.activated_fault, *onset) + "\n";
+  } else if (whole.slips) {
+    text += "Nodes slip, over less than the activation length.\n";
+  }
+  if (const FaultOnset* onset = first_opening(whole)) {
+    text += onset_text(result, "OPENS", whole.opened_fault, *onset) +
+            format(", up to %.4g %s\n", whole.open_area, area_unit(result));
+  }
   std::vector<std::string> more = unresolved_sentences(result);
-  if (!result.whole.activation_resolved) more.back() += " (? in the table)";
+  if (!whole.activation_resolved) more.back() += " (? in the table)";
   if (const std::string again = unexpected_sentence(result); !again.empty()) more.push_back(again);
   for (const std::string& sentence : more) text += sentence + "\n";
   return text;
