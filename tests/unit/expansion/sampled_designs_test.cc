@@ -463,8 +463,9 @@ TEST(SampledDesigns, HundredThousandSamplesExpandInSeconds) {
   RecordProperty("seconds", std::to_string(seconds));
   EXPECT_EQ(all.cases.size(), 100000u);
   EXPECT_EQ(all.families.size(), 1u);
-  // Alone on a machine it is below 2 s; here only a guard against reading every scene.
-  EXPECT_LT(seconds, 20.0);
+  // Alone on a machine it is about 2 s; here, under the sanitizers and beside other tests too, only
+  // a guard against reading every scene.
+  EXPECT_LT(seconds, 100.0);
   expect_true_identities(all, 9973);
 }
 
