@@ -66,9 +66,9 @@ struct Expansion {
 /// Up to 2000 rows of a group are checked one by one and 200 families are planned. Beyond that rows
 /// are read without what relates their values (row_reader.h), families are told by their
 /// fingerprints, and plans are made of 200 more families, spread over the design. Checked are each
-/// value, of a parameter with more than 64 the extremes and a spread; of a grid every combination of
-/// extremes; and the mesh of each family that is planned. A case that is wrong in a way that none of
-/// these shows is found when it runs, and is then a failed case with its reason.
+/// value, of a parameter with more than 64 the extremes and a spread; of a grid every combination
+/// of extremes; and the mesh of each family that is planned. A case that is wrong in a way that
+/// none of these shows is found when it runs, and is then a failed case with its reason.
 ///
 /// @param most_planned  plans to make. Families beyond are counted by their parameters and have no
 ///                      fingerprint of use: for a look at a campaign, not for a store.

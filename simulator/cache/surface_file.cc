@@ -69,8 +69,8 @@ Eigen::MatrixXd matrix_of(const std::vector<double>& values, Eigen::Index rows, 
 
 void take_tables(const SurfaceTables& t, StoredSurface& surface, OperatorBasis& basis) {
   const FaultOperator& centre = *basis.centre;
-  if (t.fingerprint.size() != 1 || t.sizes.size() != 4 || t.accuracy.size() < 5 ||
-      t.sizes[0] < 1 || t.sizes[1] < 1 || t.sizes[2] < 0 ||
+  if (t.fingerprint.size() != 1 || t.sizes.size() != 4 || t.accuracy.size() < 5 || t.sizes[0] < 1 ||
+      t.sizes[1] < 1 || t.sizes[2] < 0 ||
       t.nodes.size() != static_cast<std::size_t>(t.sizes[0]) * static_cast<std::size_t>(t.sizes[1]))
     throw StorageError("the tables of the surface do not fit together");
   const Eigen::Index m = t.sizes[0] - 1, k = t.sizes[2];

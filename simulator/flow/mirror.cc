@@ -8,7 +8,8 @@
 namespace faultsim {
 namespace {
 
-using CornerKey = std::vector<long>;  // of the corners, mm, in an order that does not depend on theirs
+using CornerKey =
+    std::vector<long>;  // of the corners, mm, in an order that does not depend on theirs
 
 CornerKey corner_key(const FlowCell& cell, double y_sign) {
   std::vector<std::array<long, 3>> corners;

@@ -1,4 +1,5 @@
-// What reading and planning a scene costs: milliseconds of the fastest of many times. Arguments: SCENES.
+// What reading and planning a scene costs: milliseconds of the fastest of many times. Arguments:
+// SCENES.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

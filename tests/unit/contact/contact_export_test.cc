@@ -239,10 +239,11 @@ TEST(FrozenLaws, RefuseCohesionThatIsAtWork) {
   const FaultOperator op = spring_slider(1, 2);
   const ContactLaws laws = same_law(op, {WeakeningLaw::angle, 1e6, 0.5, 0.5, 1});
   ContactState start = initial_state(op);
-  EXPECT_THAT(refusal(op, laws, start),
-              HasSubstr("cohesion is at work in the step at 1 of 1 nodes (first: fault 'main' at "
-                        "x = 0 m, y = 0 m, depth = 2000 m), and a friction cone has no cohesion; set the "
-                        "cohesion to 0"));
+  EXPECT_THAT(
+      refusal(op, laws, start),
+      HasSubstr("cohesion is at work in the step at 1 of 1 nodes (first: fault 'main' at "
+                "x = 0 m, y = 0 m, depth = 2000 m), and a friction cone has no cohesion; set the "
+                "cohesion to 0"));
   start.cohesion_lost[0] = 1;  // gone
   EXPECT_EQ(refusal(op, laws, start), "accepted");
   EXPECT_EQ(frozen_laws(op, laws, start, Weakening::refuse)[0].cohesion, 0);

@@ -21,8 +21,8 @@ using testing::made_up_result;
 /// Numbers that need all their bits.
 CaseResult approximate() {
   CaseResult result = made_up_result(0.8);
-  result.surface =
-      faultsim::CaseSurface{75, 70, 12, 1e-3 / 3, 1.2e-4 / 7, 3e-5 / 7, 2e-6 / 7, 6e-4 / 7, 9e-4 / 7};
+  result.surface = faultsim::CaseSurface{75,       70,       12,       1e-3 / 3, 1.2e-4 / 7,
+                                         3e-5 / 7, 2e-6 / 7, 6e-4 / 7, 9e-4 / 7};
   result.field_coverage = 0.26 / 3;
   return result;
 }
@@ -117,9 +117,9 @@ TEST_F(Approximation, IsSealedWithItsResultAndBackedUp) {
   Store::open_reader(folder_).backup_to(folder_ / "copy" / "campaign.sqlite");
   EXPECT_EQ(Store::open_reader(folder_ / "copy").stored_result(1)->surface, approximate().surface);
   const auto differs = ElementsAre("the result of case identity-0 differs from its checksum");
-  for (const char* column : {"operators", "basis", "checks", "tolerance", "error_of_stiffness",
-                             "error_of_traction", "error_of_observation", "error_of_slip",
-                             "error_of_stability"}) {
+  for (const char* column :
+       {"operators", "basis", "checks", "tolerance", "error_of_stiffness", "error_of_traction",
+        "error_of_observation", "error_of_slip", "error_of_stability"}) {
     change(concat("UPDATE case_surfaces SET ", column, " = ", column, " + 1"));
     EXPECT_THAT(problems(), differs) << column;
     for (const char* end : {"", "-wal", "-shm"}) {
