@@ -15,50 +15,28 @@ class Checker {
 
   void check(Node& node) {
     for (auto& child : node.children) check(*child);
-    switch (node.operation) {
-      case Operation::literal:
+    switch (info(node.operation).rule) {
+      case Rule::literal:
         return;
-      case Operation::name:
+      case Rule::name:
         node.type = name_types_[node.name];
         return;
-      case Operation::negate:
-      case Operation::absolute:
-        require_number(*node.children[0]);
-        node.type = node.children[0]->type;
-        return;
-      case Operation::add:
-      case Operation::subtract:
-      case Operation::minimum:
-      case Operation::maximum:
-        check_same(node);
-        return;
-      case Operation::multiply:
-        check_product(node, 1);
-        return;
-      case Operation::divide:
-        check_product(node, -1);
-        return;
-      case Operation::power:
-        check_power(node);
-        return;
-      case Operation::square_root:
-        check_square_root(node);
-        return;
-      case Operation::log10:
-      case Operation::exponential:
-        check_argument(node, Dimension::number);
-        return;
-      case Operation::tangent:
-        check_argument(node, Dimension::angle);
-        return;
-      case Operation::logical_and:
-      case Operation::logical_or:
-      case Operation::logical_not:
-        check_logical(node);
-        return;
-      default:
-        check_comparison(node);
-        return;
+      case Rule::same:
+        return check_same(node);
+      case Rule::product:
+        return check_product(node, node.operation == Operation::multiply ? 1 : -1);
+      case Rule::power:
+        return check_power(node);
+      case Rule::root:
+        return check_square_root(node);
+      case Rule::number:
+        return check_argument(node, Dimension::number);
+      case Rule::angle:
+        return check_argument(node, Dimension::angle);
+      case Rule::logical:
+        return check_logical(node);
+      case Rule::comparison:
+        return check_comparison(node);
     }
   }
 

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include "campaign/expression/node.h"
@@ -18,49 +17,16 @@ Value number(double value) {
 
 bool is_missing(const Value& value) { return std::holds_alternative<std::monostate>(value); }
 
-double arithmetic(Operation operation, double a, double b) {
-  switch (operation) {
-    case Operation::negate:
-      return -a;
-    case Operation::add:
-      return a + b;
-    case Operation::subtract:
-      return a - b;
-    case Operation::multiply:
-      return a * b;
-    case Operation::divide:
-      return a / b;
-    case Operation::power:
-      return std::pow(a, b);
-    case Operation::minimum:
-      return std::min(a, b);
-    case Operation::maximum:
-      return std::max(a, b);
-    case Operation::absolute:
-      return std::abs(a);
-    case Operation::square_root:
-      return std::sqrt(a);
-    case Operation::log10:
-      return std::log10(a);
-    case Operation::exponential:
-      return std::exp(a);
-    case Operation::tangent:
-      return std::tan(a);
-    default:
-      FAULTSIM_DEMAND(false, "operation ", static_cast<int>(operation));
-  }
-  return 0;
-}
-
 Value evaluate_arithmetic(const Node& node, const Lookup& lookup) {
   const Value first = evaluate_node(*node.children[0], lookup);
   if (is_missing(first)) return first;
   double result = std::get<double>(first);
-  if (node.children.size() == 1) return number(arithmetic(node.operation, result, 0));
+  const auto arithmetic = info(node.operation).arithmetic;
+  if (node.children.size() == 1) return number(arithmetic(result, 0));
   for (std::size_t i = 1; i < node.children.size(); ++i) {
     const Value next = evaluate_node(*node.children[i], lookup);
     if (is_missing(next)) return next;
-    result = arithmetic(node.operation, result, std::get<double>(next));
+    result = arithmetic(result, std::get<double>(next));
   }
   return number(result);
 }
@@ -100,24 +66,17 @@ Value evaluate_logical(const Node& node, const Lookup& lookup) {
 }
 
 Value evaluate_node(const Node& node, const Lookup& lookup) {
-  switch (node.operation) {
-    case Operation::literal:
+  switch (info(node.operation).rule) {
+    case Rule::literal:
       return node.literal;
-    case Operation::name: {
+    case Rule::name: {
       Value value = lookup(node.name);
       if (const auto* real = std::get_if<double>(&value)) return number(*real);
       return value;
     }
-    case Operation::less:
-    case Operation::less_equal:
-    case Operation::greater:
-    case Operation::greater_equal:
-    case Operation::equal:
-    case Operation::not_equal:
+    case Rule::comparison:
       return evaluate_comparison(node, lookup);
-    case Operation::logical_and:
-    case Operation::logical_or:
-    case Operation::logical_not:
+    case Rule::logical:
       return evaluate_logical(node, lookup);
     default:
       return evaluate_arithmetic(node, lookup);

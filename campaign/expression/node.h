@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "campaign/expression/expression.h"
@@ -36,6 +37,33 @@ enum class Operation {
   exponential,
   tangent,
 };
+
+/// What an operation takes and gives.
+enum class Rule {
+  literal,
+  name,
+  same,        ///< numbers of one dimension, which it gives too.
+  product,     ///< numbers; multiply and divide.
+  power,       ///< a number, and a plain one.
+  root,        ///< a number of even powers of its units.
+  number,      ///< a plain number, which it gives too.
+  angle,       ///< an angle; gives a plain number.
+  comparison,  ///< two things of one kind; gives a condition.
+  logical,     ///< conditions.
+};
+
+struct OperationInfo {
+  Rule rule;
+  std::string_view function = "";  ///< its name where text writes it as one.
+  /// In SQL, before the operands and between them; ")" stands behind them.
+  const char *before = nullptr, *between = nullptr;
+  /// Of numbers; of one operand the other counts for nothing. @pre rule is one of numbers.
+  double (*arithmetic)(double, double) = nullptr;
+};
+const OperationInfo& info(Operation operation);
+std::optional<Operation> function_named(std::string_view name);
+/// Their names.
+std::vector<std::string> functions();
 
 struct Node {
   Operation operation = Operation::literal;

@@ -14,16 +14,6 @@ using faultsim::Dimension;
 constexpr std::size_t kMaximumLength = 10'000;
 constexpr int kMaximumDepth = 200;
 
-const std::array<std::pair<const char*, Operation>, 7> kFunctions = {{
-    {"min", Operation::minimum},
-    {"max", Operation::maximum},
-    {"abs", Operation::absolute},
-    {"sqrt", Operation::square_root},
-    {"log10", Operation::log10},
-    {"exp", Operation::exponential},
-    {"tan", Operation::tangent},
-}};
-
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
@@ -136,20 +126,30 @@ class Parser {
     Parser& parser_;
   };
 
-  NodePointer parse_or() {
-    const Depth depth(*this);
-    auto left = parse_and();
-    for (std::size_t start = position_; accept_word("or"); start = position_) {
-      left = make(Operation::logical_or, start, std::move(left), parse_and());
+  using Operators = std::initializer_list<std::pair<std::string_view, Operation>>;
+  /// Takes the operator that stands here, the first that fits.
+  std::optional<Operation> accept_one(const Operators& operators) {
+    for (const auto& [symbol, operation] : operators) {
+      if (is_letter(symbol.front()) ? accept_word(symbol) : accept(symbol)) return operation;
+    }
+    return std::nullopt;
+  }
+  /// operand (operator operand)*, from left to right.
+  NodePointer parse_chain(NodePointer (Parser::*operand)(), const Operators& operators) {
+    auto left = (this->*operand)();
+    for (std::size_t start = position_; const auto operation = accept_one(operators);
+         start = position_) {
+      left = make(*operation, start, std::move(left), (this->*operand)());
     }
     return left;
   }
+
+  NodePointer parse_or() {
+    const Depth depth(*this);
+    return parse_chain(&Parser::parse_and, {{"or", Operation::logical_or}});
+  }
   NodePointer parse_and() {
-    auto left = parse_not();
-    for (std::size_t start = position_; accept_word("and"); start = position_) {
-      left = make(Operation::logical_and, start, std::move(left), parse_not());
-    }
-    return left;
+    return parse_chain(&Parser::parse_not, {{"and", Operation::logical_and}});
   }
   NodePointer parse_not() {
     const Depth depth(*this);
@@ -159,20 +159,14 @@ class Parser {
   }
 
   std::optional<Operation> accept_comparison() {
-    static const std::array<std::pair<const char*, Operation>, 8> symbols = {{
-        {"<=", Operation::less_equal},
-        {">=", Operation::greater_equal},
-        {"!=", Operation::not_equal},
-        {"<>", Operation::not_equal},
-        {"==", Operation::equal},
-        {"<", Operation::less},
-        {">", Operation::greater},
-        {"=", Operation::equal},
-    }};
-    for (const auto& [symbol, operation] : symbols) {
-      if (accept(symbol)) return operation;
-    }
-    return std::nullopt;
+    return accept_one({{"<=", Operation::less_equal},
+                       {">=", Operation::greater_equal},
+                       {"!=", Operation::not_equal},
+                       {"<>", Operation::not_equal},
+                       {"==", Operation::equal},
+                       {"<", Operation::less},
+                       {">", Operation::greater},
+                       {"=", Operation::equal}});
   }
   NodePointer parse_comparison() {
     auto left = parse_sum();
@@ -187,33 +181,11 @@ class Parser {
     return node;
   }
   NodePointer parse_sum() {
-    auto left = parse_product();
-    while (true) {
-      const std::size_t start = position_;
-      if (accept("+")) {
-        left = make(Operation::add, start, std::move(left), parse_product());
-      } else if (accept("-")) {
-        left = make(Operation::subtract, start, std::move(left), parse_product());
-      } else {
-        return left;
-      }
-    }
+    return parse_chain(&Parser::parse_product, {{"+", Operation::add}, {"-", Operation::subtract}});
   }
   NodePointer parse_product() {
-    auto left = parse_unary();
-    while (true) {
-      const std::size_t start = position_;
-      if (text_.compare(position_, 2, "**") == 0) {
-        fail(start, "\"**\" is unknown", "write ^ for a power");
-      }
-      if (accept("*")) {
-        left = make(Operation::multiply, start, std::move(left), parse_unary());
-      } else if (accept("/")) {
-        left = make(Operation::divide, start, std::move(left), parse_unary());
-      } else {
-        return left;
-      }
-    }
+    return parse_chain(&Parser::parse_unary,
+                       {{"*", Operation::multiply}, {"/", Operation::divide}});
   }
   NodePointer parse_unary() {
     const Depth depth(*this);
@@ -224,6 +196,9 @@ class Parser {
   NodePointer parse_power() {
     auto base = parse_primary();
     const std::size_t start = position_;
+    if (text_.compare(start, 2, "**") == 0) {
+      fail(start, "\"**\" is unknown", "write ^ for a power");
+    }
     if (!accept("^")) return base;
     return make(Operation::power, start, std::move(base), parse_unary());
   }
@@ -245,11 +220,14 @@ class Parser {
     const std::size_t start = position_;
     accept("(");
     auto inside = parse_or();
-    if (!accept(")")) {
-      if (!at_end()) fail_unexpected();
-      fail(start, "this \"(\" is not closed", "add \")\"");
-    }
+    close_parenthesis(start);
     return inside;
+  }
+
+  void close_parenthesis(std::size_t open) {
+    if (accept(")")) return;
+    if (!at_end()) fail_unexpected();
+    fail(open, "this \"(\" is not closed", "add \")\"");
   }
 
   NodePointer make_literal(std::size_t start, Value value, Type type) {
@@ -399,10 +377,9 @@ class Parser {
     return std::binary_search(known_.begin(), known_.end(), word);
   }
   std::string parse_stage() {
-    if (at_end()) fail(position_, "a stage is missing after \"in\"", "name one");
-    const char quote = text_[position_];
+    const char first = at_end() ? ' ' : text_[position_];
     std::string stage;
-    if (quote == '"' || quote == '\'') {
+    if (first == '"' || first == '\'') {
       stage = take_quoted();
     } else {
       stage = peek_word();
@@ -443,29 +420,23 @@ class Parser {
   }
 
   NodePointer parse_function(std::size_t start, const std::string& word) {
-    const auto found = std::find_if(kFunctions.begin(), kFunctions.end(),
-                                    [&](const auto& function) { return word == function.first; });
-    if (found == kFunctions.end()) {
-      std::vector<std::string> functions;
-      for (const auto& function : kFunctions) functions.emplace_back(function.first);
-      const auto near = nearest(word, functions);
+    const auto operation = function_named(word);
+    if (!operation) {
+      const auto near = nearest(word, functions());
       fail(start, "unknown function \"" + word + "\"",
            near ? "did you mean " + *near + "?" : "known are min max abs sqrt log10 exp tan");
     }
     const std::size_t open = position_;
     accept("(");
     auto node = std::make_unique<Node>();
-    node->operation = found->second;
+    node->operation = *operation;
     node->position = start;
     node->end = start + word.size();
     do {
       node->children.push_back(parse_or());
     } while (accept(","));
-    if (!accept(")")) {
-      if (!at_end()) fail_unexpected();
-      fail(open, "this \"(\" is not closed", "add \")\"");
-    }
-    const bool many = found->second == Operation::minimum || found->second == Operation::maximum;
+    close_parenthesis(open);
+    const bool many = *operation == Operation::minimum || *operation == Operation::maximum;
     if (many ? node->children.size() < 2 : node->children.size() != 1) {
       fail(start,
            word + " takes " + (many ? "two or more values" : "one value") + ", not " +
