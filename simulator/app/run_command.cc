@@ -157,11 +157,8 @@ ExitCode run_command(const RunArguments& arguments) {
       trace += trace_to_json(step, part).dump() + "\n";
     };
   }
-  CaseProbe probe;
-  probe.tried = watch.tried;
-  probe.displaced = watch.displaced;
   const CaseResult result =
-      is_coupled ? coupled->run(context, watch.step, probe) : simulation.run(context, watch);
+      is_coupled ? coupled->run(context, {watch}) : simulation.run(context, watch);
   if (arguments.trace) write_text(output.path() / "trace.jsonl", trace);
   if (writer) writer->finish();
   if (scene.output.volume_fields) {

@@ -95,4 +95,15 @@ std::uint64_t prune_operators(const std::filesystem::path& folder, std::uint64_t
   return freed;
 }
 
+void keep(const CachePolicy& cache, const std::string& name, const char* what,
+          const std::function<void()>& write, std::string& remark) {
+  try {
+    write();
+    prune_operators(cache.folder, cache.max_bytes, name);
+  } catch (const StorageError& error) {
+    if (!remark.empty()) remark += "; ";
+    remark += concat(what, " is not kept for other runs: ", error.what());
+  }
+}
+
 }  // namespace faultsim

@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "simulator/cache/cache_policy.h"
 #include "simulator/model/fault_operator.h"
 
 namespace faultsim {
@@ -35,5 +37,10 @@ std::vector<CacheEntry> list_operators(const std::filesystem::path& folder);
 /// Returns the bytes freed.
 std::uint64_t prune_operators(const std::filesystem::path& folder, std::uint64_t max_bytes,
                               const std::string& keep);
+
+/// Writes to a cache and prunes it, never the operator of that name. What cannot be kept is still
+/// there for this run, so a full disk is a remark: "WHAT is not kept for other runs: ...".
+void keep(const CachePolicy& cache, const std::string& name, const char* what,
+          const std::function<void()>& write, std::string& remark);
 
 }  // namespace faultsim

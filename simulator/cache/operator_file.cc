@@ -1,95 +1,75 @@
-#include <algorithm>
-#include <cmath>
-#include <type_traits>
-#include <utility>
-
 #include "simulator/cache/operator_cache.h"
 #include "simulator/cache/operator_tables.h"
-#include "simulator/cache/sealed_file.h"
-#include "simulator/cache/table_archive.h"
-#include "simulator/common/errors.h"
-#include "simulator/common/fingerprint.h"
 #include "simulator/files/atomic_file.h"
 
 namespace faultsim {
 namespace {
 
-constexpr SealedFormat kOperatorFile{.name = "operator", .version = 3};
-
-FaultOperator decode_operator(const SealedContent& content) {
-  OperatorTables tables;
-  for_each_table(tables, ReadTables{content.file()});
-  FaultOperator op = from_tables(tables);
-  const int n = op.geometry.n_dofs;
-  const double* h =
-      content.mapped(kStiffnessTable, static_cast<hsize_t>(n), static_cast<hsize_t>(n));
-  op.compliance = std::make_shared<DenseCompliance>(StoredMatrix(h, n, n, content.mapping()));
-  return op;
+void demand(bool holds, const char* what) {
+  if (!holds) throw StorageError(concat("the tables of an operator disagree: ", what));
 }
 
-/// Bit patterns of all tables and of H.
-std::vector<std::string> operator_digests(const OperatorTables& tables, const FaultOperator& op) {
-  std::vector<std::string> result;
-  for_each_table(tables, DigestTables{result});
-  result.push_back(fingerprint(op.h().data(), op.h().size() * sizeof(double)));
-  return result;
-}
+struct OperatorContent {
+  static constexpr SealedFormat kFormat{.name = "operator", .version = 3};
+  static constexpr const char* kName = "operator";
+  static const std::string& fingerprint_of(const FaultOperator& op) { return op.fingerprint; }
 
-void check_content(const FaultOperator& op, const OperatorTables& tables) {
+  template <typename Op, typename Archive>
+  void operator()(Op& op, const Archive& archive) const {
+    operator_tables(op, archive);
+    stiffness_table(op, archive, "H, condensed stiffness");
+  }
+};
+
+void require_sound(const FaultOperator& op) {
   FAULTSIM_DEMAND(!op.fingerprint.empty() && op.fingerprint.find('/') == std::string::npos &&
                       op.fingerprint[0] != '.',
                   "fingerprint '", op.fingerprint, "'");
-  FAULTSIM_DEMAND(op.compliance->size() == op.geometry.n_dofs && op.h().allFinite(), "H of size ",
-                  op.compliance->size(), " for ", op.geometry.n_dofs,
-                  " dofs, or a value that is not finite");
-  for_each_table(tables, [](const char* path, const auto& values, int, const char*, const char*) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(values)>, std::vector<double>>) {
-      FAULTSIM_DEMAND(std::all_of(values.begin(), values.end(),
-                                  [](double value) { return std::isfinite(value); }),
-                      path, " holds a value that is not finite");
-    }
-  });
-  try {
-    from_tables(tables);
-  } catch (const StorageError& error) {
-    throw_internal("the operator is consistent", error.what(), __FILE__, __LINE__);
-  }
+  FAULTSIM_DEMAND(op.compliance->size() == op.geometry.n_dofs, "H of size ", op.compliance->size(),
+                  " for ", op.geometry.n_dofs, " dofs");
+  OperatorContent()(
+      op, TableGatherer([](const char* path, const auto& values, auto&&, auto&&) {
+        if constexpr (std::is_floating_point_v<std::decay_t<decltype(values[0])>>) {
+          FAULTSIM_DEMAND(
+              std::ranges::all_of(values, [](double value) { return std::isfinite(value); }), path,
+              " holds a value that is not finite");
+        }
+      }));
 }
 
 }  // namespace
 
+void check_indices(const FaultOperator& op) {
+  const int n_nodes = static_cast<int>(op.geometry.nodes.size());
+  for (const OperatorNode& node : op.geometry.nodes) {
+    for (const int dof : node.dof) demand(dof >= -1 && dof < op.geometry.n_dofs, "dof of a node");
+  }
+  for (const OperatorFault& fault : op.geometry.faults) {
+    const int n_points = static_cast<int>(fault.points.size());
+    demand(
+        fault.first_node >= 0 && fault.n_nodes >= 0 && fault.first_node <= n_nodes - fault.n_nodes,
+        "nodes of a fault");
+    for (const int node : fault.node_of_point)
+      demand(node >= -1 && node < n_nodes, "node of a point");
+    for (const auto& face : fault.faces) {
+      for (const int point : face) demand(point >= 0 && point < n_points, "corner of a face");
+    }
+  }
+  for (const LoadKey& key : op.loads.keys)
+    demand(key.kind == LoadKey::Kind::pressure || key.kind == LoadKey::Kind::boundary,
+           "kind of a load");
+}
+
 void write_operator(const FaultOperator& op, const std::filesystem::path& folder) {
-  const OperatorTables tables = to_tables(op);
-  check_content(op, tables);
+  require_sound(op);
   create_folders(folder);
-  write_sealed(
-      cached_file(folder, op.fingerprint), kOperatorFile,
-      [&](hid_t file) {
-        for_each_table(tables, WriteTables{file});
-        const auto n = static_cast<hsize_t>(op.geometry.n_dofs);
-        hdf5::write_array(file, kStiffnessTable, {n, n}, op.h().data(),
-                          {"N/m", "H, condensed stiffness"});
-      },
-      [&](const SealedContent& content) {
-        const FaultOperator copy = decode_operator(content);
-        if (operator_digests(to_tables(copy), copy) != operator_digests(tables, op)) {
-          throw StorageError("what was read is not what was written");
-        }
-      });
+  write_tables<OperatorContent>(cached_file(folder, op.fingerprint), op);
 }
 
 std::optional<FaultOperator> read_operator(const std::filesystem::path& folder,
                                            const std::string& fingerprint, std::string* remark) {
-  std::optional<FaultOperator> op;
-  const auto decode = [&](const SealedContent& content) {
-    FaultOperator found = decode_operator(content);
-    if (found.fingerprint != fingerprint) {
-      throw StorageError("it holds the operator " + found.fingerprint);
-    }
-    op = std::move(found);
-  };
-  read_sealed(cached_file(folder, fingerprint), kOperatorFile, decode, remark);
-  return op;
+  return read_tables<FaultOperator, OperatorContent>(cached_file(folder, fingerprint), fingerprint,
+                                                     remark);
 }
 
 }  // namespace faultsim

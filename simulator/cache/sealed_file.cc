@@ -133,7 +133,7 @@ void read_content(const SealedFormat& format, const std::shared_ptr<Mapping>& ma
   hdf5::use_disk_driver(access, nullptr);
   const hdf5::Handle file(H5Fopen(mapping->own_path().c_str(), H5F_ACC_RDONLY, access), H5Fclose,
                           concat(format.name, " file"));
-  const std::vector<int> versions = hdf5::read_ints(file, "/versions", 1);
+  const std::vector<int> versions = hdf5::read<int>(file, "/versions", 1);
   if (versions != std::vector<int>{format.version, kNumericsVersion}) {
     throw OtherVersion("it was made by another numerics version");
   }
@@ -175,18 +175,8 @@ std::string move_aside(const SealedFormat& format, const std::filesystem::path& 
 
 }  // namespace
 
-const double* SealedContent::mapped(const char* path, hsize_t rows, hsize_t columns) const {
-  return reinterpret_cast<const double*>(
-      mapped_any(path, rows, columns, H5T_NATIVE_DOUBLE, sizeof(double)));
-}
-
-const float* SealedContent::mapped_floats(const char* path, hsize_t rows, hsize_t columns) const {
-  return reinterpret_cast<const float*>(
-      mapped_any(path, rows, columns, H5T_NATIVE_FLOAT, sizeof(float)));
-}
-
-const std::byte* SealedContent::mapped_any(const char* path, hsize_t rows, hsize_t columns,
-                                           hid_t wanted, std::size_t bytes_each) const {
+template <typename Scalar>
+const Scalar* SealedContent::mapped(const char* path, hsize_t rows, hsize_t columns) const {
   const hdf5::Handle dataset(H5Dopen2(file_, path, H5P_DEFAULT), H5Dclose, path);
   const hdf5::Handle space(H5Dget_space(dataset), H5Sclose, path);
   const hdf5::Handle type(H5Dget_type(dataset), H5Tclose, path);
@@ -194,18 +184,20 @@ const std::byte* SealedContent::mapped_any(const char* path, hsize_t rows, hsize
   if (H5Sget_simple_extent_ndims(space) == 2) {
     hdf5::check(H5Sget_simple_extent_dims(space, sizes, nullptr), path);
   }
-  if (sizes[0] != rows || sizes[1] != columns || H5Tequal(type, wanted) <= 0) {
+  if (sizes[0] != rows || sizes[1] != columns || H5Tequal(type, hdf5::memory_type<Scalar>()) <= 0) {
     throw StorageError(
-        concat(path, " is not ", rows, " x ", columns, " numbers of ", bytes_each, " bytes"));
+        concat(path, " is not ", rows, " x ", columns, " numbers of ", sizeof(Scalar), " bytes"));
   }
   if (rows == 0 || columns == 0) return nullptr;
   const haddr_t offset = H5Dget_offset(dataset);
   if (offset == HADDR_UNDEF || offset % kAlignment != 0 || offset > size_ ||
-      size_ - offset < rows * columns * bytes_each) {
+      size_ - offset < rows * columns * sizeof(Scalar)) {
     throw StorageError(concat(path, " lies at the wrong place of the file"));
   }
-  return bytes_ + offset;
+  return reinterpret_cast<const Scalar*>(bytes_ + offset);
 }
+template const double* SealedContent::mapped(const char*, hsize_t, hsize_t) const;
+template const float* SealedContent::mapped(const char*, hsize_t, hsize_t) const;
 
 void write_sealed(const std::filesystem::path& path, const SealedFormat& format,
                   const std::function<void(hid_t)>& encode,

@@ -26,15 +26,13 @@ class SealedContent {
   hid_t file() const { return file_; }
   /// The array (rows x columns, columns fastest) in the mapping; null if it has no value. Throws
   /// StorageError when it has another shape or lies at an odd place.
-  const double* mapped(const char* path, hsize_t rows, hsize_t columns) const;
-  const float* mapped_floats(const char* path, hsize_t rows, hsize_t columns) const;
+  /// @tparam Scalar  double or float.
+  template <typename Scalar>
+  const Scalar* mapped(const char* path, hsize_t rows, hsize_t columns) const;
   /// Keeps what mapped() returned alive.
   const std::shared_ptr<const void>& mapping() const { return mapping_; }
 
  private:
-  const std::byte* mapped_any(const char* path, hsize_t rows, hsize_t columns, hid_t wanted,
-                              std::size_t bytes_each) const;
-
   hid_t file_;
   const std::byte* bytes_;
   std::size_t size_;

@@ -68,16 +68,6 @@ CoupledContact::CoupledContact(const TwoSidedBulk& bulk, const ContactLaws& laws
   for (int k = 0; k < bulk.n_loads(); ++k) loads_.push_back(bulk.load(k));
 }
 
-ContactState CoupledContact::start(const Eigen::VectorXd& background) const {
-  ContactState state;
-  state.jump = Eigen::VectorXd::Zero(n_dofs());
-  state.traction = background;
-  state.state.assign(nodes_.size(), FaultState::stick);
-  state.slip_path = Eigen::VectorXd::Zero(static_cast<int>(nodes_.size()));
-  state.cohesion_lost.assign(nodes_.size(), 0);
-  return state;
-}
-
 FrictionState CoupledContact::state_of(const Node& node, const ContactState& state, int k) {
   return {shear_of(node.shear, state.jump), state.slip_path[k], state.cohesion_lost[k] == 0};
 }

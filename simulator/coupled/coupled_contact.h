@@ -54,8 +54,6 @@ class CoupledContact {
                  const CoupledContactOptions& options);
 
   int n_dofs() const { return all_held_.n_multipliers(); }
-  /// Rest: no displacement, and the traction of the background.
-  ContactState start(const Eigen::VectorXd& background) const;
   /// Takes `state` and the displacements `u` (n_u, zero at first) to the end of a load step. Not
   /// converged, or stopped (Interrupted): both are left as they were.
   CoupledStepReport advance(const CoupledLoad& load, ContactState& state, Eigen::VectorXd& u) const;

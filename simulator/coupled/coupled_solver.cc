@@ -51,9 +51,9 @@ struct Preconditioner {
   const SaddlePoint& j;
   BlockForm form;
   double scale;
-  std::unique_ptr<LeadingBlock> leading;
-  std::unique_ptr<SchurComplement> schur;  ///< none: RAC, `leading` is of S_u.
-  Eigen::VectorXd springs = {};            ///< D of RAC.
+  LinearMap leading;
+  LinearMap schur;               ///< none: RAC, `leading` is of S_u.
+  Eigen::VectorXd springs = {};  ///< D of RAC.
   std::vector<double> residuals = {};
   std::exception_ptr error = {};  ///< exceptions must not cross hypre's C.
 
@@ -62,16 +62,16 @@ struct Preconditioner {
     const Eigen::VectorXd r_u = r.head(n_u), r_l = r.tail(n_l) / scale;
     Eigen::VectorXd u, lambda, correction;
     if (!schur) {
-      leading->apply(r_u + j.coupling * springs.cwiseProduct(r_l), u);
+      leading(r_u + j.coupling * springs.cwiseProduct(r_l), u);
       lambda = springs.cwiseProduct(j.constraint.transpose() * u - r_l);
     } else if (form == BlockForm::full) {
-      leading->apply(r_u, u);
-      schur->apply(j.constraint.transpose() * u - r_l, lambda);
-      leading->apply(j.coupling * lambda, correction);
+      leading(r_u, u);
+      schur(j.constraint.transpose() * u - r_l, lambda);
+      leading(j.coupling * lambda, correction);
       u -= correction;
     } else {
-      schur->apply(-r_l, lambda);
-      leading->apply(r_u - j.coupling * lambda, u);
+      schur(-r_l, lambda);
+      leading(r_u - j.coupling * lambda, u);
     }
     z.head(n_u) = u;
     z.tail(n_l) = lambda / scale;
@@ -236,10 +236,10 @@ struct CoupledSolver::Impl {
       const AugmentedJacobian augmented = augment(j);
       preconditioner.springs = augmented.springs;
       preconditioner.leading =
-          make_leading_block(choice.leading, augmented.regular, choice.fsai, choice.ilu);
+          leading_block(choice.leading, augmented.regular, choice.fsai, choice.ilu);
     } else {
-      preconditioner.leading = make_leading_block(choice.leading, j, choice.fsai, choice.ilu);
-      preconditioner.schur = make_schur_complement(choice.schur, j, choice.fsai);
+      preconditioner.leading = leading_block(choice.leading, j, choice.fsai, choice.ilu);
+      preconditioner.schur = schur_complement(choice.schur, j, choice.fsai);
     }
     setup_seconds = processor_seconds() - start;
     bytes = heap_bytes() - before;

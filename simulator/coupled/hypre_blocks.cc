@@ -2,7 +2,7 @@
 
 #include <_hypre_parcsr_ls.h>
 
-#include <functional>
+#include <memory>
 #include <vector>
 
 #include "simulator/common/errors.h"
@@ -14,48 +14,41 @@ namespace {
 using Call = HYPRE_Int (*)(HYPRE_Solver, HYPRE_ParCSRMatrix, HYPRE_ParVector, HYPRE_ParVector);
 
 /// A solver of hypre's, applied once from zero.
-class HypreBlock : public LeadingBlock {
- public:
-  HypreBlock(const SparseMatrix& a, Call solve)
-      : matrix_(a), r_(static_cast<int>(a.rows())), z_(static_cast<int>(a.rows())), solve_(solve) {}
+struct HypreBlock {
+  HypreBlock(const SparseMatrix& a, HYPRE_Int (*free)(HYPRE_Solver))
+      : matrix(a), r(static_cast<int>(a.rows())), z(static_cast<int>(a.rows())), destroy(free) {}
+  ~HypreBlock() { destroy(solver); }
+  HypreBlock(const HypreBlock&) = delete;
+  HypreBlock& operator=(const HypreBlock&) = delete;
 
-  void apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) override {
-    r_.values() = r;
-    z_.values().setZero();
-    solve_(solver_, matrix_.get(), r_.get(), z_.get());
-    check_hypre("applying a preconditioner");
-    z = z_.values();
+  void call(Call function, const char* doing) {
+    function(solver, matrix.get(), r.get(), z.get());
+    check_hypre(doing);
   }
 
- protected:
-  void set_up(Call call) {
-    call(solver_, matrix_.get(), r_.get(), z_.get());
-    check_hypre("setting up a preconditioner");
-  }
-  HYPRE_Solver solver_ = nullptr;
-
- private:
-  HypreMatrix matrix_;
-  HypreVector r_, z_;
-  Call solve_;
+  HypreMatrix matrix;
+  HypreVector r, z;
+  HYPRE_Int (*destroy)(HYPRE_Solver);
+  HYPRE_Solver solver = nullptr;
+  std::vector<std::unique_ptr<HypreVector>> rotations;  ///< to be kept as long as the solver.
+  std::vector<HYPRE_ParVector> pointers;                ///< to them.
 };
 
-class IluBlock final : public HypreBlock {
- public:
-  IluBlock(const SparseMatrix& a, const IluOptions& options) : HypreBlock(a, HYPRE_ILUSolve) {
-    HYPRE_ILUCreate(&solver_);
-    HYPRE_ILUSetType(solver_, 1);  // ILUT on each rank's block
-    HYPRE_ILUSetDropThreshold(solver_, options.drop_tolerance);
-    HYPRE_ILUSetMaxNnzPerRow(solver_, options.max_row);
-    HYPRE_ILUSetMaxIter(solver_, 1);
-    HYPRE_ILUSetTol(solver_, 0.0);
-    set_up(HYPRE_ILUSetup);
-  }
-  ~IluBlock() override { HYPRE_ILUDestroy(solver_); }
-};
+LinearMap set_up(const std::shared_ptr<HypreBlock>& block, Call set_up, Call solve) {
+  block->call(set_up, "setting up a preconditioner");
+  return [block, solve](const Eigen::VectorXd& r, Eigen::VectorXd& z) {
+    block->r.values() = r;
+    block->z.values().setZero();
+    block->call(solve, "applying a preconditioner");
+    z = block->z.values();
+  };
+}
 
 /// What both kinds of AMG share.
-void set_common(HYPRE_Solver solver) {
+std::shared_ptr<HypreBlock> amg_block(const SparseMatrix& a) {
+  const auto block = std::make_shared<HypreBlock>(a, HYPRE_BoomerAMGDestroy);
+  HYPRE_BoomerAMGCreate(&block->solver);
+  HYPRE_Solver solver = block->solver;
   HYPRE_BoomerAMGSetNumFunctions(solver, 3);  // unknown i is of component i mod 3
   HYPRE_BoomerAMGSetCoarsenType(solver, 10);  // HMIS
   HYPRE_BoomerAMGSetInterpType(solver, 6);    // extended+i
@@ -63,77 +56,63 @@ void set_common(HYPRE_Solver solver) {
   HYPRE_BoomerAMGSetRelaxType(solver, 6);  // symmetric Gauss-Seidel: SPD
   HYPRE_BoomerAMGSetTol(solver, 0.0);
   HYPRE_BoomerAMGSetMaxIter(solver, 1);
+  return block;
 }
 
-class ComponentAmgBlock final : public HypreBlock {
- public:
-  explicit ComponentAmgBlock(const SparseMatrix& a) : HypreBlock(a, HYPRE_BoomerAMGSolve) {
-    HYPRE_BoomerAMGCreate(&solver_);
-    set_common(solver_);
-    HYPRE_BoomerAMGSetStrongThreshold(solver_, 0.9);
-    set_up(HYPRE_BoomerAMGSetup);
-  }
-  ~ComponentAmgBlock() override { HYPRE_BoomerAMGDestroy(solver_); }
-};
-
-class AmgBlock final : public HypreBlock {
- public:
-  AmgBlock(const SparseMatrix& a, const Eigen::MatrixXd& motions)
-      : HypreBlock(a, HYPRE_BoomerAMGSolve) {
-    HYPRE_BoomerAMGCreate(&solver_);
-    set_common(solver_);
-    HYPRE_BoomerAMGSetNodal(solver_, 4);  // strength of a node's 3 x 3 block: row sum
-    HYPRE_BoomerAMGSetNodalDiag(solver_, 1);
-    // HMIS and a threshold of 1/4: with PMIS and 1/2, which hypre's manual has for three
-    // dimensions, counts grow with each refinement, 13 to 18, and the hierarchy is no smaller.
-    HYPRE_BoomerAMGSetStrongThreshold(solver_, 0.25);
-    set_rotations(motions);
-    set_up(HYPRE_BoomerAMGSetup);
-  }
-  ~AmgBlock() override { HYPRE_BoomerAMGDestroy(solver_); }
-
- private:
-  /// Translations are what interpolation keeps anyway; an orthonormal set mixes the six, so those
-  /// three that complete the translations are taken.
-  void set_rotations(const Eigen::MatrixXd& motions) {
-    const int n = static_cast<int>(motions.rows());
-    Eigen::MatrixXd all(n, 9);
-    for (int i = 0; i < n; ++i) all.row(i).head<3>() = Eigen::Vector3d::Unit(i % 3).transpose();
-    all.rightCols<6>() = motions;
-    int found = 0;
-    for (int m = 3; m < 9 && found < 3; ++m) {  // Gram-Schmidt against what is there
-      Eigen::VectorXd mode = all.col(m);
-      for (int pass = 0; pass < 2; ++pass) {
-        for (int c = 0; c < 3; ++c) mode -= 3.0 / n * all.col(c).dot(mode) * all.col(c);
-        for (const auto& other : rotations_) mode -= other->values().dot(mode) * other->values();
-      }
-      if (mode.norm() < 1e-6) continue;
-      rotations_.push_back(std::make_unique<HypreVector>(n));
-      rotations_.back()->values() = mode.normalized();
-      pointers_.push_back(rotations_.back()->get());
-      ++found;
+/// Translations are what interpolation keeps anyway; an orthonormal set mixes the six, so those
+/// three that complete the translations are taken.
+void set_rotations(const Eigen::MatrixXd& motions, HypreBlock& block) {
+  const int n = static_cast<int>(motions.rows());
+  Eigen::MatrixXd all(n, 9);
+  for (int i = 0; i < n; ++i) all.row(i).head<3>() = Eigen::Vector3d::Unit(i % 3).transpose();
+  all.rightCols<6>() = motions;
+  int found = 0;
+  for (int m = 3; m < 9 && found < 3; ++m) {  // Gram-Schmidt against what is there
+    Eigen::VectorXd mode = all.col(m);
+    for (int pass = 0; pass < 2; ++pass) {
+      for (int c = 0; c < 3; ++c) mode -= 3.0 / n * all.col(c).dot(mode) * all.col(c);
+      for (const auto& other : block.rotations) mode -= other->values().dot(mode) * other->values();
     }
-    HYPRE_BoomerAMGSetInterpVectors(solver_, found, pointers_.data());
-    HYPRE_BoomerAMGSetInterpVecVariant(solver_, 2);
-    HYPRE_BoomerAMGSetInterpVecQMax(solver_, 4);
-    HYPRE_BoomerAMGSetSmoothInterpVectors(solver_, 1);
+    if (mode.norm() < 1e-6) continue;
+    block.rotations.push_back(std::make_unique<HypreVector>(n));
+    block.rotations.back()->values() = mode.normalized();
+    block.pointers.push_back(block.rotations.back()->get());
+    ++found;
   }
-  std::vector<std::unique_ptr<HypreVector>> rotations_;
-  std::vector<HYPRE_ParVector> pointers_;
-};
+  HYPRE_BoomerAMGSetInterpVectors(block.solver, found, block.pointers.data());
+  HYPRE_BoomerAMGSetInterpVecVariant(block.solver, 2);
+  HYPRE_BoomerAMGSetInterpVecQMax(block.solver, 4);
+  HYPRE_BoomerAMGSetSmoothInterpVectors(block.solver, 1);
+}
 
 }  // namespace
 
-std::unique_ptr<LeadingBlock> make_hypre_ilu(const SparseMatrix& a, const IluOptions& options) {
-  return std::make_unique<IluBlock>(a, options);
-}
-std::unique_ptr<LeadingBlock> make_hypre_amg(const SparseMatrix& a,
-                                             const Eigen::MatrixXd& rigid_motions) {
-  return std::make_unique<AmgBlock>(a, rigid_motions);
+LinearMap hypre_ilu(const SparseMatrix& a, const IluOptions& options) {
+  const auto block = std::make_shared<HypreBlock>(a, HYPRE_ILUDestroy);
+  HYPRE_ILUCreate(&block->solver);
+  HYPRE_ILUSetType(block->solver, 1);  // ILUT on each rank's block
+  HYPRE_ILUSetDropThreshold(block->solver, options.drop_tolerance);
+  HYPRE_ILUSetMaxNnzPerRow(block->solver, options.max_row);
+  HYPRE_ILUSetMaxIter(block->solver, 1);
+  HYPRE_ILUSetTol(block->solver, 0.0);
+  return set_up(block, HYPRE_ILUSetup, HYPRE_ILUSolve);
 }
 
-std::unique_ptr<LeadingBlock> make_hypre_amg_by_component(const SparseMatrix& a) {
-  return std::make_unique<ComponentAmgBlock>(a);
+LinearMap hypre_amg(const SparseMatrix& a, const Eigen::MatrixXd& rigid_motions) {
+  const auto block = amg_block(a);
+  HYPRE_BoomerAMGSetNodal(block->solver, 4);  // strength of a node's 3 x 3 block: row sum
+  HYPRE_BoomerAMGSetNodalDiag(block->solver, 1);
+  // HMIS and a threshold of 1/4: with PMIS and 1/2, which hypre's manual has for three
+  // dimensions, counts grow with each refinement, 13 to 18, and the hierarchy is no smaller.
+  HYPRE_BoomerAMGSetStrongThreshold(block->solver, 0.25);
+  set_rotations(rigid_motions, *block);
+  return set_up(block, HYPRE_BoomerAMGSetup, HYPRE_BoomerAMGSolve);
+}
+
+LinearMap hypre_amg_by_component(const SparseMatrix& a) {
+  const auto block = amg_block(a);
+  HYPRE_BoomerAMGSetStrongThreshold(block->solver, 0.9);
+  return set_up(block, HYPRE_BoomerAMGSetup, HYPRE_BoomerAMGSolve);
 }
 
 }  // namespace faultsim

@@ -1,67 +1,74 @@
 #include "simulator/coupled/leading_block.h"
 
 #include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseLU>
+#include <memory>
+#include <vector>
 
 #include "simulator/common/errors.h"
 #include "simulator/coupled/hypre_blocks.h"
+#include "simulator/linalg/cholesky.h"
 
 namespace faultsim {
 namespace {
 
-class ExactBlock final : public LeadingBlock {
- public:
-  explicit ExactBlock(const SaddlePoint& j) : solver_(j.leading, j.symmetric) {}
-  void apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) override { z = solver_.solve(r); }
+using Eigen::VectorXd;
 
- private:
-  DirectSolver solver_;
-};
+/// Three unknowns make a node, as nearly always here; what is left is a group of its own.
+std::vector<int> groups_of_three(int n) {
+  std::vector<int> group(n);
+  for (int i = 0; i < n; ++i) group[i] = i / 3;
+  return group;
+}
 
-class FsaiBlock final : public LeadingBlock {
- public:
-  FsaiBlock(const SparseMatrix& a, const FsaiOptions& options) : factor_(fsai_factor(a, options)) {}
-  void apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) override {
-    middle_ = factor_ * r;
-    z = factor_.transpose() * middle_;
-  }
+LinearMap fsai_block(const SparseMatrix& a, const FsaiOptions& options) {
+  const Eigen::SparseMatrix<double, Eigen::RowMajor, long> g = fsai_factor(a, options);
+  return [g](const VectorXd& r, VectorXd& z) { z = g.transpose() * (g * r); };
+}
 
- private:
-  Eigen::SparseMatrix<double, Eigen::RowMajor, long> factor_;  ///< G
-  Eigen::VectorXd middle_;
-};
-
-class IncompleteCholeskyBlock final : public LeadingBlock {
- public:
-  explicit IncompleteCholeskyBlock(const SaddlePoint& j) {
-    const Eigen::SparseMatrix<double> a = j.symmetric_leading();
-    factor_.compute(a);
-    if (factor_.info() != Eigen::Success) {
-      throw ResourceError("incomplete Cholesky: K + E is not positive definite");
-    }
-  }
-  void apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) override { z = factor_.solve(r); }
-
- private:
-  Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<int>> factor_;
-};
+LinearMap incomplete_cholesky(const Eigen::SparseMatrix<double>& a) {
+  using Factor = Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<int>>;
+  const auto factor = std::make_shared<Factor>(a);
+  if (factor->info() != Eigen::Success)
+    throw ResourceError("incomplete Cholesky: K + E is not positive definite");
+  return [factor](const VectorXd& r, VectorXd& z) { z = factor->solve(r); };
+}
 
 }  // namespace
 
-std::unique_ptr<LeadingBlock> make_leading_block(LeadingKind kind, const SaddlePoint& j,
-                                                 const FsaiOptions& fsai, const IluOptions& ilu) {
+LinearMap direct_solver(const SparseMatrix& a, bool symmetric) {
+  const int n = static_cast<int>(a.rows());
+  if (symmetric) {
+    SparseMatrix lower = a.triangularView<Eigen::Lower>();
+    lower.makeCompressed();
+    const auto factor =
+        std::make_shared<TrailingCholesky>(lower, 0, groups_of_three(n), (n + 2) / 3);
+    if (factor->failed_column() < 0)
+      return [factor](const VectorXd& r, VectorXd& z) { z = factor->solve(r); };
+  }
+  const auto lu = std::make_shared<Eigen::SparseLU<Eigen::SparseMatrix<double>>>();
+  const Eigen::SparseMatrix<double> copy = a;
+  lu->compute(copy);
+  if (lu->info() != Eigen::Success)
+    throw ResourceError(concat("a matrix of ", n, " rows is singular"));
+  return [lu](const VectorXd& r, VectorXd& z) { z = lu->solve(r); };
+}
+
+LinearMap leading_block(LeadingKind kind, const SaddlePoint& j, const FsaiOptions& fsai,
+                        const IluOptions& ilu) {
   switch (kind) {
     case LeadingKind::exact:
-      return std::make_unique<ExactBlock>(j);
+      return direct_solver(j.leading, j.symmetric);
     case LeadingKind::fsai:
-      return std::make_unique<FsaiBlock>(j.symmetric_leading(), fsai);
+      return fsai_block(j.symmetric_leading(), fsai);
     case LeadingKind::incomplete_cholesky:
-      return std::make_unique<IncompleteCholeskyBlock>(j);
+      return incomplete_cholesky(j.symmetric_leading());
     case LeadingKind::ilu:
-      return make_hypre_ilu(j.symmetric_leading(), ilu);
+      return hypre_ilu(j.symmetric_leading(), ilu);
     case LeadingKind::amg:
-      return make_hypre_amg(j.symmetric_leading(), j.rigid_motions);
+      return hypre_amg(j.symmetric_leading(), j.rigid_motions);
     case LeadingKind::amg_by_component:
-      return make_hypre_amg_by_component(j.symmetric_leading());
+      return hypre_amg_by_component(j.symmetric_leading());
   }
   FAULTSIM_DEMAND(false, "leading block ", static_cast<int>(kind));
 }

@@ -1,10 +1,7 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <memory>
-#include <string>
-
 #include "simulator/coupled/saddle_point.h"
+#include "simulator/linalg/gmres.h"
 
 namespace faultsim {
 
@@ -27,35 +24,21 @@ struct IluOptions {
 };
 
 /// z ≈ (K + E)⁻¹ r, a fixed linear map.
-class LeadingBlock {
- public:
-  virtual ~LeadingBlock() = default;
-  virtual void apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) = 0;
-};
-
+///
 /// exact: sparse Cholesky, or LU where K + E is not symmetric positive definite. The others take
 /// the symmetric part of K + E. ilu and both amg are hypre's; incomplete_cholesky is Lin and
 /// Moré's (as many entries per column as K has, the largest ones, and a shift where a pivot fails).
 /// Throws ResourceError when memory is short or K + E is singular.
-std::unique_ptr<LeadingBlock> make_leading_block(LeadingKind kind, const SaddlePoint& j,
-                                                 const FsaiOptions& fsai, const IluOptions& ilu);
+LinearMap leading_block(LeadingKind kind, const SaddlePoint& j, const FsaiOptions& fsai,
+                        const IluOptions& ilu);
 
 /// G of the adaptive FSAI: lower triangular, A⁻¹ ≈ GᵀG, diag(G A Gᵀ) = 1.
 /// @param a  symmetric positive definite, both triangles, sorted columns; ResourceError when it is
 ///           not.
 SparseMatrix fsai_factor(const SparseMatrix& a, const FsaiOptions& options);
 
-/// A direct solver for a square sparse matrix: Cholesky if `symmetric` and positive definite, else
-/// LU. Throws ResourceError when it is singular.
-class DirectSolver {
- public:
-  DirectSolver(const SparseMatrix& a, bool symmetric);
-  ~DirectSolver();
-  Eigen::VectorXd solve(const Eigen::VectorXd& r);
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-};
+/// z = a⁻¹ r of a square sparse matrix: Cholesky if `symmetric` and positive definite, else LU.
+/// Throws ResourceError when it is singular.
+LinearMap direct_solver(const SparseMatrix& a, bool symmetric);
 
 }  // namespace faultsim

@@ -1,6 +1,7 @@
 #include "simulator/coupled/schur.h"
 
 #include <Eigen/LU>
+#include <utility>
 #include <vector>
 
 #include "simulator/common/errors.h"
@@ -9,58 +10,37 @@
 namespace faultsim {
 namespace {
 
-class ExactSchur final : public SchurComplement {
- public:
-  explicit ExactSchur(const SaddlePoint& j) {
-    DirectSolver leading(j.leading, j.symmetric);
-    Eigen::MatrixXd s(j.n_multipliers(), j.n_multipliers());
-    for (int k = 0; k < j.n_multipliers(); ++k) {
-      s.col(k) = j.constraint.transpose() * leading.solve(j.coupling.col(k));
-    }
-    if (!lu_.factor(s)) throw ResourceError("the Schur complement is singular");
+using Eigen::VectorXd;
+
+LinearMap exact_schur(const SaddlePoint& j) {
+  const LinearMap leading = direct_solver(j.leading, j.symmetric);
+  Eigen::MatrixXd s(j.n_multipliers(), j.n_multipliers());
+  VectorXd column;
+  for (int k = 0; k < j.n_multipliers(); ++k) {
+    leading(j.coupling.col(k), column);
+    s.col(k) = j.constraint.transpose() * column;
   }
-  void apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) override {
+  DenseLu lu;
+  if (!lu.factor(s)) throw ResourceError("the Schur complement is singular");
+  return [lu = std::move(lu)](const VectorXd& r, VectorXd& z) {
     z = r;
-    lu_.solve(z);
-  }
+    lu.solve(z);
+  };
+}
 
- private:
-  DenseLu lu_;
-};
-
-class FsaiDirectSchur final : public SchurComplement {
- public:
-  FsaiDirectSchur(const SaddlePoint& j, const FsaiOptions& fsai) {
-    const SparseMatrix g = fsai_factor(j.symmetric_leading(), fsai);
-    const SparseMatrix gc = g * j.constraint;
-    SparseMatrix s;
-    if (j.symmetric) {
-      s = SparseMatrix(gc.transpose()) * gc;
-    } else {
-      s = SparseMatrix(gc.transpose()) * SparseMatrix(g * j.coupling);
-    }
-    solver_ = std::make_unique<DirectSolver>(s, j.symmetric);
-  }
-  void apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) override { z = solver_->solve(r); }
-
- private:
-  std::unique_ptr<DirectSolver> solver_;
-};
+LinearMap fsai_direct_schur(const SaddlePoint& j, const FsaiOptions& fsai) {
+  const SparseMatrix g = fsai_factor(j.symmetric_leading(), fsai);
+  const SparseMatrix gc = g * j.constraint;
+  const SparseMatrix right = j.symmetric ? gc : SparseMatrix(g * j.coupling);
+  return direct_solver(SparseMatrix(gc.transpose()) * right, j.symmetric);
+}
 
 /// FSAI needs symmetry, so F is left out of what the second one approximates.
-class FsaiFsaiSchur final : public SchurComplement {
- public:
-  FsaiFsaiSchur(const SaddlePoint& j, const FsaiOptions& fsai) {
-    const SparseMatrix gc = fsai_factor(j.symmetric_leading(), fsai) * j.constraint;
-    factor_ = fsai_factor(SparseMatrix(gc.transpose()) * gc, fsai);
-  }
-  void apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) override {
-    z = factor_.transpose() * (factor_ * r);
-  }
-
- private:
-  SparseMatrix factor_;
-};
+LinearMap fsai_fsai_schur(const SaddlePoint& j, const FsaiOptions& fsai) {
+  const SparseMatrix gc = fsai_factor(j.symmetric_leading(), fsai) * j.constraint;
+  const SparseMatrix g = fsai_factor(SparseMatrix(gc.transpose()) * gc, fsai);
+  return [g](const VectorXd& r, VectorXd& z) { z = g.transpose() * (g * r); };
+}
 
 /// The restriction of K + E to the dofs of the cells that share a node: they are the rows of its
 /// columns. `place` (by dof: place in the list, −1 outside) is workspace.
@@ -97,68 +77,55 @@ struct LocalStiffness {
   Eigen::MatrixXd matrix;
 };
 
-class BlockDiagonalSchur final : public SchurComplement {
- public:
-  explicit BlockDiagonalSchur(const SaddlePoint& j) : begin_(j.node_begin) {
-    std::vector<int> place(j.n_displacements(), -1);
-    for (int node = 0; node + 1 < static_cast<int>(begin_.size()); ++node) {
-      const int first = begin_[node], last = begin_[node + 1];
-      const LocalStiffness local(j, first, last, place);
-      if (last > first) {
-        const Eigen::MatrixXd c = local.columns(j.constraint, first, last, place);
-        const Eigen::MatrixXd s = c.transpose() * local.matrix.partialPivLu().solve(local.columns(
-                                                      j.coupling, first, last, place));
-        const Eigen::FullPivLU<Eigen::MatrixXd> lu(s);
-        if (!lu.isInvertible()) throw ResourceError("a block of the Schur complement is singular");
-        inverse_.push_back(lu.inverse());
-      } else {
-        inverse_.emplace_back();
-      }
-      for (const int dof : local.dofs) place[dof] = -1;
+LinearMap block_diagonal_schur(const SaddlePoint& j) {
+  const std::vector<int>& begin = j.node_begin;
+  std::vector<Eigen::MatrixXd> inverse;
+  std::vector<int> place(j.n_displacements(), -1);
+  for (int node = 0; node + 1 < static_cast<int>(begin.size()); ++node) {
+    const int first = begin[node], last = begin[node + 1];
+    const LocalStiffness local(j, first, last, place);
+    inverse.emplace_back();
+    if (last > first) {
+      const Eigen::MatrixXd c = local.columns(j.constraint, first, last, place);
+      const Eigen::MatrixXd s = c.transpose() * local.matrix.partialPivLu().solve(
+                                                    local.columns(j.coupling, first, last, place));
+      const Eigen::FullPivLU<Eigen::MatrixXd> lu(s);
+      if (!lu.isInvertible()) throw ResourceError("a block of the Schur complement is singular");
+      inverse.back() = lu.inverse();
     }
+    for (const int dof : local.dofs) place[dof] = -1;
   }
-  void apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) override {
+  return [begin, inverse = std::move(inverse)](const VectorXd& r, VectorXd& z) {
     z.resize(r.size());
-    for (int node = 0; node + 1 < static_cast<int>(begin_.size()); ++node) {
-      const int first = begin_[node], n = begin_[node + 1] - first;
-      if (n > 0) z.segment(first, n) = inverse_[node] * r.segment(first, n);
+    for (std::size_t node = 0; node < inverse.size(); ++node) {
+      const int first = begin[node], n = begin[node + 1] - first;
+      if (n > 0) z.segment(first, n) = inverse[node] * r.segment(first, n);
     }
-  }
+  };
+}
 
- private:
-  std::vector<int> begin_;
-  std::vector<Eigen::MatrixXd> inverse_;
-};
-
-class LeastSquaresCommutator final : public SchurComplement {
- public:
-  explicit LeastSquaresCommutator(const SaddlePoint& j) {
-    const Eigen::VectorXd inverse_gram = j.gram().cwiseInverse();
-    const SparseMatrix product =
-        SparseMatrix(j.constraint.transpose()) * SparseMatrix(j.leading * j.coupling);
-    inverse_ = inverse_gram.asDiagonal() * product * inverse_gram.asDiagonal();
-  }
-  void apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) override { z = inverse_ * r; }
-
- private:
-  SparseMatrix inverse_;
-};
+LinearMap least_squares_commutator(const SaddlePoint& j) {
+  const VectorXd inverse_gram = j.gram().cwiseInverse();
+  const SparseMatrix product =
+      SparseMatrix(j.constraint.transpose()) * SparseMatrix(j.leading * j.coupling);
+  const SparseMatrix inverse = inverse_gram.asDiagonal() * product * inverse_gram.asDiagonal();
+  return [inverse](const VectorXd& r, VectorXd& z) { z = inverse * r; };
+}
 
 }  // namespace
 
-std::unique_ptr<SchurComplement> make_schur_complement(SchurKind kind, const SaddlePoint& j,
-                                                       const FsaiOptions& fsai) {
+LinearMap schur_complement(SchurKind kind, const SaddlePoint& j, const FsaiOptions& fsai) {
   switch (kind) {
     case SchurKind::exact:
-      return std::make_unique<ExactSchur>(j);
+      return exact_schur(j);
     case SchurKind::fsai_direct:
-      return std::make_unique<FsaiDirectSchur>(j, fsai);
+      return fsai_direct_schur(j, fsai);
     case SchurKind::fsai_fsai:
-      return std::make_unique<FsaiFsaiSchur>(j, fsai);
+      return fsai_fsai_schur(j, fsai);
     case SchurKind::bds:
-      return std::make_unique<BlockDiagonalSchur>(j);
+      return block_diagonal_schur(j);
     case SchurKind::lsc:
-      return std::make_unique<LeastSquaresCommutator>(j);
+      return least_squares_commutator(j);
     case SchurKind::rac:
       break;
   }

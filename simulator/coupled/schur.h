@@ -1,8 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <memory>
-
 #include "simulator/coupled/leading_block.h"
 
 namespace faultsim {
@@ -18,15 +15,8 @@ enum class SchurKind {
 };
 
 /// z ≈ S⁻¹ r, a fixed linear map.
-class SchurComplement {
- public:
-  virtual ~SchurComplement() = default;
-  virtual void apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) = 0;
-};
-
 /// @param kind  any but rac (InternalError). @param fsai  of K + E, and of the second one.
 /// Throws ResourceError when memory is short or the approximation is singular.
-std::unique_ptr<SchurComplement> make_schur_complement(SchurKind kind, const SaddlePoint& j,
-                                                       const FsaiOptions& fsai);
+LinearMap schur_complement(SchurKind kind, const SaddlePoint& j, const FsaiOptions& fsai);
 
 }  // namespace faultsim

@@ -18,10 +18,7 @@ FaultOperator uncondensed(const Scene& scene, const Plan& plan, const BulkProble
   FaultOperator op;
   const DofMap dofs(problem.mesh, problem.conditions, static_cast<int>(problem.loads.size()));
   op.geometry = fault_geometry(problem.mesh, problem.materials, dofs, problem.half_domain);
-  FAULTSIM_DEMAND(op.geometry.faults.size() == scene.faults.size(), op.geometry.faults.size());
-  for (std::size_t f = 0; f < scene.faults.size(); ++f) {
-    op.geometry.faults[f].name = scene.faults[f].name;
-  }
+  take_fault_names(scene, op);
   for (const LoadCase& load : problem.loads) op.loads.keys.push_back(load.key);
   op.loads.traction.resize(op.geometry.n_dofs, 0);
   for (const auto& [name, point] : problem.observation_points) {
@@ -240,14 +237,13 @@ CoupledCase::~CoupledCase() = default;
 const FaultOperator& CoupledCase::faults() const { return impl_->faults; }
 const Mesh& CoupledCase::mesh() const { return impl_->problem.mesh; }
 
-CaseResult CoupledCase::run(const RunContext& context, const StepObserver& observer,
-                            const CaseProbe& probe) {
+CaseResult CoupledCase::run(const RunContext& context, const CaseProbe& probe) {
   Impl& self = *impl_;
   const auto steps = [&self](const StepSetting& setting) {
     return std::make_unique<CoupledSteps>(self.bulk, self.problem, self.faults, self.mirrored,
                                           self.solver, setting);
   };
-  CaseResult result = run_case(self.scene, self.faults, steps, context, observer, probe);
+  CaseResult result = run_case(self.scene, self.faults, steps, context, probe);
   if (std::string text = parts_warning(result); !text.empty()) result.warnings.push_back(text);
   return result;
 }

@@ -28,9 +28,6 @@ class CoupledCase {
   /// for pieces of rock that nothing holds (SchurKind::rac lets faults hold them; the other kinds
   /// need a K that is regular).
   CoupledCase(const SceneBulk& scene, const SolverChoice& solver, const RunContext& context = {});
-  CoupledCase(const Scene& scene, const Plan& plan, const SolverChoice& solver,
-              const RunContext& context = {})
-      : CoupledCase(SceneBulk(scene, plan), solver, context) {}
   ~CoupledCase();
   CoupledCase(const CoupledCase&) = delete;
   CoupledCase& operator=(const CoupledCase&) = delete;
@@ -40,8 +37,7 @@ class CoupledCase {
   const FaultOperator& faults() const;
   const Mesh& mesh() const;
   /// As run_case(), with parts_warning(). Each run starts anew.
-  CaseResult run(const RunContext& context = {}, const StepObserver& observer = {},
-                 const CaseProbe& probe = {});
+  CaseResult run(const RunContext& context = {}, const CaseProbe& probe = {});
 
  private:
   struct Impl;

@@ -1,6 +1,7 @@
 #include "simulator/hdf5/datasets.h"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 #include "simulator/common/errors.h"
@@ -79,16 +80,6 @@ std::pair<Handle, std::size_t> open_shaped(hid_t file, const std::string& path, 
   return {std::move(dataset), static_cast<std::size_t>(sizes[0] * sizes[1])};
 }
 
-template <typename Value>
-std::vector<Value> read_values(hid_t file, const std::string& path, hsize_t columns, hid_t type) {
-  const auto [dataset, n_values] = open_shaped(file, path, columns);
-  std::vector<Value> values(n_values);
-  if (n_values > 0) {
-    check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), path);
-  }
-  return values;
-}
-
 }  // namespace
 
 Session::Session() : lock_(library_mutex()) { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
@@ -149,20 +140,33 @@ void write_text_attribute(hid_t file, const std::string& path, const std::string
   write_text_attribute(object, name, text);
 }
 
-void write_array(hid_t file, const std::string& path, const std::vector<hsize_t>& sizes,
-                 const double* values, const About& about) {
-  write_any(file, path, sizes, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values, about);
+template <>
+hid_t memory_type<double>() {
+  return H5T_NATIVE_DOUBLE;
+}
+template <>
+hid_t memory_type<float>() {
+  return H5T_NATIVE_FLOAT;
+}
+template <>
+hid_t memory_type<int>() {
+  return H5T_NATIVE_INT;
 }
 
+template <typename Value>
 void write_array(hid_t file, const std::string& path, const std::vector<hsize_t>& sizes,
-                 const float* values, const About& about) {
-  write_any(file, path, sizes, H5T_IEEE_F32LE, H5T_NATIVE_FLOAT, values, about);
+                 const Value* values, const About& about) {
+  const hid_t file_type = std::is_same_v<Value, double>  ? H5T_IEEE_F64LE
+                          : std::is_same_v<Value, float> ? H5T_IEEE_F32LE
+                                                         : H5T_STD_I32LE;
+  write_any(file, path, sizes, file_type, memory_type<Value>(), values, about);
 }
-
-void write_array(hid_t file, const std::string& path, const std::vector<hsize_t>& sizes,
-                 const int* values, const About& about) {
-  write_any(file, path, sizes, H5T_STD_I32LE, H5T_NATIVE_INT, values, about);
-}
+template void write_array(hid_t, const std::string&, const std::vector<hsize_t>&, const double*,
+                          const About&);
+template void write_array(hid_t, const std::string&, const std::vector<hsize_t>&, const float*,
+                          const About&);
+template void write_array(hid_t, const std::string&, const std::vector<hsize_t>&, const int*,
+                          const About&);
 
 void write_text(hid_t file, const std::string& path, const std::string& text) {
   const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "text type");
@@ -186,16 +190,22 @@ void write_texts(hid_t file, const std::string& path, const std::vector<std::str
   write_any(file, path, {texts.size()}, type, type, padded.data(), {});
 }
 
-std::vector<double> read_doubles(hid_t file, const std::string& path, hsize_t columns) {
-  return read_values<double>(file, path, columns, H5T_NATIVE_DOUBLE);
+template <typename Value>
+std::vector<Value> read(hid_t file, const std::string& path, hsize_t columns) {
+  const auto [dataset, n_values] = open_shaped(file, path, columns);
+  std::vector<Value> values(n_values);
+  if (n_values > 0) {
+    check(H5Dread(dataset, memory_type<Value>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+          path);
+  }
+  return values;
 }
+template std::vector<double> read(hid_t, const std::string&, hsize_t);
+template std::vector<int> read(hid_t, const std::string&, hsize_t);
 
-std::vector<int> read_ints(hid_t file, const std::string& path, hsize_t columns) {
-  return read_values<int>(file, path, columns, H5T_NATIVE_INT);
-}
-
-std::vector<std::string> read_texts(hid_t file, const std::string& path) {
-  const auto [dataset, n_texts] = open_shaped(file, path, 1);
+template <>
+std::vector<std::string> read(hid_t file, const std::string& path, hsize_t columns) {
+  const auto [dataset, n_texts] = open_shaped(file, path, columns);
   const Handle stored(H5Dget_type(dataset), H5Tclose, path);
   const std::size_t length = H5Tget_size(stored);
   if (H5Tget_class(stored) != H5T_STRING || H5Tis_variable_str(stored) != 0) {

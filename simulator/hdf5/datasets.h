@@ -60,23 +60,24 @@ struct About {
   std::string long_name;
 };
 
-/// Contiguous datasets; sizes are the lengths of the dimensions, missing groups are created.
+/// HDF5's type of a double, float or int in memory.
+template <typename Value>
+hid_t memory_type();
+
+/// Contiguous datasets of doubles, floats or ints, little-endian; sizes are the lengths of the
+/// dimensions, missing groups are created.
+template <typename Value>
 void write_array(hid_t file, const std::string& path, const std::vector<hsize_t>& sizes,
-                 const double* values, const About& about);
-void write_array(hid_t file, const std::string& path, const std::vector<hsize_t>& sizes,
-                 const float* values, const About& about);
-void write_array(hid_t file, const std::string& path, const std::vector<hsize_t>& sizes,
-                 const int* values, const About& about);
+                 const Value* values, const About& about);
 /// One string, ending with a zero byte as C's do.
 void write_text(hid_t file, const std::string& path, const std::string& text);
 /// Strings of fixed length, padded with zeros.
 void write_texts(hid_t file, const std::string& path, const std::vector<std::string>& texts);
 
-/// Reads a dataset of `columns` columns (1: also a plain vector). Throws StorageError if it is
-/// absent or of another shape.
-std::vector<double> read_doubles(hid_t file, const std::string& path, hsize_t columns);
-std::vector<int> read_ints(hid_t file, const std::string& path, hsize_t columns);
-std::vector<std::string> read_texts(hid_t file, const std::string& path);
+/// Reads a dataset of `columns` columns (1: also a plain vector) of doubles, ints or texts
+/// (std::string, 1 column). Throws StorageError if it is absent or of another shape.
+template <typename Value>
+std::vector<Value> read(hid_t file, const std::string& path, hsize_t columns = 1);
 
 /// A dataset (step, point, component) that grows by a step. A step is one chunk, uncompressed with
 /// a fletcher32 checksum behind it, so that its numbers stand in the file as they are (offsets()).

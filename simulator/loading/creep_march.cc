@@ -1,5 +1,3 @@
-#include "simulator/loading/creep_march.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,7 +5,9 @@
 #include <utility>
 
 #include "simulator/common/errors.h"
+#include "simulator/condensation/creep_ladder.h"
 #include "simulator/loading/case_contact.h"
+#include "simulator/loading/step_solver.h"
 #include "simulator/operators/prepare_operator.h"
 
 namespace faultsim {
@@ -35,9 +35,41 @@ Eigen::VectorXd elastic_traction_drop(const FaultOperator& op, const Eigen::Vect
   return drop.cwiseQuotient(op.geometry.dof_area);
 }
 
-}  // namespace
+/// Walks a case whose salt creeps, load step by load step, on the rungs of its ladder.
+///
+/// Step 0 is elastic. Over a time step Δt the faults carry, if they stay as they are,
+///
+///   t'_n + (history of the salt) + Σ Δc_k L_k(Δt) + α_f δp_f n,
+///
+/// from which contact is solved with H_Δt. Time steps are fixed (`creep_time_step`) or controlled:
+/// a step is taken once whole and once in halves; where the tractions differ by more than
+/// `creep_tolerance` the halves are halved, as far as the ladder goes; the finer answer is kept.
+///
+/// Slip that the relaxing bulk cannot hold (outcome unstable on a rung) makes the step shorter. On
+/// the shortest the load is applied at once, elastically, where a jump is followed as in an elastic
+/// case, and the salt then creeps under constant load. A jump that is followed in that creep, with
+/// the relaxed stiffness, is marked: the ladder is too coarse for it.
+class CreepMarch final : public StepSolver {
+ public:
+  /// @pre all arguments outlive this; laws and the operators of the ladder agree.
+  CreepMarch(CreepLadder& ladder, const StepSetting& setting)
+      : scene_(setting.scene),
+        numerics_(setting.scene.numerics),
+        watch_(setting.watch),
+        case_loads_(setting.loads),
+        ladder_(ladder),
+        following_laws_(setting.laws),
+        static_laws_(without_following(setting.laws)),
+        static_solver_(static_cast<std::size_t>(ladder_.n_rungs())),
+        following_solver_(static_cast<std::size_t>(ladder_.n_rungs())) {}
 
-struct CreepMarch::Impl {
+  SolvedStep advance(const LoadStep& step, const StepLoads& loads, ContactState& state) override;
+  Eigen::VectorXd observed(const StepLoads& loads, const ContactState& state) const override;
+  Eigen::Matrix3Xd displacement(const StepLoads&, const ContactState&) override {
+    return now_.bulk.displacement;
+  }
+
+ private:
   /// Everything that a time step changes.
   struct Point {
     double time = 0;  // s
@@ -61,17 +93,6 @@ struct CreepMarch::Impl {
     bool good() const { return in_equilibrium(contact.outcome); }
   };
 
-  Impl(CreepLadder& given_ladder, const StepSetting& setting)
-      : scene(setting.scene),
-        numerics(setting.scene.numerics),
-        watch(setting.watch),
-        case_loads(setting.loads),
-        ladder(given_ladder),
-        following_laws(setting.laws),
-        static_laws(without_following(setting.laws)),
-        static_solver(static_cast<std::size_t>(ladder.n_rungs())),
-        following_solver(static_cast<std::size_t>(ladder.n_rungs())) {}
-
   ContactReport begin(const StepLoads& loads, ContactState& state);
   Path walked(double to);
   int rung_of(double duration) const;
@@ -86,27 +107,27 @@ struct CreepMarch::Impl {
   Path fixed(const Point& from, double to);
   Path controlled(const Point& from, double to, Path coarse, int rung);
 
-  const Scene& scene;
-  const Numerics& numerics;
-  ContactWatch watch;
-  const CaseLoads& case_loads;
-  CreepLadder& ladder;
-  ContactLaws following_laws, static_laws;
-  std::vector<std::unique_ptr<ContactSolver>> static_solver, following_solver;  // per rung
-  Point now;
-  bool has_begun = false;                 // step 0 is in equilibrium
-  double step_from = 0, step_length = 0;  // s, of the load step
-  int thrown_away = 0;                    // Newton iterations of paths not taken
+  const Scene& scene_;
+  const Numerics& numerics_;
+  ContactWatch watch_;
+  const CaseLoads& case_loads_;
+  CreepLadder& ladder_;
+  ContactLaws following_laws_, static_laws_;
+  std::vector<std::unique_ptr<ContactSolver>> static_solver_, following_solver_;  // per rung
+  Point now_;
+  bool has_begun_ = false;                  // step 0 is in equilibrium
+  double step_from_ = 0, step_length_ = 0;  // s, of the load step
+  int thrown_away_ = 0;                     // Newton iterations of paths not taken
 };
 
 /// The rung of that duration; −1 if there is none. Durations of load steps are differences of
 /// times: good to the last digit of the time.
-int CreepMarch::Impl::rung_of(double duration) const {
+int CreepMarch::rung_of(double duration) const {
   double nearest =
-      1e-6 * duration + 4 * std::numeric_limits<double>::epsilon() * (step_from + step_length);
+      1e-6 * duration + 4 * std::numeric_limits<double>::epsilon() * (step_from_ + step_length_);
   int found = -1;
-  for (int r = 1; r < ladder.n_rungs(); ++r) {
-    const double distance = std::abs(ladder.duration(r) - duration);
+  for (int r = 1; r < ladder_.n_rungs(); ++r) {
+    const double distance = std::abs(ladder_.duration(r) - duration);
     if (distance > nearest) continue;
     nearest = distance;
     found = r;
@@ -116,25 +137,26 @@ int CreepMarch::Impl::rung_of(double duration) const {
 
 /// The rung of half that duration, of whichever load step it is a part; −1 if there is none or
 /// nothing is to be halved.
-int CreepMarch::Impl::finer(int rung) const {
-  return numerics.creep_refinements == 0 ? -1 : rung_of(ladder.duration(rung) / 2);
+int CreepMarch::finer(int rung) const {
+  return numerics_.creep_refinements == 0 ? -1 : rung_of(ladder_.duration(rung) / 2);
 }
 
-ContactSolver& CreepMarch::Impl::solver(int rung, bool follows) {
-  std::unique_ptr<ContactSolver>& chosen = (follows ? following_solver : static_solver)[rung];
+ContactSolver& CreepMarch::solver(int rung, bool follows) {
+  std::unique_ptr<ContactSolver>& chosen = (follows ? following_solver_ : static_solver_)[rung];
   if (!chosen) {
-    chosen = std::make_unique<ContactSolver>(
-        ladder.op(rung), follows ? following_laws : static_laws, contact_options(numerics), watch);
+    chosen =
+        std::make_unique<ContactSolver>(ladder_.op(rung), follows ? following_laws_ : static_laws_,
+                                        contact_options(numerics_), watch_);
   }
   return *chosen;
 }
 
 /// The end of a path, bulk and all.
-const CreepMarch::Impl::Point& CreepMarch::Impl::arrive(Path& path) {
+const CreepMarch::Point& CreepMarch::arrive(Path& path) {
   if (path.move) {
     BulkMove& move = *path.move;
-    ladder.advance(move.rung, std::move(move.history), move.load_increments, move.jump_increment,
-                   path.end.bulk);
+    ladder_.advance(move.rung, std::move(move.history), move.load_increments, move.jump_increment,
+                    path.end.bulk);
     path.move.reset();
   }
   return path.end;
@@ -142,13 +164,13 @@ const CreepMarch::Impl::Point& CreepMarch::Impl::arrive(Path& path) {
 
 /// One step of a rung, from a point to the loads given. Load factors of jumps are turned into those
 /// of the load step, whose loads are linear in time.
-CreepMarch::Impl::Path CreepMarch::Impl::step(const Point& from, const StepLoads& loads, double to,
-                                              int rung, bool follows) {
-  watch.stop.throw_if_requested("solving a step of creep");
-  const FaultOperator& op = ladder.op(rung);
-  const FaultOperator& elastic = ladder.op(0);
-  CreepLadder::History history = ladder.history(
-      rung, from.bulk, case_loads.forces(from.loads.time, loads.time, op.n_unknowns));
+CreepMarch::Path CreepMarch::step(const Point& from, const StepLoads& loads, double to, int rung,
+                                  bool follows) {
+  watch_.stop.throw_if_requested("solving a step of creep");
+  const FaultOperator& op = ladder_.op(rung);
+  const FaultOperator& elastic = ladder_.op(0);
+  CreepLadder::History history = ladder_.history(
+      rung, from.bulk, case_loads_.forces(from.loads.time, loads.time, op.n_unknowns));
   std::vector<double> increments(loads.factors.size());
   Eigen::VectorXd change = loads.locked - from.loads.locked + history.traction;
   if (loads.locked_by_forces.size() > 0)  // elastic; the rung's own is in `history`
@@ -166,7 +188,7 @@ CreepMarch::Impl::Path CreepMarch::Impl::step(const Point& from, const StepLoads
   path.creep.time_steps = 1;
   for (ContactJump& jump : path.contact.jumps) {
     for (double* factor : {&jump.load_before, &jump.load_after}) {
-      *factor = (from.time + *factor * (to - from.time) - step_from) / step_length;
+      *factor = (from.time + *factor * (to - from.time) - step_from_) / step_length_;
     }
   }
   if (!path.good()) return path;
@@ -177,7 +199,7 @@ CreepMarch::Impl::Path CreepMarch::Impl::step(const Point& from, const StepLoads
   return path;
 }
 
-CreepMarch::Impl::Path CreepMarch::Impl::joined(Path first, Path second) {
+CreepMarch::Path CreepMarch::joined(Path first, Path second) {
   ContactReport& sum = first.contact;
   const ContactReport& more = second.contact;
   sum.outcome = more.outcome == Outcome::converged ? sum.outcome : more.outcome;
@@ -193,8 +215,8 @@ CreepMarch::Impl::Path CreepMarch::Impl::joined(Path first, Path second) {
 }
 
 /// On the shortest rung: the load at once, then creep at constant load.
-CreepMarch::Impl::Path CreepMarch::Impl::split(const Point& from, double to, int rung) {
-  const StepLoads loads = case_loads.at(to);
+CreepMarch::Path CreepMarch::split(const Point& from, double to, int rung) {
+  const StepLoads loads = case_loads_.at(to);
   Path jump = step(from, loads, to, 0, true);
   if (!jump.good()) return jump;
   jump.creep.time_steps = 0;
@@ -204,23 +226,22 @@ CreepMarch::Impl::Path CreepMarch::Impl::split(const Point& from, double to, int
   return joined(std::move(jump), std::move(creep));
 }
 
-void CreepMarch::Impl::discard(const Path& path) {
+void CreepMarch::discard(const Path& path) {
   const SolveCounts& counts = path.contact.counts;
-  thrown_away += counts.newton_iterations + counts.wasted_newton_iterations;
+  thrown_away_ += counts.newton_iterations + counts.wasted_newton_iterations;
 }
 
 /// @param shortest  no shorter step will be tried.
-CreepMarch::Impl::Path CreepMarch::Impl::whole(const Point& from, double to, int rung,
-                                               bool shortest) {
-  Path path = step(from, case_loads.at(to), to, rung, false);
+CreepMarch::Path CreepMarch::whole(const Point& from, double to, int rung, bool shortest) {
+  Path path = step(from, case_loads_.at(to), to, rung, false);
   if (path.good() || !shortest) return path;
   discard(path);
   return split(from, to, rung);
 }
 
-CreepMarch::Impl::Path CreepMarch::Impl::fixed(const Point& from, double to) {
+CreepMarch::Path CreepMarch::fixed(const Point& from, double to) {
   const double start = from.time, length = to - from.time;
-  const int n = std::max(1, static_cast<int>(std::ceil(length / numerics.creep_time_step - 1e-9)));
+  const int n = std::max(1, static_cast<int>(std::ceil(length / numerics_.creep_time_step - 1e-9)));
   const int rung = rung_of(length / n);
   FAULTSIM_DEMAND(rung > 0, "no rung of ", length / n, " s");
   Path path = whole(from, start + length / n, rung, true);
@@ -232,8 +253,7 @@ CreepMarch::Impl::Path CreepMarch::Impl::fixed(const Point& from, double to) {
 }
 
 /// @param coarse  the way in one step of the rung, taken already.
-CreepMarch::Impl::Path CreepMarch::Impl::controlled(const Point& from, double to, Path coarse,
-                                                    int rung) {
+CreepMarch::Path CreepMarch::controlled(const Point& from, double to, Path coarse, int rung) {
   const int half = finer(rung);
   if (half < 0) return coarse;
   const double middle = from.time + (to - from.time) / 2;
@@ -247,7 +267,7 @@ CreepMarch::Impl::Path CreepMarch::Impl::controlled(const Point& from, double to
         (coarse.end.contact.traction - second.end.contact.traction).lpNorm<Eigen::Infinity>();
   }
   discard(coarse);
-  if (difference > numerics.creep_tolerance && !last) {
+  if (difference > numerics_.creep_tolerance && !last) {
     discard(second);
     Path path = controlled(from, middle, std::move(first), half);
     if (!path.good()) return path;
@@ -259,80 +279,77 @@ CreepMarch::Impl::Path CreepMarch::Impl::controlled(const Point& from, double to
   Path path = joined(std::move(first), std::move(second));
   if (std::isfinite(difference)) {  // else a jump was in the way, and there is nothing to compare
     path.creep.time_error = std::max(path.creep.time_error, difference);
-    path.creep.time_resolved = path.creep.time_resolved && difference <= numerics.creep_tolerance;
+    path.creep.time_resolved = path.creep.time_resolved && difference <= numerics_.creep_tolerance;
   }
   return path;
 }
 
 /// Step 0, elastic: from closed faults to the loads at t = 0.
-ContactReport CreepMarch::Impl::begin(const StepLoads& loads, ContactState& state) {
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(ladder.op(0).geometry.n_dofs);
+ContactReport CreepMarch::begin(const StepLoads& loads, ContactState& state) {
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(ladder_.op(0).geometry.n_dofs);
   ContactReport report = solver(0, true).solve_step(none, loads.locked, state);
   if (!in_equilibrium(report.outcome)) return report;
-  now = {0, loads, state, ladder.at_rest()};
+  now_ = {0, loads, state, ladder_.at_rest()};
   CreepLadder::History history =
-      ladder.history(0, now.bulk, case_loads.forces_at(loads.time, ladder.op(0).n_unknowns));
-  ladder.advance(0, std::move(history), loads.factors, state.jump, now.bulk);
-  has_begun = true;
+      ladder_.history(0, now_.bulk, case_loads_.forces_at(loads.time, ladder_.op(0).n_unknowns));
+  ladder_.advance(0, std::move(history), loads.factors, state.jump, now_.bulk);
+  has_begun_ = true;
   return report;
 }
 
 /// The way to the end of a load step.
-CreepMarch::Impl::Path CreepMarch::Impl::walked(double to) {
-  step_from = now.time;
-  step_length = to - now.time;
-  thrown_away = 0;
+CreepMarch::Path CreepMarch::walked(double to) {
+  step_from_ = now_.time;
+  step_length_ = to - now_.time;
+  thrown_away_ = 0;
   Path path;
-  if (numerics.creep_time_step > 0) {
-    path = fixed(now, to);
+  if (numerics_.creep_time_step > 0) {
+    path = fixed(now_, to);
   } else {
-    const int rung = rung_of(step_length);
-    FAULTSIM_DEMAND(rung > 0, "no rung of ", step_length, " s");
+    const int rung = rung_of(step_length_);
+    FAULTSIM_DEMAND(rung > 0, "no rung of ", step_length_, " s");
     const bool only = finer(rung) < 0;
-    path = controlled(now, to, whole(now, to, rung, only), rung);
+    path = controlled(now_, to, whole(now_, to, rung, only), rung);
   }
-  path.contact.counts.wasted_newton_iterations += thrown_away;
+  path.contact.counts.wasted_newton_iterations += thrown_away_;
   return path;
 }
 
-CreepMarch::CreepMarch(CreepLadder& ladder, const StepSetting& setting)
-    : impl_(std::make_unique<Impl>(ladder, setting)) {}
-
-CreepMarch::~CreepMarch() = default;
-
 SolvedStep CreepMarch::advance(const LoadStep& step, const StepLoads& loads, ContactState& state) {
-  Impl& self = *impl_;
   SolvedStep solved;
-  if (!self.has_begun) {
-    solved.contact = self.begin(loads, state);
-    if (self.has_begun) solved.creep.emplace();
+  if (!has_begun_) {
+    solved.contact = begin(loads, state);
+    if (has_begun_) solved.creep.emplace();
   } else {
-    Impl::Path path = self.walked(step.time);
+    Path path = walked(step.time);
     solved.is_elastic = false;
     if (path.good()) {
-      self.arrive(path);
-      self.now = std::move(path.end);
-      state = self.now.contact;
+      arrive(path);
+      now_ = std::move(path.end);
+      state = now_.contact;
     }
     solved.contact = std::move(path.contact);
     solved.creep = std::move(path.creep);
   }
   if (in_equilibrium(solved.contact.outcome)) {
     solved.creep_traction =
-        state.traction - loads.locked + elastic_traction_drop(self.ladder.op(0), state.jump);
+        state.traction - loads.locked + elastic_traction_drop(ladder_.op(0), state.jump);
   }
   return solved;
 }
 
 Eigen::VectorXd CreepMarch::observed(const StepLoads&, const ContactState&) const {
-  Eigen::VectorXd u = impl_->ladder.observed(impl_->now.bulk);
-  const bool half = impl_->ladder.op(0).geometry.half_domain;
-  for (const int row : mirrored_rows(impl_->scene, half)) u[row] *= -1;
+  Eigen::VectorXd u = ladder_.observed(now_.bulk);
+  for (const int row : mirrored_rows(scene_, ladder_.op(0).geometry.half_domain)) u[row] *= -1;
   return u;
 }
 
-Eigen::Matrix3Xd CreepMarch::displacement(const StepLoads&, const ContactState&) {
-  return impl_->now.bulk.displacement;
+}  // namespace
+
+MakeStepSolver creep_steps(CreepLadder& ladder) {
+  return [&ladder](const StepSetting& setting) {
+    return std::make_unique<CreepMarch>(ladder, setting);
+  };
 }
 
 }  // namespace faultsim

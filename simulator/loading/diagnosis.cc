@@ -130,11 +130,11 @@ Diagnosis diagnose_case(const Scene& scene, const PreparedOperator& prepared,
     diagnosis.n_elastic += step.elastic;
     diagnosis.n_at_once += step.at_once;
   };
-  diagnosis.result = run_case(scene, prepared, context, {}, probe);
+  diagnosis.result = run_case(scene, prepared, context, probe);
   if (diagnosis.result.outcome == Outcome::interrupted) return diagnosis;
   CaseProbe disturbed;
   disturbed.noise = NoiseCheck::kNoise;
-  const CaseResult twin = run_case(scene, prepared, context, {}, disturbed);
+  const CaseResult twin = run_case(scene, prepared, context, disturbed);
   if (twin.outcome == Outcome::interrupted) {
     diagnosis.result.outcome = Outcome::interrupted;
     return diagnosis;

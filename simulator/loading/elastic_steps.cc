@@ -1,16 +1,32 @@
-#include "simulator/loading/elastic_steps.h"
-
 #include "simulator/common/errors.h"
+#include "simulator/condensation/creep_ladder.h"
 #include "simulator/loading/case_contact.h"
+#include "simulator/loading/step_solver.h"
 
 namespace faultsim {
 
-ElasticSteps::ElasticSteps(const FaultOperator& op, CreepLadder* bulk, const StepSetting& setting)
-    : op_(op),
-      bulk_(bulk),
-      case_loads_(setting.loads),
-      contact_(op, setting.laws, contact_options(setting.scene.numerics), setting.watch),
-      locked_(Eigen::VectorXd::Zero(op.geometry.n_dofs)) {}
+namespace {
+
+class ElasticSteps final : public StepSolver {
+ public:
+  ElasticSteps(const FaultOperator& op, CreepLadder* bulk, const StepSetting& setting)
+      : op_(op),
+        bulk_(bulk),
+        case_loads_(setting.loads),
+        contact_(op, setting.laws, contact_options(setting.scene.numerics), setting.watch),
+        locked_(Eigen::VectorXd::Zero(op.geometry.n_dofs)) {}
+
+  SolvedStep advance(const LoadStep& step, const StepLoads& loads, ContactState& state) override;
+  Eigen::VectorXd observed(const StepLoads& loads, const ContactState& state) const override;
+  Eigen::Matrix3Xd displacement(const StepLoads& loads, const ContactState& state) override;
+
+ private:
+  const FaultOperator& op_;
+  CreepLadder* bulk_;
+  const CaseLoads& case_loads_;
+  ContactSolver contact_;
+  Eigen::VectorXd locked_;  ///< t_L of the last equilibrium, Pa.
+};
 
 SolvedStep ElasticSteps::advance(const LoadStep&, const StepLoads& loads, ContactState& state) {
   SolvedStep solved;
@@ -32,6 +48,14 @@ Eigen::Matrix3Xd ElasticSteps::displacement(const StepLoads& loads, const Contac
   const Eigen::VectorXd forces = case_loads_.forces_at(loads.time, op_.n_unknowns);
   if (forces.size() == 0) return bulk.displacement(loads.factors, state.jump);
   return bulk.displacement(bulk.forward(forces), loads.factors, state.jump);
+}
+
+}  // namespace
+
+MakeStepSolver elastic_steps(const FaultOperator& op, CreepLadder* bulk) {
+  return [&op, bulk](const StepSetting& setting) {
+    return std::make_unique<ElasticSteps>(op, bulk, setting);
+  };
 }
 
 }  // namespace faultsim

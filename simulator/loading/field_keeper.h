@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/loading/run_case.h"
+#include "simulator/loading/run_watch.h"
 #include "simulator/loads/history.h"
 #include "simulator/result_files/field_writer.h"
 
@@ -24,7 +24,7 @@ FieldSteps field_steps_from_string(const std::string& text);
 class FieldSelection {
  public:
   FieldSelection(FieldSteps which, const Scene& scene, StepObserver sink);
-  /// To be called after each load step in equilibrium, in order (a StepObserver).
+  /// To be called after each load step in equilibrium, in order.
   void add(const StepResult& step, const FaultFields& fields);
   /// Hands on what is still held back. Returns the numbers of the steps handed on, ascending.
   std::vector<int> finish();

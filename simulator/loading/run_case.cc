@@ -7,8 +7,6 @@
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/stopwatch.h"
 #include "simulator/loading/case_contact.h"
-#include "simulator/loading/creep_march.h"
-#include "simulator/loading/elastic_steps.h"
 #include "simulator/loading/warnings.h"
 #include "simulator/measures/episodes.h"
 #include "simulator/measures/fault_neighbours.h"
@@ -37,12 +35,10 @@ void add_counts(SolveCounts& sum, const SolveCounts& part) {
 class CaseRun {
  public:
   CaseRun(const Scene& scene, const FaultOperator& op, const LoadSources& further,
-          const MakeStepSolver& solver, const RunContext& context, const StepObserver& observer,
-          const CaseProbe& probe)
+          const MakeStepSolver& solver, const RunContext& context, const CaseProbe& probe)
       : scene_(scene),
         op_(op),
         context_(context),
-        observer_(observer),
         probe_(probe),
         laws_(contact_laws(scene, op.geometry)),
         node_laws_(laws_),
@@ -77,7 +73,6 @@ class CaseRun {
   const Scene& scene_;
   const FaultOperator& op_;
   const RunContext& context_;
-  const StepObserver& observer_;
   const CaseProbe& probe_;
   ContactLaws laws_;
   NodeLaws node_laws_;
@@ -198,7 +193,7 @@ void CaseRun::record(const LoadStep& step, const StepLoads& loads,
     }
     stage_->add(result, meter_, neighbours_, nodal_, state_, loads, result_.fault_names, events);
   }
-  if (observer_) observer_(result, fields(loads));
+  if (probe_.step) probe_.step(result, fields(loads));
 }
 
 /// Loads are linear within a step, so onset lies where its load factor says.
@@ -379,29 +374,23 @@ StepStart CaseRun::start_of(int step) {
 }
 
 /// What solves the steps of cases on an operator.
-MakeStepSolver steps_on(const FaultOperator& op, CreepLadder* bulk) {
-  return [&op, bulk](const StepSetting& setting) -> std::unique_ptr<StepSolver> {
-    if (bulk != nullptr && bulk->n_rungs() > 1) return std::make_unique<CreepMarch>(*bulk, setting);
-    return std::make_unique<ElasticSteps>(op, bulk, setting);
-  };
-}
-
 MakeStepSolver steps_on(const PreparedOperator& prepared) {
-  return steps_on(*prepared.op, prepared.bulk.get());
+  CreepLadder* bulk = prepared.bulk.get();
+  return bulk != nullptr && bulk->n_rungs() > 1 ? creep_steps(*bulk)
+                                                : elastic_steps(*prepared.op, bulk);
 }
 
 }  // namespace
 
 CaseResult run_case(const Scene& scene, const FaultOperator& op, const RunContext& context,
-                    const StepObserver& observer) {
-  return CaseRun(scene, op, {}, steps_on(op, nullptr), context, observer, {}).run();
+                    const CaseProbe& probe) {
+  return run_case(scene, op, elastic_steps(op, nullptr), context, probe);
 }
 
 CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, const RunContext& context,
-                    const StepObserver& observer, const CaseProbe& probe) {
+                    const CaseProbe& probe) {
   CaseResult result =
-      CaseRun(scene, *prepared.op, prepared.loads, steps_on(prepared), context, observer, probe)
-          .run();
+      CaseRun(scene, *prepared.op, prepared.loads, steps_on(prepared), context, probe).run();
   result.field_coverage = prepared.field_coverage;
   result.warnings.insert(result.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
   result.surface = prepared.surface;
@@ -410,17 +399,15 @@ CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, const 
 }
 
 CaseResult run_case(const Scene& scene, const FaultOperator& faults, const MakeStepSolver& solver,
-                    const RunContext& context, const StepObserver& observer,
-                    const CaseProbe& probe) {
-  return CaseRun(scene, faults, {}, solver, context, observer, probe).run();
+                    const RunContext& context, const CaseProbe& probe) {
+  return CaseRun(scene, faults, {}, solver, context, probe).run();
 }
 
 StepStart start_of_step(const Scene& scene, const PreparedOperator& prepared, int step,
                         const RunContext& context) {
-  const StepObserver unobserved;
   const CaseProbe no_probe;
-  return CaseRun(scene, *prepared.op, prepared.loads, steps_on(*prepared.op, nullptr), context,
-                 unobserved, no_probe)
+  return CaseRun(scene, *prepared.op, prepared.loads, elastic_steps(*prepared.op, nullptr), context,
+                 no_probe)
       .start_of(step);
 }
 

@@ -7,6 +7,7 @@
 
 #include "simulator/common/run_context.h"
 #include "simulator/contact/judge.h"
+#include "simulator/loading/run_watch.h"
 #include "simulator/loading/step_solver.h"
 #include "simulator/model/fault_operator.h"
 #include "simulator/operators/prepare_operator.h"
@@ -15,22 +16,14 @@
 
 namespace faultsim {
 
-/// Called after each load step in equilibrium.
-using StepObserver = std::function<void(const StepResult&, const FaultFields&)>;
-
 /// What callers add to a run: looks at what was tried and accepted, noise, and what they know.
-struct CaseProbe {
+struct CaseProbe : RunWatch {
   /// Relative size of a disturbance of every locked traction at every time, with signs that depend
   /// on nothing but the position of the entry; 0 = none.
   double noise = 0;
   /// Called after each load step in equilibrium, if set, with the number of the step.
-  std::function<void(int, const ContactLaws&, const AcceptedStep&)> accepted;
-  /// Called after each try at a part of a load step, if set, with the number of the step.
-  std::function<void(int, const SubStepTrace&)> tried;
-  /// Called at the end of each stage, and of step 0, with the displacement of all mesh nodes (m),
-  /// if set: where that is on a condensed operator, its bulk was kept.
-  std::function<void(const StepResult&, const Eigen::Matrix3Xd&)> displaced;
-  std::string identity;  ///< case_identity of the scene; empty = to be found.
+  std::function<void(int, const ContactLaws&, const AcceptedStep&)> accepted = nullptr;
+  std::string identity = {};  ///< case_identity of the scene; empty = to be found.
 };
 
 /// Runs one case on its operator: initial state, load steps, contact, metrics. Deterministic: the
@@ -38,17 +31,16 @@ struct CaseProbe {
 /// non-convergence, nor where the context stops it: the outcome is then `interrupted`, and the
 /// steps are those that were complete.
 CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, const RunContext& context,
-                    const StepObserver& observer = {}, const CaseProbe& probe = {});
+                    const CaseProbe& probe = {});
 /// The same without creep, whatever the scene says of viscosity.
 CaseResult run_case(const Scene& scene, const FaultOperator& op, const RunContext& context,
-                    const StepObserver& observer = {});
+                    const CaseProbe& probe = {});
 
 /// The same by a solver of its own, which has no operator.
 /// @param faults  geometry, keys of its loads and observation rows; nothing of what a load or a
 /// jump does.
 CaseResult run_case(const Scene& scene, const FaultOperator& faults, const MakeStepSolver& solver,
-                    const RunContext& context, const StepObserver& observer = {},
-                    const CaseProbe& probe = {});
+                    const RunContext& context, const CaseProbe& probe = {});
 
 /// One load step of a case before it is solved: what a contact solver would be given.
 struct StepStart {

@@ -13,6 +13,8 @@
 
 namespace faultsim {
 
+class CreepLadder;
+
 /// How a load step was solved.
 struct SolvedStep {
   ContactReport contact;              ///< load factors of its jumps are of the load step.
@@ -49,5 +51,11 @@ struct StepSetting {
   ContactWatch watch;
 };
 using MakeStepSolver = std::function<std::unique_ptr<StepSolver>(const StepSetting&)>;
+
+/// Load steps in elastic rock: contact on the condensed operator, and nothing else.
+/// @param bulk  whose factor gives displacements; may be null. Both outlive the solvers.
+MakeStepSolver elastic_steps(const FaultOperator& op, CreepLadder* bulk);
+/// Load steps while salt creeps, on the rungs of its ladder, which outlives the solvers.
+MakeStepSolver creep_steps(CreepLadder& ladder);
 
 }  // namespace faultsim

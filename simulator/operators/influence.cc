@@ -27,18 +27,6 @@ std::filesystem::path influence_path(const CachePolicy& cache, const std::string
   return cache.folder / concat(op, "-influence-", name.substr(0, 12), ".h5");
 }
 
-/// A block that cannot be kept is still a block.
-void keep_influence(const PreparedInfluence& made, const CachePolicy& cache, std::string& remark) {
-  try {
-    write_influence(*made.block, *made.op,
-                    influence_path(cache, made.op->fingerprint, made.block->fingerprint));
-    prune_operators(cache.folder, cache.max_bytes, made.op->fingerprint);
-  } catch (const StorageError& error) {
-    if (!remark.empty()) remark += "; ";
-    remark += concat("the influence block is not kept for other runs: ", error.what());
-  }
-}
-
 }  // namespace
 
 std::vector<std::string> pressure_region_names(const Scene& scene) {
@@ -104,7 +92,12 @@ PreparedInfluence prepare_influence(const SceneBulk& of, const std::vector<int>&
   block->region_names = pressure_region_names(scene);
   for (const int row : mirrored_rows(scene, plan.half_domain)) block->observed.row(row) *= -1;
   made.block = block;
-  if (!cache.folder.empty()) keep_influence(made, cache, made.remark);
+  if (!cache.folder.empty()) {
+    keep(
+        cache, op_name, "the influence block",
+        [&] { write_influence(*block, *made.op, influence_path(cache, op_name, name)); },
+        made.remark);
+  }
   return made;
 }
 

@@ -9,14 +9,6 @@
 namespace faultsim {
 namespace {
 
-/// Fault names are not part of a family: an operator made for another scene may carry other names.
-void take_fault_names(const Scene& scene, FaultOperator& op) {
-  FAULTSIM_DEMAND(op.geometry.faults.size() == scene.faults.size(), op.geometry.faults.size());
-  for (std::size_t f = 0; f < scene.faults.size(); ++f) {
-    op.geometry.faults[f].name = scene.faults[f].name;
-  }
-}
-
 void mirror_observations(const Scene& scene, const Plan& plan, Observations& observed) {
   FAULTSIM_DEMAND(observed.rows.size() == 3 * scene.output.observation_points.size(),
                   observed.rows.size());
@@ -24,17 +16,6 @@ void mirror_observations(const Scene& scene, const Plan& plan, Observations& obs
     for (int c = -1; c < 2; ++c) observed.rows[row + c].position.y() *= -1;
     observed.per_load.row(row) *= -1;
     observed.per_jump.row(row) *= -1;
-  }
-}
-
-/// An operator that cannot be kept is still an operator: a full disk must not cost the run.
-void keep_operator(const FaultOperator& op, const CachePolicy& cache, std::string& remark) {
-  try {
-    write_operator(op, cache.folder);
-    prune_operators(cache.folder, cache.max_bytes, op.fingerprint);
-  } catch (const StorageError& error) {
-    if (!remark.empty()) remark += "; ";
-    remark += concat("the operator is not kept for other runs: ", error.what());
   }
 }
 
@@ -62,6 +43,13 @@ MaxwellScheme scheme_of(const Scene& scene) {
 }
 
 }  // namespace
+
+void take_fault_names(const Scene& scene, FaultOperator& op) {
+  FAULTSIM_DEMAND(op.geometry.faults.size() == scene.faults.size(), op.geometry.faults.size());
+  for (std::size_t f = 0; f < scene.faults.size(); ++f) {
+    op.geometry.faults[f].name = scene.faults[f].name;
+  }
+}
 
 PreparedOperator prepare_operator(const SceneBulk& of, const CachePolicy& cache, bool keep_bulk,
                                   const RunContext& context) {
@@ -94,7 +82,10 @@ PreparedOperator prepare_operator(const SceneBulk& of, const CachePolicy& cache,
     op->build_seconds += bulk->op(rung).build_seconds;
     op->factor_bytes += bulk->op(rung).factor_bytes;
   }
-  if (!cache.folder.empty() && !plan.creep.active) keep_operator(*op, cache, prepared.remark);
+  if (!cache.folder.empty() && !plan.creep.active) {
+    keep(
+        cache, name, "the operator", [&] { write_operator(*op, cache.folder); }, prepared.remark);
+  }
   prepared.op = op;
   if (keeps_factors) prepared.bulk = bulk;
   return prepared;

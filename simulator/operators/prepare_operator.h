@@ -47,6 +47,8 @@ std::optional<Mesh> moved_faults(const Scene& scene, const Plan& plan, const Mes
 /// Points of the half that is not modelled are observed at their mirror image. The rows (three per
 /// observation point) whose sign is therefore to be turned: their u_y.
 std::vector<int> mirrored_rows(const Scene& scene, bool half_domain);
+/// Fault names are not part of a family: an operator made for another scene may carry other names.
+void take_fault_names(const Scene& scene, FaultOperator& op);
 
 /// The operator of the scene: from the cache if it is there and sound, else built (and cached).
 /// Throws ResourceError before anything is built when the plan needs more memory than is available;

@@ -65,7 +65,7 @@ std::vector<std::vector<int>> read_faces(hid_t file, const std::string& path) {
   std::array<hsize_t, 2> sizes = {};
   if (H5Sget_simple_extent_ndims(space) != 2) throw StorageError(path + " is not a table");
   H5Sget_simple_extent_dims(space, sizes.data(), nullptr);
-  const std::vector<int> corners = hdf5::read_ints(file, path, sizes[1]);
+  const std::vector<int> corners = hdf5::read<int>(file, path, sizes[1]);
   std::vector<std::vector<int>> faces;
   for (std::size_t at = 0; at < corners.size(); at += sizes[1]) {
     const auto first = corners.begin() + static_cast<std::ptrdiff_t>(at);
@@ -100,16 +100,16 @@ FieldReader::FieldReader(const std::filesystem::path& file) : impl_(std::make_un
                  impl_->file.emplace(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
                                      "opening it");
                  const hid_t h5 = *impl_->file;
-                 impl_->steps = hdf5::read_ints(h5, "/step", 1);
-                 impl_->times = hdf5::read_doubles(h5, "/time", 1);
+                 impl_->steps = hdf5::read<int>(h5, "/step", 1);
+                 impl_->times = hdf5::read<double>(h5, "/time", 1);
                  for (const std::string& name : groups_below(h5, "/faults")) {
                    const std::string at = "/faults/" + name;
                    impl_->groups.push_back(at);
                    impl_->faults.push_back(
                        {.name = text_attribute(h5, at, "name"),
-                        .points = columns_of(hdf5::read_doubles(h5, at + "/geometry/points", 3)),
+                        .points = columns_of(hdf5::read<double>(h5, at + "/geometry/points", 3)),
                         .faces = read_faces(h5, at + "/geometry/cells"),
-                        .split = hdf5::read_ints(h5, at + "/geometry/split", 1)});
+                        .split = hdf5::read<int>(h5, at + "/geometry/split", 1)});
                    const StoredFault& fault = impl_->faults.back();
                    for (const std::vector<int>& face : fault.faces) {
                      for (const int point : face) {

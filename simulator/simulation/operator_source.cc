@@ -7,11 +7,6 @@
 namespace faultsim {
 namespace {
 
-Scene without_surface(Scene scene) {
-  scene.numerics.surface = {};
-  return scene;
-}
-
 SceneBulk bulk_of(const LoadedScene& loaded) { return {loaded.scene, loaded.plan, loaded.mesh}; }
 
 /// What is to be said of the scene's flow results. Throws InputError where they do not fit.

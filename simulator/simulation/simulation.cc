@@ -220,19 +220,16 @@ std::vector<FaultPoint> Simulation::points() const {
 
 CaseResult Simulation::run(const RunContext& context, const RunWatch& watch) {
   prepare(context, watch.displaced != nullptr);
-  CaseProbe probe;
-  probe.tried = watch.tried;
-  probe.displaced = watch.displaced;
+  CaseProbe probe{watch};
   probe.identity = impl_->at_hand.identity;
   const PreparedOperator& prepared = impl_->prepared;
-  if (!prepared.surface)
-    return run_case(impl_->at_hand.scene, prepared, context, watch.step, probe);
+  if (!prepared.surface) return run_case(impl_->at_hand.scene, prepared, context, probe);
   MovedJumps moved(*prepared.op);
-  const auto look = [&](const StepResult& step, const FaultFields& fields) {
+  probe.step = [&](const StepResult& step, const FaultFields& fields) {
     moved.look(fields);
     if (watch.step) watch.step(step, fields);
   };
-  CaseResult result = run_case(impl_->at_hand.scene, prepared, context, look, probe);
+  CaseResult result = run_case(impl_->at_hand.scene, prepared, context, probe);
   require_definite(*prepared.op, moved.list());
   return result;
 }

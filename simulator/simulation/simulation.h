@@ -11,6 +11,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/common/run_context.h"
 #include "simulator/contact/search_record.h"
+#include "simulator/loading/run_watch.h"
 #include "simulator/result/result.h"
 
 /// faultsim as a library. What programs outside this project include, with the headers above:
@@ -39,18 +40,6 @@ struct FaultPoint {
   Eigen::Vector3d position;  ///< m; on the side y >= 0 where only half of a domain is modelled.
   Eigen::Vector3d normal, strike, dip;  ///< unit vectors of its frame; normal from minus to plus.
   double area;                          ///< m2; per metre of strike (m) in plane strain.
-};
-
-/// Who looks on while a case runs; the result does not depend on it. Called by the thread that
-/// runs.
-struct RunWatch {
-  /// After each load step in equilibrium.
-  std::function<void(const StepResult&, const FaultFields&)> step = nullptr;
-  /// After each try at a part of a load step, with the step's number (docs/trace.md).
-  std::function<void(int, const SubStepTrace&)> tried = nullptr;
-  /// At the end of each stage, and of step 0, with the displacement of all mesh nodes, m, 3 x
-  /// n_nodes.
-  std::function<void(const StepResult&, const Eigen::Matrix3Xd&)> displaced = nullptr;
 };
 
 /// A scene that is held, and the operator that it and its changes run on.

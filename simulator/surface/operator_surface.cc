@@ -42,62 +42,36 @@ std::vector<int> observed_nodes(const BulkProblem& of_points, const Mesh& mesh) 
          "narrow the ranges of dips and offsets, or take exact operators");
 }
 
-Scene without_surface(Scene scene) {
-  scene.numerics.surface = {};
-  return scene;
-}
-
 SparseGrid grid_of(const std::vector<SparseGrid::Index>& nodes) {
   SparseGrid grid(static_cast<int>(nodes.front().size()));
   for (std::size_t k = 1; k < nodes.size(); ++k) grid.add(nodes[k]);
   return grid;
 }
 
+SurfaceAxis::Scale scale_of(Kind kind) {
+  if (kind == Kind::youngs_modulus) return SurfaceAxis::Scale::logarithm;
+  return kind == Kind::dip ? SurfaceAxis::Scale::tangent : SurfaceAxis::Scale::linear;
+}
+
+std::vector<SurfaceAxis> axes_of(const SurfaceRequest& request) {
+  std::vector<SurfaceAxis> axes;
+  for (const SurfaceParameter& one : request.over)
+    axes.push_back({one.from, one.to, scale_of(one.kind)});
+  return axes;
+}
+
 }  // namespace
+
+Scene without_surface(Scene scene) {
+  scene.numerics.surface = {};
+  return scene;
+}
 
 Plan exact_plan(const Scene& scene) {
   std::vector<Problem> problems;
   Plan plan = make_plan(scene, problems);
   if (!problems.empty()) throw InputError("scene at a node of its surface", std::move(problems));
   return plan;
-}
-
-std::vector<SurfaceAxis> surface_axes(const SurfaceRequest& request, const Scene& scene) {
-  std::vector<SurfaceAxis> axes;
-  for (const SurfaceParameter& one : request.over) {
-    const auto i = static_cast<std::size_t>(one.index);
-    SurfaceAxis axis;
-    axis.from = one.from;
-    axis.to = one.to;
-    switch (one.kind) {
-      case Kind::youngs_modulus:
-        axis.name = "Young's modulus of " + scene.materials.at(i).name;
-        axis.scale = SurfaceAxis::Scale::logarithm;
-        break;
-      case Kind::poisson_ratio:
-        axis.name = "Poisson's ratio of " + scene.materials.at(i).name;
-        break;
-      case Kind::dip:
-        axis.name = "dip of " + scene.faults.at(i).name;
-        axis.scale = SurfaceAxis::Scale::tangent;
-        break;
-      case Kind::offset:
-        axis.name = "offset of " + scene.field.blocks.at(i).name;
-        break;
-    }
-    axes.push_back(std::move(axis));
-  }
-  return axes;
-}
-
-Eigen::VectorXd surface_coordinates(const std::vector<SurfaceAxis>& axes,
-                                    const SurfaceRequest& request, const Scene& scene) {
-  Eigen::VectorXd x(static_cast<Eigen::Index>(axes.size()));
-  for (std::size_t j = 0; j < axes.size(); ++j) {
-    const double at = axes[j].coordinate(value_of(request.over[j], scene));
-    x[static_cast<Eigen::Index>(j)] = std::clamp(at, -1.0, 1.0);  // ends are rounded
-  }
-  return x;
 }
 
 /// What does not change from sample to sample unless the mesh moves.
@@ -138,7 +112,7 @@ OperatorSurface::OperatorSurface(const Scene& scene, const Plan& plan, const Cac
                                  const RunContext& context)
     : centre_(without_surface(scene)),
       request_(scene.numerics.surface),
-      axes_(surface_axes(request_, scene)),
+      axes_(axes_of(request_)),
       grid_(static_cast<int>(axes_.size())) {
   take_blas_buffer();
   set_blas_threads(1);
@@ -158,25 +132,18 @@ OperatorSurface::OperatorSurface(const Scene& scene, const Plan& plan, const Cac
 
 OperatorSurface::~OperatorSurface() = default;
 
+/// What was written is read back, so that processes share it.
 void OperatorSurface::build(const std::string& name, const CachePolicy& cache,
                             const RunContext& context) {
   surface_ = build_surface(
       request_, name, [&](const Eigen::VectorXd& x) { return exact_at(x, cache, context); },
       context);
-  if (!cache.folder.empty()) keep(name, cache);
-}
-
-/// What was written is read back, so that processes share it. One that cannot be kept is still a
-/// surface.
-void OperatorSurface::keep(const std::string& name, const CachePolicy& cache) {
-  try {
+  if (cache.folder.empty()) return;
+  const auto write = [&] {
     write_surface(surface_, cache.folder);
     if (auto kept = read_surface_file(cache.folder, name)) surface_ = std::move(*kept);
-    prune_operators(cache.folder, cache.max_bytes, name);
-  } catch (const StorageError& error) {
-    if (!remark_.empty()) remark_ += "; ";
-    remark_ += concat("the surface of operators is not kept for other runs: ", error.what());
-  }
+  };
+  keep(cache, name, "the surface of operators", write, remark_);
 }
 
 Scene OperatorSurface::scene_at(const Eigen::VectorXd& x) const {
@@ -223,7 +190,12 @@ std::vector<Scene> OperatorSurface::check_scenes() const {
 }
 
 Eigen::VectorXd OperatorSurface::weights(const Scene& scene) const {
-  return grid_.weights(surface_coordinates(axes_, request_, scene));
+  Eigen::VectorXd x(static_cast<Eigen::Index>(axes_.size()));
+  for (std::size_t j = 0; j < axes_.size(); ++j) {
+    const double at = axes_[j].coordinate(value_of(request_.over[j], scene));
+    x[static_cast<Eigen::Index>(j)] = std::clamp(at, -1.0, 1.0);  // ends are rounded
+  }
+  return grid_.weights(x);
 }
 
 std::shared_ptr<const BulkProblem> OperatorSurface::problem_of(const Scene& scene,
@@ -237,9 +209,7 @@ PreparedOperator OperatorSurface::at(const Scene& scene, const Plan& plan) const
   auto op = std::make_shared<FaultOperator>();
   OperatorBasis::put(surface_.basis, weights.tail(weights.size() - 1), *op);
   op->geometry = geometry_of(scene, plan);
-  FAULTSIM_DEMAND(op->geometry.faults.size() == scene.faults.size(), op->geometry.faults.size());
-  for (std::size_t f = 0; f < scene.faults.size(); ++f)
-    op->geometry.faults[f].name = scene.faults[f].name;
+  take_fault_names(scene, *op);
   op->fingerprint = surface_.basis->fingerprint;
   PreparedOperator prepared;
   prepared.op = op;

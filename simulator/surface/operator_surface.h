@@ -44,7 +44,6 @@ class OperatorSurface {
   /// The bulk problem of such a scene: the centre's, unless the mesh moves.
   std::shared_ptr<const BulkProblem> problem_of(const Scene& scene, const Plan& plan) const;
 
-  const CaseSurface& accuracy() const { return surface_.accuracy; }
   bool from_cache() const { return from_cache_; }
   const std::string& remark() const { return remark_; }  ///< "not kept", ...
 
@@ -52,7 +51,6 @@ class OperatorSurface {
   struct Frame;  ///< mesh and unknowns of the centre.
   Scene scene_at(const Eigen::VectorXd& x) const;
   void build(const std::string& name, const CachePolicy& cache, const RunContext& context);
-  void keep(const std::string& name, const CachePolicy& cache);
   std::shared_ptr<const FaultOperator> exact_at(const Eigen::VectorXd& x, const CachePolicy& cache,
                                                 const RunContext& context) const;
   FaultGeometry geometry_of(const Scene& scene, const Plan& plan) const;
@@ -71,12 +69,8 @@ class OperatorSurface {
 /// listed, which is looked at where it was used: of those that moved in a case.
 void require_definite(const FaultOperator& op, const std::vector<int>& dofs);
 
-/// A coordinate of a scene on each axis, [-1, 1].
-Eigen::VectorXd surface_coordinates(const std::vector<SurfaceAxis>& axes,
-                                    const SurfaceRequest& request, const Scene& scene);
 /// The plan of a scene that is sound. Throws InputError where it cannot be planned.
 Plan exact_plan(const Scene& scene);
-/// The axes of a request.
-std::vector<SurfaceAxis> surface_axes(const SurfaceRequest& request, const Scene& scene);
+Scene without_surface(Scene scene);
 
 }  // namespace faultsim

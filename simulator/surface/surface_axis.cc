@@ -1,7 +1,6 @@
 #include "simulator/surface/surface_axis.h"
 
 #include <cmath>
-#include <cstdio>
 
 namespace faultsim {
 
@@ -20,12 +19,6 @@ double SurfaceAxis::value(double x) const {
 double SurfaceAxis::coordinate(double value) const {
   const double low = scaled(from), high = scaled(to);
   return (2 * scaled(value) - low - high) / (high - low);
-}
-
-void SurfaceAxis::set(JsonDocument& document, double x) const {
-  char text[64];
-  std::snprintf(text, sizeof text, unit.empty() ? "%.15g" : "%.15g %s", value(x), unit.c_str());
-  for (const std::string& pointer : pointers) set_value(document, pointer, text);
 }
 
 }  // namespace faultsim

@@ -110,7 +110,7 @@ void run(const Request& request) {
     CaseProbe probe;
     probe.tried = [&](int, const SubStepTrace& trace) { work.add(trace); };
     const double start = cpu_seconds();
-    const CaseResult result = run_case(scene.scene, prepared, monitor, {}, probe);
+    const CaseResult result = run_case(scene.scene, prepared, monitor, probe);
     const double taken = cpu_seconds() - start;
     double slip = 0;
     for (const FaultStageMetrics& fault : result.whole.faults)

@@ -268,9 +268,9 @@ void run_family(const JsonDocument& document, const std::string& prefix, const j
       write_flag(start, run_case(scene, *prepared, monitor));
     } else {
       const StepWriter writer(*prepared->op, scene, start, with_rules);
-      run_case(scene, *prepared, monitor, [&](const StepResult& step, const FaultFields& fields) {
-        writer.write(step, fields);
-      });
+      run_case(scene, *prepared, monitor, {{[&](const StepResult& step, const FaultFields& fields) {
+                 writer.write(step, fields);
+               }}});
     }
     std::fflush(stdout);
   }

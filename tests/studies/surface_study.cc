@@ -17,8 +17,17 @@ namespace {
 
 constexpr int kNodes = 9, kChecks = 5;
 
-FaultOperator operator_at(JsonDocument document, const SurfaceAxis& axis, double x) {
-  axis.set(document, x);
+/// An axis, and what its value sets in a scene document.
+struct StudiedAxis : SurfaceAxis {
+  std::string name, unit;  ///< SI; "" = a number.
+  std::vector<std::string> pointers = {};
+};
+
+FaultOperator operator_at(JsonDocument document, const StudiedAxis& axis, double x) {
+  char text[64];
+  std::snprintf(text, sizeof text, axis.unit.empty() ? "%.15g" : "%.15g %s", axis.value(x),
+                axis.unit.c_str());
+  for (const std::string& pointer : axis.pointers) set_value(document, pointer, text);
   const Scene scene = read_scene(document);
   std::vector<Problem> problems;
   const Plan plan = make_plan(scene, problems);
@@ -48,7 +57,7 @@ Errors errors_of(const std::vector<FaultOperator>& nodes, int n, double x,
   return {h.norm() / exact.h().norm(), relative.maxCoeff()};
 }
 
-void study(const JsonDocument& base, const SurfaceAxis& axis) {
+void study(const JsonDocument& base, const StudiedAxis& axis) {
   std::vector<FaultOperator> nodes;
   for (int k = 0; k < kNodes; ++k) nodes.push_back(operator_at(base, axis, leja_point(k)));
   std::vector<Errors> worst(4);
@@ -71,11 +80,7 @@ void run(int argc, char** argv) {
   JsonDocument base = read_json_file(argv[1]);
   set_value(base, "/tier", argv[2]);
   const std::string scale = argv[4];
-  SurfaceAxis axis{.name = argv[3],
-                   .pointers = {},
-                   .unit = argv[5],
-                   .from = std::stod(argv[6]),
-                   .to = std::stod(argv[7])};
+  StudiedAxis axis{{std::stod(argv[6]), std::stod(argv[7])}, argv[3], argv[5]};
   if (scale == "logarithm") axis.scale = SurfaceAxis::Scale::logarithm;
   if (scale == "tangent") axis.scale = SurfaceAxis::Scale::tangent;
   for (int i = 8; i < argc; ++i) {

@@ -338,7 +338,7 @@ TEST(CreepFullMesh, EqualsTheCondensedMarchWithStickSlipAndOpenNodes) {
   std::vector<FaultFields> fields;
   const CaseResult result =
       run_case(scene, prepared, monitor,
-               [&](const StepResult&, const FaultFields& f) { fields.push_back(f); });
+               {{[&](const StepResult&, const FaultFields& f) { fields.push_back(f); }}});
   ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
   const Eigen::Index n_dofs = prepared.op->geometry.n_dofs;
   ASSERT_EQ(n_dofs, 3 * fields[0].traction.cols());

@@ -29,11 +29,11 @@ FieldRun run(const Settings& settings) {
   SilentMonitor monitor;
   const PreparedOperator prepared = prepare_operator(scene, result.plan, {}, false, monitor);
   const CaseResult end =
-      run_case(scene, prepared, monitor, [&](const StepResult&, const FaultFields& fields) {
-        result.traction.push_back(fields.traction);
-        result.largest_slip =
-            std::max(result.largest_slip, fields.jump.bottomRows<2>().cwiseAbs().maxCoeff());
-      });
+      run_case(scene, prepared, monitor, {{[&](const StepResult&, const FaultFields& fields) {
+                 result.traction.push_back(fields.traction);
+                 result.largest_slip = std::max(result.largest_slip,
+                                                fields.jump.bottomRows<2>().cwiseAbs().maxCoeff());
+               }}});
   EXPECT_EQ(end.outcome, Outcome::converged) << end.reason;
   return result;
 }

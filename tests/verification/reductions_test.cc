@@ -43,7 +43,7 @@ Fields run(Settings settings, const Settings& more) {
   const auto keep = [&](const StepResult&, const FaultFields& step) {
     fields.steps.push_back(step);
   };
-  const CaseResult end = run_case(scene, prepared, monitor, keep);
+  const CaseResult end = run_case(scene, prepared, monitor, {{keep}});
   EXPECT_EQ(end.outcome, Outcome::converged) << end.reason;
   return fields;
 }

@@ -18,15 +18,14 @@ using testing::ElementsAre;
 
 /// Compares all tables, bit by bit for numbers.
 void expect_same(const FaultOperator& a, const FaultOperator& b) {
-  const OperatorTables left = to_tables(a), right = to_tables(b);
   std::vector<std::string> texts[2];
   int i = 0;
-  for (const auto* tables : {&left, &right}) {
-    for_each_table(*tables, [&](const char* path, const auto& values, int, auto, auto) {
+  for (const auto* op : {&a, &b}) {
+    operator_tables(*op, TableGatherer([&](const char* path, const auto& values, auto&&, auto&&) {
       std::string text = path;
       for (const auto& value : values) text += concat(' ', value);
       texts[i].push_back(text);
-    });
+    }));
     ++i;
   }
   EXPECT_EQ(texts[0], texts[1]);

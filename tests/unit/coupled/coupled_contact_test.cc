@@ -34,7 +34,9 @@ class TwoPaths {
       if (dof[1] >= 0) background_[dof[1]] = 0.4e6;
       if (dof[2] >= 0) background_[dof[2]] = 1.2e6;
     }
-    state_ = other_ = coupled_->start(background_);
+    state_ = initial_state(op_);
+    state_.traction = background_;
+    other_ = state_;
     u_ = Eigen::VectorXd::Zero(example_.bulk.n_displacements());
     before_ = background_;
   }
@@ -135,7 +137,7 @@ TEST(CoupledContact, SaysSoWhenItDoesNotConverge) {
   options.max_newton_iterations = 1;
   const CoupledContact contact(example.bulk, laws, options);
   const Eigen::VectorXd background = Eigen::VectorXd::Zero(n);
-  ContactState state = contact.start(background);
+  ContactState state = initial_state(test::condense(example.problem));
   Eigen::VectorXd u = Eigen::VectorXd::Zero(example.bulk.n_displacements());
   const CoupledStepReport report = contact.advance({{-1e6, 0.1, 0.1, 0}, background}, state, u);
   EXPECT_FALSE(report.converged);

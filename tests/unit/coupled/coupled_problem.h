@@ -50,11 +50,11 @@ inline Eigen::MatrixXd dense_schur(const SaddlePoint& j) {
 
 /// The matrix of a linear map, column by column.
 template <typename Map>
-Eigen::MatrixXd matrix_of(Map& map, int n) {
+Eigen::MatrixXd matrix_of(const Map& map, int n) {
   Eigen::MatrixXd matrix(n, n);
   Eigen::VectorXd column;
   for (int i = 0; i < n; ++i) {
-    map.apply(Eigen::VectorXd::Unit(n, i), column);
+    map(Eigen::VectorXd::Unit(n, i), column);
     matrix.col(i) = column;
   }
   return matrix;

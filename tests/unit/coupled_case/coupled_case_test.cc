@@ -47,23 +47,24 @@ History condensed(const json& document) {
   const PreparedOperator prepared = prepare_operator(p.scene, p.plan, {}, false);
   history.result = run_case(
       p.scene, prepared, {},
-      [&](const StepResult&, const FaultFields& fields) { history.fields.push_back(fields); });
+      {{[&](const StepResult&, const FaultFields& fields) { history.fields.push_back(fields); }}});
   return history;
 }
 
 History coupled(const json& document, const SolverChoice& solver) {
   const Planned p(document);
   History history;
-  CoupledCase one(p.scene, p.plan, solver);
+  CoupledCase one(SceneBulk(p.scene, p.plan), solver);
   CaseProbe probe;
   probe.tried = [&](int, const SubStepTrace& part) { history.tried.push_back(part); };
   probe.accepted = [&](int, const ContactLaws& laws, const AcceptedStep& step) {
     EXPECT_FALSE(step.elastic) << "there is no H";
     history.worst.take_worst(judge_step(one.faults(), laws, step));
   };
-  history.result = one.run(
-      {}, [&](const StepResult&, const FaultFields& fields) { history.fields.push_back(fields); },
-      probe);
+  probe.step = [&](const StepResult&, const FaultFields& fields) {
+    history.fields.push_back(fields);
+  };
+  history.result = one.run({}, probe);
   EXPECT_LT(history.worst.relative.largest(), 1e-6) << "judged by the conditions themselves";
   return history;
 }
@@ -242,7 +243,7 @@ TEST(CoupledCase, IsTheCondensedCaseInHalfADomain) {
   const std::vector<double>& last = both_sides.result.steps.back().observed;
   ASSERT_EQ(last.size(), 6u);
   EXPECT_GT(std::abs(last[1]), 1e-4);
-  const CoupledCase one(p.scene, p.plan, {LeadingKind::amg, SchurKind::rac});
+  const CoupledCase one(SceneBulk(p.scene, p.plan), {LeadingKind::amg, SchurKind::rac});
   const PreparedOperator prepared = prepare_operator(p.scene, p.plan, {}, false);
   const std::vector<ObservationRow>& rows = one.faults().observed.rows;
   const std::vector<ObservationRow>& others = prepared.op->observed.rows;
@@ -324,7 +325,7 @@ TEST(CoupledCase, RefusesWhatItDoesNotDo) {
   const Planned p(scene);
   const std::vector<Problem> problems = unsupported_by_coupled(p.scene, p.plan);
   EXPECT_EQ(problems.size(), 1 + 2 * p.scene.faults.size()) << "all of them";
-  EXPECT_THROW(CoupledCase(p.scene, p.plan, {}), InputError);
+  EXPECT_THROW(CoupledCase(SceneBulk(p.scene, p.plan), {}), InputError);
   const Planned strong(field());
   EXPECT_TRUE(unsupported_by_coupled(strong.scene, strong.plan).empty());
 }
@@ -335,7 +336,7 @@ TEST(CoupledCase, SaysWhereGmresGivesUp) {
   SolverChoice poor{LeadingKind::fsai, SchurKind::exact};  // 200 iterations where others take 20
   poor.fsai.steps = 1;
   poor.max_iterations = 3;
-  CoupledCase one(p.scene, p.plan, poor);
+  CoupledCase one(SceneBulk(p.scene, p.plan), poor);
   const CaseResult result = one.run();
   EXPECT_EQ(result.outcome, Outcome::unconverged);
   EXPECT_EQ(result.failed_step, 0);
@@ -345,13 +346,13 @@ TEST(CoupledCase, SaysWhereGmresGivesUp) {
 
 TEST(CoupledCase, EndsWhenItIsToldTo) {
   const Planned p(box());
-  CoupledCase one(p.scene, p.plan, {LeadingKind::amg, SchurKind::rac});
+  CoupledCase one(SceneBulk(p.scene, p.plan), {LeadingKind::amg, SchurKind::rac});
   std::atomic<bool> flag = false;
   SilentMonitor silent;
   const CaseResult result =
-      one.run({silent, StopToken(flag)}, [&](const StepResult& step, const FaultFields&) {
-        if (step.step == 2) flag = true;
-      });
+      one.run({silent, StopToken(flag)}, {{[&](const StepResult& step, const FaultFields&) {
+                if (step.step == 2) flag = true;
+              }}});
   EXPECT_EQ(result.outcome, Outcome::interrupted);
   EXPECT_EQ(result.steps.size(), 3u);
 }

@@ -1,7 +1,5 @@
 // How a case with creeping salt is stepped in time, on bodies with closed forms: the column of V8,
 // and the slider of V7 on a spring that relaxes.
-#include "simulator/loading/creep_march.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -44,7 +42,7 @@ struct Case {
     SilentMonitor monitor;
     fields.clear();
     result = run_case(scene, prepared, monitor,
-                      [&](const StepResult&, const FaultFields& f) { fields.push_back(f); });
+                      {{[&](const StepResult&, const FaultFields& f) { fields.push_back(f); }}});
   }
   const StepCreep& creep(std::size_t step) const { return result.steps.at(step).creep.value(); }
 };
@@ -355,12 +353,12 @@ TEST(CreepMarch, LeavesEverythingAsItWasWhereAStepFails) {
   const FaultOperator& op = *failed.prepared.op;
   const CaseLoads loads(failed.scene, op);
   const ContactLaws laws = contact_laws(failed.scene, op.geometry);
-  CreepMarch march(*failed.prepared.bulk, {failed.scene, laws, loads, {}});
+  const auto march = creep_steps(*failed.prepared.bulk)({failed.scene, laws, loads, {}});
   ContactState state = initial_state(op);
   const auto advance = [&](double to) {
-    return march.advance({0, "", to}, loads.at(to), state).contact.outcome;
+    return march->advance({0, "", to}, loads.at(to), state).contact.outcome;
   };
-  const auto displacement = [&] { return march.displacement(loads.at(3 * kYear), state); };
+  const auto displacement = [&] { return march->displacement(loads.at(3 * kYear), state); };
   ASSERT_TRUE(in_equilibrium(advance(0)));
   ASSERT_TRUE(in_equilibrium(advance(3 * kYear)));
   const ContactState before = state;

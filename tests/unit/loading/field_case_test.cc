@@ -135,8 +135,9 @@ TEST(FieldCase, ABlocksOwnOverpressureActsInItsFaultsAlone) {
     SilentMonitor monitor;
     const auto op = prepare_operator(read, plan, {}, false, monitor).op;
     std::vector<FaultFields> fields;
-    const CaseResult result = run_case(
-        read, *op, monitor, [&](const StepResult&, const FaultFields& f) { fields.push_back(f); });
+    const CaseResult result =
+        run_case(read, *op, monitor,
+                 {{[&](const StepResult&, const FaultFields& f) { fields.push_back(f); }}});
     EXPECT_EQ(result.outcome, Outcome::converged);
     EXPECT_EQ(result.whole.max_slip, 0);
     return std::make_pair(fields.at(0).traction, op->geometry);

@@ -150,7 +150,7 @@ TEST_F(FaultFieldsTest, GeometryAndTimesComeBack) {
   const H5File file(folder_.path() / "faults.h5");
   EXPECT_THAT(file.read("/time").values, ElementsAre(0, 1e7, 2e7));
   EXPECT_EQ(file.attribute("/time", "units"), "s");
-  EXPECT_EQ(hdf5::read_texts(file.id(), "/stage")[2], "cushion_gas_injection");
+  EXPECT_EQ(hdf5::read<std::string>(file.id(), "/stage")[2], "cushion_gas_injection");
   const Dataset points = file.read("/faults/F1/geometry/points");
   EXPECT_THAT(points.shape, ElementsAre(12, 3));
   EXPECT_EQ(points.values[3 * 5 + 2], -2050);

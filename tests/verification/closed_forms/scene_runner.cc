@@ -74,9 +74,9 @@ SceneRun SceneRunner::run(const std::string& file, const Settings& settings, boo
   PreparedOperator& prepared = operators_[name];
   if (!prepared.op) prepared = prepare_operator(run.scene, plan, CachePolicy{}, false, context_);
   run.op = prepared.op;
-  run.result =
-      run_case(run.scene, prepared, context_,
-               [&](const StepResult&, const FaultFields& fields) { run.fields.push_back(fields); });
+  run.result = run_case(
+      run.scene, prepared, context_,
+      {{[&](const StepResult&, const FaultFields& fields) { run.fields.push_back(fields); }}});
   if (run.result.outcome == Outcome::interrupted)
     throw Interrupted("stopped while running " + file);
   if (must_converge && !in_equilibrium(run.result.outcome)) {
