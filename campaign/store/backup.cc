@@ -4,7 +4,6 @@
 #include <system_error>
 
 #include "campaign/store/checksums.h"
-#include "campaign/store/name_cache.h"
 #include "campaign/store/sqlite.h"
 #include "campaign/store/store.h"
 
@@ -18,34 +17,12 @@ namespace {
 
 std::map<std::string, std::int64_t> rows_of_tables(Connection& connection) {
   std::map<std::string, std::int64_t> counts;
-  Statement tables(connection, "SELECT name FROM sqlite_schema WHERE type = 'table'");
-  while (tables.step()) {
-    const std::string name = tables.text(0);
-    Statement count(connection, concat("SELECT count(*) FROM \"", name, '"'));
-    count.step();
-    counts[name] = count.integer(0);
+  for (const auto& name :
+       connection.rows<std::string>("SELECT name FROM sqlite_schema WHERE type = 'table'")) {
+    counts[name] = connection.row<std::int64_t>(concat("SELECT count(*) FROM \"", name, '"'));
   }
   return counts;
 }
-
-/// One state of the database for all that is read while it lives.
-class Snapshot {
- public:
-  explicit Snapshot(Connection& connection) : connection_(connection) {
-    connection_.execute("BEGIN");
-  }
-  ~Snapshot() {
-    try {
-      connection_.execute("ROLLBACK");
-    } catch (const StorageError&) {  // nothing was changed, and the connection tells its next user
-    }
-  }
-  Snapshot(const Snapshot&) = delete;
-  Snapshot& operator=(const Snapshot&) = delete;
-
- private:
-  Connection& connection_;
-};
 
 std::string first_of(const std::vector<std::string>& problems) {
   return problems.size() == 1 ? problems.front()
@@ -81,7 +58,7 @@ void Store::backup_to(const std::filesystem::path& target) const {
   const Temporary temporary(concat(target.string(), '.', getpid(), ".tmp"));
   std::map<std::string, std::int64_t> rows;
   {
-    const Snapshot snapshot(*connection_);
+    const Transaction one_state(*connection_, "BEGIN");
     rows = rows_of_tables(*connection_);
     connection_->copy_to(temporary.path());
   }
@@ -112,10 +89,10 @@ std::vector<std::string> Store::integrity_problems() const {
     while (integrity.step()) {
       if (integrity.text(0) != "ok") problems.push_back(integrity.text(0));
     }
-    Statement keys(*connection_, "PRAGMA foreign_key_check");
-    while (keys.step()) {
-      problems.push_back(concat("row ", keys.integer(1), " of ", keys.text(0),
-                                " refers to a missing row of ", keys.text(2)));
+    using Row = std::tuple<std::string, std::int64_t, std::string>;
+    for (const auto& [table, row, missing] : connection_->rows<Row>("PRAGMA foreign_key_check")) {
+      problems.push_back(
+          concat("row ", row, " of ", table, " refers to a missing row of ", missing));
     }
     for (std::string& text : Checksums(*connection_).problems())
       problems.push_back(std::move(text));

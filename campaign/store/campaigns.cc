@@ -145,12 +145,10 @@ CampaignInfo read_info(const Statement& row) {
 
 /// Of a campaign that is in the store: how many cases have a result, and of these lack fields.
 void count_known(Connection& db, SubmitOutcome& outcome) {
-  Statement query = db.prepared(
+  std::tie(outcome.n_cached, outcome.n_fields) = db.row<std::tuple<long, long>>(
       "SELECT total(state = 'done' OR lacks_only_fields), total(lacks_only_fields)"
-      " FROM campaign_case_states WHERE campaign_id = ?");
-  query.bind(outcome.campaign).step();
-  outcome.n_cached = query.integer(0);
-  outcome.n_fields = query.integer(1);
+      " FROM campaign_case_states WHERE campaign_id = ?",
+      outcome.campaign);
 }
 
 }  // namespace
@@ -158,13 +156,9 @@ void count_known(Connection& db, SubmitOutcome& outcome) {
 std::int64_t Store::add_scene(const BaseScene& scene) {
   Connection& db = *connection_;
   const std::string hash = faultsim::fingerprint(scene.source + '\n' + scene.document);
-  db.prepared("INSERT INTO scenes (hash, source, document) VALUES (?, ?, ?) ON CONFLICT DO NOTHING")
-      .bind(hash, scene.source, scene.document)
-      .run();
-  Statement query = db.prepared("SELECT id FROM scenes WHERE hash = ?");
-  query.bind(hash).step();
-  const std::int64_t id = query.integer(0);
-  return id;
+  db.run("INSERT INTO scenes (hash, source, document) VALUES (?, ?, ?) ON CONFLICT DO NOTHING",
+         hash, scene.source, scene.document);
+  return db.row<std::int64_t>("SELECT id FROM scenes WHERE hash = ?", hash);
 }
 
 namespace {
@@ -218,11 +212,10 @@ long Store::add_round(std::int64_t campaign, const Submission& submission,
   std::vector<std::int64_t> scenes;
   for (const BaseScene& scene : submission.scenes) scenes.push_back(add_scene(scene));
   const std::vector<std::int64_t> families = add_families(db, submission.families);
-  Statement last = db.prepared(
+  const auto [round, first] = db.row<std::tuple<long, long>>(
       "SELECT coalesce(max(round), -1) + 1, coalesce(max(first_position + n_cases), 1)"
-      " FROM rounds WHERE campaign_id = ?");
-  last.bind(campaign).step();
-  const long round = last.integer(0), first = last.integer(1);
+      " FROM rounds WHERE campaign_id = ?",
+      campaign);
   CaseAdder adder(
       db, campaign, first - 1,
       submission.keep_fields == KeepFields::none ? FieldsState::none : FieldsState::wanted);
@@ -230,10 +223,8 @@ long Store::add_round(std::int64_t campaign, const Submission& submission,
   for (const CaseRecord& one : submission.cases) {
     positions.push_back(adder.add(one, families.at(one.family), scenes.at(one.scene)));
   }
-  Statement rows =
-      db.prepared("SELECT coalesce(max(row), 0) FROM design_rows WHERE campaign_id = ?");
-  rows.bind(campaign).step();
-  const long n_rows = rows.integer(0);
+  const long n_rows =
+      db.row<long>("SELECT coalesce(max(row), 0) FROM design_rows WHERE campaign_id = ?", campaign);
   Statement add_row = db.prepared(
       "INSERT INTO design_rows (campaign_id, design, row, position) VALUES (?, ?, ?, ?)");
   for (const DesignRow& one : submission.design_rows) {
@@ -242,11 +233,10 @@ long Store::add_round(std::int64_t campaign, const Submission& submission,
     add_row.bind(campaign, one.design, n_rows + one.row, positions[place]).run();
   }
   const long n_new = adder.n_cases() - (first - 1);
-  db.prepared(
-        "INSERT INTO rounds (campaign_id, round, first_position, n_cases, design, reason,"
-        " proposed_at) VALUES (?, ?, ?, ?, ?, ?, ?)")
-      .bind(campaign, round, first, n_new, design, reason, seconds_since_1970())
-      .run();
+  db.run(
+      "INSERT INTO rounds (campaign_id, round, first_position, n_cases, design, reason,"
+      " proposed_at) VALUES (?, ?, ?, ?, ?, ?, ?)",
+      campaign, round, first, n_new, design, reason, seconds_since_1970());
   checksums_->seal_campaign(campaign);
   return n_new;
 }
@@ -261,22 +251,14 @@ long Store::record_round(std::int64_t campaign, const Submission& submission,
 }
 
 void Store::conclude(std::int64_t campaign, const std::string& conclusion) {
-  connection_->prepared("UPDATE campaigns SET conclusion = ? WHERE id = ?")
-      .bind(conclusion, campaign)
-      .run();
+  connection_->run("UPDATE campaigns SET conclusion = ? WHERE id = ?", conclusion, campaign);
 }
 
 std::vector<RoundRecord> Store::rounds(std::int64_t campaign) const {
-  std::vector<RoundRecord> all;
-  Statement query = connection_->prepared(
+  return connection_->rows<RoundRecord, long, long, std::string, std::string, double>(
       "SELECT first_position, n_cases, design, reason, proposed_at FROM rounds"
-      " WHERE campaign_id = ? ORDER BY round");
-  query.bind(campaign);
-  while (query.step()) {
-    all.push_back({static_cast<long>(query.integer(0)), static_cast<long>(query.integer(1)),
-                   query.text(2), query.text(3), query.real(4)});
-  }
-  return all;
+      " WHERE campaign_id = ? ORDER BY round",
+      campaign);
 }
 
 SubmitOutcome Store::submit(const Submission& submission) {
@@ -290,33 +272,30 @@ SubmitOutcome Store::submit(const Submission& submission) {
   outcome.existed = place.campaign.has_value();
   if (outcome.existed) {
     outcome.campaign = *place.campaign;
-    db.prepared("UPDATE campaigns SET state = 'open', submitted_at = ? WHERE id = ?")
-        .bind(seconds_since_1970(), outcome.campaign)
-        .run();
+    db.run("UPDATE campaigns SET state = 'open', submitted_at = ? WHERE id = ?",
+           seconds_since_1970(), outcome.campaign);
   } else {
-    db.prepared(
-          "INSERT INTO campaigns (name, submitted_at, source, spec_given, spec_given_hash,"
-          " spec_resolved, spec_resolved_hash, spec_expanded_hash, parameters, rank_by, n_excluded,"
-          " n_merged, on_failure, retries, case_time_limit_s, case_memory_limit_bytes, keep_fields,"
-          " operator_time_limit_s)"
-          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
-        .bind(place.name, seconds_since_1970(), submission.source, submission.spec_given,
-              faultsim::fingerprint(submission.spec_given), submission.spec_resolved,
-              faultsim::fingerprint(submission.spec_resolved), expanded_hash(submission),
-              parameters_to_json(submission.parameters), submission.rank_by, submission.n_excluded,
-              submission.n_merged, to_string(submission.policy.on_failure),
-              submission.policy.retries, submission.policy.time_limit,
-              submission.policy.memory_limit
-                  ? std::optional(static_cast<std::int64_t>(*submission.policy.memory_limit))
-                  : std::nullopt,
-              to_string(submission.keep_fields), submission.policy.operator_time_limit)
-        .run();
+    db.run(
+        "INSERT INTO campaigns (name, submitted_at, source, spec_given, spec_given_hash,"
+        " spec_resolved, spec_resolved_hash, spec_expanded_hash, parameters, rank_by, n_excluded,"
+        " n_merged, on_failure, retries, case_time_limit_s, case_memory_limit_bytes, keep_fields,"
+        " operator_time_limit_s)"
+        " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        place.name, seconds_since_1970(), submission.source, submission.spec_given,
+        faultsim::fingerprint(submission.spec_given), submission.spec_resolved,
+        faultsim::fingerprint(submission.spec_resolved), expanded_hash(submission),
+        parameters_to_json(submission.parameters), submission.rank_by, submission.n_excluded,
+        submission.n_merged, to_string(submission.policy.on_failure), submission.policy.retries,
+        submission.policy.time_limit,
+        submission.policy.memory_limit
+            ? std::optional(static_cast<std::int64_t>(*submission.policy.memory_limit))
+            : std::nullopt,
+        to_string(submission.keep_fields), submission.policy.operator_time_limit);
     outcome.campaign = db.last_insert_id();
-    db.prepared(
-          "INSERT INTO campaign_parameters SELECT ?1, key, value ->> 'name', value ->> 'dimension'"
-          " FROM json_each(?2)")
-        .bind(outcome.campaign, parameters_to_json(submission.parameters))
-        .run();
+    db.run(
+        "INSERT INTO campaign_parameters SELECT ?1, key, value ->> 'name', value ->> 'dimension'"
+        " FROM json_each(?2)",
+        outcome.campaign, parameters_to_json(submission.parameters));
     add_round(outcome.campaign, submission, "", "");
   }
   count_known(db, outcome);
@@ -362,11 +341,7 @@ CaseCounts& CaseCounts::operator+=(const CaseCounts& more) {
 }
 
 bool Store::lacks_results() const {
-  Statement query =
-      connection_->prepared("SELECT EXISTS (SELECT 1 FROM cases WHERE state <> 'done')");
-  query.step();
-  const bool lacks = query.integer(0) != 0;
-  return lacks;
+  return connection_->row<bool>("SELECT EXISTS (SELECT 1 FROM cases WHERE state <> 'done')");
 }
 
 SubmitOutcome Store::preview(const Submission& submission) const {
@@ -417,37 +392,30 @@ CampaignInfo Store::campaign(const std::string& name, bool with_counts) const {
 
 void Store::cancel(std::int64_t campaign) {
   Transaction transaction(*connection_);
-  connection_->prepared("UPDATE campaigns SET state = 'cancelled' WHERE id = ?")
-      .bind(campaign)
-      .run();
+  connection_->run("UPDATE campaigns SET state = 'cancelled' WHERE id = ?", campaign);
   record_event(campaign, "cancelled", "by the user");
   transaction.commit();
 }
 
 bool Store::is_cancelled(std::int64_t campaign) const {
-  Statement query = connection_->prepared("SELECT state = 'cancelled' FROM campaigns WHERE id = ?");
-  FAULTSIM_DEMAND(query.bind(campaign).step(), campaign);
-  const bool cancelled = query.integer(0) != 0;
-  return cancelled;
+  return connection_->row<bool>("SELECT state = 'cancelled' FROM campaigns WHERE id = ?", campaign);
 }
 
 long Store::retry(std::int64_t campaign, bool unconverged_too, std::optional<long> position) {
   Transaction transaction(*connection_);
-  Statement update = connection_->prepared(
+  connection_->run(
       "UPDATE cases SET state = 'waiting' WHERE id IN"
       " (SELECT c.id FROM campaign_cases cc JOIN cases c ON c.id = cc.case_id"
       "  JOIN campaign_case_states s ON s.campaign_id = ?1 AND s.position = cc.position"
       "  WHERE cc.campaign_id = ?1 AND (?3 IS NULL OR cc.position = ?3)"
-      "  AND (c.state = 'failed' OR (?2 AND c.state = 'done' AND NOT s.complete)))");
-  update.bind(campaign, unconverged_too, position).run();
+      "  AND (c.state = 'failed' OR (?2 AND c.state = 'done' AND NOT s.complete)))",
+      campaign, unconverged_too, position);
   long count = connection_->changes();
-  connection_
-      ->prepared(
-          "UPDATE campaign_cases SET fields = 'wanted' WHERE campaign_id = ?1 AND fields = 'failed'"
-          " AND (?2 IS NULL OR position = ?2)"
-          " AND (SELECT state FROM cases WHERE id = case_id) = 'done'")
-      .bind(campaign, position)
-      .run();
+  connection_->run(
+      "UPDATE campaign_cases SET fields = 'wanted' WHERE campaign_id = ?1 AND fields = 'failed'"
+      " AND (?2 IS NULL OR position = ?2)"
+      " AND (SELECT state FROM cases WHERE id = case_id) = 'done'",
+      campaign, position);
   count += connection_->changes();
   if (count > 0) record_event(campaign, "retry", concat(count, " cases wait again"));
   transaction.commit();
@@ -455,29 +423,19 @@ long Store::retry(std::int64_t campaign, bool unconverged_too, std::optional<lon
 }
 
 BaseScene Store::base_scene(std::int64_t scene) const {
-  Statement query = connection_->prepared("SELECT source, document FROM scenes WHERE id = ?");
-  FAULTSIM_DEMAND(query.bind(scene).step(), scene);
-  BaseScene base{query.text(0), query.text(1)};
-  return base;
+  return connection_->row<BaseScene, std::string, std::string>(
+      "SELECT source, document FROM scenes WHERE id = ?", scene);
 }
 
 Store::SpecCopies Store::spec_copies(std::int64_t campaign) const {
-  Statement query = connection_->prepared(
-      "SELECT spec_given, spec_resolved, spec_expanded_hash FROM campaigns WHERE id = ?");
-  FAULTSIM_DEMAND(query.bind(campaign).step(), campaign);
-  SpecCopies copies{query.text(0), query.text(1), query.text(2)};
-  return copies;
+  return connection_->row<SpecCopies, std::string, std::string, std::string>(
+      "SELECT spec_given, spec_resolved, spec_expanded_hash FROM campaigns WHERE id = ?", campaign);
 }
 
 std::vector<DesignRow> Store::design_rows(std::int64_t campaign) const {
-  Statement query = connection_->prepared(
-      "SELECT design, row, position FROM design_rows WHERE campaign_id = ? ORDER BY design, row");
-  query.bind(campaign);
-  std::vector<DesignRow> rows;
-  while (query.step()) {
-    rows.push_back({static_cast<int>(query.integer(0)), query.integer(1), query.integer(2)});
-  }
-  return rows;
+  return connection_->rows<DesignRow, int, long, long>(
+      "SELECT design, row, position FROM design_rows WHERE campaign_id = ? ORDER BY design, row",
+      campaign);
 }
 
 }  // namespace faultsweep

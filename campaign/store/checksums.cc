@@ -11,22 +11,22 @@ using faultsim::concat;
 /// A query for the rows of one case or campaign that count.
 struct Checksums::Rows {
   Rows(Connection& connection, const std::string& table, const std::string& sql)
-      : query(std::make_unique<Statement>(connection, sql)) {
-    for (int column = 0; column < query->n_columns(); ++column) {
-      keys.push_back(RowDigest::column_key(table, query->column_name(column)));
+      : query(connection, sql) {
+    for (int column = 0; column < query.n_columns(); ++column) {
+      keys.push_back(RowDigest::column_key(table, query.column_name(column)));
     }
   }
   void add_to(RowDigest& digest, std::int64_t id) const {
-    query->bind(id);
-    while (query->step()) {
+    query.bind(id);
+    while (query.step()) {
       for (std::size_t k = 0; k < keys.size(); ++k) {
-        digest.add(keys[k], query->cell(static_cast<int>(k)));
+        digest.add(keys[k], query.cell(static_cast<int>(k)));
       }
       digest.end_row();
     }
-    query->reset();
+    query.reset();
   }
-  std::unique_ptr<Statement> query;
+  mutable Statement query;
   std::vector<std::uint64_t> keys;
 };
 
@@ -48,13 +48,10 @@ std::string select_rows(Connection& connection, const std::string& table) {
 
 Checksums::Checksums(Connection& connection) : connection_(connection) {
   if (!exist(connection)) return;
-  Statement tables(connection,
-                   "SELECT m.name FROM sqlite_schema m JOIN pragma_table_info(m.name) c"
-                   " WHERE m.type = 'table' AND c.name = 'case_id' AND m.name NOT IN"
-                   " ('campaign_cases', 'runs', 'result_checksums') ORDER BY m.name");
-  std::vector<std::string> names;
-  while (tables.step()) names.push_back(tables.text(0));
-  for (const std::string& name : names) {
+  for (const std::string& name : connection.rows<std::string>(
+           "SELECT m.name FROM sqlite_schema m JOIN pragma_table_info(m.name) c"
+           " WHERE m.type = 'table' AND c.name = 'case_id' AND m.name NOT IN"
+           " ('campaign_cases', 'runs', 'result_checksums') ORDER BY m.name")) {
     tables_.emplace_back(connection, name, select_rows(connection, name));
   }
   decided_.emplace_back(connection, "cases", "SELECT identity, changes FROM cases WHERE id = ?");
@@ -75,8 +72,7 @@ Checksums::~Checksums() = default;
 
 bool Checksums::exist(Connection& connection) {
   constexpr int kFirst = 14;  // older stores have others
-  Statement version(connection, "PRAGMA user_version");
-  return version.step() && version.integer(0) >= kFirst;
+  return connection.row<int>("PRAGMA user_version") >= kFirst;
 }
 
 std::string Checksums::of_result(std::int64_t case_id, RowDigest rows) const {
@@ -84,10 +80,10 @@ std::string Checksums::of_result(std::int64_t case_id, RowDigest rows) const {
   return rows.text();
 }
 
-std::string Checksums::of_stored_result(std::int64_t case_id) const {
+RowDigest Checksums::stored_rows(std::int64_t case_id) const {
   RowDigest rows;
   for (const Rows& table : tables_) table.add_to(rows, case_id);
-  return of_result(case_id, rows);
+  return rows;
 }
 
 std::string Checksums::of_campaign(std::int64_t campaign) const {
@@ -96,53 +92,32 @@ std::string Checksums::of_campaign(std::int64_t campaign) const {
   return rows.text();
 }
 
-namespace {
-
-void write(Connection& connection, std::int64_t case_id, const std::string& checksum) {
-  connection.prepared("INSERT OR REPLACE INTO result_checksums (case_id, checksum) VALUES (?, ?)")
-      .bind(case_id, checksum)
-      .run();
-}
-
-}  // namespace
-
 void Checksums::seal_result(std::int64_t case_id, RowDigest rows) {
-  write(connection_, case_id, of_result(case_id, rows));
+  connection_.run("INSERT OR REPLACE INTO result_checksums (case_id, checksum) VALUES (?, ?)",
+                  case_id, of_result(case_id, rows));
 }
 
 void Checksums::seal_campaign(std::int64_t campaign) {
-  const std::string checksum = of_campaign(campaign);
-  connection_
-      .prepared("INSERT OR REPLACE INTO campaign_checksums (campaign_id, checksum) VALUES (?, ?)")
-      .bind(campaign, checksum)
-      .run();
+  connection_.run("INSERT OR REPLACE INTO campaign_checksums (campaign_id, checksum) VALUES (?, ?)",
+                  campaign, of_campaign(campaign));
 }
-
-namespace {
-
-std::vector<std::int64_t> ids(Connection& connection, const char* sql) {
-  std::vector<std::int64_t> all;
-  Statement query(connection, sql);
-  while (query.step()) all.push_back(query.integer(0));
-  return all;
-}
-
-}  // namespace
 
 void Checksums::seal_all() {
-  for (const std::int64_t id : ids(connection_, "SELECT case_id FROM case_metrics")) {
-    write(connection_, id, of_stored_result(id));
+  using Id = std::int64_t;
+  for (const Id id : connection_.rows<Id>("SELECT case_id FROM case_metrics")) {
+    seal_result(id, stored_rows(id));
   }
-  for (const std::int64_t id : ids(connection_, "SELECT id FROM campaigns")) seal_campaign(id);
+  for (const Id id : connection_.rows<Id>("SELECT id FROM campaigns")) seal_campaign(id);
   connection_.execute(
       "UPDATE checksum_schema SET version = (SELECT user_version FROM pragma_user_version)");
 }
 
 bool Checksums::are_current() const {
-  Statement query(connection_,
-                  "SELECT version = (SELECT user_version FROM pragma_user_version)"
-                  " FROM checksum_schema");
-  return query.step() && query.integer(0) != 0;
+  return connection_
+      .find<bool>(
+          "SELECT version = (SELECT user_version FROM pragma_user_version)"
+          " FROM checksum_schema")
+      .value_or(false);
 }
 
 std::vector<std::string> Checksums::problems() const {
@@ -170,7 +145,8 @@ std::vector<std::string> Checksums::problems() const {
                     " LEFT JOIN result_checksums s ON s.case_id = c.id WHERE c.state = 'done'"
                     " OR s.case_id IS NOT NULL");
   while (results.step()) {
-    if (of_stored_result(results.integer(0)) != results.text(2))
+    const std::int64_t id = results.integer(0);
+    if (of_result(id, stored_rows(id)) != results.text(2))
       found.push_back(concat("the result of case ", results.text(1), " differs from its checksum"));
   }
   return found;

@@ -38,7 +38,7 @@ class Checksums {
  private:
   struct Rows;
   std::string of_result(std::int64_t case_id, RowDigest rows) const;
-  std::string of_stored_result(std::int64_t case_id) const;
+  RowDigest stored_rows(std::int64_t case_id) const;  ///< of results.
   std::string of_campaign(std::int64_t campaign) const;
   Connection& connection_;
   std::vector<Rows> tables_;              ///< of results: the rows of one case.

@@ -133,8 +133,7 @@ std::vector<Store::LoadStep> Store::load_steps(std::int64_t campaign,
   bind_table(rows, campaign, query);
   std::vector<LoadStep> steps;
   while (rows.step()) {
-    steps.push_back({static_cast<int>(rows.integer(0)), rows.text(1), rows.real(2), rows.real(3),
-                     static_cast<long>(rows.integer(4))});
+    steps.push_back(rows.row<LoadStep, int, std::string, double, double, long>());
   }
   return steps;
 }

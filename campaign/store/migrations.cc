@@ -30,18 +30,12 @@ namespace {
 using faultsim::concat;
 using faultsim::StorageError;
 
-std::int64_t number(Connection& connection, const char* query) {
-  Statement statement(connection, query);
-  statement.step();
-  return statement.integer(0);
-}
-
 /// Reads version and application; throws when the file is not ours to touch.
 int usable_version(Connection& connection, int newest) {
   const std::string file = connection.path().string();
-  const auto id = number(connection, "PRAGMA application_id");
-  const auto version = number(connection, "PRAGMA user_version");
-  const auto n_tables = number(connection, "SELECT count(*) FROM sqlite_schema");
+  const auto id = connection.row<std::int64_t>("PRAGMA application_id");
+  const auto version = connection.row<std::int64_t>("PRAGMA user_version");
+  const auto n_tables = connection.row<std::int64_t>("SELECT count(*) FROM sqlite_schema");
   const bool is_fresh = id == 0 && version == 0 && n_tables == 0;
   if (id != kStoreApplicationId && !is_fresh) {
     throw StorageError(concat(file, " is another program's database, not a faultsweep store",
@@ -53,7 +47,7 @@ int usable_version(Connection& connection, int newest) {
                               ", this faultsweep knows up to ", newest,
                               "; use the newer faultsweep, nothing was changed"));
   }
-  if (!is_fresh && number(connection, "SELECT max(version) FROM migrations") != version) {
+  if (!is_fresh && connection.row<std::int64_t>("SELECT max(version) FROM migrations") != version) {
     throw StorageError(concat("the store ", file, " is damaged: its header and its table of ",
                               "migrations name different schema versions; ", kDamageCure));
   }
@@ -174,14 +168,12 @@ void migrate(Connection& connection, const std::vector<Migration>& migrations) {
     const int version = usable_version(connection, newest);
     if (migration.version <= version) continue;
     FAULTSIM_DEMAND(migration.version == version + 1, migration.version, " after ", version);
-    if (version == 0)
-      connection.execute(concat("PRAGMA application_id = ", kStoreApplicationId).c_str());
-    connection.execute(std::string(migration.sql).c_str());
+    if (version == 0) connection.execute(concat("PRAGMA application_id = ", kStoreApplicationId));
+    connection.execute(std::string(migration.sql));
     require_sound_references(connection, migration);
-    connection.execute(concat("PRAGMA user_version = ", migration.version).c_str());
-    Statement(connection, "INSERT INTO migrations (version, name, applied_at) VALUES (?, ?, ?)")
-        .bind(migration.version, migration.name, static_cast<double>(std::time(nullptr)))
-        .run();
+    connection.execute(concat("PRAGMA user_version = ", migration.version));
+    connection.run("INSERT INTO migrations (version, name, applied_at) VALUES (?, ?, ?)",
+                   migration.version, migration.name, static_cast<double>(std::time(nullptr)));
     transaction.commit();
   }
 }

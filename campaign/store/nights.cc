@@ -8,25 +8,23 @@ namespace faultsweep {
 void Store::record_night(const NightRecord& night) {
   Connection& db = *connection_;
   Transaction transaction(db);
-  db.prepared(
-        "INSERT INTO nights (at, wall_s, suite, environment, environment_fields,"
-        " baseline_environment, program_version, numerics_version, n_compared, n_regressed,"
-        " exit_code, blessed) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
-      .bind(night.at, night.wall_seconds, night.suite, night.environment, night.environment_fields,
-            night.baseline_environment, night.program_version, night.numerics_version,
-            night.n_compared, night.n_regressed, night.exit_code, night.blessed)
-      .run();
+  db.run(
+      "INSERT INTO nights (at, wall_s, suite, environment, environment_fields,"
+      " baseline_environment, program_version, numerics_version, n_compared, n_regressed,"
+      " exit_code, blessed) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+      night.at, night.wall_seconds, night.suite, night.environment, night.environment_fields,
+      night.baseline_environment, night.program_version, night.numerics_version, night.n_compared,
+      night.n_regressed, night.exit_code, night.blessed);
   const std::int64_t id = db.last_insert_id();
   for (const NightCaseRecord& one : night.cases) {
-    db.prepared(
-          "INSERT INTO night_cases (night_id, campaign, position, identity, label, verdict,"
-          " regressed, max_ulps, load_step, place, quantity, remark, digest, wall_s, outcome,"
-          " activated_area_m2, moment_nm, chi_bar)"
-          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
-        .bind(id, one.campaign, one.position, one.identity, one.label, one.verdict, one.regressed,
-              one.max_ulps, one.load_step, one.place, one.quantity, one.remark, one.digest,
-              one.wall_seconds, one.outcome, one.activated_area, one.moment, one.chi_bar)
-        .run();
+    db.run(
+        "INSERT INTO night_cases (night_id, campaign, position, identity, label, verdict,"
+        " regressed, max_ulps, load_step, place, quantity, remark, digest, wall_s, outcome,"
+        " activated_area_m2, moment_nm, chi_bar)"
+        " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        id, one.campaign, one.position, one.identity, one.label, one.verdict, one.regressed,
+        one.max_ulps, one.load_step, one.place, one.quantity, one.remark, one.digest,
+        one.wall_seconds, one.outcome, one.activated_area, one.moment, one.chi_bar);
   }
   transaction.commit();
 }
@@ -41,11 +39,10 @@ std::vector<NightCaseRecord> read_night_cases(Connection& db, std::int64_t night
       " FROM night_cases WHERE night_id = ? ORDER BY campaign, position");
   rows.bind(night);
   while (rows.step()) {
-    NightCaseRecord one;
+    NightCaseRecord& one = cases.emplace_back();
     rows.read(one.campaign, one.position, one.identity, one.label, one.verdict, one.regressed,
               one.max_ulps, one.load_step, one.place, one.quantity, one.remark, one.digest,
               one.wall_seconds, one.outcome, one.activated_area, one.moment, one.chi_bar);
-    cases.push_back(std::move(one));
   }
   return cases;
 }
@@ -61,12 +58,11 @@ std::vector<NightRecord> Store::nights(const std::string& suite, int limit) cons
       " WHERE ?1 = '' OR suite = ?1 ORDER BY id DESC LIMIT ?2");
   rows.bind(suite, limit);
   while (rows.step()) {
-    NightRecord night;
+    NightRecord& night = all.emplace_back();
     rows.read(night.id, night.at, night.wall_seconds, night.suite, night.environment,
               night.environment_fields, night.baseline_environment, night.program_version,
               night.numerics_version, night.n_compared, night.n_regressed, night.exit_code,
               night.blessed);
-    all.push_back(std::move(night));
   }
   for (NightRecord& night : all) night.cases = read_night_cases(db, night.id);
   std::reverse(all.begin(), all.end());

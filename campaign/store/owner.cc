@@ -46,53 +46,43 @@ bool is_alive(const std::string& host, std::int64_t pid, std::int64_t started, d
 
 void Store::claim_ownership(std::int64_t campaign, int n_workers) {
   Transaction transaction(*connection_);
-  Statement query =
-      connection_->prepared("SELECT host, pid, pid_started, heartbeat_at FROM owner WHERE id = 1");
-  if (query.bind().step()) {
-    const std::string host = query.text(0);
-    const std::int64_t pid = query.integer(1);
-    const bool alive = is_alive(host, pid, query.integer(2), query.real(3));
-    if (alive) {
-      throw StorageError(concat("the store ", folder_.string(), " is managed by process ", pid,
-                                " on ", host, "; wait for it, stop it, or use another --store"));
+  if (const auto before = owner()) {
+    if (before->alive) {
+      throw StorageError(concat("the store ", folder_.string(), " is managed by process ",
+                                before->pid, " on ", before->host,
+                                "; wait for it, stop it, or use another --store"));
     }
     record_event(campaign, "takeover",
-                 concat("the manager with process id ", pid, " on ", host, " died; taken over"));
+                 concat("the manager with process id ", before->pid, " on ", before->host,
+                        " died; taken over"));
   }
-  connection_
-      ->prepared(
-          "INSERT OR REPLACE INTO owner (id, host, pid, pid_started, heartbeat_at, campaign_id,"
-          " n_workers, progress) VALUES (1, ?, ?, ?, ?, ?, ?, '{}')")
-      .bind(host_name(), getpid(), process_started(getpid()), seconds_since_1970(), campaign,
-            n_workers)
-      .run();
+  connection_->run(
+      "INSERT OR REPLACE INTO owner (id, host, pid, pid_started, heartbeat_at, campaign_id,"
+      " n_workers, progress) VALUES (1, ?, ?, ?, ?, ?, ?, '{}')",
+      host_name(), getpid(), process_started(getpid()), seconds_since_1970(), campaign, n_workers);
   transaction.commit();
 }
 
 void Store::heartbeat(const std::string& progress) {
-  connection_->prepared("UPDATE owner SET heartbeat_at = ?, progress = ? WHERE id = 1")
-      .bind(seconds_since_1970(), progress)
-      .run();
+  connection_->run("UPDATE owner SET heartbeat_at = ?, progress = ? WHERE id = 1",
+                   seconds_since_1970(), progress);
 }
 
 void Store::release_ownership() {
-  connection_->prepared("DELETE FROM owner WHERE id = 1 AND pid = ? AND host = ?")
-      .bind(getpid(), host_name())
-      .run();
+  connection_->run("DELETE FROM owner WHERE id = 1 AND pid = ? AND host = ?", getpid(),
+                   host_name());
 }
 
 std::optional<OwnerInfo> Store::owner() const {
   Statement query = connection_->prepared(
-      "SELECT host, pid, pid_started, heartbeat_at, coalesce(campaign_id, 0), n_workers, progress"
+      "SELECT host, pid, heartbeat_at, coalesce(campaign_id, 0), n_workers, progress, pid_started"
       " FROM owner WHERE id = 1");
-  if (!query.bind().step()) return std::nullopt;
-  OwnerInfo info{query.text(0),
-                 query.integer(1),
-                 query.real(3),
-                 query.integer(4),
-                 static_cast<int>(query.integer(5)),
-                 query.text(6),
-                 is_alive(query.text(0), query.integer(1), query.integer(2), query.real(3))};
+  if (!query.step()) return std::nullopt;
+  OwnerInfo info;
+  std::int64_t started = 0;
+  query.read(info.host, info.pid, info.heartbeat_at, info.campaign, info.n_workers, info.progress,
+             started);
+  info.alive = is_alive(info.host, info.pid, started, info.heartbeat_at);
   return info;
 }
 

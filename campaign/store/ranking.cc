@@ -6,6 +6,8 @@
 namespace faultsweep {
 namespace {
 
+using faultsim::concat;
+
 /// The default order is the index stage_metrics_default_order: the text must match it.
 constexpr const char* kDefaultOrder =
     "s.rank_class, s.activated_area_m2 DESC, s.open_area_m2 DESC, s.moment_nm DESC,"
@@ -20,15 +22,7 @@ constexpr const char* kDefaultFaultOrder =
 void bind_values(Statement& statement, int& position, const std::vector<Value>& values) {
   for (const Value& value : values) {
     ++position;
-    if (const auto* number = std::get_if<double>(&value)) {
-      statement.bind_at(position, *number);
-    } else if (const auto* flag = std::get_if<bool>(&value)) {
-      statement.bind_at(position, *flag ? 1 : 0);
-    } else if (const auto* text = std::get_if<std::string>(&value)) {
-      statement.bind_at(position, *text);
-    } else {
-      statement.bind_at(position, std::optional<double>());
-    }
+    std::visit([&](const auto& one) { statement.bind_at(position, one); }, value);
   }
 }
 
@@ -48,7 +42,7 @@ CaseParameters ParameterReader::of(long position) {
   CaseParameters all;
   query_.bind(campaign_, position);
   while (query_.step()) {
-    all.push_back({static_cast<int>(query_.integer(0)), query_.optional_real(1), query_.text(2)});
+    all.push_back(query_.row<CaseParameter, int, std::optional<double>, std::string>());
   }
   return all;
 }
@@ -66,36 +60,35 @@ bool uses(const Store::RankingQuery& query, const char* alias) {
 /// so that LIMIT stops early, or along the rows of one fault and stage.
 std::string selection_sql(const Store::RankingQuery& query, bool needs_dimension) {
   const char* row = query.fault ? "q" : "s";
-  std::string sql = faultsim::concat(" FROM ", query.fault ? "fault_metrics q" : "stage_metrics s",
-                                     " CROSS JOIN campaign_cases cc ON cc.case_id = ", row,
-                                     ".case_id AND cc.campaign_id = ?");
+  std::string sql = concat(" FROM ", query.fault ? "fault_metrics q" : "stage_metrics s",
+                           " CROSS JOIN campaign_cases cc ON cc.case_id = ", row,
+                           ".case_id AND cc.campaign_id = ?");
   if (query.fault && (uses(query, "s.") || uses(query, "f."))) {
     sql += " CROSS JOIN stage_metrics s ON s.stage_id = q.stage_id AND s.case_id = q.case_id";
   }
   if (needs_dimension || uses(query, "m.")) {
-    sql += faultsim::concat(" CROSS JOIN case_metrics m ON m.case_id = ", row, ".case_id");
+    sql += concat(" CROSS JOIN case_metrics m ON m.case_id = ", row, ".case_id");
   }
   if (uses(query, "f.")) sql += " LEFT JOIN names f ON f.id = s.activated_fault_id";
-  sql += faultsim::concat(" WHERE ", row, ".stage_id = (SELECT id FROM names WHERE name = ?)");
-  if (query.fault) sql += faultsim::concat(" AND q.fault_id = ", *query.fault);
-  if (!query.where.text.empty()) sql += " AND coalesce((" + query.where.text + "), 0)";
-  return sql;
+  sql += concat(" WHERE ", row, ".stage_id = (SELECT id FROM names WHERE name = ?)");
+  if (query.fault) sql += concat(" AND q.fault_id = ", *query.fault);
+  return sql + where_sql(query.where);
 }
 
 /// The cases in order: case_id, position, score.
 std::string order_sql(const Store::RankingQuery& query) {
   const bool by_default = query.by.text.empty();
   const char* row = query.fault ? "q" : "s";
-  std::string sql = faultsim::concat("SELECT ", row, ".case_id, cc.position, ",
-                                     by_default ? "NULL" : "(" + query.by.text + ")", " AS score",
-                                     selection_sql(query, false));
+  std::string sql = concat("SELECT ", row, ".case_id, cc.position, ",
+                           by_default ? "NULL" : "(" + query.by.text + ")", " AS score",
+                           selection_sql(query, false));
   if (by_default) {
-    sql += faultsim::concat(" ORDER BY ", query.fault ? kDefaultFaultOrder : kDefaultOrder);
+    sql += concat(" ORDER BY ", query.fault ? kDefaultFaultOrder : kDefaultOrder);
   } else {
-    sql += faultsim::concat(" ORDER BY ", row, ".rank_class, score IS NULL, score",
-                            query.ascending ? "" : " DESC", ", cc.position");
+    sql += concat(" ORDER BY ", row, ".rank_class, score IS NULL, score",
+                  query.ascending ? "" : " DESC", ", cc.position");
   }
-  return query.limit > 0 ? sql + faultsim::concat(" LIMIT ", query.limit) : sql;
+  return query.limit > 0 ? sql + concat(" LIMIT ", query.limit) : sql;
 }
 
 void bind_selection(Statement& statement, int& bound, std::int64_t campaign,
@@ -120,12 +113,11 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
   bind_selection(order, bound, campaign, query);
   std::vector<OrderedCase> cases;
   while (order.step()) {
-    cases.push_back(
-        {order.integer(0), static_cast<long>(order.integer(1)), order.optional_real(2)});
+    cases.push_back(order.row<OrderedCase, std::int64_t, long, std::optional<double>>());
   }
   const ResultTables& tables = result_tables();
   constexpr int kFirstMetric = 11;
-  Statement rows = connection_->prepared(faultsim::concat(
+  Statement rows = connection_->prepared(concat(
       "SELECT s.rank_class, m.outcome,"
       " m.weakening_resolved, m.pressure_margin_pa, (SELECT n.name FROM episodes e JOIN names n"
       " ON n.id = e.fault_id WHERE e.case_id = s.case_id AND e.number = m.unexpected_episode),"
@@ -146,18 +138,20 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
     row.position = one.position;
     row.score = one.score;
     row.parameters = parameters.of(one.position);
+    std::int64_t stage = 0;
+    int fault_rank_class = 0;
+    std::optional<std::int64_t> slides, opens;
     rows.read(row.rank_class, row.outcome, row.weakening_resolved, row.pressure_margin,
-              row.unexpected_fault, row.plane_strain);
-    row.interpolated = rows.integer(10) != 0;
+              row.unexpected_fault, row.plane_strain, stage, slides, opens, fault_rank_class,
+              row.interpolated);
     int column = kFirstMetric;
     tables.stage.read(rows, column, row.metrics);
     const auto fault_row = [&](std::int64_t fault) {
-      return read_fault_row(*connection_, tables, one.id, rows.integer(6), fault);
+      return read_fault_row(*connection_, tables, one.id, stage, fault);
     };
-    const auto slides = rows.optional_integer(7), opens = rows.optional_integer(8);
     if (query.fault) {
       row.fault_metrics = fault_row(*query.fault);
-      row.rank_class = static_cast<int>(rows.integer(9));
+      row.rank_class = fault_rank_class;
     } else {  // the faults that slide and open first
       if (slides) row.metrics.faults.push_back(fault_row(*slides));
       if (opens && opens != slides) row.metrics.faults.push_back(fault_row(*opens));
@@ -172,31 +166,20 @@ namespace {
 /// Whether any case of the campaign that the query selects is plane strain, or is not.
 bool has_kind(Connection& db, std::int64_t campaign, const Store::RankingQuery& query,
               bool plane_strain) {
-  std::string sql;
+  const char* of_kind =
+      plane_strain ? " m.plane_strain = 1 LIMIT 1" : " m.plane_strain = 0 LIMIT 1";
   if (query.where.text.empty()) {
-    sql =
-        "SELECT 1 FROM case_metrics m CROSS JOIN campaign_cases cc ON cc.case_id = m.case_id"
-        " AND cc.campaign_id = ? WHERE m.plane_strain = ";
-  } else {
-    sql = "SELECT 1" + selection_sql(query, true) + " AND m.plane_strain = ";
+    return db
+        .find<int>(concat("SELECT 1 FROM case_metrics m CROSS JOIN campaign_cases cc"
+                          " ON cc.case_id = m.case_id AND cc.campaign_id = ? WHERE",
+                          of_kind),
+                   campaign)
+        .has_value();
   }
-  Statement found(db, (sql + (plane_strain ? "1" : "0") + " LIMIT 1"));
+  Statement found(db, concat("SELECT 1", selection_sql(query, true), " AND", of_kind));
   int bound = 0;
-  if (query.where.text.empty()) {
-    found.bind_at(++bound, campaign);
-  } else {
-    bind_selection(found, bound, campaign, query);
-  }
+  bind_selection(found, bound, campaign, query);
   return found.step();
-}
-
-/// The names that some row of a case of the campaign has, in the order in which they came up.
-std::vector<NamedId> names_with(Connection& db, const char* sql, std::int64_t campaign) {
-  std::vector<NamedId> names;
-  Statement query(db, sql);
-  query.bind(campaign);
-  while (query.step()) names.push_back({query.integer(0), query.text(1)});
-  return names;
 }
 
 }  // namespace
@@ -213,20 +196,20 @@ Store::Kinds Store::kinds(std::int64_t campaign, const RankingQuery& query) cons
 }
 
 std::vector<NamedId> Store::stages(std::int64_t campaign) const {
-  return names_with(*connection_,
-                    "SELECT n.id, n.name FROM names n WHERE EXISTS (SELECT 1 FROM stage_metrics s"
-                    " CROSS JOIN campaign_cases cc ON cc.case_id = s.case_id"
-                    " AND cc.campaign_id = ?1 WHERE s.stage_id = n.id) ORDER BY n.id",
-                    campaign);
+  return connection_->rows<NamedId, std::int64_t, std::string>(
+      "SELECT n.id, n.name FROM names n WHERE EXISTS (SELECT 1 FROM stage_metrics s"
+      " CROSS JOIN campaign_cases cc ON cc.case_id = s.case_id"
+      " AND cc.campaign_id = ?1 WHERE s.stage_id = n.id) ORDER BY n.id",
+      campaign);
 }
 
 std::vector<NamedId> Store::faults(std::int64_t campaign) const {
-  return names_with(*connection_,
-                    "SELECT n.id, n.name FROM names n WHERE EXISTS (SELECT 1 FROM fault_metrics q"
-                    " CROSS JOIN campaign_cases cc ON cc.case_id = q.case_id"
-                    " AND cc.campaign_id = ?1 WHERE q.stage_id = (SELECT id FROM names WHERE"
-                    " name = '') AND q.fault_id = n.id) ORDER BY n.id",
-                    campaign);
+  return connection_->rows<NamedId, std::int64_t, std::string>(
+      "SELECT n.id, n.name FROM names n WHERE EXISTS (SELECT 1 FROM fault_metrics q"
+      " CROSS JOIN campaign_cases cc ON cc.case_id = q.case_id"
+      " AND cc.campaign_id = ?1 WHERE q.stage_id = (SELECT id FROM names WHERE"
+      " name = '') AND q.fault_id = n.id) ORDER BY n.id",
+      campaign);
 }
 
 }  // namespace faultsweep

@@ -19,11 +19,10 @@ std::vector<StoredRun> read_runs(Connection& db, std::int64_t case_id) {
       " ORDER BY attempt");
   query.bind(case_id);
   while (query.step()) {
-    StoredRun run;
+    StoredRun& run = runs.emplace_back();
     query.read(run.id, run.attempt, run.ended_at, run.wall_seconds, run.status, run.outcome,
                run.reason, run.log_tail, run.operator_fingerprint, run.host, run.rank, run.signal,
                run.exit_code, run.fields_only);
-    runs.push_back(std::move(run));
   }
   return runs;
 }
@@ -42,12 +41,8 @@ StoredCase find_case(Connection& db, std::int64_t campaign, const std::string& n
       " WHERE cc.campaign_id = ?1 AND ";
   Statement query(db, concat(kColumns, is_number ? "cc.position = ?2"
                                                  : "c.identity >= ?2 AND c.identity < ?2 || '~'"));
-  query.bind_at(1, campaign);
-  if (is_number) {
-    query.bind_at(2, position);
-  } else {
-    query.bind_at(2, name);
-  }
+  query.bind(campaign, name);
+  if (is_number) query.bind_at(2, position);
   if ((!is_number && name.size() < kShortestPrefix) || !query.step()) {
     throw faultsim::InputError("CASE", {{"", 0, concat("the campaign has no case '", name, "'"),
                                          concat("give its number from 1, or at least ",
@@ -79,32 +74,25 @@ StoredCase Store::stored_case(std::int64_t campaign, const std::string& name) co
 }
 
 Store::Approximations Store::approximations(std::int64_t campaign) const {
-  Statement query = connection_->prepared(
+  return connection_->row<Approximations, long, long, double, double, long, double>(
       "SELECT count(*), count(u.case_id), coalesce(max(u.error_of_stiffness), 0),"
       " coalesce(max(u.error_of_slip), 0), coalesce(sum(m.field_coverage < 0.999999), 0),"
       " coalesce(min(m.field_coverage), 1) FROM campaign_cases cc"
       " JOIN case_metrics m ON m.case_id = cc.case_id"
-      " LEFT JOIN case_surfaces u ON u.case_id = cc.case_id WHERE cc.campaign_id = ?");
-  FAULTSIM_DEMAND(query.bind(campaign).step(), campaign);
-  Approximations found;
-  query.read(found.n_results, found.n_interpolated, found.error_of_stiffness, found.error_of_slip,
-             found.n_covered_in_part, found.least_coverage);
-  return found;
+      " LEFT JOIN case_surfaces u ON u.case_id = cc.case_id WHERE cc.campaign_id = ?",
+      campaign);
 }
 
 int Store::oldest_numerics(std::int64_t campaign) const {
-  Statement query = connection_->prepared(
-      "SELECT min(r.numerics_version) FROM campaign_cases cc"
+  return connection_->row<int>(
+      "SELECT coalesce(min(r.numerics_version), ?2) FROM campaign_cases cc"
       " JOIN case_metrics m ON m.case_id = cc.case_id JOIN runs r ON r.id = m.run_id"
-      " WHERE cc.campaign_id = ?");
-  const bool any = query.bind(campaign).step();
-  return any ? static_cast<int>(query.optional_integer(0).value_or(faultsim::kNumericsVersion))
-             : faultsim::kNumericsVersion;
+      " WHERE cc.campaign_id = ?1",
+      campaign, faultsim::kNumericsVersion);
 }
 
 std::vector<FailureCount> Store::failure_counts(std::int64_t campaign) const {
-  std::vector<FailureCount> counts;
-  Statement query = connection_->prepared(
+  return connection_->rows<FailureCount, std::string, std::string, long>(
       "SELECT status, why, count(*) FROM ("
       "SELECT r.status, CASE WHEN r.outcome IS NULL THEN r.reason ELSE r.outcome END AS why"
       " FROM campaign_case_states s JOIN runs r ON r.id = s.run_id WHERE s.campaign_id = ?1"
@@ -114,20 +102,14 @@ std::vector<FailureCount> Store::failure_counts(std::int64_t campaign) const {
       " AND s.lacks_only_fields AND r.campaign_id = ?1 AND r.fields_only"
       " AND NOT EXISTS (SELECT 1 FROM runs later WHERE later.case_id = r.case_id"
       " AND later.campaign_id = ?1 AND later.fields_only AND later.attempt > r.attempt))"
-      " GROUP BY 1, 2 ORDER BY 3 DESC, 1, 2 LIMIT 20");
-  query.bind(campaign);
-  while (query.step())
-    counts.push_back({query.text(0), query.text(1), static_cast<long>(query.integer(2))});
-  return counts;
+      " GROUP BY 1, 2 ORDER BY 3 DESC, 1, 2 LIMIT 20",
+      campaign);
 }
 
 std::vector<EventRecord> Store::events(std::int64_t campaign, int limit) const {
-  std::vector<EventRecord> all;
-  Statement query = connection_->prepared(
-      "SELECT at, kind, text FROM events WHERE campaign_id = ? ORDER BY id DESC LIMIT ?");
-  query.bind(campaign, limit);
-  while (query.step()) all.push_back({query.real(0), query.text(1), query.text(2)});
-  return all;
+  return connection_->rows<EventRecord, double, std::string, std::string>(
+      "SELECT at, kind, text FROM events WHERE campaign_id = ? ORDER BY id DESC LIMIT ?", campaign,
+      limit);
 }
 
 std::vector<Store::FamilyProgress> Store::family_progress(std::int64_t campaign) const {
@@ -138,23 +120,19 @@ std::vector<Store::FamilyProgress> Store::family_progress(std::int64_t campaign)
       " LEFT JOIN operators o ON o.fingerprint = f.operator WHERE f.id = ?");
   for (const auto& [family, counts] : count_by_family(*connection_, campaign)) {
     FAULTSIM_DEMAND(query.bind(family).step(), family);
-    FamilyProgress one;
+    FamilyProgress& one = all.emplace_back();
     static_cast<CaseCounts&>(one) = counts;
     query.read(one.fingerprint, one.operator_fingerprint, one.build_seconds, one.n_operators,
                one.memory_bytes, one.peak_bytes);
-    all.push_back(std::move(one));
   }
   return all;
 }
 
 std::vector<std::string> Store::campaigns_with(std::int64_t case_id) const {
-  std::vector<std::string> names;
-  Statement query = connection_->prepared(
+  return connection_->rows<std::string>(
       "SELECT k.name FROM campaign_cases cc JOIN campaigns k ON k.id = cc.campaign_id"
-      " WHERE cc.case_id = ? ORDER BY k.id");
-  query.bind(case_id);
-  while (query.step()) names.push_back(query.text(0));
-  return names;
+      " WHERE cc.case_id = ? ORDER BY k.id",
+      case_id);
 }
 
 }  // namespace faultsweep

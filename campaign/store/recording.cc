@@ -1,6 +1,5 @@
 #include <cmath>
 
-#include "campaign/store/name_cache.h"
 #include "campaign/store/result_rows.h"
 #include "campaign/store/sqlite.h"
 #include "campaign/store/store.h"
@@ -9,6 +8,7 @@
 namespace faultsweep {
 
 using faultsim::CaseResult;
+using faultsim::concat;
 using faultsim::Outcome;
 using faultsim::StageMetrics;
 
@@ -37,23 +37,19 @@ int rank_class(Outcome outcome, bool activation_resolved) {
 
 void Store::forget_result(std::int64_t case_id) {
   Connection& db = *connection_;
-  if (!db.prepared("SELECT 1 FROM case_metrics WHERE case_id = ?").bind(case_id).step()) return;
-  db.prepared("DELETE FROM slip_events WHERE case_id = ?").bind(case_id).run();
-  db.prepared("DELETE FROM episodes WHERE case_id = ?").bind(case_id).run();
-  db.prepared("DELETE FROM fault_onsets WHERE case_id = ?").bind(case_id).run();
-  db.prepared("DELETE FROM case_surfaces WHERE case_id = ?").bind(case_id).run();
-  forget_fault_metrics(case_id);
-  db.prepared("DELETE FROM chi_history WHERE case_id = ?").bind(case_id).run();
-  db.prepared("DELETE FROM load_steps WHERE case_id = ?").bind(case_id).run();
-  db.prepared("DELETE FROM stage_metrics WHERE stage_id IN (SELECT id FROM names) AND case_id = ?")
-      .bind(case_id)
-      .run();
-  db.prepared("DELETE FROM result_checksums WHERE case_id = ?").bind(case_id).run();
-  db.prepared("DELETE FROM case_metrics WHERE case_id = ?").bind(case_id).run();
+  if (!db.find<int>("SELECT 1 FROM case_metrics WHERE case_id = ?", case_id)) return;
+  // First what is found by rows that go later; by case alone where the key begins with it.
+  for (const char* rows :
+       {"fault_metrics WHERE stage_id IN (SELECT id FROM names) AND fault_id IN"
+        " (SELECT fault_id FROM chi_history WHERE case_id = ?1) AND",
+        "stage_metrics WHERE stage_id IN (SELECT id FROM names) AND", "slip_events WHERE",
+        "episodes WHERE", "fault_onsets WHERE", "case_surfaces WHERE", "chi_history WHERE",
+        "load_steps WHERE", "result_checksums WHERE", "case_metrics WHERE"}) {
+    db.run(concat("DELETE FROM ", rows, " case_id = ?1"), case_id);
+  }
   // Fields that campaigns kept are those of the result that goes.
-  db.prepared("UPDATE campaign_cases SET fields = 'wanted' WHERE case_id = ? AND fields = 'kept'")
-      .bind(case_id)
-      .run();
+  db.run("UPDATE campaign_cases SET fields = 'wanted' WHERE case_id = ? AND fields = 'kept'",
+         case_id);
 }
 
 namespace {
@@ -69,14 +65,11 @@ class ResultWriter {
   ResultWriter(Connection& db, const ResultTables& tables, const NameIds& ids, std::int64_t case_id)
       : db_(db), tables_(tables), ids_(ids), case_id_(case_id) {}
   void add_result(std::int64_t run_id, const CaseResult& result) {
-    RowWriter add(db_, tables_.add_whole, digest_, 1);
     const auto& unexpected = result.unexpected;
-    add.begin(case_id_, run_id, result.steps.size(), result.episodes.size(),
-              unexpected ? std::optional(unexpected->episode) : std::nullopt,
-              unexpected ? std::optional(unexpected->after) : std::nullopt);
-    tables_.whole.bind(add, &result, ids_);
-    add.end();
-    if (result.surface) add_surface(*result.surface);
+    add_row(tables_.add_whole, tables_.whole, result, case_id_, run_id, result.steps.size(),
+            result.episodes.size(), unexpected ? std::optional(unexpected->episode) : std::nullopt,
+            unexpected ? std::optional(unexpected->after) : std::nullopt);
+    if (result.surface) add_row(tables_.add_surface, tables_.surface, *result.surface, case_id_);
     add_stage(result.whole, result);
     for (const StageMetrics& stage : result.stages) add_stage(stage, result);
     add_list(tables_.add_event, tables_.event, result.events);
@@ -97,7 +90,14 @@ class ResultWriter {
       add.end();
     }
   }
-  void add_surface(const faultsim::CaseSurface& surface);
+  template <typename Struct, typename... Keys>
+  void add_row(const RowInsert& insert, const RowFields<Struct>& fields, const Struct& one,
+               const Keys&... keys) {
+    RowWriter add(db_, insert, digest_, 1);
+    add.begin(keys...);
+    fields.bind(add, &one, ids_);
+    add.end();
+  }
   void add_stage(const StageMetrics& stage, const CaseResult& result);
   void add_onset(std::int64_t stage_id, bool opening, const std::string& fault,
                  const std::optional<faultsim::FaultOnset>& onset);
@@ -110,20 +110,11 @@ class ResultWriter {
   RowDigest digest_;
 };
 
-void ResultWriter::add_surface(const faultsim::CaseSurface& surface) {
-  RowWriter add(db_, tables_.add_surface, digest_, 1);
-  add.begin(case_id_);
-  tables_.surface.bind(add, &surface, ids_);
-  add.end();
-}
-
 void ResultWriter::add_stage(const StageMetrics& stage, const CaseResult& result) {
-  RowWriter add(db_, tables_.add_stage, digest_, 1);
   const double margin = result.pressure_margin;
-  add.begin(case_id_, rank_class(result.outcome, stage.activation_resolved),
-            std::isfinite(margin) ? std::optional(margin) : std::nullopt);
-  tables_.stage.bind(add, &stage, ids_);
-  add.end();
+  add_row(tables_.add_stage, tables_.stage, stage, case_id_,
+          rank_class(result.outcome, stage.activation_resolved),
+          std::isfinite(margin) ? std::optional(margin) : std::nullopt);
   const std::int64_t stage_id = ids_(stage.stage);
   RowWriter add_fault(db_, tables_.add_fault, digest_, stage.faults.size());
   for (std::size_t f = 0; f < stage.faults.size(); ++f) {
@@ -139,10 +130,7 @@ void ResultWriter::add_stage(const StageMetrics& stage, const CaseResult& result
 void ResultWriter::add_onset(std::int64_t stage_id, bool opening, const std::string& fault,
                              const std::optional<faultsim::FaultOnset>& onset) {
   if (!onset) return;
-  RowWriter add(db_, tables_.add_onset, digest_, 1);
-  add.begin(case_id_, stage_id, opening, ids_(fault));
-  tables_.onset.bind(add, &*onset, ids_);
-  add.end();
+  add_row(tables_.add_onset, tables_.onset, *onset, case_id_, stage_id, opening, ids_(fault));
 }
 
 void ResultWriter::add_histories(const CaseResult& result) {
@@ -186,16 +174,6 @@ RowDigest Store::record_result(std::int64_t case_id, std::int64_t run_id,
   writer.add_result(run_id, result);
   writer.add_histories(result);
   return writer.digest();
-}
-
-/// Before the rows of stage_metrics and chi_history go, which say which there are.
-void Store::forget_fault_metrics(std::int64_t case_id) {
-  connection_
-      ->prepared(
-          "DELETE FROM fault_metrics WHERE stage_id IN (SELECT id FROM names) AND fault_id IN"
-          " (SELECT fault_id FROM chi_history WHERE case_id = ?1) AND case_id = ?1")
-      .bind(case_id)
-      .run();
 }
 
 const ResultTables& Store::result_tables() const {

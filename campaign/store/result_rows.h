@@ -208,14 +208,8 @@ class RowFields {
   template <typename Member>
   static void read_value(const Statement& row, int column, Member& value) {
     if constexpr (std::is_same_v<Member, double>) {
-      value = row.optional_real(column).value_or(std::numeric_limits<double>::quiet_NaN());
-    } else if constexpr (std::is_same_v<Member, std::optional<double>>) {
-      value = row.optional_real(column);
-    } else if constexpr (std::is_same_v<Member, std::optional<int>>) {
-      value.reset();
-      if (const auto number = row.optional_integer(column)) value = static_cast<int>(*number);
-    } else if constexpr (std::is_same_v<Member, std::string>) {
-      value = row.text(column);
+      value =
+          row.get<std::optional<double>>(column).value_or(std::numeric_limits<double>::quiet_NaN());
     } else if constexpr (std::is_enum_v<Member>) {
       value = faultsim::outcome_from_string(row.text(column));
     } else if constexpr (std::is_same_v<Member, std::vector<double>>) {
@@ -223,7 +217,7 @@ class RowFields {
     } else if constexpr (std::is_same_v<Member, std::vector<std::string>>) {
       value = split_lines(row.text(column));
     } else {
-      value = static_cast<Member>(row.integer(column));
+      value = row.get<Member>(column);
     }
   }
 

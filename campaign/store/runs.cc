@@ -1,6 +1,5 @@
 #include "campaign/store/checksums.h"
 #include "campaign/store/clock.h"
-#include "campaign/store/name_cache.h"
 #include "campaign/store/row_digest.h"
 #include "campaign/store/sqlite.h"
 #include "campaign/store/store.h"
@@ -43,26 +42,24 @@ std::vector<WaitingFamily> Store::waiting_families(std::int64_t campaign) const 
       " WHERE s.campaign_id = ? AND s.state = 'waiting' ORDER BY f.id, s.position");
   query.bind(campaign);
   while (query.step()) {
-    if (families.empty() || families.back().family != query.integer(0)) {
-      WaitingFamily family;
-      family.family = query.integer(0);
-      family.predicted = {query.text(1),
-                          static_cast<long>(query.integer(2)),
-                          static_cast<long>(query.integer(3)),
-                          query.real(4),
-                          query.real(5),
-                          static_cast<int>(query.integer(9))};
-      family.operator_fingerprint = query.text(6);
+    std::int64_t case_id = 0;
+    bool fields_only = false;
+    WaitingFamily family;
+    FamilyRecord& predicted = family.predicted;
+    query.read(family.family, predicted.fingerprint, predicted.unknowns, predicted.jump_unknowns,
+               predicted.operator_seconds, predicted.memory_bytes, family.operator_fingerprint,
+               case_id, fields_only, predicted.n_operators);
+    if (families.empty() || families.back().family != family.family) {
       families.push_back(std::move(family));
     }
-    families.back().cases.push_back(query.integer(7));
-    if (query.integer(8) != 0) families.back().fields_only.push_back(query.integer(7));
+    families.back().cases.push_back(case_id);
+    if (fields_only) families.back().fields_only.push_back(case_id);
   }
-  Statement cost = connection_->prepared(
-      "SELECT avg(r.wall_s) FROM cases c JOIN runs r ON r.id = c.run_id"
-      " WHERE c.family_id = ? AND r.status = 'completed'");
   for (WaitingFamily& family : families) {
-    if (cost.bind(family.family).step()) family.seconds_per_case = cost.optional_real(0);
+    family.seconds_per_case = connection_->row<std::optional<double>>(
+        "SELECT avg(r.wall_s) FROM cases c JOIN runs r ON r.id = c.run_id"
+        " WHERE c.family_id = ? AND r.status = 'completed'",
+        family.family);
   }
   return families;
 }
@@ -70,48 +67,41 @@ std::vector<WaitingFamily> Store::waiting_families(std::int64_t campaign) const 
 long Store::requeue_missing_fields(const CampaignInfo& campaign) {
   if (campaign.keep_fields == KeepFields::none) return 0;
   Transaction transaction(*connection_);
-  Statement query = connection_->prepared(
-      "SELECT position FROM campaign_cases WHERE campaign_id = ? AND fields = 'kept'");
-  query.bind(campaign.id);
-  std::vector<long> lost;
-  while (query.step()) {
-    const auto folder = fields_folder(campaign.name, query.integer(0));
+  long n_lost = 0;
+  for (const long position : connection_->rows<long>(
+           "SELECT position FROM campaign_cases WHERE campaign_id = ? AND fields = 'kept'",
+           campaign.id)) {
+    const auto folder = fields_folder(campaign.name, position);
     std::error_code error;  // what cannot be looked at is as good as gone
-    const bool there = std::filesystem::exists(folder / "faults.h5", error) &&
-                       std::filesystem::exists(folder / "faults.xmf", error);
-    if (!there) lost.push_back(query.integer(0));
-  }
-  for (const long position : lost) {
-    connection_
-        ->prepared(
-            "UPDATE campaign_cases SET fields = 'wanted' WHERE campaign_id = ? AND position = ?")
-        .bind(campaign.id, position)
-        .run();
+    if (std::filesystem::exists(folder / "faults.h5", error) &&
+        std::filesystem::exists(folder / "faults.xmf", error)) {
+      continue;
+    }
+    connection_->run(
+        "UPDATE campaign_cases SET fields = 'wanted' WHERE campaign_id = ? AND position = ?",
+        campaign.id, position);
+    ++n_lost;
   }
   transaction.commit();
-  return static_cast<long>(lost.size());
+  return n_lost;
 }
 
 CaseInput Store::case_input(std::int64_t campaign, std::int64_t case_id) const {
-  Statement query = connection_->prepared(
-      "SELECT c.scene_id, cc.position, c.changes, c.identity FROM cases c JOIN campaign_cases cc"
-      " ON cc.case_id = c.id AND cc.campaign_id = ?2 WHERE c.id = ?1");
-  FAULTSIM_DEMAND(query.bind(case_id, campaign).step(), case_id);
-  CaseInput input{case_id, query.integer(0), static_cast<long>(query.integer(1)), query.text(2),
-                  query.text(3)};
-  return input;
+  return connection_->row<CaseInput, std::int64_t, std::int64_t, long, std::string, std::string>(
+      "SELECT c.id, c.scene_id, cc.position, c.changes, c.identity FROM cases c"
+      " JOIN campaign_cases cc ON cc.case_id = c.id AND cc.campaign_id = ? WHERE c.id = ?",
+      campaign, case_id);
 }
 
 void Store::record_runs(std::int64_t campaign, const std::vector<RunRecord>& runs) {
   if (runs.empty()) return;
-  names_->begin();
   try {
     Transaction transaction(*connection_);
     const double now = seconds_since_1970();
     for (const RunRecord& run : runs) record_run(campaign, run, now);
     transaction.commit();
   } catch (...) {
-    names_->roll_back();
+    names_.clear();  // some may have been rolled back
     throw;
   }
 }
@@ -119,33 +109,33 @@ void Store::record_runs(std::int64_t campaign, const std::vector<RunRecord>& run
 void Store::record_run(std::int64_t campaign, const RunRecord& run, double now) {
   FAULTSIM_DEMAND((run.status == RunStatus::completed) == run.result.has_value(), run.case_id);
   FAULTSIM_DEMAND(run.result || !run.has_fields, run.case_id);
-  Statement state = connection_->prepared(
-      "SELECT state, (SELECT coalesce(max(attempt), 0) FROM runs WHERE case_id = c.id)"
-      " FROM cases c WHERE id = ?");
-  FAULTSIM_DEMAND(state.bind(run.case_id).step(), run.case_id);
-  const bool waiting = state.text(0) == "waiting";
-  const std::int64_t attempt = state.integer(1) + 1;
+  const auto [waiting, attempt] = connection_->row<std::tuple<bool, std::int64_t>>(
+      "SELECT state = 'waiting', (SELECT coalesce(max(attempt), 0) + 1 FROM runs"
+      " WHERE case_id = c.id) FROM cases c WHERE id = ?",
+      run.case_id);
   if (!waiting && !run.fields_only) return;
   const std::int64_t run_id = add_run(campaign, run, attempt, now);
   if (!run.fields_only) decide_case(run, run_id);
-  if (run.has_fields || (run.fields_only && run.final)) decide_fields(campaign, run);
+  if (run.has_fields || (run.fields_only && run.final)) {
+    connection_->run("UPDATE campaign_cases SET fields = ? WHERE case_id = ? AND campaign_id = ?",
+                     to_string(run.has_fields ? FieldsState::kept : FieldsState::failed),
+                     run.case_id, campaign);
+  }
 }
 
 std::int64_t Store::add_run(std::int64_t campaign, const RunRecord& run, std::int64_t attempt,
                             double now) {
   const CaseResult* result = run.result ? &*run.result : nullptr;
   using Text = std::optional<std::string>;
-  connection_
-      ->prepared(
-          "INSERT INTO runs (case_id, campaign_id, attempt, ended_at, wall_s, host, rank, status,"
-          " outcome, reason, signal, exit_code, log_tail, operator, numerics_version, fields_only)"
-          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
-      .bind(run.case_id, campaign, attempt, now, run.wall_seconds, run.host, run.rank,
-            to_string(run.status), result ? Text(faultsim::to_string(result->outcome)) : Text(),
-            run.reason, run.signal, run.exit_code, run.log_tail,
-            result ? Text(result->operator_fingerprint) : Text(),
-            result ? std::optional(result->numerics_version) : std::nullopt, run.fields_only)
-      .run();
+  connection_->run(
+      "INSERT INTO runs (case_id, campaign_id, attempt, ended_at, wall_s, host, rank, status,"
+      " outcome, reason, signal, exit_code, log_tail, operator, numerics_version, fields_only)"
+      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+      run.case_id, campaign, attempt, now, run.wall_seconds, run.host, run.rank,
+      to_string(run.status), result ? Text(faultsim::to_string(result->outcome)) : Text(),
+      run.reason, run.signal, run.exit_code, run.log_tail,
+      result ? Text(result->operator_fingerprint) : Text(),
+      result ? std::optional(result->numerics_version) : std::nullopt, run.fields_only);
   return connection_->last_insert_id();
 }
 
@@ -157,45 +147,32 @@ void Store::decide_case(const RunRecord& run, std::int64_t run_id) {
     checksums_->seal_result(run.case_id, record_result(run.case_id, run_id, *result));
   }
   if (!run.final) return;
-  connection_->prepared("UPDATE cases SET state = ?, outcome = ?, run_id = ? WHERE id = ?")
-      .bind(result != nullptr ? "done" : "failed",
-            result ? Text(faultsim::to_string(result->outcome)) : Text(), run_id, run.case_id)
-      .run();
-}
-
-void Store::decide_fields(std::int64_t campaign, const RunRecord& run) {
-  connection_
-      ->prepared("UPDATE campaign_cases SET fields = ? WHERE case_id = ? AND campaign_id = ?")
-      .bind(to_string(run.has_fields ? FieldsState::kept : FieldsState::failed), run.case_id,
-            campaign)
-      .run();
+  connection_->run("UPDATE cases SET state = ?, outcome = ?, run_id = ? WHERE id = ?",
+                   result != nullptr ? "done" : "failed",
+                   result ? Text(faultsim::to_string(result->outcome)) : Text(), run_id,
+                   run.case_id);
 }
 
 void Store::record_operator(std::int64_t family, const OperatorRecord& record) {
   Transaction transaction(*connection_);
   using Seconds = std::optional<double>;
-  connection_
-      ->prepared(
-          "INSERT INTO operators (fingerprint, unknowns, jump_unknowns, bytes, peak_bytes, build_s,"
-          " times_built, times_found, last_used_at) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)"
-          " ON CONFLICT (fingerprint) DO UPDATE SET unknowns = ?2, jump_unknowns = ?3, bytes = ?4,"
-          " peak_bytes = max(peak_bytes, ?5), build_s = coalesce(?6, build_s),"
-          " times_built = times_built + ?7, times_found = times_found + ?8, last_used_at = ?9")
-      .bind(record.fingerprint, record.unknowns, record.jump_unknowns, record.bytes,
-            record.peak_bytes, record.from_cache ? Seconds() : Seconds(record.seconds),
-            record.from_cache ? 0 : 1, record.from_cache ? 1 : 0, seconds_since_1970())
-      .run();
-  connection_->prepared("UPDATE families SET operator = ? WHERE id = ?")
-      .bind(record.fingerprint, family)
-      .run();
+  connection_->run(
+      "INSERT INTO operators (fingerprint, unknowns, jump_unknowns, bytes, peak_bytes, build_s,"
+      " times_built, times_found, last_used_at) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)"
+      " ON CONFLICT (fingerprint) DO UPDATE SET unknowns = ?2, jump_unknowns = ?3, bytes = ?4,"
+      " peak_bytes = max(peak_bytes, ?5), build_s = coalesce(?6, build_s),"
+      " times_built = times_built + ?7, times_found = times_found + ?8, last_used_at = ?9",
+      record.fingerprint, record.unknowns, record.jump_unknowns, record.bytes, record.peak_bytes,
+      record.from_cache ? Seconds() : Seconds(record.seconds), !record.from_cache,
+      record.from_cache, seconds_since_1970());
+  connection_->run("UPDATE families SET operator = ? WHERE id = ?", record.fingerprint, family);
   transaction.commit();
 }
 
 void Store::record_event(std::optional<std::int64_t> campaign, const std::string& kind,
                          const std::string& text) {
-  connection_->prepared("INSERT INTO events (at, campaign_id, kind, text) VALUES (?, ?, ?, ?)")
-      .bind(seconds_since_1970(), campaign, kind, text)
-      .run();
+  connection_->run("INSERT INTO events (at, campaign_id, kind, text) VALUES (?, ?, ?, ?)",
+                   seconds_since_1970(), campaign, kind, text);
 }
 
 }  // namespace faultsweep

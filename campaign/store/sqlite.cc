@@ -125,8 +125,10 @@ Connection::~Connection() {
   sqlite3_close_v2(handle_);
 }
 
-void Connection::execute(const char* sql) {
-  if (sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail(handle_, path_, sql);
+void Connection::execute(const std::string& sql) {
+  if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) {
+    fail(handle_, path_, sql.c_str());
+  }
 }
 
 Statement Connection::prepared(const std::string& sql) {
@@ -254,14 +256,6 @@ std::string Statement::text(int column) const {
 bool Statement::is_null(int column) const {
   return sqlite3_column_type(statement_, column) == SQLITE_NULL;
 }
-std::optional<std::int64_t> Statement::optional_integer(int column) const {
-  if (is_null(column)) return std::nullopt;
-  return integer(column);
-}
-std::optional<double> Statement::optional_real(int column) const {
-  if (is_null(column)) return std::nullopt;
-  return real(column);
-}
 
 int Statement::n_columns() const { return sqlite3_column_count(statement_); }
 
@@ -288,18 +282,18 @@ PragmaWhile::PragmaWhile(Connection& connection, const std::string& name, bool o
   const bool was_on = before.step() && before.integer(0) != 0;
   if (was_on == on) return;  // prepared statements stay valid
   after_ = concat("PRAGMA ", name, " = ", was_on ? "ON" : "OFF");
-  connection_.execute(concat("PRAGMA ", name, " = ", on ? "ON" : "OFF").c_str());
+  connection_.execute(concat("PRAGMA ", name, " = ", on ? "ON" : "OFF"));
 }
 PragmaWhile::~PragmaWhile() {
   if (after_.empty()) return;
   try {
-    connection_.execute(after_.c_str());
+    connection_.execute(after_);
   } catch (const StorageError&) {  // the connection is of no use any more, and its owner is told
   }
 }
 
-Transaction::Transaction(Connection& connection) : connection_(connection) {
-  connection_.execute("BEGIN IMMEDIATE");
+Transaction::Transaction(Connection& connection, const char* begin) : connection_(connection) {
+  connection_.execute(begin);
 }
 
 Transaction::~Transaction() {

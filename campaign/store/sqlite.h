@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -43,7 +44,20 @@ class Connection {
   Connection& operator=(const Connection&) = delete;
 
   /// Runs one or more statements without parameters or results.
-  void execute(const char* sql);
+  void execute(const std::string& sql);
+  /// Runs a statement without results.
+  template <typename... Values>
+  void run(const std::string& sql, const Values&... values);
+  /// The rows of a query: `Row` is what its one column is read as, a tuple of what they are, or a
+  /// struct that is made of `Columns...`.
+  template <typename Row, typename... Columns, typename... Values>
+  std::vector<Row> rows(const std::string& sql, const Values&... values);
+  /// The first of them; none = there is none.
+  template <typename Row, typename... Columns, typename... Values>
+  std::optional<Row> find(const std::string& sql, const Values&... values);
+  /// The same of a query that has one whatever is stored.
+  template <typename Row, typename... Columns, typename... Values>
+  Row row(const std::string& sql, const Values&... values);
   /// A prepared statement that is kept for the next one who asks for the same text.
   Statement prepared(const std::string& sql);
   std::int64_t last_insert_id() const;
@@ -101,12 +115,31 @@ class Statement {
     int column = 0;
     (read_one(column++, values), ...);
   }
+  template <typename... Values>
+  void read(std::tuple<Values...>& values) const {
+    std::apply([this](auto&... each) { read(each...); }, values);
+  }
+  /// The row as Connection::rows makes it.
+  template <typename Row, typename... Columns>
+  Row row() const {
+    std::conditional_t<sizeof...(Columns) == 0, Row, std::tuple<Columns...>> columns;
+    read(columns);
+    if constexpr (sizeof...(Columns) == 0) {
+      return columns;
+    } else {
+      return std::make_from_tuple<Row>(std::move(columns));
+    }
+  }
+  template <typename Value>
+  Value get(int column) const {
+    Value value{};
+    read_one(column, value);
+    return value;
+  }
   std::int64_t integer(int column) const;
   double real(int column) const;
   std::string text(int column) const;
-  std::optional<std::int64_t> optional_integer(int column) const;
-  std::optional<double> optional_real(int column) const;  ///< NULL reads as none.
-  Cell cell(int column) const;                            ///< whatever is there.
+  Cell cell(int column) const;  ///< whatever is there.
   int n_columns() const;
   std::string column_name(int column) const;
 
@@ -122,6 +155,7 @@ class Statement {
   void bind_one(int position, std::string_view value) { bind_text(position, value); }
   void bind_one(int position, const std::string& value) { bind_text(position, value); }
   void bind_one(int position, const char* value) { bind_text(position, value); }
+  void bind_one(int position, std::monostate) { bind_null(position); }
   template <typename Value>
   void bind_one(int position, const std::optional<Value>& value) {
     if (value) {
@@ -156,6 +190,31 @@ class Statement {
       nullptr;  ///< where it goes when it is done with; none = ours.
 };
 
+template <typename... Values>
+void Connection::run(const std::string& sql, const Values&... values) {
+  prepared(sql).bind(values...).run();
+}
+template <typename Row, typename... Columns, typename... Values>
+std::vector<Row> Connection::rows(const std::string& sql, const Values&... values) {
+  std::vector<Row> all;
+  Statement query = prepared(sql);
+  query.bind(values...);
+  while (query.step()) all.push_back(query.row<Row, Columns...>());
+  return all;
+}
+template <typename Row, typename... Columns, typename... Values>
+std::optional<Row> Connection::find(const std::string& sql, const Values&... values) {
+  Statement query = prepared(sql);
+  if (!query.bind(values...).step()) return std::nullopt;
+  return query.row<Row, Columns...>();
+}
+template <typename Row, typename... Columns, typename... Values>
+Row Connection::row(const std::string& sql, const Values&... values) {
+  std::optional<Row> found = find<Row, Columns...>(sql, values...);
+  FAULTSIM_DEMAND(found, sql);
+  return std::move(*found);
+}
+
 /// Switches a pragma as long as it lives. Within a transaction that of foreign keys has no effect.
 class PragmaWhile {
  public:
@@ -182,7 +241,8 @@ struct ConstraintsOff {
 /// BEGIN IMMEDIATE ... COMMIT; rolled back unless committed.
 class Transaction {
  public:
-  explicit Transaction(Connection& connection);
+  /// @param begin  "BEGIN": to read one state of the database for as long as it lives.
+  explicit Transaction(Connection& connection, const char* begin = "BEGIN IMMEDIATE");
   ~Transaction();
   Transaction(const Transaction&) = delete;
   Transaction& operator=(const Transaction&) = delete;

@@ -3,6 +3,7 @@
 #include <sys/vfs.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -10,7 +11,6 @@
 
 #include "campaign/store/checksums.h"
 #include "campaign/store/migrations.h"
-#include "campaign/store/name_cache.h"
 #include "campaign/store/result_rows.h"
 #include "campaign/store/sqlite.h"
 
@@ -50,10 +50,7 @@ bool is_network_file_system(long f_type) {
   constexpr std::array<unsigned long, 13> kNetwork = {
       0x6969,     0x517B,     0xFF534D42, 0xFE534D42, 0x5346414F, 0x0BD00BD0, 0x47504653,
       0x00C36400, 0x19830326, 0x7461636F, 0xAAD7AAEA, 0x01021997, 0x65735546};
-  for (const unsigned long type : kNetwork) {
-    if (static_cast<std::uint32_t>(f_type) == type) return true;
-  }
-  return false;
+  return std::ranges::find(kNetwork, static_cast<std::uint32_t>(f_type)) != kNetwork.end();
 }
 
 Store::Store(std::filesystem::path folder, std::unique_ptr<Connection> connection,
@@ -61,8 +58,7 @@ Store::Store(std::filesystem::path folder, std::unique_ptr<Connection> connectio
     : folder_(std::move(folder)),
       connection_(std::move(connection)),
       checksums_(std::make_unique<Checksums>(*connection_)),
-      remark_(std::move(remark)),
-      names_(std::make_unique<NameCache>()) {}
+      remark_(std::move(remark)) {}
 Store::Store(Store&&) noexcept = default;
 Store::~Store() = default;
 
@@ -134,16 +130,10 @@ Store Store::open_reader(const std::filesystem::path& folder) {
 void Store::checkpoint() { connection_->checkpoint(); }
 
 std::int64_t Store::name_id(const std::string& name) {
-  const auto known = names_->ids.find(name);
-  if (known != names_->ids.end()) return known->second;
-  Connection& db = *connection_;
-  db.prepared("INSERT INTO names (name) VALUES (?) ON CONFLICT DO NOTHING").bind(name).run();
-  Statement query = db.prepared("SELECT id FROM names WHERE name = ?");
-  query.bind(name).step();
-  const std::int64_t id = query.integer(0);
-  names_->fresh.push_back(name);
-  names_->ids.emplace(name, id);
-  return id;
+  const auto known = names_.find(name);
+  if (known != names_.end()) return known->second;
+  connection_->run("INSERT INTO names (name) VALUES (?) ON CONFLICT DO NOTHING", name);
+  return names_[name] = connection_->row<std::int64_t>("SELECT id FROM names WHERE name = ?", name);
 }
 
 }  // namespace faultsweep

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -279,10 +280,8 @@ class Store {
   std::int64_t add_run(std::int64_t campaign, const RunRecord& run, std::int64_t attempt,
                        double now);
   void decide_case(const RunRecord& run, std::int64_t run_id);
-  void decide_fields(std::int64_t campaign, const RunRecord& run);
   RowDigest record_result(std::int64_t case_id, std::int64_t run_id,
                           const faultsim::CaseResult& result);
-  void forget_fault_metrics(std::int64_t case_id);
   void forget_result(std::int64_t case_id);
   std::int64_t name_id(const std::string& name);
   const ResultTables& result_tables() const;
@@ -295,8 +294,7 @@ class Store {
   std::unique_ptr<Checksums> checksums_;
   mutable std::unique_ptr<ResultTables> tables_;  ///< made when first asked for.
   std::string remark_;
-  struct NameCache;
-  std::unique_ptr<NameCache> names_;
+  std::map<std::string, std::int64_t> names_;  ///< ids in table `names`, of those looked up.
 };
 
 }  // namespace faultsweep

@@ -38,7 +38,8 @@ void read_steps(Connection& db, const ResultTables& tables, std::int64_t case_id
     faultsim::StepResult& step = result.steps.emplace_back();
     int column = 1;
     tables.step.read(steps, column, step);
-    if (steps.optional_integer(0)) tables.step_creep.read(steps, column, step.creep.emplace());
+    if (steps.get<std::optional<int>>(0))
+      tables.step_creep.read(steps, column, step.creep.emplace());
   }
   Statement faults =
       db.prepared(concat("SELECT h.fault, h.step, n.name, h.creep_normal_min_pa",
@@ -53,26 +54,18 @@ void read_steps(Connection& db, const ResultTables& tables, std::int64_t case_id
       if (step.step != faults.integer(1)) continue;
       int column = 4;
       tables.history.read(faults, column, step.faults.emplace_back());
-      if (step.creep && faults.optional_real(3))
+      if (step.creep && faults.get<std::optional<double>>(3))
         tables.history_creep.read(faults, column, step.creep->faults.emplace_back());
     }
   }
 }
 
-/// The ids of a case's faults in the order of the scene.
-std::vector<std::int64_t> fault_ids(Connection& db, std::int64_t case_id) {
-  std::vector<std::int64_t> ids;
-  Statement faults = db.prepared(
-      "SELECT fault_id FROM chi_history WHERE case_id = ?1 AND step = (SELECT min(step) FROM"
-      " load_steps WHERE case_id = ?1) ORDER BY fault");
-  faults.bind(case_id);
-  while (faults.step()) ids.push_back(faults.integer(0));
-  return ids;
-}
-
 void read_stages(Connection& db, const ResultTables& tables, std::int64_t case_id,
                  CaseResult& result) {
-  const std::vector<std::int64_t> faults = fault_ids(db, case_id);
+  const auto faults = db.rows<std::int64_t>(
+      "SELECT fault_id FROM chi_history WHERE case_id = ?1 AND step = (SELECT min(step) FROM"
+      " load_steps WHERE case_id = ?1) ORDER BY fault",  // the order of the scene
+      case_id);
   Statement query = db.prepared(
       concat("SELECT n.id", tables.stage.selected("s"),
              " FROM names n CROSS JOIN stage_metrics s ON s.stage_id = n.id WHERE s.case_id = ?"
@@ -133,13 +126,9 @@ std::optional<CaseResult> Store::stored_result(std::int64_t case_id) const {
   CaseResult result;
   int column = 5;
   tables.whole.read(query, column, result);
-  result.operator_fingerprint = query.text(0);
-  result.numerics_version = static_cast<int>(query.integer(1));
-  result.seconds = query.real(2);
-  if (const auto episode = query.optional_integer(3)) {
-    result.unexpected =
-        faultsim::Reactivation{static_cast<int>(*episode), static_cast<int>(query.integer(4))};
-  }
+  std::optional<int> episode;
+  query.read(result.operator_fingerprint, result.numerics_version, result.seconds, episode);
+  if (episode) result.unexpected = faultsim::Reactivation{*episode, query.get<int>(4)};
   result.surface = read_surface(db, tables, case_id);
   read_steps(db, tables, case_id, result);
   read_stages(db, tables, case_id, result);

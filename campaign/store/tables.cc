@@ -88,10 +88,8 @@ void visit_cases(Connection& db, const std::string& from, const char* campaign_c
 void Store::for_each_case(std::int64_t campaign, const TableQuery& query,
                           const std::function<void(const CaseRow&)>& visit) const {
   Connection& db = *connection_;
-  Statement any_rows =
-      db.prepared("SELECT EXISTS (SELECT 1 FROM design_rows WHERE campaign_id = ?)");
-  any_rows.bind(campaign).step();
-  const bool has_rows = any_rows.integer(0) != 0;  // else the rows of its designs are its cases
+  const bool has_rows = db.row<bool>(  // else the rows of its designs are its cases
+      "SELECT EXISTS (SELECT 1 FROM design_rows WHERE campaign_id = ?)", campaign);
   if (query.by_design_row && has_rows) {
     visit_cases(db,
                 " FROM design_rows d CROSS JOIN campaign_cases cc"
@@ -117,36 +115,18 @@ std::string leading_change_sql(const std::string& row) {
 void Store::for_each_slip_event(std::int64_t campaign, const TableQuery& query,
                                 const std::function<void(const SeenEvent&)>& visit) const {
   const std::string sql =
-      concat("SELECT cc.position, coalesce(e.fault_id, 0), e.time_s, e.magnitude_mw, ",
-             leading_change_sql("e"), " FROM campaign_cases cc", joins(query),
+      concat("SELECT cc.position, coalesce(e.fault_id, 0), e.time_s, ", leading_change_sql("e"),
+             ", e.magnitude_mw FROM campaign_cases cc", joins(query),
              " CROSS JOIN slip_events e ON e.case_id = cc.case_id WHERE cc.campaign_id = ?",
              where_sql(query.where), " ORDER BY cc.position, e.number");
   Statement rows(*connection_, sql);
   bind_table(rows, campaign, query);
   while (rows.step()) {
-    visit({static_cast<long>(rows.integer(0)), rows.integer(1), rows.real(2), rows.real(4),
-           rows.optional_real(3)});
+    visit(rows.row<SeenEvent, long, std::int64_t, double, double, std::optional<double>>());
   }
 }
 
 namespace {
-
-/// Numbers of "[-1e6,0]".
-std::vector<double> numbers_of(const std::string& text) {
-  std::vector<double> numbers;
-  const char* at = text.c_str();
-  while (*at != '\0') {
-    char* end = nullptr;
-    const double value = std::strtod(at, &end);
-    if (end == at) {
-      ++at;
-    } else {
-      numbers.push_back(value);
-      at = end;
-    }
-  }
-  return numbers;
-}
 
 /// What the region that changes by `change` in a step had changed by in the one before; NaN where
 /// no region does, as that of a place need not.
@@ -199,15 +179,17 @@ void Store::for_each_onset(std::int64_t campaign, const TableQuery& query,
   while (rows.step()) {
     if (const long position = rows.integer(0); position != one.position) {
       if (one.position > 0) visit(one);
-      one = {position,     std::nullopt, static_cast<int>(rows.integer(2)),
-             rows.real(3), {},           ids_of(rows.text(11))};
-      if (const auto rank_class = rows.optional_integer(1))
-        one.rank_class = static_cast<int>(*rank_class);
+      one = {position,
+             rows.get<std::optional<int>>(1),
+             rows.get<int>(2),
+             rows.real(3),
+             {},
+             ids_of(rows.text(11))};
     }
-    if (const auto fault = rows.optional_integer(4)) {
+    if (const auto fault = rows.get<std::optional<std::int64_t>>(4)) {
       const double change = rows.real(7);
-      one.onsets.push_back({*fault, static_cast<int>(rows.integer(5)), rows.real(6), change,
-                            rows.real(8), change_before(change, rows.text(9), rows.text(10))});
+      one.onsets.push_back({*fault, rows.get<int>(5), rows.real(6), change, rows.real(8),
+                            change_before(change, rows.text(9), rows.text(10))});
     }
   }
   if (one.position > 0) visit(one);
