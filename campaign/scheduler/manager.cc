@@ -41,28 +41,27 @@ std::string slurm_text() {
 
 }  // namespace
 
-Manager::Manager(Store& store, WorkerLink& link, ProgressDisplay& display, const Options& options)
+Manager::Manager(Store& store, Link& link, ProgressDisplay& display, const Options& options)
     : store_(store), link_(link), display_(display), options_(options) {
   campaign_ = store_.campaign(options.campaign);
-  store_.claim_ownership(campaign_.id, link.n_workers());
+  store_.claim_ownership(campaign_.id, n_workers());
   const long n_lost = store_.requeue_missing_fields(campaign_);
   if (n_lost > 0) display_.note(concat("the fields of ", n_lost, " cases are gone: written again"));
   fields_folder_ =
       std::filesystem::absolute(store_.fields_folder(campaign_.name)).lexically_normal();
   plan_ = std::make_unique<WorkPlan>(
       std::vector<FamilyWork>(),
-      WorkPlan::Limits{link.n_workers(), options.memory_bytes, campaign_.policy.on_failure,
+      WorkPlan::Limits{n_workers(), options.memory_bytes, campaign_.policy.on_failure,
                        campaign_.policy.retries});
   take_work();
-  const auto n_workers = static_cast<std::size_t>(link.n_workers());
-  scenes_sent_.resize(n_workers);
-  hosts_.resize(n_workers);
-  cores_.resize(n_workers, 1);
+  scenes_sent_.resize(n_workers());
+  hosts_.resize(n_workers());
+  cores_.resize(n_workers(), 1);
   if (campaign_.cancelled) plan_->stop();
   store_.record_event(campaign_.id, "started",
                       concat(counted(campaign_.n_waiting, "case", "cases"), " in ",
                              counted(plan_->n_families(), "family", "families"), ", ",
-                             counted(n_workers, "worker", "workers"),
+                             counted(n_workers(), "worker", "workers"),
                              fields_only_.empty() ? std::string()
                                                   : concat("; ", fields_only_.size(),
                                                            " cases for their fields only"),
@@ -107,18 +106,19 @@ bool Manager::turn() {
   busy_ = false;
   while (auto received = link_.receive()) {
     busy_ = true;
-    if (const auto* hello = std::get_if<message::Hello>(&received->message)) {
-      greet(received->worker, *hello);
-    } else if (auto* events = std::get_if<message::Events>(&received->message)) {
-      handle(received->worker, std::move(*events));
-    } else if (const auto* trouble = std::get_if<message::Trouble>(&received->message)) {
+    const int worker = received->from - 1;
+    Message& message = received->message;
+    if (const auto* hello = std::get_if<message::Hello>(&message)) {
+      greet(worker, *hello);
+    } else if (auto* events = std::get_if<JobEvents>(&message)) {
+      handle(worker, std::move(*events));
+    } else if (const auto* trouble = std::get_if<message::Trouble>(&message)) {
       if (trouble_.empty()) trouble_ = trouble->text;
       plan_->stop();
-    } else if (std::holds_alternative<message::Released>(received->message)) {
-      plan_->released(received->worker);
+    } else if (is(message, message::Signal::released)) {
+      plan_->released(worker);
     } else {
-      FAULTSIM_DEMAND(std::holds_alternative<message::Drained>(received->message),
-                      received->message.index());
+      FAULTSIM_DEMAND(is(message, message::Signal::drained), message.index());
       ++n_drained_;
     }
   }
@@ -145,7 +145,7 @@ void Manager::begin_drain() {
   draining_ = true;
   since_drain_ = {};
   plan_->stop();
-  for (int worker = 0; worker < link_.n_workers(); ++worker) link_.send(worker, message::Drain{});
+  for (int worker = 0; worker < n_workers(); ++worker) tell(worker, message::Signal::drain);
 }
 
 void Manager::interrupt() {
@@ -158,18 +158,18 @@ void Manager::interrupt() {
              options_.patience, " s"));
 }
 
-void Manager::handle(int worker, message::Events message) {
-  for (const OperatorRecord& record : message.events.operators) {
+void Manager::handle(int worker, JobEvents events) {
+  for (const OperatorRecord& record : events.operators) {
     const int family = plan_->family_of(worker);
     FAULTSIM_DEMAND(family >= 0, worker);
     plan_->operator_ready(worker, record.seconds, record.from_cache);
     operators_.emplace_back(family, record);
   }
-  for (JobEvents::Completed& one : message.events.completed) handle_result(worker, std::move(one));
-  for (const JobEvents::Failure& failure : message.events.failed) handle_failure(worker, failure);
-  if (!message.events.returned.empty()) {
-    plan_->returned(worker, message.events.returned);
-    for (const std::int64_t id : message.events.returned) inputs_.erase(id);
+  for (JobEvents::Completed& one : events.completed) handle_result(worker, std::move(one));
+  for (const JobEvents::Failure& failure : events.failed) handle_failure(worker, failure);
+  if (!events.returned.empty()) {
+    plan_->returned(worker, events.returned);
+    for (const std::int64_t id : events.returned) positions_.erase(id);
   }
   fail_hopeless();
 }
@@ -214,15 +214,15 @@ std::optional<JobEvents::Failure> Manager::refuse_fields(const RunRecord& run) c
                     : concat(": it used the operator ", run.result->operator_fingerprint,
                              ", the stored one comes from ", stored->operator_fingerprint));
   std::error_code ignored;  // if they cannot be removed, the store still says that there are none
-  std::filesystem::remove_all(
-      store_.fields_folder(campaign_.name, inputs_.at(run.case_id).position), ignored);
+  std::filesystem::remove_all(store_.fields_folder(campaign_.name, positions_.at(run.case_id)),
+                              ignored);
   return JobEvents::Failure{std::move(refused), false};
 }
 
 void Manager::handle_failure(int worker, const JobEvents::Failure& failure) {
   RunRecord run = failure.run;
   run.final = !plan_->case_failed(worker, run.case_id, failure.in_operator);
-  const long position = inputs_.count(run.case_id) > 0 ? inputs_[run.case_id].position : 0;
+  const long position = positions_.contains(run.case_id) ? positions_[run.case_id] : 0;
   const std::string text =
       concat(fields_only_.count(run.case_id) > 0 ? "fields of case " : "case ", position, " ",
              to_string(run.status), ": ", run.reason, run.final ? "" : "; it is tried again");
@@ -253,7 +253,7 @@ void Manager::add_run(RunRecord run) {
   if (uncommitted_.empty()) since_first_uncommitted_ = {};
   ++n_finished_now_;
   run.fields_only = fields_only_.count(run.case_id) > 0;
-  inputs_.erase(run.case_id);
+  positions_.erase(run.case_id);
   uncommitted_.push_back(std::move(run));
 }
 
@@ -270,15 +270,15 @@ void Manager::hand_out() {
   // Round by round, so that nobody gets a second slice before everybody had a first.
   for (bool any = true; any;) {
     any = false;
-    for (int worker = 0; worker < link_.n_workers(); ++worker) {
+    for (int worker = 0; worker < n_workers(); ++worker) {
       if (const auto slice = plan_->next(worker)) {
         send_work(worker, *slice);
         any = busy_ = true;
       }
     }
   }
-  for (int worker = 0; worker < link_.n_workers(); ++worker) {
-    if (plan_->take_release(worker)) link_.send(worker, message::Release{});
+  for (int worker = 0; worker < n_workers(); ++worker) {
+    if (plan_->take_release(worker)) tell(worker, message::Signal::release);
   }
 }
 
@@ -296,11 +296,10 @@ void Manager::send_work(int worker, const Slice& slice) {
   for (const std::int64_t id : slice.cases) {
     CaseInput input = store_.case_input(campaign_.id, id);
     if (sent.insert(input.scene).second) work.scenes[input.scene] = store_.base_scene(input.scene);
-    work.items.push_back(
-        {id, input.scene, input.position, std::move(input.changes), std::move(input.identity)});
-    inputs_[id] = {id, input.scene, input.position, {}};
+    positions_[id] = input.position;
+    work.cases.push_back(std::move(input));
   }
-  link_.send(worker, work);
+  tell(worker, work);
 }
 
 void Manager::beat() {
@@ -310,8 +309,7 @@ void Manager::beat() {
   since_look_ = {};
   Progress progress{n_cases_, n_done_, n_failed_, plan_->seconds_left(), ""};
   int n_building = 0;
-  for (int worker = 0; worker < link_.n_workers(); ++worker)
-    n_building += plan_->is_building(worker);
+  for (int worker = 0; worker < n_workers(); ++worker) n_building += plan_->is_building(worker);
   if (n_building > 0)
     progress.doing = concat("building ", counted(n_building, "operator", "operators"));
   if (n_finished_now_ == 0 && n_building == 0) progress.seconds_left = -1;
@@ -328,7 +326,7 @@ void Manager::beat() {
 
 std::string Manager::progress_json() const {
   json workers = json::array();
-  for (int worker = 0; worker < link_.n_workers(); ++worker) {
+  for (int worker = 0; worker < n_workers(); ++worker) {
     const int family = plan_->family_of(worker);
     const char* state = plan_->n_outstanding(worker) == 0 ? "waiting"
                         : plan_->is_building(worker)      ? "building operator"

@@ -16,21 +16,6 @@
 
 namespace faultsweep {
 
-class Messenger;
-
-/// Where the manager's messages come from and go to: MPI, or a test.
-class WorkerLink {
- public:
-  virtual ~WorkerLink() = default;
-  virtual int n_workers() const = 0;
-  virtual void send(int worker, const Message& message) = 0;  ///< worker from 0.
-  struct Received {
-    int worker = 0;
-    Message message;
-  };
-  virtual std::optional<Received> receive() = 0;
-};
-
 /// Rank 0: owns the store, hands out cases, commits what comes back. One campaign per life.
 class Manager {
  public:
@@ -43,7 +28,7 @@ class Manager {
     std::function<bool(Store&, const std::string&)> next_round = {};
   };
   /// Claims the store. Throws StorageError.
-  Manager(Store& store, WorkerLink& link, ProgressDisplay& display, const Options& options);
+  Manager(Store& store, Link& link, ProgressDisplay& display, const Options& options);
   ~Manager();
   Manager(const Manager&) = delete;
   Manager& operator=(const Manager&) = delete;
@@ -59,14 +44,16 @@ class Manager {
   faultsim::ExitCode status() const;
   const std::string& trouble() const { return trouble_; }
   /// All workers have handed back what they had; otherwise they cannot be told to quit in order.
-  bool workers_are_drained() const { return n_drained_ == link_.n_workers(); }
+  bool workers_are_drained() const { return n_drained_ == n_workers(); }
 
   static constexpr double kCommitSeconds = 0.05;   ///< the oldest result waits no longer
   static constexpr std::size_t kCommitRuns = 512;  ///< nor are more together in one transaction
 
  private:
+  int n_workers() const { return link_.size() - 1; }
+  void tell(int worker, const Message& message) { link_.send(worker + 1, message); }  ///< from 0.
   void greet(int worker, const message::Hello& hello);
-  void handle(int worker, message::Events message);
+  void handle(int worker, JobEvents events);
   void handle_result(int worker, JobEvents::Completed completed);
   /// A run for fields only must repeat the stored result bit for bit: the fields are those of that
   /// result or they are removed. With the same operator a difference is our bug, with another one
@@ -84,14 +71,14 @@ class Manager {
   std::string progress_json() const;
 
   Store& store_;
-  WorkerLink& link_;
+  Link& link_;
   ProgressDisplay& display_;
   Options options_;
   CampaignInfo campaign_;
   std::string fields_folder_;  ///< of the campaign, absolute.
   std::unique_ptr<WorkPlan> plan_;
-  std::map<std::int64_t, CaseInput> inputs_;  ///< of cases under way
-  std::set<std::int64_t> fields_only_;        ///< cases that have a result and lack their fields
+  std::map<std::int64_t, long> positions_;  ///< of cases under way
+  std::set<std::int64_t> fields_only_;      ///< cases that have a result and lack their fields
   std::vector<std::set<std::int64_t>> scenes_sent_;
   std::vector<std::string> hosts_;
   std::vector<int> cores_;

@@ -14,24 +14,19 @@ namespace faultsweep {
 /// MPI for the campaign: whole messages, sent without waiting, received by looking. Neither side
 /// ever blocks inside MPI, as MPI waits by spinning: whoever has nothing to do sleeps (see
 /// IdleSleep).
-class Messenger {
+class Messenger final : public Link {
  public:
   /// Starts MPI. One per process.
   Messenger(int& argc, char**& argv);
   /// Ends MPI together with all ranks; prefer finish().
-  ~Messenger();
+  ~Messenger() override;
   Messenger(const Messenger&) = delete;
   Messenger& operator=(const Messenger&) = delete;
 
   int rank() const { return rank_; }
-  int size() const { return size_; }
-  void send(int to, const Message& message);
-  struct Received {
-    int from = 0;
-    Message message;
-  };
-  /// A message that has arrived; nothing = none.
-  std::optional<Received> receive();
+  int size() const override { return size_; }
+  void send(int to, const Message& message) override;
+  std::optional<Received> receive() override;
   /// Everything that was sent has left.
   bool is_flushed();
   /// Ends MPI in order: every rank must call it. Waits, asleep, for what was sent; what arrives is
@@ -60,6 +55,8 @@ class IdleSleep {
   explicit IdleSleep(int longest = 2000) : longest_(longest) {}
   void reset() { microseconds_ = kShortest; }
   void sleep();
+  /// Of a main loop: sleeps unless something was done.
+  void after_turn(bool busy) { busy ? reset() : sleep(); }
   static constexpr int kShortest = 50;
   static constexpr int kManagerLongest = 10000;
 

@@ -60,14 +60,6 @@ void ProgressDisplay::show(const Progress& progress) {
   std::fflush(stderr);
 }
 
-void ProgressDisplay::finish(const Progress& progress) {
-  if (style_ == Style::silent) return;
-  if (drawn_) std::fprintf(stderr, "\r\033[K");
-  drawn_ = false;
-  std::fprintf(stderr, "%s\n", progress_line(progress).c_str());
-  std::fflush(stderr);
-}
-
 void ProgressDisplay::note(const std::string& text) {
   if (style_ == Style::silent) return;
   if (drawn_) std::fprintf(stderr, "\r\033[K");

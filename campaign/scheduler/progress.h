@@ -25,7 +25,7 @@ class ProgressDisplay {
   explicit ProgressDisplay(Style style) : style_(style) {}
   void show(const Progress& progress);
   /// The last word, always shown; ends the bar's line.
-  void finish(const Progress& progress);
+  void finish(const Progress& progress) { note(progress_line(progress)); }
   /// A remark between.
   void note(const std::string& text);
 

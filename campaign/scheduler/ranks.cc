@@ -3,7 +3,6 @@
 #include <linux/magic.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -48,27 +47,6 @@ void set_signals(bool is_manager) {
   on_signal(SIGXFSZ, SIG_IGN);  // a file size limit shows as a full disk
 }
 
-std::string host_name() {
-  char name[256] = {};
-  gethostname(name, sizeof name - 1);
-  return name;
-}
-
-class MpiWorkers final : public WorkerLink {
- public:
-  explicit MpiWorkers(Messenger& messenger) : messenger_(messenger) {}
-  int n_workers() const override { return messenger_.size() - 1; }
-  void send(int worker, const Message& message) override { messenger_.send(worker + 1, message); }
-  std::optional<Received> receive() override {
-    auto received = messenger_.receive();
-    if (!received) return std::nullopt;
-    return Received{received->from - 1, std::move(received->message)};
-  }
-
- private:
-  Messenger& messenger_;
-};
-
 /// This process's CPU time so far, s.
 double cpu_seconds() {
   struct rusage usage = {};
@@ -101,9 +79,8 @@ ExitCode manage(Messenger& messenger, const RunOptions& options, bool& in_order)
   ProgressDisplay display(options.progress);
   Store store = Store::open_owner(options.store);
   if (!store.remark().empty()) display.note(store.remark());
-  MpiWorkers link(messenger);
   const double memory = options.memory_bytes.value_or(kMemoryShare * available_memory());
-  Manager manager(store, link, display,
+  Manager manager(store, messenger, display,
                   {.campaign = options.campaign,
                    .memory_bytes = memory,
                    .threads = options.threads,
@@ -116,11 +93,7 @@ ExitCode manage(Messenger& messenger, const RunOptions& options, bool& in_order)
       in_order = false;
       return ExitCode::interrupted;
     }
-    if (manager.is_busy()) {
-      idle.reset();
-    } else {
-      idle.sleep();
-    }
+    idle.after_turn(manager.is_busy());
   }
   in_order = manager.workers_are_drained();
   const CampaignInfo info = store.campaign(options.campaign);
@@ -168,7 +141,7 @@ ExitCode manager_rank(Messenger& messenger, const RunOptions& options) {
   // mpirun, which would be asked by MPI_Abort, is tearing us down already.
   if (torn_down != 0) std::_Exit(static_cast<int>(end.status));
   // Workers leave at once when they are told to, whatever they have under way.
-  for (int rank = 1; rank < messenger.size(); ++rank) messenger.send(rank, message::Quit{});
+  for (int rank = 1; rank < messenger.size(); ++rank) messenger.send(rank, message::Signal::quit);
   constexpr double kPatience = 10;  // s; an idle worker takes 2 ms, a stopped one for ever
   if (end.in_order) {
     messenger.finish();
@@ -202,11 +175,6 @@ ExitCode worker_rank(Messenger& messenger, const RunOptions& options) {
   if (torn_down != 0) std::_Exit(static_cast<int>(ExitCode::interrupted));
   messenger.finish();
   return ExitCode::done;
-}
-
-long file_system_type(const std::filesystem::path& folder) {
-  struct statfs info = {};
-  return statfs(folder.c_str(), &info) == 0 ? static_cast<long>(info.f_type) : 0;
 }
 
 }  // namespace

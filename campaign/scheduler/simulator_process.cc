@@ -61,10 +61,8 @@ std::vector<std::string> clean_environment() {
   std::vector<std::string> kept;
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string_view text = *entry;
-    bool is_rank = false;
-    for (const char* prefix : {"OMPI_", "PMIX_", "PMI_", "SLURM_"}) {
-      is_rank = is_rank || text.substr(0, std::strlen(prefix)) == prefix;
-    }
+    const bool is_rank = text.starts_with("OMPI_") || text.starts_with("PMIX_") ||
+                         text.starts_with("PMI_") || text.starts_with("SLURM_");
     if (!is_rank) kept.emplace_back(text);
   }
   return kept;
@@ -136,16 +134,13 @@ SimulatorProcess::SimulatorProcess(const Options& options) {
                                         std::to_string(kChildReplies),
                                         "--threads",
                                         std::to_string(options.threads)};
-  if (!options.cache.empty())
-    arguments.insert(arguments.end(), {"--cache", options.cache.string()});
-  if (!options.node_cache.empty())
-    arguments.insert(arguments.end(), {"--node-cache", options.node_cache.string()});
-  if (options.cache_bytes) {
-    arguments.insert(arguments.end(), {"--cache-size", std::to_string(*options.cache_bytes)});
-  }
+  const auto add = [&](const char* option, const std::string& value) {
+    arguments.insert(arguments.end(), {option, value});
+  };
+  if (!options.cache.empty()) add("--cache", options.cache.string());
+  if (!options.node_cache.empty()) add("--node-cache", options.node_cache.string());
   if (options.memory_limit) {  // set by the child itself, once its linear algebra has what it takes
-    arguments.insert(arguments.end(),
-                     {"--memory-limit", std::to_string(std::llround(*options.memory_limit))});
+    add("--memory-limit", std::to_string(std::llround(*options.memory_limit)));
   }
   std::vector<std::string> environment = clean_environment();
   const SpawnSetup setup(requests.read, replies.write, log.write);

@@ -2,7 +2,6 @@
 
 #include <sys/types.h>
 
-#include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <optional>
@@ -31,11 +30,10 @@ class SimulatorProcess {
  public:
   struct Options {
     std::filesystem::path binary;
-    std::filesystem::path cache;               ///< operator cache; empty = none.
-    std::filesystem::path node_cache;          ///< copies on the host's own disk; empty = none.
-    std::optional<std::uint64_t> cache_bytes;  ///< cap of the cache.
-    std::optional<double> memory_limit;        ///< bytes of private memory (RLIMIT_DATA).
-    int threads = 1;                           ///< of building an operator.
+    std::filesystem::path cache;         ///< operator cache; empty = none.
+    std::filesystem::path node_cache;    ///< copies on the host's own disk; empty = none.
+    std::optional<double> memory_limit;  ///< bytes of private memory (RLIMIT_DATA).
+    int threads = 1;                     ///< of building an operator.
   };
   /// Starts it. Throws ResourceError when that is not possible.
   explicit SimulatorProcess(const Options& options);

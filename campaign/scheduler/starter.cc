@@ -350,11 +350,7 @@ void check_before(RunOptions& options) {
   Store store = Store::open_writer(options.store);
   const CampaignInfo info = store.campaign(options.campaign);
   options.campaign = info.name;  // "the newest" stays the same one through restarts
-  if (const auto owner = store.owner(); owner && owner->alive) {
-    throw faultsim::StorageError(concat("the store ", options.store.string(),
-                                        " is managed by process ", owner->pid, " on ", owner->host,
-                                        "; wait for it, stop it, or use another --store"));
-  }
+  store.dead_owner();            // or a living one, which is said
   if (access(options.simulator.c_str(), X_OK) != 0) {
     throw ResourceError(concat("there is no simulator at ", options.simulator.string(),
                                "; set FAULTSIM_BINARY to the faultsim binary"));

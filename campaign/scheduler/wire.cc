@@ -125,49 +125,33 @@ void fields(Archive& a, BaseScene& s) {
   all(a, s.source, s.document);
 }
 template <typename Archive>
-void fields(Archive& a, message::Work::Item& i) {
-  all(a, i.case_id, i.scene, i.position, i.changes, i.identity);
+void fields(Archive& a, CaseInput& c) {
+  all(a, c.id, c.scene, c.position, c.changes, c.identity);
 }
 template <typename Archive>
 void fields(Archive& a, message::Hello& m) {
   all(a, m.host, m.cores);
 }
 template <typename Archive>
-void fields(Archive& a, message::Events& m) {
-  all(a, m.events.completed, m.events.failed, m.events.returned, m.events.operators);
+void fields(Archive& a, JobEvents& e) {
+  all(a, e.completed, e.failed, e.returned, e.operators);
 }
 template <typename Archive>
 void fields(Archive& a, message::Trouble& m) {
   all(a, m.text);
 }
 template <typename Archive>
-void fields(Archive&, message::Drained&) {}
-template <typename Archive>
 void fields(Archive& a, message::Work& m) {
   all(a, m.task.family, m.task.time_limit, m.task.operator_time_limit, m.task.operator_seconds,
       m.task.memory_limit, m.task.threads, m.task.keep_fields, m.task.fields_folder, m.scenes,
-      m.items);
+      m.cases);
 }
-template <typename Archive>
-void fields(Archive&, message::Drain&) {}
-template <typename Archive>
-void fields(Archive&, message::Quit&) {}
-template <typename Archive>
-void fields(Archive&, message::Release&) {}
-template <typename Archive>
-void fields(Archive&, message::Released&) {}
 
-template <std::size_t Index = 0>
-void read_alternative(std::size_t index, Reader& reader, Message& message) {
-  if constexpr (Index < std::variant_size_v<Message>) {
-    if (index == Index) {
-      reader(message.emplace<Index>());
-    } else {
-      read_alternative<Index + 1>(index, reader, message);
-    }
-  } else {
-    FAULTSIM_DEMAND(false, "message of unknown kind ", index);
-  }
+template <std::size_t... Indices>
+void read_alternative(std::size_t index, Reader& reader, Message& message,
+                      std::index_sequence<Indices...>) {
+  FAULTSIM_DEMAND(index < sizeof...(Indices), "message of unknown kind ", index);
+  ((index == Indices ? reader(message.emplace<Indices>()) : void()), ...);
 }
 
 }  // namespace
@@ -184,7 +168,8 @@ Message decode(std::string_view bytes) {
   std::uint8_t index = 0;
   reader(index);
   Message message;
-  read_alternative(index, reader, message);
+  read_alternative(index, reader, message,
+                   std::make_index_sequence<std::variant_size_v<Message>>());
   FAULTSIM_DEMAND(reader.at_end(), "bytes behind a message of kind ", index);
   return message;
 }

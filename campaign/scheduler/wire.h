@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -20,44 +21,52 @@ struct Hello {
   std::string host;
   int cores = 1;  ///< that the worker may use there; other workers may have the same.
 };
-struct Events {
-  JobEvents events;
-};
 struct Trouble {  ///< the worker cannot go on: the simulator cannot be run.
   std::string text;
-};
-struct Drained {  ///< nothing is under way any more.
-};
-struct Released {  ///< the simulator has ended.
 };
 
 // From manager to worker.
 struct Work {
-  struct Item {
-    std::int64_t case_id = 0;
-    std::int64_t scene = 0;  ///< key of a base scene sent with this or an earlier message.
-    long position = 0;
-    std::string changes;
-    std::string identity = "";
-  };
   FamilyTask task;
   std::map<std::int64_t, BaseScene> scenes;
-  std::vector<Item> items;
+  std::vector<CaseInput> cases;  ///< of base scenes sent with this or an earlier message.
 };
-struct Drain {  ///< finish the case under way, hand back the others, say Drained.
+
+// Either way.
+enum class Signal : std::uint8_t {
+  drain,     ///< finish the case under way, hand back the others, say `drained`.
+  drained,   ///< nothing is under way any more.
+  release,   ///< end the simulator: what it holds is of no use any more.
+  released,  ///< it has ended.
+  quit,
 };
-struct Release {  ///< end the simulator: what it holds is of no use any more.
-};
-struct Quit {};
 
 }  // namespace message
 
 using Message =
-    std::variant<message::Hello, message::Events, message::Trouble, message::Drained, message::Work,
-                 message::Drain, message::Quit, message::Release, message::Released>;
+    std::variant<message::Hello, JobEvents, message::Trouble, message::Work, message::Signal>;
+
+inline bool is(const Message& message, message::Signal signal) {
+  const auto* one = std::get_if<message::Signal>(&message);
+  return one != nullptr && *one == signal;
+}
 
 std::string encode(const Message& message);
 /// Throws InternalError on bytes that are not a message.
 Message decode(std::string_view bytes);
+
+/// Where messages come from and go to, by rank: MPI, or a test. The manager is rank 0.
+class Link {
+ public:
+  virtual ~Link() = default;
+  virtual int size() const = 0;  ///< ranks, the manager included.
+  virtual void send(int to, const Message& message) = 0;
+  struct Received {
+    int from = 0;
+    Message message;
+  };
+  /// A message that has arrived; nothing = none.
+  virtual std::optional<Received> receive() = 0;
+};
 
 }  // namespace faultsweep

@@ -18,35 +18,22 @@ void append(std::vector<Value>& to, std::vector<Value>& from) {
   to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
-class MpiLink final : public ManagerLink {
- public:
-  explicit MpiLink(Messenger& messenger) : messenger_(messenger) {}
-  void send(const Message& message) override { messenger_.send(0, message); }
-  std::optional<Message> receive() override {
-    auto received = messenger_.receive();
-    if (!received) return std::nullopt;
-    return std::move(received->message);
-  }
-
- private:
-  Messenger& messenger_;
-};
-
 }  // namespace
 
 bool Worker::turn(int timeout_ms) {
   busy_ = false;
-  while (const auto message = link_.receive()) {
+  while (const auto received = link_.receive()) {
     busy_ = true;
-    if (const auto* work = std::get_if<message::Work>(&*message)) {
+    const Message& message = received->message;
+    if (const auto* work = std::get_if<message::Work>(&message)) {
       take(*work);
-    } else if (std::holds_alternative<message::Release>(*message)) {
+    } else if (is(message, message::Signal::release)) {
       release();
-    } else if (std::holds_alternative<message::Drain>(*message)) {
+    } else if (is(message, message::Signal::drain)) {
       draining_ = true;
       runner_.drain();
     } else {
-      FAULTSIM_DEMAND(std::holds_alternative<message::Quit>(*message), message->index());
+      FAULTSIM_DEMAND(is(message, message::Signal::quit), message.index());
       quit_ = true;
     }
   }
@@ -56,14 +43,14 @@ bool Worker::turn(int timeout_ms) {
       collect(runner_.work(timeout_ms));
     } catch (const faultsim::ResourceError& error) {
       in_trouble_ = true;
-      link_.send(message::Trouble{error.what()});
+      tell(message::Trouble{error.what()});
     }
   }
   busy_ = busy_ || (!runner_.is_idle() && !in_trouble_);
   report(runner_.is_idle());
   if (draining_ && !said_drained_ && (in_trouble_ || runner_.is_idle())) {
     said_drained_ = true;
-    link_.send(message::Drained{});
+    tell(message::Signal::drained);
   }
   return true;
 }
@@ -74,7 +61,7 @@ void Worker::take(const message::Work& work) {
     runner_.hold(id, scene.document);
   }
   if (draining_ || in_trouble_) {
-    for (const auto& item : work.items) pending_.returned.push_back(item.case_id);
+    for (const CaseInput& one : work.cases) pending_.returned.push_back(one.id);
     return;
   }
   try {
@@ -82,21 +69,21 @@ void Worker::take(const message::Work& work) {
       runner_.begin_family(work.task);
       family_ = work.task.family;
     }
-    for (const auto& item : work.items) {
+    for (const CaseInput& one : work.cases) {
       Job job;
-      job.case_id = item.case_id;
-      job.identity = item.identity;
-      job.base = item.scene;
-      job.changes = item.changes;
-      job.source = faultsim::concat(sources_.at(item.scene), "#case ", item.position);
+      job.case_id = one.id;
+      job.identity = one.identity;
+      job.base = one.scene;
+      job.changes = one.changes;
+      job.source = faultsim::concat(sources_.at(one.scene), "#case ", one.position);
       if (work.task.keep_fields != KeepFields::none) {
-        job.fields_folder = faultsim::concat(work.task.fields_folder, '/', item.position);
+        job.fields_folder = faultsim::concat(work.task.fields_folder, '/', one.position);
       }
       runner_.add(std::move(job));
     }
   } catch (const faultsim::ResourceError& error) {
     in_trouble_ = true;
-    link_.send(message::Trouble{error.what()});
+    tell(message::Trouble{error.what()});
   }
 }
 
@@ -105,7 +92,7 @@ void Worker::release() {
     runner_.end_family();
     family_ = -1;
   }
-  link_.send(message::Released{});
+  tell(message::Signal::released);
 }
 
 void Worker::collect(JobEvents events) {
@@ -122,26 +109,19 @@ void Worker::collect(JobEvents events) {
 
 void Worker::report(bool now) {
   if (pending_.empty() || (!now && since_report_.seconds() < kReportSeconds)) return;
-  link_.send(message::Events{std::move(pending_)});
+  tell(std::move(pending_));
   pending_ = {};
   since_report_ = {};
 }
 
-void run_worker(Messenger& messenger, JobRunner& runner, const std::string& host,
+void run_worker(Link& link, JobRunner& runner, const std::string& host,
                 const std::function<bool()>& must_leave) {
-  MpiLink link(messenger);
-  link.send(message::Hello{host, faultsim::usable_cores()});
+  link.send(0, message::Hello{host, faultsim::usable_cores()});
   Worker worker(link, runner);
   IdleSleep idle;
   constexpr int kWaitMs =
       2;  // for the simulator's replies, which wake us; messages must wait so long
-  while (!must_leave() && worker.turn(kWaitMs)) {
-    if (worker.is_busy()) {
-      idle.reset();
-    } else {
-      idle.sleep();
-    }
-  }
+  while (!must_leave() && worker.turn(kWaitMs)) idle.after_turn(worker.is_busy());
 }
 
 }  // namespace faultsweep

@@ -10,22 +10,11 @@
 
 namespace faultsweep {
 
-class Messenger;
-
-/// Where a worker's messages come from and go to: MPI, or a test.
-class ManagerLink {
- public:
-  virtual ~ManagerLink() = default;
-  virtual void send(const Message& message) = 0;
-  /// A message of the manager that has arrived.
-  virtual std::optional<Message> receive() = 0;
-};
-
 /// A rank other than 0: takes work, feeds it to its runner, sends back what happened. It ends when
 /// the manager says Quit.
 class Worker {
  public:
-  Worker(ManagerLink& link, JobRunner& runner) : link_(link), runner_(runner) {}
+  Worker(Link& link, JobRunner& runner) : link_(link), runner_(runner) {}
   /// One turn: messages, runner, report. Waits at most timeout_ms when there is work under way.
   /// False after Quit.
   bool turn(int timeout_ms);
@@ -35,10 +24,11 @@ class Worker {
  private:
   void take(const message::Work& work);
   void release();
+  void tell(const Message& message) { link_.send(0, message); }
   void collect(JobEvents events);
   void report(bool now);
 
-  ManagerLink& link_;
+  Link& link_;
   JobRunner& runner_;
   int family_ = -1;
   bool draining_ = false, said_drained_ = false, quit_ = false, busy_ = false;
@@ -49,7 +39,7 @@ class Worker {
 };
 
 /// The main loop of a worker rank, until Quit or until must_leave().
-void run_worker(Messenger& messenger, JobRunner& runner, const std::string& host,
+void run_worker(Link& link, JobRunner& runner, const std::string& host,
                 const std::function<bool()>& must_leave);
 
 }  // namespace faultsweep

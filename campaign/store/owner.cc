@@ -15,12 +15,6 @@ using faultsim::StorageError;
 
 constexpr double kSilentSeconds = 60;  // 60 heartbeats of 1 s missed
 
-std::string host_name() {
-  char name[256] = {};
-  gethostname(name, sizeof name - 1);
-  return name;
-}
-
 /// Start time of a process in clock ticks since boot (field 22 of stat); 0 when there is none.
 std::int64_t process_started(std::int64_t pid) {
   std::ifstream file(concat("/proc/", pid, "/stat"));
@@ -44,14 +38,23 @@ bool is_alive(const std::string& host, std::int64_t pid, std::int64_t started, d
 
 }  // namespace
 
+std::string host_name() {
+  char name[256] = {};
+  gethostname(name, sizeof name - 1);
+  return name;
+}
+
+std::optional<OwnerInfo> Store::dead_owner() const {
+  const auto before = owner();
+  if (!before || !before->alive) return before;
+  throw StorageError(concat("the store ", folder_.string(), " is managed by process ", before->pid,
+                            " on ", before->host,
+                            "; wait for it, stop it, or use another --store"));
+}
+
 void Store::claim_ownership(std::int64_t campaign, int n_workers) {
   Transaction transaction(*connection_);
-  if (const auto before = owner()) {
-    if (before->alive) {
-      throw StorageError(concat("the store ", folder_.string(), " is managed by process ",
-                                before->pid, " on ", before->host,
-                                "; wait for it, stop it, or use another --store"));
-    }
+  if (const auto before = dead_owner()) {
     record_event(campaign, "takeover",
                  concat("the manager with process id ", before->pid, " on ", before->host,
                         " died; taken over"));

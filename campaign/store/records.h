@@ -200,6 +200,9 @@ struct OperatorRecord {
 inline constexpr const char* kDamageCure =
     "restore a backup (faultsweep backup), or move the file away and submit again";
 
+/// Of this machine, as OwnerInfo has it.
+std::string host_name();
+
 /// Who manages the store.
 struct OwnerInfo {
   std::string host;

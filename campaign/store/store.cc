@@ -36,13 +36,12 @@ void make_folder(const std::filesystem::path& folder) {
   }
 }
 
-bool on_network(const std::filesystem::path& folder) {
-  struct statfs info = {};
-  if (statfs(folder.c_str(), &info) != 0) return false;
-  return is_network_file_system(static_cast<long>(info.f_type));
-}
-
 }  // namespace
+
+long file_system_type(const std::filesystem::path& folder) {
+  struct statfs info = {};
+  return statfs(folder.c_str(), &info) == 0 ? static_cast<long>(info.f_type) : 0;
+}
 
 bool is_network_file_system(long f_type) {
   // NFS, SMB, CIFS, SMB2, AFS, Lustre, GPFS, Ceph, BeeGFS, OCFS2, PanFS, 9P, FUSE (sshfs and its
@@ -80,7 +79,7 @@ std::unique_ptr<Connection> open_for_writing(const std::filesystem::path& folder
   auto connection = std::make_unique<Connection>(folder / kFileName, mode);
   const int version =
       stored_version(*connection, store_migrations());  // before anything is changed
-  if (assume_network || on_network(folder)) {
+  if (assume_network || is_network_file_system(file_system_type(folder))) {
     connection->execute("PRAGMA journal_mode = DELETE; PRAGMA synchronous = FULL");
     remark =
         concat("the store ", folder.string(),

@@ -74,7 +74,9 @@ std::string unresolved_sql(const std::string& metric, const MetricIds& all,
 /// The same for the index-th of a campaign's parameters: SI, or words.
 std::string parameter_sql(int index, bool is_text);
 
-/// True if STATFS's f_type is a network file system, where WAL must not be used.
+/// What lies in a folder's file system: STATFS's f_type; 0 = not known.
+long file_system_type(const std::filesystem::path& folder);
+/// Whether that is a network file system, where WAL must not be used.
 bool is_network_file_system(long f_type);
 
 /// The database of campaigns, campaign.sqlite in the store's folder. One named function per query.
@@ -165,6 +167,8 @@ class Store {
   void heartbeat(const std::string& progress);
   void release_ownership();
   std::optional<OwnerInfo> owner() const;
+  /// An owner that has died; none = it has none. Throws StorageError, naming a living one.
+  std::optional<OwnerInfo> dead_owner() const;
   void checkpoint();
 
   // Reading ---------------------------------------------------------------------------------------

@@ -10,41 +10,41 @@
 namespace faultsweep::benchmarks {
 
 /// Workers that have done their work when they get it.
-class InstantWorkers final : public WorkerLink {
+class InstantWorkers final : public Link {
  public:
   /// @param clock  seconds from any origin; by it seconds() counts.
   InstantWorkers(const faultsim::CaseResult& result, double (*clock)())
       : result_(faultsim::result_to_bytes(result)), clock_(clock) {}
-  int n_workers() const override { return 64; }
-  void send(int worker, const Message& message) override {
+  int size() const override { return 65; }
+  void send(int to, const Message& message) override {
     const double start = clock_();
     if (const auto* work = std::get_if<message::Work>(&message)) {
-      message::Events events;
-      if (const auto [family, is_new] = last_family_.try_emplace(worker, work->task.family);
+      JobEvents events;
+      if (const auto [family, is_new] = last_family_.try_emplace(to, work->task.family);
           is_new || family->second != work->task.family) {
         family->second = work->task.family;
-        events.events.operators.push_back({"operator", true, 0.001, 1000, 100, 1000, 1000});
+        events.operators.push_back({"operator", true, 0.001, 1000, 100, 1000, 1000});
       }
-      for (const auto& item : work->items) {
+      for (const CaseInput& one : work->cases) {
         RunRecord run;
-        run.case_id = item.case_id;
+        run.case_id = one.id;
         run.wall_seconds = 0.001;
         run.status = RunStatus::completed;
-        events.events.completed.push_back({std::move(run), result_});
+        events.completed.push_back({std::move(run), result_});
       }
-      inbox_.push_back({worker, encode(events)});
-    } else if (std::holds_alternative<message::Drain>(message)) {
-      inbox_.push_back({worker, encode(message::Drained{})});
-    } else if (std::holds_alternative<message::Release>(message)) {
-      inbox_.push_back({worker, encode(message::Released{})});
+      inbox_.push_back({to, encode(events)});
+    } else if (is(message, message::Signal::drain)) {
+      inbox_.push_back({to, encode(message::Signal::drained)});
+    } else if (is(message, message::Signal::release)) {
+      inbox_.push_back({to, encode(message::Signal::released)});
     }
     seconds_ += clock_() - start;
   }
   std::optional<Received> receive() override {
     if (inbox_.empty()) return std::nullopt;
-    auto [worker, bytes] = std::move(inbox_.front());
+    auto [from, bytes] = std::move(inbox_.front());
     inbox_.pop_front();
-    return Received{worker, decode(bytes)};
+    return Received{from, decode(bytes)};
   }
   /// What the workers took.
   double seconds() const { return seconds_; }

@@ -73,43 +73,44 @@ class FakeRunner final : public JobRunner {
 };
 
 /// Manager and workers in one process, taking turns; messages are encoded on the way.
-class Stage final : public WorkerLink {
+class Stage final : public Link {
  public:
-  class End final : public ManagerLink {
+  class End final : public Link {
    public:
-    End(Stage& stage, int index) : stage_(stage), index_(index) {}
-    void send(const Message& message) override {
-      stage_.to_manager_.push_back({index_, encode(message)});
+    End(Stage& stage, int rank) : stage_(stage), rank_(rank) {}
+    int size() const override { return stage_.size(); }
+    void send(int, const Message& message) override {
+      stage_.to_manager_.push_back({rank_, encode(message)});
     }
-    std::optional<Message> receive() override {
+    std::optional<Received> receive() override {
       if (inbox.empty()) return std::nullopt;
       const std::string bytes = inbox.front();
       inbox.pop_front();
-      return decode(bytes);
+      return Received{0, decode(bytes)};
     }
     std::deque<std::string> inbox;
 
    private:
     Stage& stage_;
-    int index_;
+    int rank_;
   };
 
   explicit Stage(int n) {
     for (int k = 0; k < n; ++k) {
-      ends_.push_back(std::make_unique<End>(*this, k));
+      ends_.push_back(std::make_unique<End>(*this, k + 1));
       runners_.push_back(std::make_unique<FakeRunner>());
       workers_.push_back(std::make_unique<Worker>(*ends_.back(), *runners_.back()));
     }
   }
-  int n_workers() const override { return static_cast<int>(ends_.size()); }
-  void send(int worker, const Message& message) override {
-    ends_[static_cast<std::size_t>(worker)]->inbox.push_back(encode(message));
+  int size() const override { return static_cast<int>(ends_.size()) + 1; }
+  void send(int to, const Message& message) override {
+    ends_[static_cast<std::size_t>(to - 1)]->inbox.push_back(encode(message));
   }
   std::optional<Received> receive() override {
     if (to_manager_.empty()) return std::nullopt;
-    auto [worker, bytes] = to_manager_.front();
+    auto [from, bytes] = to_manager_.front();
     to_manager_.pop_front();
-    return Received{worker, decode(bytes)};
+    return Received{from, decode(bytes)};
   }
   /// Until the manager is done, at most n_turns; true if it is.
   bool play(Manager& manager, int n_turns = 1000000) {

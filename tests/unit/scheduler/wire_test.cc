@@ -24,9 +24,9 @@ TEST(Wire, EventsTravel) {
   events.failed.push_back(failure);
   events.returned = {7, 8};
   events.operators.push_back({"print", true, 1.5, 10, 20, 30, 40});
-  const std::string bytes = encode(message::Events{events});
-  const auto back = std::get<message::Events>(decode(bytes)).events;
-  EXPECT_EQ(encode(message::Events{back}), bytes);
+  const std::string bytes = encode(events);
+  const auto back = std::get<JobEvents>(decode(bytes));
+  EXPECT_EQ(encode(back), bytes);
   ASSERT_EQ(back.completed.size(), 1u);
   EXPECT_EQ(back.completed[0].result, std::string("a\0b", 3));
   EXPECT_TRUE(back.completed[0].run.has_fields);
@@ -44,14 +44,14 @@ TEST(Wire, WorkTravels) {
   work.task.keep_fields = KeepFields::all;
   work.task.fields_folder = "/store/fields/sweep";
   work.scenes[5] = {"scene.json", "{}"};
-  work.items.push_back({17, 5, 9, R"({"/a": 1})"});
+  work.cases.push_back({17, 5, 9, R"({"/a": 1})"});
   const auto back = std::get<message::Work>(decode(encode(work)));
   EXPECT_EQ(back.task.time_limit, 2.5);
   EXPECT_FALSE(back.task.memory_limit);
   EXPECT_EQ(back.task.keep_fields, KeepFields::all);
   EXPECT_EQ(back.task.fields_folder, "/store/fields/sweep");
   EXPECT_EQ(back.scenes.at(5).source, "scene.json");
-  EXPECT_EQ(back.items[0].changes, R"({"/a": 1})");
+  EXPECT_EQ(back.cases[0].changes, R"({"/a": 1})");
 }
 
 TEST(Wire, BrokenBytesAreABug) {
