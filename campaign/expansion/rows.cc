@@ -11,57 +11,38 @@ using Parameters = const Parameter*;  ///< those of one design.
 
 long size_of(const Parameter& one) { return static_cast<long>(one.choices.size()); }
 
+/// They are listed, read or drawn.
+bool has_rows(const Design& design) {
+  return design.kind == DesignKind::list || design.kind == DesignKind::samples ||
+         is_sampled(design.kind);
+}
+
 long count_rows(const Design& design, Parameters parameters) {
-  long count = 1;
-  switch (design.kind) {
-    case DesignKind::list:
-    case DesignKind::monte_carlo:
-    case DesignKind::latin_hypercube:
-    case DesignKind::sobol:
-    case DesignKind::samples:
-    case DesignKind::morris:
-      return static_cast<long>(design.rows.size());
-    case DesignKind::zip:
-      return design.n_parameters == 0 ? 0 : size_of(parameters[0]);
-    case DesignKind::one_at_a_time:
-      for (std::size_t p = 0; p < design.n_parameters; ++p) count += size_of(parameters[p]);
-      return design.without_base ? count - 1 : count;
-    case DesignKind::grid:
-      for (std::size_t p = 0; p < design.n_parameters; ++p) count *= size_of(parameters[p]);
-      return count;
-  }
-  faultsim::throw_internal("known design", "", __FILE__, __LINE__);
+  if (has_rows(design)) return static_cast<long>(design.rows.size());
+  if (design.kind == DesignKind::zip) return design.n_parameters == 0 ? 0 : size_of(parameters[0]);
+  const bool is_grid = design.kind == DesignKind::grid;
+  long count = design.without_base ? 0 : 1;
+  for (std::size_t p = 0; p < design.n_parameters; ++p)
+    count = is_grid ? count * size_of(parameters[p]) : count + size_of(parameters[p]);
+  return count;
 }
 
 /// @param row  of the design's parameters, filled with -1.
 void row_at(const Design& design, Parameters parameters, long i, int* row) {
   const std::size_t n = design.n_parameters;
-  switch (design.kind) {
-    case DesignKind::list:
-    case DesignKind::monte_carlo:
-    case DesignKind::latin_hypercube:
-    case DesignKind::sobol:
-    case DesignKind::samples:
-    case DesignKind::morris:
-      std::copy_n(design.rows[i].begin(), n, row);
-      return;
-    case DesignKind::zip:
-      std::fill_n(row, n, static_cast<int>(i));
-      return;
-    case DesignKind::one_at_a_time: {
-      long first = design.without_base ? 0 : 1;
-      for (std::size_t p = 0; p < n; first += size_of(parameters[p++])) {
-        const long choice = i - first;
-        if (choice >= 0 && choice < size_of(parameters[p])) row[p] = static_cast<int>(choice);
-      }
-      return;
+  if (has_rows(design)) {
+    std::copy_n(design.rows[i].begin(), n, row);
+  } else if (design.kind == DesignKind::zip) {
+    std::fill_n(row, n, static_cast<int>(i));
+  } else if (design.kind == DesignKind::grid) {
+    for (std::size_t p = n; p-- > 0; i /= size_of(parameters[p]))
+      row[p] = static_cast<int>(i % size_of(parameters[p]));
+  } else {
+    long first = design.without_base ? 0 : 1;
+    for (std::size_t p = 0; p < n; first += size_of(parameters[p++])) {
+      const long choice = i - first;
+      if (choice >= 0 && choice < size_of(parameters[p])) row[p] = static_cast<int>(choice);
     }
-    case DesignKind::grid:
-      for (std::size_t p = n; p-- > 0;) {
-        row[p] = static_cast<int>(i % size_of(parameters[p]));
-        i /= size_of(parameters[p]);
-      }
-      return;
   }
 }
 

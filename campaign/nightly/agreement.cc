@@ -10,7 +10,6 @@
 
 #include "campaign/store/same_numbers.h"
 #include "simulator/common/errors.h"
-#include "simulator/result/result_fields.h"
 #include "simulator/result/result_json.h"
 
 namespace faultsweep {
@@ -45,23 +44,7 @@ bool is_compared(const std::string& key) {
                                                  "magnitude_mw",
                                                  "magnitude_if_released_at_once_mw",
                                                  "event_magnitude_mw"};
-  return left_out.count(key) == 0;
-}
-
-/// Measures and fields of a case that were added after baselines had been written, which then have
-/// none.
-const std::set<std::string>& later_fields() {
-  static const std::set<std::string> keys = [] {
-    std::set<std::string> later;
-    const auto note = [&later](const faultsim::Field& field, const auto&) {
-      if (field.since > 0) later.emplace(field.key);
-    };
-    const CaseResult result;
-    faultsim::for_each_measure(result.whole, note);
-    faultsim::for_each_field(result, note);
-    return later;
-  }();
-  return keys;
+  return !left_out.contains(key);
 }
 
 /// The largest magnitude that each quantity takes in a document.
@@ -169,8 +152,8 @@ class Walk {
                   std::abs(a - b) / scales_.at(key));
     }
     // Reasons quote residuals: their wording decides nothing, their outcome does.
-    const bool wording = key == "reason";
-    note(place, key, baseline, tonight, 0, wording ? 0 : std::numeric_limits<double>::infinity());
+    note(place, key, baseline, tonight, 0,
+         key == "reason" ? 0 : std::numeric_limits<double>::infinity());
   }
   void note(const std::string& place, const std::string& quantity, const json& baseline,
             const json& tonight, std::uint64_t ulps, double deviation) {
@@ -236,12 +219,9 @@ std::uint64_t ulps_between(double a, double b) {
 
 Agreement compare_results(const CaseResult& baseline, const CaseResult& tonight,
                           bool same_environment, const Tolerances& tolerances) {
-  Agreement agreement;
   const std::string somewhere = first_difference(baseline, tonight);
-  if (somewhere.empty()) {
-    agreement.verdict = Verdict::identical;
-    return agreement;
-  }
+  if (somewhere.empty()) return {Verdict::identical, 0, {}, {}};
+  Agreement agreement;
   std::vector<Difference> all =
       Walk(faultsim::result_to_json(baseline), faultsim::result_to_json(tonight)).differences;
   FAULTSIM_DEMAND(!all.empty(), somewhere);
@@ -296,11 +276,10 @@ std::vector<std::optional<std::size_t>> changed_order(const std::vector<CaseResu
   std::vector<std::optional<std::size_t>> changed(baseline.size());
   for (std::size_t i = 0; i < baseline.size(); ++i) {
     for (std::size_t j = i + 1; j < baseline.size(); ++j) {
-      if (order(baseline[i], baseline[j], tolerances) * order(tonight[i], tonight[j], tolerances) <
-          0) {
-        changed[i] = j;
-        changed[j] = i;
-      }
+      const int before = order(baseline[i], baseline[j], tolerances);
+      if (before * order(tonight[i], tonight[j], tolerances) >= 0) continue;
+      changed[i] = j;
+      changed[j] = i;
     }
   }
   return changed;

@@ -1,8 +1,10 @@
 #include "campaign/nightly/baseline.h"
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "campaign/store/same_numbers.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/files/atomic_file.h"
@@ -63,21 +65,7 @@ json pack(const json& list) {
 
 constexpr const char* kLists[] = {"steps", "stages", "events", "episodes"};
 
-/// Without what is not compared: it would make every file differ.
-CaseResult bare(CaseResult result) {
-  result.title.clear();
-  result.operator_fingerprint.clear();
-  result.warnings.clear();
-  result.counts = {};
-  result.seconds = 0;
-  for (faultsim::StepResult& step : result.steps) {
-    step.counts = {};
-    step.observed.clear();
-    step.seconds = 0;
-  }
-  return result;
-}
-
+/// Bare: the rest would make every file differ.
 json packed(const CaseResult& result) {
   json document = faultsim::result_to_json(bare(result));
   for (const char* key : kLists) document[key] = pack(document[key]);
@@ -175,10 +163,8 @@ std::vector<std::string> environment_differences(const Environment& here,
 }
 
 const NightCampaign* Baseline::find(const std::string& campaign) const {
-  for (const NightCampaign& one : campaigns) {
-    if (one.name == campaign) return &one;
-  }
-  return nullptr;
+  const auto found = std::ranges::find(campaigns, campaign, &NightCampaign::name);
+  return found == campaigns.end() ? nullptr : &*found;
 }
 
 std::filesystem::path baseline_path(const std::filesystem::path& folder, const std::string& suite,

@@ -4,10 +4,10 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <ctime>
 #include <nlohmann/json.hpp>
 
 #include "campaign/expansion/submission.h"
@@ -75,13 +75,6 @@ Environment ask_environment(const std::filesystem::path& simulator) {
         concat(simulator.string(), " does not say its environment (exit code ", answer.code,
                "); it must be a faultsim of the same version as faultsweep"));
   }
-}
-
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%d", std::localtime(&now));
-  return text;
 }
 
 /// One run of a suite.
@@ -217,9 +210,8 @@ class Night {
   void judge_lost_campaigns() {
     if (!baseline_) return;
     for (const NightCampaign& one : baseline_->campaigns) {
-      bool is_there = false;
-      for (const NightCampaign& again : tonight_) is_there = is_there || again.name == one.name;
-      if (!is_there) judge(&one, {one.name, {}}, same_environment_);
+      if (std::ranges::find(tonight_, one.name, &NightCampaign::name) == tonight_.end())
+        judge(&one, {one.name, {}}, same_environment_);
     }
   }
 
@@ -310,7 +302,8 @@ class Night {
     blessed.suite = suite_.name;
     blessed.environment = environment_;
     if (baseline_ && same_environment_) blessed.blessings = baseline_->blessings;
-    blessed.blessings.push_back({today(), request_.reason, environment_.numerics_version});
+    const std::string today = format_time(seconds_since_1970()).substr(0, 10);
+    blessed.blessings.push_back({today, request_.reason, environment_.numerics_version});
     blessed.campaigns = tonight_;
     write_baseline(request_.baselines, blessed);
     record_.blessed = request_.reason;

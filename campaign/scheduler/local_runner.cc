@@ -55,15 +55,9 @@ RunStatus status_of(int exit_code, const std::string& text) {
 }
 
 OperatorRecord operator_record(const json& reply) {
-  OperatorRecord record;
-  record.fingerprint = reply.at("fingerprint").get<std::string>();
-  record.from_cache = reply.at("from_cache").get<bool>();
-  record.seconds = reply.at("seconds").get<double>();
-  record.unknowns = reply.at("unknowns").get<std::int64_t>();
-  record.jump_unknowns = reply.at("jump_unknowns").get<std::int64_t>();
-  record.bytes = reply.at("bytes").get<std::int64_t>();
-  record.peak_bytes = reply.at("peak_bytes").get<std::int64_t>();
-  return record;
+  return {reply.at("fingerprint"), reply.at("from_cache"),    reply.at("seconds"),
+          reply.at("unknowns"),    reply.at("jump_unknowns"), reply.at("bytes"),
+          reply.at("peak_bytes")};
 }
 
 }  // namespace
@@ -104,7 +98,6 @@ void LocalRunner::start() {
   greeted_ = operator_known_ = started_ = false;
   operator_seconds_ = 0;
   since_ = {};
-  n_sent_ = 0;
   bases_sent_.clear();
   result_.reset();
   for (const Job& job : jobs_) send(job);
@@ -122,7 +115,6 @@ void LocalRunner::send(const Job& job) {
     line += ",\"fields\":" + fields.dump();
   }
   process_->send(line + "}");
-  ++n_sent_;
 }
 
 JobEvents LocalRunner::work(int timeout_ms) {
@@ -277,7 +269,6 @@ void LocalRunner::handle_done(const json& reply, std::string result, JobEvents& 
     }
   }
   jobs_.pop_front();
-  --n_sent_;
   started_ = false;
   operator_seconds_ = 0;
   since_ = {};

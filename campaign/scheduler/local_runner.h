@@ -61,8 +61,7 @@ class LocalRunner final : public JobRunner {
   Options options_;
   FamilyTask task_;
   std::unique_ptr<SimulatorProcess> process_;
-  std::deque<Job> jobs_;    ///< in the order sent; the first is in flight or next.
-  std::size_t n_sent_ = 0;  ///< of jobs_, to the present process.
+  std::deque<Job> jobs_;  ///< in the order sent; the first is in flight or next.
   std::map<std::int64_t, std::string> bases_;
   std::set<std::int64_t> bases_sent_;     ///< to the present process.
   std::optional<nlohmann::json> result_;  ///< the reply whose result is to follow.

@@ -16,12 +16,8 @@ namespace {
 constexpr int kTag = 1;
 }
 
-struct Messenger::Outgoing {
-  std::string bytes;
-  MPI_Request request = MPI_REQUEST_NULL;
-};
-struct Messenger::Incoming {
-  int from = 0;
+struct Messenger::Transfer {
+  int from = 0;  ///< of one that comes in.
   std::string bytes;
   MPI_Request request = MPI_REQUEST_NULL;
 };
@@ -37,7 +33,7 @@ Messenger::~Messenger() {
 }
 
 void Messenger::send(int to, const Message& message) {
-  auto outgoing = std::make_unique<Outgoing>();
+  auto outgoing = std::make_unique<Transfer>();
   outgoing->bytes = encode(message);
   FAULTSIM_DEMAND(outgoing->bytes.size() < (1u << 30), outgoing->bytes.size());
   MPI_Isend(outgoing->bytes.data(), static_cast<int>(outgoing->bytes.size()), MPI_BYTE, to, kTag,
@@ -47,7 +43,7 @@ void Messenger::send(int to, const Message& message) {
 }
 
 bool Messenger::is_flushed() {
-  outbox_.remove_if([](const std::unique_ptr<Outgoing>& outgoing) {
+  outbox_.remove_if([](const std::unique_ptr<Transfer>& outgoing) {
     int done = 0;
     MPI_Test(&outgoing->request, &done, MPI_STATUS_IGNORE);
     return done != 0;
@@ -67,7 +63,7 @@ void Messenger::accept() {
     if (there == 0) return;
     int n_bytes = 0;
     MPI_Get_count(&status, MPI_BYTE, &n_bytes);
-    auto incoming = std::make_unique<Incoming>();
+    auto incoming = std::make_unique<Transfer>();
     incoming->from = status.MPI_SOURCE;
     incoming->bytes.resize(n_bytes);
     MPI_Imrecv(incoming->bytes.data(), n_bytes, MPI_BYTE, &announced, &incoming->request);
@@ -82,7 +78,7 @@ std::optional<Messenger::Received> Messenger::receive() {
   int done = 0;
   MPI_Test(&inbox_.front()->request, &done, MPI_STATUS_IGNORE);
   if (done == 0) return std::nullopt;
-  const std::unique_ptr<Incoming> incoming = std::move(inbox_.front());
+  const std::unique_ptr<Transfer> incoming = std::move(inbox_.front());
   inbox_.pop_front();
   return Received{incoming->from, decode(incoming->bytes)};
 }

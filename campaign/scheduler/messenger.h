@@ -36,14 +36,13 @@ class Messenger final : public Link {
   [[noreturn]] void abort(int code);
 
  private:
-  struct Outgoing;
-  struct Incoming;
+  struct Transfer;
   void accept();
 
   int rank_ = 0, size_ = 0;
   bool finished_ = false;
-  std::list<std::unique_ptr<Outgoing>> outbox_;
-  std::deque<std::unique_ptr<Incoming>> inbox_;  ///< in order of arrival
+  std::list<std::unique_ptr<Transfer>> outbox_;
+  std::deque<std::unique_ptr<Transfer>> inbox_;  ///< in order of arrival
 };
 
 /// Sleeps that grow from 50 µs while nothing happens: short enough not to be felt, long enough that

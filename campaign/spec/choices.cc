@@ -13,20 +13,7 @@ namespace {
 using faultsim::Dimension;
 using nlohmann::json;
 
-/// "40 GPa" in its two parts.
-struct NumberAndUnit {
-  long double number = 0;
-  std::string unit;  ///< "" for a plain number.
-};
-std::optional<NumberAndUnit> split(const json& value) {
-  const std::string text = scalar_text(value);
-  char* end = nullptr;
-  const long double number = std::strtold(text.c_str(), &end);
-  if (value.is_boolean() || end == text.c_str() || !std::isfinite(number)) return std::nullopt;
-  std::string unit(end);
-  unit.erase(0, std::min(unit.find_first_not_of(' '), unit.size()));
-  return NumberAndUnit{number, unit};
-}
+std::optional<NumberAndUnit> split(const json& value) { return split_quantity(scalar_text(value)); }
 
 /// Fifteen digits: what a user would have written (0.3, not 0.30000000000000004).
 std::string decimal(long double number) {
@@ -171,8 +158,7 @@ void SpecReader::check_stray_keys(const std::string& pointer) {
 void SpecReader::read_targets(const SceneNames& names, Parameter& parameter) {
   const std::string list = parameter.pointer + "/pointers";
   if (at(parameter.pointer).is_object() && has(list)) {
-    for (std::size_t i = 0; i < at(list).size(); ++i) {
-      const std::string place = list + "/" + std::to_string(i);
+    for (const auto& [key, place] : members(list)) {
       if (auto target = resolve(names, at(place).get<std::string>(), place)) {
         parameter.targets.push_back(*target);
       }
@@ -187,12 +173,7 @@ void SpecReader::read_targets(const SceneNames& names, Parameter& parameter) {
 /// Each value is kept with all places that it changes.
 void SpecReader::check_change_count(Parameter& parameter) {
   constexpr std::size_t kMost = 1'000'000;
-  const json& value = at(parameter.pointer);
-  std::size_t n_values = value.is_array() ? value.size() : 0;
-  for (const char* list : {"values", "factors"}) {
-    if (value.is_object() && value.contains(list)) n_values = value[list].size();
-  }
-  if (value.is_object() && value.contains("count")) n_values = value["count"].get<std::size_t>();
+  const auto n_values = static_cast<std::size_t>(count_values(parameter.pointer));
   if (n_values * parameter.targets.size() <= kMost) return;
   problem(parameter.pointer,
           std::to_string(n_values) + " values for " + std::to_string(parameter.targets.size()) +
@@ -241,16 +222,15 @@ std::optional<Choice> SpecReader::make_choice(const json& value, const std::stri
 
 void SpecReader::read_values(const std::string& pointer, const SceneNames& names,
                              Parameter& parameter) {
-  const json& values = at(pointer);
   std::unordered_set<std::string> seen;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const std::string place = pointer + "/" + std::to_string(i);
+  for (const auto& [key, place] : members(pointer)) {
+    const json& value = at(place);
     // 1 and 1.0 are one value: whole numbers are read as such however they are written.
-    if (!seen.insert(values[i].dump()).second) {
-      problem(place, "the value " + faultsim::as_text(values[i]) + " is given twice", "remove one");
+    if (!seen.insert(value.dump()).second) {
+      problem(place, "the value " + faultsim::as_text(value) + " is given twice", "remove one");
       continue;
     }
-    auto choice = make_choice(values[i], place, names, parameter);
+    auto choice = make_choice(value, place, names, parameter);
     if (!choice) continue;
     if (!choice->si) parameter.is_text = true;
     parameter.choices.push_back(std::move(*choice));
@@ -450,12 +430,8 @@ void SpecReader::read_scale(const SceneNames& names, Parameter& parameter) {
   check_change_count(parameter);
   if (parameter.targets.empty()) return;
   parameter.base = {"1", 1.0, "/base", {}};
-  const json& factors = at(parameter.pointer + "/factors");
-  for (std::size_t i = 0; i < factors.size(); ++i) {
-    Choice choice{factors[i].dump(),
-                  factors[i].get<double>(),
-                  parameter.pointer + "/factors/" + std::to_string(i),
-                  {}};
+  for (const auto& [key, factor_place] : members(parameter.pointer + "/factors")) {
+    Choice choice{at(factor_place).dump(), at(factor_place).get<double>(), factor_place, {}};
     const long double factor = std::strtold(choice.text.c_str(), nullptr);
     for (const Scaled& one : scaled) {
       choice.changes.push_back({one.pointer, with_unit(one.base.number * factor, one.base.unit)});
@@ -469,10 +445,9 @@ void SpecReader::read_variants(const SceneNames& names, Parameter& parameter) {
   parameter.is_text = true;
   parameter.base = {"base", std::nullopt, "/base", {}};
   std::unordered_set<std::string> known;
-  for (const std::string& variant : keys(place)) {
-    Choice choice{variant, std::nullopt, place + "/" + faultsim::pointer_token(variant), {}};
-    for (const std::string& key : keys(choice.pointer)) {
-      const std::string here = choice.pointer + "/" + faultsim::pointer_token(key);
+  for (const auto& [variant, variant_place] : members(place)) {
+    Choice choice{variant, std::nullopt, variant_place, {}};
+    for (const auto& [key, here] : members(variant_place)) {
       const auto target = resolve(names, key, here);
       if (!target) continue;
       choice.changes.push_back({*target, at(here)});

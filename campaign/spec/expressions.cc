@@ -101,8 +101,7 @@ std::optional<Expression> SpecReader::parse(const std::string& pointer, const Sy
 void SpecReader::read_derived() {
   if (!has("/derived")) return;
   const SceneNames& names = names_of(spec_.groups.front().scene);
-  for (const std::string& key : keys("/derived")) {
-    const std::string place = "/derived/" + faultsim::pointer_token(key);
+  for (const auto& [key, place] : members("/derived")) {
     const auto target = resolve(names, key, place);
     add_other_aliases(at(place).get<std::string>());
     auto expression = parse(place, symbols_);
@@ -170,8 +169,7 @@ void SpecReader::sort_derived() {
 
 void SpecReader::read_exclusions() {
   if (!has("/exclude")) return;
-  for (std::size_t i = 0; i < at("/exclude").size(); ++i) {
-    const std::string place = "/exclude/" + std::to_string(i);
+  for (const auto& [key, place] : members("/exclude")) {
     add_other_aliases(at(place).get<std::string>());
     auto expression = parse(place, symbols_);
     if (!expression) continue;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
 namespace faultsweep {
@@ -9,6 +10,13 @@ namespace faultsweep {
 bool overlap(const std::string& a, const std::string& b);
 /// A JSON scalar as the user reads it: text without quotes, shortest number.
 std::string scalar_text(const nlohmann::json& value);
+
+/// "40 GPa" in its two parts; nothing where it does not begin with a finite number.
+struct NumberAndUnit {
+  long double number = 0;
+  std::string unit;  ///< "" for a plain number.
+};
+std::optional<NumberAndUnit> split_quantity(const std::string& text);
 
 /// The shortest decimal text that reads back as the same bits; an exponent only where a person
 /// would write one.

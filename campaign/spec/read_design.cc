@@ -32,9 +32,7 @@ void SpecReader::read_designs(const std::string& pointer, const std::string& pre
   group.origins = origins;
   const SceneNames& names = names_of(scene);
   if (kind == "nested") {
-    for (std::size_t i = 0; i < at(pointer + "/designs").size(); ++i) {
-      read_design(pointer + "/designs/" + std::to_string(i), names, group);
-    }
+    for (const Member& one : members(pointer + "/designs")) read_design(one.pointer, names, group);
   } else {
     read_design(pointer, names, group);
   }
@@ -59,8 +57,7 @@ void SpecReader::read_design(const std::string& pointer, const SceneNames& names
   } else if (design.kind == DesignKind::samples) {
     read_samples(pointer, names, design, parameters);
   } else {
-    for (const std::string& name : keys(pointer + "/parameters")) {
-      const std::string place = pointer + "/parameters/" + faultsim::pointer_token(name);
+    for (const auto& [name, place] : members(pointer + "/parameters")) {
       if (auto parameter = read_parameter(place, name, names, design.kind)) {
         parameters.push_back(std::move(*parameter));
       }
@@ -83,17 +80,15 @@ void SpecReader::read_design(const std::string& pointer, const SceneNames& names
 void SpecReader::read_sampling(const std::string& pointer, Design& design) {
   const bool is_morris = design.kind == DesignKind::morris;
   design.n = at(pointer + (is_morris ? "/trajectories" : "/samples")).get<long>();
-  constexpr int kUsualLevels = 4;
-  if (is_morris)
-    design.levels = has(pointer + "/levels") ? at(pointer + "/levels").get<int>() : kUsualLevels;
+  if (is_morris) design.levels = 4;
+  read(pointer + "/levels", design.levels);
   if (design.levels % 2 != 0) {
     problem(pointer + "/levels", std::to_string(design.levels) + " levels are an odd number",
             "write an even one: parameters move by half the levels");
   }
-  if (has(pointer + "/first")) design.first = at(pointer + "/first").get<long>();
-  if (has(pointer + "/seed")) design.seed = at(pointer + "/seed").get<std::int64_t>();
-  if (has(pointer + "/second_order"))
-    design.second_order = at(pointer + "/second_order").get<bool>();
+  read(pointer + "/first", design.first);
+  read(pointer + "/seed", design.seed);
+  read(pointer + "/second_order", design.second_order);
 }
 
 /// "correlations": [{"of": ["friction_angle", "cohesion"], "rank": -0.5}, ...]
@@ -115,8 +110,7 @@ void SpecReader::read_correlations(const std::string& pointer,
     return std::nullopt;
   };
   const std::size_t before = problems_.size();
-  for (std::size_t i = 0; i < at(list).size(); ++i) {
-    const std::string one = list + "/" + std::to_string(i);
+  for (const auto& [key, one] : members(list)) {
     const auto a = place_of(one + "/of/0"), b = place_of(one + "/of/1");
     if (!a || !b) continue;
     if (!ranks.emplace(std::minmax(*a, *b), at(one + "/rank").get<double>()).second)
@@ -147,8 +141,7 @@ void SpecReader::read_correlations(const std::string& pointer,
 void SpecReader::read_groups(const std::string& pointer, const std::string& prefix,
                              const json& scene, const std::vector<Origin>& origins) {
   std::map<std::string, std::string> seen;
-  for (std::size_t i = 0; i < at(pointer + "/groups").size(); ++i) {
-    const std::string place = pointer + "/groups/" + std::to_string(i);
+  for (const auto& [key, place] : members(pointer + "/groups")) {
     const auto name = at(place + "/name").get<std::string>();
     const auto [other, is_new] = seen.emplace(name, place);
     if (!is_new) {
@@ -167,12 +160,9 @@ void SpecReader::read_list(const std::string& pointer, const SceneNames& names, 
                            std::vector<Parameter>& parameters) {
   std::map<std::string, int> columns;             // parameter -> column; -1 = unknown, reported
   std::vector<std::map<std::string, int>> known;  // per column: JSON text of a value -> choice
-  const std::size_t n_cases = at(pointer).size();
-  for (std::size_t i = 0; i < n_cases; ++i) {
-    const std::string row_pointer = pointer + "/" + std::to_string(i);
+  for (const Member& one : members(pointer)) {
     std::vector<int> row(parameters.size(), -1);
-    for (const std::string& name : keys(row_pointer)) {
-      const std::string place = row_pointer + "/" + faultsim::pointer_token(name);
+    for (const auto& [name, place] : members(one.pointer)) {
       auto column = columns.find(name);
       if (column == columns.end()) {
         const auto target = resolve(names, name, place);

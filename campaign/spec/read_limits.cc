@@ -7,23 +7,13 @@
 namespace faultsweep {
 namespace {
 
-using faultsim::pointer_token;
 using nlohmann::json;
-
-/// What follows the number in "-120 bar".
-std::string unit_of(const std::string& text) {
-  char* end = nullptr;
-  std::strtod(text.c_str(), &end);
-  const std::string rest(end);
-  const std::size_t begin = rest.find_first_not_of(' ');
-  return begin == std::string::npos ? "" : rest.substr(begin);
-}
 
 /// The choices of a parameter as numbers of a unit.
 std::vector<double> numbers_of(const Parameter& parameter, const std::string& unit) {
   std::vector<double> numbers;
   for (const Choice& choice : parameter.choices) {
-    numbers.push_back(unit_of(choice.text) == unit
+    numbers.push_back(split_quantity(choice.text)->unit == unit
                           ? std::strtod(choice.text.c_str(), nullptr)
                           : faultsim::from_si(*choice.si, parameter.dimension, unit));
   }
@@ -43,8 +33,8 @@ bool goes_one_way(const std::vector<double>& values) {
 long double SpecReader::count_scan() const {
   if (!is_usable("/limits")) return 1;
   long double count = 0;
-  for (const std::string& name : keys("/limits")) {
-    const json& parameter = at("/limits/" + pointer_token(name) + "/parameter");
+  for (const Member& one : members("/limits")) {
+    const json& parameter = at(one.pointer + "/parameter");
     if (parameter.contains("count")) count += parameter["count"].get<long double>();
     if (parameter.contains("values")) count += static_cast<long double>(parameter["values"].size());
   }
@@ -68,13 +58,13 @@ void SpecReader::read_limits(const SceneNames& names, Group& group) {
   design.pointer = "/limits";
   design.without_base = true;
   const std::size_t first = group.parameters.size();
-  for (const std::string& name : keys("/limits")) read_limit(name, names, group);
+  for (const Member& one : members("/limits")) read_limit(one, names, group);
   design.n_parameters = group.parameters.size() - first;
   group.designs.push_back(std::move(design));
   if (!is_usable("/limits_round")) return;
   for (std::size_t k = first; k < group.parameters.size(); ++k) {
     Parameter& parameter = group.parameters[k];
-    const std::string place = "/limits_round/values/" + pointer_token(parameter.name);
+    const std::string place = "/limits_round/values/" + faultsim::pointer_token(parameter.name);
     if (!has(place)) continue;
     parameter.choices.clear();
     read_values(place, names, parameter);
@@ -82,10 +72,11 @@ void SpecReader::read_limits(const SceneNames& names, Group& group) {
   group.picked = at("/limits_round/rows").get<std::vector<long>>();
 }
 
-void SpecReader::read_limit(const std::string& name, const SceneNames& names, Group& group) {
+void SpecReader::read_limit(const Member& one, const SceneNames& names, Group& group) {
   LimitSearch search;
-  search.name = name;
-  search.pointer = "/limits/" + pointer_token(name);
+  search.name = one.key;
+  search.pointer = one.pointer;
+  const std::string& name = search.name;
   const std::string place = search.pointer + "/parameter";
   const bool is_range = at(place).contains("from") || at(place).contains("values");
   if (!is_range) {
@@ -106,18 +97,16 @@ void SpecReader::read_limit(const std::string& name, const SceneNames& names, Gr
     return;
   }
   search.dimension = parameter->dimension;
-  search.unit = unit_of(parameter->choices.front().text);
+  search.unit = split_quantity(parameter->choices.front().text)->unit;
   search.scan = numbers_of(*parameter, search.unit);
   if (!goes_one_way(search.scan)) {
     problem(place, "the values of \"" + name + "\" do not go one way",
             "order them, at least two, from the safe end to the dangerous one");
     return;
   }
-  if (at(search.pointer).contains("faults")) {
-    search.faults = at(search.pointer + "/faults").get<std::vector<std::string>>();
-  }
-  search.stage = at(search.pointer).value("stage", "");
-  search.unsafe = at(search.pointer).value("unsafe", search.unsafe);
+  read(search.pointer + "/faults", search.faults);
+  read(search.pointer + "/stage", search.stage);
+  read(search.pointer + "/unsafe", search.unsafe);
   read_tolerance(search.pointer + "/tolerance", search);
   group.parameters.push_back(std::move(*parameter));
   spec_.limits.push_back(std::move(search));

@@ -247,6 +247,15 @@ std::string scalar_text(const nlohmann::json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+std::optional<NumberAndUnit> split_quantity(const std::string& text) {
+  char* end = nullptr;
+  const long double number = std::strtold(text.c_str(), &end);
+  if (end == text.c_str() || !std::isfinite(number)) return std::nullopt;
+  std::string unit(end);
+  unit.erase(0, std::min(unit.find_first_not_of(' '), unit.size()));
+  return NumberAndUnit{number, unit};
+}
+
 std::string shortest_text(double number) {
   const bool plain = number == 0 || (std::abs(number) >= 1e-4 && std::abs(number) < 1e9);
   char digits[64];

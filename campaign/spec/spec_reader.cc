@@ -161,11 +161,11 @@ bool SpecReader::has(const std::string& pointer) const {
   return faultsim::value_at(spec_.document.value, pointer) != nullptr;
 }
 
-std::vector<std::string> SpecReader::keys(const std::string& pointer) const {
-  std::vector<std::string> result;
+std::vector<SpecReader::Member> SpecReader::members(const std::string& pointer) const {
+  std::vector<Member> result;
   for (const auto& [key, value] :
        ordered_.at(nlohmann::ordered_json::json_pointer(pointer)).items()) {
-    if (key != "comment") result.push_back(key);
+    if (key != "comment") result.push_back({key, pointer + "/" + faultsim::pointer_token(key)});
   }
   return result;
 }
@@ -177,7 +177,7 @@ void SpecReader::read_name() {
       problem("/name", "\"" + spec_.name + "\" is not a name for a campaign", kPlainNameCure);
     }
   }
-  if (is_usable("/title")) spec_.title = at("/title").get<std::string>();
+  if (is_usable("/title")) read("/title", spec_.title);
 }
 
 void SpecReader::read_base() {
@@ -262,12 +262,10 @@ void SpecReader::read_policy() {
                         : action == "retry" ? FailureAction::retry
                                             : FailureAction::proceed;
   }
-  if (has("/policy/retries")) {
-    policy.retries = at("/policy/retries").get<int>();
-    if (policy.on_failure != FailureAction::retry) {
-      problem("/policy/retries", "retries without on_failure retry have no effect",
-              "write \"on_failure\": \"retry\" or remove retries");
-    }
+  read("/policy/retries", policy.retries);
+  if (has("/policy/retries") && policy.on_failure != FailureAction::retry) {
+    problem("/policy/retries", "retries without on_failure retry have no effect",
+            "write \"on_failure\": \"retry\" or remove retries");
   }
   policy.time_limit = read_time_limit("/policy/time_limit");
   policy.operator_time_limit = read_time_limit("/policy/operator_time_limit");
@@ -289,10 +287,10 @@ void SpecReader::read_policy() {
 /// What the condition may name is known with the faults and stages of a scene (campaign/rounds).
 void SpecReader::read_rounds() {
   StagedSample& staged = spec_.staged_sample.emplace();
-  staged.condition = at("/rounds/probability_of").get<std::string>();
-  staged.width = at("/rounds/width").get<double>();
-  if (has("/rounds/confidence")) staged.confidence = at("/rounds/confidence").get<double>();
-  staged.most = at("/rounds/most_samples").get<long>();
+  read("/rounds/probability_of", staged.condition);
+  read("/rounds/width", staged.width);
+  read("/rounds/confidence", staged.confidence);
+  read("/rounds/most_samples", staged.most);
   if (at("/design/kind") != "monte-carlo") {
     problem("/rounds", "the design is not a monte-carlo design, whose samples can be continued",
             "write \"kind\": \"monte-carlo\", or remove rounds");
@@ -305,8 +303,7 @@ void SpecReader::read_rounds() {
 void SpecReader::apply_set(const std::string& pointer, json& scene, std::vector<Origin>& origins) {
   // Each alias is looked up in the scene as the keys before it left it: "/friction" may come first.
   std::optional<std::map<std::string, std::string>> aliases;
-  for (const std::string& key : keys(pointer)) {
-    const std::string place = pointer + "/" + faultsim::pointer_token(key);
+  for (const auto& [key, place] : members(pointer)) {
     std::string target = key;
     if (key.empty() || key[0] != '/') {
       if (!aliases) aliases = faultsim::parameter_aliases({spec_.base.source, scene, {}});

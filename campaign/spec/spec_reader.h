@@ -53,8 +53,16 @@ class SpecReader {
   void problem(const std::string& pointer, const std::string& what, const std::string& cure);
   const json& at(const std::string& pointer) const;
   bool has(const std::string& pointer) const;
-  /// Keys of an object in document order, without "comment".
-  std::vector<std::string> keys(const std::string& pointer) const;
+  /// Reads what is there, if it is there.
+  template <typename Value>
+  void read(const std::string& pointer, Value& value) const {
+    if (has(pointer)) at(pointer).get_to(value);
+  }
+  /// Of an object, in document order and without "comment", or of an array, with "0", "1", ...
+  struct Member {
+    std::string key, pointer;
+  };
+  std::vector<Member> members(const std::string& pointer) const;
   /// Applies the `set` object at pointer to a scene and notes where each value came from.
   void apply_set(const std::string& pointer, json& scene, std::vector<Origin>& origins);
   /// Pointer of an alias in the scene; nothing (and a problem) when unknown.
@@ -70,8 +78,11 @@ class SpecReader {
 
   // count_cases.cc: from the document alone; 10^30 must be counted to be refused.
   bool check_count();
-  long double count_cases(const std::string& design);
-  std::string describe_count(const std::string& design);
+  struct CaseCount {
+    long double n = 0;
+    std::string words;  ///< how it comes about.
+  };
+  CaseCount count_cases(const std::string& design);
   std::vector<std::string> parts_of(const std::string& design) const;
   std::optional<std::pair<long double, long double>> count_samples(const std::string& design) const;
 
@@ -101,6 +112,8 @@ class SpecReader {
   std::optional<Parameter> read_parameter(const std::string& pointer, const std::string& name,
                                           const SceneNames& names, DesignKind design);
   void check_stray_keys(const std::string& pointer);
+  /// Of a parameter of a grid; 1 where it is incomplete, which is said elsewhere.
+  long double count_values(const std::string& pointer) const;
   void check_change_count(Parameter& parameter);
   void read_targets(const SceneNames& names, Parameter& parameter);
   void read_values(const std::string& pointer, const SceneNames& names, Parameter& parameter);
@@ -131,7 +144,7 @@ class SpecReader {
   // read_limits.cc
   long double count_scan() const;
   void read_limits(const SceneNames& names, Group& group);
-  void read_limit(const std::string& name, const SceneNames& names, Group& group);
+  void read_limit(const Member& one, const SceneNames& names, Group& group);
   void read_tolerance(const std::string& pointer, LimitSearch& search);
   std::optional<Expression> parse(const std::string& pointer, const Symbols& known);
 

@@ -114,43 +114,34 @@ void Store::record_run(std::int64_t campaign, const RunRecord& run, double now) 
       " WHERE case_id = c.id) FROM cases c WHERE id = ?",
       run.case_id);
   if (!waiting && !run.fields_only) return;
-  const std::int64_t run_id = add_run(campaign, run, attempt, now);
-  if (!run.fields_only) decide_case(run, run_id);
-  if (run.has_fields || (run.fields_only && run.final)) {
-    connection_->run("UPDATE campaign_cases SET fields = ? WHERE case_id = ? AND campaign_id = ?",
-                     to_string(run.has_fields ? FieldsState::kept : FieldsState::failed),
-                     run.case_id, campaign);
+  std::optional<std::string> outcome, used_operator;
+  std::optional<int> numerics_version;
+  if (run.result) {
+    outcome = faultsim::to_string(run.result->outcome);
+    used_operator = run.result->operator_fingerprint;
+    numerics_version = run.result->numerics_version;
   }
-}
-
-std::int64_t Store::add_run(std::int64_t campaign, const RunRecord& run, std::int64_t attempt,
-                            double now) {
-  const CaseResult* result = run.result ? &*run.result : nullptr;
-  using Text = std::optional<std::string>;
   connection_->run(
       "INSERT INTO runs (case_id, campaign_id, attempt, ended_at, wall_s, host, rank, status,"
       " outcome, reason, signal, exit_code, log_tail, operator, numerics_version, fields_only)"
       " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
       run.case_id, campaign, attempt, now, run.wall_seconds, run.host, run.rank,
-      to_string(run.status), result ? Text(faultsim::to_string(result->outcome)) : Text(),
-      run.reason, run.signal, run.exit_code, run.log_tail,
-      result ? Text(result->operator_fingerprint) : Text(),
-      result ? std::optional(result->numerics_version) : std::nullopt, run.fields_only);
-  return connection_->last_insert_id();
-}
-
-void Store::decide_case(const RunRecord& run, std::int64_t run_id) {
-  const CaseResult* result = run.result ? &*run.result : nullptr;
-  using Text = std::optional<std::string>;
-  if (result != nullptr) {
+      to_string(run.status), outcome, run.reason, run.signal, run.exit_code, run.log_tail,
+      used_operator, numerics_version, run.fields_only);
+  const std::int64_t run_id = connection_->last_insert_id();
+  if (run.result && !run.fields_only) {
     forget_result(run.case_id);
-    checksums_->seal_result(run.case_id, record_result(run.case_id, run_id, *result));
+    checksums_->seal_result(run.case_id, record_result(run.case_id, run_id, *run.result));
   }
-  if (!run.final) return;
-  connection_->run("UPDATE cases SET state = ?, outcome = ?, run_id = ? WHERE id = ?",
-                   result != nullptr ? "done" : "failed",
-                   result ? Text(faultsim::to_string(result->outcome)) : Text(), run_id,
-                   run.case_id);
+  if (run.final && !run.fields_only) {
+    connection_->run("UPDATE cases SET state = ?, outcome = ?, run_id = ? WHERE id = ?",
+                     run.result ? "done" : "failed", outcome, run_id, run.case_id);
+  }
+  if (run.has_fields || (run.fields_only && run.final)) {
+    connection_->run("UPDATE campaign_cases SET fields = ? WHERE case_id = ? AND campaign_id = ?",
+                     to_string(run.has_fields ? FieldsState::kept : FieldsState::failed),
+                     run.case_id, campaign);
+  }
 }
 
 void Store::record_operator(std::int64_t family, const OperatorRecord& record) {

@@ -101,10 +101,9 @@ std::unique_ptr<Connection> open_for_writing(const std::filesystem::path& folder
 
 }  // namespace
 
-Store Store::open_writer(const std::filesystem::path& folder, Options options) {
+Store Store::open_writer(const std::filesystem::path& folder, bool assume_network) {
   std::string remark;
-  auto connection =
-      open_for_writing(folder, Connection::Mode::read_write, options.assume_network, remark);
+  auto connection = open_for_writing(folder, Connection::Mode::read_write, assume_network, remark);
   return Store(folder, std::move(connection), std::move(remark));
 }
 

@@ -86,13 +86,10 @@ bool is_network_file_system(long f_type);
 /// and retry (open_writer) in one short transaction; readers never.
 class Store {
  public:
-  struct Options {
-    bool assume_network = false;  ///< treat the folder as on a network file system (tests).
-  };
   /// Opens for a short write; creates folder and file where missing. Migrates an older file and
   /// refuses a newer one. On a network file system: no WAL, and remark() says so.
-  static Store open_writer(const std::filesystem::path& folder, Options options);
-  static Store open_writer(const std::filesystem::path& folder) { return open_writer(folder, {}); }
+  /// @param assume_network  treat the folder as on one (tests).
+  static Store open_writer(const std::filesystem::path& folder, bool assume_network = false);
   /// The same for the manager, the only one that checkpoints.
   static Store open_owner(const std::filesystem::path& folder);
   /// Opens for reading. A missing store is a StorageError that names `faultsweep
@@ -281,9 +278,6 @@ class Store {
  private:
   Store(std::filesystem::path folder, std::unique_ptr<Connection> connection, std::string remark);
   void record_run(std::int64_t campaign, const RunRecord& run, double now);
-  std::int64_t add_run(std::int64_t campaign, const RunRecord& run, std::int64_t attempt,
-                       double now);
-  void decide_case(const RunRecord& run, std::int64_t run_id);
   RowDigest record_result(std::int64_t case_id, std::int64_t run_id,
                           const faultsim::CaseResult& result);
   void forget_result(std::int64_t case_id);

@@ -645,7 +645,7 @@ TEST_F(FieldsTest, ViewsCountThem) {
 }
 
 TEST_F(StoreTest, DropsWalOnANetworkFileSystem) {
-  Store store = Store::open_writer(folder_, {.assume_network = true});
+  Store store = Store::open_writer(folder_, true);
   EXPECT_THAT(store.remark(), HasSubstr("network file system"));
   store.submit(submission(2));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "campaign.sqlite-wal"));
