@@ -64,15 +64,12 @@ ExitCode tiers_command(const StoreArguments& common, const TiersArguments& argum
     submissions.push_back(make_submission(expand(parse_campaign(spec.dump(), arguments.source))));
   }
   for (const Submission& one : submissions) {
-    RunOptions options;
-    options.store = common.store;
-    options.campaign = Store::open_writer(common.store).submit(one).name;
-    options.n_workers = arguments.n_workers;
-    options.simulator = simulator_binary();
-    names.push_back(options.campaign);
-    const ExitCode status = start_ranks(options);
-    if (status != ExitCode::done && status != ExitCode::incomplete) return status;
-    if (status == ExitCode::incomplete) worst = status;
+    const SubmittedRun run = submit_and_run(
+        one,
+        {.store = common.store, .n_workers = arguments.n_workers, .simulator = simulator_binary()});
+    names.push_back(run.campaign);
+    if (!has_results(run.status)) return run.status;
+    if (run.status == ExitCode::incomplete) worst = run.status;
   }
   const Store store = Store::open_reader(common.store);
   const Tiers found =

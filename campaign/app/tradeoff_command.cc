@@ -134,16 +134,6 @@ AnswerTable ladder_table(const std::vector<TradeAxis>& axes) {
   return table;
 }
 
-ExitCode run_ladder(const StoreArguments& common, const TradeoffArguments& arguments,
-                    const std::string& campaign) {
-  RunOptions options;
-  options.store = common.store;
-  options.campaign = campaign;
-  options.n_workers = arguments.n_workers;
-  options.simulator = simulator_binary();
-  return start_ranks(options);
-}
-
 }  // namespace
 
 ExitCode tradeoff_command(const StoreArguments& common, const TradeoffArguments& arguments) {
@@ -168,13 +158,13 @@ ExitCode tradeoff_command(const StoreArguments& common, const TradeoffArguments&
                  expansion.families.size());
     return ExitCode::done;
   }
-  const SubmitOutcome submitted =
-      Store::open_writer(common.store).submit(make_submission(expansion));
-  const ExitCode status = run_ladder(common, arguments, submitted.name);
-  if (status != ExitCode::done && status != ExitCode::incomplete) return status;
+  const auto [name, status] = submit_and_run(
+      make_submission(expansion),
+      {.store = common.store, .n_workers = arguments.n_workers, .simulator = simulator_binary()});
+  if (!has_results(status)) return status;
 
   Store store = Store::open_writer(common.store);
-  const CampaignInfo campaign = store.campaign(submitted.name);
+  const CampaignInfo campaign = store.campaign(name);
   const StoredLadder answers(store, campaign, expansion);
   TradeReport report;
   report.title = question.scene.value.value("title", std::string("untitled"));
@@ -183,7 +173,7 @@ ExitCode tradeoff_command(const StoreArguments& common, const TradeoffArguments&
   std::vector<std::vector<TradeRun>> runs;
   for (const TradeAxis& axis : axes) runs.push_back(answers.runs(axis));
   report.trade = make_trade(axes, runs);
-  TradeRecord record{seconds_since_1970(), report.source, submitted.name, FAULTSIM_VERSION, "", {}};
+  TradeRecord record{seconds_since_1970(), report.source, name, FAULTSIM_VERSION, "", {}};
   if (question.cases) {
     for (std::size_t k = 0; k + 1 < arguments.tiers.size(); ++k) {
       report.rankings.push_back(

@@ -171,17 +171,15 @@ class Night {
       throw InputError(suite_.source, {{"", 0, concat("the suite has ", outcome.name, " twice"),
                                         "leave one out"}});
     }
-    RunOptions options;
-    options.store = cold_store();
-    options.campaign = outcome.name;
-    options.n_workers = request_.n_workers;
-    options.simulator = simulator_;
-    options.node_cache = "none";  // it would outlive the night
-    const ExitCode status = start_ranks(options);
+    const ExitCode status = start_ranks({.store = cold_store(),
+                                         .campaign = outcome.name,
+                                         .n_workers = request_.n_workers,
+                                         .simulator = simulator_,
+                                         .node_cache = "none"});  // it would outlive the night
     if (status == ExitCode::interrupted) {
       throw faultsim::Interrupted("interrupted: this night does not count");
     }
-    if (status != ExitCode::done && status != ExitCode::incomplete) {
+    if (!has_results(status)) {
       throw faultsim::ResourceError(concat("the campaign ", outcome.name, " ended with exit code ",
                                            static_cast<int>(status)));
     }

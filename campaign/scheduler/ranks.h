@@ -14,23 +14,24 @@ class Store;
 
 /// What `faultsweep run` was asked.
 struct RunOptions {
-  std::filesystem::path store;
-  std::string campaign;             ///< "" = the newest.
-  std::optional<int> n_workers;     ///< default: default_workers(), or the slots of the hostfile.
-  std::filesystem::path hostfile;   ///< mpirun's list of hosts; empty = this one, or Slurm's.
-  std::filesystem::path simulator;  ///< the faultsim binary.
+  std::filesystem::path store = {};
+  std::string campaign = {};          ///< "" = the newest.
+  std::optional<int> n_workers = {};  ///< default: default_workers(), or the slots of the hostfile.
+  std::filesystem::path hostfile = {};   ///< mpirun's list of hosts; empty = this one, or Slurm's.
+  std::filesystem::path simulator = {};  ///< the faultsim binary.
   /// For operators that are built or held together on one host, bytes, 0 = not limited; default:
   /// 0.9 of what is available to the manager's.
-  std::optional<double> memory_bytes;
-  std::string memory;  ///< the same as given: "12 GB".
+  std::optional<double> memory_bytes = {};
+  std::string memory = {};  ///< the same as given: "12 GB".
   /// Threads of building an operator; default: the cores that cases and other builds leave.
-  std::optional<int> threads;
+  std::optional<int> threads = {};
   /// For copies of operators on each host's own disk; "none", or "" = default_node_cache().
-  std::string node_cache;
+  std::string node_cache = {};
   ProgressDisplay::Style progress = ProgressDisplay::Style::lines;
   /// Adds the campaign's next round to the store; false = there is none. None = one round only.
-  std::function<bool(Store&, const std::string& campaign)> next_round;
-  std::filesystem::path status_file;  ///< of the ranks: where rank 0 leaves the campaign's status.
+  std::function<bool(Store&, const std::string& campaign)> next_round = {};
+  std::filesystem::path status_file =
+      {};  ///< of the ranks: where rank 0 leaves the campaign's status.
 };
 
 /// Where this host keeps copies of the operators of a store: nowhere ("") if the store is on a

@@ -409,4 +409,9 @@ ExitCode start_ranks(const RunOptions& given) {
   }
 }
 
+SubmittedRun submit_and_run(const Submission& submission, RunOptions options) {
+  options.campaign = Store::open_writer(options.store).submit(submission).name;
+  return {options.campaign, start_ranks(options)};
+}
+
 }  // namespace faultsweep

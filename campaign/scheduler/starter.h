@@ -1,6 +1,7 @@
 #pragma once
 
 #include "campaign/scheduler/ranks.h"
+#include "campaign/store/records.h"
 
 namespace faultsweep {
 
@@ -16,5 +17,17 @@ namespace faultsweep {
 faultsim::ExitCode start_ranks(const RunOptions& given);
 
 inline constexpr int kMostRestarts = 3;
+
+/// Whether a run that ended so went through, though some cases may have no full result.
+inline bool has_results(faultsim::ExitCode status) {
+  return status == faultsim::ExitCode::done || status == faultsim::ExitCode::incomplete;
+}
+
+/// Submits to the store and runs that campaign.
+struct SubmittedRun {
+  std::string campaign;
+  faultsim::ExitCode status;
+};
+SubmittedRun submit_and_run(const Submission& submission, RunOptions options);
 
 }  // namespace faultsweep
