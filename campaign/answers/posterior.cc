@@ -334,10 +334,6 @@ AnswerTable update_table(const char* key, const char* heading, const std::vector
   return table;
 }
 
-AnswerCell end_of(const std::optional<double>& end) {
-  return end ? AnswerCell(*end) : AnswerCell();
-}
-
 /// A row for each quantile of each parameter, in the parameter's unit.
 AnswerTable parameter_table(const std::vector<ParameterUpdate>& parameters) {
   AnswerTable table{"parameters",
@@ -352,8 +348,7 @@ AnswerTable parameter_table(const std::vector<ParameterUpdate>& parameters) {
   for (const ParameterUpdate& one : parameters) {
     for (std::size_t q = 0; q < one.after.size(); ++q) {
       table.rows.push_back({one.name, one.unit, kPosteriorQuantiles[q], one.before[q].estimate,
-                            one.after[q].estimate, end_of(one.after[q].low),
-                            end_of(one.after[q].high)});
+                            one.after[q].estimate, one.after[q].low, one.after[q].high});
     }
   }
   return table;

@@ -62,11 +62,9 @@ void add_place(double depth, const faultsim::SidePressures* pressures,
     return;
   }
   const faultsim::SidePressures& p = *pressures;
-  row.insert(
-      row.end(),
-      {depth, optional_cell(leading_change(p)), optional_cell(leading_absolute(p)), p.region_minus,
-       optional_cell(p.change_minus), optional_cell(p.absolute_minus), p.region_plus,
-       optional_cell(p.change_plus), optional_cell(p.absolute_plus), p.change_in_fault});
+  row.insert(row.end(),
+             {depth, leading_change(p), leading_absolute(p), p.region_minus, p.change_minus,
+              p.absolute_minus, p.region_plus, p.change_plus, p.absolute_plus, p.change_in_fault});
 }
 
 std::vector<AnswerColumn> onset_columns(RegionPressures kind, const std::string& group,
@@ -80,13 +78,6 @@ void add_onset(const faultsim::FaultOnset* onset, std::vector<AnswerCell>& row) 
   row.push_back(onset != nullptr ? AnswerCell(onset->step) : AnswerCell());
   add_place(onset != nullptr ? onset->depth : std::numeric_limits<double>::quiet_NaN(),
             onset != nullptr ? &onset->pressures : nullptr, row);
-}
-
-AnswerCell optional_cell(const std::optional<double>& value) {
-  return value ? AnswerCell(*value) : AnswerCell();
-}
-AnswerCell optional_cell(const std::optional<int>& value) {
-  return value ? AnswerCell(*value) : AnswerCell();
 }
 
 }  // namespace faultsweep

@@ -34,8 +34,4 @@ void add_place(double depth, const faultsim::SidePressures* pressures,
 std::vector<AnswerColumn> onset_columns(RegionPressures kind, const std::string& group, Need sides);
 void add_onset(const faultsim::FaultOnset* onset, std::vector<AnswerCell>& row);
 
-/// Missing where there is none.
-AnswerCell optional_cell(const std::optional<double>& value);
-AnswerCell optional_cell(const std::optional<int>& value);
-
 }  // namespace faultsweep

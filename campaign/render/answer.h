@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -49,6 +50,10 @@ struct AnswerCell {
   AnswerCell(AnswerValue v, double plus_minus = std::numeric_limits<double>::quiet_NaN(),
              std::string words = {})
       : value(std::move(v)), error(plus_minus), note(std::move(words)) {}
+  template <typename T>
+  AnswerCell(const std::optional<T>& maybe) {
+    if (maybe) *this = AnswerCell(*maybe);
+  }
   AnswerCell(const char* words) : value(std::string(words)) {}
   AnswerCell(std::string words) : value(std::move(words)) {}
   AnswerCell(double number) : value(number) {}
@@ -57,6 +62,11 @@ struct AnswerCell {
   AnswerCell(long count) : value(std::int64_t{count}) {}
   AnswerCell(std::size_t count) : value(static_cast<std::int64_t>(count)) {}
 };
+
+/// Nothing for "".
+inline AnswerCell words_or_nothing(const std::string& words) {
+  return words.empty() ? AnswerCell() : AnswerCell(words);
+}
 
 /// Which columns a screen does without when it is too narrow for all.
 enum class Need {

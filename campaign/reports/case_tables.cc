@@ -54,10 +54,6 @@ std::vector<AnswerColumn> measures_of(const CaseResult& result) {
   return columns;
 }
 
-AnswerCell text_or_nothing(const std::string& words) {
-  return words.empty() ? AnswerCell() : AnswerCell(words);
-}
-
 }  // namespace
 
 AnswerTable settings_table(const ShownCase& shown) {
@@ -69,7 +65,7 @@ AnswerTable settings_table(const ShownCase& shown) {
   for (const CaseParameter& one : shown.stored.parameters) {
     const StoredParameter& parameter = parameters.at(static_cast<std::size_t>(one.index));
     table.rows.push_back(
-        {parameter.name, one.text, optional_cell(one.si),
+        {parameter.name, one.text, one.si,
          parameter.is_text ? AnswerCell() : AnswerCell(faultsim::si_unit(parameter.dimension))});
   }
   return table;
@@ -87,14 +83,10 @@ AnswerTable runs_table(const StoredCase& stored) {
        column("fields_only", "for the fields only", Need::wanted),
        column("signal", "signal", Need::extra), column("exit_code", "exit code", Need::extra),
        column("log_tail", "last words", Need::data)}};
-  const auto count = [](const std::optional<std::int64_t>& value) {
-    return value ? AnswerCell(static_cast<long>(*value)) : AnswerCell();
-  };
   for (const StoredRun& run : stored.runs) {
     table.rows.push_back({run.attempt, run.ended_at, format_time(run.ended_at), run.status,
-                          text_or_nothing(run.outcome), run.reason, run.wall_seconds, run.rank,
-                          run.host, run.fields_only, count(run.signal), count(run.exit_code),
-                          run.log_tail});
+                          words_or_nothing(run.outcome), run.reason, run.wall_seconds, run.rank,
+                          run.host, run.fields_only, run.signal, run.exit_code, run.log_tail});
   }
   return table;
 }
@@ -113,8 +105,8 @@ AnswerTable stages_table(const ShownCase& shown) {
   const auto add = [&](const std::string& name, const StageMetrics& m) {
     std::vector<AnswerCell> cells = {name, m.first_step, m.last_step};
     append(cells, measure_cells(m));
-    append(cells, {text_or_nothing(m.activated_fault), optional_cell(m.activation_step),
-                   text_or_nothing(m.opened_fault), optional_cell(m.opening_step)});
+    append(cells, {words_or_nothing(m.activated_fault), m.activation_step,
+                   words_or_nothing(m.opened_fault), m.opening_step});
     table.rows.push_back(std::move(cells));
   };
   for (const StageMetrics& stage : result.stages)
@@ -184,7 +176,7 @@ AnswerTable events_table(const ShownCase& shown) {
                                      e.evidence_holds,
                                      e.max_slip,
                                      e.moment,
-                                     optional_cell(e.magnitude),
+                                     e.magnitude,
                                      e.slipped_area,
                                      e.stress_drop,
                                      e.nucleation_length};

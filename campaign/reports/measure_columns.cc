@@ -2,7 +2,6 @@
 
 #include <array>
 #include <optional>
-#include <type_traits>
 
 #include "simulator/common/errors.h"
 
@@ -35,15 +34,6 @@ constexpr std::array kShown = {
     Shown{"area_chi_080_m2", "area χ > 0.8", 4, Need::extra},
 };
 
-template <typename Value>
-AnswerCell cell_of(const Value& value) {
-  if constexpr (std::is_same_v<Value, std::optional<double>>) {
-    return value ? AnswerCell(*value) : AnswerCell();
-  } else {
-    return value;
-  }
-}
-
 }  // namespace
 
 std::vector<AnswerColumn> measure_columns(bool per_metre) {
@@ -68,8 +58,8 @@ std::vector<AnswerColumn> measure_columns(bool per_metre) {
 
 std::vector<AnswerCell> measure_cells(const faultsim::Measures& measures) {
   std::vector<AnswerCell> cells;
-  faultsim::for_each_measure(
-      measures, [&](const Field&, const auto& value) { cells.push_back(cell_of(value)); });
+  faultsim::for_each_measure(measures,
+                             [&](const Field&, const auto& value) { cells.emplace_back(value); });
   return cells;
 }
 

@@ -65,10 +65,6 @@ AnswerCell unexpected_cell(const Row& one) {
   return {is, NAN, is ? one.row.unexpected_fault : ""};
 }
 
-AnswerCell words_or_nothing(const std::string& words) {
-  return words.empty() ? AnswerCell() : AnswerCell(words);
-}
-
 /// A column and how its cell comes about.
 struct RankingColumn {
   AnswerColumn column;
@@ -140,12 +136,12 @@ std::vector<RankingColumn> columns_of(const Ranking& ranking, const MeasureColum
     const std::string& by = ranking.request.by;
     const Need need = measures.has_score() ? data : always;
     columns.push_back({{"score", by, ranking.by_unit, 4, need},
-                       [](const Row& one) { return optional_cell(one.row.score); }});
+                       [](const Row& one) -> AnswerCell { return one.row.score; }});
   }
   columns.push_back({{"activated_fault", "fault", {}, 4, wanted},
                      [](const Row& one) { return words_or_nothing(one.metrics.activated_fault); }});
   columns.push_back({{"activation_step", "from step", {}, 4, wanted},
-                     [](const Row& one) { return optional_cell(one.metrics.activation_step); }});
+                     [](const Row& one) -> AnswerCell { return one.metrics.activation_step; }});
   columns.push_back({{"outcome", "outcome", {}, 4, wanted}, outcome_cell});
   measures.add("activated_area", columns);
   measures.add("moment", columns);
@@ -153,12 +149,12 @@ std::vector<RankingColumn> columns_of(const Ranking& ranking, const MeasureColum
   measures.add("n_events", columns);
   columns.push_back(
       {{"pressure_margin_pa", "margin", shown_unit(faultsim::Dimension::pressure), 3, wanted},
-       [](const Row& one) { return optional_cell(one.row.pressure_margin); }});
+       [](const Row& one) -> AnswerCell { return one.row.pressure_margin; }});
   measures.add_others(columns);
   columns.push_back({{"opened_fault", "first to open", {}, 4, Need::extra},
                      [](const Row& one) { return words_or_nothing(one.metrics.opened_fault); }});
   columns.push_back({{"opening_step", "open from step", {}, 4, data},
-                     [](const Row& one) { return optional_cell(one.metrics.opening_step); }});
+                     [](const Row& one) -> AnswerCell { return one.metrics.opening_step; }});
   columns.push_back({{"rank_class", "rank class", {}, 4, data},
                      [](const Row& one) -> AnswerCell { return one.row.rank_class; }});
   columns.push_back({{"weakening_resolved", "weakening resolved", {}, 4, data},

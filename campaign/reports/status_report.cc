@@ -172,9 +172,8 @@ AnswerTable families_table(const std::vector<Store::FamilyProgress>& families) {
   table.most_on_screen = kMostOnScreen;
   for (const Store::FamilyProgress& family : families) {
     table.rows.push_back({family.fingerprint, family.n_cases, family.n_done, family.n_failed,
-                          family.operator_fingerprint,
-                          family.build_seconds ? AnswerCell(*family.build_seconds) : AnswerCell(),
-                          family.memory_bytes, family.n_operators > 1, family.n_operators});
+                          family.operator_fingerprint, family.build_seconds, family.memory_bytes,
+                          family.n_operators > 1, family.n_operators});
   }
   return table;
 }

@@ -131,8 +131,7 @@ AnswerTable table_of(const std::vector<RankingTrade>& rankings) {
                      {"seconds", "it takes", seconds(), 3, wanted},
                      {"reference_seconds", "the reference", seconds(), 3, wanted}}};
   for (const RankingTrade& one : rankings) {
-    table.rows.push_back({one.choice, one.reference, one.n_cases,
-                          one.tau ? AnswerCell(*one.tau) : AnswerCell(), one.n_top_common,
+    table.rows.push_back({one.choice, one.reference, one.n_cases, one.tau, one.n_top_common,
                           one.n_top, one.chi_rms, one.chi_max, one.n_flips, one.seconds,
                           one.reference_seconds});
   }
