@@ -31,15 +31,6 @@ std::vector<ScopedMetric> asked_outputs(const Store& store, const CampaignInfo& 
   return outputs;
 }
 
-Store::TableQuery query_of(const Selection& selection, const SensitivityRequest& request,
-                           const std::vector<ScopedMetric>& outputs) {
-  Store::TableQuery query;
-  query.stage = request.cases.stage;
-  if (selection.fault) query.fault = selection.fault->id;
-  for (const ScopedMetric& one : outputs) query.columns.push_back({one.sql, {}});
-  return query;
-}
-
 bool is_rounding(const ScopedMetric& metric, double least, double most) {
   constexpr double kRounding = 1e-9;
   const double size = std::max(std::abs(least), std::abs(most));

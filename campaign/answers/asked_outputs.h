@@ -21,10 +21,6 @@ std::vector<ScopedMetric> asked_outputs(const Store& store, const CampaignInfo& 
                                         const SensitivityRequest& request,
                                         const Selection& selection);
 
-/// The query that has them as columns.
-Store::TableQuery query_of(const Selection& selection, const SensitivityRequest& request,
-                           const std::vector<ScopedMetric>& outputs);
-
 /// Whether a metric that lies between these two is the same but for rounding: within a billionth of
 /// the larger, or of 1 for plain numbers, as χ̄ of a fault that nothing loads is 0 but for rounding.
 /// Variances of rounding say nothing of parameters.

@@ -233,9 +233,8 @@ Curves probability_curves(const Store& store, const CampaignInfo& campaign,
   const Selection selection = make_selection(store, campaign, request.stage, "");
   Curves found{campaign, request, sampling_of(store, campaign), 0, {}};
   const bool each_stage = request.axis == CurveAxis::pressure && request.stage.empty();
-  Store::TableQuery query;
-  query.where = parse_condition(request.where, campaign, selection);
-  query.stage = each_stage ? any_stage(selection) : request.stage;
+  Store::TableQuery query = case_query(campaign, selection, request.where);
+  if (each_stage) query.stage = any_stage(selection);
   const std::string read_first = query.stage;
   const StageRows first = read_stage(store, campaign, query);
   found.n_rows = first.n;
@@ -311,7 +310,7 @@ AnswerTable stage_table(const Curves& curves, std::size_t from, std::size_t to) 
     for (std::size_t c = from; c < to; ++c) {
       const CurvePoint& point = curves.curves[c].points[k];
       const long n_open = point.counts.n_undecided + point.counts.n_unknown;
-      row.insert(row.end(), {point.counts.estimate(), point.bounds.low, point.bounds.high, n_open});
+      append(row, {point.counts.estimate(), point.bounds.low, point.bounds.high, n_open});
     }
     table.rows.push_back(std::move(row));
   }
@@ -361,7 +360,7 @@ Answer to_answer(const Curves& curves) {
       " cases. A fault that slides at the end of a load step began "
       "somewhere within it: from and to count it by the end of its step and from its beginning on",
       curves.sampling.is_random ? concat(", and hold each point with a confidence of ",
-                                         format_number(100 * curves.request.confidence, 4), " %")
+                                         confidence_text(curves.request.confidence))
                                 : "",
       "; what the cells leave undecided, and a history that ends early, may be either."));
   answer.note_if(curves.sampling.remark);

@@ -78,10 +78,7 @@ HistoryOutputs history_outputs(const Store& store, const CampaignInfo& campaign,
   HistoryOutputs found;
   found.metrics = asked_outputs(store, campaign, asked, selection);
   const std::vector<std::int64_t> faults = faults_of(found.metrics, selection);
-  Store::TableQuery query;
-  query.stage = request.cases.stage;
-  query.where = parse_condition(request.cases.where, campaign, selection);
-  found.steps = store.load_steps(campaign.id, query);
+  found.steps = store.load_steps(campaign.id, case_query(campaign, selection, request.cases.where));
   require_shared(found.steps);
   constexpr std::size_t kMostColumns = 1900;  // a query has at most 2,000
   if (found.metrics.size() * found.steps.size() > kMostColumns) {

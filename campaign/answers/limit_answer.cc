@@ -57,7 +57,7 @@ AnswerTable screen_table(const LimitTable& table, long top) {
     const LimitRow& row = table.rows[k];
     std::vector<AnswerCell> cells = {row.width ? AnswerCell(k + 1) : AnswerCell()};
     cells.insert(cells.end(), row.settings.begin(), row.settings.end());
-    cells.insert(cells.end(), {row.fault, band_cell(table, row)});
+    append(cells, {row.fault, band_cell(table, row)});
     for (std::size_t l = 0; l < table.limits.size(); ++l) add_limit(row, l, table.limits[l], cells);
     all.rows.push_back(std::move(cells));
   }

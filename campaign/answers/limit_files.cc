@@ -146,8 +146,7 @@ AnswerTable limit_table(const LimitTable& table) {
       if (!row.cells[l]) continue;
       std::vector<AnswerCell> cells = {row.configuration};
       cells.insert(cells.end(), row.settings.begin(), row.settings.end());
-      const std::vector<AnswerCell> more = cells_of(table, row, l);
-      cells.insert(cells.end(), more.begin(), more.end());
+      append(cells, cells_of(table, row, l));
       all.rows.push_back(std::move(cells));
     }
   }

@@ -122,7 +122,7 @@ std::optional<OneAtATime> compare_one_at_a_time(const Store& store, const Campai
   for (const StoredParameter& one : campaign.parameters) found.parameters.push_back(one.name);
   const bool has_groups = !found.parameters.empty() && found.parameters[0] == kGroup;
   std::map<long, CaseValues> cases;
-  store.for_each_case(campaign.id, query_of(selection, request, found.outputs),
+  store.for_each_case(campaign.id, case_query(campaign, selection, "", found.outputs),
                       [&](const CaseRow& row) { cases.emplace(row.position, values_of(row)); });
   const auto rows = rows_of_groups(store, campaign, groups, cases);
   for (std::size_t g = 0; g < rows.size(); ++g) {

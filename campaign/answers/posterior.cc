@@ -84,7 +84,7 @@ class PosteriorReader {
         verdicts_(store, posterior.campaign, selection,
                   all_conditions(posterior.seen, conditions)) {
     const CampaignInfo& campaign = posterior.campaign;
-    query_.where = parse_condition(posterior.request.where, campaign, selection);
+    query_ = case_query(campaign, selection, posterior.request.where);
     for (const SeenStatement& one : posterior.seen)
       if (!one.column.text.empty()) query_.columns.push_back(one.column);
     first_verdict_ = query_.columns.size();
@@ -402,8 +402,8 @@ Answer to_answer(const Posterior& p) {
                        "for either."));
   }
   answer.note(concat("Bounds hold what is after with a confidence of ",
-                     format_number(100 * p.request.confidence, 4),
-                     " %; what was seen is taken to have independent errors."));
+                     confidence_text(p.request.confidence),
+                     "; what was seen is taken to have independent errors."));
   answer.note_if(p.sampling.remark);
   answer.note_if(p.sampling.approximation);
   return answer;

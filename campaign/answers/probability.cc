@@ -42,8 +42,7 @@ AskedRows read_rows(const Store& store, const CampaignInfo& campaign,
                     const std::vector<std::string>& conditions) {
   const int by = request.by.empty() ? -1 : parameter_index(campaign, request.by);
   const VerdictColumns verdicts(store, campaign, selection, conditions);
-  Store::TableQuery query;
-  query.where = parse_condition(request.where, campaign, selection);
+  Store::TableQuery query = case_query(campaign, selection, request.where);
   query.columns = verdicts.columns();
   AskedRows rows;
   rows.holds.resize(conditions.size());
@@ -226,8 +225,8 @@ std::string meaning_of_bounds(const Probability& p) {
     return any_undecided ? concat("From and to: ", open, "; they are no bounds of a probability.")
                          : "";
   return concat("From and to hold the probability with a confidence of ",
-                format_number(100 * p.request.confidence, 4), " %",
-                any_undecided ? concat(": ", open) : "", "; ± is by the number of cases alone.");
+                confidence_text(p.request.confidence), any_undecided ? concat(": ", open) : "",
+                "; ± is by the number of cases alone.");
 }
 
 const Share& most_often(const Probability& p) {
@@ -246,8 +245,8 @@ figure::IntervalChart chart_of(const Probability& p) {
                        p.request.by.empty() ? "" : ", by " + p.request.by);
   chart.remark = concat(p.campaign.name,
                         p.sampling.is_random
-                            ? concat("; lines: ", format_number(100 * p.request.confidence, 4),
-                                     " % bounds, what is undecided either way")
+                            ? concat("; lines: ", confidence_text(p.request.confidence),
+                                     " bounds, what is undecided either way")
                             : "; shares of the cases given; lines: what is undecided either way");
   chart.label = "share of cases";
   for (const Share& share : p.shares) {

@@ -99,8 +99,8 @@ AnswerTable table_of(const Quantiles& q, const ShownUnit* only) {
       const QuantileBounds& value = one.values[k];
       std::vector<AnswerCell> row = {one.metric.name, only != nullptr ? "" : own.si,
                                      q.request.at[k], value.estimate};
-      if (is_sample) row.insert(row.end(), {end_cell(value.low), end_cell(value.high)});
-      row.insert(row.end(), {one.n, one.n_without});
+      if (is_sample) append(row, {end_cell(value.low), end_cell(value.high)});
+      append(row, {one.n, one.n_without});
       table.rows.push_back(std::move(row));
     }
   }
@@ -164,8 +164,8 @@ Answer to_answer(const Quantiles& q) {
   add_screen_tables(q, answer);
   if (q.sampling.is_random) {
     answer.note(concat("Bounds hold each quantile with a confidence of ",
-                       format_number(100 * q.request.confidence, 4),
-                       " %, whatever the distribution; open: too few cases."));
+                       confidence_text(q.request.confidence),
+                       ", whatever the distribution; open: too few cases."));
     if (q.n_unknown > 0)
       answer.note(concat(q.n_unknown, " cases without a history to its end may have any value."));
     answer.note_if(q.sampling.remark);

@@ -142,11 +142,7 @@ Sample read_sample(const Store& store, const CampaignInfo& campaign, const Sampl
   Sample sample;
   sample.parameters = campaign.parameters;
   sample.outputs = std::move(outputs);
-  Store::TableQuery query;
-  query.stage = request.stage;
-  if (selection.fault) query.fault = selection.fault->id;
-  query.where = parse_condition(request.where, campaign, selection);
-  for (const ScopedMetric& one : sample.outputs) query.columns.push_back({one.sql, {}});
+  const auto query = case_query(campaign, selection, request.where, sample.outputs);
   sample.x.resize(sample.parameters.size());
   sample.y.resize(sample.outputs.size());
 

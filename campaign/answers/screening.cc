@@ -7,6 +7,7 @@
 
 #include "campaign/answers/asked_outputs.h"
 #include "campaign/answers/designs.h"
+#include "campaign/answers/sensitivity_tables.h"
 #include "campaign/query/table_output.h"
 #include "campaign/render/shown.h"
 
@@ -84,7 +85,7 @@ std::optional<Screening> screen(const Store& store, const CampaignInfo& campaign
   s.plane_strain = store.kinds(campaign.id, {}).plane_strain;
   for (const StoredParameter& one : campaign.parameters) s.parameters.push_back(one.name);
   for (const ScopedMetric& one : outputs) s.metrics.push_back({one, {}});
-  Store::TableQuery query = query_of(selection, request, outputs);
+  Store::TableQuery query = case_query(campaign, selection, "", outputs);
   query.by_design_row = true;
   Trajectories rows = read_trajectories(store, query, s);
   keep_what_is_chosen(derived_parameters(designs, campaign), rows, s);
@@ -109,15 +110,12 @@ bool varies(const MetricEffects& metric) {
 
 /// Parameters, the one with the largest μ* first; those of which nothing is known last.
 std::vector<std::size_t> largest_first(const MetricEffects& metric) {
-  std::vector<std::size_t> order(metric.effects.size());
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-  const auto magnitude = [&](std::size_t k) {
-    const double value = metric.effects[k].mean_magnitude.value;
-    return std::isnan(value) ? -1 : value;
-  };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return magnitude(a) > magnitude(b); });
-  return order;
+  std::vector<double> magnitudes;
+  for (const ElementaryEffects& one : metric.effects) {
+    const double value = one.mean_magnitude.value;
+    magnitudes.push_back(std::isnan(value) ? -1 : value);
+  }
+  return descending_places(magnitudes);
 }
 
 /// "F1.chi_bar moves most with offset: by 0.31 on average over its range (μ*), ..."
@@ -141,8 +139,6 @@ std::string sentence_of(const Screening& s, const MetricEffects& metric) {
   return text + ".";
 }
 
-AnswerCell cell_of(const Estimate& e) { return {e.value, half_width(e)}; }
-
 AnswerTable table_of(const Screening& s, const MetricEffects* only) {
   const ShownUnit unit = only != nullptr ? unit_of(only->metric, s.plane_strain) : plain();
   constexpr int kDigits = 3;
@@ -160,8 +156,8 @@ AnswerTable table_of(const Screening& s, const MetricEffects* only) {
     for (const std::size_t p : largest_first(metric)) {
       const ElementaryEffects& one = metric.effects[p];
       table.rows.push_back({metric.metric.name, unit_of(metric.metric, s.plane_strain).si,
-                            s.parameters[p], cell_of(one.mean_magnitude), cell_of(one.deviation),
-                            cell_of(one.mean), one.n});
+                            s.parameters[p], index_cell(one.mean_magnitude),
+                            index_cell(one.deviation), index_cell(one.mean), one.n});
     }
   }
   table.on_screen = only != nullptr;

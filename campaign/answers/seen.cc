@@ -179,13 +179,32 @@ std::vector<SeenStatement> read_seen(const std::vector<std::string>& statements,
   return read;
 }
 
+namespace {
+
+/// Of the statement's fault; null where it has none.
+const CaseOnsets::Onset* onset_of(const SeenStatement& statement, const CaseHistory& history) {
+  for (const CaseOnsets::Onset& one : history.onsets)
+    if (one.fault == statement.fault) return &one;
+  return nullptr;
+}
+
+/// T lies behind the end of the step before and not behind that of its own.
+WeightRange likelihood_within_step(const SeenStatement& statement, const CaseOnsets::Onset& onset) {
+  const double by_end = share_below(statement.value - onset.time, statement.error);
+  const double by_begin = statement.error > 0
+                              ? share_below(statement.value - onset.began, statement.error)
+                              : (onset.began < statement.value ? 1.0 : 0.0);
+  return statement.denied ? WeightRange{1 - by_begin, 1 - by_end} : WeightRange{by_end, by_begin};
+}
+
+}  // namespace
+
 double likelihood(const SeenStatement& statement, const CaseHistory& history, double value) {
   double p = 0;
   switch (statement.kind) {
     case SeenStatement::Kind::slid:
-      for (const CaseOnsets::Onset& one : history.onsets)
-        if (one.fault == statement.fault)
-          p = share_below(statement.value - one.time, statement.error);
+      if (const auto* onset = onset_of(statement, history))
+        p = share_below(statement.value - onset->time, statement.error);
       break;
     case SeenStatement::Kind::event:
       p = likelihood_of_events(statement, history.events);
@@ -200,56 +219,38 @@ double likelihood(const SeenStatement& statement, const CaseHistory& history, do
   return statement.denied ? 1 - p : p;
 }
 
-namespace {
-
-/// T lies behind the end of the step before and not behind that of its own.
-WeightRange likelihood_within_step(const SeenStatement& statement, const CaseOnsets::Onset& onset) {
-  const double by_end = share_below(statement.value - onset.time, statement.error);
-  const double by_begin = statement.error > 0
-                              ? share_below(statement.value - onset.began, statement.error)
-                              : (onset.began < statement.value ? 1.0 : 0.0);
-  return statement.denied ? WeightRange{1 - by_begin, 1 - by_end} : WeightRange{by_end, by_begin};
-}
-
-}  // namespace
-
 WeightRange likelihood_by_cells(const SeenStatement& statement, const CaseHistory& history,
                                 double value, Held held) {
-  const double computed = likelihood(statement, history, value);
   switch (statement.kind) {
     case SeenStatement::Kind::slid: {
       const auto& open = history.unresolved;
       if (std::find(open.begin(), open.end(), statement.fault) != open.end()) return {0, 1};
-      for (const CaseOnsets::Onset& one : history.onsets)
-        if (one.fault == statement.fault) return likelihood_within_step(statement, one);
-      return {computed, computed};
+      if (const auto* onset = onset_of(statement, history))
+        return likelihood_within_step(statement, *onset);
+      break;
     }
     case SeenStatement::Kind::event:
-      return history.events_resolved ? WeightRange{computed, computed} : WeightRange{0, 1};
+      if (!history.events_resolved) return {0, 1};
+      break;
     case SeenStatement::Kind::metric:
-      return {computed, computed};
-    case SeenStatement::Kind::condition: {
-      const bool is_open = held == Held::undecided_no || held == Held::undecided_yes;
-      return is_open ? WeightRange{statement.error, 1 - statement.error}
-                     : WeightRange{computed, computed};
-    }
+      break;
+    case SeenStatement::Kind::condition:
+      if (held == Held::undecided_no || held == Held::undecided_yes)
+        return {statement.error, 1 - statement.error};
+      break;
   }
-  FAULTSIM_DEMAND(false, static_cast<int>(statement.kind));
-  return {};
+  const double computed = likelihood(statement, history, value);
+  return {computed, computed};
 }
 
 WeightRange likelihood_range(const SeenStatement& statement, const CaseHistory& history) {
-  const bool has_slid =
-      std::any_of(history.onsets.begin(), history.onsets.end(),
-                  [&](const CaseOnsets::Onset& one) { return one.fault == statement.fault; });
+  const double so_far = likelihood(statement, history, 0);
   switch (statement.kind) {
     case SeenStatement::Kind::slid:
-      if (!has_slid) return {0, 1};
-      return {likelihood(statement, history, 0), likelihood(statement, history, 0)};
-    case SeenStatement::Kind::event: {  // further ones make it likelier that there was one
-      const double so_far = likelihood(statement, history, 0);
+      return onset_of(statement, history) == nullptr ? WeightRange{0, 1}
+                                                     : WeightRange{so_far, so_far};
+    case SeenStatement::Kind::event:  // further ones make it likelier that there was one
       return statement.denied ? WeightRange{0, so_far} : WeightRange{so_far, 1};
-    }
     case SeenStatement::Kind::metric:
       return {0, 1};
     case SeenStatement::Kind::condition:

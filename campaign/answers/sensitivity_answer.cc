@@ -23,9 +23,8 @@ AnswerTable first_order_table(const Sensitivity& s) {
   AnswerTable table{"first_order",
                     "Share of a metric's variance that a parameter explains alone (first order)",
                     {{"metric", "metric", {}, 4, Need::always}}};
-  constexpr int kDigits = 3;  // where there is no error
   for (const std::size_t p : order)
-    table.columns.push_back({s.parameters[p], s.parameters[p], {}, kDigits});
+    table.columns.push_back({s.parameters[p], s.parameters[p], {}, kShareDigits});
   if (s.dependence.empty()) table.columns.push_back({"together", "together", {}, 2});
   table.columns.push_back({"rows", "rows", {}, 4});
   for (const MetricSensitivity& one : s.metrics) {
@@ -41,24 +40,24 @@ AnswerTable first_order_table(const Sensitivity& s) {
   return table;
 }
 
-/// "29 of 512".
-std::string base_samples_of(const Sensitivity& s, const MetricSensitivity& metric) {
-  return concat(metric.n_base_samples, " of ", s.n_base_samples);
-}
-
-/// For a screen: total indices of a sobol design, beside each of how many base samples.
+/// For a screen: total indices, of a sobol design beside each of how many base samples.
 AnswerTable total_order_table(const Sensitivity& s) {
+  const bool is_grid = s.sampling.is_factorial;
   AnswerTable table{"total_order",
-                    "Share in which a parameter takes part, interactions included (total order, by "
-                    "pick-freeze)",
-                    {{"metric", "metric", {}, 4, Need::always},
-                     {"base_samples", "base samples", {}, 4, Need::always}}};
-  for (const std::string& one : s.frozen) table.columns.push_back({one, one, {}, 3});
+                    concat("Share in which a parameter takes part, interactions included (total "
+                           "order",
+                           is_grid ? ")" : ", by pick-freeze)"),
+                    {{"metric", "metric", {}, 4, Need::always}}};
+  if (!is_grid) table.columns.push_back({"base_samples", "base samples", {}, 4, Need::always});
+  for (const std::string& one : is_grid ? s.parameters : s.frozen)
+    table.columns.push_back({one, one, {}, kShareDigits});
   bool any_left_out = false;
   for (const MetricSensitivity& one : s.metrics) {
-    if (!is_varying(one) || one.sobol.empty()) continue;
-    std::vector<AnswerCell> row = {one.metric.name, base_samples_of(s, one)};
+    if (!is_varying(one) || (one.sobol.empty() && one.total_order.empty())) continue;
+    std::vector<AnswerCell> row = {one.metric.name};
+    if (!is_grid) row.emplace_back(concat(one.n_base_samples, " of ", s.n_base_samples));
     for (const SobolIndices& indices : one.sobol) row.push_back(index_cell(indices.total));
+    append(row, {one.total_order.begin(), one.total_order.end()});
     table.rows.push_back(std::move(row));
     any_left_out = any_left_out || one.n_base_samples < s.n_base_samples;
   }
@@ -66,23 +65,6 @@ AnswerTable total_order_table(const Sensitivity& s) {
     table.notes.emplace_back(
         "A base sample counts where each of its rows has a value. Where few of all do, the indices "
         "are of those few and of no others.");
-  }
-  table.in_files = false;
-  return table;
-}
-
-/// For a screen: total indices of a whole grid.
-AnswerTable grid_total_table(const Sensitivity& s) {
-  AnswerTable table{"total_order",
-                    "Share in which a parameter takes part, interactions included (total order)",
-                    {{"metric", "metric", {}, 4, Need::always}}};
-  constexpr int kDigits = 3;
-  for (const std::string& one : s.parameters) table.columns.push_back({one, one, {}, kDigits});
-  for (const MetricSensitivity& one : s.metrics) {
-    if (!is_varying(one) || one.total_order.empty()) continue;
-    std::vector<AnswerCell> row = {one.metric.name};
-    for (const double total : one.total_order) row.emplace_back(total);
-    table.rows.push_back(std::move(row));
   }
   table.in_files = false;
   return table;
@@ -133,8 +115,9 @@ figure::BarChart chart_of(const Sensitivity& s) {
   chart.title = "What matters in " + s.campaign.name;
   chart.remark =
       concat("share of the variance that each parameter explains alone; ",
-             s.sampling.is_factorial ? std::string("exact for the values of the grid")
-                                     : concat("lines: ", confidence_text(s), " intervals"));
+             s.sampling.is_factorial
+                 ? std::string("exact for the values of the grid")
+                 : concat("lines: ", confidence_text(s.request.confidence), " intervals"));
   chart.label = "share of variance";
   for (const MetricSensitivity& one : s.metrics) {
     figure::BarChart::Block block = block_of(s, one);
@@ -172,8 +155,8 @@ Answer to_answer(const Sensitivity& s) {
     first.notes = meaning_of(s);
     answer.add(std::move(first));
   }
-  for (AnswerTable total : {total_order_table(s), grid_total_table(s)})
-    if (!total.rows.empty()) answer.add(std::move(total));
+  AnswerTable total = total_order_table(s);
+  if (!total.rows.empty()) answer.add(std::move(total));
   answer.note_if(minima_text(s));
   if (!constant.empty()) answer.note(concat("The same in all cases: ", constant, "."));
   answer.blocks.emplace_back(AnswerChart(chart_of(s)));

@@ -66,21 +66,21 @@ std::string changes_of(const Sensitivity& s, std::size_t m) {
 AnswerTable step_table(const Sensitivity& s, std::size_t m) {
   const MetricSensitivity& together = s.over_steps[m];
   const ShownUnit unit = unit_of(together.metric, s.plane_strain);
-  constexpr int kDigits = 3;  // where there is no error
   AnswerTable table{"by_step",
                     concat("Share of the variance of ", together.metric.name,
                            " that a parameter explains alone, at the end of each load step"),
                     {{"step", "step", {}, 4, Need::always},
                      {"stage", "stage"},
                      {"time_s", "time", time_unit(s)},
-                     {"mean", "mean", unit, kDigits, Need::extra},
-                     {"deviation", "spread", unit, kDigits, Need::extra}}};
+                     {"mean", "mean", unit, kShareDigits, Need::extra},
+                     {"deviation", "spread", unit, kShareDigits, Need::extra}}};
   std::vector<std::size_t> order = descending_places(values_of(together.first_order));
   if (order.empty()) order = descending_places(std::vector<double>(s.parameters.size()));
   constexpr std::size_t kAlways = 3;  // the others where the screen is wide enough
   for (std::size_t k = 0; k < order.size(); ++k) {
     const std::string& name = s.parameters[order[k]];
-    table.columns.push_back({name, name, {}, kDigits, k < kAlways ? Need::always : Need::wanted});
+    table.columns.push_back(
+        {name, name, {}, kShareDigits, k < kAlways ? Need::always : Need::wanted});
   }
   const auto add = [&](std::vector<AnswerCell> row, const MetricSensitivity& one) {
     row.emplace_back(one.mean);

@@ -17,10 +17,6 @@ bool is_told(const MetricSensitivity& metric) {
   return is_varying(metric) && !metric.first_order.empty();
 }
 
-std::string confidence_text(const Sensitivity& s) {
-  return format_number(100 * s.request.confidence, 4) + " %";
-}
-
 std::vector<std::size_t> descending_places(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -119,25 +115,21 @@ std::vector<AnswerCell> subject_cells(const Sensitivity& s, const Subject& subje
 
 AnswerTable index_table(const Sensitivity& s) {
   AnswerTable table{"indices", "", subject_columns(s)};
-  for (AnswerColumn column : {AnswerColumn{"parameter", "parameter"},
-                              {"order", "order"},
-                              {"method", "method"},
-                              {"value", "share of variance"},
-                              {"standard_error", "standard error"},
-                              {"low", "from"},
-                              {"high", "to"},
-                              {"rows", "rows"},
-                              {"base_samples", "base samples"}})
-    table.columns.push_back(std::move(column));
+  append(table.columns, {{"parameter", "parameter"},
+                         {"order", "order"},
+                         {"method", "method"},
+                         {"value", "share of variance"},
+                         {"standard_error", "standard error"},
+                         {"low", "from"},
+                         {"high", "to"},
+                         {"rows", "rows"},
+                         {"base_samples", "base samples"}});
   const auto add = [&](const Subject& subject, const std::string& parameter, const char* order,
                        const char* method, const Estimate& e, const AnswerCell& rows,
                        const AnswerCell& base_samples) {
     std::vector<AnswerCell> row = subject_cells(s, subject);
-    for (const AnswerCell& cell :
-         {AnswerCell(parameter), AnswerCell(order), AnswerCell(method), AnswerCell(e.value),
-          AnswerCell(e.standard_error), AnswerCell(e.bounds.low), AnswerCell(e.bounds.high), rows,
-          base_samples})
-      row.push_back(cell);
+    append(row, {parameter, order, method, e.value, e.standard_error, e.bounds.low, e.bounds.high,
+                 rows, base_samples});
     table.rows.push_back(std::move(row));
   };
   const char* method = s.sampling.is_factorial ? "levels" : "ranks";
@@ -159,18 +151,14 @@ AnswerTable index_table(const Sensitivity& s) {
 
 AnswerTable metric_table(const Sensitivity& s) {
   AnswerTable table{"metrics", "", subject_columns(s)};
-  for (AnswerColumn column : {AnswerColumn{"unit", "unit"},
-                              {"rows", "rows"},
-                              {"mean", "mean"},
-                              {"standard_deviation", "standard deviation"}})
-    table.columns.push_back(std::move(column));
+  append(table.columns, {{"unit", "unit"},
+                         {"rows", "rows"},
+                         {"mean", "mean"},
+                         {"standard_deviation", "standard deviation"}});
   for (const Subject& subject : subjects_of(s)) {
     const MetricSensitivity& one = subject.values;
     std::vector<AnswerCell> row = subject_cells(s, subject);
-    for (const AnswerCell& cell :
-         {AnswerCell(metric_unit(one.metric, s.plane_strain)), AnswerCell(one.n),
-          AnswerCell(one.mean), AnswerCell(one.standard_deviation)})
-      row.push_back(cell);
+    append(row, {metric_unit(one.metric, s.plane_strain), one.n, one.mean, one.standard_deviation});
     table.rows.push_back(std::move(row));
   }
   table.on_screen = false;
@@ -185,7 +173,8 @@ std::vector<std::string> meaning_of(const Sensitivity& s) {
         "likely as the others: of what was run these shares are exact, and there are no intervals, "
         "as it is no random sample.");
   } else {
-    notes.push_back(concat("By ranks; ± is half of the interval of ", confidence_text(s), "."));
+    notes.push_back(concat("By ranks; ± is half of the interval of ",
+                           confidence_text(s.request.confidence), "."));
   }
   notes.push_back(
       s.dependence.empty()

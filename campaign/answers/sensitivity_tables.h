@@ -8,10 +8,11 @@
 /// Inside of the module: what answers of a sensitivity have in common, by step or not.
 namespace faultsweep {
 
+inline constexpr int kShareDigits = 3;  ///< where there is no error.
+
 bool is_varying(const MetricSensitivity& metric);
 /// It varies, and has enough rows for indices.
 bool is_told(const MetricSensitivity& metric);
-std::string confidence_text(const Sensitivity& s);  ///< "95 %".
 /// Places of the values, that of the largest first.
 std::vector<std::size_t> descending_places(const std::vector<double>& values);
 std::vector<double> values_of(const std::vector<Estimate>& estimates);

@@ -33,12 +33,9 @@ std::optional<SobolRows> read_sobol_rows(const Store& store, const CampaignInfo&
   found.outputs.resize(outputs.size());
   for (PickFreezeValues& one : found.outputs) one.ab.resize(found.parameters.size());
 
-  Store::TableQuery query;
-  query.by_design_row = true;
-  query.stage = request.stage;
   const Selection selection = make_selection(store, campaign, request.stage, request.fault);
-  if (selection.fault) query.fault = selection.fault->id;
-  for (const ScopedMetric& one : outputs) query.columns.push_back({one.sql, {}});
+  Store::TableQuery query = case_query(campaign, selection, "", outputs);
+  query.by_design_row = true;
   const auto n_rows = static_cast<std::size_t>(rows_per_base_sample(designs[0]));
   std::vector<std::vector<double>> rows(outputs.size());  // of the base sample at hand
   store.for_each_case(campaign.id, query, [&](const CaseRow& row) {

@@ -11,10 +11,6 @@ using nlohmann::ordered_json;
 
 namespace {
 
-std::string confidence_text(const Tiers& tiers) {
-  return format_number(100 * tiers.request.confidence, 4) + " %";
-}
-
 /// "28.6 % (26.3 to 31.0)".
 std::string interval_text(const Estimate& e, const ShownUnit& unit) {
   constexpr int kDigits = 3;
@@ -181,7 +177,7 @@ Answer to_answer(const Tiers& tiers) {
   add_screen_tables(tiers, answer);
   answer.note(concat(
       tiers.n_pairs, " cases at both tiers. From and to hold the value with a confidence of ",
-      confidence_text(tiers),
+      confidence_text(tiers.request.confidence),
       "; ± is half of their distance. `worth`: cases of the high tier alone "
       "that would be as sure. `pays`: what these would have taken, against what both tiers took."));
   answer.add(cost_table(tiers));

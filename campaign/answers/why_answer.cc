@@ -201,8 +201,7 @@ AnswerTable faults_table(const Why& why) {
        {"step_of_largest_chi_bar", "its step", {}, 4, Need::wanted},
        {"stage", "slides first in", {}, 4, Need::wanted, "activation"},
        {"time_s", "at", shown_unit(faultsim::Dimension::time), 4, Need::wanted, "activation"}}};
-  const auto onset = onset_columns(why.ranking.pressures, "activation", Need::extra);
-  table.columns.insert(table.columns.end(), onset.begin(), onset.end());
+  append(table.columns, onset_columns(why.ranking.pressures, "activation", Need::extra));
   for (const std::size_t f : order_of_faults(why)) {
     const faultsim::FaultStageMetrics& m = why.metrics.faults[f];
     const faultsim::StepResult* step =
@@ -228,7 +227,7 @@ std::vector<AnswerColumn> compared_columns(const Why& why) {
 
 void add_compared(const RankedCase& row, double value, double change,
                   std::vector<AnswerCell>& cells) {
-  cells.insert(cells.end(), {value, change, measures_of(row).activated, is_resolved(row)});
+  append(cells, {value, change, measures_of(row).activated, is_resolved(row)});
 }
 
 AnswerTable local_table(const Why& why) {
@@ -238,8 +237,7 @@ AnswerTable local_table(const Why& why) {
                      {"from", "here", {}, 4, Need::always},
                      {"to", "there", {}, 4, Need::always},
                      {"case", "case", {}, 4, Need::always}}};
-  const auto compared = compared_columns(why);
-  table.columns.insert(table.columns.end(), compared.begin(), compared.end());
+  append(table.columns, compared_columns(why));
   for (const Neighbour& one : why.neighbours) {
     table.rows.push_back({one.parameter, one.from, one.to, one.row.position});
     add_compared(one.row, one.value, one.change, table.rows.back());
@@ -255,11 +253,8 @@ AnswerTable nearest_table(const Why& why) {
       "nearest",
       "The nearest cases, as none differs in one parameter alone:",
       {{"case", "case", {}, 4, Need::always}, {"distance", "distance", {}, 3, Need::always}}};
-  const auto append = [&](const std::vector<AnswerColumn>& more) {
-    table.columns.insert(table.columns.end(), more.begin(), more.end());
-  };
-  append(compared_columns(why));
-  append(parameters.columns());
+  append(table.columns, compared_columns(why));
+  append(table.columns, parameters.columns());
   for (const NearCase& one : why.nearest) {
     std::vector<AnswerCell> cells = {one.row.position, one.distance};
     add_compared(one.row, one.value, one.change, cells);
@@ -327,7 +322,7 @@ AnswerTable global_table(const Why& why) {
   table.title = "Over the whole campaign:";
   table.notes = {concat("share of the variance of ", why.compared, " over ", metric.n,
                         " cases that a parameter explains alone, with its interval of ",
-                        format_number(100 * why.global->request.confidence, 4), " %")};
+                        confidence_text(why.global->request.confidence))};
   if (!why.global->sampling.remark.empty()) table.notes.push_back(why.global->sampling.remark);
   return table;
 }

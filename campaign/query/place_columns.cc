@@ -62,9 +62,8 @@ void add_place(double depth, const faultsim::SidePressures* pressures,
     return;
   }
   const faultsim::SidePressures& p = *pressures;
-  row.insert(row.end(),
-             {depth, leading_change(p), leading_absolute(p), p.region_minus, p.change_minus,
-              p.absolute_minus, p.region_plus, p.change_plus, p.absolute_plus, p.change_in_fault});
+  append(row, {depth, leading_change(p), leading_absolute(p), p.region_minus, p.change_minus,
+               p.absolute_minus, p.region_plus, p.change_plus, p.absolute_plus, p.change_in_fault});
 }
 
 std::vector<AnswerColumn> onset_columns(RegionPressures kind, const std::string& group,

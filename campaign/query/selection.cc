@@ -172,6 +172,16 @@ SqlFragment parse_condition(const std::string& where, const CampaignInfo& campai
   return read_condition("--where", where, result_symbols(campaign, selection), selection).sql();
 }
 
+Store::TableQuery case_query(const CampaignInfo& campaign, const Selection& selection,
+                             const std::string& where, const std::vector<ScopedMetric>& metrics) {
+  Store::TableQuery query;
+  query.stage = selection.stage.name;
+  if (selection.fault) query.fault = selection.fault->id;
+  query.where = parse_condition(where, campaign, selection);
+  for (const ScopedMetric& one : metrics) query.columns.push_back({one.sql, {}});
+  return query;
+}
+
 StatedErrors stated_errors(const std::vector<ErrorBar>& bars) {
   StatedErrors errors;
   for (const ErrorBar& bar : bars) errors[bar.metric] = std::max(errors[bar.metric], bar.largest);

@@ -44,6 +44,12 @@ Scopes scopes_of(const Selection& selection);
 SqlFragment parse_condition(const std::string& where, const CampaignInfo& campaign,
                             const Selection& selection);
 
+/// The cases that `where` selects, "" = all, in the stage and of the fault of the selection, with
+/// these metrics as columns. Throws InputError as parse_condition.
+Store::TableQuery case_query(const CampaignInfo& campaign, const Selection& selection,
+                             const std::string& where,
+                             const std::vector<ScopedMetric>& metrics = {});
+
 /// Half-width of the error of a metric, SI, by its name in metric_catalogue(). It holds for each
 /// fault and stage.
 using StatedErrors = std::map<std::string, double>;

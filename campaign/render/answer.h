@@ -68,6 +68,12 @@ inline AnswerCell words_or_nothing(const std::string& words) {
   return words.empty() ? AnswerCell() : AnswerCell(words);
 }
 
+/// Further columns, or cells of a row, behind those that there are.
+template <typename T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
 /// Which columns a screen does without when it is too narrow for all.
 enum class Need {
   always,  ///< never left out, nor told as a sentence where all rows have the same.

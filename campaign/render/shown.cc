@@ -60,6 +60,8 @@ std::string format_percent(double share, int digits) {
   return format_number(100 * share, is_near_all ? digits + 3 : digits);
 }
 
+std::string confidence_text(double confidence) { return format_number(100 * confidence, 4) + " %"; }
+
 namespace {
 
 std::string shown_number(double value, double error, const AnswerColumn& column) {

@@ -20,6 +20,9 @@ std::string with_error(double value, double error);
 /// as nobody counts so many cases.
 std::string format_percent(double share, int digits = 3);
 
+/// "95 %", of an interval.
+std::string confidence_text(double confidence);
+
 /// What stands in the cell, its note behind a comma; "" where there is nothing. Texts are safe for
 /// a terminal (printable.h).
 std::string shown_cell(const AnswerCell& cell, const AnswerColumn& column);

@@ -38,13 +38,6 @@ AnswerColumn extensive(const CaseResult& result, const std::string& key, std::st
                 shown_unit(faultsim::dimension_of(key), result.plane_strain), digits, need);
 }
 
-void append(std::vector<AnswerColumn>& columns, const std::vector<AnswerColumn>& more) {
-  columns.insert(columns.end(), more.begin(), more.end());
-}
-void append(std::vector<AnswerCell>& cells, const std::vector<AnswerCell>& more) {
-  cells.insert(cells.end(), more.begin(), more.end());
-}
-
 /// Whether the flag of sliding depends on the cells stands beside it.
 std::vector<AnswerColumn> measures_of(const CaseResult& result) {
   std::vector<AnswerColumn> columns = measure_columns(result.plane_strain);

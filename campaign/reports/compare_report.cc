@@ -118,10 +118,10 @@ AnswerTable worst_table(const Comparison& c) {
     const ComparedPair& p = c.pairs[k];
     std::vector<AnswerCell> cells = {p.a, p.b};
     parameters.add_cells(p.parameters, cells);
-    cells.insert(cells.end(), {p.outcome_a, p.outcome_b, p.flipped});
+    append(cells, {p.outcome_a, p.outcome_b, p.flipped});
     if (p.worst > 0) {
       const MetricInfo& metric = c.metrics[p.worst_metric].metric;
-      cells.insert(cells.end(), {metric.name, unit_of(metric, c), p.worst_a, p.worst_b, p.worst});
+      append(cells, {metric.name, unit_of(metric, c), p.worst_a, p.worst_b, p.worst});
     }
     table.rows.push_back(std::move(cells));
   }

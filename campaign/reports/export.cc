@@ -150,10 +150,7 @@ std::string export_campaign(const Store& store, const CampaignInfo& campaign,
     return export_dakota(store, campaign, selection, request);
   if (request.format == ExportFormat::salib)
     return export_salib(store, campaign, selection, request);
-  Store::TableQuery query;
-  query.stage = request.stage;
-  if (selection.fault) query.fault = selection.fault->id;
-  query.where = parse_condition(request.where, campaign, selection);
+  Store::TableQuery query = case_query(campaign, selection, request.where);
   return request.histories ? export_histories(store, campaign, request, query)
                            : export_cases(store, campaign, request, selection, std::move(query));
 }

@@ -96,17 +96,6 @@ std::vector<Factor> survey(const Store& store, const CampaignInfo& campaign,
   return factors;
 }
 
-Store::TableQuery table_query(const CampaignInfo& campaign, const Selection& selection,
-                              const ExportRequest& request,
-                              const std::vector<ScopedMetric>& metrics) {
-  Store::TableQuery query;
-  query.stage = request.stage;
-  if (selection.fault) query.fault = selection.fault->id;
-  query.where = parse_condition(request.where, campaign, selection);
-  for (const ScopedMetric& metric : metrics) query.columns.push_back({metric.sql, {}});
-  return query;
-}
-
 /// Metrics of one kind: per metre of strike or in total.
 struct StatisticsMetrics {
   std::vector<ScopedMetric> metrics;
@@ -175,7 +164,7 @@ std::string export_dakota(const Store& store, const CampaignInfo& campaign,
                           const Selection& selection, const ExportRequest& request) {
   const StatisticsMetrics chosen = choose(store, campaign, selection, request);
   const std::vector<ScopedMetric>& metrics = chosen.metrics;
-  const Store::TableQuery query = table_query(campaign, selection, request, metrics);
+  const Store::TableQuery query = case_query(campaign, selection, request.where, metrics);
   std::vector<Factor> factors = survey(store, campaign, query);
   std::erase_if(factors, [](const Factor& one) { return one.n_values == 0; });
   // Dakota orders its variables by type.
@@ -320,7 +309,7 @@ std::string export_salib(const Store& store, const CampaignInfo& campaign,
   }
   const StatisticsMetrics chosen = choose(store, campaign, selection, request);
   const std::vector<ScopedMetric>& metrics = chosen.metrics;
-  Store::TableQuery query = table_query(campaign, selection, request, metrics);
+  Store::TableQuery query = case_query(campaign, selection, request.where, metrics);
   query.by_design_row = true;
   std::vector<Factor> factors = survey(store, campaign, query);
   std::erase_if(factors, [](const Factor& one) { return !one.varies(); });

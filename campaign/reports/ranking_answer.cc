@@ -179,17 +179,14 @@ AnswerTable table_of(const Ranking& ranking) {
   AnswerTable table{
       "cases", "", {{"rank", "rank", {}, 4, Need::always}, {"case", "case", {}, 4, Need::always}}};
   table.is_sortable = true;
-  const auto append = [&](std::vector<AnswerColumn> more) {
-    table.columns.insert(table.columns.end(), more.begin(), more.end());
-  };
-  append(parameters.columns());
+  append(table.columns, parameters.columns());
   for (const RankingColumn& one : columns) table.columns.push_back(one.column);
   std::vector<AnswerColumn> slides = onset_columns(ranking.pressures, "activation", data);
   slides.front().need = data;  // activation_step stands further in front
   std::vector<AnswerColumn> opens = onset_columns(ranking.pressures, "opening", data);
   for (AnswerColumn& one : opens) one.need = data;
-  append(std::move(slides));
-  append(std::move(opens));
+  append(table.columns, slides);
+  append(table.columns, opens);
 
   PlaceNames places;
   for (const RankedCase& row : ranking.rows) {
