@@ -1,24 +1,14 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "campaign/answers/curves.h"
-#include "campaign/answers/posterior.h"
-#include "campaign/answers/probability.h"
-#include "campaign/answers/quantiles.h"
-#include "campaign/answers/sensitivity.h"
-#include "campaign/answers/tiers.h"
-#include "campaign/figures/campaign_figures.h"
-#include "campaign/figures/report_page.h"
-#include "campaign/nightly/night.h"
-#include "campaign/reports/case_report.h"
-#include "campaign/reports/compare.h"
-#include "campaign/reports/export.h"
-#include "campaign/reports/ranking_answer.h"
-#include "campaign/scheduler/ranks.h"
-#include "campaign/scheduler/slurm_script.h"
 #include "simulator/common/exit_code.h"
 
 /// The commands of faultsweep: each prints its data on stdout, its talk on stderr, and returns the
@@ -26,9 +16,6 @@
 namespace faultsweep {
 
 using faultsim::ExitCode;
-
-/// Bytes of "20 GB", "500 MB", "0". Throws InputError that names the option.
-std::uint64_t parse_size(const std::string& option, const std::string& text);
 
 /// What all commands share.
 struct StoreArguments {
@@ -38,124 +25,63 @@ struct StoreArguments {
   std::optional<std::string> csv = std::nullopt;  ///< of an answer, the table of that key as CSV.
 };
 
-ExitCode init_command(const std::filesystem::path& folder);
-struct SubmitArguments {
-  std::string spec;
-  bool dry_run = false;
+/// The command line, to which commands add themselves.
+struct Program {
+  CLI::App app{"faultsweep: campaigns of fault reactivation cases", "faultsweep"};
+  StoreArguments common;
+  std::vector<const std::filesystem::path*> stores = {&common.store};  ///< that commands open.
+  ExitCode code = ExitCode::done;  ///< of the command that was given.
+
+  /// A command with arguments of its own, which its options are to fill; `run` gets them where it
+  /// is given.
+  template <typename Arguments>
+  std::pair<CLI::App*, Arguments&> add(const char* name, const char* description,
+                                       ExitCode (*run)(const StoreArguments&, const Arguments&),
+                                       CLI::App* parent = nullptr) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = (parent != nullptr ? parent : &app)->add_subcommand(name, description);
+    command->callback([this, run, arguments] { code = run(common, *arguments); });
+    return {command, *arguments};
+  }
+  /// One without. @param parent  whose subcommand it is; null = the program's.
+  CLI::App* add(const char* name, const char* description, ExitCode (*run)(const StoreArguments&),
+                CLI::App* parent = nullptr) {
+    CLI::App* command = (parent != nullptr ? parent : &app)->add_subcommand(name, description);
+    command->callback([this, run] { code = run(common); });
+    return command;
+  }
 };
-ExitCode submit_command(const StoreArguments& common, const SubmitArguments& arguments);
-ExitCode run_command(const StoreArguments& common, RunOptions options, int argc, char** argv);
-/// Prints a script for sbatch that runs the campaign.
-ExitCode slurm_command(const StoreArguments& common, const SlurmRequest& request);
+
+/// Commands in groups, in the order in which the help lists them.
+void add_submitting(Program& program);                      ///< init, submit.
+void add_running(Program& program, int argc, char** argv);  ///< run, slurm.
+void add_reading(Program& program);                         ///< status, rank, show, explain.
+void add_samples(Program& program);  ///< probability, posterior, sensitivity.
+void add_tiers(Program& program);
+void add_pictures(Program& program);  ///< plot, report.
+void add_limits(Program& program);
+void add_pillars(Program& program);  ///< pillars, map.
+void add_tables(Program& program);   ///< export, compare.
+void add_nightly(Program& program);
+void add_tradeoff(Program& program);
+void add_caring(Program& program);  ///< retry, cancel, cache, backup.
+
+/// Options that several commands have.
+void add_store(CLI::App* command, StoreArguments& common);
+void add_campaign(CLI::App* command, StoreArguments& common);
+void add_case(CLI::App* command, StoreArguments& common, std::string& name);
+void add_where(CLI::App* command, std::string& where);
+void add_stage_and_fault(CLI::App* command, std::string& stage, std::string& fault);
+void add_json(CLI::App* command, StoreArguments& common);
+void add_wide(CLI::App* command);
+/// The renderings of an answer.
+void add_renderings(CLI::App* command, StoreArguments& common);
+void add_confidence(CLI::App* command, double& confidence);
+void add_workers(CLI::App* command, std::optional<int>& n_workers, const char* description);
+
+/// Bytes of "20 GB", "500 MB", "0". Throws InputError that names the option.
+std::uint64_t parse_size(const std::string& option, const std::string& text);
 /// The faultsim binary: FAULTSIM_BINARY, or the one beside this program.
 std::filesystem::path simulator_binary();
-ExitCode status_command(const StoreArguments& common);
-/// Whether the store is sound; exit code 4 with all problems and the cure if it is not.
-ExitCode verify_store_command(const StoreArguments& common);
-ExitCode rank_command(const StoreArguments& common, const RankRequest& request, bool list_metrics);
-/// Why a case stands where it does in that ranking. @param name  as of show_command.
-ExitCode rank_why_command(const StoreArguments& common, const RankRequest& request,
-                          const std::string& name);
-struct ProbabilityArguments {
-  ProbabilityRequest request = {};
-  std::optional<CurveAxis> against = std::nullopt;  ///< curves; none = a table.
-  std::string stage = {};                           ///< of curves.
-  QuantileRequest quantiles = {};                   ///< with metrics: quantiles instead.
-};
-ExitCode probability_command(const StoreArguments& common, const ProbabilityArguments& arguments);
-ExitCode sensitivity_command(const StoreArguments& common, const SensitivityRequest& request);
-ExitCode posterior_command(const StoreArguments& common, const PosteriorRequest& request);
-
-struct TiersArguments {
-  std::string source;                                          ///< spec.
-  std::vector<std::string> tiers = {"screening", "standard"};  ///< cheap and expensive.
-  long budget = 0;                                             ///< samples at the expensive one.
-  std::optional<int> n_workers;                                ///< as for `run`.
-  TierRequest request;
-};
-ExitCode tiers_command(const StoreArguments& common, const TiersArguments& arguments);
-
-struct LimitsArguments {
-  std::string source;                 ///< a spec (*.json) to submit and run first, or a campaign.
-  std::optional<int> n_workers;       ///< of the run; as for `run`.
-  long top = 20;                      ///< rows; 0 = all.
-  std::vector<std::string> map = {};  ///< two parameters: a table of one against the other instead.
-};
-/// The code of the run, if there was one.
-ExitCode limits_command(const StoreArguments& common, const LimitsArguments& arguments);
-struct PillarArguments {
-  std::filesystem::path table, scene, folder;
-  std::filesystem::path names;        ///< JSON: what the table calls the columns; "" = as we do.
-  std::string name;                   ///< of the campaign; "" = that of the table's file.
-  std::string stress_azimuth;         ///< "160 deg", of the largest horizontal stress; "" = none.
-  std::vector<double> stress_ratios;  ///< largest, smallest.
-};
-/// Makes a campaign of a table of pillars; submits nothing.
-ExitCode pillars_command(const PillarArguments& arguments);
-struct MapArguments {
-  std::filesystem::path places, output;
-};
-ExitCode map_command(const StoreArguments& common, const MapArguments& arguments);
-/// @param name  case number, beginning of an identity, or CAMPAIGN/either.
-ExitCode show_command(const StoreArguments& common, const std::string& name,
-                      const ShowRequest& request);
-ExitCode explain_command(const StoreArguments& common, const std::string& name);
-struct PlotArguments {
-  std::string chart;             ///< of case_charts(), or map, sensitivity, probability.
-  std::string subject;           ///< campaign, or CAMPAIGN/CASE; "" = the newest campaign.
-  std::filesystem::path output;  ///< .svg or .png.
-  std::string fault;             ///< of charts of a case; "" = the most critical one.
-  std::optional<int> step;       ///< the same; none = the most critical one.
-  MapRequest map = {};
-  SensitivityRequest sensitivity = {};
-  ProbabilityRequest probability = {};
-};
-/// Draws a chart of a campaign or of one of its cases.
-ExitCode plot_command(const StoreArguments& common, const PlotArguments& arguments);
-struct ReportArguments {
-  std::filesystem::path output;  ///< .html.
-  ReportRequest request;
-};
-/// Writes a campaign as one page.
-ExitCode report_command(const StoreArguments& common, const ReportArguments& arguments);
-/// Prints the table unless it goes to a file; says on stderr what is in it and what is missing.
-ExitCode export_command(const StoreArguments& common, ExportRequest request);
-struct CompareArguments {
-  std::string a, b;                   ///< campaigns; b "" = of a's name, in the other store.
-  std::filesystem::path other_store;  ///< where b is; "" = in the same store.
-  CompareRequest request;
-};
-/// Exit code 5 where something differs or nothing was compared.
-ExitCode compare_command(const StoreArguments& common, const CompareArguments& arguments);
-struct RetryArguments {
-  bool unconverged = false;
-  std::optional<long> position;
-};
-ExitCode retry_command(const StoreArguments& common, const RetryArguments& arguments);
-ExitCode cancel_command(const StoreArguments& common);
-ExitCode cache_list_command(const StoreArguments& common);
-ExitCode cache_verify_command(const StoreArguments& common);
-/// @param size  "20 GB", "500 MB", "0".
-ExitCode cache_prune_command(const StoreArguments& common, const std::string& size);
-/// Runs a night (nightly/night.h). Exit code 5 on any regress, and when nothing was compared.
-ExitCode nightly_command(const NightRequest& request, bool json);
-/// Prints the nights in the store.
-ExitCode nightly_history_command(const std::filesystem::path& store, bool json);
-struct TradeoffArguments {
-  std::string source;                 ///< a scene, or a campaign spec.
-  std::vector<std::string> settings;  ///< "/json/pointer=value" of a scene.
-  double wanted_chi = 0.02;           ///< error of χ̄ to recommend a mesh for.
-  double operator_seconds = 300;      ///< dearer choices, by prediction, are left out.
-  std::string memory;                 ///< the same: "12 GB"; "" = 0.8 of what is available.
-  long n_cases = 32;                  ///< of a spec: that are ranked at every tier.
-  std::vector<std::string> tiers = {"screening", "standard"};  ///< the last is the reference.
-  std::optional<int> n_workers = 1;  ///< one, so that times are not those of two side by side.
-  std::filesystem::path output;      ///< folder for report and figures; "" = none.
-  bool dry_run = false;
-};
-/// Measures what the choices of a scene cost, in accuracy and in time (docs/tradeoff.md). The exit
-/// code is that of running them: `incomplete` where a choice has no history to its end.
-ExitCode tradeoff_command(const StoreArguments& common, const TradeoffArguments& arguments);
-ExitCode backup_command(const StoreArguments& common, const std::filesystem::path& target);
 
 }  // namespace faultsweep

@@ -1,4 +1,4 @@
-#include "campaign/app/options.h"
+#include "campaign/app/commands.h"
 #include "campaign/app/print_answer.h"
 
 namespace faultsweep {
@@ -53,9 +53,13 @@ void add_renderings(CLI::App* command, StoreArguments& common) {
   add_wide(command);
 }
 
-CLI::Option* add_confidence(CLI::App* command, double& confidence) {
-  return command->add_option("--confidence", confidence, "of the intervals (default 0.95)")
+void add_confidence(CLI::App* command, double& confidence) {
+  command->add_option("--confidence", confidence, "of the intervals (default 0.95)")
       ->check(CLI::Range(0.5, 0.9999));
+}
+
+void add_workers(CLI::App* command, std::optional<int>& n_workers, const char* description) {
+  command->add_option("-w,--workers", n_workers, description)->check(CLI::Range(1, 10000));
 }
 
 }  // namespace faultsweep

@@ -14,6 +14,13 @@ using faultsim::InputError;
 
 namespace {
 
+struct LimitsArguments {
+  std::string source;                 ///< a spec (*.json) to submit and run first, or a campaign.
+  std::optional<int> n_workers;       ///< of the run; as for `run`.
+  long top = 20;                      ///< rows; 0 = all.
+  std::vector<std::string> map = {};  ///< two parameters: a table of one against the other instead.
+};
+
 /// Submits a spec and searches its limits.
 SubmittedRun search_limits(const StoreArguments& common, const LimitsArguments& arguments) {
   const Expansion expansion = expand(read_campaign(arguments.source));
@@ -27,9 +34,8 @@ SubmittedRun search_limits(const StoreArguments& common, const LimitsArguments& 
       {.store = common.store, .n_workers = arguments.n_workers, .simulator = simulator_binary()});
 }
 
-}  // namespace
-
-ExitCode limits_command(const StoreArguments& common, const LimitsArguments& arguments) {
+/// The code of the run, if there was one.
+ExitCode limits(const StoreArguments& common, const LimitsArguments& arguments) {
   SubmittedRun run{arguments.source, ExitCode::done};
   if (std::filesystem::path(run.campaign).extension() == ".json") {
     run = search_limits(common, arguments);
@@ -45,6 +51,29 @@ ExitCode limits_command(const StoreArguments& common, const LimitsArguments& arg
                  common.store.c_str());
   }
   return run.status;
+}
+
+}  // namespace
+
+void add_limits(Program& program) {
+  auto [command, a] = program.add(
+      "limits", "up to which pressure a fault is safe, in each configuration of a spec", limits);
+  command->add_option("source", a.source,
+                      "spec (*.json) with a section limits, which is submitted and run first; or\n"
+                      "a campaign of one; default: the newest");
+  add_workers(command, a.n_workers, "of the run; default: the cores available");
+  command->add_option("--top", a.top, "how many rows (default 20); 0 = all")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--map", a.map, "A B: the limit as a table, parameter A across and B down")
+      ->expected(2);
+  add_store(command, program.common);
+  add_renderings(command, program.common);
+  command->footer(
+      "Examples:\n"
+      "  faultsweep limits storage-limit.json             search, then the narrowest bands first\n"
+      "  faultsweep limits storage-limit --map offset friction_angle\n"
+      "  faultsweep limits storage-limit --csv >limits.csv\n"
+      "Each limit is a pair of cases that were computed, one on either side of it.");
 }
 
 }  // namespace faultsweep

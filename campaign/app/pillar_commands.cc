@@ -24,6 +24,14 @@ using faultsim::concat;
 using faultsim::counted;
 using faultsim::InputError;
 
+struct PillarArguments {
+  std::filesystem::path table, scene, folder;
+  std::filesystem::path names;        ///< JSON: what the table calls the columns; "" = as we do.
+  std::string name;                   ///< of the campaign; "" = that of the table's file.
+  std::string stress_azimuth;         ///< "160 deg", of the largest horizontal stress; "" = none.
+  std::vector<double> stress_ratios;  ///< largest, smallest.
+};
+
 ColumnNames names_in(const std::filesystem::path& file) {
   ColumnNames names;
   if (file.empty()) return names;
@@ -99,9 +107,7 @@ void write(const std::filesystem::path& file, const std::string& text) {
   output.finish();
 }
 
-}  // namespace
-
-ExitCode pillars_command(const PillarArguments& arguments) {
+ExitCode pillars(const StoreArguments&, const PillarArguments& arguments) {
   const PillarTable table = read_pillar_table(arguments.table, names_in(arguments.names));
   const auto base = faultsim::read_json_file(arguments.scene.string());
   std::vector<std::filesystem::path> inputs = {arguments.table, arguments.scene};
@@ -143,7 +149,11 @@ ExitCode pillars_command(const PillarArguments& arguments) {
   return ExitCode::done;
 }
 
-ExitCode map_command(const StoreArguments& common, const MapArguments& arguments) {
+struct MapArguments {
+  std::filesystem::path places, output;
+};
+
+ExitCode map(const StoreArguments& common, const MapArguments& arguments) {
   const std::string kind = arguments.output.extension().string();
   if (kind != ".csv" && kind != ".vtu" && kind != ".ts")
     throw InputError("-o", {{"", 0, concat("\"", kind, "\" is not a kind of map"),
@@ -160,6 +170,47 @@ ExitCode map_command(const StoreArguments& common, const MapArguments& arguments
                              "add a column \"fault\" to the table, or write .vtu"}});
   write(arguments.output, text);
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_pillars(Program& program) {
+  auto [command, a] =
+      program.add("pillars", "a campaign of a table of fault pillars of your own field", pillars);
+  command->add_option("table", a.table, "CSV, a line for each pillar")->required();
+  command
+      ->add_option("--scene", a.scene,
+                   "a field of two blocks: west is the footwall, east the hanging wall")
+      ->required();
+  command->add_option("-o,--output", a.folder, "folder for campaign.json and its tables")
+      ->required();
+  command->add_option("--names", a.names,
+                      "JSON: how the table calls the columns, {\"depth\": \"TOP_TVD [m]\"}");
+  command->add_option("--name", a.name, "of the campaign (default: as the table's file)");
+  CLI::Option* azimuth = command->add_option("--stress-azimuth", a.stress_azimuth,
+                                             "\"160 deg\": of the largest horizontal stress");
+  command
+      ->add_option("--stress-ratios", a.stress_ratios,
+                   "largest and smallest effective horizontal stress over the vertical one")
+      ->expected(2)
+      ->needs(azimuth);
+  command->footer(
+      "Columns: id, fault, x [m], y [m], azimuth [deg], depth [m], offset [m], thickness [m] or\n"
+      "thickness_foot [m] and thickness_hanging [m], dip [deg] (from the vertical) or\n"
+      "dip_from_horizontal [deg], and any parameter that `faultsim parameters` lists.\n"
+      "Examples:\n"
+      "  faultsweep pillars pillars.csv --scene section.json -o pillars\n"
+      "  faultsweep submit pillars/campaign.json && faultsweep run pillars\n"
+      "  faultsweep map pillars/places.csv pillars -o map.vtu      for ParaView");
+
+  auto [map_command, m] = program.add("map", "what became of pillars, on a map", map);
+  map_command->add_option("places", m.places, "places.csv of `faultsweep pillars`")->required();
+  add_campaign(map_command, program.common);
+  map_command
+      ->add_option("-o,--output", m.output,
+                   "file: .csv, .vtu (ParaView) or .ts (GOCAD surfaces with properties)")
+      ->required();
+  map_command->footer("Example: faultsweep map pillars/places.csv pillars -o map.csv");
 }
 
 }  // namespace faultsweep

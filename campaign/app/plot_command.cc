@@ -1,3 +1,4 @@
+#include "campaign/answers/probability.h"
 #include "campaign/answers/what_matters.h"
 #include "campaign/app/commands.h"
 #include "campaign/figures/campaign_figures.h"
@@ -5,12 +6,29 @@
 #include "campaign/render/render_html.h"
 #include "simulator/case_figures/picture_file.h"
 #include "simulator/common/errors.h"
+#include "simulator/common/version.h"
 
 namespace faultsweep {
 namespace {
 
 using faultsim::concat;
 using faultsim::InputError;
+
+struct PlotArguments {
+  std::string chart;             ///< of case_charts(), or map, sensitivity, probability.
+  std::string subject;           ///< campaign, or CAMPAIGN/CASE; "" = the newest campaign.
+  std::filesystem::path output;  ///< .svg or .png.
+  std::string fault;             ///< of charts of a case; "" = the most critical one.
+  std::optional<int> step;       ///< the same; none = the most critical one.
+  MapRequest map = {};
+  SensitivityRequest sensitivity = {};
+  ProbabilityRequest probability = {};
+};
+
+struct ReportArguments {
+  std::filesystem::path output;  ///< .html.
+  ReportRequest request;
+};
 
 std::string draw_campaign(const PlotArguments& arguments, const Store& store) {
   const CampaignInfo campaign = store.campaign(arguments.subject, false);
@@ -49,9 +67,7 @@ std::string draw_case_of(const PlotArguments& arguments, const faultsim::CaseCha
   return draw_case(stored.picture(), {info.chart, arguments.fault, arguments.step, false});
 }
 
-}  // namespace
-
-ExitCode plot_command(const StoreArguments& common, const PlotArguments& arguments) {
+ExitCode plot(const StoreArguments& common, const PlotArguments& arguments) {
   faultsim::require_picture_file(arguments.output, {".svg", ".png"}, {});
   const Store store = Store::open_reader(common.store);
   const faultsim::CaseChartInfo* info = faultsim::case_chart_named(arguments.chart);
@@ -60,12 +76,51 @@ ExitCode plot_command(const StoreArguments& common, const PlotArguments& argumen
   return ExitCode::done;
 }
 
-ExitCode report_command(const StoreArguments& common, const ReportArguments& arguments) {
+ExitCode report(const StoreArguments& common, const ReportArguments& arguments) {
   faultsim::require_picture_file(arguments.output, {".html"}, {});
   const Store store = Store::open_reader(common.store);
   const CampaignInfo campaign = store.campaign(common.campaign);
   faultsim::write_picture(arguments.output, report_page(store, campaign, arguments.request));
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_pictures(Program& program) {
+  std::string charts = "of a campaign: map, sensitivity, probability;\nof a case one of:";
+  for (const faultsim::CaseChartInfo& info : faultsim::case_charts()) {
+    charts += std::string("\n") + info.name + ": " + info.meaning;
+  }
+  auto [command, a] = program.add("plot", "draw a chart as SVG or PNG", plot);
+  command->add_option("chart", a.chart, charts)->required();
+  command->add_option("subject", a.subject,
+                      "campaign (default: the newest), or a case: number or CAMPAIGN/CASE");
+  command->add_option("-o,--output", a.output, "file to write: *.svg, or *.png by rsvg-convert")
+      ->required();
+  command->add_option("--fault", a.fault, "of a case; default: the one with the largest χ̄");
+  command->add_option("--step", a.step, "of a case: load step; default: that of its largest χ̄");
+  command->add_option("--x", a.map.x, "map: parameter along the bottom; default: the first");
+  command->add_option("--y", a.map.y, "map: parameter along the side; default: the next");
+  command->add_option("--metrics", a.sensitivity.metrics, "sensitivity: as of `sensitivity`");
+  command->add_flag("--by-step", a.sensitivity.by_step, "sensitivity: against time");
+  command->add_option("--of", a.probability.condition, "probability: as of `probability`");
+  command->add_option("--by", a.probability.by, "probability: as of `probability`");
+  add_store(command, program.common);
+  command->footer(
+      "Examples:\n"
+      "  faultsweep plot map my-sweep --x offset --y friction_angle -o map.svg\n"
+      "  faultsweep plot sensitivity -o tornado.png\n"
+      "  faultsweep plot history my-sweep/17 -o history.svg");
+
+  auto [report_command, page] =
+      program.add("report", "a campaign as one HTML page that needs no network", report);
+  add_campaign(report_command, program.common);
+  report_command->add_option("-o,--output", page.output, "file to write: *.html")->required();
+  report_command->add_option("--top", page.request.top, "cases that are drawn (default 3)")
+      ->check(CLI::Range(0, 50));
+  add_confidence(report_command, page.request.confidence);
+  page.request.program = faultsim::version_text("faultsweep");
+  report_command->footer("Example: faultsweep report my-sweep -o report.html");
 }
 
 }  // namespace faultsweep

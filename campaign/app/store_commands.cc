@@ -3,21 +3,18 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "campaign/answers/what_matters.h"
 #include "campaign/answers/why.h"
 #include "campaign/app/commands.h"
 #include "campaign/app/print_answer.h"
 #include "campaign/render/render_text.h"
 #include "campaign/reports/case_report.h"
 #include "campaign/reports/explain_report.h"
+#include "campaign/reports/ranking_answer.h"
 #include "campaign/reports/status_report.h"
-#include "campaign/rounds/next_round.h"
-#include "campaign/scheduler/starter.h"
 #include "campaign/store/clock.h"
 #include "simulator/cache/operator_cache.h"
 #include "simulator/files/json_text.h"
 #include "simulator/files/output_target.h"
-#include "simulator/plan/plan.h"
 
 namespace faultsweep {
 
@@ -25,6 +22,21 @@ using faultsim::concat;
 using faultsim::counted;
 using faultsim::InputError;
 using nlohmann::json;
+
+std::uint64_t parse_size(const std::string& option, const std::string& text) {
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  std::string unit(end);
+  unit.erase(0, unit.find_first_not_of(' ') == std::string::npos ? unit.size()
+                                                                 : unit.find_first_not_of(' '));
+  const double factor = unit == "GB" ? 1e9 : unit == "MB" ? 1e6 : unit == "kB" ? 1e3 : 1;
+  const bool known = factor != 1 || (unit.empty() && number == 0) || unit == "B";
+  if (end == text.c_str() || !(number >= 0) || number > 1e9 || !known) {
+    throw InputError(option,
+                     {{"", 0, concat("\"", text, "\" is not a size"), "write \"20 GB\" or 0"}});
+  }
+  return static_cast<std::uint64_t>(number * factor);
+}
 
 namespace {
 
@@ -46,90 +58,16 @@ NamedCase find_case(const Store& store, const StoreArguments& common, const std:
   return found;
 }
 
-}  // namespace
-
-std::uint64_t parse_size(const std::string& option, const std::string& text) {
-  char* end = nullptr;
-  const double number = std::strtod(text.c_str(), &end);
-  std::string unit(end);
-  unit.erase(0, unit.find_first_not_of(' ') == std::string::npos ? unit.size()
-                                                                 : unit.find_first_not_of(' '));
-  const double factor = unit == "GB" ? 1e9 : unit == "MB" ? 1e6 : unit == "kB" ? 1e3 : 1;
-  const bool known = factor != 1 || (unit.empty() && number == 0) || unit == "B";
-  if (end == text.c_str() || !(number >= 0) || number > 1e9 || !known) {
-    throw InputError(option,
-                     {{"", 0, concat("\"", text, "\" is not a size"), "write \"20 GB\" or 0"}});
-  }
-  return static_cast<std::uint64_t>(number * factor);
-}
-
-std::filesystem::path simulator_binary() {
-  if (const char* given = std::getenv("FAULTSIM_BINARY")) return std::filesystem::absolute(given);
-  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "faultsim";
-}
-
-ExitCode run_command(const StoreArguments& common, RunOptions options, int argc, char** argv) {
-  options.store = common.store;
-  options.campaign = common.campaign;
-  if (options.simulator.empty()) options.simulator = simulator_binary();
-  if (!options.memory.empty()) {
-    options.memory_bytes = static_cast<double>(parse_size("--memory", options.memory));
-  }
-  options.next_round = add_next_round;
-  if (is_rank()) return run_ranks(argc, argv, options);
-  const ExitCode status = start_ranks(options);
-  const std::string name = Store::open_reader(common.store).campaign(options.campaign).name;
-  switch (status) {
-    case ExitCode::done:
-    case ExitCode::incomplete:
-      std::fprintf(stderr, "Next: faultsweep rank %s --store %s\n", name.c_str(),
-                   common.store.c_str());
-      break;
-    case ExitCode::interrupted:
-      std::fprintf(stderr, "Interrupted, nothing is lost. Next: faultsweep run %s --store %s\n",
-                   name.c_str(), common.store.c_str());
-      break;
-    default:
-      break;
-  }
-  return status;
-}
-
-ExitCode slurm_command(const StoreArguments& common, const SlurmRequest& request) {
+/// Prints what is answered of a case.
+template <typename AnswerOf>
+ExitCode answer_case(const StoreArguments& common, const std::string& name,
+                     const AnswerOf& answer) {
   const Store store = Store::open_reader(common.store);
-  const CampaignInfo campaign = store.campaign(common.campaign, false);
-  SlurmCampaign job;
-  job.name = campaign.name;
-  job.store = std::filesystem::absolute(common.store).lexically_normal();
-  job.program = std::filesystem::read_symlink("/proc/self/exe");
-  job.simulator = simulator_binary();
-  job.waiting = store.waiting_families(campaign.id);
-  print(slurm_script(job, request));
-  if (job.waiting.empty()) {
-    std::fprintf(stderr, "Nothing waits in %s\n", campaign.name.c_str());
-  } else {
-    std::fprintf(stderr, "Next: faultsweep slurm %s ... | sbatch\n", campaign.name.c_str());
-  }
+  print_answer(answer(store, find_case(store, common, name)), common);
   return ExitCode::done;
 }
 
-ExitCode status_command(const StoreArguments& common) {
-  const Store store = Store::open_reader(common.store);
-  const StatusReport status = make_status(store, common.campaign);
-  print_answer(to_answer(status), common);
-  if (common.json) return ExitCode::done;
-  const CampaignInfo& c = status.campaign;
-  if (!status.manager && c.n_waiting > 0 && !c.cancelled) {
-    std::fprintf(stderr, "Next: faultsweep run %s\n", c.name.c_str());
-  } else if (c.cancelled && c.n_waiting > 0) {
-    std::fprintf(stderr, "Next: faultsweep submit %s, which reopens it\n", c.source.c_str());
-  } else if (c.n_done > 0) {
-    std::fprintf(stderr, "Next: faultsweep rank %s\n", c.name.c_str());
-  }
-  return ExitCode::done;
-}
-
-ExitCode verify_store_command(const StoreArguments& common) {
+ExitCode verify_store(const StoreArguments& common) {
   const std::vector<std::string> problems = Store::open_reader(common.store).integrity_problems();
   if (common.json) {
     print(json{{"sound", problems.empty()}, {"problems", problems}});
@@ -144,14 +82,42 @@ ExitCode verify_store_command(const StoreArguments& common) {
                                       kDamageCure));
 }
 
-ExitCode rank_command(const StoreArguments& common, const RankRequest& request, bool list_metrics) {
-  if (list_metrics) {
+ExitCode status(const StoreArguments& common, const bool& verify) {
+  if (verify) return verify_store(common);
+  const Store store = Store::open_reader(common.store);
+  const StatusReport report = make_status(store, common.campaign);
+  print_answer(to_answer(report), common);
+  if (common.json) return ExitCode::done;
+  const CampaignInfo& c = report.campaign;
+  if (!report.manager && c.n_waiting > 0 && !c.cancelled) {
+    std::fprintf(stderr, "Next: faultsweep run %s\n", c.name.c_str());
+  } else if (c.cancelled && c.n_waiting > 0) {
+    std::fprintf(stderr, "Next: faultsweep submit %s, which reopens it\n", c.source.c_str());
+  } else if (c.n_done > 0) {
+    std::fprintf(stderr, "Next: faultsweep rank %s\n", c.name.c_str());
+  }
+  return ExitCode::done;
+}
+
+struct RankArguments {
+  RankRequest request = {};
+  std::string why = {};
+  bool list_metrics = false;
+};
+
+ExitCode rank(const StoreArguments& common, const RankArguments& arguments) {
+  if (!arguments.why.empty()) {
+    return answer_case(common, arguments.why, [&](const Store& store, const NamedCase& found) {
+      return to_answer(explain_rank(store, found.campaign, found.stored, arguments.request));
+    });
+  }
+  if (arguments.list_metrics) {
     print_answer(metrics_answer(), common);
     return ExitCode::done;
   }
   const Store store = Store::open_reader(common.store);
   const CampaignInfo c = store.campaign(common.campaign, store.lacks_results());
-  const Ranking ranking = make_ranking(store, c, request);
+  const Ranking ranking = make_ranking(store, c, arguments.request);
   print_answer(to_answer(ranking), common);
   if (common.json) return ExitCode::done;
   const long n_failed = c.n_failed - c.n_fields_failed;
@@ -167,99 +133,27 @@ ExitCode rank_command(const StoreArguments& common, const RankRequest& request, 
   return ExitCode::done;
 }
 
-ExitCode rank_why_command(const StoreArguments& common, const RankRequest& request,
-                          const std::string& name) {
-  const Store store = Store::open_reader(common.store);
-  const NamedCase found = find_case(store, common, name);
-  print_answer(to_answer(explain_rank(store, found.campaign, found.stored, request)), common);
-  return ExitCode::done;
+struct ShowArguments {
+  std::string name;  ///< case number, beginning of an identity, or CAMPAIGN/either.
+  ShowRequest request = {};
+};
+
+ExitCode show(const StoreArguments& common, const ShowArguments& arguments) {
+  return answer_case(common, arguments.name, [&](const Store& store, const NamedCase& found) {
+    return to_answer(shown_case(store, found.campaign, found.stored, arguments.request));
+  });
 }
 
-ExitCode show_command(const StoreArguments& common, const std::string& name,
-                      const ShowRequest& request) {
-  const Store store = Store::open_reader(common.store);
-  const NamedCase found = find_case(store, common, name);
-  print_answer(to_answer(shown_case(store, found.campaign, found.stored, request)), common);
-  return ExitCode::done;
+ExitCode explain(const StoreArguments& common, const std::string& name) {
+  return answer_case(common, name, [](const Store& store, const NamedCase& found) {
+    return explanation(store, found.campaign, found.stored);
+  });
 }
 
-namespace {
-
-ExitCode curves_command(const StoreArguments& common, const Store& store,
-                        const ProbabilityArguments& arguments) {
-  const ProbabilityRequest& request = arguments.request;
-  const Curves found =
-      probability_curves(store, store.campaign(common.campaign, false),
-                         {*arguments.against, request.where, arguments.stage, request.confidence});
-  print_answer(to_answer(found), common);
-  return ExitCode::done;
-}
-
-}  // namespace
-
-ExitCode probability_command(const StoreArguments& common, const ProbabilityArguments& arguments) {
-  const Store store = Store::open_reader(common.store);
-  if (arguments.against) return curves_command(common, store, arguments);
-  if (!arguments.quantiles.metrics.empty()) {
-    QuantileRequest request = arguments.quantiles;
-    request.where = arguments.request.where;
-    request.confidence = arguments.request.confidence;
-    const Quantiles found = find_quantiles(store, store.campaign(common.campaign, false), request);
-    print_answer(to_answer(found), common);
-    return ExitCode::done;
-  }
-  const Probability found =
-      find_probability(store, store.campaign(common.campaign, false), arguments.request);
-  print_answer(to_answer(found), common);
-  return ExitCode::done;
-}
-
-ExitCode posterior_command(const StoreArguments& common, const PosteriorRequest& request) {
-  const Store store = Store::open_reader(common.store);
-  const Posterior found = find_posterior(store, store.campaign(common.campaign, false), request);
-  print_answer(to_answer(found), common);
-  return ExitCode::done;
-}
-
-ExitCode sensitivity_command(const StoreArguments& common, const SensitivityRequest& request) {
-  const Store store = Store::open_reader(common.store);
-  print_answer(what_matters(store, store.campaign(common.campaign, false), request), common);
-  return ExitCode::done;
-}
-
-ExitCode export_command(const StoreArguments& common, ExportRequest request) {
-  if (faultsim::is_standard_output(request.target) && request.format != ExportFormat::salib) {
-    request.target.clear();
-  }
-  const Store store = Store::open_reader(common.store);
-  const CampaignInfo campaign = store.campaign(common.campaign, false);
-  std::fputs(export_campaign(store, campaign, request).c_str(), stderr);
-  return ExitCode::done;
-}
-
-ExitCode compare_command(const StoreArguments& common, const CompareArguments& arguments) {
-  if (arguments.b.empty() && arguments.other_store.empty()) {
-    throw InputError("B", {{"", 0, "there is nothing to compare with",
-                            "name another campaign, or another store with --other-store"}});
-  }
-  const Store store_a = Store::open_reader(common.store);
-  const Store store_b =
-      Store::open_reader(arguments.other_store.empty() ? common.store : arguments.other_store);
-  const CampaignInfo a = store_a.campaign(arguments.a);
-  const CampaignInfo b = store_b.campaign(arguments.b.empty() ? a.name : arguments.b);
-  const Comparison comparison = compare_campaigns(store_a, a, store_b, b, arguments.request);
-  print_answer(to_answer(comparison), common);
-  return comparison.agrees() ? ExitCode::done : ExitCode::regress;
-}
-
-ExitCode explain_command(const StoreArguments& common, const std::string& name) {
-  const Store store = Store::open_reader(common.store);
-  const NamedCase found = find_case(store, common, name);
-  print_answer(explanation(store, found.campaign, found.stored), common);
-  return ExitCode::done;
-}
-
-namespace {
+struct RetryArguments {
+  bool unconverged = false;
+  std::optional<long> position;
+};
 
 /// Why `retry` found nothing to do.
 std::string nothing_to_retry(const Store& store, const CampaignInfo& campaign,
@@ -281,9 +175,7 @@ std::string nothing_to_retry(const Store& store, const CampaignInfo& campaign,
                 "): --unconverged lets it run again");
 }
 
-}  // namespace
-
-ExitCode retry_command(const StoreArguments& common, const RetryArguments& arguments) {
+ExitCode retry(const StoreArguments& common, const RetryArguments& arguments) {
   Store::open_reader(common.store);
   Store store = Store::open_writer(common.store);
   const CampaignInfo campaign = store.campaign(common.campaign);
@@ -312,7 +204,7 @@ ExitCode retry_command(const StoreArguments& common, const RetryArguments& argum
   return ExitCode::done;
 }
 
-ExitCode cancel_command(const StoreArguments& common) {
+ExitCode cancel(const StoreArguments& common) {
   Store::open_reader(common.store);
   Store store = Store::open_writer(common.store);
   const CampaignInfo campaign = store.campaign(common.campaign);
@@ -335,7 +227,7 @@ ExitCode cancel_command(const StoreArguments& common) {
   return ExitCode::done;
 }
 
-ExitCode cache_list_command(const StoreArguments& common) {
+ExitCode cache_list(const StoreArguments& common) {
   const auto entries = faultsim::list_operators(common.store / "operators");
   json document = json::array();
   AnswerTable table{"operators",
@@ -358,7 +250,7 @@ ExitCode cache_list_command(const StoreArguments& common) {
   return ExitCode::done;
 }
 
-ExitCode cache_verify_command(const StoreArguments& common) {
+ExitCode cache_verify(const StoreArguments& common) {
   const std::filesystem::path folder = common.store / "operators";
   bool sound = true;
   json checked = json::array();
@@ -381,7 +273,7 @@ ExitCode cache_verify_command(const StoreArguments& common) {
   return sound ? ExitCode::done : ExitCode::world;
 }
 
-ExitCode cache_prune_command(const StoreArguments& common, const std::string& size) {
+ExitCode cache_prune(const StoreArguments& common, const std::string& size) {
   const auto freed =
       faultsim::prune_operators(common.store / "operators", parse_size("--max-size", size), "");
   if (common.json) {
@@ -393,12 +285,116 @@ ExitCode cache_prune_command(const StoreArguments& common, const std::string& si
   return ExitCode::done;
 }
 
-ExitCode backup_command(const StoreArguments& common, const std::filesystem::path& target) {
+ExitCode backup(const StoreArguments& common, const std::filesystem::path& target) {
   const Store store = Store::open_reader(common.store);
   faultsim::require_writable_file("file", target, faultsim::FileKind::database, {});
   store.backup_to(target);
   std::fprintf(stderr, "backup written to %s\n", target.c_str());
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_reading(Program& program) {
+  auto [status_command, verify] =
+      program.add("status", "how a campaign stands: counts, time left, failures", status);
+  add_campaign(status_command, program.common);
+  add_renderings(status_command, program.common);
+  status_command->add_flag("--verify", verify,
+                           "read the whole store instead and check it: structure, references,\n"
+                           "checksums");
+  status_command->footer(
+      "Examples:\n"
+      "  faultsweep status my-sweep\n"
+      "  faultsweep status --verify\n"
+      "  faultsweep status --json");
+
+  auto [command, a] = program.add("rank", "the riskiest configurations first", rank);
+  add_campaign(command, program.common);
+  command->add_option("--by", a.request.by,
+                      "metric or expression; default: the spec's, or the area that slides, then\n"
+                      "the area that is open, M0, the pressure margin of inactive cases, and chi");
+  add_stage_and_fault(command, a.request.stage, a.request.fault);
+  add_where(command, a.request.where);
+  command->add_option("--top", a.request.top, "how many rows; 0 = all")
+      ->check(CLI::NonNegativeNumber);
+  command->add_flag("--ascending", a.request.ascending, "smallest first");
+  command->add_flag("--list-metrics", a.list_metrics, "what can be ranked by");
+  command->add_option("--why", a.why,
+                      "CASE: why it stands where it does: what slides first, what matters\n"
+                      "near it and over the campaign, which places are not told apart");
+  add_renderings(command, program.common);
+  command->footer(
+      "Examples:\n"
+      "  faultsweep rank --by moment --top 10\n"
+      "  faultsweep rank my-sweep --where \"friction_angle < 25 deg and activated\" --stage "
+      "gas_storage\n"
+      "  faultsweep rank my-sweep --why 17 --stage gas_storage\n"
+      "  faultsweep rank --list-metrics");
+
+  auto [show_command, show_arguments] =
+      program.add("show", "one case: parameters, outcome, stages, slip events, chi history", show);
+  add_case(show_command, program.common, show_arguments.name);
+  show_command->add_option("--stage", show_arguments.request.stage, "only this stage");
+  show_command->add_option("--fault", show_arguments.request.fault, "only this fault");
+  add_renderings(show_command, program.common);
+  show_command->footer(
+      "Examples:\n"
+      "  faultsweep show 17\n"
+      "  faultsweep show my-sweep/17 --fault F2 --stage gas_storage\n"
+      "  faultsweep show 17 --json");
+
+  auto [explain_command, name] =
+      program.add("explain", "why a case will run, or will not", explain);
+  add_case(explain_command, program.common, name);
+  add_renderings(explain_command, program.common);
+  explain_command->footer("Example: faultsweep explain my-sweep/17");
+}
+
+void add_caring(Program& program) {
+  StoreArguments& common = program.common;
+  auto [retry_command, retry_arguments] = program.add("retry", "let failed cases run again", retry);
+  add_campaign(retry_command, common);
+  retry_command->add_option("--case", retry_arguments.position, "only this case number");
+  retry_command->add_flag("--unconverged", retry_arguments.unconverged,
+                          "also cases whose history ended early");
+  add_json(retry_command, common);
+  retry_command->footer(
+      "Examples:\n"
+      "  faultsweep retry my-sweep\n"
+      "  faultsweep retry --case 17 --unconverged");
+
+  CLI::App* cancel_command = program.add("cancel", "hand out no more cases of a campaign", cancel);
+  add_campaign(cancel_command, common);
+  add_json(cancel_command, common);
+  cancel_command->footer(
+      "Example: faultsweep cancel my-sweep    results stay; submit the spec again to reopen it");
+
+  CLI::App* cache = program.app.add_subcommand("cache", "the operators kept in STORE/operators");
+  cache->footer("Example: faultsweep cache list");
+  cache->require_subcommand(1);
+  CLI::App* list = program.add("list", "operators, most recently used first", cache_list, cache);
+  add_store(list, common);
+  add_json(list, common);
+  list->footer("Example: faultsweep cache list --json");
+  CLI::App* verify = program.add("verify", "checksums of the operators and integrity of the store",
+                                 cache_verify, cache);
+  add_store(verify, common);
+  add_json(verify, common);
+  verify->footer("Example: faultsweep cache verify --store runs/store");
+  auto [prune, size] =
+      program.add("prune", "remove least recently used operators", cache_prune, cache);
+  size = "20 GB";
+  prune->add_option("--max-size", size, "what may stay (default 20 GB)");
+  add_store(prune, common);
+  add_json(prune, common);
+  prune->footer("Example: faultsweep cache prune --max-size \"5 GB\"");
+
+  auto [backup_command, target] =
+      program.add("backup", "copy the store's database, also while it is in use", backup);
+  backup_command->add_option("file", target, "new file")->required();
+  add_store(backup_command, common);
+  backup_command->footer("Example: faultsweep backup before.sqlite");
 }
 
 }  // namespace faultsweep

@@ -63,28 +63,16 @@ void require_new(const std::filesystem::path& path) {
 
 /// What a submission would do, or did.
 struct SubmitReport {
+  Expansion expansion;
   Submission submission;
-  std::vector<ExcludedCases> excluded;
-  std::vector<std::string> notes;
-  std::vector<long> cases_per_family;
-  long n_designed = 0;
-  long n_cached = 0;  ///< have a result already.
-  long n_fields = 0;  ///< of these: run again, for their fields only.
-  double operator_seconds = 0;
-};
+  SubmitOutcome outcome;
 
-SubmitReport make_report(const Expansion& expansion, CaseDetail cases) {
-  SubmitReport report;
-  report.submission = make_submission(expansion, cases);
-  report.excluded = expansion.excluded;
-  report.notes = expansion.notes;
-  report.n_designed = expansion.n_designed;
-  for (const Family& family : expansion.families) {
-    report.cases_per_family.push_back(static_cast<long>(family.cases.size()));
-    report.operator_seconds += family.plan->operator_seconds;
+  double operator_seconds() const {
+    double sum = 0;
+    for (const FamilyRecord& one : submission.families) sum += one.operator_seconds;
+    return sum;
   }
-  return report;
-}
+};
 
 /// What differs where salt creeps; "" where it does not.
 std::string creep_text(const std::vector<FamilyRecord>& families) {
@@ -120,7 +108,7 @@ AnswerTable families_table(const SubmitReport& report) {
   table.most_on_screen = kShown;
   for (std::size_t k = 0; k < report.submission.families.size(); ++k) {
     const FamilyRecord& one = report.submission.families[k];
-    table.rows.push_back({one.fingerprint, report.cases_per_family[k], one.unknowns,
+    table.rows.push_back({one.fingerprint, report.expansion.families[k].cases.size(), one.unknowns,
                           one.jump_unknowns, one.creeps(), one.n_operators, one.operator_seconds,
                           one.memory_bytes});
   }
@@ -131,22 +119,22 @@ std::string report_to_text(const SubmitReport& report) {
   const Submission& s = report.submission;
   std::string text =
       concat(s.name, ": ", counted(s.cases.size(), "case", "cases"), " in ",
-             counted(s.families.size(), "family", "families"), "; ", report.n_designed,
+             counted(s.families.size(), "family", "families"), "; ", report.expansion.n_designed,
              " designed, ", s.n_excluded, " excluded, ", s.n_merged, " merged as the same, ",
-             report.n_cached, " have a result already\n");
+             report.outcome.n_cached, " have a result already\n");
   if (s.keep_fields != KeepFields::none) {
     text += concat("fault fields are kept (", to_string(s.keep_fields), ")");
-    if (report.n_fields > 0) {
-      text += concat("; ", report.n_fields,
+    if (report.outcome.n_fields > 0) {
+      text += concat("; ", report.outcome.n_fields,
                      " cases with a result lack them and are run again for them alone");
     }
     text += "\n";
   }
-  for (const ExcludedCases& excluded : report.excluded) {
+  for (const ExcludedCases& excluded : report.expansion.excluded) {
     text += concat("  excluded ", excluded.n_cases, ": ", excluded.reason, "\n");
   }
   text += render_text(families_table(report), screen_width());
-  text += concat("predicted: ", format_duration(report.operator_seconds),
+  text += concat("predicted: ", format_duration(report.operator_seconds()),
                  " for the operators that are not cached, on one core\n");
   return text + creep_text(s.families);
 }
@@ -154,22 +142,22 @@ std::string report_to_text(const SubmitReport& report) {
 json report_to_json(const SubmitReport& report) {
   const Submission& s = report.submission;
   json excluded = json::array();
-  for (const ExcludedCases& one : report.excluded) {
+  for (const ExcludedCases& one : report.expansion.excluded) {
     excluded.push_back({{"expression", one.reason}, {"cases", one.n_cases}});
   }
   return {{"campaign", s.name},
           {"cases", s.cases.size()},
-          {"designed", report.n_designed},
+          {"designed", report.expansion.n_designed},
           {"excluded_cases", s.n_excluded},
           {"excluded", excluded},
           {"merged", s.n_merged},
-          {"cached", report.n_cached},
+          {"cached", report.outcome.n_cached},
           {"keep_fields", to_string(s.keep_fields)},
-          {"for_fields_only", report.n_fields},
+          {"for_fields_only", report.outcome.n_fields},
           {"parameters", json::parse(parameters_to_json(s.parameters))},
           {"families", json_rows(families_table(report))},
-          {"predicted_operator_s", report.operator_seconds},
-          {"notes", report.notes}};
+          {"predicted_operator_s", report.operator_seconds()},
+          {"notes", report.expansion.notes}};
 }
 
 /// Operators that the memory limit leaves no room for: all of them is a problem, some are a note.
@@ -194,20 +182,37 @@ void check_memory_limit(const std::string& spec, SubmitReport& report) {
                 concat("the smallest is predicted to need ", megabytes(least), " MB, the largest ",
                        megabytes(most), " MB")}});
   }
-  report.notes.push_back(concat("/policy/memory_limit: ", n_too_large, " of ",
-                                report.submission.families.size(),
-                                " families are predicted to need more, up to ", megabytes(most),
-                                " MB, and their cases to fail"));
+  report.expansion.notes.push_back(concat("/policy/memory_limit: ", n_too_large, " of ",
+                                          report.submission.families.size(),
+                                          " families are predicted to need more, up to ",
+                                          megabytes(most), " MB, and their cases to fail"));
 }
+
+struct SubmitArguments {
+  std::string spec;
+  bool dry_run = false;
+};
 
 SubmitOutcome preview(const std::filesystem::path& store, const Submission& submission) {
   if (!std::filesystem::exists(store / "campaign.sqlite")) return {};
   return Store::open_reader(store).preview(submission);
 }
 
-}  // namespace
+SubmitOutcome stored(const std::filesystem::path& folder, const Submission& submission) {
+  Store store = Store::open_writer(folder);
+  if (!store.remark().empty()) std::fprintf(stderr, "%s\n", store.remark().c_str());
+  SubmitOutcome outcome = store.submit(submission);
+  if (outcome.existed) {
+    std::fprintf(stderr, "%s is in the store already: nothing added, `faultsweep run` resumes it\n",
+                 outcome.name.c_str());
+  } else if (outcome.name != submission.name) {
+    std::fprintf(stderr, "another campaign is called %s: this one becomes %s\n",
+                 submission.name.c_str(), outcome.name.c_str());
+  }
+  return outcome;
+}
 
-ExitCode init_command(const std::filesystem::path& folder) {
+ExitCode init(const StoreArguments&, const std::filesystem::path& folder) {
   faultsim::require_writable_folder("folder", folder);
   const std::filesystem::path scene = folder / "scene.json", spec = folder / "campaign.json";
   require_new(scene);
@@ -221,40 +226,27 @@ ExitCode init_command(const std::filesystem::path& folder) {
   return ExitCode::done;
 }
 
-ExitCode submit_command(const StoreArguments& common, const SubmitArguments& arguments) {
+ExitCode submit(const StoreArguments& common, const SubmitArguments& arguments) {
   constexpr std::size_t kPlannedForALook = 500;  // a millisecond each
   const std::size_t most_planned =
       arguments.dry_run ? kPlannedForALook : std::numeric_limits<std::size_t>::max();
-  const Expansion expansion = expand(read_campaign(arguments.spec), most_planned);
-  check_rounds(expansion);
-  SubmitReport report =
-      make_report(expansion, arguments.dry_run ? CaseDetail::identity : CaseDetail::whole);
+  SubmitReport report{expand(read_campaign(arguments.spec), most_planned), {}, {}};
+  check_rounds(report.expansion);
+  report.submission = make_submission(report.expansion,
+                                      arguments.dry_run ? CaseDetail::identity : CaseDetail::whole);
   if (report.submission.cases.empty()) {
     throw InputError(arguments.spec,
                      {{"/exclude", 0, "every case is excluded", "relax a condition"}});
   }
   check_memory_limit(arguments.spec, report);
   if (arguments.dry_run) {
-    const SubmitOutcome outcome = preview(common.store, report.submission);
-    report.n_cached = outcome.n_cached;
-    report.n_fields = outcome.n_fields;
+    report.outcome = preview(common.store, report.submission);
   } else {
-    Store store = Store::open_writer(common.store);
-    if (!store.remark().empty()) std::fprintf(stderr, "%s\n", store.remark().c_str());
-    const SubmitOutcome outcome = store.submit(report.submission);
-    if (outcome.existed) {
-      std::fprintf(stderr,
-                   "%s is in the store already: nothing added, `faultsweep run` resumes it\n",
-                   outcome.name.c_str());
-    } else if (outcome.name != report.submission.name) {
-      std::fprintf(stderr, "another campaign is called %s: this one becomes %s\n",
-                   report.submission.name.c_str(), outcome.name.c_str());
-    }
-    report.submission.name = outcome.name;
-    report.n_cached = outcome.n_cached;
-    report.n_fields = outcome.n_fields;
+    report.outcome = stored(common.store, report.submission);
+    report.submission.name = report.outcome.name;
   }
-  for (const std::string& note : report.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+  for (const std::string& note : report.expansion.notes)
+    std::fprintf(stderr, "note: %s\n", note.c_str());
   const std::string text =
       common.json ? faultsim::json_text(report_to_json(report)) : report_to_text(report);
   std::fputs(text.c_str(), stdout);
@@ -266,6 +258,29 @@ ExitCode submit_command(const StoreArguments& common, const SubmitArguments& arg
                  report.submission.name.c_str(), available_cores(), common.store.c_str());
   }
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_submitting(Program& program) {
+  auto [init_command, folder] = program.add("init", "write a starter spec and its scene", init);
+  folder = "campaign";
+  init_command->add_option("folder", folder, "where (default ./campaign)");
+  init_command->footer(
+      "Example: faultsweep init my-sweep    my-sweep/campaign.json and my-sweep/scene.json");
+
+  auto [submit_command, a] =
+      program.add("submit", "check and expand a spec and store its cases", submit);
+  submit_command->add_option("spec", a.spec, "spec file (JSON)")->required();
+  submit_command->add_flag("--dry-run", a.dry_run, "only show what it would be");
+  add_store(submit_command, program.common);
+  add_json(submit_command, program.common);
+  add_wide(submit_command);
+  submit_command->footer(
+      "Examples:\n"
+      "  faultsweep submit my-sweep/campaign.json --dry-run    cases, families, time; nothing is "
+      "stored\n"
+      "  faultsweep submit my-sweep/campaign.json --store runs/store");
 }
 
 }  // namespace faultsweep

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "campaign/answers/tiers.h"
 #include "campaign/app/commands.h"
 #include "campaign/app/print_answer.h"
 #include "campaign/expansion/submission.h"
@@ -12,6 +13,14 @@ using faultsim::InputError;
 using nlohmann::ordered_json;  // the order of parameters is that of the spec
 
 namespace {
+
+struct TiersArguments {
+  std::string source;                                          ///< spec.
+  std::vector<std::string> tiers = {"screening", "standard"};  ///< cheap and expensive.
+  long budget = 0;                                             ///< samples at the expensive one.
+  std::optional<int> n_workers;                                ///< as for `run`.
+  TierRequest request;
+};
 
 /// The spec at a tier, with the tier's own mesh: its first samples where some are asked for.
 ordered_json spec_at(const ordered_json& given, const std::string& tier, long most_samples) {
@@ -51,9 +60,7 @@ ordered_json read_spec(const TiersArguments& arguments) {
   return ordered_json::parse(spec.given);
 }
 
-}  // namespace
-
-ExitCode tiers_command(const StoreArguments& common, const TiersArguments& arguments) {
+ExitCode tiers(const StoreArguments& common, const TiersArguments& arguments) {
   const ordered_json given = read_spec(arguments);
   std::vector<std::string> names;
   ExitCode worst = ExitCode::done;
@@ -76,6 +83,40 @@ ExitCode tiers_command(const StoreArguments& common, const TiersArguments& argum
       compare_tiers(store, store.campaign(names[0]), store.campaign(names[1]), arguments.request);
   print_answer(to_answer(found), common);
   return worst;
+}
+
+}  // namespace
+
+void add_tiers(Program& program) {
+  auto [command, t] =
+      program.add("tiers", "what an expensive tier says of a sample, from few of its cases", tiers);
+  command->add_option("source", t.source, "spec (JSON) with a monte-carlo design")->required();
+  command
+      ->add_option("--tier-budget", t.budget,
+                   "how many of the samples are run at the expensive tier; all at the cheap one")
+      ->required()
+      ->check(CLI::Range(20, 100000));
+  command
+      ->add_option("--tiers", t.tiers,
+                   "the cheap one and the expensive one (default screening,standard)")
+      ->delimiter(',');
+  command->add_option("--metrics", t.request.metrics,
+                      "whose means are wanted, with commas; default: chi_bar of each fault");
+  command
+      ->add_option("--of", t.request.conditions,
+                   "condition whose probability is wanted, as of `rank --where`; may be given\n"
+                   "again; default: that each fault slides, in each stage")
+      ->allow_extra_args(false);
+  add_workers(command, t.n_workers, "of the runs; default: the cores available");
+  add_confidence(command, t.request.confidence);
+  add_store(command, program.common);
+  add_renderings(command, program.common);
+  command->footer(
+      "Examples:\n"
+      "  faultsweep tiers sample.json --tier-budget 40\n"
+      "  faultsweep tiers sample.json --tier-budget 100 --tiers screening,demonstration --json\n"
+      "Campaigns NAME-screening and NAME-standard are submitted and run; give the command again to "
+      "go on.");
 }
 
 }  // namespace faultsweep

@@ -28,6 +28,19 @@ using nlohmann::json;
 
 namespace {
 
+struct TradeoffArguments {
+  std::string source;                 ///< a scene, or a campaign spec.
+  std::vector<std::string> settings;  ///< "/json/pointer=value" of a scene.
+  double wanted_chi = 0.02;           ///< error of χ̄ to recommend a mesh for.
+  double operator_seconds = 300;      ///< dearer choices, by prediction, are left out.
+  std::string memory;                 ///< the same: "12 GB"; "" = 0.8 of what is available.
+  long n_cases = 32;                  ///< of a spec: that are ranked at every tier.
+  std::vector<std::string> tiers = {"screening", "standard"};  ///< the last is the reference.
+  std::optional<int> n_workers = 1;  ///< one, so that times are not those of two side by side.
+  std::filesystem::path output;      ///< folder for report and figures; "" = none.
+  bool dry_run = false;
+};
+
 constexpr double kShareOfMemory = 0.8;
 
 void apply(const std::vector<std::string>& settings, JsonDocument& document) {
@@ -134,9 +147,7 @@ AnswerTable ladder_table(const std::vector<TradeAxis>& axes) {
   return table;
 }
 
-}  // namespace
-
-ExitCode tradeoff_command(const StoreArguments& common, const TradeoffArguments& arguments) {
+ExitCode tradeoff(const StoreArguments& common, const TradeoffArguments& arguments) {
   const TradeQuestion question = read_question(arguments);
   const std::unique_ptr<faultsim::ResultFolder> output = open_output(arguments, question);
   const std::vector<TradeAxis> axes =
@@ -189,6 +200,45 @@ ExitCode tradeoff_command(const StoreArguments& common, const TradeoffArguments&
                          : trade_to_text(report, screen_width()).c_str(),
              stdout);
   return status;
+}
+
+}  // namespace
+
+void add_tradeoff(Program& program) {
+  auto [command, t] = program.add(
+      "tradeoff", "measure on a scene what each choice costs in accuracy and in time", tradeoff);
+  command->add_option("source", t.source, "scene, or campaign spec (JSON)")->required();
+  command->add_option("--set", t.settings, "/json/pointer=value of the scene");
+  command
+      ->add_option("--error", t.wanted_chi,
+                   "of the critical index, to recommend a mesh for (default 0.02)")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--operator-limit", t.operator_seconds,
+                   "s; choices whose operator is predicted to take longer are left out\n"
+                   "(default 300)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--memory", t.memory,
+                      "the same for memory: \"12 GB\"; default: 0.8 of what is available");
+  command
+      ->add_option("--cases", t.n_cases, "of a spec: how many are ranked at each tier (default 32)")
+      ->check(CLI::Range(2, 100000));
+  command
+      ->add_option("--tiers", t.tiers,
+                   "with commas, the last is the reference (default screening,standard)")
+      ->delimiter(',');
+  add_workers(command, t.n_workers, "default 1: two disturb each other's times");
+  command->add_option("-o,--output", t.output, "folder for report.md, trade.json and figures");
+  command->add_flag("--dry-run", t.dry_run, "only show the choices and their predicted cost");
+  add_store(command, program.common);
+  add_json(command, program.common);
+  add_wide(command);
+  command->footer(
+      "Examples:\n"
+      "  faultsweep tradeoff scene.json --dry-run\n"
+      "  faultsweep tradeoff scene.json --error 0.01 -o trade\n"
+      "  faultsweep tradeoff campaign.json --cases 16 --tiers screening,demonstration\n"
+      "Interrupted, it goes on where it stopped: give the same command again.");
 }
 
 }  // namespace faultsweep

@@ -1,0 +1,136 @@
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+
+#include "campaign/app/commands.h"
+#include "campaign/rounds/next_round.h"
+#include "campaign/scheduler/ranks.h"
+#include "campaign/scheduler/slurm_script.h"
+#include "campaign/scheduler/starter.h"
+#include "campaign/store/store.h"
+
+namespace faultsweep {
+
+std::filesystem::path simulator_binary() {
+  if (const char* given = std::getenv("FAULTSIM_BINARY")) return std::filesystem::absolute(given);
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "faultsim";
+}
+
+namespace {
+
+struct RunArguments : RunOptions {
+  int argc = 0;
+  char** argv = nullptr;
+};
+
+ExitCode run(const StoreArguments& common, const RunArguments& arguments) {
+  RunOptions options = arguments;
+  options.store = common.store;
+  options.campaign = common.campaign;
+  if (options.simulator.empty()) options.simulator = simulator_binary();
+  if (!options.memory.empty()) {
+    options.memory_bytes = static_cast<double>(parse_size("--memory", options.memory));
+  }
+  options.next_round = add_next_round;
+  if (is_rank()) return run_ranks(arguments.argc, arguments.argv, options);
+  const ExitCode status = start_ranks(options);
+  const std::string name = Store::open_reader(common.store).campaign(options.campaign).name;
+  switch (status) {
+    case ExitCode::done:
+    case ExitCode::incomplete:
+      std::fprintf(stderr, "Next: faultsweep rank %s --store %s\n", name.c_str(),
+                   common.store.c_str());
+      break;
+    case ExitCode::interrupted:
+      std::fprintf(stderr, "Interrupted, nothing is lost. Next: faultsweep run %s --store %s\n",
+                   name.c_str(), common.store.c_str());
+      break;
+    default:
+      break;
+  }
+  return status;
+}
+
+ExitCode slurm(const StoreArguments& common, const SlurmRequest& request) {
+  const Store store = Store::open_reader(common.store);
+  const CampaignInfo campaign = store.campaign(common.campaign, false);
+  SlurmCampaign job;
+  job.name = campaign.name;
+  job.store = std::filesystem::absolute(common.store).lexically_normal();
+  job.program = std::filesystem::read_symlink("/proc/self/exe");
+  job.simulator = simulator_binary();
+  job.waiting = store.waiting_families(campaign.id);
+  std::fputs(slurm_script(job, request).c_str(), stdout);
+  if (job.waiting.empty()) {
+    std::fprintf(stderr, "Nothing waits in %s\n", campaign.name.c_str());
+  } else {
+    std::fprintf(stderr, "Next: faultsweep slurm %s ... | sbatch\n", campaign.name.c_str());
+  }
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_running(Program& program, int argc, char** argv) {
+  auto [command, a] = program.add("run", "run a campaign, or continue it, under mpirun", run);
+  a.argc = argc, a.argv = argv;
+  add_campaign(command, program.common);
+  add_workers(command, a.n_workers,
+              "workers beside the manager; default: the cores available, or in a Slurm job\n"
+              "its tasks less one");
+  command
+      ->add_option("--hostfile", a.hostfile,
+                   "mpirun's list of hosts; without --workers as many ranks as it has slots")
+      ->check(CLI::ExistingFile);
+  const std::map<std::string, ProgressDisplay::Style> styles = {
+      {"none", ProgressDisplay::Style::silent},
+      {"lines", ProgressDisplay::Style::lines},
+      {"bar", ProgressDisplay::Style::bar}};
+  a.progress =
+      isatty(STDERR_FILENO) != 0 ? ProgressDisplay::Style::bar : ProgressDisplay::Style::lines;
+  command->add_option("--progress", a.progress, "none, lines or bar; default: bar on a terminal")
+      ->transform(CLI::CheckedTransformer(styles));
+  command->add_option("--simulator", a.simulator,
+                      "the faultsim binary; default FAULTSIM_BINARY, or beside faultsweep");
+  command->add_option("--memory", a.memory,
+                      "of each host, for operators that are built or held together: \"12 GB\",\n"
+                      "0 = no limit; default: 0.9 of what is available");
+  command
+      ->add_option("--threads", a.threads,
+                   "for building an operator; default: the cores of its host that are idle.\n"
+                   "Results are the same with any number")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--node-cache", a.node_cache,
+                      "copies of operators on each host's own disk, or none; default: none if the\n"
+                      "store is on a local disk, else a folder in SLURM_TMPDIR, TMPDIR or /tmp");
+  command->add_option("--status-file", a.status_file)->group("");
+  command->footer(
+      "Examples:\n"
+      "  faultsweep run                       the newest campaign, on all cores\n"
+      "  faultsweep run my-sweep --workers 2\n"
+      "  faultsweep run --hostfile hosts --memory \"12 GB\"\n"
+      "Interrupted, it goes on where it stopped: give the same command again.");
+
+  auto [slurm_command, request] =
+      program.add("slurm", "print a script for sbatch that runs a campaign", slurm);
+  add_campaign(slurm_command, program.common);
+  add_workers(slurm_command, request.n_workers,
+              "tasks beside the manager's; default: enough for half an hour, at most 15");
+  slurm_command->add_option("--nodes", request.nodes, "default 1")->check(CLI::Range(1, 10000));
+  slurm_command->add_option("--time", request.time,
+                            "as sbatch takes it: 12:00:00; default: twice the time predicted");
+  slurm_command->add_option("--memory-per-node", request.memory_per_node,
+                            "as sbatch takes it: 64G; default: as predicted");
+  slurm_command->add_option("--partition", request.partition, "default: the cluster's");
+  slurm_command->add_option("--account", request.account, "default: yours");
+  slurm_command
+      ->add_option("--resubmit", request.resubmit,
+                   "how often the job queues itself again when its time was over; default: never")
+      ->check(CLI::Range(0, 1000));
+  slurm_command->footer(
+      "Example: faultsweep slurm my-sweep --workers 31 --nodes 2 --resubmit 3 | sbatch");
+}
+
+}  // namespace faultsweep
