@@ -11,9 +11,10 @@
 #include "campaign/app/commands.h"
 #include "campaign/pillars/fault_map.h"
 #include "campaign/pillars/pillar_campaign.h"
-#include "campaign/query/table_output.h"
+#include "campaign/render/render.h"
 #include "campaign/spec/pointers.h"
 #include "simulator/common/units.h"
+#include "simulator/files/atomic_file.h"
 #include "simulator/files/output_target.h"
 #include "simulator/files/result_folder.h"
 
@@ -101,12 +102,6 @@ std::string refused_text(const PillarCampaign& campaign) {
   return text;
 }
 
-void write(const std::filesystem::path& file, const std::string& text) {
-  TableOutput output(file);
-  output.write(text);
-  output.finish();
-}
-
 ExitCode pillars(const StoreArguments&, const PillarArguments& arguments) {
   const PillarTable table = read_pillar_table(arguments.table, names_in(arguments.names));
   const auto base = faultsim::read_json_file(arguments.scene.string());
@@ -139,10 +134,10 @@ ExitCode pillars(const StoreArguments&, const PillarArguments& arguments) {
   if (campaign.n_cases == 0)
     throw InputError(arguments.table.string(),
                      {{"", 0, "no pillar can be modelled", "see what is said of them"}});
-  write(folder.path() / "campaign.json", campaign.spec);
-  write(folder.path() / "samples.csv", campaign.samples);
-  write(folder.path() / "places.csv", campaign.places);
-  write(folder.path() / "refused.csv", refused_csv(campaign));
+  faultsim::write_text(folder.path() / "campaign.json", campaign.spec);
+  faultsim::write_text(folder.path() / "samples.csv", campaign.samples);
+  faultsim::write_text(folder.path() / "places.csv", campaign.places);
+  faultsim::write_text(folder.path() / "refused.csv", refused_csv(campaign));
   folder.commit();
   std::fprintf(stderr, "Next: faultsweep submit %s\n",
                (arguments.folder / "campaign.json").c_str());
@@ -168,7 +163,7 @@ ExitCode map(const StoreArguments& common, const MapArguments& arguments) {
   if (text.empty())
     throw InputError("-o", {{"", 0, "no fault has two pillars: there is no surface between them",
                              "add a column \"fault\" to the table, or write .vtu"}});
-  write(arguments.output, text);
+  faultsim::write_text(arguments.output, text);
   return ExitCode::done;
 }
 

@@ -3,7 +3,7 @@
 #include "campaign/app/commands.h"
 #include "campaign/figures/campaign_figures.h"
 #include "campaign/figures/report_page.h"
-#include "campaign/render/render_html.h"
+#include "campaign/render/render.h"
 #include "simulator/case_figures/picture_file.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/version.h"

@@ -7,9 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "campaign/render/render_csv.h"
-#include "campaign/render/render_json.h"
-#include "campaign/render/render_text.h"
+#include "campaign/render/render.h"
 #include "simulator/files/json_text.h"
 
 namespace faultsweep {

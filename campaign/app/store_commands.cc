@@ -6,7 +6,7 @@
 #include "campaign/answers/why.h"
 #include "campaign/app/commands.h"
 #include "campaign/app/print_answer.h"
-#include "campaign/render/render_text.h"
+#include "campaign/render/render.h"
 #include "campaign/reports/case_report.h"
 #include "campaign/reports/explain_report.h"
 #include "campaign/reports/ranking_answer.h"

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <unordered_map>
 #include <utility>
 
@@ -84,10 +85,9 @@ class Parser {
   }
   std::string_view peek_word() const {
     std::size_t end = position_;
-    if (at_end() || !is_letter(text_[end])) return {};
-    while (end < text_.size() &&
-           (is_letter(text_[end]) || is_digit(text_[end]) ||
-            (text_[end] == '.' && end + 1 < text_.size() && is_letter(text_[end + 1])))) {
+    if (!is_letter(text_[end])) return {};
+    while (is_letter(text_[end]) || is_digit(text_[end]) ||
+           (text_[end] == '.' && is_letter(text_[end + 1]))) {
       ++end;
     }
     return std::string_view(text_).substr(position_, end - position_);
@@ -111,20 +111,15 @@ class Parser {
   }
 
   /// Counts the nesting, so that "((((…" ends in a message and not in a stack overflow.
-  class Depth {
-   public:
-    explicit Depth(Parser& parser) : parser_(parser) {
-      if (++parser_.depth_ > kMaximumDepth) {
-        parser_.fail(parser_.position_, "the expression is nested too deeply", "simplify it");
-      }
-    }
-    ~Depth() { --parser_.depth_; }
-    Depth(const Depth&) = delete;
-    Depth& operator=(const Depth&) = delete;
-
-   private:
-    Parser& parser_;
+  struct Depth {
+    int& depth;
+    ~Depth() { --depth; }
   };
+  Depth enter() {
+    if (++depth_ > kMaximumDepth)
+      fail(position_, "the expression is nested too deeply", "simplify it");
+    return {depth_};
+  }
 
   using Operators = std::initializer_list<std::pair<std::string_view, Operation>>;
   /// Takes the operator that stands here, the first that fits.
@@ -145,14 +140,14 @@ class Parser {
   }
 
   NodePointer parse_or() {
-    const Depth depth(*this);
+    const Depth depth = enter();
     return parse_chain(&Parser::parse_and, {{"or", Operation::logical_or}});
   }
   NodePointer parse_and() {
     return parse_chain(&Parser::parse_not, {{"and", Operation::logical_and}});
   }
   NodePointer parse_not() {
-    const Depth depth(*this);
+    const Depth depth = enter();
     const std::size_t start = position_;
     if (accept_word("not")) return make(Operation::logical_not, start, parse_not());
     return parse_comparison();
@@ -188,7 +183,7 @@ class Parser {
                        {{"*", Operation::multiply}, {"/", Operation::divide}});
   }
   NodePointer parse_unary() {
-    const Depth depth(*this);
+    const Depth depth = enter();
     const std::size_t start = position_;
     if (accept("-")) return make(Operation::negate, start, parse_unary());
     return parse_power();
@@ -211,8 +206,7 @@ class Parser {
       if (auto quoted_fault = parse_quoted_fault()) return quoted_fault;
       return parse_quoted();
     }
-    if (is_digit(c) || (c == '.' && position_ + 1 < text_.size() && is_digit(text_[position_ + 1])))
-      return parse_number();
+    if (is_digit(c) || (c == '.' && is_digit(text_[position_ + 1]))) return parse_number();
     if (is_letter(c)) return parse_word();
     fail_unexpected();
   }
@@ -244,10 +238,7 @@ class Parser {
   NodePointer parse_quoted_fault() {
     const std::size_t start = position_;
     const auto quoted = quoted_at(text_, start);
-    if (!quoted || quoted->end + 1 >= text_.size() || text_[quoted->end] != '.' ||
-        !is_letter(text_[quoted->end + 1])) {
-      return nullptr;
-    }
+    if (!quoted || text_[quoted->end] != '.' || !is_letter(text_[quoted->end + 1])) return nullptr;
     position_ = quoted->end + 1;
     const std::string metric(peek_word());
     position_ += metric.size();
@@ -265,8 +256,8 @@ class Parser {
   NodePointer parse_quoted() {
     const std::size_t start = position_;
     const std::string inside = take_quoted();
-    const bool may_be_number = !inside.empty() && (is_digit(inside[0]) || inside[0] == '-' ||
-                                                   inside[0] == '+' || inside[0] == '.');
+    const bool may_be_number =
+        is_digit(inside[0]) || std::string_view("-+.").find(inside[0]) != std::string_view::npos;
     const auto quantity = may_be_number ? read_quantity(inside) : std::nullopt;
     auto node = quantity ? make_literal(start, quantity->value, quantity->type)
                          : make_literal(start, inside, Type{Kind::text, {}});
@@ -277,36 +268,20 @@ class Parser {
 
   /// End of the digits of a number that starts here: 12, 1.5, .5, 1e-3.
   std::size_t end_of_digits() const {
-    std::size_t end = position_;
-    const auto skip = [&] {
-      while (end < text_.size() && is_digit(text_[end])) ++end;
-    };
-    skip();
-    if (end < text_.size() && text_[end] == '.') {
-      ++end;
-      skip();
-    }
-    if (end < text_.size() && (text_[end] == 'e' || text_[end] == 'E')) {
-      std::size_t exponent = end + 1;
-      if (exponent < text_.size() && (text_[exponent] == '+' || text_[exponent] == '-')) ++exponent;
-      if (exponent < text_.size() && is_digit(text_[exponent])) {
-        end = exponent;
-        skip();
-      }
-    }
-    return end;
+    double ignored = 0;
+    const char* begin = text_.c_str();
+    const char* end = std::from_chars(begin + position_, begin + text_.size(), ignored).ptr;
+    return static_cast<std::size_t>(end - begin);
   }
 
   /// End of a unit at begin: words with optional exponents joined by "/", without blanks.
   std::size_t end_of_unit(std::size_t begin, bool with_slash) const {
     std::size_t end = begin;
-    while (end < text_.size() && is_letter(text_[end])) ++end;
-    while (end < text_.size() && is_digit(text_[end])) ++end;
-    if (with_slash && end > begin && end + 1 < text_.size() && text_[end] == '/' &&
-        is_letter(text_[end + 1])) {
-      return end_of_unit(end + 1, true);
-    }
-    return end;
+    while (is_letter(text_[end])) ++end;
+    while (is_digit(text_[end])) ++end;
+    const bool goes_on =
+        with_slash && end > begin && text_[end] == '/' && is_letter(text_[end + 1]);
+    return goes_on ? end_of_unit(end + 1, true) : end;
   }
 
   NodePointer parse_number() {

@@ -13,7 +13,7 @@
 #include "campaign/answers/what_matters.h"
 #include "campaign/figures/campaign_figures.h"
 #include "campaign/query/parameters.h"
-#include "campaign/render/render_html.h"
+#include "campaign/render/render.h"
 #include "campaign/reports/ranking_answer.h"
 #include "report_css.h"
 #include "report_js.h"

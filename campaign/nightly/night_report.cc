@@ -4,7 +4,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "campaign/render/render_text.h"
+#include "campaign/render/render.h"
 #include "campaign/render/shown.h"
 #include "campaign/store/clock.h"
 #include "simulator/common/errors.h"

@@ -1,6 +1,5 @@
 #include "campaign/pillars/fault_map.h"
 
-#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -8,6 +7,7 @@
 #include "campaign/query/table_output.h"
 #include "campaign/render/answer.h"
 #include "simulator/common/input_file.h"
+#include "simulator/common/table_reader.h"
 #include "simulator/common/units.h"
 
 namespace faultsweep {
@@ -59,11 +59,7 @@ std::vector<std::string> fields_of(std::string_view line) {
   return fields;
 }
 
-double number_in(const std::string& text) {
-  double value = kNone;
-  std::from_chars(text.data(), text.data() + text.size(), value);
-  return value;
-}
+double number_in(const std::string& text) { return faultsim::parse_number(text).value_or(kNone); }
 
 struct Places {
   std::vector<FaultMap::Place> all;

@@ -5,6 +5,7 @@
 
 #include "campaign/query/approximations.h"
 #include "campaign/query/selection.h"
+#include "campaign/query/table_output.h"
 #include "campaign/spec/metrics.h"
 
 namespace faultsweep {
@@ -60,11 +61,7 @@ SlidingCounts count_sliding(const Store& store, const CampaignInfo& campaign,
   SlidingCounts counts;
   store.for_each_case(campaign.id, table, [&](const CaseRow& row) {
     if (!row.rank_class) return;
-    const auto is_set = [&](std::size_t k) {
-      const auto* flag = std::get_if<std::int64_t>(&row.metrics[k]);
-      return flag != nullptr && *flag != 0;
-    };
-    counts.add(is_set(0), is_set(1));
+    counts.add(number_of(row.metrics[0]) > 0, number_of(row.metrics[1]) > 0);
   });
   return counts;
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "campaign/render/render_csv.h"
+#include "campaign/render/render.h"
 #include "campaign/spec/metrics.h"
 #include "campaign/store/records.h"
 #include "simulator/common/units.h"

@@ -15,8 +15,7 @@
 #include "simulator/figure/outcome_map.h"
 
 /// An answer as one value. Commands compute it; screen, JSON, CSV and page are renderings of it
-/// (render_text.h, render_json.h, render_csv.h, render_html.h), so that what one of them says the
-/// others say.
+/// (render.h), so that what one of them says the others say.
 namespace faultsweep {
 
 /// How the numbers of a column are shown; JSON and CSV have them in SI.
@@ -113,13 +112,7 @@ struct AnswerNote {
 using AnswerChart = std::variant<faultsim::figure::BarChart, faultsim::figure::IntervalChart,
                                  faultsim::figure::HistoryChart, faultsim::figure::OutcomeMap>;
 
-/// Cases to look at next, by number, and why: "slides in storage only".
-struct AnswerCases {
-  std::string key, title;
-  std::vector<std::pair<long, std::string>> cases;
-};
-
-using AnswerBlock = std::variant<AnswerTable, AnswerNote, AnswerChart, AnswerCases>;
+using AnswerBlock = std::variant<AnswerTable, AnswerNote, AnswerChart>;
 
 /// Of a headline that goes along a list.
 inline constexpr std::size_t kMostSentences = 3;

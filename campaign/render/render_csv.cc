@@ -1,4 +1,4 @@
-#include "campaign/render/render_csv.h"
+#include "campaign/render/render.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,8 +1,7 @@
-#include "campaign/render/render_html.h"
+#include "campaign/render/render.h"
 
 #include <cmath>
 
-#include "campaign/render/render_csv.h"
 #include "campaign/render/shown.h"
 #include "simulator/common/errors.h"
 #include "simulator/figure/svg.h"
@@ -77,12 +76,6 @@ struct HtmlBlocks {
   }
   std::string operator()(const AnswerNote& note) const { return paragraph(note.text, "faint"); }
   std::string operator()(const AnswerChart& chart) const { return drawn(chart); }
-  std::string operator()(const AnswerCases& cases) const {
-    std::string html = paragraph(cases.title, "title") + "<ul>\n";
-    for (const auto& [position, why] : cases.cases)
-      html += concat("<li>case ", position, ": ", escape_xml(why), "</li>\n");
-    return html + "</ul>\n";
-  }
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "campaign/render/render_json.h"
+#include "campaign/render/render.h"
 
 #include <cmath>
 
@@ -64,11 +64,6 @@ ordered_json render_json(const Answer& answer) {
       for (const std::string& note : table->notes) notes.push_back(note);
     } else if (const auto* note = std::get_if<AnswerNote>(&block)) {
       notes.push_back(note->text);
-    } else if (const auto* cases = std::get_if<AnswerCases>(&block)) {
-      ordered_json list = ordered_json::array();
-      for (const auto& [position, why] : cases->cases)
-        list.push_back({{"case", position}, {"why", why}});
-      document[cases->key] = std::move(list);
     }
   }
   document["columns"] = std::move(columns);

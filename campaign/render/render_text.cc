@@ -1,6 +1,7 @@
-#include "campaign/render/render_text.h"
+#include "campaign/render/render.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -126,16 +127,16 @@ void set_headings(std::vector<Laid>& columns, bool in_lines) {
   }
 }
 
-std::size_t width_of(const std::vector<Laid>& columns, std::size_t Laid::*width) {
+/// Of all columns, by a width of each, with the gaps between them.
+template <typename Width>
+std::size_t width_of(const std::vector<Laid>& columns, Width width) {
   std::size_t sum = columns.empty() ? 0 : kGap * (columns.size() - 1);
-  for (const Laid& one : columns) sum += one.*width;
+  for (const Laid& one : columns) sum += std::invoke(width, one);
   return sum;
 }
 
 std::size_t least_width(const std::vector<Laid>& columns) {
-  std::size_t sum = columns.empty() ? 0 : kGap * (columns.size() - 1);
-  for (const Laid& one : columns) sum += one.narrowest();
-  return sum;
+  return width_of(columns, &Laid::narrowest);
 }
 
 /// Takes what is too much from the widest texts. @pre least_width fits.
@@ -250,12 +251,6 @@ struct TextBlocks {
   }
   std::string operator()(const AnswerNote& note) const { return wrapped(note.text, width); }
   std::string operator()(const AnswerChart&) const { return ""; }
-  std::string operator()(const AnswerCases& cases) const {
-    std::string text = wrapped(cases.title, width);
-    for (const auto& [position, why] : cases.cases)
-      text += wrapped(concat("  case ", position, ": ", why), width, 4);
-    return text;
-  }
 };
 
 }  // namespace

@@ -38,21 +38,12 @@ struct Factor {
   }
 };
 
-/// A parameter's values of one case: numbers or words.
-class FactorValues {
- public:
-  explicit FactorValues(const CaseRow& row) : values_(row.parameters) {}
-  bool has(const Factor& factor) const { return find(factor) != values_.end(); }
-  double number(const Factor& factor) const { return find(factor)->si.value(); }
-  const std::string& word(const Factor& factor) const { return find(factor)->text; }
-
- private:
-  CaseParameters::const_iterator find(const Factor& factor) const {
-    return std::find_if(values_.begin(), values_.end(),
-                        [&](const CaseParameter& one) { return one.index == factor.index; });
-  }
-  const CaseParameters& values_;
-};
+/// Its value of one case, a number or words; null where the case has none.
+const CaseParameter* value_of(const Factor& factor, const CaseRow& row) {
+  for (const CaseParameter& one : row.parameters)
+    if (one.index == factor.index) return &one;
+  return nullptr;
+}
 
 /// Names of what the designs vary. Derived parameters follow from these: they are not factors.
 std::set<std::string> varied_by_design(const Store& store, const CampaignInfo& campaign) {
@@ -81,15 +72,15 @@ std::vector<Factor> survey(const Store& store, const CampaignInfo& campaign,
   }
   query.columns.clear();
   store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
-    const FactorValues values(row);
     for (Factor& one : factors) {
-      if (!values.has(one)) continue;
+      const CaseParameter* value = value_of(one, row);
+      if (value == nullptr) continue;
       ++one.n_values;
       if (!one.parameter.is_text) {
-        one.low = std::min(one.low, values.number(one));
-        one.high = std::max(one.high, values.number(one));
-      } else if (one.level(values.word(one)) == one.words.size()) {
-        one.words.push_back(values.word(one));
+        one.low = std::min(one.low, value->si.value());
+        one.high = std::max(one.high, value->si.value());
+      } else if (one.level(value->text) == one.words.size()) {
+        one.words.push_back(value->text);
       }
     }
   });
@@ -182,14 +173,14 @@ std::string export_dakota(const Store& store, const CampaignInfo& campaign,
   long n_written = 0, n_without_parameter = 0;
   store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
     const std::vector<double> numbers = losses.metrics_of(row);
-    const FactorValues values(row);
     line = concat(row.position, " faultsweep");
     bool whole = true;
     for (const Factor& one : factors) {
-      whole = whole && values.has(one);
+      const CaseParameter* value = value_of(one, row);
+      whole = whole && value != nullptr;
       if (!whole) break;
-      line += " " + (one.parameter.is_text ? one_word(values.word(one))
-                                           : exact_number(values.number(one)));
+      line +=
+          " " + (one.parameter.is_text ? one_word(value->text) : exact_number(value->si.value()));
     }
     n_without_parameter += whole ? 0 : 1;
     for (const double number : numbers) {
@@ -221,16 +212,13 @@ class SalibFolder {
 
   void write(const CaseRow& row, const std::vector<Factor>& factors,
              const std::vector<double>& metrics) {
-    const FactorValues values(row);
     std::string line;
     for (const Factor& one : factors) {
-      double number = kMissing;
-      if (values.has(one)) {
-        number = one.parameter.is_text ? static_cast<double>(one.level(values.word(one)))
-                                       : values.number(one);
-      } else {
-        ++n_holes_;
-      }
+      const CaseParameter* value = value_of(one, row);
+      n_holes_ += value == nullptr ? 1 : 0;
+      const double number = value == nullptr        ? kMissing
+                            : one.parameter.is_text ? static_cast<double>(one.level(value->text))
+                                                    : value->si.value();
       line += (line.empty() ? "" : " ") + exact_number(number);
     }
     x_.write(line + "\n");

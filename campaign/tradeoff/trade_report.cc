@@ -4,8 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "campaign/render/render_json.h"
-#include "campaign/render/render_text.h"
+#include "campaign/render/render.h"
 #include "campaign/render/shown.h"
 #include "simulator/common/errors.h"
 

@@ -12,9 +12,7 @@
 #include "campaign/answers/quantiles.h"
 #include "campaign/answers/sensitivity.h"
 #include "campaign/answers/why.h"
-#include "campaign/render/render_csv.h"
-#include "campaign/render/render_json.h"
-#include "campaign/render/render_text.h"
+#include "campaign/render/render.h"
 #include "tests/unit/answers/answers_fixture.h"
 #include "tests/unit/answers/renderings.h"
 

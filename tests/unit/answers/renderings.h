@@ -10,10 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "campaign/render/render_csv.h"
-#include "campaign/render/render_html.h"
-#include "campaign/render/render_json.h"
-#include "campaign/render/render_text.h"
+#include "campaign/render/render.h"
 #include "campaign/render/shown.h"
 #include "tests/unit/reports/renderings.h"
 

@@ -5,9 +5,7 @@
 #include <cmath>
 
 #include "campaign/answers/what_matters.h"
-#include "campaign/render/render_html.h"
-#include "campaign/render/render_json.h"
-#include "campaign/render/render_text.h"
+#include "campaign/render/render.h"
 #include "tests/unit/answers/answers_fixture.h"
 #include "tests/unit/answers/renderings.h"
 

@@ -5,7 +5,7 @@
 
 #include "campaign/answers/curves.h"
 #include "campaign/answers/posterior.h"
-#include "campaign/render/render_text.h"
+#include "campaign/render/render.h"
 #include "tests/unit/answers/answers_fixture.h"
 
 namespace faultsweep {

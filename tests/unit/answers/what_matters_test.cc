@@ -9,9 +9,7 @@
 
 #include "campaign/answers/one_at_a_time.h"
 #include "campaign/answers/screening.h"
-#include "campaign/render/render_html.h"
-#include "campaign/render/render_json.h"
-#include "campaign/render/render_text.h"
+#include "campaign/render/render.h"
 #include "campaign/reports/ranking_answer.h"
 #include "tests/unit/answers/answers_fixture.h"
 #include "tests/unit/answers/renderings.h"

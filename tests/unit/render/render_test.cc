@@ -7,10 +7,7 @@
 #include <regex>
 #include <sstream>
 
-#include "campaign/render/render_csv.h"
-#include "campaign/render/render_html.h"
-#include "campaign/render/render_json.h"
-#include "campaign/render/render_text.h"
+#include "campaign/render/render.h"
 #include "campaign/render/shown.h"
 #include "simulator/common/errors.h"
 

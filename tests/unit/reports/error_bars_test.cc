@@ -6,8 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "campaign/render/render_json.h"
-#include "campaign/render/render_text.h"
+#include "campaign/render/render.h"
 #include "campaign/reports/ranking_answer.h"
 #include "tests/campaign/made_up_result.h"
 
