@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "campaign/common/names.h"
 #include "campaign/query/table_output.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 std::string asked_metrics(const Store& store, const CampaignInfo& campaign,
                           const SensitivityRequest& request) {

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "campaign/common/names.h"
 #include "campaign/render/shown.h"
 
 namespace faultsweep {
 
-using faultsim::concat;
-using faultsim::InputError;
 using faultsim::StepResult;
 
 namespace {

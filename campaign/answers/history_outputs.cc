@@ -3,12 +3,9 @@
 #include <algorithm>
 
 #include "campaign/answers/asked_outputs.h"
+#include "campaign/common/names.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::InputError;
-using faultsim::Problem;
 
 namespace {
 

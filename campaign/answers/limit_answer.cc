@@ -1,13 +1,10 @@
 #include <algorithm>
 
 #include "campaign/answers/limit_words.h"
+#include "campaign/common/names.h"
 #include "campaign/spec/pointers.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::counted;
-using faultsim::Dimension;
 
 namespace {
 

@@ -2,11 +2,10 @@
 #include <cmath>
 
 #include "campaign/answers/limit_words.h"
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using nlohmann::ordered_json;
 
 namespace {
 

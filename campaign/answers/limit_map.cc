@@ -2,12 +2,10 @@
 #include <map>
 
 #include "campaign/answers/limit_words.h"
+#include "campaign/common/names.h"
 #include "campaign/spec/pointers.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::InputError;
 
 namespace {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "campaign/common/names.h"
 #include "campaign/expansion/expansion.h"
 #include "campaign/query/parameters.h"
 #include "campaign/rounds/answers_of.h"
@@ -12,9 +13,6 @@
 #include "simulator/reading/read_scene.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::InputError;
 
 namespace {
 

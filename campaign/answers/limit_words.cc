@@ -1,11 +1,9 @@
 #include "campaign/answers/limit_words.h"
 
+#include "campaign/common/names.h"
 #include "campaign/spec/pointers.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::counted;
 
 namespace {
 

@@ -6,11 +6,9 @@
 #include <numeric>
 #include <optional>
 
-#include "simulator/common/errors.h"
+#include "campaign/common/names.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 double ParameterSpace::Column::standard_deviation() const {
   if (is_words) return 0;

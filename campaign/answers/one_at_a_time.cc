@@ -8,13 +8,12 @@
 
 #include "campaign/answers/asked_outputs.h"
 #include "campaign/answers/designs.h"
+#include "campaign/common/names.h"
 #include "campaign/query/table_output.h"
 #include "campaign/render/shown.h"
 
 namespace faultsweep {
 
-using faultsim::concat;
-using faultsim::InputError;
 namespace figure = faultsim::figure;
 
 namespace {

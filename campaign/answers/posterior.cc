@@ -7,13 +7,11 @@
 
 #include "campaign/answers/probability.h"
 #include "campaign/answers/verdict_columns.h"
+#include "campaign/common/names.h"
 #include "campaign/query/table_output.h"
 #include "campaign/render/shown.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::InputError;
 
 namespace {
 

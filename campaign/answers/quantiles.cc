@@ -4,12 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "campaign/common/names.h"
 #include "campaign/render/shown.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::InputError;
 
 namespace {
 

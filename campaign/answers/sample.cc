@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "campaign/answers/designs.h"
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/query/approximations.h"
 #include "campaign/query/table_output.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using nlohmann::json;
 
 namespace {
 

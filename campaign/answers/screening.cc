@@ -13,8 +13,6 @@
 
 namespace faultsweep {
 
-using faultsim::concat;
-using faultsim::InputError;
 namespace figure = faultsim::figure;
 
 namespace {

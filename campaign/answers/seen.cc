@@ -1,4 +1,5 @@
 #include "campaign/answers/seen.h"
+#include "campaign/common/names.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +7,6 @@
 #include <regex>
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::Dimension;
-using faultsim::InputError;
-using faultsim::Problem;
 
 namespace {
 

@@ -1,18 +1,15 @@
 #include "campaign/answers/sensitivity.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "campaign/answers/asked_outputs.h"
 #include "campaign/answers/designs.h"
 #include "campaign/answers/history_outputs.h"
 #include "campaign/answers/sensitivity_indices.h"
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::InputError;
-using nlohmann::json;
 
 namespace {
 

@@ -7,11 +7,10 @@
 #include <thread>
 
 #include "campaign/answers/asked_outputs.h"
+#include "campaign/common/names.h"
 #include "campaign/statistics/level_means.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 namespace {
 

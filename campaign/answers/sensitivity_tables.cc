@@ -6,11 +6,10 @@
 
 #include "campaign/answers/asked_outputs.h"
 #include "campaign/answers/designs.h"
+#include "campaign/common/names.h"
 #include "campaign/render/shown.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 bool is_varying(const MetricSensitivity& metric) { return metric.standard_deviation > 0; }
 bool is_told(const MetricSensitivity& metric) {

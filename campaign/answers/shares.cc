@@ -3,11 +3,10 @@
 #include <cmath>
 #include <limits>
 
+#include "campaign/common/names.h"
 #include "campaign/render/shown.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 void ShareCounts::add(Held held) {
   ++n;

@@ -4,13 +4,11 @@
 #include <cmath>
 
 #include "campaign/answers/probability.h"
+#include "campaign/common/names.h"
 #include "campaign/query/parameters.h"
 #include "campaign/query/table_output.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::InputError;
 
 namespace {
 

@@ -2,12 +2,11 @@
 #include <cmath>
 
 #include "campaign/answers/tiers.h"
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/render/shown.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using nlohmann::ordered_json;
 
 namespace {
 

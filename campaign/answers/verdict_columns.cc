@@ -1,11 +1,10 @@
 #include "campaign/answers/verdict_columns.h"
 
+#include "campaign/common/names.h"
 #include "campaign/query/ranking.h"
 #include "campaign/query/table_output.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 namespace {
 

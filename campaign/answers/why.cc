@@ -5,13 +5,11 @@
 #include <limits>
 #include <map>
 
+#include "campaign/common/names.h"
 #include "campaign/query/parameters.h"
 #include "simulator/scene/tiers.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::InputError;
 
 namespace {
 

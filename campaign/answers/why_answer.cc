@@ -1,18 +1,15 @@
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "campaign/answers/why.h"
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/query/parameters.h"
 #include "campaign/query/place_columns.h"
 #include "campaign/render/shown.h"
 #include "campaign/spec/metrics.h"
-#include "simulator/common/errors.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using nlohmann::json;
 
 namespace {
 

@@ -4,13 +4,12 @@
 #include "campaign/answers/limit_table.h"
 #include "campaign/app/commands.h"
 #include "campaign/app/print_answer.h"
+#include "campaign/common/names.h"
 #include "campaign/expansion/submission.h"
 #include "campaign/rounds/next_round.h"
 #include "campaign/scheduler/starter.h"
 
 namespace faultsweep {
-
-using faultsim::InputError;
 
 namespace {
 

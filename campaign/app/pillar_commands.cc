@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/app/commands.h"
+#include "campaign/common/names.h"
 #include "campaign/pillars/fault_map.h"
 #include "campaign/pillars/pillar_campaign.h"
 #include "campaign/render/render.h"

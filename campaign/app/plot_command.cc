@@ -1,6 +1,7 @@
 #include "campaign/answers/probability.h"
 #include "campaign/answers/what_matters.h"
 #include "campaign/app/commands.h"
+#include "campaign/common/names.h"
 #include "campaign/figures/campaign_figures.h"
 #include "campaign/figures/report_page.h"
 #include "campaign/render/render.h"

@@ -3,10 +3,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "campaign/app/commands.h"
 #include "campaign/app/print_answer.h"
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/expansion/submission.h"
 #include "campaign/query/parameters.h"
 #include "campaign/render/render.h"
@@ -21,11 +22,6 @@
 #include "simulator/reading/read_scene.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::counted;
-using faultsim::InputError;
-using nlohmann::json;
 
 namespace {
 

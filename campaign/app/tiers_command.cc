@@ -1,16 +1,13 @@
-#include <nlohmann/json.hpp>
 
 #include "campaign/answers/tiers.h"
 #include "campaign/app/commands.h"
 #include "campaign/app/print_answer.h"
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/expansion/submission.h"
 #include "campaign/scheduler/starter.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::InputError;
-using nlohmann::ordered_json;  // the order of parameters is that of the spec
 
 namespace {
 

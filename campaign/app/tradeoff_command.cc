@@ -1,9 +1,10 @@
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "campaign/app/commands.h"
 #include "campaign/app/print_answer.h"
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/expansion/submission.h"
 #include "campaign/render/render.h"
 #include "campaign/scheduler/resources.h"
@@ -20,10 +21,7 @@
 
 namespace faultsweep {
 
-using faultsim::concat;
-using faultsim::InputError;
 using faultsim::JsonDocument;
-using nlohmann::json;
 
 namespace {
 

@@ -6,6 +6,8 @@
 #include <set>
 #include <unordered_map>
 
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/expansion/case_values.h"
 #include "campaign/expansion/extreme_rows.h"
 #include "campaign/expansion/families.h"
@@ -16,9 +18,6 @@
 
 namespace faultsweep {
 namespace {
-
-using faultsim::Problem;
-using nlohmann::json;
 
 constexpr long kRowsCheckedOneByOne = 2000;  ///< beyond, some are (extreme_rows.h).
 constexpr std::size_t kChoicesTried = 64;    ///< per parameter; the extremes are among them.

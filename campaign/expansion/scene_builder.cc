@@ -2,12 +2,11 @@
 
 #include <cmath>
 
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/spec/pointers.h"
 
 namespace faultsweep {
-
-using faultsim::Problem;
-using nlohmann::json;
 
 nlohmann::json spelled(double si, faultsim::Dimension dimension) {
   if (dimension == faultsim::Dimension::number) return si;

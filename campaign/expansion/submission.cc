@@ -1,14 +1,12 @@
 #include "campaign/expansion/submission.h"
+#include "campaign/common/json.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <future>
 #include <map>
-#include <nlohmann/json.hpp>
 
 namespace faultsweep {
-
-using nlohmann::json;
 
 namespace {
 

@@ -1,11 +1,10 @@
 #include <cmath>
 
+#include "campaign/common/names.h"
 #include "campaign/expression/node.h"
 
 namespace faultsweep {
 namespace {
-
-using faultsim::Dimension;
 
 class Checker {
  public:

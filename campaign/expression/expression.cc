@@ -4,13 +4,12 @@
 #include <cctype>
 #include <cmath>
 
+#include "campaign/common/names.h"
 #include "campaign/expression/node.h"
 #include "simulator/common/near_miss.h"
 
 namespace faultsweep {
 namespace {
-
-using faultsim::Dimension;
 
 std::string lower(std::string_view word) {
   std::string result(word);

@@ -5,12 +5,11 @@
 #include <unordered_map>
 #include <utility>
 
+#include "campaign/common/names.h"
 #include "campaign/expression/node.h"
 
 namespace faultsweep {
 namespace {
-
-using faultsim::Dimension;
 
 constexpr std::size_t kMaximumLength = 10'000;
 constexpr int kMaximumDepth = 200;

@@ -4,19 +4,17 @@
 #include <cmath>
 #include <numeric>
 
+#include "campaign/common/names.h"
 #include "campaign/expansion/expansion.h"
 #include "campaign/query/parameters.h"
 #include "campaign/query/selection.h"
 #include "campaign/query/table_output.h"
-#include "simulator/common/errors.h"
 #include "simulator/figure/axis.h"
 #include "simulator/figure/bar_chart.h"
 #include "simulator/reading/read_scene.h"
 
 namespace faultsweep {
 
-using faultsim::concat;
-using faultsim::InputError;
 using faultsim::figure::CaseClass;
 namespace figure = faultsim::figure;
 

@@ -11,6 +11,7 @@
 
 #include "campaign/answers/probability.h"
 #include "campaign/answers/what_matters.h"
+#include "campaign/common/names.h"
 #include "campaign/figures/campaign_figures.h"
 #include "campaign/query/parameters.h"
 #include "campaign/render/render.h"
@@ -18,7 +19,6 @@
 #include "report_css.h"
 #include "report_js.h"
 #include "simulator/common/base64.h"
-#include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/figure/axis.h"
 #include "simulator/figure/svg.h"
@@ -26,8 +26,6 @@
 namespace faultsweep {
 namespace {
 
-using faultsim::concat;
-using faultsim::InputError;
 using faultsim::figure::CaseClass;
 using faultsim::figure::escape_xml;
 using faultsim::figure::plain_number;

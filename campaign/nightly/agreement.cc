@@ -5,9 +5,10 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <set>
 
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/store/same_numbers.h"
 #include "simulator/common/errors.h"
 #include "simulator/result/result_json.h"
@@ -15,9 +16,7 @@
 namespace faultsweep {
 
 using faultsim::CaseResult;
-using faultsim::concat;
 using faultsim::Outcome;
-using nlohmann::json;
 
 namespace {
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "campaign/store/same_numbers.h"
 #include "simulator/common/errors.h"
@@ -14,9 +13,6 @@
 namespace faultsweep {
 
 using faultsim::CaseResult;
-using faultsim::concat;
-using faultsim::StorageError;
-using nlohmann::json;
 
 namespace {
 

@@ -10,6 +10,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/expansion/submission.h"
 #include "campaign/nightly/night_report.h"
 #include "campaign/nightly/nightly_sample.h"
@@ -24,10 +26,6 @@
 namespace faultsweep {
 
 using faultsim::ChildOutput;
-using faultsim::concat;
-using faultsim::ExitCode;
-using faultsim::InputError;
-using nlohmann::json;
 
 namespace {
 

@@ -2,18 +2,14 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "campaign/render/render.h"
 #include "campaign/render/shown.h"
 #include "campaign/store/clock.h"
-#include "simulator/common/errors.h"
 
 namespace faultsweep {
 
 using faultsim::CaseResult;
-using faultsim::concat;
-using nlohmann::json;
 
 namespace {
 

@@ -3,12 +3,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "campaign/common/names.h"
 #include "campaign/query/parameters.h"
-#include "simulator/common/errors.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 namespace {
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/spec/spec.h"
 #include "nightly_schema.h"
 #include "simulator/common/fingerprint.h"
@@ -11,10 +12,7 @@
 
 namespace faultsweep {
 
-using faultsim::concat;
 using faultsim::JsonDocument;
-using faultsim::Problem;
-using nlohmann::json;
 
 namespace {
 

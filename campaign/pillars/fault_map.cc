@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "campaign/common/names.h"
 #include "campaign/query/selection.h"
 #include "campaign/query/table_output.h"
 #include "campaign/render/answer.h"
@@ -11,10 +12,6 @@
 #include "simulator/common/units.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::counted;
-using faultsim::InputError;
 
 namespace {
 

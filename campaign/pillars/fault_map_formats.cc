@@ -3,16 +3,14 @@
 #include <cstdint>
 #include <map>
 
+#include "campaign/common/names.h"
 #include "campaign/pillars/fault_map.h"
 #include "campaign/query/table_output.h"
 #include "simulator/common/base64.h"
-#include "simulator/common/errors.h"
 #include "simulator/common/printable.h"
 #include "simulator/common/units.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 namespace {
 

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/query/table_output.h"
 #include "campaign/spec/pointers.h"
 #include "simulator/common/units.h"
@@ -15,12 +16,8 @@
 
 namespace faultsweep {
 
-using faultsim::concat;
-using faultsim::InputError;
 using faultsim::JsonDocument;
-using faultsim::Problem;
 using faultsim::Scene;
-using nlohmann::json;
 
 namespace {
 

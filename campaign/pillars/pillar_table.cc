@@ -4,14 +4,12 @@
 #include <array>
 #include <set>
 
+#include "campaign/common/names.h"
 #include "simulator/common/input_file.h"
 #include "simulator/common/table_reader.h"
 
 namespace faultsweep {
 
-using faultsim::concat;
-using faultsim::Dimension;
-using faultsim::Problem;
 using faultsim::table_quote;
 using faultsim::TableColumn;
 using faultsim::TableReader;

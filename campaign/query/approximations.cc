@@ -1,11 +1,9 @@
 #include "campaign/query/approximations.h"
 
+#include "campaign/common/names.h"
 #include "campaign/render/shown.h"
-#include "simulator/common/errors.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 namespace {
 

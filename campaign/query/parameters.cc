@@ -1,13 +1,11 @@
 #include "campaign/query/parameters.h"
 
-#include <nlohmann/json.hpp>
 #include <optional>
 
+#include "campaign/common/json.h"
 #include "simulator/common/errors.h"
 
 namespace faultsweep {
-
-using nlohmann::json;
 
 namespace {
 

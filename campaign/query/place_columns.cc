@@ -1,11 +1,10 @@
 #include "campaign/query/place_columns.h"
+#include "campaign/common/names.h"
 
 #include <cmath>
 #include <limits>
 
 namespace faultsweep {
-
-using faultsim::Dimension;
 
 bool has_flow_field(const std::string& document) {
   // As a key of a scene, or at the beginning of a pointer into one.

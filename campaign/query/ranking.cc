@@ -1,18 +1,15 @@
 #include "campaign/query/ranking.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/query/approximations.h"
 #include "campaign/query/selection.h"
 #include "campaign/query/table_output.h"
 #include "campaign/spec/metrics.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::InputError;
-using nlohmann::json;
 
 namespace {
 

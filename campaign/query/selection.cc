@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "campaign/common/names.h"
 #include "campaign/expression/expression.h"
 #include "campaign/query/parameters.h"
 #include "campaign/query/table_output.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::InputError;
 
 namespace {
 

@@ -4,12 +4,10 @@
 #include <charconv>
 #include <cmath>
 
-#include "simulator/common/errors.h"
+#include "campaign/common/names.h"
 #include "simulator/common/printable.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 std::string exact_number(double value) {
   if (std::isnan(value)) return "nan";

@@ -3,12 +3,10 @@
 #include <cmath>
 
 #include "campaign/render/shown.h"
-#include "simulator/common/errors.h"
 #include "simulator/figure/svg.h"
 
 namespace faultsweep {
 
-using faultsim::concat;
 using faultsim::figure::escape_xml;
 
 namespace {

@@ -2,11 +2,10 @@
 
 #include <cmath>
 
+#include "campaign/common/json.h"
 #include "simulator/common/errors.h"
 
 namespace faultsweep {
-
-using nlohmann::ordered_json;
 
 namespace {
 

@@ -6,12 +6,10 @@
 #include <optional>
 #include <utility>
 
+#include "campaign/common/names.h"
 #include "campaign/render/shown.h"
-#include "simulator/common/errors.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 namespace {
 

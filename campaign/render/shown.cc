@@ -6,12 +6,10 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "simulator/common/errors.h"
+#include "campaign/common/names.h"
 #include "simulator/common/printable.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 std::string format_number(double value, int digits) {
   if (!std::isfinite(value)) return "-";

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/expansion/expansion.h"
 #include "campaign/query/parameters.h"
 #include "campaign/query/selection.h"
 #include "campaign/render/shown.h"
 #include "campaign/reports/case_tables.h"
-#include "simulator/common/errors.h"
 #include "simulator/common/printable.h"
 #include "simulator/reading/read_scene.h"
 #include "simulator/result/approximation.h"
@@ -20,10 +20,7 @@
 namespace faultsweep {
 
 using faultsim::CaseResult;
-using faultsim::concat;
 using faultsim::StageMetrics;
-using nlohmann::json;
-using nlohmann::ordered_json;
 
 namespace {
 

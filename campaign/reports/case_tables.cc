@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "campaign/common/names.h"
 #include "campaign/query/parameters.h"
 #include "campaign/reports/measure_columns.h"
 #include "campaign/store/clock.h"
-#include "simulator/common/errors.h"
 
 namespace faultsweep {
 
 using faultsim::CaseResult;
-using faultsim::concat;
-using faultsim::Dimension;
 using faultsim::StageMetrics;
 
 namespace {

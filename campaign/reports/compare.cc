@@ -5,20 +5,18 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <tuple>
 #include <unordered_map>
 
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/query/parameters.h"
 #include "campaign/query/selection.h"
 #include "campaign/query/table_output.h"
 #include "campaign/statistics/kendall.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using nlohmann::json;
 
 double relative_difference(double a, double b) {
   if (a == b || (std::isnan(a) && std::isnan(b))) return 0;

@@ -1,14 +1,12 @@
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/query/parameters.h"
 #include "campaign/render/shown.h"
 #include "campaign/reports/compare.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using nlohmann::json;
 
 namespace {
 

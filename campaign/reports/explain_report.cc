@@ -2,14 +2,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "campaign/common/names.h"
 #include "campaign/reports/case_report.h"
 #include "campaign/store/clock.h"
-#include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 namespace {
 

@@ -3,16 +3,13 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "campaign/common/names.h"
 #include "campaign/query/parameters.h"
 #include "campaign/query/selection.h"
 #include "campaign/query/table_output.h"
 #include "simulator/files/output_target.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::Dimension;
-using faultsim::InputError;
 
 namespace {
 

@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <set>
 
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/query/parameters.h"
 #include "campaign/query/selection.h"
 #include "campaign/query/table_output.h"
@@ -11,11 +12,6 @@
 #include "simulator/files/result_folder.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::Dimension;
-using faultsim::InputError;
-using nlohmann::json;
 
 namespace {
 

@@ -3,11 +3,10 @@
 #include <array>
 #include <optional>
 
-#include "simulator/common/errors.h"
+#include "campaign/common/names.h"
 
 namespace faultsweep {
 
-using faultsim::concat;
 using faultsim::Field;
 
 namespace {

@@ -1,10 +1,8 @@
+#include "campaign/common/names.h"
 #include "campaign/reports/ranking_answer.h"
 #include "campaign/spec/metrics.h"
-#include "simulator/common/errors.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 Answer metrics_answer() {
   AnswerTable table{"metrics",

@@ -1,19 +1,16 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <nlohmann/json.hpp>
 
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/query/parameters.h"
 #include "campaign/render/shown.h"
 #include "campaign/reports/measure_columns.h"
 #include "campaign/reports/ranking_answer.h"
 #include "campaign/spec/metrics.h"
-#include "simulator/common/errors.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using nlohmann::json;
 
 namespace {
 

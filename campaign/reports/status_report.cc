@@ -1,18 +1,13 @@
 #include "campaign/reports/status_report.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/render/shown.h"
 #include "campaign/store/clock.h"
-#include "simulator/common/errors.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::counted;
-using nlohmann::json;
-using nlohmann::ordered_json;
 
 StatusReport make_status(const Store& store, const std::string& campaign) {
   constexpr int kEvents = 10;

@@ -3,12 +3,11 @@
 #include <set>
 #include <unordered_map>
 
+#include "campaign/common/json.h"
 #include "campaign/expansion/expansion.h"
 #include "campaign/query/selection.h"
 
 namespace faultsweep {
-
-using nlohmann::ordered_json;  // the order of parameters is that of the spec
 
 namespace {
 

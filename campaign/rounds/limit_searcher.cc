@@ -6,13 +6,11 @@
 #include <map>
 #include <set>
 
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/spec/pointers.h"
-#include "simulator/common/errors.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using nlohmann::ordered_json;
 
 /// One of the values that a round has in each row of the design.
 struct LimitSearcher::Value {

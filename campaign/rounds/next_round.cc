@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/expansion/submission.h"
 #include "campaign/query/selection.h"
 #include "campaign/rounds/answers_of.h"
@@ -10,9 +12,6 @@
 #include "simulator/reading/read_scene.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using nlohmann::ordered_json;  // the order of parameters is that of the spec
 
 std::unique_ptr<Proposer> make_proposer(const CampaignSpec& spec) {
   if (spec.staged_sample) return std::make_unique<StagedSampler>(*spec.staged_sample);

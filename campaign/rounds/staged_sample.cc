@@ -4,13 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/statistics/intervals.h"
-#include "simulator/common/errors.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using nlohmann::ordered_json;
 
 namespace {
 

@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
-#include <nlohmann/json.hpp>
 
-#include "simulator/common/errors.h"
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "simulator/common/exit_code.h"
 #include "simulator/result/result_bytes.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::ExitCode;
-using faultsim::ResourceError;
-using nlohmann::json;
 
 namespace {
 

@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/store/same_numbers.h"
-#include "simulator/common/errors.h"
 #include "simulator/result/result_bytes.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::counted;
-using faultsim::ExitCode;
-using nlohmann::json;
 
 namespace {
 

@@ -3,12 +3,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "campaign/common/names.h"
 #include "campaign/store/clock.h"
-#include "simulator/common/errors.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 namespace {
 

@@ -11,19 +11,16 @@
 #include <fstream>
 #include <new>
 
+#include "campaign/common/names.h"
 #include "campaign/scheduler/local_runner.h"
 #include "campaign/scheduler/manager.h"
 #include "campaign/scheduler/messenger.h"
 #include "campaign/scheduler/resources.h"
 #include "campaign/scheduler/worker.h"
-#include "simulator/common/errors.h"
 #include "simulator/common/stopwatch.h"
 
 namespace faultsweep {
 namespace {
-
-using faultsim::concat;
-using faultsim::ExitCode;
 
 volatile std::sig_atomic_t stop_wanted = 0;
 volatile std::sig_atomic_t torn_down = 0;

@@ -17,14 +17,11 @@
 #include <string_view>
 #include <utility>
 
-#include "simulator/common/errors.h"
+#include "campaign/common/names.h"
 #include "simulator/common/stopwatch.h"
 
 namespace faultsweep {
 namespace {
-
-using faultsim::concat;
-using faultsim::ResourceError;
 
 constexpr int kChildRequests = 3;
 constexpr int kChildReplies = 4;

@@ -4,14 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "campaign/common/names.h"
 #include "campaign/scheduler/resources.h"
-#include "simulator/common/errors.h"
 
 namespace faultsweep {
 namespace {
-
-using faultsim::concat;
-using faultsim::counted;
 
 /// Seconds of a case that nobody has run yet; where salt creeps it has many time steps.
 double guessed_case_seconds(const FamilyRecord& family) {

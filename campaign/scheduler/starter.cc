@@ -16,17 +16,13 @@
 #include <set>
 #include <vector>
 
+#include "campaign/common/names.h"
 #include "campaign/scheduler/resources.h"
 #include "campaign/store/store.h"
-#include "simulator/common/errors.h"
 #include "simulator/common/stopwatch.h"
 
 namespace faultsweep {
 namespace {
-
-using faultsim::concat;
-using faultsim::ExitCode;
-using faultsim::ResourceError;
 
 constexpr int kTearDownSeconds = 2;  // a commit takes milliseconds, and is whole or not at all
 

@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/spec/spec_reader.h"
 #include "simulator/documents/schema.h"
 

@@ -1,3 +1,4 @@
+#include "campaign/common/json.h"
 #include "campaign/spec/spec_reader.h"
 
 namespace faultsweep {

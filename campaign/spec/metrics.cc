@@ -2,13 +2,13 @@
 
 #include <type_traits>
 
+#include "campaign/common/names.h"
 #include "simulator/result/measures.h"
 
 namespace faultsweep {
 
 namespace {
 
-using faultsim::Dimension;
 using faultsim::Field;
 
 /// What stands in the one list of fields.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "campaign/common/json.h"
 #include "campaign/spec/spec_reader.h"
 
 namespace faultsweep {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <set>
 
+#include "campaign/common/names.h"
 #include "campaign/spec/spec_reader.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/input_file.h"
@@ -8,8 +9,6 @@
 
 namespace faultsweep {
 namespace {
-
-using faultsim::concat;
 
 constexpr std::size_t kMostSampleBytes = 100'000'000;  // 10^5 lines of a thousand bytes
 

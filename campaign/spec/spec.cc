@@ -4,14 +4,13 @@
 #include <charconv>
 #include <cmath>
 
+#include "campaign/common/json.h"
 #include "campaign/spec/spec_reader.h"
 #include "campaign_schema.h"
 #include "simulator/common/input_file.h"
 
 namespace faultsweep {
 namespace {
-
-using nlohmann::json;
 
 json choice_to_json(const Choice& choice) {
   json changes = json::object();

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "campaign/common/names.h"
 #include "campaign/spec/pointers.h"
 #include "simulator/common/near_miss.h"
 #include "simulator/common/process_memory.h"
@@ -14,9 +15,7 @@
 
 namespace faultsweep {
 
-using faultsim::Dimension;
 using faultsim::JsonDocument;
-using faultsim::Problem;
 
 SceneNames::SceneNames(JsonDocument scene) : document(std::move(scene)) {
   infos = faultsim::parameters(document);

@@ -4,11 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "simulator/common/errors.h"
+#include "campaign/common/names.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 namespace {
 

@@ -3,15 +3,13 @@
 #include <map>
 #include <system_error>
 
+#include "campaign/common/names.h"
 #include "campaign/store/checksums.h"
 #include "campaign/store/sqlite.h"
 #include "campaign/store/store.h"
 
 /// Copies of the store, and whether it is sound.
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::StorageError;
 
 namespace {
 

@@ -1,5 +1,6 @@
 #include <ctime>
 
+#include "campaign/common/names.h"
 #include "campaign/store/checksums.h"
 #include "campaign/store/clock.h"
 #include "campaign/store/queries.h"
@@ -8,9 +9,6 @@
 #include "simulator/common/fingerprint.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::StorageError;
 
 const char* to_string(FailureAction action) {
   switch (action) {

@@ -1,12 +1,11 @@
 #include "campaign/store/checksums.h"
 
+#include "campaign/common/names.h"
 #include "campaign/store/row_digest.h"
 #include "campaign/store/sqlite.h"
 #include "simulator/common/fingerprint.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 /// A query for the rows of one case or campaign that count.
 struct Checksums::Rows {

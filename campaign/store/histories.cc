@@ -1,13 +1,12 @@
 #include <map>
 #include <utility>
 
+#include "campaign/common/names.h"
 #include "campaign/store/queries.h"
 #include "simulator/result/result_fields.h"
 
 /// What faults did, load step by load step.
 namespace faultsweep {
-
-using faultsim::concat;
 
 namespace {
 

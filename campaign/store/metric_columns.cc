@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "campaign/common/names.h"
 #include "campaign/store/queries.h"
 #include "campaign/store/store.h"
 #include "simulator/result/measures.h"
@@ -11,8 +12,6 @@
 /// Metrics of spec/metrics.h as SQL.
 namespace faultsweep {
 namespace {
-
-using faultsim::concat;
 
 /// What a metric is read from.
 struct MetricColumn {

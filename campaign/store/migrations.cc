@@ -4,6 +4,7 @@
 #include <deque>
 #include <type_traits>
 
+#include "campaign/common/names.h"
 #include "campaign/store/sqlite.h"
 #include "simulator/result/measures.h"
 #include "store_10_sql.h"

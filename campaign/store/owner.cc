@@ -3,15 +3,13 @@
 #include <fstream>
 #include <sstream>
 
+#include "campaign/common/names.h"
 #include "campaign/store/clock.h"
 #include "campaign/store/sqlite.h"
 #include "campaign/store/store.h"
 
 namespace faultsweep {
 namespace {
-
-using faultsim::concat;
-using faultsim::StorageError;
 
 constexpr double kSilentSeconds = 60;  // 60 heartbeats of 1 s missed
 

@@ -1,12 +1,9 @@
 #include "campaign/store/parameters.h"
 
-#include <nlohmann/json.hpp>
-
+#include "campaign/common/json.h"
 #include "simulator/common/errors.h"
 
 namespace faultsweep {
-
-using nlohmann::json;
 
 std::string parameters_to_json(const std::vector<StoredParameter>& parameters) {
   json all = json::array();

@@ -1,12 +1,11 @@
 #include <charconv>
 
+#include "campaign/common/names.h"
 #include "campaign/store/queries.h"
 #include "campaign/store/store.h"
 #include "simulator/common/fingerprint.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 namespace {
 

@@ -1,11 +1,10 @@
 #include "campaign/store/result_rows.h"
+#include "campaign/common/names.h"
 
 #include <algorithm>
 #include <charconv>
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 RowInsert::RowInsert(const std::string& table, const std::string& columns) {
   std::string row;

@@ -1,3 +1,4 @@
+#include "campaign/common/names.h"
 #include "campaign/store/checksums.h"
 #include "campaign/store/clock.h"
 #include "campaign/store/row_digest.h"
@@ -7,7 +8,6 @@
 namespace faultsweep {
 
 using faultsim::CaseResult;
-using faultsim::concat;
 
 const char* to_string(RunStatus status) {
   switch (status) {

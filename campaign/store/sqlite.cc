@@ -1,4 +1,5 @@
 #include "campaign/store/sqlite.h"
+#include "campaign/common/names.h"
 
 #include <sqlite3.h>
 #include <unistd.h>
@@ -10,9 +11,6 @@
 
 namespace faultsweep {
 namespace {
-
-using faultsim::concat;
-using faultsim::StorageError;
 
 constexpr int kBusyTimeoutMs = 10000;  // a commit takes milliseconds; 10 s means somebody hangs
 

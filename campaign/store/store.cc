@@ -9,6 +9,7 @@
 #include <cstring>
 #include <ctime>
 
+#include "campaign/common/names.h"
 #include "campaign/store/checksums.h"
 #include "campaign/store/migrations.h"
 #include "campaign/store/result_rows.h"
@@ -16,9 +17,6 @@
 
 namespace faultsweep {
 namespace {
-
-using faultsim::concat;
-using faultsim::StorageError;
 
 constexpr const char* kFileName = "campaign.sqlite";
 

@@ -1,3 +1,4 @@
+#include "campaign/common/names.h"
 #include "campaign/store/queries.h"
 #include "campaign/store/store.h"
 
@@ -5,7 +6,6 @@
 namespace faultsweep {
 
 using faultsim::CaseResult;
-using faultsim::concat;
 using faultsim::FaultStageMetrics;
 
 FaultStageMetrics read_fault_row(Connection& db, const ResultTables& tables, std::int64_t case_id,

@@ -4,12 +4,11 @@
 #include <sstream>
 #include <utility>
 
+#include "campaign/common/names.h"
 #include "campaign/store/queries.h"
 #include "campaign/store/sqlite.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 namespace {
 

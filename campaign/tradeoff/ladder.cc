@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/render/answer.h"
 #include "simulator/plan/plan.h"
 #include "simulator/reading/read_scene.h"
@@ -11,12 +13,10 @@
 
 namespace faultsweep {
 
-using faultsim::concat;
 using faultsim::find_tier;
 using faultsim::JsonDocument;
 using faultsim::MeshSizes;
 using faultsim::Scene;
-using nlohmann::json;
 
 namespace {
 

@@ -4,12 +4,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "simulator/common/errors.h"
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using nlohmann::json;
 
 namespace {
 

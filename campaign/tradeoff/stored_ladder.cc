@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "campaign/common/names.h"
 #include "campaign/statistics/kendall.h"
 #include "campaign/tradeoff/sample.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
 
 namespace {
 

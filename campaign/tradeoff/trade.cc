@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulator/common/errors.h"
+#include "campaign/common/names.h"
 
 namespace faultsweep {
 
 using faultsim::CaseResult;
-using faultsim::concat;
 
 namespace {
 

@@ -2,17 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "campaign/render/render.h"
 #include "campaign/render/shown.h"
-#include "simulator/common/errors.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::counted;
-using nlohmann::json;
 
 namespace {
 

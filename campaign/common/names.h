@@ -1,0 +1,19 @@
+#pragma once
+
+#include "simulator/common/errors.h"
+#include "simulator/common/exit_code.h"
+#include "simulator/common/units.h"
+
+/// What every room of campaigns takes from the ground of the simulator.
+namespace faultsweep {
+
+using faultsim::concat;
+using faultsim::counted;
+using faultsim::Dimension;
+using faultsim::ExitCode;
+using faultsim::InputError;
+using faultsim::Problem;
+using faultsim::ResourceError;
+using faultsim::StorageError;
+
+}  // namespace faultsweep
