@@ -39,7 +39,7 @@ std::vector<double> pressure_way(const std::vector<StepResult>& steps, const std
       one.push_back(steps[k].pressure_change[region]);
     }
     if (one.empty()) continue;
-    const auto [low, high] = std::minmax_element(one.begin(), one.end());
+    const auto [low, high] = std::ranges::minmax_element(one);
     if (*high - *low > widest) widest = *high - *low, way = one;
   }
   return way;
@@ -58,7 +58,7 @@ double even_distance(double width) {
 /// Even values that span the way and the onsets, the way's beginning first.
 Ticks pressure_ticks(const std::vector<double>& way, const std::vector<double>& onsets) {
   Ticks ticks;
-  const auto turn = std::find_if(way.begin(), way.end(), [&](double p) { return p != way[0]; });
+  const auto turn = std::ranges::find_if(way, [&](double p) { return p != way[0]; });
   ticks.falls = turn != way.end() && *turn < way[0];
   const double sign = ticks.falls ? -1 : 1;
   double from = sign * way[0], to = from;
@@ -96,8 +96,7 @@ double place_before(const CaseOnsets::Onset& onset, CurveAxis axis, double sign)
 /// A history that ends early says nothing of a fault at rest behind its end. Against pressure it
 /// says nothing at all: how far the pressure was is another question for each region.
 Row row_of(const CaseOnsets& one, std::int64_t fault, CurveAxis axis, double sign) {
-  const auto found = std::find_if(one.onsets.begin(), one.onsets.end(),
-                                  [&](const auto& onset) { return onset.fault == fault; });
+  const auto found = std::ranges::find(one.onsets, fault, &CaseOnsets::Onset::fault);
   Row row;
   if (found != one.onsets.end()) {
     row.computed = row.certain = sign * place_of(*found, axis);
@@ -107,8 +106,7 @@ Row row_of(const CaseOnsets& one, std::int64_t fault, CurveAxis axis, double sig
                       ? -kNever
                       : std::nextafter(axis == CurveAxis::step ? one.last_step : one.end, kNever);
   }
-  const bool is_resolved =
-      std::find(one.unresolved.begin(), one.unresolved.end(), fault) == one.unresolved.end();
+  const bool is_resolved = !contains(one.unresolved, fault);
   if (!is_resolved) row.certain = kNever, row.possible = -kNever;
   return row;
 }
@@ -124,8 +122,7 @@ struct Onsets {
     unknown.insert(unknown.end(), n, row.unknown);
   }
   void sort() {
-    for (auto* places : {&computed, &certain, &possible, &unknown})
-      std::sort(places->begin(), places->end());
+    for (auto* places : {&computed, &certain, &possible, &unknown}) std::ranges::sort(*places);
   }
 };
 
@@ -134,7 +131,7 @@ Curve curve_of(Onsets onsets, const Ticks& ticks, const Sampling& sampling, doub
   curve.falls = ticks.falls;
   onsets.sort();
   const auto count = [](const std::vector<double>& values, double at) {
-    return static_cast<long>(std::upper_bound(values.begin(), values.end(), at) - values.begin());
+    return static_cast<long>(std::ranges::upper_bound(values, at) - values.begin());
   };
   for (const double at : ticks.at) {
     const double place = ticks.falls ? -at : at;
@@ -176,14 +173,13 @@ StageRows read_stage(const Store& store, const CampaignInfo& campaign,
 std::vector<StepResult> reference_steps(const Store& store, const CampaignInfo& campaign,
                                         const StageRows& rows) {
   if (rows.n == 0) {
-    throw InputError("probability",
-                     {{"", 0, "no case was selected", "ask for others with --where"}});
+    throw InputError("probability", "no case was selected", "ask for others with --where");
   }
-  const auto found = std::find_if(rows.cases.begin(), rows.cases.end(),
-                                  [](const CaseOnsets& one) { return one.complete(); });
+  const auto found =
+      std::ranges::find_if(rows.cases, [](const CaseOnsets& one) { return one.complete(); });
   if (found == rows.cases.end()) {
-    throw InputError("probability", {{"", 0, "no case has a history to its end",
-                                      concat("run it: faultsweep run ", campaign.name)}});
+    throw InputError("probability", "no case has a history to its end",
+                     concat("run it: faultsweep run ", campaign.name));
   }
   return store.stored_case(campaign.id, std::to_string(found->position)).result.steps;
 }

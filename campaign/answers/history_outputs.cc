@@ -32,7 +32,7 @@ std::vector<std::int64_t> faults_of(const std::vector<ScopedMetric>& metrics,
   for (const ScopedMetric& one : metrics) {
     const auto own = one.scope ? one.scope->fault : std::nullopt;
     faults.push_back(own ? *own : selection.fault ? selection.fault->id : -1);
-    if (std::count(kept.begin(), kept.end(), one.metric) == 0) {
+    if (!contains(kept, one.metric)) {
       problems.push_back({"", 0, concat(one.name, " is not kept load step by load step"),
                           concat("choose of ", listed(kept))});
     } else if (one.scope && one.scope->stage) {
@@ -52,14 +52,14 @@ std::vector<std::int64_t> faults_of(const std::vector<ScopedMetric>& metrics,
 void require_shared(const std::vector<Store::LoadStep>& steps) {
   long n_cases = 0;
   for (const Store::LoadStep& one : steps) n_cases = std::max(n_cases, one.n_cases);
-  const auto other = std::find_if(steps.begin(), steps.end(),
-                                  [&](const auto& one) { return one.n_cases < n_cases; });
+  const auto other =
+      std::ranges::find_if(steps, [&](const auto& one) { return one.n_cases < n_cases; });
   if (other == steps.end()) return;
-  throw InputError("--by-step", {{"", 0,
-                                  concat("load step ", other->step, " is one of ", other->stage,
-                                         " in ", other->n_cases, " of ", n_cases,
-                                         " cases only: their stages are divided differently"),
-                                  "select cases with the same steps by --where, or one --stage"}});
+  throw InputError(
+      "--by-step",
+      concat("load step ", other->step, " is one of ", other->stage, " in ", other->n_cases, " of ",
+             n_cases, " cases only: their stages are divided differently"),
+      "select cases with the same steps by --where, or one --stage");
 }
 
 }  // namespace
@@ -67,8 +67,8 @@ void require_shared(const std::vector<Store::LoadStep>& steps) {
 HistoryOutputs history_outputs(const Store& store, const CampaignInfo& campaign,
                                const SensitivityRequest& request, const Selection& selection) {
   if (selection.faults.empty()) {  // faults are known from results
-    throw InputError("--by-step", {{"", 0, "no case has a result",
-                                    concat("run it: faultsweep run ", campaign.name)}});
+    throw InputError("--by-step", "no case has a result",
+                     concat("run it: faultsweep run ", campaign.name));
   }
   SensitivityRequest asked = request;
   if (asked.metrics.empty()) asked.metrics = default_metrics(selection);
@@ -79,13 +79,13 @@ HistoryOutputs history_outputs(const Store& store, const CampaignInfo& campaign,
   require_shared(found.steps);
   constexpr std::size_t kMostColumns = 1900;  // a query has at most 2,000
   if (found.metrics.size() * found.steps.size() > kMostColumns) {
-    throw InputError("--by-step", {{"", 0,
-                                    concat(found.metrics.size(), " metrics at ", found.steps.size(),
-                                           " load steps are more than ", kMostColumns, " numbers"),
-                                    "ask for fewer --metrics, or the steps of one --stage"}});
+    throw InputError("--by-step",
+                     concat(found.metrics.size(), " metrics at ", found.steps.size(),
+                            " load steps are more than ", kMostColumns, " numbers"),
+                     "ask for fewer --metrics, or the steps of one --stage");
   }
-  const auto whole = std::find_if(selection.stages.begin(), selection.stages.end(),
-                                  [](const NamedId& one) { return one.name.empty(); });
+  const auto whole =
+      std::ranges::find_if(selection.stages, [](const NamedId& one) { return one.name.empty(); });
   FAULTSIM_DEMAND(found.steps.empty() || whole != selection.stages.end(), campaign.name);
   for (std::size_t m = 0; m < found.metrics.size(); ++m) {
     for (const Store::LoadStep& step : found.steps) {

@@ -64,9 +64,9 @@ AnswerTable screen_table(const LimitTable& table, long top) {
 }
 
 bool all_resolved(const LimitTable& table) {
-  return std::all_of(table.rows.begin(), table.rows.end(), [](const LimitRow& row) {
-    return std::all_of(row.cells.begin(), row.cells.end(),
-                       [](const auto& cell) { return !cell || is_resolved(*cell); });
+  return std::ranges::all_of(table.rows, [](const LimitRow& row) {
+    return std::ranges::all_of(row.cells,
+                               [](const auto& cell) { return !cell || is_resolved(*cell); });
   });
 }
 

@@ -44,7 +44,7 @@ const LimitRow* lowest_of(const LimitTable& table, std::size_t l) {
 std::string counts_text(const LimitTable& table, std::size_t l) {
   const LimitSearch& limit = table.limits[l];
   const auto count = [&](const auto& holds) {
-    return std::count_if(table.rows.begin(), table.rows.end(), [&](const LimitRow& row) {
+    return std::ranges::count_if(table.rows, [&](const LimitRow& row) {
       return row.cells[l] && holds(row.cells[l]->finding);
     });
   };

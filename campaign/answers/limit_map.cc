@@ -10,13 +10,13 @@ namespace faultsweep {
 namespace {
 
 std::size_t place_of(const LimitTable& table, const std::string& name) {
-  const auto found = std::find(table.parameters.begin(), table.parameters.end(), name);
+  const auto found = std::ranges::find(table.parameters, name);
   if (found != table.parameters.end())
     return static_cast<std::size_t>(found - table.parameters.begin());
   std::string known;
   for (const std::string& one : table.parameters) known += (known.empty() ? "" : ", ") + one;
-  throw InputError("--map", {{"", 0, concat("there is no parameter '", name, "' in the design"),
-                              concat("there are ", known)}});
+  throw InputError("--map", concat("there is no parameter '", name, "' in the design"),
+                   concat("there are ", known));
 }
 
 /// "[-71, -70]", without its unit; "all safe", "all unsafe".
@@ -40,7 +40,7 @@ std::vector<std::string> values_of(const std::vector<const LimitRow*>& rows, std
   std::vector<std::string> values;
   for (const LimitRow* row : rows) {
     const std::string& value = row->settings[place];
-    if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+    if (!contains(values, value)) values.push_back(value);
   }
   return values;
 }
@@ -63,8 +63,8 @@ std::vector<LimitMap> maps_of(const LimitTable& table, const std::vector<const L
       map.fault = row->fault;
       const std::pair at(row->settings[down], row->settings[across]);
       if (!map.cells.emplace(at, cell_text(*row->cells[l])).second) {
-        throw InputError("--map", {{"", 0, "the design varies more than these two parameters",
-                                    "use --csv, or a design with two"}});
+        throw InputError("--map", "the design varies more than these two parameters",
+                         "use --csv, or a design with two");
       }
     }
   }
@@ -77,9 +77,8 @@ std::vector<LimitMap> maps_of(const LimitTable& table, const std::vector<const L
 
 Answer map_answer(const LimitTable& table, const std::string& across, const std::string& down) {
   const std::size_t a = place_of(table, across), d = place_of(table, down);
-  std::vector<const LimitRow*> rows;
-  for (const LimitRow& row : table.rows) rows.push_back(&row);
-  std::stable_sort(rows.begin(), rows.end(), [](const LimitRow* one, const LimitRow* other) {
+  std::vector rows = mapped(table.rows, [&](const LimitRow& row) { return &row; });
+  std::ranges::stable_sort(rows, [](const LimitRow* one, const LimitRow* other) {
     return one->configuration < other->configuration;
   });
   const std::vector<std::string> columns = values_of(rows, a), lines = values_of(rows, d);

@@ -58,11 +58,11 @@ std::optional<DatumPressure> datum_of(const Store& store, const CampaignInfo& ca
           .value;
   constexpr double kAlike = 1;  // Pa
   for (std::size_t r = 0; r < scene.pressure.size(); ++r) {
-    const bool has_it = std::any_of(one.result.steps.begin(), one.result.steps.end(),
-                                    [&](const faultsim::StepResult& step) {
-                                      return r < step.pressure_change.size() &&
-                                             std::abs(step.pressure_change[r] - change) < kAlike;
-                                    });
+    const bool has_it =
+        std::ranges::any_of(one.result.steps, [&](const faultsim::StepResult& step) {
+          return r < step.pressure_change.size() &&
+                 std::abs(step.pressure_change[r] - change) < kAlike;
+        });
     if (!has_it) continue;
     const double depth = faultsim::region_top(scene, r);
     return DatumPressure{scene.pressure[r].region, depth,
@@ -76,8 +76,7 @@ std::vector<std::size_t> design_parameters(const std::vector<StoredParameter>& a
                                            const std::vector<LimitSearch>& limits) {
   std::vector<std::size_t> places;
   for (std::size_t p = 0; p < all.size(); ++p) {
-    const bool is_searched = std::any_of(
-        limits.begin(), limits.end(), [&](const auto& limit) { return limit.name == all[p].name; });
+    const bool is_searched = contains(limits, all[p].name, &LimitSearch::name);
     if (!is_searched) places.push_back(p);
   }
   return places;
@@ -104,7 +103,7 @@ class LimitRows {
       find_width(row, table_.limits);
       all.push_back(std::move(row));
     }
-    std::stable_sort(all.begin(), all.end(), [](const LimitRow& a, const LimitRow& b) {
+    std::ranges::stable_sort(all, [](const LimitRow& a, const LimitRow& b) {
       return a.width.value_or(INFINITY) < b.width.value_or(INFINITY);
     });
     return all;
@@ -121,8 +120,8 @@ class LimitRows {
 LimitTable make_limit_table(const Store& store, const CampaignInfo& campaign) {
   const std::optional<StoredRounds> stored = stored_rounds(store, campaign);
   if (!stored || !stored->spec.contains("limits")) {
-    throw InputError("limits", {{"", 0, campaign.name + " searches no limits",
-                                 "give its spec a section \"limits\""}});
+    throw InputError("limits", campaign.name + " searches no limits",
+                     "give its spec a section \"limits\"");
   }
   const LimitSearcher searcher = make_limit_searcher(parse_spec(*stored));
   const std::vector<RowAnswers> answers = answers_of(store, campaign, *stored, searcher, true);

@@ -48,8 +48,8 @@ std::vector<std::size_t> nearest(const std::vector<double>& distances, std::size
   std::vector<std::size_t> order;
   for (std::size_t one = 0; one < distances.size(); ++one)
     if (one != here && std::isfinite(distances[one])) order.push_back(one);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return distances[a] < distances[b]; });
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return distances[a] < distances[b]; });
   order.resize(std::min(order.size(), k));
   return order;
 }

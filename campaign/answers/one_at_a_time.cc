@@ -57,7 +57,7 @@ std::vector<std::vector<long>> rows_of_groups(const Store& store, const Campaign
 std::set<int> moved_by(const nlohmann::json& group, const std::vector<std::string>& parameters) {
   std::set<int> indices;
   for (const nlohmann::json& one : group.at("parameters")) {
-    const auto at = std::find(parameters.begin(), parameters.end(), one.at("name"));
+    const auto at = std::ranges::find(parameters, one.at("name"));
     if (at != parameters.end()) indices.insert(static_cast<int>(at - parameters.begin()));
   }
   return indices;
@@ -69,7 +69,7 @@ std::vector<std::size_t> differences(const CaseParameters& base, const CaseParam
   std::vector<std::size_t> found;
   for (std::size_t k = 0; k < other.size(); ++k) {
     if (!moved.contains(other[k].index)) continue;
-    const auto same = std::find_if(base.begin(), base.end(), [&](const CaseParameter& one) {
+    const auto same = std::ranges::find_if(base, [&](const CaseParameter& one) {
       return one.index == other[k].index && one.si == other[k].si &&
              (one.si || one.text == other[k].text);
     });
@@ -101,7 +101,7 @@ Tornado tornado_of(const std::vector<long>& rows, const std::map<long, CaseValue
 }
 
 [[noreturn]] void refuse_tornado(const std::string& what, const std::string& cure) {
-  throw InputError("sensitivity", {{"", 0, what, cure}});
+  throw InputError("sensitivity", what, cure);
 }
 
 }  // namespace
@@ -110,7 +110,7 @@ std::optional<OneAtATime> compare_one_at_a_time(const Store& store, const Campai
                                                 const SensitivityRequest& request) {
   const auto groups = nlohmann::json::parse(store.spec_copies(campaign.id).resolved).at("groups");
   const auto is_one_at_a_time = [](const auto& one) { return one.at("kind") == "one-at-a-time"; };
-  if (std::none_of(groups.begin(), groups.end(), is_one_at_a_time)) return std::nullopt;
+  if (std::ranges::none_of(groups, is_one_at_a_time)) return std::nullopt;
   if (!request.cases.where.empty())
     refuse_tornado("changes are counted from the base case", "leave out --where");
   const Selection selection =
@@ -178,16 +178,15 @@ std::vector<Swing> swings_of(const OneAtATime& found, const Tornado& tornado, st
       swing.is_unresolved = swing.is_unresolved || (end != nullptr && end->is_unresolved);
     if (swing.n > 0) swings.push_back(swing);
   }
-  std::stable_sort(swings.begin(), swings.end(),
-                   [](const Swing& a, const Swing& b) { return a.width() > b.width(); });
+  std::ranges::stable_sort(swings,
+                           [](const Swing& a, const Swing& b) { return a.width() > b.width(); });
   return swings;
 }
 
 bool is_moved(const OneAtATime& found, const Tornado& tornado, std::size_t m) {
   if (!std::isfinite(tornado.base.metrics[m])) return false;
   const std::vector<Swing> swings = swings_of(found, tornado, m);
-  return std::any_of(swings.begin(), swings.end(),
-                     [](const Swing& one) { return one.width() > 0; });
+  return std::ranges::any_of(swings, [](const Swing& one) { return one.width() > 0; });
 }
 
 std::string place_of(const Move* at) { return at == nullptr ? "base" : at->value; }
@@ -279,8 +278,8 @@ figure::IntervalChart chart_of(const OneAtATime& found, const Tornado& tornado, 
 
 /// "12 cases beside the base case, case 1; 2 without a history to its end".
 std::string rows_text(const Tornado& tornado) {
-  const auto n_unresolved = std::count_if(tornado.moves.begin(), tornado.moves.end(),
-                                          [](const Move& one) { return one.is_unresolved; });
+  const auto n_unresolved =
+      std::ranges::count_if(tornado.moves, [](const Move& one) { return one.is_unresolved; });
   std::string rows = concat(tornado.group, tornado.group.empty() ? "" : ": ", tornado.moves.size(),
                             " cases beside the base case, case ", tornado.base.position);
   if (tornado.n_without > 0)

@@ -36,8 +36,7 @@ std::map<long, CaseHistory> read_histories(const Store& store, const CampaignInf
                                            const SqlFragment& where,
                                            const std::vector<SeenStatement>& seen) {
   const auto any = [&](SeenStatement::Kind kind) {
-    return std::any_of(seen.begin(), seen.end(),
-                       [&](const SeenStatement& one) { return one.kind == kind; });
+    return contains(seen, kind, &SeenStatement::kind);
   };
   std::map<long, CaseHistory> histories;
   Store::TableQuery query;
@@ -56,9 +55,9 @@ std::map<long, CaseHistory> read_histories(const Store& store, const CampaignInf
     histories[one.position].events.push_back(one);
   });
   if (!has_magnitudes) {
-    throw InputError("--seen", {{"", 0, "events of cases in plane strain have no magnitude",
-                                 "state a metric of theirs, such as event_stress_drop, or run the "
-                                 "cases in three dimensions"}});
+    throw InputError("--seen", "events of cases in plane strain have no magnitude",
+                     "state a metric of theirs, such as event_stress_drop, or run the "
+                     "cases in three dimensions");
   }
   return histories;
 }
@@ -188,7 +187,7 @@ void refuse_few(const Posterior& p) {
     const double needed = 1.2 * kFewestEffective / p.effective_size * static_cast<double>(p.n_rows);
     cure = concat("run about ", format_number(needed, 2), " cases; or ", cure);
   }
-  throw InputError("posterior", {{"", 0, what, cure}});
+  throw InputError("posterior", what, cure);
 }
 
 /// Estimates by the weights as computed, bounds by what they may be.
@@ -197,9 +196,8 @@ std::vector<QuantileBounds> quantiles_of(const std::vector<double>& values,
                                          const std::vector<WeightRange>& open,
                                          const std::vector<std::size_t>& order, double confidence) {
   std::vector<QuantileBounds> found;
-  const bool any_known = std::any_of(open.begin(), open.end(), [](const WeightRange& one) {
-    return one.is_known() && one.most > 0;
-  });
+  const bool any_known = std::ranges::any_of(
+      open, [](const WeightRange& one) { return one.is_known() && one.most > 0; });
   for (const double q : kPosteriorQuantiles) {
     found.push_back(weighted_quantile(values, computed, order, q, confidence));
     const QuantileBounds bounds =
@@ -219,8 +217,8 @@ ParameterUpdate update_of(const StoredParameter& parameter, std::vector<double> 
   }
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  std::ranges::stable_sort(order,
+                           [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
   const std::vector<WeightRange> equal(values.size(), {1, 1});
   update.before = quantiles_of(values, equal, equal, order, confidence);
   update.after = quantiles_of(values, rows.computed, rows.open, order, confidence);
@@ -260,9 +258,9 @@ void update_parameters(Posterior& p, const WeightedRows& rows) {
   for (std::size_t k = 0; k < all.size(); ++k) {
     const std::vector<double>& values = rows.values[k];
     const bool are_numbers =
-        std::none_of(values.begin(), values.end(), [](double one) { return std::isnan(one); });
+        std::ranges::none_of(values, [](double one) { return std::isnan(one); });
     if (are_numbers) {
-      const auto [low, high] = std::minmax_element(values.begin(), values.end());
+      const auto [low, high] = std::ranges::minmax_element(values);
       if (*low < *high)
         p.parameters.push_back(update_of(all[k], values, rows.units[k], rows, confidence));
       continue;
@@ -357,8 +355,8 @@ std::string headline_of(const Posterior& p) {
       concat("What was seen leaves an effective sample of ", format_number(p.effective_size, 4),
              " of ", grouped(p.n_rows), " cases");
   if (p.probabilities.empty()) return sample + ".";
-  const Update& most = *std::max_element(
-      p.probabilities.begin(), p.probabilities.end(),
+  const Update& most = *std::ranges::max_element(
+      p.probabilities,
       [](const Update& a, const Update& b) { return a.after.value < b.after.value; });
   return concat(p.probabilities.size() == 1 ? "" : "Most likely: ", most.label, ": ",
                 format_percent(most.after.value), " % (", format_percent(most.after.bounds.low),

@@ -28,9 +28,8 @@ struct AskedRows {
 };
 
 int parameter_index(const CampaignInfo& campaign, const std::string& name) {
-  std::vector<std::string> names;
-  for (const StoredParameter& one : campaign.parameters) names.push_back(one.name);
-  const auto found = std::find(names.begin(), names.end(), name);
+  std::vector names = mapped(campaign.parameters, &StoredParameter::name);
+  const auto found = std::ranges::find(names, name);
   if (found == names.end()) require_name("--by", "parameter", name, names);
   return static_cast<int>(found - names.begin());
 }
@@ -106,11 +105,11 @@ std::vector<Part> parts_by_label(const std::vector<std::size_t>& order, const As
 std::vector<Part> parts_of(const AskedRows& rows) {
   std::vector<std::size_t> order(rows.label.size());
   std::iota(order.begin(), order.end(), 0u);
-  const bool are_numbers = std::none_of(rows.value.begin(), rows.value.end(),
-                                        [](double value) { return std::isnan(value); });
+  const bool are_numbers =
+      std::ranges::none_of(rows.value, [](double value) { return std::isnan(value); });
   if (!are_numbers) return parts_by_label(order, rows, order.size());
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return rows.value[a] < rows.value[b]; });
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return rows.value[a] < rows.value[b]; });
   std::vector<Part> parts = parts_by_label(order, rows, kMostValues);
   if (!parts.empty()) return parts;
   for (std::size_t part = 0; part < kParts; ++part) {
@@ -153,13 +152,12 @@ Probability find_probability(const Store& store, const CampaignInfo& campaign,
                                                   ? default_conditions(selection)
                                                   : std::vector<std::string>{request.condition};
   if (conditions.empty()) {  // faults are known from results
-    throw InputError("probability", {{"", 0, "no case has a result",
-                                      concat("run it: faultsweep run ", campaign.name)}});
+    throw InputError("probability", "no case has a result",
+                     concat("run it: faultsweep run ", campaign.name));
   }
   const AskedRows rows = read_rows(store, campaign, request, selection, conditions);
   if (rows.label.empty()) {
-    throw InputError("probability",
-                     {{"", 0, "no case was selected", "ask for others with --where"}});
+    throw InputError("probability", "no case was selected", "ask for others with --where");
   }
   const std::vector<Part> parts = parts_asked(rows, request.by);
   for (std::size_t c = 0; c < conditions.size(); ++c) {
@@ -215,9 +213,8 @@ AnswerTable share_table(const Probability& p) {
 
 /// What from and to are, in a sentence or two.
 std::string meaning_of_bounds(const Probability& p) {
-  const bool any_undecided = std::any_of(p.shares.begin(), p.shares.end(), [](const Share& one) {
-    return one.counts.n_undecided + one.counts.n_unknown > 0;
-  });
+  const bool any_undecided = std::ranges::any_of(
+      p.shares, [](const Share& one) { return one.counts.n_undecided + one.counts.n_unknown > 0; });
   const std::string open =
       "what the cells leave undecided and what has no full history may be either";
   if (!p.sampling.is_random)
@@ -232,7 +229,7 @@ const Share& most_often(const Probability& p) {
   const auto less = [](const Share& a, const Share& b) {
     return a.counts.estimate() < b.counts.estimate() || std::isnan(a.counts.estimate());
   };
-  return *std::max_element(p.shares.begin(), p.shares.end(), less);
+  return *std::ranges::max_element(p.shares, less);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ MetricQuantiles of_metric(const ScopedMetric& metric, std::vector<double> values
   found.n = static_cast<long>(values.size());
   found.n_without = static_cast<long>(n_all - values.size());
   if (values.empty()) return found;
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   for (const double q : all.request.at) {
     if (all.sampling.is_random) {
       found.values.push_back(quantile_bounds(values, all.n_unknown, q, all.request.confidence));
@@ -43,8 +43,8 @@ Quantiles find_quantiles(const Store& store, const CampaignInfo& campaign,
                          const QuantileRequest& request) {
   for (const double q : request.at) {
     if (q > 0 && q < 1) continue;
-    throw InputError("--at", {{"", 0, concat(format_number(q), " is not a share of the cases"),
-                               "write shares between 0 and 1: 0.05,0.5,0.95"}});
+    throw InputError("--at", concat(format_number(q), " is not a share of the cases"),
+                     "write shares between 0 and 1: 0.05,0.5,0.95");
   }
   Quantiles found{campaign, request, sampling_of(store, campaign), 0, {}};
   Sample sample = read_sample(store, campaign, {request.where, "", ""}, request.metrics);
@@ -110,8 +110,7 @@ void add_screen_tables(const Quantiles& q, Answer& answer) {
   std::vector<std::string> done;
   for (const MetricQuantiles& one : q.metrics) {
     const ShownUnit unit = unit_of(q, one);
-    if (one.values.empty() || std::find(done.begin(), done.end(), unit.name) != done.end())
-      continue;
+    if (one.values.empty() || contains(done, unit.name)) continue;
     done.push_back(unit.name);
     AnswerTable table = table_of(q, &unit);
     table.in_files = false;

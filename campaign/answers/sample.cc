@@ -37,8 +37,8 @@ class Words {
 void keep_what_is_chosen(const std::vector<char>& derived, Sample& sample) {
   for (std::size_t k = sample.x.size(); k-- > 0;) {
     const std::vector<double>& values = sample.x[k];
-    const bool varies = std::any_of(values.begin(), values.end(),
-                                    [&](double value) { return value != values.front(); });
+    const bool varies =
+        std::ranges::any_of(values, [&](double value) { return value != values.front(); });
     if (varies && derived[k] == 0) continue;
     if (varies) sample.derived.insert(sample.derived.begin(), sample.parameters[k].name);
     sample.x.erase(sample.x.begin() + static_cast<long>(k));
@@ -60,10 +60,8 @@ std::vector<char> derived_parameters(const std::vector<json>& designs,
   std::set<std::string> chosen = {"group"};
   for (const json& design : designs)
     for (const json& one : design.value("parameters", json::array())) chosen.insert(one.at("name"));
-  std::vector<char> derived;
-  for (const StoredParameter& one : campaign.parameters)
-    derived.push_back(chosen.contains(one.name) ? 0 : 1);
-  return derived;
+  return mapped(campaign.parameters,
+                [&](const StoredParameter& one) { return chosen.contains(one.name) ? 0 : 1; });
 }
 
 std::string derived_note(const std::vector<std::string>& names) {
@@ -81,8 +79,8 @@ long rows_per_base_sample(const json& design) {
 Sampling sampling_of(const Store& store, const CampaignInfo& campaign) {
   const std::vector<json> designs = designs_of(store, campaign);
   const auto all_are = [&](const std::set<std::string>& kinds) {
-    return std::all_of(designs.begin(), designs.end(),
-                       [&](const json& one) { return kinds.contains(one.at("kind")); });
+    return std::ranges::all_of(designs,
+                               [&](const json& one) { return kinds.contains(one.at("kind")); });
   };
   Sampling sampling;
   sampling.approximation = approximation_note(store.approximations(campaign.id));

@@ -62,7 +62,7 @@ void keep_what_holds(ElementaryEffects& one) {
 }
 
 [[noreturn]] void refuse(const std::string& what, const std::string& cure) {
-  throw InputError("sensitivity", {{"", 0, what, cure}});
+  throw InputError("sensitivity", what, cure);
 }
 
 }  // namespace
@@ -102,8 +102,8 @@ std::optional<Screening> screen(const Store& store, const CampaignInfo& campaign
 namespace {
 
 bool varies(const MetricEffects& metric) {
-  return std::any_of(metric.effects.begin(), metric.effects.end(),
-                     [](const ElementaryEffects& one) { return one.mean_magnitude.value > 0; });
+  return std::ranges::any_of(
+      metric.effects, [](const ElementaryEffects& one) { return one.mean_magnitude.value > 0; });
 }
 
 /// Parameters, the one with the largest μ* first; those of which nothing is known last.

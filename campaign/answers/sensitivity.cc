@@ -16,28 +16,27 @@ namespace {
 void refuse_what_is_no_sample(const Sensitivity& s) {
   if (s.request.by_step && !s.sampling.is_random && !s.sampling.is_factorial) {
     throw InputError("--by-step",
-                     {{"", 0, concat("the cases of ", s.campaign.name, " are no sample or grid"),
-                       "leave it out: effects and changes are of metrics over a stage"}});
+                     concat("the cases of ", s.campaign.name, " are no sample or grid"),
+                     "leave it out: effects and changes are of metrics over a stage");
   }
   if (!s.sampling.is_random && !s.sampling.is_factorial) {
     throw InputError(
         "sensitivity",
-        {{"", 0, concat("the cases of ", s.campaign.name, " are not a sample of its parameters"),
-          "give its spec one design monte-carlo, latin-hypercube, sobol, grid, morris or "
-          "one-at-a-time"}});
+        concat("the cases of ", s.campaign.name, " are not a sample of its parameters"),
+        "give its spec one design monte-carlo, latin-hypercube, sobol, grid, morris or "
+        "one-at-a-time");
   }
   const long n = s.sample.n_rows - s.sample.n_without - s.sample.n_early;
   if (n == 0) {
-    throw InputError("sensitivity", {{"", 0, "no case has a history to its end",
-                                      concat("run it: faultsweep run ", s.campaign.name)}});
+    throw InputError("sensitivity", "no case has a history to its end",
+                     concat("run it: faultsweep run ", s.campaign.name));
   }
   if (s.sampling.is_random && n < kFewestForRankIndex) {
     throw InputError(
         "sensitivity",
-        {{"", 0,
-          concat(n, n == 1 ? " case with a full history is" : " cases with a full history are",
-                 " too few: intervals of indices hold from ", kFewestForRankIndex, " on"),
-          concat("run at least ", kFewestForRankIndex)}});
+        concat(n, n == 1 ? " case with a full history is" : " cases with a full history are",
+               " too few: intervals of indices hold from ", kFewestForRankIndex, " on"),
+        concat("run at least ", kFewestForRankIndex));
   }
 }
 
@@ -46,9 +45,7 @@ void refuse_what_is_no_sample(const Sensitivity& s) {
 std::string dependence_of(const Store& store, const CampaignInfo& campaign,
                           const SensitivityRequest& request) {
   const std::vector<json> designs = designs_of(store, campaign);
-  const auto any = [&](const auto& holds) {
-    return std::any_of(designs.begin(), designs.end(), holds);
-  };
+  const auto any = [&](const auto& holds) { return std::ranges::any_of(designs, holds); };
   if (any([](const json& one) { return one.contains("correlated"); }))
     return "Inputs are correlated";
   if (any([](const json& one) { return one.at("kind") == "samples"; }))

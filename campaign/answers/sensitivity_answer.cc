@@ -79,8 +79,8 @@ std::string minima_text(const Sensitivity& s) {
     if (!one.unsaid.empty()) few += (few.empty() ? "" : ", ") + one.unsaid;
     any_near_one =
         any_near_one || (!s.sampling.is_factorial && one.n < kFewestForRankIndexNearOne &&
-                         std::any_of(one.first_order.begin(), one.first_order.end(),
-                                     [](const Estimate& e) { return e.value > kNearOne; }));
+                         std::ranges::any_of(one.first_order,
+                                             [](const Estimate& e) { return e.value > kNearOne; }));
   }
   if (!few.empty()) text = concat("Fewer rows than intervals take, so without indices: ", few, ".");
   if (any_near_one) {
@@ -142,8 +142,7 @@ Answer to_answer(const Sensitivity& s) {
   }
   if (answer.headline.empty()) {
     answer.headline.emplace_back(
-        std::any_of(s.metrics.begin(), s.metrics.end(),
-                    [](const MetricSensitivity& one) { return is_varying(one); })
+        std::ranges::any_of(s.metrics, [](const MetricSensitivity& one) { return is_varying(one); })
             ? "What varies has too few rows for indices."
             : "Nothing of this varies.");
   }

@@ -26,13 +26,13 @@ ShownUnit time_unit(const Sensitivity& s) {
 
 /// Whether all cases reach each step at the same time.
 bool have_same_times(const Sensitivity& s) {
-  return std::all_of(s.steps.begin(), s.steps.end(), [](const Store::LoadStep& one) {
+  return std::ranges::all_of(s.steps, [](const Store::LoadStep& one) {
     return one.latest - one.earliest <= 1e-9 * one.latest;
   });
 }
 
 std::string with_blanks(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
+  std::ranges::replace(name, '_', ' ');
   return name;
 }
 

@@ -36,12 +36,12 @@ double share_of_levels(const std::vector<double>& y, const std::vector<double>& 
 /// The number of each value of x, in ascending order.
 std::vector<std::uint32_t> levels_of(const std::vector<double>& x) {
   std::vector<double> values = x;
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
+  std::ranges::sort(values);
+  values.erase(std::ranges::unique(values), values.end());
   std::vector<std::uint32_t> levels;
   levels.reserve(x.size());
   for (const double one : x) {
-    const auto at = std::lower_bound(values.begin(), values.end(), one) - values.begin();
+    const auto at = std::ranges::lower_bound(values, one) - values.begin();
     levels.push_back(static_cast<std::uint32_t>(at));
   }
   return levels;
@@ -95,9 +95,7 @@ std::span<const Output> steps_of(const Sensitivity& s, const std::vector<Output>
 
 /// It carries most of what all steps together say.
 const MetricSensitivity& most_varying(std::span<const MetricSensitivity> steps) {
-  return *std::max_element(steps.begin(), steps.end(), [](const auto& a, const auto& b) {
-    return a.standard_deviation < b.standard_deviation;
-  });
+  return *std::ranges::max_element(steps, {}, &MetricSensitivity::standard_deviation);
 }
 
 void add_grid_indices(Sensitivity& s) {

@@ -19,15 +19,13 @@ bool is_told(const MetricSensitivity& metric) {
 std::vector<std::size_t> descending_places(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return values[a] > values[b]; });
+  std::ranges::stable_sort(order,
+                           [&](std::size_t a, std::size_t b) { return values[a] > values[b]; });
   return order;
 }
 
 std::vector<double> values_of(const std::vector<Estimate>& estimates) {
-  std::vector<double> values;
-  for (const Estimate& one : estimates) values.push_back(one.value);
-  return values;
+  return mapped(estimates, &Estimate::value);
 }
 
 namespace {

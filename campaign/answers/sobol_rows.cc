@@ -14,7 +14,7 @@ namespace {
 /// Of an output on the rows of one base sample; they are in the order A, AB_1 .. AB_D, (BA_1 ..
 /// BA_D,) B. Rows BA repeat what A and AB tell with the blocks' parts exchanged: not used.
 void add_base_sample(const std::vector<double>& rows, PickFreezeValues& values) {
-  if (std::any_of(rows.begin(), rows.end(), [](double one) { return !std::isfinite(one); })) return;
+  if (std::ranges::any_of(rows, [](double one) { return !std::isfinite(one); })) return;
   values.a.push_back(rows.front());
   values.b.push_back(rows.back());
   for (std::size_t p = 0; p < values.ab.size(); ++p) values.ab[p].push_back(rows[p + 1]);

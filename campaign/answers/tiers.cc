@@ -63,14 +63,12 @@ TierRows read_tier(const Store& store, const CampaignInfo& campaign,
 
 /// The k-th row must be the same sample at both.
 void refuse_other_samples(const TierRows& low, const TierRows& high, const CampaignInfo& campaign) {
-  const bool fit =
-      high.parameters.size() <= low.parameters.size() &&
-      std::equal(high.parameters.begin(), high.parameters.end(), low.parameters.begin());
+  const bool fit = high.parameters.size() <= low.parameters.size() &&
+                   std::ranges::equal(high.parameters, low.parameters.begin());
   if (fit) return;
   throw InputError(
-      "tiers",
-      {{"", 0, concat("the samples of ", campaign.name, " are not the first ones of the low tier"),
-        "give both the same monte-carlo design and seed"}});
+      "tiers", concat("the samples of ", campaign.name, " are not the first ones of the low tier"),
+      "give both the same monte-carlo design and seed");
 }
 
 /// The pairs first, then what only the low tier has: of one answer.
@@ -88,8 +86,8 @@ PairedValues paired(const TierRows& low, const TierRows& high, std::size_t answe
     const bool has_both = row < high.complete.size() && high.complete[row] != 0;
     const double y = has_both ? high.values[answer][row] : 0;
     if (!std::isfinite(x) || !std::isfinite(y)) {
-      throw InputError("--metrics", {{"", 0, concat("full histories have no ", label),
-                                      "ask for a metric that each has, or for a condition"}});
+      throw InputError("--metrics", concat("full histories have no ", label),
+                       "ask for a metric that each has, or for a condition");
     }
     if (has_both) pairs.high.push_back(y);
     (has_both ? pairs.low : others).push_back(x);
@@ -166,11 +164,11 @@ Tiers compare_tiers(const Store& store, const CampaignInfo& low, const CampaignI
   for (std::size_t row = 0; row < highs.complete.size(); ++row)
     tiers.n_pairs += lows.complete[row] != 0 && highs.complete[row] != 0 ? 1 : 0;
   if (tiers.n_pairs < kFewestPairsForTiers) {
-    throw InputError("tiers", {{"", 0,
-                                concat(tiers.n_pairs,
-                                       " full histories at both tiers are "
-                                       "too few"),
-                                concat("run at least ", kFewestPairsForTiers, ": --tier-budget")}});
+    throw InputError("tiers",
+                     concat(tiers.n_pairs,
+                            " full histories at both tiers are "
+                            "too few"),
+                     concat("run at least ", kFewestPairsForTiers, ": --tier-budget"));
   }
   tiers.taken_seconds = tiers.low_cost.seconds_of(static_cast<double>(tiers.low_cost.n_rows)) +
                         tiers.high_cost.seconds_of(static_cast<double>(tiers.high_cost.n_rows));

@@ -40,11 +40,10 @@ std::string pays_sentence(const Tiers& tiers) {
   const auto less = [](const TierAnswer& a, const TierAnswer& b) {
     return a.cost_ratio < b.cost_ratio;
   };
-  const auto [least, most] = std::minmax_element(tiers.answers.begin(), tiers.answers.end(), less);
+  const auto [least, most] = std::ranges::minmax_element(tiers.answers, less);
   const auto n = tiers.answers.size();
-  const auto n_pays = static_cast<std::size_t>(
-      std::count_if(tiers.answers.begin(), tiers.answers.end(),
-                    [](const TierAnswer& one) { return one.cost_ratio > 1; }));
+  const auto n_pays = static_cast<std::size_t>(std::ranges::count_if(
+      tiers.answers, [](const TierAnswer& one) { return one.cost_ratio > 1; }));
   const std::string pays = n_pays == n ? std::string("Two tiers pay")
                            : n_pays == 0
                                ? std::string("Two tiers do not pay")
@@ -121,7 +120,7 @@ AnswerTable screen_table_of(const Tiers& tiers, const ShownUnit& unit) {
 void add_screen_tables(const Tiers& tiers, Answer& answer) {
   std::vector<std::string> done;
   for (const TierAnswer& one : tiers.answers) {
-    if (std::find(done.begin(), done.end(), one.unit.name) != done.end()) continue;
+    if (contains(done, one.unit.name)) continue;
     done.push_back(one.unit.name);
     answer.add(screen_table_of(tiers, one.unit));
   }

@@ -18,11 +18,11 @@ const RankedCase& row_of(const Ranking& ranking, const StoredCase& stored) {
     if (row.position == stored.position) return row;
   const std::string what = concat("case ", stored.position, " of ", ranking.campaign.name);
   if (!stored.has_result) {
-    throw InputError("--why", {{"", 0, what + " has no result yet",
-                                concat("run it: faultsweep run ", ranking.campaign.name)}});
+    throw InputError("--why", what + " has no result yet",
+                     concat("run it: faultsweep run ", ranking.campaign.name));
   }
-  throw InputError("--why", {{"", 0, what + " is not among the cases that are ranked",
-                              "leave out --where, or choose a --stage that its history reaches"}});
+  throw InputError("--why", what + " is not among the cases that are ranked",
+                   "leave out --where, or choose a --stage that its history reaches");
 }
 
 /// Of the stage that the ranking is of.
@@ -92,8 +92,8 @@ std::vector<Neighbour> neighbours_of(const Why& why) {
   const auto size = [](const Neighbour& one) {
     return std::isfinite(one.change) ? std::abs(one.change) : -1;
   };
-  std::stable_sort(neighbours.begin(), neighbours.end(),
-                   [&](const Neighbour& a, const Neighbour& b) { return size(a) > size(b); });
+  std::ranges::stable_sort(
+      neighbours, [&](const Neighbour& a, const Neighbour& b) { return size(a) > size(b); });
   return neighbours;
 }
 

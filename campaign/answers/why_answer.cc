@@ -101,7 +101,7 @@ std::vector<std::size_t> order_of_faults(const Why& why) {
                        why.ranking.request.fault == why.metrics.faults[f].fault;
     if (asked) order.push_back(f);
   }
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
     const auto &ma = why.metrics.faults[a], &mb = why.metrics.faults[b];
     if (ma.activated != mb.activated) return ma.activated;
     if (ma.activation && mb.activation) return ma.activation->step < mb.activation->step;
@@ -112,8 +112,8 @@ std::vector<std::size_t> order_of_faults(const Why& why) {
 
 /// What every fault does, and how far it is from sliding.
 std::vector<std::string> what_happens(const Why& why) {
-  std::vector<std::string> sentences;
-  for (const std::size_t f : order_of_faults(why)) sentences.push_back(fault_sentence(why, f));
+  std::vector sentences =
+      mapped(order_of_faults(why), [&](const std::size_t& f) { return fault_sentence(why, f); });
   const double margin = why.row.pressure_margin.value_or(NAN);
   if (why.metrics.stage.empty() && std::isfinite(margin)) {
     sentences.push_back(concat("By linear extrapolation χ̄ would be 1 after ",
@@ -243,8 +243,7 @@ AnswerTable local_table(const Why& why) {
 }
 
 AnswerTable nearest_table(const Why& why) {
-  std::vector<const CaseParameters*> rows;
-  for (const NearCase& one : why.nearest) rows.push_back(&one.row.parameters);
+  std::vector rows = mapped(why.nearest, [&](const NearCase& one) { return &one.row.parameters; });
   const ParameterColumns parameters(why.ranking.campaign.parameters, rows);
   AnswerTable table{
       "nearest",
@@ -267,7 +266,7 @@ AnswerTable nearest_table(const Why& why) {
 /// The largest first.
 std::vector<Slope> sorted_slopes(const Why& why) {
   std::vector<Slope> slopes = why.plane.slopes;
-  std::stable_sort(slopes.begin(), slopes.end(), [](const Slope& a, const Slope& b) {
+  std::ranges::stable_sort(slopes, [](const Slope& a, const Slope& b) {
     return std::abs(a.per_deviation) > std::abs(b.per_deviation);
   });
   return slopes;
@@ -313,7 +312,7 @@ AnswerTable global_table(const Why& why) {
     const Estimate& e = metric.first_order[k];
     table.rows.push_back({why.global->parameters[k], e.value, e.bounds.low, e.bounds.high});
   }
-  std::stable_sort(table.rows.begin(), table.rows.end(), [](const auto& a, const auto& b) {
+  std::ranges::stable_sort(table.rows, [](const auto& a, const auto& b) {
     return std::get<double>(a[1].value) > std::get<double>(b[1].value);
   });
   table.title = "Over the whole campaign:";

@@ -19,8 +19,7 @@ struct NightlyArguments : NightRequest {
 
 ExitCode run_tonight(const NightRequest& request, bool json) {
   if (request.bless && request.reason.find_first_not_of(" \t\n") == std::string::npos) {
-    throw InputError("--reason",
-                     {{"", 0, "the reason is empty", "say why these results are right"}});
+    throw InputError("--reason", "the reason is empty", "say why these results are right");
   }
   const std::optional<NightOutcome> night =
       run_night(request, {simulator_binary(), FAULTSIM_VERSION});

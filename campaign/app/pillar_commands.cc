@@ -54,11 +54,11 @@ std::optional<RegionalStress> stress_of(const PillarArguments& arguments) {
   if (arguments.stress_azimuth.empty()) return std::nullopt;
   const auto azimuth =
       faultsim::parse_quantity(arguments.stress_azimuth, faultsim::Dimension::angle);
-  if (!azimuth.ok) throw InputError("--stress-azimuth", {{"", 0, azimuth.what, azimuth.cure}});
+  if (!azimuth.ok) throw InputError("--stress-azimuth", azimuth.what, azimuth.cure);
   if (arguments.stress_ratios.size() != 2 ||
       !(arguments.stress_ratios[0] >= arguments.stress_ratios[1]))
-    throw InputError("--stress-ratios", {{"", 0, "two ratios go with the azimuth, the larger first",
-                                          "write --stress-ratios 0.83 0.74"}});
+    throw InputError("--stress-ratios", "two ratios go with the azimuth, the larger first",
+                     "write --stress-ratios 0.83 0.74");
   return RegionalStress{azimuth.value / faultsim::kDegree, arguments.stress_ratios[0],
                         arguments.stress_ratios[1]};
 }
@@ -152,8 +152,8 @@ struct MapArguments {
 ExitCode map(const StoreArguments& common, const MapArguments& arguments) {
   const std::string kind = arguments.output.extension().string();
   if (kind != ".csv" && kind != ".vtu" && kind != ".ts")
-    throw InputError("-o", {{"", 0, concat("\"", kind, "\" is not a kind of map"),
-                             "name a file that ends in .csv, .vtu or .ts"}});
+    throw InputError("-o", concat("\"", kind, "\" is not a kind of map"),
+                     "name a file that ends in .csv, .vtu or .ts");
   faultsim::require_writable_file("-o", arguments.output, faultsim::FileKind::text,
                                   {arguments.places});
   const Store store = Store::open_reader(common.store);

@@ -37,7 +37,7 @@ std::string draw_campaign(const PlotArguments& arguments, const Store& store) {
   if (arguments.chart == "sensitivity") {
     const std::string chart = first_chart(what_matters(store, campaign, arguments.sensitivity));
     if (!chart.empty()) return chart;
-    throw InputError("sensitivity", {{"", 0, "nothing of this varies", "ask for other --metrics"}});
+    throw InputError("sensitivity", "nothing of this varies", "ask for other --metrics");
   }
   if (arguments.chart == "probability") {
     return faultsim::figure::draw(
@@ -47,8 +47,8 @@ std::string draw_campaign(const PlotArguments& arguments, const Store& store) {
   for (const faultsim::CaseChartInfo& info : faultsim::case_charts()) {
     names += std::string(", ") + info.name;
   }
-  throw InputError("chart", {{"", 0, concat("\"", arguments.chart, "\" is not a chart"),
-                              "choose one of " + names}});
+  throw InputError("chart", concat("\"", arguments.chart, "\" is not a chart"),
+                   "choose one of " + names);
 }
 
 /// CAMPAIGN/CASE, or CASE of the newest campaign.
@@ -58,8 +58,8 @@ std::string draw_case_of(const PlotArguments& arguments, const faultsim::CaseCha
   const bool has_campaign = slash != std::string::npos;
   const std::string name = has_campaign ? arguments.subject.substr(slash + 1) : arguments.subject;
   if (name.empty()) {
-    throw InputError("subject", {{"", 0, concat("a ", info.name, " is of one case"),
-                                  "name it: CAMPAIGN/CASE, or its number"}});
+    throw InputError("subject", concat("a ", info.name, " is of one case"),
+                     "name it: CAMPAIGN/CASE, or its number");
   }
   const CampaignInfo campaign =
       store.campaign(has_campaign ? arguments.subject.substr(0, slash) : "", false);

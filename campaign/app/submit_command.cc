@@ -51,8 +51,7 @@ constexpr const char* kStarterSpec = R"({
 
 void require_new(const std::filesystem::path& path) {
   if (std::filesystem::exists(std::filesystem::symlink_status(path))) {
-    throw InputError(path.string(),
-                     {{"", 0, "the file is there already", "choose another folder"}});
+    throw InputError(path.string(), "the file is there already", "choose another folder");
   }
 }
 

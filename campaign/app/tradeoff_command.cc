@@ -44,8 +44,8 @@ void apply(const std::vector<std::string>& settings, JsonDocument& document) {
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) {
-      throw InputError("--set", {{"", 0, concat("'", setting, "' has no '='"),
-                                  "write --set /friction/friction_angle=\"25 deg\""}});
+      throw InputError("--set", concat("'", setting, "' has no '='"),
+                       "write --set /friction/friction_angle=\"25 deg\"");
     }
     faultsim::set_value(document, setting.substr(0, equals), setting.substr(equals + 1));
   }
@@ -70,11 +70,11 @@ TradeQuestion read_question(const TradeoffArguments& arguments) {
     return question;
   }
   if (arguments.tiers.size() < 2) {
-    throw InputError(
-        "--tiers", {{"", 0, "one tier is nothing to compare", "write --tiers screening,standard"}});
+    throw InputError("--tiers", "one tier is nothing to compare",
+                     "write --tiers screening,standard");
   }
   if (!arguments.settings.empty()) {
-    throw InputError("--set", {{"", 0, "a spec has its own \"set\"", "put it there"}});
+    throw InputError("--set", "a spec has its own \"set\"", "put it there");
   }
   question.cases = expand(read_campaign(arguments.source));
   question.scene = {question.cases->spec.scene_source, question.cases->spec.groups[0].scene, {}};
@@ -84,8 +84,8 @@ TradeQuestion read_question(const TradeoffArguments& arguments) {
     std::vector<faultsim::Problem> problems;
     faultsim::read_scene(at_it, problems);
     if (!problems.empty()) {
-      throw InputError("--tiers", {{"", 0, concat("'", tier, "': ", problems.front().what),
-                                    problems.front().cure}});
+      throw InputError("--tiers", concat("'", tier, "': ", problems.front().what),
+                       problems.front().cure);
     }
   }
   return question;
@@ -178,8 +178,7 @@ ExitCode tradeoff(const StoreArguments& common, const TradeoffArguments& argumen
   report.title = question.scene.value.value("title", std::string("untitled"));
   report.source = std::filesystem::path(arguments.source).filename();
   report.wanted_chi = arguments.wanted_chi;
-  std::vector<std::vector<TradeRun>> runs;
-  for (const TradeAxis& axis : axes) runs.push_back(answers.runs(axis));
+  std::vector runs = mapped(axes, [&](const TradeAxis& axis) { return answers.runs(axis); });
   report.trade = make_trade(axes, runs);
   TradeRecord record{seconds_since_1970(), report.source, name, FAULTSIM_VERSION, "", {}};
   if (question.cases) {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "campaign/common/names.h"
+
 namespace faultsweep {
 namespace {
 
@@ -29,9 +31,7 @@ CaseValues::CaseValues(const CampaignSpec& spec, const Group& group) : spec_(spe
 }
 
 std::vector<CaseValues::Source> CaseValues::sources_of(const Expression& expression) const {
-  std::vector<Source> sources;
-  for (const std::string& name : expression.names()) sources.push_back(source_of(name));
-  return sources;
+  return mapped(expression.names(), [&](const std::string& name) { return source_of(name); });
 }
 
 CaseValues::Source CaseValues::source_of(const std::string& name) const {

@@ -73,10 +73,9 @@ class Expander {
 
   /// The design of a group whose estimators need every row, or null.
   static const Design* whole_design(const Group& group) {
-    const auto found =
-        std::find_if(group.designs.begin(), group.designs.end(), [](const Design& one) {
-          return one.kind == DesignKind::sobol || one.kind == DesignKind::morris;
-        });
+    const auto found = std::ranges::find_if(group.designs, [](const Design& one) {
+      return one.kind == DesignKind::sobol || one.kind == DesignKind::morris;
+    });
     return found == group.designs.end() ? nullptr : &*found;
   }
 
@@ -109,9 +108,7 @@ class Expander {
     FamilyFinder families(result_.spec, group, builder, values, families_);
     const long n_rows = count_rows(group);
     // Each line of a file is somebody's own: nothing but checking it tells whether it is sound.
-    const bool has_file =
-        std::any_of(group.designs.begin(), group.designs.end(),
-                    [](const Design& one) { return one.kind == DesignKind::samples; });
+    const bool has_file = contains(group.designs, DesignKind::samples, &Design::kind);
     const bool is_large = n_rows > kRowsCheckedOneByOne && !has_file;
     if (is_large && !check_extremes(group, builder, values)) return;
     const auto relations = is_large ? faultsim::Relations::trusted : faultsim::Relations::checked;
@@ -276,16 +273,16 @@ class Expander {
     long n_excluded = 0;
     for (const ExcludedCases& one : result_.excluded) n_excluded += one.n_cases;
     const auto is_stated = [](const Group& group) {
-      return std::any_of(group.designs.begin(), group.designs.end(),
-                         [](const Design& one) {
-                           return one.correlated || one.kind == DesignKind::samples;
-                         }) ||
-             std::any_of(group.parameters.begin(), group.parameters.end(), [](const auto& one) {
+      return std::ranges::any_of(group.designs,
+                                 [](const Design& one) {
+                                   return one.correlated || one.kind == DesignKind::samples;
+                                 }) ||
+             std::ranges::any_of(group.parameters, [](const auto& one) {
                return one.range && one.range->marginal.spread > 0;
              });
     };
     const auto& groups = result_.spec.groups;
-    if (n_excluded == 0 || std::none_of(groups.begin(), groups.end(), is_stated)) return;
+    if (n_excluded == 0 || std::ranges::none_of(groups, is_stated)) return;
     result_.notes.push_back(
         std::to_string(n_excluded) +
         " samples are excluded: the others have other distributions and correlations than those "

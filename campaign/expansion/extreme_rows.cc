@@ -43,7 +43,7 @@ std::vector<int> sample_choices(const Parameter& parameter, std::size_t n) {
     return a.si.value_or(0) < b.si.value_or(0);
   };
   const auto [least, most] =  // of a range: its ends
-      std::minmax_element(parameter.choices.begin(), parameter.choices.end(), smaller);
+      std::ranges::minmax_element(parameter.choices, smaller);
   sample = {0, size - 1, static_cast<int>(least - parameter.choices.begin()),
             static_cast<int>(most - parameter.choices.begin())};
   const auto wanted = static_cast<std::int64_t>(n);

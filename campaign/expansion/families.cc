@@ -17,8 +17,7 @@ FamilyFinder::FamilyFinder(const CampaignSpec& spec, const Group& group, SceneBu
 void FamiliesSoFar::say(const faultsim::Remark& remark, const std::string& where) {
   const std::string text = faultsim::remark_text(remark);
   const auto same = [&](const FieldRemark& one) { return one.text == text; };
-  if (std::none_of(field_remarks.begin(), field_remarks.end(), same))
-    field_remarks.push_back({text, where});
+  if (std::ranges::none_of(field_remarks, same)) field_remarks.push_back({text, where});
 }
 
 namespace {
@@ -35,15 +34,13 @@ bool places_a_field(const std::string& target) {
 void FamilyFinder::find_relevant() {
   const auto infos = faultsim::parameters({spec_.scene_source, group_.scene, spec_.base.lines});
   const auto may_matter = [&](const std::string& target) {
-    const auto info = std::find_if(infos.begin(), infos.end(),
-                                   [&](const auto& one) { return one.pointer == target; });
+    const auto info = std::ranges::find(infos, target, &faultsim::ParameterInfo::pointer);
     return info == infos.end() || info->new_family;
   };
   for (const Parameter& parameter : group_.parameters) {
     const auto& targets = parameter.targets;
-    makes_families_.push_back(std::any_of(targets.begin(), targets.end(), may_matter));
-    relevant_.push_back(makes_families_.back() ||
-                        std::any_of(targets.begin(), targets.end(), places_a_field));
+    makes_families_.push_back(std::ranges::any_of(targets, may_matter));
+    relevant_.push_back(makes_families_.back() || std::ranges::any_of(targets, places_a_field));
   }
   for (const Derived& one : spec_.derived) {
     relevant_.push_back(may_matter(one.scene_pointer) || places_a_field(one.scene_pointer));

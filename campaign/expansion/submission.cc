@@ -27,8 +27,7 @@ class Columns {
     }
     if (places_.size() > 1)
       values.push_back({0, std::nullopt, expansion_.spec.groups[one.group].name});
-    std::sort(values.begin(), values.end(),
-              [](const CaseParameter& a, const CaseParameter& b) { return a.index < b.index; });
+    std::ranges::sort(values, {}, &CaseParameter::index);
     return values;
   }
   std::vector<StoredParameter> parameters;
@@ -70,9 +69,9 @@ std::vector<DesignRow> design_rows(const Expansion& expansion) {
     }
   }
   const auto& groups = expansion.spec.groups;
-  const bool sampled = std::any_of(groups.begin(), groups.end(), [](const Group& group) {
-    return std::any_of(group.designs.begin(), group.designs.end(),
-                       [](const Design& one) { return is_sampled(one.kind); });
+  const bool sampled = std::ranges::any_of(groups, [](const Group& group) {
+    return std::ranges::any_of(group.designs,
+                               [](const Design& one) { return is_sampled(one.kind); });
   });
   return sampled || all.size() != expansion.cases.size() ? all : std::vector<DesignRow>();
 }

@@ -62,7 +62,7 @@ Type number_type(Dimension dimension) { return {Kind::number, units_of(dimension
 
 ExpressionError::ExpressionError(const std::string& text, std::size_t position,
                                  const std::string& what, const std::string& cure)
-    : InputError("expression", {{"", 0, what, cure + caret_lines(text, position)}}),
+    : InputError("expression", what, cure + caret_lines(text, position)),
       position_(position),
       message_(what + "; " + cure + caret_lines(text, position)) {}
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "campaign/common/names.h"
 #include "campaign/expression/node.h"
 
 /// Conditions that may be undecided, as SQL.
@@ -46,7 +47,7 @@ struct Range {
   std::vector<SqlFragment> any;
 
   void may_be_anything_where(const SqlFragment& condition) {
-    const bool is_known = std::any_of(any.begin(), any.end(), [&](const SqlFragment& one) {
+    const bool is_known = std::ranges::any_of(any, [&](const SqlFragment& one) {
       return one.text == condition.text && one.parameters == condition.parameters;
     });
     if (!is_known) any.push_back(condition);

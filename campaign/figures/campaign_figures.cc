@@ -31,7 +31,7 @@ struct ParameterAxis {
       return faultsim::from_si(*one.si, parameter.dimension,
                                faultsim::usual_unit(parameter.dimension));
     }
-    const auto found = std::find(words.begin(), words.end(), one.text);
+    const auto found = std::ranges::find(words, one.text);
     if (found != words.end()) return static_cast<double>(found - words.begin());
     words.push_back(one.text);
     return static_cast<double>(words.size() - 1);
@@ -39,22 +39,20 @@ struct ParameterAxis {
   std::string label() const {
     const std::string unit = faultsim::usual_unit(parameter.dimension);
     std::string name = parameter.name;
-    std::replace(name.begin(), name.end(), '_', ' ');
+    std::ranges::replace(name, '_', ' ');
     return unit.empty() || parameter.is_text ? name : name + ", " + unit;
   }
 };
 
 ParameterAxis axis_of(const std::vector<StoredParameter>& parameters, const std::string& option,
                       const std::string& name, const std::string& other) {
-  std::vector<std::string> names;
-  names.reserve(parameters.size());
-  for (const StoredParameter& one : parameters) names.push_back(one.name);
+  std::vector names = mapped(parameters, &StoredParameter::name);
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     if (name.empty() ? names[k] != other : names[k] == name) return {k, parameters[k], {}};
   }
   if (!name.empty()) require_name(option, "parameter", name, names);
-  throw InputError(option, {{"", 0, "the campaign has fewer than two parameters",
-                             "a map needs one for each side"}});
+  throw InputError(option, "the campaign has fewer than two parameters",
+                   "a map needs one for each side");
 }
 
 /// What became of each case that has a result, row by row.
@@ -116,8 +114,8 @@ StoredPicture::StoredPicture(const Store& store, const CampaignInfo& campaign,
                              const StoredCase& one)
     : name_(concat(campaign.name, "/", one.position)), result_(one.result) {
   if (!one.has_result) {
-    throw InputError("case", {{"", 0, concat("case ", one.position, " has no result yet"),
-                               concat("faultsweep explain ", name_, " says why")}});
+    throw InputError("case", concat("case ", one.position, " has no result yet"),
+                     concat("faultsweep explain ", name_, " says why"));
   }
   const BaseScene base = store.base_scene(one.scene);
   scene_ = faultsim::read_scene({base.source, scene_from_changes(base.document, one.changes), {}});

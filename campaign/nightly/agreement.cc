@@ -166,8 +166,8 @@ class Walk {
 
 /// Of the first load step that differs, else of all: the difference of most ulps.
 const Difference& first_of(const std::vector<Difference>& all) {
-  auto end = std::find_if(all.begin(), all.end(),
-                          [&](const Difference& one) { return one.step != all.front().step; });
+  auto end = std::ranges::find_if(
+      all, [&](const Difference& one) { return one.step != all.front().step; });
   return *std::max_element(
       all.begin(), end, [](const Difference& a, const Difference& b) { return a.ulps < b.ulps; });
 }
@@ -232,11 +232,10 @@ Agreement compare_results(const CaseResult& baseline, const CaseResult& tonight,
     agreement.max_ulps = std::max(agreement.max_ulps, one.ulps);
   }
   agreement.first = first_of(all);
-  agreement.worst =
-      *std::max_element(all.begin(), all.end(), [&](const Difference& a, const Difference& b) {
-        if (a.verdict != b.verdict) return a.verdict < b.verdict;
-        return a.deviation / tolerances.of(a.quantity) < b.deviation / tolerances.of(b.quantity);
-      });
+  agreement.worst = *std::ranges::max_element(all, [&](const Difference& a, const Difference& b) {
+    if (a.verdict != b.verdict) return a.verdict < b.verdict;
+    return a.deviation / tolerances.of(a.quantity) < b.deviation / tolerances.of(b.quantity);
+  });
   agreement.verdict = agreement.worst->verdict;
   return agreement;
 }

@@ -166,8 +166,8 @@ class Night {
   NightCampaign run_submission(const Submission& submission) {
     const SubmitOutcome outcome = Store::open_writer(cold_store()).submit(submission);
     if (outcome.existed) {
-      throw InputError(suite_.source, {{"", 0, concat("the suite has ", outcome.name, " twice"),
-                                        "leave one out"}});
+      throw InputError(suite_.source, concat("the suite has ", outcome.name, " twice"),
+                       "leave one out");
     }
     const ExitCode status = start_ranks({.store = cold_store(),
                                          .campaign = outcome.name,

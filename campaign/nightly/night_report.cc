@@ -253,7 +253,7 @@ long n_changed(const std::vector<NightRecord>& nights, std::size_t k) {
                                          nights.begin() + static_cast<std::ptrdiff_t>(k));
   const auto before = comparable(nights[k], earlier);
   if (before.empty()) return 0;
-  return std::count_if(nights[k].cases.begin(), nights[k].cases.end(), [&](const auto& one) {
+  return std::ranges::count_if(nights[k].cases, [&](const auto& one) {
     const NightCaseRecord* then = find(*before.front(), one);
     return then != nullptr && then->digest != one.digest;
   });

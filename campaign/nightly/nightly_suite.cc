@@ -61,7 +61,7 @@ void check(const JsonDocument& document, const NightlySuite& suite,
   }
   const std::vector<std::string> known = quantities();
   for (const auto& [name, tolerance] : suite.tolerances.of_quantity) {
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
+    if (!contains(known, name)) {
       problem("/tolerances/" + faultsim::pointer_token(name),
               concat("\"", name, "\" is not a quantity that is compared"),
               "name it as schemas/result.schema.json does");

@@ -106,8 +106,8 @@ FaultMap make_fault_map(const Store& store, const CampaignInfo& campaign,
                         const std::filesystem::path& places_file) {
   const Places places = read_places(places_file);
   if (store.faults(campaign.id).empty())
-    throw InputError(campaign.name, {{"", 0, "no pillar has a result yet",
-                                      "run it first: faultsweep run " + campaign.name}});
+    throw InputError(campaign.name, "no pillar has a result yet",
+                     "run it first: faultsweep run " + campaign.name);
   const Selection selection = make_selection(store, campaign, "", places.section_fault);
   const std::map<std::string, ScopedMetric> known = known_metrics(selection);
   FaultMap map{campaign, places.all, {}, {}};
@@ -130,12 +130,10 @@ FaultMap make_fault_map(const Store& store, const CampaignInfo& campaign,
     map.properties.back().values.push_back(time == times.end() ? kNone : time->second);
   });
   if (map.outcomes.size() != map.places.size())
-    throw InputError(
-        places_file.string(),
-        {{"", 0,
-          concat(counted(map.places.size(), "place", "places"), ", but ", campaign.name, " has ",
-                 counted(map.outcomes.size(), "pillar", "pillars")),
-          "take the places.csv that the campaign was made with"}});
+    throw InputError(places_file.string(),
+                     concat(counted(map.places.size(), "place", "places"), ", but ", campaign.name,
+                            " has ", counted(map.outcomes.size(), "pillar", "pillars")),
+                     "take the places.csv that the campaign was made with");
   return map;
 }
 

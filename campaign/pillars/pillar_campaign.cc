@@ -235,8 +235,8 @@ PillarCampaign make_pillar_campaign(const PillarTable& table, const JsonDocument
                                     const std::optional<RegionalStress>& stress,
                                     const std::function<void(std::size_t)>& progress) {
   if (stress && !table.numbers.contains(Role::azimuth))
-    throw InputError(table.source, {{"", 0, "ratios by direction need the strike of each pillar",
-                                     "add a column \"azimuth [deg]\""}});
+    throw InputError(table.source, "ratios by direction need the strike of each pillar",
+                     "add a column \"azimuth [deg]\"");
   JsonDocument section = base;
   faultsim::set_value(section, "/numerics/plane_strain", "on");
   const Scene scene = faultsim::read_scene(section);
@@ -246,8 +246,8 @@ PillarCampaign make_pillar_campaign(const PillarTable& table, const JsonDocument
     faultsim::put_value(section.value, pointer, value);
   }
   if (scene.has_field() && !table.numbers.contains(Role::azimuth))
-    throw InputError(table.source, {{"", 0, "a flow result needs the strike of each pillar",
-                                     "add a column \"azimuth [deg]\""}});
+    throw InputError(table.source, "a flow result needs the strike of each pillar",
+                     "add a column \"azimuth [deg]\"");
   const Section sections(scene, base);
   const std::vector<std::string> pointers = pointers_of(table, base);
   PillarCampaign campaign;
@@ -260,9 +260,9 @@ PillarCampaign make_pillar_campaign(const PillarTable& table, const JsonDocument
     for (std::size_t k = 0; k < pointers.size(); ++k)
       settings.push_back({pointers[k], table.parameters[k].unit, table.parameters[k].values[i]});
     if (settings.empty() && !scene.has_field())
-      throw InputError(table.source, {{"", 0, "nothing differs from pillar to pillar",
-                                       "add columns: depth, offset, thickness, dip, azimuth or any "
-                                       "parameter that `faultsim parameters` lists"}});
+      throw InputError(table.source, "nothing differs from pillar to pillar",
+                       "add columns: depth, offset, thickness, dip, azimuth or any "
+                       "parameter that `faultsim parameters` lists");
     if (i == 0) require_distinct(table, settings);
     std::vector<Problem> problems;
     std::optional<PillarScene> one = scene_of(section, settings, problems);

@@ -104,8 +104,7 @@ class Reader {
 
   void find_meaning(const TableColumn& own, const std::string& given, std::size_t i) {
     Column& column = columns_[i];
-    const auto role = std::find_if(kRoles.begin(), kRoles.end(),
-                                   [&](const RoleInfo& one) { return own.name == one.name; });
+    const auto role = std::ranges::find(kRoles, own.name, &RoleInfo::name);
     if (role == kRoles.end()) {
       if (!own.words.empty())
         reader_.refuse(
@@ -200,9 +199,7 @@ std::optional<double> PillarTable::number(PillarRole role, std::size_t pillar) c
 }
 
 const char* name_of(PillarRole role) {
-  return std::find_if(kRoles.begin(), kRoles.end(),
-                      [&](const RoleInfo& one) { return one.role == role; })
-      ->name;
+  return std::ranges::find(kRoles, role, &RoleInfo::role)->name;
 }
 
 PillarTable parse_pillar_table(const std::string& text, const std::string& source,

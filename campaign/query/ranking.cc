@@ -20,8 +20,8 @@ Expression parse_number(const std::string& text, const CampaignInfo& campaign,
   Expression expression =
       Expression::parse(text, result_symbols(campaign, selection), scopes_of(selection));
   if (expression.type().kind == Kind::text) {
-    throw InputError("--by", {{"", 0, concat("'", text, "' is a word, not a number"),
-                               "rank by a metric of --list-metrics"}});
+    throw InputError("--by", concat("'", text, "' is a word, not a number"),
+                     "rank by a metric of --list-metrics");
   }
   return expression;
 }

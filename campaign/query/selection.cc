@@ -23,8 +23,7 @@ std::vector<std::string> names_of(const std::vector<NamedId>& all) {
 }
 
 const NamedId* find(const std::vector<NamedId>& all, const std::string& name) {
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const NamedId& one) { return one.name == name; });
+  const auto found = std::ranges::find(all, name, &NamedId::name);
   return found == all.end() ? nullptr : &*found;
 }
 
@@ -32,11 +31,10 @@ const NamedId* find(const std::vector<NamedId>& all, const std::string& name) {
 
 void require_name(const std::string& option, const std::string& what, const std::string& name,
                   const std::vector<std::string>& names) {
-  if (std::count(names.begin(), names.end(), name) > 0) return;
-  throw InputError(option,
-                   {{"", 0, concat("there is no ", what, " '", name, "' in the results"),
-                     names.empty() ? concat("no case has a result with a ", what, " of its own yet")
-                                   : cure_of_name(name, names)}});
+  if (contains(names, name)) return;
+  throw InputError(option, concat("there is no ", what, " '", name, "' in the results"),
+                   names.empty() ? concat("no case has a result with a ", what, " of its own yet")
+                                 : cure_of_name(name, names));
 }
 
 Selection make_selection(const Store& store, const CampaignInfo& campaign, const std::string& stage,
@@ -113,9 +111,7 @@ Symbols symbols_of(const CampaignInfo& campaign, const std::map<std::string, Sco
 }
 
 std::vector<std::int64_t> ids_of(const std::vector<NamedId>& all) {
-  std::vector<std::int64_t> ids;
-  for (const NamedId& one : all) ids.push_back(one.id);
-  return ids;
+  return mapped(all, &NamedId::id);
 }
 
 /// Where the metrics among the names are not resolved, and how large their errors are.
@@ -124,8 +120,7 @@ void add_doubts(Symbols& symbols, const std::vector<std::string>& names,
                 const StatedErrors& errors) {
   const MetricIds all = {ids_of(selection.faults), ids_of(selection.stages)};
   for (const std::string& name : names) {
-    if (std::count(std::begin(kTexts), std::end(kTexts), name) > 0)
-      symbols[name].unresolved = unresolved_sql(name, all);
+    if (contains(kTexts, name)) symbols[name].unresolved = unresolved_sql(name, all);
     const auto found = known.find(name);
     if (found == known.end()) continue;
     const ScopedMetric& metric = found->second;
@@ -156,8 +151,8 @@ Expression read_condition(const std::string& option, const std::string& conditio
                           const Symbols& symbols, const Selection& selection) {
   Expression read = Expression::parse(condition, symbols, scopes_of(selection));
   if (read.type().kind != Kind::boolean) {
-    throw InputError(option, {{"", 0, concat("'", condition, "' is not a condition"),
-                               "compare it with something: \"chi_bar > 0.8\""}});
+    throw InputError(option, concat("'", condition, "' is not a condition"),
+                     "compare it with something: \"chi_bar > 0.8\"");
   }
   return read;
 }
@@ -197,8 +192,7 @@ VerdictSql parse_verdict(const std::string& condition, const CampaignInfo& campa
 
 bool creeps(const Store& store, const CampaignInfo& campaign) {
   const auto families = store.family_progress(campaign.id);
-  return std::any_of(families.begin(), families.end(),
-                     [](const auto& family) { return family.n_operators > 1; });
+  return std::ranges::any_of(families, [](const auto& family) { return family.n_operators > 1; });
 }
 
 namespace {
@@ -214,8 +208,8 @@ std::vector<std::string> names_in(const std::string& list) {
     if (may_quote && (list[i] == '"' || list[i] == '\'')) {
       const auto quoted = quoted_at(list, i);
       if (!quoted)
-        throw InputError("--metrics", {{"", 0, concat("this quote is not closed: ", list.substr(i)),
-                                        "add the closing quote"}});
+        throw InputError("--metrics", concat("this quote is not closed: ", list.substr(i)),
+                         "add the closing quote");
       name += quoted->inside;
       i = quoted->end - 1;
       solid = name.size();
@@ -240,10 +234,10 @@ ScopedMetric metric_named(const std::string& name,
   std::vector<std::string> names;
   for (const auto& [one, metric] : known) names.push_back(one);
   const auto meant = nearest(name, names);
-  throw InputError("--metrics", {{"", 0, concat("there is no metric '", name, "'"),
-                                  meant ? concat("did you mean '", *meant, "'?")
-                                        : "`faultsweep rank --list-metrics` lists them; of a fault "
-                                          "or stage: F2.max_slip in gas_storage"}});
+  throw InputError("--metrics", concat("there is no metric '", name, "'"),
+                   meant ? concat("did you mean '", *meant, "'?")
+                         : "`faultsweep rank --list-metrics` lists them; of a fault "
+                           "or stage: F2.max_slip in gas_storage");
 }
 
 }  // namespace
@@ -267,13 +261,12 @@ void refuse_mixed(const Store::Kinds& kinds, const std::string& option, const st
   if (!kinds.mixed()) return;
   throw InputError(
       option,
-      {{"", 0,
-        concat(what,
-               " is per metre of strike in the plane-strain cases and a total in the others:"
-               " the two cannot be compared"),
-        "choose one kind, --where plane_strain or --where \"not plane_strain\", or what is not an "
-        "area,"
-        " potency or moment, such as chi_bar or max_slip"}});
+      concat(what,
+             " is per metre of strike in the plane-strain cases and a total in the others:"
+             " the two cannot be compared"),
+      "choose one kind, --where plane_strain or --where \"not plane_strain\", or what is not an "
+      "area,"
+      " potency or moment, such as chi_bar or max_slip");
 }
 
 }  // namespace faultsweep

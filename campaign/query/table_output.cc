@@ -86,7 +86,7 @@ std::string one_word(const std::string& text) {
 
 std::string column_name(const std::string& given, faultsim::Dimension dimension) {
   std::string name = given;
-  std::replace(name.begin(), name.end(), ' ', '_');
+  std::ranges::replace(name, ' ', '_');
   const bool magnitude =
       dimension == faultsim::Dimension::number && name.find("magnitude") != std::string::npos;
   return name + (magnitude ? "_mw" : faultsim::info_of(dimension).suffix);

@@ -103,8 +103,8 @@ const AnswerTable& table_named(const Answer& answer, std::string_view key) {
     names += concat(names.empty() ? "" : ", ", table->key);
   }
   throw faultsim::InputError(
-      "--csv", {{"", 0, concat("there is no table '", key, "'"),
-                 names.empty() ? "this answer has no table" : concat("there are: ", names)}});
+      "--csv", concat("there is no table '", key, "'"),
+      names.empty() ? "this answer has no table" : concat("there are: ", names));
 }
 
 }  // namespace faultsweep

@@ -66,8 +66,8 @@ std::vector<Laid> used_columns(const AnswerTable& table, std::size_t n_rows) {
       laid.cells.push_back(shown_cell(cell, table.columns[k]));
       laid.to_the_right = laid.to_the_right && is_number(cell);
     }
-    const bool is_used = std::any_of(laid.cells.begin(), laid.cells.end(),
-                                     [](const std::string& cell) { return !cell.empty(); });
+    const bool is_used =
+        std::ranges::any_of(laid.cells, [](const std::string& cell) { return !cell.empty(); });
     if (is_used) all.push_back(std::move(laid));
   }
   return all;
@@ -78,8 +78,8 @@ std::string take_constant(std::vector<Laid>& columns, std::size_t n_rows) {
   if (n_rows < 2) return "";
   const auto is_constant = [](const Laid& one) {
     return one.column->need != Need::always &&
-           std::all_of(one.cells.begin(), one.cells.end(),
-                       [&](const std::string& cell) { return cell == one.cells.front(); });
+           std::ranges::all_of(one.cells,
+                               [&](const std::string& cell) { return cell == one.cells.front(); });
   };
   std::string told;
   for (const Laid& one : columns) {
@@ -140,10 +140,9 @@ std::size_t least_width(const std::vector<Laid>& columns) {
 /// Takes what is too much from the widest texts. @pre least_width fits.
 void narrow(std::vector<Laid>& columns, std::size_t width) {
   while (width_of(columns, &Laid::width) > width) {
-    const auto widest =
-        std::max_element(columns.begin(), columns.end(), [](const Laid& a, const Laid& b) {
-          return a.width - a.narrowest() < b.width - b.narrowest();
-        });
+    const auto widest = std::ranges::max_element(columns, [](const Laid& a, const Laid& b) {
+      return a.width - a.narrowest() < b.width - b.narrowest();
+    });
     const std::size_t surplus = width_of(columns, &Laid::width) - width;
     widest->width -= std::min(surplus, widest->width - widest->narrowest());
   }
@@ -160,7 +159,7 @@ std::string leave_out(std::vector<Laid>& columns, std::size_t width) {
       columns.erase(columns.begin() + static_cast<long>(k));
     }
   }
-  std::reverse(gone.begin(), gone.end());
+  std::ranges::reverse(gone);
   std::string text;
   for (const std::string& one : gone) text += (text.empty() ? "" : "; ") + one;
   return text;
@@ -198,8 +197,7 @@ std::string rows_in_columns(const std::vector<Laid>& columns, std::size_t n_rows
     add_lines(columns, cells, text);
   }
   for (std::size_t r = 0; r < n_rows; ++r) {
-    std::vector<std::string> cells;
-    for (const Laid& one : columns) cells.push_back(one.cells[r]);
+    std::vector cells = mapped(columns, [&](const Laid& one) { return one.cells[r]; });
     add_lines(columns, cells, text);
   }
   return text;

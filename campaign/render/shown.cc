@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
 #include "campaign/common/names.h"
@@ -13,9 +12,7 @@ namespace faultsweep {
 
 std::string format_number(double value, int digits) {
   if (!std::isfinite(value)) return "-";
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*g", digits, value + 0.0);
-  return text;
+  return formatted("%.*g", digits, value + 0.0);
 }
 
 std::string in_unit(double value, const ShownUnit& unit, int digits) {
@@ -27,8 +24,8 @@ std::string short_number(const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   const std::string number(text.c_str(), static_cast<const char*>(end));
-  const auto n_digits = std::count_if(number.begin(), number.end(),
-                                      [](unsigned char c) { return std::isdigit(c) != 0; });
+  const auto n_digits =
+      std::ranges::count_if(number, [](unsigned char c) { return std::isdigit(c) != 0; });
   const bool alone = *end == '\0' || *end == ' ';
   if (!alone || n_digits <= kDigits || number.find('.') == std::string::npos) return text;
   return format_number(value, kDigits) + end;
@@ -38,14 +35,12 @@ std::string with_error(double value, double error) {
   if (!std::isfinite(value)) return "-";
   if (!(error > 0)) return error == 0 ? format_number(value) + " ± 0" : format_number(value);
   // %.0e rounds 0.0951 to 1e-01 first, so that the place is that of the digit that is shown.
-  char text[64];
-  std::snprintf(text, sizeof text, "%.0e", error);
-  const int place = std::atoi(std::string(text).substr(std::string(text).find('e') + 1).c_str());
+  const std::string text = formatted("%.0e", error);
+  const int place = std::stoi(text.substr(text.find('e') + 1));
   constexpr int kMostPlaces = 6;
   if (place > 0 || place < -kMostPlaces)
     return concat(format_number(value, 3), " ± ", format_number(error, 1));
-  std::snprintf(text, sizeof text, "%.*f ± %.*f", -place, value + 0.0, -place, error);
-  return text;
+  return formatted("%.*f ± %.*f", -place, value + 0.0, -place, error);
 }
 
 std::string format_percent(double share, int digits) {

@@ -27,8 +27,7 @@ namespace {
 void check_request(const CaseResult& result, const ShowRequest& request) {
   if (!request.fault.empty()) require_name("--fault", "fault", request.fault, result.fault_names);
   if (request.stage.empty()) return;
-  std::vector<std::string> stages;
-  for (const StageMetrics& stage : result.stages) stages.push_back(stage.stage);
+  std::vector stages = mapped(result.stages, &StageMetrics::stage);
   require_name("--stage", "stage", request.stage, stages);
 }
 

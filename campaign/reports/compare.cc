@@ -25,11 +25,11 @@ double relative_difference(double a, double b) {
 }
 
 long Comparison::count(bool ComparedPair::*flag) const {
-  return std::count_if(pairs.begin(), pairs.end(), [&](const ComparedPair& p) { return p.*flag; });
+  return std::ranges::count_if(pairs, [&](const ComparedPair& p) { return p.*flag; });
 }
 
 long Comparison::n_beyond() const {
-  return std::count_if(pairs.begin(), pairs.end(), [&](const ComparedPair& p) {
+  return std::ranges::count_if(pairs, [&](const ComparedPair& p) {
     return p.outcome_differs || p.flipped || p.worst > request.tolerance;
   });
 }
@@ -54,8 +54,7 @@ std::vector<std::size_t> places_of(const std::vector<std::string>& names,
   std::vector<std::size_t> places;
   const auto& parameters = campaign.parameters;
   for (const std::string& name : names) {
-    const auto found = std::find_if(parameters.begin(), parameters.end(),
-                                    [&](const StoredParameter& p) { return p.name == name; });
+    const auto found = std::ranges::find(parameters, name, &StoredParameter::name);
     places.push_back(static_cast<std::size_t>(found - parameters.begin()));
   }
   return places;
@@ -107,7 +106,7 @@ std::vector<std::string> shared_parameters(const CampaignInfo& a, const Campaign
   std::vector<std::string> names;
   const auto& others = b.parameters;
   for (const StoredParameter& one : a.parameters) {
-    const bool shared = std::any_of(others.begin(), others.end(), [&](const StoredParameter& p) {
+    const bool shared = std::ranges::any_of(others, [&](const StoredParameter& p) {
       return p.name == one.name && p.is_text == one.is_text && p.dimension == one.dimension;
     });
     if (shared) names.push_back(one.name);
@@ -222,10 +221,9 @@ void refuse_other_kind(const Side& a, const Side& b, const Comparison& compariso
     if (!one.metric.is_extensive()) continue;
     throw faultsim::InputError(
         "--metrics",
-        {{"", 0,
-          concat(one.metric.name, " cannot be compared: case ", a.position, " of A is ",
-                 dimension(a), "; case ", b.position, " of B is ", dimension(b)),
-          "name metrics without areas, potencies and moments: --metrics chi_bar,max_slip"}});
+        concat(one.metric.name, " cannot be compared: case ", a.position, " of A is ", dimension(a),
+               "; case ", b.position, " of B is ", dimension(b)),
+        "name metrics without areas, potencies and moments: --metrics chi_bar,max_slip");
   }
 }
 
@@ -253,8 +251,8 @@ std::unordered_map<long, long> places(const Store& store, const CampaignInfo& ca
 std::set<std::size_t> highest(const std::vector<long>& places, std::size_t k) {
   std::vector<std::size_t> order(places.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t i, std::size_t j) { return places[i] < places[j]; });
+  std::ranges::stable_sort(order,
+                           [&](std::size_t i, std::size_t j) { return places[i] < places[j]; });
   return {order.begin(), order.begin() + static_cast<std::ptrdiff_t>(k)};
 }
 
@@ -321,8 +319,9 @@ Comparison compare_campaigns(const Store& store_a, const CampaignInfo& a, const 
   const auto badness = [](const ComparedPair& p) {
     return std::tuple(!p.flipped, !p.outcome_differs, -p.worst, p.a);
   };
-  std::sort(comparison.pairs.begin(), comparison.pairs.end(),
-            [&](const ComparedPair& p, const ComparedPair& q) { return badness(p) < badness(q); });
+  std::ranges::sort(comparison.pairs, [&](const ComparedPair& p, const ComparedPair& q) {
+    return badness(p) < badness(q);
+  });
   return comparison;
 }
 

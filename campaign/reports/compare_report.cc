@@ -88,8 +88,8 @@ AnswerTable metrics_table(const Comparison& c) {
 
 /// How many pairs the table of the worst shows: those that differ at all.
 std::size_t n_shown(const Comparison& c) {
-  const auto differ = std::count_if(c.pairs.begin(), c.pairs.end(),
-                                    [](const ComparedPair& p) { return !p.identical; });
+  const auto differ =
+      std::ranges::count_if(c.pairs, [](const ComparedPair& p) { return !p.identical; });
   return static_cast<std::size_t>(c.request.top > 0 ? std::min<long>(c.request.top, differ)
                                                     : differ);
 }

@@ -140,8 +140,8 @@ std::string export_campaign(const Store& store, const CampaignInfo& campaign,
     faultsim::require_writable_file("-o", request.target, faultsim::FileKind::text, {});
   }
   if (request.histories && (request.format != ExportFormat::csv || !request.metrics.empty())) {
-    throw InputError("--histories", {{"", 0, "histories are written as CSV, with all their columns",
-                                      "leave out --format and --metrics"}});
+    throw InputError("--histories", "histories are written as CSV, with all their columns",
+                     "leave out --format and --metrics");
   }
   if (request.format == ExportFormat::dakota)
     return export_dakota(store, campaign, selection, request);

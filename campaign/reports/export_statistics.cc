@@ -30,7 +30,7 @@ struct Factor {
   /// "offset_m".
   std::string name() const { return one_word(column_name(parameter.name, parameter.dimension)); }
   std::size_t level(const std::string& word) const {
-    return static_cast<std::size_t>(std::find(words.begin(), words.end(), word) - words.begin());
+    return static_cast<std::size_t>(std::ranges::find(words, word) - words.begin());
   }
 };
 
@@ -138,10 +138,10 @@ void check_words(const Factor& factor) {
   std::set<std::string> seen;
   for (const std::string& word : factor.words) {
     if (seen.insert(one_word(word)).second) continue;
-    throw InputError("--format", {{"", 0,
-                                   concat("two values of '", factor.parameter.name, "' are both '",
-                                          one_word(word), "' as one word"),
-                                   "rename one in the spec, or export csv"}});
+    throw InputError("--format",
+                     concat("two values of '", factor.parameter.name, "' are both '",
+                            one_word(word), "' as one word"),
+                     "rename one in the spec, or export csv");
   }
 }
 
@@ -155,8 +155,7 @@ std::string export_dakota(const Store& store, const CampaignInfo& campaign,
   std::vector<Factor> factors = survey(store, campaign, query);
   std::erase_if(factors, [](const Factor& one) { return one.n_values == 0; });
   // Dakota orders its variables by type.
-  std::stable_partition(factors.begin(), factors.end(),
-                        [](const Factor& one) { return !one.parameter.is_text; });
+  std::ranges::stable_partition(factors, [](const Factor& one) { return !one.parameter.is_text; });
   TableOutput output(request.target);
   std::string line = "%eval_id interface";
   for (const Factor& one : factors) {
@@ -267,7 +266,7 @@ json problem_json(const CampaignInfo& campaign, const ExportRequest& request,
 std::string salib_advice(const Losses& losses, long n_holes, bool filtered, long n_excluded) {
   std::string text;
   const auto any = [](const std::vector<long>& counts) {
-    return std::any_of(counts.begin(), counts.end(), [](long n) { return n > 0; });
+    return std::ranges::any_of(counts, [](long n) { return n > 0; });
   };
   if (losses.n_incomplete() > 0 || any(losses.n_without_metric) || n_holes > 0) {
     text +=
@@ -289,7 +288,7 @@ std::string salib_advice(const Losses& losses, long n_holes, bool filtered, long
 std::string export_salib(const Store& store, const CampaignInfo& campaign,
                          const Selection& selection, const ExportRequest& request) {
   if (request.target.empty()) {
-    throw InputError("--format", {{"", 0, "salib is a folder of files", "name one: -o FOLDER"}});
+    throw InputError("--format", "salib is a folder of files", "name one: -o FOLDER");
   }
   const StatisticsMetrics chosen = choose(store, campaign, selection, request);
   const std::vector<ScopedMetric>& metrics = chosen.metrics;
@@ -298,9 +297,9 @@ std::string export_salib(const Store& store, const CampaignInfo& campaign,
   std::vector<Factor> factors = survey(store, campaign, query);
   std::erase_if(factors, [](const Factor& one) { return !one.varies(); });
   if (factors.empty()) {
-    throw InputError(
-        "--format", {{"", 0, concat("no parameter varies over the cases chosen of ", campaign.name),
-                      "choose more cases, or export csv"}});
+    throw InputError("--format",
+                     concat("no parameter varies over the cases chosen of ", campaign.name),
+                     "choose more cases, or export csv");
   }
   std::vector<std::string> names = {"problem.json", "X.txt", "cases.txt"};
   for (const MetricInfo& metric : metrics) names.push_back(SalibFolder::y_name(metric));

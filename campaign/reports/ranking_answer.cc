@@ -86,7 +86,7 @@ class MeasureColumns {
   void add_others(std::vector<RankingColumn>& columns) const {
     for (std::size_t k = 0; k < columns_.size(); ++k) {
       const auto same = [&](const RankingColumn& one) { return one.column.key == columns_[k].key; };
-      if (std::none_of(columns.begin(), columns.end(), same)) add(k, columns);
+      if (std::ranges::none_of(columns, same)) add(k, columns);
     }
   }
 
@@ -166,8 +166,7 @@ std::vector<RankingColumn> columns_of(const Ranking& ranking, const MeasureColum
 }
 
 AnswerTable table_of(const Ranking& ranking) {
-  std::vector<const CaseParameters*> all;
-  for (const RankedCase& row : ranking.rows) all.push_back(&row.parameters);
+  std::vector all = mapped(ranking.rows, [&](const RankedCase& row) { return &row.parameters; });
   const ParameterColumns parameters(ranking.campaign.parameters, all);
   const MeasureColumns measures(ranking);
   const std::vector<RankingColumn> columns = columns_of(ranking, measures);
@@ -200,9 +199,7 @@ AnswerTable table_of(const Ranking& ranking) {
 }
 
 std::vector<std::string> notes_of(const Ranking& ranking) {
-  const auto any = [&](auto&& holds) {
-    return std::any_of(ranking.rows.begin(), ranking.rows.end(), holds);
-  };
+  const auto any = [&](auto&& holds) { return std::ranges::any_of(ranking.rows, holds); };
   std::vector<std::string> notes;
   if (any([](const RankedCase& row) { return row.rank_class == 1; })) {
     notes.emplace_back(

@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/expansion/expansion.h"
 #include "campaign/query/selection.h"
 
@@ -31,9 +32,8 @@ std::vector<RowAnswers> stored_answers(const Store& store, const CampaignInfo& c
                                        const std::vector<RoundRecord>& rounds,
                                        const std::vector<Question>& questions, bool by_design_row,
                                        std::unordered_map<std::string, std::size_t>& by_identity) {
-  std::vector<std::set<long>> holds;
-  holds.reserve(questions.size());
-  for (const Question& one : questions) holds.push_back(positions_where(store, campaign, one));
+  std::vector holds =
+      mapped(questions, [&](const Question& one) { return positions_where(store, campaign, one); });
   Store::TableQuery query;
   query.by_design_row = by_design_row;
   std::vector<RowAnswers> answers;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
+#include "campaign/common/names.h"
 #include "simulator/common/errors.h"
 
 namespace faultsweep {
@@ -13,11 +13,7 @@ namespace {
 constexpr double kRounding = 1e-9;  // of the tolerance: -37 and -38 are 1 apart
 
 /// As many digits as a person would write: 0.3, not 0.30000000000000004.
-double round_number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.12g", value);
-  return std::strtod(text, nullptr);
-}
+double round_number(double value) { return std::strtod(formatted("%.12g", value), nullptr); }
 
 /// A value well between two others, on the grid if one of its points is.
 double middle(double a, double b, double origin, double tolerance) {
@@ -34,8 +30,7 @@ double middle(double a, double b, double origin, double tolerance) {
 double widest_gap(const LimitFinding& finding, const Crossing& crossing, double origin,
                   double tolerance) {
   const auto at = [&](const SearchPoint& point) {
-    return std::find_if(finding.points.begin(), finding.points.end(),
-                        [&](const SearchPoint& one) { return one.value == point.value; });
+    return std::ranges::find(finding.points, point.value, &SearchPoint::value);
   };
   auto widest = at(crossing.before);
   for (auto one = widest; one != at(crossing.after); ++one) {
@@ -46,8 +41,8 @@ double widest_gap(const LimitFinding& finding, const Crossing& crossing, double 
 }
 
 LimitVerdict verdict_of(const LimitFinding& finding) {
-  const auto known = std::find_if(finding.points.begin(), finding.points.end(),
-                                  [](const auto& one) { return one.state != PointState::unknown; });
+  const auto known = std::ranges::find_if(
+      finding.points, [](const auto& one) { return one.state != PointState::unknown; });
   if (known == finding.points.end() || known != finding.points.begin())
     return LimitVerdict::unknown;
   if (finding.crossings.empty())
@@ -116,7 +111,7 @@ const Crossing* LimitFinding::limit() const {
 }
 
 LimitFinding judge(std::vector<SearchPoint> points, bool ascending, double tolerance) {
-  std::sort(points.begin(), points.end(), [&](const SearchPoint& a, const SearchPoint& b) {
+  std::ranges::sort(points, [&](const SearchPoint& a, const SearchPoint& b) {
     return ascending ? a.value < b.value : a.value > b.value;
   });
   LimitFinding finding;

@@ -46,8 +46,8 @@ std::string counts_text(const std::vector<LimitSearcher::Search>& searches) {
   for (const LimitSearcher::Search& one : searches) {
     ++counts[one.finding.verdict];
     const auto& crossings = one.finding.crossings;
-    n_wide += std::any_of(crossings.begin(), crossings.end(),
-                          [](const Crossing& crossing) { return !crossing.narrow; });
+    n_wide +=
+        std::ranges::any_of(crossings, [](const Crossing& crossing) { return !crossing.narrow; });
   }
   std::string text = concat(searches.size(), " searches: ");
   const char* separator = "";

@@ -65,10 +65,7 @@ bool add_next_round(Store& store, const std::string& name) {
 namespace {
 
 std::vector<std::string> names_of_all(const std::vector<NamedId>& all) {
-  std::vector<std::string> names;
-  names.reserve(all.size());
-  for (const NamedId& one : all) names.push_back(one.name);
-  return names;
+  return mapped(all, &NamedId::name);
 }
 
 void check_question(const Question& question, const CampaignInfo& campaign, Selection selection) {
@@ -118,8 +115,7 @@ void check_rounds(const Expansion& expansion) {
       check_question(question, campaign, selection);
     } catch (const faultsim::InputError& error) {
       for (faultsim::Problem one : error.problems()) {
-        const bool is_said = std::any_of(problems.begin(), problems.end(),
-                                         [&](const auto& other) { return other.what == one.what; });
+        const bool is_said = contains(problems, one.what, &Problem::what);
         if (is_said) continue;
         one.pointer = question.pointer;
         one.line = expansion.spec.document.line_of(one.pointer);

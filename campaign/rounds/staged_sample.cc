@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
@@ -12,11 +11,7 @@ namespace faultsweep {
 
 namespace {
 
-std::string percent(double probability) {
-  char text[16];
-  std::snprintf(text, sizeof text, "%.1f", 100 * probability);
-  return text;
-}
+std::string percent(double probability) { return formatted("%.1f", 100 * probability); }
 
 }  // namespace
 
@@ -25,10 +20,10 @@ Proposal StagedSampler::propose(const std::vector<RowAnswers>& answers,
   long n_drawn = 0;  // with those that were excluded
   for (const ordered_json& design : designs) n_drawn += design.at("samples").get<long>();
   const auto n = static_cast<long>(answers.size());
-  const long n_holds = std::count_if(answers.begin(), answers.end(),
-                                     [](const RowAnswers& one) { return one.holds.at(0); });
-  const long n_unknown = std::count_if(answers.begin(), answers.end(),
-                                       [](const RowAnswers& one) { return !one.complete; });
+  const long n_holds =
+      std::ranges::count_if(answers, [](const RowAnswers& one) { return one.holds.at(0); });
+  const long n_unknown =
+      std::ranges::count_if(answers, [](const RowAnswers& one) { return !one.complete; });
   const Interval known = proportion_bounds(n_holds, n_unknown, n, wanted_.confidence);
   std::string text = concat(percent(known.low), " to ", percent(known.high), " % (confidence ",
                             percent(wanted_.confidence), " %): true in ", n_holds, " of ", n);

@@ -54,11 +54,7 @@ double cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-std::string hundredths(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  return text;
-}
+std::string hundredths(double value) { return formatted("%.2f", value); }
 
 /// Overwrites what the starter has put there to keep the place: the disk may be full. False if
 /// there is no starter, or it could not be told.

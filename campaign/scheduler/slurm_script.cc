@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "campaign/common/names.h"
 #include "campaign/scheduler/resources.h"
@@ -26,10 +25,9 @@ void require_plain(const char* option, const std::string& text) {
     return std::isalnum(c) != 0 ||
            std::string("-_.,:+@").find(static_cast<char>(c)) != std::string::npos;
   };
-  if (std::all_of(text.begin(), text.end(), is_plain)) return;
-  throw faultsim::InputError(option,
-                             {{"", 0, concat("\"", text, "\" cannot stand in a line of sbatch"),
-                               "write it as sbatch takes it: 12:00:00, 16G, batch"}});
+  if (std::ranges::all_of(text, is_plain)) return;
+  throw faultsim::InputError(option, concat("\"", text, "\" cannot stand in a line of sbatch"),
+                             "write it as sbatch takes it: 12:00:00, 16G, batch");
 }
 
 /// One word for the shell.
@@ -43,9 +41,7 @@ std::string quoted(const std::string& text) {
 std::string asked_time(double seconds) {
   constexpr double kStep = 600;
   const long minutes = std::lround(kStep / 60 * (1 + std::ceil(2 * seconds / kStep)));
-  char text[32];
-  std::snprintf(text, sizeof text, "%02ld:%02ld:00", minutes / 60, minutes % 60);
-  return text;
+  return formatted("%02ld:%02ld:00", minutes / 60, minutes % 60);
 }
 
 std::string asked_memory(double bytes) {

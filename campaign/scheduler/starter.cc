@@ -352,8 +352,8 @@ void check_before(RunOptions& options) {
                                "; set FAULTSIM_BINARY to the faultsim binary"));
   }
   if (info.cancelled) {
-    throw faultsim::InputError("--campaign", {{"", 0, concat(info.name, " was cancelled"),
-                                               "submit its spec again to reopen it"}});
+    throw faultsim::InputError("--campaign", concat(info.name, " was cancelled"),
+                               "submit its spec again to reopen it");
   }
 }
 

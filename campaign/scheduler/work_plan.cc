@@ -28,7 +28,7 @@ void WorkPlan::add(std::vector<FamilyWork> families) {
   }
   order_.resize(families_.size());
   std::iota(order_.begin(), order_.end(), 0);
-  std::stable_sort(order_.begin(), order_.end(), [this](int a, int b) {
+  std::ranges::stable_sort(order_, [this](int a, int b) {
     const bool ready_a = family(a).state == State::ready;
     const bool ready_b = family(b).state == State::ready;
     if (ready_a != ready_b) return ready_a;
@@ -80,14 +80,13 @@ bool WorkPlan::fits_in_memory(int worker, int index) const {
 /// B. W is not known before the first case has ended.
 bool WorkPlan::pays_to_join(int index) const {
   const Family& entry = family(index);
-  const auto n = std::count_if(workers_.begin(), workers_.end(),
-                               [index](const Worker& worker) { return worker.holds == index; });
+  const auto n = std::ranges::count(workers_, index, &Worker::holds);
   const double waiting = case_seconds(entry) * static_cast<double>(entry.waiting.size());
   return !entry.alone && waiting > static_cast<double>(n) * build_seconds(entry);
 }
 
 bool WorkPlan::has_unclaimed_family() const {
-  return std::any_of(families_.begin(), families_.end(), [](const Family& entry) {
+  return std::ranges::any_of(families_, [](const Family& entry) {
     return !entry.waiting.empty() && entry.n_workers == 0;
   });
 }
@@ -328,7 +327,7 @@ int WorkPlan::build_threads(int worker, int cores) const {
       ++(at(other).n_cases > 0 ? n_running : n_idle);
     }
   }
-  const auto n_cold = std::count_if(families_.begin(), families_.end(), [](const Family& family) {
+  const auto n_cold = std::ranges::count_if(families_, [](const Family& family) {
     return family.state == State::cold && !family.waiting.empty();
   });
   const int sharers = n_building + static_cast<int>(std::min<long>(n_idle, n_cold));

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <limits>
 
@@ -18,11 +17,7 @@ using nlohmann::json;
 std::optional<NumberAndUnit> split(const json& value) { return split_quantity(scalar_text(value)); }
 
 /// Fifteen digits: what a user would have written (0.3, not 0.30000000000000004).
-std::string decimal(long double number) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.15Lg", number == 0 ? 0.0L : number);
-  return text;
-}
+std::string decimal(long double number) { return formatted("%.15Lg", number == 0 ? 0.0L : number); }
 
 /// The value as the scene spells it: a number, or text with a unit.
 json with_unit(long double number, const std::string& unit) {
@@ -94,9 +89,8 @@ std::optional<Parameter> SpecReader::read_parameter(const std::string& pointer,
   }
   if (value.is_object() && (value.contains("scale") || value.contains("variants"))) {
     parameter.has_own_values = true;
-    const bool taken = value.contains("scale") &&
-                       std::any_of(names.infos.begin(), names.infos.end(),
-                                   [&](const auto& info) { return info.alias == name; });
+    const bool taken =
+        value.contains("scale") && contains(names.infos, name, &faultsim::ParameterInfo::alias);
     if (taken) {
       problem(pointer, "\"" + name + "\" is the name of a scene parameter",
               "a factor needs another name, for example " + name + "_factor");
@@ -314,7 +308,7 @@ bool SpecReader::check_distribution_keys(const std::string& pointer) {
   }
   for (const std::string key :
        {"mean", "deviation", "median", "factor", "mode", "count", "spacing"}) {
-    if (!has(pointer + "/" + key) || std::count(needed.begin(), needed.end(), key) > 0) continue;
+    if (!has(pointer + "/" + key) || contains(needed, key)) continue;
     problem(pointer + "/" + key, "a " + kind + " has no " + key, "remove it");
   }
   return problems_.size() == before;

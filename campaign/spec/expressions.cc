@@ -10,7 +10,7 @@ namespace {
 using faultsim::ParameterInfo;
 
 bool is_name(const std::string& word) {
-  return !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
+  return !word.empty() && std::ranges::all_of(word, [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
   });
 }
@@ -146,12 +146,11 @@ void SpecReader::sort_derived() {
   std::vector<Derived> sorted;
   std::vector<Derived> left = std::move(spec_.derived);
   while (!left.empty()) {
-    const auto ready = std::find_if(left.begin(), left.end(), [&](const Derived& one) {
-      return std::none_of(left.begin(), left.end(), [&](const Derived& other) {
+    const auto ready = std::ranges::find_if(left, [&](const Derived& one) {
+      return std::ranges::none_of(left, [&](const Derived& other) {
         const auto& used = one.expression.names();
-        return std::any_of(used.begin(), used.end(), [&](const std::string& name) {
-          return pointer_of(name) == other.scene_pointer;
-        });
+        return std::ranges::any_of(
+            used, [&](const std::string& name) { return pointer_of(name) == other.scene_pointer; });
       });
     });
     if (ready == left.end()) {

@@ -3,6 +3,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "campaign/common/names.h"
 #include "campaign/spec/spec_reader.h"
 
 namespace faultsweep {
@@ -116,11 +117,11 @@ void SpecReader::read_correlations(const std::string& pointer,
     if (!ranks.emplace(std::minmax(*a, *b), at(one + "/rank").get<double>()).second)
       problem(one + "/of", "these two are correlated twice", "remove one");
     for (const std::size_t p : {*a, *b}) {
-      if (std::count(places.begin(), places.end(), p) == 0) places.push_back(p);
+      if (!contains(places, p)) places.push_back(p);
     }
   }
   if (problems_.size() > before || places.empty()) return;
-  std::sort(places.begin(), places.end());
+  std::ranges::sort(places);
   std::vector<std::vector<double>> matrix(places.size(), std::vector<double>(places.size(), 0));
   for (std::size_t i = 0; i < places.size(); ++i) {
     matrix[i][i] = 1;

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/spec/spec_reader.h"
 
 namespace faultsweep {
@@ -84,8 +85,7 @@ void SpecReader::read_limit(const Member& one, const SceneNames& names, Group& g
     problem(place, "a limit is searched along numbers", "give from, to and count, or values");
     return;
   }
-  const bool is_taken = std::any_of(group.parameters.begin(), group.parameters.end(),
-                                    [&](const Parameter& other) { return other.name == name; });
+  const bool is_taken = contains(group.parameters, name, &Parameter::name);
   if (is_taken) {
     problem(search.pointer, "\"" + name + "\" is a parameter of the design",
             "search another one, or take it out of the design");

@@ -85,7 +85,7 @@ void SpecReader::read_samples(const std::string& pointer, const SceneNames& name
     one.pointer = pointer + "/file";
     one.targets = {*target};
     set_base_choice(names, one);
-    const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
+    const auto [low, high] = std::ranges::minmax_element(column.values);
     for (const double end : {*low, *high}) {
       const json value =
           column.unit.empty() ? json(end) : json(shortest_text(end) + " " + column.unit);

@@ -220,10 +220,9 @@ bool is_plain_name(const std::string& name) {
   const auto is_letter_or_digit = [](char c) {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
   };
-  return !name.empty() && is_letter_or_digit(name[0]) &&
-         std::all_of(name.begin(), name.end(), [&](char c) {
-           return is_letter_or_digit(c) || c == '.' || c == '-' || c == '_';
-         });
+  return !name.empty() && is_letter_or_digit(name[0]) && std::ranges::all_of(name, [&](char c) {
+    return is_letter_or_digit(c) || c == '.' || c == '-' || c == '_';
+  });
 }
 
 CampaignSpec parse_campaign(const std::string& text, const std::string& source) {

@@ -130,14 +130,13 @@ void SpecReader::embed_tables() {
 void SpecReader::check_schema() {
   problems_ = faultsim::check_schema(spec_.document, campaign_schema());
   for (const Problem& one : problems_) said_.insert(one.pointer + "\n" + one.what);
-  const bool is_incomplete = std::any_of(problems_.begin(), problems_.end(),
-                                         [](const Problem& one) { return one.pointer.empty(); });
+  const bool is_incomplete = std::ranges::any_of(problems_, &Problem::pointer.empty);
   if (is_incomplete) throw faultsim::InputError(spec_.source, problems_);
 }
 
 bool SpecReader::is_sound(const std::string& pointer) const {
-  return std::none_of(problems_.begin(), problems_.end(),
-                      [&](const Problem& one) { return overlap(pointer, one.pointer); });
+  return std::ranges::none_of(problems_,
+                              [&](const Problem& one) { return overlap(pointer, one.pointer); });
 }
 
 bool SpecReader::is_usable(const std::string& pointer) const {

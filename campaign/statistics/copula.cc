@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "campaign/common/names.h"
 #include "simulator/common/errors.h"
 
 namespace faultsweep {
@@ -32,9 +33,9 @@ void GaussianCopula::correlate(std::span<double> u) const {
   FAULTSIM_DEMAND(u.size() == factor_.size(), u.size(), " numbers");
   static const boost::math::normal_distribution<double> kStandard;
   constexpr double kLeast = 0x1p-54, kMost = 1 - 0x1p-53;
-  std::vector<double> z;
-  for (const double one : u)
-    z.push_back(boost::math::quantile(kStandard, std::clamp(one, kLeast, kMost)));
+  std::vector z = mapped(u, [&](const double& one) {
+    return boost::math::quantile(kStandard, std::clamp(one, kLeast, kMost));
+  });
   for (std::size_t i = 1; i < u.size(); ++i) {
     double sum = 0;
     for (std::size_t k = 0; k <= i; ++k) sum += factor_[i][k] * z[k];

@@ -46,7 +46,7 @@ std::optional<double> kendall_tau_b(const std::vector<long>& a, const std::vecto
   FAULTSIM_DEMAND(a.size() == b.size(), a.size(), " ", b.size());
   std::vector<Pair> pairs;
   for (std::size_t k = 0; k < a.size(); ++k) pairs.emplace_back(a[k], b[k]);
-  std::sort(pairs.begin(), pairs.end());
+  std::ranges::sort(pairs);
   const double tied_a =
       tied_pairs(pairs, [](const Pair& p, const Pair& q) { return p.first == q.first; });
   const double tied_both = tied_pairs(pairs, [](const Pair& p, const Pair& q) { return p == q; });

@@ -18,7 +18,7 @@ ExactIndices indices_along(std::span<const double> centred, std::size_t n_levels
   std::vector<double> level_sums(n_levels, 0.0), line_sums(stride);
   double of_lines = 0;
   for (std::size_t block = 0; block < centred.size(); block += n_levels * stride) {
-    std::fill(line_sums.begin(), line_sums.end(), 0.0);
+    std::ranges::fill(line_sums, 0.0);
     for (std::size_t level = 0; level < n_levels; ++level) {
       const std::span<const double> slice = centred.subspan(block + level * stride, stride);
       for (std::size_t k = 0; k < stride; ++k) {
@@ -39,7 +39,7 @@ ExactIndices indices_along(std::span<const double> centred, std::size_t n_levels
 std::vector<std::size_t> levels_counted(std::span<const std::vector<std::uint32_t>> levels) {
   std::vector<std::size_t> counts;
   for (const std::vector<std::uint32_t>& factor : levels)
-    counts.push_back(1 + *std::max_element(factor.begin(), factor.end()));
+    counts.push_back(1 + *std::ranges::max_element(factor));
   return counts;
 }
 
@@ -89,7 +89,7 @@ std::optional<GridIndices> FullGrid::indices(std::span<const double> values) con
   if (!std::isfinite(sum)) return std::nullopt;
   found.mean = sum / n;
   found.factors.resize(n_levels_.size());
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const auto [least, most] = std::ranges::minmax_element(values);
   if (*least == *most) return found;
   std::vector<double> centred(values.size());
   for (std::size_t row = 0; row < values.size(); ++row)

@@ -81,7 +81,7 @@ MorrisDesign::Made MorrisDesign::make(std::span<const std::vector<double>> x, do
   std::vector<char> has_moved(d);
   for (std::size_t row = 1; row < n; ++row) {
     if (row % (d + 1) == 0) continue;  // another trajectory begins
-    if (row % (d + 1) == 1) std::fill(has_moved.begin(), has_moved.end(), 0);
+    if (row % (d + 1) == 1) std::ranges::fill(has_moved, 0);
     std::optional<Move> move;
     bool is_one = true;
     for (std::uint32_t p = 0; p < d; ++p) {

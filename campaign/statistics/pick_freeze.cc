@@ -129,8 +129,7 @@ PickFreezeValues centred(PickFreezeValues values) {
 
 bool varies(const PickFreezeValues& values) {
   const auto differs = [&](double one) { return one != values.a.front(); };
-  return std::any_of(values.a.begin(), values.a.end(), differs) ||
-         std::any_of(values.b.begin(), values.b.end(), differs);
+  return std::ranges::any_of(values.a, differs) || std::ranges::any_of(values.b, differs);
 }
 
 void check_sizes(std::span<const PickFreezeValues> outputs) {

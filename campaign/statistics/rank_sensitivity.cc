@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "campaign/common/names.h"
 #include "campaign/statistics/correlation_bounds.h"
 #include "simulator/common/errors.h"
 
@@ -137,16 +138,14 @@ Outputs prepare(std::span<const std::span<const double>> all, std::size_t n_rows
     for (std::size_t row = 0; row < n_rows; ++row)
       if (!std::isfinite(one[row])) outputs.is_left_out[row] = 1;
   }
-  outputs.n = static_cast<std::size_t>(
-      std::count(outputs.is_left_out.begin(), outputs.is_left_out.end(), 0));
+  outputs.n = static_cast<std::size_t>(std::ranges::count(outputs.is_left_out, 0));
   RareTogether rare;
   std::vector<double> counting;
   for (const std::span<const double> one : all) {
     counting.clear();
     for (std::size_t row = 0; row < n_rows; ++row)
       if (outputs.is_left_out[row] == 0) counting.push_back(one[row]);
-    if (std::adjacent_find(counting.begin(), counting.end(), std::not_equal_to<>()) ==
-        counting.end())
+    if (std::ranges::adjacent_find(counting, std::not_equal_to<>()) == counting.end())
       continue;  // the same everywhere
     outputs.values.push_back(one);
     outputs.means.push_back(std::accumulate(counting.begin(), counting.end(), 0.0) /
@@ -198,12 +197,10 @@ std::vector<std::uint32_t> random_tied_order(std::span<const double> x) {
   places.reserve(x.size());
   for (std::uint32_t row = 0; row < x.size(); ++row)
     places.push_back({x[row], scrambled(row), row});
-  std::sort(places.begin(), places.end(),
-            [](const Place& a, const Place& b) { return a.x != b.x ? a.x < b.x : a.tie < b.tie; });
-  std::vector<std::uint32_t> order;
-  order.reserve(x.size());
-  for (const Place& one : places) order.push_back(one.row);
-  return order;
+  std::ranges::sort(places, [](const Place& a, const Place& b) {
+    return a.x != b.x ? a.x < b.x : a.tie < b.tie;
+  });
+  return mapped(places, &Place::row);
 }
 
 Estimate first_order_by_ranks(std::span<const double> y, std::span<const std::uint32_t> order,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "campaign/common/names.h"
 #include "simulator/common/errors.h"
 
 namespace faultsweep {
@@ -150,8 +151,7 @@ QuantileBounds weighted_quantile(std::span<const double> values,
   QuantileBounds found;
   found.estimate = value_at(q, values, known, order, &WeightRange::most, &WeightRange::most);
   // The share of weight up to the estimate varies as that of any property with probability q.
-  std::vector<double> counted;
-  for (const WeightRange& one : known) counted.push_back(one.most);
+  std::vector counted = mapped(known, &WeightRange::most);
   const double sum = sum_of(counted);
   double variance = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -174,8 +174,7 @@ QuantileBounds weighted_quantile(std::span<const double> values,
 
 QuantileBounds weighted_quantile(std::span<const double> values, std::span<const double> weights,
                                  std::span<const std::size_t> order, double q, double confidence) {
-  std::vector<WeightRange> known;
-  for (const double one : weights) known.push_back({one, one});
+  std::vector known = mapped(weights, [&](const double& one) { return WeightRange{one, one}; });
   return weighted_quantile(values, known, order, q, confidence);
 }
 

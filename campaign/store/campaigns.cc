@@ -207,8 +207,8 @@ class CaseAdder {
 long Store::add_round(std::int64_t campaign, const Submission& submission,
                       const std::string& design, const std::string& reason) {
   Connection& db = *connection_;
-  std::vector<std::int64_t> scenes;
-  for (const BaseScene& scene : submission.scenes) scenes.push_back(add_scene(scene));
+  std::vector scenes =
+      mapped(submission.scenes, [&](const BaseScene& scene) { return add_scene(scene); });
   const std::vector<std::int64_t> families = add_families(db, submission.families);
   const auto [round, first] = db.row<std::tuple<long, long>>(
       "SELECT coalesce(max(round), -1) + 1, coalesce(max(first_position + n_cases), 1)"
@@ -384,8 +384,8 @@ CampaignInfo Store::campaign(const std::string& name, bool with_counts) const {
   }
   std::string names;
   for (const CampaignInfo& info : all) names += (names.empty() ? "" : ", ") + info.name;
-  throw faultsim::InputError("--campaign", {{"", 0, concat("there is no campaign '", name, "'"),
-                                             concat("there are: ", names)}});
+  throw faultsim::InputError("--campaign", concat("there is no campaign '", name, "'"),
+                             concat("there are: ", names));
 }
 
 void Store::cancel(std::int64_t campaign) {

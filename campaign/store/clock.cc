@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
+
+#include "campaign/common/names.h"
 
 namespace faultsweep {
 
@@ -25,17 +26,10 @@ std::string format_duration(double seconds) {
   if (seconds < 1) return "less than 1 s";
   const long total = std::lround(std::max(0.0, seconds));
   constexpr long kMinute = 60, kHour = 3600, kDay = 86400;
-  char text[64];
-  if (total >= kDay) {
-    std::snprintf(text, sizeof text, "%ld d %ld h", total / kDay, total % kDay / kHour);
-  } else if (total >= kHour) {
-    std::snprintf(text, sizeof text, "%ld h %02ld min", total / kHour, total % kHour / kMinute);
-  } else if (total >= kMinute) {
-    std::snprintf(text, sizeof text, "%ld min %02ld s", total / kMinute, total % kMinute);
-  } else {
-    std::snprintf(text, sizeof text, "%ld s", total);
-  }
-  return text;
+  if (total >= kDay) return formatted("%ld d %ld h", total / kDay, total % kDay / kHour);
+  if (total >= kHour) return formatted("%ld h %02ld min", total / kHour, total % kHour / kMinute);
+  if (total >= kMinute) return formatted("%ld min %02ld s", total / kMinute, total % kMinute);
+  return formatted("%ld s", total);
 }
 
 }  // namespace faultsweep

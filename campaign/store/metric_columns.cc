@@ -322,7 +322,7 @@ std::string ScopeJoins::joined(const std::string& sql) {
     done = end + kScopeEnd.size();
     const std::size_t table = from + kScopeFrom.size();
     const std::string key = sql.substr(table, done - 1 - table);  // without its bracket
-    auto found = std::find(keys_.begin(), keys_.end(), key);
+    auto found = std::ranges::find(keys_, key);
     if (found == keys_.end() && keys_.size() == kMost) {
       text += sql.substr(at, done - at);
       continue;

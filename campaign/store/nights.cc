@@ -65,7 +65,7 @@ std::vector<NightRecord> Store::nights(const std::string& suite, int limit) cons
               night.blessed);
   }
   for (NightRecord& night : all) night.cases = read_night_cases(db, night.id);
-  std::reverse(all.begin(), all.end());
+  std::ranges::reverse(all);
   return all;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign/common/names.h"
 #include "campaign/expression/expression.h"
 #include "campaign/store/records.h"
 #include "campaign/store/result_rows.h"

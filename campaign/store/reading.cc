@@ -43,9 +43,9 @@ StoredCase find_case(Connection& db, std::int64_t campaign, const std::string& n
   query.bind(campaign, name);
   if (is_number) query.bind_at(2, position);
   if ((!is_number && name.size() < kShortestPrefix) || !query.step()) {
-    throw faultsim::InputError("CASE", {{"", 0, concat("the campaign has no case '", name, "'"),
-                                         concat("give its number from 1, or at least ",
-                                                kShortestPrefix, " digits of its identity")}});
+    throw faultsim::InputError(
+        "CASE", concat("the campaign has no case '", name, "'"),
+        concat("give its number from 1, or at least ", kShortestPrefix, " digits of its identity"));
   }
   StoredCase found;
   std::string fields, folder;

@@ -48,9 +48,7 @@ std::string uri_path(const std::filesystem::path& path) {
   std::string text;
   for (const char c : std::filesystem::absolute(path).string()) {
     if (c == '?' || c == '#' || c == '%') {
-      char escaped[4];
-      std::snprintf(escaped, sizeof escaped, "%%%02X", static_cast<unsigned char>(c));
-      text += escaped;
+      text += formatted("%%%02X", static_cast<unsigned char>(c));
     } else {
       text += c;
     }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
@@ -30,13 +29,8 @@ std::string kilometres(double value) { return shortest(value / 1000) + " km"; }
 
 std::string duration(double seconds) {
   const double years = seconds / kYear;
-  char text[32];
-  if (years >= 1) {
-    std::snprintf(text, sizeof text, "%.4g year%s", years, years == 1 ? "" : "s");
-  } else {
-    std::snprintf(text, sizeof text, "%.3g days", seconds / 86400);
-  }
-  return text;
+  return years >= 1 ? formatted("%.4g year%s", years, years == 1 ? "" : "s")
+                    : formatted("%.3g days", seconds / 86400);
 }
 
 JsonDocument changed(const JsonDocument& scene, const std::vector<Change>& changes) {
@@ -257,15 +251,11 @@ class LadderMaker {
       choice.left_out = concat("refused: ", problem.pointer, ": ", problem.what);
       return;
     }
-    char text[96];
     if (limits_.memory_bytes > 0 && choice.predicted_bytes > limits_.memory_bytes) {
-      std::snprintf(text, sizeof text, "not affordable: %.3g GB predicted",
-                    choice.predicted_bytes / 1e9);
-      choice.left_out = text;
+      choice.left_out =
+          formatted("not affordable: %.3g GB predicted", choice.predicted_bytes / 1e9);
     } else if (choice.predicted_seconds > limits_.operator_seconds) {
-      std::snprintf(text, sizeof text, "not affordable: %.3g s predicted",
-                    choice.predicted_seconds);
-      choice.left_out = text;
+      choice.left_out = formatted("not affordable: %.3g s predicted", choice.predicted_seconds);
     }
   }
 

@@ -23,8 +23,7 @@ void compare_places(const std::vector<std::pair<long, long>>& places, RankingTra
   trade.tau = kendall_tau_b(first, second);
   trade.n_top = std::min(kTop, std::max(1L, trade.n_cases / 3));
   const auto is_top = [&](const std::vector<long>& all, std::size_t k) {
-    return std::count_if(all.begin(), all.end(), [&](long other) { return other < all[k]; }) <
-           trade.n_top;
+    return std::ranges::count_if(all, [&](long other) { return other < all[k]; }) < trade.n_top;
   };
   for (std::size_t k = 0; k < places.size(); ++k) {
     trade.n_top_common += is_top(first, k) && is_top(second, k);

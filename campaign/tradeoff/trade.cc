@@ -40,9 +40,8 @@ std::vector<ChiHistory::Place> common_places(const std::vector<const CaseResult*
   if (results.empty()) return places;
   for (const faultsim::StepResult& step : results.front()->steps) {
     for (const std::string& fault : results.front()->fault_names) {
-      const bool everywhere = std::all_of(results.begin(), results.end(), [&](const auto* one) {
-        return chi_at(*one, step.time, fault).has_value();
-      });
+      const bool everywhere = std::ranges::all_of(
+          results, [&](const auto* one) { return chi_at(*one, step.time, fault).has_value(); });
       if (everywhere) places.push_back({step.time, step.stage, fault, step.step});
     }
   }
@@ -50,9 +49,8 @@ std::vector<ChiHistory::Place> common_places(const std::vector<const CaseResult*
 }
 
 std::vector<double> chi_of(const CaseResult& result, const std::vector<ChiHistory::Place>& places) {
-  std::vector<double> chi;
-  for (const auto& place : places) chi.push_back(*chi_at(result, place.time, place.fault));
-  return chi;
+  return mapped(places,
+                [&](const auto& place) { return *chi_at(result, place.time, place.fault); });
 }
 
 double root_mean_square_difference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -201,7 +199,7 @@ CommonHistory common_history(const ChiHistory& a, const ChiHistory& b) {
 }
 
 bool is_plane_strain(const TradeTable& table) {
-  return std::any_of(table.rows.begin(), table.rows.end(), [](const TradeRow& row) {
+  return std::ranges::any_of(table.rows, [](const TradeRow& row) {
     return row.run.result && row.run.result->plane_strain;
   });
 }
@@ -294,7 +292,7 @@ void judge_meshes(Trade& trade) {
     }
   }
   for (TradeRow* row : meshes) {
-    row->on_front = std::none_of(meshes.begin(), meshes.end(), [&](const TradeRow* other) {
+    row->on_front = std::ranges::none_of(meshes, [&](const TradeRow* other) {
       return other != row && other->seconds() <= row->seconds() &&
              other->total_chi <= row->total_chi;
     });

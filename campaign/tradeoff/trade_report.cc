@@ -138,10 +138,9 @@ std::string markdown_table(const AnswerTable& table) {
   for (std::size_t k = 0; k < table.columns.size(); ++k) {
     const AnswerColumn& column = table.columns[k];
     if (column.need == Need::data) continue;
-    std::vector<std::string> cells;
-    for (const auto& row : table.rows) cells.push_back(shown_cell(row[k], column));
-    if (std::all_of(cells.begin(), cells.end(), [](const auto& cell) { return cell.empty(); }))
-      continue;
+    std::vector cells =
+        mapped(table.rows, [&](const auto& row) { return shown_cell(row[k], column); });
+    if (std::ranges::all_of(cells, &std::string::empty)) continue;
     heading += " " + shown_heading(column) + " |";
     rule += " --- |";
     for (std::size_t r = 0; r < cells.size(); ++r) lines[r] += " " + cells[r] + " |";
@@ -154,16 +153,14 @@ std::string markdown_table(const AnswerTable& table) {
 /// True where some fault comes near its strength at all.
 bool chi_says_something(const ChiHistory& history) {
   constexpr double kNothing = 1e-3;
-  return std::any_of(history.chi.begin(), history.chi.end(),
-                     [](double chi) { return chi > kNothing; });
+  return std::ranges::any_of(history.chi, [](double chi) { return chi > kNothing; });
 }
 
 /// True where the scene is in 3D but no mesh of it was run in 3D.
 bool lacks_space(const TradeReport& report) {
   const auto& tables = report.trade.tables;
-  const bool is_3d = std::any_of(tables.begin(), tables.end(), [](const TradeTable& table) {
-    return table.axis.name == "cells, 3D";
-  });
+  const bool is_3d = std::ranges::any_of(
+      tables, [](const TradeTable& table) { return table.axis.name == "cells, 3D"; });
   return is_3d && !report.trade.plane_strain;
 }
 

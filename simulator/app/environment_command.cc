@@ -2,7 +2,6 @@
 #include <sys/utsname.h>
 
 #include <Eigen/Core>
-#include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>

@@ -6,6 +6,7 @@
 #include "simulator/app/load_scene.h"
 #include "simulator/app/screen.h"
 #include "simulator/cache/influence_file.h"
+#include "simulator/common/ranges.h"
 #include "simulator/files/json_text.h"
 #include "simulator/files/output_target.h"
 #include "simulator/operators/influence.h"
@@ -21,12 +22,12 @@ std::vector<int> regions_named(const Scene& scene, const std::vector<std::string
   for (int r = 0; r < static_cast<int>(scene.pressure.size()); ++r) {
     const std::string& region = scene.pressure[r].region;
     known += (known.empty() ? "" : ", ") + region;
-    if (std::find(names.begin(), names.end(), region) != names.end()) regions.push_back(r);
+    if (contains(names, region)) regions.push_back(r);
   }
   std::vector<Problem> problems;
   for (const std::string& name : names) {
     const auto named = [&](int r) { return scene.pressure[r].region == name; };
-    if (std::any_of(regions.begin(), regions.end(), named)) continue;
+    if (std::ranges::any_of(regions, named)) continue;
     problems.push_back(
         {"", 0, concat("--region ", name, ": the scene has no such compartment"),
          known.empty() ? "give it blocks with a pressure change" : "choose among " + known});
@@ -38,9 +39,8 @@ std::vector<int> regions_named(const Scene& scene, const std::vector<std::string
 /// The scene as its influences are: those of exact elastic operators. What is left out is told.
 LoadedScene elastic_and_exact(LoadedScene loaded, RunContext& context) {
   if (loaded.scene.pressure.empty()) {
-    throw InputError(loaded.document.source,
-                     {{"", 0, "the scene has no compartment whose pressure changes",
-                       "give it a block with a pressure change"}});
+    throw InputError(loaded.document.source, "the scene has no compartment whose pressure changes",
+                     "give it a block with a pressure change");
   }
   const bool is_surface = loaded.scene.numerics.surface.wanted();
   if (is_surface) context.note("influences of the exact operator at the scene's own parameters");

@@ -27,8 +27,8 @@ Changes changes_of(const SceneArguments& arguments) {
   for (const std::string& change : arguments.set) {
     const std::size_t equals = change.find('=');
     if (equals == std::string::npos) {
-      throw InputError("--set", {{"", 0, "\"" + change + "\" has no \"=\"",
-                                  "write --set /json/pointer=value or --set alias=value"}});
+      throw InputError("--set", "\"" + change + "\" has no \"=\"",
+                       "write --set /json/pointer=value or --set alias=value");
     }
     changes.push_back({change.substr(0, equals), change.substr(equals + 1)});
   }

@@ -45,8 +45,8 @@ void require_known_command(const CLI::App& app, int argc, char** argv) {
     if (command->get_name() == argv[1]) return;
     names += (names.empty() ? "" : ", ") + command->get_name();
   }
-  throw InputError("faultsim", {{"", 0, concat("\"", argv[1], "\" is not a command"),
-                                 "choose one of " + names}});
+  throw InputError("faultsim", concat("\"", argv[1], "\" is not a command"),
+                   "choose one of " + names);
 }
 
 /// All arguments of all commands; CLI11 fills them.

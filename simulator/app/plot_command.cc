@@ -17,8 +17,7 @@ CaseChart chart_named(const std::string& name) {
   for (const CaseChartInfo& info : case_charts()) {
     names += (names.empty() ? "" : ", ") + std::string(info.name);
   }
-  throw InputError("chart",
-                   {{"", 0, concat("\"", name, "\" is not a chart"), "choose one of " + names}});
+  throw InputError("chart", concat("\"", name, "\" is not a chart"), "choose one of " + names);
 }
 
 }  // namespace
@@ -30,8 +29,8 @@ ExitCode plot_command(const PlotArguments& arguments) {
                               fields_file = folder / "faults.h5";
   const CaseChart chart = chart_named(arguments.chart);
   if (!std::filesystem::exists(result_file) || !std::filesystem::exists(scene_file)) {
-    throw InputError("result", {{"", 0, concat("\"", arguments.result, "\" is not a result folder"),
-                                 "name a folder that faultsim run wrote"}});
+    throw InputError("result", concat("\"", arguments.result, "\" is not a result folder"),
+                     "name a folder that faultsim run wrote");
   }
   require_picture_file(arguments.output, {".svg", ".png"}, {scene_file, result_file, fields_file});
   const CaseResult result = result_from_json(read_json_file(result_file.string()).value);

@@ -1,4 +1,3 @@
-#include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -7,6 +6,7 @@
 #include "simulator/app/screen.h"
 #include "simulator/app/trace_text.h"
 #include "simulator/common/machine.h"
+#include "simulator/common/text.h"
 #include "simulator/coupled/start_hypre.h"
 #include "simulator/coupled_case/coupled_case.h"
 #include "simulator/coupled_case/path_choice.h"
@@ -23,11 +23,7 @@
 namespace faultsim {
 namespace {
 
-std::string built_in(double seconds) {
-  char text[48];
-  std::snprintf(text, sizeof text, "operator: built in %.2f s", seconds);
-  return text;
-}
+std::string built_in(double seconds) { return formatted("operator: built in %.2f s", seconds); }
 
 void write_volume_fields(const std::filesystem::path& folder, const Mesh& mesh,
                          const std::vector<VolumeSnapshot>& snapshots) {

@@ -51,7 +51,7 @@ void add_remarks(const FieldCheck& fields, LoadedScene& loaded) {
 
 ExitCode init_command(const std::string& kind, const std::filesystem::path& file) {
   if (std::filesystem::exists(file)) {
-    throw InputError(file.string(), {{"", 0, "the file exists already", "choose another name"}});
+    throw InputError(file.string(), "the file exists already", "choose another name");
   }
   require_writable_file("file", file, FileKind::json, {});
   write_text(file, starter_scene(kind));

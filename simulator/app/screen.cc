@@ -3,25 +3,15 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdarg>
-#include <cstdio>
 #include <span>
 
+#include "simulator/common/text.h"
 #include "simulator/result/result_sentences.h"
 
 namespace faultsim {
 namespace {
 
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  char text[1024];
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vsnprintf(text, sizeof text, pattern, arguments);
-  va_end(arguments);
-  return text;
-}
-
-std::string bar(double pascal) { return format("%.0f", pascal / 1e5); }
+std::string bar(double pascal) { return formatted("%.0f", pascal / 1e5); }
 
 }  // namespace
 
@@ -40,7 +30,7 @@ void ScreenMonitor::progress(double fraction, const std::string& what) {
   const int filled = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kWidth);
   const double seconds = watch_.seconds();
   const std::string left = fraction > 0.05 && fraction < 1
-                               ? format(", about %.0f s left", seconds * (1 / fraction - 1))
+                               ? formatted(", about %.0f s left", seconds * (1 / fraction - 1))
                                : "";
   std::fprintf(stderr, "\r\033[K[%s%s] %s%s",
                std::string(static_cast<std::size_t>(filled), '#').c_str(),
@@ -85,26 +75,26 @@ std::string step_table_header(const Scene& scene, bool plane_strain, bool wide) 
   const std::size_t n_regions = regions ? scene.pressure.size() : 1;
   const std::size_t n_faults = scene.faults.size();
   const std::size_t n_shown = n_fault_columns(n_regions, n_faults, wide);
-  std::string line = format("%4s  %-18s%7s", "step", "stage", "year");
-  std::string units = format("%4s  %-18s%7s", "", "", "");
+  std::string line = formatted("%4s  %-18s%7s", "step", "stage", "year");
+  std::string units = formatted("%4s  %-18s%7s", "", "", "");
   for (std::size_t r = 0; r < n_regions; ++r) {
-    line += format(" %7.7s", regions ? ("dp " + scene.pressure[r].region).c_str() : "dp min");
-    units += format(" %7s", "bar");
+    line += formatted(" %7.7s", regions ? ("dp " + scene.pressure[r].region).c_str() : "dp min");
+    units += formatted(" %7s", "bar");
   }
-  if (wide) line += format(" %6s", "stick"), units += format(" %6s", "nodes");
-  line += format(" %5s %4s", "slip", "open");
-  units += format(" %5s %4s", "nodes", "");
+  if (wide) line += formatted(" %6s", "stick"), units += formatted(" %6s", "nodes");
+  line += formatted(" %5s %4s", "slip", "open");
+  units += formatted(" %5s %4s", "nodes", "");
   for (std::size_t f = 0; f < n_shown; ++f) {
-    line += format(" %7.7s", ("chi " + scene.faults[f].name).c_str());
-    units += format(" %7s", "window");
+    line += formatted(" %7.7s", ("chi " + scene.faults[f].name).c_str());
+    units += formatted(" %7s", "window");
   }
   if (n_shown < n_faults) {
-    line += format(" %7s", n_shown == 0 ? "chi max" : "others");
-    units += format(" %7s", "window");
+    line += formatted(" %7s", n_shown == 0 ? "chi max" : "others");
+    units += formatted(" %7s", "window");
   }
-  line += format(" %8s %8s", "chi>0.8", "max slip");
-  units += format(" %8s %8s", plane_strain ? "m2/m" : "m2", "mm");
-  if (wide) line += format(" %5s %8s", "iter", "time"), units += format(" %5s %8s", "", "ms");
+  line += formatted(" %8s %8s", "chi>0.8", "max slip");
+  units += formatted(" %8s %8s", plane_strain ? "m2/m" : "m2", "mm");
+  if (wide) line += formatted(" %5s %8s", "iter", "time"), units += formatted(" %5s %8s", "", "ms");
   return line + "\n" + units + "\n";
 }
 
@@ -122,17 +112,17 @@ std::string step_table_row(const StepResult& step, bool wide) {
   constexpr double kYear = 31557600.0;
   const bool has_event =
       step.outcome == Outcome::event || step.outcome == Outcome::unresolved_event;
-  std::string line = format("%4d%c %-18.18s%7.2f", step.step, has_event ? '!' : ' ',
-                            step.stage.c_str(), step.time / kYear);
+  std::string line = formatted("%4d%c %-18.18s%7.2f", step.step, has_event ? '!' : ' ',
+                               step.stage.c_str(), step.time / kYear);
   const bool regions = shows_regions(step.pressure_change.size(), wide);
   std::vector<double> shown = step.pressure_change;
-  if (!regions) shown = {*std::min_element(shown.begin(), shown.end())};
-  for (const double dp : shown) line += format(" %7s", bar(dp).c_str());
+  if (!regions) shown = {*std::ranges::min_element(shown)};
+  for (const double dp : shown) line += formatted(" %7s", bar(dp).c_str());
   if (!in_equilibrium(step.outcome)) {
     return line + "  " + to_string(step.outcome) + ": " + step.reason + "\n";
   }
-  if (wide) line += format(" %6d", step.n_stick);
-  line += format(" %5d %4d", step.n_slip, step.n_open);
+  if (wide) line += formatted(" %6d", step.n_stick);
+  line += formatted(" %5d %4d", step.n_slip, step.n_open);
   const std::size_t n_shown = n_fault_columns(shown.size(), step.faults.size(), wide);
   double area = 0, slip = 0, others = 0;
   char others_mark = ' ';
@@ -141,15 +131,15 @@ std::string step_table_row(const StepResult& step, bool wide) {
     area += fault.area_chi_080;
     slip = std::max(slip, fault.max_slip);
     if (f < n_shown) {
-      line += format(" %6.3f%c", fault.chi_bar, mark(fault));
+      line += formatted(" %6.3f%c", fault.chi_bar, mark(fault));
     } else {
       others = std::max(others, fault.chi_bar);
       if (others_mark != '*' && mark(fault) != ' ') others_mark = mark(fault);
     }
   }
-  if (n_shown < step.faults.size()) line += format(" %6.3f%c", others, others_mark);
-  line += format(" %8.4g %8.3f", area, slip * 1e3);
-  if (wide) line += format(" %5d %8.2f", step.counts.newton_iterations, step.seconds * 1e3);
+  if (n_shown < step.faults.size()) line += formatted(" %6.3f%c", others, others_mark);
+  line += formatted(" %8.4g %8.3f", area, slip * 1e3);
+  if (wide) line += formatted(" %5d %8.2f", step.counts.newton_iterations, step.seconds * 1e3);
   return line + "\n";
 }
 
@@ -165,26 +155,26 @@ std::string pressures_text(const SidePressures& sides, double depth) {
   const auto add = [&text](const std::string& region, const std::optional<double>& change,
                            const std::optional<double>& absolute) {
     if (!change || !absolute) return;
-    text += format("%s%s %s bar (to %s bar)", text.empty() ? "" : ", ", region.c_str(),
-                   bar(*change).c_str(), bar(*absolute).c_str());
+    text += formatted("%s%s %s bar (to %s bar)", text.empty() ? "" : ", ", region.c_str(),
+                      bar(*change).c_str(), bar(*absolute).c_str());
   };
   add(sides.region_minus, sides.change_minus, sides.absolute_minus);
   add(sides.region_plus, sides.change_plus, sides.absolute_plus);
   if (text.empty()) text = "no pressure region beside it";
-  return text + format(", in the fault %s bar, at %.0f m depth", bar(sides.change_in_fault).c_str(),
-                       depth);
+  return text + formatted(", in the fault %s bar, at %.0f m depth",
+                          bar(sides.change_in_fault).c_str(), depth);
 }
 
 std::string events_text(const CaseResult& result) {
   if (result.events.empty()) return "";
-  std::string text = format("slip events: %zu (! in the table)\n", result.events.size());
+  std::string text = formatted("slip events: %zu (! in the table)\n", result.events.size());
   constexpr std::size_t kShown = 20;
   for (const SlipEvent& e :
        std::span(result.events).first(std::min(result.events.size(), kShown))) {
-    text += format("  step %d: fault %s jumps at %s, nucleus %.3g m, slip %.1f mm, M0 %.3g %s",
-                   e.step, e.fault.c_str(), pressures_text(e.pressures, e.depth).c_str(),
-                   e.nucleation_length, e.max_slip * 1e3, e.moment, moment_unit(result));
-    if (e.magnitude) text += format(", Mw %.1f", *e.magnitude);
+    text += formatted("  step %d: fault %s jumps at %s, nucleus %.3g m, slip %.1f mm, M0 %.3g %s",
+                      e.step, e.fault.c_str(), pressures_text(e.pressures, e.depth).c_str(),
+                      e.nucleation_length, e.max_slip * 1e3, e.moment, moment_unit(result));
+    if (e.magnitude) text += formatted(", Mw %.1f", *e.magnitude);
     if (!e.resolved) text += ", NOT RESOLVED: its size is the mesh's";
     if (!e.evidence_holds) text += ", EVIDENCE DOES NOT HOLD";
     text += "\n";
@@ -194,18 +184,18 @@ std::string events_text(const CaseResult& result) {
 }
 
 std::string steps_text(const Episode& e) {
-  return format("%s, steps %d-%d", e.stage.c_str(), e.first_step, e.last_step);
+  return formatted("%s, steps %d-%d", e.stage.c_str(), e.first_step, e.last_step);
 }
 
 std::string episodes_text(const CaseResult& result) {
   std::string text;
   int number = 0;
   for (const Episode& e : result.episodes) {
-    text +=
-        format("episode %d: fault %s slides in %s, from %s%s, slip %.1f mm, M0 %.3g %s\n", ++number,
-               e.fault.c_str(), steps_text(e).c_str(), pressures_text(e.pressures, e.depth).c_str(),
-               e.after_recovery ? ", its pressure having recovered" : "", e.max_slip * 1e3,
-               e.moment, moment_unit(result));
+    text += formatted("episode %d: fault %s slides in %s, from %s%s, slip %.1f mm, M0 %.3g %s\n",
+                      ++number, e.fault.c_str(), steps_text(e).c_str(),
+                      pressures_text(e.pressures, e.depth).c_str(),
+                      e.after_recovery ? ", its pressure having recovered" : "", e.max_slip * 1e3,
+                      e.moment, moment_unit(result));
   }
   return text;
 }
@@ -218,8 +208,8 @@ std::string onset_text(const CaseResult& result, const char* what, const std::st
   for (const StepResult& step : result.steps) {
     if (step.step == onset.step) stage = step.stage;
   }
-  return format("%s: fault %s from load step %d (%s), %s", what, fault.c_str(), onset.step,
-                stage.c_str(), pressures_text(onset.pressures, onset.depth).c_str());
+  return formatted("%s: fault %s from load step %d (%s), %s", what, fault.c_str(), onset.step,
+                   stage.c_str(), pressures_text(onset.pressures, onset.depth).c_str());
 }
 
 /// What slides and opens, what comes unexpectedly, and what depends on the mesh (docs/words.md).
@@ -233,7 +223,7 @@ std::string whole_text(const CaseResult& result) {
   }
   if (const FaultOnset* onset = first_opening(whole)) {
     text += onset_text(result, "OPENS", whole.opened_fault, *onset) +
-            format(", up to %.4g %s\n", whole.open_area, area_unit(result));
+            formatted(", up to %.4g %s\n", whole.open_area, area_unit(result));
   }
   std::vector<std::string> more = unresolved_sentences(result);
   if (!whole.activation_resolved) more.back() += " (? in the table)";
@@ -244,24 +234,25 @@ std::string whole_text(const CaseResult& result) {
 
 /// "F2 slides from step 7, slip 12.3 mm; ", per fault that does anything in the stage.
 std::string stage_text(const CaseResult& result, const StageMetrics& stage) {
-  std::string text = format(
+  std::string text = formatted(
       "  %-22.22s steps %d-%d: window chi %.3f, slip within the stage %.2f mm, sliding area "
       "%.4g %s, M0 %.3g %s\n",
       stage.stage.c_str(), stage.first_step, stage.last_step, stage.chi_bar, stage.max_slip * 1e3,
       stage.activated_area, area_unit(result), stage.moment, moment_unit(result));
   for (const FaultStageMetrics& fault : stage.faults) {
     if (!fault.slips && !fault.opens) continue;
-    text += format("    %s %s, %.2f mm", fault.fault.c_str(), fault.activated ? "slides" : "slips",
-                   fault.max_slip * 1e3);
+    text += formatted("    %s %s, %.2f mm", fault.fault.c_str(),
+                      fault.activated ? "slides" : "slips", fault.max_slip * 1e3);
     if (!fault.activation_resolved) text += " (whether it slides is unresolved)";
     if (fault.activation) {
-      text += format(", from step %d, %s", fault.activation->step,
-                     pressures_text(fault.activation->pressures, fault.activation->depth).c_str());
+      text +=
+          formatted(", from step %d, %s", fault.activation->step,
+                    pressures_text(fault.activation->pressures, fault.activation->depth).c_str());
     }
-    if (fault.n_events > 0) text += format(", jumps %d times", fault.n_events);
+    if (fault.n_events > 0) text += formatted(", jumps %d times", fault.n_events);
     if (fault.opening) {
-      text += format(", opens from step %d, up to %.4g %s", fault.opening->step, fault.open_area,
-                     area_unit(result));
+      text += formatted(", opens from step %d, up to %.4g %s", fault.opening->step, fault.open_area,
+                        area_unit(result));
     }
     text += "\n";
   }
@@ -271,15 +262,12 @@ std::string stage_text(const CaseResult& result, const StageMetrics& stage) {
 std::string coupled_text(const CaseResult& result) {
   if (!result.coupled) return "";
   const CaseCoupled& c = *result.coupled;
-  char text[256];
-  std::snprintf(
-      text, sizeof text,
+  return formatted(
       "coupled path (%s, %s): %d displacements, %d multipliers; %d iterations of GMRES in "
       "%d of\nNewton, at most %d in one; set-up %.1f s, solve %.1f s of the processor\n",
       c.leading.c_str(), c.schur.c_str(), c.n_displacements, c.n_multipliers, c.krylov_iterations,
       result.counts.newton_iterations + result.counts.wasted_newton_iterations,
       c.most_krylov_iterations, c.setup_seconds, c.solve_seconds);
-  return text;
 }
 
 }  // namespace

@@ -30,8 +30,8 @@ std::vector<Kind> kinds_of(const std::vector<std::string>& names, const std::vec
       kinds.insert(kinds.end(), known.begin(), known.end());
       continue;
     }
-    const auto found = std::find_if(known.begin(), known.end(),
-                                    [&](Kind kind) { return name == to_string(kind); });
+    const auto found =
+        std::ranges::find_if(known, [&](Kind kind) { return name == to_string(kind); });
     if (found != known.end()) {
       kinds.push_back(*found);
       continue;

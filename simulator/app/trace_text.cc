@@ -2,26 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
+
+#include "simulator/common/text.h"
 
 namespace faultsim {
 namespace {
-
-template <typename... Args>
-std::string formatted(const char* pattern, Args... args) {
-  char text[160];
-  std::snprintf(text, sizeof text, pattern, args...);
-  return text;
-}
 
 std::string search_text(const SubStepTrace::Search& search) {
   const SearchHistory& history = search.history;
   std::string text = formatted("    %s: %s, %d iterations over %d active sets\n", search.way,
                                to_string(history.end), history.iterations, history.passes);
   if (history.last.empty()) return text;
-  const bool iterative = std::any_of(history.last.begin(), history.last.end(),
-                                     [](const SearchIteration& at) { return at.krylov >= 0; });
+  const bool iterative =
+      std::ranges::any_of(history.last, [](const SearchIteration& at) { return at.krylov >= 0; });
   text += formatted("    %6s %10s %7s %7s %7s %8s%s\n", "iter", "residual", "length", "slip",
                     "open", "changed", iterative ? "  krylov" : "");
   int number = history.iterations - static_cast<int>(history.last.size());

@@ -120,10 +120,9 @@ class Worker {
     if (identity == wanted || has_identity(simulation_.scene().scene, wanted)) return;
     throw InputError(
         request.value("source", "case"),
-        {{"", 0,
-          concat("the scene has the identity ", identity.substr(0, 12), ", its case ",
-                 wanted.substr(0, 12)),
-          "a file that it names has changed since it was submitted; submit the campaign again"}});
+        concat("the scene has the identity ", identity.substr(0, 12), ", its case ",
+               wanted.substr(0, 12)),
+        "a file that it names has changed since it was submitted; submit the campaign again");
   }
 
   void prepare(const json& run) {

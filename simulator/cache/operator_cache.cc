@@ -55,7 +55,7 @@ std::vector<FoundFile> find_files(const std::filesystem::path& folder) {
     if (stat(path.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) continue;
     files.push_back({path, static_cast<std::uint64_t>(info.st_size), info.st_mtim, damaged});
   }
-  std::sort(files.begin(), files.end(), [](const FoundFile& a, const FoundFile& b) {
+  std::ranges::sort(files, [](const FoundFile& a, const FoundFile& b) {
     return std::tie(a.damaged, b.used.tv_sec, b.used.tv_nsec, a.path) <
            std::tie(b.damaged, a.used.tv_sec, a.used.tv_nsec, b.path);
   });

@@ -7,6 +7,8 @@
 #include <memory>
 #include <string>
 
+#include "simulator/common/ranges.h"
+
 namespace faultsim {
 
 /// A sealed file is an HDF5 file behind a user block of 4096 bytes. The block holds one line of

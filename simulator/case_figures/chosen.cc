@@ -22,7 +22,7 @@ bool is_more_critical(const FaultMetrics& a, const FaultMetrics& b) {
 }  // namespace
 
 void refuse(const std::string& option, const std::string& what, const std::string& cure) {
-  throw InputError(option, {{"", 0, what, cure}});
+  throw InputError(option, what, cure);
 }
 
 std::size_t n_steps_of(const CaseResult& result) {
@@ -34,7 +34,7 @@ std::size_t n_steps_of(const CaseResult& result) {
 }
 
 std::string with_blanks(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
+  std::ranges::replace(name, '_', ' ');
   return name;
 }
 
@@ -65,8 +65,7 @@ Chosen choose(const CasePicture& picture, const CaseChartRequest& request) {
   const CriticalMoment critical = critical_moment(result);
   Chosen chosen{picture, request, critical.fault, critical.step};
   if (!request.fault.empty()) {
-    const auto found =
-        std::find(result.fault_names.begin(), result.fault_names.end(), request.fault);
+    const auto found = std::ranges::find(result.fault_names, request.fault);
     if (found == result.fault_names.end()) {
       std::string names;
       for (const std::string& name : result.fault_names)
@@ -83,8 +82,7 @@ Chosen choose(const CasePicture& picture, const CaseChartRequest& request) {
     }
   }
   if (request.step) {
-    const auto found = std::find_if(result.steps.begin(), result.steps.end(),
-                                    [&](const StepResult& s) { return s.step == *request.step; });
+    const auto found = std::ranges::find(result.steps, *request.step, &StepResult::step);
     if (found == result.steps.end() ||
         static_cast<std::size_t>(found - result.steps.begin()) >= n) {
       refuse("--step", concat("the history has no load step ", *request.step),

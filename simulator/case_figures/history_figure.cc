@@ -60,8 +60,7 @@ figure::HistoryPanel pressure_panel(const CaseResult& result) {
           r < step.pressure_change.size() ? step.pressure_change[r] / kBarInPascal : std::nan(""));
     }
     // Compartments with one history are one line with both names.
-    const auto same = std::find_if(panel.curves.begin(), panel.curves.end(),
-                                   [&](const auto& c) { return c.values == curve.values; });
+    const auto same = std::ranges::find(panel.curves, curve.values, &figure::Curve::values);
     if (same != panel.curves.end())
       same->name += ", " + curve.name;
     else

@@ -5,6 +5,7 @@
 
 #include "simulator/common/child_output.h"
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
 #include "simulator/files/atomic_file.h"
 #include "simulator/files/output_target.h"
 
@@ -16,10 +17,10 @@ constexpr const char* kConverter = "rsvg-convert";
 std::string png_of(const std::string& svg) {
   const ChildOutput made = run_child({kConverter, "--zoom=2", "--format=png"}, svg);
   if (made.start_error != 0) {
-    throw InputError("-o", {{"", 0,
-                             concat("a PNG is made by ", kConverter, ", which does not run (",
-                                    std::strerror(made.start_error), ")"),
-                             "install librsvg (Debian: librsvg2-bin), or write a .svg"}});
+    throw InputError("-o",
+                     concat("a PNG is made by ", kConverter, ", which does not run (",
+                            std::strerror(made.start_error), ")"),
+                     "install librsvg (Debian: librsvg2-bin), or write a .svg");
   }
   if (made.code != 0 || made.out.rfind("\x89PNG", 0) != 0) {
     throw StorageError(concat(kConverter, " made no PNG (exit code ", made.code, ")"));
@@ -33,11 +34,11 @@ void require_picture_file(const std::filesystem::path& target,
                           const std::vector<std::string>& endings,
                           const std::vector<std::filesystem::path>& inputs) {
   const std::string ending = target.extension().string();
-  if (std::find(endings.begin(), endings.end(), ending) == endings.end()) {
+  if (!contains(endings, ending)) {
     std::string wanted;
     for (const std::string& one : endings) wanted += (wanted.empty() ? "" : " or ") + one;
-    throw InputError("-o", {{"", 0, concat("\"", target.string(), "\" does not say what to write"),
-                             "let the name end in " + wanted}});
+    throw InputError("-o", concat("\"", target.string(), "\" does not say what to write"),
+                     "let the name end in " + wanted);
   }
   require_writable_file("-o", target, FileKind::text, inputs);
 }

@@ -19,7 +19,7 @@ bool colour_by_fields(const Chosen& chosen, std::size_t fault, figure::Section::
   const FieldReader* file = chosen.picture.fields;
   if (file == nullptr) return false;
   const int step = chosen.result().steps[chosen.step].step;
-  const auto entry = std::find(file->steps().begin(), file->steps().end(), step);
+  const auto entry = std::ranges::find(file->steps(), step);
   if (entry == file->steps().end()) return false;
   for (std::size_t f = 0; f < file->faults().size(); ++f) {
     const StoredFault& stored = file->faults()[f];

@@ -20,7 +20,7 @@ std::size_t stored_entry(Chosen& chosen) {
   const std::vector<int>& steps = chosen.picture.fields->steps();
   if (steps.empty()) refuse("--step", "the fields hold no load step", "run the case again");
   const int wanted = chosen.result().steps[chosen.step].step;
-  const auto after = std::upper_bound(steps.begin(), steps.end(), wanted);
+  const auto after = std::ranges::upper_bound(steps, wanted);
   const std::size_t entry =
       after == steps.begin() ? 0 : static_cast<std::size_t>(after - steps.begin()) - 1;
   if (steps[entry] != wanted && chosen.request.step) {
@@ -44,7 +44,7 @@ std::vector<std::size_t> column_through(const StoredFault& fault, double y) {
       column.push_back(i);
     }
   }
-  std::sort(column.begin(), column.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::sort(column, [&](std::size_t a, std::size_t b) {
     return fault.points(2, static_cast<Eigen::Index>(a)) >
            fault.points(2, static_cast<Eigen::Index>(b));
   });

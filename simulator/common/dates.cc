@@ -2,7 +2,8 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdio>
+
+#include "simulator/common/text.h"
 
 namespace faultsim {
 namespace {
@@ -58,10 +59,8 @@ std::string date_text(double seconds) {
   constexpr double kDay = 86400;
   const std::chrono::sys_days days{std::chrono::days(std::lround(std::floor(seconds / kDay)))};
   const std::chrono::year_month_day date(days);
-  char text[32];
-  std::snprintf(text, sizeof text, "%04d-%02u-%02u", static_cast<int>(date.year()),
-                static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
-  return text;
+  return formatted("%04d-%02u-%02u", static_cast<int>(date.year()),
+                   static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
 }
 
 }  // namespace faultsim

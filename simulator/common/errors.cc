@@ -38,8 +38,7 @@ InputError::InputError(std::string source, std::vector<Problem> problems)
 
 std::string format_problems(const std::string& source, const std::vector<Problem>& problems) {
   std::vector<Problem> sorted = problems;
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const Problem& a, const Problem& b) { return a.line < b.line; });
+  std::ranges::stable_sort(sorted, {}, &Problem::line);
   constexpr std::size_t kMostSpelledOut = 2000;
   std::string text;
   for (const Problem& problem : sorted) {

@@ -53,6 +53,9 @@ class InputError : public Error {
  public:
   /// @param source  file name or other place, printed before each line number.
   InputError(std::string source, std::vector<Problem> problems);
+  /// One problem, of no place within the source.
+  InputError(std::string source, std::string what, std::string cure)
+      : InputError(std::move(source), {{"", 0, std::move(what), std::move(cure)}}) {}
   const std::vector<Problem>& problems() const { return problems_; }
   const std::string& source() const { return source_; }
 

@@ -3,16 +3,14 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include <cstdio>
+#include "simulator/common/text.h"
 
 namespace faultsim {
 
 std::string fingerprint(const void* bytes, std::size_t n_bytes) {
   const XXH128_hash_t hash = XXH3_128bits(bytes, n_bytes);
-  char text[33];
-  std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(hash.high64),
-                static_cast<unsigned long long>(hash.low64));
-  return text;
+  return formatted("%016llx%016llx", static_cast<unsigned long long>(hash.high64),
+                   static_cast<unsigned long long>(hash.low64));
 }
 
 std::uint64_t hash64(const void* bytes, std::size_t n_bytes, std::uint64_t seed) {

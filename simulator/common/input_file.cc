@@ -80,7 +80,7 @@ InputText read_input_file(const std::string& path, std::size_t most_bytes) {
 
 std::string read_input_or_throw(const std::string& path, std::size_t most_bytes) {
   InputText file = read_input_file(path, most_bytes);
-  if (!file.what.empty()) throw InputError(path, {{"", 0, file.what, file.cure}});
+  if (!file.what.empty()) throw InputError(path, file.what, file.cure);
   return std::move(file.text);
 }
 

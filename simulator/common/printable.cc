@@ -2,8 +2,9 @@
 
 #include <array>
 #include <cstdint>
-#include <cstdio>
 #include <utility>
+
+#include "simulator/common/text.h"
 
 namespace faultsim {
 namespace {
@@ -49,13 +50,8 @@ bool is_control(std::uint32_t code) {
 }
 
 std::string spelled(std::string_view text, std::size_t i, const Character& one) {
-  char spelling[16];
-  if (one.valid) {
-    std::snprintf(spelling, sizeof spelling, "\\u%04x", one.code);
-  } else {
-    std::snprintf(spelling, sizeof spelling, "\\x%02x", static_cast<unsigned char>(text[i]));
-  }
-  return spelling;
+  return one.valid ? formatted("\\u%04x", one.code)
+                   : formatted("\\x%02x", static_cast<unsigned char>(text[i]));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "simulator/common/printable.h"
+#include "simulator/common/ranges.h"
 
 namespace faultsim {
 namespace {
@@ -27,9 +28,9 @@ std::string_view without_blanks(std::string_view text) {
 /// The first character that is none, as printable() spells it; tabs are blanks. "" = all are sound.
 std::string first_odd(std::string_view line) {
   const auto odd = [](char c) { return c < ' ' || c > '~'; };  // above ASCII as well
-  if (std::none_of(line.begin(), line.end(), odd)) return "";
+  if (std::ranges::none_of(line, odd)) return "";
   std::string text(line);
-  std::replace(text.begin(), text.end(), '\t', ' ');
+  std::ranges::replace(text, '\t', ' ');
   return first_unprintable(text);
 }
 
@@ -89,7 +90,7 @@ TableColumn table_column(std::string_view cell) {
 
 std::string_view next_table_line(std::string_view& rest) {
   // Letters stand above both: nearly all bytes cost one comparison.
-  const auto* end = std::find_if(rest.begin(), rest.end(), [](char c) {
+  const auto* end = std::ranges::find_if(rest, [](char c) {
     return static_cast<unsigned char>(c) <= '\r' && (c == '\n' || c == '\r');
   });
   const std::string_view line(rest.begin(), static_cast<std::size_t>(end - rest.begin()));
@@ -215,8 +216,7 @@ bool TableReader::set_unit(std::size_t column, Dimension dimension, const ValueR
   const std::string name = concat("column ", column + 1, " ", table_quote(heading.text));
   const std::optional<Unit> unit =
       heading.unit ? unit_of(*heading.unit, dimension) : std::optional<Unit>();
-  const bool sound_words =
-      heading.words.empty() || std::find(words.begin(), words.end(), heading.words) != words.end();
+  const bool sound_words = heading.words.empty() || contains(words, heading.words);
   if (!heading.unit) {
     refuse(name + " has no unit in brackets", cure);
   } else if (!unit) {

@@ -175,8 +175,7 @@ const DimensionInfo& info_of(Dimension dimension) {
 }
 
 const DimensionInfo* dimension_named(std::string_view key) {
-  const auto found = std::find_if(kDimensions.begin(), kDimensions.end(),
-                                  [&](const DimensionInfo& one) { return key == one.key; });
+  const auto found = std::ranges::find(kDimensions, key, &DimensionInfo::key);
   return found == kDimensions.end() ? nullptr : &*found;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
 #include "simulator/common/stopwatch.h"
 #include "simulator/condensation/fault_geometry.h"
 #include "simulator/condensation/loose_pieces.h"
@@ -77,9 +78,7 @@ InfluenceCell influence_cell(const BulkProblem& problem, int cell) {
 
 std::vector<InfluenceCell> influence_cells(const BulkProblem& problem,
                                            const std::vector<int>& cells) {
-  std::vector<InfluenceCell> list;
-  for (const int cell : cells) list.push_back(influence_cell(problem, cell));
-  return list;
+  return mapped(cells, [&](const int& cell) { return influence_cell(problem, cell); });
 }
 
 struct CondensedBulk::Impl {
@@ -261,10 +260,9 @@ InfluenceBlock CondensedBulk::influence(const std::vector<int>& cells, const Run
 }
 
 std::vector<SparseLoad> CondensedBulk::dilatations(const std::vector<int>& cells) const {
-  std::vector<SparseLoad> forces;
-  for (const int cell : cells)
-    forces.push_back(dilatation_load(impl_->problem.mesh, impl_->dofs, cell));
-  return forces;
+  return mapped(cells, [&](const int& cell) {
+    return dilatation_load(impl_->problem.mesh, impl_->dofs, cell);
+  });
 }
 
 Eigen::Matrix3Xd CondensedBulk::displacement(const std::vector<double>& load_factors,

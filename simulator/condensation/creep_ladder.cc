@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
 
 namespace faultsim {
 namespace {
@@ -79,8 +80,8 @@ CreepLadder::CreepLadder(std::shared_ptr<const BulkProblem> shared,
       impl_->cells = std::make_unique<CreepCells>(problem.mesh, problem.materials,
                                                   problem.viscosity, bulk->dofs());
     }
-    std::vector<MaxwellStep> creeping;
-    for (const int m : impl_->cells->materials()) creeping.push_back(steps[m]);
+    std::vector creeping =
+        mapped(impl_->cells->materials(), [&](const int& m) { return steps[m]; });
     FaultOperator op = bulk->condense(part);
     impl_->rungs.push_back({all[i], std::move(creeping), std::move(bulk), std::move(op)});
   }

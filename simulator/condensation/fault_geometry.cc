@@ -16,7 +16,7 @@ std::pair<int, double> region_of(const Mesh& mesh, int cell) {
 }
 
 void add_pressure_pair(std::vector<PressurePair>& pairs, const PressurePair& pair) {
-  const auto same = std::find_if(pairs.begin(), pairs.end(), [&](const PressurePair& other) {
+  const auto same = std::ranges::find_if(pairs, [&](const PressurePair& other) {
     return other.minus_region == pair.minus_region && other.plus_region == pair.plus_region &&
            other.minus_fraction == pair.minus_fraction && other.plus_fraction == pair.plus_fraction;
   });

@@ -18,8 +18,7 @@ struct ContactSolver::Impl {
   Impl(const FaultOperator& op, const ContactLaws& laws, const ContactOptions& given,
        const ContactWatch& watch)
       : options(given), solver(op, laws, options, watch), follower(solver) {
-    follows = std::any_of(laws.begin(), laws.end(),
-                          [](const CoulombLaw& law) { return law.damping > 0; });
+    follows = std::ranges::any_of(laws, [](const CoulombLaw& law) { return law.damping > 0; });
     most_cuts = options.max_step_cuts;
     // An onset is a matter of the load factor; other trouble is not helped by ever smaller steps.
     if (follows && solver.problem().may_jump) {

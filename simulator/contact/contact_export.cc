@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
 #include "simulator/contact/contact_problem.h"
 #include "simulator/contact/node_state.h"
 #include "simulator/contact/step_report.h"
@@ -28,17 +29,15 @@ int n_shear(const OperatorNode& node) {
 /// Where the components of the exported problem come from: dof, or −1 for a component that is
 /// missing.
 std::vector<int> component_dofs(const FaultGeometry& geometry, int dimension) {
-  std::vector<int> dofs;
-  for (const OperatorNode& node : geometry.nodes) {
-    dofs.push_back(node.dof[0]);
-    if (dimension == 2) {
-      dofs.push_back(node.dof[2] >= 0 ? node.dof[2] : node.dof[1]);
-    } else {
-      dofs.push_back(node.dof[1]);
-      dofs.push_back(node.dof[2]);
-    }
+  std::vector dofs = mapped(geometry.nodes, [&](const OperatorNode& node) { return node.dof[0]; });
+  if (dimension == 2) {
+    dofs.push_back(node.dof[2] >= 0 ? node.dof[2] : node.dof[1]);
+  } else {
+    dofs.push_back(node.dof[1]);
+    dofs.push_back(node.dof[2]);
   }
-  return dofs;
+}
+return dofs;
 }
 
 double power_of_ten(double value) {
@@ -103,9 +102,8 @@ FrictionalContactProblem frictional_contact_problem(const FaultOperator& op,
   const int n = problem.dimension * contact.n_nodes();
   constexpr int kMostRows = 46340;  // its square still is an int of FCLib
   if (n == 0 || n > kMostRows) {
-    throw InputError("contact problem",
-                     {{"", 0, concat("W would have ", n, " rows"),
-                       concat("1 to ", kMostRows, " rows can be written; change the mesh")}});
+    throw InputError("contact problem", concat("W would have ", n, " rows"),
+                     concat("1 to ", kMostRows, " rows can be written; change the mesh"));
   }
   const Eigen::MatrixXd w = inverse(op);
   const Eigen::VectorXd trial = step.start.traction + (step.after - step.before);

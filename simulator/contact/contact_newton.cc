@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "simulator/common/ranges.h"
+
 namespace faultsim {
 namespace {
 
@@ -30,7 +32,7 @@ struct Progress {
 SearchIteration iteration_of(const SubStep& sub_step, double residual, double length, int n_changed,
                              int krylov) {
   const auto count = [&](FaultState state) {
-    return static_cast<int>(std::count(sub_step.state.begin(), sub_step.state.end(), state));
+    return static_cast<int>(std::ranges::count(sub_step.state, state));
   };
   return {residual, length, count(FaultState::slip), count(FaultState::open), n_changed, krylov};
 }
@@ -303,7 +305,7 @@ bool ContactNewton::seen_before(const SubStep& sub_step) {
   for (const FaultState state : sub_step.state) {
     hash = (hash ^ static_cast<std::uint64_t>(state)) * 1099511628211ULL;
   }
-  if (std::find(seen_.begin(), seen_.end(), hash) != seen_.end()) return true;
+  if (contains(seen_, hash)) return true;
   seen_.push_back(hash);
   return false;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "simulator/common/ranges.h"
+
 namespace faultsim {
 
 ScalarSlip::ScalarSlip(ContactProblem& problem, const ContactOptions& options, StopToken stop)
@@ -139,7 +141,7 @@ bool ScalarSlip::seen_before() {
   for (const signed char sign : wanted_) {
     hash = (hash ^ static_cast<std::uint64_t>(sign + 1)) * 1099511628211ULL;
   }
-  if (std::find(seen_.begin(), seen_.end(), hash) != seen_.end()) return true;
+  if (contains(seen_, hash)) return true;
   seen_.push_back(hash);
   return false;
 }
@@ -159,7 +161,7 @@ SearchHistory ScalarSlip::solve(SubStep& sub_step) {
   SearchHistory history;
   history.end = SearchEnd::too_many_sets;
   seen_.clear();
-  std::fill(wanted_.begin(), wanted_.end(), 0);
+  std::ranges::fill(wanted_, 0);
   // A history starts with no jump: nothing of an earlier one, not even the order of nodes, stays.
   if (sub_step.start->jump.isZero(0)) synchronise();
   bool opens = false;

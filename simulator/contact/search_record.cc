@@ -1,17 +1,11 @@
 #include "simulator/contact/search_record.h"
 
 #include <cmath>
-#include <cstdio>
+
+#include "simulator/common/text.h"
 
 namespace faultsim {
 namespace {
-
-template <typename... Args>
-std::string formatted(const char* format, Args... args) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, args...);
-  return text;
-}
 
 std::string residual_text(double residual) {
   return std::isnan(residual) ? "-" : formatted("%.3g", residual);

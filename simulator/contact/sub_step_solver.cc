@@ -106,7 +106,7 @@ bool SubStepSolver::at_rest() const {
 void SubStepSolver::start_from_rest() {
   sub_step_.increment.setZero(problem_.n_dofs());
   sub_step_.traction = sub_step_.trial;
-  std::fill(sub_step_.state.begin(), sub_step_.state.end(), FaultState::stick);
+  std::ranges::fill(sub_step_.state, FaultState::stick);
 }
 
 /// The most frequent case of check_node: two dofs, no weakening, closed and at rest.

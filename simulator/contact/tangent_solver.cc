@@ -64,8 +64,8 @@ TangentReport TangentSolver::solve_exactly(const std::vector<TangentUnknown>& un
   constexpr int kIterations = 15;      // 15 n² products against 2/3 n³ of a factorisation
   assemble(unknowns);
   const bool same =
-      std::equal(unknowns.begin(), unknowns.end(), direct_dofs_.begin(), direct_dofs_.end(),
-                 [](const TangentUnknown& unknown, int dof) { return unknown.dof == dof; });
+      std::ranges::equal(unknowns, direct_dofs_.begin(), direct_dofs_.end(),
+                         [](const TangentUnknown& unknown, int dof) { return unknown.dof == dof; });
   if (unknowns.size() > kSmall && same) {
     const GmresReport report =
         gmres([&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y.noalias() = direct_ * x; },

@@ -22,7 +22,7 @@ void set_shear(const std::array<int, 2>& dof, const Eigen::Vector2d& value,
 }
 
 int count(const std::vector<FaultState>& states, FaultState state) {
-  return static_cast<int>(std::count(states.begin(), states.end(), state));
+  return static_cast<int>(std::ranges::count(states, state));
 }
 
 }  // namespace

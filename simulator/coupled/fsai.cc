@@ -72,7 +72,7 @@ class FsaiRows {
     std::partial_sort(candidates.begin(), candidates.begin() + n, candidates.end(),
                       [&](int a, int b) { return gain(a) != gain(b) ? gain(a) > gain(b) : a < b; });
     pattern_.insert(pattern_.end(), candidates.begin(), candidates.begin() + n);
-    std::sort(pattern_.begin(), pattern_.end());
+    std::ranges::sort(pattern_);
     return n > 0;
   }
 

@@ -41,8 +41,8 @@ void require_one_rank() {
   int n_ranks = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
   if (n_ranks == 1) return;
-  throw InputError("coupled path", {{"", 0, concat("it was started on ", n_ranks, " ranks"),
-                                     "start it without mpirun: it runs on one rank so far"}});
+  throw InputError("coupled path", concat("it was started on ", n_ranks, " ranks"),
+                   "start it without mpirun: it runs on one rank so far");
 }
 
 void check_hypre(const char* doing) {

@@ -76,7 +76,7 @@ void TwoSidedBulk::require_pieces_held() const {
 /// K of the free dofs, spread over all dofs, with both triangles and identity rows.
 void TwoSidedBulk::assemble() {
   const Mesh& mesh = problem_.mesh;
-  const int n_u = 3 * (1 + *std::max_element(rank_.begin(), rank_.end()));
+  const int n_u = 3 * (1 + *std::ranges::max_element(rank_));
   std::vector<int> dof_of(dofs_->n_unknowns());
   prescribed_.assign(n_u, 1);
   for (int i = 0; i < static_cast<int>(mesh.nodes.size()); ++i) {

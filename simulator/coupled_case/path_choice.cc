@@ -1,15 +1,11 @@
 #include "simulator/coupled_case/path_choice.h"
 
-#include <cstdio>
+#include "simulator/common/text.h"
 
 namespace faultsim {
 namespace {
 
-std::string gigabytes(double bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g GB", bytes / 1e9);
-  return text;
-}
+std::string gigabytes(double bytes) { return formatted("%.2g GB", bytes / 1e9); }
 
 }  // namespace
 

@@ -18,9 +18,8 @@ void append(std::string& text, double value) {
 void append(std::string& text, int value) { text += std::to_string(value); }
 
 void append(std::string& text, std::string_view value) {
-  const bool is_plain = std::all_of(value.begin(), value.end(), [](char c) {
-    return c >= ' ' && c < '\x7f' && c != '"' && c != '\\';
-  });
+  const bool is_plain = std::ranges::all_of(
+      value, [](char c) { return c >= ' ' && c < '\x7f' && c != '"' && c != '\\'; });
   if (is_plain) {
     text.append("\"").append(value).append("\"");
   } else {
@@ -29,8 +28,7 @@ void append(std::string& text, std::string_view value) {
 }
 
 void ObjectText::close() {
-  std::sort(members_.begin(), members_.end(),
-            [](const Member& a, const Member& b) { return a.key < b.key; });
+  std::ranges::sort(members_, {}, &Member::key);
   std::string object;
   object.reserve(text_.size() - begin_ + 32 * members_.size() + 2);
   object += '{';

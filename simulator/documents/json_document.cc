@@ -260,8 +260,8 @@ JsonDocument parse_json(std::string_view text, const std::string& source) {
   JsonDocument document;
   document.source = source;
   if (text.size() > kMostJsonBytes) {
-    throw InputError(source, {{"", 0, concat("has ", text.size(), " bytes"),
-                               concat("at most ", kMostJsonBytes, " are read")}});
+    throw InputError(source, concat("has ", text.size(), " bytes"),
+                     concat("at most ", kMostJsonBytes, " are read"));
   }
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     throw InputError(source, {{"", 1, "the file is empty", "start from `faultsim init`"}});

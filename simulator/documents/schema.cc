@@ -37,8 +37,7 @@ bool accepts(const SchemaRules& condition, const json& value) {
   if ((condition.types & bit(value.type())) == 0) return false;
   if (condition.only != nullptr && *condition.only != value) return false;
   if (condition.allowed != nullptr &&
-      std::find(condition.allowed->begin(), condition.allowed->end(), value) ==
-          condition.allowed->end()) {
+      std::ranges::find(*condition.allowed, value) == condition.allowed->end()) {
     return false;
   }
   if (!value.is_object()) return true;
@@ -53,8 +52,8 @@ bool accepts(const SchemaRules& condition, const json& value) {
 
 bool has_branches(const SchemaRules& rules) {
   return rules.condition != nullptr ||
-         std::any_of(rules.parts.begin(), rules.parts.end(),
-                     [](const SchemaRules* part) { return has_branches(*part); });
+         std::ranges::any_of(rules.parts,
+                             [](const SchemaRules* part) { return has_branches(*part); });
 }
 
 void expand(const SchemaRules& rules, const json& value, SchemaViews& views) {
@@ -174,7 +173,7 @@ const SchemaViews& item_views(const SchemaViews& parent, const json& value, Sche
 }
 
 bool accepts_alone(const SchemaViews& views, const json& value) {
-  return std::all_of(views.begin(), views.end(), [&](const SchemaRules* view) {
+  return std::ranges::all_of(views, [&](const SchemaRules* view) {
     if ((view->types & bit(value.type())) == 0) return false;
     if (!value.is_number()) return true;
     const auto number = value.get<double>();

@@ -5,6 +5,7 @@
 
 #include "simulator/common/near_miss.h"
 #include "simulator/common/printable.h"
+#include "simulator/common/ranges.h"
 #include "simulator/documents/schema.h"
 
 /// What a value breaks, in words that a user can act on.
@@ -49,19 +50,18 @@ std::string example_cure(const SchemaViews& views, const std::string& otherwise)
 }
 
 std::size_t count_characters(const std::string& text) {
-  return std::count_if(text.begin(), text.end(), [](char c) {
+  return std::ranges::count_if(text, [](char c) {
     return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;  // not the rest of one, in UTF-8
   });
 }
 
 /// Sorted instead of compared in pairs: a list may have 10^5 elements.
 bool has_equal_elements(const json& list) {
-  std::vector<const json*> sorted;
-  for (const json& one : list) sorted.push_back(&one);
+  std::vector sorted = mapped(list, [&](const json& one) { return &one; });
   const auto less = [](const json* a, const json* b) { return *a < *b; };
-  std::sort(sorted.begin(), sorted.end(), less);
-  return std::adjacent_find(sorted.begin(), sorted.end(),
-                            [](const json* a, const json* b) { return *a == *b; }) != sorted.end();
+  std::ranges::sort(sorted, less);
+  return std::ranges::adjacent_find(
+             sorted, [](const json* a, const json* b) { return *a == *b; }) != sorted.end();
 }
 
 class SchemaChecker {
@@ -113,7 +113,7 @@ class SchemaChecker {
   }
 
   std::vector<Problem> problems() && {
-    std::stable_sort(problems_.begin(), problems_.end(), [](const Problem& a, const Problem& b) {
+    std::ranges::stable_sort(problems_, [](const Problem& a, const Problem& b) {
       return a.line != b.line ? a.line < b.line : a.pointer < b.pointer;
     });
     return std::move(problems_);
@@ -131,10 +131,9 @@ class SchemaChecker {
   /// Nothing of what stands below the value.
   void check(const ValuePlace& place, const json& value, const SchemaRules& rules,
              const SchemaViews& views) {
-    const bool known =
-        (rules.only == nullptr || *rules.only == value) &&
-        (rules.allowed == nullptr ||
-         std::find(rules.allowed->begin(), rules.allowed->end(), value) != rules.allowed->end());
+    const bool known = (rules.only == nullptr || *rules.only == value) &&
+                       (rules.allowed == nullptr ||
+                        std::ranges::find(*rules.allowed, value) != rules.allowed->end());
     if (!known) explain_word(place, value, views);
     if (value.is_number()) {
       const auto number = value.get<double>();

@@ -24,8 +24,8 @@ CellUnknowns cell_unknowns(const Mesh& mesh, const DofMap& dofs) {
         for (const DofMap::Term* term = first; term != last; ++term) list.push_back(term->unknown);
       }
     }
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
+    std::ranges::sort(list);
+    list.erase(std::ranges::unique(list), list.end());
     result.unknowns.insert(result.unknowns.end(), list.begin(), list.end());
     result.begin.push_back(static_cast<long>(result.unknowns.size()));
   }
@@ -66,7 +66,7 @@ SparseMatrix make_pattern(const CellUnknowns& cells, int n_unknowns) {
         rows.push_back(row);
       }
     }
-    std::sort(rows.begin(), rows.end());
+    std::ranges::sort(rows);
   };
   SparseMatrix k(n_unknowns, n_unknowns);
   long n_entries = 0;
@@ -75,7 +75,7 @@ SparseMatrix make_pattern(const CellUnknowns& cells, int n_unknowns) {
     n_entries += static_cast<long>(rows.size());
   }
   k.resizeNonZeros(n_entries);
-  std::fill(seen_by.begin(), seen_by.end(), -1);
+  std::ranges::fill(seen_by, -1);
   k.outerIndexPtr()[0] = 0;
   for (int column = 0; column < n_unknowns; ++column) {
     rows_of(column);

@@ -68,8 +68,8 @@ void DofMapBuilder::prescribe(const std::vector<DisplacementCondition>& conditio
       if (face.side != condition.side) continue;
       for (int node : face.nodes) nodes.push_back(root(node));
     }
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    std::ranges::sort(nodes);
+    nodes.erase(std::ranges::unique(nodes), nodes.end());
     for (int node : nodes) {
       const Eigen::Vector3d value = condition.translation + condition.gradient * mesh_.nodes[node];
       for (std::size_t c = 0; c < 3; ++c) {
@@ -79,7 +79,7 @@ void DofMapBuilder::prescribe(const std::vector<DisplacementCondition>& conditio
       }
     }
   }
-  for (auto& list : map_.prescribed_) std::sort(list.begin(), list.end());
+  for (auto& list : map_.prescribed_) std::ranges::sort(list);
 }
 
 void DofMapBuilder::collect_pairs() {
@@ -141,7 +141,7 @@ void DofMapBuilder::pin() {
     if (flags[0] || flags[1] || flags[2]) return;
   }
   const Pieces pieces = find_pieces(mesh_);
-  const auto largest = std::max_element(pieces.n_cells.begin(), pieces.n_cells.end());
+  const auto largest = std::ranges::max_element(pieces.n_cells);
   const int piece = static_cast<int>(largest - pieces.n_cells.begin());
   const int body = pieces.body[piece];
   const auto in_body = [&](int node) {
@@ -253,7 +253,7 @@ void DofMapBuilder::write_terms() {
 void DofMapBuilder::share_prescribed() {
   for (auto& list : map_.prescribed_) {
     const auto find = [&](int key) {
-      const auto at = std::lower_bound(list.begin(), list.end(), std::pair(key, -HUGE_VAL));
+      const auto at = std::ranges::lower_bound(list, std::pair(key, -HUGE_VAL));
       return at != list.end() && at->first == key ? at : list.end();
     };
     std::vector<std::pair<int, double>> all;
@@ -294,7 +294,7 @@ std::pair<const DofMap::Term*, const DofMap::Term*> DofMap::terms(int node, int 
 double DofMap::prescribed(int load, int node, int component) const {
   const auto& list = prescribed_[load];
   const int key = 3 * node + component;
-  const auto at = std::lower_bound(list.begin(), list.end(), std::pair(key, -HUGE_VAL));
+  const auto at = std::ranges::lower_bound(list, std::pair(key, -HUGE_VAL));
   return at != list.end() && at->first == key ? at->second : 0;
 }
 

@@ -27,8 +27,8 @@ std::string extent_text(const Mesh& mesh, const std::function<bool(int)>& member
     low = low.cwiseMin(mesh.nodes[i]);
     high = high.cwiseMax(mesh.nodes[i]);
   }
-  const auto n_cells = std::count_if(mesh.cells.begin(), mesh.cells.end(),
-                                     [&](const auto& cell) { return member(cell[0]); });
+  const auto n_cells =
+      std::ranges::count_if(mesh.cells, [&](const auto& cell) { return member(cell[0]); });
   std::string text = "the block ";
   for (int c = 0; c < 3; ++c) {
     text +=

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 #include "simulator/common/errors.h"
@@ -122,8 +121,8 @@ std::vector<double> spread(const std::vector<double>& wanted, double gap, double
   if (n > 1) gap = std::min(gap, (high - low) / static_cast<double>(n - 1));
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return wanted[a] < wanted[b]; });
+  std::ranges::stable_sort(order,
+                           [&](std::size_t a, std::size_t b) { return wanted[a] < wanted[b]; });
   // Neighbours that are too close become one block, which stands at the mean of what its members
   // want of its first place (isotonic regression: pool adjacent violators).
   struct Block {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/common/ranges.h"
 #include "simulator/figure/panel.h"
 
 namespace faultsim::figure {
@@ -58,7 +59,7 @@ void draw_column_key(Svg& svg, const Box& box, const DepthColumn& column) {
 
 Axis depth_axis(const std::vector<double>& depths, double height) {
   Axis axis = axis_over("depth, m", depths, {}, static_cast<int>(height / 45));
-  const auto [low, high] = std::minmax_element(depths.begin(), depths.end());
+  const auto [low, high] = std::ranges::minmax_element(depths);
   const double from = depths.empty() ? 1 : *high, to = depths.empty() ? 0 : *low;
   return from > to ? axis_between(axis.label, from, to, static_cast<int>(height / 45))
                    : axis_between(axis.label, from + 1, to - 1, 4);
@@ -142,8 +143,8 @@ std::string draw(const FaultMap& map) {
   draw_band_strip(svg, strip, depth, map.bands);
   double low = 0, high = 1;
   if (!across.empty()) {
-    low = *std::min_element(across.begin(), across.end());
-    high = *std::max_element(across.begin(), across.end());
+    low = *std::ranges::min_element(across);
+    high = *std::ranges::max_element(across);
   }
   if (!(high > low)) high = low + 1;
   const Box box{strip.right() + 14, heading, kWidth - strip.right() - 14 - 24, kHeight};
@@ -151,8 +152,8 @@ std::string draw(const FaultMap& map) {
   for (const bool outlines : {false, true}) {  // outlines last, over their neighbours' colours
     for (const FaultCell& cell : map.cells) {
       if (outlines && !cell.is_marked) continue;
-      std::vector<Point> corners;
-      for (const Point& corner : cell.corners) corners.push_back(panel.at(corner.x, corner.y));
+      std::vector corners =
+          mapped(cell.corners, [&](const Point& corner) { return panel.at(corner.x, corner.y); });
       const std::string fill = colour_of(map, cell.value);
       if (outlines)
         svg.polygon(corners, "none", {kInk, 0.9});

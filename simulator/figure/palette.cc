@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "simulator/common/text.h"
 
 namespace faultsim::figure {
 namespace {
@@ -11,11 +12,9 @@ namespace {
 using Rgb = std::array<double, 3>;
 
 std::string hex(const Rgb& colour) {
-  char text[8];
-  std::snprintf(text, sizeof text, "#%02x%02x%02x", static_cast<unsigned>(std::lround(colour[0])),
-                static_cast<unsigned>(std::lround(colour[1])),
-                static_cast<unsigned>(std::lround(colour[2])));
-  return text;
+  return formatted("#%02x%02x%02x", static_cast<unsigned>(std::lround(colour[0])),
+                   static_cast<unsigned>(std::lround(colour[1])),
+                   static_cast<unsigned>(std::lround(colour[2])));
 }
 
 Rgb between(const Rgb& a, const Rgb& b, double share) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/common/ranges.h"
+
 namespace faultsim::figure {
 namespace {
 
@@ -134,8 +136,7 @@ double draw_heading(Svg& svg, const std::string& title, const std::string& remar
 }
 
 void draw_end_labels(Svg& svg, const std::vector<EndLabel>& labels, const Box& box) {
-  std::vector<double> wanted;
-  for (const EndLabel& label : labels) wanted.push_back(label.end.y);
+  std::vector wanted = mapped(labels, [&](const EndLabel& label) { return label.end.y; });
   const std::vector<double> placed = spread(wanted, 15, box.y + 5, box.bottom() - 5);
   for (std::size_t k = 0; k < labels.size(); ++k) {
     const Point place{box.right() + 16, placed[k]};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/common/ranges.h"
 #include "simulator/figure/panel.h"
 
 namespace faultsim::figure {
@@ -37,8 +38,7 @@ void draw_rocks(Svg& svg, const Panel& panel, const Section& section) {
 void draw_faults(Svg& svg, const Panel& panel, const Section& section) {
   for (std::size_t f = 0; f < section.faults.size(); ++f) {
     const Section::FaultLine& fault = section.faults[f];
-    std::vector<Point> points;
-    for (const Point& p : fault.points) points.push_back(panel.at(p.x, p.y));
+    std::vector points = mapped(fault.points, [&](const Point& p) { return panel.at(p.x, p.y); });
     svg.polyline(points, {kInk, 8});  // a dark edge, on which pale colours stand out too
     svg.begin_group({{"data-fault", std::to_string(f)}});
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {

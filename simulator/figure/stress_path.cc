@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "simulator/common/ranges.h"
 #include "simulator/figure/panel.h"
 
 namespace faultsim::figure {
@@ -63,10 +64,9 @@ void draw_path(Svg& svg, Panel& panel, const StressPath& path) {
   for (std::size_t k = 0; k < path.normal.size(); ++k) {
     svg.circle(panel.at(path.normal[k], path.shear[k]), 2.2, stroke.colour);
   }
-  std::vector<double> wanted;
-  for (const StressPath::Mark& mark : path.marks) {
-    wanted.push_back(panel.at(path.normal[mark.step], path.shear[mark.step]).y);
-  }
+  std::vector wanted = mapped(path.marks, [&](const StressPath::Mark& mark) {
+    return panel.at(path.normal[mark.step], path.shear[mark.step]).y;
+  });
   const std::vector<double> placed =
       spread(wanted, 15, panel.box().y + 10, panel.box().bottom() - 10);
   double right = 0;

@@ -68,7 +68,7 @@ std::string cut_last(std::string& text) {
 }
 
 bool is_number(const std::string& text) {
-  return !text.empty() && text.size() < 10 && std::all_of(text.begin(), text.end(), [](char c) {
+  return !text.empty() && text.size() < 10 && std::ranges::all_of(text, [](char c) {
     return std::isdigit(static_cast<unsigned char>(c)) != 0;
   });
 }

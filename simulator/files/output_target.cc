@@ -147,15 +147,13 @@ void require_writable_file(const std::string& option, const fs::path& target, Fi
 
 void require_writable_folder(const std::string& option, const fs::path& folder) {
   if (is_standard_output(folder)) {
-    throw InputError(option,
-                     {{"", 0, "a folder cannot be written to standard output", "name a folder"}});
+    throw InputError(option, "a folder cannot be written to standard output", "name a folder");
   }
   const fs::path target = without_last_slash(folder);
   std::error_code error;
   const fs::file_status status = fs::status(target, error);
   if (fs::exists(status) && !fs::is_directory(status)) {
-    throw InputError(option,
-                     {{"", 0, concat(target.string(), " is not a folder"), "name a folder"}});
+    throw InputError(option, concat(target.string(), " is not a folder"), "name a folder");
   }
   const std::vector<Problem> problems =
       problems_of_place(fs::is_directory(status) ? target : above(target));

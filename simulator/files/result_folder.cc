@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
 #include "simulator/files/atomic_file.h"
 #include "simulator/files/output_target.h"
 
@@ -28,10 +29,6 @@ constexpr int kFolderFormat = 1;
 bool is_plain_name(const std::string& name) {
   return !name.empty() && name != "." && name != ".." && name != kMarker && name != kWork &&
          name.find('/') == std::string::npos && name.find('\0') == std::string::npos;
-}
-
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 std::string marker_text(const std::string& why, const std::vector<std::string>& entries) {
@@ -102,7 +99,7 @@ std::vector<std::string> entries_of(const fs::path& folder) {
     entries.push_back(it->path().filename().string());
   }
   if (error) fail("list", folder, error.message());
-  std::sort(entries.begin(), entries.end());
+  std::ranges::sort(entries);
   return entries;
 }
 
@@ -134,10 +131,9 @@ ResultFolder::ResultFolder(Request request) : request_(std::move(request)) {
   const auto contents = contents_of(folder_);
   const auto marked = marked_entries(folder_);
   if (contents && contents->made_by != request_.made_by) {
-    throw InputError(
-        request_.option,
-        {{"", 0, concat(folder_.string(), " holds a result of `", contents->made_by, "`"),
-          "choose another folder, or remove it"}});
+    throw InputError(request_.option,
+                     concat(folder_.string(), " holds a result of `", contents->made_by, "`"),
+                     "choose another folder, or remove it");
   }
   whole_ = contents && !marked;
   if (contents) old_ = contents->files;
@@ -219,7 +215,7 @@ void ResultFolder::commit() {
   for (const std::string& entry : entries_of(work_)) {
     if (entry != kMarker) made.files.push_back(entry);
   }
-  std::sort(made.files.begin(), made.files.end());
+  std::ranges::sort(made.files);
   std::error_code error;
   for (const std::string& entry : made.files) {
     if (fs::exists(fs::symlink_status(folder_ / entry, error)) && !contains(old_, entry)) {

@@ -62,7 +62,7 @@ template <typename Planes, typename Points>
 bool is_apart(const Planes& planes, const Points& points) {
   for (int plane = 0; plane < Planes::kPlanes; ++plane) {
     const auto outside = [&](const auto& p) { return planes.inside(plane, p) <= 0; };
-    if (std::all_of(points.begin(), points.end(), outside)) return true;
+    if (std::ranges::all_of(points, outside)) return true;
   }
   return false;
 }
@@ -74,8 +74,7 @@ double clipped_volume(Tetrahedron t, const Planes& planes, int plane) {
   for (; plane < Planes::kPlanes; ++plane) {
     const auto inside = [&](const Eigen::Vector3d& p) { return planes.inside(plane, p); };
     const auto kept =
-        std::partition(t.begin(), t.end(), [&](const auto& p) { return inside(p) > 0; }) -
-        t.begin();
+        std::ranges::partition(t, [&](const auto& p) { return inside(p) > 0; }) - t.begin();
     if (kept == 0) return 0;
     if (kept == 4) continue;
     const auto cut = [&](int in, int out) -> Eigen::Vector3d {

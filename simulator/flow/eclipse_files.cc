@@ -42,7 +42,7 @@ EclipseFiles eclipse_files(const fs::path& path) {
       if (file.stem() == root.filename() && is_single_report(file.extension().string()))
         files.restarts.push_back(folder / file.filename());
     }
-    std::sort(files.restarts.begin(), files.restarts.end());
+    std::ranges::sort(files.restarts);
   }
   return files;
 }

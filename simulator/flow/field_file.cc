@@ -60,8 +60,7 @@ class KeptFiles {
   FieldFile get(const fs::path& path, FlowQuantity quantity) {
     const std::lock_guard lock(mutex_);
     const Stamp stamp = stamp_of(path, quantity);
-    const auto known = std::find_if(kept_.begin(), kept_.end(),
-                                    [&](const Kept& one) { return one.stamp == stamp; });
+    const auto known = std::ranges::find(kept_, stamp, &Kept::stamp);
     if (known != kept_.end()) {
       std::rotate(kept_.begin(), known, known + 1);
     } else {

@@ -68,7 +68,7 @@ std::vector<int> FlowCellSearch::overlapping(const Eigen::Vector3d& low,
       if (meets(cells_[order_[i]])) found.push_back(order_[i]);
     }
   }
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   return found;
 }
 

@@ -55,7 +55,7 @@ class FlowTable {
     is_long_ = columns[0].text == "date";
     for (first_value_ = is_long_ ? 1 : 0; first_value_ < columns.size(); ++first_value_) {
       const std::string& name = columns[first_value_].name;
-      const auto place = std::find(kPlaces.begin(), kPlaces.end(), name);
+      const auto place = std::ranges::find(kPlaces, name);
       if (place == kPlaces.end()) break;
       const auto k = static_cast<std::size_t>(place - kPlaces.begin());
       if (column_[k]) reader_.refuse("there are two columns " + name, "remove one of the two");
@@ -154,10 +154,9 @@ class FlowTable {
   /// In the long form a cell can be missing at a date.
   void require_every_cell() {
     for (std::size_t t = 0; t < values_.size(); ++t) {
-      const auto n_missing =
-          places_.size() - values_[t].size() +
-          static_cast<std::size_t>(std::count_if(values_[t].begin(), values_[t].end(),
-                                                 [](double value) { return std::isnan(value); }));
+      const auto n_missing = places_.size() - values_[t].size() +
+                             static_cast<std::size_t>(std::ranges::count_if(
+                                 values_[t], [](double value) { return std::isnan(value); }));
       if (n_missing == 0) continue;
       return reader_.refuse_at(
           0, concat(n_missing, " of ", places_.size(), " cells are missing at ", date_names_[t]),

@@ -65,8 +65,8 @@ FlowMapping map_flow(const FlowField& field, const std::vector<MappedCell>& cell
     const double volume = cell_volume(cell.corners);
     const double covered = overlaps_of(cell, field, search, weights);
     if (covered > (1 + kTwice) * volume) {
-      throw InputError("flow field", {{"", 0, "flow cells lie over each other at " + where(cell),
-                                       "give every place one cell, without refined parents"}});
+      throw InputError("flow field", "flow cells lie over each other at " + where(cell),
+                       "give every place one cell, without refined parents");
     }
     for (FlowMapping::Weight& weight : weights) weight.value /= covered;
     RegionCoverage& region = mapping.coverage.at(cell.region);

@@ -24,7 +24,7 @@ CornerKey corner_key(const FlowCell& cell, double y_sign) {
       for (const double y : {cell.low.y(), cell.high.y()})
         for (const double z : {cell.low.z(), cell.high.z()}) add({x, y, z});
   }
-  std::sort(corners.begin(), corners.end());
+  std::ranges::sort(corners);
   CornerKey key;
   for (const auto& corner : corners) key.insert(key.end(), corner.begin(), corner.end());
   return key;

@@ -7,10 +7,9 @@ namespace faultsim {
 bool reads_eclipse() { return false; }
 
 FlowField read_eclipse(const std::filesystem::path& path, FlowQuantity) {
-  throw InputError(
-      path.string(),
-      {{"", 0, "this program was built without opm-common, which reads such files",
-        "install libopm-common-dev and build again, or give a table of cells as CSV"}});
+  throw InputError(path.string(),
+                   "this program was built without opm-common, which reads such files",
+                   "install libopm-common-dev and build again, or give a table of cells as CSV");
 }
 
 }  // namespace faultsim

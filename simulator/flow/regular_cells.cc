@@ -1,19 +1,16 @@
 #include "simulator/flow/regular_cells.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
+
+#include "simulator/common/text.h"
 
 namespace faultsim {
 namespace {
 
 using Centre = std::pair<int, double>;  ///< line, place on it.
 
-std::string metres(double length) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.10g m", length);
-  return text;
-}
+std::string metres(double length) { return formatted("%.10g m", length); }
 
 std::string gap_text(const Centre& from, const Centre& to) {
   return "from " + metres(from.second) + " to " + metres(to.second);
@@ -42,8 +39,8 @@ CellReach regular_cells(const std::vector<int>& line, const std::vector<double>&
   constexpr double kSame = 1.01;  // centres are written to some digits
   std::vector<Centre> centres;
   for (std::size_t i = 0; i < at.size(); ++i) centres.emplace_back(line[i], at[i]);
-  std::sort(centres.begin(), centres.end());
-  centres.erase(std::unique(centres.begin(), centres.end()), centres.end());
+  std::ranges::sort(centres);
+  centres.erase(std::ranges::unique(centres), centres.end());
   const Gaps gaps = gaps_of(centres);
   if (gaps.smallest == centres.size())
     return {{}, "has a single value, " + metres(at.front()) + ", and no neighbour beside it", 0};
@@ -61,7 +58,7 @@ CellReach regular_cells(const std::vector<int>& line, const std::vector<double>&
   CellReach cells;
   for (std::size_t i = 0; i < at.size(); ++i) {
     const Centre own(line[i], at[i]);
-    const auto place = std::lower_bound(centres.begin(), centres.end(), own) - centres.begin();
+    const auto place = std::ranges::lower_bound(centres, own) - centres.begin();
     const auto k = static_cast<std::size_t>(place);
     const bool has_low = k > 0 && centres[k - 1].first == own.first;
     const bool has_high = k + 1 < centres.size() && centres[k + 1].first == own.first;

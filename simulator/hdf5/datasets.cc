@@ -59,7 +59,7 @@ void write_any(hid_t file, const std::string& path, const std::vector<hsize_t>& 
   Handle dataset(H5Dcreate2(file, path.c_str(), file_type, space, link_creation(),
                             dataset_creation(), H5P_DEFAULT),
                  H5Dclose, path);
-  if (std::find(sizes.begin(), sizes.end(), hsize_t{0}) == sizes.end()) {
+  if (std::ranges::find(sizes, hsize_t{0}) == sizes.end()) {
     check(H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), path);
   }
   describe(dataset, about);
@@ -184,7 +184,7 @@ void write_texts(hid_t file, const std::string& path, const std::vector<std::str
   for (const std::string& text : texts) length = std::max(length, text.size());
   std::string padded(length * texts.size(), '\0');
   for (std::size_t i = 0; i < texts.size(); ++i) {
-    std::copy(texts[i].begin(), texts[i].end(), padded.begin() + static_cast<long>(i * length));
+    std::ranges::copy(texts[i], padded.begin() + static_cast<long>(i * length));
   }
   const Handle type = text_type(length);
   write_any(file, path, {texts.size()}, type, type, padded.data(), {});

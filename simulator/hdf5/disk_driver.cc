@@ -149,7 +149,7 @@ H5FD_class_t make_class() {
   driver.write = write_bytes;
   driver.truncate = truncate_file;
   const H5FD_mem_t one_free_list_each[] = H5FD_FLMAP_DICHOTOMY;
-  std::copy(std::begin(one_free_list_each), std::end(one_free_list_each), driver.fl_map);
+  std::ranges::copy(one_free_list_each, driver.fl_map);
   return driver;
 }
 

@@ -18,7 +18,7 @@ struct Between {
 Between between(const std::vector<double>& x, double at) {
   if (x.empty() || at <= x.front()) return {};
   if (at >= x.back()) return {x.size() - 1, x.size() - 1, 0};
-  const auto next = static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), at) - x.begin());
+  const auto next = static_cast<std::size_t>(std::ranges::upper_bound(x, at) - x.begin());
   return {next - 1, next, (at - x[next - 1]) / (x[next] - x[next - 1])};
 }
 

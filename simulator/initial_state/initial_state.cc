@@ -71,13 +71,13 @@ std::vector<ColumnPiece> block_column(const Scene& scene,
   std::vector<double> cuts = {layer.top, layer.bottom};
   if (reservoir) cuts = {reservoir->top, reservoir->bottom};
   for (const ColumnPiece& piece : reference) cuts.push_back(piece.bottom);
-  std::sort(cuts.begin(), cuts.end());
+  std::ranges::sort(cuts);
   std::vector<ColumnPiece> column;
   double top = 0;
   for (const double bottom : cuts) {
     const double middle = 0.5 * (top + bottom);
-    const auto piece = std::find_if(reference.begin(), reference.end(),
-                                    [&](const ColumnPiece& each) { return middle < each.bottom; });
+    const auto piece = std::ranges::find_if(
+        reference, [&](const ColumnPiece& each) { return middle < each.bottom; });
     double density = piece == reference.end() ? 0.0 : piece->density;
     if (middle > layer.top && middle < layer.bottom) density = side_density;
     if (reservoir && middle > reservoir->top && middle < reservoir->bottom) {
@@ -218,8 +218,8 @@ std::vector<InitialRegion> initial_regions(const Scene& scene) {
 bool has_viscous_layer(const Scene& scene) {
   const std::vector<Layer>& layers = layers_of(scene);
   if (layers.empty()) return is_viscous(scene, scene.box.material);
-  return std::any_of(layers.begin(), layers.end(),
-                     [&](const Layer& layer) { return is_viscous(scene, layer.material); });
+  return std::ranges::any_of(layers,
+                             [&](const Layer& layer) { return is_viscous(scene, layer.material); });
 }
 
 double neglected_weight_difference(const Scene& scene) {

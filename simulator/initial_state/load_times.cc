@@ -1,8 +1,8 @@
 #include "simulator/initial_state/load_times.h"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "simulator/common/text.h"
 #include "simulator/common/units.h"
 
 namespace faultsim {
@@ -68,9 +68,8 @@ std::vector<Unmet> unmet(const std::vector<StepEnd>& ends,
   std::vector<Unmet> result;
   double last = 0;  // s, of the point taken last: it becomes a step, which may meet others
   for (const TurningPoint& point : points) {
-    const auto next =
-        std::lower_bound(ends.begin(), ends.end(), point.from,
-                         [](const StepEnd& end, double time) { return end.time < time; });
+    const auto next = std::ranges::lower_bound(
+        ends, point.from, [](const StepEnd& end, double time) { return end.time < time; });
     if (next == ends.end()) break;
     const double near = kMetShare * next->length;
     const double before = next == ends.begin() ? 0 : std::prev(next)->time;
@@ -81,11 +80,7 @@ std::vector<Unmet> unmet(const std::vector<StepEnd>& ends,
   return result;
 }
 
-std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
+std::string number_text(double value) { return formatted("%.6g", value); }
 
 }  // namespace
 
@@ -128,8 +123,7 @@ std::vector<TurningPoint> turning_points(const Scene& scene) {
   double end = 0;
   for (const Stage& stage : scene.stages) end += stage.duration;
   std::erase_if(points, [&](const TurningPoint& p) { return p.to <= 0 || p.from >= end; });
-  std::stable_sort(points.begin(), points.end(),
-                   [](const TurningPoint& a, const TurningPoint& b) { return a.from < b.from; });
+  std::ranges::stable_sort(points, {}, &TurningPoint::from);
   return points;
 }
 

@@ -8,7 +8,7 @@ namespace {
 
 /// Linear between points, constant outside.
 double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {
-  const auto next = std::upper_bound(x.begin(), x.end(), at);
+  const auto next = std::ranges::upper_bound(x, at);
   if (next == x.begin()) return y.front();
   const auto i = static_cast<std::size_t>(next - x.begin()) - 1;
   if (next == x.end() || x[i] == at) return y[i];

@@ -83,9 +83,7 @@ NodeLaws::NodeLaws(std::span<const CoulombLaw> constants) {
   }
 }
 
-bool NodeLaws::any_weakens() const {
-  return std::any_of(laws_.begin(), laws_.end(), [](const NodeLaw& law) { return law.weakens(); });
-}
+bool NodeLaws::any_weakens() const { return std::ranges::any_of(laws_, &NodeLaw::weakens); }
 
 double nucleation_length(double modulus, double weakening_rate) {
   constexpr double kUenishiRice = 1.157773883699;  // Uenishi and Rice (2003), 0.579 x 2

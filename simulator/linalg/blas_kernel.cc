@@ -107,8 +107,8 @@ VectorSet vector_set_of_processor() {
 }
 
 std::optional<VectorSet> vector_set_of_kernel(const std::string& name) {
-  const auto* found = std::find_if(kKernels.begin(), kKernels.end(),
-                                   [&](const Kernel& k) { return same_name(k.name, name); });
+  const auto* found =
+      std::ranges::find_if(kKernels, [&](const Kernel& k) { return same_name(k.name, name); });
   if (found == kKernels.end()) return std::nullopt;
   return found->set;
 }

@@ -40,8 +40,8 @@ GroupGraph group_graph(const cholmod_sparse& a, const std::vector<int>& group, i
   GroupGraph graph;
   graph.begin.push_back(0);
   for (auto& list : below) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
+    std::ranges::sort(list);
+    list.erase(std::ranges::unique(list), list.end());
     graph.rows.insert(graph.rows.end(), list.begin(), list.end());
     graph.begin.push_back(static_cast<Index>(graph.rows.size()));
   }

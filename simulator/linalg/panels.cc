@@ -117,9 +117,9 @@ std::vector<PanelSchedule::Task> PanelSchedule::tasks(int n_threads) const {
     for (int p = first_panel_[s + 1] - 1; p >= first_panel_[s]; --p) single.push_back({p, p + 1});
     --s;
   }
-  std::reverse(subtrees.begin(), subtrees.end());
-  std::stable_sort(subtrees.begin(), subtrees.end(),
-                   [&](const Task& a, const Task& b) { return flops_of(a) > flops_of(b); });
+  std::ranges::reverse(subtrees);
+  std::ranges::stable_sort(subtrees,
+                           [&](const Task& a, const Task& b) { return flops_of(a) > flops_of(b); });
   subtrees.insert(subtrees.end(), single.rbegin(), single.rend());
   return subtrees;
 }

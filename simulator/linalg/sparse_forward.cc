@@ -34,7 +34,7 @@ class SparseForward {
   }
 
   void substitute() {
-    std::sort(path_.begin(), path_.end());
+    std::ranges::sort(path_);
     for (const long s : path_) {
       eliminate(s);
       on_path_[s] = 0;
@@ -97,7 +97,7 @@ Eigen::MatrixXd condense_sparse(const Supernodes& factor, const std::vector<long
   }
   std::vector<int> order(loads.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return start[a] < start[b]; });
+  std::ranges::stable_sort(order, [&](int a, int b) { return start[a] < start[b]; });
 
   const auto n = static_cast<int>(loads.size());
   Eigen::MatrixXd condensed(factor.n - n_bulk, n);

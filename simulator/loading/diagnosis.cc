@@ -2,20 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/text.h"
 #include "simulator/linalg/condition.h"
 
 namespace faultsim {
 namespace {
 
-std::string two_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", value);
-  return text;
-}
+std::string two_digits(double value) { return formatted("%.2g", value); }
 
 void note_change(NoiseCheck& noise, const char* what, const std::string& from,
                  const std::string& to) {
@@ -105,9 +101,8 @@ void judge(const DiagnosisLimits& limits, double traction_tolerance, Diagnosis& 
   for (const std::string& change : diagnosis.noise.changed) {
     violations.push_back({"noise of 1e-12 changes the " + change, open_end});
   }
-  const auto n_without =
-      std::count_if(result.events.begin(), result.events.end(),
-                    [](const SlipEvent& event) { return !event.evidence_holds; });
+  const auto n_without = std::ranges::count_if(
+      result.events, [](const SlipEvent& event) { return !event.evidence_holds; });
   if (n_without > 0) {
     violations.push_back(
         {concat("the evidence of ", n_without, " slip events does not hold"), open_end});

@@ -3,9 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/text.h"
 #include "simulator/common/units.h"
 #include "simulator/initial_state/fault_pressure.h"
 #include "simulator/initial_state/initial_state.h"
@@ -17,21 +17,11 @@ namespace {
 
 constexpr double kRounding = 1;  // Pa: "back to the initial pressure" is written in decimal units
 
-std::string bar(double pascal) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f bar", pascal / 1e5);
-  return text;
-}
+std::string bar(double pascal) { return formatted("%.1f bar", pascal / 1e5); }
 std::string years(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g year", from_si(seconds, Dimension::time, "year"));
-  return text;
+  return formatted("%.4g year", from_si(seconds, Dimension::time, "year"));
 }
-std::string metres(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.0f m", value);
-  return text;
-}
+std::string metres(double value) { return formatted("%.0f m", value); }
 
 /// Least compressive principal total stress of the initial state, as a pressure, Pa.
 double least_stress(const Scene& scene, double depth, DepthSide side) {
@@ -120,7 +110,7 @@ class PressureWarnings {
   static bool may_rise(const FaultPressure& law) {
     const std::vector<double>& values = law.profile.change;
     return law.rule != FaultPressureRule::table ||
-           std::any_of(values.begin(), values.end(), [](double v) { return v > kRounding; });
+           std::ranges::any_of(values, [](double v) { return v > kRounding; });
   }
 
   template <typename Change>

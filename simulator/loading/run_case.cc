@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "simulator/common/fingerprint.h"
+#include "simulator/common/ranges.h"
 #include "simulator/common/stopwatch.h"
 #include "simulator/loading/case_contact.h"
 #include "simulator/loading/warnings.h"
@@ -19,9 +20,7 @@ namespace faultsim {
 namespace {
 
 std::vector<std::string> fault_names(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const Fault& fault : scene.faults) names.push_back(fault.name);
-  return names;
+  return mapped(scene.faults, &Fault::name);
 }
 
 void add_counts(SolveCounts& sum, const SolveCounts& part) {
@@ -181,8 +180,7 @@ void CaseRun::record(const LoadStep& step, const StepLoads& loads,
   }
   if (result.creep) record_creep(*result.creep);
   if (result.n_slip > 0) note_weakening(state_.traction, false);
-  const auto first = std::find_if(result_.events.begin(), result_.events.end(),
-                                  [&](const SlipEvent& e) { return e.step == step.step; });
+  const auto first = std::ranges::find(result_.events, step.step, &SlipEvent::step);
   const std::span<const SlipEvent> events(first, result_.events.end());
   whole_.add(result, meter_, neighbours_, nodal_, state_, loads, result_.fault_names, events);
   if (step.step > 0) {
@@ -270,8 +268,7 @@ bool CaseRun::advance(const LoadStep& step, const StepLoads* before, const StepL
 /// A case with events is never called converged; with cells too coarse for its weakening, or with
 /// an event whose evidence does not hold, it is marked.
 void CaseRun::name_events() {
-  const bool evident = std::all_of(result_.events.begin(), result_.events.end(),
-                                   [](const SlipEvent& e) { return e.evidence_holds; });
+  const bool evident = std::ranges::all_of(result_.events, &SlipEvent::evidence_holds);
   if (result_.events.empty() || result_.outcome != Outcome::converged) return;
   result_.outcome =
       result_.weakening_resolved && evident ? Outcome::event : Outcome::unresolved_event;
@@ -293,24 +290,21 @@ void CaseRun::name_result() {
 
 /// Goes through the load steps to their end, or as far as there is equilibrium.
 void CaseRun::walk(const std::vector<LoadStep>& steps) {
-  std::vector<StepLoads> loads;
-  for (const LoadStep& step : steps) {
-    loads.push_back(loads_.at(step.time));
-    loads_.check_fault_pressure(step, loads.back());
+  std::vector loads = mapped(steps, [&](const LoadStep& step) { return loads_.at(step.time); });
+  loads_.check_fault_pressure(step, loads.back());
+}
+for (std::size_t i = 0; i < steps.size(); ++i) {
+  at_ = &steps[i];
+  context_.stop.throw_if_requested("starting a load step");
+  if (stage_ && steps[i].stage != steps[i - 1].stage) {
+    result_.stages.push_back(stage_->finish());
+    stage_.reset();
   }
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    at_ = &steps[i];
-    context_.stop.throw_if_requested("starting a load step");
-    if (stage_ && steps[i].stage != steps[i - 1].stage) {
-      result_.stages.push_back(stage_->finish());
-      stage_.reset();
-    }
-    if (!advance(steps[i], i == 0 ? nullptr : &loads[i - 1], loads[i])) break;
-    if (probe_.displaced && is_stage_end(steps, i))
-      probe_.displaced(result_.steps.back(), solver_->displacement(loads[i], state_));
-    context_.progress(static_cast<double>(i + 1) / static_cast<double>(steps.size()),
-                      steps[i].stage);
-  }
+  if (!advance(steps[i], i == 0 ? nullptr : &loads[i - 1], loads[i])) break;
+  if (probe_.displaced && is_stage_end(steps, i))
+    probe_.displaced(result_.steps.back(), solver_->displacement(loads[i], state_));
+  context_.progress(static_cast<double>(i + 1) / static_cast<double>(steps.size()), steps[i].stage);
+}
 }
 
 CaseResult CaseRun::run() {

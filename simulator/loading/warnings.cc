@@ -1,9 +1,9 @@
 #include "simulator/loading/warnings.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/text.h"
 #include "simulator/initial_state/initial_state.h"
 #include "simulator/loading/pressure_warnings.h"
 #include "simulator/loads/history.h"
@@ -12,11 +12,7 @@ namespace faultsim {
 namespace {
 
 /// A number for people.
-std::string brief(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
+std::string brief(double value) { return formatted("%.4g", value); }
 
 std::string place(const Eigen::Vector3d& p) {
   return "(" + brief(p.x()) + ", " + brief(p.y()) + ", " + brief(p.z()) + ") m";
@@ -60,7 +56,7 @@ class Warnings {
 
   /// The scene itself told that a prescribed pressure reaches no fault.
   bool said_of_pressure() const {
-    return std::any_of(scene_.remarks.begin(), scene_.remarks.end(), [](const Remark& remark) {
+    return std::ranges::any_of(scene_.remarks, [](const Remark& remark) {
       return remark.pointer.ends_with("/prescribed") || remark.pointer.ends_with("/depth_window");
     });
   }
@@ -126,10 +122,10 @@ class Warnings {
   }
 
   void open_with_partial_biot() {
-    const bool opened = std::any_of(result_.steps.begin(), result_.steps.end(),
-                                    [](const StepResult& step) { return step.n_open > 0; });
-    const bool partial = std::any_of(scene_.faults.begin(), scene_.faults.end(),
-                                     [](const Fault& fault) { return fault.fault_biot != 1; });
+    const bool opened =
+        std::ranges::any_of(result_.steps, [](const StepResult& step) { return step.n_open > 0; });
+    const bool partial = std::ranges::any_of(
+        scene_.faults, [](const Fault& fault) { return fault.fault_biot != 1; });
     if (!opened || !partial) return;
     texts_.push_back(
         "a fault opened although fault_biot < 1: an open fault then carries only the share "

@@ -81,8 +81,8 @@ CaseLoads::CaseLoads(const Scene& scene, const FaultOperator& op, const LoadSour
       noise_(noise) {
   FAULTSIM_DEMAND(!scene.has_field() || !further.empty(), "the loads of the scene's field");
   sources_.insert(sources_.end(), further.begin(), further.end());
-  has_forces_ = std::any_of(further.begin(), further.end(),
-                            [](const auto& source) { return source->has_forces(); });
+  has_forces_ =
+      std::ranges::any_of(further, [](const auto& source) { return source->has_forces(); });
 }
 
 StepLoads CaseLoads::at(double time) const {

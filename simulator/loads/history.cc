@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
 #include "simulator/initial_state/initial_state.h"
 #include "simulator/initial_state/load_times.h"
 #include "simulator/loads/fault_pressure_table.h"
@@ -16,7 +17,7 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
                    double before) {
   if (at < x.front()) return before;
   if (at >= x.back()) return y.back();
-  const auto next = std::upper_bound(x.begin(), x.end(), at) - x.begin();
+  const auto next = std::ranges::upper_bound(x, at) - x.begin();
   const auto i = static_cast<std::size_t>(next);
   const double share = (at - x[i - 1]) / (x[i] - x[i - 1]);
   return y[i - 1] + share * (y[i] - y[i - 1]);
@@ -66,12 +67,9 @@ bool is_stage_end(const std::vector<LoadStep>& steps, std::size_t i) {
 }
 
 std::vector<double> pressure_changes(const Scene& scene, double time) {
-  std::vector<double> changes;
-  changes.reserve(scene.pressure.size());
-  for (const PressureHistory& history : scene.pressure) {
-    changes.push_back(history.scale * history_value(history, time - history.lag));
-  }
-  return changes;
+  return mapped(scene.pressure, [&](const PressureHistory& history) {
+    return history.scale * history_value(history, time - history.lag);
+  });
 }
 
 std::vector<double> temperature_changes(const Scene& scene, double time) {
@@ -135,15 +133,14 @@ Eigen::VectorXd initial_pressure_excess(const Scene& scene, const FaultGeometry&
                                         const std::vector<int>& region_of_load) {
   Eigen::VectorXd excess = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(geometry.nodes.size()));
   const std::vector<Block>& blocks = scene.field.blocks;
-  if (std::none_of(blocks.begin(), blocks.end(), [](const Block& b) { return b.overpressure; }))
-    return excess;
+  if (std::ranges::none_of(blocks, &Block::overpressure)) return excess;
   std::vector<double> per_region(scene.pressure.size());
   for (std::size_t f = 0; f < geometry.faults.size(); ++f) {
     const FaultPressure& law = scene.faults[f].pressure;
     const OperatorFault& fault = geometry.faults[f];
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
       const OperatorNode& node = geometry.nodes[k];
-      if (std::none_of(node.pressure.begin(), node.pressure.end(), has_region)) continue;
+      if (std::ranges::none_of(node.pressure, has_region)) continue;
       for (std::size_t r = 0; r < per_region.size(); ++r) {
         per_region[r] = own_pressure_excess(scene, r, node.position.z());
       }

@@ -64,7 +64,7 @@ void EpisodeTracker::add(const StepResult& step, const NodalState& nodal, const 
 
 std::vector<Episode> EpisodeTracker::finish() {
   for (std::size_t f = 0; f < running_.size(); ++f) close(f);
-  std::sort(done_.begin(), done_.end(), [](const auto& a, const auto& b) {
+  std::ranges::sort(done_, [](const auto& a, const auto& b) {
     return std::tie(a.second.first_step, a.first) < std::tie(b.second.first_step, b.first);
   });
   std::vector<Episode> episodes;

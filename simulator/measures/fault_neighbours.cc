@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "simulator/common/ranges.h"
 #include "simulator/initial_state/initial_state.h"
 #include "simulator/loads/history.h"
 
@@ -16,8 +17,7 @@ FaultNeighbours::FaultNeighbours(const Scene& scene, const FaultOperator& op)
     std::vector<int> regions;
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
       for (const int one : {touching_[k].minus, touching_[k].plus}) {
-        if (one >= 0 && std::count(regions.begin(), regions.end(), one) == 0)
-          regions.push_back(one);
+        if (one >= 0 && !contains(regions, one)) regions.push_back(one);
       }
     }
     of_fault_.push_back(std::move(regions));
@@ -67,7 +67,7 @@ SidePressures FaultNeighbours::at(int node, double depth, const PressureChanges&
 double FaultNeighbours::lowest(int fault, const std::vector<double>& change) const {
   if (change.empty()) return 0;
   const std::vector<int>& own = of_fault_[fault];
-  if (own.empty()) return *std::min_element(change.begin(), change.end());
+  if (own.empty()) return *std::ranges::min_element(change);
   double lowest = change[own.front()];
   for (const int region : own) lowest = std::min(lowest, change[region]);
   return lowest;

@@ -218,7 +218,7 @@ SlipExtent slip_extent(const Profile& profile, const Eigen::VectorXd& slip, doub
                        double length) {
   SlipExtent extent;
   const auto slips = [&](const ProfileSample& at) { return at.slip(slip) > tolerance; };
-  if (std::none_of(profile.samples.begin(), profile.samples.end(), slips)) return extent;
+  if (std::ranges::none_of(profile.samples, slips)) return extent;
   const SlipProfile line(profile, slip);
   bool possible = false;
   for (std::size_t i = 0; i < line.n_points; ++i) {

@@ -58,8 +58,8 @@ int nucleus_node(const FaultGeometry& geometry, const ContactJump& jump) {
   const auto distance = [&](int node) {
     return (geometry.nodes[node].position - centre).squaredNorm();
   };
-  return *std::min_element(jump.nucleus.begin(), jump.nucleus.end(),
-                           [&](int a, int b) { return distance(a) < distance(b); });
+  return *std::ranges::min_element(jump.nucleus,
+                                   [&](int a, int b) { return distance(a) < distance(b); });
 }
 
 double nucleation_ratio(const OperatorNode& node, const NodeLaw& law, bool plane_strain,

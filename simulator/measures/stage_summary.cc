@@ -8,9 +8,7 @@ namespace faultsim {
 namespace {
 
 double lowest(const std::vector<double>& pressure_change) {
-  return pressure_change.empty()
-             ? 0
-             : *std::min_element(pressure_change.begin(), pressure_change.end());
+  return pressure_change.empty() ? 0 : *std::ranges::min_element(pressure_change);
 }
 
 double chi_bar_of(const StepResult& step) {

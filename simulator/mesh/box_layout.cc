@@ -346,8 +346,7 @@ class LayoutBuilder {
   void sort_planes(const std::vector<BentPlane>& planes, const std::vector<size_t>& owner) {
     std::vector<size_t> order(planes.size());
     for (size_t k = 0; k < order.size(); ++k) order[k] = k;
-    std::sort(order.begin(), order.end(),
-              [&](size_t p, size_t q) { return planes[p].ref < planes[q].ref; });
+    std::ranges::sort(order, [&](size_t p, size_t q) { return planes[p].ref < planes[q].ref; });
     std::vector<BentPlane> sorted;
     std::vector<size_t> rank(planes.size());
     for (size_t k = 0; k < order.size(); ++k) {

@@ -65,8 +65,8 @@ GridFault box_fault(const BoxMeshSpec& spec, const BoxLayout& layout, const Stru
   const double tolerance = edge_tolerance(spec);
   const std::vector<double>& across = grid.lines[fault.axis];
   const double ref = layout.shear->planes()[layout.plane_of[patch]].ref;
-  fault.plane = static_cast<size_t>(
-      std::lower_bound(across.begin(), across.end(), ref - tolerance) - across.begin());
+  fault.plane =
+      static_cast<size_t>(std::ranges::lower_bound(across, ref - tolerance) - across.begin());
   std::array<size_t, 3> at{};
   at[fault.axis] = fault.plane;
   for (at[fault.column_axis] = 0; at[fault.column_axis] < grid.n_lines(fault.column_axis);

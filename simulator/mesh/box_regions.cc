@@ -46,7 +46,7 @@ double disc_rectangle_area(double radius, double x0, double x1, double y0, doubl
       for (const double cut : {-x, x})
         if (cut > cuts[0] && cut < cuts[1]) cuts.push_back(cut);
     }
-  std::sort(cuts.begin(), cuts.end());
+  std::ranges::sort(cuts);
   double area = 0;
   for (size_t k = 0; k + 1 < cuts.size(); ++k) {
     const double a = cuts[k], b = cuts[k + 1], middle = 0.5 * (a + b);

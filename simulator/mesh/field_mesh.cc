@@ -226,19 +226,17 @@ std::vector<double> special_z(const FieldMeshSpec& spec) {
 /// Those depths, ascending, each once.
 std::vector<double> must_lines(const FieldMeshSpec& spec) {
   std::vector<double> z = special_z(spec);
-  std::sort(z.begin(), z.end());
+  std::ranges::sort(z);
   const auto same = [](double a, double b) { return b - a < kSameLine; };
-  z.erase(std::unique(z.begin(), z.end(), same), z.end());
+  z.erase(std::ranges::unique(z, same), z.end());
   return z;
 }
 
 bool is_reservoir_edge(const FieldMeshSpec& spec, double z) {
-  return std::any_of(spec.blocks.begin(), spec.blocks.end(),
-                     [&](const FieldMeshSpec::Block& block) {
-                       const DepthRange range = reservoir_of(spec, block);
-                       return std::abs(z + range.top) < kEdgeTolerance ||
-                              std::abs(z + range.bottom) < kEdgeTolerance;
-                     });
+  return std::ranges::any_of(spec.blocks, [&](const FieldMeshSpec::Block& block) {
+    const DepthRange range = reservoir_of(spec, block);
+    return std::abs(z + range.top) < kEdgeTolerance || std::abs(z + range.bottom) < kEdgeTolerance;
+  });
 }
 
 /// Cells of sizes.corner at the reservoir edges, which carry logarithmic stress peaks, growing to
@@ -301,8 +299,7 @@ std::vector<MovedDepth> moved_depths(const FieldMeshSpec& spec) {
   const std::vector<double> from = special_z(with_mesh_offsets(spec)), to = special_z(spec);
   std::vector<MovedDepth> all, kept;
   for (size_t i = 0; i < from.size(); ++i) all.push_back({from[i], to[i]});
-  std::sort(all.begin(), all.end(),
-            [](const MovedDepth& a, const MovedDepth& b) { return a.from < b.from; });
+  std::ranges::sort(all, {}, &MovedDepth::from);
   for (const MovedDepth& one : all) {
     if (!kept.empty() && one.from - kept.back().from < kSameLine) {
       if (std::abs(one.to - kept.back().to) >= kSameLine) return {};
@@ -317,8 +314,7 @@ std::vector<MovedDepth> moved_depths(const FieldMeshSpec& spec) {
 }
 
 bool moves_lines(const FieldMeshSpec& spec) {
-  return std::any_of(spec.blocks.begin(), spec.blocks.end(),
-                     [](const FieldMeshSpec::Block& block) { return block.mesh_offset; });
+  return std::ranges::any_of(spec.blocks, &FieldMeshSpec::Block::mesh_offset);
 }
 
 void check_moved_lines(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
@@ -366,8 +362,8 @@ CellKind kind_at(const FieldMeshSpec& spec, double x, double y, double depth) {
   const std::vector<double>& tops = spec.layer_tops;
   const size_t layer =
       static_cast<size_t>(std::upper_bound(tops.begin() + 1, tops.end(), depth) - tops.begin() - 1);
-  const auto block = std::find_if(spec.blocks.begin(), spec.blocks.end(),
-                                  [&](const auto& one) { return x > one.from && x < one.to; });
+  const auto block = std::ranges::find_if(
+      spec.blocks, [&](const auto& one) { return x > one.from && x < one.to; });
   const size_t reservoir = static_cast<size_t>(spec.reservoir_layer);
   const bool beside = block == spec.blocks.end() ||
                       (along_strike_is_grid(spec) && std::abs(y) > 0.5 * spec.block_length);
@@ -419,8 +415,8 @@ GridFault field_fault(const FieldMeshSpec& spec, const StructuredGrid& grid, siz
   fault.dip = {std::sin(dip), 0, -std::cos(dip)};
   fault.strike = {0, -1, 0};  // dip = n × strike
   const std::vector<double>& x = grid.lines[0];
-  fault.plane = static_cast<size_t>(
-      std::lower_bound(x.begin(), x.end(), fault_x(spec, i) - kEdgeTolerance) - x.begin());
+  fault.plane = static_cast<size_t>(std::ranges::lower_bound(x, fault_x(spec, i) - kEdgeTolerance) -
+                                    x.begin());
   const DepthRange range = fault_range(spec, i);
   // As long as the model: it has no ends, the model's ends cut it.
   const bool through = spec.fault_length >= spec.length - kEdgeTolerance;

@@ -130,8 +130,7 @@ void LineBuilder::add_window(double window_from, double window_to, double size) 
 
 std::vector<LineBuilder::Line> LineBuilder::merged_lines() const {
   std::vector<Line> sorted = lines_;
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const Line& a, const Line& b) { return a.x < b.x; });
+  std::ranges::stable_sort(sorted, {}, &Line::x);
   std::vector<Line> merged = {{from_, kInfinity}};
   for (const Line& line : sorted) {
     if (line.x - merged.back().x < tolerance() && merged.size() > 1)

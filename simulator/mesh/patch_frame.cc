@@ -67,7 +67,7 @@ std::vector<PatchFrame> patch_frames(const BoxMeshSpec& spec, std::vector<Proble
 
 size_t common_axis(const std::vector<PatchFrame>& frames) {
   for (size_t axis = 0; axis < 3; ++axis)
-    if (std::all_of(frames.begin(), frames.end(), [&](const PatchFrame& frame) {
+    if (std::ranges::all_of(frames, [&](const PatchFrame& frame) {
           return std::abs(component(frame.normal, axis)) >=
                  frame.normal.cwiseAbs().maxCoeff() * (1 - kAngleTolerance);
         }))
@@ -91,7 +91,7 @@ bool PatchFrame::inside(const Vector3d& position, double tolerance, bool along_l
 
 double ColumnShear::shift(double ref, double c) const {
   const size_t k = static_cast<size_t>(
-      std::clamp<std::ptrdiff_t>(std::upper_bound(knot.begin(), knot.end(), ref) - knot.begin(), 1,
+      std::clamp<std::ptrdiff_t>(std::ranges::upper_bound(knot, ref) - knot.begin(), 1,
                                  static_cast<std::ptrdiff_t>(knot.size()) - 1));
   const double width = knot[k] - knot[k - 1];
   const double t = width > 0 ? (ref - knot[k - 1]) / width : 0;

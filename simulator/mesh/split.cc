@@ -73,8 +73,7 @@ std::vector<int> number_plus_copies(const StructuredGrid& grid) {
 /// Adds the plus copies at the places of their points.
 void add_plus_copies(const std::vector<int>& plus_of, std::vector<Vector3d>& nodes) {
   const auto is_split = [](int plus) { return plus >= 0; };
-  nodes.resize(plus_of.size() +
-               static_cast<size_t>(std::count_if(plus_of.begin(), plus_of.end(), is_split)));
+  nodes.resize(plus_of.size() + static_cast<size_t>(std::ranges::count_if(plus_of, is_split)));
   for (size_t point = 0; point < plus_of.size(); ++point)
     if (plus_of[point] >= 0) nodes[static_cast<size_t>(plus_of[point])] = nodes[point];
 }
@@ -251,13 +250,13 @@ class SurfaceBuilder {
         surface_.nodes.push_back(
             {to_int(at), plus_of_[at], fault_.normal, fault_.strike, fault_.dip, 0.0});
       }
-    std::sort(roots.begin(), roots.end());
+    std::ranges::sort(roots);
     for (int c = 0; c < n_columns_; ++c)
       for (int r = 0; r < n_rows_; ++r) {
         const size_t at = point(column_line(c), row_line(r));
         if (!splits(column_line(c), row_line(r)) || mesh_.tied_to[at] == to_int(at)) continue;
-        const auto found = std::lower_bound(roots.begin(), roots.end(),
-                                            std::pair<int, int>(mesh_.tied_to[at], -1));
+        const auto found =
+            std::ranges::lower_bound(roots, std::pair<int, int>(mesh_.tied_to[at], -1));
         if (found == roots.end() || found->first != mesh_.tied_to[at])
           refuse("/faults", concat("fault \"", fault_.name, "\" is tied to another fault"),
                  "let one patch pass beyond both tied faces");
@@ -275,8 +274,7 @@ class SurfaceBuilder {
         const int other = grid_.plane_strain ? c : c + 1;
         const std::array<size_t, 4> corner = {grid_index(c, r), grid_index(c, r + 1),
                                               grid_index(other, r + 1), grid_index(other, r)};
-        if (std::none_of(corner.begin(), corner.end(), [&](size_t k) { return node_at_[k] >= 0; }))
-          continue;
+        if (std::ranges::none_of(corner, [&](size_t k) { return node_at_[k] >= 0; })) continue;
         add_face(c, r, corner, thickness);
         for (const size_t k : corner) number[k] = 0;
       }
@@ -351,15 +349,17 @@ Mesh take_grid(StructuredGrid& grid) {
 
 bool same_topology(const FaultSurface& a, const FaultSurface& b) {
   return a.node_of_point == b.node_of_point &&
-         std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(),
-                    [](const FaultNode& one, const FaultNode& other) {
-                      return one.minus_node == other.minus_node && one.plus_node == other.plus_node;
-                    }) &&
-         std::equal(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(),
-                    [](const FaultFace& one, const FaultFace& other) {
-                      return one.points == other.points && one.nodes == other.nodes &&
-                             one.minus_cell == other.minus_cell && one.plus_cell == other.plus_cell;
-                    });
+         std::ranges::equal(a.nodes, b.nodes.begin(), b.nodes.end(),
+                            [](const FaultNode& one, const FaultNode& other) {
+                              return one.minus_node == other.minus_node &&
+                                     one.plus_node == other.plus_node;
+                            }) &&
+         std::ranges::equal(a.faces, b.faces.begin(), b.faces.end(),
+                            [](const FaultFace& one, const FaultFace& other) {
+                              return one.points == other.points && one.nodes == other.nodes &&
+                                     one.minus_cell == other.minus_cell &&
+                                     one.plus_cell == other.plus_cell;
+                            });
 }
 
 }  // namespace

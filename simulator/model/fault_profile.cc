@@ -44,7 +44,7 @@ class ProfileBuilder {
       middle.push_back(line[line.size() / 2].place);
     }
     if (!profiles.empty() && std::isfinite(narrowest_)) set_widths(middle, profiles);
-    if (!is_northward(strike_)) std::reverse(profiles.begin(), profiles.end());
+    if (!is_northward(strike_)) std::ranges::reverse(profiles);
     return profiles;
   }
 
@@ -67,7 +67,7 @@ class ProfileBuilder {
     for (std::size_t i = 0; i < along_.size(); ++i) {
       if (fault_.node_of_point[i] >= 0) split.push_back(along_[i]);
     }
-    std::sort(split.begin(), split.end());
+    std::ranges::sort(split);
     std::vector<double> stations;
     for (const double at : split) {
       if (stations.empty() || at > stations.back() + 0.5 * narrowest_) stations.push_back(at);
@@ -92,7 +92,7 @@ class ProfileBuilder {
       found.push_back({fault_.points[from] + share * (fault_.points[to] - fault_.points[from]),
                        from, to, share});
     }
-    std::stable_sort(found.begin(), found.end(), [&](const Crossing& a, const Crossing& b) {
+    std::ranges::stable_sort(found, [&](const Crossing& a, const Crossing& b) {
       return a.place.dot(dip_) < b.place.dot(dip_);
     });
     return found;

@@ -8,6 +8,7 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
+#include "simulator/common/ranges.h"
 #include "simulator/condensation/fault_geometry.h"
 #include "simulator/loads/history.h"
 #include "simulator/loads/side_regions.h"
@@ -178,8 +179,7 @@ double covered_integral(const MappedField& field, const InfluenceBlock& block, i
 void condense(const FieldCells& cells, Eigen::MatrixXd stress, int n_threads,
               FieldHistory& history) {
   if (cells.bulk != nullptr) {
-    std::vector<int> numbers;
-    for (const InfluenceCell& cell : cells.block.cells) numbers.push_back(cell.cell);
+    std::vector numbers = mapped(cells.block.cells, &InfluenceCell::cell);
     history.cell_forces = cells.bulk->bulk(0).dilatations(numbers);
     history.stress = std::move(stress);
   }

@@ -7,6 +7,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/machine.h"
+#include "simulator/common/ranges.h"
 #include "simulator/linalg/blas.h"
 #include "simulator/linalg/blas_start.h"
 #include "simulator/operators/memory.h"
@@ -30,17 +31,14 @@ std::filesystem::path influence_path(const CachePolicy& cache, const std::string
 }  // namespace
 
 std::vector<std::string> pressure_region_names(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const PressureHistory& history : scene.pressure) names.push_back(history.region);
-  return names;
+  return mapped(scene.pressure, &PressureHistory::region);
 }
 
 std::vector<int> reservoir_cells(const BulkProblem& problem, const std::vector<int>& regions) {
   std::vector<int> cells;
   for (int c = 0; c < static_cast<int>(problem.mesh.cells.size()); ++c) {
     const int region = pressure_region(problem, c);
-    const bool wanted =
-        regions.empty() || std::find(regions.begin(), regions.end(), region) != regions.end();
+    const bool wanted = regions.empty() || contains(regions, region);
     if (region >= 0 && wanted) cells.push_back(c);
   }
   return cells;

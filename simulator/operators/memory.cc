@@ -1,21 +1,15 @@
 #include "simulator/operators/memory.h"
 
-#include <cstdio>
 #include <string>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/text.h"
 
 namespace faultsim {
 namespace {
 
 std::string size_text(double bytes) {
-  char text[32];
-  if (bytes < 1e9) {
-    std::snprintf(text, sizeof text, "%.0f MB", bytes / 1e6);
-  } else {
-    std::snprintf(text, sizeof text, "%.1f GB", bytes / 1e9);
-  }
-  return text;
+  return bytes >= 1e9 ? formatted("%.1f GB", bytes / 1e9) : formatted("%.0f MB", bytes / 1e6);
 }
 
 }  // namespace

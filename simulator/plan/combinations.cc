@@ -68,9 +68,7 @@ std::vector<std::string> places_of(Feature feature, const Scene& scene) {
   if (feature == Feature::flow_result && !scene.pressure_field.is_given())
     return {"/temperature_field"};
   if (feature != Feature::weakening && feature != Feature::cohesion_loss) {
-    return {std::find_if(std::begin(kNames), std::end(kNames), [&](const Named& one) {
-              return one.feature == feature;
-            })->pointer};
+    return {std::ranges::find(kNames, feature, &Named::feature)->pointer};
   }
   std::vector<std::string> places;
   for (std::size_t f = 0; f < scene.faults.size(); ++f) {
@@ -105,13 +103,11 @@ std::vector<Feature> features_of(const Scene& scene, const Plan& plan) {
   add(scene.numerics.surface.wanted(), Feature::surface);
   add(scene.has_field(), Feature::flow_result);
   add(!scene.temperature.empty(), Feature::temperature);
-  add(std::any_of(scene.stages.begin(), scene.stages.end(),
-                  [](const Stage& stage) { return stage.stress_change.has_value(); }),
-      Feature::stress_change);
+  add(std::ranges::any_of(scene.stages, &Stage::stress_change.has_value), Feature::stress_change);
   add(plan.half_domain, Feature::half_domain);
   add(plan.plane_strain, Feature::plane_strain);
-  add(std::any_of(faults.begin(), faults.end(), weakens), Feature::weakening);
-  add(std::any_of(faults.begin(), faults.end(), loses_cohesion), Feature::cohesion_loss);
+  add(std::ranges::any_of(faults, weakens), Feature::weakening);
+  add(std::ranges::any_of(faults, loses_cohesion), Feature::cohesion_loss);
   add(scene.output.volume_fields, Feature::displacements);
   return features;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/common/ranges.h"
 #include "simulator/flow/flow_field.h"
 #include "simulator/initial_state/initial_state.h"
 #include "simulator/initial_state/pressure_history.h"
@@ -155,10 +156,7 @@ double shear_stress(std::array<double, 9> sigma) {
 double largest_initial_shear(const Scene& scene) {
   if (scene.faults.empty()) return 0;
   const bool is_field = scene.geometry_kind == GeometryKind::field;
-  std::vector<double> depths;
-  for (const Layer& layer : is_field ? scene.field.layers : scene.box.layers) {
-    depths.push_back(layer.top_depth);
-  }
+  std::vector depths = mapped(is_field ? scene.field.layers : scene.box.layers, &Layer::top_depth);
   if (depths.empty()) depths.push_back(-scene.box.to[2]);
   depths.push_back(is_field ? scene.field.depth : -scene.box.from[2]);
   double largest = 0;

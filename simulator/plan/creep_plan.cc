@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/text.h"
 #include "simulator/initial_state/load_times.h"
 
 namespace faultsim {
@@ -19,7 +19,7 @@ std::vector<double> distinct(std::vector<double> lengths) {
   const auto is_same = [](double longer, double length) {
     return longer - length <= kSameLength * longer;
   };
-  lengths.erase(std::unique(lengths.begin(), lengths.end(), is_same), lengths.end());
+  lengths.erase(std::ranges::unique(lengths, is_same), lengths.end());
   return lengths;
 }
 
@@ -32,17 +32,12 @@ std::string duration_text(double seconds) {
   constexpr Unit kUnits[] = {{"year", 31557600}, {"day", 86400}, {"hour", 3600}, {"s", 1}};
   const Unit* unit = kUnits;
   while (unit->seconds > 1 && seconds < unit->seconds * (1 - 1e-9)) ++unit;
-  char number[32];
-  std::snprintf(number, sizeof number, "%.4g", seconds / unit->seconds);
-  const bool is_many = unit->seconds > 1 && std::string(number) != "1";
-  return std::string(number) + " " + unit->name + (is_many ? "s" : "");
+  const std::string number = formatted("%.4g", seconds / unit->seconds);
+  const bool is_many = unit->seconds > 1 && number != "1";
+  return number + " " + unit->name + (is_many ? "s" : "");
 }
 
-std::string digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
+std::string digits(double value) { return formatted("%.3g", value); }
 
 std::string megapascals(double pascals) { return digits(pascals / 1e6) + " MPa"; }
 

@@ -16,8 +16,8 @@ std::vector<Problem> geometry_problems(const Scene& scene, const Plan& plan,
   if (plan.n_cells > kMostCellsChecked) return {};
   try {
     const auto mesh = std::make_shared<const Mesh>(scene_mesh(scene, plan));
-    const auto n_loads = std::count_if(scene.box.boundary.begin(), scene.box.boundary.end(),
-                                       [](const auto& one) { return is_load(one.kind); });
+    const auto n_loads = std::ranges::count_if(scene.box.boundary,
+                                               [](const auto& one) { return is_load(one.kind); });
     const DofMap dofs(*mesh, displacement_conditions(scene, 0), static_cast<int>(n_loads));
     require_held(*mesh, dofs);
     if (made != nullptr) *made = mesh;

@@ -1,6 +1,6 @@
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "simulator/common/text.h"
 #include "simulator/plan/plan.h"
 
 namespace faultsim {
@@ -22,13 +22,10 @@ std::string initial_state_to_text(const std::vector<InitialRegion>& regions) {
   if (regions.empty()) return "";
   constexpr double kBar = 1e5;  // Pa
   std::string text = "initial state at mid-depth, bar (total stress, tension > 0):\n";
-  char line[256];
   for (const InitialRegion& r : regions) {
-    std::snprintf(line, sizeof line,
-                  "  %-12.60s %6.0f m: vertical %.1f, across %.1f, along %.1f, pressure %.1f\n",
-                  r.name.c_str(), r.depth, r.vertical / kBar, r.across / kBar, r.along / kBar,
-                  r.pressure / kBar);
-    text += line;
+    text += formatted("  %-12.60s %6.0f m: vertical %.1f, across %.1f, along %.1f, pressure %.1f\n",
+                      r.name.c_str(), r.depth, r.vertical / kBar, r.across / kBar, r.along / kBar,
+                      r.pressure / kBar);
   }
   return text;
 }

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
 #include "simulator/common/fingerprint.h"
+#include "simulator/common/text.h"
 #include "simulator/initial_state/load_times.h"
 #include "simulator/mesh/patch_frame.h"
 #include "simulator/plan/combinations.h"
@@ -87,7 +87,7 @@ Reduction plan_half_domain(const Scene& scene, bool plane_strain) {
     r.bound = exact;
   } else if (!are_symmetric(scene)) {
     r.reason = "the flow result is not symmetric about y = 0" + asymmetry_text(scene);
-  } else if (std::any_of(scene.faults.begin(), scene.faults.end(), [](const Fault& fault) {
+  } else if (std::ranges::any_of(scene.faults, [](const Fault& fault) {
                return !fault.pressure.profile.strike.empty();
              })) {
     r.reason = "a table of fault pressure that varies along strike need not be symmetric";
@@ -111,14 +111,14 @@ void require_half_domain(const Scene& scene, const Plan& plan, std::vector<Probl
 
 /// Lines strictly between two coordinates, as a range [first, second).
 std::pair<int, int> lines_between(const std::vector<double>& lines, double from, double to) {
-  const auto first = std::upper_bound(lines.begin(), lines.end(), from + 1e-6);
+  const auto first = std::ranges::upper_bound(lines, from + 1e-6);
   const auto last = std::lower_bound(first, lines.end(), to - 1e-6);
   return {static_cast<int>(first - lines.begin()), static_cast<int>(last - lines.begin())};
 }
 
 /// The line at a coordinate, or next to it: where a fault lies on the grid before it is sheared.
 std::pair<int, int> line_at(const std::vector<double>& lines, double at) {
-  const auto first = std::lower_bound(lines.begin(), lines.end(), at - 1e-6);
+  const auto first = std::ranges::lower_bound(lines, at - 1e-6);
   const int line =
       std::min(static_cast<int>(first - lines.begin()), static_cast<int>(lines.size()) - 1);
   return {line, line + 1};
@@ -276,18 +276,11 @@ Scene flipped(Scene scene, const Reduction& reduction) {
 }
 
 std::string human_bytes(double bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, bytes >= 1e9 ? "%.1f GB" : "%.0f MB",
-                bytes / (bytes >= 1e9 ? 1e9 : 1e6));
-  return text;
+  return bytes >= 1e9 ? formatted("%.1f GB", bytes / 1e9) : formatted("%.0f MB", bytes / 1e6);
 }
 
 std::string human_time(double seconds) {
-  char text[32];
-  const bool long_ = seconds >= 7200;
-  std::snprintf(text, sizeof text, "%.1f %s", long_ ? seconds / 3600 : seconds,
-                long_ ? "hours" : "s");
-  return text;
+  return seconds >= 7200 ? formatted("%.1f hours", seconds / 3600) : formatted("%.1f s", seconds);
 }
 
 }  // namespace
@@ -459,10 +452,8 @@ std::string saving_text(const Reduction::Saving& saving) {
   const PlannedSize &with = saving.with, &without = saving.without;
   const double share = 100 * (1 - with.memory_bytes / without.memory_bytes);
   const double times = without.operator_seconds / with.operator_seconds;
-  char text[96];
-  std::snprintf(text, sizeof text, "%.*f %% of the memory, %.*f times less operator time",
-                share < 99 ? 0 : 1, share, times < 10 ? 1 : 0, times);
-  return text;
+  return formatted("%.*f %% of the memory, %.*f times less operator time", share < 99 ? 0 : 1,
+                   share, times < 10 ? 1 : 0, times);
 }
 
 std::string operator_fingerprint(const Scene& scene, const Plan& plan, const std::string& blas) {
@@ -526,19 +517,15 @@ std::string plan_to_text(const Plan& plan) {
     if (!r.bound.empty()) text += "  switch: " + r.switch_ + "\n";
   }
   text += initial_state_to_text(plan.initial) + sides_to_text(plan);
-  char line[256];
-  std::snprintf(line, sizeof line, "cells %ld, unknowns %ld (of which jumps %ld), load steps %d",
-                plan.n_cells, plan.n_unknowns, plan.n_jump, plan.n_steps);
-  text += line;
+  text += formatted("cells %ld, unknowns %ld (of which jumps %ld), load steps %d", plan.n_cells,
+                    plan.n_unknowns, plan.n_jump, plan.n_steps);
   if (plan.n_added_steps > 0) {
     text += concat(" (", plan.n_added_steps, " added where histories turn)");
   }
   text += "\n" + creep_text(plan.creep);
-  std::snprintf(line, sizeof line,
-                "operator: about %s of one core and %s at its peak; family %.12s\n",
-                human_time(plan.operator_seconds).c_str(), human_bytes(plan.memory_bytes).c_str(),
-                plan.family.c_str());
-  text += line;
+  text += formatted("operator: about %s of one core and %s at its peak; family %.12s\n",
+                    human_time(plan.operator_seconds).c_str(),
+                    human_bytes(plan.memory_bytes).c_str(), plan.family.c_str());
   if (plan.influence_bytes > 0) {
     text += "with the influence of the cells that the field acts on, which takes about " +
             human_bytes(plan.influence_bytes) + "\n";

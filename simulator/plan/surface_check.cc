@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "simulator/common/text.h"
 #include "simulator/common/units.h"
 #include "simulator/plan/geometry_check.h"
 
@@ -114,11 +115,7 @@ class SurfaceCheck {
                          "narrow the range, move what is in the way, or take exact operators"});
   }
 
-  static std::string number_text(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return text;
-  }
+  static std::string number_text(double value) { return formatted("%.6g", value); }
 
   const SurfaceRequest& request_;
   Scene exact_;

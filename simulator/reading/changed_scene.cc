@@ -36,9 +36,9 @@ std::string_view member_of(std::string_view pointer) {
 bool has_absolute_pressures(const json& document) {
   const auto any_has = [&](const char* list, const char* key) {
     const auto found = document.find(list);
-    return found != document.end() &&
-           std::any_of(found->begin(), found->end(),
-                       [&](const json& one) { return one.is_object() && one.contains(key); });
+    return found != document.end() && std::ranges::any_of(*found, [&](const json& one) {
+             return one.is_object() && one.contains(key);
+           });
   };
   return document.contains("pressure_csv") || any_has("stages", "pressure") ||
          any_has("compartments", "csv");
@@ -48,8 +48,8 @@ bool has_absolute_pressures(const json& document) {
 unsigned sections_of(const Members& members, const ChangedScene& changed) {
   unsigned sections = 0;
   for (const std::string& name : members) {
-    const auto found = std::find_if(kSections.begin(), kSections.end(),
-                                    [&](const auto& one) { return one.first == name; });
+    const auto found =
+        std::ranges::find(kSections, name, &std::pair<std::string_view, SceneSection>::first);
     if (found == kSections.end()) return kAll;
     sections |= found->second;
   }
@@ -84,9 +84,8 @@ SceneReader reader_of(const Touched& touched, unsigned sections, Relations relat
   }
   if (!touched.is_in_place || changed.known.by_value.empty()) return {changed.document, problems};
   SceneReader reader(changed.document, problems, std::move(changed.known.by_value));
-  const bool is_read =
-      std::all_of(touched.values.begin(), touched.values.end(),
-                  [&](const std::string& pointer) { return reader.read_again(pointer); });
+  const bool is_read = std::ranges::all_of(
+      touched.values, [&](const std::string& pointer) { return reader.read_again(pointer); });
   if (is_read) return reader;
   const std::vector<std::string> members(touched.members.begin(), touched.members.end());
   return {changed.document, problems, members, std::move(reader.quantities())};
@@ -158,11 +157,11 @@ Touched move_document(const JsonDocument& base, const std::vector<PlacedValue>& 
   const std::vector<PlacedValue>& before = changed.values;
   touched.is_in_place =
       changed.values_are_apart &&
-      std::equal(values.begin(), values.end(), before.begin(), before.end(),
-                 [](const PlacedValue& a, const PlacedValue& b) {
-                   const bool is_word = !a.value.is_structured() && !b.value.is_structured();
-                   return a.pointer == b.pointer && (is_word || a.value == b.value);
-                 });
+      std::ranges::equal(
+          values, before.begin(), before.end(), [](const PlacedValue& a, const PlacedValue& b) {
+            const bool is_word = !a.value.is_structured() && !b.value.is_structured();
+            return a.pointer == b.pointer && (is_word || a.value == b.value);
+          });
   for (std::size_t i = 0; touched.is_in_place && i < values.size(); ++i) {
     if (values[i].value == before[i].value) continue;
     touched.members.emplace(member_of(values[i].pointer));
@@ -200,9 +199,8 @@ std::vector<std::string> change_scene(const JsonDocument& base, std::vector<Plac
                                       std::vector<Problem>& problems) {
   const bool was_of_base = std::exchange(changed.is_of_base, false);
   const bool has_members =
-      base.value.is_object() && std::none_of(values.begin(), values.end(), [](const auto& one) {
-        return member_of(one.pointer).empty();
-      });
+      base.value.is_object() &&
+      std::ranges::none_of(values, [](const auto& one) { return member_of(one.pointer).empty(); });
   Touched touched;
   unsigned sections = kAll;
   if (was_of_base && has_members) {

@@ -99,10 +99,9 @@ void remark_added_steps(const SceneReader& reader, Scene& scene, std::size_t fau
   const std::vector<double>& turns = scene.faults[fault].pressure.profile.turns;
   const std::vector<StepEnd> steps = step_ends(scene);
   const auto n_all = std::ssize(steps);
-  const auto n_added =
-      std::count_if(steps.begin(), steps.end(), [](const StepEnd& s) { return s.added; });
-  const auto n_own = std::count_if(steps.begin(), steps.end(), [&](const StepEnd& s) {
-    return s.added && std::binary_search(turns.begin(), turns.end(), s.time);
+  const auto n_added = std::ranges::count_if(steps, [](const StepEnd& s) { return s.added; });
+  const auto n_own = std::ranges::count_if(steps, [&](const StepEnd& s) {
+    return s.added && std::ranges::binary_search(turns, s.time);
   });
   constexpr long kMany = 50;
   if (n_own <= std::max(kMany, n_all - n_added)) return;

@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
 
+#include "simulator/common/ranges.h"
+#include "simulator/common/text.h"
 #include "simulator/initial_state/fault_pressure.h"
 #include "simulator/initial_state/initial_state.h"
 #include "simulator/initial_state/load_times.h"
@@ -79,10 +80,8 @@ std::string below_zero(const std::string& where, double depth, double pressure, 
 
 /// The cure rounds towards zero, so that following it to the letter works.
 std::string below_zero_cure(double initial) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.1f bar",
-                std::floor(10 * from_si(initial, Dimension::pressure, "bar")) / 10);
-  return std::string("let it fall by at most ") + text;
+  return std::string("let it fall by at most ") +
+         formatted("%.1f bar", std::floor(10 * from_si(initial, Dimension::pressure, "bar")) / 10);
 }
 
 /// The least of factor times the values, and of 0: what a change never falls below.
@@ -97,9 +96,8 @@ void check_region(SceneReader& reader, const Scene& scene, std::size_t region) {
   // Most histories never get there; only the others are followed step by step.
   const double least = least_of(history.pressure_change, history.scale);
   const std::vector<Place> places = lowest_places(scene, region);
-  const bool safe = std::all_of(places.begin(), places.end(), [&](const Place& place) {
-    return pressure_at(scene, region, place) + least >= 0;
-  });
+  const bool safe = std::ranges::all_of(
+      places, [&](const Place& place) { return pressure_at(scene, region, place) + least >= 0; });
   if (safe) return;
   const std::vector<StepEnd> steps = step_ends(scene);
   for (std::size_t step = 0; step < steps.size(); ++step) {
@@ -151,13 +149,13 @@ void report(SceneReader& reader, const Scene& scene, std::size_t fault, const st
 void check_given(SceneReader& reader, const Scene& scene, std::size_t fault) {
   const FaultPressure& law = scene.faults[fault].pressure;
   const std::vector<FaultPlace> places = given_pressure_places(scene, fault);
-  std::vector<double> initial;
-  for (const FaultPlace& place : places)
-    initial.push_back(initial_state(scene, -place.depth, place.side).pressure);
+  std::vector initial = mapped(places, [&](const FaultPlace& place) {
+    return initial_state(scene, -place.depth, place.side).pressure;
+  });
   // Most never get there; only the others are followed step by step.
   const double least = least_given(law);
   const auto safe = [&](double p0) { return !(p0 + least < -kRounding); };
-  if (std::all_of(initial.begin(), initial.end(), safe)) return;
+  if (std::ranges::all_of(initial, safe)) return;
   LowestPressure found;
   const std::vector<StepEnd> steps = step_ends(scene);
   for (std::size_t step = 0; step < steps.size() && !(found.pressure < -kRounding); ++step) {
@@ -183,8 +181,7 @@ void check_given(SceneReader& reader, const Scene& scene, std::size_t fault) {
 void check_mixed(SceneReader& reader, const Scene& scene, std::size_t fault) {
   const FaultPressure& law = scene.faults[fault].pressure;
   const auto blocks = blocks_beside(scene.field, fault);
-  if (std::none_of(blocks.begin(), blocks.end(), [](const Block& b) { return b.overpressure; }))
-    return;
+  if (std::ranges::none_of(blocks, &Block::overpressure)) return;
   std::vector<double> depths = {reservoir_range(scene.field).top,
                                 reservoir_range(scene.field).bottom};
   for (const Block& block : blocks) {

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 #include <string>
 
@@ -230,11 +229,9 @@ void check_observation_points(SceneReader& reader, const Scene& scene) {
 void check_turning_points(SceneReader& reader, const Scene& scene) {
   if (!reader.sound("/stages") || !reader.sound("/numerics")) return;
   const std::vector<StepEnd> steps = step_ends(scene);
-  const auto n_added =
-      std::count_if(steps.begin(), steps.end(), [](const StepEnd& step) { return step.added; });
+  const auto n_added = std::ranges::count_if(steps, [](const StepEnd& step) { return step.added; });
   if (n_added <= scene.numerics.max_added_steps) return;
-  const auto first =
-      std::find_if(steps.begin(), steps.end(), [](const StepEnd& step) { return step.added; });
+  const auto first = std::ranges::find_if(steps, [](const StepEnd& step) { return step.added; });
   const bool given = reader.has("/numerics/max_added_steps");
   reader.problem(given ? "/numerics/max_added_steps" : "/stages",
                  concat("the loads turn at ", n_added, " places between load steps, the first ",

@@ -7,6 +7,7 @@
 
 #include "simulator/common/input_file.h"
 #include "simulator/common/printable.h"
+#include "simulator/common/ranges.h"
 #include "simulator/common/table_reader.h"
 #include "simulator/flow/field_file.h"
 
@@ -27,7 +28,7 @@ std::string file_text(const std::string& path, const std::string& name) {
   InputText file = read_input_file(path, kMostBytes);
   const bool relative = !name.empty() && name[0] != '/';
   if (!file.what.empty() && relative) file.cure += "; it is taken from the folder of the scene";
-  if (!file.what.empty()) throw InputError(path, {{"", 0, file.what, file.cure}});
+  if (!file.what.empty()) throw InputError(path, file.what, file.cure);
   return std::move(file.text);
 }
 
@@ -41,7 +42,7 @@ std::optional<json> lines_of(std::string_view text) {
     std::string line(next_table_line(text));
     const bool idle = is_idle_table_line(line);
     if (!idle && !separator) separator = table_separator(line);
-    std::replace(line.begin(), line.end(), '\t', separator == '\t' && !idle ? ';' : ' ');
+    std::ranges::replace(line, '\t', separator == '\t' && !idle ? ';' : ' ');
     if (idle) line = printable(line);
     if (!first_unprintable(line).empty()) return std::nullopt;
     lines.push_back(line);
@@ -63,7 +64,7 @@ std::vector<std::string> table_names(const json& scene) {
   const auto add = [&](const json& object, const char* key) {
     if (!object.is_object() || !object.contains(key) || !object[key].is_string()) return;
     const auto name = object[key].get<std::string>();
-    const bool known = std::find(names.begin(), names.end(), name) != names.end();
+    const bool known = contains(names, name);
     if (!name.empty() && !known) names.push_back(name);
   };
   if (!scene.is_object()) return names;

@@ -97,8 +97,8 @@ class FaultTable {
       strikes.push_back(place.second);
       for (const double value : values) to.change.push_back(value - values.front());
     }
-    std::sort(strikes.begin(), strikes.end());
-    strikes.erase(std::unique(strikes.begin(), strikes.end()), strikes.end());
+    std::ranges::sort(strikes);
+    strikes.erase(std::ranges::unique(strikes), strikes.end());
     if (has_strike()) to.strike = strikes;
     if (rows_.size() != to.dip.size() * strikes.size()) {
       return reader_.refuse_at(

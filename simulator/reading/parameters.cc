@@ -4,6 +4,7 @@
 #include <string>
 
 #include "simulator/common/near_miss.h"
+#include "simulator/common/ranges.h"
 #include "simulator/reading/read_scene.h"
 #include "simulator/reading/scene_reader.h"
 
@@ -182,10 +183,9 @@ bool has_rival(const json& object, const std::string& key) {
       {"tensor", "viscous_layers"},
       {"creep_time_step", "creep_refinements"}};
   if (object.contains(key)) return false;
-  return std::any_of(groups.begin(), groups.end(), [&](const auto& group) {
-    if (std::find(group.begin(), group.end(), key) == group.end()) return false;
-    return std::any_of(group.begin(), group.end(),
-                       [&](const auto& rival) { return object.contains(rival); });
+  return std::ranges::any_of(groups, [&](const auto& group) {
+    if (!contains(group, key)) return false;
+    return std::ranges::any_of(group, [&](const auto& rival) { return object.contains(rival); });
   });
 }
 
@@ -212,7 +212,7 @@ class Collector {
     std::vector<std::string> keys = known_keys(views);
     if (here.is_object()) {
       for (const auto& [key, inner] : here.items()) {
-        if (!std::count(keys.begin(), keys.end(), key) && key != "comment") keys.push_back(key);
+        if (!std::ranges::count(keys, key) && key != "comment") keys.push_back(key);
       }
     }
     for (const std::string& key : keys) {
@@ -223,7 +223,7 @@ class Collector {
   }
 
   std::vector<ParameterInfo> rows() && {
-    std::stable_sort(rows_.begin(), rows_.end(), [this](const auto& a, const auto& b) {
+    std::ranges::stable_sort(rows_, [this](const auto& a, const auto& b) {
       return document_.line_of(a.pointer) < document_.line_of(b.pointer);
     });
     return std::move(rows_);
@@ -243,7 +243,7 @@ class Collector {
     if (text_at(document, "/numerics/creep") == "off") return false;
     if (!document.is_object() || !document.contains("materials")) return false;
     const json& materials = document["materials"];
-    return std::any_of(materials.begin(), materials.end(), [](const json& material) {
+    return std::ranges::any_of(materials, [](const json& material) {
       return material.is_object() && material.contains("viscosity");
     });
   }
@@ -265,8 +265,7 @@ class Collector {
     static const char* const of_boxes[] = {"center", "strike", "length", "width", "shape"};
     if (field && pointer.rfind("/faults/", 0) == 0) {
       const std::string key = pointer.substr(pointer.rfind('/') + 1);
-      if (std::find(std::begin(of_boxes), std::end(of_boxes), key) != std::end(of_boxes))
-        return true;
+      if (std::ranges::find(of_boxes, key) != std::end(of_boxes)) return true;
     }
     const bool absent = (pointer == "/pressure_field" || pointer == "/temperature_field") &&
                         child_at(document_.value, pointer.substr(1)) == nullptr;
@@ -347,8 +346,8 @@ std::string resolve_parameter(const JsonDocument& document, const std::string& a
   if (found != aliases.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& [alias, pointer] : aliases) names.push_back(alias);
-  throw InputError(document.source, {{"", 0, "there is no parameter \"" + alias_or_pointer + "\"",
-                                      suggest(alias_or_pointer, names)}});
+  throw InputError(document.source, "there is no parameter \"" + alias_or_pointer + "\"",
+                   suggest(alias_or_pointer, names));
 }
 
 }  // namespace faultsim

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "simulator/common/near_miss.h"
+#include "simulator/common/ranges.h"
 #include "simulator/initial_state/initial_state.h"
 #include "simulator/initial_state/load_times.h"
 #include "simulator/reading/csv_tables.h"
@@ -41,10 +42,9 @@ class CsvHistories {
     for (const std::string& region : reader_.keys("/compartments")) {
       const std::string pointer = "/compartments/" + pointer_token(region) + "/csv";
       const std::string file = reader_.text(pointer);
-      if (file.empty() || std::count(regions_.begin(), regions_.end(), region) == 0) continue;
+      if (file.empty() || !contains(regions_, region)) continue;
       const PressureCsv csv = open(file, pointer);
-      const auto column = std::find_if(csv.columns.begin(), csv.columns.end(),
-                                       [&](const auto& each) { return each.region == region; });
+      const auto column = std::ranges::find(csv.columns, region, &PressureColumn::region);
       if (column != csv.columns.end()) {
         take_column(csv, *column, file, pointer);
       } else if (!csv.columns.empty()) {
@@ -76,7 +76,7 @@ class CsvHistories {
     if (!has_dates_ && !scene_.has_field() && !ends_at_dates() && !has_fault_table())
       remark("/start_date", "no CSV table has dates");
     for (const std::string& region : regions_) {
-      if (std::count(absolute_.begin(), absolute_.end(), region) != 0) continue;
+      if (contains(absolute_, region)) continue;
       remark("/compartments/" + pointer_token(region) + "/datum",
              "no CSV table gives its absolute pressure");
     }
@@ -84,7 +84,7 @@ class CsvHistories {
 
   /// Whose dates count from it, and which is told by dates.
   bool has_fault_table() const {
-    return std::any_of(scene_.faults.begin(), scene_.faults.end(), [](const Fault& fault) {
+    return std::ranges::any_of(scene_.faults, [](const Fault& fault) {
       return fault.pressure.rule == FaultPressureRule::table;
     });
   }
@@ -144,7 +144,7 @@ class CsvHistories {
 
   void take_column(const PressureCsv& csv, const PressureColumn& column, const std::string& file,
                    const std::string& pointer) {
-    const auto region = std::find(regions_.begin(), regions_.end(), column.region);
+    const auto region = std::ranges::find(regions_, column.region);
     if (region == regions_.end()) {
       reader_.problem(pointer, "its column \"" + column.region + "\" is not a pressure region",
                       suggest(column.region, regions_));

@@ -211,7 +211,7 @@ void remark_rigid_rock(SceneReader& reader, Scene& scene) {
     const bool is_heated = is_field ? one.name == reservoir : used.count(one.name) != 0;
     return is_heated && one.thermal_expansion > 0;
   };
-  if (std::any_of(scene.materials.begin(), scene.materials.end(), expands)) return;
+  if (std::ranges::any_of(scene.materials, expands)) return;
   if (!reader.sound("/materials")) return;
   scene.remarks.push_back(
       {"/temperature_field", is_field

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "simulator/common/near_miss.h"
+#include "simulator/common/ranges.h"
 #include "simulator/reading/read_keys.h"
 #include "simulator/reading/scene_reader.h"
 #include "simulator/scene/field_depths.h"
@@ -12,9 +13,7 @@ namespace faultsim {
 namespace {
 
 std::vector<std::string> material_names(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const Material& material : scene.materials) names.push_back(material.name);
-  return names;
+  return mapped(scene.materials, &Material::name);
 }
 
 std::vector<Layer> read_layers(SceneReader& reader, const Scene& scene) {
@@ -75,8 +74,7 @@ void read_field(SceneReader& reader, Scene& scene) {
   const std::string at = "/geometry/";
   read_keys(reader, at, field);
   field.layers = read_layers(reader, scene);
-  std::vector<std::string> layer_names;
-  for (const Layer& layer : field.layers) layer_names.push_back(layer.name);
+  std::vector layer_names = mapped(field.layers, &Layer::name);
   if (reader.sound(at + "layers")) {
     reader.require_known(at + "reservoir_layer", field.reservoir_layer, "layer", layer_names);
   }
@@ -106,8 +104,7 @@ void check_tied(SceneReader& reader, const std::string& at, const BoundaryCondit
   for (const Side side : condition.sides) {
     const auto number = static_cast<unsigned>(side);
     const auto opposite = static_cast<Side>(number ^ 1U);
-    const bool paired = std::find(condition.sides.begin(), condition.sides.end(), opposite) !=
-                        condition.sides.end();
+    const bool paired = contains(condition.sides, opposite);
     if (paired) continue;
     reader.problem(at + "sides",
                    std::string("side ") + names[number] + " is tied but its opposite is not",
@@ -125,7 +122,7 @@ void read_boundary(SceneReader& reader, BoxGeometry& box) {
       const std::string place = element(at + "sides", k);
       const std::string name = reader.text(place);
       constexpr auto names = words(Side());
-      const auto side = std::find(names.begin(), names.end(), name);
+      const auto side = std::ranges::find(names, name);
       if (side == names.end()) continue;  // its condition is of no known kind, and refused
       condition.sides.push_back(static_cast<Side>(side - names.begin()));
       if (!taken.insert(name).second && reader.sound(place)) {

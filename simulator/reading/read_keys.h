@@ -33,7 +33,7 @@ void read_value(const SceneReader& reader, const KeyPlace& at, Value& value) {
     value = reader.text(at);
   } else if constexpr (std::is_enum_v<Value>) {
     constexpr auto all = words(Value());
-    const auto word = std::find(all.begin(), all.end(), reader.text(at));
+    const auto word = std::ranges::find(all, reader.text(at));
     if (word != all.end()) value = static_cast<Value>(word - all.begin());
   } else if constexpr (is_list_of_numbers<Value>) {
     const std::string list = at.pointer();

@@ -55,8 +55,8 @@ class LoadingReader {
   /// Of the regions whose temperature changes at all.
   void keep_temperatures() {
     for (TemperatureHistory& history : temperature_) {
-      const bool changes = std::any_of(history.change.begin(), history.change.end(),
-                                       [](double change) { return change != 0; });
+      const bool changes =
+          std::ranges::any_of(history.change, [](double change) { return change != 0; });
       if (changes) scene_.temperature.push_back(std::move(history));
     }
   }

@@ -186,8 +186,7 @@ Scene read_scene(const JsonDocument& document, std::vector<Problem>& problems) {
   read_output(reader, scene);
   read_surface(reader, scene);
   relate_parts(reader, problems, scene);
-  std::stable_sort(problems.begin(), problems.end(),
-                   [](const Problem& a, const Problem& b) { return a.line < b.line; });
+  std::ranges::stable_sort(problems, {}, &Problem::line);
   return scene;
 }
 
@@ -201,8 +200,8 @@ Scene read_scene(const JsonDocument& document) {
 std::string starter_scene(const std::string& kind) {
   if (kind == "field") return std::string(embedded::starter_field_text);
   if (kind == "box") return std::string(embedded::starter_box_text);
-  throw InputError("init", {{"", 0, "there is no starter scene \"" + kind + "\"",
-                             "choose \"field\" or \"box\""}});
+  throw InputError("init", "there is no starter scene \"" + kind + "\"",
+                   "choose \"field\" or \"box\"");
 }
 
 }  // namespace faultsim

@@ -117,9 +117,9 @@ void read_surface(SceneReader& reader, Scene& scene) {
     }
     one->from = end_at(reader, at + "/from", one->kind);
     one->to = end_at(reader, at + "/to", one->kind);
-    const bool twice = std::any_of(
-        surface.over.begin(), surface.over.end(),
-        [&](const auto& other) { return other.kind == one->kind && other.index == one->index; });
+    const bool twice = std::ranges::any_of(surface.over, [&](const auto& other) {
+      return other.kind == one->kind && other.index == one->index;
+    });
     if (twice) reader.problem(at, "the parameter is there twice", "remove one");
     if (std::isfinite(one->from) && std::isfinite(one->to)) check_range(reader, at, *one, scene);
     surface.over.push_back(*one);

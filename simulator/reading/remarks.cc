@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
 #include "simulator/initial_state/fault_pressure.h"
 #include "simulator/initial_state/load_times.h"
 #include "simulator/reading/scene_reader.h"
@@ -19,12 +20,11 @@ namespace {
 bool is_zero(const PressureHistory& history) {
   const auto& changes = history.pressure_change;
   return history.scale == 0 ||
-         std::all_of(changes.begin(), changes.end(), [](double change) { return change == 0; });
+         std::ranges::all_of(changes, [](double change) { return change == 0; });
 }
 
 bool is_all(const std::vector<double>& values, double value) {
-  return !values.empty() &&
-         std::all_of(values.begin(), values.end(), [&](double each) { return each == value; });
+  return !values.empty() && std::ranges::all_of(values, [&](double each) { return each == value; });
 }
 
 bool has_profile(const Fault& fault) { return fault.pressure.rule == FaultPressureRule::table; }
@@ -97,7 +97,7 @@ class IdleInputs {
     if (!has_temperatures()) return false;
     const std::set<std::string> used = used_materials(scene_);
     const std::string only = depleted_material();
-    return std::any_of(scene_.materials.begin(), scene_.materials.end(), [&](const Material& m) {
+    return std::ranges::any_of(scene_.materials, [&](const Material& m) {
       return m.thermal_expansion > 0 && (only.empty() ? used.count(m.name) != 0 : m.name == only);
     });
   }
@@ -114,18 +114,17 @@ class IdleInputs {
   }
 
   bool is_heated(std::size_t region) const {
-    return heats() && std::any_of(scene_.temperature.begin(), scene_.temperature.end(),
-                                  [&](const TemperatureHistory& history) {
-                                    return static_cast<std::size_t>(history.region) == region;
-                                  });
+    return heats() &&
+           std::ranges::any_of(scene_.temperature, [&](const TemperatureHistory& history) {
+             return static_cast<std::size_t>(history.region) == region;
+           });
   }
 
   void geometry() {
     if (is_field_) return;
     // A region without a history may still say where a prescribed fault pressure acts.
-    const bool places = std::any_of(scene_.faults.begin(), scene_.faults.end(), [](const Fault& f) {
-      return prescribes(f) && !f.pressure.depth_window;
-    });
+    const bool places = std::ranges::any_of(
+        scene_.faults, [](const Fault& f) { return prescribes(f) && !f.pressure.depth_window; });
     for (std::size_t i = 0; !places && !scene_.has_field() && i < scene_.box.regions.size(); ++i) {
       const bool is_scaled_off = scene_.pressure[i].scale == 0;  // said on purpose
       if (!is_zero(scene_.pressure[i]) || is_scaled_off || is_heated(i)) continue;
@@ -208,8 +207,8 @@ class IdleInputs {
   void shared_key(const std::string& object, const std::vector<std::string>& keys,
                   const std::string& why, const Uses& uses) {
     const auto any_key = [&](const std::string& at) {
-      return std::any_of(keys.begin(), keys.end(),
-                         [&](const std::string& key) { return reader_.has(at + key); });
+      return std::ranges::any_of(keys,
+                                 [&](const std::string& key) { return reader_.has(at + key); });
     };
     bool shared_used = false, all_own = true;
     for (std::size_t f = 0; f < scene_.faults.size(); ++f) {
@@ -346,15 +345,13 @@ class IdleInputs {
     const auto& regions = scene_.pressure;
     const auto& faults = scene_.faults;
     const auto& faces = scene_.box.boundary;
-    const bool loaded = scene_.pressure_field.is_given() || heats() ||
-                        !std::all_of(regions.begin(), regions.end(), is_zero) ||
-                        std::any_of(faults.begin(), faults.end(), prescribes) ||
-                        std::any_of(faults.begin(), faults.end(), has_profile) ||
-                        std::any_of(faces.begin(), faces.end(), acts);
+    const bool loaded =
+        scene_.pressure_field.is_given() || heats() || !std::ranges::all_of(regions, is_zero) ||
+        std::ranges::any_of(faults, prescribes) || std::ranges::any_of(faults, has_profile) ||
+        std::ranges::any_of(faces, acts);
     // A box without regions may be there for its start; salt moves by itself; what is scaled off is
     // meant so.
-    const bool meant = std::any_of(regions.begin(), regions.end(),
-                                   [](const PressureHistory& h) { return h.scale == 0; });
+    const bool meant = contains(regions, 0, &PressureHistory::scale);
     if (loaded || meant || regions.empty() || has_viscous_material(scene_)) return;
     idle("/stages", "no pressure or temperature changes and no face is moved or loaded");
   }

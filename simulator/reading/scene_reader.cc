@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <mutex>
 #include <set>
 
 #include "simulator/common/near_miss.h"
+#include "simulator/common/ranges.h"
+#include "simulator/common/text.h"
 #include "simulator/reading/read_scene.h"
 
 namespace faultsim {
@@ -259,7 +260,7 @@ void SceneReader::table_problems(const std::string& pointer, const std::string& 
 
 void SceneReader::require_known(const std::string& pointer, const std::string& name,
                                 const std::string& what, const std::vector<std::string>& known) {
-  if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
+  if (name.empty() || contains(known, name)) return;
   problem(
       pointer, "there is no " + what + " \"" + name + "\"",
       problems_.size() < kMostSuggestions ? suggest(name, known) : "write a name that is there");
@@ -291,10 +292,8 @@ std::string SceneReader::as_given(const std::string& pointer) const {
 }
 
 std::string in_unit(double value, Dimension dimension, const std::string& unit) {
-  char text[64];
   // Rounded first: 50 deg is 49.99999999999999 one way and must not print as such.
-  std::snprintf(text, sizeof text, "%.6g", from_si(value, dimension, unit));
-  return std::string(text) + " " + unit;
+  return formatted("%.6g %s", from_si(value, dimension, unit), unit.c_str());
 }
 
 }  // namespace faultsim

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/text.h"
 
 namespace faultsim {
 namespace {
@@ -14,9 +14,7 @@ constexpr double kBar = 1e5;  // Pa
 /// At most so many significant digits.
 std::string digits(double value, int n) {
   if (!std::isfinite(value)) return "-";
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*g", n, value + 0.0);
-  return text;
+  return formatted("%.*g", n, value + 0.0);
 }
 
 }  // namespace

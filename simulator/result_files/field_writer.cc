@@ -118,7 +118,7 @@ FaultPoints collect_points(const OperatorFault& fault, const std::string& plain,
   if (geometry.half_domain) {
     std::vector<std::size_t> inwards(n);
     std::iota(inwards.begin(), inwards.end(), std::size_t{0});
-    std::stable_sort(inwards.begin(), inwards.end(), [&](std::size_t a, std::size_t b) {
+    std::ranges::stable_sort(inwards, [&](std::size_t a, std::size_t b) {
       return fault.points[a].y() > fault.points[b].y();
     });
     for (const std::size_t i : inwards) {

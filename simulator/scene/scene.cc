@@ -57,8 +57,7 @@ bool have_same_body(const Scene& a, const Scene& b) {
          a.materials == b.materials && a.mesh == b.mesh && a.numerics == b.numerics &&
          a.stages == b.stages && a.pressure == b.pressure && a.temperature == b.temperature &&
          a.pressure_field == b.pressure_field && a.temperature_field == b.temperature_field &&
-         std::equal(a.faults.begin(), a.faults.end(), b.faults.begin(), b.faults.end(),
-                    is_same_surface);
+         std::ranges::equal(a.faults, b.faults.begin(), b.faults.end(), is_same_surface);
 }
 
 std::set<std::string> used_materials(const Scene& scene) {
@@ -73,7 +72,7 @@ std::set<std::string> used_materials(const Scene& scene) {
 
 bool has_viscous_material(const Scene& scene) {
   const std::set<std::string> used = used_materials(scene);
-  return std::any_of(scene.materials.begin(), scene.materials.end(), [&](const Material& material) {
+  return std::ranges::any_of(scene.materials, [&](const Material& material) {
     return material.viscosity && used.count(material.name) != 0;
   });
 }

@@ -38,8 +38,7 @@ const std::vector<Tier>& tiers() {
 }
 
 const Tier* find_tier(const std::string& name) {
-  const auto found = std::find_if(tiers().begin(), tiers().end(),
-                                  [&](const Tier& tier) { return name == tier.name; });
+  const auto found = std::ranges::find(tiers(), name, &Tier::name);
   return found == tiers().end() ? nullptr : &*found;
 }
 

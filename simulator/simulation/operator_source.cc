@@ -27,8 +27,7 @@ std::string operator_case_key(const LoadedScene& loaded) {
 }
 
 const OperatorSource::KnownLoads* OperatorSource::Cells::find(const std::string& wanted) const {
-  const auto known = std::find_if(loads.begin(), loads.end(),
-                                  [&](const KnownLoads& one) { return one.key == wanted; });
+  const auto known = std::ranges::find(loads, wanted, &KnownLoads::key);
   return known == loads.end() ? nullptr : &*known;
 }
 

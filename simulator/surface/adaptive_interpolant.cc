@@ -28,7 +28,7 @@ bool AdaptiveInterpolant::may_add(const SparseGrid::Index& index) const {
     if (index[axis] == 0) continue;
     SparseGrid::Index before = index;
     --before[axis];
-    const auto found = std::find(known.begin(), known.end(), before);
+    const auto found = std::ranges::find(known, before);
     if (!is_old_[static_cast<std::size_t>(found - known.begin())]) return false;
   }
   return true;
@@ -41,7 +41,7 @@ void AdaptiveInterpolant::add(const SparseGrid::Index& index) {
   for (std::size_t axis = 0; axis < index.size(); ++axis) {
     SparseGrid::Index before = index;
     if (--before[axis] <= 0) continue;  // the centre has no surplus, and 1 none before it
-    const auto found = std::find(grid_.indices().begin(), grid_.indices().end(), before);
+    const auto found = std::ranges::find(grid_.indices(), before);
     const double of_before = own_[static_cast<std::size_t>(found - grid_.indices().begin())];
     least = std::max(least, kDistrust * of_before);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "simulator/common/ranges.h"
 #include "simulator/operators/influence.h"
 #include "simulator/surface/surface_builder.h"
 
@@ -30,9 +31,7 @@ FieldSurface::FieldSurface(const OperatorSurface& surface, const Scene& scene,
   const InfluenceBlock cells =
       cells_of_compartments(scene, *surface.problem_of(centre, exact_plan(centre)));
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-    const bool is_in_cells = std::any_of(
-        cells.cells.begin(), cells.cells.end(),
-        [&](const InfluenceCell& cell) { return cell.material == static_cast<int>(m); });
+    const bool is_in_cells = contains(cells.cells, static_cast<int>(m), &InfluenceCell::material);
     if (is_in_cells && scene.pressure_field.is_given()) strengths_.push_back({m, false});
     if (is_in_cells && scene.temperature_field.is_given()) strengths_.push_back({m, true});
   }

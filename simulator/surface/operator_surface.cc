@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "simulator/cache/operator_cache.h"
+#include "simulator/common/ranges.h"
 #include "simulator/condensation/condensation.h"
 #include "simulator/condensation/fault_geometry.h"
 #include "simulator/linalg/blas_start.h"
@@ -24,7 +25,7 @@ using Kind = SurfaceParameter::Kind;
 }
 
 bool moves_mesh(const SurfaceRequest& request) {
-  return std::any_of(request.over.begin(), request.over.end(), [](const SurfaceParameter& one) {
+  return std::ranges::any_of(request.over, [](const SurfaceParameter& one) {
     return one.kind == Kind::dip || one.kind == Kind::offset;
   });
 }
@@ -171,9 +172,9 @@ std::shared_ptr<const FaultOperator> OperatorSurface::exact_at(const Eigen::Vect
 }
 
 FaultGeometry OperatorSurface::geometry_of(const Scene& scene, const Plan& plan) const {
-  std::vector<ElasticMaterial> materials;
-  for (const Material& m : scene.materials)
-    materials.push_back({m.youngs_modulus, m.poisson_ratio});
+  std::vector materials = mapped(scene.materials, [&](const Material& m) {
+    return ElasticMaterial{m.youngs_modulus, m.poisson_ratio};
+  });
   const Mesh& mesh = frame_->problem.mesh;
   if (!moves_mesh(request_)) return fault_geometry(mesh, materials, frame_->dofs, plan.half_domain);
   const std::optional<Mesh> moved = moved_faults(scene, plan, mesh);
@@ -183,10 +184,8 @@ FaultGeometry OperatorSurface::geometry_of(const Scene& scene, const Plan& plan)
 }
 
 std::vector<Scene> OperatorSurface::check_scenes() const {
-  std::vector<Scene> scenes;
-  for (const Eigen::VectorXd& x : check_points(grid_.n_axes(), n_surface_checks(request_)))
-    scenes.push_back(scene_at(x));
-  return scenes;
+  return mapped(check_points(grid_.n_axes(), n_surface_checks(request_)),
+                [&](const Eigen::VectorXd& x) { return scene_at(x); });
 }
 
 Eigen::VectorXd OperatorSurface::weights(const Scene& scene) const {

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
 
 namespace faultsim {
 namespace {
@@ -23,7 +24,7 @@ double peak_between(const std::vector<double>& points, double from, double to) {
 
 double next_leja_point(const std::vector<double>& points) {
   std::vector<double> sorted = points;
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   double best = 0, largest = -1;
   for (std::size_t i = 0; i + 1 < sorted.size(); ++i) {
     const double x = peak_between(points, sorted[i], sorted[i + 1]);
@@ -61,9 +62,7 @@ Eigen::VectorXd SparseGrid::place(const Index& index) {
 }
 
 bool SparseGrid::admits(const Index& index) const {
-  const auto known = [&](const Index& one) {
-    return std::find(indices_.begin(), indices_.end(), one) != indices_.end();
-  };
+  const auto known = [&](const Index& one) { return contains(indices_, one); };
   if (index.size() != indices_.front().size() || known(index)) return false;
   for (std::size_t j = 0; j < index.size(); ++j) {
     if (index[j] < 0) return false;

@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <random>
 #include <utility>
@@ -11,6 +10,7 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/common/machine.h"
+#include "simulator/common/text.h"
 #include "simulator/linalg/dense_cholesky.h"
 #include "simulator/surface/adaptive_interpolant.h"
 #include "simulator/surface/operator_nodes.h"
@@ -19,11 +19,7 @@
 namespace faultsim {
 namespace {
 
-std::string brief(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", value);
-  return text;
-}
+std::string brief(double value) { return formatted("%.2g", value); }
 
 double relative(double error, double size) { return size > 0 ? error / size : error; }
 
