@@ -57,7 +57,7 @@ std::vector<std::vector<long>> rows_of_groups(const Store& store, const Campaign
 std::set<int> moved_by(const nlohmann::json& group, const std::vector<std::string>& parameters) {
   std::set<int> indices;
   for (const nlohmann::json& one : group.at("parameters")) {
-    const auto at = std::ranges::find(parameters, one.at("name"));
+    const auto at = std::ranges::find(parameters, one.at("name").get<std::string>());
     if (at != parameters.end()) indices.insert(static_cast<int>(at - parameters.begin()));
   }
   return indices;

@@ -60,8 +60,9 @@ std::vector<char> derived_parameters(const std::vector<json>& designs,
   std::set<std::string> chosen = {"group"};
   for (const json& design : designs)
     for (const json& one : design.value("parameters", json::array())) chosen.insert(one.at("name"));
-  return mapped(campaign.parameters,
-                [&](const StoredParameter& one) { return chosen.contains(one.name) ? 0 : 1; });
+  return mapped(campaign.parameters, [&](const StoredParameter& one) {
+    return static_cast<char>(!chosen.contains(one.name));
+  });
 }
 
 std::string derived_note(const std::vector<std::string>& names) {

@@ -63,8 +63,9 @@ TierRows read_tier(const Store& store, const CampaignInfo& campaign,
 
 /// The k-th row must be the same sample at both.
 void refuse_other_samples(const TierRows& low, const TierRows& high, const CampaignInfo& campaign) {
-  const bool fit = high.parameters.size() <= low.parameters.size() &&
-                   std::ranges::equal(high.parameters, low.parameters.begin());
+  const bool fit =
+      high.parameters.size() <= low.parameters.size() &&
+      std::equal(high.parameters.begin(), high.parameters.end(), low.parameters.begin());
   if (fit) return;
   throw InputError(
       "tiers", concat("the samples of ", campaign.name, " are not the first ones of the low tier"),

@@ -93,7 +93,8 @@ class Walk {
       const std::string place =
           concat("load step ", *step_, " (", baseline[k].at("stage").get<std::string>(), ")");
       // Without equilibrium a step has no metrics in the store.
-      const auto outcome = faultsim::outcome_from_string(baseline[k].at("outcome"));
+      const auto outcome =
+          stored_word<Outcome>(baseline[k].at("outcome").get<std::string>(), "outcome");
       object(place, baseline[k], tonight[k]);
       if (!faultsim::in_equilibrium(outcome)) continue;
       list(place + ", fault", baseline[k].at("faults"), tonight[k].at("faults"));
@@ -173,13 +174,6 @@ const Difference& first_of(const std::vector<Difference>& all) {
 }
 
 }  // namespace
-
-const char* to_string(Verdict verdict) {
-  static constexpr std::array<const char*, 9> kNames = {
-      "unblessed",       "identical",          "within tier",     "last bits", "beyond tier",
-      "ranking changed", "activation flipped", "outcome changed", "missing"};
-  return kNames.at(static_cast<std::size_t>(verdict));
-}
 
 std::vector<std::string> quantities() {
   CaseResult full;

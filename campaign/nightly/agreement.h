@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign/common/names.h"
 #include "simulator/result/result.h"
 
 /// How far two results of one case agree: bit for bit, in the last bits, within tolerances, or not.
@@ -23,7 +24,11 @@ enum class Verdict {
   outcome_changed,     ///< another outcome, or other load steps, slip events or episodes.
   missing,             ///< the baseline has the case, tonight has no result of it.
 };
-const char* to_string(Verdict verdict);  ///< "last bits", "activation flipped".
+constexpr auto words(Verdict) {
+  return std::array{"unblessed",          "identical",       "within tier",
+                    "last bits",          "beyond tier",     "ranking changed",
+                    "activation flipped", "outcome changed", "missing"};
+}
 /// `last_bits` and everything worse.
 inline bool is_regression(Verdict verdict) { return verdict >= Verdict::last_bits; }
 

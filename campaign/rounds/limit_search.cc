@@ -13,7 +13,7 @@ namespace {
 constexpr double kRounding = 1e-9;  // of the tolerance: -37 and -38 are 1 apart
 
 /// As many digits as a person would write: 0.3, not 0.30000000000000004.
-double round_number(double value) { return std::strtod(formatted("%.12g", value), nullptr); }
+double round_number(double value) { return std::stod(formatted("%.12g", value)); }
 
 /// A value well between two others, on the grid if one of its points is.
 double middle(double a, double b, double origin, double tolerance) {
@@ -88,22 +88,6 @@ void find_sure_points(LimitFinding& finding) {
 }  // namespace
 
 double Crossing::width() const { return std::abs(after.value - before.value); }
-
-const char* to_string(LimitVerdict verdict) {
-  switch (verdict) {
-    case LimitVerdict::unknown:
-      return "not known";
-    case LimitVerdict::safe_throughout:
-      return "safe throughout";
-    case LimitVerdict::unsafe_throughout:
-      return "unsafe throughout";
-    case LimitVerdict::limit:
-      return "limit";
-    case LimitVerdict::non_monotone:
-      return "non-monotone";
-  }
-  faultsim::throw_internal("known verdict", "", __FILE__, __LINE__);
-}
 
 const Crossing* LimitFinding::limit() const {
   const bool has_one = verdict != LimitVerdict::unknown && !crossings.empty();

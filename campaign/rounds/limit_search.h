@@ -3,6 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "campaign/common/names.h"
+
 /// How far a value may go before something happens: a search by coarse scan and bisection, as pure
 /// functions of the points that are known. Numbers only: a point is safe where the condition is
 /// false and unsafe where it is true.
@@ -39,7 +41,9 @@ enum class LimitVerdict {
   limit,              ///< safe up to one crossing and unsafe behind it.
   non_monotone,       ///< unsafe at the safe end, or safe again behind unsafe values.
 };
-const char* to_string(LimitVerdict verdict);  ///< "safe throughout", "non-monotone", ...
+constexpr auto words(LimitVerdict) {
+  return std::array{"not known", "safe throughout", "unsafe throughout", "limit", "non-monotone"};
+}
 
 struct LimitFinding {
   LimitVerdict verdict = LimitVerdict::unknown;

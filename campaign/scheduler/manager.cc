@@ -70,12 +70,12 @@ void Manager::take_work() {
   n_done_ = campaign_.n_done;
   n_failed_ = campaign_.n_failed;
   n_incomplete_ = campaign_.n_done - campaign_.n_complete();
-  std::vector work = mapped(
-      store_.waiting_families(campaign_.id),
-      [&](const WaitingFamily& family) { return work_of(family, store_.folder() / "operators"); });
-  fields_only_.insert(family.fields_only.begin(), family.fields_only.end());
-}
-plan_->add(std::move(work));
+  std::vector<FamilyWork> work;
+  for (const WaitingFamily& family : store_.waiting_families(campaign_.id)) {
+    work.push_back(work_of(family, store_.folder() / "operators"));
+    fields_only_.insert(family.fields_only.begin(), family.fields_only.end());
+  }
+  plan_->add(std::move(work));
 }
 
 bool Manager::take_next_round() {

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "campaign/common/names.h"
 #include "simulator/common/stopwatch.h"
 
 namespace faultsweep {
@@ -22,6 +23,7 @@ std::string progress_line(const Progress& progress);
 class ProgressDisplay {
  public:
   enum class Style { silent, lines, bar };
+  friend constexpr auto words(Style) { return std::array{"none", "lines", "bar"}; }
   explicit ProgressDisplay(Style style) : style_(style) {}
   void show(const Progress& progress);
   /// The last word, always shown; ends the bar's line.

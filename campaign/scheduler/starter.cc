@@ -126,18 +126,6 @@ class StatusFile {
   std::filesystem::path path_;
 };
 
-const char* style_name(ProgressDisplay::Style style) {
-  switch (style) {
-    case ProgressDisplay::Style::silent:
-      return "none";
-    case ProgressDisplay::Style::lines:
-      return "lines";
-    case ProgressDisplay::Style::bar:
-      return "bar";
-  }
-  return "lines";
-}
-
 /// A manager and its workers; none = as many as the hostfile has slots.
 std::optional<int> wanted_ranks(const RunOptions& options) {
   if (options.n_workers) return *options.n_workers + 1;
@@ -175,7 +163,7 @@ std::vector<std::string> mpirun_command(const RunOptions& options, const Scratch
   if (geteuid() == 0) add({"--allow-run-as-root"});
   add({std::filesystem::read_symlink("/proc/self/exe").string(), "run", options.campaign, "--store",
        std::filesystem::absolute(options.store).string(), "--simulator", options.simulator.string(),
-       "--progress", style_name(options.progress), "--status-file", status.path().string()});
+       "--progress", to_string(options.progress), "--status-file", status.path().string()});
   if (options.memory_bytes) add({"--memory", options.memory});
   if (options.threads) add({"--threads", std::to_string(*options.threads)});
   if (!options.node_cache.empty()) add({"--node-cache", options.node_cache});

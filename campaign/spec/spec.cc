@@ -114,9 +114,7 @@ json group_to_json(const Group& group) {
 }
 
 json policy_to_json(const Policy& policy) {
-  static constexpr const char* kActions[] = {"continue", "abort", "retry"};
-  json result = {{"on_failure", kActions[static_cast<int>(policy.on_failure)]},
-                 {"retries", policy.retries}};
+  json result = {{"on_failure", to_string(policy.on_failure)}, {"retries", policy.retries}};
   if (policy.time_limit) result["time_limit_s"] = *policy.time_limit;
   if (policy.operator_time_limit) result["operator_time_limit_s"] = *policy.operator_time_limit;
   if (policy.memory_limit) result["memory_limit_bytes"] = *policy.memory_limit;
@@ -125,52 +123,9 @@ json policy_to_json(const Policy& policy) {
 
 }  // namespace
 
-const char* to_string(DesignKind kind) {
-  switch (kind) {
-    case DesignKind::grid:
-      return "grid";
-    case DesignKind::list:
-      return "list";
-    case DesignKind::zip:
-      return "zip";
-    case DesignKind::one_at_a_time:
-      return "one-at-a-time";
-    case DesignKind::monte_carlo:
-      return "monte-carlo";
-    case DesignKind::latin_hypercube:
-      return "latin-hypercube";
-    case DesignKind::sobol:
-      return "sobol";
-    case DesignKind::samples:
-      return "samples";
-    case DesignKind::morris:
-      return "morris";
-  }
-  faultsim::throw_internal("known design", "", __FILE__, __LINE__);
-}
-
 bool is_sampled(DesignKind kind) {
   return kind == DesignKind::monte_carlo || kind == DesignKind::latin_hypercube ||
          kind == DesignKind::sobol || kind == DesignKind::morris;
-}
-
-const char* to_string(KeepFields keep) {
-  switch (keep) {
-    case KeepFields::none:
-      return "none";
-    case KeepFields::stages:
-      return "stages";
-    case KeepFields::all:
-      return "all";
-  }
-  faultsim::throw_internal("known keep_fields", "", __FILE__, __LINE__);
-}
-
-std::optional<KeepFields> keep_fields_named(const std::string& name) {
-  for (const KeepFields keep : {KeepFields::none, KeepFields::stages, KeepFields::all}) {
-    if (name == to_string(keep)) return keep;
-  }
-  return std::nullopt;
 }
 
 std::string CampaignSpec::resolved() const {

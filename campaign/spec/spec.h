@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign/common/names.h"
 #include "campaign/expression/expression.h"
 #include "campaign/statistics/copula.h"
 #include "campaign/statistics/marginal.h"
@@ -85,7 +86,10 @@ enum class DesignKind {
   morris,   ///< n trajectories of D + 1 rows; in each every parameter moves once, by half the
             ///< levels.
 };
-const char* to_string(DesignKind kind);  ///< as in the spec: "one-at-a-time".
+constexpr auto words(DesignKind) {
+  return std::array{"grid",  "list",    "zip",   "one-at-a-time", "monte-carlo", "latin-hypercube",
+                    "sobol", "samples", "morris"};
+}
 /// True for those whose rows `expand` draws by their seed.
 bool is_sampled(DesignKind kind);
 
@@ -155,6 +159,7 @@ enum class FailureAction {
   abort,    ///< stop the campaign.
   retry,    ///< again, up to Policy::retries times.
 };
+constexpr auto words(FailureAction) { return std::array{"continue", "abort", "retry"}; }
 
 struct Policy {
   FailureAction on_failure = FailureAction::proceed;
@@ -194,8 +199,7 @@ struct LimitSearch {
   std::vector<double> scan;  ///< values of the coarse scan in `unit`, one way.
 };
 
-const char* to_string(KeepFields keep);  ///< "none", "stages", "all".
-std::optional<KeepFields> keep_fields_named(const std::string& name);
+constexpr auto words(KeepFields) { return std::array{"none", "stages", "all"}; }
 
 struct CampaignSpec {
   std::string name;  ///< [A-Za-z0-9._-]+

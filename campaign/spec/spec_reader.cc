@@ -88,7 +88,7 @@ CampaignSpec SpecReader::read() {
   }
   if (is_usable("/metrics")) read_rank_by();
   if (is_usable("/keep_fields")) {
-    spec_.keep_fields = keep_fields_named(at("/keep_fields").get<std::string>()).value();
+    spec_.keep_fields = named<KeepFields>(at("/keep_fields").get<std::string>()).value();
   }
   if (!problems_.empty()) throw faultsim::InputError(spec_.source, problems_);
   return std::move(spec_);
@@ -130,7 +130,7 @@ void SpecReader::embed_tables() {
 void SpecReader::check_schema() {
   problems_ = faultsim::check_schema(spec_.document, campaign_schema());
   for (const Problem& one : problems_) said_.insert(one.pointer + "\n" + one.what);
-  const bool is_incomplete = std::ranges::any_of(problems_, &Problem::pointer.empty);
+  const bool is_incomplete = contains(problems_, "", &Problem::pointer);
   if (is_incomplete) throw faultsim::InputError(spec_.source, problems_);
 }
 

@@ -10,49 +10,6 @@
 
 namespace faultsweep {
 
-const char* to_string(FailureAction action) {
-  switch (action) {
-    case FailureAction::abort:
-      return "abort";
-    case FailureAction::retry:
-      return "retry";
-    case FailureAction::proceed:
-      return "continue";
-  }
-  FAULTSIM_DEMAND(false, static_cast<int>(action));
-  return "";
-}
-
-FailureAction failure_action_from_string(const std::string& text) {
-  for (const auto action : {FailureAction::abort, FailureAction::retry, FailureAction::proceed}) {
-    if (text == to_string(action)) return action;
-  }
-  throw StorageError(concat("unknown failure policy '", text, "' in the store"));
-}
-
-const char* to_string(FieldsState state) {
-  switch (state) {
-    case FieldsState::none:
-      return "none";
-    case FieldsState::wanted:
-      return "wanted";
-    case FieldsState::kept:
-      return "kept";
-    case FieldsState::failed:
-      return "failed";
-  }
-  FAULTSIM_DEMAND(false, static_cast<int>(state));
-  return "";
-}
-
-FieldsState fields_state_from_string(const std::string& text) {
-  for (const auto state :
-       {FieldsState::none, FieldsState::wanted, FieldsState::kept, FieldsState::failed}) {
-    if (text == to_string(state)) return state;
-  }
-  throw StorageError(concat("unknown state of fields '", text, "' in the store"));
-}
-
 namespace {
 
 /// Covers what the expanded copy is made of: base scenes and cases, in order.
@@ -134,10 +91,8 @@ CampaignInfo read_info(const Statement& row) {
            info.policy.memory_limit, keep_fields, info.policy.operator_time_limit, info.conclusion);
   info.cancelled = state == "cancelled";
   info.parameters = parameters_from_json(parameters);
-  info.policy.on_failure = failure_action_from_string(on_failure);
-  const auto keep = keep_fields_named(keep_fields);
-  if (!keep) throw StorageError(concat("unknown keep_fields '", keep_fields, "' in the store"));
-  info.keep_fields = *keep;
+  info.policy.on_failure = stored_word<FailureAction>(on_failure, "failure policy");
+  info.keep_fields = stored_word<KeepFields>(keep_fields, "keep_fields");
   return info;
 }
 

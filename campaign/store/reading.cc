@@ -52,7 +52,7 @@ StoredCase find_case(Connection& db, std::int64_t campaign, const std::string& n
   query.read(found.id, found.position, found.identity, found.family, found.state, found.changes,
              found.scene, fields, folder);
   found.parameters = ParameterReader(db, campaign).of(found.position);
-  found.fields = fields_state_from_string(fields);
+  found.fields = stored_word<FieldsState>(fields, "state of fields");
   found.fields_folder = folder;
   return found;
 }

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "campaign/common/names.h"
 #include "campaign/spec/spec.h"
 #include "campaign/store/parameters.h"
 #include "simulator/result/result.h"
@@ -14,9 +15,6 @@
 /// What goes into the store and comes out of it, as plain structs. SI; times of day in seconds
 /// since 1970. JSON is text here: the store does not look into it.
 namespace faultsweep {
-
-const char* to_string(FailureAction action);  ///< "abort", "retry", "continue".
-FailureAction failure_action_from_string(const std::string& text);
 
 /// How the fault fields of a case stand in a campaign.
 enum class FieldsState {
@@ -26,8 +24,7 @@ enum class FieldsState {
   kept,    ///< in Store::fields_folder.
   failed,  ///< the case has a result, but the run that was to add its fields failed.
 };
-FieldsState fields_state_from_string(const std::string& text);  ///< throws StorageError.
-const char* to_string(FieldsState state);
+constexpr auto words(FieldsState) { return std::array{"none", "wanted", "kept", "failed"}; }
 
 /// A family as submitted.
 struct FamilyRecord {
@@ -168,7 +165,9 @@ enum class RunStatus {
   world,      ///< the simulator reports disk or file trouble.
   bug,        ///< the simulator reports an internal error.
 };
-const char* to_string(RunStatus status);
+constexpr auto words(RunStatus) {
+  return std::array{"completed", "refused", "crashed", "hung", "garbled", "memory", "world", "bug"};
+}
 
 /// One attempt at a case, as the manager commits it.
 struct RunRecord {

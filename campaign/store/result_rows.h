@@ -211,7 +211,7 @@ class RowFields {
       value =
           row.get<std::optional<double>>(column).value_or(std::numeric_limits<double>::quiet_NaN());
     } else if constexpr (std::is_enum_v<Member>) {
-      value = faultsim::outcome_from_string(row.text(column));
+      value = faultsim::stored_word<faultsim::Outcome>(row.text(column), "outcome");
     } else if constexpr (std::is_same_v<Member, std::vector<double>>) {
       value = numbers_of(row.text(column));
     } else if constexpr (std::is_same_v<Member, std::vector<std::string>>) {

@@ -9,29 +9,6 @@ namespace faultsweep {
 
 using faultsim::CaseResult;
 
-const char* to_string(RunStatus status) {
-  switch (status) {
-    case RunStatus::completed:
-      return "completed";
-    case RunStatus::refused:
-      return "refused";
-    case RunStatus::crashed:
-      return "crashed";
-    case RunStatus::hung:
-      return "hung";
-    case RunStatus::garbled:
-      return "garbled";
-    case RunStatus::memory:
-      return "memory";
-    case RunStatus::world:
-      return "world";
-    case RunStatus::bug:
-      return "bug";
-  }
-  FAULTSIM_DEMAND(false, static_cast<int>(status));
-  return "";
-}
-
 std::vector<WaitingFamily> Store::waiting_families(std::int64_t campaign) const {
   std::vector<WaitingFamily> families;
   Statement query = connection_->prepared(

@@ -4,6 +4,7 @@
 
 #include "simulator/app/commands.h"
 #include "simulator/common/errors.h"
+#include "simulator/common/text.h"
 #include "simulator/coupled/box_study.h"
 #include "simulator/coupled/solver_study.h"
 #include "simulator/files/json_text.h"
@@ -22,23 +23,19 @@ struct Study {
 
 /// The kinds of the names given, "all" for every one; names that are none become problems.
 template <typename Kind>
-std::vector<Kind> kinds_of(const std::vector<std::string>& names, const std::vector<Kind>& known,
-                           const char* option, std::vector<Problem>& problems) {
+std::vector<Kind> kinds_of(const std::vector<std::string>& names, const char* option,
+                           std::vector<Problem>& problems) {
+  constexpr auto all = enumerators<Kind>();
   std::vector<Kind> kinds;
   for (const std::string& name : names) {
     if (name == "all") {
-      kinds.insert(kinds.end(), known.begin(), known.end());
-      continue;
+      kinds.insert(kinds.end(), all.begin(), all.end());
+    } else if (const auto kind = named<Kind>(name)) {
+      kinds.push_back(*kind);
+    } else {
+      problems.push_back({"", 0, concat(option, " ", name, " is not known"),
+                          "choose of all, " + joined(words(Kind()), ", ")});
     }
-    const auto found =
-        std::ranges::find_if(known, [&](Kind kind) { return name == to_string(kind); });
-    if (found != known.end()) {
-      kinds.push_back(*found);
-      continue;
-    }
-    std::string list = "all";
-    for (const Kind kind : known) list += std::string(", ") + to_string(kind);
-    problems.push_back({"", 0, concat(option, " ", name, " is not known"), "choose of " + list});
   }
   return kinds;
 }
@@ -60,8 +57,8 @@ Study read_study(const SolverStudyArguments& arguments) {
   for (const std::string& h : arguments.cell_sizes) {
     study.cells_per_metre.push_back(cells_per_metre(h, problems));
   }
-  study.leading = kinds_of(arguments.leading, all_leading_kinds(), "--leading", problems);
-  study.schur = kinds_of(arguments.schur, all_schur_kinds(), "--schur", problems);
+  study.leading = kinds_of<LeadingKind>(arguments.leading, "--leading", problems);
+  study.schur = kinds_of<SchurKind>(arguments.schur, "--schur", problems);
   if (!problems.empty()) throw InputError("faultsim solver-study", problems);
   study.common.form = arguments.form == "full" ? BlockForm::full : BlockForm::upper;
   FsaiOptions& fsai = study.common.fsai;

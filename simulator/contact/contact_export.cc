@@ -29,15 +29,17 @@ int n_shear(const OperatorNode& node) {
 /// Where the components of the exported problem come from: dof, or −1 for a component that is
 /// missing.
 std::vector<int> component_dofs(const FaultGeometry& geometry, int dimension) {
-  std::vector dofs = mapped(geometry.nodes, [&](const OperatorNode& node) { return node.dof[0]; });
-  if (dimension == 2) {
-    dofs.push_back(node.dof[2] >= 0 ? node.dof[2] : node.dof[1]);
-  } else {
-    dofs.push_back(node.dof[1]);
-    dofs.push_back(node.dof[2]);
+  std::vector<int> dofs;
+  for (const OperatorNode& node : geometry.nodes) {
+    dofs.push_back(node.dof[0]);
+    if (dimension == 2) {
+      dofs.push_back(node.dof[2] >= 0 ? node.dof[2] : node.dof[1]);
+    } else {
+      dofs.push_back(node.dof[1]);
+      dofs.push_back(node.dof[2]);
+    }
   }
-}
-return dofs;
+  return dofs;
 }
 
 double power_of_ten(double value) {

@@ -13,28 +13,6 @@ std::string residual_text(double residual) {
 
 }  // namespace
 
-const char* to_string(SearchEnd end) {
-  switch (end) {
-    case SearchEnd::balanced:
-      return "balanced";
-    case SearchEnd::singular_tangent:
-      return "singular tangent";
-    case SearchEnd::no_progress:
-      return "no progress";
-    case SearchEnd::too_many_sets:
-      return "too many active sets";
-    case SearchEnd::set_does_not_settle:
-      return "too many iterations on one active set";
-    case SearchEnd::too_many_iterations:
-      return "too many iterations";
-    case SearchEnd::set_comes_back:
-      return "active set comes back";
-    case SearchEnd::opens:
-      return "a node opens";
-  }
-  return "unknown";
-}
-
 void SearchHistory::add(const SearchIteration& iteration) {
   ++iterations;
   if (last.size() == 2 * kMost) last.erase(last.begin(), last.begin() + kMost);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "simulator/common/run_context.h"
+#include "simulator/common/words.h"
 
 namespace faultsim {
 
@@ -19,7 +20,16 @@ enum class SearchEnd {
   set_comes_back,       ///< plane strain's quick way: an active set seen before.
   opens,                ///< plane strain's quick way: a node would open.
 };
-const char* to_string(SearchEnd end);
+constexpr auto words(SearchEnd) {
+  return std::array{"balanced",
+                    "singular tangent",
+                    "no progress",
+                    "too many active sets",
+                    "too many iterations on one active set",
+                    "too many iterations",
+                    "active set comes back",
+                    "a node opens"};
+}
 
 /// Where a search stands after an iteration.
 struct SearchIteration {

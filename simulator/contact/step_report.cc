@@ -14,18 +14,6 @@ std::string text(const Args&... args) {
   return out.str();
 }
 
-const char* name(FaultState state) {
-  switch (state) {
-    case FaultState::stick:
-      return "stick";
-    case FaultState::slip:
-      return "slip";
-    case FaultState::open:
-      return "open";
-  }
-  return "unknown";
-}
-
 }  // namespace
 
 std::string place(const ContactProblem& problem, int node) {
@@ -67,7 +55,7 @@ std::string failure_text(const ContactProblem& problem, const SubStep& sub_step,
   const auto i = static_cast<std::size_t>(worst_node);
   const ContactNode& node = problem.nodes[i];
   const double gap = sub_step.start->jump[node.dof[0]] + sub_step.increment[node.dof[0]];
-  return reason + text("; worst: ", place(problem, worst_node), " (", name(sub_step.state[i]),
+  return reason + text("; worst: ", place(problem, worst_node), " (", to_string(sub_step.state[i]),
                        "), t'_N = ", sub_step.traction[node.dof[0]],
                        " Pa, |t'_T| = ", shear_part(node, sub_step.traction).norm(),
                        " Pa, g_N = ", gap,

@@ -64,7 +64,7 @@ TangentReport TangentSolver::solve_exactly(const std::vector<TangentUnknown>& un
   constexpr int kIterations = 15;      // 15 n² products against 2/3 n³ of a factorisation
   assemble(unknowns);
   const bool same =
-      std::ranges::equal(unknowns, direct_dofs_.begin(), direct_dofs_.end(),
+      std::ranges::equal(unknowns, direct_dofs_,
                          [](const TangentUnknown& unknown, int dof) { return unknown.dof == dof; });
   if (unknowns.size() > kSmall && same) {
     const GmresReport report =

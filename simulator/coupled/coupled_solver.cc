@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/text.h"
 #include "simulator/coupled/augmented.h"
 #include "simulator/coupled/hypre_objects.h"
 
@@ -140,71 +141,15 @@ class FlexibleGmres {
 
 }  // namespace
 
-const char* to_string(LeadingKind kind) {
-  switch (kind) {
-    case LeadingKind::exact:
-      return "exact";
-    case LeadingKind::fsai:
-      return "fsai";
-    case LeadingKind::incomplete_cholesky:
-      return "ic";
-    case LeadingKind::ilu:
-      return "ilu";
-    case LeadingKind::amg:
-      return "amg";
-    case LeadingKind::amg_by_component:
-      return "amg-u";
-  }
-  FAULTSIM_DEMAND(false, "leading block ", static_cast<int>(kind));
-}
-
-const char* to_string(SchurKind kind) {
-  switch (kind) {
-    case SchurKind::exact:
-      return "exact";
-    case SchurKind::fsai_direct:
-      return "fsai+dir";
-    case SchurKind::fsai_fsai:
-      return "fsai+fsai";
-    case SchurKind::bds:
-      return "bds";
-    case SchurKind::lsc:
-      return "lsc";
-    case SchurKind::rac:
-      return "rac";
-  }
-  FAULTSIM_DEMAND(false, "Schur complement ", static_cast<int>(kind));
-}
-
-const char* to_string(BlockForm form) { return form == BlockForm::full ? "full" : "upper"; }
-
-const std::vector<LeadingKind>& all_leading_kinds() {
-  static const std::vector<LeadingKind> kinds = {
-      LeadingKind::exact, LeadingKind::fsai, LeadingKind::incomplete_cholesky,
-      LeadingKind::ilu,   LeadingKind::amg,  LeadingKind::amg_by_component};
-  return kinds;
-}
-
-const std::vector<SchurKind>& all_schur_kinds() {
-  static const std::vector<SchurKind> kinds = {SchurKind::exact,     SchurKind::fsai_direct,
-                                               SchurKind::fsai_fsai, SchurKind::bds,
-                                               SchurKind::lsc,       SchurKind::rac};
-  return kinds;
-}
-
 namespace {
 
 /// The kind of that name; none becomes a problem.
 template <typename Kind>
-Kind kind_of(const std::string& name, const std::vector<Kind>& known, const char* option,
-             std::vector<Problem>& problems) {
-  std::string list;
-  for (const Kind kind : known) {
-    if (name == to_string(kind)) return kind;
-    list += concat(list.empty() ? "" : ", ", to_string(kind));
-  }
-  problems.push_back({"", 0, concat(option, " ", name, " is not known"), "choose of " + list});
-  return known.front();
+Kind kind_of(const std::string& name, const char* option, std::vector<Problem>& problems) {
+  if (const auto kind = named<Kind>(name)) return *kind;
+  problems.push_back({"", 0, concat(option, " ", name, " is not known"),
+                      "choose of " + joined(words(Kind()), ", ")});
+  return Kind();
 }
 
 }  // namespace
@@ -212,8 +157,8 @@ Kind kind_of(const std::string& name, const std::vector<Kind>& known, const char
 SolverChoice solver_of(const std::string& leading, const std::string& schur) {
   std::vector<Problem> problems;
   SolverChoice choice;
-  choice.leading = kind_of(leading, all_leading_kinds(), "--leading", problems);
-  choice.schur = kind_of(schur, all_schur_kinds(), "--schur", problems);
+  choice.leading = kind_of<LeadingKind>(leading, "--leading", problems);
+  choice.schur = kind_of<SchurKind>(schur, "--schur", problems);
   if (!problems.empty()) throw InputError("coupled path", std::move(problems));
   return choice;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/common/words.h"
 #include "simulator/coupled/leading_block.h"
 #include "simulator/coupled/schur.h"
 
@@ -13,6 +14,7 @@ namespace faultsim {
 /// Which factors of J = L U the preconditioner takes: both (two leading solves per iteration, as
 /// Ferronato et al., SIAM GS 2019) or the upper one (one leading solve).
 enum class BlockForm { full, upper };
+constexpr auto words(BlockForm) { return std::array{"full", "upper"}; }
 
 struct SolverChoice {
   LeadingKind leading = LeadingKind::exact;
@@ -24,11 +26,6 @@ struct SolverChoice {
 };
 
 /// Names on the command line and in tables: "fsai", "ic".
-const char* to_string(LeadingKind kind);
-const char* to_string(SchurKind kind);
-const char* to_string(BlockForm form);
-const std::vector<LeadingKind>& all_leading_kinds();
-const std::vector<SchurKind>& all_schur_kinds();
 /// The kinds of those names. Throws InputError with the names that are none.
 SolverChoice solver_of(const std::string& leading, const std::string& schur);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simulator/common/words.h"
 #include "simulator/coupled/saddle_point.h"
 #include "simulator/linalg/gmres.h"
 
@@ -7,6 +8,9 @@ namespace faultsim {
 
 /// How (K + E)⁻¹ is approximated.
 enum class LeadingKind { exact, fsai, incomplete_cholesky, ilu, amg, amg_by_component };
+constexpr auto words(LeadingKind) {
+  return std::array{"exact", "fsai", "ic", "ilu", "amg", "amg-u"};
+}
 
 /// Adaptive factored sparse approximate inverse (Janna, Ferronato, Sartoretto and Gambolati, ACM
 /// TOMS 41, 2015): per row of G, at most `steps` times the `step_size` entries that lower the row's

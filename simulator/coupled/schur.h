@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simulator/common/words.h"
 #include "simulator/coupled/leading_block.h"
 
 namespace faultsim {
@@ -13,6 +14,9 @@ enum class SchurKind {
   lsc,  ///< S⁻¹ ≈ (CᵀC)⁻¹ Cᵀ (K + E)(C − F) (CᵀC)⁻¹, nothing to factorise.
   rac   ///< not S, but multipliers with springs in series: see augmented.h.
 };
+constexpr auto words(SchurKind) {
+  return std::array{"exact", "fsai+dir", "fsai+fsai", "bds", "lsc", "rac"};
+}
 
 /// z ≈ S⁻¹ r, a fixed linear map.
 /// @param kind  any but rac (InternalError). @param fsai  of K + E, and of the second one.

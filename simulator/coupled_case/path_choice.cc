@@ -9,10 +9,6 @@ std::string gigabytes(double bytes) { return formatted("%.2g GB", bytes / 1e9); 
 
 }  // namespace
 
-const char* to_string(SolutionPath path) {
-  return path == SolutionPath::condensed ? "condensed" : "coupled";
-}
-
 double coupled_bytes(const Plan& plan) {
   constexpr double kPerUnknown = 18e3;  // 19 GB for 1.06 million
   return kPerUnknown * static_cast<double>(plan.n_unknowns);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/words.h"
 #include "simulator/plan/plan.h"
 
 namespace faultsim {
@@ -12,7 +13,7 @@ namespace faultsim {
 /// How a case is to be solved: on a condensed operator, or with both sides of the faults and
 /// multipliers in one system.
 enum class SolutionPath { condensed, coupled };
-const char* to_string(SolutionPath path);
+constexpr auto words(SolutionPath) { return std::array{"condensed", "coupled"}; }
 
 struct PathChoice {
   SolutionPath path = SolutionPath::condensed;

@@ -25,7 +25,7 @@ CellUnknowns cell_unknowns(const Mesh& mesh, const DofMap& dofs) {
       }
     }
     std::ranges::sort(list);
-    list.erase(std::ranges::unique(list), list.end());
+    list.erase(std::ranges::unique(list).begin(), list.end());
     result.unknowns.insert(result.unknowns.end(), list.begin(), list.end());
     result.begin.push_back(static_cast<long>(result.unknowns.size()));
   }

@@ -69,7 +69,7 @@ void DofMapBuilder::prescribe(const std::vector<DisplacementCondition>& conditio
       for (int node : face.nodes) nodes.push_back(root(node));
     }
     std::ranges::sort(nodes);
-    nodes.erase(std::ranges::unique(nodes), nodes.end());
+    nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
     for (int node : nodes) {
       const Eigen::Vector3d value = condition.translation + condition.gradient * mesh_.nodes[node];
       for (std::size_t c = 0; c < 3; ++c) {

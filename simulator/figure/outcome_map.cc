@@ -131,22 +131,6 @@ void draw_share_key(Svg& svg, Point place) {
 
 }  // namespace
 
-const char* to_string(CaseClass kind) {
-  switch (kind) {
-    case CaseClass::holds:
-      return "no fault slides";
-    case CaseClass::undecided:
-      return "undecided by the cells";
-    case CaseClass::slides:
-      return "slides, no event";
-    case CaseClass::event:
-      return "slip event";
-    case CaseClass::ended_early:
-      return "ended early";
-  }
-  return "";
-}
-
 std::string draw(const OutcomeMap& map) {
   FAULTSIM_DEMAND(map.x.size() == map.y.size() && map.x.size() == map.kind.size(),
                   "columns of different length");

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/common/words.h"
 #include "simulator/figure/axis.h"
 #include "simulator/figure/svg.h"
 
@@ -13,7 +14,10 @@ namespace faultsim::figure {
 /// Undecided: the cells do not resolve whether a fault slides, or its event.
 enum class CaseClass { holds, undecided, slides, event, ended_early };
 inline constexpr int kCaseClasses = 5;
-const char* to_string(CaseClass kind);  ///< "no fault slides", ...
+constexpr auto words(CaseClass) {
+  return std::array{"no fault slides", "undecided by the cells", "slides, no event", "slip event",
+                    "ended early"};
+}
 
 /// Cases of a campaign over two of its parameters. Up to kMostDots cases are dots; more are counted
 /// in squares coloured by the share that slides of those that are decided, so that the drawing's

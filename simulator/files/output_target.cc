@@ -14,20 +14,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kStoreFile = "campaign.sqlite";
 
-const char* text_of(FileKind kind) {
-  switch (kind) {
-    case FileKind::text:
-      return "a text file";
-    case FileKind::json:
-      return "a JSON file";
-    case FileKind::hdf5:
-      return "an HDF5 file";
-    case FileKind::database:
-      return "an SQLite database";
-  }
-  return "a file";
-}
-
 /// Nothing for an empty file, which may become anything.
 std::optional<FileKind> kind_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -120,7 +106,8 @@ std::vector<Problem> problems_of_file(const fs::path& target, FileKind kind,
   const std::optional<FileKind> old = kind_of(target);
   if (old && *old != kind) {
     problems.push_back(
-        {"", 0, concat(target.string(), " exists and is ", text_of(*old), ", not ", text_of(kind)),
+        {"", 0,
+         concat(target.string(), " exists and is ", to_string(*old), ", not ", to_string(kind)),
          "choose another name, or remove it"});
   }
   return problems;

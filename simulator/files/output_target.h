@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/words.h"
 
 /// What a command may write to, decided before it works. Nothing that a command reads, no store and
 /// no file inside one, nothing but regular files, and no file of another kind is ever replaced;
@@ -19,6 +20,9 @@ enum class FileKind {
   hdf5,      ///< an HDF5 file.
   database,  ///< an SQLite database.
 };
+constexpr auto words(FileKind) {
+  return std::array{"a text file", "a JSON file", "an HDF5 file", "an SQLite database"};
+}
 
 /// True for "-" and the names that the system has for standard output.
 bool is_standard_output(const std::filesystem::path& target);

@@ -193,56 +193,56 @@ class EclipseReader {
 
   void take_values(const std::vector<float>& values, const Scale& scale, const std::string& name,
                    const std::filesystem::path& file) {
-    std::vector si = mapped(values, [&](const float& value) {
-      return scale.size * static_cast<double>(value) + scale.zero;
-    });
-    if (std::isfinite(si.back()) && si.back() >= 0) continue;
-    return refuse(file, concat(name, " has the value ", value, " in active cell ", si.size()),
-                  "the values of all active cells are needed, and are absolute");
+    std::vector<double> si;
+    for (const float value : values) {
+      si.push_back(scale.size * static_cast<double>(value) + scale.zero);
+      if (std::isfinite(si.back()) && si.back() >= 0) continue;
+      return refuse(file, concat(name, " has the value ", value, " in active cell ", si.size()),
+                    "the values of all active cells are needed, and are absolute");
+    }
+    values_.push_back(std::move(si));
   }
-  values_.push_back(std::move(si));
-}
 
   void take_date(const std::vector<int>& head, const std::string& name,
                  const std::filesystem::path& file) {
-  const auto at = [&](std::size_t i) { return i < head.size() ? head[i] : 0; };
-  const std::string text = formatted("%04d-%02d-%02d", at(kYear), at(kMonth), at(kDay));
-  const std::optional<double> day = parse_date(text);
-  if (!day) return refuse(file, name + " has the date " + text, "");
-  const double date = *day + 3600.0 * at(kHour) + 60.0 * at(kMinute) + 1e-6 * at(kMicroseconds);
-  if (!dates_.empty() && date <= dates_.back()) {
-    return refuse(file,
-                  name + " of " + text + " does not come after the one before, of " +
-                      date_text(dates_.back()),
-                  "keep the files of one run together, without those of a restarted one");
+    const auto at = [&](std::size_t i) { return i < head.size() ? head[i] : 0; };
+    const std::string text = formatted("%04d-%02d-%02d", at(kYear), at(kMonth), at(kDay));
+    const std::optional<double> day = parse_date(text);
+    if (!day) return refuse(file, name + " has the date " + text, "");
+    const double date = *day + 3600.0 * at(kHour) + 60.0 * at(kMinute) + 1e-6 * at(kMicroseconds);
+    if (!dates_.empty() && date <= dates_.back()) {
+      return refuse(file,
+                    name + " of " + text + " does not come after the one before, of " +
+                        date_text(dates_.back()),
+                    "keep the files of one run together, without those of a restarted one");
+    }
+    dates_.push_back(date);
   }
-  dates_.push_back(date);
-}
 
-FlowField result() const {
-  FlowField field;
-  field.date = dates_;
-  std::vector<std::size_t> kept;
-  for (std::size_t c = 0; c < cells_.size(); ++c) {
-    if (flow_cell_volume(cells_[c]) <= 0) continue;
-    kept.push_back(c);
-    field.cells.push_back(cells_[c]);
+  FlowField result() const {
+    FlowField field;
+    field.date = dates_;
+    std::vector<std::size_t> kept;
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      if (flow_cell_volume(cells_[c]) <= 0) continue;
+      kept.push_back(c);
+      field.cells.push_back(cells_[c]);
+    }
+    field.value.resize(std::ssize(kept), std::ssize(dates_));
+    for (Eigen::Index t = 0; t < field.value.cols(); ++t) {
+      for (Eigen::Index c = 0; c < field.value.rows(); ++c)
+        field.value(c, t) = values_[static_cast<std::size_t>(t)][kept[static_cast<std::size_t>(c)]];
+    }
+    return field;
   }
-  field.value.resize(std::ssize(kept), std::ssize(dates_));
-  for (Eigen::Index t = 0; t < field.value.cols(); ++t) {
-    for (Eigen::Index c = 0; c < field.value.rows(); ++c)
-      field.value(c, t) = values_[static_cast<std::size_t>(t)][kept[static_cast<std::size_t>(c)]];
-  }
-  return field;
-}
 
-EclipseFiles files_;
-FlowQuantity quantity_;
-MapAxes axes_;
-std::vector<FlowCell> cells_;              ///< active ones, in the order of the values.
-std::vector<double> dates_;                ///< s since 1970.
-std::vector<std::vector<double>> values_;  ///< per report, Pa or K.
-std::vector<Problem> problems_;
+  EclipseFiles files_;
+  FlowQuantity quantity_;
+  MapAxes axes_;
+  std::vector<FlowCell> cells_;              ///< active ones, in the order of the values.
+  std::vector<double> dates_;                ///< s since 1970.
+  std::vector<std::vector<double>> values_;  ///< per report, Pa or K.
+  std::vector<Problem> problems_;
 };
 
 }  // namespace

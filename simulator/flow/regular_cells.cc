@@ -40,7 +40,7 @@ CellReach regular_cells(const std::vector<int>& line, const std::vector<double>&
   std::vector<Centre> centres;
   for (std::size_t i = 0; i < at.size(); ++i) centres.emplace_back(line[i], at[i]);
   std::ranges::sort(centres);
-  centres.erase(std::ranges::unique(centres), centres.end());
+  centres.erase(std::ranges::unique(centres).begin(), centres.end());
   const Gaps gaps = gaps_of(centres);
   if (gaps.smallest == centres.size())
     return {{}, "has a single value, " + metres(at.front()) + ", and no neighbour beside it", 0};

@@ -68,8 +68,7 @@ std::vector<Unmet> unmet(const std::vector<StepEnd>& ends,
   std::vector<Unmet> result;
   double last = 0;  // s, of the point taken last: it becomes a step, which may meet others
   for (const TurningPoint& point : points) {
-    const auto next = std::ranges::lower_bound(
-        ends, point.from, [](const StepEnd& end, double time) { return end.time < time; });
+    const auto next = std::ranges::lower_bound(ends, point.from, {}, &StepEnd::time);
     if (next == ends.end()) break;
     const double near = kMetShare * next->length;
     const double before = next == ends.begin() ? 0 : std::prev(next)->time;

@@ -81,20 +81,6 @@ void require_executable(const std::string& asked) {
 
 }  // namespace
 
-const char* to_string(VectorSet set) {
-  switch (set) {
-    case VectorSet::sse:
-      return "SSE";
-    case VectorSet::avx:
-      return "AVX";
-    case VectorSet::avx2:
-      return "AVX2";
-    case VectorSet::avx512:
-      return "AVX-512";
-  }
-  return "";
-}
-
 VectorSet vector_set_of_processor() {
   __builtin_cpu_init();
   // The extensions that OpenBLAS compiles these kernels with (-march=skylake-avx512, -mavx2 -mfma).

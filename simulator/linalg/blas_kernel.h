@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "simulator/common/words.h"
+
 /// OpenBLAS holds kernels for many processors and takes one when the process is loaded, by the
 /// processor's family and model. A model that is newer than the library gets its oldest kernel
 /// ("Prescott", SSE3), whatever the processor can do: three times slower, and nobody is told.
@@ -13,7 +15,7 @@ namespace faultsim {
 
 /// The widest vectors that a processor has, or that a kernel computes with.
 enum class VectorSet { sse, avx, avx2, avx512 };
-const char* to_string(VectorSet set);
+constexpr auto words(VectorSet) { return std::array{"SSE", "AVX", "AVX2", "AVX-512"}; }
 
 /// What the processor and its operating system offer.
 VectorSet vector_set_of_processor();

@@ -90,7 +90,7 @@ struct TrailingCholesky::Impl {
     factor = cholmod_l_analyze_p(a, order.data(), nullptr, 0, c);
     check("the analysis");
     const Index* used = static_cast<const Index*>(factor->Perm);
-    FAULTSIM_DEMAND(std::ranges::equal(order, used), "CHOLMOD changed the order");
+    FAULTSIM_DEMAND(std::equal(order.begin(), order.end(), used), "CHOLMOD changed the order");
     statistics.flops = c->fl;
   }
 

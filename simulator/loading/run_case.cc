@@ -290,21 +290,24 @@ void CaseRun::name_result() {
 
 /// Goes through the load steps to their end, or as far as there is equilibrium.
 void CaseRun::walk(const std::vector<LoadStep>& steps) {
-  std::vector loads = mapped(steps, [&](const LoadStep& step) { return loads_.at(step.time); });
-  loads_.check_fault_pressure(step, loads.back());
-}
-for (std::size_t i = 0; i < steps.size(); ++i) {
-  at_ = &steps[i];
-  context_.stop.throw_if_requested("starting a load step");
-  if (stage_ && steps[i].stage != steps[i - 1].stage) {
-    result_.stages.push_back(stage_->finish());
-    stage_.reset();
+  std::vector<StepLoads> loads;
+  for (const LoadStep& step : steps) {
+    loads.push_back(loads_.at(step.time));
+    loads_.check_fault_pressure(step, loads.back());
   }
-  if (!advance(steps[i], i == 0 ? nullptr : &loads[i - 1], loads[i])) break;
-  if (probe_.displaced && is_stage_end(steps, i))
-    probe_.displaced(result_.steps.back(), solver_->displacement(loads[i], state_));
-  context_.progress(static_cast<double>(i + 1) / static_cast<double>(steps.size()), steps[i].stage);
-}
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    at_ = &steps[i];
+    context_.stop.throw_if_requested("starting a load step");
+    if (stage_ && steps[i].stage != steps[i - 1].stage) {
+      result_.stages.push_back(stage_->finish());
+      stage_.reset();
+    }
+    if (!advance(steps[i], i == 0 ? nullptr : &loads[i - 1], loads[i])) break;
+    if (probe_.displaced && is_stage_end(steps, i))
+      probe_.displaced(result_.steps.back(), solver_->displacement(loads[i], state_));
+    context_.progress(static_cast<double>(i + 1) / static_cast<double>(steps.size()),
+                      steps[i].stage);
+  }
 }
 
 CaseResult CaseRun::run() {

@@ -133,7 +133,9 @@ Eigen::VectorXd initial_pressure_excess(const Scene& scene, const FaultGeometry&
                                         const std::vector<int>& region_of_load) {
   Eigen::VectorXd excess = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(geometry.nodes.size()));
   const std::vector<Block>& blocks = scene.field.blocks;
-  if (std::ranges::none_of(blocks, &Block::overpressure)) return excess;
+  if (std::ranges::none_of(blocks,
+                           [](const Block& block) { return block.overpressure.has_value(); }))
+    return excess;
   std::vector<double> per_region(scene.pressure.size());
   for (std::size_t f = 0; f < geometry.faults.size(); ++f) {
     const FaultPressure& law = scene.faults[f].pressure;

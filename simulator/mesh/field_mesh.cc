@@ -228,7 +228,7 @@ std::vector<double> must_lines(const FieldMeshSpec& spec) {
   std::vector<double> z = special_z(spec);
   std::ranges::sort(z);
   const auto same = [](double a, double b) { return b - a < kSameLine; };
-  z.erase(std::ranges::unique(z, same), z.end());
+  z.erase(std::ranges::unique(z, same).begin(), z.end());
   return z;
 }
 
@@ -314,7 +314,8 @@ std::vector<MovedDepth> moved_depths(const FieldMeshSpec& spec) {
 }
 
 bool moves_lines(const FieldMeshSpec& spec) {
-  return std::ranges::any_of(spec.blocks, &FieldMeshSpec::Block::mesh_offset);
+  return std::ranges::any_of(
+      spec.blocks, [](const FieldMeshSpec::Block& block) { return block.mesh_offset.has_value(); });
 }
 
 void check_moved_lines(const FieldMeshSpec& spec, std::vector<Problem>& problems) {

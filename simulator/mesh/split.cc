@@ -349,17 +349,15 @@ Mesh take_grid(StructuredGrid& grid) {
 
 bool same_topology(const FaultSurface& a, const FaultSurface& b) {
   return a.node_of_point == b.node_of_point &&
-         std::ranges::equal(a.nodes, b.nodes.begin(), b.nodes.end(),
+         std::ranges::equal(a.nodes, b.nodes,
                             [](const FaultNode& one, const FaultNode& other) {
                               return one.minus_node == other.minus_node &&
                                      one.plus_node == other.plus_node;
                             }) &&
-         std::ranges::equal(a.faces, b.faces.begin(), b.faces.end(),
-                            [](const FaultFace& one, const FaultFace& other) {
-                              return one.points == other.points && one.nodes == other.nodes &&
-                                     one.minus_cell == other.minus_cell &&
-                                     one.plus_cell == other.plus_cell;
-                            });
+         std::ranges::equal(a.faces, b.faces, [](const FaultFace& one, const FaultFace& other) {
+           return one.points == other.points && one.nodes == other.nodes &&
+                  one.minus_cell == other.minus_cell && one.plus_cell == other.plus_cell;
+         });
 }
 
 }  // namespace

@@ -103,7 +103,9 @@ std::vector<Feature> features_of(const Scene& scene, const Plan& plan) {
   add(scene.numerics.surface.wanted(), Feature::surface);
   add(scene.has_field(), Feature::flow_result);
   add(!scene.temperature.empty(), Feature::temperature);
-  add(std::ranges::any_of(scene.stages, &Stage::stress_change.has_value), Feature::stress_change);
+  add(std::ranges::any_of(scene.stages,
+                          [](const Stage& stage) { return stage.stress_change.has_value(); }),
+      Feature::stress_change);
   add(plan.half_domain, Feature::half_domain);
   add(plan.plane_strain, Feature::plane_strain);
   add(std::ranges::any_of(faults, weakens), Feature::weakening);

@@ -19,7 +19,7 @@ std::vector<double> distinct(std::vector<double> lengths) {
   const auto is_same = [](double longer, double length) {
     return longer - length <= kSameLength * longer;
   };
-  lengths.erase(std::ranges::unique(lengths, is_same), lengths.end());
+  lengths.erase(std::ranges::unique(lengths, is_same).begin(), lengths.end());
   return lengths;
 }
 

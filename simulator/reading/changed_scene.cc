@@ -157,11 +157,10 @@ Touched move_document(const JsonDocument& base, const std::vector<PlacedValue>& 
   const std::vector<PlacedValue>& before = changed.values;
   touched.is_in_place =
       changed.values_are_apart &&
-      std::ranges::equal(
-          values, before.begin(), before.end(), [](const PlacedValue& a, const PlacedValue& b) {
-            const bool is_word = !a.value.is_structured() && !b.value.is_structured();
-            return a.pointer == b.pointer && (is_word || a.value == b.value);
-          });
+      std::ranges::equal(values, before, [](const PlacedValue& a, const PlacedValue& b) {
+        const bool is_word = !a.value.is_structured() && !b.value.is_structured();
+        return a.pointer == b.pointer && (is_word || a.value == b.value);
+      });
   for (std::size_t i = 0; touched.is_in_place && i < values.size(); ++i) {
     if (values[i].value == before[i].value) continue;
     touched.members.emplace(member_of(values[i].pointer));

@@ -181,7 +181,9 @@ void check_given(SceneReader& reader, const Scene& scene, std::size_t fault) {
 void check_mixed(SceneReader& reader, const Scene& scene, std::size_t fault) {
   const FaultPressure& law = scene.faults[fault].pressure;
   const auto blocks = blocks_beside(scene.field, fault);
-  if (std::ranges::none_of(blocks, &Block::overpressure)) return;
+  if (std::ranges::none_of(blocks,
+                           [](const Block& block) { return block.overpressure.has_value(); }))
+    return;
   std::vector<double> depths = {reservoir_range(scene.field).top,
                                 reservoir_range(scene.field).bottom};
   for (const Block& block : blocks) {

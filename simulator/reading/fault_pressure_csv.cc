@@ -98,7 +98,7 @@ class FaultTable {
       for (const double value : values) to.change.push_back(value - values.front());
     }
     std::ranges::sort(strikes);
-    strikes.erase(std::ranges::unique(strikes), strikes.end());
+    strikes.erase(std::ranges::unique(strikes).begin(), strikes.end());
     if (has_strike()) to.strike = strikes;
     if (rows_.size() != to.dip.size() * strikes.size()) {
       return reader_.refuse_at(

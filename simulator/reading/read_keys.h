@@ -7,6 +7,7 @@
 #include <string>
 #include <type_traits>
 
+#include "simulator/common/words.h"
 #include "simulator/reading/scene_reader.h"
 #include "simulator/scene/scene.h"
 
@@ -32,9 +33,7 @@ void read_value(const SceneReader& reader, const KeyPlace& at, Value& value) {
   } else if constexpr (std::is_same_v<Value, std::string>) {
     value = reader.text(at);
   } else if constexpr (std::is_enum_v<Value>) {
-    constexpr auto all = words(Value());
-    const auto word = std::ranges::find(all, reader.text(at));
-    if (word != all.end()) value = static_cast<Value>(word - all.begin());
+    value = named<Value>(reader.text(at)).value_or(value);
   } else if constexpr (is_list_of_numbers<Value>) {
     const std::string list = at.pointer();
     for (std::size_t i = 0; i < value.size(); ++i) {  // of nine numbers three rows

@@ -8,41 +8,6 @@
 namespace faultsim {
 namespace {
 
-constexpr std::array kOutcomes = {
-    Outcome::failed,      Outcome::converged, Outcome::event,      Outcome::unresolved_event,
-    Outcome::unconverged, Outcome::unstable,  Outcome::interrupted};
-
-}  // namespace
-
-const char* to_string(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::failed:
-      return "failed";
-    case Outcome::converged:
-      return "converged";
-    case Outcome::event:
-      return "event";
-    case Outcome::unresolved_event:
-      return "unresolved_event";
-    case Outcome::unconverged:
-      return "unconverged";
-    case Outcome::unstable:
-      return "unstable";
-    case Outcome::interrupted:
-      return "interrupted";
-  }
-  throw_internal("outcome is an enumerator", concat(static_cast<int>(outcome)), __FILE__, __LINE__);
-}
-
-Outcome outcome_from_string(const std::string& text) {
-  for (const Outcome outcome : kOutcomes) {
-    if (text == to_string(outcome)) return outcome;
-  }
-  throw StorageError(concat("unknown outcome \"", text, "\""));
-}
-
-namespace {
-
 bool plus_leads(const SidePressures& sides) {
   if (!sides.change_plus) return false;
   return !sides.change_minus || std::abs(*sides.change_plus) > std::abs(*sides.change_minus);

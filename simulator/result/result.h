@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/common/words.h"
 #include "simulator/result/measures.h"
 
 /// The result of one case as plain structs. NaN never reaches a file: a missing value is an empty
@@ -29,10 +30,13 @@ inline bool in_equilibrium(Outcome outcome) {
   return outcome == Outcome::converged || outcome == Outcome::event ||
          outcome == Outcome::unresolved_event;
 }
-const char* to_string(Outcome outcome);
-Outcome outcome_from_string(const std::string& text);  ///< throws StorageError when unknown.
+constexpr auto words(Outcome) {
+  return std::array{"failed",      "converged", "event",      "unresolved_event",
+                    "unconverged", "unstable",  "interrupted"};
+}
 
 enum class FaultState : int { stick = 0, slip = 1, open = 2 };
+constexpr auto words(FaultState) { return std::array{"stick", "slip", "open"}; }
 
 /// Metrics of one fault at one load step. Definitions: docs/model.md, section 7.
 struct FaultMetrics {

@@ -68,7 +68,7 @@ void read(std::string_view name, const json& value, std::string& target) {
 void read(std::string_view name, const json& value, Outcome& target) {
   std::string text;
   read(name, value, text);
-  target = outcome_from_string(text);
+  target = stored_word<Outcome>(text, "outcome");
 }
 template <typename Struct>
 requires std::is_class_v<Struct>

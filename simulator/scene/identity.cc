@@ -7,6 +7,7 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
+#include "simulator/common/words.h"
 #include "simulator/documents/canonical_text.h"
 #include "simulator/scene/identity.h"
 #include "simulator/scene/scene.h"
@@ -81,7 +82,7 @@ struct Canonical {
       if (key.is(kIdle) || key.is(kSilent) || !is_given(member)) return;
       object.add(key.in_text.empty() ? key.name : key.in_text, [&](std::string& to) {
         if constexpr (requires { words(member); }) {
-          if (key.is(kWord)) return append(to, words(member)[static_cast<std::size_t>(member)]);
+          if (key.is(kWord)) return append(to, to_string(member));
         }
         Canonical{to}.write(member);
       });

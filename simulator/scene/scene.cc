@@ -57,7 +57,7 @@ bool have_same_body(const Scene& a, const Scene& b) {
          a.materials == b.materials && a.mesh == b.mesh && a.numerics == b.numerics &&
          a.stages == b.stages && a.pressure == b.pressure && a.temperature == b.temperature &&
          a.pressure_field == b.pressure_field && a.temperature_field == b.temperature_field &&
-         std::ranges::equal(a.faults, b.faults.begin(), b.faults.end(), is_same_surface);
+         std::ranges::equal(a.faults, b.faults, is_same_surface);
 }
 
 std::set<std::string> used_materials(const Scene& scene) {

@@ -116,8 +116,8 @@ TEST(CoupledContact, IsTheCondensedPathWhereStrengthFallsWithSlip) {
 }
 
 TEST(CoupledContact, FindsTheSameWithEveryPreconditioner) {
-  for (const LeadingKind leading : all_leading_kinds()) {
-    for (const SchurKind schur : all_schur_kinds()) {
+  for (const LeadingKind leading : enumerators<LeadingKind>()) {
+    for (const SchurKind schur : enumerators<SchurKind>()) {
       SCOPED_TRACE(std::string(to_string(leading)) + " " + to_string(schur));
       TwoPaths paths(friction(0.4, 0.4, 0), false, {leading, schur});
       paths.step({-6e6, 0.03, 0.3, -2e6}, 0);

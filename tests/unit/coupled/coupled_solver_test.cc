@@ -42,8 +42,8 @@ TEST(CoupledSolver, EveryCombinationFindsTheSameSolution) {
     const Eigen::VectorXd lambda = Eigen::VectorXd::Random(j.n_multipliers()) * 1e6;
     const Eigen::VectorXd f = j.leading * u + j.coupling * lambda;
     const Eigen::VectorXd g = j.constraint.transpose() * u;
-    for (const LeadingKind leading : all_leading_kinds()) {
-      for (const SchurKind schur : all_schur_kinds()) {
+    for (const LeadingKind leading : enumerators<LeadingKind>()) {
+      for (const SchurKind schur : enumerators<SchurKind>()) {
         for (const BlockForm form : {BlockForm::full, BlockForm::upper}) {
           const Solved solved = solve(j, {leading, schur, form}, f, g, 1e-10);
           const std::string name = std::string(to_string(leading)) + " " + to_string(schur);

@@ -13,10 +13,10 @@ namespace {
 TEST(Outcome, NamesGoBothWays) {
   for (const Outcome outcome : {Outcome::failed, Outcome::converged, Outcome::unconverged,
                                 Outcome::unstable, Outcome::interrupted}) {
-    EXPECT_EQ(outcome_from_string(to_string(outcome)), outcome);
+    EXPECT_EQ(stored_word<Outcome>(to_string(outcome), "outcome"), outcome);
   }
   EXPECT_STREQ(to_string(Outcome::unstable), "unstable");
-  EXPECT_THROW(outcome_from_string("fine"), StorageError);
+  EXPECT_THROW(stored_word<Outcome>("fine", "outcome"), StorageError);
   EXPECT_EQ(CaseResult().outcome, Outcome::failed);
 }
 
