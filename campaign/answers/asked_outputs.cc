@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "campaign/common/names.h"
-#include "campaign/query/table_output.h"
 
 namespace faultsweep {
 

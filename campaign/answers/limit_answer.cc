@@ -2,7 +2,6 @@
 
 #include "campaign/answers/limit_words.h"
 #include "campaign/common/names.h"
-#include "campaign/spec/pointers.h"
 
 namespace faultsweep {
 

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "campaign/answers/asked_outputs.h"
-#include "campaign/answers/designs.h"
 #include "campaign/common/names.h"
 #include "campaign/query/table_output.h"
 #include "campaign/render/shown.h"

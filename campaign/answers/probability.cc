@@ -8,7 +8,6 @@
 
 #include "campaign/answers/verdict_columns.h"
 #include "campaign/common/names.h"
-#include "campaign/query/table_output.h"
 #include "campaign/render/shown.h"
 
 namespace faultsweep {

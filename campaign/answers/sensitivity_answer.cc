@@ -2,10 +2,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "campaign/answers/asked_outputs.h"
 #include "campaign/answers/sensitivity_tables.h"
 #include "campaign/common/names.h"
-#include "campaign/render/shown.h"
 
 namespace faultsweep {
 

@@ -4,7 +4,6 @@
 #include "campaign/answers/asked_outputs.h"
 #include "campaign/answers/sensitivity_tables.h"
 #include "campaign/common/names.h"
-#include "campaign/render/shown.h"
 
 namespace faultsweep {
 

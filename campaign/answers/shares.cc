@@ -1,6 +1,5 @@
 #include "campaign/answers/shares.h"
 
-#include <cmath>
 #include <limits>
 
 #include "campaign/common/names.h"

@@ -1,6 +1,5 @@
 #include "campaign/expansion/case_values.h"
 
-#include <cmath>
 #include <limits>
 
 #include "campaign/common/names.h"

@@ -1,8 +1,6 @@
 #include "campaign/figures/campaign_figures.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
 #include "campaign/common/names.h"
 #include "campaign/expansion/expansion.h"

@@ -6,8 +6,6 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <numeric>
-#include <optional>
 
 #include "campaign/answers/probability.h"
 #include "campaign/answers/what_matters.h"

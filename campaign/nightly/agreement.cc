@@ -8,7 +8,6 @@
 #include <set>
 
 #include "campaign/common/json.h"
-#include "campaign/common/names.h"
 #include "campaign/store/same_numbers.h"
 #include "simulator/common/errors.h"
 #include "simulator/result/result_json.h"

@@ -6,7 +6,6 @@
 
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
-#include "campaign/query/table_output.h"
 #include "campaign/spec/pointers.h"
 #include "simulator/common/units.h"
 #include "simulator/plan/field_check.h"

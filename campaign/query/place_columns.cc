@@ -1,7 +1,6 @@
 #include "campaign/query/place_columns.h"
 #include "campaign/common/names.h"
 
-#include <cmath>
 #include <limits>
 
 namespace faultsweep {

@@ -5,8 +5,6 @@
 
 #include "campaign/common/names.h"
 #include "campaign/expression/expression.h"
-#include "campaign/query/parameters.h"
-#include "campaign/query/table_output.h"
 
 namespace faultsweep {
 

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "simulator/common/errors.h"
-#include "simulator/common/printable.h"
 #include "simulator/files/atomic_file.h"
 
 namespace faultsweep {

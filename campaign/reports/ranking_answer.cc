@@ -8,7 +8,6 @@
 #include "campaign/render/shown.h"
 #include "campaign/reports/measure_columns.h"
 #include "campaign/reports/ranking_answer.h"
-#include "campaign/spec/metrics.h"
 
 namespace faultsweep {
 

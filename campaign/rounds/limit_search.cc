@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
-#include "campaign/common/names.h"
 #include "simulator/common/errors.h"
 
 namespace faultsweep {

@@ -5,7 +5,6 @@
 #include <list>
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "campaign/scheduler/wire.h"
 

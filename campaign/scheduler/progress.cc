@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "campaign/common/names.h"
 #include "campaign/store/clock.h"
 
 namespace faultsweep {

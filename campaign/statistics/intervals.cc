@@ -6,7 +6,6 @@
 #include <boost/math/special_functions/beta.hpp>
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
-#include <limits>
 
 #include "simulator/common/errors.h"
 

@@ -1,5 +1,4 @@
 #include <unistd.h>
-#include <csignal>
 #include <fstream>
 #include <sstream>
 

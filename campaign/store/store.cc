@@ -7,7 +7,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
 
 #include "campaign/common/names.h"
 #include "campaign/store/checksums.h"

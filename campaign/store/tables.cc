@@ -2,7 +2,6 @@
 #include <cstdlib>
 #include <limits>
 #include <sstream>
-#include <utility>
 
 #include "campaign/common/names.h"
 #include "campaign/store/queries.h"

@@ -17,10 +17,8 @@
 #include "simulator/linalg/blas_start.h"
 #include "simulator/loading/field_keeper.h"
 #include "simulator/loading/run_case.h"
-#include "simulator/reading/read_scene.h"
 #include "simulator/result/result_bytes.h"
 #include "simulator/result_files/field_bytes.h"
-#include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/simulation.h"
 
 namespace faultsim {

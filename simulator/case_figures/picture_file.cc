@@ -1,6 +1,5 @@
 #include "simulator/case_figures/picture_file.h"
 
-#include <algorithm>
 #include <cstring>
 
 #include "simulator/common/child_output.h"

@@ -1,9 +1,6 @@
 #include "simulator/condensation/condensation.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include "simulator/common/errors.h"

@@ -1,7 +1,6 @@
 #include "simulator/contact/contact_export.h"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 #include <cmath>
 
 #include "simulator/common/errors.h"

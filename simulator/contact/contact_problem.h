@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <limits>
 #include <vector>
 
 #include "simulator/contact/contact_state.h"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <utility>
-
 #include "simulator/contact/contact_newton.h"
 #include "simulator/contact/contact_options.h"
 #include "simulator/contact/contact_problem.h"

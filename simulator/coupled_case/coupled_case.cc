@@ -1,8 +1,6 @@
 #include "simulator/coupled_case/coupled_case.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "simulator/condensation/fault_geometry.h"

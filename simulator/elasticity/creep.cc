@@ -1,6 +1,5 @@
 #include "simulator/elasticity/creep.h"
 
-#include <array>
 #include <cmath>
 
 #include "simulator/common/errors.h"

@@ -3,7 +3,6 @@
 #include <cholmod.h>
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 
 #include "simulator/common/errors.h"

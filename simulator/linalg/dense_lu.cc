@@ -1,7 +1,5 @@
 #include "simulator/linalg/dense_lu.h"
 
-#include <algorithm>
-
 #include "simulator/common/errors.h"
 #include "simulator/linalg/lapack.h"
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "simulator/common/errors.h"
 #include "simulator/common/text.h"

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "simulator/common/run_context.h"
 #include "simulator/contact/judge.h"

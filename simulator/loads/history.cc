@@ -1,7 +1,6 @@
 #include "simulator/loads/history.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "simulator/common/errors.h"
 #include "simulator/common/ranges.h"

@@ -2,7 +2,6 @@
 #include <limits>
 #include <set>
 
-#include "simulator/loads/history.h"
 #include "simulator/operators/prepare_operator.h"
 #include "simulator/plan/boundary_conditions.h"
 

@@ -4,7 +4,6 @@
 #include <set>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "simulator/documents/canonical_text.h"
 #include "simulator/plan/plan.h"

@@ -1,6 +1,5 @@
 #include "simulator/plan/reservoir_cells.h"
 
-#include <algorithm>
 #include <vector>
 
 #include "simulator/scene/field_depths.h"

@@ -1,9 +1,7 @@
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <string>
 
-#include "simulator/common/near_miss.h"
 #include "simulator/common/ranges.h"
 #include "simulator/reading/read_keys.h"
 #include "simulator/reading/scene_reader.h"

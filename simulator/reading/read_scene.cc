@@ -1,7 +1,6 @@
 #include "simulator/reading/read_scene.h"
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 
 #include "scene_schema_text.h"

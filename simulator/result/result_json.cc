@@ -2,7 +2,6 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <type_traits>
-#include <utility>
 
 #include "simulator/common/errors.h"
 #include "simulator/result/result_fields.h"

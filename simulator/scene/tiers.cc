@@ -1,7 +1,6 @@
 #include "simulator/scene/tiers.h"
 
 #include <algorithm>
-#include <array>
 
 #include "simulator/common/errors.h"
 

@@ -4,10 +4,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <utility>
 
-#include "simulator/common/stopwatch.h"
 #include "simulator/loading/pressure_warnings.h"
 #include "simulator/loading/run_case.h"
 #include "simulator/reading/read_scene.h"
