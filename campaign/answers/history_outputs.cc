@@ -17,11 +17,7 @@ std::string default_metrics(const Selection& selection) {
   return names;
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& one : names) text += (text.empty() ? "" : ", ") + one;
-  return text;
-}
+std::string listed(const std::vector<std::string>& names) { return joined(names, ", "); }
 
 /// The fault that each metric is of. Throws one InputError with all that is wrong.
 std::vector<std::int64_t> faults_of(const std::vector<ScopedMetric>& metrics,

@@ -13,8 +13,7 @@ std::size_t place_of(const LimitTable& table, const std::string& name) {
   const auto found = std::ranges::find(table.parameters, name);
   if (found != table.parameters.end())
     return static_cast<std::size_t>(found - table.parameters.begin());
-  std::string known;
-  for (const std::string& one : table.parameters) known += (known.empty() ? "" : ", ") + one;
+  std::string known = joined(table.parameters, ", ");
   throw InputError("--map", concat("there is no parameter '", name, "' in the design"),
                    concat("there are ", known));
 }

@@ -109,8 +109,7 @@ std::string remark_of(const LimitCell& cell) {
 
 std::string question_text(const LimitSearch& limit) {
   const bool up = limit.scan.back() > limit.scan.front();
-  std::string faults;
-  for (const std::string& fault : limit.faults) faults += (faults.empty() ? "" : ", ") + fault;
+  std::string faults = joined(limit.faults, ", ");
   return concat(limit.name, ": the ", up ? "highest" : "lowest", " value from ",
                 value_text(limit.scan.front(), limit), " to ", value_text(limit.scan.back(), limit),
                 " without \"", limit.unsafe, "\" on ", faults,

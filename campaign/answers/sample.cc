@@ -66,8 +66,7 @@ std::vector<char> derived_parameters(const std::vector<json>& designs,
 }
 
 std::string derived_note(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& one : names) list += (list.empty() ? "" : ", ") + one;
+  std::string list = joined(names, ", ");
   return list.empty() ? ""
                       : concat("Computed from others, so not told apart from them: ", list, ".");
 }

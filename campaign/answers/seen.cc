@@ -70,9 +70,7 @@ class StatementReader {
     for (const NamedId& one : selection_.faults)
       if (one.name == name) statement_.fault = one.id;
     if (statement_.fault != 0) return;
-    std::string names;
-    for (const NamedId& one : selection_.faults)
-      names += concat(names.empty() ? "" : ", ", one.name);
+    std::string names = joined(selection_.faults, ", ", &NamedId::name);
     problem(concat("there is no fault ", name), "there are: " + names);
   }
 

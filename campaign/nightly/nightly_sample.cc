@@ -11,11 +11,7 @@ namespace faultsweep {
 namespace {
 
 std::string label_of(const StoredCase& stored, const CampaignInfo& campaign) {
-  std::string text;
-  for (const std::string& one : settings_of(stored.parameters, campaign.parameters)) {
-    text += (text.empty() ? "" : ", ") + one;
-  }
-  return text;
+  return joined(settings_of(stored.parameters, campaign.parameters), ", ");
 }
 
 /// Numbers of scenes and families of a store in the submission.

@@ -222,8 +222,8 @@ std::string header_of(const std::vector<Setting>& settings) {
 }
 
 std::string values_of(const std::vector<Setting>& settings) {
-  std::string line;
-  for (const Setting& one : settings) line += (line.empty() ? "" : ", ") + shortest_text(one.value);
+  std::string line =
+      joined(settings, ", ", [](const Setting& one) { return shortest_text(one.value); });
   return line + "\n";
 }
 

@@ -160,9 +160,7 @@ std::string leave_out(std::vector<Laid>& columns, std::size_t width) {
     }
   }
   std::ranges::reverse(gone);
-  std::string text;
-  for (const std::string& one : gone) text += (text.empty() ? "" : "; ") + one;
-  return text;
+  return joined(gone, "; ");
 }
 
 /// A row, or the heading, in as many lines as its texts need.

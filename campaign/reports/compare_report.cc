@@ -18,8 +18,7 @@ std::string unit_of(const MetricInfo& metric, const Comparison& c) {
 }
 
 std::string matched_note(const Comparison& c) {
-  std::string by;
-  for (const std::string& name : c.shared_parameters) by += (by.empty() ? "" : ", ") + name;
+  std::string by = joined(c.shared_parameters, ", ");
   std::string text =
       concat("A ", c.a.name, ", ", c.a.n_cases, " cases; B ", c.b.name, ", ", c.b.n_cases,
              " cases; matched: ", c.n_by_identity, " by identity, ", c.n_by_parameters,

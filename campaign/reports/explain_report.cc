@@ -87,8 +87,7 @@ Answer explanation(const Store& store, const CampaignInfo& campaign, const Store
         " done; the operator is ",
         family.operator_fingerprint.empty() ? "not known yet" : family.operator_fingerprint));
   }
-  std::string names;
-  for (const std::string& name : campaigns) names += (names.empty() ? "" : ", ") + name;
+  std::string names = joined(campaigns, ", ");
   answer.note("campaigns with this case: " + names);
   return answer;
 }

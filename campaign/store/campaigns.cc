@@ -337,8 +337,7 @@ CampaignInfo Store::campaign(const std::string& name, bool with_counts) const {
       return info;
     }
   }
-  std::string names;
-  for (const CampaignInfo& info : all) names += (names.empty() ? "" : ", ") + info.name;
+  std::string names = joined(all, ", ", &CampaignInfo::name);
   throw faultsim::InputError("--campaign", concat("there is no campaign '", name, "'"),
                              concat("there are: ", names));
 }

@@ -203,11 +203,7 @@ constexpr const char* kEarly = "coalesce(s.rank_class, 2) > 1";   // see CaseRow
 constexpr const char* kUnsure = ".activation_resolved IS NOT 1";  // missing: not known
 constexpr const char* kEventsOpen = "(m.outcome = 'unresolved_event' OR NOT m.weakening_resolved)";
 
-std::string list_of(const std::vector<std::int64_t>& ids) {
-  std::string list;
-  for (const std::int64_t id : ids) list += concat(list.empty() ? "" : ", ", id);
-  return list;
-}
+std::string list_of(const std::vector<std::int64_t>& ids) { return joined(ids, ", "); }
 
 /// That the activation of some fault is not resolved in these stages. Faults are named one by one:
 /// the key of fault_metrics has them before the case.

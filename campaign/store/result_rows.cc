@@ -95,11 +95,7 @@ std::vector<double> numbers_of(const std::string& json_array) {
   return numbers;
 }
 
-std::string join_lines(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
-  return text;
-}
+std::string join_lines(const std::vector<std::string>& lines) { return joined(lines, "\n"); }
 
 std::vector<std::string> split_lines(const std::string& text) {
   std::vector<std::string> lines;

@@ -146,8 +146,7 @@ std::vector<std::int64_t> ids_of(const std::string& text) {
 /// Of a stage's row s: the faults that are not resolved there, or NULL.
 /// @param faults  ids; fault_metrics is looked up by stage, fault and case.
 std::string unresolved_faults_sql(const std::vector<NamedId>& faults) {
-  std::string list;
-  for (const NamedId& one : faults) list += concat(list.empty() ? "" : ", ", one.id);
+  std::string list = joined(faults, ", ", &NamedId::id);
   return concat(
       "iif(s.rank_class = 1, (SELECT group_concat(q.fault_id, ' ') FROM fault_metrics q"
       " WHERE q.stage_id = s.stage_id AND q.fault_id IN (",

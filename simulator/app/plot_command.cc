@@ -4,6 +4,7 @@
 #include "simulator/case_figures/case_figures.h"
 #include "simulator/case_figures/picture_file.h"
 #include "simulator/common/errors.h"
+#include "simulator/common/text.h"
 #include "simulator/documents/json_document.h"
 #include "simulator/reading/read_scene.h"
 #include "simulator/result/result_json.h"
@@ -13,10 +14,7 @@ namespace {
 
 CaseChart chart_named(const std::string& name) {
   if (const CaseChartInfo* info = case_chart_named(name)) return info->chart;
-  std::string names;
-  for (const CaseChartInfo& info : case_charts()) {
-    names += (names.empty() ? "" : ", ") + std::string(info.name);
-  }
+  std::string names = joined(case_charts(), ", ", &CaseChartInfo::name);
   throw InputError("chart", concat("\"", name, "\" is not a chart"), "choose one of " + names);
 }
 

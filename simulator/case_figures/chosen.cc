@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/text.h"
 #include "simulator/figure/axis.h"
 #include "simulator/figure/palette.h"
 
@@ -67,9 +68,7 @@ Chosen choose(const CasePicture& picture, const CaseChartRequest& request) {
   if (!request.fault.empty()) {
     const auto found = std::ranges::find(result.fault_names, request.fault);
     if (found == result.fault_names.end()) {
-      std::string names;
-      for (const std::string& name : result.fault_names)
-        names += (names.empty() ? "" : ", ") + name;
+      std::string names = joined(result.fault_names, ", ");
       refuse("--fault", "\"" + request.fault + "\" is not a fault of the case",
              "choose one of " + names);
     }

@@ -5,6 +5,7 @@
 #include "simulator/common/child_output.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/ranges.h"
+#include "simulator/common/text.h"
 #include "simulator/files/atomic_file.h"
 #include "simulator/files/output_target.h"
 
@@ -34,8 +35,7 @@ void require_picture_file(const std::filesystem::path& target,
                           const std::vector<std::filesystem::path>& inputs) {
   const std::string ending = target.extension().string();
   if (!contains(endings, ending)) {
-    std::string wanted;
-    for (const std::string& one : endings) wanted += (wanted.empty() ? "" : " or ") + one;
+    std::string wanted = joined(endings, " or ");
     throw InputError("-o", concat("\"", target.string(), "\" does not say what to write"),
                      "let the name end in " + wanted);
   }

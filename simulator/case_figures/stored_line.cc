@@ -5,6 +5,7 @@
 #include <string>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/text.h"
 
 namespace faultsim::case_figures {
 
@@ -24,8 +25,7 @@ std::size_t stored_entry(Chosen& chosen) {
   const std::size_t entry =
       after == steps.begin() ? 0 : static_cast<std::size_t>(after - steps.begin()) - 1;
   if (steps[entry] != wanted && chosen.request.step) {
-    std::string there;
-    for (const int step : steps) there += (there.empty() ? "" : ", ") + std::to_string(step);
+    std::string there = joined(steps, ", ", [](const int step) { return std::to_string(step); });
     refuse("--step", concat("the fields of load step ", wanted, " were not kept"),
            "choose one of " + there);
   }

@@ -6,6 +6,7 @@
 #include "simulator/common/near_miss.h"
 #include "simulator/common/printable.h"
 #include "simulator/common/ranges.h"
+#include "simulator/common/text.h"
 #include "simulator/documents/schema.h"
 
 /// What a value breaks, in words that a user can act on.
@@ -23,9 +24,7 @@ std::string type_words(const json& types) {
                                                            {"boolean", "true or false"},
                                                            {"null", "null"}};
   if (types.is_string()) return words.at(types.get<std::string>());
-  std::string text;
-  for (const json& type : types) text += (text.empty() ? "" : " or ") + type_words(type);
-  return text;
+  return joined(types, " or ", type_words);
 }
 
 std::string range_words(const SchemaViews& views) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/text.h"
 
 namespace faultsim::figure {
 namespace {
@@ -48,11 +49,8 @@ std::string stroke_text(const Stroke& stroke) {
 }
 
 std::string points_text(const std::vector<Point>& points) {
-  std::string text;
-  for (const Point& p : points) {
-    text += (text.empty() ? "" : " ") + coordinate(p.x) + "," + coordinate(p.y);
-  }
-  return text;
+  return joined(points, " ",
+                [](const Point& p) { return coordinate(p.x) + "," + coordinate(p.y); });
 }
 
 }  // namespace

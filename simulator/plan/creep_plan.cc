@@ -99,10 +99,7 @@ std::vector<double> creep_rungs(const Scene& scene) {
 
 std::string creep_text(const CreepPlan& creep) {
   if (!creep.active) return "";
-  std::string steps;
-  for (const double rung : creep.rungs) {
-    steps += (steps.empty() ? "" : ", ") + duration_text(rung);
-  }
+  std::string steps = joined(creep.rungs, ", ", duration_text);
   return concat("creep: steps of ", steps, "; ", creep.rungs.size() + 1,
                 " operators with the elastic one\n");
 }

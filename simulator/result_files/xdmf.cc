@@ -1,6 +1,7 @@
 #include "simulator/result_files/xdmf.h"
 
 #include "simulator/common/errors.h"
+#include "simulator/common/text.h"
 
 namespace faultsim {
 namespace {
@@ -28,11 +29,7 @@ std::string escape(const std::string& text) {
   return result;
 }
 
-std::string join(const std::vector<std::size_t>& numbers) {
-  std::string text;
-  for (const std::size_t number : numbers) text += concat(text.empty() ? "" : " ", number);
-  return text;
-}
+std::string join(const std::vector<std::size_t>& numbers) { return joined(numbers, " "); }
 
 /// A whole dataset.
 std::string item(const std::string& h5_name, const XdmfData& data) {
