@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "simulator/common/ranges.h"
+#include "simulator/flow/flow_field.h"
 #include "simulator/initial_state/initial_state.h"
 #include "simulator/initial_state/pressure_history.h"
 
