@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <fstream>
 
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/store/same_numbers.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"

@@ -11,9 +11,6 @@
 namespace faultsweep {
 namespace {
 
-using faultsim::Dimension;
-using nlohmann::json;
-
 std::optional<NumberAndUnit> split(const json& value) { return split_quantity(scalar_text(value)); }
 
 /// Fifteen digits: what a user would have written (0.3, not 0.30000000000000004).

@@ -1,11 +1,9 @@
 #include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/spec/spec_reader.h"
 
 namespace faultsweep {
 namespace {
-
-using faultsim::concat;
-using nlohmann::json;
 
 std::string digits(long double count) {
   return count < 1e18L ? std::to_string(static_cast<long long>(count)) : "more than 10^18";

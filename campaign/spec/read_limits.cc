@@ -9,8 +9,6 @@
 namespace faultsweep {
 namespace {
 
-using nlohmann::json;
-
 /// The choices of a parameter as numbers of a unit.
 std::vector<double> numbers_of(const Parameter& parameter, const std::string& unit) {
   std::vector<double> numbers;

@@ -28,9 +28,6 @@
 namespace faultsweep {
 namespace {
 
-using faultsim::concat;
-using faultsim::StorageError;
-
 /// Reads version and application; throws when the file is not ours to touch.
 int usable_version(Connection& connection, int newest) {
   const std::string file = connection.path().string();

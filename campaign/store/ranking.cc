@@ -1,12 +1,11 @@
 #include <algorithm>
 
+#include "campaign/common/names.h"
 #include "campaign/store/queries.h"
 #include "campaign/store/store.h"
 
 namespace faultsweep {
 namespace {
-
-using faultsim::concat;
 
 /// The default order is the index stage_metrics_default_order: the text must match it.
 constexpr const char* kDefaultOrder =

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "campaign/common/names.h"
 #include "campaign/store/result_rows.h"
 #include "campaign/store/sqlite.h"
 #include "campaign/store/store.h"
@@ -8,7 +9,6 @@
 namespace faultsweep {
 
 using faultsim::CaseResult;
-using faultsim::concat;
 using faultsim::Outcome;
 using faultsim::StageMetrics;
 

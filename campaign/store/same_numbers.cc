@@ -1,7 +1,6 @@
 #include "campaign/store/same_numbers.h"
 
-#include <nlohmann/json.hpp>
-
+#include "campaign/common/json.h"
 #include "simulator/common/errors.h"
 #include "simulator/result/result_fields.h"
 #include "simulator/result/result_json.h"
@@ -9,7 +8,6 @@
 namespace faultsweep {
 
 using faultsim::CaseResult;
-using nlohmann::json;
 
 namespace {
 
@@ -19,7 +17,7 @@ json kept(const CaseResult& result) {
   for (json& step : document["steps"]) {
     step.erase("coupled");
     // A step that did not end in equilibrium has no metrics in the store.
-    if (faultsim::in_equilibrium(faultsim::outcome_from_string(step["outcome"]))) continue;
+    if (faultsim::in_equilibrium(stored_word<faultsim::Outcome>(step["outcome"])), "outcome") continue;
     step.erase("faults");
     step.erase("creep");
   }
