@@ -8,13 +8,12 @@
 #include "campaign/answers/what_matters.h"
 #include "campaign/app/commands.h"
 #include "campaign/app/print_answer.h"
+#include "campaign/common/names.h"
 #include "campaign/reports/compare.h"
 #include "campaign/reports/export.h"
 #include "simulator/files/output_target.h"
 
 namespace faultsweep {
-
-using faultsim::InputError;
 
 namespace {
 

@@ -9,13 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "campaign/common/names.h"
 #include "simulator/common/exit_code.h"
 
 /// The commands of faultsweep: each prints its data on stdout, its talk on stderr, and returns the
 /// exit code. Errors are thrown (common/errors.h).
 namespace faultsweep {
-
-using faultsim::ExitCode;
 
 /// What all commands share.
 struct StoreArguments {

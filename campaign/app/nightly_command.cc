@@ -3,13 +3,12 @@
 
 #include "campaign/app/commands.h"
 #include "campaign/app/print_answer.h"
+#include "campaign/common/names.h"
 #include "campaign/nightly/night.h"
 #include "campaign/nightly/night_report.h"
 #include "simulator/files/json_text.h"
 
 namespace faultsweep {
-
-using faultsim::InputError;
 
 namespace {
 

@@ -22,10 +22,6 @@
 namespace faultsweep {
 namespace {
 
-using faultsim::concat;
-using faultsim::counted;
-using faultsim::InputError;
-
 struct PillarArguments {
   std::filesystem::path table, scene, folder;
   std::filesystem::path names;        ///< JSON: what the table calls the columns; "" = as we do.

@@ -12,9 +12,6 @@
 namespace faultsweep {
 namespace {
 
-using faultsim::concat;
-using faultsim::InputError;
-
 struct PlotArguments {
   std::string chart;             ///< of case_charts(), or map, sensitivity, probability.
   std::string subject;           ///< campaign, or CAMPAIGN/CASE; "" = the newest campaign.

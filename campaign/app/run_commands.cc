@@ -84,14 +84,14 @@ void add_running(Program& program, int argc, char** argv) {
       ->add_option("--hostfile", a.hostfile,
                    "mpirun's list of hosts; without --workers as many ranks as it has slots")
       ->check(CLI::ExistingFile);
-  const std::map<std::string, ProgressDisplay::Style> styles = {
-      {"none", ProgressDisplay::Style::silent},
-      {"lines", ProgressDisplay::Style::lines},
-      {"bar", ProgressDisplay::Style::bar}};
   a.progress =
       isatty(STDERR_FILENO) != 0 ? ProgressDisplay::Style::bar : ProgressDisplay::Style::lines;
-  command->add_option("--progress", a.progress, "none, lines or bar; default: bar on a terminal")
-      ->transform(CLI::CheckedTransformer(styles));
+  command
+      ->add_option_function<std::string>(
+          "--progress",
+          [&a](const std::string& word) { a.progress = *named<ProgressDisplay::Style>(word); },
+          "none, lines or bar; default: bar on a terminal")
+      ->check(CLI::IsMember({"none", "lines", "bar"}));
   command->add_option("--simulator", a.simulator,
                       "the faultsim binary; default FAULTSIM_BINARY, or beside faultsweep");
   command->add_option("--memory", a.memory,

@@ -5,6 +5,8 @@
 #include "campaign/answers/why.h"
 #include "campaign/app/commands.h"
 #include "campaign/app/print_answer.h"
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
 #include "campaign/render/render.h"
 #include "campaign/reports/case_report.h"
 #include "campaign/reports/explain_report.h"
@@ -16,11 +18,6 @@
 #include "simulator/files/output_target.h"
 
 namespace faultsweep {
-
-using faultsim::concat;
-using faultsim::counted;
-using faultsim::InputError;
-using nlohmann::json;
 
 std::uint64_t parse_size(const std::string& option, const std::string& text) {
   char* end = nullptr;
