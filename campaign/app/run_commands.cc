@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <map>
 
 #include "campaign/app/commands.h"
 #include "campaign/rounds/next_round.h"
