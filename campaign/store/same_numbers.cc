@@ -17,7 +17,8 @@ json kept(const CaseResult& result) {
   for (json& step : document["steps"]) {
     step.erase("coupled");
     // A step that did not end in equilibrium has no metrics in the store.
-    if (faultsim::in_equilibrium(stored_word<faultsim::Outcome>(step["outcome"])), "outcome")
+    if (faultsim::in_equilibrium(
+            stored_word<faultsim::Outcome>(step["outcome"].get<std::string>(), "outcome")))
       continue;
     step.erase("faults");
     step.erase("creep");
