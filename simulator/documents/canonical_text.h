@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -32,13 +33,10 @@ void append_list(std::string& text, const List& list, Write&& write) {
   }
   text += ']';
 }
-template <typename Value>
-void append(std::string& text, const std::vector<Value>& list) {
-  append_list(text, list, [](std::string& to, const Value& one) { append(to, one); });
-}
-template <typename Value, std::size_t n>
-void append(std::string& text, const std::array<Value, n>& list) {
-  append_list(text, list, [](std::string& to, const Value& one) { append(to, one); });
+template <std::ranges::range List>
+requires(!std::is_convertible_v<List, std::string_view>) void append(std::string& text,
+                                                                     const List& list) {
+  append_list(text, list, [](std::string& to, const auto& one) { append(to, one); });
 }
 
 /// An object at the end of a text, whose members are added in any order.

@@ -21,7 +21,7 @@ struct ElasticMaterial {
 /// Displacement prescribed on a side: components, and u(x) = translation + gradient x (per unit
 /// factor).
 struct DisplacementCondition {
-  MeshSide side;
+  Side side;
   std::array<bool, 3> components;
   Eigen::Vector3d translation;
   Eigen::Matrix3d gradient;
@@ -94,11 +94,11 @@ Eigen::VectorXd pressure_load(const Mesh& mesh, const DofMap& dofs, int region);
 std::vector<std::pair<int, double>> dilatation_load(const Mesh& mesh, const DofMap& dofs, int cell);
 /// ∫_side N (Δσ n) over the sides given, N (plane strain: per metre; front and back left out),
 /// 3 x n_nodes.
-Eigen::Matrix3Xd nodal_stress_forces(const Mesh& mesh, const std::vector<MeshSide>& sides,
+Eigen::Matrix3Xd nodal_stress_forces(const Mesh& mesh, const std::vector<Side>& sides,
                                      const Eigen::Matrix3d& stress);
 /// f = Pᵀ ∫_side v·(Δσ n), total over the sides given.
-Eigen::VectorXd stress_load(const Mesh& mesh, const DofMap& dofs,
-                            const std::vector<MeshSide>& sides, const Eigen::Matrix3d& stress);
+Eigen::VectorXd stress_load(const Mesh& mesh, const DofMap& dofs, const std::vector<Side>& sides,
+                            const Eigen::Matrix3d& stress);
 /// f = −Pᵀ K_full d_k.
 Eigen::VectorXd displacement_load(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
                                   const DofMap& dofs, int load, bool b_bar);

@@ -81,12 +81,12 @@ std::vector<std::pair<int, double>> dilatation_load(const Mesh& mesh, const DofM
   return {load.begin(), load.end()};
 }
 
-Eigen::Matrix3Xd nodal_stress_forces(const Mesh& mesh, const std::vector<MeshSide>& sides,
+Eigen::Matrix3Xd nodal_stress_forces(const Mesh& mesh, const std::vector<Side>& sides,
                                      const Eigen::Matrix3d& stress) {
   Eigen::Matrix3Xd forces = no_forces(mesh);
   for (const BoundaryFace& face : mesh.boundary) {
-    if (!contains(sides, face.side)) continue;
-    const bool is_front_or_back = face.side == MeshSide::y_min || face.side == MeshSide::y_max;
+    if (std::find(sides.begin(), sides.end(), face.side) == sides.end()) continue;
+    const bool is_front_or_back = face.side == Side::y_min || face.side == Side::y_max;
     if (mesh.plane_strain && is_front_or_back) continue;
     const Eigen::Matrix<double, 3, 4> areas = nodal_area_vectors(mesh, face);
     for (int a = 0; a < 4; ++a) {
@@ -96,8 +96,8 @@ Eigen::Matrix3Xd nodal_stress_forces(const Mesh& mesh, const std::vector<MeshSid
   return forces;
 }
 
-Eigen::VectorXd stress_load(const Mesh& mesh, const DofMap& dofs,
-                            const std::vector<MeshSide>& sides, const Eigen::Matrix3d& stress) {
+Eigen::VectorXd stress_load(const Mesh& mesh, const DofMap& dofs, const std::vector<Side>& sides,
+                            const Eigen::Matrix3d& stress) {
   return gathered(dofs, nodal_stress_forces(mesh, sides, stress));
 }
 

@@ -25,20 +25,14 @@ Eigen::Vector3d FlowCellSearch::centre_of(int cell) const {
 }
 
 void FlowCellSearch::build(int begin, int end) {
-  Node node{.low = cells_[order_[begin]].low,
-            .high = cells_[order_[begin]].high,
-            .begin = begin,
-            .end = end,
-            .second_child = -1};
-  for (int i = begin; i < end; ++i) {
-    node.low = node.low.cwiseMin(cells_[order_[i]].low);
-    node.high = node.high.cwiseMax(cells_[order_[i]].high);
-  }
+  Node node{.box = {}, .begin = begin, .end = end, .second_child = -1};
+  for (int i = begin; i < end; ++i)
+    node.box.extend(cells_[order_[i]].low).extend(cells_[order_[i]].high);
   const std::size_t number = nodes_.size();
   nodes_.push_back(node);
   if (end - begin <= kLeaf) return;
   Eigen::Index axis = 0;
-  (node.high - node.low).maxCoeff(&axis);
+  node.box.sizes().maxCoeff(&axis);
   const int middle = begin + (end - begin) / 2;
   std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
                    [&](int a, int b) { return centre_of(a)[axis] < centre_of(b)[axis]; });
@@ -49,8 +43,8 @@ void FlowCellSearch::build(int begin, int end) {
 
 std::vector<int> FlowCellSearch::overlapping(const Eigen::Vector3d& low,
                                              const Eigen::Vector3d& high) const {
-  const auto meets = [&](const auto& box) {
-    return (box.low.array() < high.array()).all() && (box.high.array() > low.array()).all();
+  const auto meets = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    return (from.array() < high.array()).all() && (to.array() > low.array()).all();
   };
   std::vector<int> found;
   std::vector<int> open{0};
@@ -58,14 +52,15 @@ std::vector<int> FlowCellSearch::overlapping(const Eigen::Vector3d& low,
     const int number = open.back();
     const Node& node = nodes_[number];
     open.pop_back();
-    if (!meets(node)) continue;
+    if (!meets(node.box.min(), node.box.max())) continue;
     if (node.second_child >= 0) {
       open.push_back(number + 1);
       open.push_back(node.second_child);
       continue;
     }
     for (int i = node.begin; i < node.end; ++i) {
-      if (meets(cells_[order_[i]])) found.push_back(order_[i]);
+      const FlowCell& cell = cells_[order_[i]];
+      if (meets(cell.low, cell.high)) found.push_back(order_[i]);
     }
   }
   std::ranges::sort(found);
@@ -74,10 +69,7 @@ std::vector<int> FlowCellSearch::overlapping(const Eigen::Vector3d& low,
 
 int FlowCellSearch::nearest(const Eigen::Vector3d& point) const {
   // A centre lies in its cell's box: no cell of a node is nearer than the node's box.
-  const auto bound = [&](int node) {
-    const Eigen::Vector3d at = point.cwiseMax(nodes_[node].low).cwiseMin(nodes_[node].high);
-    return (at - point).squaredNorm();
-  };
+  const auto bound = [&](int node) { return nodes_[node].box.squaredExteriorDistance(point); };
   int best = -1;
   double least = std::numeric_limits<double>::infinity();
   std::vector<int> open{0};

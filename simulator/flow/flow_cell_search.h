@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "simulator/flow/flow_field.h"
@@ -24,7 +24,7 @@ class FlowCellSearch {
  private:
   /// The cells order_[begin, end) and the box around theirs. Its first child comes next in nodes_.
   struct Node {
-    Eigen::Vector3d low, high;
+    Eigen::AlignedBox3d box;
     int begin, end;
     int second_child;  ///< -1: a leaf.
   };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <map>
 #include <sstream>
 
 namespace faultsim {
@@ -23,6 +24,19 @@ CellCorners corners_of(const FlowCell& box) {
            {b.x(), a.y(), b.z()},
            {b.x(), b.y(), b.z()},
            {a.x(), b.y(), b.z()}}};
+}
+
+/// Of the corners, mm, in an order that does not depend on theirs.
+using CornerKey = std::vector<std::array<long, 3>>;
+
+CornerKey corner_key(const FlowCell& cell, double y_sign) {
+  CornerKey key;
+  for (const Eigen::Vector3d& at : cell.corners.value_or(corners_of(cell))) {
+    key.push_back(
+        {std::lround(1e3 * at.x()), std::lround(1e3 * y_sign * at.y()), std::lround(1e3 * at.z())});
+  }
+  std::ranges::sort(key);
+  return key;
 }
 
 }  // namespace
@@ -69,6 +83,22 @@ std::string pressure_doubt(const FlowField& field) {
                               : "bar read as psi is 14.5 times too low, and depths in another unit")
       << " look so too: check the units in the header";
   return out.str();
+}
+
+std::optional<double> asymmetry(const FlowField& field) {
+  std::map<CornerKey, Eigen::Index> cell_at;
+  for (std::size_t c = 0; c < field.cells.size(); ++c)
+    cell_at[corner_key(field.cells[c], 1)] = static_cast<Eigen::Index>(c);
+  double difference = 0;
+  for (std::size_t c = 0; c < field.cells.size(); ++c) {
+    const auto image = cell_at.find(corner_key(field.cells[c], -1));
+    if (image == cell_at.end()) return std::nullopt;
+    const auto row = static_cast<Eigen::Index>(c);
+    difference = std::max(
+        difference, (field.value.row(row) - field.value.row(image->second)).cwiseAbs().maxCoeff());
+  }
+  const double largest = field.value.cwiseAbs().maxCoeff();
+  return largest > 0 ? difference / largest : difference;
 }
 
 }  // namespace faultsim

@@ -42,4 +42,9 @@ FlowField placed(const FlowField& field, const std::array<double, 2>& origin, do
 /// depth 0 say nothing.
 std::string pressure_doubt(const FlowField& field);
 
+/// By how much a field differs from its mirror image about y = 0: the largest difference between
+/// the values of a cell and of its image at any report, over the largest value. Nothing where the
+/// grid is not its own mirror image, to a millimetre in every corner.
+std::optional<double> asymmetry(const FlowField& field);
+
 }  // namespace faultsim

@@ -84,16 +84,6 @@ FlowMapping map_flow(const FlowField& field, const std::vector<MappedCell>& cell
   return mapping;
 }
 
-Eigen::VectorXd mapped_values(const FlowMapping& mapping, const FlowField& field, int report) {
-  FAULTSIM_DEMAND(report >= 0 && report < field.value.cols(), "report ", report);
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(std::ssize(mapping.weights));
-  for (Eigen::Index c = 0; c < values.size(); ++c) {
-    for (const FlowMapping::Weight& weight : mapping.weights[c])
-      values[c] += weight.value * field.value(weight.flow_cell, report);
-  }
-  return values;
-}
-
 Eigen::MatrixXd mapped_change(const FlowMapping& mapping, const FlowField& field, int reference,
                               std::vector<int> reports) {
   FAULTSIM_DEMAND(reference >= 0 && reference < field.value.cols(), "report ", reference);

@@ -48,9 +48,6 @@ struct FlowMapping {
 FlowMapping map_flow(const FlowField& field, const std::vector<MappedCell>& cells,
                      const std::vector<std::string>& region_names, OutsideRule rule);
 
-/// Pressures of a report in our cells, Pa (n_cells): Σ_f w p_f; 0 where a cell is unchanged.
-Eigen::VectorXd mapped_values(const FlowMapping& mapping, const FlowField& field, int report);
-
 /// Δp of reports since another one in our cells, Pa (n_cells x n_reports): Σ_f w (p_f −
 /// p_f(reference)).
 /// @pre reference and reports are reports of the field.

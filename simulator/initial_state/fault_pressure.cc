@@ -9,19 +9,6 @@
 namespace faultsim {
 namespace {
 
-/// The two values around a place, and how far it is from the first to the second.
-struct Between {
-  std::size_t first = 0, second = 0;
-  double share = 0;
-};
-
-Between between(const std::vector<double>& x, double at) {
-  if (x.empty() || at <= x.front()) return {};
-  if (at >= x.back()) return {x.size() - 1, x.size() - 1, 0};
-  const auto next = static_cast<std::size_t>(std::ranges::upper_bound(x, at) - x.begin());
-  return {next - 1, next, (at - x[next - 1]) / (x[next] - x[next - 1])};
-}
-
 double mix(double share, double first, double second) { return first + share * (second - first); }
 
 /// The depths at which the initial pressure of a scene jumps.
@@ -31,32 +18,17 @@ std::vector<double> jumps(const Scene& scene) {
   return {layer.top, layer.bottom};
 }
 
-bool overlap(double low, double high, double other_low, double other_high) {
-  return low <= other_high && high >= other_low;
-}
-
 /// Whether a region of a box may touch a patch: their bounding boxes do. Of a leaning patch that is
 /// rather too often.
 bool may_touch(const PressureRegion& region, const PatchGeometry& patch) {
-  const bool disc = region.shape == RegionShape::disc;
-  const double a = 0.5 * patch.length, b = 0.5 * patch.width * std::sin(patch.dip_from_vertical);
-  const std::array<double, 2> half = {
-      std::abs(a * std::sin(patch.strike)) + std::abs(b * std::cos(patch.strike)),
-      std::abs(a * std::cos(patch.strike)) + std::abs(b * std::sin(patch.strike))};
-  for (std::size_t k = 0; k < 2; ++k) {
-    const double low = disc ? region.center[k] - region.radius : region.from[k];
-    const double high = disc ? region.center[k] + region.radius : region.to[k];
-    if (!overlap(low, high, patch.center[k] - half[k], patch.center[k] + half[k])) return false;
-  }
-  return true;
+  const Bounds a = bounds_of(region), b = bounds_of(patch);
+  const auto overlap = [&](std::size_t k) {
+    return a.low[k] <= b.high[k] && a.high[k] >= b.low[k];
+  };
+  return overlap(0) && overlap(1);
 }
 
-DepthInterval depths_of_region(const PressureRegion& region) {
-  const bool disc = region.shape == RegionShape::disc;
-  const double half = 0.5 * region.thickness;
-  return {-(disc ? region.center[2] + half : region.to[2]),
-          -(disc ? region.center[2] - half : region.from[2])};
-}
+DepthInterval depths_of(const Bounds& bounds) { return {-bounds.high[2], -bounds.low[2]}; }
 
 /// Where a prescribed pressure acts if it has no window: beside regions.
 std::vector<DepthInterval> depths_beside(const Scene& scene, std::size_t fault) {
@@ -67,7 +39,7 @@ std::vector<DepthInterval> depths_beside(const Scene& scene, std::size_t fault) 
     return all;
   }
   for (const PressureRegion& region : scene.box.regions) {
-    if (may_touch(region, scene.box.patches[fault])) all.push_back(depths_of_region(region));
+    if (may_touch(region, scene.box.patches[fault])) all.push_back(depths_of(bounds_of(region)));
   }
   return all;
 }

@@ -1,5 +1,6 @@
 #include "simulator/initial_state/initial_state.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -7,10 +8,6 @@
 
 namespace faultsim {
 namespace {
-
-const std::vector<Layer>& layers_of(const Scene& scene) {
-  return scene.geometry_kind == GeometryKind::field ? scene.field.layers : scene.box.layers;
-}
 
 /// The reference column: layers at zero offset, or the box's layers from z = 0 down.
 std::vector<ColumnPiece> reference_column(const Scene& scene) {
@@ -58,14 +55,8 @@ bool is_viscous_at(const Scene& scene, double depth, DepthSide side) {
 std::vector<ColumnPiece> block_column(const Scene& scene,
                                       const std::optional<DepthInterval>& reservoir) {
   const DepthInterval layer = reservoir_range(scene.field);
-  const double reservoir_density = [&] {
-    for (const Layer& each : scene.field.layers) {
-      if (each.name == scene.field.reservoir_layer) {
-        return material_named(scene, each.material).density;
-      }
-    }
-    return 0.0;
-  }();
+  const Layer& filled = scene.field.layers[reservoir_index(scene.field)];
+  const double reservoir_density = material_named(scene, filled.material).density;
   const double side_density = material_named(scene, scene.field.sideburden).density;
   const std::vector<ColumnPiece> reference = reference_column(scene);
   std::vector<double> cuts = {layer.top, layer.bottom};
@@ -156,6 +147,21 @@ StressAtDepth InitialColumn::at(double z, DepthSide side) const {
 
 StressAtDepth initial_state(const Scene& scene, double z, DepthSide side) {
   return InitialColumn(scene).at(z, side);
+}
+
+double least_stress(const Scene& scene, double depth, DepthSide side) {
+  const StressAtDepth at = initial_state(scene, -depth, side);
+  const Eigen::Matrix3d sigma =
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(at.sigma.data());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sigma, Eigen::EigenvaluesOnly);
+  return -solver.eigenvalues()[2];
+}
+
+DepthInterval depths_of_region(const Scene& scene, std::size_t region) {
+  if (scene.geometry_kind == GeometryKind::field)
+    return reservoir_range(scene.field, scene.field.blocks[region]);
+  const auto [low, high] = bounds_of(scene.box.regions[region]);
+  return {-std::min(high[2], scene.box.to[2]), -std::max(low[2], scene.box.from[2])};
 }
 
 double region_top(const Scene& scene, std::size_t region) {

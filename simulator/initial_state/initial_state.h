@@ -51,6 +51,12 @@ class InitialColumn {
   DepthInterval reservoir_;          ///< of a field.
 };
 
+/// Least compressive principal total stress at a depth, as a pressure, Pa.
+double least_stress(const Scene& scene, double depth, DepthSide side = DepthSide::mean);
+
+/// Of a pressure region: of a block's reservoir, or of a box's region as far as it is in the box.
+DepthInterval depths_of_region(const Scene& scene, std::size_t region);
+
 /// Depth of the top of a pressure region, m: of a block's reservoir at its offset, or of a box
 /// region (cut at the top of the box).
 double region_top(const Scene& scene, std::size_t region);

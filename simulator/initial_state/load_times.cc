@@ -119,11 +119,16 @@ std::vector<TurningPoint> turning_points(const Scene& scene) {
     for (const double time : field->time)
       points.push_back({.load = name, .from = time, .to = time, .is_report = true});
   }
-  double end = 0;
-  for (const Stage& stage : scene.stages) end += stage.duration;
+  const double end = end_time(scene);
   std::erase_if(points, [&](const TurningPoint& p) { return p.to <= 0 || p.from >= end; });
   std::ranges::stable_sort(points, {}, &TurningPoint::from);
   return points;
+}
+
+double end_time(const Scene& scene) {
+  double end = 0;
+  for (const Stage& stage : scene.stages) end += stage.duration;
+  return end;
 }
 
 std::vector<StepEnd> step_ends(const Scene& scene) {

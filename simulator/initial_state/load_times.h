@@ -37,6 +37,9 @@ inline constexpr double kMetShare = 0.01;
 /// boundaries. In order of `from`.
 std::vector<TurningPoint> turning_points(const Scene& scene);
 
+/// When the last stage ends, s.
+double end_time(const Scene& scene);
+
 /// All load steps after step 0, in order of time: each stage's equal steps, cut at the turning
 /// points that they do not meet (unless /numerics/turning_points is "report"). A plateau is met by
 /// any step within it, else cut where it begins.

@@ -2,7 +2,10 @@
 
 namespace faultsim {
 
-enum class WeakeningLaw { angle, coefficient };
+enum class WeakeningLaw {
+  angle,        ///< φ(s) = φ_s + (φ_d − φ_s) min(s/d_c, 1) (docs/model.md, 6).
+  coefficient,  ///< tan φ weakens linearly instead.
+};
 
 /// Constants of the friction of one fault point: Coulomb, weakening linearly with slip.
 struct CoulombLaw {

@@ -14,18 +14,8 @@ double radiation_damping(const OperatorNode& node) {
   return 0.5 * std::sqrt(kDensity * node.effective_shear_modulus);
 }
 
-WeakeningLaw weakening_of(FrictionLaw law) {
-  switch (law) {  // without default: the compiler asks for a law that is added
-    case FrictionLaw::angle:
-      return WeakeningLaw::angle;
-    case FrictionLaw::coefficient:
-      return WeakeningLaw::coefficient;
-  }
-  throw_internal("known friction law", "", __FILE__, __LINE__);
-}
-
 CoulombLaw law_of(const Friction& friction) {
-  CoulombLaw law = {.weakening = weakening_of(friction.law),
+  CoulombLaw law = {.weakening = friction.law,
                     .cohesion = friction.cohesion,
                     .static_friction_angle = friction.static_friction_angle,
                     .dynamic_friction_angle = friction.dynamic_friction_angle,

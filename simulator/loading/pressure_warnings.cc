@@ -1,6 +1,5 @@
 #include "simulator/loading/pressure_warnings.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -22,26 +21,6 @@ std::string years(double seconds) {
   return formatted("%.4g year", from_si(seconds, Dimension::time, "year"));
 }
 std::string metres(double value) { return formatted("%.0f m", value); }
-
-/// Least compressive principal total stress of the initial state, as a pressure, Pa.
-double least_stress(const Scene& scene, double depth, DepthSide side) {
-  const StressAtDepth at = initial_state(scene, -depth, side);
-  const Eigen::Matrix3d sigma =
-      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(at.sigma.data());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sigma, Eigen::EigenvaluesOnly);
-  return -solver.eigenvalues()[2];
-}
-
-DepthInterval depths_of_region(const Scene& scene, std::size_t region) {
-  if (scene.geometry_kind == GeometryKind::field) {
-    return reservoir_range(scene.field, scene.field.blocks[region]);
-  }
-  const PressureRegion& box = scene.box.regions[region];
-  const bool disc = box.shape == RegionShape::disc;
-  const double top = disc ? box.center[2] + 0.5 * box.thickness : box.to[2];
-  const double bottom = disc ? box.center[2] - 0.5 * box.thickness : box.from[2];
-  return {-std::min(top, scene.box.to[2]), -std::max(bottom, scene.box.from[2])};
-}
 
 /// Where a pressure acts and is judged.
 struct Place {

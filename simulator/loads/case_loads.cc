@@ -17,44 +17,6 @@ double sign_of(std::uint64_t index) {
   return (z >> 63) != 0 ? 1 : -1;
 }
 
-/// Pressures and temperatures of regions and what is prescribed at the boundary, each by its unit
-/// load: Σ c_k L_k.
-class UnitLoads final : public LoadSource {
- public:
-  UnitLoads(const Scene& scene, const FaultOperator& op, const LoadFactors& factors)
-      : scene_(scene), op_(op), factors_(factors) {}
-  void add(double time, StepLoads& loads) const override {
-    loads.pressure_change = pressure_changes(scene_, time);
-    loads.factors = factors_.at(time, loads.pressure_change);
-    const std::size_t n_condensed = op_.loads.traction.cols();
-    for (std::size_t k = 0; k < std::min(n_condensed, loads.factors.size()); ++k) {
-      if (loads.factors[k] != 0)
-        loads.locked += loads.factors[k] * op_.loads.traction.col(static_cast<Eigen::Index>(k));
-    }
-  }
-
- private:
-  const Scene& scene_;
-  const FaultOperator& op_;
-  const LoadFactors& factors_;
-};
-
-/// Pressures in the faults by their rules, from those of the regions.
-class FaultPressureRules final : public LoadSource {
- public:
-  FaultPressureRules(const Scene& scene, const FaultOperator& op, const LoadFactors& factors)
-      : scene_(scene), op_(op), factors_(factors) {}
-  void add(double time, StepLoads& loads) const override {
-    loads.fault_pressure_change = fault_pressure_change(
-        scene_, op_.geometry, factors_.region_of_load(), time, loads.pressure_change);
-  }
-
- private:
-  const Scene& scene_;
-  const FaultOperator& op_;
-  const LoadFactors& factors_;
-};
-
 }  // namespace
 
 PressureChanges between(const PressureChanges& before, const PressureChanges& after, double share) {
@@ -75,9 +37,7 @@ CaseLoads::CaseLoads(const Scene& scene, const FaultOperator& op, const LoadSour
       op_(op),
       load_factors_(scene, op),
       initial_(initial_traction(scene, op.geometry, load_factors_.region_of_load())),
-      sources_{std::make_shared<UnitLoads>(scene, op, load_factors_),
-               std::make_shared<FaultPressureRules>(scene, op, load_factors_),
-               std::make_shared<RegionalStress>(scene, op.geometry)},
+      sources_{std::make_shared<RegionalStress>(scene, op.geometry)},
       noise_(noise) {
   FAULTSIM_DEMAND(!scene.has_field() || !further.empty(), "the loads of the scene's field");
   sources_.insert(sources_.end(), further.begin(), further.end());
@@ -89,6 +49,14 @@ StepLoads CaseLoads::at(double time) const {
   StepLoads loads;
   loads.time = time;
   loads.locked = initial_.traction;
+  loads.pressure_change = pressure_changes(scene_, time);
+  loads.factors = load_factors_.at(time, loads.pressure_change);
+  const Eigen::MatrixXd& unit = op_.loads.traction;
+  for (Eigen::Index k = 0; k < std::min(unit.cols(), std::ssize(loads.factors)); ++k) {
+    if (loads.factors[k] != 0) loads.locked += loads.factors[k] * unit.col(k);
+  }
+  loads.fault_pressure_change = fault_pressure_change(
+      scene_, op_.geometry, load_factors_.region_of_load(), time, loads.pressure_change);
   for (const auto& source : sources_) source->add(time, loads);
   for (std::size_t f = 0; f < op_.geometry.faults.size(); ++f) {
     const OperatorFault& fault = op_.geometry.faults[f];

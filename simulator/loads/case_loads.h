@@ -19,8 +19,6 @@ class CaseLoads {
   /// @param noise  relative disturbance of every locked traction, to see what it does; 0 = none.
   CaseLoads(const Scene& scene, const FaultOperator& op, const LoadSources& further = {},
             double noise = 0);
-  CaseLoads(const CaseLoads&) = delete;  // its sources look at its load factors
-  CaseLoads& operator=(const CaseLoads&) = delete;
   /// What acts at a time, s.
   StepLoads at(double time) const;
   /// What the forces that are no load of the operator grow by from one time to another, N; empty

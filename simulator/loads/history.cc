@@ -1,45 +1,32 @@
 #include "simulator/loads/history.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "simulator/common/errors.h"
 #include "simulator/common/ranges.h"
 #include "simulator/initial_state/initial_state.h"
 #include "simulator/initial_state/load_times.h"
-#include "simulator/loads/fault_pressure_table.h"
+#include "simulator/initial_state/pressure_history.h"
 
 namespace faultsim {
 namespace {
 
-/// Piecewise linear through (x, y), constant beyond the last point; before the first: `before`.
-double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at,
-                   double before) {
-  if (at < x.front()) return before;
-  if (at >= x.back()) return y.back();
-  const auto next = std::ranges::upper_bound(x, at) - x.begin();
-  const auto i = static_cast<std::size_t>(next);
-  const double share = (at - x[i - 1]) / (x[i] - x[i - 1]);
-  return y[i - 1] + share * (y[i] - y[i - 1]);
-}
-
-double history_value(const PressureHistory& history, double time) {
-  if (history.time.empty() || time <= 0) return 0;
-  if (time < history.time.front()) {  // the history starts from 0 at t = 0
-    return history.pressure_change.front() * time / history.time.front();
+/// What a fault's rule makes of the values of the regions beside a node: per pair of neighbouring
+/// cells, then the mean over their areas.
+double mean_by_rule(const FaultPressure& law, const OperatorNode& node,
+                    const std::vector<int>& region_of_load, const std::vector<double>& per_region) {
+  const auto beside = [&](int load, double fraction) {
+    return load < 0 ? 0 : fraction * per_region[region_of_load[load]];
+  };
+  double mean = 0;
+  for (const PressurePair& pair : node.pressure) {
+    if (pair.minus_region < 0 && pair.plus_region < 0) continue;  // every rule of 0 and 0 is 0
+    mean += pair.weight * pressure_by_rule(law, beside(pair.minus_region, pair.minus_fraction),
+                                           beside(pair.plus_region, pair.plus_fraction));
   }
-  return interpolate(history.time, history.pressure_change, time, 0);
-}
-
-/// Of one region's value beside a node: its share, 0 where there is none.
-double share_of(const std::vector<int>& region_of_load, const std::vector<double>& per_region,
-                int load, double fraction) {
-  if (load < 0) return 0;
-  const int region = region_of_load[load];
-  return fraction * per_region[region];
-}
-
-bool has_region(const PressurePair& pair) {
-  return pair.minus_region >= 0 || pair.plus_region >= 0;
+  return mean;
 }
 
 bool in_window(const FaultPressure& law, const OperatorNode& node, const PressurePair& pair) {
@@ -66,22 +53,21 @@ bool is_stage_end(const std::vector<LoadStep>& steps, std::size_t i) {
 }
 
 std::vector<double> pressure_changes(const Scene& scene, double time) {
-  return mapped(scene.pressure, [&](const PressureHistory& history) {
-    return history.scale * history_value(history, time - history.lag);
-  });
+  std::vector<double> changes;
+  changes.reserve(scene.pressure.size());
+  for (const PressureHistory& history : scene.pressure)
+    changes.push_back(pressure_change_at(history, time));
+  return changes;
 }
 
 std::vector<double> temperature_changes(const Scene& scene, double time) {
   std::vector<double> changes(scene.pressure.size(), 0);
-  for (const TemperatureHistory& history : scene.temperature)
-    changes[static_cast<std::size_t>(history.region)] =
-        interpolate(history.time, history.change, time, 0);
+  for (const TemperatureHistory& history : scene.temperature) {
+    if (time >= history.time.front())
+      changes[static_cast<std::size_t>(history.region)] =
+          value_at(history.time, history.change, time);
+  }
   return changes;
-}
-
-double table_value(const TimeTable& table, double time) {
-  if (table.time.empty()) return 1;
-  return interpolate(table.time, table.factor, time, table.factor.front());
 }
 
 LoadFactors::LoadFactors(const Scene& scene, const FaultOperator& op)
@@ -103,7 +89,7 @@ std::vector<double> LoadFactors::at(double time, const std::vector<double>& pres
   std::vector<double> factors;
   for (const LoadKey& key : keys_) {
     if (key.kind == LoadKey::Kind::boundary) {
-      factors.push_back(table_value(scene_.box.boundary[key.index].table, time));
+      factors.push_back(factor_at(scene_.box.boundary[key.index].table, time));
       continue;
     }
     const Material& material = scene_.materials[key.material];
@@ -113,6 +99,27 @@ std::vector<double> LoadFactors::at(double time, const std::vector<double>& pres
     factors.push_back(stress);
   }
   return factors;
+}
+
+std::vector<SideRegions> side_regions(const FaultGeometry& geometry,
+                                      const std::vector<int>& region_of_load) {
+  std::vector<SideRegions> sides(geometry.nodes.size());
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    double most_minus = 0, most_plus = 0;
+    for (const PressurePair& pair : geometry.nodes[k].pressure) {
+      const double minus = pair.weight * pair.minus_fraction;
+      const double plus = pair.weight * pair.plus_fraction;
+      if (pair.minus_region >= 0 && minus > most_minus) {
+        most_minus = minus;
+        sides[k].minus = region_of_load[static_cast<std::size_t>(pair.minus_region)];
+      }
+      if (pair.plus_region >= 0 && plus > most_plus) {
+        most_plus = plus;
+        sides[k].plus = region_of_load[static_cast<std::size_t>(pair.plus_region)];
+      }
+    }
+  }
+  return sides;
 }
 
 bool prescribed_pressure_acts(const Scene& scene, const FaultGeometry& geometry,
@@ -141,54 +148,51 @@ Eigen::VectorXd initial_pressure_excess(const Scene& scene, const FaultGeometry&
     const OperatorFault& fault = geometry.faults[f];
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
       const OperatorNode& node = geometry.nodes[k];
-      if (std::ranges::none_of(node.pressure, has_region)) continue;
-      for (std::size_t r = 0; r < per_region.size(); ++r) {
+      for (std::size_t r = 0; r < per_region.size(); ++r)
         per_region[r] = own_pressure_excess(scene, r, node.position.z());
-      }
-      for (const PressurePair& pair : node.pressure) {
-        excess[k] +=
-            pair.weight *
-            pressure_by_rule(
-                law, share_of(region_of_load, per_region, pair.minus_region, pair.minus_fraction),
-                share_of(region_of_load, per_region, pair.plus_region, pair.plus_fraction));
-      }
+      excess[k] = mean_by_rule(law, node, region_of_load, per_region);
     }
   }
   return excess;
+}
+
+TablePlace place_in_table(const Scene& scene, std::size_t fault, const OperatorNode& node) {
+  const bool by_depth =
+      scene.faults[fault].pressure.profile.place == FaultPressureTable::Place::depth;
+  TablePlace place{-node.position.z(), node.position.y()};
+  if (scene.geometry_kind == GeometryKind::field) return place;
+  const PatchGeometry& patch = scene.box.patches[fault];
+  const double s = std::sin(patch.strike), c = std::cos(patch.strike);
+  const double dip = patch.dip_from_vertical;
+  const Eigen::Vector3d down(c * std::sin(dip), -s * std::sin(dip), -std::cos(dip));
+  const Eigen::Vector3d from =
+      node.position - Eigen::Vector3d(patch.center[0], patch.center[1], patch.center[2]);
+  place.strike = from.dot(Eigen::Vector3d(s, c, 0));
+  if (!by_depth) place.dip = from.dot(down);
+  return place;
 }
 
 Eigen::VectorXd fault_pressure_change(const Scene& scene, const FaultGeometry& geometry,
                                       const std::vector<int>& region_of_load, double time,
                                       const std::vector<double>& pressure_change) {
   Eigen::VectorXd change = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(geometry.nodes.size()));
-  const auto cell_change = [&](int load, double fraction) {
-    return share_of(region_of_load, pressure_change, load, fraction);
-  };
   for (std::size_t f = 0; f < geometry.faults.size(); ++f) {
     const FaultPressure& law = scene.faults[f].pressure;
-    if (law.rule == FaultPressureRule::none) continue;
     const bool prescribed = law.rule == FaultPressureRule::prescribed;
     const double given = prescribed ? prescribed_pressure_change(scene, law, time) : 0;
     const OperatorFault& fault = geometry.faults[f];
-    if (law.rule == FaultPressureRule::table) {
-      for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
-        const TablePlace at = place_in_table(scene, f, geometry.nodes[k]);
-        change[k] = table_pressure(law.profile, at.dip, at.strike, time);
-      }
-      continue;
-    }
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
       const OperatorNode& node = geometry.nodes[k];
-      double sum = 0;
-      for (const PressurePair& pair : node.pressure) {
-        if (!prescribed && !has_region(pair)) continue;  // every rule of 0 and 0 is 0
-        const double value =
-            prescribed ? (in_window(law, node, pair) ? given : 0.0)
-                       : pressure_by_rule(law, cell_change(pair.minus_region, pair.minus_fraction),
-                                          cell_change(pair.plus_region, pair.plus_fraction));
-        sum += pair.weight * value;
+      if (law.rule == FaultPressureRule::table) {
+        const TablePlace at = place_in_table(scene, f, node);
+        change[k] = table_pressure(law.profile, at.dip, at.strike, time);
+      } else if (prescribed) {
+        for (const PressurePair& pair : node.pressure) {
+          if (in_window(law, node, pair)) change[k] += pair.weight * given;
+        }
+      } else {
+        change[k] = mean_by_rule(law, node, region_of_load, pressure_change);
       }
-      change[k] = sum;
     }
   }
   return change;

@@ -28,9 +28,6 @@ std::vector<double> pressure_changes(const Scene& scene, double time);
 /// ΔT of each region at time t, K: 0 at t = 0.
 std::vector<double> temperature_changes(const Scene& scene, double time);
 
-/// Value of a table at time t: piecewise linear, constant outside; 1 if the table is empty.
-double table_value(const TimeTable& table, double time);
-
 /// The factors c_k of the operator's loads at a time: b Δp + 3 K α_T ΔT for pressure loads, the
 /// table's value for boundary loads. Keys that the scene does not know are our bug (InternalError).
 class LoadFactors {
@@ -47,6 +44,17 @@ class LoadFactors {
   std::vector<int> region_of_load_;  // −1 for boundary loads
 };
 
+/// The pressure region that a fault node touches on each side; -1 = none.
+struct SideRegions {
+  int minus = -1, plus = -1;
+};
+
+/// Per node the regions with the largest area beside it: over the pairs of neighbouring cells, area
+/// times the share of the cell in the region.
+/// @param region_of_load  of LoadFactors.
+std::vector<SideRegions> side_regions(const FaultGeometry& geometry,
+                                      const std::vector<int>& region_of_load);
+
 /// Whether a prescribed change reaches any node of the fault: its window, or the cells beside it.
 bool prescribed_pressure_acts(const Scene& scene, const FaultGeometry& geometry, std::size_t fault);
 
@@ -56,6 +64,13 @@ bool prescribed_pressure_acts(const Scene& scene, const FaultGeometry& geometry,
 /// pressure of the column.
 Eigen::VectorXd initial_pressure_excess(const Scene& scene, const FaultGeometry& geometry,
                                         const std::vector<int>& region_of_load);
+
+/// Where a node is in the table of its fault: depth or distance down dip from the centre of the
+/// patch, and distance along strike from that centre (field: y), m.
+struct TablePlace {
+  double dip = 0, strike = 0;
+};
+TablePlace place_in_table(const Scene& scene, std::size_t fault, const OperatorNode& node);
 
 /// Δp_f of every fault node at a time, Pa (n_nodes): per pair of neighbouring cells by the fault's
 /// rule, then the area-weighted mean (docs/model.md, section 5). A prescribed change without a

@@ -8,6 +8,12 @@
 
 namespace faultsim {
 
+/// The n, strike and dip components of the traction of a stress on a fault, Pa.
+inline Eigen::Vector3d local_traction(const Eigen::Matrix3d& stress, const OperatorNode& node) {
+  const Eigen::Vector3d total = stress * node.normal;
+  return {total.dot(node.normal), total.dot(node.strike), total.dot(node.dip)};
+}
+
 /// Initial effective traction on the faults and the initial pressure there.
 struct InitialTraction {
   Eigen::VectorXd traction;  ///< t'_0 = σ0 n + α_f p0 n, n_dofs, Pa.

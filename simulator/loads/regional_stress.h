@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "simulator/common/errors.h"
+#include "simulator/loads/initial_traction.h"
 #include "simulator/loads/load_source.h"
 #include "simulator/model/fault_operator.h"
 #include "simulator/scene/scene.h"
@@ -27,7 +28,7 @@ class RegionalStress final : public LoadSource {
     const Eigen::Matrix3d stress = change_at(time);
     if (stress.isZero(0)) return;
     for (const OperatorNode& node : faults_.nodes) {
-      const Eigen::Vector3d local = traction(stress, node);
+      const Eigen::Vector3d local = local_traction(stress, node);
       for (std::size_t c = 0; c < 3; ++c)
         if (node.dof[c] >= 0) loads.locked[node.dof[c]] += local[static_cast<Eigen::Index>(c)];
     }
@@ -35,12 +36,6 @@ class RegionalStress final : public LoadSource {
 
  private:
   using Tensor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-
-  /// n, strike and dip components.
-  static Eigen::Vector3d traction(const Eigen::Matrix3d& stress, const OperatorNode& node) {
-    const Eigen::Vector3d total = stress * node.normal;
-    return {total.dot(node.normal), total.dot(node.strike), total.dot(node.dip)};
-  }
 
   Eigen::Matrix3d change_at(double time) const {
     Eigen::Matrix3d before = Eigen::Matrix3d::Zero();
@@ -60,7 +55,7 @@ class RegionalStress final : public LoadSource {
     const Eigen::Matrix3d stress =
         Eigen::Map<const Tensor>(scene_.stages[stage].stress_change->data());
     for (const OperatorNode& node : faults_.nodes) {
-      const Eigen::Vector3d local = traction(stress, node);
+      const Eigen::Vector3d local = local_traction(stress, node);
       for (std::size_t c = 0; c < 3; ++c) {
         if (node.dof[c] >= 0 ||
             std::abs(local[static_cast<Eigen::Index>(c)]) <= 1e-9 * stress.norm())

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "simulator/loads/case_loads.h"
-#include "simulator/loads/side_regions.h"
+#include "simulator/loads/history.h"
 #include "simulator/model/fault_operator.h"
 #include "simulator/result/result.h"
 #include "simulator/scene/scene.h"

@@ -15,21 +15,6 @@ using Eigen::Vector3d;
 constexpr std::array<const char*, 3> kAxisName = {"x", "y", "z"};
 
 void check_sizes(const BoxMeshSpec& spec, std::vector<Problem>& problems) {
-  for (size_t d = 0; d < 3; ++d)
-    if (!(spec.to[d] > spec.from[d]) || !std::isfinite(spec.to[d] - spec.from[d]))
-      problems.push_back({concat("/geometry/to/", d), 0, concat("is not above /geometry/from/", d),
-                          "give the box an extent"});
-  const auto positive = [&](double size, const char* pointer) {
-    if (!(size > 0) || !std::isfinite(size))
-      problems.push_back({pointer, 0, concat(size, " m is not a size"), "give a positive length"});
-  };
-  if (!spec.plane_strain) positive(spec.sizes.strike, "/mesh/strike");
-  positive(spec.sizes.dip, "/mesh/dip");
-  positive(spec.sizes.normal, "/mesh/normal");
-  if (!(spec.sizes.growth >= 1))
-    problems.push_back(
-        {"/mesh/growth", 0, concat(spec.sizes.growth, " is below 1"), "use 1.3, say"});
-  if (!problems.empty()) return;
   const double least = std::min(
       {spec.sizes.dip, spec.sizes.normal, spec.plane_strain ? spec.sizes.dip : spec.sizes.strike});
   const double most = 1e6;  // lines per axis
@@ -38,36 +23,20 @@ void check_sizes(const BoxMeshSpec& spec, std::vector<Problem>& problems) {
       problems.push_back({"/mesh", 0, "cells are a millionth of the box", "use larger cells"});
 }
 
-void check_layers(const BoxMeshSpec& spec, std::vector<Problem>& problems) {
-  const std::vector<double>& tops = spec.layer_tops_z;
-  FAULTSIM_DEMAND(
-      !spec.layer_materials.empty() && (tops.empty() || tops.size() == spec.layer_materials.size()),
-      tops.size(), " ", spec.layer_materials.size());
-  if (!tops.empty() && tops[0] < spec.to[2] - edge_tolerance(spec))
-    problems.push_back({"/geometry/layers/0/top_depth", 0,
-                        "the first layer starts below the top of the box",
-                        concat("use a depth of ", -spec.to[2], " m")});
-  for (size_t i = 1; i < tops.size(); ++i)
-    if (!(tops[i] < tops[i - 1]))
-      problems.push_back({concat("/geometry/layers/", i, "/top_depth"), 0,
-                          "is not below the layer above", "order layers by depth"});
-}
-
 void check_regions(const BoxMeshSpec& spec, std::vector<Problem>& problems) {
-  const auto overlaps = [](const auto& a, const auto& b, double tolerance) {
+  const double tolerance = edge_tolerance(spec);
+  const auto overlaps = [&](const Bounds& a, const Bounds& b) {
     for (size_t d = 0; d < 3; ++d)
-      if (std::min(a[1][d], b[1][d]) - std::max(a[0][d], b[0][d]) <= tolerance) return false;
+      if (std::min(a.high[d], b.high[d]) - std::max(a.low[d], b.low[d]) <= tolerance) return false;
     return true;
   };
-  const double tolerance = edge_tolerance(spec);
-  const std::array<std::array<double, 3>, 2> body = {spec.from, spec.to};
   for (size_t i = 0; i < spec.regions.size(); ++i) {
-    const auto bounds = region_bounds(spec.regions[i]);
-    if (!overlaps(bounds, body, tolerance))
+    const Bounds bounds = bounds_of(spec.regions[i]);
+    if (!overlaps(bounds, {spec.from, spec.to}))
       problems.push_back({concat("/geometry/regions/", i), 0, "is empty or lies outside the box",
                           "give it a part of the box"});
     for (size_t j = 0; j < i; ++j)
-      if (overlaps(bounds, region_bounds(spec.regions[j]), tolerance))
+      if (overlaps(bounds, bounds_of(spec.regions[j])))
         problems.push_back({concat("/geometry/regions/", i), 0,
                             concat("overlaps region ", j, " (discs by their bounding boxes)"),
                             "a cell has one pressure: make regions disjoint"});
@@ -117,7 +86,7 @@ class LayoutBuilder {
       orient(frame, axis);
       const bool bent =
           std::abs(component(frame.normal, axis)) < 1 - kAngleTolerance * kAngleTolerance;
-      if (axis == 2 && bent && spec_.layer_tops_z.size() > 1)
+      if (axis == 2 && bent && spec_.layers.size() > 1)
         problems_.push_back(
             {patch_pointer(static_cast<size_t>(&frame - layout_.frames.data())), 0,
              "is flatter than 45 deg but not horizontal, which would bend the layers",
@@ -373,22 +342,23 @@ class LayoutBuilder {
   }
 
   void make_lines() {
-    std::array<std::vector<double>, 3> lines;
     for (size_t d = 0; d < 3; ++d) {
       if (spec_.plane_strain && d == 1) {
-        lines[d] = {spec_.from[1], spec_.to[1]};
+        layout_.lines[d] = {spec_.from[1], spec_.to[1]};
         continue;
       }
       LineBuilder builder(spec_.from[d], spec_.to[d], spec_.sizes.growth, spec_.sizes.largest);
       add_patch_lines(d, builder);
-      for (const BoxMeshSpec::Region& region : spec_.regions)
-        for (const auto& corner : region_bounds(region)) builder.add_line(corner[d]);
+      for (const PressureRegion& region : spec_.regions) {
+        const Bounds bounds = bounds_of(region);
+        builder.add_line(bounds.low[d]);
+        builder.add_line(bounds.high[d]);
+      }
       if (d == 2)
-        for (const double top : spec_.layer_tops_z) builder.add_line(top);
+        for (const Layer& layer : spec_.layers) builder.add_line(-layer.top_depth);
       if (layout_.frames.empty()) add_windows_without_patch(d, builder);
-      lines[d] = builder.build();
+      layout_.lines[d] = builder.build();
     }
-    layout_.lines = {std::move(lines[0]), std::move(lines[1]), std::move(lines[2])};
   }
 
   void add_patch_lines(size_t d, LineBuilder& builder) const {
@@ -408,10 +378,10 @@ class LayoutBuilder {
 
   /// Without patches the regions are what needs small cells; without those, all is even.
   void add_windows_without_patch(size_t d, LineBuilder& builder) const {
-    for (const BoxMeshSpec::Region& region : spec_.regions) {
-      const auto bounds = region_bounds(region);
-      builder.add_window(bounds[0][d] - spec_.sizes.fine_margin,
-                         bounds[1][d] + spec_.sizes.fine_margin, size_[d]);
+    for (const PressureRegion& region : spec_.regions) {
+      const Bounds bounds = bounds_of(region);
+      builder.add_window(bounds.low[d] - spec_.sizes.fine_margin,
+                         bounds.high[d] + spec_.sizes.fine_margin, size_[d]);
     }
     if (spec_.regions.empty()) builder.add_window(spec_.from[d], spec_.to[d], size_[d]);
   }
@@ -437,10 +407,7 @@ BoxLayout box_layout(const BoxMeshSpec& spec, std::vector<Problem>& problems) {
   std::vector<Problem> found;
   check_sizes(spec, found);
   BoxLayout layout;
-  if (found.empty()) {
-    check_layers(spec, found);
-    check_regions(spec, found);
-  }
+  if (found.empty()) check_regions(spec, found);
   if (found.empty()) {
     try {
       layout = LayoutBuilder(spec, found).build();

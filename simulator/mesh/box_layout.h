@@ -33,10 +33,7 @@ struct CellRegions {
   std::vector<int> region;
   std::vector<double> fraction;
 };
-CellRegions cell_regions(const BoxMeshSpec& spec, const std::array<std::vector<double>, 3>& lines);
-
-/// Lower and upper corner of a region.
-std::array<std::array<double, 3>, 2> region_bounds(const BoxMeshSpec::Region& region);
+CellRegions cell_regions(const BoxMeshSpec& spec, const GridLines& lines);
 
 /// Area of the part of a disc of this radius around (0, 0) that lies in [x0, x1] x [y0, y1], exact.
 double disc_rectangle_area(double radius, double x0, double x1, double y0, double y1);

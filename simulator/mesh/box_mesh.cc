@@ -43,7 +43,7 @@ void fill_cells(const BoxMeshSpec& spec, StructuredGrid& grid) {
   for (size_t k = 0; k + 1 < grid.n_lines(2); ++k) {
     const double middle = 0.5 * (grid.lines[2][k] + grid.lines[2][k + 1]);
     size_t layer = 0;
-    while (layer + 1 < spec.layer_tops_z.size() && middle < spec.layer_tops_z[layer + 1]) ++layer;
+    while (layer + 1 < spec.layers.size() && middle < -spec.layers[layer + 1].top_depth) ++layer;
     grid.material.insert(grid.material.end(), per_layer, spec.layer_materials[layer]);
   }
   CellRegions regions = cell_regions(spec, grid.lines);
@@ -55,7 +55,7 @@ GridFault box_fault(const BoxMeshSpec& spec, const BoxLayout& layout, const Stru
                     size_t patch) {
   const PatchFrame& frame = layout.frames[patch];
   GridFault fault;
-  fault.name = spec.patches[patch].name;
+  fault.name = spec.fault_names[patch];
   fault.axis = layout.axis;
   fault.column_axis = layout.column_axis;
   fault.row_axis = layout.row_axis;
@@ -83,7 +83,7 @@ GridFault box_fault(const BoxMeshSpec& spec, const BoxLayout& layout, const Stru
 GridLines grid_lines(const BoxMeshSpec& spec, std::vector<Problem>& problems) {
   std::vector<Problem> found;
   GridLines lines = box_layout(spec, found).lines;
-  if (found.empty()) found = grid_size_problems({lines.x, lines.y, lines.z});
+  if (found.empty()) found = grid_size_problems(lines);
   problems.insert(problems.end(), found.begin(), found.end());
   return found.empty() ? lines : GridLines{};
 }
@@ -92,7 +92,7 @@ Mesh make_mesh(const BoxMeshSpec& spec) {
   std::vector<Problem> problems;
   BoxLayout layout = box_layout(spec, problems);
   StructuredGrid grid;
-  grid.lines = {std::move(layout.lines.x), std::move(layout.lines.y), std::move(layout.lines.z)};
+  grid.lines = std::move(layout.lines);
   if (problems.empty()) problems = grid_size_problems(grid.lines);
   if (!problems.empty()) throw InputError("scene", problems);
   grid.tied = spec.tied;

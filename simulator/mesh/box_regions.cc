@@ -58,32 +58,24 @@ double disc_rectangle_area(double radius, double x0, double x1, double y0, doubl
   return area;
 }
 
-std::array<std::array<double, 3>, 2> region_bounds(const BoxMeshSpec::Region& region) {
-  if (!region.disc) return {region.from, region.to};
-  const auto& c = region.center;
-  const double r = region.radius, half = 0.5 * region.thickness;
-  return {{{c[0] - r, c[1] - r, c[2] - half}, {c[0] + r, c[1] + r, c[2] + half}}};
-}
-
-CellRegions cell_regions(const BoxMeshSpec& spec, const std::array<std::vector<double>, 3>& lines) {
+CellRegions cell_regions(const BoxMeshSpec& spec, const GridLines& lines) {
   const size_t nx = lines[0].size() - 1, ny = lines[1].size() - 1, nz = lines[2].size() - 1;
   CellRegions cells;
   cells.region.assign(nx * ny * nz, -1);
   cells.fraction.assign(nx * ny * nz, 0.0);
   for (size_t n = 0; n < spec.regions.size(); ++n) {
-    const BoxMeshSpec::Region& region = spec.regions[n];
-    const auto bounds = region_bounds(region);
+    const PressureRegion& region = spec.regions[n];
+    const auto [low, high] = bounds_of(region);
     std::array<std::array<size_t, 2>, 3> range;
-    for (size_t d = 0; d < 3; ++d)
-      range[d] = overlapping_cells(lines[d], bounds[0][d], bounds[1][d]);
-    const auto share = [&](size_t d, size_t i) {
+    for (size_t d = 0; d < 3; ++d) range[d] = overlapping_cells(lines[d], low[d], high[d]);
+    const auto share = [&, &from = low, &to = high](size_t d, size_t i) {
       const double a = lines[d][i], b = lines[d][i + 1];
-      return overlap(a, b, bounds[0][d], bounds[1][d]) / (b - a);
+      return overlap(a, b, from[d], to[d]) / (b - a);
     };
     for (size_t j = range[1][0]; j < range[1][1]; ++j)
       for (size_t i = range[0][0]; i < range[0][1]; ++i) {
         double plan_share = share(0, i) * share(1, j);
-        if (region.disc) {
+        if (region.shape == RegionShape::disc) {
           const double x0 = lines[0][i], x1 = lines[0][i + 1], y0 = lines[1][j],
                        y1 = lines[1][j + 1];
           plan_share =

@@ -7,6 +7,7 @@
 #include "simulator/mesh/mesh_spec.h"
 #include "simulator/mesh/shear.h"
 #include "simulator/mesh/structured_grid.h"
+#include "simulator/scene/field_depths.h"
 
 namespace faultsim {
 namespace {
@@ -18,131 +19,23 @@ constexpr double kLeastRest = 0.1;       // of a cell; a thinner rest is spread 
 constexpr double kLeastGap = 0.5, kLargestGap = 2.5;  // of a gap between lines that are moved
 constexpr int kEdgeCells = 2;  // cells of exactly sizes.dip on each side of a reservoir edge
 
-struct DepthRange {
-  double top, bottom;  // m, top < bottom
-};
-
-double reservoir_top(const FieldMeshSpec& spec) {
-  return spec.layer_tops[static_cast<size_t>(spec.reservoir_layer)];
-}
-double reservoir_base(const FieldMeshSpec& spec) {
-  const size_t below = static_cast<size_t>(spec.reservoir_layer) + 1;
-  return below < spec.layer_tops.size() ? spec.layer_tops[below] : spec.depth;
-}
-DepthRange reservoir_of(const FieldMeshSpec& spec, const FieldMeshSpec::Block& block) {
-  const double top = reservoir_top(spec) + block.offset;
-  return {top, block.thickness ? top + *block.thickness : reservoir_base(spec) + block.offset};
-}
-
-/// x at the pivot depth of fault i.
-double fault_x(const FieldMeshSpec& spec, size_t i) {
-  return i < spec.blocks.size() ? spec.blocks[i].from : spec.blocks.back().to;
-}
-
-/// From overshoot above the shallowest to overshoot below the deepest reservoir edge that the fault
-/// touches: one block for the outer faults, two for the others.
-DepthRange fault_range(const FieldMeshSpec& spec, size_t i) {
-  DepthRange range = {std::numeric_limits<double>::infinity(), 0};
-  for (size_t b = i == 0 ? 0 : i - 1; b <= i && b < spec.blocks.size(); ++b) {
-    const DepthRange reservoir = reservoir_of(spec, spec.blocks[b]);
-    range.top = std::min(range.top, reservoir.top - spec.fault_overshoot);
-    range.bottom = std::max(range.bottom, reservoir.bottom + spec.fault_overshoot);
-  }
-  return range;
-}
-
-DepthRange all_faults_range(const FieldMeshSpec& spec) {
-  DepthRange all = fault_range(spec, 0);
-  for (size_t i = 1; i <= spec.blocks.size(); ++i) {
-    const DepthRange range = fault_range(spec, i);
-    all = {std::min(all.top, range.top), std::max(all.bottom, range.bottom)};
-  }
-  return all;
-}
-
-bool along_strike_is_grid(const FieldMeshSpec& spec) { return !spec.plane_strain; }
-
 void check_sizes(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
-  const auto positive = [&](double value, const char* pointer) {
-    if (!(value > 0) || !std::isfinite(value))
-      problems.push_back({pointer, 0, concat(value, " m is not a size"), "give a positive length"});
-  };
-  positive(spec.width, "/geometry/width");
-  if (along_strike_is_grid(spec)) {
-    positive(spec.length, "/geometry/length");
-    positive(spec.block_length, "/geometry/block_length");
-    positive(spec.fault_length, "/geometry/fault_length");
-    positive(spec.sizes.strike, "/mesh/strike");
-  }
-  positive(spec.depth, "/geometry/depth");
-  positive(spec.sizes.dip, "/mesh/dip");
-  positive(spec.sizes.normal, "/mesh/normal");
-  if (!(spec.sizes.corner_growth >= 1))
-    problems.push_back({"/mesh/corner_growth", 0, concat(spec.sizes.corner_growth, " is below 1"),
-                        "use 1.5, say"});
-  if (!(spec.sizes.growth >= 1))
-    problems.push_back(
-        {"/mesh/growth", 0, concat(spec.sizes.growth, " is below 1"), "use 1.3, say"});
-  if (!(spec.fault_overshoot >= 0))
-    problems.push_back({"/geometry/fault_overshoot", 0, "is negative", "use 0 or more"});
   const double most = 1e6;  // lines per axis
-  if (problems.empty() &&
-      (spec.depth / (spec.sizes.grades_corners() ? spec.sizes.corner : spec.sizes.dip) > most ||
-       spec.width / spec.sizes.normal > most ||
-       (along_strike_is_grid(spec) && spec.length / spec.sizes.strike > most)))
+  if (spec.depth / (spec.sizes.grades_corners() ? spec.sizes.corner : spec.sizes.dip) > most ||
+      spec.width / spec.sizes.normal > most ||
+      (!spec.plane_strain && spec.length / spec.sizes.strike > most))
     problems.push_back({"/mesh", 0, "cells are a millionth of the model", "use larger cells"});
-}
-
-void check_layers(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
-  const std::vector<double>& tops = spec.layer_tops;
-  FAULTSIM_DEMAND(tops.size() == spec.layer_materials.size() && !tops.empty() &&
-                      spec.reservoir_layer >= 0 &&
-                      static_cast<size_t>(spec.reservoir_layer) < tops.size(),
-                  tops.size(), " ", spec.reservoir_layer);
-  for (size_t i = 0; i < tops.size(); ++i) {
-    const std::string pointer = concat("/geometry/layers/", i, "/top_depth");
-    if (i == 0 && tops[i] != 0)
-      problems.push_back(
-          {pointer, 0, "the first layer does not start at the surface", "use \"0 m\""});
-    if (i > 0 && !(tops[i] > tops[i - 1]))
-      problems.push_back({pointer, 0, "is not below the layer above", "order layers by depth"});
-    if (!(tops[i] < spec.depth))
-      problems.push_back({pointer, 0, "is below the base of the model",
-                          concat("use less than ", spec.depth, " m or a deeper model")});
-  }
-}
-
-void check_blocks(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
-  if (spec.blocks.empty()) {
-    problems.push_back({"/geometry/blocks", 0, "has no block", "give at least one"});
-    return;
-  }
-  FAULTSIM_DEMAND(spec.fault_names.size() == spec.blocks.size() + 1 &&
-                      spec.fault_dips.size() == spec.blocks.size() + 1,
-                  spec.fault_names.size(), " ", spec.fault_dips.size());
   for (size_t i = 0; i < spec.blocks.size(); ++i) {
-    const FieldMeshSpec::Block& block = spec.blocks[i];
-    const std::string pointer = concat("/geometry/blocks/", i);
-    if (!(block.to - block.from > 2 * kEdgeTolerance))
-      problems.push_back({pointer + "/to", 0, "is not east of `from`", "give a block some width"});
-    if (block.thickness && !(*block.thickness > 2 * kEdgeTolerance))
-      problems.push_back({pointer + "/thickness", 0, "is not a thickness", "write 1 m or more"});
-    if (i > 0 && std::abs(block.from - spec.blocks[i - 1].to) > kEdgeTolerance)
-      problems.push_back({pointer + "/from", 0,
-                          concat(block.from, " m is not where the block west of it ends, ",
-                                 spec.blocks[i - 1].to, " m"),
-                          "blocks are contiguous from west to east"});
+    if (spec.blocks[i].to - spec.blocks[i].from > 2 * kEdgeTolerance) continue;
+    problems.push_back({concat("/geometry/blocks/", i, "/to"), 0, "is not east of `from`",
+                        "give a block some width"});
   }
-  if (!(spec.blocks.front().from > -0.5 * spec.width) ||
-      !(spec.blocks.back().to < 0.5 * spec.width))
-    problems.push_back({"/geometry/width", 0, "the blocks reach the sides of the model",
-                        "make the model wider than its blocks"});
 }
 
 void check_faults(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
   for (size_t i = 0; i < spec.blocks.size(); ++i) {
     const std::string pointer = concat("/geometry/blocks/", i, "/offset");
-    const DepthRange range = reservoir_of(spec, spec.blocks[i]);
+    const DepthInterval range = reservoir_range(spec, spec.blocks[i]);
     if (!(range.top - spec.fault_overshoot > 0))
       problems.push_back({pointer, 0, "puts the top of a fault at or above the surface",
                           "use a larger offset or a smaller fault_overshoot"});
@@ -163,7 +56,7 @@ void check_faults(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
 Shear field_shear(const FieldMeshSpec& spec) {
   std::vector<BentPlane> planes;
   for (size_t i = 0; i <= spec.blocks.size(); ++i) {
-    const DepthRange range = fault_range(spec, i);
+    const DepthInterval range = fault_range(spec, i);
     const double margin = kShearMargin * spec.sizes.dip;
     BentPlane plane;
     plane.ref = fault_x(spec, i);
@@ -211,13 +104,13 @@ std::vector<double> field_y(const FieldMeshSpec& spec) {
 /// their own, the same for all offsets.
 std::vector<double> special_z(const FieldMeshSpec& spec) {
   std::vector<double> z = {-spec.depth, 0};
-  for (const double top : spec.layer_tops) z.push_back(-top);
-  for (const FieldMeshSpec::Block& block : spec.blocks) {
-    const DepthRange range = reservoir_of(spec, block);
+  for (const Layer& layer : spec.layers) z.push_back(-layer.top_depth);
+  for (const Block& block : spec.blocks) {
+    const DepthInterval range = reservoir_range(spec, block);
     z.insert(z.end(), {-range.top, -range.bottom});
   }
   for (size_t i = 0; i <= spec.blocks.size(); ++i) {
-    const DepthRange range = fault_range(spec, i);
+    const DepthInterval range = fault_range(spec, i);
     z.insert(z.end(), {-range.top, -range.bottom});
   }
   return z;
@@ -233,8 +126,8 @@ std::vector<double> must_lines(const FieldMeshSpec& spec) {
 }
 
 bool is_reservoir_edge(const FieldMeshSpec& spec, double z) {
-  return std::ranges::any_of(spec.blocks, [&](const FieldMeshSpec::Block& block) {
-    const DepthRange range = reservoir_of(spec, block);
+  return std::any_of(spec.blocks.begin(), spec.blocks.end(), [&](const Block& block) {
+    const DepthInterval range = reservoir_range(spec, block);
     return std::abs(z + range.top) < kEdgeTolerance || std::abs(z + range.bottom) < kEdgeTolerance;
   });
 }
@@ -242,7 +135,7 @@ bool is_reservoir_edge(const FieldMeshSpec& spec, double z) {
 /// Cells of sizes.corner at the reservoir edges, which carry logarithmic stress peaks, growing to
 /// sizes.dip between them: the same heights at the edges in all members of an offset sweep. Two
 /// edges that leave no room for that are evenly divided between.
-std::vector<double> graded_fault_range(const FieldMeshSpec& spec, const DepthRange& range) {
+std::vector<double> graded_fault_range(const FieldMeshSpec& spec, const DepthInterval& range) {
   LineBuilder builder(-range.bottom, -range.top, spec.sizes.corner_growth, spec.sizes.dip);
   for (const double z : must_lines(spec)) {
     if (is_reservoir_edge(spec, z))
@@ -262,7 +155,7 @@ std::vector<double> field_z(const FieldMeshSpec& spec) {
   LineBuilder builder(-spec.depth, 0, spec.sizes.growth, spec.sizes.largest);
   const double dip = spec.sizes.dip, edge_height = kEdgeCells * dip;
   const std::vector<double> z = must_lines(spec);
-  const DepthRange all = all_faults_range(spec);
+  const DepthInterval all = all_faults_range(spec);
   if (spec.sizes.grades_corners()) {
     for (const double must : z) builder.add_line(must);
     for (const double line : graded_fault_range(spec, all)) builder.add_line(line);
@@ -283,8 +176,7 @@ std::vector<double> field_z(const FieldMeshSpec& spec) {
 }
 
 FieldMeshSpec with_mesh_offsets(FieldMeshSpec spec) {
-  for (FieldMeshSpec::Block& block : spec.blocks)
-    block.offset = block.mesh_offset.value_or(block.offset);
+  for (Block& block : spec.blocks) block.offset = block.mesh_offset.value_or(block.offset);
   return spec;
 }
 
@@ -314,14 +206,14 @@ std::vector<MovedDepth> moved_depths(const FieldMeshSpec& spec) {
 }
 
 bool moves_lines(const FieldMeshSpec& spec) {
-  return std::ranges::any_of(
-      spec.blocks, [](const FieldMeshSpec::Block& block) { return block.mesh_offset.has_value(); });
+  return std::any_of(spec.blocks.begin(), spec.blocks.end(),
+                     [](const Block& block) { return block.mesh_offset; });
 }
 
 void check_moved_lines(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
   if (!moves_lines(spec) || !moved_depths(spec).empty()) return;
   for (size_t i = 0; i < spec.blocks.size(); ++i) {
-    const FieldMeshSpec::Block& block = spec.blocks[i];
+    const Block& block = spec.blocks[i];
     if (!block.mesh_offset) continue;
     problems.push_back({concat("/geometry/blocks/", i, "/mesh_offset"), 0,
                         concat("grid lines laid out for an offset of ", *block.mesh_offset,
@@ -360,23 +252,23 @@ struct CellKind {
 };
 
 CellKind kind_at(const FieldMeshSpec& spec, double x, double y, double depth) {
-  const std::vector<double>& tops = spec.layer_tops;
-  const size_t layer =
-      static_cast<size_t>(std::upper_bound(tops.begin() + 1, tops.end(), depth) - tops.begin() - 1);
-  const auto block = std::ranges::find_if(
-      spec.blocks, [&](const auto& one) { return x > one.from && x < one.to; });
-  const size_t reservoir = static_cast<size_t>(spec.reservoir_layer);
-  const bool beside = block == spec.blocks.end() ||
-                      (along_strike_is_grid(spec) && std::abs(y) > 0.5 * spec.block_length);
+  const auto above = [](double at, const Layer& layer) { return at < layer.top_depth; };
+  const size_t layer = static_cast<size_t>(
+      std::upper_bound(spec.layers.begin() + 1, spec.layers.end(), depth, above) -
+      spec.layers.begin() - 1);
+  const auto block = std::find_if(spec.blocks.begin(), spec.blocks.end(),
+                                  [&](const auto& one) { return x > one.from && x < one.to; });
+  const size_t reservoir = reservoir_index(spec);
+  const bool beside =
+      block == spec.blocks.end() || (!spec.plane_strain && std::abs(y) > 0.5 * spec.block_length);
   if (beside)
     return {layer == reservoir ? spec.sideburden_material : spec.layer_materials[layer], -1};
-  const DepthRange range = reservoir_of(spec, *block);
+  const DepthInterval range = reservoir_range(spec, *block), unmoved = reservoir_range(spec);
   if (depth > range.top && depth < range.bottom)
     return {spec.layer_materials[reservoir], static_cast<int>(block - spec.blocks.begin())};
   // What the block left behind: the layer above follows it down, the layer below follows it up.
-  if (depth < range.top && depth > reservoir_top(spec))
-    return {spec.layer_materials[reservoir - 1], -1};
-  if (depth > range.bottom && depth < reservoir_base(spec))
+  if (depth < range.top && depth > unmoved.top) return {spec.layer_materials[reservoir - 1], -1};
+  if (depth > range.bottom && depth < unmoved.bottom)
     return {spec.layer_materials[reservoir + 1], -1};
   return {spec.layer_materials[layer], -1};
 }
@@ -416,9 +308,9 @@ GridFault field_fault(const FieldMeshSpec& spec, const StructuredGrid& grid, siz
   fault.dip = {std::sin(dip), 0, -std::cos(dip)};
   fault.strike = {0, -1, 0};  // dip = n × strike
   const std::vector<double>& x = grid.lines[0];
-  fault.plane = static_cast<size_t>(std::ranges::lower_bound(x, fault_x(spec, i) - kEdgeTolerance) -
-                                    x.begin());
-  const DepthRange range = fault_range(spec, i);
+  fault.plane = static_cast<size_t>(
+      std::lower_bound(x.begin(), x.end(), fault_x(spec, i) - kEdgeTolerance) - x.begin());
+  const DepthInterval range = fault_range(spec, i);
   // As long as the model: it has no ends, the model's ends cut it.
   const bool through = spec.fault_length >= spec.length - kEdgeTolerance;
   for (const double y : grid.lines[1])
@@ -436,8 +328,6 @@ GridFault field_fault(const FieldMeshSpec& spec, const StructuredGrid& grid, siz
 GridLines grid_lines(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
   std::vector<Problem> found;
   check_sizes(spec, found);
-  check_layers(spec, found);
-  check_blocks(spec, found);
   if (found.empty()) check_faults(spec, found);
   if (found.empty()) check_shear(spec, found);
   if (found.empty()) check_moved_lines(spec, found);
@@ -445,7 +335,7 @@ GridLines grid_lines(const FieldMeshSpec& spec, std::vector<Problem>& problems) 
   if (found.empty()) {
     try {
       lines = {field_x(spec), field_y(spec), moved_z(spec)};
-      found = grid_size_problems({lines.x, lines.y, lines.z});
+      found = grid_size_problems(lines);
     } catch (const InputError& error) {  // too many on an axis
       found = error.problems();
     }
@@ -458,10 +348,9 @@ namespace {
 
 StructuredGrid make_grid(const FieldMeshSpec& spec) {
   std::vector<Problem> problems;
-  GridLines lines = grid_lines(spec, problems);
-  if (!problems.empty()) throw InputError("scene", problems);
   StructuredGrid grid;
-  grid.lines = {std::move(lines.x), std::move(lines.y), std::move(lines.z)};
+  grid.lines = grid_lines(spec, problems);
+  if (!problems.empty()) throw InputError("scene", problems);
   grid.plane_strain = spec.plane_strain;
   place_points(spec, grid);
   fill_cells(spec, grid);

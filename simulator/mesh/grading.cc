@@ -239,12 +239,4 @@ void LineBuilder::Pieces::lower(size_t line, double bound) {
   if (std::isinf(lines[line].size)) size[line] = std::min(size[line], bound);
 }
 
-std::vector<double> graded_line(double a, double b, double fine_from, double fine_to, double fine,
-                                double growth, double largest, const std::vector<double>& must) {
-  LineBuilder builder(a, b, growth, largest);
-  for (const double x : must) builder.add_line(x);
-  builder.add_window(fine_from, fine_to, fine);
-  return builder.build();
-}
-
 }  // namespace faultsim

@@ -5,16 +5,15 @@
 #include <string>
 #include <vector>
 
-namespace faultsim {
+#include "simulator/scene/geometry.h"
 
-/// Side of the body a boundary face lies on; same order as scene's Side: x- x+ y- y+ z- z+.
-enum class MeshSide { x_min, x_max, y_min, y_max, z_min, z_max };
+namespace faultsim {
 
 /// A face of a cell on the boundary of the body.
 struct BoundaryFace {
   int cell;
   std::array<int, 4> nodes;  ///< counter-clockwise seen from outside.
-  MeshSide side;
+  Side side;
 };
 
 /// A duplicated node of a fault: two mesh nodes at one place.

@@ -7,78 +7,31 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/mesh/mesh.h"
+#include "simulator/scene/geometry.h"
 
 namespace faultsim {
 
-/// Cell sizes of a generated mesh, m: `normal` on the grid axis across the faults, `strike` and
-/// `dip` on those nearest to strike and dip (vertical faults: y and z; flat ones of strike 0: y and
-/// x). Box without patches: normal, strike, dip in x, y, z.
-struct CellSizes {
-  double strike;
-  double dip;
-  double normal;
-  double growth;
-  double fine_margin = 0;
-  double largest = 0;  ///< 0 = no cap.
-  double corner = 0;   ///< field: height of the cells at the edges of the reservoir, from which
-                       ///< cells grow by corner_growth to `dip` within the faults' range; 0 or ≥
-                       ///< dip: cells of about `dip` all over that range.
-  double corner_growth = 1.5;
-  bool grades_corners() const { return corner > 0 && corner < dip; }
+/// What it takes to mesh a field or a box besides its geometry, which is as the reader of scenes
+/// lets it pass.
+struct MeshRequest {
+  std::vector<int> layer_materials = {};      ///< index per layer; one of a box without layers.
+  std::vector<std::string> fault_names = {};  ///< a field: blocks + 1.
+  MeshSizes sizes = {};
+  bool plane_strain = false;  ///< one cell in y, ties; of a field at mid length, thickness 1 m.
 };
 
-/// The conceptual field in numbers; materials are indices.
-struct FieldMeshSpec {
-  double width, length, depth;     ///< m.
-  std::vector<double> layer_tops;  ///< depths, m, ascending, first 0.
-  std::vector<int> layer_materials;
-  int reservoir_layer;  ///< index into layer_tops.
-  int sideburden_material;
-  struct Block {
-    double from, to, offset;  ///< m.
-    /// m, for which grid lines are laid out before they move to offset; none = offset.
-    std::optional<double> mesh_offset = std::nullopt;
-    std::optional<double> thickness = std::nullopt;  ///< m; none = of the layer.
-  };
-  std::vector<Block> blocks;  ///< contiguous; region index = block index.
-  double block_length, fault_length, fault_overshoot, pivot_depth;  ///< m. A fault_length
-                                                                    ///< of `length` has no ends.
-  std::vector<std::string> fault_names;                             ///< blocks + 1.
-  std::vector<double> fault_dips;  ///< rad from vertical, > 0 dips east.
-  CellSizes sizes;
-  bool half_domain;   ///< only y ≥ 0 (the symmetry plane is y_min).
-  bool plane_strain;  ///< one cell in y at mid length, ties, thickness 1 m.
+struct FieldMeshSpec : FieldGeometry, MeshRequest {
+  int sideburden_material = 0;
+  std::vector<double> fault_dips = {};  ///< rad from vertical, > 0 dips east.
+  bool half_domain = false;             ///< only y ≥ 0 (the symmetry plane is y_min).
 };
 
-/// A box with fault patches and regions.
-struct BoxMeshSpec {
-  std::array<double, 3> from, to;    ///< m.
-  std::vector<double> layer_tops_z;  ///< z of each layer's top, descending; empty = one material.
-  std::vector<int> layer_materials;  ///< at least one.
-  struct Patch {
-    std::string name;
-    std::array<double, 3> center;
-    double strike, dip_from_vertical;  ///< rad, as scene's PatchGeometry.
-    double length, width;              ///< m.
-    bool ellipse;
-  };
-  std::vector<Patch> patches;
-  struct Region {
-    bool disc;
-    std::array<double, 3> from, to;  ///< box
-    std::array<double, 3> center;    ///< disc
-    double radius, thickness;
-  };
-  std::vector<Region> regions;
+struct BoxMeshSpec : BoxGeometry, MeshRequest {
   std::array<bool, 3> tied = {false, false, false};  ///< opposite faces in x, y, z tied.
-  CellSizes sizes;
-  bool plane_strain;
 };
 
 /// Where the grid lines go, before any mapping: the sizes of the problem without the mesh.
-struct GridLines {
-  std::vector<double> x, y, z;  ///< m, strictly increasing; z up.
-};
+using GridLines = std::array<std::vector<double>, 3>;  ///< x, y, z, m, strictly increasing; z up.
 
 /// Grid lines of a spec; cheap, used by `plan`. Problems (impossible geometry) are appended, with
 /// pointers into the scene document ("/geometry/blocks/1/offset"; a box's patches are its
@@ -105,10 +58,5 @@ Mesh make_mesh(const BoxMeshSpec& spec);
 /// What make_mesh(spec) says of faults, nodes, materials and regions, without cells, boundary and a
 /// look at their quality; nothing where its topology is not that of `like`.
 std::optional<Mesh> make_faults(const FieldMeshSpec& spec, const Mesh& like);
-
-/// Points a...b with spacing `fine` inside [fine_from, fine_to] (stretched to fit) and growing by
-/// at most `growth` per cell outside, never above `largest` (0 = no cap); always contains `must`.
-std::vector<double> graded_line(double a, double b, double fine_from, double fine_to, double fine,
-                                double growth, double largest, const std::vector<double>& must);
 
 }  // namespace faultsim

@@ -1,20 +1,12 @@
-#include <limits>
+#include <algorithm>
 
 #include "simulator/mesh/mesh.h"
 
 namespace faultsim {
 
 int observed_node(const Mesh& mesh, const Eigen::Vector3d& point) {
-  int best = 0;
-  double best_distance = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
-    const double distance = (mesh.nodes[i] - point).squaredNorm();
-    if (distance < best_distance) {
-      best = static_cast<int>(i);
-      best_distance = distance;
-    }
-  }
-  return best;
+  const auto distance = [&](const Eigen::Vector3d& node) { return (node - point).squaredNorm(); };
+  return static_cast<int>(std::ranges::min_element(mesh.nodes, {}, distance) - mesh.nodes.begin());
 }
 
 }  // namespace faultsim

@@ -17,7 +17,7 @@ std::array<double, 2> clean_sin_cos(double angle) {
   return result;
 }
 
-PatchFrame patch_frame(const BoxMeshSpec::Patch& patch) {
+PatchFrame patch_frame(const PatchGeometry& patch) {
   PatchFrame frame;
   const auto [sin_strike, cos_strike] = clean_sin_cos(patch.strike);
   const auto [sin_dip, cos_dip] = clean_sin_cos(patch.dip_from_vertical);
@@ -27,7 +27,7 @@ PatchFrame patch_frame(const BoxMeshSpec::Patch& patch) {
   frame.normal = frame.down.cross(frame.along);  // its sign is set with the grid axis
   frame.half_length = 0.5 * patch.length;
   frame.half_width = 0.5 * patch.width;
-  frame.ellipse = patch.ellipse;
+  frame.ellipse = patch.shape == PatchShape::ellipse;
   frame.horizontal = cos_dip == 0;
   return frame;
 }
@@ -46,17 +46,9 @@ void orient(PatchFrame& frame, size_t axis) {
 }
 
 std::vector<PatchFrame> patch_frames(const BoxMeshSpec& spec, std::vector<Problem>& problems) {
-  const double right_angle = 0.5 * M_PI + kAngleTolerance;
   std::vector<PatchFrame> frames;
   for (size_t i = 0; i < spec.patches.size(); ++i) {
-    const BoxMeshSpec::Patch& patch = spec.patches[i];
-    if (!(patch.length > 0) || !(patch.width > 0))
-      problems.push_back({patch_pointer(i), 0, "has no area", "give a positive length and width"});
-    if (!(std::abs(patch.dip_from_vertical) <= right_angle))
-      problems.push_back({patch_pointer(i) + "/dip_from_vertical", 0, "is beyond ±90 deg",
-                          "reverse the strike instead"});
-    frames.push_back(patch_frame(patch));
-    const PatchFrame& frame = frames.back();
+    const PatchFrame& frame = frames.emplace_back(patch_frame(spec.patches[i]));
     if (spec.plane_strain && (std::abs(frame.normal.y()) > kAngleTolerance ||
                               std::abs(frame.along.x()) > kAngleTolerance))
       problems.push_back({patch_pointer(i) + "/strike", 0, "is not along y, as plane strain needs",

@@ -97,7 +97,7 @@ void split_cells(const StructuredGrid& grid, const std::vector<int>& plus_of, Me
 }
 
 std::vector<BoundaryFace> boundary_faces(const StructuredGrid& grid, const Mesh& mesh) {
-  // Corners of each side of a cell, counter-clockwise seen from outside; order of MeshSide.
+  // Corners of each side of a cell, counter-clockwise seen from outside; order of Side.
   constexpr std::array<std::array<size_t, 4>, 6> kSide = {
       {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}}};
   std::vector<BoundaryFace> faces;
@@ -110,7 +110,7 @@ std::vector<BoundaryFace> boundary_faces(const StructuredGrid& grid, const Mesh&
         at[b] = n;
         at[c] = m;
         const size_t cell = grid.cell(at);
-        BoundaryFace face{to_int(cell), {}, static_cast<MeshSide>(side)};
+        BoundaryFace face{to_int(cell), {}, static_cast<Side>(side)};
         for (size_t v = 0; v < 4; ++v) face.nodes[v] = mesh.cells[cell][kSide[side][v]];
         faces.push_back(face);
       }
@@ -320,7 +320,7 @@ class SurfaceBuilder {
 
 }  // namespace
 
-std::vector<Problem> grid_size_problems(const std::array<std::vector<double>, 3>& lines) {
+std::vector<Problem> grid_size_problems(const GridLines& lines) {
   double n_cells = 1;
   for (const std::vector<double>& axis : lines) n_cells *= static_cast<double>(axis.size()) - 1;
   if (n_cells <= kMaxCells) return {};

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "simulator/common/errors.h"
-#include "simulator/mesh/mesh.h"
+#include "simulator/mesh/mesh_spec.h"
 
 namespace faultsim {
 
@@ -27,11 +27,11 @@ struct GridFault {
 /// Mapped structured hexahedra before the faults are cut. Point (i, j, k) of the lines is at
 /// i + n_x (j + n_y k); cells likewise with one less per axis.
 struct StructuredGrid {
-  std::array<std::vector<double>, 3> lines;  ///< m, reference (unsheared) coordinates.
-  std::vector<Eigen::Vector3d> position;     ///< m, per point.
-  std::vector<int> material;                 ///< per cell.
-  std::vector<int> region;                   ///< per cell, -1 = none.
-  std::vector<double> region_fraction;       ///< per cell.
+  GridLines lines;                        ///< m, reference (unsheared) coordinates.
+  std::vector<Eigen::Vector3d> position;  ///< m, per point.
+  std::vector<int> material;              ///< per cell.
+  std::vector<int> region;                ///< per cell, -1 = none.
+  std::vector<double> region_fraction;    ///< per cell.
   std::vector<GridFault> faults;
   std::array<bool, 3> tied = {false, false, false};
   bool plane_strain = false;  ///< one cell in y; ties y.
@@ -63,7 +63,7 @@ Mesh cut_faults(StructuredGrid grid);
 std::optional<Mesh> cut_as(const Mesh& like, StructuredGrid grid);
 
 /// A problem when more than kMaxCells cells are asked for.
-std::vector<Problem> grid_size_problems(const std::array<std::vector<double>, 3>& lines);
+std::vector<Problem> grid_size_problems(const GridLines& lines);
 
 inline constexpr double kMaxCells = 1e8;  ///< far beyond what a direct factor holds; ints suffice.
 

@@ -39,9 +39,7 @@ void add_boundary_loads(const Scene& scene, std::vector<LoadCase>& loads) {
     load.key = {.kind = LoadKey::Kind::boundary, .index = static_cast<int>(i)};
     load.displacement = condition.kind == BoundaryKind::displacement;
     if (!load.displacement) {
-      for (const Side side : condition.sides) {
-        load.stress_sides.push_back(static_cast<MeshSide>(static_cast<int>(side)));
-      }
+      load.stress_sides = condition.sides;
       load.stress =
           Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(condition.stress.data());
     }

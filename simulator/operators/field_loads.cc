@@ -11,7 +11,6 @@
 #include "simulator/common/ranges.h"
 #include "simulator/condensation/fault_geometry.h"
 #include "simulator/loads/history.h"
-#include "simulator/loads/side_regions.h"
 #include "simulator/scene/identity.h"
 
 namespace faultsim {
@@ -133,11 +132,8 @@ MappedField map_field(const FlowLoad& load, const std::string& name, const Mesh&
                       const InfluenceBlock& block) {
   MappedField field{load, name};
   if (!load.is_given()) return field;
-  const bool is_moved = load.origin != std::array<double, 2>{0, 0} || load.azimuth != 0;
-  const FlowField moved = is_moved ? placed(*load.field, load.origin, load.azimuth) : FlowField();
-  const FlowField& there = is_moved ? moved : *load.field;
-  field.mapping =
-      map_flow(there, mapped_cells(mesh, block, load), block.region_names, load.outside);
+  field.mapping = map_flow(*field_in_scene(load), mapped_cells(mesh, block, load),
+                           block.region_names, load.outside);
   field.change = mapped_change(field.mapping, *load.field, load.reference, load.reports);
   return field;
 }

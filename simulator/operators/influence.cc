@@ -11,7 +11,7 @@
 #include "simulator/linalg/blas.h"
 #include "simulator/linalg/blas_start.h"
 #include "simulator/operators/memory.h"
-#include "simulator/plan/influence_plan.h"
+#include "simulator/plan/plan.h"
 
 namespace faultsim {
 namespace {
@@ -30,10 +30,6 @@ std::filesystem::path influence_path(const CachePolicy& cache, const std::string
 
 }  // namespace
 
-std::vector<std::string> pressure_region_names(const Scene& scene) {
-  return mapped(scene.pressure, &PressureHistory::region);
-}
-
 std::vector<int> reservoir_cells(const BulkProblem& problem, const std::vector<int>& regions) {
   std::vector<int> cells;
   for (int c = 0; c < static_cast<int>(problem.mesh.cells.size()); ++c) {
@@ -47,7 +43,7 @@ std::vector<int> reservoir_cells(const BulkProblem& problem, const std::vector<i
 InfluenceBlock cells_of_compartments(const Scene& scene, const BulkProblem& problem) {
   InfluenceBlock block;
   block.cells = influence_cells(problem, reservoir_cells(problem, {}));
-  block.region_names = pressure_region_names(scene);
+  block.region_names = region_names(scene);
   return block;
 }
 
@@ -69,7 +65,7 @@ PreparedInfluence prepare_influence(const SceneBulk& of, const std::vector<int>&
       if (!prepared.remark.empty()) made.remark = prepared.remark;
       made.op = prepared.op;
       made.bulk = prepared.bulk;
-      block->region_names = pressure_region_names(scene);
+      block->region_names = region_names(scene);
       made.block = std::make_shared<InfluenceBlock>(std::move(*block));
       made.from_cache = true;
       return made;
@@ -87,7 +83,7 @@ PreparedInfluence prepare_influence(const SceneBulk& of, const std::vector<int>&
   auto block = std::make_shared<InfluenceBlock>(prepared.bulk->bulk(0).influence(cells, context));
   block->fingerprint = name;
   block->operator_fingerprint = op_name;
-  block->region_names = pressure_region_names(scene);
+  block->region_names = region_names(scene);
   for (const int row : mirrored_rows(scene, plan.half_domain)) block->observed.row(row) *= -1;
   made.block = block;
   if (!cache.folder.empty()) {

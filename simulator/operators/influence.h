@@ -41,7 +41,4 @@ inline PreparedInfluence prepare_influence(const Scene& scene, const Plan& plan,
 /// The cells of all compartments, as a block that has no influences yet.
 InfluenceBlock cells_of_compartments(const Scene& scene, const BulkProblem& problem);
 
-/// Names of the scene's compartments, which a block of another scene of its family may not have.
-std::vector<std::string> pressure_region_names(const Scene& scene);
-
 }  // namespace faultsim

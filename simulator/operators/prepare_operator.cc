@@ -37,11 +37,6 @@ std::optional<FaultOperator> find_operator(const std::string& name, const CacheP
   return found;
 }
 
-MaxwellScheme scheme_of(const Scene& scene) {
-  return scene.numerics.creep_scheme == CreepScheme::exponential ? MaxwellScheme::exponential
-                                                                 : MaxwellScheme::backward_euler;
-}
-
 }  // namespace
 
 void take_fault_names(const Scene& scene, FaultOperator& op) {
@@ -73,7 +68,8 @@ PreparedOperator prepare_operator(const SceneBulk& of, const CachePolicy& cache,
   context.progress(0.0, "meshing");
   const std::shared_ptr<const BulkProblem> problem = of.problem();
   context.stop.throw_if_requested("meshing");
-  auto bulk = std::make_shared<CreepLadder>(problem, plan.creep.rungs, scheme_of(scene), context);
+  auto bulk = std::make_shared<CreepLadder>(problem, plan.creep.rungs, scene.numerics.creep_scheme,
+                                            context);
   auto op = std::make_shared<FaultOperator>(bulk->op(0));  // shares H
   take_fault_names(scene, *op);
   mirror_observations(scene, plan, op->observed);

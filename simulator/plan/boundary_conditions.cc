@@ -3,13 +3,11 @@
 namespace faultsim {
 namespace {
 
-MeshSide mesh_side(Side side) { return static_cast<MeshSide>(static_cast<int>(side)); }
-
-DisplacementCondition held(MeshSide side, std::array<bool, 3> components) {
+DisplacementCondition held(Side side, std::array<bool, 3> components) {
   return {side, components, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1};
 }
 
-std::array<bool, 3> normal_only(MeshSide side) {
+std::array<bool, 3> normal_only(Side side) {
   std::array<bool, 3> components = {false, false, false};
   components[static_cast<std::size_t>(side) / 2] = true;
   return components;
@@ -25,8 +23,7 @@ std::vector<DisplacementCondition> displacement_conditions(const Scene& scene, i
   std::vector<DisplacementCondition> conditions;
   if (scene.geometry_kind == GeometryKind::field) {
     // Plane strain and the half domain need nothing more: y_min and y_max are rollers anyway.
-    for (const MeshSide side :
-         {MeshSide::x_min, MeshSide::x_max, MeshSide::y_min, MeshSide::y_max, MeshSide::z_min}) {
+    for (const Side side : {Side::x_min, Side::x_max, Side::y_min, Side::y_max, Side::z_min}) {
       conditions.push_back(held(side, normal_only(side)));
     }
     return conditions;
@@ -37,11 +34,12 @@ std::vector<DisplacementCondition> displacement_conditions(const Scene& scene, i
         Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(condition.gradient.data());
     const Eigen::Vector3d translation(condition.translation.data());
     for (const Side side : condition.sides) {
-      const MeshSide s = mesh_side(side);
-      if (condition.kind == BoundaryKind::roller) conditions.push_back(held(s, normal_only(s)));
-      if (condition.kind == BoundaryKind::fixed) conditions.push_back(held(s, {true, true, true}));
+      if (condition.kind == BoundaryKind::roller)
+        conditions.push_back(held(side, normal_only(side)));
+      if (condition.kind == BoundaryKind::fixed)
+        conditions.push_back(held(side, {true, true, true}));
       if (condition.kind == BoundaryKind::displacement) {
-        conditions.push_back({s, condition.components, translation, gradient, load});
+        conditions.push_back({side, condition.components, translation, gradient, load});
       }
     }
     if (is_load(condition.kind)) ++load;

@@ -74,8 +74,8 @@ class Dissection {
     for (const FaultWindow& fault : shape_.faults) {
       double here = fault.share;
       for (std::size_t a = 0; a < 3; ++a) {
-        const int from = std::max(block.from[a] - 1, fault.from[a]);
-        const int to = std::min(block.to[a] + 1, fault.to[a]);
+        const int from = std::max(block.from[a] - 1, fault.lines[a].first);
+        const int to = std::min(block.to[a] + 1, fault.lines[a].second);
         here *= std::max(0, to - from);
       }
       n += here;
@@ -135,9 +135,10 @@ FactorSize extrapolated_factor(const GridShape& shape) {
   for (std::size_t a = 0; a < 3; ++a) {
     small.n_lines[a] = coarser(shape.n_lines[a]);
     for (FaultWindow& fault : small.faults) {
-      const int extent = fault.to[a] - fault.from[a];
-      fault.from[a] = static_cast<int>(fault.from[a] / k);
-      fault.to[a] = fault.from[a] + (extent > 0 ? coarser(extent) : 0);
+      auto& [from, to] = fault.lines[a];
+      const int extent = to - from;
+      from = static_cast<int>(from / k);
+      to = from + (extent > 0 ? coarser(extent) : 0);
     }
   }
   const FactorSize size = dissected_factor(small);
@@ -158,7 +159,7 @@ double GridShape::n_jump() const {
   double n = 0;
   for (const FaultWindow& fault : faults) {
     double here = fault.share;
-    for (std::size_t a = 0; a < 3; ++a) here *= std::max(0, fault.to[a] - fault.from[a]);
+    for (const auto& [from, to] : fault.lines) here *= std::max(0, to - from);
     n += here;
   }
   return n * unknowns_per_node;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "simulator/mesh/mesh_spec.h"
@@ -9,8 +10,9 @@ namespace faultsim {
 
 /// The part of a grid plane on which a fault splits nodes, in numbers of grid lines.
 struct FaultWindow {
-  std::array<int, 3> from, to;  ///< lines [from, to) per axis; one line on the axis across it.
-  double share = 1;             ///< of its nodes that split: π/4 for an ellipse.
+  /// Lines [first, second) per axis; one line on the axis across it.
+  std::array<std::pair<int, int>, 3> lines;
+  double share = 1;  ///< of its nodes that split: π/4 for an ellipse.
 };
 
 /// What a linear bulk is to the factorisation: a block of grid nodes and the faults in it.

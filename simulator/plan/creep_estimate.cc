@@ -1,5 +1,3 @@
-#include "simulator/plan/creep_estimate.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,17 +8,26 @@
 #include "simulator/common/ranges.h"
 #include "simulator/flow/flow_field.h"
 #include "simulator/initial_state/initial_state.h"
+#include "simulator/initial_state/load_times.h"
 #include "simulator/initial_state/pressure_history.h"
+#include "simulator/plan/creep_plan.h"
 
 namespace faultsim {
 namespace {
 
+/// The largest of some non-negative numbers, 0 of none.
+template <typename List, typename Number>
+double largest_of(const List& list, const Number& number) {
+  double largest = 0;
+  for (const auto& one : list) largest = std::max(largest, number(one));
+  return largest;
+}
+
+double magnitude(double value) { return std::abs(value); }
+
 /// Largest |factor| of a table.
 double largest_factor(const TimeTable& table) {
-  if (table.factor.empty()) return 1;
-  double largest = 0;
-  for (const double factor : table.factor) largest = std::max(largest, std::abs(factor));
-  return largest;
+  return table.factor.empty() ? 1 : largest_of(table.factor, magnitude);
 }
 
 /// Frobenius norm.
@@ -32,53 +39,46 @@ double norm(const std::array<double, 9>& tensor) {
 
 /// Largest |Δp| of a region within the history, which is linear between its points.
 double largest_pressure_change(const PressureHistory& history, double duration) {
-  double largest = std::abs(pressure_change_at(history, duration));
-  for (const double time : history.time) {
-    const double at = std::min(time + history.lag, duration);
-    largest = std::max(largest, std::abs(pressure_change_at(history, at)));
-  }
-  return largest;
+  const double turning = largest_of(history.time, [&](double time) {
+    return std::abs(pressure_change_at(history, std::min(time + history.lag, duration)));
+  });
+  return std::max(turning, std::abs(pressure_change_at(history, duration)));
 }
 
 /// Largest change of a flow result's values among the reports that are taken.
 double largest_field_change(const FlowLoad& load) {
-  double largest = 0;
-  for (const int report : load.reports) {
+  return largest_of(load.reports, [&](int report) {
     const auto change = load.field->value.col(report) - load.field->value.col(load.reference);
-    largest = std::max(largest, change.cwiseAbs().maxCoeff());
-  }
-  return largest;
+    return change.cwiseAbs().maxCoeff();
+  });
 }
 
 double largest_pressure_change(const Scene& scene, double duration) {
-  double largest = largest_field_change(scene.pressure_field);
-  for (const PressureHistory& history : scene.pressure) {
-    largest = std::max(largest, largest_pressure_change(history, duration));
-  }
-  for (const Fault& fault : scene.faults) {
-    if (fault.pressure.rule != FaultPressureRule::prescribed) continue;
-    const double factor = largest_factor(fault.pressure.table);
-    largest = std::max(largest, std::abs(fault.pressure.prescribed) * factor);
-  }
-  return largest;
+  return std::max({largest_field_change(scene.pressure_field),
+                   largest_of(scene.pressure,
+                              [&](const PressureHistory& history) {
+                                return largest_pressure_change(history, duration);
+                              }),
+                   largest_of(scene.faults, [](const Fault& fault) {
+                     const FaultPressure& law = fault.pressure;
+                     if (law.rule != FaultPressureRule::prescribed) return 0.0;
+                     return std::abs(law.prescribed) * largest_factor(law.table);
+                   })});
 }
 
 /// Largest stress that heating or cooling brings, Pa.
 double largest_thermal_stress(const Scene& scene) {
-  double change = largest_field_change(scene.temperature_field), stress = 0;
-  for (const TemperatureHistory& history : scene.temperature)
-    for (const double value : history.change) change = std::max(change, std::abs(value));
-  for (const std::string& name : used_materials(scene)) {
-    if (!name.empty()) stress = std::max(stress, thermal_stress(material_named(scene, name)));
-  }
-  return stress * change;
+  const double by_regions = largest_of(scene.temperature, [](const TemperatureHistory& history) {
+    return largest_of(history.change, magnitude);
+  });
+  return largest_of(used_materials(scene), thermal_stress) *
+         std::max(largest_field_change(scene.temperature_field), by_regions);
 }
 
 double largest_stress_change(const Scene& scene) {
-  double largest = 0;
-  for (const Stage& stage : scene.stages)
-    if (stage.stress_change) largest = std::max(largest, norm(*stage.stress_change));
-  return largest;
+  return largest_of(scene.stages, [](const Stage& stage) {
+    return stage.stress_change ? norm(*stage.stress_change) : 0;
+  });
 }
 
 double shear_modulus(const Material& material) {
@@ -87,15 +87,10 @@ double shear_modulus(const Material& material) {
 
 /// E (1 − ν)/((1 + ν)(1 − 2ν)) of the stiffest material in use, Pa.
 double largest_confined_modulus(const Scene& scene) {
-  double largest = 0;
-  for (const std::string& name : used_materials(scene)) {
-    if (name.empty()) continue;
-    const Material& material = material_named(scene, name);
+  return largest_of(used_materials(scene), [](const Material& material) {
     const double nu = material.poisson_ratio;
-    const double modulus = material.youngs_modulus * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
-    largest = std::max(largest, modulus);
-  }
-  return largest;
+    return material.youngs_modulus * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
+  });
 }
 
 /// Strain that a displaced face brings: its gradient, or its largest displacement over the
@@ -156,7 +151,8 @@ double shear_stress(std::array<double, 9> sigma) {
 double largest_initial_shear(const Scene& scene) {
   if (scene.faults.empty()) return 0;
   const bool is_field = scene.geometry_kind == GeometryKind::field;
-  std::vector depths = mapped(is_field ? scene.field.layers : scene.box.layers, &Layer::top_depth);
+  std::vector<double> depths;
+  for (const Layer& layer : layers_of(scene)) depths.push_back(layer.top_depth);
   if (depths.empty()) depths.push_back(-scene.box.to[2]);
   depths.push_back(is_field ? scene.field.depth : -scene.box.from[2]);
   double largest = 0;
@@ -170,12 +166,9 @@ double largest_initial_shear(const Scene& scene) {
 
 double shortest_relaxation_time(const Scene& scene) {
   double shortest = std::numeric_limits<double>::infinity();
-  for (const std::string& name : used_materials(scene)) {
-    if (name.empty()) continue;
-    const Material& material = material_named(scene, name);
-    if (material.viscosity) {
+  for (const Material& material : used_materials(scene)) {
+    if (material.viscosity)
       shortest = std::min(shortest, *material.viscosity / shear_modulus(material));
-    }
   }
   return shortest;
 }
@@ -185,7 +178,7 @@ double shortest_relaxation_time(const Scene& scene) {
 CreepEstimate estimate_creep(const Scene& scene) {
   CreepEstimate estimate;
   estimate.relaxation_time = shortest_relaxation_time(scene);
-  for (const Stage& stage : scene.stages) estimate.duration += stage.duration;
+  estimate.duration = end_time(scene);
   estimate.relaxed_share = -std::expm1(-estimate.duration / estimate.relaxation_time);
   const bool is_box = scene.geometry_kind == GeometryKind::box;
   const std::optional<double> boundary = is_box ? boundary_stress(scene) : 0;

@@ -73,18 +73,11 @@ Reduction plan_creep_off(const Scene& scene, const CreepEstimate& estimate) {
   return r;
 }
 
-std::vector<double> load_step_lengths(const Scene& scene) {
-  std::vector<double> lengths;
-  for (const StepEnd& step : step_ends(scene)) {
-    if (lengths.empty() || lengths.back() != step.length) lengths.push_back(step.length);
-  }
-  return distinct(std::move(lengths));
-}
-
 std::vector<double> creep_rungs(const Scene& scene) {
   const Numerics& numerics = scene.numerics;
-  std::vector<double> lengths;
-  for (const double load_step : load_step_lengths(scene)) {
+  std::vector<double> load_steps, lengths;
+  for (const StepEnd& step : step_ends(scene)) load_steps.push_back(step.length);
+  for (const double load_step : distinct(std::move(load_steps))) {
     if (numerics.creep_time_step > 0) {
       const double ratio = load_step / numerics.creep_time_step;
       lengths.push_back(load_step / std::max(1.0, std::ceil(ratio - kSameLength)));

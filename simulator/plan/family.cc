@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <set>
 #include <string>
 #include <utility>
 
 #include "simulator/documents/canonical_text.h"
 #include "simulator/plan/plan.h"
+#include "simulator/scene/field_depths.h"
 #include "simulator/scene/scene.h"
 
 /// The text that a family is the fingerprint of: what the linear bulk depends on. Structs of the
@@ -62,27 +62,33 @@ void append_block(std::string& text, const Block& block) {
   text += ']';
 }
 
-void add_field(const FieldGeometry& field, const FieldMeshSpec& spec, ObjectText& family) {
+std::vector<double> tops(const std::vector<Layer>& layers, double sign) {
+  std::vector<double> depths;
+  for (const Layer& layer : layers) depths.push_back(sign * layer.top_depth);
+  return depths;
+}
+
+void add_field(const FieldMeshSpec& spec, ObjectText& family) {
   family.add("kind", "field");
   family.add("extent", std::array{spec.width, spec.length, spec.depth});
-  family.add("layer_tops", spec.layer_tops);
+  family.add("layer_tops", tops(spec.layers, 1));
   family.add("layer_materials", spec.layer_materials);
-  family.add("reservoir_layer", spec.reservoir_layer);
+  family.add("reservoir_layer", static_cast<int>(reservoir_index(spec)));
   family.add("sideburden", spec.sideburden_material);
   family.add("block_length", spec.block_length);
   family.add("fault", std::array{spec.fault_length, spec.fault_overshoot, spec.pivot_depth});
   family.add("fault_dips", spec.fault_dips);
   family.add("half", spec.half_domain);
-  family.add("blocks", [&](std::string& to) { append_list(to, field.blocks, append_block); });
+  family.add("blocks", [&](std::string& to) { append_list(to, spec.blocks, append_block); });
   if (!spec.plane_strain && spec.fault_length >= spec.length) family.add("fault_ends", "none");
 }
 
-void add_box(const BoxGeometry& box, const BoxMeshSpec& spec, ObjectText& family) {
+void add_box(const BoxMeshSpec& box, ObjectText& family) {
   family.add("kind", "box");
   family.add("from", box.from);
   family.add("to", box.to);
-  family.add("layer_tops", spec.layer_tops_z);
-  family.add("layer_materials", spec.layer_materials);
+  family.add("layer_tops", tops(box.layers, -1));
+  family.add("layer_materials", box.layer_materials);
   family.add("patches", lists(box.patches));
   family.add("regions", lists(box.regions));
   family.add("boundary", lists(box.boundary));
@@ -90,9 +96,8 @@ void add_box(const BoxGeometry& box, const BoxMeshSpec& spec, ObjectText& family
 
 /// Absent where nothing creeps: elastic families are those from before there was creep.
 void add_creep(const Scene& scene, const CreepPlan& creep, ObjectText& family) {
-  const std::set<std::string> used = used_materials(scene);
   const auto viscosity = [&](std::string& to, const Material& m) {
-    const bool creeps = m.viscosity && used.count(m.name) != 0;
+    const bool creeps = m.viscosity && is_used(scene, m);
     append(to, creeps ? *m.viscosity : std::numeric_limits<double>::infinity());
   };
   family.add("creep", [&](std::string& text) {
@@ -136,9 +141,9 @@ std::string canonical_family(const Scene& scene, const Plan& plan) {
   std::string text;
   ObjectText family(text);
   if (scene.geometry_kind == GeometryKind::field) {
-    add_field(scene.field, field_mesh_spec(scene, plan), family);
+    add_field(field_mesh_spec(scene, plan), family);
   } else {
-    add_box(scene.box, box_mesh_spec(scene, plan), family);
+    add_box(box_mesh_spec(scene, plan), family);
   }
   family.add("sizes", [&](std::string& to) { members(to, scene.mesh); });
   if (scene.mesh.grades_corners()) {

@@ -1,9 +1,10 @@
 #include "simulator/plan/field_check.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <memory>
 #include <sstream>
 #include <utility>
 
@@ -30,27 +31,22 @@ std::string percent(const RegionCoverage& part) {
   return out.str();
 }
 
-/// The smallest box around some.
-struct Extent {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(HUGE_VAL);
-  Eigen::Vector3d high = Eigen::Vector3d::Constant(-HUGE_VAL);
+using Extent = Eigen::AlignedBox3d;
 
-  void hold(const FlowCell& cell) {
-    low = low.cwiseMin(cell.low);
-    high = high.cwiseMax(cell.high);
-  }
-  std::string text() const {
-    const auto range = [](double from, double to) {
-      return concat(std::llround(from), " to ", std::llround(to), " m");
-    };
-    return concat("x ", range(low.x(), high.x()), ", y ", range(low.y(), high.y()), ", depth ",
-                  range(-high.z(), -low.z()));
-  }
-};
+void hold(Extent& extent, const FlowCell& cell) { extent.extend(cell.low).extend(cell.high); }
+
+std::string text_of(const Extent& extent) {
+  const auto range = [](double from, double to) {
+    return concat(std::llround(from), " to ", std::llround(to), " m");
+  };
+  const Eigen::Vector3d &low = extent.min(), &high = extent.max();
+  return concat("x ", range(low.x(), high.x()), ", y ", range(low.y(), high.y()), ", depth ",
+                range(-high.z(), -low.z()));
+}
 
 Extent extent_of(const FlowField& field) {
   Extent extent;
-  for (const FlowCell& cell : field.cells) extent.hold(cell);
+  for (const FlowCell& cell : field.cells) hold(extent, cell);
   return extent;
 }
 
@@ -72,12 +68,13 @@ class FieldChecker {
  public:
   FieldChecker(const Scene& scene, const Plan& plan, const FlowLoad& load, std::string key,
                FieldCheck& found)
-      : scene_(scene), load_(load), at_("/" + std::move(key)), found_(found) {
-    const bool is_moved = load.origin != std::array<double, 2>{0, 0} || load.azimuth != 0;
-    if (is_moved) moved_ = placed(*load.field, load.origin, load.azimuth);
-    there_ = is_moved ? &moved_ : load.field.get();
+      : scene_(scene),
+        load_(load),
+        at_("/" + std::move(key)),
+        found_(found),
+        there_(field_in_scene(load)),
+        names_(region_names(scene)) {
     bodies_ = field_bodies(scene, plan, load.y);
-    for (const PressureHistory& history : scene.pressure) names_.push_back(history.region);
     for (const Fault& fault : scene.faults) names_.push_back(fault.name);
   }
 
@@ -108,7 +105,7 @@ class FieldChecker {
   Extent extent_of_region(int region) const {
     Extent extent;
     for (const MappedCell& body : bodies_) {
-      if (body.region == region) extent.hold(flow_cell_around(body.corners));
+      if (body.region == region) hold(extent, flow_cell_around(body.corners));
     }
     return extent;
   }
@@ -136,8 +133,8 @@ class FieldChecker {
         continue;
       }
       is_enough = false;
-      problem(concat(what, ", which lies at ", extent_of_region(r).text(), "; its cells at ",
-                     extent_of(*there_).text()),
+      problem(concat(what, ", which lies at ", text_of(extent_of_region(r)), "; its cells at ",
+                     text_of(extent_of(*there_))),
               "check the units, \"origin\" and \"azimuth\" of the field and the place of the "
               "compartment; if so little is meant, say \"outside\": \"nearest\" or \"unchanged\"");
     }
@@ -146,10 +143,10 @@ class FieldChecker {
 
   void nothing_covered() {
     const Extent own = extent_of(*load_.field);
-    const Eigen::Vector3d middle = 0.5 * (own.low + own.high);
+    const Eigen::Vector3d middle = own.center();
     problem(
-        concat("no flow cell lies in a compartment: its cells lie at ", extent_of(*there_).text(),
-               " of the scene, ", name(0), " at ", extent_of_region(0).text()),
+        concat("no flow cell lies in a compartment: its cells lie at ", text_of(extent_of(*there_)),
+               " of the scene, ", name(0), " at ", text_of(extent_of_region(0))),
         concat("say where the scene's x = y = 0 lies in the coordinates of the field, \"origin\": "
                "[\"x m\", \"y m\"], and \"azimuth\" (the middle of the field is ",
                std::llround(middle.x()), " m, ", std::llround(middle.y()),
@@ -168,20 +165,11 @@ class FieldChecker {
     }
   }
 
-  /// Least compressive principal total stress of the initial state, as a pressure, Pa.
-  double least_stress(double depth) const {
-    const StressAtDepth at = initial_state(scene_, -depth);
-    const Eigen::Matrix3d sigma =
-        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(at.sigma.data());
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sigma, Eigen::EigenvaluesOnly);
-    return -solver.eigenvalues()[2];
-  }
-
   /// Middle of the part of a flow cell that lies at a region's depths, m.
   double depth_in(int flow_cell, const Extent& region) const {
     const FlowCell& cell = there_->cells[static_cast<std::size_t>(flow_cell)];
     return -0.5 *
-           (std::max(cell.low.z(), region.low.z()) + std::min(cell.high.z(), region.high.z()));
+           (std::max(cell.low.z(), region.min().z()) + std::min(cell.high.z(), region.max().z()));
   }
 
   std::string place_of(const Peak& peak, const Extent& region) const {
@@ -210,7 +198,7 @@ class FieldChecker {
             initial_region_pressure(scene_, static_cast<std::size_t>(region), depth);
         excess += share * one.value * (reference - initial);
         const double largest = largest_change(f);
-        const double least = largest > kRounding ? least_stress(depth) : HUGE_VAL;
+        const double least = largest > kRounding ? least_stress(scene_, depth) : HUGE_VAL;
         for (const int t : load_.reports) {
           const double change = value(f, t) - reference;
           rise.see(change, change, initial, f, t);
@@ -264,8 +252,7 @@ class FieldChecker {
   const FlowLoad& load_;
   std::string at_;
   FieldCheck& found_;
-  FlowField moved_;         ///< where the field lies elsewhere.
-  const FlowField* there_;  ///< the field in the scene's coordinates.
+  std::shared_ptr<const FlowField> there_;
   std::vector<MappedCell> bodies_;
   std::vector<std::string> names_;  ///< of their regions.
   FlowMapping mapping_;

@@ -4,7 +4,6 @@
 
 #include "simulator/elasticity/held.h"
 #include "simulator/plan/boundary_conditions.h"
-#include "simulator/plan/surface_check.h"
 
 namespace faultsim {
 

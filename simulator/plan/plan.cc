@@ -11,10 +11,7 @@
 #include "simulator/initial_state/load_times.h"
 #include "simulator/mesh/patch_frame.h"
 #include "simulator/plan/combinations.h"
-#include "simulator/plan/cost.h"
 #include "simulator/plan/creep_plan.h"
-#include "simulator/plan/influence_plan.h"
-#include "simulator/plan/reservoir_cells.h"
 #include "simulator/scene/field_depths.h"
 
 namespace faultsim {
@@ -57,13 +54,7 @@ Reduction plan_plane_strain(const Scene& scene) {
   return r;
 }
 
-/// Whether the fields of a scene are their own mirror images.
-bool are_symmetric(const Scene& scene) {
-  const auto fits = [](const FlowLoad& load) { return !load.is_given() || load.is_symmetric(); };
-  return fits(scene.pressure_field) && fits(scene.temperature_field);
-}
-
-/// By how much they are not.
+/// By how much the fields of a scene are not their own mirror images; "" where they are.
 std::string asymmetry_text(const Scene& scene) {
   for (const FlowLoad* load : {&scene.pressure_field, &scene.temperature_field}) {
     if (!load->is_given() || load->is_symmetric()) continue;
@@ -84,9 +75,9 @@ Reduction plan_half_domain(const Scene& scene, bool plane_strain) {
   } else if (scene.numerics.half_domain == Switch::off) {
     r.reason = "switched off";
     r.bound = exact;
-  } else if (!are_symmetric(scene)) {
-    r.reason = "the flow result is not symmetric about y = 0" + asymmetry_text(scene);
-  } else if (std::ranges::any_of(scene.faults, [](const Fault& fault) {
+  } else if (const std::string text = asymmetry_text(scene); !text.empty()) {
+    r.reason = "the flow result is not symmetric about y = 0" + text;
+  } else if (std::any_of(scene.faults.begin(), scene.faults.end(), [](const Fault& fault) {
                return !fault.pressure.profile.strike.empty();
              })) {
     r.reason = "a table of fault pressure that varies along strike need not be symmetric";
@@ -123,27 +114,17 @@ std::pair<int, int> line_at(const std::vector<double>& lines, double at) {
   return {line, line + 1};
 }
 
-FaultWindow window(const std::array<std::pair<int, int>, 3>& ranges) {
-  FaultWindow w;
-  for (std::size_t a = 0; a < 3; ++a) {
-    w.from[a] = ranges[a].first;
-    w.to[a] = ranges[a].second;
-  }
-  return w;
-}
-
 std::vector<FaultWindow> field_faults(const Scene& scene, const Plan& plan,
                                       const GridLines& lines) {
   const FieldGeometry& field = scene.field;
   const bool has_ends = field.fault_length < field.length;  // else the model's ends cut it
   const double reach = has_ends ? field.fault_length / 2 : field.length;
-  const auto columns = plan.plane_strain ? std::pair{0, 1} : lines_between(lines.y, -reach, reach);
+  const auto columns = plan.plane_strain ? std::pair{0, 1} : lines_between(lines[1], -reach, reach);
   std::vector<FaultWindow> faults;
   for (std::size_t f = 0; f <= field.blocks.size(); ++f) {
     const DepthInterval range = fault_range(field, f);
-    const double x = f < field.blocks.size() ? field.blocks[f].from : field.blocks[f - 1].to;
-    faults.push_back(
-        window({line_at(lines.x, x), columns, lines_between(lines.z, -range.bottom, -range.top)}));
+    faults.push_back({{line_at(lines[0], fault_x(field, f)), columns,
+                       lines_between(lines[2], -range.bottom, -range.top)}});
   }
   return faults;
 }
@@ -151,7 +132,6 @@ std::vector<FaultWindow> field_faults(const Scene& scene, const Plan& plan,
 /// A patch covers the grid plane nearest to its own, from edge to edge.
 FaultWindow box_fault(const PatchGeometry& patch, const Plan& plan, const GridLines& lines) {
   constexpr double kQuarter = 0.78539816339744831;  // pi/4
-  const std::array<const std::vector<double>*, 3> line = {&lines.x, &lines.y, &lines.z};
   const bool is_flat = patch.dip_from_vertical > kQuarter || patch.dip_from_vertical < -kQuarter;
   const bool strikes_along_x = std::abs(std::sin(patch.strike)) > std::abs(std::cos(patch.strike));
   const std::size_t column_axis = strikes_along_x ? 0 : 1;
@@ -162,14 +142,13 @@ FaultWindow box_fault(const PatchGeometry& patch, const Plan& plan, const GridLi
   std::array<double, 3> half{};
   half[column_axis] = patch.length / 2 * std::abs(along);
   half[row_axis] = patch.width / 2 * std::abs(is_flat ? std::sin(dip) : std::cos(dip));
-  std::array<std::pair<int, int>, 3> ranges;
+  FaultWindow w;
   for (std::size_t a = 0; a < 3; ++a) {
-    ranges[a] = a == axis
-                    ? line_at(*line[a], patch.center[a])
-                    : lines_between(*line[a], patch.center[a] - half[a], patch.center[a] + half[a]);
+    w.lines[a] =
+        a == axis ? line_at(lines[a], patch.center[a])
+                  : lines_between(lines[a], patch.center[a] - half[a], patch.center[a] + half[a]);
   }
-  if (plan.plane_strain) ranges[1] = {0, 1};
-  FaultWindow w = window(ranges);
+  if (plan.plane_strain) w.lines[1] = {0, 1};
   if (patch.shape == PatchShape::ellipse && !plan.plane_strain) w.share = kQuarter;
   return w;
 }
@@ -182,8 +161,8 @@ GridLines lines_of(const Scene& scene, const Plan& plan, std::vector<Problem>& p
 
 GridShape grid_shape(const Scene& scene, const Plan& plan, const GridLines& lines) {
   GridShape shape;
-  const int n_y = plan.plane_strain ? 1 : static_cast<int>(lines.y.size());
-  shape.n_lines = {static_cast<int>(lines.x.size()), n_y, static_cast<int>(lines.z.size())};
+  const int n_y = plan.plane_strain ? 1 : static_cast<int>(lines[1].size());
+  shape.n_lines = {static_cast<int>(lines[0].size()), n_y, static_cast<int>(lines[2].size())};
   shape.unknowns_per_node = plan.plane_strain ? 2 : 3;
   shape.n_loads = static_cast<int>(scene.pressure.size() + scene.box.boundary.size() +
                                    3 * scene.output.observation_points.size());
@@ -195,6 +174,41 @@ GridShape grid_shape(const Scene& scene, const Plan& plan, const GridLines& line
     }
   }
   return shape;
+}
+
+/// Intervals between lines whose middle lies between two coordinates.
+double intervals(const std::vector<double>& lines, double from, double to) {
+  int n = 0;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const double middle = 0.5 * (lines[i - 1] + lines[i]);
+    n += middle > from && middle < to;
+  }
+  return n;
+}
+
+/// About how many cells lie in pressure regions, from the lines of the grid before it is sheared
+/// and shifted: what a field of pressures or temperatures has an influence of.
+double reservoir_cells(const Scene& scene, const GridLines& lines, bool plane_strain) {
+  const auto box = [&](double x0, double x1, double y0, double y1, double z0, double z1) {
+    const double along = plane_strain ? 1 : intervals(lines[1], y0, y1);
+    return intervals(lines[0], x0, x1) * along * intervals(lines[2], z0, z1);
+  };
+  double n = 0;
+  if (scene.geometry_kind == GeometryKind::field) {
+    const double half = scene.field.block_length / 2;
+    for (const Block& block : scene.field.blocks) {
+      const DepthInterval range = reservoir_range(scene.field, block);
+      n += box(block.from, block.to, -half, half, -range.bottom, -range.top);
+    }
+    return n;
+  }
+  for (const PressureRegion& region : scene.box.regions) {
+    constexpr double kDiscOfSquare = 0.785;  // pi/4
+    const auto [low, high] = bounds_of(region);
+    n += (region.shape == RegionShape::disc ? kDiscOfSquare : 1) *
+         box(low[0], high[0], low[1], high[1], low[2], high[2]);
+  }
+  return n;
 }
 
 /// The program, and the build of the last operator beside what the others keep.
@@ -235,17 +249,6 @@ int material_index(const Scene& scene, const std::string& name) {
   return -1;
 }
 
-CellSizes cell_sizes(const MeshSizes& sizes) {
-  return {.strike = sizes.strike,
-          .dip = sizes.dip,
-          .normal = sizes.normal,
-          .growth = sizes.growth,
-          .fine_margin = sizes.fine_margin,
-          .largest = sizes.largest,
-          .corner = sizes.corner,
-          .corner_growth = sizes.corner_growth};
-}
-
 /// The figures of a saving, or none.
 nlohmann::json saving_to_json(const std::optional<Reduction::Saving>& saving) {
   if (!saving) return nullptr;
@@ -282,61 +285,31 @@ std::string human_time(double seconds) {
   return seconds >= 7200 ? formatted("%.1f hours", seconds / 3600) : formatted("%.1f s", seconds);
 }
 
+MeshRequest mesh_request(const Scene& scene, const Plan& plan) {
+  MeshRequest request{.sizes = scene.mesh, .plane_strain = plan.plane_strain};
+  for (const Layer& layer : layers_of(scene))
+    request.layer_materials.push_back(material_index(scene, layer.material));
+  for (const Fault& fault : scene.faults) request.fault_names.push_back(fault.name);
+  return request;
+}
+
 }  // namespace
 
 FieldMeshSpec field_mesh_spec(const Scene& scene, const Plan& plan) {
-  const FieldGeometry& field = scene.field;
-  FieldMeshSpec spec{};
-  spec.width = field.width;
-  spec.length = field.length;
-  spec.depth = field.depth;
-  for (std::size_t i = 0; i < field.layers.size(); ++i) {
-    spec.layer_tops.push_back(field.layers[i].top_depth);
-    spec.layer_materials.push_back(material_index(scene, field.layers[i].material));
-    if (field.layers[i].name == field.reservoir_layer) spec.reservoir_layer = static_cast<int>(i);
-  }
-  spec.sideburden_material = material_index(scene, field.sideburden);
-  for (const Block& block : field.blocks)
-    spec.blocks.push_back({block.from, block.to, block.offset, block.mesh_offset, block.thickness});
-  spec.block_length = field.block_length;
-  spec.fault_length = field.fault_length;
-  spec.fault_overshoot = field.fault_overshoot;
-  spec.pivot_depth = field.pivot_depth;
-  for (const Fault& fault : scene.faults) {
-    spec.fault_names.push_back(fault.name);
-    spec.fault_dips.push_back(fault.dip_from_vertical);
-  }
-  spec.sizes = cell_sizes(scene.mesh);
+  FieldMeshSpec spec{scene.field, mesh_request(scene, plan)};
+  spec.sideburden_material = material_index(scene, spec.sideburden);
+  for (const Fault& fault : scene.faults) spec.fault_dips.push_back(fault.dip_from_vertical);
   spec.half_domain = plan.half_domain;
-  spec.plane_strain = plan.plane_strain;
   return spec;
 }
 
 BoxMeshSpec box_mesh_spec(const Scene& scene, const Plan& plan) {
-  const BoxGeometry& box = scene.box;
-  BoxMeshSpec spec{};
-  spec.from = box.from;
-  spec.to = box.to;
-  for (const Layer& layer : box.layers) {
-    spec.layer_tops_z.push_back(-layer.top_depth);
-    spec.layer_materials.push_back(material_index(scene, layer.material));
-  }
-  if (box.layers.empty()) spec.layer_materials.push_back(material_index(scene, box.material));
-  for (std::size_t i = 0; i < box.patches.size(); ++i) {
-    const PatchGeometry& p = box.patches[i];
-    spec.patches.push_back({scene.faults[i].name, p.center, p.strike, p.dip_from_vertical, p.length,
-                            p.width, p.shape == PatchShape::ellipse});
-  }
-  for (const PressureRegion& r : box.regions) {
-    spec.regions.push_back(
-        {r.shape == RegionShape::disc, r.from, r.to, r.center, r.radius, r.thickness});
-  }
-  for (const BoundaryCondition& b : box.boundary) {
+  BoxMeshSpec spec{scene.box, mesh_request(scene, plan)};
+  if (spec.layers.empty()) spec.layer_materials = {material_index(scene, spec.material)};
+  for (const BoundaryCondition& b : spec.boundary) {
     if (b.kind != BoundaryKind::tied) continue;
     for (const Side side : b.sides) spec.tied[static_cast<std::size_t>(side) / 2] = true;
   }
-  spec.sizes = cell_sizes(scene.mesh);
-  spec.plane_strain = plan.plane_strain;
   return spec;
 }
 
@@ -399,10 +372,10 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
   for (Problem& problem : unsupported(scene, plan)) problems.push_back(std::move(problem));
 
   const GridLines lines = lines_of(scene, plan, problems);
-  if (lines.x.size() < 2 || lines.y.size() < 2 || lines.z.size() < 2) return plan;
+  if (std::ranges::any_of(lines, [](const auto& line) { return line.size() < 2; })) return plan;
   const GridShape shape = grid_shape(scene, plan, lines);
   plan.n_cells =
-      static_cast<long>((lines.x.size() - 1) * (lines.y.size() - 1) * (lines.z.size() - 1));
+      static_cast<long>((lines[0].size() - 1) * (lines[1].size() - 1) * (lines[2].size() - 1));
   plan.n_jump = std::lround(shape.n_jump());
   plan.n_unknowns = std::lround(shape.unknowns_per_node * shape.n_nodes()) + plan.n_jump;
   for (const StepEnd& step : step_ends(scene)) {

@@ -8,6 +8,7 @@
 #include "simulator/initial_state/initial_state.h"
 #include "simulator/mesh/mesh.h"
 #include "simulator/mesh/mesh_spec.h"
+#include "simulator/plan/cost.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {
@@ -87,6 +88,9 @@ std::string canonical_family(const Scene& scene, const Plan& plan);
 /// where a reduction is not possible, or the scene cannot be planned the other way (a plane without
 /// a cell size along strike).
 void add_savings(const Scene& scene, Plan& plan);
+
+/// What an influence block of n_cells cells costs on top of the plan's operator.
+InfluenceCost plan_influence(const Scene& scene, const Plan& plan, long n_cells);
 
 /// "49 % of the memory, 2.2 times less operator time".
 std::string saving_text(const Reduction::Saving& saving);

@@ -1,5 +1,3 @@
-#include "simulator/plan/surface_check.h"
-
 #include <cmath>
 #include <optional>
 #include <utility>

@@ -34,11 +34,6 @@ std::vector<Direction> directions(const Scene& scene, std::size_t fault) {
   return all;
 }
 
-std::string place_of_csv(const SceneReader& reader, std::size_t fault) {
-  const std::string own = element("/faults", fault) + "/fault_pressure/csv";
-  return reader.has(own) ? own : "/fault_pressure/csv";
-}
-
 bool has_table(const Fault& fault) {
   return fault.pressure.rule == FaultPressureRule::table && !fault.pressure.profile.change.empty();
 }
@@ -73,7 +68,7 @@ void remark_ends(const SceneReader& reader, Scene& scene, std::size_t fault) {
     along_dip = false;
     if (beyond.empty()) continue;
     scene.remarks.push_back(
-        {place_of_csv(reader, fault),
+        {reader.fault_pressure_key(fault, "csv"),
          concat("does not reach over all of fault ", scene.faults[fault].name, ": from ", beyond,
                 " (", d.name, ") the pressures at its ends are held")});
   }
@@ -89,7 +84,7 @@ void remark_last_time(const SceneReader& reader, Scene& scene, std::size_t fault
     return start ? date_text(*start + time) : in_unit(time, Dimension::time, "year");
   };
   scene.remarks.push_back(
-      {place_of_csv(reader, fault),
+      {reader.fault_pressure_key(fault, "csv"),
        concat("ends at ", when(last), " and the stages of the scene at ", when(steps.back().time),
               ": the last pressures of fault ", scene.faults[fault].name, " are held")});
 }
@@ -106,7 +101,7 @@ void remark_added_steps(const SceneReader& reader, Scene& scene, std::size_t fau
   constexpr long kMany = 50;
   if (n_own <= std::max(kMany, n_all - n_added)) return;
   scene.remarks.push_back(
-      {place_of_csv(reader, fault),
+      {reader.fault_pressure_key(fault, "csv"),
        concat("adds ", n_own, " load steps to the ", n_all - n_added,
               " of the stages, at the times between which the pressures of fault ",
               scene.faults[fault].name,
@@ -123,7 +118,7 @@ void check_fault_tables(SceneReader& reader, const Scene& scene) {
     if (!has_table(scene.faults[f])) continue;
     for (const Direction& d : directions(scene, f)) {
       if (!(d.high() < d.fault[0]) && !(d.low() > d.fault[1])) continue;
-      const std::string pointer = place_of_csv(reader, f);
+      const std::string pointer = reader.fault_pressure_key(f, "csv");
       const std::string given =
           d.low() == d.high() ? metres(d.low()) : metres(d.low()) + " to " + metres(d.high());
       reader.problem(pointer,

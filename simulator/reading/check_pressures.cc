@@ -25,25 +25,17 @@ struct Place {
   DepthSide side;
 };
 std::vector<Place> lowest_places(const Scene& scene, std::size_t region) {
-  if (scene.geometry_kind == GeometryKind::field) {
+  const DepthInterval depths = depths_of_region(scene, region);
+  std::vector<Place> places = {{depths.top, DepthSide::below}};
+  if (scene.geometry_kind == GeometryKind::box) {
+    places.push_back({depths.bottom, DepthSide::above});
+  } else if (!scene.field.blocks[region].overpressure) {
     const DepthInterval layer = reservoir_range(scene.field);
-    const DepthInterval reservoir = reservoir_range(scene.field, scene.field.blocks[region]);
-    const bool is_uniform = scene.field.blocks[region].overpressure.has_value();
-    std::vector<Place> places = {{reservoir.top, DepthSide::below}};
     for (const double jump : {layer.top, layer.bottom}) {
-      if (is_uniform) continue;
-      if (jump > reservoir.top && jump < reservoir.bottom) {
-        places.push_back({jump, DepthSide::below});
-      }
+      if (jump > depths.top && jump < depths.bottom) places.push_back({jump, DepthSide::below});
     }
-    return places;
   }
-  const PressureRegion& box = scene.box.regions[region];
-  const bool disc = box.shape == RegionShape::disc;
-  const double top = disc ? box.center[2] + 0.5 * box.thickness : box.to[2];
-  const double bottom = disc ? box.center[2] - 0.5 * box.thickness : box.from[2];
-  return {{-std::min(top, scene.box.to[2]), DepthSide::below},
-          {-std::max(bottom, scene.box.from[2]), DepthSide::above}};
+  return places;
 }
 
 double pressure_at(const Scene& scene, std::size_t region, const Place& place) {
@@ -124,55 +116,52 @@ double least_given(const FaultPressure& law) {
   return least_of(law.profile.change, 1);
 }
 
-/// Where a key of a fault's pressure is given.
-std::string place_of(const SceneReader& reader, std::size_t fault, const std::string& key) {
-  const std::string own = element("/faults", fault) + "/fault_pressure/" + key;
-  return reader.has(own) ? own : "/fault_pressure/" + key;
-}
-
-/// Where the pressure of a fault is lowest in the first step in which it falls below zero.
-struct LowestPressure {
+struct FaultPressureAt {
   double depth = 0, pressure = 0, initial = 0;
-  std::size_t step = 0;
 };
 
-void report(SceneReader& reader, const Scene& scene, std::size_t fault, const std::string& pointer,
-            const LowestPressure& found, const std::string& cure) {
+/// Reports the place where the pressure of a fault is lowest in the first step in which it falls
+/// below zero. @param at  FaultPressureAt of a place and a time.
+template <typename Places, typename At, typename Cure>
+void check_lowest(SceneReader& reader, const Scene& scene, std::size_t fault, const char* key,
+                  const Places& places, const At& at, const Cure& cure) {
   const std::vector<StepEnd> steps = step_ends(scene);
-  reader.problem(pointer,
-                 below_zero("in fault \"" + scene.faults[fault].name + "\"", found.depth,
-                            found.pressure, found.step, scene.stages[steps[found.step].stage]),
-                 cure);
+  for (std::size_t step = 0; step < steps.size(); ++step) {
+    FaultPressureAt lowest;
+    for (const auto& place : places) {
+      const FaultPressureAt here = at(place, steps[step].time);
+      if (here.pressure < lowest.pressure) lowest = here;
+    }
+    if (!(lowest.pressure < -kRounding)) continue;
+    return reader.problem(reader.fault_pressure_key(fault, key),
+                          below_zero("in fault \"" + scene.faults[fault].name + "\"", lowest.depth,
+                                     lowest.pressure, step, scene.stages[steps[step].stage]),
+                          cure(lowest.initial));
+  }
 }
 
 /// By rule `prescribed` or `table`.
 void check_given(SceneReader& reader, const Scene& scene, std::size_t fault) {
   const FaultPressure& law = scene.faults[fault].pressure;
   const std::vector<FaultPlace> places = given_pressure_places(scene, fault);
-  std::vector initial = mapped(places, [&](const FaultPlace& place) {
+  const auto initial = [&](const FaultPlace& place) {
     return initial_state(scene, -place.depth, place.side).pressure;
-  });
+  };
   // Most never get there; only the others are followed step by step.
   const double least = least_given(law);
   const auto safe = [&](double p0) { return !(p0 + least < -kRounding); };
-  if (std::ranges::all_of(initial, safe)) return;
-  LowestPressure found;
-  const std::vector<StepEnd> steps = step_ends(scene);
-  for (std::size_t step = 0; step < steps.size() && !(found.pressure < -kRounding); ++step) {
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const double change = given_pressure_change(scene, fault, places[i], steps[step].time);
-      if (initial[i] + change < found.pressure)
-        found = {places[i].depth, initial[i] + change, initial[i], step};
-    }
-  }
-  if (!(found.pressure < -kRounding)) return;
-  const bool is_table = law.rule == FaultPressureRule::table;
-  const std::string cure =
-      found.initial <= 0 ? "let it act where there is an initial pressure: its depth_window, or "
-                           "initial_state"
-                         : below_zero_cure(found.initial) + " there";
-  report(reader, scene, fault, place_of(reader, fault, is_table ? "csv" : "prescribed"), found,
-         cure);
+  if (std::ranges::all_of(places, safe, initial)) return;
+  check_lowest(
+      reader, scene, fault, law.rule == FaultPressureRule::table ? "csv" : "prescribed", places,
+      [&](const FaultPlace& place, double time) -> FaultPressureAt {
+        const double p0 = initial(place);
+        return {place.depth, p0 + given_pressure_change(scene, fault, place, time), p0};
+      },
+      [](double p0) {
+        return p0 <= 0 ? "let it act where there is an initial pressure: its depth_window, or "
+                         "initial_state"
+                       : below_zero_cure(p0) + " there";
+      });
 }
 
 /// What the rule of a field's fault makes of blocks with an overpressure of their own: one that
@@ -199,25 +188,30 @@ void check_mixed(SceneReader& reader, const Scene& scene, std::size_t fault) {
     };
     return pressure_by_rule(law, beside(fault - 1), beside(fault));
   };
-  LowestPressure found;
-  const std::vector<StepEnd> steps = step_ends(scene);
-  for (std::size_t step = 0; step < steps.size() && !(found.pressure < -kRounding); ++step) {
-    for (const double depth : depths) {
-      for (const DepthSide side : {DepthSide::above, DepthSide::below}) {
+  std::vector<std::pair<double, DepthSide>> places;
+  for (const double depth : depths) {
+    for (const DepthSide side : {DepthSide::above, DepthSide::below})
+      places.push_back({depth, side});
+  }
+  check_lowest(
+      reader, scene, fault, "rule", places,
+      [&](const auto& place, double time) -> FaultPressureAt {
+        const auto [depth, side] = place;
         const double initial =
             initial_state(scene, -depth, side).pressure + by_rule(depth, side, [&](std::size_t b) {
               return own_pressure_excess(scene, b, -depth, side);
             });
-        const double pressure = initial + by_rule(depth, side, [&](std::size_t b) {
-                                  return pressure_change_at(scene.pressure[b], steps[step].time);
-                                });
-        if (pressure < found.pressure) found = {depth, pressure, initial, step};
-      }
-    }
-  }
-  if (!(found.pressure < -kRounding)) return;
-  report(reader, scene, fault, place_of(reader, fault, "rule"), found,
-         "take a rule that takes both from one side, as \"mean\", or let the blocks fall less");
+        return {depth,
+                initial + by_rule(depth, side,
+                                  [&](std::size_t b) {
+                                    return pressure_change_at(scene.pressure[b], time);
+                                  }),
+                initial};
+      },
+      [](double) {
+        return "take a rule that takes both from one side, as \"mean\", or let the blocks fall "
+               "less";
+      });
 }
 
 }  // namespace

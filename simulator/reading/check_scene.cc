@@ -1,7 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <cstdio>
 #include <string>
+#include <vector>
 
 #include "simulator/initial_state/load_times.h"
 #include "simulator/reading/scene_reader.h"
@@ -107,16 +108,6 @@ void check_layer_tops(SceneReader& reader, const BoxGeometry& box) {
   }
 }
 
-/// Half extent of a patch along x, y, z: its plane's directions are strike (sin, cos, 0) and dip.
-std::array<double, 3> half_extent(const PatchGeometry& patch) {
-  const double a = 0.5 * patch.length;
-  const double b = 0.5 * patch.width;
-  const double lean = std::sin(patch.dip_from_vertical);
-  return {std::abs(a * std::sin(patch.strike)) + std::abs(b * lean * std::cos(patch.strike)),
-          std::abs(a * std::cos(patch.strike)) + std::abs(b * lean * std::sin(patch.strike)),
-          std::abs(b * std::cos(patch.dip_from_vertical))};
-}
-
 void check_box(SceneReader& reader, const Scene& scene) {
   const BoxGeometry& box = scene.box;
   static const char* const axes = "xyz";
@@ -127,9 +118,8 @@ void check_box(SceneReader& reader, const Scene& scene) {
                      "write the upper corner in \"to\"");
     }
     for (std::size_t i = 0; i < box.patches.size(); ++i) {
-      const PatchGeometry& patch = box.patches[i];
-      const double half = half_extent(patch)[k];
-      if (patch.center[k] - half >= box.to[k] || patch.center[k] + half <= box.from[k]) {
+      const Bounds bounds = bounds_of(box.patches[i]);
+      if (bounds.low[k] >= box.to[k] || bounds.high[k] <= box.from[k]) {
         reader.problem(
             element("/faults", i) + "/center",
             "fault \"" + scene.faults[i].name + "\" lies outside the box along " + axes[k],
@@ -137,19 +127,17 @@ void check_box(SceneReader& reader, const Scene& scene) {
       }
     }
     for (std::size_t i = 0; i < box.regions.size(); ++i) {
-      const PressureRegion& region = box.regions[i];
-      const bool disc = region.shape == RegionShape::disc;
-      const double reach = k == 2 ? 0.5 * region.thickness : region.radius;
-      const double from = disc ? region.center[k] - reach : region.from[k];
-      const double to = disc ? region.center[k] + reach : region.to[k];
+      const Bounds bounds = bounds_of(box.regions[i]);
+      const double from = bounds.low[k], to = bounds.high[k];
       const std::string at = element("/geometry/regions", i);
       if (to <= from) {
         reader.problem(concat(at, "/to/", k),
                        std::string("the region ends before it begins along ") + axes[k],
                        "write the upper corner in \"to\"");
       } else if (from >= box.to[k] || to <= box.from[k]) {
-        reader.problem(at, "region \"" + region.name + "\" lies outside the box along " + axes[k],
-                       "move it between " + metres(box.from[k]) + " and " + metres(box.to[k]));
+        reader.problem(
+            at, "region \"" + box.regions[i].name + "\" lies outside the box along " + axes[k],
+            "move it between " + metres(box.from[k]) + " and " + metres(box.to[k]));
       }
     }
   }
@@ -170,10 +158,9 @@ void check_column(SceneReader& reader, const Scene& scene) {
                      "use \"kind\": \"profile\" with \"pressure\"");
     }
   }
-  const std::set<std::string> used = used_materials(scene);
-  for (const Material& material : scene.materials) {
+  for (const Material& material : used_materials(scene)) {
     const std::string at = "/materials/" + pointer_token(material.name);
-    if (used.count(material.name) != 0 && !reader.has(at + "/density")) {
+    if (!reader.has(at + "/density")) {
       reader.problem(at, "\"density\" is missing, the initial column weighs it",
                      "add for example \"density\": \"2400 kg/m3\"");
     }
@@ -183,19 +170,12 @@ void check_column(SceneReader& reader, const Scene& scene) {
 /// Stiffnesses this far apart leave no digits of the softer one in a sum of both.
 void check_contrast(SceneReader& reader, const Scene& scene) {
   constexpr double kMost = 1e10;
-  const std::set<std::string> used = used_materials(scene);
-  const Material* softest = nullptr;
-  const Material* stiffest = nullptr;
-  for (const Material& material : scene.materials) {
-    if (used.count(material.name) == 0 || std::isnan(material.youngs_modulus)) continue;
-    if (softest == nullptr || material.youngs_modulus < softest->youngs_modulus) {
-      softest = &material;
-    }
-    if (stiffest == nullptr || material.youngs_modulus > stiffest->youngs_modulus) {
-      stiffest = &material;
-    }
-  }
-  if (softest == nullptr || stiffest->youngs_modulus <= kMost * softest->youngs_modulus) return;
+  std::vector<Material> used = used_materials(scene);
+  std::erase_if(used, [](const Material& one) { return std::isnan(one.youngs_modulus); });
+  if (used.empty()) return;
+  const auto softest = std::ranges::min_element(used, {}, &Material::youngs_modulus);
+  const auto stiffest = std::ranges::max_element(used, {}, &Material::youngs_modulus);
+  if (stiffest->youngs_modulus <= kMost * softest->youngs_modulus) return;
   const std::string at = "/materials/" + pointer_token(softest->name) + "/youngs_modulus";
   reader.problem(
       at,

@@ -125,8 +125,7 @@ class CsvHistories {
   /// A table that ends elsewhere than the stages is right only where the scene says so.
   void check_end(double last, const std::string& file, const std::string& pointer) {
     if (!reader_.sound("/stages") || scene_.stages.empty()) return;
-    double end = 0;
-    for (const Stage& stage : scene_.stages) end += stage.duration;
+    const double end = end_time(scene_);
     const Stage& stage = scene_.stages.back();
     const double near = kMetShare * stage.duration / stage.n_steps;
     const std::string rule = reader_.text("/pressure_csv_end", "exact");

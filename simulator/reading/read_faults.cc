@@ -118,7 +118,7 @@ Friction read_friction(SceneReader& reader, const Overrides& from) {
   const bool weakens = friction.dynamic_friction_angle < friction.static_friction_angle;
   if (weakens) return friction;
   // Neither law nor measure says anything; equal cases stay equal.
-  friction.law = FrictionLaw::angle;
+  friction.law = WeakeningLaw::angle;
   friction.slip_measure = SlipMeasure::current;
   return friction;
 }

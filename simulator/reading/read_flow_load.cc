@@ -2,14 +2,13 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "simulator/common/dates.h"
 #include "simulator/common/printable.h"
 #include "simulator/flow/field_file.h"
-#include "simulator/flow/mirror.h"
+#include "simulator/flow/flow_field.h"
 #include "simulator/flow/report_choice.h"
 #include "simulator/initial_state/load_times.h"
 #include "simulator/reading/csv_tables.h"
@@ -150,8 +149,7 @@ void choose(SceneReader& reader, const FieldKey& key, double start, Scene& scene
         "time 0, " + date_text(start) + ", lies after the reference of " + at.substr(1),
         "begin at " + date_text(reference_date(load)) + ", or choose a later reference");
   }
-  double end = 0;
-  for (const Stage& stage : scene.stages) end += stage.duration;
+  const double end = end_time(scene);
   check_end(reader, at, scene, field, field.date.back() - start, end);
   // Up to the first report at or after the end.
   std::vector<double> time;
@@ -166,6 +164,14 @@ void choose(SceneReader& reader, const FieldKey& key, double start, Scene& scene
     load.reports.push_back(load.reference + i);
     load.time.push_back(time[static_cast<std::size_t>(i)]);
   }
+}
+
+/// How symmetric a field is, where half of the domain may be modelled.
+void measure_symmetry(const Scene& scene, FlowLoad& load) {
+  if (scene.geometry_kind != GeometryKind::field || scene.numerics.half_domain == Switch::off ||
+      scene.numerics.plane_strain == Switch::on)
+    return;
+  load.asymmetry = asymmetry(*field_in_scene(load));
 }
 
 }  // namespace
@@ -196,43 +202,7 @@ void choose_reports(SceneReader& reader, Scene& scene) {
   for (const FieldKey& key : kFields) choose(reader, key, *start, scene);
 }
 
-namespace {
-
-/// A temperature moves only rock that expands.
-void remark_rigid_rock(SceneReader& reader, Scene& scene) {
-  if (!scene.temperature_field.is_given()) return;
-  const std::set<std::string> used = used_materials(scene);
-  std::string reservoir;
-  for (const Layer& layer : scene.field.layers) {
-    if (layer.name == scene.field.reservoir_layer) reservoir = layer.material;
-  }
-  const bool is_field = scene.geometry_kind == GeometryKind::field;
-  const auto expands = [&](const Material& one) {
-    const bool is_heated = is_field ? one.name == reservoir : used.count(one.name) != 0;
-    return is_heated && one.thermal_expansion > 0;
-  };
-  if (std::ranges::any_of(scene.materials, expands)) return;
-  if (!reader.sound("/materials")) return;
-  scene.remarks.push_back(
-      {"/temperature_field", is_field
-                                 ? "has no effect: the thermal_expansion of " + reservoir + " is 0"
-                                 : "has no effect: no material has a thermal_expansion"});
-}
-
-/// How symmetric a field is, where half of the domain may be modelled.
-void measure_symmetry(const Scene& scene, FlowLoad& load) {
-  if (scene.geometry_kind != GeometryKind::field || scene.numerics.half_domain == Switch::off ||
-      scene.numerics.plane_strain == Switch::on)
-    return;
-  const bool is_moved = load.origin != std::array<double, 2>{0, 0} || load.azimuth != 0;
-  load.asymmetry =
-      asymmetry(is_moved ? placed(*load.field, load.origin, load.azimuth) : *load.field);
-}
-
-}  // namespace
-
-void check_flow_loads(SceneReader& reader, Scene& scene) {
-  remark_rigid_rock(reader, scene);
+void check_flow_loads(Scene& scene) {
   for (const FieldKey& key : kFields) {
     if ((scene.*key.load).is_given()) measure_symmetry(scene, scene.*key.load);
   }

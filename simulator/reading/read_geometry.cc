@@ -15,56 +15,40 @@ std::vector<std::string> material_names(const Scene& scene) {
 }
 
 std::vector<Layer> read_layers(SceneReader& reader, const Scene& scene) {
-  const std::string list = "/geometry/layers";
   const std::vector<std::string> materials = material_names(scene);
-  std::vector<Layer> layers;
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < reader.size(list); ++i) {
-    const std::string at = element(list, i) + "/";
-    Layer layer;
-    read_keys(reader, at, layer);
+  const auto check = [&](const std::string& at, const Layer& layer,
+                         const std::vector<Layer>& above) {
     reader.require_known(at + "material", layer.material, "material", materials);
-    if (i > 0 && layer.top_depth <= layers.back().top_depth) {
-      reader.problem(at + "top",
-                     "the top of layer \"" + layer.name + "\" (" + reader.as_given(at + "top") +
-                         ") is not below that of \"" + layers.back().name + "\"",
-                     "write layers from the surface down");
-    }
-    names.push_back(layer.name);
-    layers.push_back(layer);
-  }
-  reader.require_unique(list, "/name", names);
-  return layers;
+    if (above.empty() || !(layer.top_depth <= above.back().top_depth)) return;
+    reader.problem(at + "top",
+                   "the top of layer \"" + layer.name + "\" (" + reader.as_given(at + "top") +
+                       ") is not below that of \"" + above.back().name + "\"",
+                   "write layers from the surface down");
+  };
+  return read_list<Layer>(reader, "/geometry/layers", check);
 }
 
-void read_blocks(SceneReader& reader, FieldGeometry& field) {
-  const std::string list = "/geometry/blocks";
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < reader.size(list); ++i) {
-    const std::string at = element(list, i) + "/";
-    Block block;
-    read_keys(reader, at, block);
+void check_neighbours(SceneReader& reader, const std::string& at, const Block& block,
+                      const Block& west) {
+  const bool overlap = block.from < west.to;
+  if (!overlap && !(block.from > west.to)) return;
+  reader.problem(at + "from",
+                 "block \"" + block.name + "\" begins at " + reader.as_given(at + "from") +
+                     (overlap ? ", inside" : ", away from") + " block \"" + west.name +
+                     "\", which ends at " + metres(west.to),
+                 "write \"" + metres(west.to) + "\": blocks lie side by side from west to east");
+}
+
+std::vector<Block> read_blocks(SceneReader& reader) {
+  const auto check = [&](const std::string& at, Block& block, const std::vector<Block>& west) {
     if (block.mesh_offset == block.offset) block.mesh_offset.reset();  // it says nothing
     if (block.to <= block.from) {
       reader.problem(at + "to", "block \"" + block.name + "\" ends west of where it begins",
                      "write \"to\" larger than \"from\" (x grows eastwards)");
     }
-    if (i > 0 && block.from != field.blocks.back().to) {
-      const Block& west = field.blocks.back();
-      const bool overlap = block.from < west.to;
-      if (overlap || block.from > west.to) {
-        reader.problem(at + "from",
-                       "block \"" + block.name + "\" begins at " + reader.as_given(at + "from") +
-                           (overlap ? ", inside" : ", away from") + " block \"" + west.name +
-                           "\", which ends at " + in_unit(west.to, Dimension::length, "m"),
-                       "write \"" + in_unit(west.to, Dimension::length, "m") +
-                           "\": blocks lie side by side from west to east");
-      }
-    }
-    field.blocks.push_back(block);
-    names.push_back(block.name);
-  }
-  reader.require_unique(list, "/name", names);
+    if (!west.empty()) check_neighbours(reader, at, block, west.back());
+  };
+  return read_list<Block>(reader, "/geometry/blocks", check);
 }
 
 void read_field(SceneReader& reader, Scene& scene) {
@@ -77,7 +61,7 @@ void read_field(SceneReader& reader, Scene& scene) {
     reader.require_known(at + "reservoir_layer", field.reservoir_layer, "layer", layer_names);
   }
   reader.require_known(at + "sideburden", field.sideburden, "material", material_names(scene));
-  read_blocks(reader, field);
+  field.blocks = read_blocks(reader);
   const DepthInterval reservoir = reservoir_range(field);
   for (Block& block : field.blocks) {  // that of the layer says nothing
     if (block.thickness == reservoir.bottom - reservoir.top) block.thickness.reset();
@@ -136,18 +120,6 @@ void read_boundary(SceneReader& reader, BoxGeometry& box) {
   }
 }
 
-void read_regions(SceneReader& reader, BoxGeometry& box) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < reader.size("/geometry/regions"); ++i) {
-    const std::string at = element("/geometry/regions", i) + "/";
-    PressureRegion region;
-    read_keys(reader, at, region);
-    box.regions.push_back(region);
-    names.push_back(region.name);
-  }
-  reader.require_unique("/geometry/regions", "/name", names);
-}
-
 void read_box(SceneReader& reader, Scene& scene) {
   BoxGeometry& box = scene.box;
   const std::string at = "/geometry/";
@@ -161,7 +133,7 @@ void read_box(SceneReader& reader, Scene& scene) {
   }
   reader.require_known(at + "material", box.material, "material", material_names(scene));
   read_boundary(reader, box);
-  read_regions(reader, box);
+  box.regions = read_list<PressureRegion>(reader, at + "regions", [](const auto&...) {});
 }
 
 }  // namespace

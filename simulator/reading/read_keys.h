@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "simulator/common/words.h"
 #include "simulator/reading/scene_reader.h"
@@ -83,6 +85,25 @@ inline auto places_in(const SceneReader& reader, std::string_view at) {
 template <typename Struct>
 void read_keys(const SceneReader& reader, std::string_view at, Struct& one) {
   for_each_key(one, key_reader(reader, places_in(reader, at)));
+}
+
+/// Reads the objects of a list, whose names are unique.
+/// @param also  what is read or checked besides, called with the pointer to the object and a slash,
+///              the object, and those before it.
+template <typename Struct, typename Also>
+std::vector<Struct> read_list(SceneReader& reader, const std::string& list, const Also& also) {
+  std::vector<Struct> all;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < reader.size(list); ++i) {
+    const std::string at = element(list, i) + "/";
+    Struct one;
+    read_keys(reader, at, one);
+    also(at, one, all);
+    names.push_back(one.name);
+    all.push_back(std::move(one));
+  }
+  reader.require_unique(list, "/name", names);
+  return all;
 }
 
 }  // namespace faultsim

@@ -136,17 +136,7 @@ class LoadingReader {
     if (given.size() > 1) {
       reader_.problem(at + given[1], "the stage has " + given[0] + " too", "keep one of the two");
     }
-    for (const std::string& key : given) {
-      const nlohmann::json* value = reader_.find(at + key);
-      if (value->is_object()) {
-        for (const std::string& region : reader_.keys(at + key)) {
-          require_region(at + key + "/" + pointer_token(region), region);
-        }
-      } else if (regions_.empty() && reader_.sound("/geometry")) {
-        reader_.problem(at + key, "there is no region whose pressure could change",
-                        "add \"regions\" to the geometry or remove this line");
-      }
-    }
+    for (const std::string& key : given) check_regions(at + key, "pressure");
     if (reader_.has(at + "cycles") && !reader_.has(at + "pressure_between")) {
       reader_.problem(at + "cycles", "there are cycles but no \"pressure_between\"",
                       "add for example \"pressure_between\": [\"-120 bar\", \"-60 bar\"]");
@@ -171,16 +161,18 @@ class LoadingReader {
     }
   }
   void check_temperatures(const std::string& pointer) {
-    const nlohmann::json* value = reader_.find(pointer);
-    if (value == nullptr) return;
-    if (reader_.has("/temperature_field")) {
-      reader_.problem(pointer, "the temperatures are those of /temperature_field",
-                      "remove one of the two");
-    } else if (value->is_object()) {
+    if (!reader_.has(pointer)) return;
+    if (!reader_.has("/temperature_field")) return check_regions(pointer, "temperature");
+    reader_.problem(pointer, "the temperatures are those of /temperature_field",
+                    "remove one of the two");
+  }
+  /// The regions that a value is given for, one by one or all.
+  void check_regions(const std::string& pointer, const std::string& what) {
+    if (reader_.find(pointer)->is_object()) {
       for (const std::string& region : reader_.keys(pointer))
         require_region(pointer + "/" + pointer_token(region), region);
     } else if (regions_.empty() && reader_.sound("/geometry")) {
-      reader_.problem(pointer, "there is no region whose temperature could change",
+      reader_.problem(pointer, "there is no region whose " + what + " could change",
                       "add \"regions\" to the geometry or remove this line");
     }
   }

@@ -143,13 +143,8 @@ void read_initial_state(SceneReader& reader, Scene& scene) {
 void read_output(SceneReader& reader, Scene& scene) {
   OutputRequest& output = scene.output;
   read_keys(reader, "/output/", output);
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < reader.size("/output/observation_points"); ++i) {
-    const std::string at = element("/output/observation_points", i) + "/";
-    read_keys(reader, at, output.observation_points.emplace_back());
-    names.push_back(output.observation_points.back().name);
-  }
-  reader.require_unique("/output/observation_points", "/name", names);
+  output.observation_points =
+      read_list<ObservationPoint>(reader, "/output/observation_points", [](const auto&...) {});
 }
 
 const Schema& scene_schema() {
@@ -162,7 +157,7 @@ void relate_parts(SceneReader& reader, const std::vector<Problem>& problems, Sce
   check_fault_tables(reader, scene);
   check_pressures(reader, scene);
   check_creep(reader, scene);
-  check_flow_loads(reader, scene);
+  check_flow_loads(scene);
   check_turning_points(reader, scene);
   if (!problems.empty()) return;
   add_remarks(reader, scene);

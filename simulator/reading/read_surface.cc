@@ -36,27 +36,16 @@ std::optional<SurfaceParameter> parameter_at(const std::string& pointer, const S
   return std::nullopt;
 }
 
-Dimension dimension_of(Kind kind) {
-  switch (kind) {
-    case Kind::youngs_modulus:
-      return Dimension::pressure;
-    case Kind::poisson_ratio:
-      return Dimension::number;
-    case Kind::dip:
-      return Dimension::angle;
-    case Kind::offset:
-      return Dimension::length;
-  }
-  throw_internal("a kind of parameter", "", __FILE__, __LINE__);
-}
+/// Of each kind.
+constexpr Dimension kDimensions[] = {Dimension::pressure, Dimension::number, Dimension::angle,
+                                     Dimension::length};
 
 double end_at(SceneReader& reader, const std::string& pointer, Kind kind) {
   const json* value = reader.find(pointer);
   if (value == nullptr || !reader.sound(pointer)) return kNaN;
-  const Dimension dimension = dimension_of(kind);
+  const Dimension dimension = kDimensions[static_cast<int>(kind)];
   if (value->is_number() && dimension == Dimension::number) return value->get<double>();
-  const std::string text = value->is_string() ? value->get<std::string>() : value->dump();
-  const ParsedQuantity parsed = parse_quantity(text, dimension);
+  const ParsedQuantity parsed = parse_quantity(reader.as_given(pointer), dimension);
   if (!parsed.ok) reader.problem(pointer, parsed.what, parsed.cure);
   return parsed.value;
 }

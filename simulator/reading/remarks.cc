@@ -60,19 +60,15 @@ class IdleInputs {
 
   /// The material whose pressure the blocks change; "" where any may be in a region.
   std::string depleted_material() const {
-    for (const Layer& layer : scene_.field.layers) {
-      if (is_field_ && layer.name == scene_.field.reservoir_layer) return layer.material;
-    }
-    return "";
+    return is_field_ ? scene_.field.layers[reservoir_index(scene_.field)].material : "";
   }
 
   void materials() {
-    const std::set<std::string> used = used_materials(scene_);
     const std::string depleted = depleted_material();
     const bool no_region = !is_field_ && scene_.box.regions.empty();
     for (const Material& material : scene_.materials) {
       const std::string at = "/materials/" + pointer_token(material.name);
-      if (used.count(material.name) == 0) {
+      if (!is_used(scene_, material)) {
         idle(at, "nothing is made of it");
         continue;
       }
@@ -95,10 +91,9 @@ class IdleInputs {
   /// Whether a temperature changes in a material that expands.
   bool heats() const {
     if (!has_temperatures()) return false;
-    const std::set<std::string> used = used_materials(scene_);
     const std::string only = depleted_material();
-    return std::ranges::any_of(scene_.materials, [&](const Material& m) {
-      return m.thermal_expansion > 0 && (only.empty() ? used.count(m.name) != 0 : m.name == only);
+    return std::any_of(scene_.materials.begin(), scene_.materials.end(), [&](const Material& m) {
+      return m.thermal_expansion > 0 && (only.empty() ? is_used(scene_, m) : m.name == only);
     });
   }
 
@@ -245,7 +240,7 @@ class IdleInputs {
         "friction does not weaken: the dynamic value is the static one";
     shared_key("/friction", {"slip_weakening_distance"}, no_weakening, weakens);
     shared_key("/friction", {"law"}, no_weakening,
-               [&](const Fault& f) { return weakens(f) || f.friction.law == FrictionLaw::angle; });
+               [&](const Fault& f) { return weakens(f) || f.friction.law == WeakeningLaw::angle; });
     shared_key("/friction", {"slip_measure"}, no_weakening, [&](const Fault& f) {
       return weakens(f) || f.friction.slip_measure == SlipMeasure::current;
     });
@@ -274,12 +269,6 @@ class IdleInputs {
     });
   }
 
-  /// Where a key of a fault's pressure is given.
-  std::string place(std::size_t fault, const std::string& key) const {
-    const std::string own = element("/faults", fault) + "/fault_pressure/" + key;
-    return reader_.has(own) ? own : "/fault_pressure/" + key;
-  }
-
   /// A prescribed pressure must meet a fault of those that take it from one place. What only the
   /// cells know is found when it runs.
   void windows() {
@@ -288,7 +277,8 @@ class IdleInputs {
     for (std::size_t f = 0; f < scene_.faults.size(); ++f) {
       if (!prescribes(scene_.faults[f])) continue;
       const bool has_window = scene_.faults[f].pressure.depth_window.has_value();
-      const std::string at = place(f, has_window ? "depth_window" : "prescribed");
+      const std::string at =
+          reader_.fault_pressure_key(f, has_window ? "depth_window" : "prescribed");
       const std::string why = why_missed(f);
       if (why.empty()) met.insert(at);
       if (!why.empty()) missed[at] += (missed[at].empty() ? "" : "; ") + why;

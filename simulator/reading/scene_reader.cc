@@ -285,6 +285,11 @@ void SceneReader::require_unique(const std::string& list, const std::string& suf
   }
 }
 
+std::string SceneReader::fault_pressure_key(std::size_t fault, const std::string& key) const {
+  const std::string own = element("/faults", fault) + "/fault_pressure/" + key;
+  return has(own) ? own : "/fault_pressure/" + key;
+}
+
 std::string SceneReader::as_given(const std::string& pointer) const {
   const json* value = find(pointer);
   if (value == nullptr) return "";

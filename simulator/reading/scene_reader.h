@@ -91,6 +91,8 @@ class SceneReader {
   /// Adds a problem per name that was there before. @param suffix  of each element's pointer.
   void require_unique(const std::string& list, const std::string& suffix,
                       const std::vector<std::string>& names);
+  /// Where a key of a fault's pressure is given: by the fault, or for all.
+  std::string fault_pressure_key(std::size_t fault, const std::string& key) const;
   /// The value as it stands in the file, without quotes.
   std::string as_given(const std::string& pointer) const;
 
@@ -146,8 +148,8 @@ void check_creep(SceneReader& reader, const Scene& scene);
 void check_fault_tables(SceneReader& reader, const Scene& scene);
 /// Reads /numerics/surface and holds its parameters against the rest. @pre the rest is read.
 void read_surface(SceneReader& reader, Scene& scene);
-/// What a field cannot be combined with.
-void check_flow_loads(SceneReader& reader, Scene& scene);
+/// Measures how symmetric fields are, where half of the domain may be modelled.
+void check_flow_loads(Scene& scene);
 /// No more load steps are added at turning points than /numerics/max_added_steps.
 void check_turning_points(SceneReader& reader, const Scene& scene);
 

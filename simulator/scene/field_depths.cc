@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "simulator/scene/scene.h"
+
 namespace faultsim {
 
 bool DepthInterval::holds(double depth, DepthSide side) const {
@@ -17,14 +19,16 @@ void DepthInterval::unite(const DepthInterval& other) {
   bottom = std::max(bottom, other.bottom);
 }
 
+std::size_t reservoir_index(const FieldGeometry& field) {
+  const auto found = std::ranges::find(field.layers, field.reservoir_layer, &Layer::name);
+  return static_cast<std::size_t>(found - field.layers.begin());
+}
+
 DepthInterval reservoir_range(const FieldGeometry& field) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t i = 0; i < field.layers.size(); ++i) {
-    if (field.layers[i].name != field.reservoir_layer) continue;
-    const bool is_last = i + 1 == field.layers.size();
-    return {field.layers[i].top_depth, is_last ? field.depth : field.layers[i + 1].top_depth};
-  }
-  return {kNone, kNone};
+  const std::size_t i = reservoir_index(field), n = field.layers.size();
+  if (i == n) return {kNone, kNone};
+  return {field.layers[i].top_depth, i + 1 == n ? field.depth : field.layers[i + 1].top_depth};
 }
 
 DepthInterval reservoir_range(const FieldGeometry& field, const Block& block) {
@@ -44,10 +48,19 @@ DepthInterval fault_range(const FieldGeometry& field, std::size_t fault) {
   return {range.top - field.fault_overshoot, range.bottom + field.fault_overshoot};
 }
 
+DepthInterval all_faults_range(const FieldGeometry& field) {
+  DepthInterval all = fault_range(field, 0);
+  for (std::size_t i = 1; i <= field.blocks.size(); ++i) all.unite(fault_range(field, i));
+  return all;
+}
+
+double fault_x(const FieldGeometry& field, std::size_t fault) {
+  return fault < field.blocks.size() ? field.blocks[fault].from : field.blocks.back().to;
+}
+
 double fault_x(const Scene& scene, std::size_t fault, double depth) {
-  const auto& blocks = scene.field.blocks;
-  const double x = fault < blocks.size() ? blocks[fault].from : blocks.back().to;
-  return x + (depth - scene.field.pivot_depth) * std::tan(scene.faults[fault].dip_from_vertical);
+  return fault_x(scene.field, fault) +
+         (depth - scene.field.pivot_depth) * std::tan(scene.faults[fault].dip_from_vertical);
 }
 
 }  // namespace faultsim

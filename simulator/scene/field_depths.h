@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <span>
 
-#include "simulator/scene/scene.h"
+#include "simulator/scene/geometry.h"
 
 namespace faultsim {
+
+struct Scene;
 
 /// Which limit to take where p0 jumps (top and base of an overpressured reservoir layer) or σ_h
 /// does (top and base of a lithostatic viscous layer).
@@ -22,6 +24,8 @@ struct DepthInterval {
   void unite(const DepthInterval& other);
 };
 
+/// Index of the reservoir layer; behind the last one where no layer has its name.
+std::size_t reservoir_index(const FieldGeometry& field);
 /// The reservoir layer of a field at zero offset; NaN where no layer has its name.
 DepthInterval reservoir_range(const FieldGeometry& field);
 /// The reservoir of a block: at its offset, of its own thickness if it has one.
@@ -32,7 +36,10 @@ std::span<const Block> blocks_beside(const FieldGeometry& field, std::size_t fau
 /// From fault_overshoot above the shallowest to fault_overshoot below the deepest edge of the
 /// reservoirs beside the fault.
 DepthInterval fault_range(const FieldGeometry& field, std::size_t fault);
-/// x of a field's fault at a depth, m.
+/// From the shallowest to the deepest point of its faults.
+DepthInterval all_faults_range(const FieldGeometry& field);
+/// x of a field's fault at the pivot depth, and at any, m.
+double fault_x(const FieldGeometry& field, std::size_t fault);
 double fault_x(const Scene& scene, std::size_t fault, double depth);
 
 }  // namespace faultsim

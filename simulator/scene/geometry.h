@@ -200,6 +200,14 @@ void for_each_key(Of<PressureRegion> auto& r, auto&& visit) {
   visit({"thickness", kRequired | unless(is_disc, kIdle) | kFamily}, r.thickness);
 }
 
+/// The corners of what holds a shape, m.
+struct Bounds {
+  std::array<double, 3> low, high;
+};
+Bounds bounds_of(const PressureRegion& region);
+/// As of a rectangle.
+Bounds bounds_of(const PatchGeometry& patch);
+
 struct BoxGeometry {
   std::array<double, 3> from = {0, 0, 0};   ///< m, lower corner.
   std::array<double, 3> to = {0, 0, 0};     ///< m, upper corner.

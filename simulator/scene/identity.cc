@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <string>
 #include <vector>
@@ -30,13 +31,9 @@ struct Canonical {
     append(text, value);
   }
   void write(double value) { append(text, value + 0.0); }
-  template <typename Value, std::size_t n>
-  void write(const std::array<Value, n>& list) {
-    append_list(text, list, Element());
-  }
-  template <typename Value>
-  void write(const std::vector<Value>& list) {
-    append_list(text, list, Element());
+  template <std::ranges::range List>
+  requires(!std::is_convertible_v<List, std::string_view>) void write(const List& list) {
+    append_list(text, list, [](std::string& to, const auto& one) { Canonical{to}.write(one); });
   }
   void write(const std::vector<Side>& sides) {
     append_list(text, std::set<Side>(sides.begin(), sides.end()),
@@ -70,16 +67,13 @@ struct Canonical {
     object.close();
   }
 
-  struct Element {
-    template <typename Value>
-    void operator()(std::string& to, const Value& one) const {
-      Canonical{to}.write(one);
-    }
-  };
   /// Adds the members that it is called with to an object.
   static auto adder(ObjectText& object) {
     return [&object](const SceneKey& key, const auto& member) {
-      if (key.is(kIdle) || key.is(kSilent) || !is_given(member)) return;
+      if (key.is(kIdle) || key.is(kSilent)) return;
+      if constexpr (requires { member.has_value(); }) {
+        if (!member) return;
+      }
       object.add(key.in_text.empty() ? key.name : key.in_text, [&](std::string& to) {
         if constexpr (requires { words(member); }) {
           if (key.is(kWord)) return append(to, to_string(member));
@@ -87,14 +81,6 @@ struct Canonical {
         Canonical{to}.write(member);
       });
     };
-  }
-  template <typename Value>
-  static bool is_given(const Value&) {
-    return true;
-  }
-  template <typename Value>
-  static bool is_given(const std::optional<Value>& value) {
-    return value.has_value();
   }
 };
 
@@ -107,11 +93,10 @@ std::string text_of(const Value& value) {
 
 /// Only materials that something is made of: an unused one is a remark.
 std::string materials(const Scene& scene) {
-  const std::set<std::string> used = used_materials(scene);
   std::string text;
   ObjectText object(text);
   for (const Material& material : scene.materials) {
-    if (used.count(material.name) == 0) continue;
+    if (!is_used(scene, material)) continue;
     object.add(material.name, [&](std::string& to) { Canonical{to}.write(material); });
   }
   object.close();

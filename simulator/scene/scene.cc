@@ -1,8 +1,11 @@
 #include "simulator/scene/scene.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include "simulator/common/errors.h"
+#include "simulator/flow/flow_field.h"
 
 namespace faultsim {
 namespace {
@@ -60,20 +63,54 @@ bool have_same_body(const Scene& a, const Scene& b) {
          std::ranges::equal(a.faults, b.faults, is_same_surface);
 }
 
-std::set<std::string> used_materials(const Scene& scene) {
-  std::set<std::string> used;
-  const bool is_field = scene.geometry_kind == GeometryKind::field;
-  for (const Layer& layer : is_field ? scene.field.layers : scene.box.layers) {
-    used.insert(layer.material);
+Bounds bounds_of(const PressureRegion& region) {
+  if (region.shape == RegionShape::box) return {region.from, region.to};
+  const std::array<double, 3>& c = region.center;
+  const double r = region.radius, half = 0.5 * region.thickness;
+  return {{c[0] - r, c[1] - r, c[2] - half}, {c[0] + r, c[1] + r, c[2] + half}};
+}
+
+Bounds bounds_of(const PatchGeometry& patch) {
+  const double a = 0.5 * patch.length, b = 0.5 * patch.width;
+  const double lean = b * std::sin(patch.dip_from_vertical);
+  const std::array<double, 3> half = {
+      std::abs(a * std::sin(patch.strike)) + std::abs(lean * std::cos(patch.strike)),
+      std::abs(a * std::cos(patch.strike)) + std::abs(lean * std::sin(patch.strike)),
+      std::abs(b * std::cos(patch.dip_from_vertical))};
+  Bounds bounds;
+  for (std::size_t k = 0; k < 3; ++k) {
+    bounds.low[k] = patch.center[k] - half[k];
+    bounds.high[k] = patch.center[k] + half[k];
   }
-  used.insert(is_field ? scene.field.sideburden : scene.box.material);
+  return bounds;
+}
+
+std::shared_ptr<const FlowField> field_in_scene(const FlowLoad& load) {
+  if (load.origin == std::array<double, 2>{0, 0} && load.azimuth == 0) return load.field;
+  return std::make_shared<const FlowField>(placed(*load.field, load.origin, load.azimuth));
+}
+
+const std::vector<Layer>& layers_of(const Scene& scene) {
+  return scene.geometry_kind == GeometryKind::field ? scene.field.layers : scene.box.layers;
+}
+
+bool is_used(const Scene& scene, const Material& material) {
+  const bool is_field = scene.geometry_kind == GeometryKind::field;
+  return material.name == (is_field ? scene.field.sideburden : scene.box.material) ||
+         std::ranges::find(layers_of(scene), material.name, &Layer::material) !=
+             layers_of(scene).end();
+}
+
+std::vector<Material> used_materials(const Scene& scene) {
+  std::vector<Material> used;
+  std::ranges::copy_if(scene.materials, std::back_inserter(used),
+                       [&](const Material& material) { return is_used(scene, material); });
   return used;
 }
 
 bool has_viscous_material(const Scene& scene) {
-  const std::set<std::string> used = used_materials(scene);
   return std::ranges::any_of(scene.materials, [&](const Material& material) {
-    return material.viscosity && used.count(material.name) != 0;
+    return material.viscosity && is_used(scene, material);
   });
 }
 

@@ -3,11 +3,12 @@
 #include <array>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "simulator/flow/outside_rule.h"
+#include "simulator/laws/coulomb_law.h"
+#include "simulator/laws/maxwell.h"
 #include "simulator/scene/geometry.h"
 
 /// The scene as plain structs: everything in SI, x east across the faults, y along strike, z up
@@ -75,16 +76,12 @@ void for_each_key(Of<InitialState> auto& s, auto&& visit) {
         s.viscous_layers);
 }
 
-enum class FrictionLaw {
-  angle,        ///< φ(s) = φ_s + (φ_d − φ_s) min(s/d_c, 1)           (docs/model.md, 6)
-  coefficient,  ///< tan φ weakens linearly instead.
-};
-constexpr auto words(FrictionLaw) { return std::array{"angle", "coefficient"}; }
+constexpr auto words(WeakeningLaw) { return std::array{"angle", "coefficient"}; }
 enum class SlipMeasure { current, cumulated };
 constexpr auto words(SlipMeasure) { return std::array{"current", "cumulated"}; }
 
 struct Friction {
-  FrictionLaw law = FrictionLaw::angle;
+  WeakeningLaw law = WeakeningLaw::angle;
   double cohesion = 0;                 ///< Pa.
   double static_friction_angle = 0;    ///< rad; JSON may give friction_coefficient instead.
   double dynamic_friction_angle = 0;   ///< rad; equal to the static one = no weakening.
@@ -250,6 +247,9 @@ void for_each_key(Of<FlowLoad> auto& l, auto&& visit) {
   visit({"time", kByHand}, l.time);
 }
 
+/// The field in the scene's coordinates. @pre it is given.
+std::shared_ptr<const FlowField> field_in_scene(const FlowLoad& load);
+
 struct ObservationPoint {
   std::string name;
   std::array<double, 3> position = {0, 0, 0};  ///< m; the nearest node is used and reported.
@@ -279,12 +279,7 @@ enum class TurningPoints {
 };
 constexpr auto words(TurningPoints) { return std::array{"steps", "report"}; }
 
-/// How the viscous strain of a step follows from the stresses (docs/model.md, 13).
-enum class CreepScheme {
-  exponential,     ///< exact for a strain rate that is constant in the step.
-  backward_euler,  ///< first order: what many codes do, to measure the difference.
-};
-constexpr auto words(CreepScheme) { return std::array{"exponential", "backward_euler"}; }
+constexpr auto words(MaxwellScheme) { return std::array{"exponential", "backward_euler"}; }
 
 /// A parameter in which a surface of operators is continuous, and its range.
 struct SurfaceParameter {
@@ -334,7 +329,7 @@ struct Numerics {
                                  ///< not given: 4 in plane strain, 1 in 3D.
   double creep_tolerance = 2e4;  ///< Pa, largest difference of fault traction between one step of
                                  ///< creep and two of half its length that is accepted.
-  CreepScheme creep_scheme = CreepScheme::exponential;
+  MaxwellScheme creep_scheme = MaxwellScheme::exponential;
   SurfaceRequest surface;
   bool operator==(const Numerics&) const = default;
 };
@@ -416,8 +411,11 @@ double value_of(const SurfaceParameter& one, const Scene& scene);
 void set_value(const SurfaceParameter& one, double value, Scene& scene);
 /// Names of the pressure regions: the field's blocks or the box's regions.
 std::vector<std::string> region_names(const Scene& scene);
-/// Names of the materials that the geometry is made of; the scene may list others.
-std::set<std::string> used_materials(const Scene& scene);
+/// Of the field or the box; of a box there may be none.
+const std::vector<Layer>& layers_of(const Scene& scene);
+/// Whether the geometry is made of a material; the scene may list others.
+bool is_used(const Scene& scene, const Material& material);
+std::vector<Material> used_materials(const Scene& scene);
 /// Whether one of those has a viscosity.
 bool has_viscous_material(const Scene& scene);
 

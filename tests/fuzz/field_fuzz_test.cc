@@ -119,7 +119,10 @@ TEST(FieldFuzz, LosesNeitherVolumeNorPressure) {
     if (field.cells.empty()) continue;
     const std::vector<MappedCell> cells = random_cells(draws);
     const FlowMapping mapping = map_flow(field, cells, {"west", "east"}, OutsideRule::unchanged);
-    const Eigen::VectorXd pressure = mapped_values(mapping, field, 0);
+    FlowField from_zero = field;
+    from_zero.value = Eigen::MatrixXd::Zero(field.value.rows(), 2);
+    from_zero.value.col(1) = field.value.col(0);
+    const Eigen::VectorXd pressure = mapped_change(mapping, from_zero, 0, {1}).col(0);
     double volume = 0, integral = 0, covered = 0, found = 0;
     for (std::size_t f = 0; f < field.cells.size(); ++f) {
       const FlowCell& cell = field.cells[f];

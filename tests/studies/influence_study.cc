@@ -13,7 +13,7 @@
 #include "simulator/common/stopwatch.h"
 #include "simulator/linalg/blas_start.h"
 #include "simulator/operators/influence.h"
-#include "simulator/plan/influence_plan.h"
+#include "simulator/plan/plan.h"
 #include "simulator/reading/read_scene.h"
 
 namespace faultsim {

@@ -27,9 +27,9 @@ BulkProblem make_problem() {
   spec.from = {-300, -250, -400};
   spec.to = {300, 250, 0};
   spec.layer_materials = {0};
-  spec.patches.push_back({"F", {0, 0, -200}, 0.0, 20 * M_PI / 180, 300, 260, false});
-  BoxMeshSpec::Region region{};
-  region.disc = false;
+  spec.fault_names = {"F"};
+  spec.patches.push_back({{0, 0, -200}, 0.0, 20 * M_PI / 180, 300, 260});
+  PressureRegion region{};
   region.from = {0, -250, -250};
   region.to = {300, 250, -150};
   spec.regions.push_back(region);
@@ -42,13 +42,13 @@ BulkProblem make_problem() {
   Eigen::Matrix3d pull = none;
   pull(0, 0) = 1;
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
-  problem.conditions = {{MeshSide::z_min, {true, true, true}, zero, none, -1},
-                        {MeshSide::z_max, {true, true, true}, {0, 1, 0}, none, 1},
-                        {MeshSide::x_min, {true, false, false}, zero, none, -1}};
+  problem.conditions = {{Side::z_min, {true, true, true}, zero, none, -1},
+                        {Side::z_max, {true, true, true}, {0, 1, 0}, none, 1},
+                        {Side::x_min, {true, false, false}, zero, none, -1}};
   LoadCase pressure, shear, tension;
   pressure.region = 0;
   shear.displacement = true;
-  tension.stress_sides = {MeshSide::x_max};
+  tension.stress_sides = {Side::x_max};
   tension.stress = pull;
   problem.loads = {pressure, shear, tension};
   return problem;

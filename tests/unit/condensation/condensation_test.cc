@@ -51,7 +51,7 @@ TEST(CondensedBulk, AgreesWithTheSaddlePointSystem) {
   problem.materials = {{11e9, 0.15}};
   // The second fault reaches y_min and z_min, which are free, so that every node has three jumps.
   problem.conditions = {
-      {MeshSide::x_min, {true, true, true}, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1}};
+      {Side::x_min, {true, true, true}, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1}};
   problem.loads = {test::pressure_case(0)};
   SilentMonitor monitor;
   CondensedBulk bulk(problem, monitor);
@@ -201,8 +201,8 @@ TEST(FaultGeometry, MeansOverTheFacesAroundANode) {
     mesh.region[cell] = 3;
     mesh.region_fraction[cell] = x.y() == 0 ? 0.5 : 1;
   }
-  problem.conditions = test::rollers(
-      {MeshSide::y_min, MeshSide::y_max, MeshSide::z_min, MeshSide::x_min, MeshSide::x_max});
+  problem.conditions =
+      test::rollers({Side::y_min, Side::y_max, Side::z_min, Side::x_min, Side::x_max});
   const FaultOperator op = condense(problem);
   const OperatorNode& centre = op.geometry.nodes[4];
   EXPECT_EQ(centre.position, Eigen::Vector3d(10, 3, -4));

@@ -83,8 +83,8 @@ TEST(Compaction, LockedNormalTractionIsGammaH) {
   test::set_region(problem.mesh, 0, 1,
                    [](const auto& x) { return x.z() > -501 && x.z() < -201; });  // −500 … −200
   problem.materials = {{11e9, 0.15}};
-  problem.conditions = test::rollers(
-      {MeshSide::x_min, MeshSide::x_max, MeshSide::y_min, MeshSide::y_max, MeshSide::z_min});
+  problem.conditions =
+      test::rollers({Side::x_min, Side::x_max, Side::y_min, Side::y_max, Side::z_min});
   problem.loads = {test::pressure_case(0)};
   problem.observation_points = {{"top", {0, 0, 0}}};
   const FaultOperator op = condense(problem);

@@ -17,7 +17,13 @@ FaultGeometry geometry_of(double strike, double dip, bool ellipse, double length
   spec.from = {-12, -12, -12};
   spec.to = {12, 12, 12};
   spec.layer_materials = {0};
-  spec.patches = {{"F", {0, 0, 0}, strike * kDegree, dip * kDegree, length, width, ellipse}};
+  spec.fault_names = {"F"};
+  spec.patches = {{{0, 0, 0},
+                   strike * kDegree,
+                   dip * kDegree,
+                   length,
+                   width,
+                   ellipse ? PatchShape::ellipse : PatchShape::rectangle}};
   spec.sizes = {1, 1, 1, 1.3, 0, 0};
   const Mesh mesh = make_mesh(spec);
   return fault_geometry(mesh, {{10e9, 0.2}}, DofMap(mesh, {}, 0), false);

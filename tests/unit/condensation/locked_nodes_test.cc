@@ -12,14 +12,14 @@ TEST(LockedNodes, AreReportedAndLeftOutOfTheContactProblem) {
   spec.from = {-100, 0, -100};
   spec.to = {100, 50, 0};
   spec.layer_materials = {0};
-  spec.patches.push_back({"F", {0, 25, -50}, 0.0, 0.35, 1000, 1000, false});
+  spec.fault_names = {"F"};
+  spec.patches.push_back({{0, 25, -50}, 0.0, 0.35, 1000, 1000});
   spec.sizes = {25, 25, 25, 1.3, 1e4, 0};
   BulkProblem problem;
   problem.mesh = make_mesh(spec);
   problem.materials = {{10e9, 0.2}};
   const Eigen::Matrix3d none = Eigen::Matrix3d::Zero();
-  for (const MeshSide side :
-       {MeshSide::x_min, MeshSide::x_max, MeshSide::y_min, MeshSide::y_max, MeshSide::z_min}) {
+  for (const Side side : {Side::x_min, Side::x_max, Side::y_min, Side::y_max, Side::z_min}) {
     std::array<bool, 3> components = {false, false, false};
     components[static_cast<std::size_t>(side) / 2] = true;
     problem.conditions.push_back({side, components, Eigen::Vector3d::Zero(), none, -1});

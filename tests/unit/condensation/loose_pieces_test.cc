@@ -14,12 +14,12 @@ using test::make_box;
 
 const std::array<int, 3> kCells = {4, 2, 2};
 
-BulkProblem two_blocks(const std::vector<MeshSide>& sides) {
+BulkProblem two_blocks(const std::vector<Side>& sides) {
   BulkProblem problem;
   problem.mesh = make_box(kCells, {40, 20, 20}, {test::through(3, kCells)});
   problem.materials = {{11e9, 0.15}};
   problem.conditions = test::rollers(sides);
-  problem.loads = {test::stress_case(-1e6 * Eigen::Matrix3d::Identity(), {MeshSide::x_max})};
+  problem.loads = {test::stress_case(-1e6 * Eigen::Matrix3d::Identity(), {Side::x_max})};
   return problem;
 }
 
@@ -35,7 +35,7 @@ std::string error_of(const BulkProblem& problem) {
 TEST(LoosePieces, ABlockHeldByTheFaultAloneTransmitsItsLoad) {
   // The right block may slide along x on its rollers; the fault must carry the load of its side.
   const FaultOperator op =
-      condense(two_blocks({MeshSide::x_min, MeshSide::y_min, MeshSide::y_max, MeshSide::z_min}));
+      condense(two_blocks({Side::x_min, Side::y_min, Side::y_max, Side::z_min}));
   for (const OperatorNode& node : op.geometry.nodes) {
     EXPECT_NEAR(op.loads.traction(node.dof[0], 0), -1e6, 1e-3);
   }
@@ -46,7 +46,7 @@ TEST(LoosePieces, SpringsStandOnlyWhereABlockIsLoose) {
   BulkProblem problem;
   problem.mesh = make_box(n, {60, 20, 20}, {test::through(2, n), test::through(4, n)});
   problem.materials = {{11e9, 0.15}};
-  problem.conditions = test::rollers({MeshSide::x_min, MeshSide::y_min, MeshSide::z_min});
+  problem.conditions = test::rollers({Side::x_min, Side::y_min, Side::z_min});
   const auto springs = [&] {
     const DofMap dofs(problem.mesh, problem.conditions, 0);
     const FaultGeometry geometry = fault_geometry(problem.mesh, problem.materials, dofs, false);
@@ -54,7 +54,7 @@ TEST(LoosePieces, SpringsStandOnlyWhereABlockIsLoose) {
   };
   const auto [loose, geometry] = springs();
   EXPECT_GT(loose.minCoeff(), 0) << "both right blocks may slide along x";
-  problem.conditions.push_back(test::rollers({MeshSide::x_max})[0]);
+  problem.conditions.push_back(test::rollers({Side::x_max})[0]);
   const auto [middle, same] = springs();
   EXPECT_GT(middle.minCoeff(), 0) << "the middle block touches both faults";
   problem.conditions = test::rollers(test::all_sides());
@@ -74,7 +74,7 @@ TEST(LoosePieces, SpringsStandOnlyWhereABlockIsLoose) {
 
 TEST(LoosePieces, ABodyThatNothingHoldsIsRefusedInWords) {
   EXPECT_EQ(
-      error_of(two_blocks({MeshSide::x_min, MeshSide::z_min})),
+      error_of(two_blocks({Side::x_min, Side::z_min})),
       "scene: /geometry/boundary: the block x 0 to 40 m, y 0 to 20 m, z -20 to 0 m (16 cells) "
       "can move along y; fix displacement components on a side that the block touches (a "
       "roller or \"displacement\"), or prescribe no displacement anywhere: the body is then "
@@ -82,7 +82,7 @@ TEST(LoosePieces, ABodyThatNothingHoldsIsRefusedInWords) {
 }
 
 TEST(LoosePieces, ABlockWithoutAFaultIsRefused) {
-  BulkProblem problem = two_blocks({MeshSide::x_min, MeshSide::y_min, MeshSide::z_min});
+  BulkProblem problem = two_blocks({Side::x_min, Side::y_min, Side::z_min});
   problem.mesh = test::without_faults(problem.mesh);
   EXPECT_THAT(error_of(problem),
               testing::HasSubstr("the block x 30 to 40 m, y 0 to 20 m, z -20 to 0 m (4 cells) can "
@@ -102,7 +102,7 @@ TEST(LoosePieces, AHingeIsRefusedWithItsPlace) {
   }
   problem.materials = {{11e9, 0.15}};
   problem.conditions = {
-      {MeshSide::x_min, {true, true, true}, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1}};
+      {Side::x_min, {true, true, true}, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1}};
   EXPECT_THAT(error_of(problem), testing::HasSubstr("the stiffness matrix is singular at x "));
   EXPECT_THAT(error_of(problem), testing::HasSubstr("is not held well enough"));
 }

@@ -8,7 +8,7 @@
 
 namespace faultsim::test {
 
-inline LoadCase stress_case(const Eigen::Matrix3d& stress, std::vector<MeshSide> sides) {
+inline LoadCase stress_case(const Eigen::Matrix3d& stress, std::vector<Side> sides) {
   LoadCase load;
   load.key = {LoadKey::Kind::boundary, 0};
   load.stress = stress;
@@ -68,16 +68,16 @@ inline BulkProblem mixed_problem() {
   }
   set_region(problem.mesh, 0, 1, [](const auto& x) { return x.z() < -5 && x.y() > 5; });
   set_region(problem.mesh, 1, 0.25, [](const auto& x) { return x.x() < 15 && x.y() <= 5; });
-  problem.conditions = rollers({MeshSide::x_min, MeshSide::y_min, MeshSide::z_min});
-  problem.conditions.push_back({MeshSide::x_max,
+  problem.conditions = rollers({Side::x_min, Side::y_min, Side::z_min});
+  problem.conditions.push_back({Side::x_max,
                                 {true, true, false},
                                 Eigen::Vector3d(-1e-3, 2e-3, 0),
                                 Eigen::Matrix3d::Constant(1e-5),
                                 2});
   Eigen::Matrix3d stress;
   stress << -20, 3, 2, 3, -25, 1, 2, 1, -30;
-  problem.loads = {pressure_case(0), stress_case(1e6 * stress, {MeshSide::z_max}),
-                   displacement_case(), pressure_case(1)};
+  problem.loads = {pressure_case(0), stress_case(1e6 * stress, {Side::z_max}), displacement_case(),
+                   pressure_case(1)};
   problem.observation_points = {
       {"top", {30, 20, 1}}, {"fault", {20, 20, -20}}, {"corner", {60, 0, 0}}};
   return problem;

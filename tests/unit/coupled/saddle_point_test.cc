@@ -290,8 +290,7 @@ TEST(TwoSidedBulk, RefusesAPieceThatNothingHolds) {
   BulkProblem problem;
   problem.mesh = test::make_box(n, {40, 20, 20}, {test::through(2, n)});
   problem.materials = {{11e9, 0.15}};
-  problem.conditions =
-      test::rollers({MeshSide::x_min, MeshSide::y_min, MeshSide::y_max, MeshSide::z_min});
+  problem.conditions = test::rollers({Side::x_min, Side::y_min, Side::y_max, Side::z_min});
   try {
     const TwoSidedBulk bulk(problem);
     FAIL() << "no error";

@@ -41,7 +41,7 @@ std::vector<MaxwellStep> steps(const CreepCells& cells, const MaxwellStep& step)
 /// itself: K is linear in the shear factor.
 TEST(CreepCells, ForcesOfAnInstantaneousDeviatorAreDeviatoricStiffness) {
   const Mesh mesh = layered_mesh();
-  const DofMap dofs(mesh, test::rollers({MeshSide::z_min}), 1);
+  const DofMap dofs(mesh, test::rollers({Side::z_min}), 1);
   const CreepCells cells(mesh, kMaterials, kViscosity, dofs);
   ASSERT_EQ(cells.materials().size(), 2U);
   const Eigen::VectorXd x = 1e-3 * Eigen::VectorXd::Random(dofs.n_unknowns());
@@ -113,7 +113,7 @@ TEST(CreepCells, RigidMotionAndDilatationDoNothing) {
 /// Of each material with its own step; what does not creep has no part.
 TEST(CreepCells, EachMaterialDecaysByItsOwnStep) {
   const Mesh mesh = layered_mesh();
-  const DofMap dofs(mesh, test::rollers({MeshSide::z_min}), 1);
+  const DofMap dofs(mesh, test::rollers({Side::z_min}), 1);
   const CreepCells cells(mesh, kMaterials, kViscosity, dofs);
   EXPECT_EQ(cells.n_cells(),
             static_cast<int>(std::count_if(mesh.material.begin(), mesh.material.end(),
@@ -142,7 +142,7 @@ TEST(CreepCells, PlaneStrainIsPerMetreWhateverTheThickness) {
   const auto forces = [](double thickness) {
     Mesh mesh = make_box({4, 1, 4}, {40, thickness, 40}, {}, test::shear_to_dip(70));
     test::make_plane_strain(mesh, thickness);
-    const DofMap dofs(mesh, test::rollers({MeshSide::z_min, MeshSide::x_min}), 1);
+    const DofMap dofs(mesh, test::rollers({Side::z_min, Side::x_min}), 1);
     const std::vector<ElasticMaterial> salt = {{40e9, 0.3}};
     const CreepCells cells(mesh, salt, {1e17}, dofs);
     const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(dofs.n_unknowns(), -1e-3, 2e-3);
@@ -191,17 +191,14 @@ class Cantilever {
     constexpr double kLength = 20, kHeight = 2, kShear = 1e3;
     Mesh mesh = make_box({80, 1, 8}, {kLength, 1, kHeight}, {});
     test::make_plane_strain(mesh, 1);
-    const DofMap dofs(mesh,
-                      {{MeshSide::x_min,
-                        {true, true, true},
-                        Eigen::Vector3d::Zero(),
-                        Eigen::Matrix3d::Zero(),
-                        -1}},
-                      1);
+    const DofMap dofs(
+        mesh,
+        {{Side::x_min, {true, true, true}, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1}},
+        1);
     Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
     stress(0, 2) = stress(2, 0) = kShear;
     const Eigen::VectorXd x = solve(assemble_stiffness(mesh, {material}, dofs, b_bar),
-                                    stress_load(mesh, dofs, {MeshSide::x_max}, stress));
+                                    stress_load(mesh, dofs, {Side::x_max}, stress));
     const double tip = nodal_displacement(mesh, dofs, x, {}).row(2).maxCoeff();
     // With a shear factor φ: G' = φ G at the same K, and E' = 4 G' (3K + G')/(3K + 4G').
     const double G = shear_modulus(material) * material.shear_factor;

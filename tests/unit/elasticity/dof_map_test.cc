@@ -25,7 +25,7 @@ std::string components(const DofMap& dofs, int node) {
 
 TEST(DofMap, UnknownsAreMeansAndLocalJumps) {
   const Mesh mesh = make_box(kCells, {4, 2, 3}, {{2, 0, 2, 0, 2}}, test::shear_to_dip(60));
-  const DofMap dofs(mesh, test::rollers({MeshSide::x_min}), 0);
+  const DofMap dofs(mesh, test::rollers({Side::x_min}), 0);
   EXPECT_EQ(dofs.n_unknowns(), dofs.n_bulk() + dofs.n_jump());
   EXPECT_EQ(dofs.n_jump(), 3 * static_cast<int>(mesh.faults[0].nodes.size()));
   EXPECT_EQ(static_cast<int>(dofs.bulk_group().size()), dofs.n_bulk());
@@ -48,7 +48,7 @@ TEST(DofMap, UnknownsAreMeansAndLocalJumps) {
 
 TEST(DofMap, RollerAlongStrikeOrDipRemovesThatJump) {
   const Mesh mesh = make_box(kCells, {4, 2, 3}, {test::through(2, kCells)});
-  const DofMap dofs(mesh, test::rollers({MeshSide::y_min, MeshSide::z_min, MeshSide::x_min}), 0);
+  const DofMap dofs(mesh, test::rollers({Side::y_min, Side::z_min, Side::x_min}), 0);
   EXPECT_TRUE(dofs.locked_positions().empty());
   for (std::size_t k = 0; k < mesh.faults[0].nodes.size(); ++k) {
     const Eigen::Vector3d x =
@@ -61,7 +61,7 @@ TEST(DofMap, RollerAlongStrikeOrDipRemovesThatJump) {
 
 TEST(DofMap, RollerAcrossADippingFaultLocksItsNodes) {
   const Mesh mesh = make_box(kCells, {4, 2, 3}, {test::through(2, kCells)}, test::shear_to_dip(60));
-  const DofMap dofs(mesh, test::rollers({MeshSide::y_min, MeshSide::z_min}), 0);
+  const DofMap dofs(mesh, test::rollers({Side::y_min, Side::z_min}), 0);
   EXPECT_EQ(dofs.locked_positions().size(), 3u);
   for (std::size_t k = 0; k < mesh.faults[0].nodes.size(); ++k) {
     const FaultNode& node = mesh.faults[0].nodes[k];
@@ -78,18 +78,15 @@ TEST(DofMap, RollerAcrossADippingFaultLocksItsNodes) {
 TEST(DofMap, FixedNormalLocks) {
   const Mesh mesh = make_box(kCells, {4, 2, 3}, {test::through(2, kCells)});
   const std::vector<DisplacementCondition> fixed = {
-      {MeshSide::z_min, {true, true, true}, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1}};
+      {Side::z_min, {true, true, true}, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1}};
   EXPECT_EQ(DofMap(mesh, fixed, 0).locked_positions().size(), 3u);
 }
 
 TEST(DofMap, PrescribedValuesComeFromTheFirstConditionOnAnEdge) {
   const Mesh mesh = make_box(kCells, {4, 2, 3}, {});
-  std::vector<DisplacementCondition> conditions = test::rollers({MeshSide::x_min});
-  conditions.push_back({MeshSide::z_max,
-                        {true, false, true},
-                        Eigen::Vector3d(7, 8, 9),
-                        Eigen::Matrix3d::Identity(),
-                        1});
+  std::vector<DisplacementCondition> conditions = test::rollers({Side::x_min});
+  conditions.push_back(
+      {Side::z_max, {true, false, true}, Eigen::Vector3d(7, 8, 9), Eigen::Matrix3d::Identity(), 1});
   const DofMap dofs(mesh, conditions, 2);
   EXPECT_FALSE(dofs.has_prescribed(0));
   EXPECT_TRUE(dofs.has_prescribed(1));
@@ -109,7 +106,7 @@ TEST(DofMap, PlaneStrainTiesAndRemovesTheJumpAlongY) {
   Mesh mesh = make_box(n, {4, 5, 3}, {test::through(2, n)}, test::shear_to_dip(70));
   test::make_plane_strain(mesh, 5);
   ASSERT_EQ(mesh.faults[0].nodes.size(), 4u);
-  const DofMap dofs(mesh, test::rollers({MeshSide::x_min}), 0);
+  const DofMap dofs(mesh, test::rollers({Side::x_min}), 0);
   for (int k = 0; k < 4; ++k) EXPECT_EQ(components(dofs, k), "nd");
   const Eigen::Matrix3Xd u =
       nodal_displacement(mesh, dofs, Eigen::VectorXd::Random(dofs.n_unknowns()), {});
@@ -145,7 +142,7 @@ TEST(Pieces, FaultsCutTheBodyAndHoldItTogether) {
 
 TEST(RigidModes, AreDescribedInWords) {
   const Mesh mesh = make_box(kCells, {4, 2, 3}, {});
-  const auto words = [&](const std::vector<MeshSide>& sides) {
+  const auto words = [&](const std::vector<Side>& sides) {
     const DofMap dofs(mesh, test::rollers(sides), 0);
     const auto fixed = [&](int node, int c) {
       return dofs.terms(node, c).first == dofs.terms(node, c).second;
@@ -153,9 +150,9 @@ TEST(RigidModes, AreDescribedInWords) {
     return describe(rigid_modes(
         mesh, [](int) { return true; }, fixed));
   };
-  EXPECT_EQ(words({MeshSide::z_min}), "move along x, move along y, turn about z");
-  EXPECT_EQ(words({MeshSide::z_min, MeshSide::y_min}), "move along x");
-  EXPECT_EQ(words({MeshSide::z_min, MeshSide::y_min, MeshSide::x_max}), "");
+  EXPECT_EQ(words({Side::z_min}), "move along x, move along y, turn about z");
+  EXPECT_EQ(words({Side::z_min, Side::y_min}), "move along x");
+  EXPECT_EQ(words({Side::z_min, Side::y_min, Side::x_max}), "");
 }
 
 }  // namespace

@@ -124,10 +124,8 @@ TEST(Elasticity, ConfinedLayerCompactsExactly) {
       mesh.region_fraction[cell] = 1;
     }
   }
-  const DofMap dofs(mesh,
-                    test::rollers({MeshSide::x_min, MeshSide::x_max, MeshSide::y_min,
-                                   MeshSide::y_max, MeshSide::z_min}),
-                    1);
+  const DofMap dofs(
+      mesh, test::rollers({Side::x_min, Side::x_max, Side::y_min, Side::y_max, Side::z_min}), 1);
   for (const auto& [biot, shortening] : {std::pair(1.0, 0.34438503), {0.6, 0.20663102}}) {
     const SparseMatrix k = assemble_stiffness(mesh, kRock, dofs, true);
     const Eigen::VectorXd f = biot * -20e6 * pressure_load(mesh, dofs, 0);
@@ -157,25 +155,25 @@ TEST(Elasticity, PressureLoadsACellByTheShareOfItThatLiesInTheRegion) {
 TEST(Elasticity, NothingPullsAtFrontAndBackOfASlice) {
   Mesh mesh = make_box({4, 1, 4}, {40, 5, 40}, {}, test::shear_to_dip(70));
   const Eigen::Matrix3d stress = hooke(kRock[0], some_gradient());
-  const std::vector<MeshSide> sides = {MeshSide::y_min, MeshSide::y_max};
+  const std::vector<Side> sides = {Side::y_min, Side::y_max};
   EXPECT_GT(nodal_stress_forces(mesh, sides, stress).norm(), 0) << "a body of its own";
   test::make_plane_strain(mesh, 5);
   EXPECT_EQ(nodal_stress_forces(mesh, sides, stress).norm(), 0);
-  EXPECT_GT(nodal_stress_forces(mesh, {MeshSide::x_max}, stress).norm(), 0);
+  EXPECT_GT(nodal_stress_forces(mesh, {Side::x_max}, stress).norm(), 0);
 }
 
 TEST(Elasticity, BBarDoesNotLockWhenNearlyIncompressible) {
   // Bending of a cantilever: plain elements lock at ν → ½, mean dilatation does not.
   const Mesh mesh = make_box({10, 1, 3}, {10, 1, 1.5}, {});
   std::vector<DisplacementCondition> clamp = {
-      {MeshSide::x_min, {true, true, true}, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1}};
+      {Side::x_min, {true, true, true}, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1}};
   const DofMap dofs(mesh, clamp, 1);
   Eigen::Matrix3d shear = Eigen::Matrix3d::Zero();
   shear(2, 0) = shear(0, 2) = 1e3;
   const auto deflection = [&](double nu, bool b_bar) {
     const std::vector<ElasticMaterial> material = {{1e9, nu}};
     const SparseMatrix k = assemble_stiffness(mesh, material, dofs, b_bar);
-    const Eigen::VectorXd x = solve(k, stress_load(mesh, dofs, {MeshSide::x_max}, shear));
+    const Eigen::VectorXd x = solve(k, stress_load(mesh, dofs, {Side::x_max}, shear));
     return nodal_displacement(mesh, dofs, x, {}).row(2).maxCoeff();
   };
   EXPECT_GT(deflection(0.4999, true), 0.8 * deflection(0.3, true));
@@ -188,7 +186,7 @@ TEST(Elasticity, PlaneStrainIsPerMetreWhateverTheThickness) {
     test::make_plane_strain(mesh, thickness);
     mesh.region[5] = 0;
     mesh.region_fraction[5] = 0.5;
-    const DofMap dofs(mesh, test::rollers({MeshSide::z_min, MeshSide::x_min}), 2);
+    const DofMap dofs(mesh, test::rollers({Side::z_min, Side::x_min}), 2);
     const SparseMatrix k = assemble_stiffness(mesh, kRock, dofs, true);
     Eigen::VectorXd f = pressure_load(mesh, dofs, 0);
     Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
@@ -207,7 +205,7 @@ TEST(Elasticity, AssemblyEqualsThePlainSumOverCells) {
   const std::array<int, 3> n = {4, 3, 3};
   Mesh mesh = make_box(n, {40, 30, 30}, {{2, 1, 3, 0, 2}}, test::shear_to_dip(60));
   test::distort(mesh, 10, 0.1);
-  const DofMap dofs(mesh, test::rollers({MeshSide::z_min, MeshSide::x_min, MeshSide::y_min}), 0);
+  const DofMap dofs(mesh, test::rollers({Side::z_min, Side::x_min, Side::y_min}), 0);
   Eigen::MatrixXd p =
       Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(mesh.nodes.size()), dofs.n_unknowns());
   for (int node = 0; node < static_cast<int>(mesh.nodes.size()); ++node) {

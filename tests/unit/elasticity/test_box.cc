@@ -107,16 +107,15 @@ class BoxMaker {
                                   corner(1, 1, 1), corner(0, 1, 1)};
     const int index = static_cast<int>(mesh_.cells.size());
     mesh_.cells.push_back(c);
-    const auto face = [&](MeshSide side, std::size_t p, std::size_t q, std::size_t r,
-                          std::size_t s) {
+    const auto face = [&](Side side, std::size_t p, std::size_t q, std::size_t r, std::size_t s) {
       mesh_.boundary.push_back({index, {c[p], c[q], c[r], c[s]}, side});
     };
-    if (i == 0) face(MeshSide::x_min, 0, 4, 7, 3);
-    if (i == n_[0] - 1) face(MeshSide::x_max, 1, 2, 6, 5);
-    if (j == 0) face(MeshSide::y_min, 0, 1, 5, 4);
-    if (j == n_[1] - 1) face(MeshSide::y_max, 3, 7, 6, 2);
-    if (k == 0) face(MeshSide::z_min, 0, 3, 2, 1);
-    if (k == n_[2] - 1) face(MeshSide::z_max, 4, 5, 6, 7);
+    if (i == 0) face(Side::x_min, 0, 4, 7, 3);
+    if (i == n_[0] - 1) face(Side::x_max, 1, 2, 6, 5);
+    if (j == 0) face(Side::y_min, 0, 1, 5, 4);
+    if (j == n_[1] - 1) face(Side::y_max, 3, 7, 6, 2);
+    if (k == 0) face(Side::z_min, 0, 3, 2, 1);
+    if (k == n_[2] - 1) face(Side::z_max, 4, 5, 6, 7);
   }
 
   std::array<int, 3> n_;
@@ -210,9 +209,9 @@ void make_plane_strain(Mesh& mesh, double thickness) {
   }
 }
 
-std::vector<DisplacementCondition> rollers(const std::vector<MeshSide>& sides) {
+std::vector<DisplacementCondition> rollers(const std::vector<Side>& sides) {
   std::vector<DisplacementCondition> conditions;
-  for (MeshSide side : sides) {
+  for (Side side : sides) {
     DisplacementCondition condition{
         side, {false, false, false}, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1};
     condition.components[static_cast<std::size_t>(side) / 2] = true;
@@ -224,15 +223,14 @@ std::vector<DisplacementCondition> rollers(const std::vector<MeshSide>& sides) {
 std::vector<DisplacementCondition> affine(const Eigen::Vector3d& translation,
                                           const Eigen::Matrix3d& gradient) {
   std::vector<DisplacementCondition> conditions;
-  for (MeshSide side : all_sides()) {
+  for (Side side : all_sides()) {
     conditions.push_back({side, {true, true, true}, translation, gradient, 0});
   }
   return conditions;
 }
 
-std::vector<MeshSide> all_sides() {
-  return {MeshSide::x_min, MeshSide::x_max, MeshSide::y_min,
-          MeshSide::y_max, MeshSide::z_min, MeshSide::z_max};
+std::vector<Side> all_sides() {
+  return {Side::x_min, Side::x_max, Side::y_min, Side::y_max, Side::z_min, Side::z_max};
 }
 
 Mesh without_faults(Mesh mesh) {

@@ -105,12 +105,13 @@ TEST(FlowMapping, TakesASectionFromBothSidesOfItsY) {
   CellCorners cell = two_sides(1, 1)[0].corners;
   for (Eigen::Vector3d& corner : cell) corner.y() /= 100;  // from 0 to 1, as plane strain has it
   FlowField field;
-  field.date = {0};
+  field.date = {0, 1};
   field.cells = {{{0, -50, -1100}, {100, 0, -1000}}, {{0, 0, -1100}, {100, 50, -1000}}};
-  field.value = Eigen::Vector2d(1e7, 3e7);
+  field.value = Eigen::Matrix2d{{0, 1e7}, {0, 3e7}};
   const auto at = [&](double y) {
     const std::vector<MappedCell> section{{.corners = at_section(cell, y), .region = 0}};
-    return mapped_values(map_flow(field, section, {"west"}, OutsideRule::nearest), field, 0)[0];
+    const FlowMapping mapping = map_flow(field, section, {"west"}, OutsideRule::nearest);
+    return mapped_change(mapping, field, 0)(0, 1);
   };
   EXPECT_NEAR(at(0), 2e7, 1e-5);
   EXPECT_NEAR(at(-20), 1e7, 1e-5);

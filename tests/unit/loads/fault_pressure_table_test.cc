@@ -1,5 +1,5 @@
 // Tables of fault pressure at nodes: linear in place and time, and where nodes are in them.
-#include "simulator/loads/fault_pressure_table.h"
+#include "simulator/loads/history.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "simulator/loads/history.h"
+#include "simulator/initial_state/pressure_history.h"
 
 #include <gtest/gtest.h>
 
@@ -46,11 +47,11 @@ TEST(PressureChanges, AreLinearLaggedAndScaled) {
 }
 
 TEST(TableValue, IsOneWithoutATableAndConstantOutsideIt) {
-  EXPECT_EQ(table_value({}, 3.0), 1.0);
+  EXPECT_EQ(factor_at({}, 3.0), 1.0);
   const TimeTable table{{1.0, 3.0}, {2.0, 6.0}};
-  EXPECT_DOUBLE_EQ(table_value(table, 0.0), 2.0);
-  EXPECT_DOUBLE_EQ(table_value(table, 2.0), 4.0);
-  EXPECT_DOUBLE_EQ(table_value(table, 9.0), 6.0);
+  EXPECT_DOUBLE_EQ(factor_at(table, 0.0), 2.0);
+  EXPECT_DOUBLE_EQ(factor_at(table, 2.0), 4.0);
+  EXPECT_DOUBLE_EQ(factor_at(table, 9.0), 6.0);
 }
 
 TEST(LoadFactors, TakeBiotFromTheMaterialAndTheTableFromTheBoundary) {

@@ -12,19 +12,20 @@ BoxMeshSpec body() {
   BoxMeshSpec spec;
   spec.from = {-20, -20, -20}, spec.to = {20, 20, 20};
   spec.layer_materials = {0};
+  spec.fault_names = {"a", "c", "b"};
   spec.sizes = {1, 1, 1, 1.3, 0, 0};
   spec.plane_strain = false;
   return spec;
 }
 
-Eigen::Vector3d along(const BoxMeshSpec::Patch& patch) {
+Eigen::Vector3d along(const PatchGeometry& patch) {
   return {std::sin(patch.strike), std::cos(patch.strike), 0};
 }
-Eigen::Vector3d down(const BoxMeshSpec::Patch& patch) {
+Eigen::Vector3d down(const PatchGeometry& patch) {
   const double s = patch.strike, d = patch.dip_from_vertical;
   return {std::sin(d) * std::cos(s), -std::sin(d) * std::sin(s), -std::cos(d)};
 }
-Eigen::Vector3d centre(const BoxMeshSpec::Patch& patch) {
+Eigen::Vector3d centre(const PatchGeometry& patch) {
   return {patch.center[0], patch.center[1], patch.center[2]};
 }
 
@@ -33,7 +34,7 @@ TEST(BoxPatch, ThroughGoingPlanesHaveTheExactAreaAtAnyDip) {
     SCOPED_TRACE(dip);
     BoxMeshSpec spec = body();
     spec.from[2] = -12, spec.to[2] = 12;
-    spec.patches = {{"plane", {1, 0, 0}, 0, dip * kDegree, 1000, 1000, false}};
+    spec.patches = {{{1, 0, 0}, 0, dip * kDegree, 1000, 1000}};
     const Mesh mesh = make_mesh(spec);
     check_mesh(mesh);
     const double exact = 40 * 24 / std::cos(dip * kDegree);
@@ -48,7 +49,7 @@ TEST(BoxPatch, ThroughGoingPlanesHaveTheExactAreaAtAnyDip) {
 
 TEST(BoxPatch, ThroughGoingPlanesMayHaveStrikeAndDip) {
   BoxMeshSpec spec = body();
-  spec.patches = {{"plane", {0, 0, 0}, 20 * kDegree, 15 * kDegree, 1000, 1000, false}};
+  spec.patches = {{{0, 0, 0}, 20 * kDegree, 15 * kDegree, 1000, 1000}};
   const Mesh mesh = make_mesh(spec);
   check_mesh(mesh);
   const double exact = 40 * 40 / mesh.faults[0].nodes[0].normal.x();
@@ -61,12 +62,12 @@ TEST(BoxPatch, RectanglesEndOnGridLinesWhateverTheirStrikeAndDip) {
     for (const double dip : {0.0, 20.0, -30.0}) {
       SCOPED_TRACE(::testing::Message() << "strike " << strike << " dip " << dip);
       BoxMeshSpec spec = body();
-      spec.patches = {{"patch", {1, -1, 2}, strike * kDegree, dip * kDegree, 10, 8, false}};
+      spec.patches = {{{1, -1, 2}, strike * kDegree, dip * kDegree, 10, 8}};
       const Mesh mesh = make_mesh(spec);
       check_mesh(mesh);
       const FaultSurface& fault = mesh.faults[0];
       EXPECT_NEAR(face_area(fault), 80, 1e-9);
-      const BoxMeshSpec::Patch& patch = spec.patches[0];
+      const PatchGeometry& patch = spec.patches[0];
       double max_u = 0, max_v = 0;
       for (size_t k = 0; k < fault.points.size(); ++k) {
         const Eigen::Vector3d local = fault.points[k] - centre(patch);
@@ -89,7 +90,7 @@ TEST(BoxPatch, FlatPatchesLieOnABentHorizontalGridPlane) {
   for (const double strike : {0.0, 90.0, 180.0})
     for (const double dip : {90.0, 70.0, -60.0, -90.0}) {
       SCOPED_TRACE(::testing::Message() << "strike " << strike << " dip " << dip);
-      spec.patches = {{"patch", {1, -1, 2}, strike * kDegree, dip * kDegree, 10, 8, false}};
+      spec.patches = {{{1, -1, 2}, strike * kDegree, dip * kDegree, 10, 8}};
       const Mesh mesh = make_mesh(spec);
       check_mesh(mesh);
       EXPECT_NEAR(face_area(mesh.faults[0]), 80, 1e-9);
@@ -105,11 +106,11 @@ TEST(BoxPatch, EllipsesSplitTheNodesStrictlyInside) {
     SCOPED_TRACE(dip);
     BoxMeshSpec spec = body();
     spec.sizes = {0.5, 0.5, 0.5, 1.3, 0, 0};
-    spec.patches = {{"penny", {0, 0, 0}, 25 * kDegree, dip * kDegree, 8, 6, true}};
+    spec.patches = {{{0, 0, 0}, 25 * kDegree, dip * kDegree, 8, 6, PatchShape::ellipse}};
     const Mesh mesh = make_mesh(spec);
     check_mesh(mesh);
     const FaultSurface& fault = mesh.faults[0];
-    const BoxMeshSpec::Patch& patch = spec.patches[0];
+    const PatchGeometry& patch = spec.patches[0];
     for (size_t k = 0; k < fault.points.size(); ++k) {
       const double u = fault.points[k].dot(along(patch)) / 4,
                    v = fault.points[k].dot(down(patch)) / 3;
@@ -122,7 +123,7 @@ TEST(BoxPatch, EllipsesSplitTheNodesStrictlyInside) {
 
 TEST(BoxPatch, CentreOfACircularPatchIsSymmetric) {
   BoxMeshSpec spec = body();
-  spec.patches = {{"penny", {0, 0, 0}, 0, 90 * kDegree, 8, 8, true}};
+  spec.patches = {{{0, 0, 0}, 0, 90 * kDegree, 8, 8, PatchShape::ellipse}};
   const Mesh mesh = make_mesh(spec);
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
   for (const FaultNode& one : mesh.faults[0].nodes) first += one.area * node(mesh, one.minus_node);
@@ -131,9 +132,9 @@ TEST(BoxPatch, CentreOfACircularPatchIsSymmetric) {
 
 TEST(BoxPatch, SeveralFaultsSplitEachOnTheirPlane) {
   BoxMeshSpec spec = body();
-  spec.patches = {{"a", {-8, 0, 0}, 0, 20 * kDegree, 1000, 1000, false},
-                  {"c", {9, 0, 0}, 10 * kDegree, 0, 1000, 1000, false},
-                  {"b", {0, 2, 0}, 0, 0, 10, 10, false}};
+  spec.patches = {{{-8, 0, 0}, 0, 20 * kDegree, 1000, 1000},
+                  {{9, 0, 0}, 10 * kDegree, 0, 1000, 1000},
+                  {{0, 2, 0}, 0, 0, 10, 10}};
   spec.from[2] = -10, spec.to[2] = 10;
   const Mesh mesh = make_mesh(spec);
   check_mesh(mesh);
@@ -146,8 +147,7 @@ TEST(BoxPatch, SeveralFaultsSplitEachOnTheirPlane) {
 
 TEST(BoxPatch, ParallelPatchesMayBeNearWhereTheirRangesDiffer) {
   BoxMeshSpec spec = body();
-  spec.patches = {{"south", {0, -6, 0}, 30 * kDegree, 0, 6, 6, false},
-                  {"north", {3, 6, 0}, 30 * kDegree, 0, 6, 6, false}};
+  spec.patches = {{{0, -6, 0}, 30 * kDegree, 0, 6, 6}, {{3, 6, 0}, 30 * kDegree, 0, 6, 6}};
   const Mesh mesh = make_mesh(spec);
   check_mesh(mesh);
   EXPECT_NEAR(face_area(mesh.faults[0]), 36, 1e-9);
@@ -158,8 +158,8 @@ TEST(BoxPatch, TwoPatchesMayShareAPlaneAndAnEdge) {
   BoxMeshSpec spec = body();
   const double dip = 20 * kDegree;
   const Eigen::Vector3d step = 3 * Eigen::Vector3d(std::sin(dip), 0, -std::cos(dip));
-  spec.patches = {{"upper", {-step.x(), 0, -step.z()}, 0, dip, 10, 6, false},
-                  {"lower", {step.x(), 0, step.z()}, 0, dip, 10, 6, false}};
+  spec.patches = {{{-step.x(), 0, -step.z()}, 0, dip, 10, 6},
+                  {{step.x(), 0, step.z()}, 0, dip, 10, 6}};
   const Mesh mesh = make_mesh(spec);
   check_mesh(mesh);
   EXPECT_NEAR(face_area(mesh.faults[0]), 60, 1e-9);
@@ -172,9 +172,9 @@ TEST(BoxPatch, RegionsEndOnASlantedFault) {
   spec.from = {-200, 0, -100}, spec.to = {200, 1, 100};
   spec.plane_strain = true;
   spec.sizes = {1, 2.5, 2.5, 1.2, 0, 0};
-  spec.patches = {{"fault", {0, 0.5, 0}, 0, 20 * kDegree, 10, 80, false}};
-  spec.regions = {{false, {-200, 0, -15}, {0, 1, 7.5}, {}, 0, 0},
-                  {false, {0, 0, -7.5}, {200, 1, 15}, {}, 0, 0}};
+  spec.patches = {{{0, 0.5, 0}, 0, 20 * kDegree, 10, 80}};
+  spec.regions = {{"", RegionShape::box, {-200, 0, -15}, {0, 1, 7.5}},
+                  {"", RegionShape::box, {0, 0, -7.5}, {200, 1, 15}}};
   const Mesh mesh = make_mesh(spec);
   check_mesh(mesh);
   for (const FaultFace& face : mesh.faults[0].faces) {
@@ -188,7 +188,7 @@ TEST(BoxPatch, RegionsEndOnASlantedFault) {
 
 TEST(BoxPatch, FineCellsAreKeptToTheMargin) {
   BoxMeshSpec spec = body();
-  spec.patches = {{"patch", {0, 0, 0}, 0, 0, 6, 8, false}};
+  spec.patches = {{{0, 0, 0}, 0, 0, 6, 8}};
   spec.sizes = {1, 0.5, 0.25, 1.3, 3, 4};
   std::vector<Problem> problems;
   const GridLines lines = grid_lines(spec, problems);
@@ -196,10 +196,10 @@ TEST(BoxPatch, FineCellsAreKeptToTheMargin) {
   const auto has = [](const std::vector<double>& line, double x) {
     return std::any_of(line.begin(), line.end(), [&](double v) { return std::abs(v - x) < 1e-9; });
   };
-  for (int k = -6; k <= 6; ++k) EXPECT_TRUE(has(lines.y, k)) << k;
-  for (int k = -14; k <= 14; ++k) EXPECT_TRUE(has(lines.z, 0.5 * k)) << k;
-  for (const double x : {-0.25, 0.0, 0.25}) EXPECT_TRUE(has(lines.x, x)) << x;
-  for (const auto& line : {lines.x, lines.y, lines.z})
+  for (int k = -6; k <= 6; ++k) EXPECT_TRUE(has(lines[1], k)) << k;
+  for (int k = -14; k <= 14; ++k) EXPECT_TRUE(has(lines[2], 0.5 * k)) << k;
+  for (const double x : {-0.25, 0.0, 0.25}) EXPECT_TRUE(has(lines[0], x)) << x;
+  for (const auto& line : {lines[0], lines[1], lines[2]})
     for (size_t k = 1; k < line.size(); ++k) EXPECT_LE(line[k] - line[k - 1], 4 + 1e-9);
 }
 

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "simulator/common/errors.h"
-#include "simulator/mesh/mesh_spec.h"
 
 namespace faultsim {
 namespace {
@@ -16,6 +15,15 @@ std::vector<double> steps(const std::vector<double>& line) {
   std::vector<double> sizes;
   for (size_t k = 0; k + 1 < line.size(); ++k) sizes.push_back(line[k + 1] - line[k]);
   return sizes;
+}
+
+/// Fine from fine_from to fine_to, with lines that must be there.
+std::vector<double> graded_line(double a, double b, double fine_from, double fine_to, double fine,
+                                double growth, double largest, const std::vector<double>& must) {
+  LineBuilder builder(a, b, growth, largest);
+  for (const double x : must) builder.add_line(x);
+  builder.add_window(fine_from, fine_to, fine);
+  return builder.build();
 }
 
 double largest_ratio(const std::vector<double>& sizes) {

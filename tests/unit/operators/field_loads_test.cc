@@ -11,7 +11,7 @@
 #include "simulator/elasticity/elasticity.h"
 #include "simulator/flow/cell_overlap.h"
 #include "simulator/loads/case_loads.h"
-#include "simulator/loads/side_regions.h"
+#include "simulator/loads/history.h"
 #include "simulator/reading/read_scene.h"
 
 namespace faultsim {

@@ -57,7 +57,7 @@ TEST(DissectedFactor, OfOneCutByHand) {
 TEST(InfluenceCost, GrowsWithTheCells) {
   GridShape shape;
   shape.n_lines = {40, 20, 30};
-  shape.faults = {{.from = {20, 5, 5}, .to = {21, 15, 25}}};
+  shape.faults = {{.lines = {{{20, 21}, {5, 15}, {5, 25}}}}};
   const InfluenceCost none = influence_cost(shape, 0, 3), some = influence_cost(shape, 1000, 3);
   EXPECT_DOUBLE_EQ(some.bytes, 8 * 1000 * (600 + 3));
   EXPECT_NEAR(some.peak_bytes - none.peak_bytes, some.bytes, 1);
@@ -72,7 +72,7 @@ TEST(DissectedFactor, JumpsComeLast) {
   GridShape shape;
   shape.n_lines = {3, 1, 5};
   shape.unknowns_per_node = 2;
-  shape.faults.push_back({{1, 0, 0}, {2, 1, 1}});
+  shape.faults.push_back({{{{1, 2}, {0, 1}, {0, 1}}}});
   EXPECT_DOUBLE_EQ(shape.n_jump(), 2);
   EXPECT_DOUBLE_EQ(dissected_factor(shape).entries,
                    6 * (6 + 2) + 12 * (12 + 6 + 2) + 12 * (12 + 6) + 2 * 2);
@@ -84,7 +84,7 @@ TEST(DissectedFactor, GoesOnBeyondWhatIsDissected) {
   const auto cube = [](int n) {
     GridShape shape;
     shape.n_lines = {n, n, n};
-    shape.faults.push_back({{n / 2, n / 4, n / 4}, {n / 2 + 1, 3 * n / 4, 3 * n / 4}});
+    shape.faults.push_back({{{{n / 2, n / 2 + 1}, {n / 4, 3 * n / 4}, {n / 4, 3 * n / 4}}}});
     return shape;
   };
   const FactorSize below = dissected_factor(cube(125)), above = dissected_factor(cube(150));

@@ -1,5 +1,4 @@
 // What speaks against a surface of operators before any is built.
-#include "simulator/plan/surface_check.h"
 
 #include <gmock/gmock.h>
 

@@ -155,7 +155,8 @@ TEST_F(FlowLoads, OfTemperatureAreIdleInRockThatDoesNotExpand) {
     return all;
   };
   const std::string idle =
-      "/temperature_field has no effect: the thermal_expansion of reservoir is 0";
+      "/temperature_field has no effect: the regions are of \"reservoir\", which has no "
+      "thermal_expansion";
   EXPECT_THAT(said({}), HasSubstr(idle));
   EXPECT_THAT(said({{"/materials/reservoir/thermal_expansion", "1e-5 1/K"}}),
               testing::Not(HasSubstr(idle)));

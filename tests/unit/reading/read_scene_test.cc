@@ -99,6 +99,66 @@ TEST(ReadScene, CornersOfABoxAreRefused) {
   EXPECT_EQ(problems[0].pointer, "/mesh/corner");
 }
 
+/// Sizes, orders and places that no mesh is made of: the mesh takes them as given.
+TEST(ReadScene, RefusesBodiesOfWhichThereIsNoMesh) {
+  const auto pointer = [](const JsonDocument& document,
+                          const std::vector<std::pair<std::string, std::string>>& sets) {
+    try {
+      varied(document, sets);
+    } catch (const InputError& error) {
+      return error.problems().front().pointer;
+    }
+    return std::string("none for ") + sets[0].first;
+  };
+  const std::vector<std::array<const char*, 2>> of_field = {{"/geometry/width", "0 m"},
+                                                            {"/geometry/length", "-1 m"},
+                                                            {"/geometry/depth", "0 m"},
+                                                            {"/geometry/block_length", "0 m"},
+                                                            {"/geometry/fault_length", "-2 m"},
+                                                            {"/geometry/fault_overshoot", "-1 m"},
+                                                            {"/geometry/layers/0/top", "1 m"},
+                                                            {"/geometry/layers/0/top", "-1 m"},
+                                                            {"/geometry/layers/2/top", "1000 m"},
+                                                            {"/geometry/layers/3/top", "5 km"},
+                                                            {"/geometry/blocks", "[]"},
+                                                            {"/geometry/blocks/1/from", "10 m"},
+                                                            {"/geometry/blocks/1/from", "-10 m"},
+                                                            {"/geometry/blocks/0/from", "-10 km"},
+                                                            {"/geometry/blocks/1/to", "10 km"},
+                                                            {"/geometry/blocks/1/to", "-1 m"},
+                                                            {"/geometry/blocks/1/thickness", "0 m"},
+                                                            {"/mesh/strike", "0 m"},
+                                                            {"/mesh/dip", "0 m"},
+                                                            {"/mesh/normal", "-1 m"},
+                                                            {"/mesh/normal", "nan m"},
+                                                            {"/mesh/growth", "0.9"},
+                                                            {"/mesh/corner_growth", "0.9"}};
+  for (const auto& [at, value] : of_field)
+    EXPECT_EQ(pointer(rotliegend(), {{at, value}}).substr(0, std::string(at).size()), at) << value;
+  JsonDocument box = parse_json(starter_scene("box"), "box");
+  const std::vector<std::array<const char*, 2>> of_box = {
+      {"/geometry/to/1", "-500 m"},
+      {"/geometry/from/0", "1001 m"},
+      {"/mesh/strike", "-1 m"},
+      {"/mesh/growth", "0.9"},
+      {"/faults/0/length", "0 m"},
+      {"/faults/0/width", "-1 m"},
+      {"/faults/0/dip_from_vertical", "91 deg"},
+      {"/faults/0/dip_from_vertical", "-91 deg"}};
+  for (const auto& [at, value] : of_box) {
+    const std::string where = at == std::string("/geometry/from/0") ? "/geometry/to/0" : at;
+    EXPECT_EQ(pointer(box, {{at, value}}), where) << value;
+  }
+  box.value["geometry"].erase("material");
+  for (const auto& [first, second] : {std::pair("999 m", "1500 m"), std::pair("1001 m", "1500 m"),
+                                      std::pair("1000 m", "1000 m"), std::pair("1000 m", "4 km")}) {
+    box.value["geometry"]["layers"] = {{{"name", "a"}, {"material", "rock"}, {"top", first}},
+                                       {{"name", "b"}, {"material", "rock"}, {"top", second}}};
+    EXPECT_EQ(pointer(box, {{"/title", "layers"}}),
+              first == std::string("1000 m") ? "/geometry/layers/1/top" : "/geometry/layers/0/top");
+  }
+}
+
 TEST(ReadScene, FaultsOverrideFrictionAndPressureKeyByKey) {
   const Scene scene = varied(rotliegend(), {{"/friction/cohesion", "1 MPa"},
                                             {"/fault_pressure/rule", "fraction"},
@@ -274,7 +334,7 @@ TEST(ReadScene, ReadsEveryFieldOfABox) {
 TEST(ReadScene, ReadsTheRestOfABoxScene) {
   const Scene scene = read_scene(parse_json(kFullBox, "full"));
   const Friction& friction = scene.faults[0].friction;
-  EXPECT_EQ(friction.law, FrictionLaw::coefficient);
+  EXPECT_EQ(friction.law, WeakeningLaw::coefficient);
   EXPECT_DOUBLE_EQ(std::tan(friction.dynamic_friction_angle), 0.4);
   EXPECT_EQ(friction.slip_weakening_distance, 0.8);
   EXPECT_EQ(friction.slip_measure, SlipMeasure::cumulated);
@@ -411,7 +471,7 @@ TEST(ReadScene, ReadsViscousSaltAndItsNumerics) {
   EXPECT_EQ(scene.numerics.creep_time_step, 0);
   EXPECT_EQ(scene.numerics.creep_refinements, 1);
   EXPECT_EQ(scene.numerics.creep_tolerance, 2e4);
-  EXPECT_EQ(scene.numerics.creep_scheme, CreepScheme::exponential);
+  EXPECT_EQ(scene.numerics.creep_scheme, MaxwellScheme::exponential);
   EXPECT_EQ(scene.initial.viscous_layers, ViscousLayers::ratios);
   const Scene other = varied(rotliegend(), {kViscous,
                                             {"/numerics/creep", "on"},
@@ -422,7 +482,7 @@ TEST(ReadScene, ReadsViscousSaltAndItsNumerics) {
   EXPECT_EQ(other.numerics.creep, Switch::on);
   EXPECT_EQ(other.numerics.creep_time_step, 0.5 * kYear);
   EXPECT_EQ(other.numerics.creep_tolerance, 1e5);
-  EXPECT_EQ(other.numerics.creep_scheme, CreepScheme::backward_euler);
+  EXPECT_EQ(other.numerics.creep_scheme, MaxwellScheme::backward_euler);
   EXPECT_EQ(other.initial.viscous_layers, ViscousLayers::lithostatic);
 }
 

@@ -49,7 +49,7 @@ Slider slider_of(const Scene& scene) {
           friction.static_friction_angle,
           friction.dynamic_friction_angle,
           friction.slip_weakening_distance > 0 ? friction.slip_weakening_distance : 1,
-          friction.law == FrictionLaw::angle};
+          friction.law == WeakeningLaw::angle};
 }
 
 /// Global slip (the driven block, on the side of larger coordinates, relative to the held one) and
