@@ -61,8 +61,6 @@ struct Arguments {
   WorkerArguments worker;
   SolverStudyArguments study;
   bool environment_json = false;
-  std::vector<std::string> problems;
-  bool list = false, json = false, slow = false, markdown = false;
 };
 
 void add_threads(CLI::App* command, int& threads, const std::string& unless_given) {

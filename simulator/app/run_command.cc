@@ -25,14 +25,6 @@ namespace {
 
 std::string built_in(double seconds) { return formatted("operator: built in %.2f s", seconds); }
 
-void write_volume_fields(const std::filesystem::path& folder, const Mesh& mesh,
-                         const std::vector<VolumeSnapshot>& snapshots) {
-  Eigen::Matrix3Xd nodes(3, static_cast<Eigen::Index>(mesh.nodes.size()));
-  for (Eigen::Index i = 0; i < nodes.cols(); ++i)
-    nodes.col(i) = mesh.nodes[static_cast<std::size_t>(i)];
-  write_volume(folder, nodes, mesh.cells, mesh.material, snapshots);
-}
-
 }  // namespace
 
 ExitCode exit_code_of(Outcome outcome) {
@@ -60,7 +52,7 @@ PathChoice path_of(const RunArguments& arguments, const LoadedScene& loaded) {
   if (arguments.path == "condensed") return {SolutionPath::condensed, "asked for"};
   std::vector<Problem> hindrances = unsupported_by_coupled(loaded.scene, loaded.plan);
   if (arguments.path == "automatic") {
-    return choose_path(loaded.plan, available_memory(), 1, hindrances);
+    return choose_path(loaded.plan, available_memory(), hindrances);
   }
   if (!hindrances.empty()) throw InputError(arguments.scene.file, std::move(hindrances));
   return {SolutionPath::coupled, "asked for"};
@@ -159,7 +151,7 @@ ExitCode run_command(const RunArguments& arguments) {
   if (writer) writer->finish();
   if (scene.output.volume_fields) {
     const Mesh& mesh = is_coupled ? coupled->mesh() : prepared.bulk->bulk(0).problem().mesh;
-    write_volume_fields(output.path(), mesh, volume);
+    write_volume(output.path(), mesh.nodes, mesh.cells, mesh.material, volume);
   }
   nlohmann::json document = result_to_json(result);
   document["initial_state"] = initial_state_to_json(loaded.plan.initial);

@@ -171,10 +171,7 @@ ExitCode mesh_command(const SceneArguments& arguments, const std::filesystem::pa
         quality.worst_position.z());
   }
   if (folder) {
-    Eigen::Matrix3Xd nodes(3, static_cast<Eigen::Index>(problem.mesh.nodes.size()));
-    for (Eigen::Index i = 0; i < nodes.cols(); ++i)
-      nodes.col(i) = problem.mesh.nodes[static_cast<std::size_t>(i)];
-    write_volume(folder->path(), nodes, problem.mesh.cells, problem.mesh.material, {});
+    write_volume(folder->path(), problem.mesh.nodes, problem.mesh.cells, problem.mesh.material, {});
     folder->commit();
     std::cerr << "wrote " << (output / "volume.xmf").string() << " (open it in ParaView)\n";
   }

@@ -33,7 +33,7 @@ void add_plane_map(const StoredFault& fault, const StoredFields& now, figure::Fa
     for (const int point : face) {
       cell.corners.push_back({fault.points(1, point), -fault.points(2, point)});
       cell.value += now.critical_index[point] / static_cast<double>(face.size());
-      n_moving += now.state[static_cast<std::size_t>(point)] == 0 ? 0U : 1U;
+      n_moving += now.state[point] == 0 ? 0U : 1U;
     }
     cell.is_marked = 2 * n_moving >= face.size();
     map.cells.push_back(std::move(cell));
@@ -47,7 +47,6 @@ void add_plane_map(const StoredFault& fault, const StoredFields& now, figure::Fa
 std::string draw_fault_map(Chosen chosen) {
   const std::size_t f = stored_fault(chosen);
   figure::FaultMap map;
-  map.quantity = "χ";
   map.bands = compartments_beside(chosen.scene(), chosen.fault);
   map.remark = subject_of(chosen.picture);
   if (chosen.result().plane_strain) {

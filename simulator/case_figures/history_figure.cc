@@ -84,32 +84,23 @@ std::string draw_history(const Chosen& chosen) {
   chart.stages = stage_spans(result);
   chart.marks = event_marks(result);
   if (chosen.request.with_cursor) chart.cursor = chart.time[chosen.step];
-  const std::string subject = subject_of(chosen.picture) + ending_of(result);
+  const auto draw_panel = [&](const char* title, const char* label, auto value) {
+    chart.title = title;
+    chart.panels.push_back({label, curves_of(result, value), {}, {0}, 260});
+  };
   if (chosen.request.chart == CaseChart::history) {
-    chart.title = "How near each fault is to sliding: χ̄";
-    chart.panels.push_back({"χ̄",
-                            curves_of(result, [](const FaultMetrics& m) { return m.chi_bar; }),
-                            {{1, "strength reached"}, {0.8, "0.8"}},
-                            {0, 1},
-                            260});
+    draw_panel("How near each fault is to sliding: χ̄", "χ̄",
+               [](const FaultMetrics& m) { return m.chi_bar; });
+    chart.panels.back().levels = {{1, "strength reached"}, {0.8, "0.8"}};
+    chart.panels.back().always = {0, 1};
   } else if (chosen.request.chart == CaseChart::thickness) {
-    chart.title = "Down-dip length with χ > 0.8";
-    chart.panels.push_back(
-        {"length, m",
-         curves_of(result, [](const FaultMetrics& m) { return m.thickness_chi_080_max; }),
-         {},
-         {0},
-         260});
+    draw_panel("Down-dip length with χ > 0.8", "length, m",
+               [](const FaultMetrics& m) { return m.thickness_chi_080_max; });
   } else {
-    chart.title = "Largest slip of each fault";
-    chart.panels.push_back(
-        {"slip, mm",
-         curves_of(result, [](const FaultMetrics& m) { return m.max_slip / kMillimetre; }),
-         {},
-         {0},
-         260});
+    draw_panel("Largest slip of each fault", "slip, mm",
+               [](const FaultMetrics& m) { return m.max_slip / kMillimetre; });
   }
-  chart.remark = subject;
+  chart.remark = subject_of(chosen.picture) + ending_of(result);
   if (!result.region_names.empty()) chart.panels.push_back(pressure_panel(result));
   return figure::draw(chart);
 }

@@ -34,8 +34,7 @@ bool colour_by_fields(const Chosen& chosen, std::size_t fault, figure::Section::
       const auto k = static_cast<Eigen::Index>(column[i]);
       line.points.push_back({stored.points(0, k), -stored.points(2, k)});
       if (i == 0) continue;
-      line.chi.push_back(std::max(now.critical_index[static_cast<Eigen::Index>(column[i - 1])],
-                                  now.critical_index[k]));
+      line.chi.push_back(std::max(now.critical_index[column[i - 1]], now.critical_index[k]));
     }
     return true;
   }

@@ -55,9 +55,7 @@ std::size_t most_critical(const StoredFault& fault, const StoredFields& fields) 
   std::size_t most = fault.split.size();
   for (std::size_t i = 0; i < fault.split.size(); ++i) {
     if (fault.split[i] == 0) continue;
-    const auto k = static_cast<Eigen::Index>(i);
-    if (most == fault.split.size() ||
-        fields.critical_index[k] > fields.critical_index[static_cast<Eigen::Index>(most)]) {
+    if (most == fault.split.size() || fields.critical_index[i] > fields.critical_index[most]) {
       most = i;
     }
   }

@@ -9,6 +9,7 @@
 #include "simulator/condensation/fault_geometry.h"
 #include "simulator/condensation/loose_pieces.h"
 #include "simulator/elasticity/element.h"
+#include "simulator/elasticity/rigid_modes.h"
 #include "simulator/linalg/blas.h"
 
 namespace faultsim {
@@ -19,14 +20,10 @@ namespace {
 void check_balance(const BulkProblem& problem, const LoadCase& load, const RunContext& context) {
   constexpr double kBalanced = 1e-6;  // of the sum of the absolute nodal forces
   const Eigen::Matrix3Xd forces = nodal_stress_forces(problem.mesh, load.stress_sides, load.stress);
-  Eigen::Vector3d low = problem.mesh.nodes.front(), high = low;
-  for (const Eigen::Vector3d& x : problem.mesh.nodes) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
+  const Eigen::AlignedBox3d extent = extent_of(problem.mesh, [](int) { return true; });
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
   for (Eigen::Index i = 0; i < forces.cols(); ++i) {
-    const Eigen::Vector3d arm = problem.mesh.nodes[i] - (low + high) / 2;
+    const Eigen::Vector3d arm = problem.mesh.nodes[i] - extent.center();
     force += forces.col(i);
     moment += arm.cross(Eigen::Vector3d(forces.col(i)));
   }
@@ -35,7 +32,7 @@ void check_balance(const BulkProblem& problem, const LoadCase& load, const RunCo
     moment.x() = moment.z() = 0;
   }
   const double total = forces.colwise().norm().sum();
-  const double size = (high - low).norm();
+  const double size = extent.diagonal().norm();
   if (force.norm() <= kBalanced * total && moment.norm() <= kBalanced * total * size) return;
   context.note(concat("load ", to_string(load.key), " alone is not in balance (net force ",
                       force.norm(), " N, moment ", moment.norm(),
@@ -190,9 +187,8 @@ void CondensedBulk::Impl::observe(FaultOperator& op, StopToken stop) {
 Eigen::VectorXd CondensedBulk::Impl::observation(const Eigen::Vector3d& point,
                                                  int component) const {
   Eigen::VectorXd q = Eigen::VectorXd::Zero(dofs.n_unknowns());
-  const auto [first, last] = dofs.terms(observed_node(problem.mesh, point), component);
-  for (const DofMap::Term* term = first; term != last; ++term) {
-    q[term->unknown] += term->coefficient;
+  for (const DofMap::Term& term : dofs.terms(observed_node(problem.mesh, point), component)) {
+    q[term.unknown] += term.coefficient;
   }
   return q;
 }

@@ -40,28 +40,13 @@ class ShareMonitor final : public Monitor {
 
 }  // namespace
 
-struct CreepLadder::Impl {
-  struct Rung {
-    double duration;
-    std::vector<MaxwellStep> step;  // per viscous material of `cells`
-    std::unique_ptr<CondensedBulk> bulk;
-    FaultOperator op;
-  };
-  std::vector<Rung> rungs;
-  std::unique_ptr<CreepCells> cells;  // refers to the mesh and dofs of rung 0
-  std::vector<int> observed_nodes;
-
-  Rung& at(int rung) { return rungs.at(rung); }
-};
-
 CreepLadder::CreepLadder(std::shared_ptr<const BulkProblem> shared,
                          const std::vector<double>& durations, MaxwellScheme scheme,
-                         const RunContext& context)
-    : impl_(std::make_unique<Impl>()) {
+                         const RunContext& context) {
   const BulkProblem& problem = *shared;
   FAULTSIM_DEMAND(problem.viscosity.size() == problem.materials.size(), problem.viscosity.size());
   for (const auto& [name, point] : problem.observation_points)
-    impl_->observed_nodes.push_back(observed_node(problem.mesh, point));
+    observed_nodes_.push_back(observed_node(problem.mesh, point));
   std::vector<double> all = {0};
   all.insert(all.end(), durations.begin(), durations.end());
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -77,34 +62,23 @@ CreepLadder::CreepLadder(std::shared_ptr<const BulkProblem> shared,
     }
     auto bulk = std::make_unique<CondensedBulk>(std::move(relaxed), part);
     if (i == 0) {
-      impl_->cells = std::make_unique<CreepCells>(problem.mesh, problem.materials,
-                                                  problem.viscosity, bulk->dofs());
+      cells_ = std::make_unique<CreepCells>(problem.mesh, problem.materials, problem.viscosity,
+                                            bulk->dofs());
     }
-    std::vector creeping =
-        mapped(impl_->cells->materials(), [&](const int& m) { return steps[m]; });
+    std::vector creeping = mapped(cells_->materials(), [&](const int& m) { return steps[m]; });
     FaultOperator op = bulk->condense(part);
-    impl_->rungs.push_back({all[i], std::move(creeping), std::move(bulk), std::move(op)});
+    rungs_.push_back({all[i], std::move(creeping), std::move(bulk), std::move(op)});
   }
 }
 
-CreepLadder::~CreepLadder() = default;
-
-int CreepLadder::n_rungs() const { return static_cast<int>(impl_->rungs.size()); }
-
-double CreepLadder::duration(int rung) const { return impl_->at(rung).duration; }
-
-const FaultOperator& CreepLadder::op(int rung) const { return impl_->at(rung).op; }
-
-CondensedBulk& CreepLadder::bulk(int rung) { return *impl_->at(rung).bulk; }
-
 BulkState CreepLadder::at_rest() const {
-  const auto n_nodes = impl_->at(0).bulk->problem().mesh.nodes.size();
-  return {impl_->cells->at_rest(), Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(n_nodes))};
+  const auto n_nodes = rungs_.at(0).bulk->problem().mesh.nodes.size();
+  return {cells_->at_rest(), Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(n_nodes))};
 }
 
 CreepLadder::History CreepLadder::history(int rung, const BulkState& state,
                                           const Eigen::VectorXd& added) {
-  Impl::Rung& r = impl_->at(rung);
+  Rung& r = rungs_.at(rung);
   Eigen::VectorXd force = Eigen::VectorXd::Zero(r.op.n_unknowns);
   if (added.size() > 0) force = added;
   for (std::size_t m = 0; m < r.step.size(); ++m) {
@@ -123,18 +97,17 @@ CreepLadder::History CreepLadder::history(int rung, const BulkState& state,
 
 void CreepLadder::advance(int rung, History history, const std::vector<double>& load_increments,
                           const Eigen::VectorXd& jump_increment, BulkState& state) {
-  Impl::Rung& r = impl_->at(rung);
+  Rung& r = rungs_.at(rung);
   const Eigen::Matrix3Xd u =
       r.bulk->displacement(std::move(history.forward), load_increments, jump_increment);
-  impl_->cells->advance(u, r.step, state.stress);
+  cells_->advance(u, r.step, state.stress);
   state.displacement += u;
 }
 
 Eigen::VectorXd CreepLadder::observed(const BulkState& state) const {
-  Eigen::VectorXd u(3 * static_cast<Eigen::Index>(impl_->observed_nodes.size()));
-  for (std::size_t i = 0; i < impl_->observed_nodes.size(); ++i) {
-    u.segment<3>(3 * static_cast<Eigen::Index>(i)) =
-        state.displacement.col(impl_->observed_nodes[i]);
+  Eigen::VectorXd u(3 * static_cast<Eigen::Index>(observed_nodes_.size()));
+  for (std::size_t i = 0; i < observed_nodes_.size(); ++i) {
+    u.segment<3>(3 * static_cast<Eigen::Index>(i)) = state.displacement.col(observed_nodes_[i]);
   }
   return u;
 }

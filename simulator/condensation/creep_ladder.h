@@ -30,16 +30,11 @@ class CreepLadder {
   /// problem.viscosity is set.
   CreepLadder(std::shared_ptr<const BulkProblem> problem, const std::vector<double>& durations,
               MaxwellScheme scheme, const RunContext& context);
-  CreepLadder(BulkProblem problem, const std::vector<double>& durations, MaxwellScheme scheme,
-              const RunContext& context)
-      : CreepLadder(std::make_shared<const BulkProblem>(std::move(problem)), durations, scheme,
-                    context) {}
-  ~CreepLadder();
 
-  int n_rungs() const;  ///< with the elastic one.
-  double duration(int rung) const;
-  const FaultOperator& op(int rung) const;
-  CondensedBulk& bulk(int rung);
+  int n_rungs() const { return static_cast<int>(rungs_.size()); }  ///< with the elastic one.
+  double duration(int rung) const { return rungs_.at(rung).duration; }
+  const FaultOperator& op(int rung) const { return rungs_.at(rung).op; }
+  CondensedBulk& bulk(int rung) { return *rungs_.at(rung).bulk; }
   BulkState at_rest() const;
 
   /// What the history, and forces that are no load of the family, add to a step of the rung.
@@ -59,8 +54,15 @@ class CreepLadder {
   Eigen::VectorXd observed(const BulkState& state) const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  struct Rung {
+    double duration;
+    std::vector<MaxwellStep> step;  ///< per viscous material of the cells.
+    std::unique_ptr<CondensedBulk> bulk;
+    FaultOperator op;
+  };
+  std::vector<Rung> rungs_;
+  std::unique_ptr<CreepCells> cells_;  ///< refers to the mesh and dofs of rung 0.
+  std::vector<int> observed_nodes_;
 };
 
 }  // namespace faultsim

@@ -16,10 +16,7 @@ Eigen::VectorXd loose_piece_springs(const BulkProblem& problem, const DofMap& do
   require_held(mesh, dofs);
   const Pieces pieces = find_pieces(mesh);
   const auto piece_of = [&](int node) { return pieces.of_node[node]; };
-  const auto is_fixed = [&](int node, int c) {
-    const auto [first, last] = dofs.terms(node, c);
-    return first == last;
-  };
+  const auto is_fixed = [&](int node, int c) { return dofs.terms(node, c).empty(); };
   std::vector<bool> is_loose;
   for (int piece = 0; piece < pieces.n_pieces; ++piece) {
     const auto member = [&](int node) { return piece_of(node) == piece; };
@@ -35,8 +32,8 @@ Eigen::VectorXd loose_piece_springs(const BulkProblem& problem, const DofMap& do
       };
       if (jump(0) < 0 && jump(1) < 0 && jump(2) < 0) continue;
       const FaultNode& pair = fault.nodes[k];
-      const bool holds_loose = is_loose[static_cast<std::size_t>(piece_of(pair.minus_node))] ||
-                               is_loose[static_cast<std::size_t>(piece_of(pair.plus_node))];
+      const bool holds_loose =
+          is_loose[piece_of(pair.minus_node)] || is_loose[piece_of(pair.plus_node)];
       const double edge = std::max(node->edge_strike, node->edge_dip);
       for (int dof : node->dof) {
         if (holds_loose && dof >= 0) {
@@ -54,10 +51,8 @@ void throw_not_held(const BulkProblem& problem, const DofMap& dofs, int unknown)
   const Mesh& mesh = problem.mesh;
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     for (int c = 0; c < 3; ++c) {
-      const auto [first, last] = dofs.terms(static_cast<int>(i), c);
-      const bool is_here = std::any_of(
-          first, last, [&](const DofMap::Term& term) { return term.unknown == unknown; });
-      if (!is_here) continue;
+      if (!std::ranges::count(dofs.terms(static_cast<int>(i), c), unknown, &DofMap::Term::unknown))
+        continue;
       const Pieces pieces = find_pieces(mesh);
       const int piece = pieces.of_node[i];
       const auto member = [&](int node) { return pieces.of_node[node] == piece; };

@@ -40,11 +40,11 @@ void solve_packed(const double* triangle, double* x, int n) {
   std::array<double, 4> sums;
   int i = 0;
   for (; i + 4 <= n; i += 4) {
-    for (int r = 0; r < 4; ++r) rows[static_cast<std::size_t>(r)] = triangle + packed(i + r);
+    for (int r = 0; r < 4; ++r) rows[r] = triangle + packed(i + r);
     four_dots(rows, x, i, sums);
     for (int r = 0; r < 4; ++r) {
-      const double* row = rows[static_cast<std::size_t>(r)];
-      double value = x[i + r] - sums[static_cast<std::size_t>(r)];
+      const double* row = rows[r];
+      double value = x[i + r] - sums[r];
       for (int c = 0; c < r; ++c) value -= row[i + c] * x[i + c];
       x[i + r] = unit ? value : value / row[i + r];
     }

@@ -111,9 +111,7 @@ bool ContactSolver::Impl::jump(const LoadPath& path, int position, ContactReport
                      report.counts.wasted_newton_iterations;
   JumpFollower::Report followed =
       follower.follow(path, factor(position), factor(position + 1), budget, rolling);
-  report.counts.newton_iterations += followed.counts.newton_iterations;
-  report.counts.active_set_passes += followed.counts.active_set_passes;
-  report.counts.wasted_newton_iterations += followed.counts.wasted_newton_iterations;
+  report.counts += followed.counts;
   ++report.counts.sub_steps;
   if (!followed.jump) return followed.arrived;
   if (!report.jumps.empty() && report.jumps.back().load_after >= followed.jump->load_before) {

@@ -115,20 +115,20 @@ FrictionalContactProblem frictional_contact_problem(const FaultOperator& op,
   problem.friction.resize(contact.n_nodes());
   for (int b = 0; b < n; ++b) {
     const int node = b / problem.dimension;
-    const int column = dofs[static_cast<std::size_t>(b)];
+    const int column = dofs[b];
     if (column < 0) {
-      const int normal = op.geometry.nodes[static_cast<std::size_t>(node)].dof[0];
+      const int normal = op.geometry.nodes[node].dof[0];
       problem.w(b, b) = w(normal, normal);
       continue;
     }
     for (int a = 0; a < n; ++a) {
-      const int row = dofs[static_cast<std::size_t>(a)];
+      const int row = dofs[a];
       if (row >= 0) problem.w(a, b) = w(row, column);
     }
     problem.q[b] = free_motion[column];
     if (b % problem.dimension == 0) {
       problem.q[b] += step.start.jump[column];
-      problem.friction[node] = contact.nodes[static_cast<std::size_t>(node)].law->static_friction();
+      problem.friction[node] = contact.nodes[node].law->static_friction();
     }
   }
   problem.displacement_unit = power_of_ten(problem.q.lpNorm<Eigen::Infinity>());
@@ -147,7 +147,7 @@ FrictionalContactSolution frictional_contact_solution(const FaultOperator& op,
   const auto n = static_cast<Eigen::Index>(dofs.size());
   FrictionalContactSolution solution{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
   for (Eigen::Index a = 0; a < n; ++a) {
-    const int dof = dofs[static_cast<std::size_t>(a)];
+    const int dof = dofs[a];
     if (dof < 0) continue;
     const bool normal = a % problem.dimension == 0;
     const double motion = normal ? end.jump[dof] : end.jump[dof] - step.start.jump[dof];

@@ -44,8 +44,7 @@ ContactNewton::ContactNewton(ContactProblem& problem, const ContactOptions& opti
 
 SlipPoint ContactNewton::slip_point(const SubStep& sub_step, const Eigen::VectorXd& traction,
                                     const Eigen::VectorXd& increment, int k) const {
-  const auto i = static_cast<std::size_t>(k);
-  const ContactNode& node = problem_.nodes[i];
+  const ContactNode& node = problem_.nodes[k];
   SlipPoint point;
   point.normal_traction = traction[node.dof[0]];
   point.shear_traction = shear_part(node, traction);
@@ -53,7 +52,7 @@ SlipPoint ContactNewton::slip_point(const SubStep& sub_step, const Eigen::Vector
   point.before = friction_before(node, sub_step, k);
   // A node at rest needs no r, and its column of H stays unread.
   if (point.slip_increment[0] != 0 || point.slip_increment[1] != 0 ||
-      sub_step.state[i] == FaultState::slip) {
+      sub_step.state[k] == FaultState::slip) {
     point.stiffness = problem_.stiffness(node, 1);
     if (node.n_dofs > 2) point.stiffness = std::max(point.stiffness, problem_.stiffness(node, 2));
   }
@@ -69,25 +68,24 @@ SlipPoint ContactNewton::slip_point(const SubStep& sub_step, const Eigen::Vector
 int ContactNewton::classify(SubStep& sub_step) {
   int n_changed = 0;
   for (int k = 0; k < problem_.n_nodes(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const ContactNode& node = problem_.nodes[i];
+    const ContactNode& node = problem_.nodes[k];
     const double tolerance = sub_step.tolerance[k];
     const double gap = sub_step.start->jump[node.dof[0]] + sub_step.increment[node.dof[0]];
     double normal = sub_step.traction[node.dof[0]];
     if (gap != 0) normal += problem_.stiffness(node, 0) * gap;
     FaultState state = FaultState::stick;
-    const bool is_open = sub_step.state[i] == FaultState::open;
+    const bool is_open = sub_step.state[k] == FaultState::open;
     if (normal > (is_open ? 0 : tolerance)) {
       state = FaultState::open;
     } else if (node.n_dofs > 1) {
       const double excess =
           slip_excess(*node.law, slip_point(sub_step, sub_step.traction, sub_step.increment, k));
-      const bool slips = sub_step.state[i] == FaultState::slip;
+      const bool slips = sub_step.state[k] == FaultState::slip;
       if (excess > (slips ? 0 : tolerance)) state = FaultState::slip;
     }
-    if (state == FaultState::open) was_open_[i] = 1;
-    n_changed += state != sub_step.state[i];
-    sub_step.state[i] = state;
+    if (state == FaultState::open) was_open_[k] = 1;
+    n_changed += state != sub_step.state[k];
+    sub_step.state[k] = state;
   }
   return n_changed;
 }
@@ -99,14 +97,13 @@ ContactNewton::Residual ContactNewton::natural_residual(const SubStep& sub_step,
                                                         const Eigen::VectorXd& increment) const {
   Residual residual;
   for (int k = 0; k < problem_.n_nodes(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const ContactNode& node = problem_.nodes[i];
+    const ContactNode& node = problem_.nodes[k];
     const double gap = sub_step.start->jump[node.dof[0]] + increment[node.dof[0]];
     const double normal = traction[node.dof[0]];
     const double augmented = gap != 0 ? normal + problem_.stiffness(node, 0) * gap : normal;
     double square = normal - std::min(0.0, augmented);
     square *= square;
-    if (augmented > (sub_step.state[i] == FaultState::open ? 0 : sub_step.tolerance[k])) {
+    if (augmented > (sub_step.state[k] == FaultState::open ? 0 : sub_step.tolerance[k])) {
       const double drag = node.law->drag(sub_step.per_second);
       square += (shear_part(node, traction) - drag * shear_part(node, increment)).squaredNorm();
     } else if (node.n_dofs > 1) {
@@ -131,12 +128,11 @@ ContactNewton::Residual ContactNewton::natural_residual(const SubStep& sub_step,
 void ContactNewton::prescribe(const SubStep& sub_step) {
   direction_.setZero(problem_.n_dofs());
   for (int k = 0; k < problem_.n_nodes(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const ContactNode& node = problem_.nodes[i];
-    if (sub_step.state[i] == FaultState::open) continue;
+    const ContactNode& node = problem_.nodes[k];
+    if (sub_step.state[k] == FaultState::open) continue;
     const int normal = node.dof[0];
     direction_[normal] = -(sub_step.start->jump[normal] + sub_step.increment[normal]);
-    if (sub_step.state[i] == FaultState::slip) continue;
+    if (sub_step.state[k] == FaultState::slip) continue;
     for (std::size_t c = 1; c < static_cast<std::size_t>(node.n_dofs); ++c) {
       direction_[node.dof[c]] = -sub_step.increment[node.dof[c]];
     }
@@ -144,20 +140,18 @@ void ContactNewton::prescribe(const SubStep& sub_step) {
 }
 
 void ContactNewton::collect_node(const SubStep& sub_step, int k) {
-  const auto i = static_cast<std::size_t>(k);
-  const ContactNode& node = problem_.nodes[i];
+  const ContactNode& node = problem_.nodes[k];
   const auto n = static_cast<std::size_t>(node.n_dofs);
   std::array<double, 3> response{};
   for (std::size_t c = 0; c < n; ++c) response[c] = response_[node.dof[c]];
-  if (sub_step.state[i] == FaultState::open) {
+  if (sub_step.state[k] == FaultState::open) {
     const double drag = node.law->drag(sub_step.per_second);
     for (std::size_t c = 0; c < n; ++c) {
       TangentUnknown unknown{k, static_cast<int>(c), node.dof[c], {0, 0, 0}, {0, 0}};
       unknown.weight[c] = -node.inverse_area[c];
       const double carried = c > 0 ? drag * sub_step.increment[node.dof[c]] : 0;
       if (c > 0) unknown.own[c - 1] = -drag;
-      right_[static_cast<Eigen::Index>(unknowns_.size())] =
-          carried - sub_step.traction[node.dof[c]] - response[c];
+      right_[unknowns_.size()] = carried - sub_step.traction[node.dof[c]] - response[c];
       unknowns_.push_back(unknown);
     }
     return;
@@ -175,7 +169,7 @@ void ContactNewton::collect_node(const SubStep& sub_step, int k) {
       unknown.weight[a] = -d_traction[a] * node.inverse_area[a];
       right -= d_traction[a] * response[a];
     }
-    right_[static_cast<Eigen::Index>(unknowns_.size())] = right;
+    right_[unknowns_.size()] = right;
     unknowns_.push_back(unknown);
   }
 }
@@ -188,7 +182,7 @@ void ContactNewton::linearise(const SubStep& sub_step) {
   right_.resize(problem_.n_dofs());
   unknowns_.clear();
   for (int k = 0; k < problem_.n_nodes(); ++k) {
-    if (sub_step.state[static_cast<std::size_t>(k)] != FaultState::stick) collect_node(sub_step, k);
+    if (sub_step.state[k] != FaultState::stick) collect_node(sub_step, k);
   }
 }
 
@@ -215,7 +209,7 @@ bool ContactNewton::solve_linear(const SubStep& sub_step) {
   krylov_ = report.krylov;
   if (!report.solved) return false;
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
-    direction_[unknowns_[u].dof] = solution[static_cast<Eigen::Index>(u)];
+    direction_[unknowns_[u].dof] = solution[u];
   }
   return true;
 }
@@ -257,25 +251,24 @@ bool ContactNewton::finish(SubStep& sub_step) {
   constexpr double kNoise = 0.01;  // of the slip that moves the traction by the tolerance
   direction_.setZero(problem_.n_dofs());
   for (int k = 0; k < problem_.n_nodes(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const ContactNode& node = problem_.nodes[i];
-    if (sub_step.state[i] == FaultState::open) continue;
+    const ContactNode& node = problem_.nodes[k];
+    if (sub_step.state[k] == FaultState::open) continue;
     const double closed = -sub_step.start->jump[node.dof[0]];
     direction_[node.dof[0]] = closed - sub_step.increment[node.dof[0]];
     sub_step.increment[node.dof[0]] = closed;
     const Eigen::Vector2d slip = shear_part(node, sub_step.increment);
     if (slip[0] == 0 && slip[1] == 0) {
-      sub_step.state[i] = FaultState::stick;
+      sub_step.state[k] = FaultState::stick;
       continue;
     }
     const double drag = node.law->drag(sub_step.per_second);
     const double noise = kNoise * sub_step.tolerance[k] / (problem_.stiffness(node, 1) + drag);
-    if (sub_step.state[i] == FaultState::stick || slip.norm() < noise) {
+    if (sub_step.state[k] == FaultState::stick || slip.norm() < noise) {
       for (std::size_t c = 1; c < static_cast<std::size_t>(node.n_dofs); ++c) {
         direction_[node.dof[c]] = -sub_step.increment[node.dof[c]];
         sub_step.increment[node.dof[c]] = 0;
       }
-      sub_step.state[i] = FaultState::stick;
+      sub_step.state[k] = FaultState::stick;
     }
   }
   if (fresh_) {
@@ -293,21 +286,10 @@ bool ContactNewton::finish(SubStep& sub_step) {
 /// slip, so where a node has moved little it is satisfied long before (5) is.
 bool ContactNewton::aligned(const SubStep& sub_step) const {
   for (int k = 0; k < problem_.n_nodes(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    if (sub_step.state[i] != FaultState::slip || problem_.nodes[i].n_dofs < 3) continue;
+    if (sub_step.state[k] != FaultState::slip || problem_.nodes[k].n_dofs < 3) continue;
     if (check_node(problem_, sub_step, k).misaligned > sub_step.tolerance[k]) return false;
   }
   return true;
-}
-
-bool ContactNewton::seen_before(const SubStep& sub_step) {
-  std::uint64_t hash = 1469598103934665603ULL;  // FNV-1a
-  for (const FaultState state : sub_step.state) {
-    hash = (hash ^ static_cast<std::uint64_t>(state)) * 1099511628211ULL;
-  }
-  if (contains(seen_, hash)) return true;
-  seen_.push_back(hash);
-  return false;
 }
 
 /// A node that keeps opening and closing has failed in tension: it closes again without cohesion.
@@ -348,7 +330,7 @@ SearchHistory ContactNewton::solve(SubStep& sub_step, int patience) {
   Progress progress;
   begin(sub_step);
   classify(sub_step);
-  seen_before(sub_step);
+  seen_.has_seen(sub_step.state);
   const int bound = options_.max_active_set_passes + options_.max_newton_iterations;
   while (history.iterations < bound) {
     stop_.throw_if_requested("solving a load step");
@@ -365,7 +347,7 @@ SearchHistory ContactNewton::solve(SubStep& sub_step, int patience) {
     }
     if (n_changed > 0) {
       if (++history.passes > options_.max_active_set_passes) return stop(SearchEnd::too_many_sets);
-      const bool comes_back = seen_before(sub_step);
+      const bool comes_back = seen_.has_seen(sub_step.state);
       if (!comes_back) continue;
       // Sets that repeat may differ by nodes whose slip is round-off: both are solutions then.
       line_search = true;

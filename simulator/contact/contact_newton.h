@@ -47,7 +47,6 @@ class ContactNewton {
   double advance(SubStep& sub_step, bool line_search);
   bool finish(SubStep& sub_step);
   bool aligned(const SubStep& sub_step) const;
-  bool seen_before(const SubStep& sub_step);
   bool lose_cohesion(SubStep& sub_step);
 
   ContactProblem& problem_;
@@ -55,7 +54,7 @@ class ContactNewton {
   StopToken stop_;
   std::vector<TangentUnknown> unknowns_;
   TangentSolver tangent_;
-  std::vector<std::uint64_t> seen_;
+  SeenSets seen_;
   std::vector<char> was_open_;
   Eigen::VectorXd direction_, response_, right_, trial_increment_, trial_traction_;
   bool set_stands_ = false;  ///< the active set did not change in the last iteration.

@@ -39,8 +39,7 @@ ContactProblem::ContactProblem(const FaultOperator& fault_operator, const Contac
 }
 
 double ContactProblem::stiffness(const ContactNode& node, int component) const {
-  const auto c = static_cast<std::size_t>(component);
-  return compliance.diagonal(node.dof[c]) * node.inverse_area[c];
+  return compliance.diagonal(node.dof[component]) * node.inverse_area[component];
 }
 
 void ContactProblem::subtract_product(const Eigen::VectorXd& jump, Eigen::VectorXd& traction) {
@@ -61,8 +60,7 @@ double NodeViolation::worst() const {
 }
 
 NodeViolation check_node(const ContactProblem& problem, const SubStep& sub_step, int k) {
-  const auto i = static_cast<std::size_t>(k);
-  const ContactNode& node = problem.nodes[i];
+  const ContactNode& node = problem.nodes[k];
   const ContactState& start = *sub_step.start;
   const double normal = sub_step.traction[node.dof[0]];
   const Eigen::Vector2d shear = shear_part(node, sub_step.traction);
@@ -71,7 +69,7 @@ NodeViolation check_node(const ContactProblem& problem, const SubStep& sub_step,
   const double drag = node.law->drag(sub_step.per_second);
   NodeViolation violation;
   if (gap < 0) violation.penetration = -gap * problem.stiffness(node, 0);
-  if (gap > 0 || sub_step.state[i] == FaultState::open) {
+  if (gap > 0 || sub_step.state[k] == FaultState::open) {
     violation.open_traction = std::max(std::abs(normal), (shear - drag * slip).norm());
     return violation;
   }

@@ -17,4 +17,12 @@ void ContactJump::append(const ContactJump& next) {
   damped_steps += next.damped_steps;
 }
 
+SolveCounts& operator+=(SolveCounts& sum, const SolveCounts& part) {
+  sum.newton_iterations += part.newton_iterations;
+  sum.active_set_passes += part.active_set_passes;
+  sum.sub_steps += part.sub_steps;
+  sum.wasted_newton_iterations += part.wasted_newton_iterations;
+  return sum;
+}
+
 }  // namespace faultsim

@@ -29,6 +29,9 @@ struct ContactJump {
   void append(const ContactJump& next);
 };
 
+/// Adds the work of a part of a step, or of a step of a case.
+SolveCounts& operator+=(SolveCounts& sum, const SolveCounts& part);
+
 struct ContactReport {
   Outcome outcome = Outcome::failed;
   std::string reason;  ///< why, with counts per reason and the worst node; empty if converged.

@@ -168,9 +168,8 @@ void Judge::judge_node(std::size_t k) {
 /// τ_L of a closed node at the end of the step, Pa.
 Wide Judge::limit(std::size_t k) const {
   const CoulombLaw& law = laws_[k];
-  const Wide slip = law.cumulated
-                        ? static_cast<Wide>(step_.after.slip_path[static_cast<Eigen::Index>(k)])
-                        : shear_part(k, step_.after.jump).norm();
+  const Wide slip = law.cumulated ? static_cast<Wide>(step_.after.slip_path[k])
+                                  : shear_part(k, step_.after.jump).norm();
   const Wide cohesion = step_.after.cohesion_lost[k] != 0 ? 0 : law.cohesion;
   const Wide pressing = std::max<Wide>(-traction_[nodes_[k].dof[0]], 0);
   return cohesion + pressing * friction_coefficient(law, slip);
@@ -199,9 +198,8 @@ void Judge::judge_flow(std::size_t k, const Shear& traction, const Shear& slip) 
 
 /// The path goes on by the slip, and cohesion ends where the law ends it, for good and not before.
 void Judge::judge_memory(std::size_t k, Wide slip) {
-  const auto i = static_cast<Eigen::Index>(k);
   const CoulombLaw& law = laws_[k];
-  const Wide path = static_cast<Wide>(step_.after.slip_path[i]) - step_.before.slip_path[i];
+  const Wide path = static_cast<Wide>(step_.after.slip_path[k]) - step_.before.slip_path[k];
   const Wide astray = step_.at_once ? std::abs(path - slip) : std::max<Wide>(slip - path, -path);
   if (!(astray <= 0)) miss(&Misses::memory, k, astray * shear_stiffness(k));
   const bool lost = step_.after.cohesion_lost[k] != 0;

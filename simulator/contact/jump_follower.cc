@@ -25,7 +25,7 @@ double JumpFollower::first_duration() const {
   const ContactProblem& problem = solver_.problem();
   double duration = std::numeric_limits<double>::infinity();
   for (int k = 0; k < problem.n_nodes(); ++k) {
-    const ContactNode& node = problem.nodes[static_cast<std::size_t>(k)];
+    const ContactNode& node = problem.nodes[k];
     if (node.n_dofs < 2) continue;
     duration = std::min(duration, node.law->constants().damping / problem.stiffness(node, 1));
   }
@@ -36,9 +36,8 @@ double JumpFollower::first_duration() const {
 bool JumpFollower::still_weakens(int k) const {
   const ContactProblem& problem = solver_.problem();
   const SubStep& s = solver_.sub_step();
-  const auto i = static_cast<std::size_t>(k);
-  const ContactNode& node = problem.nodes[i];
-  return node.law->weakens() && s.state[i] == FaultState::slip &&
+  const ContactNode& node = problem.nodes[k];
+  return node.law->weakens() && s.state[k] == FaultState::slip &&
          !node.law->is_fully_weakened(friction_before(node, s, k));
 }
 
@@ -48,9 +47,8 @@ double JumpFollower::weakening_share() const {
   double share = 0;
   for (int k = 0; k < problem.n_nodes(); ++k) {
     if (!still_weakens(k)) continue;
-    const auto i = static_cast<std::size_t>(k);
-    const double slip = shear_part(problem.nodes[i], solver_.sub_step().increment).norm();
-    share = std::max(share, slip / problem.nodes[i].law->constants().slip_weakening_distance);
+    const double slip = shear_part(problem.nodes[k], solver_.sub_step().increment).norm();
+    share = std::max(share, slip / problem.nodes[k].law->constants().slip_weakening_distance);
   }
   return share;
 }
@@ -97,9 +95,8 @@ void JumpFollower::add_energy() {
   evidence_.released +=
       0.5 * s.increment.cwiseQuotient(problem.inverse_area).dot(s.trial + s.traction);
   for (int k = 0; k < problem.n_nodes(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const ContactNode& node = problem.nodes[i];
-    if (s.state[i] != FaultState::slip || node.n_dofs < 2) continue;
+    const ContactNode& node = problem.nodes[k];
+    if (s.state[k] != FaultState::slip || node.n_dofs < 2) continue;
     const Eigen::Vector2d slip = shear_part(node, s.increment);
     const double length = slip.norm();
     if (length == 0) continue;

@@ -12,8 +12,8 @@ MovingBlock::MovingBlock(const ContactProblem& problem)
       column_(static_cast<std::size_t>(problem.n_dofs()), -1) {}
 
 void MovingBlock::clear() {
-  for (const int node : nodes_) row_[static_cast<std::size_t>(node)] = -1;
-  for (const int dof : dofs_) column_[static_cast<std::size_t>(dof)] = -1;
+  for (const int node : nodes_) row_[node] = -1;
+  for (const int dof : dofs_) column_[dof] = -1;
   nodes_.clear();
   dofs_.clear();
   row_dof_.clear();
@@ -46,7 +46,7 @@ void MovingBlock::add_rows(int first_row, int n_columns) {
     rows.push_back(row_dof_[r] < 0 ? nullptr : problem_.compliance.column(row_dof_[r]).data());
   }
   for (int c = 0; c < n_columns; ++c) {
-    const int dof = dofs_[static_cast<std::size_t>(c)];
+    const int dof = dofs_[c];
     float* g = g_.col(c).data() + first_row;
     for (std::size_t r = 0; r < rows.size(); ++r) {
       g[r] = rows[r] == nullptr ? 0 : static_cast<float>(rows[r][dof]);
@@ -60,14 +60,14 @@ void MovingBlock::add(const std::vector<int>& nodes, const std::vector<int>& dof
   reserve(old_rows + kRows * static_cast<int>(nodes.size()),
           old_columns + static_cast<int>(dofs.size()));
   for (const int k : nodes) {
-    row_[static_cast<std::size_t>(k)] = n_rows();
+    row_[k] = n_rows();
     nodes_.push_back(k);
-    const ContactNode& node = problem_.nodes[static_cast<std::size_t>(k)];
+    const ContactNode& node = problem_.nodes[k];
     row_dof_.insert(row_dof_.end(), node.dof.begin(), node.dof.end());
   }
   add_rows(old_rows, old_columns);
   for (const int dof : dofs) {
-    column_[static_cast<std::size_t>(dof)] = n_columns();
+    column_[dof] = n_columns();
     dofs_.push_back(dof);
     gather(n_columns() - 1, dof);
   }

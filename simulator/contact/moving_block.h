@@ -21,9 +21,9 @@ class MovingBlock {
   int n_rows() const { return kRows * static_cast<int>(nodes_.size()); }
   int n_columns() const { return static_cast<int>(dofs_.size()); }
   /// The first row of a node; −1: it is not in the block.
-  int row(int node) const { return row_[static_cast<std::size_t>(node)]; }
+  int row(int node) const { return row_[node]; }
   /// The column of a dof; −1: it is not in the block.
-  int column(int dof) const { return column_[static_cast<std::size_t>(dof)]; }
+  int column(int dof) const { return column_[dof]; }
   /// n_rows() entries.
   const float* entries(int column) const { return g_.col(column).data(); }
 

@@ -85,21 +85,20 @@ double relax(ContactProblem& problem, SubStep& sub_step, int sweeps, StopToken s
     worst = 0;
     for (int k = 0; k < problem.n_nodes(); ++k) {
       stop.throw_if_requested("solving a load step");
-      const auto i = static_cast<std::size_t>(k);
-      const ContactNode& node = problem.nodes[i];
+      const ContactNode& node = problem.nodes[k];
       const auto n = static_cast<std::size_t>(node.n_dofs);
       const double gap_before = sub_step.start->jump[node.dof[0]];
       Eigen::Vector3d traction(0, 0, 0);
       Eigen::Vector3d increment(0, 0, 0);
       for (std::size_t c = 0; c < n; ++c) {
-        traction[static_cast<Eigen::Index>(c)] = sub_step.traction[node.dof[c]];
-        increment[static_cast<Eigen::Index>(c)] = sub_step.increment[node.dof[c]];
+        traction[c] = sub_step.traction[node.dof[c]];
+        increment[c] = sub_step.increment[node.dof[c]];
       }
       const StrengthAt strength = {*node.law, increment.tail<2>(),
                                    friction_before(node, sub_step, k)};
       if (increment.isZero(0) && gap_before == 0 && traction[0] <= 0 &&
           traction.tail<2>().norm() <= strength(traction[0])) {
-        sub_step.state[i] = FaultState::stick;
+        sub_step.state[k] = FaultState::stick;
         continue;
       }
       Eigen::Matrix3d stiffness = Eigen::Matrix3d::Identity();
@@ -111,7 +110,7 @@ double relax(ContactProblem& problem, SubStep& sub_step, int sweeps, StopToken s
       }
       const LocalSolution solution =
           solve_node(strength, traction + stiffness * increment, stiffness, gap_before);
-      sub_step.state[i] = solution.state;
+      sub_step.state[k] = solution.state;
       for (std::size_t c = 0; c < n; ++c) {
         const auto row = static_cast<Eigen::Index>(c);
         const double change = solution.increment[row] - increment[row];

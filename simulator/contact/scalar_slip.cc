@@ -21,7 +21,7 @@ bool ScalarSlip::add_violators(const SubStep& sub_step, bool& opens) {
   near_limit_.clear();
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     const ContactNode& node = problem_.nodes[i];
-    const double tolerance = sub_step.tolerance[static_cast<Eigen::Index>(i)];
+    const double tolerance = sub_step.tolerance[i];
     const double normal = sub_step.traction[node.dof[0]];
     opens = opens || normal > tolerance;
     if (wanted_[i] != 0 || node.n_dofs < 2) continue;
@@ -43,9 +43,8 @@ bool ScalarSlip::add_neighbours(const SubStep& sub_step) {
   bool any = false;
   const std::size_t m = order_.size();
   for (const int k : near_limit_) {
-    const auto i = static_cast<std::size_t>(k);
-    if (wanted_[i] != 0) continue;
-    const ContactNode& node = problem_.nodes[i];
+    if (wanted_[k] != 0) continue;
+    const ContactNode& node = problem_.nodes[k];
     const double* shear_row = problem_.compliance.column(node.dof[1]).data();
     const double* normal_row = problem_.compliance.column(node.dof[0]).data();
     double shear_sum = 0;
@@ -56,9 +55,9 @@ bool ScalarSlip::add_neighbours(const SubStep& sub_step) {
     }
     const double shear = sub_step.trial[node.dof[1]] - shear_sum * node.inverse_area[1];
     const double normal = sub_step.trial[node.dof[0]] - normal_sum * node.inverse_area[0];
-    const double limit = node.law->static_limit(normal, sub_step.cohesive[i] != 0);
+    const double limit = node.law->static_limit(normal, sub_step.cohesive[k] != 0);
     if (!(std::abs(shear) - limit > sub_step.tolerance[k])) continue;
-    wanted_[i] = shear > 0 ? 1 : -1;
+    wanted_[k] = shear > 0 ? 1 : -1;
     any = true;
   }
   return any;
@@ -67,11 +66,11 @@ bool ScalarSlip::add_neighbours(const SubStep& sub_step) {
 /// Brings the factor to the wanted set: cuts it back to what still holds, appends the rest.
 void ScalarSlip::synchronise() {
   std::size_t keep = 0;
-  while (keep < order_.size() && wanted_[static_cast<std::size_t>(order_[keep])] == signs_[keep]) {
+  while (keep < order_.size() && wanted_[order_[keep]] == signs_[keep]) {
     ++keep;
   }
   for (std::size_t i = keep; i < order_.size(); ++i) {
-    placed_[static_cast<std::size_t>(order_[i])] = 0;
+    placed_[order_[i]] = 0;
   }
   order_.resize(keep);
   order_dof_.resize(keep);
@@ -81,18 +80,17 @@ void ScalarSlip::synchronise() {
 
 /// Appends a node's row and column, both read from its own columns of H by symmetry.
 bool ScalarSlip::append(int k) {
-  const auto i = static_cast<std::size_t>(k);
-  const ContactNode& node = problem_.nodes[i];
+  const ContactNode& node = problem_.nodes[k];
   const double* shear = problem_.compliance.column(node.dof[1]).data();
   const double* normal = problem_.compliance.column(node.dof[0]).data();
   const auto coupling = [](const ContactNode& at, int sign) {
     return sign * at.law->static_friction() * at.inverse_area[0] / at.inverse_area[1];
   };
-  const double own = coupling(node, wanted_[i]);
+  const double own = coupling(node, wanted_[k]);
   double* row = lu_.row();
   double* column = lu_.column();
   for (std::size_t j = 0; j < order_.size(); ++j) {
-    const ContactNode& other = problem_.nodes[static_cast<std::size_t>(order_[j])];
+    const ContactNode& other = problem_.nodes[order_[j]];
     const double tangential = shear[other.dof[1]];
     row[j] = tangential + own * normal[other.dof[1]];
     column[j] = tangential + coupling(other, signs_[j]) * shear[other.dof[0]];
@@ -103,8 +101,8 @@ bool ScalarSlip::append(int k) {
   if (!(lu_.append(diagonal) > kSmallestPivot * shear[node.dof[1]])) return false;
   order_.push_back(k);
   order_dof_.push_back(node.dof[1]);
-  signs_.push_back(wanted_[i]);
-  placed_[i] = 1;
+  signs_.push_back(wanted_[k]);
+  placed_[k] = 1;
   return true;
 }
 
@@ -130,20 +128,10 @@ bool ScalarSlip::release_wrong_way() {
   bool any = false;
   for (std::size_t j = 0; j < order_.size(); ++j) {
     if (signs_[j] * slip_[j] > 0) continue;
-    wanted_[static_cast<std::size_t>(order_[j])] = 0;
+    wanted_[order_[j]] = 0;
     any = true;
   }
   return any;
-}
-
-bool ScalarSlip::seen_before() {
-  std::uint64_t hash = 1469598103934665603ULL;  // FNV-1a
-  for (const signed char sign : wanted_) {
-    hash = (hash ^ static_cast<std::uint64_t>(sign + 1)) * 1099511628211ULL;
-  }
-  if (contains(seen_, hash)) return true;
-  seen_.push_back(hash);
-  return false;
 }
 
 /// Sets are solved exactly, so no residual is formed.
@@ -171,7 +159,7 @@ SearchHistory ScalarSlip::solve(SubStep& sub_step) {
       history.end = SearchEnd::balanced;
       break;
     }
-    if (seen_before()) {
+    if (seen_.has_seen(wanted_)) {
       history.end = SearchEnd::set_comes_back;
       break;
     }

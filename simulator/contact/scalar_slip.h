@@ -32,7 +32,6 @@ class ScalarSlip {
   bool append(int k);
   bool solve_set(const SubStep& sub_step);
   bool release_wrong_way();
-  bool seen_before();
   void note(SearchHistory& history);
 
   ContactProblem& problem_;
@@ -46,7 +45,7 @@ class ScalarSlip {
   std::vector<int> order_dof_;       ///< shear dof per node of order_.
   std::vector<int> near_limit_;      ///< stick nodes near their limit at the last full look.
   std::vector<double> slip_;
-  std::vector<std::uint64_t> seen_;
+  SeenSets seen_;
 };
 
 }  // namespace faultsim

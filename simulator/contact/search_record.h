@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -52,6 +54,25 @@ struct SearchHistory {
 
   bool converged() const { return end == SearchEnd::balanced; }
   void add(const SearchIteration& iteration);
+};
+
+/// Active sets of a search, told apart by a number each: one that comes back is a cycle.
+class SeenSets {
+ public:
+  void clear() { seen_.clear(); }
+  /// Whether this set, an entry per node, was there before; it is from now on.
+  template <typename States>
+  bool has_seen(const States& states) {
+    std::uint64_t hash = 1469598103934665603ULL;  // FNV-1a
+    for (const auto state : states)
+      hash = (hash ^ static_cast<std::uint64_t>(state)) * 1099511628211ULL;
+    if (std::ranges::find(seen_, hash) != seen_.end()) return true;
+    seen_.push_back(hash);
+    return false;
+  }
+
+ private:
+  std::vector<std::uint64_t> seen_;
 };
 
 /// All searches on one sub-step and what became of them.

@@ -8,17 +8,16 @@ namespace faultsim {
 void StabilityCheck::collect(const SubStep& sub_step, Where where, StabilityReport& report) {
   movers_.clear();
   for (int k = 0; k < problem_.n_nodes(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const ContactNode& node = problem_.nodes[i];
+    const ContactNode& node = problem_.nodes[k];
     const double damping = node.law->drag(sub_step.per_second);
-    if (sub_step.state[i] == FaultState::open) {
+    if (sub_step.state[k] == FaultState::open) {
       for (int c = 0; c < node.n_dofs; ++c) {
         movers_.push_back({k, c, {0, 0}, 0, 0, c > 0 ? damping : 0});
       }
       continue;
     }
     const Eigen::Vector2d slip = shear_part(node, sub_step.increment);
-    if (sub_step.state[i] != FaultState::slip || slip.norm() == 0) continue;
+    if (sub_step.state[k] != FaultState::slip || slip.norm() == 0) continue;
     Mover mover{k, -1, slip / slip.norm(), 0, 0, damping};
     const double normal = sub_step.traction[node.dof[0]];
     const FrictionState before = friction_before(node, sub_step, k);
@@ -52,8 +51,8 @@ int StabilityCheck::count_negative_pivots(bool with_weakening, bool damped) {
       lu_.row()[j] = tangent_(i, j);
       lu_.column()[j] = tangent_(j, i);
     }
-    const Mover& mover = movers_[static_cast<std::size_t>(i)];
-    const ContactNode& node = problem_.nodes[static_cast<std::size_t>(mover.node)];
+    const Mover& mover = movers_[i];
+    const ContactNode& node = problem_.nodes[mover.node];
     double diagonal = tangent_(i, i);
     if (with_weakening) diagonal -= mover.weakening / node.inverse_area[1];
     if (damped) diagonal += mover.damping / node.inverse_area[1];
@@ -69,8 +68,8 @@ void StabilityCheck::assemble() {
   const auto n = static_cast<Eigen::Index>(movers_.size());
   tangent_.resize(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
-    const Mover& column = movers_[static_cast<std::size_t>(j)];
-    const ContactNode& from = problem_.nodes[static_cast<std::size_t>(column.node)];
+    const Mover& column = movers_[j];
+    const ContactNode& from = problem_.nodes[column.node];
     const auto column_of = [&](int component) {
       return problem_.compliance.column(from.dof[component]).data();
     };
@@ -85,10 +84,10 @@ void StabilityCheck::assemble() {
       return sum;
     };
     for (Eigen::Index i = 0; i < n; ++i) {
-      const Mover& row = movers_[static_cast<std::size_t>(i)];
-      const ContactNode& to = problem_.nodes[static_cast<std::size_t>(row.node)];
+      const Mover& row = movers_[i];
+      const ContactNode& to = problem_.nodes[row.node];
       if (row.open_component >= 0) {
-        tangent_(i, j) = response(to.dof[static_cast<std::size_t>(row.open_component)]);
+        tangent_(i, j) = response(to.dof[row.open_component]);
         continue;
       }
       double sum = row.direction[0] * response(to.dof[1]);

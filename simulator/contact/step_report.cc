@@ -24,7 +24,7 @@ std::string place(const ContactProblem& problem, int node) {
       fault = text("fault '", candidate.name, "'");
     }
   }
-  const Eigen::Vector3d& at = geometry.nodes[static_cast<std::size_t>(node)].position;
+  const Eigen::Vector3d& at = geometry.nodes[node].position;
   return text(fault, " at x = ", at.x(), " m, y = ", at.y(), " m, depth = ", -at.z(), " m");
 }
 
@@ -52,15 +52,14 @@ std::string failure_text(const ContactProblem& problem, const SubStep& sub_step,
            over, " stick or slip over the limit, ", against, " slip against their traction, ",
            loaded, " open under traction");
   if (worst_node < 0) return reason;
-  const auto i = static_cast<std::size_t>(worst_node);
-  const ContactNode& node = problem.nodes[i];
+  const ContactNode& node = problem.nodes[worst_node];
   const double gap = sub_step.start->jump[node.dof[0]] + sub_step.increment[node.dof[0]];
-  return reason + text("; worst: ", place(problem, worst_node), " (", to_string(sub_step.state[i]),
-                       "), t'_N = ", sub_step.traction[node.dof[0]],
-                       " Pa, |t'_T| = ", shear_part(node, sub_step.traction).norm(),
-                       " Pa, g_N = ", gap,
-                       " m, |slip of the step| = ", shear_part(node, sub_step.increment).norm(),
-                       " m, ", worst, " times its tolerance");
+  return reason +
+         text("; worst: ", place(problem, worst_node), " (", to_string(sub_step.state[worst_node]),
+              "), t'_N = ", sub_step.traction[node.dof[0]],
+              " Pa, |t'_T| = ", shear_part(node, sub_step.traction).norm(), " Pa, g_N = ", gap,
+              " m, |slip of the step| = ", shear_part(node, sub_step.increment).norm(), " m, ",
+              worst, " times its tolerance");
 }
 
 std::string instability_text(const ContactProblem& problem, const SubStep& sub_step,
@@ -79,10 +78,9 @@ std::string lost_cohesion_text(const ContactProblem& problem, const SubStep& sub
   int n_slipping = 0, largest = 0;
   double slip = -1;
   for (int k = 0; k < problem.n_nodes(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
     if (!loses_cohesion(problem, sub_step, k)) continue;
     ++n_slipping;
-    const double here = shear_part(problem.nodes[i], sub_step.increment).norm();
+    const double here = shear_part(problem.nodes[k], sub_step.increment).norm();
     if (here <= slip) continue;
     slip = here;
     largest = k;

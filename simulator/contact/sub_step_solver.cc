@@ -58,7 +58,7 @@ void SubStepSolver::set_tolerance() {
   s.tolerance.resize(problem_.n_nodes());
   double highest = 0;
   for (int k = 0; k < problem_.n_nodes(); ++k) {
-    const ContactNode& node = problem_.nodes[static_cast<std::size_t>(k)];
+    const ContactNode& node = problem_.nodes[k];
     double level = level_[node.dof[0]];
     for (std::size_t c = 1; c < static_cast<std::size_t>(node.n_dofs); ++c)
       level = std::max(level, level_[node.dof[c]]);
@@ -70,7 +70,7 @@ void SubStepSolver::set_tolerance() {
   if (normal_stiffness_.size() == 0) {  // scattered reads: once per case, and only if it slips
     normal_stiffness_.resize(problem_.n_nodes());
     for (int k = 0; k < problem_.n_nodes(); ++k) {
-      const ContactNode& node = problem_.nodes[static_cast<std::size_t>(k)];
+      const ContactNode& node = problem_.nodes[k];
       normal_stiffness_[k] = problem_.stiffness(node, 0);
     }
   }
@@ -88,12 +88,11 @@ bool SubStepSolver::rest() {
 
 bool SubStepSolver::at_rest() const {
   for (int k = 0; k < problem_.n_nodes(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const ContactNode& node = problem_.nodes[i];
+    const ContactNode& node = problem_.nodes[k];
     const double normal = sub_step_.trial[node.dof[0]];
     if (normal > sub_step_.tolerance[k]) return false;
     if (node.n_dofs < 2) continue;
-    const double limit = node.law->weakens() || !sub_step_.cohesive[i]
+    const double limit = node.law->weakens() || !sub_step_.cohesive[k]
                              ? node.law->limit(normal, friction_before(node, sub_step_, k))
                              : node.law->static_limit(normal, true);
     const double shear = node.n_dofs > 2 ? shear_part(node, sub_step_.trial).norm()
@@ -111,15 +110,14 @@ void SubStepSolver::start_from_rest() {
 
 /// The most frequent case of check_node: two dofs, no weakening, closed and at rest.
 bool SubStepSolver::rests_in_plane(int k, double margin) const {
-  const auto i = static_cast<std::size_t>(k);
-  const ContactNode& node = problem_.nodes[i];
-  if (node.n_dofs != 2 || node.law->weakens() || sub_step_.state[i] != FaultState::stick)
+  const ContactNode& node = problem_.nodes[k];
+  if (node.n_dofs != 2 || node.law->weakens() || sub_step_.state[k] != FaultState::stick)
     return false;
   const double normal = sub_step_.traction[node.dof[0]];
   return sub_step_.increment[node.dof[0]] == 0 && sub_step_.increment[node.dof[1]] == 0 &&
          sub_step_.start->jump[node.dof[0]] == 0 && normal <= margin &&
          std::abs(sub_step_.traction[node.dof[1]]) <=
-             node.law->static_limit(normal, sub_step_.cohesive[i] != 0) + margin;
+             node.law->static_limit(normal, sub_step_.cohesive[k] != 0) + margin;
 }
 
 /// (3)–(5) at each node: what decides whether a step is accepted.
@@ -218,18 +216,17 @@ void SubStepSolver::commit(ContactState& state) const {
     return;
   }
   for (int k = 0; k < problem_.n_nodes(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const ContactNode& node = problem_.nodes[i];
-    state.state[i] = sub_step_.state[i];
+    const ContactNode& node = problem_.nodes[k];
+    state.state[k] = sub_step_.state[k];
     // Not cohesive although it was: opened and closed again within the sub-step.
-    const bool opened = sub_step_.state[i] == FaultState::open || !sub_step_.cohesive[i];
+    const bool opened = sub_step_.state[k] == FaultState::open || !sub_step_.cohesive[k];
     const Eigen::Vector2d slip = shear_part(node, sub_step_.increment);
     if (!opened && slip[0] == 0 && slip[1] == 0) continue;  // most nodes, and nothing to remember
     const FrictionState before = {shear_part(node, state.jump), state.slip_path[k],
-                                  state.cohesion_lost[i] == 0};
+                                  state.cohesion_lost[k] == 0};
     const FrictionState after = node.law->after(before, slip, opened);
     state.slip_path[k] = after.path;
-    state.cohesion_lost[i] = !after.cohesive;
+    state.cohesion_lost[k] = !after.cohesive;
   }
   state.jump += sub_step_.increment;
 }

@@ -26,8 +26,7 @@ void TangentSolver::clear() {
 }
 
 void TangentSolver::forget_factor() {
-  for (const TangentUnknown& unknown : factored_)
-    place_[static_cast<std::size_t>(unknown.dof)] = -1;
+  for (const TangentUnknown& unknown : factored_) place_[unknown.dof] = -1;
   factored_.clear();
   rows_.clear();
   factor_.clear();
@@ -39,16 +38,16 @@ void TangentSolver::assemble(const std::vector<TangentUnknown>& unknowns) {
   const auto n = static_cast<Eigen::Index>(unknowns.size());
   direct_.resize(n, n);
   for (Eigen::Index v = 0; v < n; ++v) {
-    const TangentUnknown& column = unknowns[static_cast<std::size_t>(v)];
+    const TangentUnknown& column = unknowns[v];
     const double* h = problem_.compliance.column(column.dof).data();
     for (Eigen::Index u = 0; u < n; ++u) {
-      const TangentUnknown& row = unknowns[static_cast<std::size_t>(u)];
-      const ContactNode& node = problem_.nodes[static_cast<std::size_t>(row.node)];
+      const TangentUnknown& row = unknowns[u];
+      const ContactNode& node = problem_.nodes[row.node];
       double sum = row.weight[0] * h[node.dof[0]];
       if (node.n_dofs > 1) sum += row.weight[1] * h[node.dof[1]];
       if (node.n_dofs > 2) sum += row.weight[2] * h[node.dof[2]];
       if (row.node == column.node && column.component > 0) {
-        sum += row.own[static_cast<std::size_t>(column.component - 1)];
+        sum += row.own[column.component - 1];
       }
       direct_(u, v) = sum;
     }
@@ -100,19 +99,19 @@ void TangentSolver::cover(const std::vector<TangentUnknown>& unknowns) {
 /// Entries of a column of T over the rows of the factor from first_row on, by their equations when
 /// they joined. The shear dofs of a node join together, so they follow each other.
 void TangentSolver::fill(GrowingLu::Block& block, int column, int first_row) const {
-  const TangentUnknown& v = factored_[static_cast<std::size_t>(column)];
+  const TangentUnknown& v = factored_[column];
   const float* g = block_.entries(block_.column(v.dof));
   const int n = static_cast<int>(rows_.size());
   for (int u = first_row; u < n; ++u) {
-    const Row& row = rows_[static_cast<std::size_t>(u)];
+    const Row& row = rows_[u];
     const float* at = g + row.first;
     block(u, column) = row.weight[0] * at[0] + row.weight[1] * at[1] + row.weight[2] * at[2];
   }
   if (v.component == 0) return;
   for (int u = std::max(first_row, column - 2); u < std::min(column + 3, n); ++u) {
-    const TangentUnknown& row = factored_[static_cast<std::size_t>(u)];
+    const TangentUnknown& row = factored_[u];
     if (row.node != v.node) continue;
-    block(u, column) += static_cast<float>(row.own[static_cast<std::size_t>(v.component - 1)]);
+    block(u, column) += static_cast<float>(row.own[v.component - 1]);
   }
 }
 
@@ -121,7 +120,7 @@ bool TangentSolver::grow_factor(const std::vector<TangentUnknown>& unknowns) {
   if (tired_ || factor_.size() > kSpare * static_cast<int>(unknowns.size())) forget_factor();
   const int old = factor_.size();
   for (const TangentUnknown& unknown : unknowns) {
-    int& place = place_[static_cast<std::size_t>(unknown.dof)];
+    int& place = place_[unknown.dof];
     if (place >= 0) continue;
     place = static_cast<int>(factored_.size());
     factored_.push_back(unknown);
@@ -142,15 +141,14 @@ void TangentSolver::multiply(const std::vector<TangentUnknown>& unknowns, const 
                              Eigen::VectorXd& y) {
   moving_.setZero(block_.n_columns());
   for (std::size_t v = 0; v < unknowns.size(); ++v) {
-    moving_[block_.column(unknowns[v].dof)] = static_cast<float>(x[static_cast<Eigen::Index>(v)]);
+    moving_[block_.column(unknowns[v].dof)] = static_cast<float>(x[v]);
   }
   block_.multiply(moving_, response_);
   y.resize(x.size());
   for (std::size_t u = 0; u < unknowns.size(); ++u) {
     const TangentUnknown& row = unknowns[u];
     const float* at = response_.data() + block_.row(row.node);
-    y[static_cast<Eigen::Index>(u)] =
-        row.weight[0] * at[0] + row.weight[1] * at[1] + row.weight[2] * at[2];
+    y[u] = row.weight[0] * at[0] + row.weight[1] * at[1] + row.weight[2] * at[2];
   }
   // Unknowns of a node follow each other.
   for (std::size_t v = 0; v < unknowns.size(); ++v) {
@@ -158,7 +156,7 @@ void TangentSolver::multiply(const std::vector<TangentUnknown>& unknowns, const 
     const auto c = static_cast<std::size_t>(unknowns[v].component - 1);
     for (std::size_t u = v >= 2 ? v - 2 : 0; u < std::min(v + 3, unknowns.size()); ++u) {
       if (unknowns[u].node != unknowns[v].node) continue;
-      y[static_cast<Eigen::Index>(u)] += unknowns[u].own[c] * x[static_cast<Eigen::Index>(v)];
+      y[u] += unknowns[u].own[c] * x[v];
     }
   }
 }
@@ -168,14 +166,12 @@ void TangentSolver::precondition(const std::vector<TangentUnknown>& unknowns,
                                  const Eigen::VectorXd& x, Eigen::VectorXd& y) {
   factor_side_.setZero(factor_.size());
   for (std::size_t u = 0; u < unknowns.size(); ++u) {
-    factor_side_[place_[static_cast<std::size_t>(unknowns[u].dof)]] =
-        static_cast<float>(x[static_cast<Eigen::Index>(u)]);
+    factor_side_[place_[unknowns[u].dof]] = static_cast<float>(x[u]);
   }
   factor_.solve(factor_side_);
   y.resize(x.size());
   for (std::size_t u = 0; u < unknowns.size(); ++u) {
-    y[static_cast<Eigen::Index>(u)] =
-        factor_side_[place_[static_cast<std::size_t>(unknowns[u].dof)]];
+    y[u] = factor_side_[place_[unknowns[u].dof]];
   }
 }
 

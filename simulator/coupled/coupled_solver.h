@@ -33,8 +33,7 @@ struct CoupledReport {
   bool converged = false;
   /// |b − J x| / |b| after 0, 1, 2 … iterations, by the recurrence of GMRES, in scaled rows.
   std::vector<double> residuals;
-  double true_residual = 1;  ///< the same at the end, computed.
-  double seconds = 0;        ///< of the processor.
+  double seconds = 0;  ///< of the processor.
   /// Iterations to a relative residual; −1 = never reached.
   int iterations_to(double tolerance) const;
 };

@@ -58,10 +58,7 @@ void TwoSidedBulk::require_pieces_held() const {
   for (int piece = 0; piece < pieces.n_pieces; ++piece) {
     const RigidModes modes = rigid_modes(
         problem_.mesh, [&](int node) { return pieces.of_node[node] == piece; },
-        [&](int node, int c) {
-          const auto [first, last] = dofs_->terms(node, c);
-          return first == last;
-        });
+        [&](int node, int c) { return dofs_->terms(node, c).empty(); });
     if (modes.free.cols() == 0) continue;
     throw InputError(
         "coupled path",
@@ -81,9 +78,8 @@ void TwoSidedBulk::assemble() {
   prescribed_.assign(n_u, 1);
   for (int i = 0; i < static_cast<int>(mesh.nodes.size()); ++i) {
     for (int c = 0; c < 3; ++c) {
-      const auto [first, last] = dofs_->terms(i, c);
-      for (const DofMap::Term* term = first; term != last; ++term) {
-        dof_of[term->unknown] = dof(i, c);
+      for (const DofMap::Term& term : dofs_->terms(i, c)) {
+        dof_of[term.unknown] = dof(i, c);
         prescribed_[dof(i, c)] = 0;
       }
     }
@@ -129,9 +125,9 @@ Eigen::VectorXd TwoSidedBulk::load(int k) const {
   Eigen::VectorXd f = Eigen::VectorXd::Zero(n_displacements());
   for (int i = 0; i < static_cast<int>(problem_.mesh.nodes.size()); ++i) {
     for (int c = 0; c < 3; ++c) {
-      const auto [first, last] = dofs_->terms(i, c);
+      const auto terms = dofs_->terms(i, c);
       f[dof(i, c)] =
-          first != last ? force[first->unknown] : mean_diagonal_ * dofs_->prescribed(k, i, c);
+          terms.empty() ? mean_diagonal_ * dofs_->prescribed(k, i, c) : force[terms[0].unknown];
     }
   }
   return f;

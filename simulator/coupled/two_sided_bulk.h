@@ -50,7 +50,6 @@ class TwoSidedBulk {
   /// Displacements of the six rigid motions, orthonormal over all dofs, n_u x 6; prescribed dofs
   /// move with them.
   Eigen::MatrixXd rigid_motions() const;
-  double mean_diagonal() const { return mean_diagonal_; }
 
  private:
   void place_fault_nodes(const DofMap& condensed);

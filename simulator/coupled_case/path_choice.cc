@@ -14,7 +14,7 @@ double coupled_bytes(const Plan& plan) {
   return kPerUnknown * static_cast<double>(plan.n_unknowns);
 }
 
-PathChoice choose_path(const Plan& plan, std::optional<double> available, int n_cases,
+PathChoice choose_path(const Plan& plan, std::optional<double> available,
                        const std::vector<Problem>& hindrances) {
   const std::string needs =
       concat("the condensed operator needs about ", gigabytes(plan.memory_bytes));
@@ -23,10 +23,7 @@ PathChoice choose_path(const Plan& plan, std::optional<double> available, int n_
   }
   const std::string there = concat(" of ", gigabytes(*available));
   if (plan.memory_bytes <= *available) {
-    const std::string shared = n_cases == 1
-                                   ? "and all load steps share it"
-                                   : concat("and all load steps of ", n_cases, " cases share it");
-    return {SolutionPath::condensed, needs + there + ", " + shared};
+    return {SolutionPath::condensed, needs + there + ", and all load steps share it"};
   }
   if (!hindrances.empty()) {
     return {SolutionPath::condensed,
@@ -36,10 +33,8 @@ PathChoice choose_path(const Plan& plan, std::optional<double> available, int n_
     return {SolutionPath::condensed,
             concat(needs, there, ", the coupled path ", gigabytes(coupled_bytes(plan)))};
   }
-  const std::string price =
-      n_cases == 1 ? "" : concat("; each of the ", n_cases, " cases pays for its own solves");
-  return {SolutionPath::coupled, concat(needs, there, "; the coupled path needs about ",
-                                        gigabytes(coupled_bytes(plan)), price)};
+  return {SolutionPath::coupled,
+          concat(needs, there, "; the coupled path needs about ", gigabytes(coupled_bytes(plan)))};
 }
 
 }  // namespace faultsim

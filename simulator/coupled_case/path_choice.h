@@ -24,12 +24,10 @@ struct PathChoice {
 double coupled_bytes(const Plan& plan);
 
 /// The path for scenes that leave the choice: condensed wherever its operator fits, because every
-/// further case of the family, and every load step, is then nearly free; coupled where only that
-/// fits.
+/// load step is then nearly free; coupled where only that fits.
 /// @param available    bytes; none = not known, taken as enough.
-/// @param n_cases      that share the operator.
 /// @param hindrances   unsupported_by_coupled() of the scene.
-PathChoice choose_path(const Plan& plan, std::optional<double> available, int n_cases,
+PathChoice choose_path(const Plan& plan, std::optional<double> available,
                        const std::vector<Problem>& hindrances);
 
 }  // namespace faultsim

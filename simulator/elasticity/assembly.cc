@@ -20,8 +20,7 @@ CellUnknowns cell_unknowns(const Mesh& mesh, const DofMap& dofs) {
     list.clear();
     for (int node : cell) {
       for (int c = 0; c < 3; ++c) {
-        const auto [first, last] = dofs.terms(node, c);
-        for (const DofMap::Term* term = first; term != last; ++term) list.push_back(term->unknown);
+        for (const DofMap::Term& term : dofs.terms(node, c)) list.push_back(term.unknown);
       }
     }
     std::ranges::sort(list);
@@ -96,13 +95,11 @@ void add_cell(const std::array<int, 8>& nodes, const ElementMatrix& k_e, double 
   for (int i = 0; i < n; ++i) local[unknowns[i]] = i;
   matrix.setZero(n, n);
   for (int q = 0; q < 24; ++q) {
-    const auto [q_first, q_last] = dofs.terms(nodes[q / 3], q % 3);
-    for (const DofMap::Term* b = q_first; b != q_last; ++b) {
-      const int column = local[b->unknown];
+    for (const DofMap::Term& b : dofs.terms(nodes[q / 3], q % 3)) {
+      const int column = local[b.unknown];
       for (int p = 0; p < 24; ++p) {
-        const auto [p_first, p_last] = dofs.terms(nodes[p / 3], p % 3);
-        for (const DofMap::Term* a = p_first; a != p_last; ++a) {
-          matrix(local[a->unknown], column) += a->coefficient * b->coefficient * k_e(p, q);
+        for (const DofMap::Term& a : dofs.terms(nodes[p / 3], p % 3)) {
+          matrix(local[a.unknown], column) += a.coefficient * b.coefficient * k_e(p, q);
         }
       }
     }

@@ -74,10 +74,9 @@ void CreepCells::advance(const Eigen::Matrix3Xd& displacement, const std::vector
     }
     for (int a = 0; a < 8; ++a) {
       for (int c = 0; c < 3; ++c) {
-        const auto [first, last] = dofs_.terms(nodes[a], c);
-        for (const DofMap::Term* term = first; term != last; ++term) {
-          stress.force(term->unknown, static_cast<Eigen::Index>(m)) +=
-              scale * term->coefficient * force(c, a);
+        for (const DofMap::Term& term : dofs_.terms(nodes[a], c)) {
+          stress.force(term.unknown, static_cast<Eigen::Index>(m)) +=
+              scale * term.coefficient * force(c, a);
         }
       }
     }

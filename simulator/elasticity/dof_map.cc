@@ -286,7 +286,7 @@ DofMap::DofMap(const Mesh& mesh, const std::vector<DisplacementCondition>& condi
   builder.share_prescribed();
 }
 
-std::pair<const DofMap::Term*, const DofMap::Term*> DofMap::terms(int node, int component) const {
+std::span<const DofMap::Term> DofMap::terms(int node, int component) const {
   const std::size_t row = 3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(component);
   return {terms_.data() + begin_[row], terms_.data() + begin_[row + 1]};
 }
@@ -297,21 +297,5 @@ double DofMap::prescribed(int load, int node, int component) const {
   const auto at = std::ranges::lower_bound(list, std::pair(key, -HUGE_VAL));
   return at != list.end() && at->first == key ? at->second : 0;
 }
-
-bool DofMap::has_prescribed(int load) const { return !prescribed_[load].empty(); }
-
-int DofMap::n_unknowns() const { return n_bulk_ + n_jump_; }
-int DofMap::n_bulk() const { return n_bulk_; }
-int DofMap::n_jump() const { return n_jump_; }
-
-int DofMap::jump_dof(int fault, int node, int component) const {
-  const int index = jump_begin_[fault] + node;
-  return jump_[index][component];
-}
-
-const std::vector<Eigen::Vector3d>& DofMap::locked_positions() const { return locked_; }
-bool DofMap::pinned() const { return pinned_; }
-const std::vector<int>& DofMap::bulk_group() const { return bulk_group_; }
-int DofMap::n_groups() const { return n_groups_; }
 
 }  // namespace faultsim

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <array>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -49,22 +50,24 @@ class DofMap {
     double coefficient;
   };
   /// Terms of displacement component c of mesh node i.
-  std::pair<const Term*, const Term*> terms(int node, int component) const;
+  std::span<const Term> terms(int node, int component) const;
   /// Prescribed part of that component for load k (0 unless the node is on such a side), m.
   double prescribed(int load, int node, int component) const;
-  bool has_prescribed(int load) const;
+  bool has_prescribed(int load) const { return !prescribed_[load].empty(); }
 
-  int n_unknowns() const;  ///< n_r + n_g
-  int n_bulk() const;      ///< n_r: unknowns 0 … n_r−1
-  int n_jump() const;      ///< n_g: unknowns n_r … n_r+n_g−1
+  int n_unknowns() const { return n_bulk_ + n_jump_; }  ///< n_r + n_g
+  int n_bulk() const { return n_bulk_; }                ///< n_r: unknowns 0 … n_r−1
+  int n_jump() const { return n_jump_; }                ///< n_g: unknowns n_r … n_r+n_g−1
   /// Jump unknown (0-based within g) of component c (n, strike, dip) of node k of fault f; −1 =
   /// removed.
-  int jump_dof(int fault, int node, int component) const;
-  const std::vector<Eigen::Vector3d>& locked_positions() const;
-  bool pinned() const;  ///< the rigid motions of the body were pinned.
+  int jump_dof(int fault, int node, int component) const {
+    return jump_[jump_begin_[fault] + node][component];
+  }
+  const std::vector<Eigen::Vector3d>& locked_positions() const { return locked_; }
+  bool pinned() const { return pinned_; }  ///< the rigid motions of the body were pinned.
   /// Unknowns grouped by mesh node for ordering: bulk unknown → group; n_groups.
-  const std::vector<int>& bulk_group() const;
-  int n_groups() const;
+  const std::vector<int>& bulk_group() const { return bulk_group_; }
+  int n_groups() const { return n_groups_; }
 
  private:
   std::vector<int> begin_;

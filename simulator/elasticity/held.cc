@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iomanip>
-#include <limits>
 #include <sstream>
 
 #include "simulator/common/errors.h"
@@ -20,19 +19,13 @@ std::string rounded(double value) {
 }  // namespace
 
 std::string extent_text(const Mesh& mesh, const std::function<bool(int)>& member) {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Vector3d high = -low;
-  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
-    if (!member(static_cast<int>(i))) continue;
-    low = low.cwiseMin(mesh.nodes[i]);
-    high = high.cwiseMax(mesh.nodes[i]);
-  }
+  const Eigen::AlignedBox3d extent = extent_of(mesh, member);
   const auto n_cells =
       std::ranges::count_if(mesh.cells, [&](const auto& cell) { return member(cell[0]); });
   std::string text = "the block ";
   for (int c = 0; c < 3; ++c) {
-    text +=
-        concat(c == 0 ? "" : ", ", "xyz"[c], " ", rounded(low[c]), " to ", rounded(high[c]), " m");
+    text += concat(c == 0 ? "" : ", ", "xyz"[c], " ", rounded(extent.min()[c]), " to ",
+                   rounded(extent.max()[c]), " m");
   }
   return text + concat(" (", n_cells, n_cells == 1 ? " cell)" : " cells)");
 }
@@ -54,10 +47,7 @@ void require_held(const Mesh& mesh, const DofMap& dofs) {
                                 "free a side or a component, or use smaller cells"}});
   }
   const Pieces pieces = find_pieces(mesh);
-  const auto is_fixed = [&](int node, int c) {
-    const auto [first, last] = dofs.terms(node, c);
-    return first == last;
-  };
+  const auto is_fixed = [&](int node, int c) { return dofs.terms(node, c).empty(); };
   for (int body = 0; body < pieces.n_bodies; ++body) {
     const auto member = [&](int node) { return pieces.body[pieces.of_node[node]] == body; };
     const std::string freedom = describe(rigid_modes(mesh, member, is_fixed));

@@ -16,9 +16,8 @@ Eigen::VectorXd gathered(const DofMap& dofs, const Eigen::Matrix3Xd& forces) {
   Eigen::VectorXd f = Eigen::VectorXd::Zero(dofs.n_unknowns());
   for (Eigen::Index node = 0; node < forces.cols(); ++node) {
     for (int c = 0; c < 3; ++c) {
-      const auto [first, last] = dofs.terms(static_cast<int>(node), c);
-      for (const DofMap::Term* term = first; term != last; ++term) {
-        f[term->unknown] += term->coefficient * forces(c, node);
+      for (const DofMap::Term& term : dofs.terms(static_cast<int>(node), c)) {
+        f[term.unknown] += term.coefficient * forces(c, node);
       }
     }
   }
@@ -72,9 +71,8 @@ std::vector<std::pair<int, double>> dilatation_load(const Mesh& mesh, const DofM
   std::map<int, double> load;
   for (int a = 0; a < 8; ++a) {
     for (int c = 0; c < 3; ++c) {
-      const auto [first, last] = dofs.terms(mesh.cells[cell][a], c);
-      for (const DofMap::Term* term = first; term != last; ++term) {
-        load[term->unknown] += term->coefficient * volume * element.mean_gradient(a, c);
+      for (const DofMap::Term& term : dofs.terms(mesh.cells[cell][a], c)) {
+        load[term.unknown] += term.coefficient * volume * element.mean_gradient(a, c);
       }
     }
   }
@@ -130,9 +128,8 @@ Eigen::Matrix3Xd nodal_displacement(const Mesh& mesh, const DofMap& dofs, const 
   for (Eigen::Index node = 0; node < u.cols(); ++node) {
     for (int c = 0; c < 3; ++c) {
       double sum = 0;
-      const auto [first, last] = dofs.terms(static_cast<int>(node), c);
-      for (const DofMap::Term* term = first; term != last; ++term) {
-        sum += term->coefficient * x[term->unknown];
+      for (const DofMap::Term& term : dofs.terms(static_cast<int>(node), c)) {
+        sum += term.coefficient * x[term.unknown];
       }
       for (std::size_t k = 0; k < load_factors.size(); ++k) {
         const int load = static_cast<int>(k);

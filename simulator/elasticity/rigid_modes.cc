@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <numeric>
 
 #include "simulator/common/errors.h"
@@ -30,7 +29,7 @@ class DisjointSets {
   void join(int i, int j) {
     i = find(i);
     j = find(j);
-    parent_[static_cast<std::size_t>(std::max(i, j))] = std::min(i, j);
+    parent_[std::max(i, j)] = std::min(i, j);
   }
 
  private:
@@ -50,7 +49,7 @@ Pieces find_pieces(const Mesh& mesh) {
   Pieces pieces;
   std::vector<int> number(mesh.nodes.size(), -1);
   for (const auto& cell : mesh.cells) {
-    int& piece = number[static_cast<std::size_t>(sets.find(cell[0]))];
+    int& piece = number[sets.find(cell[0])];
     if (piece < 0) {
       piece = pieces.n_pieces++;
       pieces.n_cells.push_back(0);
@@ -58,7 +57,7 @@ Pieces find_pieces(const Mesh& mesh) {
     ++pieces.n_cells[piece];
   }
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
-    pieces.of_node.push_back(number[static_cast<std::size_t>(sets.find(static_cast<int>(i)))]);
+    pieces.of_node.push_back(number[sets.find(static_cast<int>(i))]);
     FAULTSIM_DEMAND(pieces.of_node.back() >= 0, "node ", i, " belongs to no cell");
   }
   DisjointSets bodies(static_cast<std::size_t>(pieces.n_pieces));
@@ -75,6 +74,14 @@ Pieces find_pieces(const Mesh& mesh) {
   return pieces;
 }
 
+Eigen::AlignedBox3d extent_of(const Mesh& mesh, const std::function<bool(int)>& member) {
+  Eigen::AlignedBox3d extent;
+  for (int i = 0; i < static_cast<int>(mesh.nodes.size()); ++i) {
+    if (member(i)) extent.extend(mesh.nodes[i]);
+  }
+  return extent;
+}
+
 Eigen::Matrix<double, 3, 6> RigidModes::at(const Eigen::Vector3d& x) const {
   const Eigen::Vector3d r = (x - centre) / size;
   Eigen::Matrix<double, 3, 6> u;
@@ -86,19 +93,12 @@ Eigen::Matrix<double, 3, 6> RigidModes::at(const Eigen::Vector3d& x) const {
 
 RigidModes rigid_modes(const Mesh& mesh, const std::function<bool(int)>& member,
                        const std::function<bool(int, int)>& is_fixed) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(kInfinity);
-  Eigen::Vector3d high = -low;
-  const int n_nodes = static_cast<int>(mesh.nodes.size());
-  for (int i = 0; i < n_nodes; ++i) {
-    if (!member(i)) continue;
-    low = low.cwiseMin(mesh.nodes[i]);
-    high = high.cwiseMax(mesh.nodes[i]);
-  }
+  const Eigen::AlignedBox3d extent = extent_of(mesh, member);
+  FAULTSIM_DEMAND(!extent.isEmpty(), "no nodes");
   RigidModes modes;
-  FAULTSIM_DEMAND((high.array() >= low.array()).all(), "no nodes");
-  modes.centre = 0.5 * (low + high);
-  modes.size = 0.5 * (high - low).norm();
+  modes.centre = extent.center();
+  modes.size = 0.5 * extent.diagonal().norm();
+  const int n_nodes = static_cast<int>(mesh.nodes.size());
   Eigen::Matrix<double, 6, 6> held = Eigen::Matrix<double, 6, 6>::Zero();
   const auto hold = [&held](const Eigen::Matrix<double, 1, 6>& row) {
     held += row.transpose() * row;

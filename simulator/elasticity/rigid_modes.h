@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <functional>
 #include <string>
 #include <vector>
@@ -19,6 +19,9 @@ struct Pieces {
 };
 
 Pieces find_pieces(const Mesh& mesh);
+
+/// The box around the mesh nodes that are members; empty without one.
+Eigen::AlignedBox3d extent_of(const Mesh& mesh, const std::function<bool(int)>& member);
 
 /// The rigid motions of a set of nodes, u(x) = t + ω x (x − centre)/size, that ties, plane strain
 /// and fixed components allow: columns of `free` are (t, ω), orthonormal, 6 x n_free.

@@ -99,32 +99,6 @@ std::string draw(const DepthChart& chart) {
   return svg.finish();
 }
 
-namespace {
-
-std::string colour_of(const FaultMap& map, double value) {
-  if (!map.range) return chi_colour(value);
-  const auto [low, high] = *map.range;
-  return sequential_colour(high > low ? (value - low) / (high - low) : 0);
-}
-
-void draw_map_scale(Svg& svg, const FaultMap& map, Point place, double width) {
-  if (!map.range) return draw_chi_scale(svg, place, width);
-  constexpr int kParts = 40;
-  constexpr double kHeight = 10;
-  for (int k = 0; k < kParts; ++k) {
-    svg.rect({place.x + width * k / kParts, place.y, width / kParts + 0.3, kHeight},
-             sequential_colour((k + 0.5) / kParts));
-  }
-  svg.rect({place.x, place.y, width, kHeight}, "none", {kFrame, 0.75});
-  svg.text({place.x - 8, place.y + kHeight}, map.quantity, {kLabelSize, kInk, Anchor::end});
-  const auto [low, high] = *map.range;
-  svg.text({place.x, place.y + 23}, plain_number(low), {kTickSize, kFaint, Anchor::middle});
-  svg.text({place.x + width, place.y + 23}, plain_number(high),
-           {kTickSize, kFaint, Anchor::middle});
-}
-
-}  // namespace
-
 std::string draw(const FaultMap& map) {
   constexpr double kLeft = 70, kWidth = 860, kHeight = 300;
   std::vector<double> across, depths;
@@ -154,7 +128,7 @@ std::string draw(const FaultMap& map) {
       if (outlines && !cell.is_marked) continue;
       std::vector corners =
           mapped(cell.corners, [&](const Point& corner) { return panel.at(corner.x, corner.y); });
-      const std::string fill = colour_of(map, cell.value);
+      const std::string fill = chi_colour(cell.value);
       if (outlines)
         svg.polygon(corners, "none", {kInk, 0.9});
       else
@@ -164,7 +138,7 @@ std::string draw(const FaultMap& map) {
   draw_band_edges(panel, map.bands);
   panel.frame();
   const double y = box.bottom() + 54;
-  draw_map_scale(svg, map, {box.right() - 250, y}, 240);
+  draw_chi_scale(svg, {box.right() - 250, y}, 240);
   if (!map.marked.empty()) {
     svg.rect({box.x, y, 14, 10}, "none", {kInk, 0.9});
     svg.text({box.x + 20, y + 10}, map.marked, {kLabelSize, kInk});

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "simulator/figure/history_chart.h"
@@ -35,15 +33,13 @@ std::string draw(const DepthChart& chart);
 /// A face of a fault in its plane.
 struct FaultCell {
   std::vector<Point> corners;  ///< m along strike or step of time; m of depth.
-  double value = 0;
-  bool is_marked = false;  ///< slips or is open: outlined.
+  double value = 0;            ///< χ.
+  bool is_marked = false;      ///< slips or is open: outlined.
 };
-/// A quantity on a fault's plane as colours.
+/// χ on a fault's plane as colours.
 struct FaultMap {
   std::string title, remark;
-  std::string across;                              ///< "along strike, m".
-  std::string quantity;                            ///< "χ" or "slip, mm".
-  std::optional<std::pair<double, double>> range;  ///< none = chi_colour.
+  std::string across;  ///< "along strike, m".
   std::string marked;  ///< what the outline means; "" = nothing is outlined.
   std::vector<FaultCell> cells;
   std::vector<DepthBand> bands;

@@ -56,6 +56,8 @@ std::string points_text(const std::vector<Point>& points) {
 }  // namespace
 
 std::string escape_xml(std::string_view text) {
+  constexpr std::string_view kSpecial = "&<>\"'";
+  constexpr const char* kEscapes[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
   std::string escaped;
   while (!text.empty()) {
     const std::size_t n = character_length(text);
@@ -64,24 +66,11 @@ std::string escape_xml(std::string_view text) {
       text.remove_prefix(1);
       continue;
     }
-    switch (text[0]) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      default:
-        escaped += text.substr(0, n);
+    const std::size_t k = kSpecial.find(text[0]);
+    if (k == std::string_view::npos) {
+      escaped += text.substr(0, n);
+    } else {
+      escaped += kEscapes[k];
     }
     text.remove_prefix(n);
   }

@@ -4,11 +4,11 @@
 #include <strings.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
+#include <utility>
+#include <vector>
 
 #include "simulator/common/errors.h"
 #include "simulator/linalg/blas.h"
@@ -16,37 +16,15 @@
 namespace faultsim {
 namespace {
 
-struct Kernel {
-  const char* name;  // as OpenBLAS spells it in openblas_get_corename
-  VectorSet set;
-};
-// The first of each set is the one to ask for: the widest that is built in everywhere.
-constexpr std::array kKernels = {Kernel{"SkylakeX", VectorSet::avx512},
-                                 Kernel{"Cooperlake", VectorSet::avx512},
-                                 Kernel{"SapphireRapids", VectorSet::avx512},
-                                 Kernel{"Haswell", VectorSet::avx2},
-                                 Kernel{"Zen", VectorSet::avx2},
-                                 Kernel{"Excavator", VectorSet::avx2},
-                                 Kernel{"Sandybridge", VectorSet::avx},
-                                 Kernel{"Bulldozer", VectorSet::avx},
-                                 Kernel{"Piledriver", VectorSet::avx},
-                                 Kernel{"Steamroller", VectorSet::avx},
-                                 Kernel{"Nehalem", VectorSet::sse},
-                                 Kernel{"Prescott", VectorSet::sse},
-                                 Kernel{"Core2", VectorSet::sse},
-                                 Kernel{"Penryn", VectorSet::sse},
-                                 Kernel{"Dunnington", VectorSet::sse},
-                                 Kernel{"Atom", VectorSet::sse},
-                                 Kernel{"Nano", VectorSet::sse},
-                                 Kernel{"Athlon", VectorSet::sse},
-                                 Kernel{"Opteron", VectorSet::sse},
-                                 Kernel{"Opteron_SSE3", VectorSet::sse},
-                                 Kernel{"Barcelona", VectorSet::sse},
-                                 Kernel{"Bobcat", VectorSet::sse},
-                                 Kernel{"Katmai", VectorSet::sse},
-                                 Kernel{"Coppermine", VectorSet::sse},
-                                 Kernel{"Northwood", VectorSet::sse},
-                                 Kernel{"Banias", VectorSet::sse}};
+/// The kernels of each set, the widest set first, as openblas_get_corename spells them. The first
+/// of a set is the one to ask for: the widest that is built in everywhere.
+const std::pair<VectorSet, std::vector<const char*>> kKernels[] = {
+    {VectorSet::avx512, {"SkylakeX", "Cooperlake", "SapphireRapids"}},
+    {VectorSet::avx2, {"Haswell", "Zen", "Excavator"}},
+    {VectorSet::avx, {"Sandybridge", "Bulldozer", "Piledriver", "Steamroller"}},
+    {VectorSet::sse,
+     {"Nehalem", "Prescott", "Core2", "Penryn", "Dunnington", "Atom", "Nano", "Athlon", "Opteron",
+      "Opteron_SSE3", "Barcelona", "Bobcat", "Katmai", "Coppermine", "Northwood", "Banias"}}};
 
 constexpr const char* kCoreType = "OPENBLAS_CORETYPE";  // read by OpenBLAS as it is loaded
 // Set by us beside kCoreType: "Prescott" = what the library had taken. Tells our own choice from
@@ -93,19 +71,23 @@ VectorSet vector_set_of_processor() {
 }
 
 std::optional<VectorSet> vector_set_of_kernel(const std::string& name) {
-  const auto* found =
-      std::ranges::find_if(kKernels, [&](const Kernel& k) { return same_name(k.name, name); });
-  if (found == kKernels.end()) return std::nullopt;
-  return found->set;
+  for (const auto& [set, kernels] : kKernels) {
+    for (const char* kernel : kernels) {
+      if (same_name(kernel, name)) return set;
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<std::string> wider_kernel(const std::string& taken, VectorSet processor,
                                         const std::function<bool(const std::string&)>& has) {
   const std::optional<VectorSet> now = vector_set_of_kernel(taken);
   if (!now) return std::nullopt;
-  for (const Kernel& kernel : kKernels) {  // widest first
-    if (kernel.set <= *now) return std::nullopt;
-    if (kernel.set <= processor && has(kernel.name)) return kernel.name;
+  for (const auto& [set, kernels] : kKernels) {  // widest first
+    if (set <= *now) return std::nullopt;
+    for (const char* kernel : kernels) {
+      if (set <= processor && has(kernel)) return kernel;
+    }
   }
   return std::nullopt;
 }

@@ -139,7 +139,7 @@ struct TrailingCholesky::Impl {
 
   void find_singular_pivot(const SparseMatrix& k) {
     for_each_column(0, [&](Index column, const Index*, const double* values, Index) {
-      const Index unknown = order[static_cast<std::size_t>(column)];
+      const Index unknown = order[column];
       const double diagonal = k.valuePtr()[k.outerIndexPtr()[unknown]];
       if (failed < 0 && !(values[0] * values[0] > kSingularPivot * diagonal)) {
         failed = static_cast<int>(unknown);
@@ -162,7 +162,7 @@ struct TrailingCholesky::Impl {
 
   Eigen::VectorXd unpermuted(const Eigen::VectorXd& x) const {
     Eigen::VectorXd result(n);
-    for (Index i = 0; i < n; ++i) result[order[static_cast<std::size_t>(i)]] = x[i];
+    for (Index i = 0; i < n; ++i) result[order[i]] = x[i];
     return result;
   }
 };
@@ -213,7 +213,7 @@ Eigen::MatrixXd TrailingCholesky::trailing_factor() const {
 Eigen::VectorXd TrailingCholesky::forward(const Eigen::VectorXd& f) {
   FAULTSIM_DEMAND(f.size() == impl_->n && impl_->failed < 0, f.size(), " of ", impl_->n);
   Eigen::VectorXd y(impl_->n);
-  for (Index i = 0; i < impl_->n; ++i) y[i] = f[impl_->order[static_cast<std::size_t>(i)]];
+  for (Index i = 0; i < impl_->n; ++i) y[i] = f[impl_->order[i]];
   impl_->substitute(y, false);
   return y;
 }
@@ -228,10 +228,6 @@ Eigen::VectorXd TrailingCholesky::condensed(const Eigen::VectorXd& y) const {
                              result[rows[i] - n_bulk] += values[i] * y[column];
                          });
   return result;
-}
-
-Eigen::VectorXd TrailingCholesky::condense(const Eigen::VectorXd& f) {
-  return condensed(forward(f));
 }
 
 Eigen::MatrixXd TrailingCholesky::condense(const std::vector<SparseLoad>& loads,

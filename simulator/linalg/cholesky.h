@@ -53,11 +53,9 @@ class TrailingCholesky {
   /// y = L⁻¹ P f, in the order of the factor (the last n_last are the tail). For two loads a and b
   /// a_rᵀ K_rr⁻¹ b_r is the product of the first n − n_last entries of their y.
   Eigen::VectorXd forward(const Eigen::VectorXd& f);
-  /// L_gg times the tail of y: the condensed load of forward(f).
+  /// L_gg times the tail of y = forward(f): the condensed load f_g − K_gr K_rr⁻¹ f_r (n_last).
   Eigen::VectorXd condensed(const Eigen::VectorXd& y) const;
-  /// The condensed load f_g − K_gr K_rr⁻¹ f_r (n_last) = condensed(forward(f)).
-  Eigen::VectorXd condense(const Eigen::VectorXd& f);
-  /// The same for loads with few entries, a column each: see condense_sparse().
+  /// The same of loads f with few entries, a column each: see condense_sparse().
   Eigen::MatrixXd condense(const std::vector<SparseLoad>& loads,
                            const std::function<void(double)>& progress) const;
   /// r = K_rr⁻¹ (f_r − K_rg g), returned as (r, g), size n.

@@ -33,7 +33,7 @@ GmresReport gmres(const LinearMap& multiply, const LinearMap& precondition,
     if (!std::isfinite(hessenberg(j + 1, j))) return report;
     if (hessenberg(j + 1, j) > 0) basis.col(j + 1) = w / hessenberg(j + 1, j);
     for (int i = 0; i < j; ++i) {
-      hessenberg.col(j).applyOnTheLeft(i, i + 1, rotations[static_cast<std::size_t>(i)].adjoint());
+      hessenberg.col(j).applyOnTheLeft(i, i + 1, rotations[i].adjoint());
     }
     Eigen::JacobiRotation<double> rotation;
     rotation.makeGivens(hessenberg(j, j), hessenberg(j + 1, j));

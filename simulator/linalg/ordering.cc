@@ -21,19 +21,19 @@ GroupGraph group_graph(const cholmod_sparse& a, const std::vector<int>& group, i
   const Index n_bulk = static_cast<Index>(group.size());
   std::vector<std::vector<Index>> members(static_cast<std::size_t>(n_groups));
   for (Index j = 0; j < n_bulk; ++j) {
-    const int g = group[static_cast<std::size_t>(j)];
+    const int g = group[j];
     FAULTSIM_DEMAND(g >= 0 && g < n_groups, "group ", g, " of ", n_groups);
-    members[static_cast<std::size_t>(g)].push_back(j);
+    members[g].push_back(j);
   }
   std::vector<std::vector<Index>> below(static_cast<std::size_t>(n_groups));
   std::vector<int> seen_by(static_cast<std::size_t>(n_groups), -1);
   for (int g = 0; g < n_groups; ++g) {
-    for (Index j : members[static_cast<std::size_t>(g)]) {
+    for (Index j : members[g]) {
       for (Index k = begin[j]; k < begin[j + 1] && rows[k] < n_bulk; ++k) {
-        const int other = group[static_cast<std::size_t>(rows[k])];
-        if (other == g || seen_by[static_cast<std::size_t>(other)] == g) continue;
-        seen_by[static_cast<std::size_t>(other)] = g;
-        below[static_cast<std::size_t>(std::min(g, other))].push_back(std::max(g, other));
+        const int other = group[rows[k]];
+        if (other == g || seen_by[other] == g) continue;
+        seen_by[other] = g;
+        below[std::min(g, other)].push_back(std::max(g, other));
       }
     }
   }
@@ -95,7 +95,7 @@ void postorder_bulk(cholmod_sparse& a, Index n_bulk, std::vector<Index>& order,
       cholmod_l_postorder(parent.data(), n, count.data(), post.data(), common.get());
   FAULTSIM_DEMAND(placed == static_cast<Index>(n), placed, " of ", n);
   std::vector<Index> result(n);
-  for (std::size_t i = 0; i < n; ++i) result[i] = order[static_cast<std::size_t>(post[i])];
+  for (std::size_t i = 0; i < n; ++i) result[i] = order[post[i]];
   order = std::move(result);
 }
 
@@ -108,14 +108,12 @@ std::vector<Index> trailing_order(cholmod_sparse& a, Index n_bulk, const std::ve
       order_groups(group_graph(a, group, n_groups), common, stop);
   std::vector<Index> place(group_order.size());
   for (std::size_t i = 0; i < group_order.size(); ++i) {
-    place[static_cast<std::size_t>(group_order[i])] = static_cast<Index>(i);
+    place[group_order[i]] = static_cast<Index>(i);
   }
   std::vector<Index> order(a.nrow);
   std::iota(order.begin(), order.end(), Index{0});
-  std::stable_sort(order.begin(), order.begin() + n_bulk, [&](Index i, Index j) {
-    return place[static_cast<std::size_t>(group[static_cast<std::size_t>(i)])] <
-           place[static_cast<std::size_t>(group[static_cast<std::size_t>(j)])];
-  });
+  std::stable_sort(order.begin(), order.begin() + n_bulk,
+                   [&](Index i, Index j) { return place[group[i]] < place[group[j]]; });
   postorder_bulk(a, n_bulk, order, common);
   for (std::size_t i = static_cast<std::size_t>(n_bulk); i < order.size(); ++i) {
     FAULTSIM_DEMAND(order[i] == static_cast<Index>(i), "trailing unknown ", i, " moved");

@@ -19,14 +19,6 @@ ContactLaws without_following(ContactLaws laws) {
   return laws;
 }
 
-void add_counts(SolveCounts& sum, const SolveCounts& part, bool wasted) {
-  sum.sub_steps += wasted ? 0 : part.sub_steps;
-  sum.active_set_passes += part.active_set_passes;
-  sum.newton_iterations += wasted ? 0 : part.newton_iterations;
-  sum.wasted_newton_iterations +=
-      part.wasted_newton_iterations + (wasted ? part.newton_iterations : 0);
-}
-
 /// A⁻¹ H g over the columns with g ≠ 0, n_dofs, Pa.
 Eigen::VectorXd elastic_traction_drop(const FaultOperator& op, const Eigen::VectorXd& jump) {
   Eigen::VectorXd drop = Eigen::VectorXd::Zero(op.geometry.n_dofs);
@@ -206,7 +198,7 @@ CreepMarch::Path CreepMarch::joined(Path first, Path second) {
   sum.outcome = more.outcome == Outcome::converged ? sum.outcome : more.outcome;
   sum.reason += more.reason;
   sum.jumps.insert(sum.jumps.end(), more.jumps.begin(), more.jumps.end());
-  add_counts(sum.counts, more.counts, false);
+  sum.counts += more.counts;
   first.creep.time_steps += second.creep.time_steps;
   first.creep.time_error = std::max(first.creep.time_error, second.creep.time_error);
   first.creep.time_resolved = first.creep.time_resolved && second.creep.time_resolved;

@@ -62,50 +62,37 @@ NoiseCheck compare_with_twin(const CaseResult& result, const CaseResult& twin) {
 }
 
 void judge(const DiagnosisLimits& limits, double traction_tolerance, Diagnosis& diagnosis) {
-  auto& violations = diagnosis.violations;
-  violations.clear();
+  diagnosis.violations.clear();
+  const auto flag = [&](const std::string& what, bool told) {
+    diagnosis.violations.push_back({what, told});
+  };
+  // What is not a number is beyond every limit.
+  const auto limit = [&](const char* what, double value, double most, bool told) {
+    if (!(value <= most))
+      flag(concat(what, two_digits(value), ", allowed are ", two_digits(most)), told);
+  };
   const CaseResult& result = diagnosis.result;
   const double residual = limits.residual * traction_tolerance / 1e-8;
-  const Verdict& worst = diagnosis.worst;
-  if (!(worst.relative.largest() <= residual)) {
-    violations.push_back(
-        {concat("a load step misses equilibrium or contact by ",
-                two_digits(worst.relative.largest()), ", allowed are ", two_digits(residual)),
-         false});
-  }
-  if (!(worst.largest_energy() <= residual)) {
-    violations.push_back(
-        {concat("the energies of a load step miss their identity by ",
-                two_digits(worst.largest_energy()), ", allowed are ", two_digits(residual)),
-         false});
-  }
-  if (!(diagnosis.op.asymmetry <= limits.asymmetry)) {
-    violations.push_back(
-        {concat("H is not symmetric, by ", two_digits(diagnosis.op.asymmetry)), false});
-  }
+  limit("a load step misses equilibrium or contact by ", diagnosis.worst.relative.largest(),
+        residual, false);
+  limit("the energies of a load step miss their identity by ", diagnosis.worst.largest_energy(),
+        residual, false);
+  if (!(diagnosis.op.asymmetry <= limits.asymmetry))
+    flag(concat("H is not symmetric, by ", two_digits(diagnosis.op.asymmetry)), false);
   if (!diagnosis.op.condition) {
-    violations.push_back({"H is not positive definite", false});
-  } else if (!(*diagnosis.op.condition <= limits.condition)) {
-    violations.push_back({concat("H has the condition ", two_digits(*diagnosis.op.condition),
-                                 ", allowed are ", two_digits(limits.condition)),
-                          false});
+    flag("H is not positive definite", false);
+  } else {
+    limit("H has the condition ", *diagnosis.op.condition, limits.condition, false);
   }
   const bool open_end = outcome_tells(result.outcome);
-  if (!(diagnosis.noise.change() <= limits.noise_change)) {
-    violations.push_back(
-        {concat("noise of 1e-12 changes the answer by ", two_digits(diagnosis.noise.change()),
-                ", allowed are ", two_digits(limits.noise_change)),
-         open_end});
-  }
-  for (const std::string& change : diagnosis.noise.changed) {
-    violations.push_back({"noise of 1e-12 changes the " + change, open_end});
-  }
+  limit("noise of 1e-12 changes the answer by ", diagnosis.noise.change(), limits.noise_change,
+        open_end);
+  for (const std::string& change : diagnosis.noise.changed)
+    flag("noise of 1e-12 changes the " + change, open_end);
   const auto n_without = std::ranges::count_if(
       result.events, [](const SlipEvent& event) { return !event.evidence_holds; });
-  if (n_without > 0) {
-    violations.push_back(
-        {concat("the evidence of ", n_without, " slip events does not hold"), open_end});
-  }
+  if (n_without > 0)
+    flag(concat("the evidence of ", n_without, " slip events does not hold"), open_end);
 }
 
 Diagnosis diagnose_case(const Scene& scene, const PreparedOperator& prepared,

@@ -23,13 +23,6 @@ std::vector<std::string> fault_names(const Scene& scene) {
   return mapped(scene.faults, &Fault::name);
 }
 
-void add_counts(SolveCounts& sum, const SolveCounts& part) {
-  sum.newton_iterations += part.newton_iterations;
-  sum.active_set_passes += part.active_set_passes;
-  sum.sub_steps += part.sub_steps;
-  sum.wasted_newton_iterations += part.wasted_newton_iterations;
-}
-
 /// One case on its way through the load steps.
 class CaseRun {
  public:
@@ -244,7 +237,7 @@ bool CaseRun::advance(const LoadStep& step, const StepLoads* before, const StepL
   result.outcome = report.outcome;
   result.reason = report.reason;
   result.counts = report.counts;
-  add_counts(result_.counts, report.counts);
+  result_.counts += report.counts;
   const bool good = in_equilibrium(report.outcome);
   record_events(step, before, loads, report.jumps);
   result.seconds = stopwatch.seconds();

@@ -141,12 +141,11 @@ std::vector<FaultMetrics> FaultMeter::measure(const NodalState& nodal, const Con
     FaultMetrics& m = faults[f];
     const OperatorFault& fault = geometry.faults[f];
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      const Node& node = nodes_[i];
+      const Node& node = nodes_[k];
       m.chi_max = std::max(m.chi_max, nodal.critical_index[k]);
       m.chi_static_max = std::max(m.chi_static_max, nodal.static_critical_index[k]);
-      if (state.state[i] == FaultState::slip) m.slipping_area += node.area;
-      if (state.state[i] == FaultState::open) m.open_area += node.area;
+      if (state.state[k] == FaultState::slip) m.slipping_area += node.area;
+      if (state.state[k] == FaultState::open) m.open_area += node.area;
       if (nodal.slip[k] == 0) continue;
       m.max_slip = std::max(m.max_slip, nodal.slip[k]);
       m.potency += node.area * nodal.slip[k];

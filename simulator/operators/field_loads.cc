@@ -83,13 +83,13 @@ Eigen::MatrixXd beside(const Mesh& mesh, const FaultGeometry& geometry, const In
                        const Eigen::MatrixXd& change, const Eigen::MatrixXd& mean) {
   std::vector<int> row_of(mesh.cells.size(), -1);
   for (std::size_t c = 0; c < block.cells.size(); ++c)
-    row_of[static_cast<std::size_t>(block.cells[c].cell)] = static_cast<int>(c);
+    row_of[block.cells[c].cell] = static_cast<int>(c);
   const Eigen::Index n_nodes = std::ssize(geometry.nodes);
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n_nodes, change.cols());
   Eigen::VectorXd area = Eigen::VectorXd::Zero(n_nodes);
   for (std::size_t f = 0; f < geometry.faults.size(); ++f) {
     for (const FaultFace& face : mesh.faults[f].faces) {
-      const int row = row_of[static_cast<std::size_t>(face.*cell_of)];
+      const int row = row_of[face.*cell_of];
       for (const int point : face.points) {
         const int node = geometry.faults[f].node_of_point[point];
         if (node < 0 || row < 0 || block.cells[row].region != regions[node]) continue;
@@ -151,7 +151,7 @@ Eigen::MatrixXd change_at(const MappedField& field, const std::vector<double>& t
                           Eigen::Index n_cells) {
   Eigen::MatrixXd change = Eigen::MatrixXd::Zero(n_cells, std::ssize(times));
   for (Eigen::Index t = 0; field.load.is_given() && t < change.cols(); ++t)
-    change.col(t) = at_time(field.load.time, field.change, times[static_cast<std::size_t>(t)]);
+    change.col(t) = at_time(field.load.time, field.change, times[t]);
   return change;
 }
 
@@ -189,7 +189,7 @@ void condense(const FieldCells& cells, Eigen::MatrixXd stress, int n_threads,
   history.locked.resize(cells.op.geometry.n_dofs, of.cols());
   for (Eigen::Index t = 0; t < of.cols(); ++t) {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(cells.op.n_unknowns);
-    history.add_forces(history.time[static_cast<std::size_t>(t)], force);
+    history.add_forces(history.time[t], force);
     CondensedBulk& bulk = cells.bulk->bulk(0);
     history.locked.col(t) = bulk.locked_traction(bulk.forward(force));
   }

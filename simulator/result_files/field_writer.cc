@@ -219,10 +219,9 @@ void FieldWriter::Impl::write_geometry(const FaultPoints& fault, const std::stri
     if (fault.source[i] < 0) continue;
     const OperatorNode node = node_of(fault, i);
     for (std::size_t c = 0; c < 3; ++c) {
-      const auto component = static_cast<Eigen::Index>(c);
-      normal[3 * i + c] = node.normal[component];
-      strike[3 * i + c] = node.strike[component];
-      dip[3 * i + c] = node.dip[component];
+      normal[3 * i + c] = node.normal[c];
+      strike[3 * i + c] = node.strike[c];
+      dip[3 * i + c] = node.dip[c];
     }
     if (fault.split[i] != 0) area[i] = fault.share[i] * node.area;
   }

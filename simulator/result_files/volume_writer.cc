@@ -1,4 +1,6 @@
 #include "simulator/result_files/volume_writer.h"
+#include <algorithm>
+
 #include "simulator/common/errors.h"
 #include "simulator/files/atomic_file.h"
 #include "simulator/hdf5/datasets.h"
@@ -20,17 +22,17 @@ void write_file_pair(const std::filesystem::path& folder, const std::string& nam
   xmf.commit();
 }
 
-void write_volume(const std::filesystem::path& folder, const Eigen::Matrix3Xd& nodes,
+void write_volume(const std::filesystem::path& folder, const std::vector<Eigen::Vector3d>& nodes,
                   const std::vector<std::array<int, 8>>& cells, const std::vector<int>& material,
                   const std::vector<VolumeSnapshot>& snapshots) {
-  const auto n_nodes = static_cast<std::size_t>(nodes.cols());
+  const std::size_t n_nodes = nodes.size();
   FAULTSIM_DEMAND(material.size() == cells.size() && n_nodes > 0 && !cells.empty(), cells.size(),
                   " cells, ", material.size(), " materials, ", n_nodes, " nodes");
-  FAULTSIM_DEMAND(nodes.allFinite(), "a node's position is not finite");
+  FAULTSIM_DEMAND(std::ranges::all_of(nodes, [](const auto& node) { return node.allFinite(); }),
+                  "a node's position is not finite");
   const hdf5::Session session;
   const hdf5::Handle file = hdf5::create_in_memory();
-  // A 3 x n matrix column by column is an n x 3 table row by row.
-  hdf5::write_array(file, "/mesh/nodes", {n_nodes, 3}, nodes.data(), {"m", "node positions"});
+  hdf5::write_array(file, "/mesh/nodes", {n_nodes, 3}, nodes[0].data(), {"m", "node positions"});
   hdf5::write_array(file, "/mesh/cells", {cells.size(), 8}, cells[0].data(),
                     {"", "corners of hexahedra, VTK order"});
   hdf5::write_array(file, "/mesh/material", {cells.size()}, material.data(), {"", "material"});
@@ -52,9 +54,9 @@ void write_volume(const std::filesystem::path& folder, const Eigen::Matrix3Xd& n
     hdf5::GrowingArray displacement(file, "/displacement", H5T_IEEE_F64LE, n_nodes, 3,
                                     {"m", "displacement since the initial equilibrium"});
     for (const VolumeSnapshot& snapshot : snapshots) {
-      FAULTSIM_DEMAND(
-          snapshot.displacement.cols() == nodes.cols() && snapshot.displacement.allFinite(),
-          "snapshot ", snapshot.name, " of ", snapshot.displacement.cols(), " nodes");
+      FAULTSIM_DEMAND(static_cast<std::size_t>(snapshot.displacement.cols()) == n_nodes &&
+                          snapshot.displacement.allFinite(),
+                      "snapshot ", snapshot.name, " of ", snapshot.displacement.cols(), " nodes");
       displacement.append(H5T_NATIVE_DOUBLE, snapshot.displacement.data());
     }
     grid.attributes.push_back(

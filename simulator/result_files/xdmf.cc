@@ -1,5 +1,7 @@
 #include "simulator/result_files/xdmf.h"
 
+#include <string_view>
+
 #include "simulator/common/errors.h"
 #include "simulator/common/text.h"
 
@@ -7,23 +9,15 @@ namespace faultsim {
 namespace {
 
 std::string escape(const std::string& text) {
+  constexpr std::string_view kSpecial = "&<>\"";
+  constexpr const char* kEscapes[] = {"&amp;", "&lt;", "&gt;", "&quot;"};
   std::string result;
   for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    const std::size_t k = kSpecial.find(c);
+    if (k != std::string_view::npos) {
+      result += kEscapes[k];
+    } else {
+      result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
     }
   }
   return result;

@@ -55,7 +55,7 @@ class MovedJumps {
       for (std::size_t c = 0; c < 3; ++c) {
         const int dof = op_.geometry.nodes[k].dof[c];
         const double jump = fields.jump(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(k));
-        if (dof >= 0 && jump != 0) moved_[static_cast<std::size_t>(dof)] = true;
+        if (dof >= 0 && jump != 0) moved_[dof] = true;
       }
     }
   }
@@ -209,7 +209,7 @@ std::vector<FaultPoint> Simulation::points() const {
   points.reserve(geometry.nodes.size());
   for (const OperatorFault& fault : geometry.faults) {
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
-      const OperatorNode& node = geometry.nodes[static_cast<std::size_t>(k)];
+      const OperatorNode& node = geometry.nodes[k];
       points.push_back({fault.name, node.position, node.normal, node.strike, node.dip, node.area});
     }
   }

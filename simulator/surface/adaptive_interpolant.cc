@@ -29,7 +29,7 @@ bool AdaptiveInterpolant::may_add(const SparseGrid::Index& index) const {
     SparseGrid::Index before = index;
     --before[axis];
     const auto found = std::ranges::find(known, before);
-    if (!is_old_[static_cast<std::size_t>(found - known.begin())]) return false;
+    if (!is_old_[found - known.begin()]) return false;
   }
   return true;
 }
@@ -42,7 +42,7 @@ void AdaptiveInterpolant::add(const SparseGrid::Index& index) {
     SparseGrid::Index before = index;
     if (--before[axis] <= 0) continue;  // the centre has no surplus, and 1 none before it
     const auto found = std::ranges::find(grid_.indices(), before);
-    const double of_before = own_[static_cast<std::size_t>(found - grid_.indices().begin())];
+    const double of_before = own_[found - grid_.indices().begin()];
     least = std::max(least, kDistrust * of_before);
   }
   grid_.add(index);

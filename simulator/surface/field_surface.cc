@@ -84,8 +84,8 @@ FieldSurface::Columns FieldSurface::exact_at(const Scene& scene, const CachePoli
 FieldSurface::Columns FieldSurface::interpolated(const Eigen::VectorXd& weights) const {
   Columns sum = nodes_.front();
   for (std::size_t i = 1; i < nodes_.size(); ++i) {
-    sum.locked += weights[static_cast<Eigen::Index>(i)] * nodes_[i].locked;
-    sum.observed += weights[static_cast<Eigen::Index>(i)] * nodes_[i].observed;
+    sum.locked += weights[i] * nodes_[i].locked;
+    sum.observed += weights[i] * nodes_[i].observed;
   }
   return sum;
 }

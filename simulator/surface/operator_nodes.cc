@@ -68,7 +68,7 @@ double OperatorNodes::surplus(const FaultOperator& op, const Eigen::VectorXd& we
   for_each_piece(op, stop, [&](std::size_t block, const auto& get) {
     off = get(op);
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
-      const double w = weights[static_cast<Eigen::Index>(k)];
+      const double w = weights[k];
       if (w != 0) off -= w * get(*nodes_[k]);
     }
     squares[block] += off.squaredNorm();

@@ -150,7 +150,7 @@ void OperatorSurface::build(const std::string& name, const CachePolicy& cache,
 Scene OperatorSurface::scene_at(const Eigen::VectorXd& x) const {
   Scene scene = centre_;
   for (std::size_t j = 0; j < axes_.size(); ++j)
-    set_value(request_.over[j], axes_[j].value(x[static_cast<Eigen::Index>(j)]), scene);
+    set_value(request_.over[j], axes_[j].value(x[j]), scene);
   return scene;
 }
 
@@ -192,7 +192,7 @@ Eigen::VectorXd OperatorSurface::weights(const Scene& scene) const {
   Eigen::VectorXd x(static_cast<Eigen::Index>(axes_.size()));
   for (std::size_t j = 0; j < axes_.size(); ++j) {
     const double at = axes_[j].coordinate(value_of(request_.over[j], scene));
-    x[static_cast<Eigen::Index>(j)] = std::clamp(at, -1.0, 1.0);  // ends are rounded
+    x[j] = std::clamp(at, -1.0, 1.0);  // ends are rounded
   }
   return grid_.weights(x);
 }
@@ -220,8 +220,8 @@ void require_definite(const FaultOperator& op, const std::vector<int>& dofs) {
   const auto n = static_cast<Eigen::Index>(dofs.size());
   Eigen::MatrixXd block(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
-    const auto column = op.compliance->column(dofs[static_cast<std::size_t>(j)]);
-    for (Eigen::Index i = j; i < n; ++i) block(i, j) = column[dofs[static_cast<std::size_t>(i)]];
+    const auto column = op.compliance->column(dofs[j]);
+    for (Eigen::Index i = j; i < n; ++i) block(i, j) = column[dofs[i]];
   }
   if (DenseCholesky().factor(std::move(block))) return;
   refuse("the interpolated H is not positive definite at this case's parameters",

@@ -45,7 +45,7 @@ double leja_point(int k) {
   static std::vector<double> points = {0, 1, -1};
   const std::lock_guard lock(mutex);
   while (static_cast<int>(points.size()) <= k) points.push_back(next_leja_point(points));
-  return points[static_cast<std::size_t>(k)];
+  return points[k];
 }
 
 SparseGrid::SparseGrid(int n_axes)
@@ -56,8 +56,7 @@ SparseGrid::SparseGrid(int n_axes)
 
 Eigen::VectorXd SparseGrid::place(const Index& index) {
   Eigen::VectorXd x(static_cast<Eigen::Index>(index.size()));
-  for (std::size_t j = 0; j < index.size(); ++j)
-    x[static_cast<Eigen::Index>(j)] = leja_point(index[j]);
+  for (std::size_t j = 0; j < index.size(); ++j) x[j] = leja_point(index[j]);
   return x;
 }
 
@@ -101,17 +100,14 @@ Eigen::VectorXd SparseGrid::newton(const Eigen::VectorXd& x) const {
     for (const Index& index : indices_) most = std::max(most, index[j]);
     for (int k = 1; k <= most; ++k) {
       double value = 1;
-      for (int i = 0; i < k; ++i)
-        value *=
-            (x[static_cast<Eigen::Index>(j)] - leja_point(i)) / (leja_point(k) - leja_point(i));
+      for (int i = 0; i < k; ++i) value *= (x[j] - leja_point(i)) / (leja_point(k) - leja_point(i));
       along[j].push_back(value);
     }
   }
   Eigen::VectorXd values(n_nodes());
   for (int k = 0; k < n_nodes(); ++k) {
     double value = 1;
-    for (std::size_t j = 0; j < along.size(); ++j)
-      value *= along[j][static_cast<std::size_t>(indices_[static_cast<std::size_t>(k)][j])];
+    for (std::size_t j = 0; j < along.size(); ++j) value *= along[j][indices_[k][j]];
     values[k] = value;
   }
   return values;

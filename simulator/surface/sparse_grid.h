@@ -31,7 +31,7 @@ class SparseGrid {
   /// In the order in which they were added.
   const std::vector<Index>& indices() const { return indices_; }
   /// Coordinates of a node (n_axes), in [-1, 1].
-  Eigen::VectorXd node(int k) const { return place(indices_[static_cast<std::size_t>(k)]); }
+  Eigen::VectorXd node(int k) const { return place(indices_[k]); }
   static Eigen::VectorXd place(const Index& index);
 
   /// True when every index that is one less on one axis is there and this one is not.

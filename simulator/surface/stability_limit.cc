@@ -13,7 +13,7 @@ std::vector<int> slips_of(const FaultGeometry& faults, const OperatorFault& faul
   std::vector<int> dofs;
   for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
     for (const std::size_t c : {1, 2}) {
-      const int dof = faults.nodes[static_cast<std::size_t>(k)].dof[c];
+      const int dof = faults.nodes[k].dof[c];
       if (dof >= 0) dofs.push_back(dof);
     }
   }
@@ -48,9 +48,9 @@ std::vector<double> stability_limits(const FaultGeometry& faults,
     const auto n = static_cast<Eigen::Index>(dofs.size());
     Eigen::MatrixXd scaled(n, n);  // A^-1/2 H A^-1/2
     for (Eigen::Index j = 0; j < n; ++j) {
-      const int column = dofs[static_cast<std::size_t>(j)];
+      const int column = dofs[j];
       for (Eigen::Index i = 0; i < n; ++i) {
-        const int row = dofs[static_cast<std::size_t>(i)];
+        const int row = dofs[i];
         scaled(i, j) = h(row, column) / std::sqrt(faults.dof_area[row] * faults.dof_area[column]);
       }
     }

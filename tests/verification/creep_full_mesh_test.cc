@@ -134,10 +134,8 @@ class FullMesh {
       for (int c = 0; c < 3; ++c) {
         for (int i = 0; i < 3; ++i) {
           for (const int sign : {1, -1}) {
-            const auto [begin, end] = dofs_->terms(sign > 0 ? node.plus_node : node.minus_node, i);
-            for (auto term = begin; term != end; ++term) {
-              entries.emplace_back(3 * k + c, term->unknown,
-                                   sign * frame[c][i] * term->coefficient);
+            for (const auto& term : dofs_->terms(sign > 0 ? node.plus_node : node.minus_node, i)) {
+              entries.emplace_back(3 * k + c, term.unknown, sign * frame[c][i] * term.coefficient);
             }
           }
         }
@@ -189,14 +187,12 @@ class FullMesh {
   void add_cell(const std::array<int, 8>& cell, const Eigen::Matrix<double, 24, 1>& force,
                 const Eigen::Matrix<double, 24, 24>& tangent) {
     for (int i = 0; i < 24; ++i) {
-      const auto [row, row_end] = dofs_->terms(cell[static_cast<std::size_t>(i / 3)], i % 3);
-      for (auto p = row; p != row_end; ++p) {
-        residual_[p->unknown] += p->coefficient * force[i];
+      for (const auto& p : dofs_->terms(cell[static_cast<std::size_t>(i / 3)], i % 3)) {
+        residual_[p.unknown] += p.coefficient * force[i];
         for (int j = 0; j < 24; ++j) {
-          const auto [column, end] = dofs_->terms(cell[static_cast<std::size_t>(j / 3)], j % 3);
-          for (auto q = column; q != end; ++q) {
-            triplets_.emplace_back(p->unknown, q->unknown,
-                                   p->coefficient * q->coefficient * tangent(i, j));
+          for (const auto& q : dofs_->terms(cell[static_cast<std::size_t>(j / 3)], j % 3)) {
+            triplets_.emplace_back(p.unknown, q.unknown,
+                                   p.coefficient * q.coefficient * tangent(i, j));
           }
         }
       }

@@ -128,10 +128,8 @@ class SaddlePoint {
         for (int i = 0; i < 3; ++i) {
           for (const int sign : {1, -1}) {
             const FaultNode& node = *nodes_[static_cast<std::size_t>(k)];
-            const auto [begin, end] = dofs_->terms(sign > 0 ? node.plus_node : node.minus_node, i);
-            for (auto term = begin; term != end; ++term) {
-              entries.emplace_back(3 * k + c, term->unknown,
-                                   sign * frame[c][i] * term->coefficient);
+            for (const auto& term : dofs_->terms(sign > 0 ? node.plus_node : node.minus_node, i)) {
+              entries.emplace_back(3 * k + c, term.unknown, sign * frame[c][i] * term.coefficient);
             }
           }
         }

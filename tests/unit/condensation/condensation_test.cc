@@ -76,7 +76,7 @@ TEST(CondensedBulk, AgreesWithTheSaddlePointSystem) {
         const int row = n_u + op.geometry.nodes[index].dof[c];
         for (int i = 0; i < 3; ++i) {
           for (const auto& [of, sign] : {std::pair(node.plus_node, 1), {node.minus_node, -1}}) {
-            const int column = dofs.terms(of, i).first->unknown;
+            const int column = dofs.terms(of, i)[0].unknown;
             entries.emplace_back(row, column, sign * axes[c][i] * k.coeff(0, 0));
             entries.emplace_back(column, row, sign * axes[c][i] * k.coeff(0, 0));
           }

@@ -27,7 +27,7 @@ BulkProblem viscous_problem() {
 CreepLadder ladder_of(const BulkProblem& problem, const std::vector<double>& durations,
                       MaxwellScheme scheme = kExponential) {
   SilentMonitor monitor;
-  return CreepLadder(problem, durations, scheme, monitor);
+  return CreepLadder(std::make_shared<const BulkProblem>(problem), durations, scheme, monitor);
 }
 
 Eigen::VectorXd random_jump(const FaultOperator& op, unsigned seed) {

@@ -12,12 +12,19 @@ using test::CoupledExample;
 struct Solved {
   CoupledReport report;
   Eigen::VectorXd u, lambda;
+  double true_residual = 1;  ///< |b − J x| / |b|, computed.
 };
 
 Solved solve(const SaddlePoint& j, const SolverChoice& choice, const Eigen::VectorXd& f,
-             const Eigen::VectorXd& g, double tolerance) {
+             const Eigen::VectorXd& g, double tolerance, int max_iterations = 400) {
   Solved solved;
-  solved.report = CoupledSolver(j, choice).solve(f, g, tolerance, 400, solved.u, solved.lambda);
+  CoupledSolver solver(j, choice);
+  solved.report = solver.solve(f, g, tolerance, max_iterations, solved.u, solved.lambda);
+  const double scale = solver.multiplier_scale();
+  const Eigen::VectorXd r_u = f - j.leading * solved.u - j.coupling * solved.lambda;
+  const Eigen::VectorXd r_l = scale * (g - j.constraint.transpose() * solved.u);
+  solved.true_residual =
+      std::hypot(r_u.norm(), r_l.norm()) / std::hypot(f.norm(), scale * g.norm());
   return solved;
 }
 
@@ -30,7 +37,7 @@ TEST(CoupledSolver, WithBothBlocksExactTakesOneIterationOrTwo) {
                                   Eigen::VectorXd::Random(j.n_multipliers()) * 1e-3, 1e-9);
       EXPECT_TRUE(solved.report.converged);
       EXPECT_EQ(solved.report.iterations_to(1e-9), form == BlockForm::full ? 1 : 2);
-      EXPECT_LT(solved.report.true_residual, 1e-8);
+      EXPECT_LT(solved.true_residual, 1e-8);
     }
   }
 }
@@ -48,7 +55,7 @@ TEST(CoupledSolver, EveryCombinationFindsTheSameSolution) {
           const Solved solved = solve(j, {leading, schur, form}, f, g, 1e-10);
           const std::string name = std::string(to_string(leading)) + " " + to_string(schur);
           EXPECT_TRUE(solved.report.converged) << name;
-          EXPECT_LT(solved.report.true_residual, 1e-9) << name;
+          EXPECT_LT(solved.true_residual, 1e-9) << name;
           EXPECT_LT((solved.u - u).norm(), 1e-5 * u.norm()) << name;
           EXPECT_LT((solved.lambda - lambda).norm(), 1e-5 * lambda.norm()) << name;
         }
@@ -70,20 +77,17 @@ TEST(CoupledSolver, ResidualsFallAndEndWhereToldTo) {
   EXPECT_TRUE(std::is_sorted(residuals.rbegin(), residuals.rend()));
   EXPECT_EQ(solved.report.iterations_to(1e-8), static_cast<int>(residuals.size()) - 1);
   EXPECT_EQ(solved.report.iterations_to(1e-12), -1);
-  EXPECT_NEAR(solved.report.true_residual / residuals.back(), 1, 1e-3);
+  EXPECT_NEAR(solved.true_residual / residuals.back(), 1, 1e-3);
 }
 
 TEST(CoupledSolver, SaysWhenItDoesNotGetThere) {
   const CoupledExample example;
   const SaddlePoint& j = example.stick;
-  Eigen::VectorXd u, lambda;
-  const CoupledReport report =
-      CoupledSolver(j, {LeadingKind::fsai, SchurKind::bds})
-          .solve(example.bulk.load(1), Eigen::VectorXd::Zero(j.n_multipliers()), 1e-10, 5, u,
-                 lambda);
-  EXPECT_FALSE(report.converged);
-  EXPECT_EQ(report.iterations_to(1e-10), -1);
-  EXPECT_GT(report.true_residual, 1e-10);
+  const Solved solved = solve(j, {LeadingKind::fsai, SchurKind::bds}, example.bulk.load(1),
+                              Eigen::VectorXd::Zero(j.n_multipliers()), 1e-10, 5);
+  EXPECT_FALSE(solved.report.converged);
+  EXPECT_EQ(solved.report.iterations_to(1e-10), -1);
+  EXPECT_GT(solved.true_residual, 1e-10);
 }
 
 TEST(CoupledSolver, CountsDoNotDependOnTheUnits) {

@@ -210,9 +210,7 @@ TEST(Elasticity, AssemblyEqualsThePlainSumOverCells) {
       Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(mesh.nodes.size()), dofs.n_unknowns());
   for (int node = 0; node < static_cast<int>(mesh.nodes.size()); ++node) {
     for (int c = 0; c < 3; ++c) {
-      const auto [first, last] = dofs.terms(node, c);
-      for (const DofMap::Term* t = first; t != last; ++t)
-        p(3 * node + c, t->unknown) = t->coefficient;
+      for (const DofMap::Term& t : dofs.terms(node, c)) p(3 * node + c, t.unknown) = t.coefficient;
     }
   }
   Eigen::MatrixXd full = Eigen::MatrixXd::Zero(p.rows(), p.rows());

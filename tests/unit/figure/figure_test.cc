@@ -241,12 +241,8 @@ std::vector<std::string> every_chart() {
                kNasty,
                kNasty,
                kNasty,
-               std::nullopt,
-               kNasty,
                {{{{0, 2000}, {1, 2000}, {1, 2010}, {0, 2010}}, 0.9, true}},
                {{kNasty, 1990, 2005}}};
-  FaultMap ranged = map;
-  ranged.range = {0, 5};
   StressPath path{kNasty,
                   kNasty,
                   {10, 12},
@@ -280,11 +276,20 @@ std::vector<std::string> every_chart() {
   section.rocks = {{kNasty, -10, 10, -10, 10, 0, 20, true, kNasty}};
   section.faults = {{kNasty, {{0, 5}, {1, 10}, {2, 15}}, {0.5, 1}}, {"empty", {}, {}}};
   section.from = -10, section.to = 10, section.top = 0, section.base = 20;
-  return {draw(nasty_history()), draw(depth),        draw(map),
-          draw(ranged),          draw(path),         draw(bars),
-          draw(intervals),       draw(outcomes),     draw(section),
-          draw(HistoryChart()),  draw(DepthChart()), draw(FaultMap()),
-          draw(StressPath()),    draw(BarChart()),   draw(IntervalChart()),
+  return {draw(nasty_history()),
+          draw(depth),
+          draw(map),
+          draw(path),
+          draw(bars),
+          draw(intervals),
+          draw(outcomes),
+          draw(section),
+          draw(HistoryChart()),
+          draw(DepthChart()),
+          draw(FaultMap()),
+          draw(StressPath()),
+          draw(BarChart()),
+          draw(IntervalChart()),
           draw(OutcomeMap())};
 }
 

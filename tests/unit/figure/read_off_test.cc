@@ -103,10 +103,8 @@ TEST(ReadOff, ColumnsAgainstDepthGrowDownwards) {
 TEST(ReadOff, AMapOfAFaultHasItsCellsWhereTheyAre) {
   FaultMap map;
   map.across = "along strike, m";
-  map.quantity = "slip";
-  map.range = {0, 4};
-  map.cells = {{{{-50, 2000}, {0, 2000}, {0, 2030}, {-50, 2030}}, 1, false},
-               {{{0, 2000}, {100, 2000}, {100, 2100}, {0, 2030}}, 3, true}};
+  map.cells = {{{{-50, 2000}, {0, 2000}, {0, 2030}, {-50, 2030}}, 0.25, false},
+               {{{0, 2000}, {100, 2000}, {100, 2100}, {0, 2030}}, 0.75, true}};
   const std::string svg = draw(map);
   const ReadScale x = read_scale(svg, true), depth = read_scale(svg, false);
   const auto expect_at = [&](const SvgElement& drawn, const FaultCell& cell) {
@@ -118,7 +116,7 @@ TEST(ReadOff, AMapOfAFaultHasItsCellsWhereTheyAre) {
     }
   };
   for (const FaultCell& cell : map.cells)
-    expect_at(elements_of(svg, "polygon", "fill", sequential_colour(cell.value / 4)).at(0), cell);
+    expect_at(elements_of(svg, "polygon", "fill", chi_colour(cell.value)).at(0), cell);
   const auto outlines = elements_of(svg, "polygon", "fill", "none");
   ASSERT_EQ(outlines.size(), 1U);
   expect_at(outlines[0], map.cells[1]);
