@@ -99,8 +99,8 @@ ExitCode influence_command(const InfluenceArguments& arguments) {
   require_writable_file("-o", arguments.output, FileKind::hdf5, input_files(as_given));
   const LoadedScene loaded = elastic_and_exact(std::move(as_given), context);
   const std::vector<int> regions = regions_named(loaded.scene, arguments.regions);
-  const PreparedInfluence made =
-      prepare_influence(loaded.scene, loaded.plan, regions, cache_policy(arguments.op), context);
+  const PreparedInfluence made = prepare_influence(SceneBulk(loaded.scene, loaded.plan), regions,
+                                                   cache_policy(arguments.op), context);
   if (!made.remark.empty()) monitor.note(made.remark);
   monitor.clear();
   write_influence(*made.block, *made.op, arguments.output);

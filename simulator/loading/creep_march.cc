@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "simulator/common/errors.h"
-#include "simulator/condensation/creep_ladder.h"
 #include "simulator/common/text.h"
+#include "simulator/condensation/creep_ladder.h"
 #include "simulator/loading/case_contact.h"
 #include "simulator/loading/step_solver.h"
 #include "simulator/operators/prepare_operator.h"

@@ -372,11 +372,6 @@ MakeStepSolver steps_on(const PreparedOperator& prepared) {
 
 }  // namespace
 
-CaseResult run_case(const Scene& scene, const FaultOperator& op, const RunContext& context,
-                    const CaseProbe& probe) {
-  return run_case(scene, op, elastic_steps(op, nullptr), context, probe);
-}
-
 CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, const RunContext& context,
                     const CaseProbe& probe) {
   CaseResult result =

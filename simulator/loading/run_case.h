@@ -30,10 +30,6 @@ struct CaseProbe : RunWatch {
 /// steps are those that were complete.
 CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, const RunContext& context,
                     const CaseProbe& probe = {});
-/// The same without creep, whatever the scene says of viscosity.
-CaseResult run_case(const Scene& scene, const FaultOperator& op, const RunContext& context,
-                    const CaseProbe& probe = {});
-
 /// The same by a solver of its own, which has no operator.
 /// @param faults  geometry, keys of its loads and observation rows; nothing of what a load or a
 /// jump does.

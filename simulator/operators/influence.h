@@ -31,12 +31,6 @@ struct PreparedInfluence {
 PreparedInfluence prepare_influence(const SceneBulk& scene, const std::vector<int>& regions,
                                     const CachePolicy& cache, const RunContext& context = {},
                                     bool keep_bulk = false);
-inline PreparedInfluence prepare_influence(const Scene& scene, const Plan& plan,
-                                           const std::vector<int>& regions,
-                                           const CachePolicy& cache,
-                                           const RunContext& context = {}) {
-  return prepare_influence(SceneBulk(scene, plan), regions, cache, context);
-}
 
 /// The cells of all compartments, as a block that has no influences yet.
 InfluenceBlock cells_of_compartments(const Scene& scene, const BulkProblem& problem);

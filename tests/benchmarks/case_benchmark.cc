@@ -47,10 +47,9 @@ void run_cases(benchmark::State& state, const PlannedScene& planned_scene) {
       prepare_operator(planned_scene.scene, planned_scene.plan, {}, false, monitor);
   set_blas_threads(static_cast<int>(state.range(0)));
   SlipWitness witness;
-  const CaseResult result =
-      run_case(planned_scene.scene, *prepared.op, monitor, {{std::ref(witness)}});
+  const CaseResult result = run_case(planned_scene.scene, prepared, monitor, {{std::ref(witness)}});
   for (auto _ : state) {
-    benchmark::DoNotOptimize(run_case(planned_scene.scene, *prepared.op, monitor).whole.moment);
+    benchmark::DoNotOptimize(run_case(planned_scene.scene, prepared, monitor).whole.moment);
   }
   state.counters["converged"] = result.outcome == Outcome::converged;
   state.counters["node_pairs"] = static_cast<double>(prepared.op->geometry.nodes.size());

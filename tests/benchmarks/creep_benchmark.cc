@@ -67,7 +67,9 @@ void creeping(benchmark::State& state, const Prepared& prepared) {
 void elastic(benchmark::State& state, const Prepared& prepared) {
   SilentMonitor monitor;
   CaseResult result;
-  for (auto _ : state) result = run_case(prepared.planned_scene.scene, *prepared.op.op, monitor);
+  for (auto _ : state)
+    result = run_case(prepared.planned_scene.scene, *prepared.op.op,
+                      elastic_steps(*prepared.op.op, nullptr), monitor);
   count(state, result);
 }
 

@@ -27,7 +27,7 @@ CaseResult run_reference(const std::string& offset, const std::string& angle,
   std::vector<Problem> problems;
   const Plan plan = make_plan(scene, problems);
   SilentMonitor monitor;
-  return run_case(scene, *prepare_operator(scene, plan, {}, false, monitor).op, monitor);
+  return run_case(scene, prepare_operator(scene, plan, {}, false, monitor), monitor);
 }
 
 /// Nodal max χ and χ̄ over the faults while everything still sticks.
@@ -79,7 +79,7 @@ CaseResult run_tier(const std::string& tier, const std::string& offset, const st
   std::vector<Problem> problems;
   const Plan plan = make_plan(scene, problems);
   SilentMonitor monitor;
-  return run_case(scene, *prepare_operator(scene, plan, {}, false, monitor).op, monitor);
+  return run_case(scene, prepare_operator(scene, plan, {}, false, monitor), monitor);
 }
 
 /// Cells of 50 m cannot tell whether 40 m slide where χ̄ comes near 1; small ones can, on either

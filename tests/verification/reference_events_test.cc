@@ -50,7 +50,7 @@ CaseResult run(const ReferenceCase& c) {
   std::vector<Problem> problems;
   const Plan plan = make_plan(scene, problems);
   SilentMonitor monitor;
-  return run_case(scene, *prepare_operator(scene, plan, {}, false, monitor).op, monitor);
+  return run_case(scene, prepare_operator(scene, plan, {}, false, monitor), monitor);
 }
 
 class ReferenceEvents : public testing::TestWithParam<ReferenceCase> {};

@@ -34,7 +34,7 @@ CaseResult run(const json& document, const CachePolicy& cache = {}) {
   const Plan plan = make_plan(scene, problems);
   EXPECT_TRUE(problems.empty());
   SilentMonitor monitor;
-  return run_case(scene, *prepare_operator(scene, plan, cache, false, monitor).op, monitor);
+  return run_case(scene, prepare_operator(scene, plan, cache, false, monitor), monitor);
 }
 
 bool warns(const CaseResult& result, const std::string& of) {
@@ -136,7 +136,7 @@ TEST(FieldCase, ABlocksOwnOverpressureActsInItsFaultsAlone) {
     const auto op = prepare_operator(read, plan, {}, false, monitor).op;
     std::vector<FaultFields> fields;
     const CaseResult result =
-        run_case(read, *op, monitor,
+        run_case(read, *op, elastic_steps(*op, nullptr), monitor,
                  {{[&](const StepResult&, const FaultFields& f) { fields.push_back(f); }}});
     EXPECT_EQ(result.outcome, Outcome::converged);
     EXPECT_EQ(result.whole.max_slip, 0);

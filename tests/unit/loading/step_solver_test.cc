@@ -67,7 +67,7 @@ TEST(StepSolver, AnotherOneRunsACase) {
   const Scene scene = read_scene(document);
   std::vector<Problem> problems;
   const FaultOperator op = *prepare_operator(scene, make_plan(scene, problems), {}, false).op;
-  const CaseResult newton = run_case(scene, op, {});
+  const CaseResult newton = run_case(scene, op, elastic_steps(op, nullptr), {});
   const CaseResult seidel = run_case(
       scene, op,
       [&](const StepSetting& of) { return std::make_unique<GaussSeidelSteps>(op, of.laws); }, {});

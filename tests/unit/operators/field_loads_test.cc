@@ -50,7 +50,7 @@ class FieldLoadsTest : public testing::Test {
     for (Material& material : scene_.materials) material.biot = 0.8;
     std::vector<Problem> problems;
     plan_ = make_plan(scene_, problems);
-    prepared_ = prepare_influence(scene_, plan_, {}, {}, monitor_);
+    prepared_ = prepare_influence(SceneBulk(scene_, plan_), {}, {}, monitor_);
     mesh_ = bulk_problem(scene_, plan_).mesh;
   }
 

@@ -70,7 +70,7 @@ TEST(PrepareInfluence, HoldsInHalfADomainAndInPlaneStrain) {
     const Planned at(document);
     EXPECT_NE(at.plan.plane_strain, at.plan.half_domain);
     SilentMonitor monitor;
-    const PreparedInfluence made = prepare_influence(at.scene, at.plan, {}, {}, monitor);
+    const PreparedInfluence made = prepare_influence(SceneBulk(at.scene, at.plan), {}, {}, monitor);
     EXPECT_FALSE(made.from_cache);
     EXPECT_EQ(made.block->region_names.size(), at.scene.pressure.size());
     expect_the_columns(made);
@@ -88,8 +88,10 @@ TEST(PrepareInfluence, IsKeptBesideTheOperatorAndMappedTheNextTime) {
   document["numerics"] = {{"plane_strain", "on"}};
   const Planned at(document);
   SilentMonitor monitor;
-  const PreparedInfluence built = prepare_influence(at.scene, at.plan, {}, cache, monitor);
-  const PreparedInfluence found = prepare_influence(at.scene, at.plan, {}, cache, monitor);
+  const PreparedInfluence built =
+      prepare_influence(SceneBulk(at.scene, at.plan), {}, cache, monitor);
+  const PreparedInfluence found =
+      prepare_influence(SceneBulk(at.scene, at.plan), {}, cache, monitor);
   EXPECT_FALSE(built.from_cache);
   EXPECT_TRUE(found.from_cache) << found.remark;
   EXPECT_EQ(folder.n_entries(), 2u);
@@ -97,7 +99,8 @@ TEST(PrepareInfluence, IsKeptBesideTheOperatorAndMappedTheNextTime) {
   expect_the_columns(found);
 
   // One region alone is another block, whose cells have the bits that they have among all.
-  const PreparedInfluence one = prepare_influence(at.scene, at.plan, {1}, cache, monitor);
+  const PreparedInfluence one =
+      prepare_influence(SceneBulk(at.scene, at.plan), {1}, cache, monitor);
   EXPECT_FALSE(one.from_cache);
   EXPECT_EQ(folder.n_entries(), 3u);
   EXPECT_LT(one.block->cells.size(), built.block->cells.size());
@@ -114,7 +117,8 @@ TEST(PrepareInfluence, IsKeptBesideTheOperatorAndMappedTheNextTime) {
     if (entry.path().string().find("-influence-") == std::string::npos) continue;
     std::filesystem::resize_file(entry.path(), 5000);
   }
-  const PreparedInfluence again = prepare_influence(at.scene, at.plan, {}, cache, monitor);
+  const PreparedInfluence again =
+      prepare_influence(SceneBulk(at.scene, at.plan), {}, cache, monitor);
   EXPECT_FALSE(again.from_cache);
   EXPECT_THAT(again.remark, testing::HasSubstr("influence file"));
   EXPECT_TRUE(again.block->traction.view() == all);
@@ -126,7 +130,7 @@ TEST(PrepareInfluence, DoesNotChangeTheOperator) {
   const Planned at(document);
   SilentMonitor monitor;
   const auto plain = prepare_operator(at.scene, at.plan, {}, false, monitor).op;
-  const auto beside = prepare_influence(at.scene, at.plan, {}, {}, monitor).op;
+  const auto beside = prepare_influence(SceneBulk(at.scene, at.plan), {}, {}, monitor).op;
   EXPECT_EQ(beside->fingerprint, plain->fingerprint);
   EXPECT_TRUE(beside->h() == plain->h());
   EXPECT_EQ(beside->loads.traction, plain->loads.traction);
