@@ -13,6 +13,7 @@
 #include "campaign/expansion/row_reader.h"
 #include "campaign/expansion/sampled_rows.h"
 #include "campaign/expansion/scene_builder.h"
+#include "campaign/spec/pointers.h"
 #include "simulator/scene/identity.h"
 
 namespace faultsweep {
@@ -58,16 +59,12 @@ class Expander {
     throw faultsim::InputError(result_.spec.source, problems_);
   }
 
-  /// Adds problems that were not said before. True if there was a new one.
-  bool add(const std::vector<Problem>& found) {
-    bool any = false;
+  /// Adds problems that were not said before.
+  void add(const std::vector<Problem>& found) {
     for (const Problem& one : found) {
-      if (problems_.size() >= kMaximumProblems) return any;
-      if (!said_.insert(one.pointer + "\n" + one.what).second) continue;
-      problems_.push_back(one);
-      any = true;
+      if (problems_.size() >= kMaximumProblems) return;
+      if (said_.insert(one.pointer + "\n" + one.what).second) problems_.push_back(one);
     }
-    return any;
   }
 
   /// The design of a group whose estimators need every row, or null.
@@ -316,7 +313,7 @@ std::vector<ParameterValue> parameters_of(const Expansion& expansion, const Case
   }
   for (std::size_t d = 0; d < one.derived.size(); ++d) {
     const Derived& derived = expansion.spec.derived[d];
-    const json text = spelled(one.derived[d], derived.dimension);
+    const json text = spelled(one.derived[d], faultsim::si_unit(derived.dimension));
     values.push_back({derived.name, text.is_string() ? text.get<std::string>() : text.dump(),
                       one.derived[d], derived.dimension});
   }

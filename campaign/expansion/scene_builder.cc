@@ -8,11 +8,6 @@
 
 namespace faultsweep {
 
-nlohmann::json spelled(double si, faultsim::Dimension dimension) {
-  if (dimension == faultsim::Dimension::number) return si;
-  return shortest_text(si) + " " + faultsim::si_unit(dimension);
-}
-
 std::vector<Change> changes_of_row(const CampaignSpec& spec, const Group& group, const Row& row,
                                    const std::vector<double>& derived) {
   std::vector<Change> result;
@@ -22,7 +17,7 @@ std::vector<Change> changes_of_row(const CampaignSpec& spec, const Group& group,
   for (std::size_t d = 0; d < derived.size(); ++d) {
     const Derived& one = spec.derived[d];
     if (std::isnan(derived[d])) continue;
-    result.push_back({one.scene_pointer, spelled(derived[d], one.dimension)});
+    result.push_back({one.scene_pointer, spelled(derived[d], faultsim::si_unit(one.dimension))});
   }
   return result;
 }

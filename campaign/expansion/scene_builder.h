@@ -9,9 +9,6 @@
 
 namespace faultsweep {
 
-/// A number as the scene spells it: 0.83, "20000000 Pa". Reading it back gives the same bits.
-nlohmann::json spelled(double si, faultsim::Dimension dimension);
-
 /// The changes of a row, parameters first, then derived.
 std::vector<Change> changes_of_row(const CampaignSpec& spec, const Group& group, const Row& row,
                                    const std::vector<double>& derived);

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "campaign/common/json.h"
+#include "campaign/store/records.h"
 #include "campaign/store/same_numbers.h"
 #include "simulator/common/errors.h"
 #include "simulator/result/result_json.h"
@@ -15,34 +16,21 @@
 namespace faultsweep {
 
 using faultsim::CaseResult;
-using faultsim::Outcome;
 
 namespace {
 
 /// What is not a number of the store, or (magnitudes) a mere function of one that is compared.
 bool is_compared(const std::string& key) {
-  static const std::set<std::string> left_out = {"format",
-                                                 "title",
-                                                 "identity",
-                                                 "operator_fingerprint",
-                                                 "numerics_version",
-                                                 "regions",
-                                                 "faults",
-                                                 "observations",
-                                                 "observed_m",
-                                                 "counts",
-                                                 "warnings",
-                                                 "wall_s",
-                                                 "steps",
-                                                 "events",
-                                                 "episodes",
-                                                 "stages",
-                                                 "whole",
-                                                 "creep",
-                                                 "magnitude_mw",
-                                                 "magnitude_if_released_at_once_mw",
-                                                 "event_magnitude_mw"};
-  return !left_out.contains(key);
+  static const std::set<std::string> of_the_run = {
+      "format",           "title",  "identity", "warnings",  "operator_fingerprint",
+      "numerics_version", "counts", "wall_s",   "observed_m"};
+  static const std::set<std::string> names = {"regions", "faults", "observations"};
+  static const std::set<std::string> walked_apart = {"steps",  "events", "episodes",
+                                                     "stages", "whole",  "creep"};
+  static const std::set<std::string> magnitudes = {
+      "magnitude_mw", "magnitude_if_released_at_once_mw", "event_magnitude_mw"};
+  return !of_the_run.contains(key) && !names.contains(key) && !walked_apart.contains(key) &&
+         !magnitudes.contains(key);
 }
 
 /// The largest magnitude that each quantity takes in a document.
@@ -93,7 +81,7 @@ class Walk {
           concat("load step ", *step_, " (", baseline[k].at("stage").get<std::string>(), ")");
       // Without equilibrium a step has no metrics in the store.
       const auto outcome =
-          stored_word<Outcome>(baseline[k].at("outcome").get<std::string>(), "outcome");
+          stored_word<faultsim::Outcome>(baseline[k].at("outcome").get<std::string>(), "outcome");
       object(place, baseline[k], tonight[k]);
       if (!faultsim::in_equilibrium(outcome)) continue;
       list(place + ", fault", baseline[k].at("faults"), tonight[k].at("faults"));
@@ -237,9 +225,7 @@ namespace {
 
 /// What the default order compares, each the larger the earlier; see store/ranking.cc.
 std::array<double, 6> sort_key(const CaseResult& r) {
-  const double outcome_class = faultsim::in_equilibrium(r.outcome)
-                                   ? (r.outcome == Outcome::unresolved_event ? 1 : 0)
-                                   : (r.outcome == Outcome::unstable ? 2 : 3);
+  const double outcome_class = rank_class(r.outcome, true);
   constexpr double kNoMargin = 9e99;  // as in the store: after those that have one
   const double margin = std::isnan(r.pressure_margin) ? kNoMargin : r.pressure_margin;
   return {-outcome_class, r.whole.activated_area, r.whole.open_area, r.whole.moment,

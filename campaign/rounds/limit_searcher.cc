@@ -20,12 +20,6 @@ struct LimitSearcher::Value {
 
 namespace {
 
-/// As a scene spells it.
-ordered_json spelled(double number, const std::string& unit) {
-  if (number == 0) number = 0;  // no "-0"
-  return unit.empty() ? ordered_json(number) : ordered_json(shortest_text(number) + " " + unit);
-}
-
 double spelled_number(const ordered_json& value) {
   return value.is_number() ? value.get<double>()
                            : std::strtod(value.get_ref<const std::string&>().c_str(), nullptr);
@@ -157,7 +151,7 @@ Proposal LimitSearcher::propose(const std::vector<RowAnswers>& answers,
     if (wanted[l].empty()) wanted[l].insert(limits_[l].scan.front());  // in no row
     for (const double value : wanted[l]) {
       places.emplace(std::pair(l, value), static_cast<long>(places.size()));
-      values.push_back(spelled(value, limits_[l].unit));
+      values.push_back(ordered_json(spelled(value + 0.0, limits_[l].unit)));  // no "-0"
     }
   }
   for (const auto& [configuration, value] : cases) {

@@ -66,9 +66,6 @@ Manager::Manager(Store& store, Link& link, ProgressDisplay& display, const Optio
 /// What waits in the store, of a round that is new here. Nobody else changes the campaign.
 void Manager::take_work() {
   campaign_ = store_.campaign(campaign_.name);
-  n_cases_ = campaign_.n_cases;
-  n_done_ = campaign_.n_done;
-  n_failed_ = campaign_.n_failed;
   n_incomplete_ = campaign_.n_done - campaign_.n_complete();
   std::vector<FamilyWork> work;
   for (const WaitingFamily& family : store_.waiting_families(campaign_.id)) {
@@ -188,7 +185,7 @@ void Manager::handle_result(int worker, JobEvents::Completed completed) {
     }
   }
   plan_->case_done(worker, run.case_id, run.wall_seconds);
-  ++n_done_;
+  ++campaign_.n_done;
   if (!faultsim::in_equilibrium(run.result->outcome)) ++n_incomplete_;
   add_run(std::move(run));
 }
@@ -224,7 +221,7 @@ void Manager::handle_failure(int worker, const JobEvents::Failure& failure) {
   store_.record_event(campaign_.id, "case failed", text);
   display_.note(text);
   if (run.final) {
-    ++n_failed_;
+    ++campaign_.n_failed;
     if (campaign_.policy.on_failure == FailureAction::abort && !aborted_) {
       aborted_ = true;
       store_.record_event(campaign_.id, "aborted", "a case failed and the spec says abort");
@@ -239,7 +236,7 @@ void Manager::fail_hopeless() {
     run.case_id = id;
     run.reason = concat("not tried: the operator of its family failed ",
                         WorkPlan::kOperatorAttempts, " times, see the failed cases of that family");
-    ++n_failed_;
+    ++campaign_.n_failed;
     add_run(std::move(run));
   }
 }
@@ -290,7 +287,8 @@ void Manager::send_work(int worker, const Slice& slice) {
   std::set<std::int64_t>& sent = scenes_sent_[worker];
   for (const std::int64_t id : slice.cases) {
     CaseInput input = store_.case_input(campaign_.id, id);
-    if (sent.insert(input.scene).second) work.scenes[input.scene] = store_.base_scene(input.scene);
+    if (sent.insert(input.scene).second)
+      work.scenes.emplace_back(input.scene, store_.base_scene(input.scene));
     positions_[id] = input.position;
     work.cases.push_back(std::move(input));
   }
@@ -302,7 +300,8 @@ void Manager::beat() {
   constexpr double kLookSeconds = 0.1;  // the sums below are not for every turn
   if (since_look_.seconds() < kLookSeconds) return;
   since_look_ = {};
-  Progress progress{n_cases_, n_done_, n_failed_, plan_->seconds_left(), ""};
+  Progress progress{campaign_.n_cases, campaign_.n_done, campaign_.n_failed, plan_->seconds_left(),
+                    ""};
   int n_building = 0;
   for (int worker = 0; worker < n_workers(); ++worker) n_building += plan_->is_building(worker);
   if (n_building > 0)
@@ -346,8 +345,10 @@ std::string Manager::progress_json() const {
 
 ExitCode Manager::status() const {
   if (!trouble_.empty()) return ExitCode::world;
-  if (interrupted_ && n_done_ + n_failed_ < n_cases_) return ExitCode::interrupted;
-  if (n_done_ + n_failed_ < n_cases_ || n_failed_ > 0 || n_incomplete_ > 0) {
+  if (interrupted_ && campaign_.n_done + campaign_.n_failed < campaign_.n_cases)
+    return ExitCode::interrupted;
+  if (campaign_.n_done + campaign_.n_failed < campaign_.n_cases || campaign_.n_failed > 0 ||
+      n_incomplete_ > 0) {
     return ExitCode::incomplete;
   }
   return ExitCode::done;

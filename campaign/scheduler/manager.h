@@ -74,7 +74,7 @@ class Manager {
   Link& link_;
   ProgressDisplay& display_;
   Options options_;
-  CampaignInfo campaign_;
+  CampaignInfo campaign_;      ///< counts: what has arrived included.
   std::string fields_folder_;  ///< of the campaign, absolute.
   std::unique_ptr<WorkPlan> plan_;
   std::map<std::int64_t, long> positions_;  ///< of cases under way
@@ -87,7 +87,7 @@ class Manager {
   std::vector<std::pair<int, OperatorRecord>> operators_;
   faultsim::Stopwatch since_first_uncommitted_, since_beat_, since_look_, since_start_,
       since_drain_;
-  long n_done_ = 0, n_failed_ = 0, n_incomplete_ = 0, n_cases_ = 0, n_finished_now_ = 0;
+  long n_incomplete_ = 0, n_finished_now_ = 0;
   int n_drained_ = 0;
   bool busy_ = false, interrupted_ = false, draining_ = false, aborted_ = false, cancelled_ = false;
   std::string trouble_;

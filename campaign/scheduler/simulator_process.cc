@@ -104,6 +104,22 @@ struct SpawnSetup {
   }
 };
 
+/// Appends what is there, and closes the descriptor at its end.
+void read_available(int& descriptor, std::string& text) {
+  std::array<char, 65536> buffer;
+  constexpr int kMostReads = 64;  // a chatty child must not keep us from its replies
+  for (int k = 0; k < kMostReads && descriptor >= 0; ++k) {
+    const ssize_t count = read(descriptor, buffer.data(), buffer.size());
+    if (count > 0) {
+      text.append(buffer.data(), static_cast<std::size_t>(count));
+    } else if (count < 0 && errno == EAGAIN) {
+      return;
+    } else if (count == 0 || errno != EINTR) {
+      close_descriptor(descriptor);
+    }
+  }
+}
+
 void set_non_blocking(int descriptor) {
   fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) | O_NONBLOCK);
 }
@@ -199,18 +215,7 @@ void SimulatorProcess::write_requests() {
 }
 
 void SimulatorProcess::read_replies() {
-  std::array<char, 65536> buffer;
-  while (replies_ >= 0) {
-    const ssize_t count = read(replies_, buffer.data(), buffer.size());
-    if (count > 0) {
-      inbox_.append(buffer.data(), static_cast<std::size_t>(count));
-      if (static_cast<std::size_t>(count) < buffer.size()) break;
-      continue;
-    }
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0 && errno == EAGAIN) break;
-    close_descriptor(replies_);
-  }
+  read_available(replies_, inbox_);
   if (inbox_.size() > kLongestReply && inbox_.find('\n') == std::string::npos) {
     overflowed_ = true;
     close_descriptor(replies_);
@@ -218,19 +223,8 @@ void SimulatorProcess::read_replies() {
 }
 
 void SimulatorProcess::read_log() {
-  std::array<char, 4096> buffer;
-  constexpr int kMostReads = 64;  // a chatty child must not keep us from its replies
-  for (int k = 0; k < kMostReads && log_ >= 0; ++k) {
-    const ssize_t count = read(log_, buffer.data(), buffer.size());
-    if (count > 0) {
-      log_text_.append(buffer.data(), static_cast<std::size_t>(count));
-      if (log_text_.size() > 4 * kLogTail) log_text_.erase(0, log_text_.size() - kLogTail);
-      continue;
-    }
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0 && errno == EAGAIN) return;
-    close_descriptor(log_);
-  }
+  read_available(log_, log_text_);
+  if (log_text_.size() > kLogTail) log_text_.erase(0, log_text_.size() - kLogTail);
 }
 
 std::optional<std::string> SimulatorProcess::next_reply() {
@@ -282,8 +276,7 @@ void SimulatorProcess::kill() {
 }
 
 std::string SimulatorProcess::log_tail() const {
-  std::string tail =
-      log_text_.size() <= kLogTail ? log_text_ : log_text_.substr(log_text_.size() - kLogTail);
+  std::string tail = log_text_;
   // The store keeps text: anything else becomes '?'.
   for (char& c : tail) {
     const auto byte = static_cast<unsigned char>(c);

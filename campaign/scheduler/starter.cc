@@ -100,21 +100,20 @@ class StatusFile {
   StatusFile(const StatusFile&) = delete;
   StatusFile& operator=(const StatusFile&) = delete;
   const std::filesystem::path& path() const { return path_; }
-  /// What the manager left; none = it could not leave anything.
-  std::optional<ExitCode> read() const {
+  /// What the manager left.
+  struct Left {
+    std::optional<ExitCode> code;  ///< none = it could not leave anything.
+    std::string reason;            ///< of a failure, in its words.
+  };
+  Left read() const {
     std::ifstream file(path_);
-    int code = 0;
-    if (file >> code) return static_cast<ExitCode>(code);
-    return std::nullopt;
-  }
-  /// Why the campaign failed, in the manager's words; "" if it did not.
-  std::string reason() const {
-    std::ifstream file(path_);
-    std::string code, text;
-    std::getline(file, code);
-    for (std::string line; std::getline(file, line) && line.find_first_not_of(' ') < line.size();)
-      text += (text.empty() ? "" : "\n") + line;
-    return text;
+    Left left;
+    if (int code = 0; file >> code) left.code = static_cast<ExitCode>(code);
+    std::string line;
+    std::getline(file, line);
+    while (std::getline(file, line) && line.find_first_not_of(' ') < line.size())
+      left.reason += (left.reason.empty() ? "" : "\n") + line;
+    return left;
   }
   /// Blanks, over which the manager can write when the disk is full.
   void clear() const {
@@ -369,9 +368,8 @@ ExitCode start_ranks(const RunOptions& given) {
     JobWatch watch(wanted_ranks(options));
     const int ended = wait_for(spawn(mpirun_command(options, scratch, status)), watch);
     watch.end_orphans();
-    const auto left = status.read();
-    if (const std::string reason = status.reason(); !reason.empty())
-      std::fprintf(stderr, "faultsweep: %s\n", reason.c_str());
+    const auto [left, reason] = status.read();
+    if (!reason.empty()) std::fprintf(stderr, "faultsweep: %s\n", reason.c_str());
     if (n_signals > 0) {
       // In order, the campaign may even have been completed; else it can be resumed.
       return left && n_signals == 1 ? *left : ExitCode::interrupted;

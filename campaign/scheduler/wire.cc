@@ -30,14 +30,6 @@ class Writer {
     (*this)(static_cast<std::uint64_t>(values.size()));
     for (const Value& value : values) (*this)(value);
   }
-  template <typename Key, typename Value>
-  void operator()(const std::map<Key, Value>& values) {
-    (*this)(static_cast<std::uint64_t>(values.size()));
-    for (const auto& [key, value] : values) {
-      (*this)(key);
-      (*this)(value);
-    }
-  }
   template <typename Struct>
   requires(std::is_class_v<Struct>) void operator()(const Struct& value) {
     fields(*this, const_cast<Struct&>(value));
@@ -68,15 +60,6 @@ class Reader {
     values.clear();
     for (std::size_t k = 0; k < n; ++k) (*this)(values.emplace_back());
   }
-  template <typename Key, typename Value>
-  void operator()(std::map<Key, Value>& values) {
-    const std::size_t n = size();
-    for (std::size_t k = 0; k < n; ++k) {
-      Key key{};
-      (*this)(key);
-      (*this)(values[key]);
-    }
-  }
   template <typename Struct>
   requires(std::is_class_v<Struct>) void operator()(Struct& value) { fields(*this, value); }
   bool at_end() const { return bytes_.empty(); }
@@ -102,6 +85,10 @@ void all(Archive& archive, Values&... values) {
   (archive(values), ...);
 }
 
+template <typename Archive, typename First, typename Second>
+void fields(Archive& a, std::pair<First, Second>& p) {
+  all(a, p.first, p.second);
+}
 template <typename Archive>
 void fields(Archive& a, RunRecord& r) {
   all(a, r.case_id, r.status, r.reason, r.signal, r.exit_code, r.log_tail, r.host, r.rank,

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -28,7 +28,7 @@ struct Trouble {  ///< the worker cannot go on: the simulator cannot be run.
 // From manager to worker.
 struct Work {
   FamilyTask task;
-  std::map<std::int64_t, BaseScene> scenes;
+  std::vector<std::pair<std::int64_t, BaseScene>> scenes;  ///< with their ids.
   std::vector<CaseInput> cases;  ///< of base scenes sent with this or an earlier message.
 };
 

@@ -9,24 +9,6 @@ namespace faultsweep {
 
 namespace {
 
-using faultsim::Field;
-
-/// What stands in the one list of fields.
-void add_measures(std::vector<MetricInfo>& catalogue) {
-  const faultsim::Measures measures;
-  faultsim::for_each_measure(measures, [&](const Field& field, const auto& value) {
-    using Value = std::remove_cvref_t<decltype(value)>;
-    MetricInfo info;
-    info.name = field.metric();
-    info.dimension = faultsim::dimension_of(field.key);
-    info.is_flag = std::is_same_v<Value, bool>;
-    info.description = field.meaning;
-    info.may_be_missing = !std::is_arithmetic_v<Value>;
-    info.synonym = field.synonym;
-    catalogue.push_back(std::move(info));
-  });
-}
-
 /// What follows from several fields, or is of the case.
 const std::vector<MetricInfo>& other_metrics() {
   static const std::vector<MetricInfo> metrics = {
@@ -90,7 +72,13 @@ const std::vector<MetricInfo>& other_metrics() {
 const std::vector<MetricInfo>& metric_catalogue() {
   static const std::vector<MetricInfo> catalogue = [] {
     std::vector<MetricInfo> all;
-    add_measures(all);
+    const faultsim::Measures measures;
+    faultsim::for_each_measure(measures, [&](const faultsim::Field& field, const auto& value) {
+      using Member = std::remove_cvref_t<decltype(value)>;
+      all.push_back({std::string(field.metric()), faultsim::dimension_of(field.key),
+                     std::is_same_v<Member, bool>, std::string(field.meaning),
+                     !std::is_arithmetic_v<Member>, std::string(field.synonym)});
+    });
     all.insert(all.end(), other_metrics().begin(), other_metrics().end());
     return all;
   }();

@@ -18,6 +18,9 @@ struct NumberAndUnit {
 };
 std::optional<NumberAndUnit> split_quantity(const std::string& text);
 
+/// A number as a scene spells it: plain without a unit, else "20000000 Pa". Reads back the same.
+nlohmann::json spelled(double number, const std::string& unit);
+
 /// The shortest decimal text that reads back as the same bits; an exponent only where a person
 /// would write one.
 std::string shortest_text(double number);

@@ -87,9 +87,7 @@ void SpecReader::read_samples(const std::string& pointer, const SceneNames& name
     set_base_choice(names, one);
     const auto [low, high] = std::ranges::minmax_element(column.values);
     for (const double end : {*low, *high}) {
-      const json value =
-          column.unit.empty() ? json(end) : json(shortest_text(end) + " " + column.unit);
-      if (auto choice = make_choice(value, one.pointer, names, one))
+      if (auto choice = make_choice(spelled(end, column.unit), one.pointer, names, one))
         one.choices.push_back(std::move(*choice));
     }
     if (one.choices.size() < 2) continue;  // of another dimension: said

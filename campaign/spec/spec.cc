@@ -209,6 +209,10 @@ std::optional<NumberAndUnit> split_quantity(const std::string& text) {
   return NumberAndUnit{number, unit};
 }
 
+json spelled(double number, const std::string& unit) {
+  return unit.empty() ? json(number) : json(shortest_text(number) + " " + unit);
+}
+
 std::string shortest_text(double number) {
   const bool plain = number == 0 || (std::abs(number) >= 1e-4 && std::abs(number) < 1e9);
   char digits[64];

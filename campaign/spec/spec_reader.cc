@@ -39,16 +39,9 @@ void require_small_objects(const JsonDocument& document, const nlohmann::json& v
         {{pointer, document.line_of(pointer), faultsim::concat("has ", value.size(), " entries"),
           faultsim::concat("write at most ", kMost)}});
   }
-  if (value.is_array()) {
-    for (std::size_t i = 0; i < value.size(); ++i) {
-      if (!value[i].is_structured()) continue;
-      require_small_objects(document, value[i], pointer + "/" + std::to_string(i));
-    }
-  } else if (value.is_object()) {
-    for (const auto& [key, inner] : value.items()) {
-      if (!inner.is_structured()) continue;
+  for (const auto& [key, inner] : value.items()) {
+    if (inner.is_structured())
       require_small_objects(document, inner, pointer + "/" + faultsim::pointer_token(key));
-    }
   }
 }
 

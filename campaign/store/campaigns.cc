@@ -37,43 +37,35 @@ bool has_cases(Connection& db, std::int64_t campaign, const std::vector<CaseReco
   return !query.step();
 }
 
-/// The campaign that is this submission, or a name that is free.
-struct Place {
-  std::optional<std::int64_t> campaign;
-  std::string name;
-};
-
-Place find_place(Connection& db, const Submission& submission) {
+/// The campaign that is this submission, or a name that is free; nothing is counted.
+SubmitOutcome find_place(Connection& db, const Submission& submission) {
   constexpr int kMostRevisions = 100000;  // names NAME-2, NAME-3, ...: far beyond use
   const std::string resolved = faultsim::fingerprint(submission.spec_resolved);
-  Statement query = db.prepared("SELECT id, spec_resolved_hash FROM campaigns WHERE name = ?");
   for (int revision = 1; revision < kMostRevisions; ++revision) {
     const std::string name =
         revision == 1 ? submission.name : concat(submission.name, '-', revision);
-    if (!query.bind(name).step()) return {std::nullopt, name};
-    if (query.text(1) == resolved && has_cases(db, query.integer(0), submission.cases))
-      return {query.integer(0), name};
+    const auto found = db.find<std::tuple<std::int64_t, std::string>>(
+        "SELECT id, spec_resolved_hash FROM campaigns WHERE name = ?", name);
+    if (!found) return {0, name, false};
+    const auto& [id, hash] = *found;
+    if (hash == resolved && has_cases(db, id, submission.cases)) return {id, name, true};
   }
   throw StorageError(concat("too many campaigns are called ", submission.name));
 }
 
 std::vector<std::int64_t> add_families(Connection& db, const std::vector<FamilyRecord>& families) {
   std::vector<std::int64_t> ids;
-  Statement insert = db.prepared(
-      "INSERT INTO families (fingerprint, predicted_unknowns, predicted_jump_unknowns,"
-      " predicted_operator_s, predicted_memory_bytes, n_operators) VALUES (?, ?, ?, ?, ?, ?)"
-      " ON CONFLICT (fingerprint) DO NOTHING");
-  Statement find =
-      db.prepared("UPDATE families SET n_operators = ? WHERE fingerprint = ? RETURNING id");
   for (const FamilyRecord& one : families) {
-    insert
-        .bind(one.fingerprint, one.unknowns, one.jump_unknowns, one.operator_seconds,
-              one.memory_bytes, one.n_operators)
-        .run();
-    ids.push_back(db.last_insert_id());
-    if (db.changes() > 0) continue;
-    find.bind(one.n_operators, one.fingerprint).step();
-    ids.back() = find.integer(0);
+    db.run(
+        "INSERT INTO families (fingerprint, predicted_unknowns, predicted_jump_unknowns,"
+        " predicted_operator_s, predicted_memory_bytes, n_operators) VALUES (?, ?, ?, ?, ?, ?)"
+        " ON CONFLICT (fingerprint) DO NOTHING",
+        one.fingerprint, one.unknowns, one.jump_unknowns, one.operator_seconds, one.memory_bytes,
+        one.n_operators);
+    ids.push_back(db.changes() > 0 ? db.last_insert_id()
+                                   : db.row<std::int64_t>("UPDATE families SET n_operators = ?"
+                                                          " WHERE fingerprint = ? RETURNING id",
+                                                          one.n_operators, one.fingerprint));
   }
   return ids;
 }
@@ -217,14 +209,10 @@ std::vector<RoundRecord> Store::rounds(std::int64_t campaign) const {
 SubmitOutcome Store::submit(const Submission& submission) {
   FAULTSIM_DEMAND(!submission.cases.empty() && !submission.scenes.empty(), submission.name);
   Connection& db = *connection_;
-  SubmitOutcome outcome;
   const ConstraintsOff constraints_off(db);
   Transaction transaction(db);
-  const Place place = find_place(db, submission);
-  outcome.name = place.name;
-  outcome.existed = place.campaign.has_value();
+  SubmitOutcome outcome = find_place(db, submission);
   if (outcome.existed) {
-    outcome.campaign = *place.campaign;
     db.run("UPDATE campaigns SET state = 'open', submitted_at = ? WHERE id = ?",
            seconds_since_1970(), outcome.campaign);
   } else {
@@ -234,7 +222,7 @@ SubmitOutcome Store::submit(const Submission& submission) {
         " n_merged, on_failure, retries, case_time_limit_s, case_memory_limit_bytes, keep_fields,"
         " operator_time_limit_s)"
         " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-        place.name, seconds_since_1970(), submission.source, submission.spec_given,
+        outcome.name, seconds_since_1970(), submission.source, submission.spec_given,
         faultsim::fingerprint(submission.spec_given), submission.spec_resolved,
         faultsim::fingerprint(submission.spec_resolved), expanded_hash(submission),
         parameters_to_json(submission.parameters), submission.rank_by, submission.n_excluded,
@@ -299,12 +287,8 @@ bool Store::lacks_results() const {
 
 SubmitOutcome Store::preview(const Submission& submission) const {
   Connection& db = *connection_;
-  const Place place = find_place(db, submission);
-  SubmitOutcome outcome;
-  outcome.name = place.name;
-  outcome.existed = place.campaign.has_value();
+  SubmitOutcome outcome = find_place(db, submission);
   if (outcome.existed) {
-    outcome.campaign = *place.campaign;
     count_known(db, outcome);
     return outcome;
   }

@@ -75,7 +75,7 @@ void Store::for_each_history_row(std::int64_t campaign, const TableQuery& query,
                 query.fault ? concat(" AND h.fault_id = ", *query.fault) : "",
                 where_sql(query.where), " ORDER BY cc.position, h.fault, h.step");
   Statement rows(*connection_, sql);
-  bind_table(rows, campaign, query);
+  rows.bind(query.stage, campaign, query.where.parameters);
   std::vector<Cell> cells(columns.size());
   while (rows.step()) {
     for (std::size_t k = 0; k < cells.size(); ++k) cells[k] = rows.cell(static_cast<int>(k));
@@ -119,8 +119,7 @@ std::string history_sql(const std::string& metric, std::int64_t fault, std::int6
 
 std::vector<Store::LoadStep> Store::load_steps(std::int64_t campaign,
                                                const TableQuery& query) const {
-  Statement rows(
-      *connection_,
+  return connection_->rows<LoadStep, int, std::string, double, double, long>(
       concat("SELECT l.step, g.name, min(l.time_s), max(l.time_s), count(*)"
              " FROM campaign_cases cc",
              joins(query),
@@ -128,13 +127,8 @@ std::vector<Store::LoadStep> Store::load_steps(std::int64_t campaign,
              " CROSS JOIN names g ON g.id = l.stage_id"
              " WHERE cc.campaign_id = ? AND s.rank_class < 2",
              query.stage.empty() ? "" : " AND l.step BETWEEN s.first_step AND s.last_step",
-             where_sql(query.where), " GROUP BY l.step, l.stage_id ORDER BY 1, 2"));
-  bind_table(rows, campaign, query);
-  std::vector<LoadStep> steps;
-  while (rows.step()) {
-    steps.push_back(rows.row<LoadStep, int, std::string, double, double, long>());
-  }
-  return steps;
+             where_sql(query.where), " GROUP BY l.step, l.stage_id ORDER BY 1, 2"),
+      query.stage, campaign, query.where.parameters);
 }
 
 }  // namespace faultsweep

@@ -37,15 +37,6 @@ MetricColumn creep(const char* aggregate, const char* table) {
                  " AND step BETWEEN s.first_step AND s.last_step)")};
 }
 
-/// Measures have a column of their own, of stages as of faults.
-void add_measures(std::map<std::string, MetricColumn>& columns) {
-  const faultsim::Measures measures;
-  faultsim::for_each_measure(measures, [&](const faultsim::Field& field, const auto&) {
-    columns[std::string(field.metric())] = {
-        field.sql.empty() ? concat("$.", field.key) : std::string(field.sql), true};
-  });
-}
-
 std::map<std::string, MetricColumn> all_columns() {
   std::map<std::string, MetricColumn> columns = {
       {"creep_normal_min", creep("min(creep_normal_min_pa)", "chi_history")},
@@ -93,7 +84,12 @@ std::map<std::string, MetricColumn> all_columns() {
       {"wasted_newton_iterations", {"m.wasted_newton_iterations"}},
       {"seconds", {"(SELECT wall_s FROM runs WHERE id = m.run_id)"}},
   };
-  add_measures(columns);
+  // Measures have a column of their own, of stages as of faults.
+  const faultsim::Measures measures;
+  faultsim::for_each_measure(measures, [&](const faultsim::Field& field, const auto&) {
+    columns[std::string(field.metric())] = {
+        field.sql.empty() ? concat("$.", field.key) : std::string(field.sql), true};
+  });
   return columns;
 }
 
@@ -106,18 +102,9 @@ const MetricColumn& column_of(const std::string& metric) {
 
 /// "$" replaced by the row, "$F" and "$O" by its faults.
 std::string filled(const std::string& sql, const std::string& row, bool of_fault) {
-  std::string text;
-  for (std::size_t i = 0; i < sql.size(); ++i) {
-    if (sql[i] != '$') {
-      text += sql[i];
-    } else if (i + 1 < sql.size() && (sql[i + 1] == 'F' || sql[i + 1] == 'O')) {
-      const char* first = sql[++i] == 'F' ? ".activated_fault_id" : ".opened_fault_id";
-      text += row + (of_fault ? ".fault_id" : first);
-    } else {
-      text += row;
-    }
-  }
-  return text;
+  const std::string slides = of_fault ? "$.fault_id" : "$.activated_fault_id";
+  const std::string opens = of_fault ? "$.fault_id" : "$.opened_fault_id";
+  return replaced(replaced(replaced(sql, "$F", slides), "$O", opens), "$", row);
 }
 
 const std::string& sql_for(const MetricColumn& column, bool of_fault) {
@@ -155,7 +142,7 @@ enum class Depends {
 };
 
 /// The one table of that.
-const std::map<std::string, Depends>& all_dependences() {
+Depends dependence_of(const std::string& metric) {
   static const std::map<std::string, Depends> dependences = [] {
     std::map<std::string, Depends> all;
     const auto add = [&all](Depends on, const std::vector<const char*>& metrics) {
@@ -163,27 +150,14 @@ const std::map<std::string, Depends>& all_dependences() {
     };
     add(Depends::on_the_run,
         {"outcome", "plane_strain", "interpolated", "surface_error", "field_coverage"});
-    add(Depends::on_the_history, {"activation_resolved",
-                                  "weakening_resolved",
-                                  "slips",
-                                  "opens",
-                                  "open_area",
-                                  "opening_step",
-                                  "opening_depth",
-                                  "opening_pressure_change",
-                                  "opening_pressure_absolute",
-                                  "opening_change_in_fault",
-                                  "opened_fault",
-                                  "chi_bar",
-                                  "chi_max",
-                                  "area_chi_080",
-                                  "thickness_chi_080",
-                                  "creep_normal_min",
-                                  "creep_normal_max",
-                                  "creep_shear_max",
-                                  "creep_time_steps",
-                                  "creep_time_error",
-                                  "creep_time_resolved"});
+    add(Depends::on_the_history,
+        {"activation_resolved", "weakening_resolved", "slips", "opens", "open_area"});
+    add(Depends::on_the_history,
+        {"opening_step", "opening_depth", "opening_pressure_change", "opening_pressure_absolute",
+         "opening_change_in_fault", "opened_fault"});
+    add(Depends::on_the_history, {"chi_bar", "chi_max", "area_chi_080", "thickness_chi_080"});
+    add(Depends::on_the_history, {"creep_normal_min", "creep_normal_max", "creep_shear_max"});
+    add(Depends::on_the_history, {"creep_time_steps", "creep_time_error", "creep_time_resolved"});
     add(Depends::on_activation, {"slides"});
     add(Depends::on_every_activation,
         {"activation_step", "activation_depth", "activation_pressure_change",
@@ -196,7 +170,9 @@ const std::map<std::string, Depends>& all_dependences() {
     add(Depends::on_activation_and_events, {"activated_area"});
     return all;
   }();
-  return dependences;
+  const auto found = dependences.find(metric);
+  FAULTSIM_DEMAND(found != dependences.end(), metric, ": on what does it depend?");
+  return found->second;
 }
 
 constexpr const char* kEarly = "coalesce(s.rank_class, 2) > 1";   // see CaseRow::complete
@@ -238,12 +214,6 @@ std::string open_sql(Depends depends, bool of_fault, const MetricIds& all) {
   }
   FAULTSIM_DEMAND(false, static_cast<int>(depends));
   return "";
-}
-
-Depends dependence_of(const std::string& metric) {
-  const auto found = all_dependences().find(metric);
-  FAULTSIM_DEMAND(found != all_dependences().end(), metric, ": on what does it depend?");
-  return found->second;
 }
 
 /// The same with the histories that ended early, or results that are missing.

@@ -65,10 +65,8 @@ std::string measure_columns(const std::string& row) {
   std::string columns;
   const faultsim::Measures measures;
   faultsim::for_each_measure(measures, [&](const faultsim::Field& field, const auto&) {
-    std::string value = field.sql.empty() ? concat("$.", field.key) : std::string(field.sql);
-    for (std::size_t at = value.find('$'); at != std::string::npos; at = value.find('$', at)) {
-      value.replace(at, 1, row);
-    }
+    const std::string value =
+        replaced(field.sql.empty() ? concat("$.", field.key) : std::string(field.sql), "$", row);
     if (!columns.empty()) columns += ", ";
     if (faultsim::is_extensive(field.key)) {
       columns += concat("iif(m.plane_strain, NULL, ", value, ") AS ", field.key,

@@ -19,16 +19,14 @@ std::vector<StoredParameter> parameters_from_json(const std::string& text) {
   try {
     for (const json& one : json::parse(text)) {
       const std::string dimension = one.at("dimension");
-      StoredParameter parameter;
-      parameter.name = one.at("name");
-      parameter.is_text = dimension == "text";
-      const auto* known = faultsim::dimension_named(dimension);
-      if (!parameter.is_text && known == nullptr) {
+      if (dimension == "text") {
+        parameters.push_back({.name = one.at("name"), .is_text = true});
+      } else if (const auto* known = faultsim::dimension_named(dimension)) {
+        parameters.push_back({.name = one.at("name"), .dimension = known->dimension});
+      } else {
         throw faultsim::StorageError("unknown dimension '" + dimension +
                                      "' in the store's parameters");
       }
-      if (!parameter.is_text) parameter.dimension = known->dimension;
-      parameters.push_back(std::move(parameter));
     }
   } catch (const json::exception& error) {
     throw faultsim::StorageError(

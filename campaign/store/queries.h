@@ -15,9 +15,6 @@
 /// What several queries of the store share.
 namespace faultsweep {
 
-/// Binds the parameters of an expression's SqlFragment after `position`, which it moves on.
-void bind_values(Statement& statement, int& position, const std::vector<Value>& values);
-
 /// Reads case_parameters, case by case.
 class ParameterReader {
  public:
@@ -30,12 +27,10 @@ class ParameterReader {
 };
 
 /// What tables are read from, after "cc", a campaign's cases; the query's stage is its parameter.
+/// With "WHERE cc.campaign_id = ?" and where_sql: stage, campaign, parameters of the condition.
 std::string joins(const Store::TableQuery& query);
 /// " AND ..." of the query's condition; "" = all.
 std::string where_sql(const SqlFragment& where);
-
-/// Binds what both of these and "WHERE cc.campaign_id = ?" between them leave open.
-void bind_table(Statement& statement, std::int64_t campaign, const Store::TableQuery& query);
 
 /// SQL over "$", a row of fault_metrics or stage_metrics, of a scope's row.
 /// @pre the scope has a stage.

@@ -18,13 +18,6 @@ constexpr const char* kDefaultFaultOrder =
 
 }  // namespace
 
-void bind_values(Statement& statement, int& position, const std::vector<Value>& values) {
-  for (const Value& value : values) {
-    ++position;
-    std::visit([&](const auto& one) { statement.bind_at(position, one); }, value);
-  }
-}
-
 std::string parameter_sql(int index, bool is_text) {
   return faultsim::concat("(SELECT p.", is_text ? "text" : "si",
                           " FROM case_parameters p WHERE p.campaign_id = cc.campaign_id"
@@ -90,29 +83,15 @@ std::string order_sql(const Store::RankingQuery& query) {
   return query.limit > 0 ? sql + concat(" LIMIT ", query.limit) : sql;
 }
 
-void bind_selection(Statement& statement, int& bound, std::int64_t campaign,
-                    const Store::RankingQuery& query) {
-  statement.bind_at(++bound, campaign);
-  statement.bind_at(++bound, query.stage);
-  bind_values(statement, bound, query.where.parameters);
-}
-
-struct OrderedCase {
-  std::int64_t id;
-  long position;
-  std::optional<double> score;
-};
-
 }  // namespace
 
 std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery& query) const {
   Statement order(*connection_, order_sql(query));
-  int bound = 0;
-  bind_values(order, bound, query.by.parameters);
-  bind_selection(order, bound, campaign, query);
-  std::vector<OrderedCase> cases;
+  order.bind(query.by.parameters, campaign, query.stage, query.where.parameters);
+  std::vector<RankedCase> ranked;
   while (order.step()) {
-    cases.push_back(order.row<OrderedCase, std::int64_t, long, std::optional<double>>());
+    RankedCase& row = ranked.emplace_back();
+    order.read(row.id, row.position, row.score);
   }
   const ResultTables& tables = result_tables();
   constexpr int kFirstMetric = 11;
@@ -128,15 +107,9 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
       " FROM stage_metrics s JOIN case_metrics m ON m.case_id = s.case_id"
       " WHERE s.stage_id = (SELECT id FROM names WHERE name = ?1) AND s.case_id = ?2"));
   ParameterReader parameters(*connection_, campaign);
-  std::vector<RankedCase> ranked;
-  ranked.reserve(cases.size());
-  for (const OrderedCase& one : cases) {
-    FAULTSIM_DEMAND(rows.bind(query.stage, one.id, query.fault).step(), one.id);
-    RankedCase row;
-    row.id = one.id;
-    row.position = one.position;
-    row.score = one.score;
-    row.parameters = parameters.of(one.position);
+  for (RankedCase& row : ranked) {
+    FAULTSIM_DEMAND(rows.bind(query.stage, row.id, query.fault).step(), row.id);
+    row.parameters = parameters.of(row.position);
     std::int64_t stage = 0;
     int fault_rank_class = 0;
     std::optional<std::int64_t> slides, opens;
@@ -146,7 +119,7 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
     int column = kFirstMetric;
     tables.stage.read(rows, column, row.metrics);
     const auto fault_row = [&](std::int64_t fault) {
-      return read_fault_row(*connection_, tables, one.id, stage, fault);
+      return read_fault_row(*connection_, tables, row.id, stage, fault);
     };
     if (query.fault) {
       row.fault_metrics = fault_row(*query.fault);
@@ -155,7 +128,6 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
       if (slides) row.metrics.faults.push_back(fault_row(*slides));
       if (opens && opens != slides) row.metrics.faults.push_back(fault_row(*opens));
     }
-    ranked.push_back(std::move(row));
   }
   return ranked;
 }
@@ -167,18 +139,15 @@ bool has_kind(Connection& db, std::int64_t campaign, const Store::RankingQuery& 
               bool plane_strain) {
   const char* of_kind =
       plane_strain ? " m.plane_strain = 1 LIMIT 1" : " m.plane_strain = 0 LIMIT 1";
-  if (query.where.text.empty()) {
-    return db
-        .find<int>(concat("SELECT 1 FROM case_metrics m CROSS JOIN campaign_cases cc"
-                          " ON cc.case_id = m.case_id AND cc.campaign_id = ? WHERE",
-                          of_kind),
-                   campaign)
-        .has_value();
-  }
-  Statement found(db, concat("SELECT 1", selection_sql(query, true), " AND", of_kind));
-  int bound = 0;
-  bind_selection(found, bound, campaign, query);
-  return found.step();
+  const auto found =
+      query.where.text.empty()
+          ? db.find<int>(concat("SELECT 1 FROM case_metrics m CROSS JOIN campaign_cases cc"
+                                " ON cc.case_id = m.case_id AND cc.campaign_id = ? WHERE",
+                                of_kind),
+                         campaign)
+          : db.find<int>(concat("SELECT 1", selection_sql(query, true), " AND", of_kind), campaign,
+                         query.stage, query.where.parameters);
+  return found.has_value();
 }
 
 }  // namespace

@@ -10,24 +10,20 @@ namespace faultsweep {
 namespace {
 
 std::vector<StoredRun> read_runs(Connection& db, std::int64_t case_id) {
-  std::vector<StoredRun> runs;
-  Statement query = db.prepared(
+  using Id = std::int64_t;
+  using Text = std::string;
+  return db.rows<StoredRun, Id, int, double, double, Text, Text, Text, Text, Text, Text, int,
+                 std::optional<Id>, std::optional<Id>, bool>(
       "SELECT id, attempt, ended_at, wall_s, status, coalesce(outcome, ''), reason, log_tail,"
-      " coalesce(operator, ''), host, rank, signal, exit_code, fields_only FROM runs WHERE case_id "
-      "= ?"
-      " ORDER BY attempt");
-  query.bind(case_id);
-  while (query.step()) {
-    StoredRun& run = runs.emplace_back();
-    query.read(run.id, run.attempt, run.ended_at, run.wall_seconds, run.status, run.outcome,
-               run.reason, run.log_tail, run.operator_fingerprint, run.host, run.rank, run.signal,
-               run.exit_code, run.fields_only);
-  }
-  return runs;
+      " coalesce(operator, ''), host, rank, signal, exit_code, fields_only FROM runs"
+      " WHERE case_id = ? ORDER BY attempt",
+      case_id);
 }
 
-/// The row of the case named by its position or the beginning of its identity.
-StoredCase find_case(Connection& db, std::int64_t campaign, const std::string& name) {
+}  // namespace
+
+StoredCase Store::stored_case(std::int64_t campaign, const std::string& name) const {
+  Connection& db = *connection_;
   long position = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), position);
   const bool is_number = error == std::errc() && end == name.data() + name.size();
@@ -35,34 +31,23 @@ StoredCase find_case(Connection& db, std::int64_t campaign, const std::string& n
   constexpr const char* kColumns =
       "SELECT c.id, cc.position, c.identity, f.fingerprint, c.state, c.changes,"
       " c.scene_id, cc.fields, k.name FROM campaign_cases cc"
-      " JOIN campaigns k ON k.id = cc.campaign_id JOIN cases c ON c.id = cc.case_id JOIN families "
-      "f ON f.id = c.family_id"
-      " WHERE cc.campaign_id = ?1 AND ";
+      " JOIN campaigns k ON k.id = cc.campaign_id JOIN cases c ON c.id = cc.case_id"
+      " JOIN families f ON f.id = c.family_id WHERE cc.campaign_id = ?1 AND ";
   Statement query(db, concat(kColumns, is_number ? "cc.position = ?2"
                                                  : "c.identity >= ?2 AND c.identity < ?2 || '~'"));
-  query.bind(campaign, name);
-  if (is_number) query.bind_at(2, position);
+  is_number ? query.bind(campaign, position) : query.bind(campaign, name);
   if ((!is_number && name.size() < kShortestPrefix) || !query.step()) {
     throw faultsim::InputError(
         "CASE", concat("the campaign has no case '", name, "'"),
         concat("give its number from 1, or at least ", kShortestPrefix, " digits of its identity"));
   }
   StoredCase found;
-  std::string fields, folder;
+  std::string fields, campaign_name;
   query.read(found.id, found.position, found.identity, found.family, found.state, found.changes,
-             found.scene, fields, folder);
+             found.scene, fields, campaign_name);
   found.parameters = ParameterReader(db, campaign).of(found.position);
   found.fields = stored_word<FieldsState>(fields, "state of fields");
-  found.fields_folder = folder;
-  return found;
-}
-
-}  // namespace
-
-StoredCase Store::stored_case(std::int64_t campaign, const std::string& name) const {
-  Connection& db = *connection_;
-  StoredCase found = find_case(db, campaign, name);
-  found.fields_folder = fields_folder(found.fields_folder.string(), found.position);
+  found.fields_folder = fields_folder(campaign_name, found.position);
   found.runs = read_runs(db, found.id);
   if (auto result = stored_result(found.id)) {
     found.has_result = true;

@@ -12,28 +12,10 @@ using faultsim::CaseResult;
 using faultsim::Outcome;
 using faultsim::StageMetrics;
 
-namespace {
-
-/// See stage_metrics in schemas/store_3.sql and store_10.sql.
 int rank_class(Outcome outcome, bool activation_resolved) {
-  switch (outcome) {
-    case Outcome::converged:
-    case Outcome::event:
-      return activation_resolved ? 0 : 1;
-    case Outcome::unresolved_event:
-      return 1;
-    case Outcome::unstable:
-      return 2;
-    case Outcome::failed:
-    case Outcome::unconverged:
-    case Outcome::interrupted:
-      return 3;
-  }
-  FAULTSIM_DEMAND(false, static_cast<int>(outcome));
-  return 3;
+  if (!faultsim::in_equilibrium(outcome)) return outcome == Outcome::unstable ? 2 : 3;
+  return activation_resolved && outcome != Outcome::unresolved_event ? 0 : 1;
 }
-
-}  // namespace
 
 void Store::forget_result(std::int64_t case_id) {
   Connection& db = *connection_;

@@ -251,6 +251,9 @@ struct NamedId {
   std::string name;
 };
 
+/// See RankedCase, and stage_metrics in schemas/store_3.sql and store_10.sql.
+int rank_class(faultsim::Outcome outcome, bool activation_resolved);
+
 /// One row of a ranking: a case and its metrics of one stage ("" = whole history).
 struct RankedCase {
   std::int64_t id = 0;

@@ -33,7 +33,7 @@ void RowWriter::take_statement() {
   }
   n_open_ = n_taken_;
   n_left_ -= n_taken_;
-  position_ = 0;
+  statement_->bind();
 }
 
 void RowWriter::end() {

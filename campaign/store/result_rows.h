@@ -50,16 +50,16 @@ class RowWriter {
   template <typename Value>
   void bind(const Value& value) {
     digest_.add(insert_.keys[column_++], value);
-    statement_->bind_at(++position_, value);
+    statement_->append(value);
   }
   /// The same of a text that does not live as long.
   void bind_copy(const std::string& text) {
     digest_.add(insert_.keys[column_++], text);
-    statement_->bind_copy(++position_, text);
+    statement_->append_copy(text);
   }
   void bind_null() {
     ++column_;
-    statement_->bind_at(++position_, std::optional<double>());
+    statement_->append(std::monostate());
   }
   /// Ends a row.
   void end();
@@ -75,7 +75,6 @@ class RowWriter {
   std::size_t n_taken_ = 0;  ///< rows of the statement.
   std::size_t n_open_ = 0;   ///< of these, those that have not ended.
   std::size_t column_ = 0;   ///< the next one of the row.
-  int position_ = 0;         ///< of the parameter bound last, from 1.
 };
 
 /// How a field lies in a row.
@@ -152,7 +151,7 @@ class RowFields {
   std::string selected(const std::string& row) const {
     std::string list;
     for (const RowField& field : fields_) {
-      if (!field.selected.empty()) list += ", " + in_row(field.selected, row);
+      if (!field.selected.empty()) list += ", " + replaced(field.selected, "$", row);
     }
     return list;
   }
@@ -177,11 +176,6 @@ class RowFields {
     for_each_row_value(to, [&](const auto&, auto& value) {
       if (!fields_[k++].selected.empty()) read_value(row, column++, value);
     });
-  }
-  static std::string in_row(const std::string& sql, const std::string& row) {
-    std::string text;
-    for (const char c : sql) text += c == '$' ? row : std::string(1, c);
-    return text;
   }
 
  private:

@@ -69,6 +69,16 @@ void exact_real(sqlite3_context* context, int, sqlite3_value** arguments) {
 
 }  // namespace
 
+std::string replaced(std::string sql, std::string_view what, std::string_view with) {
+  for (std::size_t at = sql.find(what); at != std::string::npos;
+       at = sql.find(what, at + with.size()))
+    sql.replace(at, what.size(), with);
+  return sql;
+}
+
+void SqliteClose::operator()(sqlite3* handle) const { sqlite3_close_v2(handle); }
+void SqliteClose::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+
 Connection::Connection(const std::filesystem::path& path, Mode mode) : path_(path) {
   std::string uri = uri_path(path);
   if (mode == Mode::read_only) {
@@ -82,90 +92,55 @@ Connection::Connection(const std::filesystem::path& path, Mode mode) : path_(pat
   const int flags =
       SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX |
       (mode == Mode::read_only ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
-  if (sqlite3_open_v2(uri.c_str(), &handle_, flags, nullptr) != SQLITE_OK) {
-    sqlite3* broken = handle_;
-    handle_ = nullptr;
-    try {
-      fail(broken, path_, "opening");
-    } catch (...) {
-      sqlite3_close_v2(broken);
-      throw;
-    }
+  sqlite3* opened = nullptr;
+  const int code = sqlite3_open_v2(uri.c_str(), &opened, flags, nullptr);
+  handle_.reset(opened);
+  if (code != SQLITE_OK) fail(opened, path_, "opening");
+  sqlite3_busy_timeout(handle_.get(), kBusyTimeoutMs);
+  execute(
+      "PRAGMA foreign_keys = ON; PRAGMA trusted_schema = OFF; PRAGMA cache_size = -65536;"
+      "PRAGMA mmap_size = 268435456; PRAGMA temp_store = MEMORY");
+  sqlite3_create_function(handle_.get(), "exact_real", 1, SQLITE_UTF8 | SQLITE_DETERMINISTIC,
+                          nullptr, exact_real, nullptr, nullptr);
+  if (mode == Mode::owner) {
+    // Pages that change in every batch are written once per 32 MB; and see ConstraintsOff: to
+    // switch for each batch would prepare all statements again.
+    execute("PRAGMA wal_autocheckpoint = 8000; PRAGMA foreign_keys = OFF");
   }
-  try {
-    sqlite3_busy_timeout(handle_, kBusyTimeoutMs);
-    execute(
-        "PRAGMA foreign_keys = ON; PRAGMA trusted_schema = OFF; PRAGMA cache_size = -65536;"
-        "PRAGMA mmap_size = 268435456; PRAGMA temp_store = MEMORY");
-    sqlite3_create_function(handle_, "exact_real", 1, SQLITE_UTF8 | SQLITE_DETERMINISTIC, nullptr,
-                            exact_real, nullptr, nullptr);
-    if (mode == Mode::owner) {
-      // Pages that change in every batch are written once per 32 MB; and see ConstraintsOff: to
-      // switch for each batch would prepare all statements again.
-      execute("PRAGMA wal_autocheckpoint = 8000; PRAGMA foreign_keys = OFF");
-    }
-    if (mode == Mode::read_write) {
-      execute("PRAGMA wal_autocheckpoint = 0");
-      sqlite3_db_config(handle_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
-    }
-  } catch (...) {
-    sqlite3_close_v2(handle_);
-    throw;
+  if (mode == Mode::read_write) {
+    execute("PRAGMA wal_autocheckpoint = 0");
+    sqlite3_db_config(handle_.get(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
   }
-}
-
-Connection::~Connection() {
-  for (const auto& [sql, statements] : idle_) {
-    for (sqlite3_stmt* statement : statements) sqlite3_finalize(statement);
-  }
-  sqlite3_close_v2(handle_);
 }
 
 void Connection::execute(const std::string& sql) {
-  if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) {
-    fail(handle_, path_, sql.c_str());
+  if (sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) {
+    fail(handle_.get(), path_, sql.c_str());
   }
 }
 
-Statement Connection::prepared(const std::string& sql) {
-  std::vector<sqlite3_stmt*>& home = idle_[sql];
-  if (home.empty()) home.push_back(prepare(sql));
-  sqlite3_stmt* statement = home.back();
-  home.pop_back();
-  return {*this, statement, home};
-}
+Statement Connection::prepared(const std::string& sql) { return {*this, sql}; }
 
-sqlite3_stmt* Connection::prepare(const std::string& sql) {
-  sqlite3_stmt* statement = nullptr;
-  if (sqlite3_prepare_v3(handle_, sql.c_str(), -1, SQLITE_PREPARE_PERSISTENT, &statement,
-                         nullptr) != SQLITE_OK) {
-    fail(handle_, path_, sql.c_str());
-  }
-  return statement;
-}
-
-std::int64_t Connection::last_insert_id() const { return sqlite3_last_insert_rowid(handle_); }
-int Connection::changes() const { return sqlite3_changes(handle_); }
+std::int64_t Connection::last_insert_id() const { return sqlite3_last_insert_rowid(handle_.get()); }
+int Connection::changes() const { return sqlite3_changes(handle_.get()); }
 
 void Connection::checkpoint() {
   // Busy readers only make it incomplete, which is not a failure.
-  sqlite3_wal_checkpoint_v2(handle_, nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
+  sqlite3_wal_checkpoint_v2(handle_.get(), nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
 }
 
 void Connection::copy_to(const std::filesystem::path& target) {
   sqlite3* copy = nullptr;
-  if (sqlite3_open(target.c_str(), &copy) != SQLITE_OK) {
-    sqlite3_close_v2(copy);
-    throw StorageError(concat("cannot write ", target.string()));
-  }
-  sqlite3_backup* backup = sqlite3_backup_init(copy, "main", handle_, "main");
+  const int opened = sqlite3_open(target.c_str(), &copy);
+  const std::unique_ptr<sqlite3, SqliteClose> closes(copy);
+  if (opened != SQLITE_OK) throw StorageError(concat("cannot write ", target.string()));
+  sqlite3_backup* backup = sqlite3_backup_init(copy, "main", handle_.get(), "main");
   int code = SQLITE_ERROR;
   if (backup != nullptr) {
     code = sqlite3_backup_step(backup, -1);
     sqlite3_backup_finish(backup);
   }
   const int system_error = sqlite3_system_errno(copy);
-  sqlite3_close_v2(copy);
   if (code != SQLITE_DONE) {
     throw StorageError(
         concat("cannot copy the store ", path_.string(), " to ", target.string(), ": ",
@@ -175,31 +150,34 @@ void Connection::copy_to(const std::filesystem::path& target) {
 }
 
 Statement::Statement(Connection& connection, const std::string& sql)
-    : connection_(connection), statement_(connection.prepare(sql)) {}
-
-Statement::Statement(Statement&& other) noexcept
-    : connection_(other.connection_),
-      statement_(std::exchange(other.statement_, nullptr)),
-      home_(other.home_) {}
+    : connection_(connection), home_(connection.idle_[sql]) {
+  if (!home_.empty()) {
+    statement_ = std::move(home_.back());
+    home_.pop_back();
+    return;
+  }
+  sqlite3* handle = connection.handle_.get();
+  sqlite3_stmt* made = nullptr;
+  const int code =
+      sqlite3_prepare_v3(handle, sql.c_str(), -1, SQLITE_PREPARE_PERSISTENT, &made, nullptr);
+  if (code != SQLITE_OK) fail(handle, connection.path_, sql.c_str());
+  statement_.reset(made);
+}
 
 Statement::~Statement() {
-  if (statement_ == nullptr) return;
-  if (home_ == nullptr) {
-    sqlite3_finalize(statement_);
-  } else {
-    reset();
-    home_->push_back(statement_);  // there is room: it was taken from there
-  }
+  if (!statement_) return;
+  reset();
+  home_.push_back(std::move(statement_));
 }
 
 bool Statement::step() {
-  const int code = sqlite3_step(statement_);
+  const int code = sqlite3_step(statement_.get());
   if (code == SQLITE_ROW) return true;
   if (code == SQLITE_DONE) return false;
   try {
-    fail(connection_.handle_, connection_.path_, sqlite3_sql(statement_));
+    fail(connection_.handle_.get(), connection_.path_, sqlite3_sql(statement_.get()));
   } catch (...) {
-    sqlite3_reset(statement_);
+    sqlite3_reset(statement_.get());
     throw;
   }
 }
@@ -210,57 +188,53 @@ void Statement::run() {
   reset();
 }
 
-void Statement::reset() { sqlite3_reset(statement_); }
+void Statement::reset() { sqlite3_reset(statement_.get()); }
 
-void Statement::bind_integer(int position, std::int64_t value) {
-  FAULTSIM_DEMAND(sqlite3_bind_int64(statement_, position, value) == SQLITE_OK, position);
+void Statement::bind_integer(std::int64_t value) {
+  FAULTSIM_DEMAND(sqlite3_bind_int64(statement_.get(), ++n_bound_, value) == SQLITE_OK, n_bound_);
 }
-void Statement::bind_real(int position, double value) {
+void Statement::bind_real(double value) {
   // SQLite would store NaN as NULL without a word.
-  FAULTSIM_DEMAND(std::isfinite(value), sqlite3_sql(statement_), " parameter ", position, " = ",
-                  value);
-  FAULTSIM_DEMAND(sqlite3_bind_double(statement_, position, value) == SQLITE_OK, position);
+  FAULTSIM_DEMAND(std::isfinite(value), sqlite3_sql(statement_.get()), " parameter ", n_bound_ + 1,
+                  " = ", value);
+  FAULTSIM_DEMAND(sqlite3_bind_double(statement_.get(), ++n_bound_, value) == SQLITE_OK, n_bound_);
 }
-void Statement::bind_text(int position, std::string_view value) {
+void Statement::bind_text(std::string_view value, bool is_copied) {
   const char* data = value.data() != nullptr ? value.data() : "";
-  FAULTSIM_DEMAND(sqlite3_bind_text64(statement_, position, data, value.size(), SQLITE_STATIC,
-                                      SQLITE_UTF8) == SQLITE_OK,
-                  position);
+  FAULTSIM_DEMAND(
+      sqlite3_bind_text64(statement_.get(), ++n_bound_, data, value.size(),
+                          is_copied ? SQLITE_TRANSIENT : SQLITE_STATIC, SQLITE_UTF8) == SQLITE_OK,
+      n_bound_);
 }
-void Statement::bind_copy(int position, const std::string& text) {
-  FAULTSIM_DEMAND(sqlite3_bind_text64(statement_, position, text.data(), text.size(),
-                                      SQLITE_TRANSIENT, SQLITE_UTF8) == SQLITE_OK,
-                  position);
-}
-void Statement::bind_null(int position) {
-  FAULTSIM_DEMAND(sqlite3_bind_null(statement_, position) == SQLITE_OK, position);
+void Statement::bind_null() {
+  FAULTSIM_DEMAND(sqlite3_bind_null(statement_.get(), ++n_bound_) == SQLITE_OK, n_bound_);
 }
 
 std::int64_t Statement::integer(int column) const {
-  return sqlite3_column_int64(statement_, column);
+  return sqlite3_column_int64(statement_.get(), column);
 }
-double Statement::real(int column) const { return sqlite3_column_double(statement_, column); }
+double Statement::real(int column) const { return sqlite3_column_double(statement_.get(), column); }
 
 std::string Statement::text(int column) const {
-  const auto* data = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
+  const auto* data = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column));
   return data == nullptr
              ? std::string()
-             : std::string(data,
-                           static_cast<std::size_t>(sqlite3_column_bytes(statement_, column)));
+             : std::string(
+                   data, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column)));
 }
 
 bool Statement::is_null(int column) const {
-  return sqlite3_column_type(statement_, column) == SQLITE_NULL;
+  return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL;
 }
 
-int Statement::n_columns() const { return sqlite3_column_count(statement_); }
+int Statement::n_columns() const { return sqlite3_column_count(statement_.get()); }
 
 std::string Statement::column_name(int column) const {
-  return sqlite3_column_name(statement_, column);
+  return sqlite3_column_name(statement_.get(), column);
 }
 
 Cell Statement::cell(int column) const {
-  switch (sqlite3_column_type(statement_, column)) {
+  switch (sqlite3_column_type(statement_.get(), column)) {
     case SQLITE_NULL:
       return {};
     case SQLITE_INTEGER:

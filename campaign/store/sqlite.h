@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,7 +26,15 @@ class StoreBusy : public faultsim::StorageError {
   using StorageError::StorageError;
 };
 
+struct SqliteClose {
+  void operator()(sqlite3* handle) const;
+  void operator()(sqlite3_stmt* statement) const;
+};
+using StatementHandle = std::unique_ptr<sqlite3_stmt, SqliteClose>;
 class Statement;
+
+/// SQL with every `what` in it replaced.
+std::string replaced(std::string sql, std::string_view what, std::string_view with);
 
 /// An open database. Not copyable, not movable: statements point at it.
 class Connection {
@@ -39,7 +48,6 @@ class Connection {
   /// Opens (creates, unless read_only) the file. Foreign keys are on but for the owner; a locked
   /// database is waited for 10 s at most. Throws StorageError.
   Connection(const std::filesystem::path& path, Mode mode);
-  ~Connection();
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
@@ -58,7 +66,7 @@ class Connection {
   /// The same of a query that has one whatever is stored.
   template <typename Row, typename... Columns, typename... Values>
   Row row(const std::string& sql, const Values&... values);
-  /// A prepared statement that is kept for the next one who asks for the same text.
+  /// Prepared, and kept for the next one who asks for the same text.
   Statement prepared(const std::string& sql);
   std::int64_t last_insert_id() const;
   int changes() const;
@@ -71,11 +79,10 @@ class Connection {
 
  private:
   friend class Statement;
-  sqlite3_stmt* prepare(const std::string& sql);
 
-  sqlite3* handle_ = nullptr;
+  std::unique_ptr<sqlite3, SqliteClose> handle_;
   std::filesystem::path path_;
-  std::unordered_map<std::string, std::vector<sqlite3_stmt*>> idle_;  ///< by their text.
+  std::unordered_map<std::string, std::vector<StatementHandle>> idle_;  ///< by their text.
 };
 
 /// A prepared statement. bind(...) resets it and binds all parameters in order; step() is true
@@ -83,26 +90,24 @@ class Connection {
 class Statement {
  public:
   Statement(Connection& connection, const std::string& sql);
-  Statement(Statement&& other) noexcept;
+  Statement(Statement&& other) noexcept = default;
   ~Statement();
-  Statement(const Statement&) = delete;
-  Statement& operator=(const Statement&) = delete;
 
   /// Text is not copied: it must live until the statement was stepped or bound again.
   template <typename... Values>
   Statement& bind(const Values&... values) {
     reset();
-    int position = 0;
-    (bind_one(++position, values), ...);
+    n_bound_ = 0;
+    return append(values...);
+  }
+  /// Binds the next ones.
+  template <typename... Values>
+  Statement& append(const Values&... values) {
+    (bind_one(values), ...);
     return *this;
   }
-  /// Binds one parameter, from 1, of a statement that was reset.
-  template <typename Value>
-  void bind_at(int position, const Value& value) {
-    bind_one(position, value);
-  }
   /// The same of a text that does not live as long.
-  void bind_copy(int position, const std::string& text);
+  void append_copy(const std::string& text) { bind_text(text, true); }
   bool step();
   /// Runs to the end; for statements without rows.
   void run();
@@ -144,25 +149,26 @@ class Statement {
   std::string column_name(int column) const;
 
  private:
-  friend class Connection;
-  Statement(Connection& connection, sqlite3_stmt* statement, std::vector<sqlite3_stmt*>& home)
-      : connection_(connection), statement_(statement), home_(&home) {}
   template <std::integral Value>
-  void bind_one(int position, Value value) {
-    bind_integer(position, static_cast<std::int64_t>(value));
+  void bind_one(Value value) {
+    bind_integer(static_cast<std::int64_t>(value));
   }
-  void bind_one(int position, double value) { bind_real(position, value); }
-  void bind_one(int position, std::string_view value) { bind_text(position, value); }
-  void bind_one(int position, const std::string& value) { bind_text(position, value); }
-  void bind_one(int position, const char* value) { bind_text(position, value); }
-  void bind_one(int position, std::monostate) { bind_null(position); }
+  void bind_one(double value) { bind_real(value); }
+  void bind_one(std::string_view value) { bind_text(value); }
+  void bind_one(const std::string& value) { bind_text(value); }
+  void bind_one(const char* value) { bind_text(value); }
+  void bind_one(std::monostate) { bind_null(); }
   template <typename Value>
-  void bind_one(int position, const std::optional<Value>& value) {
+  void bind_one(const std::optional<Value>& value) {
     if (value) {
-      bind_one(position, *value);
+      bind_one(*value);
     } else {
-      bind_null(position);
+      bind_null();
     }
+  }
+  /// Those of an SqlFragment.
+  void bind_one(const std::vector<faultsweep::Value>& values) {
+    for (const auto& value : values) std::visit([this](const auto& one) { bind_one(one); }, value);
   }
   template <std::integral Value>
   void read_one(int column, Value& value) const {
@@ -179,15 +185,15 @@ class Statement {
     }
   }
   bool is_null(int column) const;
-  void bind_integer(int position, std::int64_t value);
-  void bind_real(int position, double value);  ///< NaN and infinity are refused: InternalError.
-  void bind_text(int position, std::string_view value);
-  void bind_null(int position);
+  void bind_integer(std::int64_t value);
+  void bind_real(double value);  ///< NaN and infinity are refused: InternalError.
+  void bind_text(std::string_view value, bool is_copied = false);
+  void bind_null();
 
   Connection& connection_;
-  sqlite3_stmt* statement_ = nullptr;
-  std::vector<sqlite3_stmt*>* home_ =
-      nullptr;  ///< where it goes when it is done with; none = ours.
+  StatementHandle statement_;
+  int n_bound_ = 0;                     ///< parameters.
+  std::vector<StatementHandle>& home_;  ///< where it goes when it is done with.
 };
 
 template <typename... Values>

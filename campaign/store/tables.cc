@@ -33,13 +33,6 @@ std::string where_sql(const SqlFragment& where) {
   return where.text.empty() ? "" : " AND coalesce((" + where.text + "), 0)";
 }
 
-void bind_table(Statement& statement, std::int64_t campaign, const Store::TableQuery& query) {
-  int bound = 0;
-  statement.bind_at(++bound, query.stage);
-  statement.bind_at(++bound, campaign);
-  bind_values(statement, bound, query.where.parameters);
-}
-
 namespace {
 
 CaseRow read_case(const Statement& row, std::size_t n_metrics) {
@@ -68,11 +61,8 @@ void visit_cases(Connection& db, const std::string& from, const char* campaign_c
   const std::string where = scopes.joined(where_sql(query.where));
   Statement rows(db, concat(columns, from, joins(query), scopes.sql(), " WHERE ", campaign_column,
                             " = ?", where, order));
-  int bound = 0;
-  for (const SqlFragment& column : query.columns) bind_values(rows, bound, column.parameters);
-  rows.bind_at(++bound, query.stage);
-  rows.bind_at(++bound, campaign);
-  bind_values(rows, bound, query.where.parameters);
+  for (const SqlFragment& column : query.columns) rows.append(column.parameters);
+  rows.append(query.stage, campaign, query.where.parameters);
   ParameterReader parameters(db, campaign);
   while (rows.step()) {
     CaseRow one = read_case(rows, query.columns.size());
@@ -118,7 +108,7 @@ void Store::for_each_slip_event(std::int64_t campaign, const TableQuery& query,
              " CROSS JOIN slip_events e ON e.case_id = cc.case_id WHERE cc.campaign_id = ?",
              where_sql(query.where), " ORDER BY cc.position, e.number");
   Statement rows(*connection_, sql);
-  bind_table(rows, campaign, query);
+  rows.bind(query.stage, campaign, query.where.parameters);
   while (rows.step()) {
     visit(rows.row<SeenEvent, long, std::int64_t, double, double, std::optional<double>>());
   }
@@ -171,7 +161,7 @@ void Store::for_each_onset(std::int64_t campaign, const TableQuery& query,
       " WHERE cc.campaign_id = ?",
       where_sql(query.where), " ORDER BY cc.position");
   Statement rows(*connection_, sql);
-  bind_table(rows, campaign, query);
+  rows.bind(query.stage, campaign, query.where.parameters);
   CaseOnsets one;
   while (rows.step()) {
     if (const long position = rows.integer(0); position != one.position) {

@@ -43,14 +43,15 @@ TEST(Wire, WorkTravels) {
   work.task.time_limit = 2.5;
   work.task.keep_fields = KeepFields::all;
   work.task.fields_folder = "/store/fields/sweep";
-  work.scenes[5] = {"scene.json", "{}"};
+  work.scenes = {{5, {"scene.json", "{}"}}};
   work.cases.push_back({17, 5, 9, R"({"/a": 1})"});
   const auto back = std::get<message::Work>(decode(encode(work)));
   EXPECT_EQ(back.task.time_limit, 2.5);
   EXPECT_FALSE(back.task.memory_limit);
   EXPECT_EQ(back.task.keep_fields, KeepFields::all);
   EXPECT_EQ(back.task.fields_folder, "/store/fields/sweep");
-  EXPECT_EQ(back.scenes.at(5).source, "scene.json");
+  EXPECT_EQ(back.scenes.at(0).first, 5);
+  EXPECT_EQ(back.scenes.at(0).second.source, "scene.json");
   EXPECT_EQ(back.cases[0].changes, R"({"/a": 1})");
 }
 
