@@ -1,4 +1,4 @@
-#include "campaign/answers/asked_outputs.h"
+#include "campaign/answers/sensitivity_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,22 +7,15 @@
 
 namespace faultsweep {
 
-std::string asked_metrics(const Store& store, const CampaignInfo& campaign,
-                          const SensitivityRequest& request) {
-  if (!request.metrics.empty()) return request.metrics;
-  std::string names;
-  for (const char* metric : {"chi_bar", "max_slip", "slides"}) {
-    for (const NamedId& fault : store.faults(campaign.id))
-      names += concat(names.empty() ? "" : ",", spelled_name(fault.name), ".", metric);
-  }
-  return names;
-}
-
 std::vector<ScopedMetric> asked_outputs(const Store& store, const CampaignInfo& campaign,
                                         const SensitivityRequest& request,
                                         const Selection& selection) {
-  std::vector<ScopedMetric> outputs =
-      choose_metrics(selection, asked_metrics(store, campaign, request), true, false);
+  std::string names = request.metrics;
+  for (const char* metric : {"chi_bar", "max_slip", "slides"}) {
+    if (request.metrics.empty())
+      names += (names.empty() ? "" : ",") + of_each_fault(selection.faults, metric);
+  }
+  std::vector<ScopedMetric> outputs = choose_metrics(selection, names, true, false);
   const Store::Kinds kinds = store.kinds(campaign.id, {});
   for (const ScopedMetric& one : outputs)
     if (one.is_extensive()) refuse_mixed(kinds, "--metrics", one.name);

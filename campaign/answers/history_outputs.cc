@@ -1,21 +1,11 @@
-#include "campaign/answers/history_outputs.h"
+#include "campaign/answers/sensitivity_parts.h"
 
 #include <algorithm>
 
-#include "campaign/answers/asked_outputs.h"
 #include "campaign/common/names.h"
-
 namespace faultsweep {
 
 namespace {
-
-std::string default_metrics(const Selection& selection) {
-  if (selection.fault) return "chi_bar";
-  std::string names;
-  for (const NamedId& fault : selection.faults)
-    names += concat(names.empty() ? "" : ",", spelled_name(fault.name), ".chi_bar");
-  return names;
-}
 
 std::string listed(const std::vector<std::string>& names) { return joined(names, ", "); }
 
@@ -67,7 +57,8 @@ HistoryOutputs history_outputs(const Store& store, const CampaignInfo& campaign,
                      concat("run it: faultsweep run ", campaign.name));
   }
   SensitivityRequest asked = request;
-  if (asked.metrics.empty()) asked.metrics = default_metrics(selection);
+  if (asked.metrics.empty())
+    asked.metrics = selection.fault ? "chi_bar" : of_each_fault(selection.faults, "chi_bar");
   HistoryOutputs found;
   found.metrics = asked_outputs(store, campaign, asked, selection);
   const std::vector<std::int64_t> faults = faults_of(found.metrics, selection);

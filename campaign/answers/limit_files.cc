@@ -13,10 +13,6 @@ AnswerCell number_cell(const std::optional<SearchPoint>& point, const LimitSearc
   return point ? AnswerCell(si_of(point->value, limit)) : AnswerCell();
 }
 
-AnswerCell case_cell(const SearchPoint& point) {
-  return point.position > 0 ? AnswerCell(point.position) : AnswerCell();
-}
-
 /// "offset = 200 m, friction_angle = 20 deg".
 std::string settings_text(const LimitTable& table, const LimitRow& row) {
   std::string text;
@@ -119,8 +115,8 @@ std::vector<AnswerCell> cells_of(const LimitTable& table, const LimitRow& row, s
           c != nullptr ? AnswerCell(si_of(c->after.value, limit)) : none,
           c != nullptr ? AnswerCell(value_text(c->before.value, limit)) : none,
           c != nullptr ? AnswerCell(value_text(c->after.value, limit)) : none,
-          c != nullptr ? case_cell(c->before) : none,
-          c != nullptr ? case_cell(c->after) : none,
+          c != nullptr ? case_cell(c->before.position) : none,
+          c != nullptr ? case_cell(c->after.position) : none,
           c != nullptr ? AnswerCell(c->narrow) : none,
           is_resolved(cell),
           number_cell(cell.finding.surely_safe, limit),
@@ -167,8 +163,8 @@ AnswerTable crossing_table(const LimitTable& table) {
       for (const Crossing& one : row.cells[l]->finding.crossings) {
         all.rows.push_back({row.configuration, row.fault, limit.name,
                             faultsim::si_unit(limit.dimension), si_of(one.before.value, limit),
-                            si_of(one.after.value, limit), case_cell(one.before),
-                            case_cell(one.after), one.before.resolved, one.after.resolved,
+                            si_of(one.after.value, limit), case_cell(one.before.position),
+                            case_cell(one.after.position), one.before.resolved, one.after.resolved,
                             one.is_limit(), one.narrow, one.n_unknown});
       }
     }

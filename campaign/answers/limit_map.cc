@@ -44,32 +44,24 @@ std::vector<std::string> values_of(const std::vector<const LimitRow*>& rows, std
   return values;
 }
 
-/// A limit of a fault over two parameters.
-struct LimitMap {
-  std::size_t limit = 0;
-  std::string fault;
-  std::map<std::pair<std::string, std::string>, std::string> cells;  ///< by values: down, across.
-};
+/// By limit and fault, its brackets by the values of two parameters: down, across.
+using LimitMaps = std::map<std::pair<std::size_t, std::string>,
+                           std::map<std::pair<std::string, std::string>, std::string>>;
 
-std::vector<LimitMap> maps_of(const LimitTable& table, const std::vector<const LimitRow*>& rows,
-                              std::size_t across, std::size_t down) {
-  std::map<std::pair<std::size_t, std::string>, LimitMap> maps;
+LimitMaps maps_of(const LimitTable& table, const std::vector<const LimitRow*>& rows,
+                  std::size_t across, std::size_t down) {
+  LimitMaps maps;
   for (const LimitRow* row : rows) {
     for (std::size_t l = 0; l < table.limits.size(); ++l) {
       if (!row->cells[l]) continue;
-      LimitMap& map = maps[{l, row->fault}];
-      map.limit = l;
-      map.fault = row->fault;
       const std::pair at(row->settings[down], row->settings[across]);
-      if (!map.cells.emplace(at, cell_text(*row->cells[l])).second) {
+      if (!maps[{l, row->fault}].emplace(at, cell_text(*row->cells[l])).second) {
         throw InputError("--map", "the design varies more than these two parameters",
                          "use --csv, or a design with two");
       }
     }
   }
-  std::vector<LimitMap> all;
-  for (auto& [key, map] : maps) all.push_back(std::move(map));
-  return all;
+  return maps;
 }
 
 }  // namespace
@@ -82,19 +74,19 @@ Answer map_answer(const LimitTable& table, const std::string& across, const std:
   });
   const std::vector<std::string> columns = values_of(rows, a), lines = values_of(rows, d);
   Answer answer = limits_for_files(table);
-  for (const LimitMap& map : maps_of(table, rows, a, d)) {
-    const LimitSearch& limit = table.limits[map.limit];
-    AnswerTable shown{
-        "map",
-        concat(limit.name, " of ", map.fault, ", [safe, unsafe]", limit.unit.empty() ? "" : " in ",
-               limit.unit, "; down: ", down, ", across: ", across),
-        {{down, down, {}, 4, Need::always}}};
+  for (const auto& [subject, brackets] : maps_of(table, rows, a, d)) {
+    const LimitSearch& limit = table.limits[subject.first];
+    AnswerTable shown{"map",
+                      concat(limit.name, " of ", subject.second, ", [safe, unsafe]",
+                             limit.unit.empty() ? "" : " in ", limit.unit, "; down: ", down,
+                             ", across: ", across),
+                      {{down, down, {}, 4, Need::always}}};
     for (const std::string& one : columns) shown.columns.push_back({one, one, {}, 4, Need::always});
     for (const std::string& line : lines) {
       std::vector<AnswerCell> cells = {line};
       for (const std::string& column : columns) {
-        const auto found = map.cells.find({line, column});
-        cells.push_back(found == map.cells.end() ? AnswerCell() : AnswerCell(found->second));
+        const auto found = brackets.find({line, column});
+        cells.push_back(found == brackets.end() ? AnswerCell() : AnswerCell(found->second));
       }
       shown.rows.push_back(std::move(cells));
     }

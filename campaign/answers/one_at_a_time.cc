@@ -6,7 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "campaign/answers/asked_outputs.h"
+#include "campaign/answers/sample.h"
+#include "campaign/answers/sensitivity_parts.h"
 #include "campaign/common/names.h"
 #include "campaign/query/table_output.h"
 #include "campaign/render/shown.h"

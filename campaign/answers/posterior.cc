@@ -85,8 +85,7 @@ class PosteriorReader {
     for (const SeenStatement& one : posterior.seen)
       if (!one.column.text.empty()) query_.columns.push_back(one.column);
     first_verdict_ = query_.columns.size();
-    query_.columns.insert(query_.columns.end(), verdicts_.columns().begin(),
-                          verdicts_.columns().end());
+    append(query_.columns, verdicts_.columns());
     first_asked_ = verdicts_.columns().size() - conditions.size();
     const std::size_t n_parameters = campaign.parameters.size();
     rows_.values.resize(n_parameters), rows_.texts.resize(n_parameters);

@@ -1,10 +1,10 @@
 #include "campaign/answers/sample.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
-#include "campaign/answers/designs.h"
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
 #include "campaign/query/approximations.h"
@@ -22,29 +22,60 @@ void collect_designs(const json& design, std::vector<json>& designs) {
   for (const json& one : design.at("designs")) collect_designs(one, designs);
 }
 
-/// A number for each word, in the order in which words come.
-class Words {
+/// Which rows and parameters a sample has.
+enum class Keep {
+  what_tells,  ///< full histories, and parameters that vary.
+  all,         ///< rows without a history to its end have no outputs.
+};
+
+/// Fills a sample row by row.
+class SampleReader {
  public:
-  double number(const std::string& word) {
-    return numbers_.emplace(word, static_cast<double>(numbers_.size())).first->second;
+  SampleReader(const CampaignInfo& campaign, std::vector<ScopedMetric> outputs, Keep keep)
+      : keep_(keep) {
+    sample_.parameters = campaign.parameters;
+    sample_.outputs = std::move(outputs);
+    sample_.x.resize(sample_.parameters.size());
+    sample_.y.resize(sample_.outputs.size());
+    words_.resize(sample_.x.size());
+  }
+
+  void add(const CaseRow& row) {
+    ++sample_.n_rows;
+    sample_.n_without += row.rank_class ? 0 : 1;
+    sample_.n_early += row.rank_class && !row.complete() ? 1 : 0;
+    if (!row.complete() && keep_ == Keep::what_tells) return;
+    sample_.n_unresolved += row.complete() && *row.rank_class == 1 ? 1 : 0;
+    for (std::vector<double>& one : sample_.x) one.push_back(-1);  // of no group
+    for (const CaseParameter& one : row.parameters) {
+      const auto p = static_cast<std::size_t>(one.index);
+      const auto word = static_cast<double>(words_[p].size());  // where it comes first
+      sample_.x[p].back() = one.si ? *one.si : words_[p].emplace(one.text, word).first->second;
+    }
+    for (std::size_t m = 0; m < sample_.y.size(); ++m)
+      sample_.y[m].push_back(row.complete() ? number_of(row.metrics[m]) : std::nan(""));
+  }
+
+  /// Without parameters that follow from others.
+  Sample take(const std::vector<char>& derived) {
+    for (std::size_t k = sample_.x.size(); k-- > 0;) {
+      const std::vector<double>& values = sample_.x[k];
+      const bool tells = keep_ == Keep::all || std::ranges::any_of(values, [&](double value) {
+                           return value != values.front();
+                         });
+      if (tells && derived[k] == 0) continue;
+      if (tells) sample_.derived.insert(sample_.derived.begin(), sample_.parameters[k].name);
+      sample_.x.erase(sample_.x.begin() + static_cast<long>(k));
+      sample_.parameters.erase(sample_.parameters.begin() + static_cast<long>(k));
+    }
+    return std::move(sample_);
   }
 
  private:
-  std::map<std::string, double> numbers_;
+  Keep keep_;
+  Sample sample_;
+  std::vector<std::map<std::string, double>> words_;  ///< per parameter, their numbers.
 };
-
-/// Leaves out parameters that have one value only, and those computed from others.
-void keep_what_is_chosen(const std::vector<char>& derived, Sample& sample) {
-  for (std::size_t k = sample.x.size(); k-- > 0;) {
-    const std::vector<double>& values = sample.x[k];
-    const bool varies =
-        std::ranges::any_of(values, [&](double value) { return value != values.front(); });
-    if (varies && derived[k] == 0) continue;
-    if (varies) sample.derived.insert(sample.derived.begin(), sample.parameters[k].name);
-    sample.x.erase(sample.x.begin() + static_cast<long>(k));
-    sample.parameters.erase(sample.parameters.begin() + static_cast<long>(k));
-  }
-}
 
 }  // namespace
 
@@ -135,33 +166,22 @@ Sample read_sample(const Store& store, const CampaignInfo& campaign, const Sampl
 Sample read_sample(const Store& store, const CampaignInfo& campaign, const SampledCases& request,
                    std::vector<ScopedMetric> outputs) {
   const Selection selection = make_selection(store, campaign, request.stage, request.fault);
-  Sample sample;
-  sample.parameters = campaign.parameters;
-  sample.outputs = std::move(outputs);
-  const auto query = case_query(campaign, selection, request.where, sample.outputs);
-  sample.x.resize(sample.parameters.size());
-  sample.y.resize(sample.outputs.size());
-
+  const auto query = case_query(campaign, selection, request.where, outputs);
   const SampleRows rows(store, campaign);
-  std::vector<Words> words(sample.parameters.size());
+  SampleReader reader(campaign, std::move(outputs), Keep::what_tells);
   store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
-    for (int k = 0; k < rows.count(row.position); ++k) {
-      ++sample.n_rows;
-      sample.n_without += row.rank_class ? 0 : 1;
-      sample.n_early += row.rank_class && !row.complete() ? 1 : 0;
-      if (!row.complete()) continue;
-      sample.n_unresolved += *row.rank_class == 1 ? 1 : 0;
-      for (std::size_t p = 0; p < sample.x.size(); ++p) sample.x[p].push_back(-1);  // of no group
-      for (const CaseParameter& one : row.parameters) {
-        const auto p = static_cast<std::size_t>(one.index);
-        sample.x[p].back() = one.si ? *one.si : words[p].number(one.text);
-      }
-      for (std::size_t m = 0; m < sample.y.size(); ++m)
-        sample.y[m].push_back(number_of(row.metrics[m]));
-    }
+    for (int k = 0; k < rows.count(row.position); ++k) reader.add(row);
   });
-  keep_what_is_chosen(derived_parameters(designs_of(store, campaign), campaign), sample);
-  return sample;
+  return reader.take(derived_parameters(designs_of(store, campaign), campaign));
+}
+
+Sample read_design(const Store& store, const CampaignInfo& campaign, const Selection& selection,
+                   std::vector<ScopedMetric> outputs) {
+  Store::TableQuery query = case_query(campaign, selection, "", outputs);
+  query.by_design_row = true;
+  SampleReader reader(campaign, std::move(outputs), Keep::all);
+  store.for_each_case(campaign.id, query, [&](const CaseRow& row) { reader.add(row); });
+  return reader.take(derived_parameters(designs_of(store, campaign), campaign));
 }
 
 }  // namespace faultsweep

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -59,5 +60,25 @@ Sample read_sample(const Store& store, const CampaignInfo& campaign, const Sampl
 /// @param metrics  names with commas, as of `export --metrics`.
 Sample read_sample(const Store& store, const CampaignInfo& campaign, const SampledCases& request,
                    const std::string& metrics);
+/// All rows of the design, in its order: those without a history to its end too, with NaN for
+/// outputs, and all parameters but those that follow from others.
+Sample read_design(const Store& store, const CampaignInfo& campaign, const Selection& selection,
+                   std::vector<ScopedMetric> outputs);
+
+// Inside of the module: how the cases of a stored campaign were designed
+// ---------------------------
+
+/// The designs of its resolved spec, those within nested ones too.
+std::vector<nlohmann::json> designs_of(const Store& store, const CampaignInfo& campaign);
+
+/// What designs of a campaign choose: by index in its parameters, whether one follows from others
+/// (`derived` of the spec), so that it explains nothing of its own.
+std::vector<char> derived_parameters(const std::vector<nlohmann::json>& designs,
+                                     const CampaignInfo& campaign);
+/// "Computed from others, so not told apart from them: throw."; "" where there are none.
+std::string derived_note(const std::vector<std::string>& names);
+
+/// Of a sobol design, a group's only one: from one base sample to the next.
+long rows_per_base_sample(const nlohmann::json& design);
 
 }  // namespace faultsweep

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 
-#include "campaign/answers/asked_outputs.h"
-#include "campaign/answers/designs.h"
-#include "campaign/answers/sensitivity_tables.h"
-#include "campaign/query/table_output.h"
+#include "campaign/answers/sample.h"
+#include "campaign/answers/sensitivity_parts.h"
 #include "campaign/render/shown.h"
 
 namespace faultsweep {
@@ -17,43 +14,7 @@ namespace figure = faultsim::figure;
 
 namespace {
 
-/// The rows of the design, in its order.
-struct Trajectories {
-  std::vector<std::vector<double>> x, y;  ///< [parameter or output][row].
-};
-
-Trajectories read_trajectories(const Store& store, const Store::TableQuery& query, Screening& s) {
-  Trajectories rows;
-  rows.x.resize(s.parameters.size());
-  rows.y.resize(s.metrics.size());
-  std::map<std::string, double> words;  // a number for each, by their first place
-  store.for_each_case(s.campaign.id, query, [&](const CaseRow& row) {
-    ++s.n_rows;
-    s.n_without += row.complete() ? 0 : 1;
-    s.n_unresolved += row.complete() && *row.rank_class == 1 ? 1 : 0;
-    for (std::vector<double>& one : rows.x) one.push_back(kNoNumber);
-    for (const CaseParameter& one : row.parameters) {
-      rows.x.at(static_cast<std::size_t>(one.index)).back() =
-          one.si ? *one.si
-                 : words.emplace(one.text, static_cast<double>(words.size())).first->second;
-    }
-    for (std::size_t m = 0; m < rows.y.size(); ++m)
-      rows.y[m].push_back(row.complete() ? number_of(row.metrics[m]) : kNoNumber);
-  });
-  return rows;
-}
-
 void forget_bounds(Estimate& e) { e.standard_error = kNoNumber, e.bounds = {kNoNumber, kNoNumber}; }
-
-/// Leaves out parameters that follow from others.
-void keep_what_is_chosen(const std::vector<char>& derived, Trajectories& rows, Screening& s) {
-  for (std::size_t p = derived.size(); p-- > 0;) {
-    if (derived[p] == 0) continue;
-    s.derived.insert(s.derived.begin(), s.parameters[p]);
-    s.parameters.erase(s.parameters.begin() + static_cast<long>(p));
-    rows.x.erase(rows.x.begin() + static_cast<long>(p));
-  }
-}
 
 /// Intervals that would not hold are not told.
 void keep_what_holds(ElementaryEffects& one) {
@@ -78,21 +39,21 @@ std::optional<Screening> screen(const Store& store, const CampaignInfo& campaign
   }
   const Selection selection =
       make_selection(store, campaign, request.cases.stage, request.cases.fault);
-  const auto outputs = asked_outputs(store, campaign, request, selection);
-  Screening s{campaign, request, {}, {}};
+  Sample rows =
+      read_design(store, campaign, selection, asked_outputs(store, campaign, request, selection));
+  Screening s{campaign, request, {}, {}, rows.derived};
   s.plane_strain = store.kinds(campaign.id, {}).plane_strain;
-  for (const StoredParameter& one : campaign.parameters) s.parameters.push_back(one.name);
-  for (const ScopedMetric& one : outputs) s.metrics.push_back({one, {}});
-  Store::TableQuery query = case_query(campaign, selection, "", outputs);
-  query.by_design_row = true;
-  Trajectories rows = read_trajectories(store, query, s);
-  keep_what_is_chosen(derived_parameters(designs, campaign), rows, s);
+  s.n_rows = rows.n_rows;
+  s.n_without = rows.n_without + rows.n_early;
+  s.n_unresolved = rows.n_unresolved;
+  for (const StoredParameter& one : rows.parameters) s.parameters.push_back(one.name);
+  for (const ScopedMetric& one : rows.outputs) s.metrics.push_back({one, {}});
   const double p = designs[0].value("levels", 4);
   const auto made = MorrisDesign::make(rows.x, p / (2 * (p - 1)));
   if (!made.design) refuse(made.refusal, "submit the campaign's spec again as it was");
   s.n_trajectories = made.design->n_trajectories();
-  for (std::size_t m = 0; m < outputs.size(); ++m) {
-    flatten_rounding(outputs[m], rows.y[m]);
+  for (std::size_t m = 0; m < rows.y.size(); ++m) {
+    flatten_rounding(rows.outputs[m], rows.y[m]);
     s.metrics[m].effects = made.design->effects(rows.y[m], request.confidence);
     for (ElementaryEffects& one : s.metrics[m].effects) keep_what_holds(one);
   }

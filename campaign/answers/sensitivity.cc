@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
-#include "campaign/answers/asked_outputs.h"
-#include "campaign/answers/designs.h"
-#include "campaign/answers/history_outputs.h"
-#include "campaign/answers/sensitivity_indices.h"
+#include "campaign/answers/one_at_a_time.h"
+#include "campaign/answers/sample.h"
+#include "campaign/answers/screening.h"
+#include "campaign/answers/sensitivity_parts.h"
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
+#include "campaign/query/approximations.h"
 
 namespace faultsweep {
 
@@ -80,6 +81,21 @@ Sensitivity analyse_sensitivity(const Store& store, const CampaignInfo& campaign
   add_indices(store, s);
   s.sample.x.clear(), s.sample.y.clear();
   return s;
+}
+
+Answer what_matters(const Store& store, const CampaignInfo& campaign,
+                    const SensitivityRequest& request) {
+  const auto with_approximation = [&](Answer answer) {
+    answer.note_if(approximation_note(store.approximations(campaign.id)));
+    return answer;
+  };
+  if (!request.by_step) {
+    if (const auto found = screen(store, campaign, request))
+      return with_approximation(to_answer(*found));
+    if (const auto found = compare_one_at_a_time(store, campaign, request))
+      return with_approximation(to_answer(*found));
+  }
+  return to_answer(analyse_sensitivity(store, campaign, request));
 }
 
 }  // namespace faultsweep

@@ -3,8 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "campaign/answers/sobol_rows.h"
+#include "campaign/answers/sample.h"
 #include "campaign/render/answer.h"
+#include "campaign/statistics/pick_freeze.h"
 #include "campaign/statistics/rank_sensitivity.h"
 
 namespace faultsweep {
@@ -67,5 +68,12 @@ faultsim::figure::BarChart chart_of(const Sensitivity& sensitivity);
 /// Tables `indices`, a row for each metric (and load step), parameter and order, and `metrics`; on
 /// the screen a row for each metric, or a table for each with a row for each step; and charts.
 Answer to_answer(const Sensitivity& sensitivity);
+
+/// Which parameters matter, by what the campaign's design can say: shares of variance of a sample
+/// or grid (analyse_sensitivity), elementary effects of a morris design (screening.h), of
+/// one-at-a-time what each parameter changes (one_at_a_time.h). By step: of samples and grids.
+/// Throws InputError as these do.
+Answer what_matters(const Store& store, const CampaignInfo& campaign,
+                    const SensitivityRequest& request);
 
 }  // namespace faultsweep

@@ -2,8 +2,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "campaign/answers/sensitivity_tables.h"
+#include "campaign/answers/sensitivity_parts.h"
 #include "campaign/common/names.h"
+#include "campaign/render/shown.h"
 
 namespace faultsweep {
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "campaign/answers/asked_outputs.h"
-#include "campaign/answers/sensitivity_tables.h"
+#include "campaign/answers/sensitivity_parts.h"
 #include "campaign/common/names.h"
+#include "campaign/render/shown.h"
 
 namespace faultsweep {
 

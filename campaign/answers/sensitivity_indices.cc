@@ -1,13 +1,14 @@
-#include "campaign/answers/sensitivity_indices.h"
+#include "campaign/answers/sensitivity_parts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <thread>
 
-#include "campaign/answers/asked_outputs.h"
 #include "campaign/common/names.h"
+#include "campaign/query/table_output.h"
 #include "campaign/statistics/level_means.h"
 
 namespace faultsweep {
@@ -135,6 +136,51 @@ void add_rank_indices(Sensitivity& s) {
     if (all.unsaid.empty())
       all.first_order = ranks.aggregated(steps_of(s, s.sample.y, m), s.request.confidence);
   }
+}
+
+/// The outputs of a sample on all rows of a campaign that is one sobol design.
+struct SobolRows {
+  std::vector<std::string> parameters;    ///< in the order of PickFreezeValues::ab.
+  std::vector<PickFreezeValues> outputs;  ///< of the base samples whose every row has a value.
+  long n_base_samples = 0;                ///< with those that are left out.
+};
+
+/// Of an output on the rows of one base sample; they are in the order A, AB_1 .. AB_D, (BA_1 ..
+/// BA_D,) B. Rows BA repeat what A and AB tell with the blocks' parts exchanged: not used.
+void add_base_sample(const std::vector<double>& rows, PickFreezeValues& values) {
+  if (std::ranges::any_of(rows, [](double one) { return !std::isfinite(one); })) return;
+  values.a.push_back(rows.front());
+  values.b.push_back(rows.back());
+  for (std::size_t p = 0; p < values.ab.size(); ++p) values.ab[p].push_back(rows[p + 1]);
+}
+
+/// Nothing where the campaign is another design, or a condition selects some of its cases.
+std::optional<SobolRows> read_sobol_rows(const Store& store, const CampaignInfo& campaign,
+                                         const SampledCases& request,
+                                         const std::vector<ScopedMetric>& outputs) {
+  const std::vector<nlohmann::json> designs = designs_of(store, campaign);
+  if (designs.size() != 1 || designs[0].at("kind") != "sobol" || !request.where.empty()) return {};
+  SobolRows found;
+  for (const nlohmann::json& one : designs[0].at("parameters"))
+    found.parameters.push_back(one.at("name"));
+  found.outputs.resize(outputs.size());
+  for (PickFreezeValues& one : found.outputs) one.ab.resize(found.parameters.size());
+
+  const Selection selection = make_selection(store, campaign, request.stage, request.fault);
+  Store::TableQuery query = case_query(campaign, selection, "", outputs);
+  query.by_design_row = true;
+  const auto n_rows = static_cast<std::size_t>(rows_per_base_sample(designs[0]));
+  std::vector<std::vector<double>> rows(outputs.size());  // of the base sample at hand
+  store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
+    for (std::size_t m = 0; m < rows.size(); ++m) {
+      rows[m].push_back(row.complete() ? number_of(row.metrics[m]) : kNoNumber);
+      if (rows[m].size() < n_rows) continue;
+      add_base_sample(rows[m], found.outputs[m]);
+      rows[m].clear();
+      found.n_base_samples += m == 0 ? 1 : 0;
+    }
+  });
+  return found;
 }
 
 void add_pick_freeze(const Store& store, Sensitivity& s) {

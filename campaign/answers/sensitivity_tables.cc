@@ -1,11 +1,10 @@
-#include "campaign/answers/sensitivity_tables.h"
+#include "campaign/answers/sensitivity_parts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "campaign/answers/asked_outputs.h"
-#include "campaign/answers/designs.h"
+#include "campaign/answers/sample.h"
 #include "campaign/common/names.h"
 #include "campaign/render/shown.h"
 

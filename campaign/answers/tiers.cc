@@ -116,11 +116,7 @@ TierAnswer answer_of(TierAnswer asked, const PairedValues& pairs, const Tiers& t
 /// As lists of metrics have them, each with its unit.
 std::vector<TierAnswer> metrics_asked(const Store& store, const CampaignInfo& campaign,
                                       const std::string& list, const Selection& selection) {
-  std::string names = list;
-  if (list.empty()) {
-    for (const NamedId& fault : selection.faults)
-      names += concat(names.empty() ? "" : ",", spelled_name(fault.name), ".chi_bar");
-  }
+  const std::string names = list.empty() ? of_each_fault(selection.faults, "chi_bar") : list;
   const bool plane_strain = store.kinds(campaign.id, {}).plane_strain;
   std::vector<TierAnswer> asked;
   for (const ScopedMetric& one : choose_metrics(selection, names, true, false)) {

@@ -8,19 +8,16 @@ namespace faultsweep {
 
 namespace {
 
-void append(SqlFragment& to, const std::string& before, const SqlFragment& part) {
-  to.text += before + part.text;
-  to.parameters.insert(to.parameters.end(), part.parameters.begin(), part.parameters.end());
-}
-
 /// What a column says.
 constexpr int kImpossible = 0, kCameOutNo = 1, kCameOutYes = 2, kCertain = 3;
 
 SqlFragment column_of(const VerdictSql& verdict, const SqlFragment& computed) {
-  SqlFragment column;
-  append(column, "CASE WHEN ", verdict.certain);
-  append(column, concat(" THEN ", kCertain, " WHEN NOT coalesce("), verdict.possible);
-  append(column, concat(", 0) THEN ", kImpossible, " WHEN "), computed);
+  SqlFragment column{"CASE WHEN ", {}};
+  column += verdict.certain;
+  column.text += concat(" THEN ", kCertain, " WHEN NOT coalesce(");
+  column += verdict.possible;
+  column.text += concat(", 0) THEN ", kImpossible, " WHEN ");
+  column += computed;
   column.text += concat(" THEN ", kCameOutYes, " ELSE ", kCameOutNo, " END");
   return column;
 }

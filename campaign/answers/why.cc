@@ -33,11 +33,10 @@ faultsim::StageMetrics stage_of(const faultsim::CaseResult& result, const std::s
 }
 
 /// What the rows are compared by: the score, or the columns of the default order.
-double compared_value(const RankedCase& row, const std::string& compared, bool by_default) {
-  if (!by_default) return row.score.value_or(std::numeric_limits<double>::quiet_NaN());
-  const faultsim::Measures& m =
-      row.fault_metrics ? static_cast<const faultsim::Measures&>(*row.fault_metrics) : row.metrics;
-  return compared == "chi_bar" ? m.chi_bar : m.activated_area;
+double compared_value(const Why& why, const RankedCase& row) {
+  if (!why.ranking.by_default) return row.score.value_or(std::numeric_limits<double>::quiet_NaN());
+  const faultsim::Measures& m = measures_of(row);
+  return why.compared == "chi_bar" ? m.chi_bar : m.activated_area;
 }
 
 /// The only parameter in which two cases differ; none where they differ in more, in none, or do
@@ -79,12 +78,11 @@ std::vector<Neighbour> neighbours_of(const Why& why) {
     if (*to > *from) values.above = std::min(values.above, *to);
   }
   std::vector<Neighbour> neighbours;
-  const bool by_default = why.ranking.by_default;
   for (const auto& [k, row] : near) {
     const CaseParameter &from = own[k], &to = row->parameters[k];
     const bool numbers = from.si && to.si;
     if (numbers && *to.si != next[k].below && *to.si != next[k].above) continue;
-    const double value = compared_value(*row, why.compared, by_default);
+    const double value = compared_value(why, *row);
     neighbours.push_back({parameters[static_cast<std::size_t>(from.index)].name, from.text, to.text,
                           *row, value, value - why.value});
   }
@@ -126,9 +124,8 @@ void add_neighbourhood(Why& why) {
   std::size_t here = 0;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (rows[r].position == why.row.position) here = r;
-    values.push_back(rows[r].rank_class > 1
-                         ? std::numeric_limits<double>::quiet_NaN()
-                         : compared_value(rows[r], why.compared, why.ranking.by_default));
+    values.push_back(rows[r].rank_class > 1 ? std::numeric_limits<double>::quiet_NaN()
+                                            : compared_value(why, rows[r]));
   }
   const std::vector<double> distances = distances_from(space, here);
   for (const std::size_t r : nearest(distances, here, kNearest))
@@ -153,14 +150,13 @@ std::optional<ErrorBar> error_of(const Store& store, const Why& why) {
 Place place_of(const Store& store, const Why& why) {
   Place place;
   place.error = error_of(store, why);
-  const bool by_default = why.ranking.by_default;
   const double margin = place.error ? std::sqrt(2.0) * place.error->rms : 0;
   for (const RankedCase& row : why.ranking.rows) {
     if (row.rank_class != why.row.rank_class) continue;
     ++place.n_ranked;
     if (row.position == why.row.position) {
       place.place = place.n_ranked;
-    } else if (std::abs(compared_value(row, why.compared, by_default) - why.value) <= margin) {
+    } else if (std::abs(compared_value(why, row) - why.value) <= margin) {
       place.ties.push_back(row.position);
     }
   }
@@ -177,12 +173,10 @@ Why explain_rank(const Store& store, const CampaignInfo& campaign, const StoredC
   why.stored = stored;
   why.row = row_of(why.ranking, stored);
   why.metrics = stage_of(stored.result, request.stage);
-  const bool slides =
-      why.row.fault_metrics ? why.row.fault_metrics->activated : why.row.metrics.activated;
-  why.compared = !why.ranking.by_default ? why.ranking.request.by
-                 : slides                ? "activated_area"
-                                         : "chi_bar";
-  why.value = compared_value(why.row, why.compared, why.ranking.by_default);
+  why.compared = !why.ranking.by_default          ? why.ranking.request.by
+                 : measures_of(why.row).activated ? "activated_area"
+                                                  : "chi_bar";
+  why.value = compared_value(why, why.row);
   why.place = place_of(store, why);
   why.neighbours = neighbours_of(why);
   if (why.neighbours.empty()) add_neighbourhood(why);

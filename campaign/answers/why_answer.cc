@@ -182,11 +182,6 @@ std::string confidence_note(const Why& why) {
                 "max_slip.");
 }
 
-const faultsim::Measures& measures_of(const RankedCase& row) {
-  return row.fault_metrics ? static_cast<const faultsim::Measures&>(*row.fault_metrics)
-                           : row.metrics;
-}
-
 AnswerTable faults_table(const Why& why) {
   AnswerTable table{
       "faults",

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -10,6 +11,8 @@
 #include <vector>
 
 #include "campaign/common/names.h"
+#include "campaign/render/answer.h"
+#include "campaign/store/store.h"
 #include "simulator/common/exit_code.h"
 
 /// The commands of faultsweep: each prints its data on stdout, its talk on stderr, and returns the
@@ -77,6 +80,23 @@ void add_wide(CLI::App* command);
 void add_renderings(CLI::App* command, StoreArguments& common);
 void add_confidence(CLI::App* command, double& confidence);
 void add_workers(CLI::App* command, std::optional<int>& n_workers, const char* description);
+
+/// Prints the answer on stdout: as text at the width of the screen, as JSON or one of its tables as
+/// CSV. Throws InputError where there is no such table.
+void print_answer(const Answer& answer, const StoreArguments& common);
+
+/// Columns of the terminal that stdout is; else those of COLUMNS, or kScreenWidth.
+std::size_t screen_width();
+/// What screen_width() gives from now on: --wide asks for one without end.
+void set_screen_width(std::size_t width);
+
+/// A case addressed as CASE or CAMPAIGN/CASE.
+struct NamedCase {
+  CampaignInfo campaign;
+  StoredCase stored;
+};
+/// @param campaign  where the name has none; "" = the newest.
+NamedCase find_case(const Store& store, const std::string& campaign, const std::string& name);
 
 /// Bytes of "20 GB", "500 MB", "0". Throws InputError that names the option.
 std::uint64_t parse_size(const std::string& option, const std::string& text);

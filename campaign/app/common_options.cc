@@ -1,5 +1,4 @@
 #include "campaign/app/commands.h"
-#include "campaign/app/print_answer.h"
 
 namespace faultsweep {
 

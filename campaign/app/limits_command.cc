@@ -3,7 +3,6 @@
 
 #include "campaign/answers/limit_table.h"
 #include "campaign/app/commands.h"
-#include "campaign/app/print_answer.h"
 #include "campaign/common/names.h"
 #include "campaign/expansion/submission.h"
 #include "campaign/rounds/next_round.h"

@@ -2,7 +2,6 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/app/commands.h"
-#include "campaign/app/print_answer.h"
 #include "campaign/common/names.h"
 #include "campaign/nightly/night.h"
 #include "campaign/nightly/night_report.h"

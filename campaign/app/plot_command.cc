@@ -1,5 +1,5 @@
 #include "campaign/answers/probability.h"
-#include "campaign/answers/what_matters.h"
+#include "campaign/answers/sensitivity.h"
 #include "campaign/app/commands.h"
 #include "campaign/common/names.h"
 #include "campaign/figures/campaign_figures.h"
@@ -48,20 +48,14 @@ std::string draw_campaign(const PlotArguments& arguments, const Store& store) {
                    "choose one of " + names);
 }
 
-/// CAMPAIGN/CASE, or CASE of the newest campaign.
 std::string draw_case_of(const PlotArguments& arguments, const faultsim::CaseChartInfo& info,
                          const Store& store) {
-  const std::size_t slash = arguments.subject.rfind('/');
-  const bool has_campaign = slash != std::string::npos;
-  const std::string name = has_campaign ? arguments.subject.substr(slash + 1) : arguments.subject;
-  if (name.empty()) {
+  if (arguments.subject.empty() || arguments.subject.ends_with('/')) {
     throw InputError("subject", concat("a ", info.name, " is of one case"),
                      "name it: CAMPAIGN/CASE, or its number");
   }
-  const CampaignInfo campaign =
-      store.campaign(has_campaign ? arguments.subject.substr(0, slash) : "", false);
-  const StoredCase one = store.stored_case(campaign.id, name);
-  const StoredPicture stored(store, campaign, one);
+  const NamedCase found = find_case(store, "", arguments.subject);
+  const StoredPicture stored(store, found.campaign, found.stored);
   return draw_case(stored.picture(), {info.chart, arguments.fault, arguments.step, false});
 }
 

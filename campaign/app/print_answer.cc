@@ -1,4 +1,4 @@
-#include "campaign/app/print_answer.h"
+#include "campaign/app/commands.h"
 
 #include <sys/ioctl.h>
 #include <unistd.h>

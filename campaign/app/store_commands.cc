@@ -4,12 +4,10 @@
 
 #include "campaign/answers/why.h"
 #include "campaign/app/commands.h"
-#include "campaign/app/print_answer.h"
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
 #include "campaign/render/render.h"
 #include "campaign/reports/case_report.h"
-#include "campaign/reports/explain_report.h"
 #include "campaign/reports/ranking_answer.h"
 #include "campaign/reports/status_report.h"
 #include "campaign/store/clock.h"
@@ -18,6 +16,15 @@
 #include "simulator/files/output_target.h"
 
 namespace faultsweep {
+
+NamedCase find_case(const Store& store, const std::string& campaign, const std::string& name) {
+  const std::size_t slash = name.rfind('/');
+  const bool has_campaign = slash != std::string::npos;
+  NamedCase found;
+  found.campaign = store.campaign(has_campaign ? name.substr(0, slash) : campaign, false);
+  found.stored = store.stored_case(found.campaign.id, has_campaign ? name.substr(slash + 1) : name);
+  return found;
+}
 
 std::uint64_t parse_size(const std::string& option, const std::string& text) {
   char* end = nullptr;
@@ -39,27 +46,12 @@ namespace {
 void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
 void print(const json& document) { print(faultsim::json_text(document)); }
 
-/// A case addressed as CASE or CAMPAIGN/CASE.
-struct NamedCase {
-  CampaignInfo campaign;
-  StoredCase stored;
-};
-
-NamedCase find_case(const Store& store, const StoreArguments& common, const std::string& name) {
-  const std::size_t slash = name.rfind('/');
-  const bool has_campaign = slash != std::string::npos;
-  NamedCase found;
-  found.campaign = store.campaign(has_campaign ? name.substr(0, slash) : common.campaign, false);
-  found.stored = store.stored_case(found.campaign.id, has_campaign ? name.substr(slash + 1) : name);
-  return found;
-}
-
 /// Prints what is answered of a case.
 template <typename AnswerOf>
 ExitCode answer_case(const StoreArguments& common, const std::string& name,
                      const AnswerOf& answer) {
   const Store store = Store::open_reader(common.store);
-  print_answer(answer(store, find_case(store, common, name)), common);
+  print_answer(answer(store, find_case(store, common.campaign, name)), common);
   return ExitCode::done;
 }
 

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "campaign/app/commands.h"
-#include "campaign/app/print_answer.h"
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
 #include "campaign/expansion/submission.h"
@@ -20,34 +19,11 @@
 #include "simulator/files/json_text.h"
 #include "simulator/files/output_target.h"
 #include "simulator/reading/read_scene.h"
+#include "starter_campaign.h"
 
 namespace faultsweep {
 
 namespace {
-
-constexpr const char* kStarterSpec = R"({
-  "format": 1,
-  "name": "starter",
-  "title": "Offset, friction and fault pressure of the starter field",
-  "base": "scene.json",
-  "set": { "/tier": "screening" },
-  "design": {
-    "kind": "grid",
-    "parameters": {
-      "offset": ["0 m", "100 m", "200 m"],
-      "friction_angle": { "from": "20 deg", "to": "35 deg", "count": 4 },
-      "fault_pressure": {
-        "variants": {
-          "mean": { "/fault_pressure": { "rule": "mean" } },
-          "min": { "/fault_pressure": { "rule": "min" } }
-        }
-      }
-    }
-  },
-  "policy": { "on_failure": "continue", "time_limit": "10 min" },
-  "metrics": { "rank_by": "activated_area" }
-}
-)";
 
 void require_new(const std::filesystem::path& path) {
   if (std::filesystem::exists(std::filesystem::symlink_status(path))) {
@@ -213,7 +189,7 @@ ExitCode init(const StoreArguments&, const std::filesystem::path& folder) {
   require_new(spec);
   faultsim::create_folders(folder);
   faultsim::write_text(scene, faultsim::starter_scene("field"));
-  faultsim::write_text(spec, kStarterSpec);
+  faultsim::write_text(spec, std::string(faultsim::embedded::starter_campaign));
   std::printf("%s\n%s\n", scene.c_str(), spec.c_str());
   std::fprintf(stderr, "Next: faultsweep submit %s --dry-run\n",
                (folder / "campaign.json").c_str());

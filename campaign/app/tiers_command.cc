@@ -1,7 +1,6 @@
 
 #include "campaign/answers/tiers.h"
 #include "campaign/app/commands.h"
-#include "campaign/app/print_answer.h"
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
 #include "campaign/expansion/submission.h"

@@ -2,7 +2,6 @@
 #include <memory>
 
 #include "campaign/app/commands.h"
-#include "campaign/app/print_answer.h"
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
 #include "campaign/expansion/submission.h"
@@ -10,7 +9,7 @@
 #include "campaign/scheduler/resources.h"
 #include "campaign/scheduler/starter.h"
 #include "campaign/store/clock.h"
-#include "campaign/tradeoff/sample.h"
+#include "campaign/tradeoff/ladder.h"
 #include "campaign/tradeoff/stored_ladder.h"
 #include "campaign/tradeoff/trade_report.h"
 #include "simulator/files/atomic_file.h"

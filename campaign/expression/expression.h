@@ -111,6 +111,7 @@ class ExpressionError : public faultsim::InputError {
 struct SqlFragment {
   std::string text;
   std::vector<Value> parameters;
+  SqlFragment& operator+=(const SqlFragment& part);
 };
 
 /// A condition that may be undecided, as SQL: yes where `certain` holds, undecided where only

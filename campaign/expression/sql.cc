@@ -2,13 +2,18 @@
 
 namespace faultsweep {
 
+SqlFragment& SqlFragment::operator+=(const SqlFragment& part) {
+  text += part.text;
+  parameters.insert(parameters.end(), part.parameters.begin(), part.parameters.end());
+  return *this;
+}
+
 SqlFragment applied(Operation operation, const std::vector<SqlFragment>& operands) {
   const OperationInfo& spelling = info(operation);
   SqlFragment all;
   for (const SqlFragment& one : operands) {
     all.text += all.text.empty() ? spelling.before : spelling.between;
-    all.text += one.text;
-    all.parameters.insert(all.parameters.end(), one.parameters.begin(), one.parameters.end());
+    all += one;
   }
   all.text += ')';
   return all;

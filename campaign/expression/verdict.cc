@@ -18,10 +18,7 @@ constexpr std::size_t kLongest = 20000;  // characters: nested products double t
 constexpr double kNearRightAngle = 1.57;
 
 void add(SqlFragment& out, const char* text) { out.text += text; }
-void add(SqlFragment& out, const SqlFragment& part) {
-  out.text += part.text;
-  out.parameters.insert(out.parameters.end(), part.parameters.begin(), part.parameters.end());
-}
+void add(SqlFragment& out, const SqlFragment& part) { out += part; }
 template <typename... Parts>
 SqlFragment joined(const Parts&... parts) {
   SqlFragment out;

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/answers/probability.h"
-#include "campaign/answers/what_matters.h"
+#include "campaign/answers/sensitivity.h"
 #include "campaign/common/names.h"
 #include "campaign/figures/campaign_figures.h"
 #include "campaign/query/parameters.h"

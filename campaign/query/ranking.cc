@@ -169,9 +169,13 @@ faultsim::StageMetrics metrics_of(const RankedCase& row) {
   return m;
 }
 
+const faultsim::Measures& measures_of(const RankedCase& row) {
+  return row.fault_metrics ? static_cast<const faultsim::Measures&>(*row.fault_metrics)
+                           : row.metrics;
+}
+
 bool is_resolved(const RankedCase& row) {
-  const faultsim::Measures& m =
-      row.fault_metrics ? static_cast<const faultsim::Measures&>(*row.fault_metrics) : row.metrics;
+  const faultsim::Measures& m = measures_of(row);
   return m.activation_resolved && row.weakening_resolved &&
          row.outcome != to_string(faultsim::Outcome::unresolved_event);
 }

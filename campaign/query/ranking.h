@@ -62,6 +62,7 @@ std::string common_tier(const Store& store, const CampaignInfo& campaign);
 std::vector<ErrorBar> error_bars_of(const Store& store, const CampaignInfo& campaign);
 /// What a row is about: the case or, where one is ranked, the fault.
 faultsim::StageMetrics metrics_of(const RankedCase& row);
+const faultsim::Measures& measures_of(const RankedCase& row);
 /// Neither whether it slides nor the size of its events depends on the cells.
 bool is_resolved(const RankedCase& row);
 

@@ -255,6 +255,13 @@ std::vector<ScopedMetric> choose_metrics(const Selection& selection, const std::
   return chosen;
 }
 
+std::string of_each_fault(const std::vector<NamedId>& faults, const std::string& metric) {
+  std::string names;
+  for (const NamedId& one : faults)
+    names += concat(names.empty() ? "" : ",", spelled_name(one.name), ".", metric);
+  return names;
+}
+
 void refuse_mixed(const Store::Kinds& kinds, const std::string& option, const std::string& what) {
   if (!kinds.mixed()) return;
   throw InputError(

@@ -73,6 +73,9 @@ bool creeps(const Store& store, const CampaignInfo& campaign);
 std::vector<ScopedMetric> choose_metrics(const Selection& selection, const std::string& list,
                                          bool with_missing, bool with_creep);
 
+/// "F1.chi_bar,F2.chi_bar", as choose_metrics takes it.
+std::string of_each_fault(const std::vector<NamedId>& faults, const std::string& metric);
+
 /// Throws the option's InputError where `what`, an area, a potency or a moment, would be compared
 /// between results per metre of strike and in total.
 void refuse_mixed(const Store::Kinds& kinds, const std::string& option, const std::string& what);

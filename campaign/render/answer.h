@@ -67,6 +67,11 @@ inline AnswerCell words_or_nothing(const std::string& words) {
   return words.empty() ? AnswerCell() : AnswerCell(words);
 }
 
+/// The number of a case; nothing for 0.
+inline AnswerCell case_cell(long position) {
+  return position > 0 ? AnswerCell(position) : AnswerCell();
+}
+
 /// Further columns, or cells of a row, behind those that there are.
 template <typename T>
 void append(std::vector<T>& all, const std::vector<T>& more) {

@@ -40,4 +40,7 @@ std::string fields_sentence(const CampaignInfo& campaign, const StoredCase& stor
 /// Files of fields that are said to be kept are there.
 bool fields_are_there(const StoredCase& stored);
 
+/// `faultsweep explain CASE`: whether `faultsweep run` will compute it, and why.
+Answer explanation(const Store& store, const CampaignInfo& campaign, const StoredCase& one);
+
 }  // namespace faultsweep

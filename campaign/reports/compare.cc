@@ -37,15 +37,12 @@ long Comparison::n_beyond() const {
 namespace {
 
 /// A case as it is compared.
-struct Side {
-  std::int64_t id = 0;
-  long position = 0;
-  std::string identity;
-  std::string key;  ///< values of the shared parameters; "" = none are shared.
-  CaseParameters parameters;
-  std::string outcome;  ///< or status of the failed run; "" = not run.
-  bool has_result = false, complete = false, activated = false, plane_strain = false;
-  std::vector<double> metrics;  ///< NaN = missing.
+struct Side : CaseRow {
+  std::string key;         ///< values of the shared parameters; "" = none are shared.
+  std::string ended = {};  ///< its outcome, or the status of the failed run; "" = not run.
+  bool activated = false, plane_strain = false;
+  std::vector<double> numbers = {};  ///< its metrics; NaN = missing.
+  bool has_result() const { return rank_class.has_value(); }
 };
 
 /// Where the shared parameters stand in a campaign's parameter vectors.
@@ -83,20 +80,13 @@ std::vector<Side> read_side(const Store& store, const CampaignInfo& campaign,
   const std::vector<std::size_t> places = places_of(comparison.shared_parameters, campaign);
   std::vector<Side> cases;
   store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
-    Side side;
-    side.id = row.id;
-    side.position = row.position;
-    side.identity = row.identity;
-    side.key = key_of(row.parameters, places);
-    side.parameters = row.parameters;
-    side.has_result = row.rank_class.has_value();
-    side.complete = row.complete();
-    side.outcome = side.has_result ? row.outcome : row.state == "failed" ? row.status : "";
-    side.activated = number_of(row.metrics[0]) > 0;
-    side.plane_strain = number_of(row.metrics[1]) > 0;
-    for (std::size_t k = 2; k < row.metrics.size(); ++k) {
-      side.metrics.push_back(number_of(row.metrics[k]));
-    }
+    Side side{row, key_of(row.parameters, places)};
+    side.ended = side.has_result() ? row.outcome : row.state == "failed" ? row.status : "";
+    for (const Cell& cell : side.metrics) side.numbers.push_back(number_of(cell));
+    side.activated = side.numbers[0] > 0;
+    side.plane_strain = side.numbers[1] > 0;
+    side.numbers.erase(side.numbers.begin(), side.numbers.begin() + 2);
+    side.metrics.clear(), side.metrics.shrink_to_fit();  // many cases
     cases.push_back(std::move(side));
   });
   return cases;
@@ -190,14 +180,14 @@ ComparedPair compare_pair(const Side& a, const Side& b, Comparison& comparison) 
   pair.a = a.position;
   pair.b = b.position;
   pair.parameters = a.parameters;
-  pair.outcome_a = a.outcome;
-  pair.outcome_b = b.outcome;
-  pair.outcome_differs = a.outcome != b.outcome;
+  pair.outcome_a = a.ended;
+  pair.outcome_b = b.ended;
+  pair.outcome_differs = a.ended != b.ended;
   pair.identical = !pair.outcome_differs;
-  if (!a.has_result || !b.has_result) return pair;
+  if (!a.has_result() || !b.has_result()) return pair;
   pair.flipped = a.activated != b.activated;
-  for (std::size_t k = 0; k < a.metrics.size(); ++k) {
-    const double x = a.metrics[k], y = b.metrics[k];
+  for (std::size_t k = 0; k < a.numbers.size(); ++k) {
+    const double x = a.numbers[k], y = b.numbers[k];
     compare_metric(comparison.metrics[k], a, b, x, y, comparison.request.tolerance);
     pair.identical = pair.identical && same_bits(x, y);
     const double relative = relative_difference(x, y);
@@ -213,7 +203,7 @@ ComparedPair compare_pair(const Side& a, const Side& b, Comparison& comparison) 
 /// A plane-strain result beside one in 3D: areas, potency and moments would compare a number per
 /// metre of strike with a total.
 void refuse_other_kind(const Side& a, const Side& b, const Comparison& comparison) {
-  if (!a.has_result || !b.has_result || a.plane_strain == b.plane_strain) return;
+  if (!a.has_result() || !b.has_result() || a.plane_strain == b.plane_strain) return;
   const auto dimension = [](const Side& side) {
     return side.plane_strain ? "plane strain, per metre of strike" : "3D, a total";
   };
@@ -303,8 +293,8 @@ Comparison compare_campaigns(const Store& store_a, const CampaignInfo& a, const 
   const bool same_store = is_same_store(store_a, store_b);
   Matches ranked;
   for (const auto& [one, other] : match(cases_a, cases_b, comparison)) {
-    const bool neither = !one->has_result && !other->has_result;
-    if (neither || one->outcome.empty() || other->outcome.empty()) {
+    const bool neither = !one->has_result() && !other->has_result();
+    if (neither || one->ended.empty() || other->ended.empty()) {
       ++comparison.n_without;
     } else if (same_store && one->id == other->id) {
       ++comparison.n_same_result;
@@ -312,7 +302,7 @@ Comparison compare_campaigns(const Store& store_a, const CampaignInfo& a, const 
       refuse_other_kind(*one, *other, comparison);
       comparison.pairs.push_back(compare_pair(*one, *other, comparison));
       (one->plane_strain ? comparison.kinds.plane_strain : comparison.kinds.total) = true;
-      if (one->complete && other->complete) ranked.emplace_back(one, other);
+      if (one->complete() && other->complete()) ranked.emplace_back(one, other);
     }
   }
   compare_rankings(store_a, store_b, ranked, comparison);

@@ -62,8 +62,6 @@ std::vector<std::string> headline_of(const Comparison& c) {
   return sentences;
 }
 
-AnswerCell case_cell(long position) { return position > 0 ? AnswerCell(position) : AnswerCell(); }
-
 AnswerTable metrics_table(const Comparison& c) {
   AnswerTable table{"metrics",
                     "",

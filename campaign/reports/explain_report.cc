@@ -1,9 +1,8 @@
-#include "campaign/reports/explain_report.h"
+#include "campaign/reports/case_report.h"
 
 #include <nlohmann/json.hpp>
 
 #include "campaign/common/names.h"
-#include "campaign/reports/case_report.h"
 #include "campaign/store/clock.h"
 #include "simulator/common/fingerprint.h"
 

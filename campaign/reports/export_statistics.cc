@@ -9,6 +9,7 @@
 #include "campaign/query/selection.h"
 #include "campaign/query/table_output.h"
 #include "campaign/reports/export.h"
+#include "simulator/files/atomic_file.h"
 #include "simulator/files/result_folder.h"
 
 namespace faultsweep {
@@ -314,11 +315,10 @@ std::string export_salib(const Store& store, const CampaignInfo& campaign,
     folder.write(row, factors, losses.metrics_of(row));
   });
   folder.finish();
-  TableOutput problem(output.path() / "problem.json");
-  problem.write(
+  faultsim::write_text(
+      output.path() / "problem.json",
       problem_json(campaign, request, factors, metrics, chosen.plane_strain, losses).dump(2) +
-      "\n");
-  problem.finish();
+          "\n");
   output.commit();
   return concat(
       losses.n_rows, " rows of ", campaign.name, " in the order of the design, ", factors.size(),

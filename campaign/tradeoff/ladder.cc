@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
@@ -269,6 +270,33 @@ class LadderMaker {
   std::vector<TradeAxis> axes_;
 };
 
+/// A group of a spec with one parameter, `choice`.
+json group_of(const std::string& name, const json& variants) {
+  json parameters;
+  parameters["choice"]["variants"] = variants;
+  return {{"name", name}, {"design", {{"kind", "grid"}, {"parameters", parameters}}}};
+}
+
+/// The case at a tier, as changes of the base scene: what it has differently, without its own mesh.
+json at_tier(const json& base, json scene, const std::string& tier) {
+  scene["tier"] = tier;
+  scene["mesh"] = json::object();
+  if (scene.contains("numerics")) scene["numerics"].erase("plane_strain");
+  json changes = json::object();
+  for (const auto& [key, value] : scene.items()) {
+    if (!base.contains(key) || base[key] != value) changes["/" + key] = value;
+  }
+  return changes;
+}
+
+/// A step through n cases that visits all and keeps away from the strides of a grid: near the
+/// golden section of n and coprime to it.
+long scattering_stride(long n) {
+  long stride = std::max(1L, std::lround(0.6180339887 * static_cast<double>(n)));
+  while (std::gcd(stride, n) != 1) ++stride;
+  return stride;
+}
+
 }  // namespace
 
 std::vector<TradeAxis> make_ladder(const JsonDocument& scene, const LadderLimits& limits) {
@@ -286,16 +314,30 @@ json ladder_spec(const std::string& name, const JsonDocument& scene,
       for (const Change& change : choice.changes) changes[change.pointer] = change.value;
     }
     if (variants.empty()) continue;
-    json parameters;
-    parameters["choice"]["variants"] = variants;
-    groups.push_back(
-        {{"name", axis.name}, {"design", {{"kind", "grid"}, {"parameters", parameters}}}});
+    groups.push_back(group_of(axis.name, variants));
   }
   return {{"format", 1},
           {"name", name},
           {"base", scene.value},
           {"design", {{"kind", "groups"}, {"groups", groups}}},
           {"policy", {{"on_failure", "continue"}}}};
+}
+
+std::string sample_group(const std::string& tier) { return "ranking, " + tier; }
+
+void add_sample(const Expansion& campaign, const json& base, long n_cases,
+                const std::vector<std::string>& tiers, json& spec) {
+  const auto n = static_cast<long>(campaign.cases.size());
+  const long stride = scattering_stride(n);
+  for (const std::string& tier : tiers) {
+    json variants = json::object();
+    for (long k = 0; k < std::min(n, n_cases); ++k) {
+      const auto index = static_cast<std::size_t>(k * stride % n);
+      variants[concat("case ", index + 1)] =
+          at_tier(base, scene_of(campaign, campaign.cases[index]), tier);
+    }
+    spec["design"]["groups"].push_back(group_of(sample_group(tier), variants));
+  }
 }
 
 }  // namespace faultsweep

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign/expansion/expansion.h"
 #include "campaign/spec/spec.h"
 #include "simulator/documents/json_document.h"
 
@@ -49,5 +50,14 @@ std::vector<TradeAxis> make_ladder(const faultsim::JsonDocument& scene, const La
 /// @param name  of the campaign.
 nlohmann::json ladder_spec(const std::string& name, const faultsim::JsonDocument& scene,
                            const std::vector<TradeAxis>& axes);
+
+/// The group of a ladder's campaign that has the sample at a tier.
+std::string sample_group(const std::string& tier);
+
+/// Adds a group per tier to the spec of a ladder, each with the same cases of a campaign: at most
+/// n_cases, scattered over its design, with the mesh of the tier instead of their own.
+/// @param base  the scene that the spec's cases are changes of.
+void add_sample(const Expansion& campaign, const nlohmann::json& base, long n_cases,
+                const std::vector<std::string>& tiers, nlohmann::json& spec);
 
 }  // namespace faultsweep

@@ -5,7 +5,7 @@
 
 #include "campaign/common/names.h"
 #include "campaign/statistics/kendall.h"
-#include "campaign/tradeoff/sample.h"
+#include "campaign/tradeoff/ladder.h"
 
 namespace faultsweep {
 

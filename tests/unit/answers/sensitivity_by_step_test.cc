@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "campaign/answers/what_matters.h"
+#include "campaign/answers/sensitivity.h"
 #include "campaign/render/render.h"
 #include "tests/unit/answers/answers_fixture.h"
 #include "tests/unit/answers/renderings.h"

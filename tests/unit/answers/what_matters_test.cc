@@ -1,6 +1,6 @@
 // What matters in campaigns that are no sample: trajectories of a morris design, one parameter at a
 // time, whole grids.
-#include "campaign/answers/what_matters.h"
+#include "campaign/answers/sensitivity.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,7 +7,6 @@
 #include "campaign/query/parameters.h"
 #include "campaign/render/shown.h"
 #include "campaign/reports/case_report.h"
-#include "campaign/reports/explain_report.h"
 #include "campaign/reports/ranking_answer.h"
 #include "campaign/reports/status_report.h"
 #include "campaign/spec/metrics.h"

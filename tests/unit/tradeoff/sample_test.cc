@@ -1,4 +1,4 @@
-#include "campaign/tradeoff/sample.h"
+#include "campaign/tradeoff/ladder.h"
 
 #include <gtest/gtest.h>
 
