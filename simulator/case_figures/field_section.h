@@ -5,6 +5,7 @@
 #include "simulator/figure/depth_chart.h"
 #include "simulator/figure/section.h"
 #include "simulator/scene/field_depths.h"
+#include "simulator/scene/scene.h"
 
 /// Inside of the module: where things lie in a field.
 namespace faultsim {
