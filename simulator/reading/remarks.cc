@@ -23,7 +23,7 @@ bool is_zero(const PressureHistory& history) {
          std::ranges::all_of(changes, [](double change) { return change == 0; });
 }
 
-bool is_all(const std::vector<double>& values, double value) {
+bool is_all(const auto& values, double value) {
   return !values.empty() && std::ranges::all_of(values, [&](double each) { return each == value; });
 }
 
@@ -132,7 +132,7 @@ class IdleInputs {
       const BoundaryCondition& condition = scene_.box.boundary[i];
       const std::string at = element("/geometry/boundary", i);
       const bool is_loaded = acts(condition);
-      if (condition.kind == BoundaryKind::stress && is_all(list(condition.stress), 0)) {
+      if (condition.kind == BoundaryKind::stress && is_all(condition.stress, 0)) {
         idle(at + "/stress", "it is zero, and the face as free as without it");
       }
       const std::vector<double>& factor = condition.table.factor;
@@ -146,14 +146,10 @@ class IdleInputs {
     }
   }
 
-  static std::vector<double> list(const std::array<double, 9>& tensor) {
-    return {tensor.begin(), tensor.end()};
-  }
-
   /// Whether the face moves or is loaded.
   static bool acts(const BoundaryCondition& condition) {
     if (is_all(condition.table.factor, 0)) return false;
-    if (condition.kind == BoundaryKind::stress) return !is_all(list(condition.stress), 0);
+    if (condition.kind == BoundaryKind::stress) return !is_all(condition.stress, 0);
     if (condition.kind != BoundaryKind::displacement) return false;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto row = condition.gradient.begin() + 3 * static_cast<long>(i);
