@@ -221,34 +221,6 @@ Ticks ticks_of(const std::vector<StepResult>& steps, const std::string& stage,
   return way.empty() ? Ticks{} : pressure_ticks(way, onsets);
 }
 
-}  // namespace
-
-Curves probability_curves(const Store& store, const CampaignInfo& campaign,
-                          const CurveRequest& request) {
-  const Selection selection = make_selection(store, campaign, request.stage, "");
-  Curves found{campaign, request, sampling_of(store, campaign), 0, {}};
-  const bool each_stage = request.axis == CurveAxis::pressure && request.stage.empty();
-  Store::TableQuery query = case_query(campaign, selection, request.where);
-  if (each_stage) query.stage = any_stage(selection);
-  const std::string read_first = query.stage;
-  const StageRows first = read_stage(store, campaign, query);
-  found.n_rows = first.n;
-  const std::vector<StepResult> steps = reference_steps(store, campaign, first);
-  for (const std::string& stage : each_stage ? stages_of(steps) : std::vector{request.stage}) {
-    query.stage = stage;
-    const StageRows others = stage == read_first ? StageRows{} : read_stage(store, campaign, query);
-    const StageRows& rows = stage == read_first ? first : others;
-    const Ticks ticks = ticks_of(steps, stage, rows, request.axis);
-    for (const NamedId& fault : selection.faults) {
-      found.curves.push_back(fault_curve(rows, fault, ticks, found));
-      found.curves.back().stage = stage;
-    }
-  }
-  return found;
-}
-
-namespace {
-
 /// The axis as a column.
 AnswerColumn axis_column(CurveAxis axis) {
   switch (axis) {
@@ -329,6 +301,30 @@ std::string last_point(const Curves& curves) {
 }
 
 }  // namespace
+
+Curves probability_curves(const Store& store, const CampaignInfo& campaign,
+                          const CurveRequest& request) {
+  const Selection selection = make_selection(store, campaign, request.stage, "");
+  Curves found{campaign, request, sampling_of(store, campaign), 0, {}};
+  const bool each_stage = request.axis == CurveAxis::pressure && request.stage.empty();
+  Store::TableQuery query = case_query(campaign, selection, request.where);
+  if (each_stage) query.stage = any_stage(selection);
+  const std::string read_first = query.stage;
+  const StageRows first = read_stage(store, campaign, query);
+  found.n_rows = first.n;
+  const std::vector<StepResult> steps = reference_steps(store, campaign, first);
+  for (const std::string& stage : each_stage ? stages_of(steps) : std::vector{request.stage}) {
+    query.stage = stage;
+    const StageRows others = stage == read_first ? StageRows{} : read_stage(store, campaign, query);
+    const StageRows& rows = stage == read_first ? first : others;
+    const Ticks ticks = ticks_of(steps, stage, rows, request.axis);
+    for (const NamedId& fault : selection.faults) {
+      found.curves.push_back(fault_curve(rows, fault, ticks, found));
+      found.curves.back().stage = stage;
+    }
+  }
+  return found;
+}
 
 Answer to_answer(const Curves& curves) {
   Answer answer;

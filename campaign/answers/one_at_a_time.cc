@@ -104,48 +104,6 @@ Tornado tornado_of(const std::vector<long>& rows, const std::map<long, CaseValue
   throw InputError("sensitivity", what, cure);
 }
 
-}  // namespace
-
-std::optional<OneAtATime> compare_one_at_a_time(const Store& store, const CampaignInfo& campaign,
-                                                const SensitivityRequest& request) {
-  const auto groups = nlohmann::json::parse(store.spec_copies(campaign.id).resolved).at("groups");
-  const auto is_one_at_a_time = [](const auto& one) { return one.at("kind") == "one-at-a-time"; };
-  if (std::ranges::none_of(groups, is_one_at_a_time)) return std::nullopt;
-  if (!request.cases.where.empty())
-    refuse_tornado("changes are counted from the base case", "leave out --where");
-  const Selection selection =
-      make_selection(store, campaign, request.cases.stage, request.cases.fault);
-  OneAtATime found{campaign, request, {}, {}, {}, {}};
-  found.outputs = asked_outputs(store, campaign, request, selection);
-  found.plane_strain = store.kinds(campaign.id, {}).plane_strain;
-  for (const StoredParameter& one : campaign.parameters) found.parameters.push_back(one.name);
-  const bool has_groups = !found.parameters.empty() && found.parameters[0] == kGroup;
-  std::map<long, CaseValues> cases;
-  store.for_each_case(campaign.id, case_query(campaign, selection, "", found.outputs),
-                      [&](const CaseRow& row) { cases.emplace(row.position, values_of(row)); });
-  const auto rows = rows_of_groups(store, campaign, groups, cases);
-  for (std::size_t g = 0; g < rows.size(); ++g) {
-    if (!is_one_at_a_time(groups[g])) {
-      ++found.n_other_groups;
-      continue;
-    }
-    const std::string name = has_groups ? groups[g].at("name").get<std::string>() : "";
-    if (rows[g].empty() || !cases.at(rows[g].front()).is_complete) {
-      found.without_base.push_back(name);
-      continue;
-    }
-    found.tornados.push_back(tornado_of(rows[g], cases, moved_by(groups[g], found.parameters)));
-    found.tornados.back().group = name;
-  }
-  if (found.tornados.empty()) {
-    refuse_tornado("the base case, from which changes are counted, has no history to its end",
-                   concat("run it: faultsweep run ", campaign.name));
-  }
-  return found;
-}
-
-namespace {
-
 /// The least and greatest of a metric as one parameter moves, the base case among them; what
 /// differs by rounding only does not move.
 struct Swing {
@@ -311,6 +269,44 @@ void add_notes(const OneAtATime& found, Answer& answer) {
 }
 
 }  // namespace
+
+std::optional<OneAtATime> compare_one_at_a_time(const Store& store, const CampaignInfo& campaign,
+                                                const SensitivityRequest& request) {
+  const auto groups = nlohmann::json::parse(store.spec_copies(campaign.id).resolved).at("groups");
+  const auto is_one_at_a_time = [](const auto& one) { return one.at("kind") == "one-at-a-time"; };
+  if (std::ranges::none_of(groups, is_one_at_a_time)) return std::nullopt;
+  if (!request.cases.where.empty())
+    refuse_tornado("changes are counted from the base case", "leave out --where");
+  const Selection selection =
+      make_selection(store, campaign, request.cases.stage, request.cases.fault);
+  OneAtATime found{campaign, request, {}, {}, {}, {}};
+  found.outputs = asked_outputs(store, campaign, request, selection);
+  found.plane_strain = store.kinds(campaign.id, {}).plane_strain;
+  for (const StoredParameter& one : campaign.parameters) found.parameters.push_back(one.name);
+  const bool has_groups = !found.parameters.empty() && found.parameters[0] == kGroup;
+  std::map<long, CaseValues> cases;
+  store.for_each_case(campaign.id, case_query(campaign, selection, "", found.outputs),
+                      [&](const CaseRow& row) { cases.emplace(row.position, values_of(row)); });
+  const auto rows = rows_of_groups(store, campaign, groups, cases);
+  for (std::size_t g = 0; g < rows.size(); ++g) {
+    if (!is_one_at_a_time(groups[g])) {
+      ++found.n_other_groups;
+      continue;
+    }
+    const std::string name = has_groups ? groups[g].at("name").get<std::string>() : "";
+    if (rows[g].empty() || !cases.at(rows[g].front()).is_complete) {
+      found.without_base.push_back(name);
+      continue;
+    }
+    found.tornados.push_back(tornado_of(rows[g], cases, moved_by(groups[g], found.parameters)));
+    found.tornados.back().group = name;
+  }
+  if (found.tornados.empty()) {
+    refuse_tornado("the base case, from which changes are counted, has no history to its end",
+                   concat("run it: faultsweep run ", campaign.name));
+  }
+  return found;
+}
 
 Answer to_answer(const OneAtATime& found) {
   Answer answer;

@@ -276,30 +276,6 @@ void update_parameters(Posterior& p, const WeightedRows& rows) {
   }
 }
 
-}  // namespace
-
-Posterior find_posterior(const Store& store, const CampaignInfo& campaign,
-                         const PosteriorRequest& request) {
-  const Selection selection = make_selection(store, campaign, "", "");
-  Posterior found;
-  found.campaign = campaign;
-  found.request = request;
-  found.sampling = sampling_of(store, campaign);
-  found.seen = read_seen(request.seen, campaign, selection);
-  const std::vector<std::string> conditions =
-      request.conditions.empty() ? default_conditions(selection) : request.conditions;
-  const WeightedRows rows = PosteriorReader(store, found, selection, conditions).read();
-  found.effective_size = effective_sample_size(rows.of_complete);
-  refuse_few(found);
-  update_parameters(found, rows);
-  for (std::size_t c = 0; c < conditions.size(); ++c) {
-    found.probabilities.push_back(update_of(conditions[c], rows.held[c], rows, request.confidence));
-  }
-  return found;
-}
-
-namespace {
-
 AnswerTable seen_table(const Posterior& p) {
   AnswerTable table{"seen",
                     "",
@@ -364,6 +340,26 @@ std::string headline_of(const Posterior& p) {
 }
 
 }  // namespace
+
+Posterior find_posterior(const Store& store, const CampaignInfo& campaign,
+                         const PosteriorRequest& request) {
+  const Selection selection = make_selection(store, campaign, "", "");
+  Posterior found;
+  found.campaign = campaign;
+  found.request = request;
+  found.sampling = sampling_of(store, campaign);
+  found.seen = read_seen(request.seen, campaign, selection);
+  const std::vector<std::string> conditions =
+      request.conditions.empty() ? default_conditions(selection) : request.conditions;
+  const WeightedRows rows = PosteriorReader(store, found, selection, conditions).read();
+  found.effective_size = effective_sample_size(rows.of_complete);
+  refuse_few(found);
+  update_parameters(found, rows);
+  for (std::size_t c = 0; c < conditions.size(); ++c) {
+    found.probabilities.push_back(update_of(conditions[c], rows.held[c], rows, request.confidence));
+  }
+  return found;
+}
 
 Answer to_answer(const Posterior& p) {
   Answer answer;

@@ -129,6 +129,53 @@ std::vector<Part> parts_asked(const AskedRows& rows, const std::string& by) {
   return {{"", all}};
 }
 
+AnswerTable share_table(const Probability& p) {
+  const char* what = p.sampling.is_random ? "probability" : "share";
+  AnswerTable table{
+      "shares",
+      p.request.by.empty() ? "" : p.request.condition,
+      {{"label", p.request.by.empty() ? "condition" : p.request.by, {}, 4, Need::always},
+       {"estimate", what, percent(), 3, Need::always},
+       {"low", "from", percent(), 3, Need::always},
+       {"high", "to", percent(), 3, Need::always},
+       {"by_number", "± by number", percent(), 2},
+       {"holds", "true in", {}, 4},
+       {"rows", "of", {}, 4},
+       {"undecided", "undecided by cells", {}, 4},
+       {"unknown", "no full history", {}, 4},
+       {"more_for_width", "more for width", {}, 4}}};
+  for (const Share& one : p.shares) {
+    const ShareCounts& c = one.counts;
+    const bool is_asked = p.request.width > 0 && p.sampling.is_random;
+    table.rows.push_back({one.label, c.estimate(), one.bounds.low, one.bounds.high,
+                          by_number(c, p.sampling, p.request.confidence), c.n_holds, c.n,
+                          c.n_undecided, c.n_unknown,
+                          is_asked ? AnswerCell(one.n_more) : AnswerCell()});
+  }
+  return table;
+}
+
+/// What from and to are, in a sentence or two.
+std::string meaning_of_bounds(const Probability& p) {
+  const bool any_undecided = std::ranges::any_of(
+      p.shares, [](const Share& one) { return one.counts.n_undecided + one.counts.n_unknown > 0; });
+  const std::string open =
+      "what the cells leave undecided and what has no full history may be either";
+  if (!p.sampling.is_random)
+    return any_undecided ? concat("From and to: ", open, "; they are no bounds of a probability.")
+                         : "";
+  return concat("From and to hold the probability with a confidence of ",
+                confidence_text(p.request.confidence), any_undecided ? concat(": ", open) : "",
+                "; ± is by the number of cases alone.");
+}
+
+const Share& most_often(const Probability& p) {
+  const auto less = [](const Share& a, const Share& b) {
+    return a.counts.estimate() < b.counts.estimate() || std::isnan(a.counts.estimate());
+  };
+  return *std::ranges::max_element(p.shares, less);
+}
+
 }  // namespace
 
 std::vector<std::string> default_conditions(const Selection& selection) {
@@ -181,57 +228,6 @@ Probability find_probability(const Store& store, const CampaignInfo& campaign,
   }
   return found;
 }
-
-namespace {
-
-AnswerTable share_table(const Probability& p) {
-  const char* what = p.sampling.is_random ? "probability" : "share";
-  AnswerTable table{
-      "shares",
-      p.request.by.empty() ? "" : p.request.condition,
-      {{"label", p.request.by.empty() ? "condition" : p.request.by, {}, 4, Need::always},
-       {"estimate", what, percent(), 3, Need::always},
-       {"low", "from", percent(), 3, Need::always},
-       {"high", "to", percent(), 3, Need::always},
-       {"by_number", "± by number", percent(), 2},
-       {"holds", "true in", {}, 4},
-       {"rows", "of", {}, 4},
-       {"undecided", "undecided by cells", {}, 4},
-       {"unknown", "no full history", {}, 4},
-       {"more_for_width", "more for width", {}, 4}}};
-  for (const Share& one : p.shares) {
-    const ShareCounts& c = one.counts;
-    const bool is_asked = p.request.width > 0 && p.sampling.is_random;
-    table.rows.push_back({one.label, c.estimate(), one.bounds.low, one.bounds.high,
-                          by_number(c, p.sampling, p.request.confidence), c.n_holds, c.n,
-                          c.n_undecided, c.n_unknown,
-                          is_asked ? AnswerCell(one.n_more) : AnswerCell()});
-  }
-  return table;
-}
-
-/// What from and to are, in a sentence or two.
-std::string meaning_of_bounds(const Probability& p) {
-  const bool any_undecided = std::ranges::any_of(
-      p.shares, [](const Share& one) { return one.counts.n_undecided + one.counts.n_unknown > 0; });
-  const std::string open =
-      "what the cells leave undecided and what has no full history may be either";
-  if (!p.sampling.is_random)
-    return any_undecided ? concat("From and to: ", open, "; they are no bounds of a probability.")
-                         : "";
-  return concat("From and to hold the probability with a confidence of ",
-                confidence_text(p.request.confidence), any_undecided ? concat(": ", open) : "",
-                "; ± is by the number of cases alone.");
-}
-
-const Share& most_often(const Probability& p) {
-  const auto less = [](const Share& a, const Share& b) {
-    return a.counts.estimate() < b.counts.estimate() || std::isnan(a.counts.estimate());
-  };
-  return *std::ranges::max_element(p.shares, less);
-}
-
-}  // namespace
 
 figure::IntervalChart chart_of(const Probability& p) {
   const std::string& of = p.request.condition;

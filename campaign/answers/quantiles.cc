@@ -37,30 +37,6 @@ MetricQuantiles of_metric(const ScopedMetric& metric, std::vector<double> values
   return found;
 }
 
-}  // namespace
-
-Quantiles find_quantiles(const Store& store, const CampaignInfo& campaign,
-                         const QuantileRequest& request) {
-  for (const double q : request.at) {
-    if (q > 0 && q < 1) continue;
-    throw InputError("--at", concat(format_number(q), " is not a share of the cases"),
-                     "write shares between 0 and 1: 0.05,0.5,0.95");
-  }
-  Quantiles found{campaign, request, sampling_of(store, campaign), 0, {}};
-  Sample sample = read_sample(store, campaign, {request.where, "", ""}, request.metrics);
-  found.n_unknown = sample.n_without + sample.n_early;
-  const Store::Kinds kinds = store.kinds(campaign.id, {});
-  found.plane_strain = kinds.plane_strain;
-  for (std::size_t m = 0; m < sample.outputs.size(); ++m) {
-    const ScopedMetric& metric = sample.outputs[m];
-    if (metric.is_extensive()) refuse_mixed(kinds, "--quantiles", metric.name);
-    found.metrics.push_back(of_metric(metric, std::move(sample.y[m]), found));
-  }
-  return found;
-}
-
-namespace {
-
 constexpr int kQuantileDigits = 3;
 
 ShownUnit unit_of(const Quantiles& q, const MetricQuantiles& one) {
@@ -145,6 +121,26 @@ std::string sentence_of(const Quantiles& q, const MetricQuantiles& one) {
 }
 
 }  // namespace
+
+Quantiles find_quantiles(const Store& store, const CampaignInfo& campaign,
+                         const QuantileRequest& request) {
+  for (const double q : request.at) {
+    if (q > 0 && q < 1) continue;
+    throw InputError("--at", concat(format_number(q), " is not a share of the cases"),
+                     "write shares between 0 and 1: 0.05,0.5,0.95");
+  }
+  Quantiles found{campaign, request, sampling_of(store, campaign), 0, {}};
+  Sample sample = read_sample(store, campaign, {request.where, "", ""}, request.metrics);
+  found.n_unknown = sample.n_without + sample.n_early;
+  const Store::Kinds kinds = store.kinds(campaign.id, {});
+  found.plane_strain = kinds.plane_strain;
+  for (std::size_t m = 0; m < sample.outputs.size(); ++m) {
+    const ScopedMetric& metric = sample.outputs[m];
+    if (metric.is_extensive()) refuse_mixed(kinds, "--quantiles", metric.name);
+    found.metrics.push_back(of_metric(metric, std::move(sample.y[m]), found));
+  }
+  return found;
+}
 
 Answer to_answer(const Quantiles& q) {
   Answer answer;

@@ -26,42 +26,6 @@ void keep_what_holds(ElementaryEffects& one) {
   throw InputError("sensitivity", what, cure);
 }
 
-}  // namespace
-
-std::optional<Screening> screen(const Store& store, const CampaignInfo& campaign,
-                                const SensitivityRequest& request) {
-  const std::vector<nlohmann::json> designs = designs_of(store, campaign);
-  if (designs.size() != 1 || designs[0].at("kind") != "morris") return std::nullopt;
-  if (!request.cases.where.empty() || campaign.n_excluded > 0) {
-    refuse("a part of the cases of a morris design has broken trajectories",
-           request.cases.where.empty() ? "give the spec ranges of which nothing is excluded"
-                                       : "leave out --where");
-  }
-  const Selection selection =
-      make_selection(store, campaign, request.cases.stage, request.cases.fault);
-  Sample rows =
-      read_design(store, campaign, selection, asked_outputs(store, campaign, request, selection));
-  Screening s{campaign, request, {}, {}, rows.derived};
-  s.plane_strain = store.kinds(campaign.id, {}).plane_strain;
-  s.n_rows = rows.n_rows;
-  s.n_without = rows.n_without + rows.n_early;
-  s.n_unresolved = rows.n_unresolved;
-  for (const StoredParameter& one : rows.parameters) s.parameters.push_back(one.name);
-  for (const ScopedMetric& one : rows.outputs) s.metrics.push_back({one, {}});
-  const double p = designs[0].value("levels", 4);
-  const auto made = MorrisDesign::make(rows.x, p / (2 * (p - 1)));
-  if (!made.design) refuse(made.refusal, "submit the campaign's spec again as it was");
-  s.n_trajectories = made.design->n_trajectories();
-  for (std::size_t m = 0; m < rows.y.size(); ++m) {
-    flatten_rounding(rows.outputs[m], rows.y[m]);
-    s.metrics[m].effects = made.design->effects(rows.y[m], request.confidence);
-    for (ElementaryEffects& one : s.metrics[m].effects) keep_what_holds(one);
-  }
-  return s;
-}
-
-namespace {
-
 bool varies(const MetricEffects& metric) {
   return std::ranges::any_of(
       metric.effects, [](const ElementaryEffects& one) { return one.mean_magnitude.value > 0; });
@@ -177,6 +141,38 @@ void add_notes(const Screening& s, Answer& answer) {
 }
 
 }  // namespace
+
+std::optional<Screening> screen(const Store& store, const CampaignInfo& campaign,
+                                const SensitivityRequest& request) {
+  const std::vector<nlohmann::json> designs = designs_of(store, campaign);
+  if (designs.size() != 1 || designs[0].at("kind") != "morris") return std::nullopt;
+  if (!request.cases.where.empty() || campaign.n_excluded > 0) {
+    refuse("a part of the cases of a morris design has broken trajectories",
+           request.cases.where.empty() ? "give the spec ranges of which nothing is excluded"
+                                       : "leave out --where");
+  }
+  const Selection selection =
+      make_selection(store, campaign, request.cases.stage, request.cases.fault);
+  Sample rows =
+      read_design(store, campaign, selection, asked_outputs(store, campaign, request, selection));
+  Screening s{campaign, request, {}, {}, rows.derived};
+  s.plane_strain = store.kinds(campaign.id, {}).plane_strain;
+  s.n_rows = rows.n_rows;
+  s.n_without = rows.n_without + rows.n_early;
+  s.n_unresolved = rows.n_unresolved;
+  for (const StoredParameter& one : rows.parameters) s.parameters.push_back(one.name);
+  for (const ScopedMetric& one : rows.outputs) s.metrics.push_back({one, {}});
+  const double p = designs[0].value("levels", 4);
+  const auto made = MorrisDesign::make(rows.x, p / (2 * (p - 1)));
+  if (!made.design) refuse(made.refusal, "submit the campaign's spec again as it was");
+  s.n_trajectories = made.design->n_trajectories();
+  for (std::size_t m = 0; m < rows.y.size(); ++m) {
+    flatten_rounding(rows.outputs[m], rows.y[m]);
+    s.metrics[m].effects = made.design->effects(rows.y[m], request.confidence);
+    for (ElementaryEffects& one : s.metrics[m].effects) keep_what_holds(one);
+  }
+  return s;
+}
 
 Answer to_answer(const Screening& s) {
   Answer answer;

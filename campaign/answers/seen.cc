@@ -152,6 +152,22 @@ double likelihood_of_events(const SeenStatement& statement, const std::vector<Se
   return 1 - none;
 }
 
+/// Of the statement's fault; null where it has none.
+const CaseOnsets::Onset* onset_of(const SeenStatement& statement, const CaseHistory& history) {
+  for (const CaseOnsets::Onset& one : history.onsets)
+    if (one.fault == statement.fault) return &one;
+  return nullptr;
+}
+
+/// T lies behind the end of the step before and not behind that of its own.
+WeightRange likelihood_within_step(const SeenStatement& statement, const CaseOnsets::Onset& onset) {
+  const double by_end = share_below(statement.value - onset.time, statement.error);
+  const double by_begin = statement.error > 0
+                              ? share_below(statement.value - onset.began, statement.error)
+                              : (onset.began < statement.value ? 1.0 : 0.0);
+  return statement.denied ? WeightRange{1 - by_begin, 1 - by_end} : WeightRange{by_end, by_begin};
+}
+
 }  // namespace
 
 std::vector<SeenStatement> read_seen(const std::vector<std::string>& statements,
@@ -171,26 +187,6 @@ std::vector<SeenStatement> read_seen(const std::vector<std::string>& statements,
   if (!problems.empty()) throw InputError("--seen", problems);
   return read;
 }
-
-namespace {
-
-/// Of the statement's fault; null where it has none.
-const CaseOnsets::Onset* onset_of(const SeenStatement& statement, const CaseHistory& history) {
-  for (const CaseOnsets::Onset& one : history.onsets)
-    if (one.fault == statement.fault) return &one;
-  return nullptr;
-}
-
-/// T lies behind the end of the step before and not behind that of its own.
-WeightRange likelihood_within_step(const SeenStatement& statement, const CaseOnsets::Onset& onset) {
-  const double by_end = share_below(statement.value - onset.time, statement.error);
-  const double by_begin = statement.error > 0
-                              ? share_below(statement.value - onset.began, statement.error)
-                              : (onset.began < statement.value ? 1.0 : 0.0);
-  return statement.denied ? WeightRange{1 - by_begin, 1 - by_end} : WeightRange{by_end, by_begin};
-}
-
-}  // namespace
 
 double likelihood(const SeenStatement& statement, const CaseHistory& history, double value) {
   double p = 0;

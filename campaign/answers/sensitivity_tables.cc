@@ -38,30 +38,6 @@ std::string share_text(const Estimate& e) {
                 format_number(e.bounds.high, kDigits), ")");
 }
 
-}  // namespace
-
-std::string sentence_of(const Sensitivity& s, const MetricSensitivity& metric) {
-  const std::vector<std::size_t> order = descending_places(values_of(metric.first_order));
-  const Estimate& most = metric.first_order[order[0]];
-  const std::string &name = metric.metric.name, &first = s.parameters[order[0]];
-  if (most.bounds.low <= 0) {
-    return concat("No parameter surely explains any of ", name, " alone; most has ", first, ", ",
-                  share_text(most), ".");
-  }
-  std::string text = concat(name, " depends most on ", first, ": ", share_text(most));
-  if (order.size() > 1) {
-    const Estimate& next = metric.first_order[order[1]];
-    const bool is_told_apart = !(next.bounds.high >= most.bounds.low);
-    text += concat(is_told_apart ? ", then on " : "; not told apart from ", s.parameters[order[1]],
-                   ", ", format_number(next.value, 2));
-  }
-  return text + ".";
-}
-
-AnswerCell index_cell(const Estimate& e) { return {e.value, half_width(e)}; }
-
-namespace {
-
 /// A metric of the tables for files.
 struct Subject {
   const MetricSensitivity& values;
@@ -107,7 +83,49 @@ std::vector<AnswerCell> subject_cells(const Sensitivity& s, const Subject& subje
   return cells;
 }
 
+/// "299 of 300 rows; left out: 1 without a result", and what counts although it is not sure.
+std::string rows_text(const Sensitivity& s) {
+  const Sample& sample = s.sample;
+  std::string text =
+      concat(sample.n_rows - sample.n_without - sample.n_early, " of ", sample.n_rows, " rows");
+  std::string left_out;
+  const auto leave = [&](long n, const char* why) {
+    if (n > 0) left_out += concat(left_out.empty() ? "; left out: " : ", ", n, why);
+  };
+  leave(sample.n_without, " without a result");
+  leave(sample.n_early, " that end early");
+  text += left_out;
+  if (s.sampling.is_factorial && !left_out.empty())
+    text += ", so that the grid is not whole and the shares are of the rest";
+  if (sample.n_unresolved > 0) {
+    text += concat("; ", sample.n_unresolved,
+                   " have an activation or event that the cells do not resolve, and count as "
+                   "computed");
+  }
+  return text + ".";
+}
+
 }  // namespace
+
+std::string sentence_of(const Sensitivity& s, const MetricSensitivity& metric) {
+  const std::vector<std::size_t> order = descending_places(values_of(metric.first_order));
+  const Estimate& most = metric.first_order[order[0]];
+  const std::string &name = metric.metric.name, &first = s.parameters[order[0]];
+  if (most.bounds.low <= 0) {
+    return concat("No parameter surely explains any of ", name, " alone; most has ", first, ", ",
+                  share_text(most), ".");
+  }
+  std::string text = concat(name, " depends most on ", first, ": ", share_text(most));
+  if (order.size() > 1) {
+    const Estimate& next = metric.first_order[order[1]];
+    const bool is_told_apart = !(next.bounds.high >= most.bounds.low);
+    text += concat(is_told_apart ? ", then on " : "; not told apart from ", s.parameters[order[1]],
+                   ", ", format_number(next.value, 2));
+  }
+  return text + ".";
+}
+
+AnswerCell index_cell(const Estimate& e) { return {e.value, half_width(e)}; }
 
 AnswerTable index_table(const Sensitivity& s) {
   AnswerTable table{"indices", "", subject_columns(s)};
@@ -182,32 +200,6 @@ std::vector<std::string> meaning_of(const Sensitivity& s) {
                 "to 1 is not interaction."));
   return notes;
 }
-
-namespace {
-
-/// "299 of 300 rows; left out: 1 without a result", and what counts although it is not sure.
-std::string rows_text(const Sensitivity& s) {
-  const Sample& sample = s.sample;
-  std::string text =
-      concat(sample.n_rows - sample.n_without - sample.n_early, " of ", sample.n_rows, " rows");
-  std::string left_out;
-  const auto leave = [&](long n, const char* why) {
-    if (n > 0) left_out += concat(left_out.empty() ? "; left out: " : ", ", n, why);
-  };
-  leave(sample.n_without, " without a result");
-  leave(sample.n_early, " that end early");
-  text += left_out;
-  if (s.sampling.is_factorial && !left_out.empty())
-    text += ", so that the grid is not whole and the shares are of the rest";
-  if (sample.n_unresolved > 0) {
-    text += concat("; ", sample.n_unresolved,
-                   " have an activation or event that the cells do not resolve, and count as "
-                   "computed");
-  }
-  return text + ".";
-}
-
-}  // namespace
 
 void add_what_they_stand_on(const Sensitivity& s, Answer& answer) {
   answer.note(rows_text(s));

@@ -160,6 +160,27 @@ const Difference& first_of(const std::vector<Difference>& all) {
       all.begin(), end, [](const Difference& a, const Difference& b) { return a.ulps < b.ulps; });
 }
 
+/// What the default order compares, each the larger the earlier; see store/ranking.cc.
+std::array<double, 6> sort_key(const CaseResult& r) {
+  const double outcome_class = rank_class(r.outcome, true);
+  constexpr double kNoMargin = 9e99;  // as in the store: after those that have one
+  const double margin = std::isnan(r.pressure_margin) ? kNoMargin : r.pressure_margin;
+  return {-outcome_class, r.whole.activated_area, r.whole.open_area, r.whole.moment,
+          -margin,        r.whole.chi_bar};
+}
+
+/// 1: a is before b, -1: behind, 0: alike within the tolerances.
+int order(const CaseResult& a, const CaseResult& b, const Tolerances& tolerances) {
+  static constexpr std::array<const char*, 6> kQuantities = {
+      "outcome", "activated_area_m2", "open_area_m2", "moment_nm", "pressure_margin_pa", "chi_bar"};
+  const auto x = sort_key(a), y = sort_key(b);
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const double scale = std::max(std::abs(x[k]), std::abs(y[k]));
+    if (std::abs(x[k] - y[k]) > tolerances.of(kQuantities[k]) * scale) return x[k] > y[k] ? 1 : -1;
+  }
+  return 0;
+}
+
 }  // namespace
 
 std::vector<std::string> quantities() {
@@ -220,31 +241,6 @@ Agreement compare_results(const CaseResult& baseline, const CaseResult& tonight,
   agreement.verdict = agreement.worst->verdict;
   return agreement;
 }
-
-namespace {
-
-/// What the default order compares, each the larger the earlier; see store/ranking.cc.
-std::array<double, 6> sort_key(const CaseResult& r) {
-  const double outcome_class = rank_class(r.outcome, true);
-  constexpr double kNoMargin = 9e99;  // as in the store: after those that have one
-  const double margin = std::isnan(r.pressure_margin) ? kNoMargin : r.pressure_margin;
-  return {-outcome_class, r.whole.activated_area, r.whole.open_area, r.whole.moment,
-          -margin,        r.whole.chi_bar};
-}
-
-/// 1: a is before b, -1: behind, 0: alike within the tolerances.
-int order(const CaseResult& a, const CaseResult& b, const Tolerances& tolerances) {
-  static constexpr std::array<const char*, 6> kQuantities = {
-      "outcome", "activated_area_m2", "open_area_m2", "moment_nm", "pressure_margin_pa", "chi_bar"};
-  const auto x = sort_key(a), y = sort_key(b);
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    const double scale = std::max(std::abs(x[k]), std::abs(y[k]));
-    if (std::abs(x[k] - y[k]) > tolerances.of(kQuantities[k]) * scale) return x[k] > y[k] ? 1 : -1;
-  }
-  return 0;
-}
-
-}  // namespace
 
 std::vector<std::optional<std::size_t>> changed_order(const std::vector<CaseResult>& baseline,
                                                       const std::vector<CaseResult>& tonight,

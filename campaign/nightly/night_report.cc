@@ -53,6 +53,70 @@ void enter(const Agreement& agreement, NightCaseRecord& record) {
   if (worst != record.remark) record.remark += "; most telling: " + worst;
 }
 
+const NightCaseRecord* find(const NightRecord& night, const NightCaseRecord& like) {
+  for (const NightCaseRecord& one : night.cases) {
+    if (one.campaign == like.campaign && one.identity == like.identity) return &one;
+  }
+  return nullptr;
+}
+
+std::string name_of(const NightCaseRecord& one) {
+  return one.position > 0 ? concat(one.campaign, "/", one.position) : one.identity;
+}
+
+/// Nights of the same suite and environment, newest first.
+std::vector<const NightRecord*> comparable(const NightRecord& tonight,
+                                           const std::vector<NightRecord>& earlier) {
+  std::vector<const NightRecord*> nights;
+  for (auto it = earlier.rbegin(); it != earlier.rend(); ++it) {
+    if (it->suite == tonight.suite && it->environment == tonight.environment) {
+      nights.push_back(&*it);
+    }
+  }
+  return nights;
+}
+
+std::string advice_on_time(const NightCaseRecord& tonight,
+                           const std::vector<const NightRecord*>& nights) {
+  constexpr std::size_t kMost = 7;
+  constexpr int kLeast = 3;
+  constexpr double kFactor = 1.25, kSeconds = 0.1;
+  int n = 0;
+  double longest = 0;
+  for (std::size_t k = 0; k < std::min(kMost, nights.size()); ++k) {
+    const NightCaseRecord* before = find(*nights[k], tonight);
+    if (before == nullptr || !before->wall_seconds) continue;
+    longest = std::max(longest, *before->wall_seconds);
+    ++n;
+  }
+  if (n < kLeast || !tonight.wall_seconds) return "";
+  if (*tonight.wall_seconds <= kFactor * longest + kSeconds) return "";
+  return concat(name_of(tonight), " took ", format_number(*tonight.wall_seconds, 3), " s; at most ",
+                format_number(longest, 3), " s in the ", n, " nights before");
+}
+
+std::string counts_text(const NightRecord& night) {
+  std::map<std::string, long> counts;
+  for (const NightCaseRecord& one : night.cases) ++counts[one.verdict];
+  std::string text;
+  for (const auto& [verdict, n] : counts) {
+    text += concat(text.empty() ? "" : ", ", n, " ", verdict);
+  }
+  return text;
+}
+
+/// Cases whose numbers are not those of the last comparable night before.
+long n_changed(const std::vector<NightRecord>& nights, std::size_t k) {
+  const std::vector<NightRecord> earlier(nights.begin(),
+                                         nights.begin() + static_cast<std::ptrdiff_t>(k));
+  const auto before = comparable(nights[k], earlier);
+  if (before.empty()) return 0;
+  return std::ranges::count_if(nights[k].cases, [&](const auto& one) {
+    const NightCaseRecord* then = find(*before.front(), one);
+    return then != nullptr && then->digest != one.digest;
+  });
+}
+
 }  // namespace
 
 std::vector<NightCaseRecord> judge_campaign(const NightCampaign* baseline,
@@ -98,52 +162,6 @@ std::vector<NightCaseRecord> judge_campaign(const NightCampaign* baseline,
   return records;
 }
 
-namespace {
-
-const NightCaseRecord* find(const NightRecord& night, const NightCaseRecord& like) {
-  for (const NightCaseRecord& one : night.cases) {
-    if (one.campaign == like.campaign && one.identity == like.identity) return &one;
-  }
-  return nullptr;
-}
-
-std::string name_of(const NightCaseRecord& one) {
-  return one.position > 0 ? concat(one.campaign, "/", one.position) : one.identity;
-}
-
-/// Nights of the same suite and environment, newest first.
-std::vector<const NightRecord*> comparable(const NightRecord& tonight,
-                                           const std::vector<NightRecord>& earlier) {
-  std::vector<const NightRecord*> nights;
-  for (auto it = earlier.rbegin(); it != earlier.rend(); ++it) {
-    if (it->suite == tonight.suite && it->environment == tonight.environment) {
-      nights.push_back(&*it);
-    }
-  }
-  return nights;
-}
-
-std::string advice_on_time(const NightCaseRecord& tonight,
-                           const std::vector<const NightRecord*>& nights) {
-  constexpr std::size_t kMost = 7;
-  constexpr int kLeast = 3;
-  constexpr double kFactor = 1.25, kSeconds = 0.1;
-  int n = 0;
-  double longest = 0;
-  for (std::size_t k = 0; k < std::min(kMost, nights.size()); ++k) {
-    const NightCaseRecord* before = find(*nights[k], tonight);
-    if (before == nullptr || !before->wall_seconds) continue;
-    longest = std::max(longest, *before->wall_seconds);
-    ++n;
-  }
-  if (n < kLeast || !tonight.wall_seconds) return "";
-  if (*tonight.wall_seconds <= kFactor * longest + kSeconds) return "";
-  return concat(name_of(tonight), " took ", format_number(*tonight.wall_seconds, 3), " s; at most ",
-                format_number(longest, 3), " s in the ", n, " nights before");
-}
-
-}  // namespace
-
 std::vector<std::string> night_advice(const NightRecord& tonight,
                                       const std::vector<NightRecord>& earlier) {
   const std::vector<const NightRecord*> nights = comparable(tonight, earlier);
@@ -164,20 +182,6 @@ std::vector<std::string> night_advice(const NightRecord& tonight,
   }
   return advice;
 }
-
-namespace {
-
-std::string counts_text(const NightRecord& night) {
-  std::map<std::string, long> counts;
-  for (const NightCaseRecord& one : night.cases) ++counts[one.verdict];
-  std::string text;
-  for (const auto& [verdict, n] : counts) {
-    text += concat(text.empty() ? "" : ", ", n, " ", verdict);
-  }
-  return text;
-}
-
-}  // namespace
 
 std::string night_to_text(const NightRecord& night, const std::vector<std::string>& remarks,
                           const std::vector<std::string>& advice, std::size_t width) {
@@ -244,22 +248,6 @@ json night_to_json(const NightRecord& night, const std::vector<std::string>& rem
           {"advice", advice},
           {"cases", cases}};
 }
-
-namespace {
-
-/// Cases whose numbers are not those of the last comparable night before.
-long n_changed(const std::vector<NightRecord>& nights, std::size_t k) {
-  const std::vector<NightRecord> earlier(nights.begin(),
-                                         nights.begin() + static_cast<std::ptrdiff_t>(k));
-  const auto before = comparable(nights[k], earlier);
-  if (before.empty()) return 0;
-  return std::ranges::count_if(nights[k].cases, [&](const auto& one) {
-    const NightCaseRecord* then = find(*before.front(), one);
-    return then != nullptr && then->digest != one.digest;
-  });
-}
-
-}  // namespace
 
 std::string history_to_text(const std::vector<NightRecord>& nights, std::size_t width) {
   const Need all = Need::always;

@@ -17,27 +17,6 @@ const StoredParameter& of(const CaseParameter& value,
                                                 value.index, ", which its campaign has not"));
 }
 
-}  // namespace
-
-std::vector<std::string> labels_of(const CaseParameters& values,
-                                   const std::vector<StoredParameter>& parameters) {
-  std::vector<std::string> labels(parameters.size());
-  for (const CaseParameter& one : values)
-    labels[&of(one, parameters) - parameters.data()] = one.text;
-  return labels;
-}
-
-std::vector<std::string> settings_of(const CaseParameters& values,
-                                     const std::vector<StoredParameter>& parameters) {
-  std::vector<std::string> settings;
-  for (const CaseParameter& one : values) {
-    if (!one.text.empty()) settings.push_back(of(one, parameters).name + " = " + one.text);
-  }
-  return settings;
-}
-
-namespace {
-
 /// The unit in which all rows give the parameter, "" for plain numbers; none where they differ or
 /// one of them is words.
 std::optional<std::string> common_unit(const std::vector<const CaseParameters*>& rows, int index) {
@@ -56,6 +35,23 @@ std::optional<std::string> common_unit(const std::vector<const CaseParameters*>&
 }
 
 }  // namespace
+
+std::vector<std::string> labels_of(const CaseParameters& values,
+                                   const std::vector<StoredParameter>& parameters) {
+  std::vector<std::string> labels(parameters.size());
+  for (const CaseParameter& one : values)
+    labels[&of(one, parameters) - parameters.data()] = one.text;
+  return labels;
+}
+
+std::vector<std::string> settings_of(const CaseParameters& values,
+                                     const std::vector<StoredParameter>& parameters) {
+  std::vector<std::string> settings;
+  for (const CaseParameter& one : values) {
+    if (!one.text.empty()) settings.push_back(of(one, parameters).name + " = " + one.text);
+  }
+  return settings;
+}
 
 ParameterColumns::ParameterColumns(const std::vector<StoredParameter>& parameters,
                                    const std::vector<const CaseParameters*>& rows) {

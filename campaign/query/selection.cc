@@ -25,6 +25,100 @@ const NamedId* find(const std::vector<NamedId>& all, const std::string& name) {
   return found == all.end() ? nullptr : &*found;
 }
 
+constexpr const char* kTexts[] = {"outcome", "activated_fault", "opened_fault", "unexpected_fault"};
+
+Symbols symbols_of(const CampaignInfo& campaign, const std::map<std::string, ScopedMetric>& known) {
+  Symbols symbols;
+  int index = 0;
+  for (const StoredParameter& parameter : campaign.parameters) {
+    const Type type = parameter.is_text ? Type{Kind::text, {}} : number_type(parameter.dimension);
+    symbols[parameter.name] = {parameter_sql(index++, parameter.is_text), type};
+  }
+  // After the parameters: a parameter that is called like a metric does not hide it.
+  for (const auto& [name, metric] : known) {
+    const Type type = metric.is_flag ? Type{Kind::boolean, {}} : number_type(metric.dimension);
+    symbols[name] = {metric.sql, type};
+  }
+  for (const char* name : kTexts) symbols[name] = {metric_sql(name), Type{Kind::text, {}}};
+  return symbols;
+}
+
+std::vector<std::int64_t> ids_of(const std::vector<NamedId>& all) {
+  return mapped(all, &NamedId::id);
+}
+
+/// Where the metrics among the names are not resolved, and how large their errors are.
+void add_doubts(Symbols& symbols, const std::vector<std::string>& names,
+                const std::map<std::string, ScopedMetric>& known, const Selection& selection,
+                const StatedErrors& errors) {
+  const MetricIds all = {ids_of(selection.faults), ids_of(selection.stages)};
+  for (const std::string& name : names) {
+    if (contains(kTexts, name)) symbols[name].unresolved = unresolved_sql(name, all);
+    const auto found = known.find(name);
+    if (found == known.end()) continue;
+    const ScopedMetric& metric = found->second;
+    symbols[name].unresolved =
+        metric.scope ? unresolved_sql(metric.metric, all, *metric.scope, selection.stage.id)
+                     : unresolved_sql(metric.metric, all, selection.fault.has_value());
+    const auto error = errors.find(metric.metric);
+    if (error != errors.end()) symbols[name].error = error->second;
+  }
+}
+
+/// @param option  that the condition is given with, for messages.
+Expression read_condition(const std::string& option, const std::string& condition,
+                          const Symbols& symbols, const Selection& selection) {
+  Expression read = Expression::parse(condition, symbols, scopes_of(selection));
+  if (read.type().kind != Kind::boolean) {
+    throw InputError(option, concat("'", condition, "' is not a condition"),
+                     "compare it with something: \"chi_bar > 0.8\"");
+  }
+  return read;
+}
+
+/// Names with commas between them, without the blanks around them and the quotes in which
+/// expressions have what is not a word.
+std::vector<std::string> names_in(const std::string& list) {
+  std::vector<std::string> names(1);
+  std::size_t solid = 0;  // of the name at hand: up to its last letter that is not a blank
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    std::string& name = names.back();
+    const bool may_quote = name.empty() || std::string_view(name).ends_with(" in ");
+    if (may_quote && (list[i] == '"' || list[i] == '\'')) {
+      const auto quoted = quoted_at(list, i);
+      if (!quoted)
+        throw InputError("--metrics", concat("this quote is not closed: ", list.substr(i)),
+                         "add the closing quote");
+      name += quoted->inside;
+      i = quoted->end - 1;
+      solid = name.size();
+    } else if (list[i] == ',') {
+      name.resize(solid);
+      names.emplace_back();
+      solid = 0;
+    } else if (list[i] != ' ' || !name.empty()) {
+      name += list[i];
+      if (list[i] != ' ') solid = name.size();
+    }
+  }
+  names.back().resize(solid);
+  if (names.size() > 1 && names.back().empty()) names.pop_back();
+  return names;
+}
+
+ScopedMetric metric_named(const std::string& name,
+                          const std::map<std::string, ScopedMetric>& known) {
+  const auto found = known.find(name);
+  if (found != known.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [one, metric] : known) names.push_back(one);
+  const auto meant = nearest(name, names);
+  throw InputError("--metrics", concat("there is no metric '", name, "'"),
+                   meant ? concat("did you mean '", *meant, "'?")
+                         : "`faultsweep rank --list-metrics` lists them; of a fault "
+                           "or stage: F2.max_slip in gas_storage");
+}
+
 }  // namespace
 
 void require_name(const std::string& option, const std::string& what, const std::string& name,
@@ -88,50 +182,6 @@ std::map<std::string, ScopedMetric> known_metrics(const Selection& selection) {
   return known;
 }
 
-namespace {
-
-constexpr const char* kTexts[] = {"outcome", "activated_fault", "opened_fault", "unexpected_fault"};
-
-Symbols symbols_of(const CampaignInfo& campaign, const std::map<std::string, ScopedMetric>& known) {
-  Symbols symbols;
-  int index = 0;
-  for (const StoredParameter& parameter : campaign.parameters) {
-    const Type type = parameter.is_text ? Type{Kind::text, {}} : number_type(parameter.dimension);
-    symbols[parameter.name] = {parameter_sql(index++, parameter.is_text), type};
-  }
-  // After the parameters: a parameter that is called like a metric does not hide it.
-  for (const auto& [name, metric] : known) {
-    const Type type = metric.is_flag ? Type{Kind::boolean, {}} : number_type(metric.dimension);
-    symbols[name] = {metric.sql, type};
-  }
-  for (const char* name : kTexts) symbols[name] = {metric_sql(name), Type{Kind::text, {}}};
-  return symbols;
-}
-
-std::vector<std::int64_t> ids_of(const std::vector<NamedId>& all) {
-  return mapped(all, &NamedId::id);
-}
-
-/// Where the metrics among the names are not resolved, and how large their errors are.
-void add_doubts(Symbols& symbols, const std::vector<std::string>& names,
-                const std::map<std::string, ScopedMetric>& known, const Selection& selection,
-                const StatedErrors& errors) {
-  const MetricIds all = {ids_of(selection.faults), ids_of(selection.stages)};
-  for (const std::string& name : names) {
-    if (contains(kTexts, name)) symbols[name].unresolved = unresolved_sql(name, all);
-    const auto found = known.find(name);
-    if (found == known.end()) continue;
-    const ScopedMetric& metric = found->second;
-    symbols[name].unresolved =
-        metric.scope ? unresolved_sql(metric.metric, all, *metric.scope, selection.stage.id)
-                     : unresolved_sql(metric.metric, all, selection.fault.has_value());
-    const auto error = errors.find(metric.metric);
-    if (error != errors.end()) symbols[name].error = error->second;
-  }
-}
-
-}  // namespace
-
 Symbols result_symbols(const CampaignInfo& campaign, const Selection& selection) {
   return symbols_of(campaign, known_metrics(selection));
 }
@@ -141,21 +191,6 @@ Scopes scopes_of(const Selection& selection) {
   scopes.stages.emplace_back(kWholeHistory);
   return scopes;
 }
-
-namespace {
-
-/// @param option  that the condition is given with, for messages.
-Expression read_condition(const std::string& option, const std::string& condition,
-                          const Symbols& symbols, const Selection& selection) {
-  Expression read = Expression::parse(condition, symbols, scopes_of(selection));
-  if (read.type().kind != Kind::boolean) {
-    throw InputError(option, concat("'", condition, "' is not a condition"),
-                     "compare it with something: \"chi_bar > 0.8\"");
-  }
-  return read;
-}
-
-}  // namespace
 
 SqlFragment parse_condition(const std::string& where, const CampaignInfo& campaign,
                             const Selection& selection) {
@@ -192,53 +227,6 @@ bool creeps(const Store& store, const CampaignInfo& campaign) {
   const auto families = store.family_progress(campaign.id);
   return std::ranges::any_of(families, [](const auto& family) { return family.n_operators > 1; });
 }
-
-namespace {
-
-/// Names with commas between them, without the blanks around them and the quotes in which
-/// expressions have what is not a word.
-std::vector<std::string> names_in(const std::string& list) {
-  std::vector<std::string> names(1);
-  std::size_t solid = 0;  // of the name at hand: up to its last letter that is not a blank
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    std::string& name = names.back();
-    const bool may_quote = name.empty() || std::string_view(name).ends_with(" in ");
-    if (may_quote && (list[i] == '"' || list[i] == '\'')) {
-      const auto quoted = quoted_at(list, i);
-      if (!quoted)
-        throw InputError("--metrics", concat("this quote is not closed: ", list.substr(i)),
-                         "add the closing quote");
-      name += quoted->inside;
-      i = quoted->end - 1;
-      solid = name.size();
-    } else if (list[i] == ',') {
-      name.resize(solid);
-      names.emplace_back();
-      solid = 0;
-    } else if (list[i] != ' ' || !name.empty()) {
-      name += list[i];
-      if (list[i] != ' ') solid = name.size();
-    }
-  }
-  names.back().resize(solid);
-  if (names.size() > 1 && names.back().empty()) names.pop_back();
-  return names;
-}
-
-ScopedMetric metric_named(const std::string& name,
-                          const std::map<std::string, ScopedMetric>& known) {
-  const auto found = known.find(name);
-  if (found != known.end()) return found->second;
-  std::vector<std::string> names;
-  for (const auto& [one, metric] : known) names.push_back(one);
-  const auto meant = nearest(name, names);
-  throw InputError("--metrics", concat("there is no metric '", name, "'"),
-                   meant ? concat("did you mean '", *meant, "'?")
-                         : "`faultsweep rank --list-metrics` lists them; of a fault "
-                           "or stage: F2.max_slip in gas_storage");
-}
-
-}  // namespace
 
 std::vector<ScopedMetric> choose_metrics(const Selection& selection, const std::string& list,
                                          bool with_missing, bool with_creep) {

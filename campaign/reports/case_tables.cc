@@ -45,6 +45,85 @@ std::vector<AnswerColumn> measures_of(const CaseResult& result) {
   return columns;
 }
 
+/// Of the pressure regions: the store keeps no names of them, its scene has them.
+std::vector<std::string> names_of_regions(const ShownCase& shown) {
+  const CaseResult& result = shown.stored.result;
+  if (!result.region_names.empty()) return result.region_names;
+  std::size_t n = 0;
+  for (const faultsim::StepResult& step : result.steps)
+    n = std::max(n, step.pressure_change.size());
+  std::vector<std::string> names;
+  for (std::size_t r = 0; r < n; ++r) {
+    names.push_back(shown.initial.size() == n ? shown.initial[r].name : concat("region ", r + 1));
+  }
+  return names;
+}
+
+std::vector<AnswerColumn> history_columns(const CaseResult& result,
+                                          const std::vector<std::string>& regions) {
+  std::vector<AnswerColumn> columns = {
+      column("fault", "fault"),
+      column("step", "step"),
+      column("chi_bar", "χ̄", {}, 3),
+      column("activated", "slides"),
+      column("activation_resolved", "resolved"),
+      column("max_slip_m", "slip", metres(), 3),
+      column("time_s", "at", shown_unit(Dimension::time), 4, Need::wanted),
+      column("stage", "stage", Need::wanted),
+      column("outcome", "outcome", Need::wanted)};
+  for (const std::string& region : regions) {
+    columns.push_back(column(region, "Δp " + region, bars(), 4, Need::wanted));
+    columns.back().group = "pressure_change_pa";
+  }
+  append(columns,
+         {extensive(result, "activated_area_m2", "sliding area", 4),
+          extensive(result, "moment_nm", "M0"), extensive(result, "open_area_m2", "open area", 4),
+          column("chi_max", "χ max", {}, 3, Need::extra),
+          extensive(result, "area_chi_080_m2", "area χ > 0.8", 4, Need::extra),
+          extensive(result, "slipping_area_m2", "slipping area", 4, Need::extra),
+          column("creep_normal_min_pa", "creep ΔtN from", bars(), 3, Need::wanted),
+          column("creep_normal_max_pa", "to", bars(), 3, Need::wanted),
+          column("creep_shear_max_pa", "creep |ΔtT|", bars(), 3, Need::wanted),
+          column("creep_time_steps", "time steps", Need::wanted),
+          column("creep_time_resolved", "fine enough", Need::wanted)});
+  return columns;
+}
+
+/// What the salt did to one fault up to a load step; empty where nothing creeps.
+void add_creep(const faultsim::StepResult& step, std::size_t fault,
+               std::vector<AnswerCell>& cells) {
+  if (!step.creep) return;
+  const faultsim::StepCreep& creep = *step.creep;
+  if (fault < creep.faults.size()) {
+    const faultsim::FaultCreep& c = creep.faults[fault];
+    append(cells, {c.normal_min, c.normal_max, c.shear_max});
+  } else {
+    cells.resize(cells.size() + 3);
+  }
+  append(cells, {creep.time_steps, creep.time_resolved});
+}
+
+std::vector<AnswerCell> history_row(const CaseResult& result, const faultsim::StepResult& step,
+                                    std::size_t fault, std::size_t n_regions) {
+  const bool is_there = fault < step.faults.size();  // not of a step that failed
+  const faultsim::FaultMetrics m = is_there ? step.faults[fault] : faultsim::FaultMetrics{};
+  std::vector<AnswerCell> cells = {result.fault_names[fault], step.step};
+  if (is_there) {
+    append(cells, {m.chi_bar, m.activated, m.activation_resolved, m.max_slip});
+  } else {
+    cells.resize(cells.size() + 4);
+  }
+  append(cells, {step.time, step.stage, faultsim::to_string(step.outcome)});
+  for (std::size_t r = 0; r < n_regions; ++r)
+    cells.push_back(r < step.pressure_change.size() ? AnswerCell(step.pressure_change[r])
+                                                    : AnswerCell());
+  if (!is_there) return cells;
+  append(cells,
+         {m.activated_area, m.moment, m.open_area, m.chi_max, m.area_chi_080, m.slipping_area});
+  add_creep(step, fault, cells);
+  return cells;
+}
+
 }  // namespace
 
 AnswerTable settings_table(const ShownCase& shown) {
@@ -201,89 +280,6 @@ AnswerTable episodes_table(const ShownCase& shown) {
   }
   return table;
 }
-
-namespace {
-
-/// Of the pressure regions: the store keeps no names of them, its scene has them.
-std::vector<std::string> names_of_regions(const ShownCase& shown) {
-  const CaseResult& result = shown.stored.result;
-  if (!result.region_names.empty()) return result.region_names;
-  std::size_t n = 0;
-  for (const faultsim::StepResult& step : result.steps)
-    n = std::max(n, step.pressure_change.size());
-  std::vector<std::string> names;
-  for (std::size_t r = 0; r < n; ++r) {
-    names.push_back(shown.initial.size() == n ? shown.initial[r].name : concat("region ", r + 1));
-  }
-  return names;
-}
-
-std::vector<AnswerColumn> history_columns(const CaseResult& result,
-                                          const std::vector<std::string>& regions) {
-  std::vector<AnswerColumn> columns = {
-      column("fault", "fault"),
-      column("step", "step"),
-      column("chi_bar", "χ̄", {}, 3),
-      column("activated", "slides"),
-      column("activation_resolved", "resolved"),
-      column("max_slip_m", "slip", metres(), 3),
-      column("time_s", "at", shown_unit(Dimension::time), 4, Need::wanted),
-      column("stage", "stage", Need::wanted),
-      column("outcome", "outcome", Need::wanted)};
-  for (const std::string& region : regions) {
-    columns.push_back(column(region, "Δp " + region, bars(), 4, Need::wanted));
-    columns.back().group = "pressure_change_pa";
-  }
-  append(columns,
-         {extensive(result, "activated_area_m2", "sliding area", 4),
-          extensive(result, "moment_nm", "M0"), extensive(result, "open_area_m2", "open area", 4),
-          column("chi_max", "χ max", {}, 3, Need::extra),
-          extensive(result, "area_chi_080_m2", "area χ > 0.8", 4, Need::extra),
-          extensive(result, "slipping_area_m2", "slipping area", 4, Need::extra),
-          column("creep_normal_min_pa", "creep ΔtN from", bars(), 3, Need::wanted),
-          column("creep_normal_max_pa", "to", bars(), 3, Need::wanted),
-          column("creep_shear_max_pa", "creep |ΔtT|", bars(), 3, Need::wanted),
-          column("creep_time_steps", "time steps", Need::wanted),
-          column("creep_time_resolved", "fine enough", Need::wanted)});
-  return columns;
-}
-
-/// What the salt did to one fault up to a load step; empty where nothing creeps.
-void add_creep(const faultsim::StepResult& step, std::size_t fault,
-               std::vector<AnswerCell>& cells) {
-  if (!step.creep) return;
-  const faultsim::StepCreep& creep = *step.creep;
-  if (fault < creep.faults.size()) {
-    const faultsim::FaultCreep& c = creep.faults[fault];
-    append(cells, {c.normal_min, c.normal_max, c.shear_max});
-  } else {
-    cells.resize(cells.size() + 3);
-  }
-  append(cells, {creep.time_steps, creep.time_resolved});
-}
-
-std::vector<AnswerCell> history_row(const CaseResult& result, const faultsim::StepResult& step,
-                                    std::size_t fault, std::size_t n_regions) {
-  const bool is_there = fault < step.faults.size();  // not of a step that failed
-  const faultsim::FaultMetrics m = is_there ? step.faults[fault] : faultsim::FaultMetrics{};
-  std::vector<AnswerCell> cells = {result.fault_names[fault], step.step};
-  if (is_there) {
-    append(cells, {m.chi_bar, m.activated, m.activation_resolved, m.max_slip});
-  } else {
-    cells.resize(cells.size() + 4);
-  }
-  append(cells, {step.time, step.stage, faultsim::to_string(step.outcome)});
-  for (std::size_t r = 0; r < n_regions; ++r)
-    cells.push_back(r < step.pressure_change.size() ? AnswerCell(step.pressure_change[r])
-                                                    : AnswerCell());
-  if (!is_there) return cells;
-  append(cells,
-         {m.activated_area, m.moment, m.open_area, m.chi_max, m.area_chi_080, m.slipping_area});
-  add_creep(step, fault, cells);
-  return cells;
-}
-
-}  // namespace
 
 AnswerTable histories_table(const ShownCase& shown) {
   const CaseResult& result = shown.stored.result;

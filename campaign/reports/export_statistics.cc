@@ -146,55 +146,6 @@ void check_words(const Factor& factor) {
   }
 }
 
-}  // namespace
-
-std::string export_dakota(const Store& store, const CampaignInfo& campaign,
-                          const Selection& selection, const ExportRequest& request) {
-  const StatisticsMetrics chosen = choose(store, campaign, selection, request);
-  const std::vector<ScopedMetric>& metrics = chosen.metrics;
-  const Store::TableQuery query = case_query(campaign, selection, request.where, metrics);
-  std::vector<Factor> factors = survey(store, campaign, query);
-  std::erase_if(factors, [](const Factor& one) { return one.n_values == 0; });
-  // Dakota orders its variables by type.
-  std::ranges::stable_partition(factors, [](const Factor& one) { return !one.parameter.is_text; });
-  TableOutput output(request.target);
-  std::string line = "%eval_id interface";
-  for (const Factor& one : factors) {
-    check_words(one);
-    line += " " + one.name();
-  }
-  for (const ScopedMetric& metric : metrics) line += " " + column_name(metric, chosen.plane_strain);
-  output.write(line + "\n");
-  Losses losses;
-  long n_written = 0, n_without_parameter = 0;
-  store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
-    const std::vector<double> numbers = losses.metrics_of(row);
-    line = concat(row.position, " faultsweep");
-    bool whole = true;
-    for (const Factor& one : factors) {
-      const CaseParameter* value = value_of(one, row);
-      whole = whole && value != nullptr;
-      if (!whole) break;
-      line +=
-          " " + (one.parameter.is_text ? one_word(value->text) : exact_number(value->si.value()));
-    }
-    n_without_parameter += whole ? 0 : 1;
-    for (const double number : numbers) {
-      whole = whole && std::isfinite(number);
-      line += " " + exact_number(number);
-    }
-    if (!whole) return;
-    ++n_written;
-    output.write(line + "\n");
-  });
-  output.finish();
-  return concat(n_written, " of ", losses.n_rows, " cases of ", campaign.name, "; left out, as ",
-                "Dakota reads no NaN: ", losses.text(metrics), ", ", n_without_parameter,
-                " without one of the parameters (choose a group with --where)\n");
-}
-
-namespace {
-
 /// The files of a SALib export.
 class SalibFolder {
  public:
@@ -285,6 +236,51 @@ std::string salib_advice(const Losses& losses, long n_holes, bool filtered, long
 }
 
 }  // namespace
+
+std::string export_dakota(const Store& store, const CampaignInfo& campaign,
+                          const Selection& selection, const ExportRequest& request) {
+  const StatisticsMetrics chosen = choose(store, campaign, selection, request);
+  const std::vector<ScopedMetric>& metrics = chosen.metrics;
+  const Store::TableQuery query = case_query(campaign, selection, request.where, metrics);
+  std::vector<Factor> factors = survey(store, campaign, query);
+  std::erase_if(factors, [](const Factor& one) { return one.n_values == 0; });
+  // Dakota orders its variables by type.
+  std::ranges::stable_partition(factors, [](const Factor& one) { return !one.parameter.is_text; });
+  TableOutput output(request.target);
+  std::string line = "%eval_id interface";
+  for (const Factor& one : factors) {
+    check_words(one);
+    line += " " + one.name();
+  }
+  for (const ScopedMetric& metric : metrics) line += " " + column_name(metric, chosen.plane_strain);
+  output.write(line + "\n");
+  Losses losses;
+  long n_written = 0, n_without_parameter = 0;
+  store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
+    const std::vector<double> numbers = losses.metrics_of(row);
+    line = concat(row.position, " faultsweep");
+    bool whole = true;
+    for (const Factor& one : factors) {
+      const CaseParameter* value = value_of(one, row);
+      whole = whole && value != nullptr;
+      if (!whole) break;
+      line +=
+          " " + (one.parameter.is_text ? one_word(value->text) : exact_number(value->si.value()));
+    }
+    n_without_parameter += whole ? 0 : 1;
+    for (const double number : numbers) {
+      whole = whole && std::isfinite(number);
+      line += " " + exact_number(number);
+    }
+    if (!whole) return;
+    ++n_written;
+    output.write(line + "\n");
+  });
+  output.finish();
+  return concat(n_written, " of ", losses.n_rows, " cases of ", campaign.name, "; left out, as ",
+                "Dakota reads no NaN: ", losses.text(metrics), ", ", n_without_parameter,
+                " without one of the parameters (choose a group with --where)\n");
+}
 
 std::string export_salib(const Store& store, const CampaignInfo& campaign,
                          const Selection& selection, const ExportRequest& request) {

@@ -45,6 +45,29 @@ void require_small_objects(const JsonDocument& document, const nlohmann::json& v
   }
 }
 
+/// Bytes of "8 GB", "512 MiB"; nothing when it is nothing of the kind.
+std::optional<double> parse_bytes(const std::string& text) {
+  static constexpr std::array<std::pair<const char*, double>, 9> kUnits = {{
+      {"B", 1.0},
+      {"kB", 1e3},
+      {"MB", 1e6},
+      {"GB", 1e9},
+      {"TB", 1e12},
+      {"KiB", 1024.0},
+      {"MiB", 1024.0 * 1024},
+      {"GiB", 1024.0 * 1024 * 1024},
+      {"TiB", 1024.0 * 1024 * 1024 * 1024},
+  }};
+  const std::size_t blank = text.find(' ');
+  if (blank == std::string::npos) return std::nullopt;
+  const auto number = faultsim::parse_quantity(text.substr(0, blank), Dimension::number);
+  const std::string unit = text.substr(text.find_last_of(' ') + 1);
+  for (const auto& [name, factor] : kUnits) {
+    if (unit == name && number.ok && number.value > 0) return number.value * factor;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 SpecReader::SpecReader(const std::string& text, const std::string& source) {
@@ -198,33 +221,6 @@ void SpecReader::read_base() {
     }
   }
 }
-
-namespace {
-
-/// Bytes of "8 GB", "512 MiB"; nothing when it is nothing of the kind.
-std::optional<double> parse_bytes(const std::string& text) {
-  static constexpr std::array<std::pair<const char*, double>, 9> kUnits = {{
-      {"B", 1.0},
-      {"kB", 1e3},
-      {"MB", 1e6},
-      {"GB", 1e9},
-      {"TB", 1e12},
-      {"KiB", 1024.0},
-      {"MiB", 1024.0 * 1024},
-      {"GiB", 1024.0 * 1024 * 1024},
-      {"TiB", 1024.0 * 1024 * 1024 * 1024},
-  }};
-  const std::size_t blank = text.find(' ');
-  if (blank == std::string::npos) return std::nullopt;
-  const auto number = faultsim::parse_quantity(text.substr(0, blank), Dimension::number);
-  const std::string unit = text.substr(text.find_last_of(' ') + 1);
-  for (const auto& [name, factor] : kUnits) {
-    if (unit == name && number.ok && number.value > 0) return number.value * factor;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
 
 constexpr double kLeastTimeLimit = 1;  // s
 

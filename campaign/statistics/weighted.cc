@@ -53,6 +53,24 @@ double members_for(double share, double variance, double n_effective, double n) 
   return std::min(share * (1 - share) / variance, n);
 }
 
+/// The first value up to which members carry a share of all weight, if those up to it count
+/// `below` and those beyond it `above`.
+double value_at(double share, std::span<const double> values, std::span<const WeightRange> weights,
+                std::span<const std::size_t> order, double WeightRange::*below,
+                double WeightRange::*above) {
+  double beyond = 0, so_far = 0;
+  for (const WeightRange& one : weights) beyond += one.*above;
+  double last = values[order.front()];
+  for (const std::size_t i : order) {
+    if (weights[i].most <= 0) continue;
+    beyond = std::max(0.0, beyond - weights[i].*above);
+    so_far += weights[i].*below;
+    last = values[i];
+    if (so_far >= (share - 1e-12) * (so_far + beyond)) break;  // rounding of the sums
+  }
+  return last;
+}
+
 }  // namespace
 
 double effective_sample_size(std::span<const double> weights) {
@@ -118,28 +136,6 @@ Estimate weighted_probability(std::span<const Holds> holds, std::span<const Weig
   }
   return found;
 }
-
-namespace {
-
-/// The first value up to which members carry a share of all weight, if those up to it count
-/// `below` and those beyond it `above`.
-double value_at(double share, std::span<const double> values, std::span<const WeightRange> weights,
-                std::span<const std::size_t> order, double WeightRange::*below,
-                double WeightRange::*above) {
-  double beyond = 0, so_far = 0;
-  for (const WeightRange& one : weights) beyond += one.*above;
-  double last = values[order.front()];
-  for (const std::size_t i : order) {
-    if (weights[i].most <= 0) continue;
-    beyond = std::max(0.0, beyond - weights[i].*above);
-    so_far += weights[i].*below;
-    last = values[i];
-    if (so_far >= (share - 1e-12) * (so_far + beyond)) break;  // rounding of the sums
-  }
-  return last;
-}
-
-}  // namespace
 
 QuantileBounds weighted_quantile(std::span<const double> values,
                                  std::span<const WeightRange> weights,

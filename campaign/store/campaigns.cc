@@ -96,18 +96,6 @@ void count_known(Connection& db, SubmitOutcome& outcome) {
       outcome.campaign);
 }
 
-}  // namespace
-
-std::int64_t Store::add_scene(const BaseScene& scene) {
-  Connection& db = *connection_;
-  const std::string hash = faultsim::fingerprint(scene.source + '\n' + scene.document);
-  db.run("INSERT INTO scenes (hash, source, document) VALUES (?, ?, ?) ON CONFLICT DO NOTHING",
-         hash, scene.source, scene.document);
-  return db.row<std::int64_t>("SELECT id FROM scenes WHERE hash = ?", hash);
-}
-
-namespace {
-
 /// Puts cases into a campaign, behind those that it has.
 class CaseAdder {
  public:
@@ -150,6 +138,14 @@ class CaseAdder {
 };
 
 }  // namespace
+
+std::int64_t Store::add_scene(const BaseScene& scene) {
+  Connection& db = *connection_;
+  const std::string hash = faultsim::fingerprint(scene.source + '\n' + scene.document);
+  db.run("INSERT INTO scenes (hash, source, document) VALUES (?, ?, ?) ON CONFLICT DO NOTHING",
+         hash, scene.source, scene.document);
+  return db.row<std::int64_t>("SELECT id FROM scenes WHERE hash = ?", hash);
+}
 
 long Store::add_round(std::int64_t campaign, const Submission& submission,
                       const std::string& design, const std::string& reason) {

@@ -53,6 +53,19 @@ std::vector<std::pair<std::string, std::string>> columns_of(Store::Kinds kinds) 
   return columns;
 }
 
+/// The column of the histories that has a metric of faults, by its name in metric_catalogue().
+std::map<std::string, std::string> kept_metrics() {
+  std::map<std::string, std::string> columns = {{"thickness_chi_080", "thickness_chi_080_max_m"}};
+  const faultsim::Measures measures;
+  const faultsim::FaultMetrics step;
+  faultsim::for_each_field(step, [&](const faultsim::Field& kept, const auto&) {
+    faultsim::for_each_measure(measures, [&](const faultsim::Field& measure, const auto&) {
+      if (measure.key == kept.key) columns.emplace(measure.metric(), kept.key);
+    });
+  });
+  return columns;
+}
+
 }  // namespace
 
 std::vector<std::string> Store::history_columns(Kinds kinds) {
@@ -82,23 +95,6 @@ void Store::for_each_history_row(std::int64_t campaign, const TableQuery& query,
     visit(cells);
   }
 }
-
-namespace {
-
-/// The column of the histories that has a metric of faults, by its name in metric_catalogue().
-std::map<std::string, std::string> kept_metrics() {
-  std::map<std::string, std::string> columns = {{"thickness_chi_080", "thickness_chi_080_max_m"}};
-  const faultsim::Measures measures;
-  const faultsim::FaultMetrics step;
-  faultsim::for_each_field(step, [&](const faultsim::Field& kept, const auto&) {
-    faultsim::for_each_measure(measures, [&](const faultsim::Field& measure, const auto&) {
-      if (measure.key == kept.key) columns.emplace(measure.metric(), kept.key);
-    });
-  });
-  return columns;
-}
-
-}  // namespace
 
 std::vector<std::string> history_metrics() {
   std::vector<std::string> names;

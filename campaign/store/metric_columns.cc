@@ -222,6 +222,18 @@ std::string with_early(Depends depends, const std::string& open) {
   return open.empty() ? kEarly : concat(kEarly, " OR ", open);
 }
 
+/// The SQL of a value over row x, over another row.
+std::string over_row(std::string_view sql, const std::string& row) {
+  std::string text;
+  for (std::size_t i = 0; i < sql.size(); ++i) {
+    const bool begins_word =
+        i == 0 || (std::isalnum(static_cast<unsigned char>(sql[i - 1])) == 0 && sql[i - 1] != '_');
+    const bool is_row = begins_word && sql.substr(i, 2) == "x.";
+    text += is_row ? row : std::string(1, sql[i]);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string value_of_scope(const std::string& sql, const MetricScope& scope) {
@@ -259,22 +271,6 @@ std::string unresolved_sql(const std::string& metric, const MetricIds& all,
   const std::string open = open_sql(depends, scope.fault.has_value(), all);
   return with_early(depends, scoped(open, scope, stage_of_query));
 }
-
-namespace {
-
-/// The SQL of a value over row x, over another row.
-std::string over_row(std::string_view sql, const std::string& row) {
-  std::string text;
-  for (std::size_t i = 0; i < sql.size(); ++i) {
-    const bool begins_word =
-        i == 0 || (std::isalnum(static_cast<unsigned char>(sql[i - 1])) == 0 && sql[i - 1] != '_');
-    const bool is_row = begins_word && sql.substr(i, 2) == "x.";
-    text += is_row ? row : std::string(1, sql[i]);
-  }
-  return text;
-}
-
-}  // namespace
 
 std::string ScopeJoins::joined(const std::string& sql) {
   std::string text;

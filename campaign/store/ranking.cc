@@ -16,31 +16,6 @@ constexpr const char* kDefaultFaultOrder =
     "q.rank_class, q.activated_area_m2 DESC, q.open_area_m2 DESC, q.moment_nm DESC,"
     " q.chi_bar DESC, cc.position";
 
-}  // namespace
-
-std::string parameter_sql(int index, bool is_text) {
-  return faultsim::concat("(SELECT p.", is_text ? "text" : "si",
-                          " FROM case_parameters p WHERE p.campaign_id = cc.campaign_id"
-                          " AND p.position = cc.position AND p.parameter = ",
-                          index, ")");
-}
-
-ParameterReader::ParameterReader(Connection& connection, std::int64_t campaign)
-    : campaign_(campaign),
-      query_(connection.prepared("SELECT parameter, si, text FROM case_parameters"
-                                 " WHERE campaign_id = ? AND position = ? ORDER BY parameter")) {}
-
-CaseParameters ParameterReader::of(long position) {
-  CaseParameters all;
-  query_.bind(campaign_, position);
-  while (query_.step()) {
-    all.push_back(query_.row<CaseParameter, int, std::optional<double>, std::string>());
-  }
-  return all;
-}
-
-namespace {
-
 bool uses(const Store::RankingQuery& query, const char* alias) {
   return query.by.text.find(alias) != std::string::npos ||
          query.where.text.find(alias) != std::string::npos;
@@ -83,7 +58,44 @@ std::string order_sql(const Store::RankingQuery& query) {
   return query.limit > 0 ? sql + concat(" LIMIT ", query.limit) : sql;
 }
 
+/// Whether any case of the campaign that the query selects is plane strain, or is not.
+bool has_kind(Connection& db, std::int64_t campaign, const Store::RankingQuery& query,
+              bool plane_strain) {
+  const char* of_kind =
+      plane_strain ? " m.plane_strain = 1 LIMIT 1" : " m.plane_strain = 0 LIMIT 1";
+  const auto found =
+      query.where.text.empty()
+          ? db.find<int>(concat("SELECT 1 FROM case_metrics m CROSS JOIN campaign_cases cc"
+                                " ON cc.case_id = m.case_id AND cc.campaign_id = ? WHERE",
+                                of_kind),
+                         campaign)
+          : db.find<int>(concat("SELECT 1", selection_sql(query, true), " AND", of_kind), campaign,
+                         query.stage, query.where.parameters);
+  return found.has_value();
+}
+
 }  // namespace
+
+std::string parameter_sql(int index, bool is_text) {
+  return faultsim::concat("(SELECT p.", is_text ? "text" : "si",
+                          " FROM case_parameters p WHERE p.campaign_id = cc.campaign_id"
+                          " AND p.position = cc.position AND p.parameter = ",
+                          index, ")");
+}
+
+ParameterReader::ParameterReader(Connection& connection, std::int64_t campaign)
+    : campaign_(campaign),
+      query_(connection.prepared("SELECT parameter, si, text FROM case_parameters"
+                                 " WHERE campaign_id = ? AND position = ? ORDER BY parameter")) {}
+
+CaseParameters ParameterReader::of(long position) {
+  CaseParameters all;
+  query_.bind(campaign_, position);
+  while (query_.step()) {
+    all.push_back(query_.row<CaseParameter, int, std::optional<double>, std::string>());
+  }
+  return all;
+}
 
 std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery& query) const {
   Statement order(*connection_, order_sql(query));
@@ -131,26 +143,6 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
   }
   return ranked;
 }
-
-namespace {
-
-/// Whether any case of the campaign that the query selects is plane strain, or is not.
-bool has_kind(Connection& db, std::int64_t campaign, const Store::RankingQuery& query,
-              bool plane_strain) {
-  const char* of_kind =
-      plane_strain ? " m.plane_strain = 1 LIMIT 1" : " m.plane_strain = 0 LIMIT 1";
-  const auto found =
-      query.where.text.empty()
-          ? db.find<int>(concat("SELECT 1 FROM case_metrics m CROSS JOIN campaign_cases cc"
-                                " ON cc.case_id = m.case_id AND cc.campaign_id = ? WHERE",
-                                of_kind),
-                         campaign)
-          : db.find<int>(concat("SELECT 1", selection_sql(query, true), " AND", of_kind), campaign,
-                         query.stage, query.where.parameters);
-  return found.has_value();
-}
-
-}  // namespace
 
 Store::Kinds Store::kinds(std::int64_t campaign, const RankingQuery& query) const {
   Kinds kinds;

@@ -33,33 +33,6 @@ void make_folder(const std::filesystem::path& folder) {
   }
 }
 
-}  // namespace
-
-long file_system_type(const std::filesystem::path& folder) {
-  struct statfs info = {};
-  return statfs(folder.c_str(), &info) == 0 ? static_cast<long>(info.f_type) : 0;
-}
-
-bool is_network_file_system(long f_type) {
-  // NFS, SMB, CIFS, SMB2, AFS, Lustre, GPFS, Ceph, BeeGFS, OCFS2, PanFS, 9P, FUSE (sshfs and its
-  // kin; a local FUSE file system is treated alike: slower, but right).
-  constexpr std::array<unsigned long, 13> kNetwork = {
-      0x6969,     0x517B,     0xFF534D42, 0xFE534D42, 0x5346414F, 0x0BD00BD0, 0x47504653,
-      0x00C36400, 0x19830326, 0x7461636F, 0xAAD7AAEA, 0x01021997, 0x65735546};
-  return std::ranges::find(kNetwork, static_cast<std::uint32_t>(f_type)) != kNetwork.end();
-}
-
-Store::Store(std::filesystem::path folder, std::unique_ptr<Connection> connection,
-             std::string remark)
-    : folder_(std::move(folder)),
-      connection_(std::move(connection)),
-      checksums_(std::make_unique<Checksums>(*connection_)),
-      remark_(std::move(remark)) {}
-Store::Store(Store&&) noexcept = default;
-Store::~Store() = default;
-
-namespace {
-
 /// A migration makes the checksums anew: what they are to find must be found before.
 void require_sound_checksums(Connection& connection) {
   if (!Checksums::exist(connection)) return;
@@ -97,6 +70,29 @@ std::unique_ptr<Connection> open_for_writing(const std::filesystem::path& folder
 }
 
 }  // namespace
+
+long file_system_type(const std::filesystem::path& folder) {
+  struct statfs info = {};
+  return statfs(folder.c_str(), &info) == 0 ? static_cast<long>(info.f_type) : 0;
+}
+
+bool is_network_file_system(long f_type) {
+  // NFS, SMB, CIFS, SMB2, AFS, Lustre, GPFS, Ceph, BeeGFS, OCFS2, PanFS, 9P, FUSE (sshfs and its
+  // kin; a local FUSE file system is treated alike: slower, but right).
+  constexpr std::array<unsigned long, 13> kNetwork = {
+      0x6969,     0x517B,     0xFF534D42, 0xFE534D42, 0x5346414F, 0x0BD00BD0, 0x47504653,
+      0x00C36400, 0x19830326, 0x7461636F, 0xAAD7AAEA, 0x01021997, 0x65735546};
+  return std::ranges::find(kNetwork, static_cast<std::uint32_t>(f_type)) != kNetwork.end();
+}
+
+Store::Store(std::filesystem::path folder, std::unique_ptr<Connection> connection,
+             std::string remark)
+    : folder_(std::move(folder)),
+      connection_(std::move(connection)),
+      checksums_(std::make_unique<Checksums>(*connection_)),
+      remark_(std::move(remark)) {}
+Store::Store(Store&&) noexcept = default;
+Store::~Store() = default;
 
 Store Store::open_writer(const std::filesystem::path& folder, bool assume_network) {
   std::string remark;

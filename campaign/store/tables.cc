@@ -21,20 +21,6 @@ constexpr const char* kJoins =
     " AND s.stage_id = (SELECT id FROM names WHERE name = ?)"
     " LEFT JOIN names f ON f.id = s.activated_fault_id";
 
-}  // namespace
-
-std::string joins(const Store::TableQuery& query) {
-  if (!query.fault) return kJoins;
-  return concat(kJoins, " LEFT JOIN fault_metrics q ON q.stage_id = s.stage_id AND q.fault_id = ",
-                *query.fault, " AND q.case_id = cc.case_id");
-}
-
-std::string where_sql(const SqlFragment& where) {
-  return where.text.empty() ? "" : " AND coalesce((" + where.text + "), 0)";
-}
-
-namespace {
-
 CaseRow read_case(const Statement& row, std::size_t n_metrics) {
   constexpr int kFirstMetric = 8;
   CaseRow one;
@@ -71,50 +57,12 @@ void visit_cases(Connection& db, const std::string& from, const char* campaign_c
   }
 }
 
-}  // namespace
-
-void Store::for_each_case(std::int64_t campaign, const TableQuery& query,
-                          const std::function<void(const CaseRow&)>& visit) const {
-  Connection& db = *connection_;
-  const bool has_rows = db.row<bool>(  // else the rows of its designs are its cases
-      "SELECT EXISTS (SELECT 1 FROM design_rows WHERE campaign_id = ?)", campaign);
-  if (query.by_design_row && has_rows) {
-    visit_cases(db,
-                " FROM design_rows d CROSS JOIN campaign_cases cc"
-                " ON cc.campaign_id = d.campaign_id AND cc.position = d.position",
-                "d.campaign_id", campaign, query, " ORDER BY d.design, d.row", visit);
-  } else {
-    visit_cases(db, " FROM campaign_cases cc", "cc.campaign_id", campaign, query,
-                " ORDER BY cc.position", visit);
-  }
-}
-
-namespace {
-
 /// Δp of the side that changed more, or of the fault's fluid where no region touches the place.
 std::string leading_change_sql(const std::string& row) {
   const std::string minus = row + ".change_minus_pa", plus = row + ".change_plus_pa";
   return concat("coalesce(CASE WHEN coalesce(abs(", plus, ") > coalesce(abs(", minus,
                 "), -1), 0) THEN ", plus, " ELSE ", minus, " END, ", row, ".change_in_fault_pa)");
 }
-
-}  // namespace
-
-void Store::for_each_slip_event(std::int64_t campaign, const TableQuery& query,
-                                const std::function<void(const SeenEvent&)>& visit) const {
-  const std::string sql =
-      concat("SELECT cc.position, coalesce(e.fault_id, 0), e.time_s, ", leading_change_sql("e"),
-             ", e.magnitude_mw FROM campaign_cases cc", joins(query),
-             " CROSS JOIN slip_events e ON e.case_id = cc.case_id WHERE cc.campaign_id = ?",
-             where_sql(query.where), " ORDER BY cc.position, e.number");
-  Statement rows(*connection_, sql);
-  rows.bind(query.stage, campaign, query.where.parameters);
-  while (rows.step()) {
-    visit(rows.row<SeenEvent, long, std::int64_t, double, double, std::optional<double>>());
-  }
-}
-
-namespace {
 
 /// What the region that changes by `change` in a step had changed by in the one before; NaN where
 /// no region does, as that of a place need not.
@@ -144,6 +92,46 @@ std::string unresolved_faults_sql(const std::vector<NamedId>& faults) {
 }
 
 }  // namespace
+
+std::string joins(const Store::TableQuery& query) {
+  if (!query.fault) return kJoins;
+  return concat(kJoins, " LEFT JOIN fault_metrics q ON q.stage_id = s.stage_id AND q.fault_id = ",
+                *query.fault, " AND q.case_id = cc.case_id");
+}
+
+std::string where_sql(const SqlFragment& where) {
+  return where.text.empty() ? "" : " AND coalesce((" + where.text + "), 0)";
+}
+
+void Store::for_each_case(std::int64_t campaign, const TableQuery& query,
+                          const std::function<void(const CaseRow&)>& visit) const {
+  Connection& db = *connection_;
+  const bool has_rows = db.row<bool>(  // else the rows of its designs are its cases
+      "SELECT EXISTS (SELECT 1 FROM design_rows WHERE campaign_id = ?)", campaign);
+  if (query.by_design_row && has_rows) {
+    visit_cases(db,
+                " FROM design_rows d CROSS JOIN campaign_cases cc"
+                " ON cc.campaign_id = d.campaign_id AND cc.position = d.position",
+                "d.campaign_id", campaign, query, " ORDER BY d.design, d.row", visit);
+  } else {
+    visit_cases(db, " FROM campaign_cases cc", "cc.campaign_id", campaign, query,
+                " ORDER BY cc.position", visit);
+  }
+}
+
+void Store::for_each_slip_event(std::int64_t campaign, const TableQuery& query,
+                                const std::function<void(const SeenEvent&)>& visit) const {
+  const std::string sql =
+      concat("SELECT cc.position, coalesce(e.fault_id, 0), e.time_s, ", leading_change_sql("e"),
+             ", e.magnitude_mw FROM campaign_cases cc", joins(query),
+             " CROSS JOIN slip_events e ON e.case_id = cc.case_id WHERE cc.campaign_id = ?",
+             where_sql(query.where), " ORDER BY cc.position, e.number");
+  Statement rows(*connection_, sql);
+  rows.bind(query.stage, campaign, query.where.parameters);
+  while (rows.step()) {
+    visit(rows.row<SeenEvent, long, std::int64_t, double, double, std::optional<double>>());
+  }
+}
 
 void Store::for_each_onset(std::int64_t campaign, const TableQuery& query,
                            const std::function<void(const CaseOnsets&)>& visit) const {

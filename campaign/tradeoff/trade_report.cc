@@ -244,6 +244,25 @@ std::string ranking_sentence(const RankingTrade& one) {
   return text;
 }
 
+json known(double value) { return std::isnan(value) ? json() : json(value); }
+
+json metrics_json(const TradeMetrics& metrics) {
+  return {{"activation_pressure_pa", known(metrics.activation_pressure)},
+          {"activated_area_m2", known(metrics.area)},
+          {"max_slip_m", known(metrics.slip)},
+          {"moment_nm", known(metrics.moment)}};
+}
+
+json choices_json(const TradeTable& table) {
+  json rows = json_rows(table_of(table));
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    json& changes = rows[k]["changes"] = json::object();
+    for (const Change& change : table.rows[k].choice.changes)
+      changes[change.pointer] = change.value;
+  }
+  return rows;
+}
+
 }  // namespace
 
 std::vector<std::string> trade_answers(const TradeReport& report) {
@@ -284,29 +303,6 @@ std::string trade_to_markdown(const TradeReport& report) {
   }
   return text;
 }
-
-namespace {
-
-json known(double value) { return std::isnan(value) ? json() : json(value); }
-
-json metrics_json(const TradeMetrics& metrics) {
-  return {{"activation_pressure_pa", known(metrics.activation_pressure)},
-          {"activated_area_m2", known(metrics.area)},
-          {"max_slip_m", known(metrics.slip)},
-          {"moment_nm", known(metrics.moment)}};
-}
-
-json choices_json(const TradeTable& table) {
-  json rows = json_rows(table_of(table));
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    json& changes = rows[k]["changes"] = json::object();
-    for (const Change& change : table.rows[k].choice.changes)
-      changes[change.pointer] = change.value;
-  }
-  return rows;
-}
-
-}  // namespace
 
 json trade_to_json(const TradeReport& report) {
   json axes = json::array();

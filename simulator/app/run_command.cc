@@ -25,27 +25,6 @@ namespace {
 
 std::string built_in(double seconds) { return formatted("operator: built in %.2f s", seconds); }
 
-}  // namespace
-
-ExitCode exit_code_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::converged:
-    case Outcome::event:
-    case Outcome::unresolved_event:
-      return ExitCode::done;
-    case Outcome::unconverged:
-    case Outcome::unstable:
-      return ExitCode::no_convergence;
-    case Outcome::interrupted:
-      return ExitCode::interrupted;
-    case Outcome::failed:
-      return ExitCode::bug;
-  }
-  return ExitCode::bug;
-}
-
-namespace {
-
 /// What the arguments ask for; automatic chooses by the plan. Throws InputError when the coupled
 /// path is asked for and cannot take the scene.
 PathChoice path_of(const RunArguments& arguments, const LoadedScene& loaded) {
@@ -69,6 +48,23 @@ std::string prepared_text(const FaultOperator& op, const std::optional<CaseSurfa
 }
 
 }  // namespace
+
+ExitCode exit_code_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::converged:
+    case Outcome::event:
+    case Outcome::unresolved_event:
+      return ExitCode::done;
+    case Outcome::unconverged:
+    case Outcome::unstable:
+      return ExitCode::no_convergence;
+    case Outcome::interrupted:
+      return ExitCode::interrupted;
+    case Outcome::failed:
+      return ExitCode::bug;
+  }
+  return ExitCode::bug;
+}
 
 ExitCode run_command(const RunArguments& arguments) {
   const SolverChoice solver = solver_of(arguments.leading, arguments.schur);

@@ -13,45 +13,6 @@ namespace {
 
 std::string bar(double pascal) { return formatted("%.0f", pascal / 1e5); }
 
-}  // namespace
-
-ScreenMonitor::ScreenMonitor(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
-
-ScreenMonitor::~ScreenMonitor() { clear(); }
-
-void ScreenMonitor::progress(double fraction, const std::string& what) {
-  if (quiet_) return;
-  if (!terminal_) {
-    if (what != last_) std::fprintf(stderr, "%s\n", what.c_str());
-    last_ = what;
-    return;
-  }
-  constexpr int kWidth = 30;
-  const int filled = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kWidth);
-  const double seconds = watch_.seconds();
-  const std::string left = fraction > 0.05 && fraction < 1
-                               ? formatted(", about %.0f s left", seconds * (1 / fraction - 1))
-                               : "";
-  std::fprintf(stderr, "\r\033[K[%s%s] %s%s",
-               std::string(static_cast<std::size_t>(filled), '#').c_str(),
-               std::string(static_cast<std::size_t>(kWidth - filled), '.').c_str(), what.c_str(),
-               left.c_str());
-  last_ = what;
-}
-
-void ScreenMonitor::clear() {
-  if (!quiet_ && terminal_ && !last_.empty()) std::fprintf(stderr, "\r\033[K");
-  last_.clear();
-}
-
-void ScreenMonitor::note(const std::string& text) {
-  if (quiet_) return;
-  clear();
-  std::fprintf(stderr, "note: %s\n", text.c_str());
-}
-
-namespace {
-
 constexpr std::size_t kScreenWidth = 100;
 constexpr std::size_t kRegionWidth = 8, kFaultWidth = 8;
 
@@ -68,82 +29,11 @@ std::size_t n_fault_columns(std::size_t n_regions, std::size_t n_faults, bool wi
 /// One column, the most depleted region, where they would take the faults' place.
 bool shows_regions(std::size_t n_regions, bool wide) { return wide || n_regions <= 4; }
 
-}  // namespace
-
-std::string step_table_header(const Scene& scene, bool plane_strain, bool wide) {
-  const bool regions = shows_regions(scene.pressure.size(), wide);
-  const std::size_t n_regions = regions ? scene.pressure.size() : 1;
-  const std::size_t n_faults = scene.faults.size();
-  const std::size_t n_shown = n_fault_columns(n_regions, n_faults, wide);
-  std::string line = formatted("%4s  %-18s%7s", "step", "stage", "year");
-  std::string units = formatted("%4s  %-18s%7s", "", "", "");
-  for (std::size_t r = 0; r < n_regions; ++r) {
-    line += formatted(" %7.7s", regions ? ("dp " + scene.pressure[r].region).c_str() : "dp min");
-    units += formatted(" %7s", "bar");
-  }
-  if (wide) line += formatted(" %6s", "stick"), units += formatted(" %6s", "nodes");
-  line += formatted(" %5s %4s", "slip", "open");
-  units += formatted(" %5s %4s", "nodes", "");
-  for (std::size_t f = 0; f < n_shown; ++f) {
-    line += formatted(" %7.7s", ("chi " + scene.faults[f].name).c_str());
-    units += formatted(" %7s", "window");
-  }
-  if (n_shown < n_faults) {
-    line += formatted(" %7s", n_shown == 0 ? "chi max" : "others");
-    units += formatted(" %7s", "window");
-  }
-  line += formatted(" %8s %8s", "chi>0.8", "max slip");
-  units += formatted(" %8s %8s", plane_strain ? "m2/m" : "m2", "mm");
-  if (wide) line += formatted(" %5s %8s", "iter", "time"), units += formatted(" %5s %8s", "", "ms");
-  return line + "\n" + units + "\n";
-}
-
-namespace {
-
 /// '*' where the fault slides, '?' where that depends on the cells.
 char mark(const FaultMetrics& fault) {
   if (!fault.activation_resolved) return '?';
   return fault.activated ? '*' : ' ';
 }
-
-}  // namespace
-
-std::string step_table_row(const StepResult& step, bool wide) {
-  constexpr double kYear = 31557600.0;
-  const bool has_event =
-      step.outcome == Outcome::event || step.outcome == Outcome::unresolved_event;
-  std::string line = formatted("%4d%c %-18.18s%7.2f", step.step, has_event ? '!' : ' ',
-                               step.stage.c_str(), step.time / kYear);
-  const bool regions = shows_regions(step.pressure_change.size(), wide);
-  std::vector<double> shown = step.pressure_change;
-  if (!regions) shown = {*std::ranges::min_element(shown)};
-  for (const double dp : shown) line += formatted(" %7s", bar(dp).c_str());
-  if (!in_equilibrium(step.outcome)) {
-    return line + "  " + to_string(step.outcome) + ": " + step.reason + "\n";
-  }
-  if (wide) line += formatted(" %6d", step.n_stick);
-  line += formatted(" %5d %4d", step.n_slip, step.n_open);
-  const std::size_t n_shown = n_fault_columns(shown.size(), step.faults.size(), wide);
-  double area = 0, slip = 0, others = 0;
-  char others_mark = ' ';
-  for (std::size_t f = 0; f < step.faults.size(); ++f) {
-    const FaultMetrics& fault = step.faults[f];
-    area += fault.area_chi_080;
-    slip = std::max(slip, fault.max_slip);
-    if (f < n_shown) {
-      line += formatted(" %6.3f%c", fault.chi_bar, mark(fault));
-    } else {
-      others = std::max(others, fault.chi_bar);
-      if (others_mark != '*' && mark(fault) != ' ') others_mark = mark(fault);
-    }
-  }
-  if (n_shown < step.faults.size()) line += formatted(" %6.3f%c", others, others_mark);
-  line += formatted(" %8.4g %8.3f", area, slip * 1e3);
-  if (wide) line += formatted(" %5d %8.2f", step.counts.newton_iterations, step.seconds * 1e3);
-  return line + "\n";
-}
-
-namespace {
 
 /// Units of what is per metre of strike in plane strain.
 const char* area_unit(const CaseResult& result) { return result.plane_strain ? "m2/m" : "m2"; }
@@ -271,6 +161,104 @@ std::string coupled_text(const CaseResult& result) {
 }
 
 }  // namespace
+
+ScreenMonitor::ScreenMonitor(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+
+ScreenMonitor::~ScreenMonitor() { clear(); }
+
+void ScreenMonitor::progress(double fraction, const std::string& what) {
+  if (quiet_) return;
+  if (!terminal_) {
+    if (what != last_) std::fprintf(stderr, "%s\n", what.c_str());
+    last_ = what;
+    return;
+  }
+  constexpr int kWidth = 30;
+  const int filled = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kWidth);
+  const double seconds = watch_.seconds();
+  const std::string left = fraction > 0.05 && fraction < 1
+                               ? formatted(", about %.0f s left", seconds * (1 / fraction - 1))
+                               : "";
+  std::fprintf(stderr, "\r\033[K[%s%s] %s%s",
+               std::string(static_cast<std::size_t>(filled), '#').c_str(),
+               std::string(static_cast<std::size_t>(kWidth - filled), '.').c_str(), what.c_str(),
+               left.c_str());
+  last_ = what;
+}
+
+void ScreenMonitor::clear() {
+  if (!quiet_ && terminal_ && !last_.empty()) std::fprintf(stderr, "\r\033[K");
+  last_.clear();
+}
+
+void ScreenMonitor::note(const std::string& text) {
+  if (quiet_) return;
+  clear();
+  std::fprintf(stderr, "note: %s\n", text.c_str());
+}
+
+std::string step_table_header(const Scene& scene, bool plane_strain, bool wide) {
+  const bool regions = shows_regions(scene.pressure.size(), wide);
+  const std::size_t n_regions = regions ? scene.pressure.size() : 1;
+  const std::size_t n_faults = scene.faults.size();
+  const std::size_t n_shown = n_fault_columns(n_regions, n_faults, wide);
+  std::string line = formatted("%4s  %-18s%7s", "step", "stage", "year");
+  std::string units = formatted("%4s  %-18s%7s", "", "", "");
+  for (std::size_t r = 0; r < n_regions; ++r) {
+    line += formatted(" %7.7s", regions ? ("dp " + scene.pressure[r].region).c_str() : "dp min");
+    units += formatted(" %7s", "bar");
+  }
+  if (wide) line += formatted(" %6s", "stick"), units += formatted(" %6s", "nodes");
+  line += formatted(" %5s %4s", "slip", "open");
+  units += formatted(" %5s %4s", "nodes", "");
+  for (std::size_t f = 0; f < n_shown; ++f) {
+    line += formatted(" %7.7s", ("chi " + scene.faults[f].name).c_str());
+    units += formatted(" %7s", "window");
+  }
+  if (n_shown < n_faults) {
+    line += formatted(" %7s", n_shown == 0 ? "chi max" : "others");
+    units += formatted(" %7s", "window");
+  }
+  line += formatted(" %8s %8s", "chi>0.8", "max slip");
+  units += formatted(" %8s %8s", plane_strain ? "m2/m" : "m2", "mm");
+  if (wide) line += formatted(" %5s %8s", "iter", "time"), units += formatted(" %5s %8s", "", "ms");
+  return line + "\n" + units + "\n";
+}
+
+std::string step_table_row(const StepResult& step, bool wide) {
+  constexpr double kYear = 31557600.0;
+  const bool has_event =
+      step.outcome == Outcome::event || step.outcome == Outcome::unresolved_event;
+  std::string line = formatted("%4d%c %-18.18s%7.2f", step.step, has_event ? '!' : ' ',
+                               step.stage.c_str(), step.time / kYear);
+  const bool regions = shows_regions(step.pressure_change.size(), wide);
+  std::vector<double> shown = step.pressure_change;
+  if (!regions) shown = {*std::ranges::min_element(shown)};
+  for (const double dp : shown) line += formatted(" %7s", bar(dp).c_str());
+  if (!in_equilibrium(step.outcome)) {
+    return line + "  " + to_string(step.outcome) + ": " + step.reason + "\n";
+  }
+  if (wide) line += formatted(" %6d", step.n_stick);
+  line += formatted(" %5d %4d", step.n_slip, step.n_open);
+  const std::size_t n_shown = n_fault_columns(shown.size(), step.faults.size(), wide);
+  double area = 0, slip = 0, others = 0;
+  char others_mark = ' ';
+  for (std::size_t f = 0; f < step.faults.size(); ++f) {
+    const FaultMetrics& fault = step.faults[f];
+    area += fault.area_chi_080;
+    slip = std::max(slip, fault.max_slip);
+    if (f < n_shown) {
+      line += formatted(" %6.3f%c", fault.chi_bar, mark(fault));
+    } else {
+      others = std::max(others, fault.chi_bar);
+      if (others_mark != '*' && mark(fault) != ' ') others_mark = mark(fault);
+    }
+  }
+  if (n_shown < step.faults.size()) line += formatted(" %6.3f%c", others, others_mark);
+  line += formatted(" %8.4g %8.3f", area, slip * 1e3);
+  if (wide) line += formatted(" %5d %8.2f", step.counts.newton_iterations, step.seconds * 1e3);
+  return line + "\n";
+}
 
 std::string case_summary(const CaseResult& result) {
   std::string text = std::string("outcome: ") + to_string(result.outcome);

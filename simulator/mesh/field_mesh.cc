@@ -323,6 +323,19 @@ GridFault field_fault(const FieldMeshSpec& spec, const StructuredGrid& grid, siz
   return fault;
 }
 
+StructuredGrid make_grid(const FieldMeshSpec& spec) {
+  std::vector<Problem> problems;
+  StructuredGrid grid;
+  grid.lines = grid_lines(spec, problems);
+  if (!problems.empty()) throw InputError("scene", problems);
+  grid.plane_strain = spec.plane_strain;
+  place_points(spec, grid);
+  fill_cells(spec, grid);
+  for (size_t i = 0; i <= spec.blocks.size(); ++i)
+    grid.faults.push_back(field_fault(spec, grid, i));
+  return grid;
+}
+
 }  // namespace
 
 GridLines grid_lines(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
@@ -343,23 +356,6 @@ GridLines grid_lines(const FieldMeshSpec& spec, std::vector<Problem>& problems) 
   problems.insert(problems.end(), found.begin(), found.end());
   return found.empty() ? lines : GridLines{};
 }
-
-namespace {
-
-StructuredGrid make_grid(const FieldMeshSpec& spec) {
-  std::vector<Problem> problems;
-  StructuredGrid grid;
-  grid.lines = grid_lines(spec, problems);
-  if (!problems.empty()) throw InputError("scene", problems);
-  grid.plane_strain = spec.plane_strain;
-  place_points(spec, grid);
-  fill_cells(spec, grid);
-  for (size_t i = 0; i <= spec.blocks.size(); ++i)
-    grid.faults.push_back(field_fault(spec, grid, i));
-  return grid;
-}
-
-}  // namespace
 
 Mesh make_mesh(const FieldMeshSpec& spec) {
   Mesh mesh = cut_faults(make_grid(spec));

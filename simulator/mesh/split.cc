@@ -318,18 +318,6 @@ class SurfaceBuilder {
   std::vector<int> node_at_;        // of the surface, at its points; -1 = not split
 };
 
-}  // namespace
-
-std::vector<Problem> grid_size_problems(const GridLines& lines) {
-  double n_cells = 1;
-  for (const std::vector<double>& axis : lines) n_cells *= static_cast<double>(axis.size()) - 1;
-  if (n_cells <= kMaxCells) return {};
-  return {{"/mesh", 0, concat("the mesh would have ", n_cells, " cells, more than ", kMaxCells),
-           "use larger cells, more growth, the half domain or plane strain"}};
-}
-
-namespace {
-
 /// What a mesh takes of its grid as it is.
 Mesh take_grid(StructuredGrid& grid) {
   Mesh mesh;
@@ -360,6 +348,14 @@ bool same_topology(const FaultSurface& a, const FaultSurface& b) {
 }
 
 }  // namespace
+
+std::vector<Problem> grid_size_problems(const GridLines& lines) {
+  double n_cells = 1;
+  for (const std::vector<double>& axis : lines) n_cells *= static_cast<double>(axis.size()) - 1;
+  if (n_cells <= kMaxCells) return {};
+  return {{"/mesh", 0, concat("the mesh would have ", n_cells, " cells, more than ", kMaxCells),
+           "use larger cells, more growth, the half domain or plane strain"}};
+}
 
 Mesh cut_faults(StructuredGrid grid) {
   Mesh mesh = take_grid(grid);

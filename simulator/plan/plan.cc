@@ -293,28 +293,6 @@ MeshRequest mesh_request(const Scene& scene, const Plan& plan) {
   return request;
 }
 
-}  // namespace
-
-FieldMeshSpec field_mesh_spec(const Scene& scene, const Plan& plan) {
-  FieldMeshSpec spec{scene.field, mesh_request(scene, plan)};
-  spec.sideburden_material = material_index(scene, spec.sideburden);
-  for (const Fault& fault : scene.faults) spec.fault_dips.push_back(fault.dip_from_vertical);
-  spec.half_domain = plan.half_domain;
-  return spec;
-}
-
-BoxMeshSpec box_mesh_spec(const Scene& scene, const Plan& plan) {
-  BoxMeshSpec spec{scene.box, mesh_request(scene, plan)};
-  if (spec.layers.empty()) spec.layer_materials = {material_index(scene, spec.material)};
-  for (const BoundaryCondition& b : spec.boundary) {
-    if (b.kind != BoundaryKind::tied) continue;
-    for (const Side side : b.sides) spec.tied[static_cast<std::size_t>(side) / 2] = true;
-  }
-  return spec;
-}
-
-namespace {
-
 /// The side that the rule `minus` takes, whatever the strikes: the normals of all faults of a mesh
 /// point along one axis of its grid.
 std::string minus_side(const Scene& scene, const Plan& plan) {
@@ -354,6 +332,24 @@ Plan plan_reductions(const Scene& scene) {
 }
 
 }  // namespace
+
+FieldMeshSpec field_mesh_spec(const Scene& scene, const Plan& plan) {
+  FieldMeshSpec spec{scene.field, mesh_request(scene, plan)};
+  spec.sideburden_material = material_index(scene, spec.sideburden);
+  for (const Fault& fault : scene.faults) spec.fault_dips.push_back(fault.dip_from_vertical);
+  spec.half_domain = plan.half_domain;
+  return spec;
+}
+
+BoxMeshSpec box_mesh_spec(const Scene& scene, const Plan& plan) {
+  BoxMeshSpec spec{scene.box, mesh_request(scene, plan)};
+  if (spec.layers.empty()) spec.layer_materials = {material_index(scene, spec.material)};
+  for (const BoundaryCondition& b : spec.boundary) {
+    if (b.kind != BoundaryKind::tied) continue;
+    for (const Side side : b.sides) spec.tied[static_cast<std::size_t>(side) / 2] = true;
+  }
+  return spec;
+}
 
 Mesh scene_mesh(const Scene& scene, const Plan& plan) {
   return scene.geometry_kind == GeometryKind::field ? make_mesh(field_mesh_spec(scene, plan))

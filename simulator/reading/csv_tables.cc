@@ -57,6 +57,20 @@ const json* table_in(const json& scene, const std::string& name) {
   return &tables[name];
 }
 
+void embed_field(json& scene, const std::string& source, const std::string& name,
+                 FlowQuantity quantity) {
+  const FieldPlace place = field_place(scene, source, name);
+  if (!place.fingerprint.empty()) return;
+  if (scene.contains("fields") && !scene["fields"].is_object()) return;  // the schema refuses it
+  try {
+    const std::string path = std::filesystem::absolute(place.path).lexically_normal().string();
+    const FieldFile file = read_field_file(place.path, quantity);
+    if (first_unprintable(path).empty())
+      scene["fields"][name] = {{"path", path}, {"fingerprint", file.fingerprint}};
+  } catch (const InputError&) {  // said by who reads the scene, as is an odd path
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> table_names(const json& scene) {
@@ -108,24 +122,6 @@ FieldPlace field_place(const json& scene, const std::string& source, const std::
   if (!is_known) return {path_of(source, name), ""};
   return {path->get<std::string>(), fingerprint->get<std::string>()};
 }
-
-namespace {
-
-void embed_field(json& scene, const std::string& source, const std::string& name,
-                 FlowQuantity quantity) {
-  const FieldPlace place = field_place(scene, source, name);
-  if (!place.fingerprint.empty()) return;
-  if (scene.contains("fields") && !scene["fields"].is_object()) return;  // the schema refuses it
-  try {
-    const std::string path = std::filesystem::absolute(place.path).lexically_normal().string();
-    const FieldFile file = read_field_file(place.path, quantity);
-    if (first_unprintable(path).empty())
-      scene["fields"][name] = {{"path", path}, {"fingerprint", file.fingerprint}};
-  } catch (const InputError&) {  // said by who reads the scene, as is an odd path
-  }
-}
-
-}  // namespace
 
 void embed_fields(json& scene, const std::string& source, const json& named) {
   for (const auto& [pointer, quantity] :
