@@ -25,7 +25,7 @@ std::vector<ScopedMetric> asked_outputs(const Store& store, const CampaignInfo& 
 bool is_rounding(const ScopedMetric& metric, double least, double most) {
   constexpr double kRounding = 1e-9;
   const double size = std::max(std::abs(least), std::abs(most));
-  const bool is_number = metric.dimension == faultsim::Dimension::number;
+  const bool is_number = metric.dimension == Dimension::number;
   return most - least <= kRounding * (is_number ? std::max(size, 1.0) : size);
 }
 

@@ -227,10 +227,9 @@ AnswerColumn axis_column(CurveAxis axis) {
     case CurveAxis::step:
       return {"step", "step", {}, 9, Need::always};
     case CurveAxis::time:
-      return {"time_s", "time", shown_unit(faultsim::Dimension::time), 4, Need::always};
+      return {"time_s", "time", shown_unit(Dimension::time), 4, Need::always};
     default:
-      return {"pressure_change_pa", "Δp", shown_unit(faultsim::Dimension::pressure), 6,
-              Need::always};
+      return {"pressure_change_pa", "Δp", shown_unit(Dimension::pressure), 6, Need::always};
   }
 }
 

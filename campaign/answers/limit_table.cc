@@ -45,10 +45,10 @@ void find_width(LimitRow& row, const std::vector<LimitSearch>& limits) {
 std::optional<DatumPressure> datum_of(const Store& store, const CampaignInfo& campaign,
                                       const LimitCell& cell, const LimitSearch& limit) {
   const Crossing* crossing = cell.finding.limit();
-  if (crossing == nullptr || limit.dimension != faultsim::Dimension::pressure) return std::nullopt;
+  if (crossing == nullptr || limit.dimension != Dimension::pressure) return std::nullopt;
   const StoredCase one = store.stored_case(campaign.id, std::to_string(crossing->before.position));
   const BaseScene base = store.base_scene(one.scene);
-  std::vector<faultsim::Problem> problems;
+  std::vector<Problem> problems;
   const faultsim::Scene scene = faultsim::read_scene(
       {base.source, scene_from_changes(base.document, one.changes), {}}, problems);
   if (!problems.empty()) return std::nullopt;

@@ -98,8 +98,7 @@ class PosteriorReader {
     const SampleRows sample(store_, posterior_.campaign);
     store_.for_each_case(posterior_.campaign.id, query_, [&](const CaseRow& row) {
       CaseHistory& history = histories[row.position];
-      history.events_resolved =
-          row.outcome != faultsim::to_string(faultsim::Outcome::unresolved_event);
+      history.events_resolved = row.outcome != to_string(faultsim::Outcome::unresolved_event);
       for (int k = 0; k < sample.count(row.position); ++k) add(row, history);
     });
     for (double& one : posterior_.agreement)

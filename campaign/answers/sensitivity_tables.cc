@@ -66,7 +66,7 @@ std::vector<AnswerColumn> subject_columns(const Sensitivity& s) {
   std::vector<AnswerColumn> columns = {{"metric", "metric"}};
   if (!s.steps.empty()) {
     columns.push_back({"step", "step"});
-    columns.push_back({"time_s", "time", shown_unit(faultsim::Dimension::time)});
+    columns.push_back({"time_s", "time", shown_unit(Dimension::time)});
   }
   return columns;
 }

@@ -183,16 +183,15 @@ std::string confidence_note(const Why& why) {
 }
 
 AnswerTable faults_table(const Why& why) {
-  AnswerTable table{
-      "faults",
-      "",
-      {{"fault", "fault", {}, 4, Need::always},
-       {"slides", "slides", {}, 4, Need::always},
-       {"activation_resolved", "resolved", {}, 4, Need::always},
-       {"chi_bar", "χ̄", {}, 3, Need::always},
-       {"step_of_largest_chi_bar", "its step", {}, 4, Need::wanted},
-       {"stage", "slides first in", {}, 4, Need::wanted, "activation"},
-       {"time_s", "at", shown_unit(faultsim::Dimension::time), 4, Need::wanted, "activation"}}};
+  AnswerTable table{"faults",
+                    "",
+                    {{"fault", "fault", {}, 4, Need::always},
+                     {"slides", "slides", {}, 4, Need::always},
+                     {"activation_resolved", "resolved", {}, 4, Need::always},
+                     {"chi_bar", "χ̄", {}, 3, Need::always},
+                     {"step_of_largest_chi_bar", "its step", {}, 4, Need::wanted},
+                     {"stage", "slides first in", {}, 4, Need::wanted, "activation"},
+                     {"time_s", "at", shown_unit(Dimension::time), 4, Need::wanted, "activation"}}};
   append(table.columns, onset_columns(why.ranking.pressures, "activation", Need::extra));
   for (const std::size_t f : order_of_faults(why)) {
     const faultsim::FaultStageMetrics& m = why.metrics.faults[f];

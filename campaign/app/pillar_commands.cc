@@ -48,8 +48,7 @@ ColumnNames names_in(const std::filesystem::path& file) {
 
 std::optional<RegionalStress> stress_of(const PillarArguments& arguments) {
   if (arguments.stress_azimuth.empty()) return std::nullopt;
-  const auto azimuth =
-      faultsim::parse_quantity(arguments.stress_azimuth, faultsim::Dimension::angle);
+  const auto azimuth = faultsim::parse_quantity(arguments.stress_azimuth, Dimension::angle);
   if (!azimuth.ok) throw InputError("--stress-azimuth", azimuth.what, azimuth.cure);
   if (arguments.stress_ratios.size() != 2 ||
       !(arguments.stress_ratios[0] >= arguments.stress_ratios[1]))

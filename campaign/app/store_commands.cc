@@ -65,9 +65,8 @@ ExitCode verify_store(const StoreArguments& common) {
     for (const std::string& problem : problems) print(problem + "\n");
   }
   if (problems.empty()) return ExitCode::done;
-  throw faultsim::StorageError(concat("the store ", common.store.string(), " has ",
-                                      counted(problems.size(), "problem", "problems"), "; ",
-                                      kDamageCure));
+  throw StorageError(concat("the store ", common.store.string(), " has ",
+                            counted(problems.size(), "problem", "problems"), "; ", kDamageCure));
 }
 
 ExitCode status(const StoreArguments& common, const bool& verify) {
@@ -156,10 +155,10 @@ std::string nothing_to_retry(const Store& store, const CampaignInfo& campaign,
   const std::string name = concat("case ", one.position);
   if (one.state == "waiting") return name + " waits already";
   if (faultsim::in_equilibrium(one.result.outcome)) {
-    return concat(name, " has a full result (", faultsim::to_string(one.result.outcome),
+    return concat(name, " has a full result (", to_string(one.result.outcome),
                   "): the same scene gives the same numbers");
   }
-  return concat(name, " has a history that ends early (", faultsim::to_string(one.result.outcome),
+  return concat(name, " has a history that ends early (", to_string(one.result.outcome),
                 "): --unconverged lets it run again");
 }
 
@@ -168,8 +167,7 @@ ExitCode retry(const StoreArguments& common, const RetryArguments& arguments) {
   Store store = Store::open_writer(common.store);
   const CampaignInfo campaign = store.campaign(common.campaign);
   if (const auto owner = store.owner(); owner && owner->alive && owner->campaign == campaign.id) {
-    throw faultsim::StorageError(
-        concat(campaign.name, " is running; stop it, or wait for its end"));
+    throw StorageError(concat(campaign.name, " is running; stop it, or wait for its end"));
   }
   // Throws where there is no such case.
   if (arguments.position) store.stored_case(campaign.id, std::to_string(*arguments.position));

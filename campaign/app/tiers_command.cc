@@ -38,7 +38,7 @@ ordered_json read_spec(const TiersArguments& arguments) {
   const CampaignSpec spec = read_campaign(arguments.source);
   const bool is_sample = spec.groups.size() == 1 && spec.groups[0].designs.size() == 1 &&
                          spec.groups[0].designs[0].kind == DesignKind::monte_carlo;
-  std::vector<faultsim::Problem> problems;
+  std::vector<Problem> problems;
   if (!is_sample) {
     problems.push_back({"/design", spec.document.line_of("/design"),
                         "tiers share the first samples of one monte-carlo design",

@@ -80,7 +80,7 @@ TradeQuestion read_question(const TradeoffArguments& arguments) {
   for (const std::string& tier : arguments.tiers) {
     JsonDocument at_it = question.scene;
     at_it.value["tier"] = tier;
-    std::vector<faultsim::Problem> problems;
+    std::vector<Problem> problems;
     faultsim::read_scene(at_it, problems);
     if (!problems.empty()) {
       throw InputError("--tiers", concat("'", tier, "': ", problems.front().what),

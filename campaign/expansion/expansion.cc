@@ -56,7 +56,7 @@ class Expander {
  private:
   void throw_problems() {
     if (problems_.empty()) return;
-    throw faultsim::InputError(result_.spec.source, problems_);
+    throw InputError(result_.spec.source, problems_);
   }
 
   /// Adds problems that were not said before.

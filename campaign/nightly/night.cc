@@ -40,12 +40,11 @@ class NightLock {
     const std::filesystem::path file = folder / "nightly.lock";
     descriptor_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (descriptor_ < 0) {
-      throw faultsim::StorageError(
-          concat("cannot write ", file.string(), ": ", std::strerror(errno)));
+      throw StorageError(concat("cannot write ", file.string(), ": ", std::strerror(errno)));
     }
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-      throw faultsim::StorageError(concat("another faultsweep nightly works in ", folder.string(),
-                                          "; wait for it, or use another --store"));
+      throw StorageError(concat("another faultsweep nightly works in ", folder.string(),
+                                "; wait for it, or use another --store"));
     }
   }
   ~NightLock() { close(descriptor_); }
@@ -59,9 +58,8 @@ class NightLock {
 ChildOutput run_program(const std::vector<std::string>& command) {
   ChildOutput result = faultsim::run_child(command);
   if (result.start_error == 0) return result;
-  throw faultsim::ResourceError(concat("cannot run ", command[0], ": ",
-                                       std::strerror(result.start_error),
-                                       "; set FAULTSIM_BINARY to the faultsim binary"));
+  throw ResourceError(concat("cannot run ", command[0], ": ", std::strerror(result.start_error),
+                             "; set FAULTSIM_BINARY to the faultsim binary"));
 }
 
 Environment ask_environment(const std::filesystem::path& simulator) {
@@ -69,9 +67,9 @@ Environment ask_environment(const std::filesystem::path& simulator) {
   try {
     return environment_from_json(json::parse(answer.out));
   } catch (const json::exception&) {
-    throw faultsim::ResourceError(
-        concat(simulator.string(), " does not say its environment (exit code ", answer.code,
-               "); it must be a faultsim of the same version as faultsweep"));
+    throw ResourceError(concat(simulator.string(), " does not say its environment (exit code ",
+                               answer.code,
+                               "); it must be a faultsim of the same version as faultsweep"));
   }
 }
 
@@ -102,7 +100,7 @@ class Night {
                " --bless --reason \"why these results are right\"");
     try {
       baseline_ = find_baseline(request_.baselines, suite_.name, environment_);
-    } catch (const faultsim::StorageError& error) {
+    } catch (const StorageError& error) {
       return request_.bless ? true : refuse(concat(error.what(), "; ", cure));
     }
     if (!baseline_ && !request_.bless) {
@@ -152,8 +150,7 @@ class Night {
     std::error_code error;
     std::filesystem::remove_all(cold_store(), error);
     if (error) {
-      throw faultsim::StorageError(
-          concat("cannot remove ", cold_store().string(), ": ", error.message()));
+      throw StorageError(concat("cannot remove ", cold_store().string(), ": ", error.message()));
     }
   }
 
@@ -178,8 +175,8 @@ class Night {
       throw faultsim::Interrupted("interrupted: this night does not count");
     }
     if (!has_results(status)) {
-      throw faultsim::ResourceError(concat("the campaign ", outcome.name, " ended with exit code ",
-                                           static_cast<int>(status)));
+      throw ResourceError(concat("the campaign ", outcome.name, " ended with exit code ",
+                                 static_cast<int>(status)));
     }
     const Store store = Store::open_reader(cold_store());
     return stored_night(store, store.campaign(outcome.name));
@@ -255,7 +252,7 @@ class Night {
     const ChildOutput answer = run_program(verify_command({}));
     const json document = json::parse(answer.out, nullptr, false);
     if (!document.is_object()) {
-      throw faultsim::ResourceError(concat("faultsim-verify ended with exit code ", answer.code));
+      throw ResourceError(concat("faultsim-verify ended with exit code ", answer.code));
     }
     for (const json& problem : document.at("cases")) {
       const bool passed = problem.at("passed");

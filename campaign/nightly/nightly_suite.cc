@@ -75,7 +75,7 @@ NightlySuite read_nightly_suite(const std::string& path) {
   static const faultsim::Schema schema(json::parse(faultsim::embedded::nightly_schema));
   const JsonDocument document = faultsim::read_json_file(path);
   std::vector<Problem> problems = faultsim::check_schema(document, schema);
-  if (!problems.empty()) throw faultsim::InputError(path, problems);
+  if (!problems.empty()) throw InputError(path, problems);
   const json& value = document.value;
   NightlySuite suite;
   suite.source = path;
@@ -92,7 +92,7 @@ NightlySuite read_nightly_suite(const std::string& path) {
     suite.tolerances.of_quantity[name] = tolerance;
   }
   check(document, suite, problems);
-  if (!problems.empty()) throw faultsim::InputError(path, problems);
+  if (!problems.empty()) throw InputError(path, problems);
   return suite;
 }
 

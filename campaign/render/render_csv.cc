@@ -102,9 +102,8 @@ const AnswerTable& table_named(const Answer& answer, std::string_view key) {
     if (key.empty() || table->key == key) return *table;
     names += concat(names.empty() ? "" : ", ", table->key);
   }
-  throw faultsim::InputError(
-      "--csv", concat("there is no table '", key, "'"),
-      names.empty() ? "this answer has no table" : concat("there are: ", names));
+  throw InputError("--csv", concat("there is no table '", key, "'"),
+                   names.empty() ? "this answer has no table" : concat("there are: ", names));
 }
 
 }  // namespace faultsweep

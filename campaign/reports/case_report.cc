@@ -45,7 +45,7 @@ std::string outcome_sentence(const ShownCase& shown) {
   std::string text = concat("Case ", one.position, " of ", shown.campaign.name);
   if (one.has_result) {
     const CaseResult& result = one.result;
-    return concat(text, ": ", faultsim::to_string(result.outcome),
+    return concat(text, ": ", to_string(result.outcome),
                   result.reason.empty() ? "" : ", " + result.reason, "; ", result.steps.size(),
                   " load steps, ", result.counts.newton_iterations, " Newton iterations.");
   }
@@ -143,7 +143,7 @@ ShownCase shown_case(const Store& store, const CampaignInfo& campaign, const Sto
   ShownCase shown{campaign, stored, request,
                   region_pressures(has_flow_field(base.document + stored.changes),
                                    stored.result.numerics_version)};
-  std::vector<faultsim::Problem> problems;
+  std::vector<Problem> problems;
   const faultsim::Scene scene = faultsim::read_scene(
       {base.source, scene_from_changes(base.document, stored.changes), {}}, problems);
   if (problems.empty()) shown.initial = faultsim::initial_regions(scene);

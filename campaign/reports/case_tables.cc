@@ -113,7 +113,7 @@ std::vector<AnswerCell> history_row(const CaseResult& result, const faultsim::St
   } else {
     cells.resize(cells.size() + 4);
   }
-  append(cells, {step.time, step.stage, faultsim::to_string(step.outcome)});
+  append(cells, {step.time, step.stage, to_string(step.outcome)});
   for (std::size_t r = 0; r < n_regions; ++r)
     cells.push_back(r < step.pressure_change.size() ? AnswerCell(step.pressure_change[r])
                                                     : AnswerCell());

@@ -209,7 +209,7 @@ void refuse_other_kind(const Side& a, const Side& b, const Comparison& compariso
   };
   for (const MetricDifference& one : comparison.metrics) {
     if (!one.metric.is_extensive()) continue;
-    throw faultsim::InputError(
+    throw InputError(
         "--metrics",
         concat(one.metric.name, " cannot be compared: case ", a.position, " of A is ", dimension(a),
                "; case ", b.position, " of B is ", dimension(b)),

@@ -40,7 +40,7 @@ std::vector<std::string> headline_of(const Comparison& c) {
   const std::string names = concat("A ", c.a.name, " and B ", c.b.name);
   if (c.pairs.empty()) return {concat("COMPARED NOTHING of ", names, ".")};
   const std::string tolerance = concat("the tolerance of ", format_number(c.request.tolerance));
-  const std::string cases = faultsim::counted(c.pairs.size(), "case", "cases");
+  const std::string cases = counted(c.pairs.size(), "case", "cases");
   std::vector<std::string> sentences;
   if (c.agrees()) {
     sentences.push_back(concat(names, " agree within ", tolerance, " in all ", cases, " compared; ",

@@ -24,8 +24,7 @@ std::string verdict_if_open(const CampaignInfo& campaign, const StoredCase& one)
   const StoredRun* last = one.runs.empty() ? nullptr : &one.runs.back();
   if (one.state == "done" && one.fields == FieldsState::wanted) {
     return concat("will run, for its fault fields only: it has a result (",
-                  faultsim::to_string(one.result.outcome),
-                  "), which the run must repeat bit for bit");
+                  to_string(one.result.outcome), "), which the run must repeat bit for bit");
   }
   if (one.state == "done" && one.fields == FieldsState::failed) {
     return concat("will not run: it has a result, but its fault fields could not be added: ",
@@ -36,8 +35,8 @@ std::string verdict_if_open(const CampaignInfo& campaign, const StoredCase& one)
     return "will run, for its fault fields only: their files are gone";
   }
   if (one.state == "done") {
-    return concat("will not run: it has a result (", faultsim::to_string(one.result.outcome),
-                  ") from ", format_time(last->ended_at),
+    return concat("will not run: it has a result (", to_string(one.result.outcome), ") from ",
+                  format_time(last->ended_at),
                   "; the same scene gives the same numbers, so nothing would change");
   }
   if (one.state == "failed") {

@@ -143,9 +143,8 @@ std::vector<RankingColumn> columns_of(const Ranking& ranking, const MeasureColum
   measures.add("moment", columns);
   columns.push_back({{"unexpected", "unexpected", {}, 4, wanted}, unexpected_cell});
   measures.add("n_events", columns);
-  columns.push_back(
-      {{"pressure_margin_pa", "margin", shown_unit(faultsim::Dimension::pressure), 3, wanted},
-       [](const Row& one) -> AnswerCell { return one.row.pressure_margin; }});
+  columns.push_back({{"pressure_margin_pa", "margin", shown_unit(Dimension::pressure), 3, wanted},
+                     [](const Row& one) -> AnswerCell { return one.row.pressure_margin; }});
   measures.add_others(columns);
   columns.push_back({{"opened_fault", "first to open", {}, 4, Need::extra},
                      [](const Row& one) { return words_or_nothing(one.metrics.opened_fault); }});
@@ -289,7 +288,7 @@ std::vector<std::string> headline_of(const Ranking& ranking) {
 }  // namespace
 
 std::string sliding_sentence(const SlidingCounts& counts, const RankRequest& request) {
-  const std::string cases = faultsim::counted(counts.n_cases, "case", "cases");
+  const std::string cases = counted(counts.n_cases, "case", "cases");
   std::string text =
       !request.fault.empty() ? concat(request.fault, " slides in ", counts.n_slide, " of ", cases)
       : counts.n_slide == 0

@@ -24,7 +24,7 @@ LimitSearcher make_limit_searcher(const CampaignSpec& spec) {
   std::vector<std::string> all;
   for (LimitSearch& one : limits) {
     if (one.faults.empty() && all.empty()) {
-      std::vector<faultsim::Problem> problems;
+      std::vector<Problem> problems;
       const faultsim::Scene scene =
           faultsim::read_scene({spec.scene_source, spec.groups.front().scene, {}}, problems);
       for (const faultsim::Fault& fault : scene.faults) all.push_back(fault.name);
@@ -87,7 +87,7 @@ void check_whole_searches(const Expansion& expansion) {
     const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(first);
     const auto n_excluded = std::count(begin, begin + static_cast<std::ptrdiff_t>(n_values), -1);
     if (n_excluded == 0 || n_excluded == static_cast<std::ptrdiff_t>(n_values)) continue;
-    throw faultsim::InputError(
+    throw InputError(
         expansion.spec.source,
         {{"/exclude", expansion.spec.document.line_of("/exclude"),
           concat("leaves out ", n_excluded, " of the ", n_values, " values of a search (row ",
@@ -109,12 +109,12 @@ void check_rounds(const Expansion& expansion) {
   for (const faultsim::Stage& stage : scene.stages) selection.stages.push_back({0, stage.name});
   CampaignInfo campaign;
   campaign.parameters = make_submission(expansion, CaseDetail::identity).parameters;
-  std::vector<faultsim::Problem> problems;
+  std::vector<Problem> problems;
   for (const Question& question : proposer->questions()) {
     try {
       check_question(question, campaign, selection);
-    } catch (const faultsim::InputError& error) {
-      for (faultsim::Problem one : error.problems()) {
+    } catch (const InputError& error) {
+      for (Problem one : error.problems()) {
         const bool is_said = contains(problems, one.what, &Problem::what);
         if (is_said) continue;
         one.pointer = question.pointer;
@@ -123,7 +123,7 @@ void check_rounds(const Expansion& expansion) {
       }
     }
   }
-  if (!problems.empty()) throw faultsim::InputError(expansion.spec.source, problems);
+  if (!problems.empty()) throw InputError(expansion.spec.source, problems);
 }
 
 }  // namespace faultsweep

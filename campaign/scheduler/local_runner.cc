@@ -181,7 +181,7 @@ bool LocalRunner::handle_next(JobEvents& events) {
   result_.reset();
   try {
     faultsim::require_sound_result(*bytes);
-  } catch (const faultsim::StorageError& error) {
+  } catch (const StorageError& error) {
     throw Garbled{concat("sent a result that cannot be read: ", error.what())};
   }
   handle_done(reply, std::move(*bytes), events);

@@ -171,7 +171,7 @@ void Manager::handle_result(int worker, JobEvents::Completed completed) {
   try {
     run.result = faultsim::result_from_bytes(completed.result);
     run.reason = run.result->reason;
-  } catch (const faultsim::StorageError& error) {
+  } catch (const StorageError& error) {
     run.status = RunStatus::garbled;
     run.reason = concat("sent a result that cannot be read: ", error.what());
     run.has_fields = false;

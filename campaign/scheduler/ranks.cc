@@ -113,7 +113,7 @@ ManagerEnd run_manager(Messenger& messenger, const RunOptions& options) {
   ManagerEnd end;
   try {
     end.status = manage(messenger, options, end.in_order);
-  } catch (const faultsim::InputError& error) {
+  } catch (const InputError& error) {
     end = {ExitCode::input, error.what(), false};
   } catch (const faultsim::Error& error) {
     end = {ExitCode::world, error.what(), false};
@@ -203,7 +203,7 @@ ExitCode run_ranks(int argc, char** argv, const RunOptions& options) {
   Messenger messenger(argc, argv);
   set_signals(messenger.rank() == 0);
   if (messenger.size() < 2) {
-    throw faultsim::ResourceError(
+    throw ResourceError(
         "faultsweep run needs at least 2 ranks: a manager and a worker; start it without mpirun");
   }
   return messenger.rank() == 0 ? manager_rank(messenger, options) : worker_rank(messenger, options);

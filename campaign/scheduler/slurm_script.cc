@@ -26,8 +26,8 @@ void require_plain(const char* option, const std::string& text) {
            std::string("-_.,:+@").find(static_cast<char>(c)) != std::string::npos;
   };
   if (std::ranges::all_of(text, is_plain)) return;
-  throw faultsim::InputError(option, concat("\"", text, "\" cannot stand in a line of sbatch"),
-                             "write it as sbatch takes it: 12:00:00, 16G, batch");
+  throw InputError(option, concat("\"", text, "\" cannot stand in a line of sbatch"),
+                   "write it as sbatch takes it: 12:00:00, 16G, batch");
 }
 
 /// One word for the shell.

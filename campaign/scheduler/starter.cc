@@ -87,7 +87,7 @@ class StatusFile {
     std::string name = (std::filesystem::absolute(store) / ".status-XXXXXX").string();
     const int descriptor = mkstemp(name.data());
     if (descriptor < 0) {
-      throw faultsim::StorageError(concat("cannot make ", name, ": ", std::strerror(errno)));
+      throw StorageError(concat("cannot make ", name, ": ", std::strerror(errno)));
     }
     close(descriptor);
     path_ = name;
@@ -339,8 +339,8 @@ void check_before(RunOptions& options) {
                                "; set FAULTSIM_BINARY to the faultsim binary"));
   }
   if (info.cancelled) {
-    throw faultsim::InputError("--campaign", concat(info.name, " was cancelled"),
-                               "submit its spec again to reopen it");
+    throw InputError("--campaign", concat(info.name, " was cancelled"),
+                     "submit its spec again to reopen it");
   }
 }
 

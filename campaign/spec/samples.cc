@@ -57,8 +57,8 @@ const SampleFile& SpecReader::sample_file(const std::string& design) {
   }
   try {
     file = parse_samples(input.text, name);
-  } catch (const faultsim::InputError& error) {
-    for (const faultsim::Problem& one : error.problems())
+  } catch (const InputError& error) {
+    for (const Problem& one : error.problems())
       problem(place, concat(name, one.line > 0 ? concat(", line ", one.line) : "", ": ", one.what),
               one.cure);
   }

@@ -165,8 +165,8 @@ CampaignSpec read_campaign(const std::string& path) {
   CampaignSpec spec =
       parse_campaign(faultsim::read_input_or_throw(path, faultsim::kMostJsonBytes), path);
   if (spec.document.value.contains("limits_round")) {
-    throw faultsim::InputError(path, {{"/limits_round", spec.document.line_of("/limits_round"),
-                                       "is what a search of limits adds by itself", "remove it"}});
+    throw InputError(path, {{"/limits_round", spec.document.line_of("/limits_round"),
+                             "is what a search of limits adds by itself", "remove it"}});
   }
   return spec;
 }

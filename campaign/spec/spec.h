@@ -48,11 +48,11 @@ struct DrawnValue {
 /// Something that varies between cases. A value is addressed by its number: -1 = base, then
 /// `choices`, then `drawn`.
 struct Parameter {
-  std::string name;                  ///< alias, JSON Pointer or a name of the spec's own.
-  std::string pointer;               ///< into the spec.
-  std::vector<std::string> targets;  ///< scene pointers that its choices may change.
-  faultsim::Dimension dimension = faultsim::Dimension::number;  ///< of Choice::si.
-  bool is_text = false;         ///< its choices are words, without si.
+  std::string name;                         ///< alias, JSON Pointer or a name of the spec's own.
+  std::string pointer;                      ///< into the spec.
+  std::vector<std::string> targets;         ///< scene pointers that its choices may change.
+  Dimension dimension = Dimension::number;  ///< of Choice::si.
+  bool is_text = false;                     ///< its choices are words, without si.
   bool has_own_values = false;  ///< factors or variants: its value is not that of its targets.
   Choice base;  ///< the value where a design leaves the parameter alone; no changes.
   std::vector<Choice> choices;
@@ -143,7 +143,7 @@ struct Derived {
   std::string pointer;        ///< into the spec.
   std::string scene_pointer;  ///< what it sets.
   std::string text;
-  faultsim::Dimension dimension = faultsim::Dimension::number;
+  Dimension dimension = Dimension::number;
   Expression expression;
 };
 
@@ -195,7 +195,7 @@ struct LimitSearch {
   std::string unsafe = "slides";    ///< what may: a condition of the fault in the stage.
   double tolerance = 0;             ///< wanted width of brackets, in `unit`.
   std::string unit;                 ///< of values as given: "bar"; "" for plain numbers.
-  faultsim::Dimension dimension = faultsim::Dimension::number;
+  Dimension dimension = Dimension::number;
   std::vector<double> scan;  ///< values of the coarse scan in `unit`, one way.
 };
 

@@ -34,10 +34,9 @@ void require_small_objects(const JsonDocument& document, const nlohmann::json& v
                            const std::string& pointer) {
   constexpr std::size_t kMost = 2000;
   if (value.is_object() && value.size() > kMost) {
-    throw faultsim::InputError(
-        document.source,
-        {{pointer, document.line_of(pointer), faultsim::concat("has ", value.size(), " entries"),
-          faultsim::concat("write at most ", kMost)}});
+    throw InputError(document.source,
+                     {{pointer, document.line_of(pointer), concat("has ", value.size(), " entries"),
+                       concat("write at most ", kMost)}});
   }
   for (const auto& [key, inner] : value.items()) {
     if (inner.is_structured())
@@ -105,7 +104,7 @@ CampaignSpec SpecReader::read() {
   if (is_usable("/keep_fields")) {
     spec_.keep_fields = named<KeepFields>(at("/keep_fields").get<std::string>()).value();
   }
-  if (!problems_.empty()) throw faultsim::InputError(spec_.source, problems_);
+  if (!problems_.empty()) throw InputError(spec_.source, problems_);
   return std::move(spec_);
 }
 
@@ -146,7 +145,7 @@ void SpecReader::check_schema() {
   problems_ = faultsim::check_schema(spec_.document, campaign_schema());
   for (const Problem& one : problems_) said_.insert(one.pointer + "\n" + one.what);
   const bool is_incomplete = contains(problems_, "", &Problem::pointer);
-  if (is_incomplete) throw faultsim::InputError(spec_.source, problems_);
+  if (is_incomplete) throw InputError(spec_.source, problems_);
 }
 
 bool SpecReader::is_sound(const std::string& pointer) const {
@@ -213,7 +212,7 @@ void SpecReader::read_base() {
   try {
     spec_.base = faultsim::read_json_file(spec_.scene_source);
     if (!spec_.base.value.is_object()) problem("/base", "the base scene is not an object", "");
-  } catch (const faultsim::InputError& error) {
+  } catch (const InputError& error) {
     for (const Problem& one : error.problems()) {
       problem("/base",
               faultsim::format_problems(error.source(), {{one.pointer, one.line, one.what, ""}}),

@@ -318,8 +318,8 @@ CampaignInfo Store::campaign(const std::string& name, bool with_counts) const {
     }
   }
   std::string names = joined(all, ", ", &CampaignInfo::name);
-  throw faultsim::InputError("--campaign", concat("there is no campaign '", name, "'"),
-                             concat("there are: ", names));
+  throw InputError("--campaign", concat("there is no campaign '", name, "'"),
+                   concat("there are: ", names));
 }
 
 void Store::cancel(std::int64_t campaign) {

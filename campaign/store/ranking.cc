@@ -77,10 +77,10 @@ bool has_kind(Connection& db, std::int64_t campaign, const Store::RankingQuery& 
 }  // namespace
 
 std::string parameter_sql(int index, bool is_text) {
-  return faultsim::concat("(SELECT p.", is_text ? "text" : "si",
-                          " FROM case_parameters p WHERE p.campaign_id = cc.campaign_id"
-                          " AND p.position = cc.position AND p.parameter = ",
-                          index, ")");
+  return concat("(SELECT p.", is_text ? "text" : "si",
+                " FROM case_parameters p WHERE p.campaign_id = cc.campaign_id"
+                " AND p.position = cc.position AND p.parameter = ",
+                index, ")");
 }
 
 ParameterReader::ParameterReader(Connection& connection, std::int64_t campaign)

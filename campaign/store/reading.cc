@@ -37,7 +37,7 @@ StoredCase Store::stored_case(std::int64_t campaign, const std::string& name) co
                                                  : "c.identity >= ?2 AND c.identity < ?2 || '~'"));
   is_number ? query.bind(campaign, position) : query.bind(campaign, name);
   if ((!is_number && name.size() < kShortestPrefix) || !query.step()) {
-    throw faultsim::InputError(
+    throw InputError(
         "CASE", concat("the campaign has no case '", name, "'"),
         concat("give its number from 1, or at least ", kShortestPrefix, " digits of its identity"));
   }

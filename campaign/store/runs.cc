@@ -94,7 +94,7 @@ void Store::record_run(std::int64_t campaign, const RunRecord& run, double now) 
   std::optional<std::string> outcome, used_operator;
   std::optional<int> numerics_version;
   if (run.result) {
-    outcome = faultsim::to_string(run.result->outcome);
+    outcome = to_string(run.result->outcome);
     used_operator = run.result->operator_fingerprint;
     numerics_version = run.result->numerics_version;
   }

@@ -84,9 +84,9 @@ class LadderMaker {
  public:
   LadderMaker(const JsonDocument& document, const LadderLimits& limits)
       : document_(document), limits_(limits), scene_(faultsim::read_scene(document)) {
-    std::vector<faultsim::Problem> problems;
+    std::vector<Problem> problems;
     const faultsim::Plan plan = faultsim::make_plan(scene_, problems);
-    if (!problems.empty()) throw faultsim::InputError(document.source, problems);
+    if (!problems.empty()) throw InputError(document.source, problems);
     is_field_ = scene_.geometry_kind == faultsim::GeometryKind::field;
     is_3d_ = !plan.plane_strain;
     creeps_ = plan.creep.active;
@@ -239,15 +239,15 @@ class LadderMaker {
   void judge(TradeChoice& choice) const {
     try {
       const Scene scene = faultsim::read_scene(changed(document_, choice.changes));
-      std::vector<faultsim::Problem> problems;
+      std::vector<Problem> problems;
       const faultsim::Plan plan = faultsim::make_plan(scene, problems);
-      if (!problems.empty()) throw faultsim::InputError(document_.source, problems);
+      if (!problems.empty()) throw InputError(document_.source, problems);
       choice.plane_strain = plan.plane_strain;
       choice.n_unknowns = plan.n_unknowns;
       choice.n_jump = plan.n_jump;
       choice.predicted_seconds = plan.operator_seconds;
       choice.predicted_bytes = plan.memory_bytes;
-    } catch (const faultsim::InputError& error) {
+    } catch (const InputError& error) {
       const auto& problem = error.problems().front();
       choice.left_out = concat("refused: ", problem.pointer, ": ", problem.what);
       return;

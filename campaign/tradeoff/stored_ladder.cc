@@ -77,7 +77,7 @@ TradeRun StoredLadder::run(long position) const {
   }
   if (stored.has_result && !faultsim::in_equilibrium(stored.result.outcome)) {
     // Its history ends early: the axis would be compared up to there only.
-    run.trouble = concat(faultsim::to_string(stored.result.outcome), ": ", stored.result.reason);
+    run.trouble = concat(to_string(stored.result.outcome), ": ", stored.result.reason);
   } else if (stored.has_result) {
     run.result = stored.result;
     run.case_seconds = stored.result.seconds;
