@@ -10,8 +10,8 @@ namespace {
 
 using Eigen::Index;
 constexpr Index kMostRows = 8192;  ///< of a tile: its sums stay in the second cache.
-constexpr Index kFields = 8;  ///< that meet P while it is there.
-constexpr Index kCells = 4;   ///< per visit of a sum.
+constexpr Index kFields = 8;       ///< that meet P while it is there.
+constexpr Index kCells = 4;        ///< per visit of a sum.
 
 /// sums += P's four columns from `p` on, times `s`. One cell after the other, so that a sum has the
 /// same bits however the work is cut.
