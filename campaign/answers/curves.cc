@@ -9,8 +9,6 @@
 
 namespace faultsweep {
 
-using faultsim::StepResult;
-
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -172,15 +170,12 @@ StageRows read_stage(const Store& store, const CampaignInfo& campaign,
 /// The first history to its end: its steps are the axis.
 std::vector<StepResult> reference_steps(const Store& store, const CampaignInfo& campaign,
                                         const StageRows& rows) {
-  if (rows.n == 0) {
+  if (rows.n == 0)
     throw InputError("probability", "no case was selected", "ask for others with --where");
-  }
   const auto found =
       std::ranges::find_if(rows.cases, [](const CaseOnsets& one) { return one.complete(); });
-  if (found == rows.cases.end()) {
-    throw InputError("probability", "no case has a history to its end",
-                     concat("run it: faultsweep run ", campaign.name));
-  }
+  if (found == rows.cases.end())
+    refuse_unrun("probability", "no case has a history to its end", campaign);
   return store.stored_case(campaign.id, std::to_string(found->position)).result.steps;
 }
 

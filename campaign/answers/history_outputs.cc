@@ -7,8 +7,6 @@ namespace faultsweep {
 
 namespace {
 
-std::string listed(const std::vector<std::string>& names) { return joined(names, ", "); }
-
 /// The fault that each metric is of. Throws one InputError with all that is wrong.
 std::vector<std::int64_t> faults_of(const std::vector<ScopedMetric>& metrics,
                                     const Selection& selection) {
@@ -20,7 +18,7 @@ std::vector<std::int64_t> faults_of(const std::vector<ScopedMetric>& metrics,
     faults.push_back(own ? *own : selection.fault ? selection.fault->id : -1);
     if (!contains(kept, one.metric)) {
       problems.push_back({"", 0, concat(one.name, " is not kept load step by load step"),
-                          concat("choose of ", listed(kept))});
+                          concat("choose of ", joined(kept, ", "))});
     } else if (one.scope && one.scope->stage) {
       problems.push_back({"", 0, concat(one.name, " is of a stage, a load step of none"),
                           "leave out `in ...`; --stage takes the steps of a stage"});
@@ -52,10 +50,8 @@ void require_shared(const std::vector<Store::LoadStep>& steps) {
 
 HistoryOutputs history_outputs(const Store& store, const CampaignInfo& campaign,
                                const SensitivityRequest& request, const Selection& selection) {
-  if (selection.faults.empty()) {  // faults are known from results
-    throw InputError("--by-step", "no case has a result",
-                     concat("run it: faultsweep run ", campaign.name));
-  }
+  // Faults are known from results.
+  if (selection.faults.empty()) refuse_unrun("--by-step", "no case has a result", campaign);
   SensitivityRequest asked = request;
   if (asked.metrics.empty())
     asked.metrics = selection.fault ? "chi_bar" : of_each_fault(selection.faults, "chi_bar");

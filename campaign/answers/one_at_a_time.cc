@@ -100,10 +100,6 @@ Tornado tornado_of(const std::vector<long>& rows, const std::map<long, CaseValue
   return tornado;
 }
 
-[[noreturn]] void refuse_tornado(const std::string& what, const std::string& cure) {
-  throw InputError("sensitivity", what, cure);
-}
-
 /// The least and greatest of a metric as one parameter moves, the base case among them; what
 /// differs by rounding only does not move.
 struct Swing {
@@ -276,7 +272,7 @@ std::optional<OneAtATime> compare_one_at_a_time(const Store& store, const Campai
   const auto is_one_at_a_time = [](const auto& one) { return one.at("kind") == "one-at-a-time"; };
   if (std::ranges::none_of(groups, is_one_at_a_time)) return std::nullopt;
   if (!request.cases.where.empty())
-    refuse_tornado("changes are counted from the base case", "leave out --where");
+    throw InputError("sensitivity", "changes are counted from the base case", "leave out --where");
   const Selection selection =
       make_selection(store, campaign, request.cases.stage, request.cases.fault);
   OneAtATime found{campaign, request, {}, {}, {}, {}};
@@ -301,10 +297,10 @@ std::optional<OneAtATime> compare_one_at_a_time(const Store& store, const Campai
     found.tornados.push_back(tornado_of(rows[g], cases, moved_by(groups[g], found.parameters)));
     found.tornados.back().group = name;
   }
-  if (found.tornados.empty()) {
-    refuse_tornado("the base case, from which changes are counted, has no history to its end",
-                   concat("run it: faultsweep run ", campaign.name));
-  }
+  if (found.tornados.empty())
+    refuse_unrun("sensitivity",
+                 "the base case, from which changes are counted, has no history to its end",
+                 campaign);
   return found;
 }
 

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "campaign/answers/probability.h"
-#include "campaign/answers/verdict_columns.h"
 #include "campaign/common/names.h"
 #include "campaign/query/table_output.h"
 #include "campaign/render/shown.h"

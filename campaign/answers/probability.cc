@@ -6,7 +6,6 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "campaign/answers/verdict_columns.h"
 #include "campaign/common/names.h"
 #include "campaign/render/shown.h"
 
@@ -197,14 +196,11 @@ Probability find_probability(const Store& store, const CampaignInfo& campaign,
   const std::vector<std::string> conditions = request.condition.empty()
                                                   ? default_conditions(selection)
                                                   : std::vector<std::string>{request.condition};
-  if (conditions.empty()) {  // faults are known from results
-    throw InputError("probability", "no case has a result",
-                     concat("run it: faultsweep run ", campaign.name));
-  }
+  // Faults are known from results.
+  if (conditions.empty()) refuse_unrun("probability", "no case has a result", campaign);
   const AskedRows rows = read_rows(store, campaign, request, selection, conditions);
-  if (rows.label.empty()) {
+  if (rows.label.empty())
     throw InputError("probability", "no case was selected", "ask for others with --where");
-  }
   const std::vector<Part> parts = parts_asked(rows, request.by);
   for (std::size_t c = 0; c < conditions.size(); ++c) {
     for (const auto& [label, chosen] : parts) {

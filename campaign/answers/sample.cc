@@ -7,7 +7,7 @@
 
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
-#include "campaign/query/approximations.h"
+#include "campaign/query/ranking.h"
 #include "campaign/query/table_output.h"
 
 namespace faultsweep {
@@ -114,7 +114,7 @@ Sampling sampling_of(const Store& store, const CampaignInfo& campaign) {
                                [&](const json& one) { return kinds.contains(one.at("kind")); });
   };
   Sampling sampling;
-  sampling.approximation = approximation_note(store.approximations(campaign.id));
+  sampling.approximation = approximation_note(store, campaign);
   sampling.is_random = all_are({"monte-carlo", "latin-hypercube", "sobol", "samples"});
   sampling.is_factorial = all_are({"grid"});
   if (all_are({"samples"})) {

@@ -22,10 +22,6 @@ void keep_what_holds(ElementaryEffects& one) {
   if (one.n < kFewestForDeviation) forget_bounds(one.deviation);
 }
 
-[[noreturn]] void refuse(const std::string& what, const std::string& cure) {
-  throw InputError("sensitivity", what, cure);
-}
-
 bool varies(const MetricEffects& metric) {
   return std::ranges::any_of(
       metric.effects, [](const ElementaryEffects& one) { return one.mean_magnitude.value > 0; });
@@ -147,9 +143,10 @@ std::optional<Screening> screen(const Store& store, const CampaignInfo& campaign
   const std::vector<nlohmann::json> designs = designs_of(store, campaign);
   if (designs.size() != 1 || designs[0].at("kind") != "morris") return std::nullopt;
   if (!request.cases.where.empty() || campaign.n_excluded > 0) {
-    refuse("a part of the cases of a morris design has broken trajectories",
-           request.cases.where.empty() ? "give the spec ranges of which nothing is excluded"
-                                       : "leave out --where");
+    throw InputError(
+        "sensitivity", "a part of the cases of a morris design has broken trajectories",
+        request.cases.where.empty() ? "give the spec ranges of which nothing is excluded"
+                                    : "leave out --where");
   }
   const Selection selection =
       make_selection(store, campaign, request.cases.stage, request.cases.fault);
@@ -164,7 +161,8 @@ std::optional<Screening> screen(const Store& store, const CampaignInfo& campaign
   for (const ScopedMetric& one : rows.outputs) s.metrics.push_back({one, {}});
   const double p = designs[0].value("levels", 4);
   const auto made = MorrisDesign::make(rows.x, p / (2 * (p - 1)));
-  if (!made.design) refuse(made.refusal, "submit the campaign's spec again as it was");
+  if (!made.design)
+    throw InputError("sensitivity", made.refusal, "submit the campaign's spec again as it was");
   s.n_trajectories = made.design->n_trajectories();
   for (std::size_t m = 0; m < rows.y.size(); ++m) {
     flatten_rounding(rows.outputs[m], rows.y[m]);

@@ -8,7 +8,7 @@
 #include "campaign/answers/sensitivity_parts.h"
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
-#include "campaign/query/approximations.h"
+#include "campaign/query/ranking.h"
 
 namespace faultsweep {
 
@@ -28,10 +28,7 @@ void refuse_what_is_no_sample(const Sensitivity& s) {
         "one-at-a-time");
   }
   const long n = s.sample.n_rows - s.sample.n_without - s.sample.n_early;
-  if (n == 0) {
-    throw InputError("sensitivity", "no case has a history to its end",
-                     concat("run it: faultsweep run ", s.campaign.name));
-  }
+  if (n == 0) refuse_unrun("sensitivity", "no case has a history to its end", s.campaign);
   if (s.sampling.is_random && n < kFewestForRankIndex) {
     throw InputError(
         "sensitivity",
@@ -86,7 +83,7 @@ Sensitivity analyse_sensitivity(const Store& store, const CampaignInfo& campaign
 Answer what_matters(const Store& store, const CampaignInfo& campaign,
                     const SensitivityRequest& request) {
   const auto with_approximation = [&](Answer answer) {
-    answer.note_if(approximation_note(store.approximations(campaign.id)));
+    answer.note_if(approximation_note(store, campaign));
     return answer;
   };
   if (!request.by_step) {

@@ -7,6 +7,7 @@
 
 #include "campaign/common/names.h"
 #include "campaign/query/parameters.h"
+#include "campaign/query/selection.h"
 #include "simulator/scene/tiers.h"
 
 namespace faultsweep {
@@ -17,10 +18,7 @@ const RankedCase& row_of(const Ranking& ranking, const StoredCase& stored) {
   for (const RankedCase& row : ranking.rows)
     if (row.position == stored.position) return row;
   const std::string what = concat("case ", stored.position, " of ", ranking.campaign.name);
-  if (!stored.has_result) {
-    throw InputError("--why", what + " has no result yet",
-                     concat("run it: faultsweep run ", ranking.campaign.name));
-  }
+  if (!stored.has_result) refuse_unrun("--why", what + " has no result yet", ranking.campaign);
   throw InputError("--why", what + " is not among the cases that are ranked",
                    "leave out --where, or choose a --stage that its history reaches");
 }

@@ -147,13 +147,7 @@ const char* kind_of(int rank_class) {
 /// "Case 17 of sweep (offset = 100 m) has place 3 of 240 complete histories: chi_bar 0.83."
 std::string place_sentence(const Why& why) {
   const auto& parameters = why.ranking.campaign.parameters;
-  const std::vector<std::string> labels = labels_of(why.row.parameters, parameters);
-  std::string settings;
-  for (std::size_t k = 0; k < labels.size(); ++k) {
-    if (labels[k].empty()) continue;
-    settings +=
-        concat(settings.empty() ? "" : ", ", parameters[k].name, " = ", short_number(labels[k]));
-  }
+  const std::string settings = settings_of(why.row.parameters, parameters, short_number);
   return concat("Case ", why.row.position, " of ", why.ranking.campaign.name,
                 settings.empty() ? "" : concat(" (", settings, ")"), " has place ", why.place.place,
                 " of ", why.place.n_ranked, " ", kind_of(why.row.rank_class), ": ", why.compared,

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "campaign/common/names.h"
+#include "campaign/spec/pointers.h"
 
 namespace faultsweep {
 namespace {
@@ -67,8 +68,7 @@ CaseValues::Source CaseValues::source_of(const std::string& name) const {
       for (const Change& change : choice.changes) {
         if (change.pointer != pointer) continue;
         touched = true;
-        const std::string text =
-            change.value.is_string() ? change.value.get<std::string>() : change.value.dump();
+        const std::string text = scalar_text(change.value);
         if (info == infos_.end()) continue;
         const auto parsed = faultsim::parse_quantity(text, info->second.dimension);
         values.back() = info->second.is_text ? Value(text)

@@ -11,7 +11,6 @@
 #include "campaign/expansion/extreme_rows.h"
 #include "campaign/expansion/families.h"
 #include "campaign/expansion/row_reader.h"
-#include "campaign/expansion/sampled_rows.h"
 #include "campaign/expansion/scene_builder.h"
 #include "campaign/spec/pointers.h"
 #include "simulator/scene/identity.h"
@@ -314,8 +313,7 @@ std::vector<ParameterValue> parameters_of(const Expansion& expansion, const Case
   for (std::size_t d = 0; d < one.derived.size(); ++d) {
     const Derived& derived = expansion.spec.derived[d];
     const json text = spelled(one.derived[d], faultsim::si_unit(derived.dimension));
-    values.push_back({derived.name, text.is_string() ? text.get<std::string>() : text.dump(),
-                      one.derived[d], derived.dimension});
+    values.push_back({derived.name, scalar_text(text), one.derived[d], derived.dimension});
   }
   return values;
 }

@@ -1,4 +1,4 @@
-#include "campaign/expansion/sampled_rows.h"
+#include "campaign/expansion/rows.h"
 
 #include <algorithm>
 #include <numeric>

@@ -156,14 +156,7 @@ void add_case(Page& page, long position) {
   const StoredCase one = page.store.stored_case(page.campaign.id, std::to_string(position));
   const StoredPicture stored(page.store, page.campaign, one);
   const faultsim::CasePicture picture = stored.picture();
-  const auto& parameters = page.campaign.parameters;
-  const std::vector<std::string> labels = labels_of(one.parameters, parameters);
-  std::string settings;
-  for (std::size_t p = 0; p < labels.size(); ++p) {
-    if (labels[p].empty()) continue;  // of another group
-    settings +=
-        concat(settings.empty() ? "" : ", ", parameters[p].name, " = ", short_label(labels[p]));
-  }
+  const std::string settings = settings_of(one.parameters, page.campaign.parameters, short_label);
   page.html += concat("<h3>Case ", position, ": ", escape_xml(settings), "</h3>\n<div data-case=\"",
                       position, "\">\n");
   const bool is_field = picture.scene.geometry_kind == faultsim::GeometryKind::field;

@@ -15,8 +15,6 @@
 
 namespace faultsweep {
 
-using faultsim::CaseResult;
-
 namespace {
 
 /// What is not a number of the store, or (magnitudes) a mere function of one that is compared.

@@ -14,8 +14,6 @@
 
 namespace faultsweep {
 
-using faultsim::CaseResult;
-
 namespace {
 
 constexpr int kFormat = 1;

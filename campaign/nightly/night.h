@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/store/night_records.h"
+#include "campaign/store/records.h"
 
 namespace faultsweep {
 

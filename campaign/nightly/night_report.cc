@@ -9,8 +9,6 @@
 
 namespace faultsweep {
 
-using faultsim::CaseResult;
-
 namespace {
 
 NightCaseRecord record_of(const std::string& campaign, const NightCase& one) {

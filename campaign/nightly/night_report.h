@@ -6,7 +6,7 @@
 
 #include "campaign/nightly/agreement.h"
 #include "campaign/nightly/baseline.h"
-#include "campaign/store/night_records.h"
+#include "campaign/store/records.h"
 
 namespace faultsweep {
 

@@ -10,10 +10,6 @@ namespace faultsweep {
 
 namespace {
 
-std::string label_of(const StoredCase& stored, const CampaignInfo& campaign) {
-  return joined(settings_of(stored.parameters, campaign.parameters), ", ");
-}
-
 /// Numbers of scenes and families of a store in the submission.
 class Numbering {
  public:
@@ -58,7 +54,7 @@ NightCase night_case(const StoredCase& stored, const CampaignInfo& campaign) {
   NightCase one;
   one.position = stored.position;
   one.identity = stored.identity;
-  one.label = label_of(stored, campaign);
+  one.label = settings_of(stored.parameters, campaign.parameters);
   if (stored.has_result) {
     one.result = stored.result;
   } else {

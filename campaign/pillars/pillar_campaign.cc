@@ -32,10 +32,6 @@ struct Setting {
   double value;
 };
 
-json in_unit(const Setting& one) {
-  return one.unit.empty() ? json(one.value) : json(shortest_text(one.value) + " " + one.unit);
-}
-
 /// What a section is made of, from the base scene where the table does not say.
 class Section {
  public:
@@ -141,7 +137,7 @@ void require_distinct(const PillarTable& table, const std::vector<Setting>& sett
 std::optional<PillarScene> scene_of(JsonDocument document, const std::vector<Setting>& settings,
                                     std::vector<Problem>& problems) {
   for (const Setting& one : settings) {
-    if (faultsim::put_value(document.value, one.pointer, in_unit(one))) continue;
+    if (faultsim::put_value(document.value, one.pointer, spelled(one.value, one.unit))) continue;
     problems.push_back({one.pointer, 0, "the scene has no place for it", "fix the scene"});
     return std::nullopt;
   }

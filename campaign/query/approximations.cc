@@ -1,6 +1,5 @@
-#include "campaign/query/approximations.h"
-
 #include "campaign/common/names.h"
+#include "campaign/query/ranking.h"
 #include "campaign/render/shown.h"
 
 namespace faultsweep {
@@ -14,7 +13,8 @@ std::string so_many(long n, long all) {
 
 }  // namespace
 
-std::string approximation_note(const Store::Approximations& found) {
+std::string approximation_note(const Store& store, const CampaignInfo& campaign) {
+  const Store::Approximations found = store.approximations(campaign.id);
   std::string text;
   if (found.n_interpolated > 0) {
     text = concat(so_many(found.n_interpolated, found.n_results),

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "campaign/common/json.h"
-#include "simulator/common/errors.h"
+#include "campaign/common/names.h"
 
 namespace faultsweep {
 
@@ -13,8 +13,8 @@ const StoredParameter& of(const CaseParameter& value,
                           const std::vector<StoredParameter>& parameters) {
   const auto index = static_cast<std::size_t>(value.index);
   if (index < parameters.size()) return parameters[index];
-  throw faultsim::StorageError(faultsim::concat("a case of the store has a parameter number ",
-                                                value.index, ", which its campaign has not"));
+  throw StorageError(concat("a case of the store has a parameter number ", value.index,
+                            ", which its campaign has not"));
 }
 
 /// The unit in which all rows give the parameter, "" for plain numbers; none where they differ or
@@ -44,13 +44,16 @@ std::vector<std::string> labels_of(const CaseParameters& values,
   return labels;
 }
 
-std::vector<std::string> settings_of(const CaseParameters& values,
-                                     const std::vector<StoredParameter>& parameters) {
-  std::vector<std::string> settings;
+std::string settings_of(const CaseParameters& values,
+                        const std::vector<StoredParameter>& parameters,
+                        std::string (*shown)(const std::string&)) {
+  std::string text;
   for (const CaseParameter& one : values) {
-    if (!one.text.empty()) settings.push_back(of(one, parameters).name + " = " + one.text);
+    if (one.text.empty()) continue;
+    text += concat(text.empty() ? "" : ", ", of(one, parameters).name, " = ",
+                   shown != nullptr ? shown(one.text) : one.text);
   }
-  return settings;
+  return text;
 }
 
 ParameterColumns::ParameterColumns(const std::vector<StoredParameter>& parameters,

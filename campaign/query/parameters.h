@@ -12,9 +12,11 @@ namespace faultsweep {
 /// The texts of a case's parameters, one for each of the campaign's; "" where it has none.
 std::vector<std::string> labels_of(const CaseParameters& values,
                                    const std::vector<StoredParameter>& parameters);
-/// "offset = 100 m" of each parameter that the case has.
-std::vector<std::string> settings_of(const CaseParameters& values,
-                                     const std::vector<StoredParameter>& parameters);
+/// "offset = 100 m, friction_angle = 20 deg" of the parameters that the case has.
+/// @param shown  what becomes of a value's text; null = it stays.
+std::string settings_of(const CaseParameters& values,
+                        const std::vector<StoredParameter>& parameters,
+                        std::string (*shown)(const std::string&) = nullptr);
 /// The parameters of a campaign as columns of an answer, under "parameters" in JSON: numbers in the
 /// unit in which all rows give them, the text as given where their units differ or they are words.
 class ParameterColumns {

@@ -4,7 +4,6 @@
 
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
-#include "campaign/query/approximations.h"
 #include "campaign/query/selection.h"
 #include "campaign/query/table_output.h"
 #include "campaign/spec/metrics.h"
@@ -121,7 +120,7 @@ Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankReque
   const bool has_field = has_flow_field(store.spec_copies(campaign.id).resolved);
   ranking.pressures =
       region_pressures(has_field, has_field ? store.oldest_numerics(campaign.id) : 0);
-  ranking.approximation = approximation_note(store.approximations(campaign.id));
+  ranking.approximation = approximation_note(store, campaign);
   if (request.stage.empty() && request.fault.empty())
     ranking.error_bars = error_bars_of(store, campaign);
   return ranking;

@@ -55,6 +55,10 @@ struct Ranking {
 /// the campaign's own order would, plane-strain cases are left out.
 Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankRequest request);
 
+/// How many results of a campaign have an interpolated operator or a flow result that covers the
+/// compartments in part, with the worst measured errors: what answers over them say. "" = none.
+std::string approximation_note(const Store& store, const CampaignInfo& campaign);
+
 /// The tier that all groups of a campaign have, without sizes of their own; "" = there is none.
 std::string common_tier(const Store& store, const CampaignInfo& campaign);
 /// What `faultsweep tradeoff` measured of the campaign's spec at the tier of its cases; nothing

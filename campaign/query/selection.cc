@@ -43,15 +43,12 @@ Symbols symbols_of(const CampaignInfo& campaign, const std::map<std::string, Sco
   return symbols;
 }
 
-std::vector<std::int64_t> ids_of(const std::vector<NamedId>& all) {
-  return mapped(all, &NamedId::id);
-}
-
 /// Where the metrics among the names are not resolved, and how large their errors are.
 void add_doubts(Symbols& symbols, const std::vector<std::string>& names,
                 const std::map<std::string, ScopedMetric>& known, const Selection& selection,
                 const StatedErrors& errors) {
-  const MetricIds all = {ids_of(selection.faults), ids_of(selection.stages)};
+  const MetricIds all = {mapped(selection.faults, &NamedId::id),
+                         mapped(selection.stages, &NamedId::id)};
   for (const std::string& name : names) {
     if (contains(kTexts, name)) symbols[name].unresolved = unresolved_sql(name, all);
     const auto found = known.find(name);
@@ -248,6 +245,11 @@ std::string of_each_fault(const std::vector<NamedId>& faults, const std::string&
   for (const NamedId& one : faults)
     names += concat(names.empty() ? "" : ",", spelled_name(one.name), ".", metric);
   return names;
+}
+
+void refuse_unrun(const std::string& option, const std::string& what,
+                  const CampaignInfo& campaign) {
+  throw InputError(option, what, concat("run it: faultsweep run ", campaign.name));
 }
 
 void refuse_mixed(const Store::Kinds& kinds, const std::string& option, const std::string& what) {

@@ -76,6 +76,10 @@ std::vector<ScopedMetric> choose_metrics(const Selection& selection, const std::
 /// "F1.chi_bar,F2.chi_bar", as choose_metrics takes it.
 std::string of_each_fault(const std::vector<NamedId>& faults, const std::string& metric);
 
+/// The option's InputError where results are missing: "no case has a result".
+[[noreturn]] void refuse_unrun(const std::string& option, const std::string& what,
+                               const CampaignInfo& campaign);
+
 /// Throws the option's InputError where `what`, an area, a potency or a moment, would be compared
 /// between results per metre of strike and in total.
 void refuse_mixed(const Store::Kinds& kinds, const std::string& option, const std::string& what);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
@@ -10,7 +9,6 @@
 #include "campaign/query/parameters.h"
 #include "campaign/query/selection.h"
 #include "campaign/render/shown.h"
-#include "campaign/reports/case_tables.h"
 #include "simulator/common/printable.h"
 #include "simulator/reading/read_scene.h"
 #include "simulator/result/approximation.h"
@@ -18,9 +16,6 @@
 #include "simulator/result/result_sentences.h"
 
 namespace faultsweep {
-
-using faultsim::CaseResult;
-using faultsim::StageMetrics;
 
 namespace {
 
@@ -33,7 +28,7 @@ void check_request(const CaseResult& result, const ShowRequest& request) {
 
 ordered_json fields_json(const CampaignInfo& campaign, const StoredCase& one) {
   if (one.fields == FieldsState::none) return nullptr;
-  const bool gone = one.fields == FieldsState::kept && !fields_are_there(one);
+  const bool gone = one.fields == FieldsState::kept && !fields_are_there(one.fields_folder);
   return {{"steps", to_string(campaign.keep_fields)},
           {"state", gone ? "gone" : to_string(one.fields)},
           {"folder", one.fields_folder.string()}};
@@ -109,12 +104,6 @@ ordered_json facts_of(const ShownCase& shown) {
 
 }  // namespace
 
-bool fields_are_there(const StoredCase& stored) {
-  std::error_code error;  // what cannot be looked at is not there
-  return std::filesystem::exists(stored.fields_folder / "faults.h5", error) &&
-         std::filesystem::exists(stored.fields_folder / "faults.xmf", error);
-}
-
 std::string fields_sentence(const CampaignInfo& campaign, const StoredCase& stored) {
   switch (stored.fields) {
     case FieldsState::none:
@@ -127,7 +116,7 @@ std::string fields_sentence(const CampaignInfo& campaign, const StoredCase& stor
     case FieldsState::kept:
       break;
   }
-  if (!fields_are_there(stored)) {
+  if (!fields_are_there(stored.fields_folder)) {
     return concat("fault fields: gone from ", stored.fields_folder.string(), "; `faultsweep run ",
                   campaign.name, "` writes them again");
   }

@@ -37,10 +37,24 @@ Answer to_answer(const ShownCase& shown);
 
 /// Where the fault fields of a case are, or why not; "" where none were asked for.
 std::string fields_sentence(const CampaignInfo& campaign, const StoredCase& stored);
-/// Files of fields that are said to be kept are there.
-bool fields_are_there(const StoredCase& stored);
 
 /// `faultsweep explain CASE`: whether `faultsweep run` will compute it, and why.
 Answer explanation(const Store& store, const CampaignInfo& campaign, const StoredCase& one);
+
+// Inside of the module: the tables of `show`, of the stages and faults that were asked for. What is
+// per metre of strike, of plane strain, says so in unit and key.
+
+/// Its parameters as given.
+AnswerTable settings_table(const ShownCase& shown);
+AnswerTable runs_table(const StoredCase& stored);
+/// @pre of these: the case has a result.
+AnswerTable stages_table(const ShownCase& shown);
+AnswerTable faults_table(const ShownCase& shown);
+AnswerTable events_table(const ShownCase& shown);
+AnswerTable episodes_table(const ShownCase& shown);
+/// A row per fault and load step.
+AnswerTable histories_table(const ShownCase& shown);
+
+AnswerTable initial_table(const std::vector<faultsim::InitialRegion>& regions);
 
 }  // namespace faultsweep

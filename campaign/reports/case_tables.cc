@@ -1,4 +1,4 @@
-#include "campaign/reports/case_tables.h"
+#include "campaign/reports/case_report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,6 @@
 #include "campaign/store/clock.h"
 
 namespace faultsweep {
-
-using faultsim::CaseResult;
-using faultsim::StageMetrics;
 
 namespace {
 
@@ -50,8 +47,7 @@ std::vector<std::string> names_of_regions(const ShownCase& shown) {
   const CaseResult& result = shown.stored.result;
   if (!result.region_names.empty()) return result.region_names;
   std::size_t n = 0;
-  for (const faultsim::StepResult& step : result.steps)
-    n = std::max(n, step.pressure_change.size());
+  for (const StepResult& step : result.steps) n = std::max(n, step.pressure_change.size());
   std::vector<std::string> names;
   for (std::size_t r = 0; r < n; ++r) {
     names.push_back(shown.initial.size() == n ? shown.initial[r].name : concat("region ", r + 1));
@@ -90,8 +86,7 @@ std::vector<AnswerColumn> history_columns(const CaseResult& result,
 }
 
 /// What the salt did to one fault up to a load step; empty where nothing creeps.
-void add_creep(const faultsim::StepResult& step, std::size_t fault,
-               std::vector<AnswerCell>& cells) {
+void add_creep(const StepResult& step, std::size_t fault, std::vector<AnswerCell>& cells) {
   if (!step.creep) return;
   const faultsim::StepCreep& creep = *step.creep;
   if (fault < creep.faults.size()) {
@@ -103,7 +98,7 @@ void add_creep(const faultsim::StepResult& step, std::size_t fault,
   append(cells, {creep.time_steps, creep.time_resolved});
 }
 
-std::vector<AnswerCell> history_row(const CaseResult& result, const faultsim::StepResult& step,
+std::vector<AnswerCell> history_row(const CaseResult& result, const StepResult& step,
                                     std::size_t fault, std::size_t n_regions) {
   const bool is_there = fault < step.faults.size();  // not of a step that failed
   const faultsim::FaultMetrics m = is_there ? step.faults[fault] : faultsim::FaultMetrics{};
@@ -287,7 +282,7 @@ AnswerTable histories_table(const ShownCase& shown) {
   AnswerTable table{"histories", "load steps:", history_columns(result, regions)};
   for (std::size_t fault = 0; fault < result.fault_names.size(); ++fault) {
     if (!is_asked(shown.request.fault, result.fault_names[fault])) continue;
-    for (const faultsim::StepResult& step : result.steps)
+    for (const StepResult& step : result.steps)
       if (is_asked(shown.request.stage, step.stage))
         table.rows.push_back(history_row(result, step, fault, regions.size()));
   }

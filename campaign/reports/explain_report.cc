@@ -31,7 +31,8 @@ std::string verdict_if_open(const CampaignInfo& campaign, const StoredCase& one)
                   last_fields_failure(one), "; `faultsweep retry ", campaign.name, " --case ",
                   one.position, "` lets them be tried again");
   }
-  if (one.state == "done" && one.fields == FieldsState::kept && !fields_are_there(one)) {
+  if (one.state == "done" && one.fields == FieldsState::kept &&
+      !fields_are_there(one.fields_folder)) {
     return "will run, for its fault fields only: their files are gone";
   }
   if (one.state == "done") {

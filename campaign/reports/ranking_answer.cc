@@ -8,6 +8,7 @@
 #include "campaign/render/shown.h"
 #include "campaign/reports/measure_columns.h"
 #include "campaign/reports/ranking_answer.h"
+#include "campaign/spec/metrics.h"
 
 namespace faultsweep {
 
@@ -16,7 +17,7 @@ namespace {
 /// A row of the ranking, and what its cells are made of.
 struct Row {
   const RankedCase& row;
-  faultsim::StageMetrics metrics;    ///< of the case or of the fault asked for.
+  StageMetrics metrics;              ///< of the case or of the fault asked for.
   std::vector<AnswerCell> measures;  ///< in the order of measure_columns.
   std::string place;                 ///< "3", "+1", "*".
 };
@@ -66,6 +67,17 @@ struct RankingColumn {
   AnswerColumn column;
   std::function<AnswerCell(const Row&)> cell;
 };
+
+/// The cell that a member of the case, or of its metrics, is.
+template <typename Member>
+auto of(Member member) {
+  return [member](const Row& one) -> AnswerCell {
+    if constexpr (std::is_invocable_v<Member, const RankedCase&>)
+      return std::invoke(member, one.row);
+    else
+      return std::invoke(member, one.metrics);
+  };
+}
 
 /// The columns of measures, those per metre of strike and in total apart where there are both.
 class MeasureColumns {
@@ -123,43 +135,37 @@ class MeasureColumns {
 std::vector<RankingColumn> columns_of(const Ranking& ranking, const MeasureColumns& measures) {
   const Need always = Need::always, wanted = Need::wanted, data = Need::data;
   std::vector<RankingColumn> columns;
+  const auto add = [&](const std::string& key, const std::string& heading, Need need,
+                       const auto& cell, const ShownUnit& unit = {}, int digits = 4) {
+    columns.push_back({{key, heading, unit, digits, need}, cell});
+  };
   measures.add("slides", columns);
-  columns.push_back({{"resolved", "resolved", {}, 4, always},
-                     [](const Row& one) -> AnswerCell { return is_resolved(one.row); }});
+  add("resolved", "resolved", always, of([](const RankedCase& row) { return is_resolved(row); }));
   measures.add("chi_bar", columns);
   measures.add("max_slip", columns);
   if (!ranking.by_default) {
-    const std::string& by = ranking.request.by;
-    const Need need = measures.has_score() ? data : always;
-    columns.push_back({{"score", by, ranking.by_unit, 4, need},
-                       [](const Row& one) -> AnswerCell { return one.row.score; }});
+    add("score", ranking.request.by, measures.has_score() ? data : always, of(&RankedCase::score),
+        ranking.by_unit);
   }
-  columns.push_back({{"activated_fault", "fault", {}, 4, wanted},
-                     [](const Row& one) { return words_or_nothing(one.metrics.activated_fault); }});
-  columns.push_back({{"activation_step", "from step", {}, 4, wanted},
-                     [](const Row& one) -> AnswerCell { return one.metrics.activation_step; }});
-  columns.push_back({{"outcome", "outcome", {}, 4, wanted}, outcome_cell});
+  add("activated_fault", "fault", wanted,
+      [](const Row& one) { return words_or_nothing(one.metrics.activated_fault); });
+  add("activation_step", "from step", wanted, of(&StageMetrics::activation_step));
+  add("outcome", "outcome", wanted, outcome_cell);
   measures.add("activated_area", columns);
   measures.add("moment", columns);
-  columns.push_back({{"unexpected", "unexpected", {}, 4, wanted}, unexpected_cell});
+  add("unexpected", "unexpected", wanted, unexpected_cell);
   measures.add("n_events", columns);
-  columns.push_back({{"pressure_margin_pa", "margin", shown_unit(Dimension::pressure), 3, wanted},
-                     [](const Row& one) -> AnswerCell { return one.row.pressure_margin; }});
+  add("pressure_margin_pa", "margin", wanted, of(&RankedCase::pressure_margin),
+      shown_unit(Dimension::pressure), 3);
   measures.add_others(columns);
-  columns.push_back({{"opened_fault", "first to open", {}, 4, Need::extra},
-                     [](const Row& one) { return words_or_nothing(one.metrics.opened_fault); }});
-  columns.push_back({{"opening_step", "open from step", {}, 4, data},
-                     [](const Row& one) -> AnswerCell { return one.metrics.opening_step; }});
-  columns.push_back({{"rank_class", "rank class", {}, 4, data},
-                     [](const Row& one) -> AnswerCell { return one.row.rank_class; }});
-  columns.push_back({{"weakening_resolved", "weakening resolved", {}, 4, data},
-                     [](const Row& one) -> AnswerCell { return one.row.weakening_resolved; }});
-  columns.push_back({{"interpolated", "interpolated", {}, 4, data},
-                     [](const Row& one) -> AnswerCell { return one.row.interpolated; }});
-  columns.push_back({{"plane_strain", "plane strain", {}, 4, data},
-                     [](const Row& one) -> AnswerCell { return one.row.plane_strain; }});
-  columns.push_back({{"jumps", "jumps", {}, 4, data},
-                     [](const Row& one) -> AnswerCell { return one.metrics.n_events > 0; }});
+  add("opened_fault", "first to open", Need::extra,
+      [](const Row& one) { return words_or_nothing(one.metrics.opened_fault); });
+  add("opening_step", "open from step", data, of(&StageMetrics::opening_step));
+  add("rank_class", "rank class", data, of(&RankedCase::rank_class));
+  add("weakening_resolved", "weakening resolved", data, of(&RankedCase::weakening_resolved));
+  add("interpolated", "interpolated", data, of(&RankedCase::interpolated));
+  add("plane_strain", "plane strain", data, of(&RankedCase::plane_strain));
+  add("jumps", "jumps", data, of([](const StageMetrics& m) { return m.n_events > 0; }));
   return columns;
 }
 
@@ -184,7 +190,7 @@ AnswerTable table_of(const Ranking& ranking) {
 
   PlaceNames places;
   for (const RankedCase& row : ranking.rows) {
-    const faultsim::StageMetrics m = metrics_of(row);
+    const StageMetrics m = metrics_of(row);
     const Row one{row, m, measure_cells(m), places.next(row.rank_class)};
     std::vector<AnswerCell> cells = {rank_cell(one), row.position};
     parameters.add_cells(row.parameters, cells);
@@ -242,7 +248,7 @@ json error_bars_json(const std::vector<ErrorBar>& error_bars) {
 
 /// "case 17: F2 slides from step 7 on, χ̄ 1, slip 0.047 m".
 std::string case_words(const RankedCase& row) {
-  const faultsim::StageMetrics m = metrics_of(row);
+  const StageMetrics m = metrics_of(row);
   std::string does = "nothing slides";
   if (m.activated) {
     does = concat(m.activated_fault.empty() ? "a fault" : m.activated_fault, " slides");

@@ -18,11 +18,7 @@ std::set<long> positions_where(const Store& store, const CampaignInfo& campaign,
   std::set<long> positions;
   if (store.faults(campaign.id).empty()) return positions;  // no case has a result
   const Selection selection = make_selection(store, campaign, question.stage, question.fault);
-  Store::TableQuery query;
-  query.stage = question.stage;
-  if (selection.fault) query.fault = selection.fault->id;
-  query.where = parse_condition(question.condition, campaign, selection);
-  store.for_each_case(campaign.id, query,
+  store.for_each_case(campaign.id, case_query(campaign, selection, question.condition),
                       [&](const CaseRow& row) { positions.insert(row.position); });
   return positions;
 }

@@ -64,15 +64,11 @@ bool add_next_round(Store& store, const std::string& name) {
 
 namespace {
 
-std::vector<std::string> names_of_all(const std::vector<NamedId>& all) {
-  return mapped(all, &NamedId::name);
-}
-
 void check_question(const Question& question, const CampaignInfo& campaign, Selection selection) {
   if (!question.stage.empty())
-    require_name("stage", "stage", question.stage, names_of_all(selection.stages));
+    require_name("stage", "stage", question.stage, mapped(selection.stages, &NamedId::name));
   if (!question.fault.empty()) {
-    require_name("faults", "fault", question.fault, names_of_all(selection.faults));
+    require_name("faults", "fault", question.fault, mapped(selection.faults, &NamedId::name));
     selection.fault = NamedId{0, question.fault};
   }
   parse_condition(question.condition, campaign, selection);

@@ -1,6 +1,7 @@
 #include "campaign/scheduler/wire.h"
 
 #include <cstring>
+#include <tuple>
 #include <type_traits>
 
 #include "simulator/common/errors.h"
@@ -8,7 +9,33 @@
 namespace faultsweep {
 namespace {
 
-/// Appends values; the same `fields` functions drive writing and reading, so they cannot differ.
+// What of a struct is written, and read: the same list, so that they cannot differ.
+template <typename First, typename Second>
+auto members(std::pair<First, Second>& p) {
+  return std::tie(p.first, p.second);
+}
+auto members(BaseScene& s) { return std::tie(s.source, s.document); }
+auto members(CaseInput& c) { return std::tie(c.id, c.scene, c.position, c.changes, c.identity); }
+auto members(RunRecord& r) {
+  return std::tie(r.case_id, r.status, r.reason, r.signal, r.exit_code, r.log_tail, r.host, r.rank,
+                  r.wall_seconds, r.final, r.has_fields, r.fields_only);
+}
+auto members(OperatorRecord& r) {
+  return std::tie(r.fingerprint, r.from_cache, r.seconds, r.unknowns, r.jump_unknowns, r.bytes,
+                  r.peak_bytes);
+}
+auto members(JobEvents::Completed& c) { return std::tie(c.run, c.result); }
+auto members(JobEvents::Failure& f) { return std::tie(f.run, f.in_operator); }
+auto members(JobEvents& e) { return std::tie(e.completed, e.failed, e.returned, e.operators); }
+auto members(message::Hello& m) { return std::tie(m.host, m.cores); }
+auto members(message::Trouble& m) { return std::tie(m.text); }
+auto members(message::Work& m) {
+  return std::tie(m.task.family, m.task.time_limit, m.task.operator_time_limit,
+                  m.task.operator_seconds, m.task.memory_limit, m.task.threads, m.task.keep_fields,
+                  m.task.fields_folder, m.scenes, m.cases);
+}
+
+/// Appends values.
 class Writer {
  public:
   template <typename Plain>
@@ -32,7 +59,8 @@ class Writer {
   }
   template <typename Struct>
   requires(std::is_class_v<Struct>) void operator()(const Struct& value) {
-    fields(*this, const_cast<Struct&>(value));
+    std::apply([this](const auto&... each) { ((*this)(each), ...); },
+               members(const_cast<Struct&>(value)));
   }
   std::string take() { return std::move(bytes_); }
 
@@ -61,7 +89,9 @@ class Reader {
     for (std::size_t k = 0; k < n; ++k) (*this)(values.emplace_back());
   }
   template <typename Struct>
-  requires(std::is_class_v<Struct>) void operator()(Struct& value) { fields(*this, value); }
+  requires(std::is_class_v<Struct>) void operator()(Struct& value) {
+    std::apply([this](auto&... each) { ((*this)(each), ...); }, members(value));
+  }
   bool at_end() const { return bytes_.empty(); }
 
  private:
@@ -79,60 +109,6 @@ class Reader {
   }
   std::string_view bytes_;
 };
-
-template <typename Archive, typename... Values>
-void all(Archive& archive, Values&... values) {
-  (archive(values), ...);
-}
-
-template <typename Archive, typename First, typename Second>
-void fields(Archive& a, std::pair<First, Second>& p) {
-  all(a, p.first, p.second);
-}
-template <typename Archive>
-void fields(Archive& a, RunRecord& r) {
-  all(a, r.case_id, r.status, r.reason, r.signal, r.exit_code, r.log_tail, r.host, r.rank,
-      r.wall_seconds, r.final, r.has_fields, r.fields_only);
-}
-template <typename Archive>
-void fields(Archive& a, OperatorRecord& r) {
-  all(a, r.fingerprint, r.from_cache, r.seconds, r.unknowns, r.jump_unknowns, r.bytes,
-      r.peak_bytes);
-}
-template <typename Archive>
-void fields(Archive& a, JobEvents::Completed& c) {
-  all(a, c.run, c.result);
-}
-template <typename Archive>
-void fields(Archive& a, JobEvents::Failure& f) {
-  all(a, f.run, f.in_operator);
-}
-template <typename Archive>
-void fields(Archive& a, BaseScene& s) {
-  all(a, s.source, s.document);
-}
-template <typename Archive>
-void fields(Archive& a, CaseInput& c) {
-  all(a, c.id, c.scene, c.position, c.changes, c.identity);
-}
-template <typename Archive>
-void fields(Archive& a, message::Hello& m) {
-  all(a, m.host, m.cores);
-}
-template <typename Archive>
-void fields(Archive& a, JobEvents& e) {
-  all(a, e.completed, e.failed, e.returned, e.operators);
-}
-template <typename Archive>
-void fields(Archive& a, message::Trouble& m) {
-  all(a, m.text);
-}
-template <typename Archive>
-void fields(Archive& a, message::Work& m) {
-  all(a, m.task.family, m.task.time_limit, m.task.operator_time_limit, m.task.operator_seconds,
-      m.task.memory_limit, m.task.threads, m.task.keep_fields, m.task.fields_folder, m.scenes,
-      m.cases);
-}
 
 template <std::size_t... Indices>
 void read_alternative(std::size_t index, Reader& reader, Message& message,

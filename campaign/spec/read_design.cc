@@ -45,13 +45,7 @@ void SpecReader::read_designs(const std::string& pointer, const std::string& pre
 void SpecReader::read_design(const std::string& pointer, const SceneNames& names, Group& group) {
   Design design;
   design.pointer = pointer;
-  const auto kind = at(pointer + "/kind").get<std::string>();
-  for (const DesignKind one :
-       {DesignKind::grid, DesignKind::list, DesignKind::zip, DesignKind::one_at_a_time,
-        DesignKind::monte_carlo, DesignKind::latin_hypercube, DesignKind::sobol,
-        DesignKind::samples, DesignKind::morris}) {
-    if (kind == to_string(one)) design.kind = one;
-  }
+  design.kind = named<DesignKind>(at(pointer + "/kind").get<std::string>()).value();
   std::vector<Parameter> parameters;
   if (design.kind == DesignKind::list) {
     read_list(pointer + "/cases", names, design, parameters);

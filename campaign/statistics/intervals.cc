@@ -96,8 +96,4 @@ QuantileBounds quantile_bounds(std::span<const double> sorted, long n_unknown, d
   return bounds;
 }
 
-QuantileBounds quantile_bounds(std::span<const double> sorted, double q, double confidence) {
-  return quantile_bounds(sorted, 0, q, confidence);
-}
-
 }  // namespace faultsweep

@@ -47,10 +47,9 @@ struct QuantileBounds {
   double estimate = 0;  ///< the sample's own quantile, linear between its values.
   std::optional<double> low, high;
 };
+/// Where n_unknown more samples may have any value each, the estimate is of the others, and the
+/// bounds hold however these turn out; an end is missing where they may reach beyond it.
 /// @param sorted  ascending, not empty. @pre 0 < q < 1.
-QuantileBounds quantile_bounds(std::span<const double> sorted, double q, double confidence);
-/// The same where n_unknown more samples may have any value each: the estimate is of the others,
-/// the bounds hold however these turn out; an end is missing where they may reach beyond it.
 QuantileBounds quantile_bounds(std::span<const double> sorted, long n_unknown, double q,
                                double confidence);
 

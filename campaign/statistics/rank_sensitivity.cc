@@ -203,11 +203,6 @@ std::vector<std::uint32_t> random_tied_order(std::span<const double> x) {
   return mapped(places, &Place::row);
 }
 
-Estimate first_order_by_ranks(std::span<const double> y, std::span<const std::uint32_t> order,
-                              double confidence) {
-  return analyse(prepare({&y, 1}, order.size()), order, confidence);
-}
-
 RankSensitivity::RankSensitivity(std::span<const std::vector<double>> parameters, int n_threads)
     : n_rows_(parameters.empty() ? 0 : parameters.front().size()), orders_(parameters.size()) {
   for (const std::vector<double>& x : parameters)

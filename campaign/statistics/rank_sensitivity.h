@@ -13,9 +13,9 @@ namespace faultsweep {
 /// @pre no x is NaN.
 std::vector<std::uint32_t> random_tied_order(std::span<const double> x);
 
-/// First-order Sobol' index S = Var E[y | x] / Var y from any independent sample of (x, y), by
+/// First-order Sobol' indices S = Var E[y | x] / Var y from any independent sample of (x, y), by
 /// ranks (Gamboa, Gremaud, Klein & Lagnoux 2022): with y_(i) the deviations from the mean in the
-/// order of x,
+/// random_tied_order of x,
 ///
 ///   S ≈ [Σ_{i<n} y_(i) y_(i+1) + ½ (y_(1) y_(2) + y_(n−1) y_(n))] / Σ y_i²,
 ///
@@ -31,18 +31,11 @@ std::vector<std::uint32_t> random_tied_order(std::span<const double> x);
 ///
 /// From kFewestForRankIndex rows, and kFewestOfEitherValue with each value of an output that has
 /// two, 95 % intervals hold 93 to 97 % (results/coverage). An index above 0.95 takes
-/// kFewestForRankIndexNearOne: with fewer rows the estimate is too low by some thousandths.
-/// @param order  of x, as random_tied_order.
-/// @return zeros where y does not vary or n < 4.
-Estimate first_order_by_ranks(std::span<const double> y, std::span<const std::uint32_t> order,
-                              double confidence);
-inline constexpr long kFewestForRankIndex = 128;
-inline constexpr long kFewestForRankIndexNearOne = 400;
-inline constexpr long kFewestOfEitherValue = 20;
-
-/// The same of many outputs: what concerns the parameters alone is done once.
+/// kFewestForRankIndexNearOne: with fewer rows the estimate is too low by some thousandths. Zeros
+/// where y does not vary or n < 4.
 class RankSensitivity {
  public:
+  /// What concerns the parameters alone is done here, once.
   /// @param parameters  [parameter][row].
   explicit RankSensitivity(std::span<const std::vector<double>> parameters, int n_threads = 1);
 
@@ -66,5 +59,8 @@ class RankSensitivity {
   std::size_t n_rows_ = 0;
   std::vector<std::vector<std::uint32_t>> orders_;  ///< [parameter].
 };
+inline constexpr long kFewestForRankIndex = 128;
+inline constexpr long kFewestForRankIndexNearOne = 400;
+inline constexpr long kFewestOfEitherValue = 20;
 
 }  // namespace faultsweep

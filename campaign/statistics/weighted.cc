@@ -3,21 +3,12 @@
 #include <algorithm>
 #include <boost/math/special_functions/beta.hpp>
 #include <cmath>
-#include <limits>
 
 #include "campaign/common/names.h"
 #include "simulator/common/errors.h"
 
 namespace faultsweep {
 namespace {
-
-/// Of fewer a mean has no interval: what little they scatter says nothing.
-constexpr double kLeastMembers = 1.5;
-
-Interval open_interval() {
-  constexpr double kOpen = std::numeric_limits<double>::infinity();
-  return {-kOpen, kOpen};
-}
 
 double sum_of(std::span<const double> weights) {
   double sum = 0;
@@ -34,7 +25,13 @@ Interval share_bounds(double share, double n, double confidence) {
           k >= n ? 1 : boost::math::ibetac_inv(k + 1, n - k, tail)};
 }
 
-/// Members with their weights.
+/// How many equal members would have this variance.
+double members_for(double share, double variance, double n_effective, double n) {
+  if (share <= 0 || share >= 1 || variance <= 0) return n_effective;
+  return std::min(share * (1 - share) / variance, n);
+}
+
+/// Members with their weights, all of them known.
 struct Members {
   std::vector<char> holds;
   std::vector<double> weights;
@@ -42,15 +39,25 @@ struct Members {
     holds.push_back(one ? 1 : 0);
     weights.push_back(weight);
   }
-  Estimate probability(double confidence) const {
-    return weighted_probability(holds, weights, confidence);
-  }
+  Estimate probability(double confidence) const;
 };
 
-/// How many equal members would have this variance.
-double members_for(double share, double variance, double n_effective, double n) {
-  if (share <= 0 || share >= 1 || variance <= 0) return n_effective;
-  return std::min(share * (1 - share) / variance, n);
+Estimate Members::probability(double confidence) const {
+  const double sum = sum_of(weights);
+  double share = 0, variance = 0;
+  bool any = false, all = true;
+  for (std::size_t i = 0; i < holds.size(); ++i) {
+    if (weights[i] > 0) any |= holds[i] != 0, all &= holds[i] != 0;
+    if (holds[i] != 0) share += weights[i] / sum;
+  }
+  share = !any ? 0 : all ? 1 : share;
+  for (std::size_t i = 0; i < holds.size(); ++i) {
+    const double one = weights[i] / sum * ((holds[i] != 0 ? 1 : 0) - share);
+    variance += one * one;
+  }
+  const double n_members = members_for(share, variance, effective_sample_size(weights),
+                                       static_cast<double>(holds.size()));
+  return {share, std::sqrt(variance), share_bounds(share, n_members, confidence)};
 }
 
 /// The first value up to which members carry a share of all weight, if those up to it count
@@ -77,41 +84,6 @@ double effective_sample_size(std::span<const double> weights) {
   double sum = 0, squares = 0;
   for (const double w : weights) sum += w, squares += w * w;
   return squares > 0 ? sum * sum / squares : 0;
-}
-
-Estimate weighted_mean(std::span<const double> values, std::span<const double> weights,
-                       double confidence) {
-  const double sum = sum_of(weights);
-  double mean = 0, variance = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) mean += weights[i] / sum * values[i];
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double one = weights[i] / sum * (values[i] - mean);
-    variance += one * one;
-  }
-  // Of m equal members √(m / (m − 1)) larger, as that of any mean.
-  const double members = effective_sample_size(weights);
-  if (members < kLeastMembers) return {mean, std::sqrt(variance), open_interval()};
-  const double error = std::sqrt(variance * members / (members - 1));
-  return student_estimate(mean, error, members - 1, confidence);
-}
-
-Estimate weighted_probability(std::span<const char> holds, std::span<const double> weights,
-                              double confidence) {
-  const double sum = sum_of(weights);
-  double share = 0, variance = 0;
-  bool any = false, all = true;
-  for (std::size_t i = 0; i < holds.size(); ++i) {
-    if (weights[i] > 0) any |= holds[i] != 0, all &= holds[i] != 0;
-    if (holds[i] != 0) share += weights[i] / sum;
-  }
-  share = !any ? 0 : all ? 1 : share;
-  for (std::size_t i = 0; i < holds.size(); ++i) {
-    const double one = weights[i] / sum * ((holds[i] != 0 ? 1 : 0) - share);
-    variance += one * one;
-  }
-  const double n_members = members_for(share, variance, effective_sample_size(weights),
-                                       static_cast<double>(holds.size()));
-  return {share, std::sqrt(variance), share_bounds(share, n_members, confidence)};
 }
 
 Estimate weighted_probability(std::span<const Holds> holds, std::span<const WeightRange> weights,
@@ -166,12 +138,6 @@ QuantileBounds weighted_quantile(std::span<const double> values,
     found.high =
         value_at(shares.high, values, weights, order, &WeightRange::least, &WeightRange::most);
   return found;
-}
-
-QuantileBounds weighted_quantile(std::span<const double> values, std::span<const double> weights,
-                                 std::span<const std::size_t> order, double q, double confidence) {
-  std::vector known = mapped(weights, [&](const double& one) { return WeightRange{one, one}; });
-  return weighted_quantile(values, known, order, q, confidence);
 }
 
 }  // namespace faultsweep

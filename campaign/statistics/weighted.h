@@ -12,30 +12,9 @@ namespace faultsweep {
 /// (Σ w)² / Σ w² (Kish 1965): how many equal members would say as much. 0 where all weights are 0.
 double effective_sample_size(std::span<const double> weights);
 
-/// From that many effective members on, 95 % intervals hold 93 to 97 %; means, medians and shares
-/// of a half do from 50, but not what a twentieth of all weight has (results/coverage).
+/// From that many effective members on, 95 % intervals hold 93 to 97 %; medians and shares of a
+/// half do from 50, but not what a twentieth of all weight has (results/coverage).
 inline constexpr double kFewestEffectiveMembers = 150;
-
-/// Σ w y / Σ w, with the standard error √(Σ w² (y − mean)² m / (m − 1)) / Σ w of the
-/// self-normalised estimate, m the effective sample size; bounds by Student's t with m − 1 degrees
-/// of freedom, infinite for m < 1.5.
-/// @pre some weight is not 0.
-Estimate weighted_mean(std::span<const double> values, std::span<const double> weights,
-                       double confidence);
-
-/// P of a property, after Korn & Graubard (1998): Clopper & Pearson's bounds for n* = P (1 − P) /
-/// variance members, at most as many as there are of weight, of which n* P have the property; at
-/// P = 0 and 1, where the variance says nothing, n* is the effective sample size.
-/// @pre some weight is not 0.
-Estimate weighted_probability(std::span<const char> holds, std::span<const double> weights,
-                              double confidence);
-
-/// The smallest value up to which members carry a share q of all weight, between the values of the
-/// two shares that are the bounds of q as a weighted probability (Woodruff 1952). An end is missing
-/// where fewer than one member lies beyond it.
-/// @param order  of values, ascending. @pre 0 < q < 1, some weight is not 0.
-QuantileBounds weighted_quantile(std::span<const double> values, std::span<const double> weights,
-                                 std::span<const std::size_t> order, double q, double confidence);
 
 /// Between which two numbers the weight of a member lies that is not known to its end; known:
 /// equal.
@@ -52,13 +31,18 @@ struct WeightRange {
 /// Whether a member has a property.
 enum class Holds : char { no, yes, unknown };
 
-/// The same where weights and property are not known of all: the estimate is of the members of
-/// which both are, the bounds reach over every way in which the others may turn out.
-/// Of equal weights of all they are proportion_bounds.
+/// P of a property, after Korn & Graubard (1998): Clopper & Pearson's bounds for n* = P (1 − P) /
+/// variance members, at most as many as there are of weight, of which n* P have the property; at
+/// P = 0 and 1, where the variance says nothing, n* is the effective sample size. Where weights and
+/// property are not known of all, the estimate is of the members of which both are, and the bounds
+/// reach over every way in which the others may turn out: of equal weights, proportion_bounds.
 /// @pre of some member both are known, with a weight that is not 0.
 Estimate weighted_probability(std::span<const Holds> holds, std::span<const WeightRange> weights,
                               double confidence);
-/// As above. @pre some weight that is not 0 is known.
+/// The smallest value up to which members carry a share q of all weight, between the values of the
+/// two shares that are the bounds of q as a weighted probability (Woodruff 1952). An end is missing
+/// where fewer than one member lies beyond it. What is not known counts as above.
+/// @param order  of values, ascending. @pre 0 < q < 1, some weight that is not 0 is known.
 QuantileBounds weighted_quantile(std::span<const double> values,
                                  std::span<const WeightRange> weights,
                                  std::span<const std::size_t> order, double q, double confidence);

@@ -1,7 +1,5 @@
-#include "campaign/store/parameters.h"
-
 #include "campaign/common/json.h"
-#include "simulator/common/errors.h"
+#include "campaign/store/records.h"
 
 namespace faultsweep {
 
@@ -24,13 +22,11 @@ std::vector<StoredParameter> parameters_from_json(const std::string& text) {
       } else if (const auto* known = faultsim::dimension_named(dimension)) {
         parameters.push_back({.name = one.at("name"), .dimension = known->dimension});
       } else {
-        throw faultsim::StorageError("unknown dimension '" + dimension +
-                                     "' in the store's parameters");
+        throw StorageError("unknown dimension '" + dimension + "' in the store's parameters");
       }
     }
   } catch (const json::exception& error) {
-    throw faultsim::StorageError(
-        faultsim::concat("the store's parameters cannot be read: ", error.what()));
+    throw StorageError(concat("the store's parameters cannot be read: ", error.what()));
   }
   return parameters;
 }

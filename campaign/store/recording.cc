@@ -8,9 +8,7 @@
 /// A case's result as rows of its tables, and their removal.
 namespace faultsweep {
 
-using faultsim::CaseResult;
 using faultsim::Outcome;
-using faultsim::StageMetrics;
 
 int rank_class(Outcome outcome, bool activation_resolved) {
   if (!faultsim::in_equilibrium(outcome)) return outcome == Outcome::unstable ? 2 : 3;

@@ -9,12 +9,13 @@
 
 #include "campaign/common/names.h"
 #include "campaign/spec/spec.h"
-#include "campaign/store/parameters.h"
 #include "simulator/result/result.h"
 
 /// What goes into the store and comes out of it, as plain structs. SI; times of day in seconds
 /// since 1970. JSON is text here: the store does not look into it.
 namespace faultsweep {
+
+using faultsim::CaseResult, faultsim::StageMetrics, faultsim::StepResult;
 
 /// How the fault fields of a case stand in a campaign.
 enum class FieldsState {
@@ -43,6 +44,19 @@ struct BaseScene {
   std::string source;    ///< file that relative paths in the document start from.
   std::string document;  ///< JSON text.
 };
+
+/// A parameter of a campaign; those of a case are CaseParameters.
+struct StoredParameter {
+  std::string name;
+  Dimension dimension = Dimension::number;
+  bool is_text = false;
+  bool operator==(const StoredParameter&) const = default;
+};
+
+/// The JSON array of {"name", "dimension"} that the store keeps.
+std::string parameters_to_json(const std::vector<StoredParameter>& parameters);
+/// Throws StorageError when the text is not what parameters_to_json writes.
+std::vector<StoredParameter> parameters_from_json(const std::string& text);
 
 /// A row of case_parameters: the value of a campaign's parameter in one of its cases.
 struct CaseParameter {
@@ -324,6 +338,58 @@ struct FailureCount {
   std::string status;
   std::string reason;
   long count = 0;
+};
+
+// Nights of `faultsweep nightly`; columns: schemas/store_6.sql ------------------------------------
+
+struct NightCaseRecord {
+  std::string campaign;
+  long position = 0;
+  std::string identity, label;
+  std::string verdict;  ///< to_string(Verdict).
+  bool regressed = false;
+  double max_ulps = 0;
+  std::optional<int> load_step;
+  std::string place, quantity, remark;
+  std::string digest;  ///< of all numbers of the result; "" = no result.
+  std::optional<double> wall_seconds;
+  std::string outcome;
+  std::optional<double> activated_area, moment, chi_bar;
+};
+
+struct NightRecord {
+  std::int64_t id = 0;
+  double at = 0, wall_seconds = 0;  ///< s since 1970; s.
+  std::string suite;
+  std::string environment, environment_fields, baseline_environment;
+  std::string program_version;
+  int numerics_version = 0;
+  long n_compared = 0, n_regressed = 0;
+  int exit_code = 0;
+  std::optional<std::string> blessed;  ///< the reason, where the night became the baseline.
+  std::vector<NightCaseRecord> cases;
+};
+
+// Trades of accuracy for speed; columns: schemas/store_7.sql
+// ---------------------------------------
+
+/// How far the cases of a campaign are off at a tier, measured on a sample of them.
+struct ErrorBar {
+  std::string campaign;  ///< its name in the spec.
+  std::string tier;
+  std::string metric;     ///< of the whole history; SI.
+  std::string reference;  ///< the tier that it was measured against.
+  long n_cases = 0;
+  double rms = 0, largest = 0;
+};
+
+struct TradeRecord {
+  double at = 0;         ///< s since 1970.
+  std::string source;    ///< the scene's or spec's file.
+  std::string campaign;  ///< in this store, whose cases are the choices.
+  std::string program_version;
+  std::string report;  ///< JSON.
+  std::vector<ErrorBar> error_bars;
 };
 
 }  // namespace faultsweep

@@ -124,12 +124,9 @@ ResultTables::ResultTables(Connection& db)
                 " unexpected_episode, unexpected_after" +
                     whole.columns()),
       add_surface("case_surfaces", "case_id" + surface.columns()),
-      add_stage(
-          RowInsert("stage_metrics", "case_id, rank_class, pressure_margin_pa" + stage.columns())),
-      add_fault(
-          RowInsert("fault_metrics", "case_id, stage_id, fault, rank_class" + fault.columns())),
-      add_onset(
-          RowInsert("fault_onsets", "case_id, stage_id, opening, fault_id" + onset.columns())),
+      add_stage("stage_metrics", "case_id, rank_class, pressure_margin_pa" + stage.columns()),
+      add_fault("fault_metrics", "case_id, stage_id, fault, rank_class" + fault.columns()),
+      add_onset("fault_onsets", "case_id, stage_id, opening, fault_id" + onset.columns()),
       add_step("load_steps", "case_id" + step.columns() + step_creep.columns()),
       add_history("chi_history",
                   "case_id, fault, step, fault_id" + history.columns() + history_creep.columns()),

@@ -7,8 +7,6 @@
 
 namespace faultsweep {
 
-using faultsim::CaseResult;
-
 std::vector<WaitingFamily> Store::waiting_families(std::int64_t campaign) const {
   std::vector<WaitingFamily> families;
   Statement query = connection_->prepared(
@@ -41,6 +39,12 @@ std::vector<WaitingFamily> Store::waiting_families(std::int64_t campaign) const 
   return families;
 }
 
+bool fields_are_there(const std::filesystem::path& folder) {
+  std::error_code error;  // what cannot be looked at is as good as gone
+  return std::filesystem::exists(folder / "faults.h5", error) &&
+         std::filesystem::exists(folder / "faults.xmf", error);
+}
+
 long Store::requeue_missing_fields(const CampaignInfo& campaign) {
   if (campaign.keep_fields == KeepFields::none) return 0;
   Transaction transaction(*connection_);
@@ -48,12 +52,7 @@ long Store::requeue_missing_fields(const CampaignInfo& campaign) {
   for (const long position : connection_->rows<long>(
            "SELECT position FROM campaign_cases WHERE campaign_id = ? AND fields = 'kept'",
            campaign.id)) {
-    const auto folder = fields_folder(campaign.name, position);
-    std::error_code error;  // what cannot be looked at is as good as gone
-    if (std::filesystem::exists(folder / "faults.h5", error) &&
-        std::filesystem::exists(folder / "faults.xmf", error)) {
-      continue;
-    }
+    if (fields_are_there(fields_folder(campaign.name, position))) continue;
     connection_->run(
         "UPDATE campaign_cases SET fields = 'wanted' WHERE campaign_id = ? AND position = ?",
         campaign.id, position);

@@ -1,13 +1,11 @@
 #include "campaign/store/same_numbers.h"
 
 #include "campaign/common/json.h"
-#include "simulator/common/errors.h"
+#include "campaign/store/records.h"
 #include "simulator/result/result_fields.h"
 #include "simulator/result/result_json.h"
 
 namespace faultsweep {
-
-using faultsim::CaseResult;
 
 namespace {
 

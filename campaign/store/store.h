@@ -9,9 +9,7 @@
 #include <vector>
 
 #include "campaign/expression/expression.h"
-#include "campaign/store/night_records.h"
 #include "campaign/store/records.h"
-#include "campaign/store/trade_records.h"
 
 namespace faultsweep {
 
@@ -73,6 +71,9 @@ std::string unresolved_sql(const std::string& metric, const MetricIds& all,
                            const MetricScope& scope, std::int64_t stage_of_query);
 /// The same for the index-th of a campaign's parameters: SI, or words.
 std::string parameter_sql(int index, bool is_text);
+
+/// Whether the files of fault fields that are said to be kept are in their folder.
+bool fields_are_there(const std::filesystem::path& folder);
 
 /// What lies in a folder's file system: STATFS's f_type; 0 = not known.
 long file_system_type(const std::filesystem::path& folder);

@@ -5,7 +5,6 @@
 /// Results as they come back from their tables.
 namespace faultsweep {
 
-using faultsim::CaseResult;
 using faultsim::FaultStageMetrics;
 
 FaultStageMetrics read_fault_row(Connection& db, const ResultTables& tables, std::int64_t case_id,

@@ -7,8 +7,6 @@
 
 namespace faultsweep {
 
-using faultsim::CaseResult;
-
 namespace {
 
 constexpr double kLeastOrder = 0.5, kLargestOrder = 4;

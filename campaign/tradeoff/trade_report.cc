@@ -189,10 +189,6 @@ std::string recommendation(const TradeReport& report) {
       lacks_space(report) ? "; 3D was not run, what plane strain costs is not in that." : ".");
 }
 
-}  // namespace
-
-namespace {
-
 /// What the choice of that axis costs, in one sentence; "" where it was not run.
 std::string sentence(const TradeReport& report, const std::string& axis, std::size_t choice,
                      const std::string& subject) {
@@ -234,14 +230,13 @@ std::string plane_strain_sentence(const TradeReport& report) {
 }
 
 std::string ranking_sentence(const RankingTrade& one) {
-  std::string text = concat(
+  return concat(
       one.choice, " ranks ", one.n_cases,
       " cases with Kendall's τ = ", one.tau ? number(*one.tau) : std::string("(all tied)"), " to ",
       one.reference, ": ", one.n_top_common, " of its first ", one.n_top, " are among the first ",
       one.n_top, " there, ", counted(one.n_flips, "activation flips", "activations flip"),
       ", χ̄ is off by ", number(one.chi_rms, 2), " (rms, at most ", number(one.chi_max, 2), "), in ",
       number(one.seconds), " s instead of ", number(one.reference_seconds), " s.");
-  return text;
 }
 
 json known(double value) { return std::isnan(value) ? json() : json(value); }

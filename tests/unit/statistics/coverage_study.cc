@@ -152,8 +152,8 @@ void study_ranks(const std::vector<Case>& all, int repeats) {
           const Point at = draw(random);
           x.push_back(at[0]), y.push_back(one.model(at));
         }
-        const Interval bounds = first_order_by_ranks(y, random_tied_order(x), kConfidence).bounds;
-        tally.add(bounds, one.known.first);
+        const Estimate index = RankSensitivity({&x, 1}).first_order(y, kConfidence)[0];
+        tally.add(index.bounds, one.known.first);
       }
       char text[80];
       std::snprintf(text, sizeof text, "%s (%.2f)", one.name.c_str(), one.known.first);
@@ -320,17 +320,20 @@ struct Seen {
 };
 
 struct WeightedTallies {
-  Tally mean, even, rare, median, tail;
+  Tally even, rare, median, tail;
   void add(const Seen& seen, long n, std::mt19937_64& random) {
     std::normal_distribution<double> normal;
-    std::vector<double> theta, weights;
-    std::vector<char> above, far;
+    std::vector<double> theta;
+    std::vector<WeightRange> weights;
+    std::vector<Holds> above, far;
     for (long i = 0; i < n; ++i) {
       theta.push_back(normal(random));
       const double off = (2 * theta.back() + normal(random) - 3) / seen.error;
-      weights.push_back(std::exp(-0.5 * off * off));
-      above.push_back(theta.back() > seen.mean());
-      far.push_back(theta.back() > seen.mean() + 1.644854 * seen.deviation());
+      const double weight = std::exp(-0.5 * off * off);
+      weights.push_back({weight, weight});
+      const double rare_from = seen.mean() + 1.644854 * seen.deviation();
+      above.push_back(theta.back() > seen.mean() ? Holds::yes : Holds::no);
+      far.push_back(theta.back() > rare_from ? Holds::yes : Holds::no);
     }
     std::vector<std::size_t> order(theta.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -340,7 +343,6 @@ struct WeightedTallies {
       const QuantileBounds b = weighted_quantile(theta, weights, order, q, kConfidence);
       return Interval{b.low.value_or(-kInfinity), b.high.value_or(kInfinity)};
     };
-    mean.add(weighted_mean(theta, weights, kConfidence).bounds, seen.mean());
     even.add(weighted_probability(above, weights, kConfidence).bounds, 0.5);
     rare.add(weighted_probability(far, weights, kConfidence).bounds, 0.05);
     median.add(quantile(0.5), seen.mean());
@@ -361,7 +363,6 @@ void study_weighted(int repeats) {
     WeightedTallies all;
     for (int repeat = 0; repeat < repeats; ++repeat) all.add({error}, n, random);
     const std::string text = sized(effective, static_cast<long>(kFewestEffectiveMembers));
-    all.mean.print("mean", text);
     all.even.print("probability 0.5", text);
     all.rare.print("probability 0.05", text);
     all.median.print("median", text);

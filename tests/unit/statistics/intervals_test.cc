@@ -100,11 +100,11 @@ TEST(SamplesForHalfWidth, AreTheFewestThatAreEnough) {
 TEST(QuantileBounds, AreThoseOfTheOrderStatistics) {
   std::vector<double> values(100);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(i + 1);
-  const QuantileBounds median = quantile_bounds(values, 0.5, 0.95);
+  const QuantileBounds median = quantile_bounds(values, 0, 0.5, 0.95);
   EXPECT_EQ(median.estimate, 50.5);
   EXPECT_EQ(median.low, 40);  // Conover's table: r = 40, s = 61
   EXPECT_EQ(median.high, 61);
-  const QuantileBounds far = quantile_bounds(values, 0.995, 0.95);
+  const QuantileBounds far = quantile_bounds(values, 0, 0.995, 0.95);
   EXPECT_TRUE(far.low);
   EXPECT_FALSE(far.high) << "100 values do not bound it from above";
 }
@@ -118,7 +118,7 @@ TEST(QuantileBounds, Cover) {
       std::vector<double> values(2000);
       for (double& value : values) value = draw(random);
       std::sort(values.begin(), values.end());
-      const QuantileBounds bounds = quantile_bounds(values, q, 0.95);
+      const QuantileBounds bounds = quantile_bounds(values, 0, q, 0.95);
       const double truth = -std::log1p(-q);
       held += bounds.low.value() <= truth && truth <= bounds.high.value();
     }
@@ -170,9 +170,9 @@ TEST(QuantileBounds, TakeTheUnknownAsFarOut) {
   below.insert(below.end(), values.begin(), values.end());
   above.insert(above.end(), 10, 1e9);
   const QuantileBounds found = quantile_bounds(values, 10, 0.5, 0.95);
-  EXPECT_EQ(found.low, quantile_bounds(below, 0.5, 0.95).low);
-  EXPECT_EQ(found.high, quantile_bounds(above, 0.5, 0.95).high);
-  EXPECT_EQ(found.estimate, quantile_bounds(values, 0.5, 0.95).estimate);
+  EXPECT_EQ(found.low, quantile_bounds(below, 0, 0.5, 0.95).low);
+  EXPECT_EQ(found.high, quantile_bounds(above, 0, 0.5, 0.95).high);
+  EXPECT_EQ(found.estimate, quantile_bounds(values, 0, 0.5, 0.95).estimate);
   EXPECT_FALSE(quantile_bounds(values, 30, 0.1, 0.95).low);
   EXPECT_FALSE(quantile_bounds(values, 30, 0.9, 0.95).high);
 }
@@ -187,7 +187,7 @@ TEST(QuantileBounds, CoverWhereValuesAreEqual) {
       std::vector<double> values(50);
       for (double& value : values) value = draw(random) ? 1 : 0;
       std::sort(values.begin(), values.end());
-      const QuantileBounds bounds = quantile_bounds(values, 0.5, 0.95);
+      const QuantileBounds bounds = quantile_bounds(values, 0, 0.5, 0.95);
       const double truth = p > 0.5 ? 1 : 0;
       held += bounds.low.value() <= truth && truth <= bounds.high.value();
     }

@@ -52,11 +52,15 @@ const std::vector<RankedModel>& ranked_models() {
   return all;
 }
 
+Estimate index_of(const std::vector<double>& x, const std::vector<double>& y) {
+  return RankSensitivity({&x, 1}).first_order(y, 0.95)[0];
+}
+
 TEST(RankSensitivity, MeetsKnownIndices) {
   std::mt19937_64 random(1);
   for (const RankedModel& one : ranked_models()) {
     const Sample s = sample(one.model, 100'000, random);
-    const Estimate e = first_order_by_ranks(s.y, random_tied_order(s.x), 0.95);
+    const Estimate e = index_of(s.x, s.y);
     EXPECT_NEAR(e.value, one.index, 4 * e.standard_error + 1e-4) << one.name;
     EXPECT_LT(e.standard_error, 0.01) << one.name;
   }
@@ -67,7 +71,7 @@ int held_of(const RankedModel& one, std::size_t n, int repeats) {
   int held = 0;
   for (int repeat = 0; repeat < repeats; ++repeat) {
     const Sample s = sample(one.model, n, random);
-    const Estimate e = first_order_by_ranks(s.y, random_tied_order(s.x), 0.95);
+    const Estimate e = index_of(s.x, s.y);
     held += e.bounds.low <= one.index && one.index <= e.bounds.high;
   }
   return held;
@@ -120,7 +124,7 @@ TEST(RankSensitivity, IsNotMisledByTheOrderOfAGrid) {
       y.push_back(std::sin(b * 0.01));  // nothing of a
     }
   }
-  const Estimate e = first_order_by_ranks(y, random_tied_order(x), 0.95);
+  const Estimate e = index_of(x, y);
   EXPECT_NEAR(e.value, 0, 4 * e.standard_error);
   EXPECT_LT(e.standard_error, 0.03);
 }
@@ -130,7 +134,7 @@ TEST(RankSensitivity, IsNeverSureOfItselfWhereSomethingVaries) {
   for (int repeat = 0; repeat < 200; ++repeat) {
     Sample s = sample([](const Point& p) { return p[1] > 0.7 ? 1.0 : 0.0; }, 8, random);
     for (double& value : s.x) value = value < 0.5 ? 0 : 1;
-    const Estimate e = first_order_by_ranks(s.y, random_tied_order(s.x), 0.95);
+    const Estimate e = index_of(s.x, s.y);
     const bool varies = std::count(s.y.begin(), s.y.end(), s.y[0]) < 8;
     EXPECT_EQ(e.standard_error > 0, varies) << repeat;
   }
@@ -144,8 +148,8 @@ TEST(RankSensitivity, IsTheSameFromTheOtherEndAndInOtherUnits) {
     Sample turned = s;
     for (double& x : turned.x) x = -x;
     for (double& y : turned.y) y = 7 - 1e5 * y;
-    const Estimate one = first_order_by_ranks(s.y, random_tied_order(s.x), 0.95);
-    const Estimate other = first_order_by_ranks(turned.y, random_tied_order(turned.x), 0.95);
+    const Estimate one = index_of(s.x, s.y);
+    const Estimate other = index_of(turned.x, turned.y);
     EXPECT_NEAR(one.value, other.value, 1e-9) << n;
     EXPECT_NEAR(one.standard_error, other.standard_error, 1e-9) << n;
   }
@@ -155,8 +159,7 @@ TEST(RankSensitivity, IsTheSameFromTheOtherEndAndInOtherUnits) {
 /// products of neighbours are 0.75, 0.25 and −1.25, and each end counts half once more.
 TEST(RankSensitivity, IsItsDefinitionOnFourRows) {
   const std::vector<double> x = {1, 2, 3, 4}, y = {0, 1, 1, 4};
-  EXPECT_NEAR(first_order_by_ranks(y, random_tied_order(x), 0.95).value,
-              (0.75 + 0.25 - 1.25 + 0.5 * (0.75 - 1.25)) / 9, 1e-12);
+  EXPECT_NEAR(index_of(x, y).value, (0.75 + 0.25 - 1.25 + 0.5 * (0.75 - 1.25)) / 9, 1e-12);
 }
 
 /// Parameters and outputs of Ishigami's function and of others, some without a value in some rows.
@@ -194,8 +197,7 @@ TEST(RankSensitivity, OfManyOutputsIsThatOfEachBitForBit) {
     for (std::size_t p = 0; p < 3; ++p) {
       expect_same(one_thread[m][p], four[m][p]);
       if (m != 2) {
-        expect_same(four[m][p],
-                    first_order_by_ranks(many.y[m], random_tied_order(many.x[p]), 0.95));
+        expect_same(four[m][p], index_of(many.x[p], many.y[m]));
       }
     }
   }
@@ -208,8 +210,7 @@ TEST(RankSensitivity, LeavesOutRowsWithoutAValue) {
   std::vector<double> x, y;
   for (std::size_t i = 0; i < 500; ++i)
     if (i % 7 != 3) x.push_back(many.x[0][i]), y.push_back(many.y[2][i]);
-  expect_same(RankSensitivity(many.x).first_order(many.y[2], 0.95)[0],
-              first_order_by_ranks(y, random_tied_order(x), 0.95));
+  expect_same(RankSensitivity(many.x).first_order(many.y[2], 0.95)[0], index_of(x, y));
 }
 
 TEST(RankSensitivity, OfOutputsTogetherCountsEachAsMuchAsItVaries) {
@@ -328,7 +329,7 @@ TEST(RankSensitivity, ItsErrorAndBoundsAreTheirDefinitions) {
     std::vector<double> sorted;
     for (const std::uint32_t row : order) sorted.push_back(s.y[row]);
     const ByDefinition known(sorted);
-    const Estimate e = first_order_by_ranks(s.y, order, 0.95);
+    const Estimate e = index_of(s.x, s.y);
     EXPECT_NEAR(e.value, known.value, 1e-12) << one.name;
     const double centre = known.value + (1 - known.value) / 60;
     const auto rare = rarer_of_two(s.y);
@@ -346,7 +347,7 @@ TEST(RankSensitivity, ItsErrorAndBoundsAreTheirDefinitions) {
 
 TEST(RankSensitivity, IsZeroWhereNothingVaries) {
   const std::vector<double> x = {1, 2, 3, 4, 5}, y(5, 0.1);
-  const Estimate e = first_order_by_ranks(y, random_tied_order(x), 0.95);
+  const Estimate e = index_of(x, y);
   EXPECT_EQ(e.value, 0);
   EXPECT_EQ(e.standard_error, 0);
 }

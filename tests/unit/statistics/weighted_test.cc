@@ -19,20 +19,36 @@ std::vector<std::size_t> order_of(const std::vector<double>& values) {
   return order;
 }
 
+std::vector<WeightRange> known(const std::vector<double>& weights) {
+  std::vector<WeightRange> ranges;
+  for (const double one : weights) ranges.push_back({one, one});
+  return ranges;
+}
+
+Estimate probability_of(const std::vector<char>& holds, const std::vector<double>& weights) {
+  std::vector<Holds> all;
+  for (const char one : holds) all.push_back(one != 0 ? Holds::yes : Holds::no);
+  return weighted_probability(all, known(weights), 0.95);
+}
+
+QuantileBounds quantile_of(const std::vector<double>& values, const std::vector<double>& weights,
+                           double q) {
+  return weighted_quantile(values, known(weights), order_of(values), q, 0.95);
+}
+
 TEST(Weighted, EqualWeightsAreNone) {
   std::vector<double> values(100), weights(100, 0.3);
   std::iota(values.begin(), values.end(), 1.0);
   std::vector<char> holds(100, 0);
   std::fill_n(holds.begin(), 20, char{1});
   EXPECT_NEAR(effective_sample_size(weights), 100, 1e-9);
-  const Estimate p = weighted_probability(holds, weights, 0.95);
+  const Estimate p = probability_of(holds, weights);
   const Interval exact = proportion_bounds(20, 100, 0.95);
   EXPECT_NEAR(p.value, 0.2, 1e-12);
   EXPECT_NEAR(p.bounds.low, exact.low, 1e-9);
   EXPECT_NEAR(p.bounds.high, exact.high, 1e-9);
-  EXPECT_NEAR(weighted_mean(values, weights, 0.95).value, 50.5, 1e-9);
-  const QuantileBounds median = weighted_quantile(values, weights, order_of(values), 0.5, 0.95);
-  const QuantileBounds plain = quantile_bounds(values, 0.5, 0.95);
+  const QuantileBounds median = quantile_of(values, weights, 0.5);
+  const QuantileBounds plain = quantile_bounds(values, 0, 0.5, 0.95);
   EXPECT_EQ(median.estimate, 50);
   EXPECT_NEAR(median.low.value(), plain.low.value(), 1);
   EXPECT_NEAR(median.high.value(), plain.high.value(), 1);
@@ -42,12 +58,11 @@ TEST(Weighted, WhatWeighsNothingSaysNothing) {
   const std::vector<double> values = {1, 2, 3, 1e9}, weights = {1, 1, 1, 0};
   const std::vector<char> holds = {1, 1, 1, 0};
   EXPECT_NEAR(effective_sample_size(weights), 3, 1e-12);
-  EXPECT_EQ(weighted_probability(holds, weights, 0.95).value, 1);
-  EXPECT_EQ(weighted_probability(holds, weights, 0.95).bounds.high, 1);
-  EXPECT_NEAR(weighted_probability(holds, weights, 0.95).bounds.low, std::pow(0.025, 1.0 / 3),
-              1e-9);
-  EXPECT_EQ(weighted_quantile(values, weights, order_of(values), 0.99, 0.95).estimate, 3);
-  EXPECT_FALSE(weighted_quantile(values, weights, order_of(values), 0.99, 0.95).high);
+  EXPECT_EQ(probability_of(holds, weights).value, 1);
+  EXPECT_EQ(probability_of(holds, weights).bounds.high, 1);
+  EXPECT_NEAR(probability_of(holds, weights).bounds.low, std::pow(0.025, 1.0 / 3), 1e-9);
+  EXPECT_EQ(quantile_of(values, weights, 0.99).estimate, 3);
+  EXPECT_FALSE(quantile_of(values, weights, 0.99).high);
 }
 
 TEST(Weighted, OfEqualWeightsTheUnknownMayBeEither) {
@@ -83,9 +98,8 @@ TEST(Weighted, BoundsHoldHoweverTheUnknownTurnsOut) {
       weights.push_back(known ? WeightRange{w, w} : WeightRange{w * uniform(random), w});
       values.push_back(uniform(random));
     }
-    const auto order = order_of(values);
     const Interval said = weighted_probability(holds, weights, 0.95).bounds;
-    const QuantileBounds median = weighted_quantile(values, weights, order, 0.5, 0.95);
+    const QuantileBounds median = weighted_quantile(values, weights, order_of(values), 0.5, 0.95);
     for (int resolution = 0; resolution < 30; ++resolution) {
       const double side = resolution == 0 ? 0 : resolution == 1 ? 1 : uniform(random);
       std::vector<char> holds_then;
@@ -98,10 +112,10 @@ TEST(Weighted, BoundsHoldHoweverTheUnknownTurnsOut) {
         holds_then.push_back(
             holds[i] == Holds::yes || (holds[i] == Holds::unknown && may(side)) ? 1 : 0);
       }
-      const Interval then = weighted_probability(holds_then, weights_then, 0.95).bounds;
+      const Interval then = probability_of(holds_then, weights_then).bounds;
       EXPECT_GE(then.low, said.low - 1e-9);
       EXPECT_LE(then.high, said.high + 1e-9);
-      const double estimate = weighted_quantile(values, weights_then, order, 0.5, 0.95).estimate;
+      const double estimate = quantile_of(values, weights_then, 0.5).estimate;
       EXPECT_TRUE(median.low.value() <= estimate && estimate <= median.high.value());
     }
   }
@@ -113,7 +127,7 @@ TEST(Weighted, WeightsMakeNoMoreOfTheMembersThanThereAre) {
   std::vector<double> weights(100, 9);
   std::vector<char> holds(100, 0);
   for (std::size_t i = 0; i < 50; ++i) weights[i] = 1, holds[i] = 1;
-  const Estimate p = weighted_probability(holds, weights, 0.95);
+  const Estimate p = probability_of(holds, weights);
   const Interval exact = proportion_bounds(10, 100, 0.95);
   EXPECT_NEAR(p.value, 0.1, 1e-12);
   EXPECT_LE(p.bounds.low, exact.low + 1e-9);
@@ -137,11 +151,10 @@ TEST(Weighted, OnlyRatiosOfWeightsCount) {
     EXPECT_NEAR(a.bounds.low, b.bounds.low, 1e-7);
     EXPECT_NEAR(a.bounds.high, b.bounds.high, 1e-7);
   };
-  expect_same(weighted_mean(values, weights, 0.95), weighted_mean(back, other, 0.95));
-  expect_same(weighted_probability(holds, weights, 0.95), weighted_probability(held, other, 0.95));
+  expect_same(probability_of(holds, weights), probability_of(held, other));
   for (const double q : {0.1, 0.5, 0.9}) {
-    const QuantileBounds a = weighted_quantile(values, weights, order_of(values), q, 0.95);
-    const QuantileBounds b = weighted_quantile(back, other, order_of(back), q, 0.95);
+    const QuantileBounds a = quantile_of(values, weights, q);
+    const QuantileBounds b = quantile_of(back, other, q);
     EXPECT_EQ(a.estimate, b.estimate) << q;
     EXPECT_EQ(a.low, b.low) << q;
     EXPECT_EQ(a.high, b.high) << q;
@@ -149,11 +162,11 @@ TEST(Weighted, OnlyRatiosOfWeightsCount) {
 }
 
 /// θ ~ N(0, 1)², y = 2 θ1 + θ2 seen as 3 ± 0.5. Then θ1 is normal with mean 2·3 / 5.25 and
-/// variance 1 − 4 / 5.25, and y itself with mean 5·3 / 5.25 and variance 5 · 0.25 / 5.25.
+/// variance 1 − 4 / 5.25, and y itself with mean 5·3 / 5.25.
 class LinearGaussian : public ::testing::Test {
  protected:
   static constexpr double kMean = 6 / 5.25, kMeanY = 15 / 5.25;
-  const double deviation_ = std::sqrt(1 - 4 / 5.25), deviation_y_ = std::sqrt(1.25 / 5.25);
+  const double deviation_ = std::sqrt(1 - 4 / 5.25);
 
   void draw(std::size_t n, std::mt19937_64& random) {
     std::normal_distribution<double> normal;
@@ -172,38 +185,31 @@ class LinearGaussian : public ::testing::Test {
 TEST_F(LinearGaussian, IsMetToOnePercent) {
   std::mt19937_64 random(11);
   draw(400000, random);
-  const auto order = order_of(theta_);
-  EXPECT_NEAR(weighted_mean(theta_, weights_, 0.95).value, kMean, 0.01 * kMean);
-  EXPECT_NEAR(weighted_mean(y_, weights_, 0.95).value, kMeanY, 0.01 * kMeanY);
-  EXPECT_NEAR(weighted_probability(holds_, weights_, 0.95).value, 0.5, 0.005);
+  EXPECT_NEAR(probability_of(holds_, weights_).value, 0.5, 0.005);
   for (const auto& [q, z] : {std::pair(0.05, -1.644854), {0.5, 0.0}, {0.95, 1.644854}}) {
     const double truth = kMean + z * deviation_;
-    EXPECT_NEAR(weighted_quantile(theta_, weights_, order, q, 0.95).estimate, truth,
-                0.01 * deviation_)
-        << q;
+    EXPECT_NEAR(quantile_of(theta_, weights_, q).estimate, truth, 0.01 * deviation_) << q;
   }
 }
 
 TEST_F(LinearGaussian, IntervalsCover) {
   std::mt19937_64 random(12);
-  int mean = 0, probability = 0, median = 0, tail = 0;
+  int probability = 0, median = 0, tail = 0;
   constexpr int kRepeats = 1000;
   for (int repeat = 0; repeat < kRepeats; ++repeat) {
     draw(2000, random);
-    const auto order = order_of(theta_);
     const auto in = [](const Interval& bounds, double truth) {
       return bounds.low <= truth && truth <= bounds.high ? 1 : 0;
     };
     const auto quantile_in = [&](double q, double truth) {
-      const QuantileBounds b = weighted_quantile(theta_, weights_, order, q, 0.95);
+      const QuantileBounds b = quantile_of(theta_, weights_, q);
       return in({b.low.value(), b.high.value()}, truth);
     };
-    mean += in(weighted_mean(theta_, weights_, 0.95).bounds, kMean);
-    probability += in(weighted_probability(holds_, weights_, 0.95).bounds, 0.5);
+    probability += in(probability_of(holds_, weights_).bounds, 0.5);
     median += quantile_in(0.5, kMean);
     tail += quantile_in(0.9, kMean + 1.281552 * deviation_);
   }
-  for (const int held : {mean, probability, median, tail}) {
+  for (const int held : {probability, median, tail}) {
     EXPECT_GE(held, 930);
     EXPECT_LE(held, 970);
   }
@@ -212,46 +218,29 @@ TEST_F(LinearGaussian, IntervalsCover) {
 /// 1150 draws of which about as many are effective as the fewest that are taken.
 TEST_F(LinearGaussian, IntervalsCoverFromTheFewestEffectiveMembers) {
   std::mt19937_64 random(15);
-  int mean = 0, probability = 0, rare = 0, median = 0, repeats = 0;
+  int probability = 0, rare = 0, median = 0, repeats = 0;
   double effective = 0;
   for (int repeat = 0; repeat < 1000; ++repeat) {
     draw(1150, random);
     const double size = effective_sample_size(weights_);
     if (size < kFewestEffectiveMembers * 0.9) continue;
     ++repeats, effective += size;
-    const auto order = order_of(theta_);
     const auto in = [](const Interval& bounds, double truth) {
       return bounds.low <= truth && truth <= bounds.high ? 1 : 0;
     };
-    mean += in(weighted_mean(theta_, weights_, 0.95).bounds, kMean);
-    probability += in(weighted_probability(holds_, weights_, 0.95).bounds, 0.5);
+    probability += in(probability_of(holds_, weights_).bounds, 0.5);
     std::vector<char> far(1150);
     for (std::size_t i = 0; i < 1150; ++i) far[i] = theta_[i] > kMean + 1.644854 * deviation_;
-    rare += in(weighted_probability(far, weights_, 0.95).bounds, 0.05);
-    const QuantileBounds b = weighted_quantile(theta_, weights_, order, 0.5, 0.95);
+    rare += in(probability_of(far, weights_).bounds, 0.05);
+    const QuantileBounds b = quantile_of(theta_, weights_, 0.5);
     median += in({b.low.value(), b.high.value()}, kMean);
   }
   EXPECT_GT(repeats, 800);
   EXPECT_LT(effective / repeats, 1.2 * kFewestEffectiveMembers);
-  for (const int held : {mean, probability, rare, median}) {
+  for (const int held : {probability, rare, median}) {
     EXPECT_GE(held, 0.925 * repeats);
     EXPECT_LE(held, 0.98 * repeats);
   }
-}
-
-/// One member that carries all weight says nothing of how much a mean may be off.
-TEST(Weighted, AMeanOfOneEffectiveMemberHasNoBounds) {
-  const std::vector<double> values = {1, 2, 3}, weights = {1, 1e-9, 1e-9};
-  EXPECT_TRUE(std::isinf(weighted_mean(values, weights, 0.95).bounds.high));
-  EXPECT_NEAR(weighted_mean(values, weights, 0.95).value, 1, 1e-6);
-}
-
-/// Of equal weights it is the mean's usual interval: of 1 .. 5 a variance of 2.5, t of 4 degrees.
-TEST(Weighted, AMeanOfEqualMembersHasStudentsInterval) {
-  const std::vector<double> values = {1, 2, 3, 4, 5}, weights(5, 2.0);
-  const Estimate e = weighted_mean(values, weights, 0.95);
-  EXPECT_NEAR(e.standard_error, std::sqrt(2.5 / 5), 1e-12);
-  EXPECT_NEAR(e.bounds.high, 3 + 2.776445 * std::sqrt(0.5), 1e-5);
 }
 
 }  // namespace
