@@ -53,10 +53,6 @@ double si_of(double value, const LimitSearch& limit) {
   return faultsim::parse_quantity(value_text(value, limit), limit.dimension).value;
 }
 
-ShownUnit unit_of(const LimitSearch& limit) {
-  return {limit.unit, si_of(1, limit), faultsim::si_unit(limit.dimension)};
-}
-
 std::string limit_text(const LimitCell& cell, const LimitSearch& limit) {
   const Crossing* crossing = cell.finding.limit();
   const std::string found =

@@ -13,7 +13,6 @@ std::string value_text(double value, const LimitSearch& limit);
 std::string range_text(const LimitSearch& limit);
 /// A value in the unit of the limit in SI.
 double si_of(double value, const LimitSearch& limit);
-ShownUnit unit_of(const LimitSearch& limit);
 
 /// As computed on these cells: "[-71, -70] bar", the last safe and the first unsafe value; "safe in
 /// the whole range tried (-110 to 0 bar)"; "unsafe already at -110 bar"; "not known: ..."; of what

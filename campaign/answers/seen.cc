@@ -212,8 +212,7 @@ WeightRange likelihood_by_cells(const SeenStatement& statement, const CaseHistor
                                 double value, Held held) {
   switch (statement.kind) {
     case SeenStatement::Kind::slid: {
-      const auto& open = history.unresolved;
-      if (std::find(open.begin(), open.end(), statement.fault) != open.end()) return {0, 1};
+      if (contains(history.unresolved, statement.fault)) return {0, 1};
       if (const auto* onset = onset_of(statement, history))
         return likelihood_within_step(statement, *onset);
       break;

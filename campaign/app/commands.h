@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -81,6 +82,14 @@ void add_renderings(CLI::App* command, StoreArguments& common);
 void add_confidence(CLI::App* command, double& confidence);
 void add_workers(CLI::App* command, std::optional<int>& n_workers, const char* description);
 
+/// Data, on stdout.
+void print_text(const std::string& text);
+void print_json(const nlohmann::json& document);
+/// A line of talk, on stderr.
+template <typename... Parts>
+void say(const Parts&... parts) {
+  std::fputs(faultsim::concat(parts..., '\n').c_str(), stderr);
+}
 /// Prints the answer on stdout: as text at the width of the screen, as JSON or one of its tables as
 /// CSV. Throws InputError where there is no such table.
 void print_answer(const Answer& answer, const StoreArguments& common);

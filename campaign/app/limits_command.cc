@@ -1,4 +1,3 @@
-#include <cstdio>
 #include <filesystem>
 
 #include "campaign/answers/limit_table.h"
@@ -45,8 +44,7 @@ ExitCode limits(const StoreArguments& common, const LimitsArguments& arguments) 
                                      : map_answer(table, arguments.map.at(0), arguments.map.at(1)),
                common);
   if (!table.is_finished) {
-    std::fprintf(stderr, "Next: faultsweep run %s --store %s\n", table.campaign.name.c_str(),
-                 common.store.c_str());
+    say("Next: faultsweep run ", table.campaign.name, " --store ", common.store.string());
   }
   return run.status;
 }

@@ -1,4 +1,3 @@
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "campaign/app/commands.h"
@@ -22,18 +21,15 @@ ExitCode run_tonight(const NightRequest& request, bool json) {
   const std::optional<NightOutcome> night =
       run_night(request, {simulator_binary(), FAULTSIM_VERSION});
   if (!night) return ExitCode::regress;
-  const std::string text =
-      json ? faultsim::json_text(night_to_json(night->record, night->remarks, night->advice))
-           : night_to_text(night->record, night->remarks, night->advice, screen_width());
-  std::fputs(text.c_str(), stdout);
+  print_text(json ? faultsim::json_text(night_to_json(night->record, night->remarks, night->advice))
+                  : night_to_text(night->record, night->remarks, night->advice, screen_width()));
   return static_cast<ExitCode>(night->record.exit_code);
 }
 
 ExitCode print_history(const std::filesystem::path& store, bool json) {
   const std::vector<NightRecord> nights = Store::open_reader(store).nights("", kNightsShown);
-  const std::string text =
-      json ? faultsim::json_text(history_to_json(nights)) : history_to_text(nights, screen_width());
-  std::fputs(text.c_str(), stdout);
+  print_text(json ? faultsim::json_text(history_to_json(nights))
+                  : history_to_text(nights, screen_width()));
   return ExitCode::done;
 }
 

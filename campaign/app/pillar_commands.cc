@@ -126,7 +126,7 @@ ExitCode pillars(const StoreArguments&, const PillarArguments& arguments) {
     text += concat("  shear on the section is left out, up to ",
                    shortest_text(std::round(1000 * campaign.largest_shear_left_out) / 1000),
                    " of the vertical effective stress\n");
-  std::fputs(text.c_str(), stdout);
+  print_text(text);
   if (campaign.n_cases == 0)
     throw InputError(arguments.table.string(),
                      {{"", 0, "no pillar can be modelled", "see what is said of them"}});
@@ -135,8 +135,7 @@ ExitCode pillars(const StoreArguments&, const PillarArguments& arguments) {
   faultsim::write_text(folder.path() / "places.csv", campaign.places);
   faultsim::write_text(folder.path() / "refused.csv", refused_csv(campaign));
   folder.commit();
-  std::fprintf(stderr, "Next: faultsweep submit %s\n",
-               (arguments.folder / "campaign.json").c_str());
+  say("Next: faultsweep submit ", (arguments.folder / "campaign.json").string());
   return ExitCode::done;
 }
 

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 
 #include "campaign/render/render.h"
@@ -18,11 +17,13 @@ std::size_t chosen_width = 0;
 
 }  // namespace
 
+void print_text(const std::string& text) { std::fputs(text.c_str(), stdout); }
+void print_json(const nlohmann::json& document) { print_text(faultsim::json_text(document)); }
+
 void print_answer(const Answer& answer, const StoreArguments& common) {
-  const std::string text = common.json  ? faultsim::json_text(render_json(answer))
-                           : common.csv ? render_csv(table_named(answer, *common.csv))
-                                        : render_text(answer, screen_width());
-  std::fputs(text.c_str(), stdout);
+  print_text(common.json  ? faultsim::json_text(render_json(answer))
+             : common.csv ? render_csv(table_named(answer, *common.csv))
+                          : render_text(answer, screen_width()));
 }
 
 void set_screen_width(std::size_t width) { chosen_width = width; }

@@ -1,6 +1,5 @@
 #include <unistd.h>
 
-#include <cstdio>
 #include <cstdlib>
 
 #include "campaign/app/commands.h"
@@ -39,12 +38,11 @@ ExitCode run(const StoreArguments& common, const RunArguments& arguments) {
   switch (status) {
     case ExitCode::done:
     case ExitCode::incomplete:
-      std::fprintf(stderr, "Next: faultsweep rank %s --store %s\n", name.c_str(),
-                   common.store.c_str());
+      say("Next: faultsweep rank ", name, " --store ", common.store.string());
       break;
     case ExitCode::interrupted:
-      std::fprintf(stderr, "Interrupted, nothing is lost. Next: faultsweep run %s --store %s\n",
-                   name.c_str(), common.store.c_str());
+      say("Interrupted, nothing is lost. Next: faultsweep run ", name, " --store ",
+          common.store.string());
       break;
     default:
       break;
@@ -61,11 +59,11 @@ ExitCode slurm(const StoreArguments& common, const SlurmRequest& request) {
   job.program = std::filesystem::read_symlink("/proc/self/exe");
   job.simulator = simulator_binary();
   job.waiting = store.waiting_families(campaign.id);
-  std::fputs(slurm_script(job, request).c_str(), stdout);
+  print_text(slurm_script(job, request));
   if (job.waiting.empty()) {
-    std::fprintf(stderr, "Nothing waits in %s\n", campaign.name.c_str());
+    say("Nothing waits in ", campaign.name);
   } else {
-    std::fprintf(stderr, "Next: faultsweep slurm %s ... | sbatch\n", campaign.name.c_str());
+    say("Next: faultsweep slurm ", campaign.name, " ... | sbatch");
   }
   return ExitCode::done;
 }

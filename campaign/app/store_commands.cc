@@ -12,7 +12,6 @@
 #include "campaign/reports/status_report.h"
 #include "campaign/store/clock.h"
 #include "simulator/cache/operator_cache.h"
-#include "simulator/files/json_text.h"
 #include "simulator/files/output_target.h"
 
 namespace faultsweep {
@@ -43,9 +42,6 @@ std::uint64_t parse_size(const std::string& option, const std::string& text) {
 
 namespace {
 
-void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
-void print(const json& document) { print(faultsim::json_text(document)); }
-
 /// Prints what is answered of a case.
 template <typename AnswerOf>
 ExitCode answer_case(const StoreArguments& common, const std::string& name,
@@ -58,11 +54,11 @@ ExitCode answer_case(const StoreArguments& common, const std::string& name,
 ExitCode verify_store(const StoreArguments& common) {
   const std::vector<std::string> problems = Store::open_reader(common.store).integrity_problems();
   if (common.json) {
-    print(json{{"sound", problems.empty()}, {"problems", problems}});
+    print_json({{"sound", problems.empty()}, {"problems", problems}});
   } else if (problems.empty()) {
-    print(std::string("the store is sound: structure, references, checksums\n"));
+    print_text("the store is sound: structure, references, checksums\n");
   } else {
-    for (const std::string& problem : problems) print(problem + "\n");
+    for (const std::string& problem : problems) print_text(problem + "\n");
   }
   if (problems.empty()) return ExitCode::done;
   throw StorageError(concat("the store ", common.store.string(), " has ",
@@ -77,11 +73,11 @@ ExitCode status(const StoreArguments& common, const bool& verify) {
   if (common.json) return ExitCode::done;
   const CampaignInfo& c = report.campaign;
   if (!report.manager && c.n_waiting > 0 && !c.cancelled) {
-    std::fprintf(stderr, "Next: faultsweep run %s\n", c.name.c_str());
+    say("Next: faultsweep run ", c.name);
   } else if (c.cancelled && c.n_waiting > 0) {
-    std::fprintf(stderr, "Next: faultsweep submit %s, which reopens it\n", c.source.c_str());
+    say("Next: faultsweep submit ", c.source, ", which reopens it");
   } else if (c.n_done > 0) {
-    std::fprintf(stderr, "Next: faultsweep rank %s\n", c.name.c_str());
+    say("Next: faultsweep rank ", c.name);
   }
   return ExitCode::done;
 }
@@ -110,13 +106,10 @@ ExitCode rank(const StoreArguments& common, const RankArguments& arguments) {
   const long n_failed = c.n_failed - c.n_fields_failed;
   const long n_waiting = c.n_waiting - c.n_fields_waiting;
   if (n_waiting + n_failed > 0) {
-    std::fprintf(stderr, "%ld of %ld cases have no result yet (%ld failed)\n", n_waiting + n_failed,
-                 c.n_cases, n_failed);
+    say(n_waiting + n_failed, " of ", c.n_cases, " cases have no result yet (", n_failed,
+        " failed)");
   }
-  if (!ranking.rows.empty()) {
-    std::fprintf(stderr, "Next: faultsweep show %s/%ld\n", c.name.c_str(),
-                 ranking.rows[0].position);
-  }
+  if (!ranking.rows.empty()) say("Next: faultsweep show ", c.name, "/", ranking.rows[0].position);
   return ExitCode::done;
 }
 
@@ -173,20 +166,19 @@ ExitCode retry(const StoreArguments& common, const RetryArguments& arguments) {
   if (arguments.position) store.stored_case(campaign.id, std::to_string(*arguments.position));
   const long count = store.retry(campaign.id, arguments.unconverged, arguments.position);
   if (common.json) {
-    print(json{{"campaign", campaign.name}, {"retried", count}});
+    print_json({{"campaign", campaign.name}, {"retried", count}});
   } else {
     std::printf("%ld\n", count);
   }
   if (count == 0) {
-    std::fprintf(stderr, "%s\n", nothing_to_retry(store, campaign, arguments).c_str());
+    say(nothing_to_retry(store, campaign, arguments));
     return ExitCode::done;
   }
   const std::string next = campaign.cancelled
                                ? concat("submit ", campaign.source, ", which reopens it")
                                : "run " + campaign.name;
-  std::fprintf(stderr, "%ld %s of %s %s again. Next: faultsweep %s\n", count,
-               count == 1 ? "case" : "cases", campaign.name.c_str(), count == 1 ? "waits" : "wait",
-               next.c_str());
+  say(counted(count, "case", "cases"), " of ", campaign.name, count == 1 ? " waits" : " wait",
+      " again. Next: faultsweep ", next);
   return ExitCode::done;
 }
 
@@ -196,20 +188,19 @@ ExitCode cancel(const StoreArguments& common) {
   const CampaignInfo campaign = store.campaign(common.campaign);
   const bool was_cancelled = campaign.cancelled;
   if (!was_cancelled) store.cancel(campaign.id);
-  std::fprintf(stderr, "%s %s cancelled with %ld of %ld cases waiting; results stay\n",
-               campaign.name.c_str(), was_cancelled ? "was already" : "is", campaign.n_waiting,
-               campaign.n_cases);
+  say(campaign.name, was_cancelled ? " was already" : " is", " cancelled with ", campaign.n_waiting,
+      " of ", campaign.n_cases, " cases waiting; results stay");
   if (common.json) {
-    print(json{{"campaign", campaign.name},
-               {"was_cancelled", was_cancelled},
-               {"cases", campaign.n_cases},
-               {"waiting", campaign.n_waiting}});
+    print_json({{"campaign", campaign.name},
+                {"was_cancelled", was_cancelled},
+                {"cases", campaign.n_cases},
+                {"waiting", campaign.n_waiting}});
   }
   const auto owner = store.owner();
   if (owner && owner->alive && owner->campaign == campaign.id) {
-    std::fprintf(stderr, "Its manager hands out nothing more and ends with the cases at work.\n");
+    say("Its manager hands out nothing more and ends with the cases at work.");
   }
-  std::fprintf(stderr, "faultsweep submit %s reopens it.\n", campaign.source.c_str());
+  say("faultsweep submit ", campaign.source, " reopens it.");
   return ExitCode::done;
 }
 
@@ -229,9 +220,9 @@ ExitCode cache_list(const StoreArguments& common) {
                           format_time(static_cast<double>(entry.last_used))});
   }
   if (common.json) {
-    print(json{{"operators", document}});
+    print_json({{"operators", document}});
   } else {
-    print(entries.empty() ? "the cache is empty\n" : render_text(table, screen_width()));
+    print_text(entries.empty() ? "the cache is empty\n" : render_text(table, screen_width()));
   }
   return ExitCode::done;
 }
@@ -243,7 +234,7 @@ ExitCode cache_verify(const StoreArguments& common) {
   const auto report = [&](const std::string& name, const std::string& problem) {
     sound = sound && problem.empty();
     checked.push_back({{"name", name}, {"sound", problem.empty()}, {"problem", problem}});
-    if (!common.json) print(concat(name, "  ", problem.empty() ? "sound" : problem, "\n"));
+    if (!common.json) print_text(concat(name, "  ", problem.empty() ? "sound" : problem, "\n"));
   };
   for (const faultsim::CacheEntry& entry : faultsim::list_operators(folder)) {
     std::string remark;
@@ -255,7 +246,7 @@ ExitCode cache_verify(const StoreArguments& common) {
       report("campaign.sqlite", problem);
     }
   }
-  if (common.json) print(json{{"sound", sound}, {"checked", checked}});
+  if (common.json) print_json({{"sound", sound}, {"checked", checked}});
   return sound ? ExitCode::done : ExitCode::world;
 }
 
@@ -263,11 +254,11 @@ ExitCode cache_prune(const StoreArguments& common, const std::string& size) {
   const auto freed =
       faultsim::prune_operators(common.store / "operators", parse_size("--max-size", size), "");
   if (common.json) {
-    print(json{{"bytes_freed", freed}});
+    print_json({{"bytes_freed", freed}});
     return ExitCode::done;
   }
   std::printf("%llu\n", static_cast<unsigned long long>(freed));
-  std::fprintf(stderr, "bytes freed; what is missing is built again when it is needed\n");
+  say("bytes freed; what is missing is built again when it is needed");
   return ExitCode::done;
 }
 
@@ -275,7 +266,7 @@ ExitCode backup(const StoreArguments& common, const std::filesystem::path& targe
   const Store store = Store::open_reader(common.store);
   faultsim::require_writable_file("file", target, faultsim::FileKind::database, {});
   store.backup_to(target);
-  std::fprintf(stderr, "backup written to %s\n", target.c_str());
+  say("backup written to ", target.string());
   return ExitCode::done;
 }
 

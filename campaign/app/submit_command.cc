@@ -170,14 +170,12 @@ SubmitOutcome preview(const std::filesystem::path& store, const Submission& subm
 
 SubmitOutcome stored(const std::filesystem::path& folder, const Submission& submission) {
   Store store = Store::open_writer(folder);
-  if (!store.remark().empty()) std::fprintf(stderr, "%s\n", store.remark().c_str());
+  if (!store.remark().empty()) say(store.remark());
   SubmitOutcome outcome = store.submit(submission);
   if (outcome.existed) {
-    std::fprintf(stderr, "%s is in the store already: nothing added, `faultsweep run` resumes it\n",
-                 outcome.name.c_str());
+    say(outcome.name, " is in the store already: nothing added, `faultsweep run` resumes it");
   } else if (outcome.name != submission.name) {
-    std::fprintf(stderr, "another campaign is called %s: this one becomes %s\n",
-                 submission.name.c_str(), outcome.name.c_str());
+    say("another campaign is called ", submission.name, ": this one becomes ", outcome.name);
   }
   return outcome;
 }
@@ -191,8 +189,7 @@ ExitCode init(const StoreArguments&, const std::filesystem::path& folder) {
   faultsim::write_text(scene, faultsim::starter_scene("field"));
   faultsim::write_text(spec, std::string(faultsim::embedded::starter_campaign));
   std::printf("%s\n%s\n", scene.c_str(), spec.c_str());
-  std::fprintf(stderr, "Next: faultsweep submit %s --dry-run\n",
-               (folder / "campaign.json").c_str());
+  say("Next: faultsweep submit ", spec.string(), " --dry-run");
   return ExitCode::done;
 }
 
@@ -215,17 +212,13 @@ ExitCode submit(const StoreArguments& common, const SubmitArguments& arguments) 
     report.outcome = stored(common.store, report.submission);
     report.submission.name = report.outcome.name;
   }
-  for (const std::string& note : report.expansion.notes)
-    std::fprintf(stderr, "note: %s\n", note.c_str());
-  const std::string text =
-      common.json ? faultsim::json_text(report_to_json(report)) : report_to_text(report);
-  std::fputs(text.c_str(), stdout);
+  for (const std::string& note : report.expansion.notes) say("note: ", note);
+  print_text(common.json ? faultsim::json_text(report_to_json(report)) : report_to_text(report));
   if (arguments.dry_run) {
-    std::fprintf(stderr, "Nothing was stored. Next: faultsweep submit %s\n",
-                 arguments.spec.c_str());
+    say("Nothing was stored. Next: faultsweep submit ", arguments.spec);
   } else {
-    std::fprintf(stderr, "Next: faultsweep run %s --workers %d --store %s\n",
-                 report.submission.name.c_str(), available_cores(), common.store.c_str());
+    say("Next: faultsweep run ", report.submission.name, " --workers ", available_cores(),
+        " --store ", common.store.string());
   }
   return ExitCode::done;
 }

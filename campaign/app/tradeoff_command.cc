@@ -1,4 +1,3 @@
-#include <cstdio>
 #include <memory>
 
 #include "campaign/app/commands.h"
@@ -155,14 +154,13 @@ ExitCode tradeoff(const StoreArguments& common, const TradeoffArguments& argumen
   const Expansion expansion = expand(parse_campaign(spec.dump(), question.scene.source));
   if (arguments.dry_run) {
     const AnswerTable ladder = ladder_table(axes);
-    const std::string text =
-        common.json ? faultsim::json_text(json{{"choices", json_rows(ladder)},
-                                               {"cases", expansion.cases.size()},
-                                               {"families", expansion.families.size()}})
-                    : render_text(ladder, screen_width());
-    std::fputs(text.c_str(), stdout);
-    std::fprintf(stderr, "%zu cases in %zu families\n", expansion.cases.size(),
-                 expansion.families.size());
+    const std::size_t n_cases = expansion.cases.size(), n_families = expansion.families.size();
+    if (common.json) {
+      print_json({{"choices", json_rows(ladder)}, {"cases", n_cases}, {"families", n_families}});
+    } else {
+      print_text(render_text(ladder, screen_width()));
+    }
+    say(n_cases, " cases in ", n_families, " families");
     return ExitCode::done;
   }
   const auto [name, status] = submit_and_run(
@@ -191,9 +189,7 @@ ExitCode tradeoff(const StoreArguments& common, const TradeoffArguments& argumen
   record.report = document.dump();
   store.record_trade(record);
   if (output) write_report(*output, report);
-  std::fputs(common.json ? faultsim::json_text(document).c_str()
-                         : trade_to_text(report, screen_width()).c_str(),
-             stdout);
+  print_text(common.json ? faultsim::json_text(document) : trade_to_text(report, screen_width()));
   return status;
 }
 

@@ -331,7 +331,7 @@ class Parser {
     if (accept_word("in")) {
       const std::size_t place = position_;
       const std::string stage = parse_stage();
-      if (std::find(scopes_.stages.begin(), scopes_.stages.end(), stage) == scopes_.stages.end()) {
+      if (!faultsim::contains(scopes_.stages, stage)) {
         fail(place, "there is no stage \"" + stage + "\" in the results",
              cure_of_name(stage, scopes_.stages));
       }
@@ -385,7 +385,7 @@ class Parser {
     const std::size_t dot = word.rfind('.', word.find(" in "));
     if (faults.empty() || dot == std::string::npos) return;
     const std::string fault = word.substr(0, dot);
-    if (std::find(faults.begin(), faults.end(), fault) != faults.end()) return;
+    if (faultsim::contains(faults, fault)) return;
     const auto near = nearest(word, known_);
     if (near && near->find('.') != std::string::npos && near->substr(0, near->rfind('.')) == fault)
       return;  // a parameter with a dot in its name, spelled wrong behind it

@@ -113,9 +113,7 @@ std::string fields_note(const CampaignInfo& c) {
 }
 
 std::string others_note(const std::vector<std::string>& others) {
-  std::string text;
-  for (const std::string& name : others) text += (text.empty() ? "other campaigns: " : ", ") + name;
-  return text;
+  return others.empty() ? "" : "other campaigns: " + joined(others, ", ");
 }
 
 AnswerTable workers_table(const StatusReport& status) {

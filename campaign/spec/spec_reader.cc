@@ -241,12 +241,8 @@ std::optional<double> SpecReader::read_time_limit(const std::string& pointer) {
 void SpecReader::read_policy() {
   if (!has("/policy")) return;
   Policy& policy = spec_.policy;
-  if (has("/policy/on_failure")) {
-    const auto action = at("/policy/on_failure").get<std::string>();
-    policy.on_failure = action == "abort"   ? FailureAction::abort
-                        : action == "retry" ? FailureAction::retry
-                                            : FailureAction::proceed;
-  }
+  if (has("/policy/on_failure"))
+    policy.on_failure = named<FailureAction>(at("/policy/on_failure").get<std::string>()).value();
   read("/policy/retries", policy.retries);
   if (has("/policy/retries") && policy.on_failure != FailureAction::retry) {
     problem("/policy/retries", "retries without on_failure retry have no effect",
