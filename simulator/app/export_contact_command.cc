@@ -6,7 +6,7 @@
 
 #include "simulator/app/commands.h"
 #include "simulator/app/load_scene.h"
-#include "simulator/common/fingerprint.h"
+#include "simulator/common/text.h"
 #include "simulator/contact/contact_export.h"
 #include "simulator/files/json_text.h"
 #include "simulator/files/output_target.h"
@@ -56,10 +56,9 @@ FrictionalContactInfo about(const LoadedScene& loaded, const FaultOperator& op,
   FrictionalContactInfo info;
   info.title = concat(loaded.scene.title, ", load step ", exported.start.step.step, " (",
                       exported.start.step.stage, ")");
-  std::string faults;
-  for (const OperatorFault& fault : op.geometry.faults) {
-    faults += concat(faults.empty() ? "" : ", ", fault.name, " (", fault.n_nodes, ")");
-  }
+  const std::string faults = joined(op.geometry.faults, ", ", [](const OperatorFault& fault) {
+    return concat(fault.name, " (", fault.n_nodes, ")");
+  });
   info.description = concat(
       "Quasi-static contact of faults in an elastic body, condensed on the fault nodes. Faults and "
       "their contacts, in order: ",

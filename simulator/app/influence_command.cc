@@ -7,6 +7,7 @@
 #include "simulator/app/screen.h"
 #include "simulator/cache/influence_file.h"
 #include "simulator/common/ranges.h"
+#include "simulator/common/text.h"
 #include "simulator/files/json_text.h"
 #include "simulator/files/output_target.h"
 #include "simulator/operators/influence.h"
@@ -17,12 +18,10 @@ namespace {
 /// Numbers of the compartments named, ascending, each once. Throws InputError with all unknown
 /// names.
 std::vector<int> regions_named(const Scene& scene, const std::vector<std::string>& names) {
-  std::string known;
+  const std::string known = joined(scene.pressure, ", ", &PressureHistory::region);
   std::vector<int> regions;
   for (int r = 0; r < static_cast<int>(scene.pressure.size()); ++r) {
-    const std::string& region = scene.pressure[r].region;
-    known += (known.empty() ? "" : ", ") + region;
-    if (contains(names, region)) regions.push_back(r);
+    if (contains(names, scene.pressure[r].region)) regions.push_back(r);
   }
   std::vector<Problem> problems;
   for (const std::string& name : names) {

@@ -3,6 +3,8 @@
 #include "simulator/app/commands.h"
 #include "simulator/case_figures/case_figures.h"
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
+#include "simulator/common/text.h"
 #include "simulator/common/version.h"
 #include "simulator/linalg/blas_start.h"
 
@@ -40,13 +42,11 @@ void add_scene(CLI::App* command, SceneArguments& arguments) {
 /// A mistyped command is named before CLI11 asks for one.
 void require_known_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
-  std::string names;
-  for (const CLI::App* command : app.get_subcommands(nullptr)) {
-    if (command->get_name() == argv[1]) return;
-    names += (names.empty() ? "" : ", ") + command->get_name();
-  }
+  const std::vector<std::string> names =
+      mapped(app.get_subcommands(nullptr), [](const CLI::App* one) { return one->get_name(); });
+  if (contains(names, argv[1])) return;
   throw InputError("faultsim", concat("\"", argv[1], "\" is not a command"),
-                   "choose one of " + names);
+                   "choose one of " + joined(names, ", "));
 }
 
 /// All arguments of all commands; CLI11 fills them.

@@ -14,8 +14,8 @@ namespace {
 
 CaseChart chart_named(const std::string& name) {
   if (const CaseChartInfo* info = case_chart_named(name)) return info->chart;
-  std::string names = joined(case_charts(), ", ", &CaseChartInfo::name);
-  throw InputError("chart", concat("\"", name, "\" is not a chart"), "choose one of " + names);
+  throw InputError("chart", concat("\"", name, "\" is not a chart"),
+                   "choose one of " + joined(case_charts(), ", ", &CaseChartInfo::name));
 }
 
 }  // namespace

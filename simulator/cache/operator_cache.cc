@@ -21,11 +21,6 @@ struct FoundFile {
   bool damaged;
 };
 
-bool ends_with(const std::string& text, const std::string& ending) {
-  return text.size() > ending.size() &&
-         text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
-}
-
 /// All entries of the folder; none when it does not exist.
 std::vector<std::filesystem::path> entries(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> paths;
@@ -47,9 +42,9 @@ std::vector<FoundFile> find_files(const std::filesystem::path& folder) {
   std::vector<FoundFile> files;
   for (const auto& path : entries(folder)) {
     const std::string name = path.filename().string();
-    const bool damaged = ends_with(name, kDamagedEnding);
+    const bool damaged = name.ends_with(kDamagedEnding);
     struct stat info = {};
-    if (name[0] == '.' || !(damaged || ends_with(name, kEnding))) continue;
+    if (name[0] == '.' || !(damaged || name.ends_with(kEnding))) continue;
     if (stat(path.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) continue;
     files.push_back({path, static_cast<std::uint64_t>(info.st_size), info.st_mtim, damaged});
   }

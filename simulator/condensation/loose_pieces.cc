@@ -1,11 +1,10 @@
 #include "simulator/condensation/loose_pieces.h"
 
 #include <algorithm>
-#include <iomanip>
-#include <sstream>
 #include <vector>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/text.h"
 #include "simulator/elasticity/held.h"
 #include "simulator/elasticity/rigid_modes.h"
 
@@ -57,10 +56,9 @@ void throw_not_held(const BulkProblem& problem, const DofMap& dofs, int unknown)
       const int piece = pieces.of_node[i];
       const auto member = [&](int node) { return pieces.of_node[node] == piece; };
       const Eigen::Vector3d at = mesh.nodes[i].array() + 0.0;  // no -0
-      std::ostringstream place;
-      place << std::setprecision(7) << "x " << at.x() << ", y " << at.y() << ", z " << at.z();
-      throw_loose(concat("the stiffness matrix is singular at ", place.str(),
-                         " m: ", extent_text(mesh, member), " is not held well enough"));
+      throw_loose(formatted("the stiffness matrix is singular at x %.7g, y %.7g, z %.7g m: ",
+                            at.x(), at.y(), at.z()) +
+                  extent_text(mesh, member) + " is not held well enough");
     }
   }
   FAULTSIM_DEMAND(false, "unknown ", unknown, " belongs to no node");

@@ -98,7 +98,7 @@ void TangentSolver::cover(const std::vector<TangentUnknown>& unknowns) {
 
 /// Entries of a column of T over the rows of the factor from first_row on, by their equations when
 /// they joined. The shear dofs of a node join together, so they follow each other.
-void TangentSolver::fill(GrowingLu::Block& block, int column, int first_row) const {
+void TangentSolver::fill(GrowingLu<float>::Block& block, int column, int first_row) const {
   const TangentUnknown& v = factored_[column];
   const float* g = block_.entries(block_.column(v.dof));
   const int n = static_cast<int>(rows_.size());
@@ -130,7 +130,7 @@ bool TangentSolver::grow_factor(const std::vector<TangentUnknown>& unknowns) {
   }
   const int n = static_cast<int>(factored_.size());
   if (n == old) return true;
-  GrowingLu::Block block = factor_.border(n - old);
+  GrowingLu<float>::Block block = factor_.border(n - old);
   for (int v = 0; v < n; ++v) fill(block, v, v < old ? old : 0);
   if (factor_.grow(n - old)) return true;
   forget_factor();

@@ -6,7 +6,6 @@
 
 #include "simulator/contact/contact_problem.h"
 #include "simulator/contact/moving_block.h"
-#include "simulator/linalg/dense_lu.h"
 #include "simulator/linalg/growing_lu.h"
 
 namespace faultsim {
@@ -49,7 +48,7 @@ class TangentSolver {
                double residual, Eigen::VectorXd& solution, int& iterations);
   void cover(const std::vector<TangentUnknown>& unknowns);
   bool grow_factor(const std::vector<TangentUnknown>& unknowns);
-  void fill(GrowingLu::Block& block, int column, int first_row) const;
+  void fill(GrowingLu<float>::Block& block, int column, int first_row) const;
   void multiply(const std::vector<TangentUnknown>& unknowns, const Eigen::VectorXd& x,
                 Eigen::VectorXd& y);
   void precondition(const std::vector<TangentUnknown>& unknowns, const Eigen::VectorXd& x,
@@ -64,14 +63,14 @@ class TangentSolver {
 
   const ContactProblem& problem_;
   MovingBlock block_;
-  GrowingLu factor_;
+  GrowingLu<float> factor_;
   std::vector<TangentUnknown> factored_;  ///< as they were when they joined the factor.
   std::vector<Row> rows_;                 ///< of the same.
   std::vector<int> place_;  ///< in the factor, per dof of the operator; −1: not there.
   bool tired_ = false;      ///< the factor took many iterations last time.
   Eigen::VectorXf moving_, response_, factor_side_;
   Eigen::MatrixXd direct_;
-  DenseLu direct_lu_;
+  GrowingLu<double> direct_lu_;
   std::vector<int> direct_dofs_;  ///< of the unknowns of direct_lu_.
 };
 

@@ -139,10 +139,6 @@ class FlexibleGmres {
   HYPRE_Solver solver_ = nullptr;
 };
 
-}  // namespace
-
-namespace {
-
 /// The kind of that name; none becomes a problem.
 template <typename Kind>
 Kind kind_of(const std::string& name, const char* option, std::vector<Problem>& problems) {

@@ -25,8 +25,7 @@ struct SolverChoice {
   int max_iterations = 500;  ///< of GMRES: a linear step that takes more is not solved.
 };
 
-/// Names on the command line and in tables: "fsai", "ic".
-/// The kinds of those names. Throws InputError with the names that are none.
+/// Of the names on the command line: "fsai", "rac". Throws InputError with the names that are none.
 SolverChoice solver_of(const std::string& leading, const std::string& schur);
 
 struct CoupledReport {

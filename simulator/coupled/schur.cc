@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "simulator/common/errors.h"
-#include "simulator/linalg/dense_lu.h"
+#include "simulator/linalg/growing_lu.h"
 
 namespace faultsim {
 namespace {
@@ -20,7 +20,7 @@ LinearMap exact_schur(const SaddlePoint& j) {
     leading(j.coupling.col(k), column);
     s.col(k) = j.constraint.transpose() * column;
   }
-  DenseLu lu;
+  GrowingLu<double> lu;
   if (!lu.factor(s)) throw ResourceError("the Schur complement is singular");
   return [lu = std::move(lu)](const VectorXd& r, VectorXd& z) {
     z = r;

@@ -1,19 +1,16 @@
 #include "simulator/elasticity/held.h"
 
 #include <algorithm>
-#include <iomanip>
-#include <sstream>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/text.h"
 #include "simulator/elasticity/rigid_modes.h"
 
 namespace faultsim {
 namespace {
 
 std::string rounded(double value) {
-  std::ostringstream text;
-  text << std::setprecision(7) << (value == 0 ? 0.0 : value);  // no -0
-  return text.str();
+  return formatted("%.7g", value == 0 ? 0.0 : value);  // no -0
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <map>
-#include <sstream>
+
+#include "simulator/common/text.h"
 
 namespace faultsim {
 namespace {
@@ -76,13 +76,12 @@ std::string pressure_doubt(const FlowField& field) {
   const auto middle = ratios.begin() + std::ssize(ratios) / 2;
   std::nth_element(ratios.begin(), middle, ratios.end());
   if (*middle >= kFarBelow && *middle <= kFarAbove) return "";
-  std::ostringstream out;
-  out << "the first report's pressures are " << std::setprecision(3) << *middle
-      << " times hydrostatic (median over cells); "
-      << (*middle > kFarAbove ? "psi read as bar is 14.5 times too high, and depths in another unit"
-                              : "bar read as psi is 14.5 times too low, and depths in another unit")
-      << " look so too: check the units in the header";
-  return out.str();
+  return formatted(
+      "the first report's pressures are %.3g times hydrostatic (median over cells); %s, and depths "
+      "in another unit look so too: check the units in the header",
+      *middle,
+      *middle > kFarAbove ? "psi read as bar is 14.5 times too high"
+                          : "bar read as psi is 14.5 times too low");
 }
 
 std::optional<double> asymmetry(const FlowField& field) {

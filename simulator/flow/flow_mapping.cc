@@ -1,11 +1,10 @@
 #include "simulator/flow/flow_mapping.h"
 
 #include <algorithm>
-#include <iomanip>
 #include <numeric>
-#include <sstream>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/text.h"
 #include "simulator/flow/flow_cell_search.h"
 
 namespace faultsim {
@@ -33,9 +32,7 @@ double overlaps_of(const MappedCell& cell, const FlowField& field, const FlowCel
 
 std::string where(const MappedCell& cell) {
   const Eigen::Vector3d c = centre_of(cell.corners);
-  std::ostringstream out;
-  out << "x = " << c.x() << " m, y = " << c.y() << " m, depth " << -c.z() << " m";
-  return out.str();
+  return formatted("x = %g m, y = %g m, depth %g m", c.x(), c.y(), -c.z());
 }
 
 /// Of a cell's volume: below it are rounding of the file's digits and the curved faces of
@@ -103,15 +100,16 @@ Eigen::MatrixXd mapped_change(const FlowMapping& mapping, const FlowField& field
 }
 
 std::string coverage_text(const RegionCoverage& region, OutsideRule rule) {
-  std::ostringstream out;
-  out << std::setprecision(4) << 100 * region.covered / region.volume << " % of its volume covered";
+  std::string text =
+      formatted("%.4g %% of its volume covered", 100 * region.covered / region.volume);
   if (region.n_outside > 0) {
-    out << "; " << region.n_outside << " of " << region.n_cells << " cells outside "
-        << (rule == OutsideRule::nearest ? "take what the nearest flow cell has" : "do not change");
+    text += concat(
+        "; ", region.n_outside, " of ", region.n_cells, " cells outside ",
+        rule == OutsideRule::nearest ? "take what the nearest flow cell has" : "do not change");
   }
   if (region.n_partly > 0)
-    out << "; " << region.n_partly << " covered in part take that part's mean";
-  return out.str();
+    text += concat("; ", region.n_partly, " covered in part take that part's mean");
+  return text;
 }
 
 }  // namespace faultsim

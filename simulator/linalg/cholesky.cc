@@ -44,14 +44,7 @@ struct FreeSparse {
   void operator()(cholmod_sparse* a) const { cholmod_l_free_sparse(&a, common); }
 };
 /// A matrix that CHOLMOD made.
-class SparseHandle {
- public:
-  SparseHandle(cholmod_sparse* a, cholmod_common* common) : a_(a, {common}) {}
-  cholmod_sparse* get() const { return a_.get(); }
-
- private:
-  std::unique_ptr<cholmod_sparse, FreeSparse> a_;
-};
+using SparseHandle = std::unique_ptr<cholmod_sparse, FreeSparse>;
 
 }  // namespace
 
@@ -90,7 +83,6 @@ struct TrailingCholesky::Impl {
     check("the analysis");
     const Index* used = static_cast<const Index*>(factor->Perm);
     FAULTSIM_DEMAND(std::equal(order.begin(), order.end(), used), "CHOLMOD changed the order");
-    statistics.flops = c->fl;
   }
 
   void factorise(cholmod_sparse* a, const FactorRun& run) {
@@ -115,9 +107,9 @@ struct TrailingCholesky::Impl {
   /// The lower triangle of P A Pᵀ, sorted: the transpose of a symmetric lower one is upper.
   SparseHandle in_order_of_factor(cholmod_sparse* a) {
     cholmod_common* c = common.get();
-    const SparseHandle upper(cholmod_l_ptranspose(a, 1, order.data(), nullptr, 0, c), c);
+    const SparseHandle upper(cholmod_l_ptranspose(a, 1, order.data(), nullptr, 0, c), {c});
     check("the permutation");
-    SparseHandle lower(cholmod_l_ptranspose(upper.get(), 1, nullptr, nullptr, 0, c), c);
+    SparseHandle lower(cholmod_l_ptranspose(upper.get(), 1, nullptr, nullptr, 0, c), {c});
     check("the permutation");
     return lower;
   }
@@ -181,11 +173,9 @@ TrailingCholesky::TrailingCholesky(const SparseMatrix& k, int n_last, const std:
                     "no diagonal in column ", j);
   }
   cholmod_sparse a = view_of(k);
-  Stopwatch analysis;
   self.order = trailing_order(a, self.n_bulk, group, n_groups, self.common, run.stop);
   self.check("the ordering");
   self.analyse(&a);
-  self.statistics.analyse_seconds = analysis.seconds();
   Stopwatch factorisation;
   self.factorise(&a, run);
   self.statistics.factor_seconds = factorisation.seconds();

@@ -15,8 +15,6 @@ namespace faultsim {
 
 struct FactorStatistics {
   double bytes = 0;  ///< of the numerical factor.
-  double flops = 0;  ///< of the factorisation.
-  double analyse_seconds = 0;
   double factor_seconds = 0;
 };
 

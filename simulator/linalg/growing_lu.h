@@ -5,12 +5,15 @@
 
 namespace faultsim {
 
-/// LU factors in single precision of a dense matrix that grows by rows and columns at its end, by
-/// LAPACK: a preconditioner. Growing from n to n + m costs what a factorisation of size n + m costs
-/// more than one of size n. Pivots are sought within what was appended at once.
+/// LU factors of a dense matrix that may grow by rows and columns at its end, by LAPACK. Growing
+/// from n to n + m costs what a factorisation of size n + m costs more than one of size n. Pivots
+/// are sought within what was appended at once.
+/// @tparam Scalar  double, or float for a preconditioner.
+template <typename Scalar>
 class GrowingLu {
  public:
-  using Block = Eigen::Map<Eigen::MatrixXf, 0, Eigen::OuterStride<>>;
+  using Matrix = Eigen::MatrixX<Scalar>;
+  using Block = Eigen::Map<Matrix, 0, Eigen::OuterStride<>>;
 
   /// Size of the matrix factorised.
   int size() const { return static_cast<int>(pivots_.size()); }
@@ -21,11 +24,13 @@ class GrowingLu {
   /// Factorises what was written into border(m), with the factor so far. @returns whether it is
   /// regular to working precision; if not, there is no factor.
   bool grow(int m);
+  /// Factorises a copy of a whole matrix, square, anew. @returns as grow.
+  bool factor(const Matrix& matrix);
   /// x := M⁻¹ x. @pre x has size() entries.
-  void solve(Eigen::VectorXf& x) const;
+  void solve(Eigen::VectorX<Scalar>& x) const;
 
  private:
-  Eigen::MatrixXf factors_;  ///< of which the leading block is in use.
+  Matrix factors_;           ///< of which the leading block is in use.
   std::vector<int> pivots_;  ///< as LAPACK counts them, from 1.
 };
 

@@ -18,6 +18,8 @@ void dgetrs_(const char* trans, const int* n, const int* nrhs, const double* a, 
 void sgetrf_(const int* m, const int* n, float* a, const int* lda, int* pivots, int* info);
 void sgetrs_(const char* trans, const int* n, const int* nrhs, const float* a, const int* lda,
              const int* pivots, float* b, const int* ldb, int* info, std::size_t trans_length);
+void dlaswp_(const int* n, double* a, const int* lda, const int* k1, const int* k2,
+             const int* pivots, const int* increment);
 void slaswp_(const int* n, float* a, const int* lda, const int* k1, const int* k2,
              const int* pivots, const int* increment);
 }

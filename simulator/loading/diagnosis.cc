@@ -5,7 +5,7 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/common/text.h"
-#include "simulator/linalg/condition.h"
+#include "simulator/linalg/dense_cholesky.h"
 
 namespace faultsim {
 namespace {

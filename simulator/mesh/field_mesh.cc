@@ -206,8 +206,8 @@ std::vector<MovedDepth> moved_depths(const FieldMeshSpec& spec) {
 }
 
 bool moves_lines(const FieldMeshSpec& spec) {
-  return std::any_of(spec.blocks.begin(), spec.blocks.end(),
-                     [](const Block& block) { return block.mesh_offset; });
+  return std::ranges::any_of(spec.blocks,
+                             [](const Block& block) { return block.mesh_offset.has_value(); });
 }
 
 void check_moved_lines(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
@@ -256,8 +256,8 @@ CellKind kind_at(const FieldMeshSpec& spec, double x, double y, double depth) {
   const size_t layer = static_cast<size_t>(
       std::upper_bound(spec.layers.begin() + 1, spec.layers.end(), depth, above) -
       spec.layers.begin() - 1);
-  const auto block = std::find_if(spec.blocks.begin(), spec.blocks.end(),
-                                  [&](const auto& one) { return x > one.from && x < one.to; });
+  const auto block = std::ranges::find_if(
+      spec.blocks, [&](const auto& one) { return x > one.from && x < one.to; });
   const size_t reservoir = reservoir_index(spec);
   const bool beside =
       block == spec.blocks.end() || (!spec.plane_strain && std::abs(y) > 0.5 * spec.block_length);

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <iterator>
-#include <sstream>
 
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/ranges.h"
+#include "simulator/common/text.h"
 #include "simulator/condensation/fault_geometry.h"
 #include "simulator/loads/history.h"
 #include "simulator/scene/identity.h"
@@ -215,10 +214,9 @@ void report_coverage(const MappedField& field, const InfluenceBlock& block,
     std::string text = concat(field.name, " on ", block.region_names[r], ": ",
                               coverage_text(region, field.load.outside));
     if (region.covered < kWhole * region.volume) {
-      std::ostringstream share;
-      share << std::setprecision(4) << covered_integral(field, block, static_cast<int>(r));
-      text += concat("; of the integral of its change at the last report ", share.str(),
-                     " % lies in what is covered");
+      text += formatted(
+          "; of the integral of its change at the last report %.4g %% lies in what is covered",
+          covered_integral(field, block, static_cast<int>(r)));
     }
     notes.push_back(text);
   }

@@ -3,12 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <memory>
-#include <sstream>
 #include <utility>
 
 #include "simulator/common/dates.h"
+#include "simulator/common/text.h"
 #include "simulator/initial_state/initial_state.h"
 #include "simulator/plan/field_bodies.h"
 
@@ -19,16 +18,10 @@ constexpr double kWhole = 1 - 1e-6;
 constexpr double kReferenceAgrees = 5e5;  // Pa
 constexpr double kRounding = 1;           // Pa, as loading/pressure_warnings
 
-std::string bar(double pascal) {
-  std::ostringstream out;
-  out << std::fixed << std::setprecision(1) << pascal / 1e5 << " bar";
-  return out.str();
-}
+std::string bar(double pascal) { return formatted("%.1f bar", pascal / 1e5); }
 
 std::string percent(const RegionCoverage& part) {
-  std::ostringstream out;
-  out << std::setprecision(4) << 100 * part.covered / part.volume << " %";
-  return out.str();
+  return formatted("%.4g %%", 100 * part.covered / part.volume);
 }
 
 using Extent = Eigen::AlignedBox3d;

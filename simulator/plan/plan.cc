@@ -77,7 +77,7 @@ Reduction plan_half_domain(const Scene& scene, bool plane_strain) {
     r.bound = exact;
   } else if (const std::string text = asymmetry_text(scene); !text.empty()) {
     r.reason = "the flow result is not symmetric about y = 0" + text;
-  } else if (std::any_of(scene.faults.begin(), scene.faults.end(), [](const Fault& fault) {
+  } else if (std::ranges::any_of(scene.faults, [](const Fault& fault) {
                return !fault.pressure.profile.strike.empty();
              })) {
     r.reason = "a table of fault pressure that varies along strike need not be symmetric";
@@ -231,8 +231,6 @@ void predict_influence(const Scene& scene, const GridShape& shape, double n_cell
   plan.memory_bytes = std::max(plan.memory_bytes, kProgramBytes + cost.peak_bytes);
 }
 
-nlohmann::json numbers(const std::vector<double>& values) { return nlohmann::json(values); }
-
 /// What a surface of operators takes, check points included: as many nodes as the polynomials of
 /// two digits in each parameter and one in each pair (results/surfaces).
 int predicted_operators(const SurfaceRequest& surface) {
@@ -242,11 +240,7 @@ int predicted_operators(const SurfaceRequest& surface) {
 }
 
 int material_index(const Scene& scene, const std::string& name) {
-  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    if (scene.materials[i].name == name) return static_cast<int>(i);
-  }
-  FAULTSIM_DEMAND(false, "material ", name);
-  return -1;
+  return static_cast<int>(&material_named(scene, name) - scene.materials.data());
 }
 
 /// The figures of a saving, or none.
@@ -444,25 +438,24 @@ std::string sides_to_text(const Plan& plan) {
 }
 
 nlohmann::json plan_to_json(const Plan& plan) {
-  nlohmann::json j = {{"half_domain", plan.half_domain},
-                      {"plane_strain", plan.plane_strain},
-                      {"n_cells", plan.n_cells},
-                      {"n_unknowns", plan.n_unknowns},
-                      {"n_jump_unknowns", plan.n_jump},
-                      {"n_load_steps", plan.n_steps},
-                      {"n_added_steps", plan.n_added_steps},
-                      {"predicted_operator_s", plan.operator_seconds},
-                      {"predicted_memory_bytes", plan.memory_bytes},
-                      {"minus_side", plan.minus_side},
-                      {"family", plan.family},
-                      {"creep",
-                       {{"active", plan.creep.active},
-                        {"rungs_s", numbers(plan.creep.rungs)},
-                        {"bound_pa", nullptr}}},
-                      {"initial_state", initial_state_to_json(plan.initial)},
-                      {"field_sections", plan.sections},
-                      {"warnings", plan.warnings},
-                      {"reductions", nlohmann::json::array()}};
+  nlohmann::json j = {
+      {"half_domain", plan.half_domain},
+      {"plane_strain", plan.plane_strain},
+      {"n_cells", plan.n_cells},
+      {"n_unknowns", plan.n_unknowns},
+      {"n_jump_unknowns", plan.n_jump},
+      {"n_load_steps", plan.n_steps},
+      {"n_added_steps", plan.n_added_steps},
+      {"predicted_operator_s", plan.operator_seconds},
+      {"predicted_memory_bytes", plan.memory_bytes},
+      {"minus_side", plan.minus_side},
+      {"family", plan.family},
+      {"creep",
+       {{"active", plan.creep.active}, {"rungs_s", plan.creep.rungs}, {"bound_pa", nullptr}}},
+      {"initial_state", initial_state_to_json(plan.initial)},
+      {"field_sections", plan.sections},
+      {"warnings", plan.warnings},
+      {"reductions", nlohmann::json::array()}};
   if (plan.creep.bound) j["creep"]["bound_pa"] = *plan.creep.bound;
   for (const Reduction& r : plan.reductions) {
     j["reductions"].push_back({{"name", r.name},

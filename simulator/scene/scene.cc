@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
 #include "simulator/flow/flow_field.h"
 
 namespace faultsim {
@@ -97,8 +98,7 @@ const std::vector<Layer>& layers_of(const Scene& scene) {
 bool is_used(const Scene& scene, const Material& material) {
   const bool is_field = scene.geometry_kind == GeometryKind::field;
   return material.name == (is_field ? scene.field.sideburden : scene.box.material) ||
-         std::ranges::find(layers_of(scene), material.name, &Layer::material) !=
-             layers_of(scene).end();
+         contains(layers_of(scene), material.name, &Layer::material);
 }
 
 std::vector<Material> used_materials(const Scene& scene) {
@@ -115,13 +115,9 @@ bool has_viscous_material(const Scene& scene) {
 }
 
 std::vector<std::string> region_names(const Scene& scene) {
-  std::vector<std::string> names;
-  if (scene.geometry_kind == GeometryKind::field) {
-    for (const Block& block : scene.field.blocks) names.push_back(block.name);
-  } else {
-    for (const PressureRegion& region : scene.box.regions) names.push_back(region.name);
-  }
-  return names;
+  return scene.geometry_kind == GeometryKind::field
+             ? mapped(scene.field.blocks, &Block::name)
+             : mapped(scene.box.regions, &PressureRegion::name);
 }
 
 }  // namespace faultsim

@@ -1,4 +1,4 @@
-#include "simulator/linalg/condition.h"
+#include "simulator/linalg/dense_cholesky.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <random>
 
-#include "simulator/linalg/dense_lu.h"
 #include "simulator/linalg/gmres.h"
 #include "simulator/linalg/growing_lu.h"
 
@@ -16,8 +15,8 @@ Eigen::MatrixXd random_matrix(int n, unsigned seed) {
   return Eigen::MatrixXd::NullaryExpr(n, n, [&] { return normal(generator); });
 }
 
-TEST(DenseLu, SolvesWhateverWasFactoredBefore) {
-  DenseLu lu;
+TEST(GrowingLu, SolvesWhateverWasFactoredBefore) {
+  GrowingLu<double> lu;
   for (const int n : {5, 80, 1, 33, 200}) {
     const Eigen::MatrixXd m = random_matrix(n, 7);
     const Eigen::VectorXd expected = random_matrix(n, 8).col(0);
@@ -29,8 +28,8 @@ TEST(DenseLu, SolvesWhateverWasFactoredBefore) {
   }
 }
 
-TEST(DenseLu, SaysThatAMatrixIsSingularAndKeepsNoFactor) {
-  DenseLu lu;
+TEST(GrowingLu, SaysThatAMatrixIsSingularAndKeepsNoFactor) {
+  GrowingLu<double> lu;
   Eigen::MatrixXd m = random_matrix(6, 3);
   m.row(2).setZero();
   EXPECT_FALSE(lu.factor(m));
@@ -38,9 +37,9 @@ TEST(DenseLu, SaysThatAMatrixIsSingularAndKeepsNoFactor) {
 }
 
 /// Grows the factor to the leading n x n block of m.
-bool grow_to(GrowingLu& lu, const Eigen::MatrixXf& m, int n) {
+bool grow_to(GrowingLu<float>& lu, const Eigen::MatrixXf& m, int n) {
   const int old = lu.size();
-  GrowingLu::Block block = lu.border(n - old);
+  GrowingLu<float>::Block block = lu.border(n - old);
   block.rightCols(n - old) = m.topLeftCorner(n, n).rightCols(n - old);
   block.bottomLeftCorner(n - old, old) = m.block(old, 0, n - old, old);
   return lu.grow(n - old);
@@ -50,7 +49,7 @@ bool grow_to(GrowingLu& lu, const Eigen::MatrixXf& m, int n) {
 TEST(GrowingLu, SolvesAtEachOfItsSizes) {
   const Eigen::MatrixXf m =
       (random_matrix(150, 4) + 8 * Eigen::MatrixXd::Identity(150, 150)).cast<float>();
-  GrowingLu lu;
+  GrowingLu<float> lu;
   for (const int n : {3, 4, 70, 70, 150}) {
     ASSERT_TRUE(grow_to(lu, m, n));
     EXPECT_EQ(lu.size(), n);
@@ -66,7 +65,7 @@ TEST(GrowingLu, SolvesAtEachOfItsSizes) {
 
 TEST(GrowingLu, SaysThatWhatJoinedIsSingularAndKeepsNoFactor) {
   Eigen::MatrixXf m = Eigen::MatrixXf::Identity(6, 6);
-  GrowingLu lu;
+  GrowingLu<float> lu;
   ASSERT_TRUE(grow_to(lu, m, 4));
   m(5, 5) = 0;
   EXPECT_FALSE(grow_to(lu, m, 6));
