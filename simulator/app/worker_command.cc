@@ -174,8 +174,9 @@ class Worker {
     return in_line ? bytes + in_line->bytes() : bytes;
   }
 
+  /// @pre the request was checked.
   static FieldSteps steps_of(const json& wanted) {
-    return field_steps_from_string(wanted.at("steps").get<std::string>());
+    return named<FieldSteps>(wanted.at("steps").get<std::string>()).value();
   }
 
   WorkerRequests requests_;

@@ -68,9 +68,8 @@ Chosen choose(const CasePicture& picture, const CaseChartRequest& request) {
   if (!request.fault.empty()) {
     const auto found = std::ranges::find(result.fault_names, request.fault);
     if (found == result.fault_names.end()) {
-      std::string names = joined(result.fault_names, ", ");
       refuse("--fault", "\"" + request.fault + "\" is not a fault of the case",
-             "choose one of " + names);
+             "choose one of " + joined(result.fault_names, ", "));
     }
     chosen.fault = static_cast<std::size_t>(found - result.fault_names.begin());
     chosen.step = 0;

@@ -16,7 +16,7 @@ std::string draw_profiles(Chosen chosen) {
   const StoredFault& fault = chosen.picture.fields->faults()[f];
   const StoredFields now = chosen.picture.fields->fields(f, entry);
   const double y = fault.points(1, static_cast<Eigen::Index>(most_critical(fault, now)));
-  const Friction& friction = chosen.scene().faults[chosen.fault].friction;
+  const CoulombLaw& friction = chosen.scene().faults[chosen.fault].friction;
   figure::DepthChart chart;
   figure::Curve pressure{"", 0, {}}, normal{"", 0, {}}, shear{"|τ|", 0, {}},
       strength{"strength before slip", 1, {}}, chi{"", 0, {}}, slip{"", 0, {}};

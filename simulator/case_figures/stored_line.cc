@@ -25,9 +25,8 @@ std::size_t stored_entry(Chosen& chosen) {
   const std::size_t entry =
       after == steps.begin() ? 0 : static_cast<std::size_t>(after - steps.begin()) - 1;
   if (steps[entry] != wanted && chosen.request.step) {
-    std::string there = joined(steps, ", ", [](const int step) { return std::to_string(step); });
     refuse("--step", concat("the fields of load step ", wanted, " were not kept"),
-           "choose one of " + there);
+           "choose one of " + joined(steps, ", "));
   }
   for (std::size_t k = 0; k < chosen.result().steps.size(); ++k) {
     if (chosen.result().steps[k].step == steps[entry]) chosen.step = k;

@@ -32,7 +32,7 @@ std::string draw_stress_path(Chosen chosen) {
   const FieldReader& file = *chosen.picture.fields;
   const StoredFault& fault = file.faults()[f];
   const auto k = static_cast<Eigen::Index>(most_critical(fault, file.fields(f, critical)));
-  const Friction& friction = chosen.scene().faults[chosen.fault].friction;
+  const CoulombLaw& friction = chosen.scene().faults[chosen.fault].friction;
   figure::StressPath path;
   std::map<int, std::string> stages;
   for (const StepResult& step : chosen.result().steps) stages[step.step] = step.stage;

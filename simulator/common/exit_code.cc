@@ -37,8 +37,8 @@ ExitCode run_program(const char* program, ExitCode (*body)(int, char**), int arg
     return say(program, "the output could not be written completely (disk full?)", ExitCode::world);
   } catch (const InputError& error) {
     const std::string count =
-        concat("the input has ", error.problems().size(), " problem",
-               error.problems().size() == 1 ? "" : "s", "; nothing was started\n", error.what());
+        concat("the input has ", counted(error.problems().size(), "problem", "problems"),
+               "; nothing was started\n", error.what());
     return say(program, count.c_str(), ExitCode::input);
   } catch (const Interrupted& error) {
     return say(program, error.what(), ExitCode::interrupted);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <ranges>
+
+#include "simulator/common/text.h"
 
 namespace faultsim {
 namespace {
@@ -67,10 +70,8 @@ std::string suggest(const std::string& word, const std::vector<std::string>& can
   if (!near.empty()) return "did you mean \"" + near + "\"?";
   if (candidates.empty()) return "remove it";
   constexpr std::size_t kMostListed = 60;
-  std::string text = candidates.size() == 1 ? "write " : "write one of ";
-  for (std::size_t i = 0; i < std::min(candidates.size(), kMostListed); ++i) {
-    text += (i == 0 ? "\"" : ", \"") + candidates[i] + "\"";
-  }
+  const std::string text = (candidates.size() == 1 ? "write \"" : "write one of \"") +
+                           joined(candidates | std::views::take(kMostListed), "\", \"") + "\"";
   return candidates.size() > kMostListed ? text + ", ..." : text;
 }
 

@@ -1,21 +1,11 @@
 #include "simulator/common/printable.h"
 
 #include <array>
-#include <cstdint>
 #include <utility>
 
 #include "simulator/common/text.h"
 
 namespace faultsim {
-namespace {
-
-/// One code point of UTF-8, or a byte that begins none.
-struct Character {
-  std::size_t size = 1;  ///< bytes.
-  std::uint32_t code = 0;
-  bool valid = false;
-};
-
 Character character_at(std::string_view text, std::size_t i) {
   const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
   const unsigned first = byte(i);
@@ -32,6 +22,8 @@ Character character_at(std::string_view text, std::size_t i) {
   if (code < kLeast[size] || code > 0x10FFFF || surrogate) return {};
   return {size, code, true};
 }
+
+namespace {
 
 bool is_control(std::uint32_t code) {
   constexpr std::array<std::pair<std::uint32_t, std::uint32_t>, 7> kRanges = {{

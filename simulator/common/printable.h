@@ -1,10 +1,20 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace faultsim {
+
+/// One code point of UTF-8, or a byte that begins none.
+struct Character {
+  std::size_t size = 1;  ///< bytes.
+  std::uint32_t code = 0;
+  bool valid = false;
+};
+/// @pre i < text.size().
+Character character_at(std::string_view text, std::size_t i);
 
 /// What printable() leaves as it is.
 enum class Keep {

@@ -18,47 +18,6 @@
 namespace faultsim {
 namespace {
 
-constexpr std::array<DimensionInfo, 14> kDimensions = {{
-    {Dimension::number, "number", "a plain number", "", "", "", {0, 0, 0, 0}},
-    {Dimension::length, "length", "a length", "m", "m", "_m", {1, 0, 0, 0}},
-    {Dimension::area, "area", "an area", "m2", "m2", "_m2", {2, 0, 0, 0}},
-    {Dimension::pressure, "pressure", "a pressure", "Pa", "bar", "_pa", {-1, 1, -2, 0}},
-    {Dimension::pressure_gradient,
-     "pressure_gradient",
-     "a pressure gradient",
-     "Pa/m",
-     "bar/m",
-     "_pa_per_m",
-     {-2, 1, -2, 0}},
-    {Dimension::density, "density", "a density", "kg/m3", "kg/m3", "_kg_per_m3", {-3, 1, 0, 0}},
-    {Dimension::angle, "angle", "an angle", "rad", "deg", "_rad", {0, 0, 0, 1}},
-    {Dimension::time, "time", "a time", "s", "year", "_s", {0, 0, 1, 0}},
-    {Dimension::viscosity, "viscosity", "a viscosity", "Pa s", "Pa s", "_pa_s", {-1, 1, -1, 0}},
-    {Dimension::moment, "moment", "a moment", "N m", "N m", "_nm", {2, 1, -2, 0}},
-    {Dimension::potency, "potency", "a volume", "m3", "m3", "_m3", {3, 0, 0, 0}},
-    {Dimension::acceleration,
-     "acceleration",
-     "an acceleration",
-     "m/s2",
-     "m/s2",
-     "_m_per_s2",
-     {1, 0, -2, 0}},
-    {Dimension::temperature,
-     "temperature",
-     "a temperature difference",
-     "K",
-     "K",
-     "_k",
-     {0, 0, 0, 0, 1}},
-    {Dimension::expansion,
-     "expansion",
-     "a thermal expansion",
-     "1/K",
-     "1/K",
-     "_per_k",
-     {0, 0, 0, 0, -1}},
-}};
-
 /// udunits' year is the tropical one, ours is 365.25 d; and it has no "deg". Both are spelled out
 /// before udunits sees them.
 std::string with_our_words(std::string_view unit) {
@@ -166,17 +125,42 @@ std::string example(Dimension dimension, const std::string& number) {
 
 }  // namespace
 
-std::span<const DimensionInfo> dimensions() { return kDimensions; }
+std::span<const DimensionInfo> dimensions() {
+  using enum Dimension;
+  static constexpr std::array<DimensionInfo, 14> kAll = {{
+      {number, "number", "a plain number", "", "", "", {0, 0, 0, 0}},
+      {length, "length", "a length", "m", "m", "_m", {1, 0, 0, 0}},
+      {area, "area", "an area", "m2", "m2", "_m2", {2, 0, 0, 0}},
+      {pressure, "pressure", "a pressure", "Pa", "bar", "_pa", {-1, 1, -2, 0}},
+      {pressure_gradient,
+       "pressure_gradient",
+       "a pressure gradient",
+       "Pa/m",
+       "bar/m",
+       "_pa_per_m",
+       {-2, 1, -2, 0}},
+      {density, "density", "a density", "kg/m3", "kg/m3", "_kg_per_m3", {-3, 1, 0, 0}},
+      {angle, "angle", "an angle", "rad", "deg", "_rad", {0, 0, 0, 1}},
+      {time, "time", "a time", "s", "year", "_s", {0, 0, 1, 0}},
+      {viscosity, "viscosity", "a viscosity", "Pa s", "Pa s", "_pa_s", {-1, 1, -1, 0}},
+      {moment, "moment", "a moment", "N m", "N m", "_nm", {2, 1, -2, 0}},
+      {potency, "potency", "a volume", "m3", "m3", "_m3", {3, 0, 0, 0}},
+      {acceleration, "acceleration", "an acceleration", "m/s2", "m/s2", "_m_per_s2", {1, 0, -2, 0}},
+      {temperature, "temperature", "a temperature difference", "K", "K", "_k", {0, 0, 0, 0, 1}},
+      {expansion, "expansion", "a thermal expansion", "1/K", "1/K", "_per_k", {0, 0, 0, 0, -1}},
+  }};
+  return kAll;
+}
 
 const DimensionInfo& info_of(Dimension dimension) {
-  const DimensionInfo& info = kDimensions.at(static_cast<std::size_t>(dimension));
+  const DimensionInfo& info = dimensions()[static_cast<std::size_t>(dimension)];
   FAULTSIM_DEMAND(info.dimension == dimension, info.key);
   return info;
 }
 
 const DimensionInfo* dimension_named(std::string_view key) {
-  const auto found = std::ranges::find(kDimensions, key, &DimensionInfo::key);
-  return found == kDimensions.end() ? nullptr : &*found;
+  const auto found = std::ranges::find(dimensions(), key, &DimensionInfo::key);
+  return found == dimensions().end() ? nullptr : &*found;
 }
 
 ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {

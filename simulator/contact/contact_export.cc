@@ -66,7 +66,8 @@ ContactLaws frozen_laws(const FaultOperator& op, const ContactLaws& laws, const 
     if (law.cohesion(state.cohesive) > 0) cohesion.note(i);
     frozen[i].cohesion = 0;
     if (!law.weakens()) continue;
-    const bool spent = laws[i].cumulated && law.is_fully_weakened(state);
+    const bool spent =
+        laws[i].slip_measure == SlipMeasure::cumulated && law.is_fully_weakened(state);
     if (!spent && weakening == Weakening::refuse) change.note(i);
     const double unit_traction = -1;  // μ = −∂τ_L/∂t'_N is the same at any
     const double friction = -law.strength(unit_traction, {0, 0}, 0, state).d_normal;
@@ -94,7 +95,7 @@ FrictionalContactProblem frictional_contact_problem(const FaultOperator& op,
                                                     const ContactLaws& frozen,
                                                     const LoadStepProblem& step) {
   const ContactProblem contact(op, frozen);
-  FAULTSIM_DEMAND(!contact.any_weakening, "the strength is not frozen");
+  FAULTSIM_DEMAND(!contact.laws.any_weakens(), "the strength is not frozen");
   FrictionalContactProblem problem;
   problem.dimension = 2;
   for (const OperatorNode& node : op.geometry.nodes) {

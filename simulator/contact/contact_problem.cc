@@ -32,7 +32,6 @@ ContactProblem::ContactProblem(const FaultOperator& fault_operator, const Contac
     }
     node.law = &laws[k];
     const bool weakens = node.law->weakens();
-    any_weakening = any_weakening || weakens;
     may_jump = may_jump || weakens || !contact_laws[k].cohesion_after_slip;
     if (weakens || node.n_dofs > 2) scalar = false;
   }

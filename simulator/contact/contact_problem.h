@@ -38,7 +38,6 @@ class ContactProblem {
   NodeLaws laws;
   std::vector<ContactNode> nodes;
   Eigen::VectorXd inverse_area;  ///< per dof.
-  bool any_weakening = false;
   bool may_jump = false;  ///< some strength falls with slip: by weakening or by lost cohesion.
   bool scalar = true;     ///< at most one shear dof per node and no weakening anywhere.
 

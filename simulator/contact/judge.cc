@@ -168,8 +168,9 @@ void Judge::judge_node(std::size_t k) {
 /// τ_L of a closed node at the end of the step, Pa.
 Wide Judge::limit(std::size_t k) const {
   const CoulombLaw& law = laws_[k];
-  const Wide slip = law.cumulated ? static_cast<Wide>(step_.after.slip_path[k])
-                                  : shear_part(k, step_.after.jump).norm();
+  const Wide slip = law.slip_measure == SlipMeasure::cumulated
+                        ? static_cast<Wide>(step_.after.slip_path[k])
+                        : shear_part(k, step_.after.jump).norm();
   const Wide cohesion = step_.after.cohesion_lost[k] != 0 ? 0 : law.cohesion;
   const Wide pressing = std::max<Wide>(-traction_[nodes_[k].dof[0]], 0);
   return cohesion + pressing * friction_coefficient(law, slip);

@@ -196,7 +196,7 @@ bool SubStepSolver::loses_cohesion() const {
 Attempt SubStepSolver::attempt(bool last) {
   stable_ = {};
   const bool solved = solve_motion(last);
-  if (problem_.any_weakening) stable_ = stability_.check(sub_step_);
+  if (problem_.laws.any_weakens()) stable_ = stability_.check(sub_step_);
   const bool damped = sub_step_.per_second > 0;
   const auto ends_as = [&](Attempt attempt, const char* verdict) {
     conclude(verdict);

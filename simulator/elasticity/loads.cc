@@ -83,7 +83,7 @@ Eigen::Matrix3Xd nodal_stress_forces(const Mesh& mesh, const std::vector<Side>& 
                                      const Eigen::Matrix3d& stress) {
   Eigen::Matrix3Xd forces = no_forces(mesh);
   for (const BoundaryFace& face : mesh.boundary) {
-    if (std::find(sides.begin(), sides.end(), face.side) == sides.end()) continue;
+    if (!contains(sides, face.side)) continue;
     const bool is_front_or_back = face.side == Side::y_min || face.side == Side::y_max;
     if (mesh.plane_strain && is_front_or_back) continue;
     const Eigen::Matrix<double, 3, 4> areas = nodal_area_vectors(mesh, face);

@@ -11,9 +11,11 @@ namespace {
 
 constexpr double kBandWidth = 22;
 
-/// The compartments beside a fault, left and right of a line that is the fault, in a strip.
+/// The compartments beside a fault, left and right of a line that is the fault, in a strip with the
+/// scale of depth.
 void draw_band_strip(Svg& svg, const Box& box, const Axis& depth,
                      const std::vector<DepthBand>& bands) {
+  const Panel scale(svg, box, {"", 0, 1, {}}, depth);
   const auto y_of = [&](double d) {
     return box.bottom() - box.height * std::clamp(depth.share(d), 0.0, 1.0);
   };
@@ -78,9 +80,7 @@ std::string draw(const DepthChart& chart) {
           chart.title);
   draw_heading(svg, chart.title, chart.remark, 16);
   const Axis depth = depth_axis(chart.depth, kHeight);
-  // An empty panel is where the scale of depth stands; the strip goes over it.
   const Box strip{kLeft, heading, 2 * kBandWidth, kHeight};
-  { Panel scale(svg, strip, {"", 0, 1, {}}, depth); }
   draw_band_strip(svg, strip, depth, chart.bands);
   double x = strip.right() + kGap;
   for (const DepthColumn& column : chart.columns) {
@@ -113,7 +113,6 @@ std::string draw(const FaultMap& map) {
   draw_heading(svg, map.title, map.remark, 16);
   const Axis depth = depth_axis(depths, kHeight);
   const Box strip{kLeft, heading, 2 * kBandWidth, kHeight};
-  { Panel scale(svg, strip, {"", 0, 1, {}}, depth); }
   draw_band_strip(svg, strip, depth, map.bands);
   double low = 0, high = 1;
   if (!across.empty()) {

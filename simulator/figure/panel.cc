@@ -38,14 +38,14 @@ double snapped(double share) {
 
 }  // namespace
 
-Panel::Panel(Svg& svg, const Box& box, Axis x, Axis y, Sides sides)
+Panel::Panel(Svg& svg, const Box& box, Axis x, Axis y, const PanelSides& sides)
     : svg_(svg), box_(box), x_(std::move(x)), y_(std::move(y)) {
   draw_x(sides);
   draw_y(sides);
   frame();
 }
 
-void Panel::draw_x(const Sides& sides) {
+void Panel::draw_x(const PanelSides& sides) {
   for (const Tick& tick : x_.ticks) {
     const double x = box_.x + box_.width * x_.share(tick.value);
     svg_.line({x, box_.y}, {x, box_.bottom()}, {kGrid, 1});
@@ -58,7 +58,7 @@ void Panel::draw_x(const Sides& sides) {
             {kLabelSize, kInk, Anchor::middle});
 }
 
-void Panel::draw_y(const Sides& sides) {
+void Panel::draw_y(const PanelSides& sides) {
   double widest = 0;
   for (const Tick& tick : y_.ticks) {
     const double y = box_.bottom() - box_.height * y_.share(tick.value);

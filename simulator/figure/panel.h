@@ -9,19 +9,18 @@
 
 namespace faultsim::figure {
 
+struct PanelSides {
+  bool x_labels = true;   ///< tick labels and the axis label below.
+  bool y_labels = true;   ///< the same to the left.
+  bool x_on_top = false;  ///< above instead of below.
+};
+
 /// A rectangle of a drawing with an axis along its bottom and one along its left side. What is
 /// drawn through it is in the axes' units and cut off at its edges.
 class Panel {
  public:
   /// Draws grid, frame, ticks and labels. @pre svg outlives this.
-  struct Sides {
-    bool x_labels = true;   ///< tick labels and the axis label below.
-    bool y_labels = true;   ///< the same to the left.
-    bool x_on_top = false;  ///< above instead of below.
-  };
-  Panel(Svg& svg, const Box& box, Axis x, Axis y, Sides sides);
-  Panel(Svg& svg, const Box& box, Axis x, Axis y)
-      : Panel(svg, box, std::move(x), std::move(y), Sides()) {}
+  Panel(Svg& svg, const Box& box, Axis x, Axis y, const PanelSides& sides = {});
 
   const Box& box() const { return box_; }
   const Axis& x() const { return x_; }
@@ -39,8 +38,8 @@ class Panel {
   void frame();
 
  private:
-  void draw_x(const Sides& sides);
-  void draw_y(const Sides& sides);
+  void draw_x(const PanelSides& sides);
+  void draw_y(const PanelSides& sides);
 
   Svg& svg_;
   Box box_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/printable.h"
 #include "simulator/common/text.h"
 
 namespace faultsim::figure {
@@ -15,25 +16,10 @@ constexpr const char* kReplacement = "\xEF\xBF\xBD";  // U+FFFD
 
 /// Bytes of the UTF-8 character that begins here; 0 where none does, or none that XML knows.
 std::size_t character_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(0);
-  if (first < 0x80) {
-    return first >= 0x20 || first == '\t' || first == '\n' || first == '\r' ? 1 : 0;
-  }
-  const std::size_t n = first >= 0xF0 && first <= 0xF4  ? 4
-                        : first >= 0xE0 && first < 0xF0 ? 3
-                        : first >= 0xC2 && first < 0xE0 ? 2
-                                                        : 0;
-  if (n == 0 || text.size() < n) return 0;
-  unsigned code = first & (0x7FU >> n);
-  for (std::size_t i = 1; i < n; ++i) {
-    if ((byte(i) & 0xC0U) != 0x80U) return 0;
-    code = code << 6U | (byte(i) & 0x3FU);
-  }
-  const bool overlong = (n == 3 && code < 0x800) || (n == 4 && code < 0x10000);
-  const bool is_none =
-      (code >= 0xD800 && code < 0xE000) || code == 0xFFFE || code == 0xFFFF || code > 0x10FFFF;
-  return overlong || is_none ? 0 : n;
+  const Character one = character_at(text, 0);
+  const bool is_known = one.code < 0x20 ? one.code == '\t' || one.code == '\n' || one.code == '\r'
+                                        : one.code != 0xFFFE && one.code != 0xFFFF;
+  return one.valid && is_known ? one.size : 0;
 }
 
 std::string pair_of(const char* x, const char* y, Point p) {

@@ -11,10 +11,10 @@ NodeLaw::NodeLaw(const CoulombLaw& constants)
       dynamic_friction_(std::tan(constants.dynamic_friction_angle)),
       weakens_(constants.dynamic_friction_angle != constants.static_friction_angle) {}
 
-NodeLaw::SlipMeasure NodeLaw::measure(const Eigen::Vector2d& slip_increment,
-                                      const FrictionState& before,
-                                      const Eigen::Vector2d& direction) const {
-  const bool cumulated = constants_.cumulated;
+NodeLaw::MeasuredSlip NodeLaw::measure(const Eigen::Vector2d& slip_increment,
+                                       const FrictionState& before,
+                                       const Eigen::Vector2d& direction) const {
+  const bool cumulated = constants_.slip_measure == SlipMeasure::cumulated;
   const Eigen::Vector2d slip =
       cumulated ? slip_increment : Eigen::Vector2d(before.slip + slip_increment);
   const double norm = slip.norm();
@@ -23,7 +23,7 @@ NodeLaw::SlipMeasure NodeLaw::measure(const Eigen::Vector2d& slip_increment,
 }
 
 /// φ_d ≠ φ_s. Beyond d_c the dynamic angle is taken as it is, not as the end of a sum.
-Strength NodeLaw::weakened(double normal_traction, const SlipMeasure& s) const {
+Strength NodeLaw::weakened(double normal_traction, const MeasuredSlip& s) const {
   const double angle_s = constants_.static_friction_angle;
   const double angle_d = constants_.dynamic_friction_angle;
   const double d_c = constants_.slip_weakening_distance;
@@ -67,7 +67,7 @@ double NodeLaw::fastest_weakening(double normal_traction, const Eigen::Vector2d&
   const auto rate_at = [&](double share) {
     return -strength(normal_traction, share * slip_increment, 0, before).d_measure;
   };
-  if (constants_.cumulated) return rate_at(0);
+  if (constants_.slip_measure == SlipMeasure::cumulated) return rate_at(0);
   const double length = slip_increment.norm();
   const Eigen::Vector2d end = before.slip + slip_increment;
   const double outward = end.dot(slip_increment);

@@ -89,13 +89,13 @@ class NodeLaw {
   const CoulombLaw& constants() const { return constants_; }
 
  private:
-  struct SlipMeasure {
+  struct MeasuredSlip {
     double value;
     Eigen::Vector2d gradient;  ///< with respect to Δg_T.
   };
-  SlipMeasure measure(const Eigen::Vector2d& slip_increment, const FrictionState& before,
-                      const Eigen::Vector2d& direction) const;
-  Strength weakened(double normal_traction, const SlipMeasure& s) const;
+  MeasuredSlip measure(const Eigen::Vector2d& slip_increment, const FrictionState& before,
+                       const Eigen::Vector2d& direction) const;
+  Strength weakened(double normal_traction, const MeasuredSlip& s) const;
 
   CoulombLaw constants_;
   double static_friction_, dynamic_friction_;

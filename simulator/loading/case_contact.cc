@@ -14,25 +14,15 @@ double radiation_damping(const OperatorNode& node) {
   return 0.5 * std::sqrt(kDensity * node.effective_shear_modulus);
 }
 
-CoulombLaw law_of(const Friction& friction) {
-  CoulombLaw law = {.weakening = friction.law,
-                    .cohesion = friction.cohesion,
-                    .static_friction_angle = friction.static_friction_angle,
-                    .dynamic_friction_angle = friction.dynamic_friction_angle,
-                    .cumulated = friction.slip_measure == SlipMeasure::cumulated,
-                    .cohesion_after_opening = friction.cohesion_after_opening,
-                    .cohesion_after_slip = friction.cohesion_after_slip};
-  if (friction.slip_weakening_distance > 0)
-    law.slip_weakening_distance = friction.slip_weakening_distance;
-  return law;
-}
-
 }  // namespace
 
 ContactLaws contact_laws(const Scene& scene, const FaultGeometry& geometry) {
   ContactLaws laws;
   for (std::size_t f = 0; f < geometry.faults.size(); ++f) {
-    laws.insert(laws.end(), geometry.faults[f].n_nodes, law_of(scene.faults[f].friction));
+    CoulombLaw law = scene.faults[f].friction;
+    if (law.slip_weakening_distance == 0)  // it does not weaken
+      law.slip_weakening_distance = CoulombLaw().slip_weakening_distance;
+    laws.insert(laws.end(), geometry.faults[f].n_nodes, law);
   }
   if (!scene.numerics.follow_events) return laws;
   for (std::size_t k = 0; k < laws.size(); ++k) {

@@ -2,15 +2,9 @@
 
 #include <utility>
 
-#include "simulator/common/errors.h"
 #include "simulator/files/atomic_file.h"
 
 namespace faultsim {
-
-FieldSteps field_steps_from_string(const std::string& text) {
-  FAULTSIM_DEMAND(text == "stages" || text == "all", "steps of fields: ", text);
-  return text == "all" ? FieldSteps::all : FieldSteps::stages;
-}
 
 FieldSelection::FieldSelection(FieldSteps which, const Scene& scene, StepObserver sink)
     : which_(which), history_(load_steps(scene)), sink_(std::move(sink)) {}

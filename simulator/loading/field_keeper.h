@@ -17,8 +17,7 @@ enum class FieldSteps {
            ///< last step in equilibrium.
   all,     ///< every step in equilibrium.
 };
-/// From "stages" or "all"; anything else is an InternalError, as programs write it.
-FieldSteps field_steps_from_string(const std::string& text);
+constexpr auto words(FieldSteps) { return std::array{"stages", "all"}; }
 
 /// Hands the fault fields of the wanted steps of one case to a sink, as it runs.
 class FieldSelection {

@@ -178,7 +178,7 @@ class Warnings {
 
   void without_strength() {
     for (const Fault& fault : scene_.faults) {
-      const Friction& friction = fault.friction;
+      const CoulombLaw& friction = fault.friction;
       if (friction.cohesion > 0 || friction.static_friction_angle > 0) continue;
       texts_.push_back("fault " + fault.name +
                        " has neither friction nor cohesion: it slips under any shear, and its "

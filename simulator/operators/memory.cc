@@ -3,17 +3,8 @@
 #include <string>
 
 #include "simulator/common/errors.h"
-#include "simulator/common/text.h"
 
 namespace faultsim {
-namespace {
-
-std::string size_text(double bytes) {
-  return bytes >= 1e9 ? formatted("%.1f GB", bytes / 1e9) : formatted("%.0f MB", bytes / 1e6);
-}
-
-}  // namespace
-
 void require_memory(const Plan& plan, std::optional<double> available) {
   if (!available || plan.memory_bytes <= *available) return;
   const bool creeps = plan.creep.active;
@@ -21,12 +12,12 @@ void require_memory(const Plan& plan, std::optional<double> available) {
       creeps ? concat("the ", 1 + plan.creep.rungs.size(),
                       " operators of this scene, one per step length of creep and the elastic one, "
                       "need about ",
-                      size_text(plan.memory_bytes), " together (")
-             : concat("the operator of this scene needs about ", size_text(plan.memory_bytes),
+                      size_to_text(plan.memory_bytes), " together (")
+             : concat("the operator of this scene needs about ", size_to_text(plan.memory_bytes),
                       " while it is built (");
   throw ResourceError(
       concat("not enough memory: ", what, plan.n_unknowns, " unknowns, ", plan.n_jump,
-             " of them jumps), ", size_text(*available), " are available; ",
+             " of them jumps), ", size_to_text(*available), " are available; ",
              plan.plane_strain ? "choose larger cells (/mesh)"
                                : "choose a coarser tier or larger cells (/mesh), or plane strain "
                                  "(for a field the tier \"screening\")",

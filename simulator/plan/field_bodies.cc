@@ -25,11 +25,10 @@ std::vector<MappedCell> bodies_of_blocks(const Scene& scene) {
   std::vector<MappedCell> bodies;
   const int n_blocks = static_cast<int>(scene.field.blocks.size());
   for (int b = 0; b < n_blocks; ++b) {
-    const Block& block = scene.field.blocks[static_cast<std::size_t>(b)];
+    const Block& block = scene.field.blocks[b];
     const DepthInterval depths = reservoir_range(scene.field, block);
     const auto x_of = [&](int fault) {
-      const auto f = static_cast<std::size_t>(fault);
-      return std::array{fault_x(scene, f, depths.top), fault_x(scene, f, depths.bottom)};
+      return std::array{fault_x(scene, fault, depths.top), fault_x(scene, fault, depths.bottom)};
     };
     const std::array<double, 2> west = x_of(b), east = x_of(b + 1);
     const double beside = std::min({kBesideFault, east[0] - west[0], east[1] - west[1]});
@@ -49,22 +48,19 @@ std::vector<MappedCell> bodies_of_box(const Scene& scene, const Plan& plan) {
   const Mesh mesh = make_mesh(box_mesh_spec(scene, plan));
   std::vector<MappedCell> bodies;
   const auto add = [&](int cell, int region) {
-    const auto c = static_cast<std::size_t>(cell);
-    MappedCell body{.corners = {}, .region = region, .fraction = mesh.region_fraction[c]};
-    for (std::size_t i = 0; i < 8; ++i)
-      body.corners[i] = mesh.nodes[static_cast<std::size_t>(mesh.cells[c][i])];
+    MappedCell body{.corners = {}, .region = region, .fraction = mesh.region_fraction[cell]};
+    for (std::size_t i = 0; i < 8; ++i) body.corners[i] = mesh.nodes[mesh.cells[cell][i]];
     bodies.push_back(body);
   };
-  const auto is_in_region = [&](int c) { return mesh.region[static_cast<std::size_t>(c)] >= 0; };
   for (int c = 0; c < static_cast<int>(mesh.cells.size()); ++c) {
-    if (is_in_region(c)) add(c, mesh.region[static_cast<std::size_t>(c)]);
+    if (mesh.region[c] >= 0) add(c, mesh.region[c]);
   }
   for (std::size_t f = 0; f < mesh.faults.size(); ++f) {
     std::set<int> beside;
     for (const FaultFace& face : mesh.faults[f].faces)
       beside.insert({face.minus_cell, face.plus_cell});
     for (const int c : beside) {
-      if (is_in_region(c)) add(c, static_cast<int>(scene.pressure.size() + f));
+      if (mesh.region[c] >= 0) add(c, static_cast<int>(scene.pressure.size() + f));
     }
   }
   return bodies;

@@ -32,12 +32,10 @@ std::string ending_patches(const Scene& scene) {
 }
 
 Reduction plan_plane_strain(const Scene& scene) {
-  Reduction r{"plane_strain",
-              scene.numerics.plane_strain == Switch::on,
-              "",
-              "",
-              "/numerics/plane_strain",
-              {}};
+  Reduction r;
+  r.name = "plane_strain";
+  r.switch_ = "/numerics/plane_strain";
+  r.applied = scene.numerics.plane_strain == Switch::on;
   if (scene.geometry_kind == GeometryKind::field) {
     r.bound = "ignores the ends of blocks and faults; measure it with a 3D tier";
   } else if (const std::string names = ending_patches(scene); !names.empty()) {
@@ -271,10 +269,6 @@ Scene flipped(Scene scene, const Reduction& reduction) {
   return scene;
 }
 
-std::string human_bytes(double bytes) {
-  return bytes >= 1e9 ? formatted("%.1f GB", bytes / 1e9) : formatted("%.0f MB", bytes / 1e6);
-}
-
 std::string human_time(double seconds) {
   return seconds >= 7200 ? formatted("%.1f hours", seconds / 3600) : formatted("%.1f s", seconds);
 }
@@ -427,6 +421,10 @@ std::string operator_fingerprint(const Scene& scene, const Plan& plan, const std
   return fingerprint(j.dump());
 }
 
+std::string size_to_text(double bytes) {
+  return bytes >= 1e9 ? formatted("%.1f GB", bytes / 1e9) : formatted("%.0f MB", bytes / 1e6);
+}
+
 std::string sides_to_text(const Plan& plan) {
   if (plan.minus_side.empty()) return "";
   const char axis = plan.minus_side.front();
@@ -486,10 +484,10 @@ std::string plan_to_text(const Plan& plan) {
   text += "\n" + creep_text(plan.creep);
   text += formatted("operator: about %s of one core and %s at its peak; family %.12s\n",
                     human_time(plan.operator_seconds).c_str(),
-                    human_bytes(plan.memory_bytes).c_str(), plan.family.c_str());
+                    size_to_text(plan.memory_bytes).c_str(), plan.family.c_str());
   if (plan.influence_bytes > 0) {
     text += "with the influence of the cells that the field acts on, which takes about " +
-            human_bytes(plan.influence_bytes) + "\n";
+            size_to_text(plan.influence_bytes) + "\n";
   }
   for (const std::string& section : plan.sections) text += section + "\n";
   for (const std::string& warning : plan.warnings) text += "warning: " + warning + "\n";

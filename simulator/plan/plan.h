@@ -114,6 +114,7 @@ std::string initial_state_to_text(const std::vector<InitialRegion>& regions);
 std::string sides_to_text(const Plan& plan);
 
 nlohmann::json plan_to_json(const Plan& plan);
+std::string size_to_text(double bytes);      ///< "340 MB", "1.2 GB".
 std::string plan_to_text(const Plan& plan);  ///< for the screen, with reasons.
 
 }  // namespace faultsim

@@ -72,12 +72,10 @@ void require_one_of(SceneReader& reader, const std::string& object, const std::s
 /// The friction angle at pointer, rad, also when it is given as a coefficient.
 double angle_at(const SceneReader& reader, const std::string& pointer) {
   if (pointer.empty()) return kNaN;
-  const bool is_coefficient =
-      pointer.size() >= 11 && pointer.substr(pointer.size() - 11) == "coefficient";
-  return is_coefficient ? std::atan(reader.real(pointer)) : reader.real(pointer);
+  return pointer.ends_with("coefficient") ? std::atan(reader.real(pointer)) : reader.real(pointer);
 }
 
-void read_weakening(SceneReader& reader, const Overrides& from, Friction& friction) {
+void read_weakening(SceneReader& reader, const Overrides& from, CoulombLaw& friction) {
   const std::string dynamic =
       from.at_either("dynamic_friction_angle", "dynamic_friction_coefficient");
   const double static_angle = friction.static_friction_angle;
@@ -100,8 +98,8 @@ void read_weakening(SceneReader& reader, const Overrides& from, Friction& fricti
   }
 }
 
-Friction read_friction(SceneReader& reader, const Overrides& from) {
-  Friction friction;
+CoulombLaw read_friction(SceneReader& reader, const Overrides& from) {
+  CoulombLaw friction;
   for (const std::string& object : {std::string("/friction"), from.own()}) {
     if (!from.has_own() && object == from.own()) continue;
     require_one_of(reader, object, "friction_angle", "friction_coefficient");
@@ -118,7 +116,7 @@ Friction read_friction(SceneReader& reader, const Overrides& from) {
   const bool weakens = friction.dynamic_friction_angle < friction.static_friction_angle;
   if (weakens) return friction;
   // Neither law nor measure says anything; equal cases stay equal.
-  friction.law = WeakeningLaw::angle;
+  friction.weakening = WeakeningLaw::angle;
   friction.slip_measure = SlipMeasure::current;
   return friction;
 }
@@ -228,7 +226,7 @@ void read_faults(SceneReader& reader, Scene& scene) {
   const bool is_box = scene.geometry_kind == GeometryKind::box;
   const bool known_kind = reader.sound("/geometry/kind");
   std::vector<std::string> names;
-  std::optional<Friction> friction;  // of those that say nothing
+  std::optional<CoulombLaw> friction;  // of those that say nothing
   std::optional<FaultPressure> pressure;
   for (std::size_t i = 0; i < reader.size("/faults"); ++i) {
     const std::string at = element("/faults", i) + "/";

@@ -2,11 +2,13 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <vector>
 
 #include "simulator/common/dates.h"
 #include "simulator/common/printable.h"
+#include "simulator/common/text.h"
 #include "simulator/flow/field_file.h"
 #include "simulator/flow/flow_field.h"
 #include "simulator/flow/report_choice.h"
@@ -35,9 +37,7 @@ constexpr FieldKey kFields[] = {
 /// The dates of some reports, for a message.
 std::string dates_of(const FlowField& field) {
   constexpr std::size_t kMost = 5;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(kMost, field.date.size()); ++i)
-    text += (i == 0 ? "" : ", ") + date_text(field.date[i]);
+  std::string text = joined(field.date | std::views::take(kMost), ", ", date_text);
   if (field.date.size() > kMost) text += ", ..., " + date_text(field.date.back());
   return text;
 }
@@ -46,10 +46,10 @@ std::string dates_of(const FlowField& field) {
 std::optional<int> report_at(const FlowField& field, const std::string& date) {
   const std::optional<double> wanted = parse_date(date);
   if (!wanted) return std::nullopt;
-  for (std::size_t i = 0; i < field.date.size(); ++i) {
-    if (std::abs(field.date[i] - *wanted) < kDay) return static_cast<int>(i);
-  }
-  return std::nullopt;
+  const auto found =
+      std::ranges::find_if(field.date, [&](double day) { return std::abs(day - *wanted) < kDay; });
+  if (found == field.date.end()) return std::nullopt;
+  return static_cast<int>(found - field.date.begin());
 }
 
 /// Opens the file where the scene, or "fields" of it, says.

@@ -82,15 +82,12 @@ void read_components(SceneReader& reader, const std::string& at, BoundaryConditi
 
 void check_tied(SceneReader& reader, const std::string& at, const BoundaryCondition& condition) {
   if (condition.kind != BoundaryKind::tied || !reader.sound(at + "sides")) return;
-  constexpr auto names = words(Side());
   for (const Side side : condition.sides) {
-    const auto number = static_cast<unsigned>(side);
-    const auto opposite = static_cast<Side>(number ^ 1U);
-    const bool paired = contains(condition.sides, opposite);
-    if (paired) continue;
+    const auto opposite = static_cast<Side>(static_cast<unsigned>(side) ^ 1U);
+    if (contains(condition.sides, opposite)) continue;
     reader.problem(at + "sides",
-                   std::string("side ") + names[number] + " is tied but its opposite is not",
-                   std::string("add \"") + names[number ^ 1U] + "\" to the same list");
+                   concat("side ", to_string(side), " is tied but its opposite is not"),
+                   concat("add \"", to_string(opposite), "\" to the same list"));
   }
 }
 
@@ -103,10 +100,9 @@ void read_boundary(SceneReader& reader, BoxGeometry& box) {
     for (std::size_t k = 0; k < reader.size(at + "sides"); ++k) {
       const std::string place = element(at + "sides", k);
       const std::string name = reader.text(place);
-      constexpr auto names = words(Side());
-      const auto side = std::ranges::find(names, name);
-      if (side == names.end()) continue;  // its condition is of no known kind, and refused
-      condition.sides.push_back(static_cast<Side>(side - names.begin()));
+      const auto side = named<Side>(name);
+      if (!side) continue;  // its condition is of no known kind, and refused
+      condition.sides.push_back(*side);
       if (!taken.insert(name).second && reader.sound(place)) {
         reader.problem(place, "side " + name + " has a condition already",
                        "give each side one condition");

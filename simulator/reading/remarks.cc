@@ -235,8 +235,9 @@ class IdleInputs {
     const std::string no_weakening =
         "friction does not weaken: the dynamic value is the static one";
     shared_key("/friction", {"slip_weakening_distance"}, no_weakening, weakens);
-    shared_key("/friction", {"law"}, no_weakening,
-               [&](const Fault& f) { return weakens(f) || f.friction.law == WeakeningLaw::angle; });
+    shared_key("/friction", {"law"}, no_weakening, [&](const Fault& f) {
+      return weakens(f) || f.friction.weakening == WeakeningLaw::angle;
+    });
     shared_key("/friction", {"slip_measure"}, no_weakening, [&](const Fault& f) {
       return weakens(f) || f.friction.slip_measure == SlipMeasure::current;
     });

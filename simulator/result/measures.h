@@ -38,8 +38,7 @@ struct Measures {
 };
 
 /// visit(Field, value) for each, in the order in which they are listed to users.
-template <typename Derived, typename Visit>
-void for_each_measure(Derived& m, Visit&& visit) {
+void for_each_measure(auto& m, auto&& visit) {
   visit(Field{.key = "activated",
               .meaning = "slip reached the activation criterion",
               .called = "slides",

@@ -11,7 +11,6 @@ namespace faultsim {
 namespace {
 
 constexpr std::size_t kPrint = 32;  // characters of a fingerprint
-constexpr int kLastOutcome = static_cast<int>(Outcome::interrupted);
 
 template <typename Value>
 concept PlainValue = std::is_arithmetic_v<Value> || std::is_enum_v<Value>;
@@ -84,7 +83,7 @@ class ByteReader {
   }
   void take(const Field& field, Outcome& value) {
     const int number = plain<int>(field);
-    if (number < 0 || number > kLastOutcome) refuse(field, "is not an outcome");
+    if (number < 0 || number >= std::ssize(words(Outcome()))) refuse(field, "is not an outcome");
     value = static_cast<Outcome>(number);
   }
   /// Every element takes a byte at least, so that a wrong size asks for no memory.

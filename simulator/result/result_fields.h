@@ -10,8 +10,7 @@
 /// it. What is measured of a stage stands in measures.h.
 namespace faultsim {
 
-template <Of<FaultMetrics> Struct, typename Visit>
-void for_each_field(Struct& m, Visit&& visit) {
+void for_each_field(Of<FaultMetrics> auto& m, auto&& visit) {
   visit(Field{"chi_bar"}, m.chi_bar);
   visit(Field{"chi_max"}, m.chi_max);
   visit(Field{"chi_static_max"}, m.chi_static_max);
@@ -32,38 +31,33 @@ void for_each_field(Struct& m, Visit&& visit) {
   visit(Field{"moment_step_nm"}, m.moment_step);
 }
 
-template <Of<SolveCounts> Struct, typename Visit>
-void for_each_field(Struct& c, Visit&& visit) {
+void for_each_field(Of<SolveCounts> auto& c, auto&& visit) {
   visit(Field{"newton_iterations"}, c.newton_iterations);
   visit(Field{"active_set_passes"}, c.active_set_passes);
   visit(Field{"sub_steps"}, c.sub_steps);
   visit(Field{"wasted_newton_iterations"}, c.wasted_newton_iterations);
 }
 
-template <Of<FaultCreep> Struct, typename Visit>
-void for_each_field(Struct& c, Visit&& visit) {
+void for_each_field(Of<FaultCreep> auto& c, auto&& visit) {
   visit(Field{"normal_min_pa"}, c.normal_min);
   visit(Field{"normal_max_pa"}, c.normal_max);
   visit(Field{"shear_max_pa"}, c.shear_max);
 }
 
-template <Of<StepCreep> Struct, typename Visit>
-void for_each_field(Struct& c, Visit&& visit) {
+void for_each_field(Of<StepCreep> auto& c, auto&& visit) {
   visit(Field{"time_steps"}, c.time_steps);
   visit(Field{"time_error_pa"}, c.time_error);
   visit(Field{"time_resolved"}, c.time_resolved);
   visit(Field{"faults"}, c.faults);
 }
 
-template <Of<StepCoupled> Struct, typename Visit>
-void for_each_field(Struct& c, Visit&& visit) {
+void for_each_field(Of<StepCoupled> auto& c, auto&& visit) {
   visit(Field{"krylov_iterations"}, c.krylov_iterations);
   visit(Field{"setup_s"}, c.setup_seconds);
   visit(Field{"solve_s"}, c.solve_seconds);
 }
 
-template <Of<CaseCoupled> Struct, typename Visit>
-void for_each_field(Struct& c, Visit&& visit) {
+void for_each_field(Of<CaseCoupled> auto& c, auto&& visit) {
   visit(Field{"leading"}, c.leading);
   visit(Field{"schur"}, c.schur);
   visit(Field{"displacement_dofs"}, c.n_displacements);
@@ -74,8 +68,7 @@ void for_each_field(Struct& c, Visit&& visit) {
   visit(Field{"solve_s"}, c.solve_seconds);
 }
 
-template <Of<CaseSurface> Struct, typename Visit>
-void for_each_field(Struct& s, Visit&& visit) {
+void for_each_field(Of<CaseSurface> auto& s, auto&& visit) {
   visit(Field{"operators"}, s.n_operators);
   visit(Field{"basis"}, s.n_basis);
   visit(Field{"checks"}, s.n_checks);
@@ -87,8 +80,7 @@ void for_each_field(Struct& s, Visit&& visit) {
   visit(Field{"error_of_stability"}, s.stability);
 }
 
-template <Of<StepResult> Struct, typename Visit>
-void for_each_field(Struct& s, Visit&& visit) {
+void for_each_field(Of<StepResult> auto& s, auto&& visit) {
   visit(Field{"step"}, s.step);
   visit(Field{"stage"}, s.stage);
   visit(Field{"time_s"}, s.time);
@@ -106,8 +98,7 @@ void for_each_field(Struct& s, Visit&& visit) {
   visit(Field{"wall_s"}, s.seconds);
 }
 
-template <Of<SidePressures> Struct, typename Visit>
-void for_each_field(Struct& s, Visit&& visit) {
+void for_each_field(Of<SidePressures> auto& s, auto&& visit) {
   visit(Field{"region_minus"}, s.region_minus);
   visit(Field{"region_plus"}, s.region_plus);
   visit(Field{"change_minus_pa"}, s.change_minus);
@@ -117,23 +108,20 @@ void for_each_field(Struct& s, Visit&& visit) {
   visit(Field{.key = "change_in_fault_pa", .may_be_nan = true}, s.change_in_fault);
 }
 
-template <Of<FaultOnset> Struct, typename Visit>
-void for_each_field(Struct& o, Visit&& visit) {
+void for_each_field(Of<FaultOnset> auto& o, auto&& visit) {
   visit(Field{"step"}, o.step);
   visit(Field{"depth_m"}, o.depth);
   visit(Field{"pressures"}, o.pressures);
 }
 
-template <Of<FaultStageMetrics> Struct, typename Visit>
-void for_each_field(Struct& s, Visit&& visit) {
+void for_each_field(Of<FaultStageMetrics> auto& s, auto&& visit) {
   visit(Field{"fault"}, s.fault);
   visit(Field{"activation"}, s.activation);
   visit(Field{"opening"}, s.opening);
   for_each_measure(s, visit);
 }
 
-template <Of<StageMetrics> Struct, typename Visit>
-void for_each_field(Struct& s, Visit&& visit) {
+void for_each_field(Of<StageMetrics> auto& s, auto&& visit) {
   visit(Field{"stage"}, s.stage);
   visit(Field{"first_step"}, s.first_step);
   visit(Field{"last_step"}, s.last_step);
@@ -146,8 +134,7 @@ void for_each_field(Struct& s, Visit&& visit) {
   visit(Field{"faults"}, s.faults);
 }
 
-template <Of<SlipEvent> Struct, typename Visit>
-void for_each_field(Struct& e, Visit&& visit) {
+void for_each_field(Of<SlipEvent> auto& e, auto&& visit) {
   visit(Field{"step"}, e.step);
   visit(Field{"stage"}, e.stage);
   visit(Field{"load_factor_before"}, e.load_factor_before);
@@ -175,8 +162,7 @@ void for_each_field(Struct& e, Visit&& visit) {
   visit(Field{"evidence_holds"}, e.evidence_holds);
 }
 
-template <Of<Episode> Struct, typename Visit>
-void for_each_field(Struct& e, Visit&& visit) {
+void for_each_field(Of<Episode> auto& e, auto&& visit) {
   visit(Field{"stage"}, e.stage);
   visit(Field{"fault"}, e.fault);
   visit(Field{"first_step"}, e.first_step);
@@ -190,14 +176,12 @@ void for_each_field(Struct& e, Visit&& visit) {
   visit(Field{"magnitude_if_released_at_once_mw"}, e.magnitude_if_at_once);
 }
 
-template <Of<Reactivation> Struct, typename Visit>
-void for_each_field(Struct& r, Visit&& visit) {
+void for_each_field(Of<Reactivation> auto& r, auto&& visit) {
   visit(Field{"episode"}, r.episode);
   visit(Field{"after_episode"}, r.after);
 }
 
-template <Of<CaseResult> Struct, typename Visit>
-void for_each_field(Struct& c, Visit&& visit) {
+void for_each_field(Of<CaseResult> auto& c, auto&& visit) {
   visit(Field{"title"}, c.title);
   visit(Field{"identity"}, c.identity);
   visit(Field{"operator_fingerprint"}, c.operator_fingerprint);

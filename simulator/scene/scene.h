@@ -77,23 +77,12 @@ void for_each_key(Of<InitialState> auto& s, auto&& visit) {
 }
 
 constexpr auto words(WeakeningLaw) { return std::array{"angle", "coefficient"}; }
-enum class SlipMeasure { current, cumulated };
 constexpr auto words(SlipMeasure) { return std::array{"current", "cumulated"}; }
 
-struct Friction {
-  WeakeningLaw law = WeakeningLaw::angle;
-  double cohesion = 0;                 ///< Pa.
-  double static_friction_angle = 0;    ///< rad; JSON may give friction_coefficient instead.
-  double dynamic_friction_angle = 0;   ///< rad; equal to the static one = no weakening.
-  double slip_weakening_distance = 0;  ///< m; > 0 where the angles differ.
-  SlipMeasure slip_measure = SlipMeasure::current;
-  bool cohesion_after_opening = false;
-  bool cohesion_after_slip = true;  ///< false: the first slip ends cohesion.
-  bool operator==(const Friction&) const = default;
-};
-/// A fault's own friction overrides the scene's key by key; angles may be given as coefficients.
-void for_each_key(Of<Friction> auto& f, auto&& visit) {
-  visit({"law"}, f.law);
+/// The friction of a fault: its distance is 0 where the angles agree, its damping always. A fault's
+/// own overrides the scene's key by key; angles may be given as coefficients.
+void for_each_key(Of<CoulombLaw> auto& f, auto&& visit) {
+  visit({"law"}, f.weakening);
   visit({"cohesion"}, f.cohesion);
   visit({"friction_angle", kByHand, "static"}, f.static_friction_angle);
   visit({"dynamic_friction_angle", kByHand, "dynamic"}, f.dynamic_friction_angle);
@@ -150,7 +139,7 @@ struct Fault {
   std::string name;
   double dip_from_vertical = 0;  ///< rad (field); > 0 dips east. Box: see PatchGeometry.
   double fault_biot = 1;         ///< α_f.
-  Friction friction;
+  CoulombLaw friction;
   FaultPressure pressure;
   bool operator==(const Fault&) const = default;
 };

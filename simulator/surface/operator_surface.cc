@@ -16,13 +16,7 @@
 namespace faultsim {
 namespace {
 
-const char* const kWhere = "/numerics/surface";
-
 using Kind = SurfaceParameter::Kind;
-
-[[noreturn]] void refuse(const std::string& what, const std::string& cure) {
-  throw InputError("scene", {{kWhere, 0, what, cure}});
-}
 
 bool moves_mesh(const SurfaceRequest& request) {
   return std::ranges::any_of(request.over, [](const SurfaceParameter& one) {
@@ -39,8 +33,8 @@ std::vector<int> observed_nodes(const BulkProblem& of_points, const Mesh& mesh) 
 }
 
 [[noreturn]] void refuse_topology() {
-  refuse("the mesh changes its topology over the ranges of the surface",
-         "narrow the ranges of dips and offsets, or take exact operators");
+  refuse_surface("the mesh changes its topology over the ranges of the surface",
+                 "narrow the ranges of dips and offsets, or take exact operators");
 }
 
 SparseGrid grid_of(const std::vector<SparseGrid::Index>& nodes) {
@@ -93,9 +87,9 @@ void OperatorSurface::Frame::require_same_points(const Mesh& mesh) const {
   const std::vector<int> nodes = observed_nodes(problem, mesh);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i] == observed[i]) continue;
-    refuse("the observation point " + problem.observation_points[i].first +
-               " is nearest to different nodes of the mesh over the ranges of the surface",
-           "leave it out or put it where the mesh does not move, or take exact operators");
+    refuse_surface("the observation point " + problem.observation_points[i].first +
+                       " is nearest to different nodes of the mesh over the ranges of the surface",
+                   "leave it out or put it where the mesh does not move, or take exact operators");
   }
 }
 
@@ -224,8 +218,8 @@ void require_definite(const FaultOperator& op, const std::vector<int>& dofs) {
     for (Eigen::Index i = j; i < n; ++i) block(i, j) = column[dofs[i]];
   }
   if (DenseCholesky().factor(std::move(block))) return;
-  refuse("the interpolated H is not positive definite at this case's parameters",
-         "take a smaller tolerance, or exact operators");
+  refuse_surface("the interpolated H is not positive definite at this case's parameters",
+                 "take a smaller tolerance, or exact operators");
 }
 
 }  // namespace faultsim

@@ -23,10 +23,6 @@ std::string brief(double value) { return formatted("%.2g", value); }
 
 double relative(double error, double size) { return size > 0 ? error / size : error; }
 
-[[noreturn]] void refuse_surface(const std::string& what, const std::string& cure) {
-  throw InputError("scene", {{"/numerics/surface", 0, what, cure}});
-}
-
 /// Slip of faults without friction, H g = A L_k, a column per load: the softest modes of H, which
 /// its norm does not show, weigh most here. Nothing where H is not positive definite.
 std::optional<Eigen::MatrixXd> slip_without_friction(const FaultOperator& op,
@@ -181,8 +177,7 @@ StoredSurface Builder::build(const std::string& fingerprint) {
     basis->fingerprint = fingerprint;
     basis->nodes = grid.indices();
     const CaseSurface found = measured(basis, grid);
-    const double error = std::max(std::max(found.stiffness, found.traction),
-                                  std::max(found.observation, found.slip));
+    const double error = std::max({found.stiffness, found.traction, found.observation, found.slip});
     if (error <= request_.tolerance) return {basis, found};
     constexpr double kRounding = 1e-13;  // nothing is gained below it
     if (grid.n_nodes() < request_.most_operators && surplus >= kRounding) continue;
@@ -196,6 +191,10 @@ StoredSurface Builder::build(const std::string& fingerprint) {
 }
 
 }  // namespace
+
+void refuse_surface(const std::string& what, const std::string& cure) {
+  throw InputError("scene", {{"/numerics/surface", 0, what, cure}});
+}
 
 double worst_column(const Eigen::MatrixXd& value, const Eigen::MatrixXd& exact) {
   double worst = 0;

@@ -15,6 +15,9 @@ namespace faultsim {
 /// The exact operator at a point of [-1, 1]^d. One that lies in a mapped file costs no memory.
 using ExactOperator = std::function<std::shared_ptr<const FaultOperator>(const Eigen::VectorXd& x)>;
 
+/// Throws InputError about the scene's surface.
+[[noreturn]] void refuse_surface(const std::string& what, const std::string& cure);
+
 /// Asks for operators until the errors at check points, which are drawn by a fixed seed, are within
 /// the tolerance (docs/model.md, 12). A pure function of the request and the operators. Throws
 /// InputError where the tolerance is not reached with most_operators, ResourceError where it does

@@ -174,7 +174,7 @@ ContactLaws laws_of(const RandomScene& scene, const FaultOperator& op) {
     law.static_friction_angle = radians(draw.angle);
     law.dynamic_friction_angle = law.static_friction_angle * (100 - draw.weakening) / 100;
     law.slip_weakening_distance = std::pow(10.0, -draw.log_distance / 10.0);
-    law.cumulated = draw.cumulated;
+    law.slip_measure = draw.cumulated ? SlipMeasure::cumulated : SlipMeasure::current;
     law.cohesion_after_opening = draw.keep_cohesion;
     law.cohesion_after_slip = !draw.lose_cohesion_slipping;
     if (scene.follows) {

@@ -322,7 +322,7 @@ TEST_F(FieldsOfAFault, ProfilesHaveTheFieldsInTheUnitsThatTheyName) {
   const CaseResult result = small_result();
   const std::string svg =
       draw_case({result, scene, &reader, {}}, {CaseChart::profiles, "F2", {}, false});
-  const Friction& friction = scene.faults[1].friction;
+  const CoulombLaw& friction = scene.faults[1].friction;
   const double strength =
       (friction.cohesion + 2e7 * std::tan(friction.static_friction_angle)) / 1e6;
   const std::vector<std::vector<double>> expected = {

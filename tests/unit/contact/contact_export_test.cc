@@ -261,13 +261,13 @@ TEST(FrozenLaws, FreezeTheFrictionOfTheStartOfTheStep) {
     return std::tan(frozen_laws(op, laws, start, Weakening::freeze)[0].dynamic_friction_angle);
   };
   EXPECT_NEAR(friction(), 0.55, 1e-15);
-  laws[0].cumulated = 1;
+  laws[0].slip_measure = SlipMeasure::cumulated;
   EXPECT_NEAR(friction(), 0.5, 1e-15);
   // Once the path is beyond d_c it cannot change any more; the slip could come back.
   start.slip_path[0] = 2;
   EXPECT_EQ(refusal(op, laws, start), "accepted");
   EXPECT_NEAR(friction(), 0.4, 1e-15);
-  laws[0].cumulated = 0;
+  laws[0].slip_measure = SlipMeasure::current;
   start.jump.tail<2>() << 3, 4;
   EXPECT_THAT(refusal(op, laws, start), HasSubstr("freeze the strength"));
 }

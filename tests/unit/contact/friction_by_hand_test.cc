@@ -16,7 +16,7 @@ class Slider {
  public:
   Slider(const CoulombLaw& law, int n_shear, bool cumulated = false)
       : op_(spring_slider(10 * kMega, n_shear)), laws_(same_law(op_, law)), n_shear_(n_shear) {
-    laws_[0].cumulated = cumulated;
+    laws_[0].slip_measure = cumulated ? SlipMeasure::cumulated : SlipMeasure::current;
     solver_ = std::make_unique<ContactSolver>(op_, laws_, ContactOptions{});
     state_ = initial_state(op_);
     locked_ = Eigen::VectorXd::Zero(1 + n_shear);

@@ -289,12 +289,12 @@ TEST_F(ByHand, WeakeningByAngleAndByCoefficient) {
 }
 
 TEST_F(ByHand, SlipThatTurnedBackWeakensByItsPathWhereTheLawSaysSo) {
-  law() = {WeakeningLaw::coefficient, 0, std::atan(0.8), std::atan(0.2), 2, true};
+  law() = {WeakeningLaw::coefficient, 0, std::atan(0.8), std::atan(0.2), 2, SlipMeasure::cumulated};
   step_.before.jump = Eigen::Vector3d(0, 0.75, 0);
   step_.before.slip_path[0] = 0.75;
   end_with({0, 0.5, 0}, {-1, -0.5, 0}, FaultState::slip);  // s = 1: half of the way
   expect_right();
-  law().cumulated = false;  // s = 0.5
+  law().slip_measure = SlipMeasure::current;  // s = 0.5
   expect_miss(&Misses::below_limit, 0.65 - 0.5);
 }
 

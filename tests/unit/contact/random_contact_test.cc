@@ -123,7 +123,7 @@ TEST(RandomContact, ConvergesOrIsUnstableWithWeakening) {
       CoulombLaw& law = problem.laws[k];
       law.dynamic_friction_angle = 0.7 * law.static_friction_angle;
       law.slip_weakening_distance = seed % 5 == 0 ? 0.05 : 0.4;
-      law.cumulated = seed % 3 == 1;
+      law.slip_measure = seed % 3 == 1 ? SlipMeasure::cumulated : SlipMeasure::current;
     }
     ContactSolver solver(problem.op, problem.laws, {});
     ContactState state = initial_state(problem.op);

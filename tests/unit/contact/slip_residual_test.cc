@@ -26,7 +26,7 @@ TEST(SlipResidual, HasTheDerivativesThatDifferencesGive) {
                        .static_friction_angle = 0.5,
                        .dynamic_friction_angle = 0.2,
                        .slip_weakening_distance = 2.0,
-                       .cumulated = cumulated,
+                       .slip_measure = cumulated ? SlipMeasure::cumulated : SlipMeasure::current,
                        .damping = 14});
     std::mt19937 engine(7);
     double largest = 0;

@@ -19,7 +19,7 @@ class TwoPaths {
   TwoPaths(CoulombLaw law, bool cumulated, const SolverChoice& solver)
       : op_(test::condense(example_.problem)) {
     const int n = static_cast<int>(op_.geometry.nodes.size());
-    law.cumulated = cumulated;
+    law.slip_measure = cumulated ? SlipMeasure::cumulated : SlipMeasure::current;
     laws_.assign(n, law);
     CoupledContactOptions options;
     options.solver = solver;

@@ -248,7 +248,7 @@ TEST(SlipTangent, DerivativesAreThoseOfTheTraction) {
       law.static_friction_angle = 0.6;
       law.dynamic_friction_angle = 0.3;
       law.slip_weakening_distance = 0.05;
-      law.cumulated = cumulated;
+      law.slip_measure = cumulated ? SlipMeasure::cumulated : SlipMeasure::current;
       SlippingPoint point{.normal_traction = -4e6,
                           .slip_increment = {0.012, -0.007},
                           .before = {.slip = {0.004, 0.005}, .path = 0.01},

@@ -52,7 +52,7 @@ TEST(NodeLaw, HasTheDerivativesThatDifferencesGive) {
     for (const bool cumulated : {false, true}) {
       for (const double per_second : {0.0, 2.0}) {
         CoulombLaw constants = weakening_law(weakening);
-        constants.cumulated = cumulated;
+        constants.slip_measure = cumulated ? SlipMeasure::cumulated : SlipMeasure::current;
         constants.damping = 3e6;
         const NodeLaw law(constants);
         const FrictionState before = {.slip = {0.1, -0.2}, .path = 0.3};
@@ -84,7 +84,7 @@ TEST(NodeLaw, MeasuresSlipByWhereItIsOrByItsPath) {
   const FrictionState before = {.slip = {0.3, 0}, .path = 0.5};
   CoulombLaw constants = weakening_law(WeakeningLaw::angle);
   for (const bool cumulated : {false, true}) {
-    constants.cumulated = cumulated;
+    constants.slip_measure = cumulated ? SlipMeasure::cumulated : SlipMeasure::current;
     const NodeLaw law(constants);
     EXPECT_DOUBLE_EQ(law.slip_measure(before), cumulated ? 0.5 : 0.3);
     const FrictionState after = law.after(before, {-0.3, 0.4}, false);
@@ -118,7 +118,7 @@ TEST(NodeLaw, BoundsTheWeakeningOnTheWay) {
   for (const auto weakening : {WeakeningLaw::angle, WeakeningLaw::coefficient}) {
     for (const bool cumulated : {false, true}) {
       CoulombLaw constants = weakening_law(weakening);
-      constants.cumulated = cumulated;
+      constants.slip_measure = cumulated ? SlipMeasure::cumulated : SlipMeasure::current;
       const NodeLaw law(constants);
       for (const Eigen::Vector2d& start : {Eigen::Vector2d(0.1, 0), {-0.3, 0.05}, {0.9, 0}}) {
         const FrictionState before = {.slip = start, .path = start.norm()};

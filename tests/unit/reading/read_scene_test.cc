@@ -333,8 +333,8 @@ TEST(ReadScene, ReadsEveryFieldOfABox) {
 
 TEST(ReadScene, ReadsTheRestOfABoxScene) {
   const Scene scene = read_scene(parse_json(kFullBox, "full"));
-  const Friction& friction = scene.faults[0].friction;
-  EXPECT_EQ(friction.law, WeakeningLaw::coefficient);
+  const CoulombLaw& friction = scene.faults[0].friction;
+  EXPECT_EQ(friction.weakening, WeakeningLaw::coefficient);
   EXPECT_DOUBLE_EQ(std::tan(friction.dynamic_friction_angle), 0.4);
   EXPECT_EQ(friction.slip_weakening_distance, 0.8);
   EXPECT_EQ(friction.slip_measure, SlipMeasure::cumulated);

@@ -43,13 +43,13 @@ Slider slider_of(const Scene& scene) {
   double height = 0;
   for (std::size_t i = 0; i < 3; ++i)
     height = std::max(height, (scene.box.to[i] - scene.box.from[i]) / 2);
-  const Friction& friction = scene.faults.front().friction;
+  const CoulombLaw& friction = scene.faults.front().friction;
   return {rock.youngs_modulus / (2 * (1 + rock.poisson_ratio)) / (2 * height),
           -scene.initial.tensor.value()[8],
           friction.static_friction_angle,
           friction.dynamic_friction_angle,
           friction.slip_weakening_distance > 0 ? friction.slip_weakening_distance : 1,
-          friction.law == WeakeningLaw::angle};
+          friction.weakening == WeakeningLaw::angle};
 }
 
 /// Global slip (the driven block, on the side of larger coordinates, relative to the held one) and
