@@ -204,24 +204,20 @@ std::string step_table_header(const Scene& scene, bool plane_strain, bool wide) 
   const std::size_t n_shown = n_fault_columns(n_regions, n_faults, wide);
   std::string line = formatted("%4s  %-18s%7s", "step", "stage", "year");
   std::string units = formatted("%4s  %-18s%7s", "", "", "");
-  for (std::size_t r = 0; r < n_regions; ++r) {
-    line += formatted(" %7.7s", regions ? ("dp " + scene.pressure[r].region).c_str() : "dp min");
-    units += formatted(" %7s", "bar");
-  }
-  if (wide) line += formatted(" %6s", "stick"), units += formatted(" %6s", "nodes");
-  line += formatted(" %5s %4s", "slip", "open");
-  units += formatted(" %5s %4s", "nodes", "");
-  for (std::size_t f = 0; f < n_shown; ++f) {
-    line += formatted(" %7.7s", ("chi " + scene.faults[f].name).c_str());
-    units += formatted(" %7s", "window");
-  }
-  if (n_shown < n_faults) {
-    line += formatted(" %7s", n_shown == 0 ? "chi max" : "others");
-    units += formatted(" %7s", "window");
-  }
-  line += formatted(" %8s %8s", "chi>0.8", "max slip");
-  units += formatted(" %8s %8s", plane_strain ? "m2/m" : "m2", "mm");
-  if (wide) line += formatted(" %5s %8s", "iter", "time"), units += formatted(" %5s %8s", "", "ms");
+  const auto add = [&](int width, const std::string& heading, const char* unit) {
+    line += formatted(" %*.*s", width, width, heading.c_str());
+    units += formatted(" %*s", width, unit);
+  };
+  for (std::size_t r = 0; r < n_regions; ++r)
+    add(7, regions ? "dp " + scene.pressure[r].region : "dp min", "bar");
+  if (wide) add(6, "stick", "nodes");
+  add(5, "slip", "nodes");
+  add(4, "open", "");
+  for (std::size_t f = 0; f < n_shown; ++f) add(7, "chi " + scene.faults[f].name, "window");
+  if (n_shown < n_faults) add(7, n_shown == 0 ? "chi max" : "others", "window");
+  add(8, "chi>0.8", plane_strain ? "m2/m" : "m2");
+  add(8, "max slip", "mm");
+  if (wide) add(5, "iter", ""), add(8, "time", "ms");
   return line + "\n" + units + "\n";
 }
 
