@@ -14,11 +14,14 @@
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/process_memory.h"
 #include "simulator/common/stopwatch.h"
+#include "simulator/documents/json_document.h"
 #include "simulator/linalg/blas_start.h"
 #include "simulator/loading/field_keeper.h"
 #include "simulator/loading/run_case.h"
 #include "simulator/result/result_bytes.h"
 #include "simulator/result_files/field_bytes.h"
+#include "simulator/scene/identity.h"
+#include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/simulation.h"
 
 namespace faultsim {
