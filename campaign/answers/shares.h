@@ -18,7 +18,8 @@ enum class Held {
 };
 
 /// Conditions on cases as columns of a query over them, one for each: what is known of them, with
-/// what the cells do not resolve and the campaign's measured errors left open (report/verdict.h).
+/// what the cells do not resolve and the campaign's measured errors left open
+/// (expression/expression.h).
 class VerdictColumns {
  public:
   /// Throws InputError where a condition cannot be read.

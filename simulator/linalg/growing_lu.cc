@@ -33,7 +33,8 @@ template <typename Scalar>
 auto GrowingLu<Scalar>::border(int m) -> Block {
   const int old = size();
   const int n = old + m;
-  if (factors_.rows() < n) {  // by doubling: it grows often
+  if (factors_.rows() < n) {              // by doubling: it grows often
+    if (old == 0) factors_.resize(0, 0);  // nothing to keep: not two of them at once
     Matrix larger(2 * n, 2 * n);
     larger.topLeftCorner(old, old) = factors_.topLeftCorner(old, old);
     factors_.swap(larger);

@@ -17,7 +17,8 @@ struct LoadStep {
   double time = 0;  ///< s.
 };
 
-/// Step 0, then every step of every stage at its end time: step_ends() of scene/load_times.h.
+/// Step 0, then every step of every stage at its end time: step_ends() of
+/// initial_state/load_times.h.
 std::vector<LoadStep> load_steps(const Scene& scene);
 /// True for step 0 and for the last step of each stage. @pre i < steps.size().
 bool is_stage_end(const std::vector<LoadStep>& steps, std::size_t i);
