@@ -38,7 +38,7 @@ double share_of_levels(const std::vector<double>& y, const std::vector<double>& 
 std::vector<std::uint32_t> levels_of(const std::vector<double>& x) {
   std::vector<double> values = x;
   std::ranges::sort(values);
-  values.erase(std::ranges::unique(values).begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
   std::vector<std::uint32_t> levels;
   levels.reserve(x.size());
   for (const double one : x) {

@@ -86,7 +86,9 @@ void add_running(Program& program, int argc, char** argv) {
   command
       ->add_option_function<std::string>(
           "--progress",
-          [&a](const std::string& word) { a.progress = *named<ProgressDisplay::Style>(word); },
+          [&run_arguments = a](const std::string& word) {
+            run_arguments.progress = *named<ProgressDisplay::Style>(word);
+          },
           "none, lines or bar; default: bar on a terminal")
       ->check(CLI::IsMember({"none", "lines", "bar"}));
   command->add_option("--simulator", a.simulator,

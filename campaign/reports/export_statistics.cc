@@ -245,7 +245,8 @@ std::string export_dakota(const Store& store, const CampaignInfo& campaign,
   std::vector<Factor> factors = survey(store, campaign, query);
   std::erase_if(factors, [](const Factor& one) { return one.n_values == 0; });
   // Dakota orders its variables by type.
-  std::ranges::stable_partition(factors, [](const Factor& one) { return !one.parameter.is_text; });
+  std::stable_partition(factors.begin(), factors.end(),
+                        [](const Factor& one) { return !one.parameter.is_text; });
   TableOutput output(request.target);
   std::string line = "%eval_id interface";
   for (const Factor& one : factors) {

@@ -19,12 +19,13 @@ void Store::forget_result(std::int64_t case_id) {
   Connection& db = *connection_;
   if (!db.find<int>("SELECT 1 FROM case_metrics WHERE case_id = ?", case_id)) return;
   // First what is found by rows that go later; by case alone where the key begins with it.
+  const char* const of_faults =
+      "fault_metrics WHERE stage_id IN (SELECT id FROM names) AND fault_id IN"
+      " (SELECT fault_id FROM chi_history WHERE case_id = ?1) AND";
   for (const char* rows :
-       {"fault_metrics WHERE stage_id IN (SELECT id FROM names) AND fault_id IN"
-        " (SELECT fault_id FROM chi_history WHERE case_id = ?1) AND",
-        "stage_metrics WHERE stage_id IN (SELECT id FROM names) AND", "slip_events WHERE",
-        "episodes WHERE", "fault_onsets WHERE", "case_surfaces WHERE", "chi_history WHERE",
-        "load_steps WHERE", "result_checksums WHERE", "case_metrics WHERE"}) {
+       {of_faults, "stage_metrics WHERE stage_id IN (SELECT id FROM names) AND",
+        "slip_events WHERE", "episodes WHERE", "fault_onsets WHERE", "case_surfaces WHERE",
+        "chi_history WHERE", "load_steps WHERE", "result_checksums WHERE", "case_metrics WHERE"}) {
     db.run(concat("DELETE FROM ", rows, " case_id = ?1"), case_id);
   }
   // Fields that campaigns kept are those of the result that goes.

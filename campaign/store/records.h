@@ -367,7 +367,7 @@ struct NightRecord {
   long n_compared = 0, n_regressed = 0;
   int exit_code = 0;
   std::optional<std::string> blessed;  ///< the reason, where the night became the baseline.
-  std::vector<NightCaseRecord> cases;
+  std::vector<NightCaseRecord> cases{};
 };
 
 // Trades of accuracy for speed; columns: schemas/store_7.sql

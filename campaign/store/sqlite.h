@@ -132,7 +132,7 @@ class Statement {
     if constexpr (sizeof...(Columns) == 0) {
       return columns;
     } else {
-      return std::make_from_tuple<Row>(std::move(columns));
+      return std::apply([](Columns&... each) { return Row{std::move(each)...}; }, columns);
     }
   }
   template <typename Value>

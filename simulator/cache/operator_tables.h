@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <ranges>
 #include <string>
 
 #include "simulator/cache/table_archive.h"
@@ -37,9 +36,6 @@ void observation_tables(Observed& rows, const Archive& archive) {
 
 template <typename Geometry, typename Archive>
 void geometry_tables(Geometry& geometry, const Archive& archive) {
-  const auto each = [](auto& of, auto list) {
-    return of | std::views::transform(list) | std::views::join;
-  };
   auto& nodes = geometry.nodes;
   node_tables(nodes, archive);
   archive.rows("/nodes/numbers", nodes,
@@ -53,11 +49,11 @@ void geometry_tables(Geometry& geometry, const Archive& archive) {
                {"", "index of the jump in normal, strike, dip; -1 removed"});
   archive.rows("/nodes/n_pairs", nodes, [](auto& node) { return length(node.pressure); },
                {"", "number of pressure pairs of the node"});
-  archive.rows("/pairs/regions", each(nodes, &OperatorNode::pressure),
+  archive.rows("/pairs/regions", items_of(nodes, &OperatorNode::pressure),
                [](auto& pair) { return cells(pair.minus_region, pair.plus_region); },
                {"", "pressure region minus, plus; -1 none"});
   archive.rows(
-      "/pairs/numbers", each(nodes, &OperatorNode::pressure),
+      "/pairs/numbers", items_of(nodes, &OperatorNode::pressure),
       [](auto& pair) { return cells(pair.minus_fraction, pair.plus_fraction, pair.weight); },
       {"1", "fraction minus, fraction plus, weight"});
   auto& faults = geometry.faults;
@@ -68,11 +64,11 @@ void geometry_tables(Geometry& geometry, const Archive& archive) {
                               length(fault.points, fault.node_of_point), length(fault.faces));
                },
                {"", "first node, nodes, points, faces"});
-  archive.rows("/faults/points", each(faults, &OperatorFault::points), std::identity(),
+  archive.rows("/faults/points", items_of(faults, &OperatorFault::points), std::identity(),
                {"m", "points of all faults"});
-  archive.rows("/faults/node_of_point", each(faults, &OperatorFault::node_of_point),
+  archive.rows("/faults/node_of_point", items_of(faults, &OperatorFault::node_of_point),
                std::identity(), {"", "node at the point; -1 not split"});
-  archive.rows("/faults/faces", each(faults, &OperatorFault::faces), std::identity(),
+  archive.rows("/faults/faces", items_of(faults, &OperatorFault::faces), std::identity(),
                {"", "points at the faces' corners"});
   archive.list("/locked_positions", geometry.locked_positions, std::identity(),
                {"m", "nodes held closed by a boundary"});

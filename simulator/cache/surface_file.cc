@@ -43,7 +43,7 @@ void basis_tables(const FaultOperator& centre, auto& basis, auto& accuracy,
     accuracy.n_operators = n_nodes;
     accuracy.n_basis = k;
   }
-  archive.rows("/surface/nodes", basis.nodes | std::views::join, std::identity(),
+  archive.rows("/surface/nodes", items_of(basis.nodes, std::identity()), std::identity(),
                {"", "multi-indices of the grid"});
   accuracy_table(accuracy, archive);
   const Eigen::Index m = n_nodes - 1;

@@ -53,6 +53,16 @@ Length<List...> length(List&... lists) {
   return {{lists...}};
 }
 
+/// Pointers to the items of a list that each of some has, in order.
+template <typename Outer, typename List>
+auto items_of(Outer& outer, List list) {
+  std::vector<decltype(std::invoke(list, *std::begin(outer)).data())> all;
+  for (auto& one : outer) {
+    for (auto& item : std::invoke(list, one)) all.push_back(&item);
+  }
+  return all;
+}
+
 namespace table {
 
 template <typename Row>
@@ -86,11 +96,21 @@ constexpr auto first_cell(const Row& row) {
   }
 }
 
+/// An item, or what a pointer to one points to.
+template <typename Item>
+Item& target(Item& item) {
+  return item;
+}
+template <typename Item>
+Item& target(Item* item) {
+  return *item;
+}
+
 /// What of the rows of some items is stored.
 template <typename Items, typename Row>
 struct Shape {
-  using Cells =
-      std::remove_cvref_t<std::invoke_result_t<Row, decltype(*std::begin(std::declval<Items&>()))>>;
+  using Cells = std::remove_cvref_t<
+      std::invoke_result_t<Row, decltype(target(*std::begin(std::declval<Items&>())))>>;
   using Cell = decltype(first_cell(std::declval<Cells>()));
   using Value = std::conditional_t<std::is_same_v<Cell, std::string>, std::string,
                                    std::conditional_t<std::is_floating_point_v<Cell>, double, int>>;
@@ -159,7 +179,7 @@ class TableReader {
         cell = *next++;
       }
     };
-    for (auto&& item : items) table::for_each_cell(std::invoke(row, item), take);
+    for (auto&& item : items) table::for_each_cell(std::invoke(row, table::target(item)), take);
     if (next != values.end()) disagree(path);
   }
 
@@ -207,7 +227,7 @@ class TableGatherer {
     using Value = typename table::Shape<Items, Row>::Value;
     std::vector<Value> values;
     const auto put = [&](const auto& cell) { values.push_back(static_cast<Value>(cell)); };
-    for (auto&& item : items) table::for_each_cell(std::invoke(row, item), put);
+    for (auto&& item : items) table::for_each_cell(std::invoke(row, table::target(item)), put);
     std::vector<hsize_t> sizes = {values.size() / n_columns};
     if (n_columns > 1) sizes.push_back(n_columns);
     sink_(path, values, sizes, about);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
-#include <ranges>
+#include <span>
 
 #include "simulator/common/text.h"
 
@@ -70,8 +70,10 @@ std::string suggest(const std::string& word, const std::vector<std::string>& can
   if (!near.empty()) return "did you mean \"" + near + "\"?";
   if (candidates.empty()) return "remove it";
   constexpr std::size_t kMostListed = 60;
-  const std::string text = (candidates.size() == 1 ? "write \"" : "write one of \"") +
-                           joined(candidates | std::views::take(kMostListed), "\", \"") + "\"";
+  const std::string text =
+      (candidates.size() == 1 ? "write \"" : "write one of \"") +
+      joined(std::span(candidates).first(std::min(candidates.size(), kMostListed)), "\", \"") +
+      "\"";
   return candidates.size() > kMostListed ? text + ", ..." : text;
 }
 

@@ -16,6 +16,12 @@ bool contains(const Range& range, const Value& value, Projection projection = {}
   return std::ranges::find(range, value, std::move(projection)) != std::ranges::end(range);
 }
 
+/// Drops what equals the item before it.
+template <typename List, typename Same = std::equal_to<>>
+void drop_repeated(List& list, Same same = {}) {
+  list.erase(std::unique(list.begin(), list.end(), same), list.end());
+}
+
 /// f of every item, in order; f may be a pointer to a member.
 template <typename Range, typename F>
 auto mapped(Range&& range, F f) {

@@ -40,7 +40,7 @@ class ShareMonitor final : public Monitor {
 
 }  // namespace
 
-CreepLadder::CreepLadder(std::shared_ptr<const BulkProblem> shared,
+CreepLadder::CreepLadder(const std::shared_ptr<const BulkProblem>& shared,
                          const std::vector<double>& durations, MaxwellScheme scheme,
                          const RunContext& context) {
   const BulkProblem& problem = *shared;

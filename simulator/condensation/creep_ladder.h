@@ -27,9 +27,10 @@ struct BulkState {
 class CreepLadder {
  public:
   /// Factorises the elastic bulk and one per duration (s, > 0), which may be none. @pre
-  /// problem.viscosity is set.
-  CreepLadder(std::shared_ptr<const BulkProblem> problem, const std::vector<double>& durations,
-              MaxwellScheme scheme, const RunContext& context);
+  /// shared->viscosity is set.
+  CreepLadder(const std::shared_ptr<const BulkProblem>& shared,
+              const std::vector<double>& durations, MaxwellScheme scheme,
+              const RunContext& context);
 
   int n_rungs() const { return static_cast<int>(rungs_.size()); }  ///< with the elastic one.
   double duration(int rung) const { return rungs_.at(rung).duration; }
@@ -42,8 +43,8 @@ class CreepLadder {
     Eigen::VectorXd traction;  ///< locked traction, n_dofs, Pa.
     Eigen::VectorXd forward;   ///< half of the back-solve, for advance().
   };
-  /// @param force  that the step adds, n_unknowns, N; empty = none.
-  History history(int rung, const BulkState& state, const Eigen::VectorXd& force = {});
+  /// @param added  force of the step itself, n_unknowns, N; empty = none.
+  History history(int rung, const BulkState& state, const Eigen::VectorXd& added = {});
 
   /// Moves the bulk over a step of the rung, given the increments of the load factors and jumps.
   void advance(int rung, History history, const std::vector<double>& load_increments,

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
 #include "simulator/elasticity/element.h"
 
 namespace faultsim {
@@ -24,7 +25,7 @@ CellUnknowns cell_unknowns(const Mesh& mesh, const DofMap& dofs) {
       }
     }
     std::ranges::sort(list);
-    list.erase(std::ranges::unique(list).begin(), list.end());
+    drop_repeated(list);
     result.unknowns.insert(result.unknowns.end(), list.begin(), list.end());
     result.begin.push_back(static_cast<long>(result.unknowns.size()));
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
 #include "simulator/elasticity/elasticity.h"
 #include "simulator/elasticity/rigid_modes.h"
 
@@ -69,7 +70,7 @@ void DofMapBuilder::prescribe(const std::vector<DisplacementCondition>& conditio
       for (int node : face.nodes) nodes.push_back(root(node));
     }
     std::ranges::sort(nodes);
-    nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+    drop_repeated(nodes);
     for (int node : nodes) {
       const Eigen::Vector3d value = condition.translation + condition.gradient * mesh_.nodes[node];
       for (std::size_t c = 0; c < 3; ++c) {

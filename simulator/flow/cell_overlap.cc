@@ -74,7 +74,8 @@ double clipped_volume(Tetrahedron t, const Planes& planes, int plane) {
   for (; plane < Planes::kPlanes; ++plane) {
     const auto inside = [&](const Eigen::Vector3d& p) { return planes.inside(plane, p); };
     const auto kept =
-        std::ranges::partition(t, [&](const auto& p) { return inside(p) > 0; }).begin() - t.begin();
+        std::partition(t.begin(), t.end(), [&](const auto& p) { return inside(p) > 0; }) -
+        t.begin();
     if (kept == 0) return 0;
     if (kept == 4) continue;
     const auto cut = [&](int in, int out) -> Eigen::Vector3d {

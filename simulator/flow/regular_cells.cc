@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "simulator/common/ranges.h"
 #include "simulator/common/text.h"
 
 namespace faultsim {
@@ -40,7 +41,7 @@ CellReach regular_cells(const std::vector<int>& line, const std::vector<double>&
   std::vector<Centre> centres;
   for (std::size_t i = 0; i < at.size(); ++i) centres.emplace_back(line[i], at[i]);
   std::ranges::sort(centres);
-  centres.erase(std::ranges::unique(centres).begin(), centres.end());
+  drop_repeated(centres);
   const Gaps gaps = gaps_of(centres);
   if (gaps.smallest == centres.size())
     return {{}, "has a single value, " + metres(at.front()) + ", and no neighbour beside it", 0};

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
 #include "simulator/linalg/nested_dissection.h"
 
 namespace faultsim {
@@ -41,7 +42,7 @@ GroupGraph group_graph(const cholmod_sparse& a, const std::vector<int>& group, i
   graph.begin.push_back(0);
   for (auto& list : below) {
     std::ranges::sort(list);
-    list.erase(std::ranges::unique(list).begin(), list.end());
+    drop_repeated(list);
     graph.rows.insert(graph.rows.end(), list.begin(), list.end());
     graph.begin.push_back(static_cast<Index>(graph.rows.size()));
   }

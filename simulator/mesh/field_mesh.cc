@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "simulator/common/ranges.h"
 #include "simulator/mesh/grading.h"
 #include "simulator/mesh/mesh_spec.h"
 #include "simulator/mesh/shear.h"
@@ -121,7 +122,7 @@ std::vector<double> must_lines(const FieldMeshSpec& spec) {
   std::vector<double> z = special_z(spec);
   std::ranges::sort(z);
   const auto same = [](double a, double b) { return b - a < kSameLine; };
-  z.erase(std::ranges::unique(z, same).begin(), z.end());
+  drop_repeated(z, same);
   return z;
 }
 

@@ -176,9 +176,8 @@ void condense(const FieldCells& cells, Eigen::MatrixXd stress, int n_threads,
   if (cells.bulk != nullptr) {
     std::vector numbers = mapped(cells.block.cells, &InfluenceCell::cell);
     history.cell_forces = cells.bulk->bulk(0).dilatations(numbers);
-    history.stress = std::move(stress);
   }
-  const Eigen::MatrixXd& of = cells.bulk != nullptr ? history.stress : stress;
+  const Eigen::MatrixXd& of = cells.bulk != nullptr ? (history.stress = std::move(stress)) : stress;
   if (cells.block.traction.view().size() > 0) {
     history.locked = locked_change(cells.block, of, n_threads);
     history.observed = cells.block.observed * of;

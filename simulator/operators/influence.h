@@ -28,7 +28,7 @@ struct PreparedInfluence {
 /// The influence of the regions' cells: from the cache, beside the operator, if it is there and
 /// sound; else the bulk is factorised, and operator and block are cached. Throws ResourceError as
 /// prepare_operator() does. @pre no creep in the plan.
-PreparedInfluence prepare_influence(const SceneBulk& scene, const std::vector<int>& regions,
+PreparedInfluence prepare_influence(const SceneBulk& of, const std::vector<int>& regions,
                                     const CachePolicy& cache, const RunContext& context = {},
                                     bool keep_bulk = false);
 

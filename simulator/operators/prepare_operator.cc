@@ -66,7 +66,7 @@ PreparedOperator prepare_operator(const SceneBulk& of, const CachePolicy& cache,
   }
   require_memory(plan, available_memory());
   context.progress(0.0, "meshing");
-  const std::shared_ptr<const BulkProblem> problem = of.problem();
+  const std::shared_ptr<const BulkProblem>& problem = of.problem();
   context.stop.throw_if_requested("meshing");
   auto bulk = std::make_shared<CreepLadder>(problem, plan.creep.rungs, scene.numerics.creep_scheme,
                                             context);

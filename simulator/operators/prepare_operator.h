@@ -66,7 +66,7 @@ struct PreparedOperator {
   std::string remark;  ///< "damaged operator file moved aside", "not kept", ...
 };
 /// @param keep_bulk  wanted with its factor, so never read from the cache.
-PreparedOperator prepare_operator(const SceneBulk& scene, const CachePolicy& cache, bool keep_bulk,
+PreparedOperator prepare_operator(const SceneBulk& of, const CachePolicy& cache, bool keep_bulk,
                                   const RunContext& context = {});
 inline PreparedOperator prepare_operator(const Scene& scene, const Plan& plan,
                                          const CachePolicy& cache, bool keep_bulk,

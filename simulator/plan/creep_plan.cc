@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
 #include "simulator/common/text.h"
 #include "simulator/initial_state/load_times.h"
 
@@ -19,7 +20,7 @@ std::vector<double> distinct(std::vector<double> lengths) {
   const auto is_same = [](double longer, double length) {
     return longer - length <= kSameLength * longer;
   };
-  lengths.erase(std::ranges::unique(lengths, is_same).begin(), lengths.end());
+  drop_repeated(lengths, is_same);
   return lengths;
 }
 

@@ -196,7 +196,8 @@ void check_mixed(SceneReader& reader, const Scene& scene, std::size_t fault) {
   check_lowest(
       reader, scene, fault, "rule", places,
       [&](const auto& place, double time) -> FaultPressureAt {
-        const auto [depth, side] = place;
+        const double depth = place.first;
+        const DepthSide side = place.second;
         const double initial =
             initial_state(scene, -depth, side).pressure + by_rule(depth, side, [&](std::size_t b) {
               return own_pressure_excess(scene, b, -depth, side);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "simulator/common/dates.h"
+#include "simulator/common/ranges.h"
 #include "simulator/common/table_reader.h"
 #include "simulator/flow/report_choice.h"
 
@@ -98,7 +99,7 @@ class FaultTable {
       for (const double value : values) to.change.push_back(value - values.front());
     }
     std::ranges::sort(strikes);
-    strikes.erase(std::ranges::unique(strikes).begin(), strikes.end());
+    drop_repeated(strikes);
     if (has_strike()) to.strike = strikes;
     if (rows_.size() != to.dip.size() * strikes.size()) {
       return reader_.refuse_at(

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
-#include <ranges>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,7 +37,8 @@ constexpr FieldKey kFields[] = {
 /// The dates of some reports, for a message.
 std::string dates_of(const FlowField& field) {
   constexpr std::size_t kMost = 5;
-  std::string text = joined(field.date | std::views::take(kMost), ", ", date_text);
+  std::string text =
+      joined(std::span(field.date).first(std::min(field.date.size(), kMost)), ", ", date_text);
   if (field.date.size() > kMost) text += ", ..., " + date_text(field.date.back());
   return text;
 }

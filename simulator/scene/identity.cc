@@ -60,13 +60,6 @@ struct Canonical {
     }
     text += ']';
   }
-  template <HasKeys Struct>
-  void write(const Struct& one) {
-    ObjectText object(text);
-    for_each_key(one, adder(object));
-    object.close();
-  }
-
   /// Adds the members that it is called with to an object.
   static auto adder(ObjectText& object) {
     return [&object](const SceneKey& key, const auto& member) {
@@ -81,6 +74,13 @@ struct Canonical {
         Canonical{to}.write(member);
       });
     };
+  }
+
+  template <HasKeys Struct>
+  void write(const Struct& one) {
+    ObjectText object(text);
+    for_each_key(one, adder(object));
+    object.close();
   }
 };
 
