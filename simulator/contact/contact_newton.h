@@ -8,6 +8,7 @@
 #include "simulator/contact/search_record.h"
 #include "simulator/contact/slip_residual.h"
 #include "simulator/contact/tangent_solver.h"
+#include "simulator/contact/watched_rows.h"
 
 namespace faultsim {
 
@@ -25,7 +26,7 @@ class ContactNewton {
   SearchHistory solve(SubStep& sub_step, int patience = 0);
 
  private:
-  /// The natural residual over all nodes, in units of their tolerances.
+  /// The natural residual over the nodes watched, in units of their tolerances.
   struct Residual {
     double square_sum = 0, worst = 0;
     bool within_tolerance() const { return worst <= 1; }
@@ -39,6 +40,8 @@ class ContactNewton {
   Residual natural_residual(const SubStep& sub_step) const {
     return natural_residual(sub_step, sub_step.traction, sub_step.increment);
   }
+  bool may_watch(bool line_search) const;
+  void look_at_all(SubStep& sub_step);
   void prescribe(const SubStep& sub_step);
   void linearise(const SubStep& sub_step);
   void collect_node(const SubStep& sub_step, int k);
@@ -54,11 +57,12 @@ class ContactNewton {
   StopToken stop_;
   std::vector<TangentUnknown> unknowns_;
   TangentSolver tangent_;
+  WatchedRows watched_;
   SeenSets seen_;
   std::vector<char> was_open_;
   Eigen::VectorXd direction_, response_, right_, trial_increment_, trial_traction_;
   bool set_stands_ = false;  ///< the active set did not change in the last iteration.
-  bool fresh_ = false;       ///< tractions are those of the increment, to round-off.
+  bool fresh_ = false;       ///< tractions of all are those of the increment, to round-off.
   int krylov_ = -1;          ///< of the last linear solve: SearchIteration::krylov.
 };
 

@@ -41,12 +41,13 @@ double ContactProblem::stiffness(const ContactNode& node, int component) const {
   return compliance.diagonal(node.dof[component]) * node.inverse_area[component];
 }
 
-void ContactProblem::subtract_product(const Eigen::VectorXd& jump, Eigen::VectorXd& traction) {
+void ContactProblem::subtract_product(const Eigen::VectorXd& jump, std::span<const RowRange> rows,
+                                      Eigen::VectorXd& traction) {
   columns_.clear();
   for (int j = 0; j < n_dofs(); ++j) {
     if (jump[j] != 0) columns_.push_back(j);
   }
-  compliance.subtract_product(columns_, jump, inverse_area, traction);
+  compliance.subtract_product(columns_, jump, inverse_area, rows, traction);
 }
 
 bool loses_cohesion(const ContactProblem& problem, const SubStep& sub_step, int k) {

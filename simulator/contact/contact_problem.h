@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <span>
 #include <vector>
 
 #include "simulator/contact/contact_state.h"
@@ -30,8 +31,15 @@ class ContactProblem {
   /// H_dd / A, Pa/m, of component c of a node. Read on demand: columns of nodes at rest stay
   /// unread.
   double stiffness(const ContactNode& node, int component) const;
-  /// traction −= A⁻¹ H jump over the columns with jump ≠ 0. Cost 2 n_dofs per such column.
-  void subtract_product(const Eigen::VectorXd& jump, Eigen::VectorXd& traction);
+  /// traction −= A⁻¹ H jump over the columns with jump ≠ 0, in the rows given. Cost 2 rows per such
+  /// column.
+  void subtract_product(const Eigen::VectorXd& jump, std::span<const RowRange> rows,
+                        Eigen::VectorXd& traction);
+  /// In all rows.
+  void subtract_product(const Eigen::VectorXd& jump, Eigen::VectorXd& traction) {
+    const RowRange all{0, n_dofs()};
+    subtract_product(jump, {&all, 1}, traction);
+  }
 
   const FaultOperator& op;
   const Compliance& compliance;  ///< op's H.

@@ -2,19 +2,19 @@
 
 #include <algorithm>
 
-#include "simulator/linalg/blas.h"
+#include "simulator/linalg/column_sum.h"
 
 namespace faultsim {
 
 MovingBlock::MovingBlock(const ContactProblem& problem)
     : problem_(problem),
-      row_(static_cast<std::size_t>(problem.n_nodes()), -1),
+      row_(static_cast<std::size_t>(problem.n_dofs()), -1),
       column_(static_cast<std::size_t>(problem.n_dofs()), -1) {}
 
 void MovingBlock::clear() {
-  for (const int node : nodes_) row_[node] = -1;
+  for (const int dof : row_dof_)
+    if (dof >= 0) row_[dof] = -1;
   for (const int dof : dofs_) column_[dof] = -1;
-  nodes_.clear();
   dofs_.clear();
   row_dof_.clear();
 }
@@ -38,18 +38,19 @@ void MovingBlock::gather(int column, int dof) {
   }
 }
 
-/// New rows of the columns that were there, read by symmetry from the columns of their own dofs: a
-/// few of them, and again from dofs next to each other.
+/// New rows of the columns that were there, by symmetry: of a dof that has a column now, what that
+/// column holds; else from the dof's own column of H, again and again from dofs next to each other.
 void MovingBlock::add_rows(int first_row, int n_columns) {
-  std::vector<const double*> rows;
-  for (std::size_t r = static_cast<std::size_t>(first_row); r < row_dof_.size(); ++r) {
-    rows.push_back(row_dof_[r] < 0 ? nullptr : problem_.compliance.column(row_dof_[r]).data());
-  }
-  for (int c = 0; c < n_columns; ++c) {
-    const int dof = dofs_[c];
-    float* g = g_.col(c).data() + first_row;
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      g[r] = rows[r] == nullptr ? 0 : static_cast<float>(rows[r][dof]);
+  for (int r = first_row; r < n_rows(); ++r) {
+    const int dof = row_dof_[r];
+    if (dof < 0) {
+      for (int c = 0; c < n_columns; ++c) g_(r, c) = 0;
+    } else if (column_[dof] >= 0) {
+      const float* g = entries(column_[dof]);
+      for (int c = 0; c < n_columns; ++c) g_(r, c) = g[row_[dofs_[c]]];
+    } else {
+      const double* h = problem_.compliance.column(dof).data();
+      for (int c = 0; c < n_columns; ++c) g_(r, c) = static_cast<float>(h[dofs_[c]]);
     }
   }
 }
@@ -60,21 +61,30 @@ void MovingBlock::add(const std::vector<int>& nodes, const std::vector<int>& dof
   reserve(old_rows + kRows * static_cast<int>(nodes.size()),
           old_columns + static_cast<int>(dofs.size()));
   for (const int k : nodes) {
-    row_[k] = n_rows();
-    nodes_.push_back(k);
     const ContactNode& node = problem_.nodes[k];
-    row_dof_.insert(row_dof_.end(), node.dof.begin(), node.dof.end());
+    for (const int dof : node.dof) {
+      if (dof >= 0) row_[dof] = n_rows();
+      row_dof_.push_back(dof);
+    }
   }
-  add_rows(old_rows, old_columns);
   for (const int dof : dofs) {
     column_[dof] = n_columns();
     dofs_.push_back(dof);
     gather(n_columns() - 1, dof);
   }
+  add_rows(old_rows, old_columns);
 }
 
-void MovingBlock::multiply(const Eigen::VectorXf& x, Eigen::VectorXf& z) const {
-  multiply_leading(g_, n_rows(), n_columns(), x, z);
+void MovingBlock::multiply(const Eigen::VectorXf& x, Eigen::VectorXf& z) {
+  columns_.clear();
+  factors_.clear();
+  for (int c = 0; c < n_columns(); ++c) {
+    if (x[c] == 0) continue;
+    columns_.push_back(entries(c));
+    factors_.push_back(x[c]);
+  }
+  z.setZero(n_rows());
+  add_columns<float>(columns_, factors_, 0, {z.data(), static_cast<std::size_t>(n_rows())});
 }
 
 }  // namespace faultsim

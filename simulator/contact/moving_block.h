@@ -18,10 +18,10 @@ class MovingBlock {
   explicit MovingBlock(const ContactProblem& problem);
 
   void clear();
-  int n_rows() const { return kRows * static_cast<int>(nodes_.size()); }
+  int n_rows() const { return static_cast<int>(row_dof_.size()); }
   int n_columns() const { return static_cast<int>(dofs_.size()); }
   /// The first row of a node; −1: it is not in the block.
-  int row(int node) const { return row_[node]; }
+  int row(int node) const { return row_[problem_.nodes[node].dof[0]]; }
   /// The column of a dof; −1: it is not in the block.
   int column(int dof) const { return column_[dof]; }
   /// n_rows() entries.
@@ -29,8 +29,8 @@ class MovingBlock {
 
   /// Adds nodes and dofs to what is in the block. @pre none of them is in it, and no twins.
   void add(const std::vector<int>& nodes, const std::vector<int>& dofs);
-  /// z := G x. x: n_columns(), z: n_rows().
-  void multiply(const Eigen::VectorXf& x, Eigen::VectorXf& z) const;
+  /// z := G x. x: n_columns(), z: n_rows(). Columns whose entry of x is 0 are not read.
+  void multiply(const Eigen::VectorXf& x, Eigen::VectorXf& z);
 
  private:
   void reserve(int rows, int columns);
@@ -38,10 +38,12 @@ class MovingBlock {
   void add_rows(int first_row, int n_columns);
 
   const ContactProblem& problem_;
-  std::vector<int> nodes_, dofs_;  ///< of rows (three each) and columns, in the order they came.
-  std::vector<int> row_dof_;       ///< dof of each row, −1 where the node has none.
-  std::vector<int> row_, column_;  ///< per node and dof of the operator.
-  Eigen::MatrixXf g_;              ///< of which n_rows() x n_columns() are in use.
+  std::vector<int> row_dof_;           ///< dof of each row, −1 where the node has none.
+  std::vector<int> dofs_;              ///< of columns, in the order they came.
+  std::vector<int> row_, column_;      ///< per dof of the operator.
+  Eigen::MatrixXf g_;                  ///< of which n_rows() x n_columns() are in use.
+  std::vector<const float*> columns_;  ///< that a product needs, and what of each.
+  std::vector<float> factors_;
 };
 
 }  // namespace faultsim

@@ -17,20 +17,12 @@ constexpr int kSpare = 2;             // times as large as needed: block and fac
 }  // namespace
 
 TangentSolver::TangentSolver(const ContactProblem& problem)
-    : problem_(problem), block_(problem), place_(static_cast<std::size_t>(problem.n_dofs()), -1) {}
+    : problem_(problem), block_(problem), preconditioner_(problem.n_dofs(), block_) {}
 
 void TangentSolver::clear() {
   direct_dofs_.clear();
-  forget_factor();
+  preconditioner_.clear();
   block_.clear();
-}
-
-void TangentSolver::forget_factor() {
-  for (const TangentUnknown& unknown : factored_) place_[unknown.dof] = -1;
-  factored_.clear();
-  rows_.clear();
-  factor_.clear();
-  tired_ = false;
 }
 
 /// T by its definition, in double precision.
@@ -81,9 +73,9 @@ TangentReport TangentSolver::solve_exactly(const std::vector<TangentUnknown>& un
 
 /// Has the block hold all that the unknowns need of H.
 void TangentSolver::cover(const std::vector<TangentUnknown>& unknowns) {
-  // The factor grows by what the block holds, so they go together.
+  // The preconditioner reads the block, so they go together.
   if (block_.n_columns() > kSpare * static_cast<int>(unknowns.size())) {
-    forget_factor();
+    preconditioner_.clear();
     block_.clear();
   }
   std::vector<int> nodes, dofs;
@@ -94,47 +86,6 @@ void TangentSolver::cover(const std::vector<TangentUnknown>& unknowns) {
     if (block_.column(unknown.dof) < 0) dofs.push_back(unknown.dof);
   }
   if (!dofs.empty()) block_.add(nodes, dofs);
-}
-
-/// Entries of a column of T over the rows of the factor from first_row on, by their equations when
-/// they joined. The shear dofs of a node join together, so they follow each other.
-void TangentSolver::fill(GrowingLu<float>::Block& block, int column, int first_row) const {
-  const TangentUnknown& v = factored_[column];
-  const float* g = block_.entries(block_.column(v.dof));
-  const int n = static_cast<int>(rows_.size());
-  for (int u = first_row; u < n; ++u) {
-    const Row& row = rows_[u];
-    const float* at = g + row.first;
-    block(u, column) = row.weight[0] * at[0] + row.weight[1] * at[1] + row.weight[2] * at[2];
-  }
-  if (v.component == 0) return;
-  for (int u = std::max(first_row, column - 2); u < std::min(column + 3, n); ++u) {
-    const TangentUnknown& row = factored_[u];
-    if (row.node != v.node) continue;
-    block(u, column) += static_cast<float>(row.own[v.component - 1]);
-  }
-}
-
-/// Has the factor hold all unknowns. @returns false when it cannot be.
-bool TangentSolver::grow_factor(const std::vector<TangentUnknown>& unknowns) {
-  if (tired_ || factor_.size() > kSpare * static_cast<int>(unknowns.size())) forget_factor();
-  const int old = factor_.size();
-  for (const TangentUnknown& unknown : unknowns) {
-    int& place = place_[unknown.dof];
-    if (place >= 0) continue;
-    place = static_cast<int>(factored_.size());
-    factored_.push_back(unknown);
-    rows_.push_back({block_.row(unknown.node),
-                     {static_cast<float>(unknown.weight[0]), static_cast<float>(unknown.weight[1]),
-                      static_cast<float>(unknown.weight[2])}});
-  }
-  const int n = static_cast<int>(factored_.size());
-  if (n == old) return true;
-  GrowingLu<float>::Block block = factor_.border(n - old);
-  for (int v = 0; v < n; ++v) fill(block, v, v < old ? old : 0);
-  if (factor_.grow(n - old)) return true;
-  forget_factor();
-  return false;
 }
 
 void TangentSolver::multiply(const std::vector<TangentUnknown>& unknowns, const Eigen::VectorXd& x,
@@ -161,27 +112,16 @@ void TangentSolver::multiply(const std::vector<TangentUnknown>& unknowns, const 
   }
 }
 
-/// What rests is passed over: its rows see nothing, and what the factor makes of it is dropped.
-void TangentSolver::precondition(const std::vector<TangentUnknown>& unknowns,
-                                 const Eigen::VectorXd& x, Eigen::VectorXd& y) {
-  factor_side_.setZero(factor_.size());
-  for (std::size_t u = 0; u < unknowns.size(); ++u) {
-    factor_side_[place_[unknowns[u].dof]] = static_cast<float>(x[u]);
-  }
-  factor_.solve(factor_side_);
-  y.resize(x.size());
-  for (std::size_t u = 0; u < unknowns.size(); ++u) {
-    y[u] = factor_side_[place_[unknowns[u].dof]];
-  }
-}
-
 bool TangentSolver::iterate(const std::vector<TangentUnknown>& unknowns,
                             const Eigen::VectorXd& right, double residual,
                             Eigen::VectorXd& solution, int& iterations) {
-  if (!grow_factor(unknowns)) return false;
+  // It has an unknown for two of these.
+  if (tired_ || 2 * preconditioner_.size() > kSpare * static_cast<int>(unknowns.size()))
+    preconditioner_.clear();
+  if (!preconditioner_.cover(unknowns)) return false;
   const GmresReport report =
       gmres([&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { multiply(unknowns, x, y); },
-            [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { precondition(unknowns, x, y); },
+            [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { preconditioner_.apply(x, y); },
             right, residual / right.norm(), kMost, solution);
   iterations += report.iterations;
   tired_ = report.iterations > kMany;
@@ -194,13 +134,11 @@ TangentReport TangentSolver::solve(const std::vector<TangentUnknown>& unknowns,
   if (residual > 0 && unknowns.size() > kDirect) {
     cover(unknowns);
     TangentReport report{true, 0};
-    const bool had_factor = factor_.size() > 0;
+    const bool was_there = preconditioner_.size() > 0;
     if (iterate(unknowns, right, residual, solution, report.krylov)) return report;
-    if (had_factor) {
-      forget_factor();
-      if (iterate(unknowns, right, residual, solution, report.krylov)) return report;
-    }
-    forget_factor();
+    preconditioner_.clear();
+    if (was_there && iterate(unknowns, right, residual, solution, report.krylov)) return report;
+    preconditioner_.clear();
   }
   return solve_exactly(unknowns, right, solution);
 }

@@ -45,11 +45,13 @@ CoupledContact::CoupledContact(const TwoSidedBulk& bulk, const ContactLaws& laws
   const Eigen::VectorXd diagonal = bulk.stiffness().diagonal();
   for (int k = 0; k < static_cast<int>(bulk.fault_nodes().size()); ++k) {
     const TwoSidedNode& two = bulk.fault_nodes()[k];
-    if (!two.may_jump[0]) continue;
+    if (!two.may_jump(0)) continue;
     Node node{k, all_held_.node_begin[k], 1, {-1, -1}, two.area, 0, {}};
     for (int c = 0; c < 2; ++c) {
-      if (two.may_jump[1 + c]) node.shear[c] = node.first + node.n_dofs++;
+      if (two.may_jump(1 + c)) node.shear[c] = node.first + node.n_dofs++;
     }
+    for (int c = 0; c < 3; ++c)
+      if (two.may_jump(c)) dof_.push_back(two.jump[c]);
     inverse_area_.segment(node.first, node.n_dofs).setConstant(1 / two.area);
     // H_dd/A of the commutator's approximation, (CᵀKC)_dd A/(CᵀC)²: any positive number would do.
     for (int c = 0; c < 3; ++c) {
@@ -237,32 +239,35 @@ CoupledStepReport CoupledContact::advance(const CoupledLoad& load, ContactState&
   FAULTSIM_DEMAND(load.factors.size() == loads_.size() && load.background.size() == n_dofs() &&
                       state.jump.size() == n_dofs() && u.size() == bulk_.n_displacements(),
                   load.factors.size(), " factors, ", load.background.size(), " tractions");
-  Eigen::VectorXd force = all_held_.constraint * load.background;
+  ContactState before = state;
+  before.jump = state.jump(dof_);
+  before.traction = state.traction(dof_);
+  Eigen::VectorXd force = all_held_.constraint * load.background(dof_);
   for (int k = 0; k < static_cast<int>(loads_.size()); ++k) force += load.factors[k] * loads_[k];
   CoupledStepReport report;
   Iterate at;
   at.u = u;
   at.increment = Eigen::VectorXd::Zero(n_dofs());
-  at.traction = state.traction;
+  at.traction = before.traction;
   for (const FaultState s : state.state) {
     at.state.push_back(s == FaultState::open ? s : FaultState::stick);
   }
   const double level = std::max(
       {load.background.lpNorm<Eigen::Infinity>(), state.traction.lpNorm<Eigen::Infinity>(), 1.0});
-  iterate(force, level, state, at, report);
+  iterate(force, level, before, at, report);
   if (!report.converged) return report;
   for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {
     const Node& node = nodes_[k];  // what is held moves by what the last linear step left over
-    if (at.state[k] != FaultState::open) at.increment[node.first] = -state.jump[node.first];
+    if (at.state[k] != FaultState::open) at.increment[node.first] = -before.jump[node.first];
     if (at.state[k] == FaultState::stick) set_shear(node.shear, {0, 0}, at.increment);
     const FrictionState after =
-        node.law.after(state_of(node, state, k), shear_of(node.shear, at.increment),
+        node.law.after(state_of(node, before, k), shear_of(node.shear, at.increment),
                        at.state[k] == FaultState::open);
     state.slip_path[k] = after.path;
     state.cohesion_lost[k] = !after.cohesive;
   }
-  state.jump += at.increment;
-  state.traction = at.traction;
+  state.jump(dof_) += at.increment;
+  state.traction(dof_) = at.traction;
   state.state = at.state;
   u = at.u;
   return report;

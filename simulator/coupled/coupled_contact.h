@@ -40,9 +40,10 @@ struct CoupledStepReport {
 ///   K u + C (t' − t'_b) = Σ_k c_k f_k,      g = A⁻¹ Cᵀ u,
 ///
 /// with (3)–(5) at the nodes, each linear step solved only as far as krylov_tolerance. Fault dofs
-/// are those of the operator that condensation makes of the same bulk: one per component that may
-/// jump, node by node. A node that is to slip is linearised at the slip that its augmented traction
-/// y = t'_T + r Δg_T promises, (|y| − τ_L)/r along y, which stays finite when slip begins.
+/// are those of the operator that condensation makes of the same bulk; within, those of a node
+/// follow those of the node before. A node that is to slip is linearised at the slip that its
+/// augmented traction y = t'_T + r Δg_T promises, (|y| − τ_L)/r along y, which stays finite when
+/// slip begins.
 ///
 /// A load step is taken at once; instabilities are not followed: a step without solution next to
 /// the last one does not converge.
@@ -81,6 +82,7 @@ class CoupledContact {
   SaddlePoint all_held_;  ///< its C is that of all fault dofs.
   std::vector<Node> nodes_;
   Eigen::VectorXd inverse_area_;  ///< per fault dof.
+  std::vector<int> dof_;          ///< of the operator, per fault dof.
   std::vector<Eigen::VectorXd> loads_;
 };
 

@@ -24,11 +24,11 @@ class BlockWriter {
  public:
   void add(const TwoSidedNode& node, const NodeLinearisation& how) {
     begin.push_back(n_multipliers);
-    if (how.state == FaultState::open || !node.may_jump[0]) return;
+    if (how.state == FaultState::open || !node.may_jump(0)) return;
     const int normal = n_multipliers;
     const int n_held = how.state == FaultState::stick ? 3 : 1;
     for (int c = 0; c < n_held; ++c) {
-      if (!node.may_jump[c]) continue;
+      if (!node.may_jump(c)) continue;
       for (const auto& [dof, value] : column_of(node, c)) {
         constraint.emplace_back(dof, n_multipliers, value);
       }
@@ -44,11 +44,11 @@ class BlockWriter {
  private:
   void add_slip(const TwoSidedNode& node, const SlipTangent& tangent, int normal) {
     for (int a = 0; a < 2; ++a) {
-      if (!node.may_jump[1 + a]) continue;
+      if (!node.may_jump(1 + a)) continue;
       for (const auto& [row, row_value] : column_of(node, 1 + a)) {
         friction.emplace_back(row, normal, -row_value * tangent.d_normal[a]);
         for (int b = 0; b < 2; ++b) {
-          if (!node.may_jump[1 + b]) continue;
+          if (!node.may_jump(1 + b)) continue;
           for (const auto& [column, value] : column_of(node, 1 + b)) {
             slip.emplace_back(row, column, row_value * tangent.d_slip(a, b) / node.area * value);
           }

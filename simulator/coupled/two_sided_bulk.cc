@@ -110,7 +110,7 @@ void TwoSidedBulk::place_fault_nodes(const DofMap& condensed) {
       two.frame << node.normal, node.strike, node.dip;
       two.area = node.area;
       for (int c = 0; c < 3; ++c) {
-        two.may_jump[c] = condensed.jump_dof(f, k, c) >= 0;
+        two.jump[c] = condensed.jump_dof(f, k, c);
         const int minus = dof(node.minus_node, c), plus = dof(node.plus_node, c);
         two.minus[c] = prescribed_[minus] ? -1 : minus;
         two.plus[c] = prescribed_[plus] ? -1 : plus;

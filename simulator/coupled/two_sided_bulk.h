@@ -14,7 +14,9 @@ struct TwoSidedNode {
   std::array<int, 3> minus, plus;  ///< displacement dofs of x, y, z; −1 = prescribed.
   Eigen::Matrix3d frame;           ///< R_k: columns n, strike, dip.
   double area;                     ///< A_k, m2.
-  std::array<bool, 3> may_jump;    ///< per n, strike, dip; all false on a node that stays closed.
+  std::array<int, 3> jump;         ///< n, strike and dip as dofs of the operator that condensation
+                                   ///< makes; −1 = stays closed.
+  bool may_jump(int c) const { return jump[c] >= 0; }
 };
 
 /// Pieces of rock that only faults hold: K is singular then.

@@ -26,6 +26,7 @@ class DofMapBuilder {
   void pin();
   void fix_y();
   void place_jumps();
+  void number_jumps();
   void number_bulk();
   void write_terms();
   void share_prescribed();
@@ -173,7 +174,7 @@ void DofMapBuilder::fix_y() {
 
 void DofMapBuilder::place_jumps() {
   constexpr double kParallel = 1 - 1e-9;
-  int n_jump = 0;
+  constexpr int kJumps = 0;  // until they are numbered
   for (Pair& pair : pairs_) {
     bool locked = false;
     std::array<bool, 3> removed = {false, false, false};
@@ -194,11 +195,28 @@ void DofMapBuilder::place_jumps() {
       map_.locked_.push_back(mesh_.nodes[pair.node->minus_node]);
     }
     for (std::size_t c = 0; c < 3; ++c) {
-      if (!locked && !removed[c]) pair.jump[c] = n_jump++;
+      if (!locked && !removed[c]) pair.jump[c] = kJumps;
     }
-    map_.jump_.push_back(pair.jump);
   }
-  map_.n_jump_ = n_jump;
+  number_jumps();
+}
+
+/// Fault by fault from the top down, so that at one depth those along strike follow each other:
+/// faults slip in bands along strike, and what is asked of their H is long parts of few columns.
+void DofMapBuilder::number_jumps() {
+  std::vector<Pair*> order;
+  for (std::size_t f = 0; f < mesh_.faults.size(); ++f) {
+    const auto first = std::ssize(order);
+    for (std::size_t k = 0; k < mesh_.faults[f].nodes.size(); ++k)
+      order.push_back(&pairs_[static_cast<std::size_t>(map_.jump_begin_[f]) + k]);
+    std::stable_sort(order.begin() + first, order.end(), [&](const Pair* a, const Pair* b) {
+      return mesh_.nodes[a->node->minus_node].z() > mesh_.nodes[b->node->minus_node].z();
+    });
+  }
+  for (Pair* pair : order)
+    for (int& jump : pair->jump)
+      if (jump >= 0) jump = map_.n_jump_++;
+  for (const Pair& pair : pairs_) map_.jump_.push_back(pair.jump);
 }
 
 void DofMapBuilder::number_bulk() {

@@ -61,13 +61,4 @@ Eigen::MatrixXd lower_times_transpose(const Eigen::MatrixXd& lower) {
   return product;
 }
 
-void multiply_leading(const Eigen::MatrixXf& m, int rows, int columns, const Eigen::VectorXf& x,
-                      Eigen::VectorXf& y) {
-  FAULTSIM_DEMAND(rows <= m.rows() && columns <= m.cols() && x.size() == columns, rows, " x ",
-                  columns, " of ", m.rows(), " x ", m.cols(), ", x ", x.size());
-  y.setZero(rows);
-  cblas_sgemv(CblasColMajor, CblasNoTrans, rows, columns, 1, m.data(), static_cast<int>(m.rows()),
-              x.data(), 1, 0, y.data(), 1);
-}
-
 }  // namespace faultsim

@@ -23,8 +23,4 @@ void set_blas_threads(int n_threads);
 /// @param lower  L (n x n); what stands above the diagonal must be zero.
 Eigen::MatrixXd lower_times_transpose(const Eigen::MatrixXd& lower);
 
-/// y := M x over the leading rows x columns of M, column-major; x has as many entries as columns.
-void multiply_leading(const Eigen::MatrixXf& m, int rows, int columns, const Eigen::VectorXf& x,
-                      Eigen::VectorXf& y);
-
 }  // namespace faultsim

@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
+#include "simulator/linalg/column_sum.h"
 
 namespace faultsim {
 
@@ -13,17 +15,17 @@ DenseCompliance::DenseCompliance(StoredMatrix h) : h_(std::move(h)) {
 
 void Compliance::subtract_product(std::span<const int> active, const Eigen::VectorXd& jump,
                                   const Eigen::VectorXd& inverse_area,
-                                  Eigen::VectorXd& traction) const {
-  Eigen::VectorXd product = Eigen::VectorXd::Zero(size());
-  // Four columns at a time: the sum is bound by loads and stores of the product.
-  std::size_t i = 0;
-  for (; i + 4 <= active.size(); i += 4) {
-    const int a = active[i], b = active[i + 1], c = active[i + 2], d = active[i + 3];
-    product.noalias() +=
-        column(a) * jump[a] + column(b) * jump[b] + column(c) * jump[c] + column(d) * jump[d];
+                                  std::span<const RowRange> rows, Eigen::VectorXd& traction) const {
+  const auto columns = mapped(active, [this](int j) { return column(j).data(); });
+  const auto factors = mapped(active, [&](int j) { return jump[j]; });
+  Eigen::VectorXd product;
+  for (const RowRange& part : rows) {
+    product.setZero(part.n);
+    add_columns<double>(columns, factors, static_cast<std::size_t>(part.first),
+                        {product.data(), static_cast<std::size_t>(part.n)});
+    traction.segment(part.first, part.n).array() -=
+        product.array() * inverse_area.segment(part.first, part.n).array();
   }
-  for (; i < active.size(); ++i) product.noalias() += column(active[i]) * jump[active[i]];
-  traction.array() -= product.array() * inverse_area.array();
 }
 
 }  // namespace faultsim

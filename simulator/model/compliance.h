@@ -8,6 +8,11 @@
 
 namespace faultsim {
 
+/// Rows first … first + n − 1.
+struct RowRange {
+  int first, n;
+};
+
 /// The condensed stiffness H (docs/model.md, 8): column j holds the forces on all jumps for a unit
 /// jump j with all others locked. n x n, symmetric, N/m (plane strain: per metre of thickness). All
 /// that contact asks of the rock; whether columns are stored or solved for is not its business.
@@ -21,10 +26,10 @@ class Compliance {
   virtual Column column(int j) const = 0;
   virtual double diagonal(int j) const = 0;
   /// traction −= A⁻¹ Σ_j H e_j g_j over the jumps listed, summed in their order; the others count
-  /// as 0.
-  virtual void subtract_product(std::span<const int> active, const Eigen::VectorXd& jump,
-                                const Eigen::VectorXd& inverse_area,
-                                Eigen::VectorXd& traction) const;
+  /// as 0. In the rows given only, with the bits that they have when all are.
+  void subtract_product(std::span<const int> active, const Eigen::VectorXd& jump,
+                        const Eigen::VectorXd& inverse_area, std::span<const RowRange> rows,
+                        Eigen::VectorXd& traction) const;
   /// All of H as a matrix, n x n, for files, diagnosis and tests: null where it cannot be had.
   virtual const double* matrix_entries() const { return nullptr; }
 };

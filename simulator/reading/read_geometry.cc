@@ -41,7 +41,9 @@ void check_neighbours(SceneReader& reader, const std::string& at, const Block& b
 
 std::vector<Block> read_blocks(SceneReader& reader) {
   const auto check = [&](const std::string& at, Block& block, const std::vector<Block>& west) {
-    if (block.mesh_offset == block.offset) block.mesh_offset.reset();  // it says nothing
+    // Equal, it says nothing, unless a surface goes on to other offsets.
+    if (block.mesh_offset == block.offset && !reader.has("/numerics/surface"))
+      block.mesh_offset.reset();
     if (block.to <= block.from) {
       reader.problem(at + "to", "block \"" + block.name + "\" ends west of where it begins",
                      "write \"to\" larger than \"from\" (x grows eastwards)");

@@ -1,15 +1,16 @@
-// What a case costs whose faults slide in 3D, on an operator that is there: the reference field
-// with its east block displaced by 200 m, over friction angles of a normal distribution, and what
-// the solver did for it.  Usage: sliding_cases TIER SAMPLES [--cache FOLDER] [--figures FILE]
-// [/pointer=value ...] Prints a line per case and the means; --figures writes all that faults did
-// in every load step, all digits, for a comparison of two programs (results/contact-speed/make).
+// What cases cost on an operator that is there, one after the other as they are asked for, so that
+// two programs can be asked in turn (results/contact-speed/make).
+//
+//   sliding_cases SCENE [--cache FOLDER] [/pointer=value ...]
+//
+// reads a line per case, an object of further values: {"/friction/friction_angle": "24 deg"}; all
+// are of one family. Answers with a line each: processor time, what the solver did for it, and all
+// that faults did in every load step, all digits.
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
-#include <iomanip>
+#include <iostream>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "simulator/linalg/blas_start.h"
@@ -23,24 +24,18 @@ namespace {
 using Changes = std::vector<std::pair<std::string, std::string>>;
 
 struct Request {
-  std::string tier;
-  int samples = 0;
-  std::string cache, figures;
+  std::string scene, cache;
   Changes changes;
 };
 
 Request read_request(int argc, char** argv) {
-  if (argc < 3)
-    throw std::runtime_error(
-        "sliding_cases TIER SAMPLES [--cache FOLDER] [--figures FILE] [/pointer=value]");
-  Request request{argv[1], std::atoi(argv[2]), "", "", {}};
-  for (int i = 3; i < argc; ++i) {
+  if (argc < 2) throw std::runtime_error("sliding_cases SCENE [--cache FOLDER] [/pointer=value]");
+  Request request{argv[1], "", {}};
+  for (int i = 2; i < argc; ++i) {
     const std::string word = argv[i];
     const auto equals = word.find('=');
     if (word == "--cache" && i + 1 < argc) {
       request.cache = argv[++i];
-    } else if (word == "--figures" && i + 1 < argc) {
-      request.figures = argv[++i];
     } else if (word.front() == '/' && equals != std::string::npos) {
       request.changes.emplace_back(word.substr(0, equals), word.substr(equals + 1));
     } else {
@@ -48,16 +43,6 @@ Request read_request(int argc, char** argv) {
     }
   }
   return request;
-}
-
-/// The x with Φ(x) = p, by bisection.
-double normal_quantile(double p) {
-  double low = -10, high = 10;
-  for (int i = 0; i < 200; ++i) {
-    const double x = 0.5 * (low + high);
-    (0.5 * std::erfc(-x / std::sqrt(2.0)) < p ? low : high) = x;
-  }
-  return low;
 }
 
 /// What the solver did, summed over all tries.
@@ -75,34 +60,28 @@ struct Work {
   }
 };
 
-void write_figures(std::ostream& out, double angle, const CaseResult& result) {
-  out << std::setprecision(17);
+/// Of a fault in a load step: what must be equal, then what may differ by rounding.
+nlohmann::json figures(const CaseResult& result) {
+  nlohmann::json rows = nlohmann::json::array();
   for (const StepResult& step : result.steps) {
-    for (std::size_t f = 0; f < step.faults.size(); ++f) {
-      const FaultMetrics& m = step.faults[f];
-      out << angle << ' ' << step.step << ' ' << f << ' ' << to_string(step.outcome) << ' '
-          << m.activated << ' ' << step.n_slip << ' ' << step.n_open << ' ' << m.chi_bar << ' '
-          << m.chi_max << ' ' << m.max_slip << ' ' << m.mean_slip << ' ' << m.activated_length
-          << ' ' << m.activated_area << ' ' << m.moment << ' ' << m.moment_step << '\n';
+    for (const FaultMetrics& m : step.faults) {
+      rows.push_back({{to_string(step.outcome), m.activated, step.n_slip, step.n_open},
+                      {m.chi_bar, m.chi_max, m.max_slip, m.mean_slip, m.activated_length,
+                       m.activated_area, m.moment, m.moment_step}});
     }
   }
+  return rows;
 }
 
 void run(const Request& request) {
-  Changes changes = {{"/tier", request.tier}, {"/geometry/blocks/1/offset", "200 m"}};
-  changes.insert(changes.end(), request.changes.begin(), request.changes.end());
   SilentMonitor monitor;
   PreparedOperator prepared;
-  std::ofstream figures;
-  if (!request.figures.empty()) figures.open(request.figures);
-  double seconds = 0;
-  Work all;
-  std::printf("angle, deg  CPU, ms  Newton  factored  GMRES  slipping  largest slip, m  outcome\n");
-  for (int i = 0; i < request.samples; ++i) {
-    const double angle = 25 + 4 * normal_quantile((i + 0.5) / request.samples);
-    changes.resize(2 + request.changes.size());
-    changes.emplace_back("/friction/friction_angle", std::to_string(angle) + " deg");
-    const PlannedScene scene = planned("rotliegend.json", changes);
+  for (std::string line; std::getline(std::cin, line);) {
+    Changes changes = request.changes;
+    const nlohmann::json wanted = nlohmann::json::parse(line);
+    for (const auto& [pointer, value] : wanted.items())
+      changes.emplace_back(pointer, value.is_string() ? value.get<std::string>() : value.dump());
+    const PlannedScene scene = planned(request.scene, changes);
     if (!prepared.op)
       prepared =
           prepare_operator(scene.scene, scene.plan, {.folder = request.cache}, false, monitor);
@@ -112,23 +91,15 @@ void run(const Request& request) {
     const double start = cpu_seconds();
     const CaseResult result = run_case(scene.scene, prepared, monitor, probe);
     const double taken = cpu_seconds() - start;
-    double slip = 0;
-    for (const FaultStageMetrics& fault : result.whole.faults)
-      slip = std::max(slip, fault.max_slip);
-    std::printf("%10.3f  %7.1f  %6d  %8d  %5d  %8d  %15.4f  %s\n", angle, 1e3 * taken,
-                work.iterations, work.factored, work.krylov, work.most_slipping, slip,
-                to_string(result.outcome));
-    std::fflush(stdout);
-    if (figures.is_open()) write_figures(figures, angle, result);
-    seconds += taken;
-    all.iterations += work.iterations;
-    all.factored += work.factored;
-    all.krylov += work.krylov;
-    all.most_slipping = std::max(all.most_slipping, work.most_slipping);
+    std::cout << nlohmann::json{{"ms", 1e3 * taken},
+                                {"newton", work.iterations},
+                                {"factored", work.factored},
+                                {"gmres", work.krylov},
+                                {"slipping", work.most_slipping},
+                                {"outcome", to_string(result.outcome)},
+                                {"figures", figures(result)}}
+              << std::endl;
   }
-  const double n = request.samples;
-  std::printf("mean        %7.1f  %6.1f  %8.1f  %5.1f  %8d\n", 1e3 * seconds / n,
-              all.iterations / n, all.factored / n, all.krylov / n, all.most_slipping);
 }
 
 }  // namespace

@@ -143,7 +143,8 @@ TEST(TangentSolver, SolvesAsFarAsAskedWhateverJoinedAndLeft) {
   }
 }
 
-TEST(TangentSolver, NeedsTwoIterationsAtMostWithTheFactorOfTheSameTangent) {
+// Slip across its direction is what the factor leaves to GMRES.
+TEST(TangentSolver, NeedsFewIterationsWithTheFactorOfTheSameTangent) {
   Tangents given(3);
   ContactProblem problem(given.op, given.laws);
   TangentSolver solver(problem);
@@ -151,7 +152,7 @@ TEST(TangentSolver, NeedsTwoIterationsAtMostWithTheFactorOfTheSameTangent) {
   const std::vector<TangentUnknown> all = given.unknowns(range(0, 200));
   const auto half = static_cast<std::ptrdiff_t>(all.size() / 2);
   solve(given, solver, {all.begin(), all.begin() + half}, 1e-4);
-  EXPECT_LE(solve(given, solver, all, 1e-4).krylov, 2);
+  EXPECT_LE(solve(given, solver, all, 1e-4).krylov, 10);
 }
 
 TEST(TangentSolver, ForgetsAllWhenItIsCleared) {

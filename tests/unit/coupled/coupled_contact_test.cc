@@ -131,7 +131,7 @@ TEST(CoupledContact, SaysSoWhenItDoesNotConverge) {
   const CoupledExample example;
   const int n = example.stick.n_multipliers();
   int n_nodes = 0;
-  for (const TwoSidedNode& node : example.bulk.fault_nodes()) n_nodes += node.may_jump[0];
+  for (const TwoSidedNode& node : example.bulk.fault_nodes()) n_nodes += node.may_jump(0);
   const ContactLaws laws(n_nodes, friction(0.4, 0.4, 0));
   CoupledContactOptions options;
   options.max_newton_iterations = 1;

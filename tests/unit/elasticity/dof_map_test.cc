@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 #include "simulator/elasticity/elasticity.h"
@@ -43,6 +44,26 @@ TEST(DofMap, UnknownsAreMeansAndLocalJumps) {
     const int first = dofs.terms(node.minus_node, 0)[0].unknown;
     EXPECT_EQ(first, dofs.terms(node.plus_node, 0)[0].unknown);
     EXPECT_NEAR(mean.x(), x[first], 1e-14);
+  }
+}
+
+TEST(DofMap, JumpsOfOneDepthFollowEachOtherAlongStrike) {
+  const Mesh mesh = make_box(kCells, {4, 2, 3}, {test::through(2, kCells)});
+  const DofMap dofs(mesh, test::rollers({Side::y_min, Side::z_min, Side::x_min}), 0);
+  std::vector<int> node_of(static_cast<std::size_t>(dofs.n_jump()), -1);
+  for (std::size_t k = 0; k < mesh.faults[0].nodes.size(); ++k)
+    for (int c = 0; c < 3; ++c)
+      if (const int dof = dofs.jump_dof(0, static_cast<int>(k), c); dof >= 0)
+        node_of[static_cast<std::size_t>(dof)] = static_cast<int>(k);
+  const auto place = [&](int node) {
+    return mesh.nodes[static_cast<std::size_t>(
+        mesh.faults[0].nodes[static_cast<std::size_t>(node)].minus_node)];
+  };
+  ASSERT_EQ(std::ranges::count(node_of, -1), 0);
+  for (std::size_t dof = 1; dof < node_of.size(); ++dof) {
+    const Eigen::Vector3d step = place(node_of[dof]) - place(node_of[dof - 1]);
+    const double along = step.dot(mesh.faults[0].nodes[0].strike);
+    EXPECT_TRUE(step.z() < 0 || (step.z() == 0 && along >= 0 && along <= 1)) << step.transpose();
   }
 }
 

@@ -65,6 +65,13 @@ TEST(SurfaceCheck, NamesTheCornerThatCannotBeMeshed) {
                                           "20 deg"));
 }
 
+TEST(SurfaceCheck, TakesCellsLaidOutForTheScenesOwnOffset) {
+  json scene = field({over("/geometry/blocks/1/offset", "60 m", "124 m")});
+  scene["geometry"]["blocks"][1]["offset"] = "100 m";
+  scene["geometry"]["blocks"][1]["mesh_offset"] = "100 m";
+  EXPECT_THAT(problems_of(scene), IsEmpty());
+}
+
 TEST(SurfaceCheck, NamesARangeOverWhichCellsChange) {
   json scene = field({over("/geometry/blocks/1/offset", "60 m", "260 m")});
   scene["geometry"]["blocks"][1]["offset"] = "110 m";
