@@ -59,7 +59,7 @@ class DofMap {
   int n_bulk() const { return n_bulk_; }                ///< n_r: unknowns 0 … n_r−1
   int n_jump() const { return n_jump_; }                ///< n_g: unknowns n_r … n_r+n_g−1
   /// Jump unknown (0-based within g) of component c (n, strike, dip) of node k of fault f; −1 =
-  /// removed.
+  /// removed. Those of a node follow each other; nodes fault by fault, from the top down.
   int jump_dof(int fault, int node, int component) const {
     return jump_[jump_begin_[fault] + node][component];
   }
