@@ -8,9 +8,6 @@
 #include "campaign/expansion/submission.h"
 #include "campaign/rounds/answers_of.h"
 #include "campaign/rounds/staged_sample.h"
-#include "simulator/documents/json_document.h"
-#include "simulator/initial_state/initial_state.h"
-#include "simulator/reading/read_scene.h"
 #include "tests/campaign/made_up_result.h"
 #include "tests/unit/answers/renderings.h"
 
@@ -234,73 +231,6 @@ TEST_F(NextRound, LimitsAreFoundOnTheStore) {
   EXPECT_EQ(first.at("safe_case"), limit.before.position);
   EXPECT_EQ(first.at("parameters").at("offset"), "0 m");
   EXPECT_THAT(store.integrity_problems(), IsEmpty());
-}
-
-/// The band is from the safe end of the range to the last safe value, whose pressure at the datum
-/// of the region that changes by it is that of the beginning and the change.
-TEST_F(NextRound, ALimitHasItsBandAndItsPressure) {
-  Store store = Store::open_owner(folder_);
-  const std::int64_t id = store
-                              .submit(make_submission(expand(parse_campaign(
-                                  limit_spec().dump(), FAULTSIM_SOURCE_DIR "/test.json"))))
-                              .campaign;
-  const auto decide_all = [&] {
-    for (const WaitingFamily& family : store.waiting_families(id)) {
-      for (const std::int64_t one : family.cases) {
-        const CaseParameters values = store.stored_case(id, std::to_string(one)).parameters;
-        RunRecord run;
-        run.case_id = one;
-        run.status = RunStatus::completed;
-        const double offset = *values[0].si, change = *values[1].si;
-        run.result = testing::made_up_result(offset < 50 && change > -40e5 ? 0.9 : 0.2);
-        run.result->steps[9].pressure_change[1] = change;
-        store.record_runs(id, {run});
-      }
-    }
-  };
-  decide_all();
-  while (add_next_round(store, "sample")) decide_all();
-  const LimitTable table = make_limit_table(store, store.campaign(""));
-  const LimitRow &limited = table.rows.at(0), &never = table.rows.at(1);
-  const double safe = limited.cells[0]->finding.limit()->before.value;
-  EXPECT_NEAR(limited.width.value(), safe + 110, 1e-9);
-  EXPECT_FALSE(limited.is_open);
-  EXPECT_NEAR(never.width.value(), 100, 1e-9) << "all of the range";
-  EXPECT_TRUE(never.is_open);
-  EXPECT_FALSE(never.cells[0]->datum);
-  const faultsim::Scene scene = faultsim::read_scene(
-      faultsim::read_json_file(FAULTSIM_SOURCE_DIR "/docs/examples/scenes/rotliegend.json"));
-  const DatumPressure& datum = limited.cells[0]->datum.value();
-  EXPECT_EQ(datum.region, scene.pressure[1].region);
-  EXPECT_EQ(datum.depth, faultsim::region_top(scene, 1));
-  EXPECT_NEAR(datum.absolute, faultsim::initial_region_pressure(scene, 1, datum.depth) + 1e5 * safe,
-              1);
-}
-
-/// A fault that slides everywhere has no band: its last safe value is before the range.
-TEST_F(NextRound, WhatSlidesEverywhereHasNoBand) {
-  Store store = Store::open_owner(folder_);
-  const std::int64_t id = store
-                              .submit(make_submission(expand(parse_campaign(
-                                  limit_spec().dump(), FAULTSIM_SOURCE_DIR "/test.json"))))
-                              .campaign;
-  for (const WaitingFamily& family : store.waiting_families(id)) {
-    for (const std::int64_t one : family.cases) {
-      RunRecord run;
-      run.case_id = one;
-      run.status = RunStatus::completed;
-      run.result = testing::made_up_result(0.9);
-      store.record_runs(id, {run});
-    }
-  }
-  EXPECT_FALSE(add_next_round(store, "sample"));
-  const LimitTable table = make_limit_table(store, store.campaign(""));
-  ASSERT_EQ(table.rows.size(), 2u);
-  for (const LimitRow& row : table.rows) {
-    EXPECT_EQ(row.cells[0]->finding.verdict, LimitVerdict::unsafe_throughout);
-    EXPECT_EQ(row.width.value(), 0);
-    EXPECT_FALSE(row.is_open);
-  }
 }
 
 TEST_F(NextRound, ACampaignWithoutRoundsHasOne) {

@@ -1,0 +1,97 @@
+#include "campaign/answers/limit_table.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+
+#include "campaign/expansion/submission.h"
+#include "campaign/rounds/next_round.h"
+#include "simulator/documents/json_document.h"
+#include "simulator/initial_state/initial_state.h"
+#include "simulator/reading/read_scene.h"
+#include "tests/campaign/made_up_result.h"
+
+/// What stored results come to: bands, their order, pressures at the datum.
+namespace faultsweep {
+namespace {
+
+/// At three offsets, the highest storage pressure from −110 to −10 bar at which F1 does not slide.
+constexpr const char* kHighestStorage = R"({
+  "format": 1, "name": "storage", "base": "docs/examples/scenes/rotliegend.json",
+  "set": {"/tier": "screening"},
+  "design": {"kind": "grid", "parameters": {"offset": ["0 m", "100 m", "200 m"]}},
+  "limits": {"top": {
+    "parameter": {"pointers": ["/stages/2/pressure_between/1"],
+                  "from": "-110 bar", "to": "-10 bar", "count": 5},
+    "faults": ["F1"], "stage": "gas_storage", "tolerance": "2 bar"}}})";
+
+class StoredLimits : public ::testing::Test {
+ protected:
+  using Slides = std::function<bool(double offset, double change)>;  ///< m, Pa.
+
+  void SetUp() override {
+    std::string name = ::testing::TempDir() + "limits_XXXXXX";
+    folder_ = mkdtemp(name.data());
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  /// Of the campaign, run until nothing is left to search. The change acts in the second region.
+  LimitTable found(const Slides& slides) const {
+    Store store = Store::open_owner(folder_);
+    const CampaignSpec spec = parse_campaign(kHighestStorage, FAULTSIM_SOURCE_DIR "/test.json");
+    const std::int64_t id = store.submit(make_submission(expand(spec))).campaign;
+    do {
+      for (const WaitingFamily& family : store.waiting_families(id)) {
+        for (const std::int64_t one : family.cases) {
+          const CaseParameters values = store.stored_case(id, std::to_string(one)).parameters;
+          const double change = values[1].si.value();
+          RunRecord run;
+          run.case_id = one;
+          run.status = RunStatus::completed;
+          run.result = testing::made_up_result(slides(values[0].si.value(), change) ? 0.9 : 0.2);
+          run.result->steps[9].pressure_change[1] = change;
+          store.record_runs(id, {run});
+        }
+      }
+    } while (add_next_round(store, "storage"));
+    return make_limit_table(store, store.campaign(""));
+  }
+
+  std::filesystem::path folder_;
+};
+
+/// The band is from the safe end of the range to the last safe value, whose pressure at the datum
+/// of the region that changes by it is that of the beginning and the change.
+TEST_F(StoredLimits, ALimitHasItsBandAndItsPressure) {
+  const LimitTable table =
+      found([](double offset, double change) { return offset < 50 && change > -40e5; });
+  const LimitRow &limited = table.rows.at(0), &never = table.rows.at(1);
+  const double safe = limited.cells[0]->finding.limit()->before.value;
+  EXPECT_NEAR(limited.width.value(), safe + 110, 1e-9);
+  EXPECT_FALSE(limited.is_open);
+  EXPECT_NEAR(never.width.value(), 100, 1e-9) << "all of the range";
+  EXPECT_TRUE(never.is_open);
+  EXPECT_FALSE(never.cells[0]->datum);
+  const faultsim::Scene scene = faultsim::read_scene(
+      faultsim::read_json_file(FAULTSIM_SOURCE_DIR "/docs/examples/scenes/rotliegend.json"));
+  const DatumPressure& datum = limited.cells[0]->datum.value();
+  EXPECT_EQ(datum.region, scene.pressure[1].region);
+  EXPECT_EQ(datum.depth, faultsim::region_top(scene, 1));
+  EXPECT_NEAR(datum.absolute, faultsim::initial_region_pressure(scene, 1, datum.depth) + 1e5 * safe,
+              1);
+}
+
+/// A fault that slides everywhere has no band: its last safe value is before the range.
+TEST_F(StoredLimits, WhatSlidesEverywhereHasNoBand) {
+  const LimitTable table = found([](double, double) { return true; });
+  ASSERT_EQ(table.rows.size(), 3u);
+  for (const LimitRow& row : table.rows) {
+    EXPECT_EQ(row.cells[0]->finding.verdict, LimitVerdict::unsafe_throughout);
+    EXPECT_EQ(row.width.value(), 0);
+    EXPECT_FALSE(row.is_open);
+  }
+}
+
+}  // namespace
+}  // namespace faultsweep
