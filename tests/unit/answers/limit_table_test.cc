@@ -67,7 +67,9 @@ TEST_F(StoredLimits, ALimitHasItsBandAndItsPressure) {
   const LimitTable table =
       found([](double offset, double change) { return offset < 50 && change > -40e5; });
   const LimitRow &limited = table.rows.at(0), &never = table.rows.at(1);
-  const double safe = limited.cells[0]->finding.limit()->before.value;
+  const Crossing* limit = limited.cells[0]->finding.limit();
+  ASSERT_NE(limit, nullptr) << "the narrowest band is not first";
+  const double safe = limit->before.value;
   EXPECT_NEAR(limited.width.value(), safe + 110, 1e-9);
   EXPECT_FALSE(limited.is_open);
   EXPECT_NEAR(never.width.value(), 100, 1e-9) << "all of the range";
@@ -90,6 +92,29 @@ TEST_F(StoredLimits, WhatSlidesEverywhereHasNoBand) {
     EXPECT_EQ(row.cells[0]->finding.verdict, LimitVerdict::unsafe_throughout);
     EXPECT_EQ(row.width.value(), 0);
     EXPECT_FALSE(row.is_open);
+  }
+}
+
+/// Of faults that never slide, slide above a pressure and always slide the last has least room.
+TEST_F(StoredLimits, TheNarrowestBandComesFirst) {
+  const LimitTable table = found(
+      [](double offset, double change) { return offset > 150 || (offset > 50 && change > -40e5); });
+  ASSERT_EQ(table.rows.size(), 3u);
+  const struct {
+    const char* offset;
+    LimitVerdict verdict;
+    double least, most;  // of the width, bar: the limit is searched to 2 bar
+    bool is_open;
+  } expected[] = {{"200 m", LimitVerdict::unsafe_throughout, 0, 0, false},
+                  {"100 m", LimitVerdict::limit, 68, 70, false},
+                  {"0 m", LimitVerdict::safe_throughout, 100, 100, true}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const LimitRow& row = table.rows[k];
+    EXPECT_EQ(row.settings, std::vector<std::string>{expected[k].offset});
+    EXPECT_EQ(row.cells.at(0)->finding.verdict, expected[k].verdict);
+    EXPECT_GE(row.width.value(), expected[k].least - 1e-9);
+    EXPECT_LE(row.width.value(), expected[k].most + 1e-9);
+    EXPECT_EQ(row.is_open, expected[k].is_open);
   }
 }
 

@@ -57,13 +57,18 @@ TEST_F(AnswersTest, WhatIsNotKnownMayBeEither) {
   runs_[0].result.reset(), runs_[0].status = RunStatus::hung;
   runs_[39].result->outcome = faultsim::Outcome::unstable;
   record();
-  const Share share = probability({.condition = "F1.slides"}).shares.at(0);
+  const Probability p = probability({.condition = "F1.slides"});
+  const Share& share = p.shares.at(0);
   EXPECT_EQ(share.counts.n, 40);
   EXPECT_EQ(share.counts.n_unknown, 2);
   EXPECT_EQ(share.counts.n_holds, 19);
   EXPECT_EQ(share.counts.estimate(), 0.5);
   EXPECT_EQ(share.bounds.low, proportion_bounds(19, 40, 0.95).low);
   EXPECT_EQ(share.bounds.high, proportion_bounds(21, 40, 0.95).high);
+  // A bar stands at the share of what is known, and beside it are the numbers it is made of.
+  const faultsim::figure::IntervalChart::Row bar = chart_of(p).rows.at(0);
+  EXPECT_EQ(bar.value.value, 19.0 / 38);
+  EXPECT_EQ(bar.note, "19 of 38, 2 unknown");
 }
 
 TEST_F(AnswersTest, IsAskedForEachPartOfAParameter) {

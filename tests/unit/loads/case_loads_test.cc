@@ -51,5 +51,27 @@ TEST_F(FluidInAFault, CarriesItsBiotShareOfTheChange) {
   }
 }
 
+/// A fault begins to slide within a step: the pressures there and then are on the straight line
+/// between the ends of the step, also what cells beside it differ by from their regions.
+TEST(PressuresWithinAStep, AreOnTheStraightLineBetweenItsEnds) {
+  PressureChanges before{{-10e5, 4e5}, Eigen::Vector2d(-8e5, 0)};
+  PressureChanges after{{-30e5, 4e5}, Eigen::Vector2d(-16e5, 2e5)};
+  before.beside = Eigen::Matrix2d{{1e5, -2e5}, {0, 8e5}};
+  after.beside = Eigen::Matrix2d{{5e5, 2e5}, {-4e5, 0}};
+  const PressureChanges quarter = between(before, after, 0.25);
+  EXPECT_EQ(quarter.pressure_change, (std::vector<double>{-15e5, 4e5}));
+  EXPECT_EQ(quarter.fault_pressure_change, Eigen::Vector2d(-10e5, 0.5e5));
+  EXPECT_EQ(quarter.beside, (Eigen::Matrix2d{{2e5, -1e5}, {-1e5, 6e5}}));
+  EXPECT_EQ(between(before, after, 0).beside, before.beside);
+  EXPECT_EQ(between(before, after, 1).beside, after.beside);
+}
+
+TEST(PressuresWithinAStep, AreThoseOfRegionsWhereThereIsNoField) {
+  const PressureChanges before{{0}, Eigen::Vector2d(0, 0)}, after{{-8e5}, Eigen::Vector2d(0, -4e5)};
+  const PressureChanges half = between(before, after, 0.5);
+  EXPECT_EQ(half.pressure_change, std::vector<double>{-4e5});
+  EXPECT_EQ(half.beside.rows(), 0);
+}
+
 }  // namespace
 }  // namespace faultsim

@@ -320,5 +320,20 @@ TEST(CreepFamily, HoldsWhatTheOperatorsDependOn) {
   }
 }
 
+/// What nothing is made of does not creep: its viscosity asks for no other operators.
+TEST(CreepFamily, IsThatOfTheMaterialsThatAreUsed) {
+  const auto with_spare = [](const Changes& sets) {
+    Changes all = {{"/materials/spare", R"({"density": "2300 kg/m3", "youngs_modulus": "20 GPa",
+                                            "poisson_ratio": 0.25})"}};
+    all.insert(all.end(), sets.begin(), sets.end());
+    return planned(viscous(all)).family;
+  };
+  const std::string viscosity = "/materials/spare/viscosity", top = "/geometry/layers/0/material";
+  const std::string family = with_spare({});
+  EXPECT_EQ(with_spare({{viscosity, "1e18 Pa s"}}), family);
+  EXPECT_EQ(with_spare({{viscosity, "1e20 Pa s"}}), family);
+  EXPECT_NE(with_spare({{top, "spare"}, {viscosity, "1e18 Pa s"}}), with_spare({{top, "spare"}}));
+}
+
 }  // namespace
 }  // namespace faultsim

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <random>
 
 namespace faultsim {
 namespace {
@@ -62,6 +63,22 @@ TEST_P(ChangedSceneTest, LaterValuesWinWherePlacesMeet) {
 
 TEST_P(ChangedSceneTest, WordsInPlaceOfWordsAreRead) {
   for (const char* rule : {"mean", "max", "min", "max"}) change({{"/fault_pressure/rule", rule}});
+}
+
+/// What a list was read as must not be taken for what the next one has in the memory that it left:
+/// tables of up to six times, whose factors are numbers without a unit.
+TEST_P(ChangedSceneTest, ListsInPlaceOfListsAreRead) {
+  std::mt19937 random(1);
+  for (int n = 0; n < 200; ++n) {
+    nlohmann::json table;
+    const auto last = static_cast<int>(random() % 6);
+    for (int k = 0; k <= last; ++k) {
+      table["time"].push_back(std::to_string(k + 1) + " year");
+      table["factor"].push_back(0.001 * (n + k));
+    }
+    change({{"/fault_pressure",
+             {{"rule", "prescribed"}, {"prescribed", "-9 bar"}, {"table", table}}}});
+  }
 }
 
 TEST_P(ChangedSceneTest, AWrongValueIsSaidAndForgotten) {

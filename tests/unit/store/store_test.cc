@@ -227,6 +227,37 @@ TEST_F(StoreTest, TablesHaveTheValuesOfManyFaultsAndStages) {
   EXPECT_EQ(n_cases, 3);
 }
 
+/// A fault has the history that was recorded under its name, wherever its case lists it.
+TEST_F(StoreTest, AHistoryIsThatOfItsFault) {
+  Store store = Store::open_owner(folder_);
+  const std::int64_t campaign = store.submit(submission(3)).campaign;
+  RunRecord other_way = completed(2, 0.8);
+  faultsim::CaseResult& result = *other_way.result;
+  std::ranges::reverse(result.fault_names);
+  std::ranges::reverse(result.whole.faults);
+  for (faultsim::StageMetrics& stage : result.stages) std::ranges::reverse(stage.faults);
+  for (faultsim::StepResult& step : result.steps) std::ranges::reverse(step.faults);
+  store.record_runs(campaign, {completed(1, 0.4), other_way});
+  const std::vector<NamedId> faults = store.faults(campaign), stages = store.stages(campaign);
+  const auto id_of = [](const std::vector<NamedId>& all, const std::string& name) {
+    return std::ranges::find(all, name, &NamedId::name)->id;
+  };
+  Store::TableQuery query;
+  constexpr int kHalfWay = 6, kBeyond = 13;  // of 12 steps
+  for (const int step : {kHalfWay, kBeyond}) {
+    for (const char* fault : {"F1", "F2"}) {
+      query.columns.push_back(
+          {history_sql("chi_bar", id_of(faults, fault), id_of(stages, ""), step), {}});
+    }
+  }
+  // Half of the strength in F1, a quarter in F2; the third case waits.
+  const std::vector<std::vector<Cell>> expected = {
+      {0.2, 0.1, {}, {}}, {0.4, 0.2, {}, {}}, {{}, {}, {}, {}}};
+  std::vector<std::vector<Cell>> seen;
+  store.for_each_case(campaign, query, [&](const CaseRow& row) { seen.push_back(row.metrics); });
+  EXPECT_EQ(seen, expected);
+}
+
 TEST_F(StoreTest, RanksByAreaMomentMarginAndKeepsUnstableApart) {
   Store store = Store::open_owner(folder_);
   const std::int64_t campaign = store.submit(submission(6)).campaign;
