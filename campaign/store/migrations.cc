@@ -14,6 +14,7 @@
 #include "store_15_sql.h"
 #include "store_16_sql.h"
 #include "store_17_sql.h"
+#include "store_18_sql.h"
 #include "store_2_sql.h"
 #include "store_3_sql.h"
 #include "store_4_sql.h"
@@ -131,6 +132,7 @@ const std::vector<Migration>& store_migrations() {
         {15, "2026-11-24 failures of last attempts", faultsim::embedded::store_15_sql},
         {16, "2026-11-25 how exact results are", faultsim::embedded::store_16_sql},
         {17, "2026-11-25 errors of stability limits", faultsim::embedded::store_17_sql},
+        {18, "2026-11-26 cases on surfaces", faultsim::embedded::store_18_sql},
     };
     for (std::size_t k = 0;; ++k) {  // versions are without gaps from 1
       const int version = static_cast<int>(k) + 1;

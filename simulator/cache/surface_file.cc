@@ -27,6 +27,28 @@ void accuracy_table(auto& accuracy, const Archive& archive) {
   }
 }
 
+/// What cases said; nothing without.
+template <typename Archive>
+void cases_table(auto& accuracy, const Archive& archive) {
+  std::vector<double> numbers;
+  if (accuracy.chi_bar) {
+    numbers = {static_cast<double>(accuracy.n_cases), *accuracy.chi_tolerance, *accuracy.chi_bar,
+               *accuracy.largest_slip, static_cast<double>(*accuracy.flags_that_differ)};
+  }
+  archive.list(
+      "/surface/cases", numbers, std::identity(),
+      {"1", "cases, tolerance of χ̄, errors of χ̄ and of the largest slip, flags that differ"});
+  if constexpr (Archive::kReads) {
+    if (numbers.empty()) return;
+    if (numbers.size() != 5) throw StorageError("/surface/cases ends early");
+    accuracy.n_cases = static_cast<int>(numbers[0]);
+    accuracy.chi_tolerance = numbers[1];
+    accuracy.chi_bar = numbers[2];
+    accuracy.largest_slip = numbers[3];
+    accuracy.flags_that_differ = static_cast<int>(numbers[4]);
+  }
+}
+
 /// All but the centre's operator and the matrices of H.
 template <typename Archive>
 void basis_tables(const FaultOperator& centre, auto& basis, auto& accuracy,
@@ -46,6 +68,7 @@ void basis_tables(const FaultOperator& centre, auto& basis, auto& accuracy,
   archive.rows("/surface/nodes", items_of(basis.nodes, std::identity()), std::identity(),
                {"", "multi-indices of the grid"});
   accuracy_table(accuracy, archive);
+  cases_table(accuracy, archive);
   const Eigen::Index m = n_nodes - 1;
   archive.matrix("/surface/weights", basis.weights, k, m,
                  {"1", "K x nodes but the centre, column by column"});
@@ -70,7 +93,7 @@ void surface_tables(auto& centre, auto& basis, auto& accuracy, const Archive& ar
 }
 
 struct SurfaceContent {
-  static constexpr SealedFormat kFormat{.name = "operator surface", .version = 2};
+  static constexpr SealedFormat kFormat{.name = "operator surface", .version = 3};
   static constexpr const char* kName = "surface";
   static const std::string& fingerprint_of(const StoredSurface& surface) {
     return surface.basis->fingerprint;

@@ -89,9 +89,8 @@ class Warnings {
       Eigen::Vector3d way = node - asked;
       if (op_.geometry.plane_strain) way.y() = 0;
       if (way.norm() <= near) continue;
-      texts_.push_back("observation point " + points[i].name +
-                       " is taken at the nearest mesh node, " + place(node) + ", " +
-                       brief(way.norm()) + " m away");
+      texts_.push_back("observation point " + points[i].name + " is taken at the mesh node " +
+                       place(node) + ", " + brief(way.norm()) + " m away");
     }
   }
 
@@ -204,12 +203,18 @@ std::string surface_warning(const CaseSurface& surface) {
   const std::string stability =
       surface.stability ? ", the weakening at which faults jump by " + brief(*surface.stability)
                         : std::string();
+  const std::string cases =
+      surface.chi_bar
+          ? concat("; in ", surface.n_cases, " cases there χ̄ is off by up to ",
+                   brief(*surface.chi_bar), ", the largest slip by ", brief(*surface.largest_slip),
+                   " of the case's, and ", *surface.flags_that_differ, " flags differ")
+          : std::string();
   return concat("the operator is interpolated between ", surface.n_operators, " exact ones (",
                 surface.n_basis, " columns): at ", surface.n_checks,
                 " check points H is off by up to ", brief(surface.stiffness),
                 ", locked tractions by ", brief(surface.traction), ", slip without friction by ",
-                brief(surface.slip), stability,
-                " of themselves; faultsim run --exact takes the exact one");
+                brief(surface.slip), stability, " of themselves", cases,
+                "; faultsim run --exact takes the exact one");
 }
 
 }  // namespace faultsim

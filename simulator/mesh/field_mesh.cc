@@ -9,6 +9,7 @@
 #include "simulator/mesh/shear.h"
 #include "simulator/mesh/structured_grid.h"
 #include "simulator/scene/field_depths.h"
+#include "simulator/scene/offset_intervals.h"
 
 namespace faultsim {
 namespace {
@@ -17,7 +18,6 @@ constexpr double kMaxDip = 0.7854;       // 45 degrees, rounded up
 constexpr double kSameLine = 1e-6;       // m
 constexpr double kEdgeTolerance = 1e-5;  // m; ten times the distance below which lines are merged
 constexpr double kLeastRest = 0.1;       // of a cell; a thinner rest is spread over its neighbours
-constexpr double kLeastGap = 0.5, kLargestGap = 2.5;  // of a gap between lines that are moved
 constexpr int kEdgeCells = 2;  // cells of exactly sizes.dip on each side of a reservoir edge
 
 void check_sizes(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
@@ -101,20 +101,9 @@ std::vector<double> field_y(const FieldMeshSpec& spec) {
   return builder.build();
 }
 
-/// Depths that must be grid lines, z: layer tops, reservoir edges, tips of faults; in an order of
-/// their own, the same for all offsets.
+/// Depths that must be grid lines as z, in the order of line_depths().
 std::vector<double> special_z(const FieldMeshSpec& spec) {
-  std::vector<double> z = {-spec.depth, 0};
-  for (const Layer& layer : spec.layers) z.push_back(-layer.top_depth);
-  for (const Block& block : spec.blocks) {
-    const DepthInterval range = reservoir_range(spec, block);
-    z.insert(z.end(), {-range.top, -range.bottom});
-  }
-  for (size_t i = 0; i <= spec.blocks.size(); ++i) {
-    const DepthInterval range = fault_range(spec, i);
-    z.insert(z.end(), {-range.top, -range.bottom});
-  }
-  return z;
+  return mapped(line_depths(spec), [](double depth) { return -depth; });
 }
 
 /// Those depths, ascending, each once.
@@ -200,7 +189,7 @@ std::vector<MovedDepth> moved_depths(const FieldMeshSpec& spec) {
     }
     const double stretch =
         kept.empty() ? 1 : (one.to - kept.back().to) / (one.from - kept.back().from);
-    if (!(stretch >= kLeastGap && stretch <= kLargestGap)) return {};
+    if (!(stretch >= kLeastStretch && stretch <= kLargestStretch)) return {};
     kept.push_back(one);
   }
   return kept;

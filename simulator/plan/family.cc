@@ -130,6 +130,10 @@ std::string family_of_surface(Scene scene, const Plan& plan) {
   });
   family.add("tolerance", surface.tolerance);
   family.add("most_operators", surface.most_operators);
+  if (surface.probes) {
+    family.add("chi_tolerance", surface.probes->tolerance);
+    family.add("probes", surface.probes->cases);
+  }
   family.close();
   return text;
 }

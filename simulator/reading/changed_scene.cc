@@ -44,6 +44,12 @@ bool has_absolute_pressures(const json& document) {
          any_has("compartments", "csv");
 }
 
+/// A surface takes what it is over in intervals, so that a scene without one may be beside them.
+bool asks_for_surface(const json& document) {
+  const auto numerics = document.find("numerics");
+  return numerics != document.end() && numerics->is_object() && numerics->contains("surface");
+}
+
 /// The sections that follow from these members; kAll where the scene must be read whole.
 unsigned sections_of(const Members& members, const ChangedScene& changed) {
   unsigned sections = 0;
@@ -58,7 +64,7 @@ unsigned sections_of(const Members& members, const ChangedScene& changed) {
   if (moves_datum && has_absolute_pressures(changed.document.value)) sections |= kLoading;
   const Scene& scene = changed.scene;
   const bool is_mixed =  // what fields, tables and surfaces make of the rest
-      scene.has_field() || scene.numerics.surface.wanted() || scene.n_table_remarks > 0;
+      scene.has_field() || asks_for_surface(changed.document.value) || scene.n_table_remarks > 0;
   const bool is_small = (sections & ~unsigned{kInitialState | kFaults}) == 0;
   return is_mixed && !is_small ? unsigned{kAll} : sections;
 }

@@ -308,6 +308,13 @@ class Collector {
   std::vector<ParameterInfo> rows_;
 };
 
+/// An offset of a block without mesh_offset has a surface, and so a family, for each interval.
+bool is_taken_in_intervals(const json& document, const std::string& pointer) {
+  const std::size_t slash = pointer.rfind('/');
+  return pointer.substr(slash + 1) == "offset" &&
+         text_at(document, pointer.substr(0, slash) + "/mesh_offset").empty();
+}
+
 }  // namespace
 
 std::vector<ParameterInfo> parameters(const JsonDocument& document) {
@@ -330,7 +337,8 @@ std::vector<ParameterInfo> parameters(const JsonDocument& document) {
         text_at(completed, element("/numerics/surface/over", i) + "/parameter");
     const auto alias = aliases.pointers().find(given);
     const std::string& pointer = alias == aliases.pointers().end() ? given : alias->second;
-    for (ParameterInfo& row : rows) row.new_family = row.new_family && row.pointer != pointer;
+    const auto row = std::ranges::find(rows, pointer, &ParameterInfo::pointer);
+    if (row != rows.end() && !is_taken_in_intervals(completed, pointer)) row->new_family = false;
   }
   return rows;
 }

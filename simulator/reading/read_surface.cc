@@ -4,12 +4,15 @@
 #include <optional>
 #include <string>
 
+#include "simulator/common/ranges.h"
 #include "simulator/reading/read_keys.h"
 #include "simulator/reading/read_scene.h"
 #include "simulator/reading/scene_reader.h"
+#include "simulator/reading/surface_probes.h"
+#include "simulator/scene/offset_intervals.h"
 
 /// What a surface of operators may be over, and where: moduli, Poisson ratios, dips of a field's
-/// faults, and offsets within an interval in which the mesh keeps its topology.
+/// faults, and offsets.
 namespace faultsim {
 namespace {
 
@@ -66,13 +69,9 @@ void check_range(SceneReader& reader, const std::string& at, const SurfaceParame
     reader.problem(at, "a dip of a field is within 45 deg of vertical", "narrow the range");
   if (one.kind == Kind::offset) {
     const Block& block = scene.field.blocks[static_cast<std::size_t>(one.index)];
-    if (!block.mesh_offset) {
-      reader.problem(at, "the block has no mesh_offset: cells of two offsets do not correspond",
-                     "add \"mesh_offset\", for example the middle of the range, to the block");
-    }
-    if (one.from <= 0 && one.to >= 0) {
+    if (block.mesh_offset && one.from <= 0 && one.to >= 0) {
       reader.problem(at, "the range holds 0 m, where the fault's two sides meet at other cells",
-                     "keep to one side of 0 m; offset 0 is an operator of its own");
+                     "remove the block's mesh_offset: the range is then taken in intervals");
     }
   }
   const double value = value_of(one, scene);
@@ -84,6 +83,65 @@ void check_range(SceneReader& reader, const std::string& at, const SurfaceParame
   }
 }
 
+/// An offset without a mesh_offset is taken in intervals, each with a layout of grid lines of its
+/// own: the scene is on the surface of its interval, or where it has none on an exact operator.
+void take_interval(SceneReader& reader, Scene& scene) {
+  std::vector<SurfaceParameter>& over = scene.numerics.surface.over;
+  const auto is_offset = [](const SurfaceParameter& one) { return one.kind == Kind::offset; };
+  const auto joined = std::ranges::find_if(over, [&](const SurfaceParameter& one) {
+    return is_offset(one) && !scene.field.blocks[static_cast<std::size_t>(one.index)].mesh_offset;
+  });
+  if (joined == over.end()) return;
+  if (std::ranges::count_if(over, is_offset) > 1) {
+    reader.problem("/numerics/surface/over",
+                   "the offsets of two blocks cannot be taken in intervals together",
+                   "take one of them, or give each block a mesh_offset");
+    return;
+  }
+  const auto block = static_cast<std::size_t>(joined->index);
+  const double offset = scene.field.blocks[block].offset;
+  const std::vector<OffsetInterval> intervals =
+      offset_intervals(scene.field, block, joined->from, joined->to);
+  const auto found =
+      std::ranges::find_if(intervals, [&](const OffsetInterval& one) { return one.holds(offset); });
+  if (found == intervals.end()) {
+    scene.numerics.surface = {};
+    scene.remarks.push_back({"/numerics/surface",
+                             concat("an offset of ", metres(offset),
+                                    " is next to one at which lines of the mesh meet: its operator "
+                                    "is an exact one")});
+    return;
+  }
+  joined->from = found->from;
+  joined->to = found->to;
+  scene.field.blocks[block].mesh_offset = found->layout;
+}
+
+/// Cases put values where the document has a place for them; what they make of the scene is seen
+/// when they are run.
+void read_probes(SceneReader& reader, const std::vector<std::string>& over, SurfaceProbes& probes) {
+  const std::string root = "/numerics/surface/probes";
+  read_keys(reader, root + "/", probes);
+  const auto cases = surface_probes(reader.document());
+  nlohmann::json document = reader.document().value;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    for (const auto& [pointer, value] : cases[i]) {
+      const std::string at = element(root + "/cases", i);
+      const bool has_place = pointer.starts_with('/') && put_value(document, pointer, value);
+      if (!has_place) {
+        reader.problem(at, "the scene has no place for " + pointer,
+                       "name a parameter of the scene by its alias or JSON Pointer");
+      } else if (pointer.starts_with("/numerics/surface")) {
+        reader.problem(at, "a case cannot have another surface", "remove " + pointer);
+      } else if (contains(over, pointer)) {
+        reader.problem(at, "the surface is over " + pointer + ", which check points choose",
+                       "remove it from the case");
+      }
+    }
+  }
+  if (reader.sound(root)) probes.cases = fingerprint_of_probes(reader.document(), over);
+}
+
 }  // namespace
 
 void read_surface(SceneReader& reader, Scene& scene) {
@@ -91,6 +149,7 @@ void read_surface(SceneReader& reader, Scene& scene) {
   if (!reader.has(root) || !reader.sound(root)) return;
   SurfaceRequest& surface = scene.numerics.surface;
   read_keys(reader, root + "/", surface);
+  std::vector<std::string> pointers;
   for (std::size_t i = 0; i < reader.size(root + "/over"); ++i) {
     const std::string at = element(root + "/over", i);
     std::string pointer = reader.text(at + "/parameter");
@@ -112,7 +171,10 @@ void read_surface(SceneReader& reader, Scene& scene) {
     if (twice) reader.problem(at, "the parameter is there twice", "remove one");
     if (std::isfinite(one->from) && std::isfinite(one->to)) check_range(reader, at, *one, scene);
     surface.over.push_back(*one);
+    pointers.push_back(pointer);
   }
+  if (reader.has(root + "/probes")) read_probes(reader, pointers, surface.probes.emplace());
+  if (reader.sound("/numerics") && reader.sound("/geometry")) take_interval(reader, scene);
 }
 
 }  // namespace faultsim

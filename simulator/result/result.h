@@ -115,7 +115,7 @@ struct CaseSurface {
   int n_operators = 0;     ///< nodes.
   int n_basis = 0;         ///< columns that are left of them.
   int n_checks = 0;        ///< check points.
-  double tolerance = 0;    ///< that was asked for; all errors are below.
+  double tolerance = 0;    ///< that was asked for; without cases all errors are below.
   double stiffness = 0;    ///< of H, in the Frobenius norm.
   double traction = 0;     ///< of the worst locked traction.
   double observation = 0;  ///< of the observation rows; 0 without.
@@ -123,6 +123,15 @@ struct CaseSurface {
   /// Of the weakening with slip at which a fault becomes unstable (surface/stability_limit.h): what
   /// the onset of events hangs on. Beside the tolerance; none where it was not measured.
   std::optional<double> stability = {};
+  /// Of cases run on both at half of the check points, which others than they decided on
+  /// (numerics/surface/probes): how many, and how far off they were at most. None where the
+  /// tolerance is that of operators.
+  int n_cases = 0;
+  std::optional<double> chi_tolerance = {};  ///< that was asked for.
+  std::optional<double> chi_bar = {};        ///< |Δχ̄| of a fault at a load step.
+  std::optional<double> largest_slip = {};   ///< of a fault at a load step, relative to the case's.
+  std::optional<int> flags_that_differ =
+      {};  ///< of those that say whether a fault slides in a stage.
 
   bool operator==(const CaseSurface&) const = default;  ///< the very same numbers.
 };

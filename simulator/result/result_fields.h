@@ -78,6 +78,11 @@ void for_each_field(Of<CaseSurface> auto& s, auto&& visit) {
   visit(Field{"error_of_observation"}, s.observation);
   visit(Field{"error_of_slip"}, s.slip);
   visit(Field{"error_of_stability"}, s.stability);
+  visit(Field{.key = "cases", .since = 18}, s.n_cases);
+  visit(Field{.key = "tolerance_of_chi_bar", .since = 18}, s.chi_tolerance);
+  visit(Field{.key = "error_of_chi_bar", .since = 18}, s.chi_bar);
+  visit(Field{.key = "error_of_largest_slip", .since = 18}, s.largest_slip);
+  visit(Field{.key = "flags_that_differ", .since = 18}, s.flags_that_differ);
 }
 
 void for_each_field(Of<StepResult> auto& s, auto&& visit) {

@@ -54,6 +54,20 @@ DepthInterval all_faults_range(const FieldGeometry& field) {
   return all;
 }
 
+std::vector<double> line_depths(const FieldGeometry& field) {
+  std::vector<double> depths = {field.depth, 0};
+  for (const Layer& layer : field.layers) depths.push_back(layer.top_depth);
+  for (const Block& block : field.blocks) {
+    const DepthInterval range = reservoir_range(field, block);
+    depths.insert(depths.end(), {range.top, range.bottom});
+  }
+  for (std::size_t i = 0; i <= field.blocks.size(); ++i) {
+    const DepthInterval range = fault_range(field, i);
+    depths.insert(depths.end(), {range.top, range.bottom});
+  }
+  return depths;
+}
+
 double fault_x(const FieldGeometry& field, std::size_t fault) {
   return fault < field.blocks.size() ? field.blocks[fault].from : field.blocks.back().to;
 }

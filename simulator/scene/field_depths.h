@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "simulator/scene/geometry.h"
 
@@ -38,6 +39,9 @@ std::span<const Block> blocks_beside(const FieldGeometry& field, std::size_t fau
 DepthInterval fault_range(const FieldGeometry& field, std::size_t fault);
 /// From the shallowest to the deepest point of its faults.
 DepthInterval all_faults_range(const FieldGeometry& field);
+/// Depths that must be grid lines, m: the surface and the base, tops of layers, edges of
+/// reservoirs, tips of faults; in an order of their own, the same for all offsets.
+std::vector<double> line_depths(const FieldGeometry& field);
 /// x of a field's fault at the pivot depth, and at any, m.
 double fault_x(const FieldGeometry& field, std::size_t fault);
 double fault_x(const Scene& scene, std::size_t fault, double depth);

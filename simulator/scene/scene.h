@@ -22,7 +22,7 @@ struct FlowField;
 /// The same of flow results: how they are read and mapped.
 inline constexpr int kFieldMethod = 2;
 /// Raised by hand when a change may alter results on surfaces, and no others.
-inline constexpr int kSurfaceMethod = 3;
+inline constexpr int kSurfaceMethod = 4;
 constexpr auto words(OutsideRule) { return std::array{"nearest", "unchanged"}; }
 
 enum class InitialStressKind { column, profile };
@@ -279,12 +279,27 @@ struct SurfaceParameter {
   bool operator==(const SurfaceParameter&) const = default;
 };
 
+/// Cases that are run on a surface and on exact operators at its check points: it is fine enough
+/// when they are alike. Texts of the scene's document (reading/surface_probes.h).
+struct SurfaceProbes {
+  double tolerance = 3e-3;  ///< in χ̄.
+  /// Fingerprint of the cases, and of all in the document that neither they nor the surface's
+  /// parameters replace: the surface depends on it.
+  std::string cases;
+  bool operator==(const SurfaceProbes&) const = default;
+};
+void for_each_key(Of<SurfaceProbes> auto& p, auto&& visit) {
+  visit({"tolerance"}, p.tolerance);
+  visit({"cases", kByHand}, p.cases);
+}
+
 /// Operators interpolated over parameters in place of exact ones (simulator/surface). Without
 /// parameters: none.
 struct SurfaceRequest {
   std::vector<SurfaceParameter> over;
-  double tolerance = 1e-3;   ///< relative, at check points.
-  int most_operators = 300;  ///< nodes at most.
+  double tolerance = 1e-3;                   ///< relative, at check points.
+  int most_operators = 300;                  ///< nodes at most.
+  std::optional<SurfaceProbes> probes = {};  ///< none: `tolerance` alone says what is fine enough.
   bool wanted() const { return !over.empty(); }
   bool operator==(const SurfaceRequest&) const = default;
 };
@@ -293,6 +308,7 @@ void for_each_key(Of<SurfaceRequest> auto& s, auto&& visit) {
   visit({"method", kByHand}, kSurfaceMethod);
   visit({"tolerance"}, s.tolerance);
   visit({"most_operators"}, s.most_operators);
+  visit({"probes", kByHand}, s.probes);
 }
 
 /// Knobs of the numerics that are part of a case's identity (those of creep only where something

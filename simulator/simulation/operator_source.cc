@@ -3,11 +3,21 @@
 #include <algorithm>
 
 #include "simulator/operators/influence.h"
+#include "simulator/reading/surface_probes.h"
 
 namespace faultsim {
 namespace {
 
 SceneBulk bulk_of(const LoadedScene& loaded) { return {loaded.scene, loaded.plan, loaded.mesh}; }
+
+ProbingScenes probes_of(const LoadedScene& loaded) {
+  const SurfaceRequest& surface = loaded.scene.numerics.surface;
+  if (!surface.probes) return {};
+  return {static_cast<int>(surface_probes(loaded.document).size()),
+          [document = loaded.document, over = surface.over](int i, const Scene& at) {
+            return probing_scene(document, static_cast<std::size_t>(i), at, over);
+          }};
+}
 
 /// What is to be said of the scene's flow results. Throws InputError where they do not fit.
 FieldCheck checked_fields(const LoadedScene& loaded) {
@@ -96,7 +106,8 @@ OperatorSource::Made OperatorSource::from_surface(const LoadedScene& loaded,
   if (is_new) {
     fields_.reset();
     surface_.reset();
-    surface_ = std::make_shared<OperatorSurface>(loaded.scene, loaded.plan, cache, context);
+    surface_ = std::make_shared<OperatorSurface>(loaded.scene, loaded.plan, probes_of(loaded),
+                                                 cache, context);
     surface_key_ = wanted;
   }
   Made made{surface_->at(loaded.scene, loaded.plan), is_new};

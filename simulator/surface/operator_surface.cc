@@ -25,11 +25,9 @@ bool moves_mesh(const SurfaceRequest& request) {
 }
 
 /// The mesh nodes that stand for the observation points.
-std::vector<int> observed_nodes(const BulkProblem& of_points, const Mesh& mesh) {
-  std::vector<int> nodes;
-  for (const auto& [name, point] : of_points.observation_points)
-    nodes.push_back(observed_node(mesh, point));
-  return nodes;
+std::vector<int> observed_nodes(const BulkProblem& problem) {
+  return mapped(problem.observation_points,
+                [&](const auto& point) { return observed_node(problem.mesh, point.second); });
 }
 
 [[noreturn]] void refuse_topology() {
@@ -62,36 +60,18 @@ Scene without_surface(Scene scene) {
   return scene;
 }
 
-Plan exact_plan(const Scene& scene) {
-  std::vector<Problem> problems;
-  Plan plan = make_plan(scene, problems);
-  if (!problems.empty()) throw InputError("scene at a node of its surface", std::move(problems));
-  return plan;
-}
-
 /// What does not change from sample to sample unless the mesh moves.
 struct OperatorSurface::Frame {
   explicit Frame(BulkProblem bulk)
       : problem(std::move(bulk)),
         dofs(problem.mesh, problem.conditions, static_cast<int>(problem.loads.size())),
-        observed(observed_nodes(problem, problem.mesh)) {}
+        observed(observed_nodes(problem)) {}
   BulkProblem problem;
   DofMap dofs;
-  std::vector<int> observed;
+  std::vector<int> observed;  ///< go with the mesh where it moves.
 
-  void require_same_points(const Mesh& mesh) const;
   void require_same_topology(const Mesh& other) const;
 };
-
-void OperatorSurface::Frame::require_same_points(const Mesh& mesh) const {
-  const std::vector<int> nodes = observed_nodes(problem, mesh);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (nodes[i] == observed[i]) continue;
-    refuse_surface("the observation point " + problem.observation_points[i].first +
-                       " is nearest to different nodes of the mesh over the ranges of the surface",
-                   "leave it out or put it where the mesh does not move, or take exact operators");
-  }
-}
 
 void OperatorSurface::Frame::require_same_topology(const Mesh& other) const {
   const Mesh& mesh = problem.mesh;
@@ -100,11 +80,10 @@ void OperatorSurface::Frame::require_same_topology(const Mesh& other) const {
       mesh.tied_to != other.tied_to) {
     refuse_topology();
   }
-  require_same_points(other);
 }
 
-OperatorSurface::OperatorSurface(const Scene& scene, const Plan& plan, const CachePolicy& cache,
-                                 const RunContext& context)
+OperatorSurface::OperatorSurface(const Scene& scene, const Plan& plan, const ProbingScenes& cases,
+                                 const CachePolicy& cache, const RunContext& context)
     : centre_(without_surface(scene)),
       request_(scene.numerics.surface),
       axes_(axes_of(request_)),
@@ -113,6 +92,7 @@ OperatorSurface::OperatorSurface(const Scene& scene, const Plan& plan, const Cac
   set_blas_threads(1);
   centre_ = scene_at(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(axes_.size())));
   frame_ = std::make_shared<const Frame>(bulk_problem(centre_, exact_plan(centre_)));
+  if (moves_mesh(request_)) move_points(frame_->problem.mesh, centre_);
   const std::string name = operator_fingerprint(scene, plan, blas_description());
   std::optional<StoredSurface> found;
   if (!cache.folder.empty()) found = read_surface_file(cache.folder, name, &remark_);
@@ -120,7 +100,7 @@ OperatorSurface::OperatorSurface(const Scene& scene, const Plan& plan, const Cac
   if (found) {
     surface_ = std::move(*found);
   } else {
-    build(name, cache, context);
+    build(name, cases, cache, context);
   }
   grid_ = grid_of(surface_.basis->nodes);
 }
@@ -128,11 +108,20 @@ OperatorSurface::OperatorSurface(const Scene& scene, const Plan& plan, const Cac
 OperatorSurface::~OperatorSurface() = default;
 
 /// What was written is read back, so that processes share it.
-void OperatorSurface::build(const std::string& name, const CachePolicy& cache,
-                            const RunContext& context) {
-  surface_ = build_surface(
-      request_, name, [&](const Eigen::VectorXd& x) { return exact_at(x, cache, context); },
-      context);
+void OperatorSurface::build(const std::string& name, const ProbingScenes& cases,
+                            const CachePolicy& cache, const RunContext& context) {
+  const auto exact = [&](const Eigen::VectorXd& x) { return exact_at(x, cache, context); };
+  CaseRunner runner(
+      cases, [&](const Eigen::VectorXd& x) { return scene_at(x); }, cache, context.stop);
+  ProbingCases probing;
+  if (request_.probes) {
+    probing = {
+        cases.n, request_.probes->tolerance,
+        [&](int i, const Eigen::VectorXd& x, const std::shared_ptr<const FaultOperator>& op) {
+          return runner.run(i, x, op);
+        }};
+  }
+  surface_ = build_surface(request_, name, exact, probing, context);
   if (cache.folder.empty()) return;
   const auto write = [&] {
     write_surface(surface_, cache.folder);
@@ -145,7 +134,27 @@ Scene OperatorSurface::scene_at(const Eigen::VectorXd& x) const {
   Scene scene = centre_;
   for (std::size_t j = 0; j < axes_.size(); ++j)
     set_value(request_.over[j], axes_[j].value(x[j]), scene);
+  const bool has_points = !scene.output.observation_points.empty();
+  if (frame_ && moves_mesh(request_) && has_points)
+    move_points(moved_mesh(scene, exact_plan(scene)), scene);
   return scene;
+}
+
+/// Where the nodes that were chosen at the centre are now; of a half domain, the mirror images of
+/// those that are there for points at y < 0.
+void OperatorSurface::move_points(const Mesh& mesh, Scene& scene) const {
+  for (std::size_t i = 0; i < frame_->observed.size(); ++i) {
+    Eigen::Map<Eigen::Vector3d> point(scene.output.observation_points[i].position.data());
+    const bool mirrored = frame_->problem.half_domain && point.y() < 0;
+    point = mesh.nodes[static_cast<std::size_t>(frame_->observed[i])];
+    if (mirrored) point.y() *= -1;
+  }
+}
+
+Mesh OperatorSurface::moved_mesh(const Scene& scene, const Plan& plan) const {
+  std::optional<Mesh> moved = moved_faults(scene, plan, frame_->problem.mesh);
+  if (!moved) refuse_topology();
+  return std::move(*moved);
 }
 
 std::shared_ptr<const FaultOperator> OperatorSurface::exact_at(const Eigen::VectorXd& x,
@@ -165,16 +174,22 @@ std::shared_ptr<const FaultOperator> OperatorSurface::exact_at(const Eigen::Vect
   return prepared.op;
 }
 
-FaultGeometry OperatorSurface::geometry_of(const Scene& scene, const Plan& plan) const {
+/// Positions, frames, areas and pressure shares, which are those of the scene's own mesh.
+void OperatorSurface::put_geometry(Scene scene, const Plan& plan, FaultOperator& op) const {
   std::vector materials = mapped(scene.materials, [&](const Material& m) {
     return ElasticMaterial{m.youngs_modulus, m.poisson_ratio};
   });
-  const Mesh& mesh = frame_->problem.mesh;
-  if (!moves_mesh(request_)) return fault_geometry(mesh, materials, frame_->dofs, plan.half_domain);
-  const std::optional<Mesh> moved = moved_faults(scene, plan, mesh);
-  if (!moved) refuse_topology();
-  frame_->require_same_points(*moved);
-  return fault_geometry(*moved, materials, frame_->dofs, plan.half_domain);
+  if (!moves_mesh(request_)) {
+    op.geometry = fault_geometry(frame_->problem.mesh, materials, frame_->dofs, plan.half_domain);
+    return;
+  }
+  const Mesh mesh = moved_mesh(scene, plan);
+  op.geometry = fault_geometry(mesh, materials, frame_->dofs, plan.half_domain);
+  move_points(mesh, scene);
+  for (std::size_t row = 0; row < op.observed.rows.size(); ++row) {
+    const auto& point = scene.output.observation_points[row / 3].position;
+    op.observed.rows[row].position = {point[0], point[1], point[2]};
+  }
 }
 
 std::vector<Scene> OperatorSurface::check_scenes() const {
@@ -201,7 +216,7 @@ PreparedOperator OperatorSurface::at(const Scene& scene, const Plan& plan) const
   const Eigen::VectorXd weights = this->weights(scene);
   auto op = std::make_shared<FaultOperator>();
   OperatorBasis::put(surface_.basis, weights.tail(weights.size() - 1), *op);
-  op->geometry = geometry_of(scene, plan);
+  put_geometry(scene, plan, *op);
   take_fault_names(scene, *op);
   op->fingerprint = surface_.basis->fingerprint;
   PreparedOperator prepared;

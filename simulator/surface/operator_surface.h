@@ -7,6 +7,7 @@
 
 #include "simulator/cache/surface_file.h"
 #include "simulator/loading/run_case.h"
+#include "simulator/surface/case_runner.h"
 #include "simulator/surface/sparse_grid.h"
 #include "simulator/surface/surface_axis.h"
 
@@ -15,8 +16,9 @@ namespace faultsim {
 /// The operators of all scenes that differ in the parameters of /numerics/surface alone
 /// (docs/model.md, 12): H, L, U and V interpolated on a sparse grid of exact operators and
 /// compressed (OperatorBasis). Positions, frames, areas and pressure shares of a sample are those
-/// of its own mesh. A pure function of the scene's family: whatever case asks for it first, and
-/// whatever is in the cache, it has the same bits.
+/// of its own mesh. Observation points take the nearest nodes in the middle of the ranges, and
+/// stay with them as the mesh moves. A pure function of the scene's family: whatever case asks for
+/// it first, and whatever is in the cache, it has the same bits.
 class OperatorSurface {
  public:
   /// Reads the surface from the cache, where processes share it, or builds it and keeps it there;
@@ -25,9 +27,10 @@ class OperatorSurface {
   /// ResourceError where it does not fit into memory; Interrupted. A cache that cannot be written
   /// is a remark.
   /// @param plan  of the scene.
+  /// @param cases  none unless scene.numerics.surface.probes.
   /// @pre scene.numerics.surface.wanted()
-  OperatorSurface(const Scene& scene, const Plan& plan, const CachePolicy& cache,
-                  const RunContext& context);
+  OperatorSurface(const Scene& scene, const Plan& plan, const ProbingScenes& cases,
+                  const CachePolicy& cache, const RunContext& context);
   ~OperatorSurface();
 
   /// The operator of a scene of the surface's family, whose H is summed up as columns are asked
@@ -50,10 +53,13 @@ class OperatorSurface {
  private:
   struct Frame;  ///< mesh and unknowns of the centre.
   Scene scene_at(const Eigen::VectorXd& x) const;
-  void build(const std::string& name, const CachePolicy& cache, const RunContext& context);
+  void build(const std::string& name, const ProbingScenes& cases, const CachePolicy& cache,
+             const RunContext& context);
   std::shared_ptr<const FaultOperator> exact_at(const Eigen::VectorXd& x, const CachePolicy& cache,
                                                 const RunContext& context) const;
-  FaultGeometry geometry_of(const Scene& scene, const Plan& plan) const;
+  Mesh moved_mesh(const Scene& scene, const Plan& plan) const;
+  void move_points(const Mesh& mesh, Scene& scene) const;
+  void put_geometry(Scene scene, const Plan& plan, FaultOperator& op) const;
 
   Scene centre_;  ///< exact: without a surface.
   SurfaceRequest request_;
@@ -69,8 +75,6 @@ class OperatorSurface {
 /// listed, which is looked at where it was used: of those that moved in a case.
 void require_definite(const FaultOperator& op, const std::vector<int>& dofs);
 
-/// The plan of a scene that is sound. Throws InputError where it cannot be planned.
-Plan exact_plan(const Scene& scene);
 Scene without_surface(Scene scene);
 
 }  // namespace faultsim

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "simulator/common/text.h"
 #include "simulator/linalg/dense_cholesky.h"
 #include "simulator/surface/adaptive_interpolant.h"
+#include "simulator/surface/case_errors.h"
 #include "simulator/surface/operator_nodes.h"
 #include "simulator/surface/stability_limit.h"
 
@@ -35,39 +37,58 @@ std::optional<Eigen::MatrixXd> slip_without_friction(const FaultOperator& op,
   return slip;
 }
 
+constexpr std::size_t kCasesAtAPoint = 4;
+
 /// A place where the surface is held against the exact operator.
 struct Check {
   Eigen::VectorXd x;
   std::shared_ptr<const FaultOperator> exact;
-  Eigen::MatrixXd slip;  ///< of `exact`,
-  std::vector<double> stability;
+  std::vector<CaseResult> cases = {};  ///< on `exact`; empty until they are asked for, as are
+  Eigen::MatrixXd slip = {};           ///< without friction, of `exact`, and its
+  std::vector<double> stability = {};  ///< limits.
 };
 
 /// What it takes to go from one grid to a finer one.
 class Builder {
  public:
-  Builder(const SurfaceRequest& request, const ExactOperator& exact, const RunContext& context);
+  Builder(const SurfaceRequest& request, const ExactOperator& exact, const ProbingCases& cases,
+          const RunContext& context);
   StoredSurface build(const std::string& fingerprint);
 
  private:
   std::shared_ptr<const FaultOperator> ask(const Eigen::VectorXd& x, const std::string& what);
   void require_memory(double bytes, const char* what) const;
   OperatorBasis compressed(double tolerance) const;
+  void make_checks(int n_axes);
+  std::span<Check> deciding_checks();
+  std::span<Check> other_checks() { return std::span(checks_).last(checks_.size() / 2); }
+  std::shared_ptr<const FaultOperator> interpolated(
+      const std::shared_ptr<const OperatorBasis>& basis, const SparseGrid& grid,
+      const Check& check) const;
   CaseSurface measured(const std::shared_ptr<const OperatorBasis>& basis, const SparseGrid& grid);
-  void measure(const std::shared_ptr<const OperatorBasis>& basis, const SparseGrid& grid,
-               Check& check, CaseSurface& worst) const;
+  static void look_at_exact(Check& check);
+  static void measure(const FaultOperator& op, const Check& check, CaseSurface& worst);
+  CaseErrors errors_of_cases(const std::shared_ptr<const OperatorBasis>& basis,
+                             const SparseGrid& grid, std::span<Check> checks);
+  void run_exact(Check& check);
+  CaseResult run(std::size_t k, const Check& check, const std::shared_ptr<const FaultOperator>& op);
+  bool is_fine(const std::shared_ptr<const OperatorBasis>& basis, const SparseGrid& grid,
+               CaseSurface& found);
+  [[noreturn]] void refuse(const CaseSurface& found) const;
 
   const SurfaceRequest& request_;
   const ExactOperator& exact_;
+  const ProbingCases& cases_;
   const RunContext& context_;
   OperatorNodes nodes_;
   std::vector<Check> checks_;
 };
 
 Builder::Builder(const SurfaceRequest& request, const ExactOperator& exact,
-                 const RunContext& context)
+                 const ProbingCases& cases, const RunContext& context)
     : request_(request),
       exact_(exact),
+      cases_(cases),
       context_(context),
       nodes_(ask(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(request.over.size())),
                  "operator 1")) {
@@ -110,12 +131,38 @@ OperatorBasis Builder::compressed(double tolerance) const {
   return nodes_.basis(solver.eigenvectors().rightCols(m - n_left_out), context_.stop);
 }
 
-void Builder::measure(const std::shared_ptr<const OperatorBasis>& basis, const SparseGrid& grid,
-                      Check& check, CaseSurface& worst) const {
-  const FaultOperator& exact = *check.exact;
-  FaultOperator op;
+void Builder::make_checks(int n_axes) {
+  if (!checks_.empty()) return;
+  for (const Eigen::VectorXd& x : check_points(n_axes, n_surface_checks(request_)))
+    checks_.push_back({x, ask(x, concat("check point ", checks_.size() + 1))});
+}
+
+/// Those whose cases say when the grid is fine enough; the others then say how fine it is.
+std::span<Check> Builder::deciding_checks() {
+  return std::span(checks_).first(checks_.size() - checks_.size() / 2);
+}
+
+std::shared_ptr<const FaultOperator> Builder::interpolated(
+    const std::shared_ptr<const OperatorBasis>& basis, const SparseGrid& grid,
+    const Check& check) const {
+  auto op = std::make_shared<FaultOperator>();
   const Eigen::VectorXd w = grid.weights(check.x);
-  OperatorBasis::put(basis, w.tail(w.size() - 1), op);
+  OperatorBasis::put(basis, w.tail(w.size() - 1), *op);
+  op->geometry = check.exact->geometry;
+  op->fingerprint = basis->fingerprint;
+  return op;
+}
+
+void Builder::look_at_exact(Check& check) {
+  if (check.slip.size() > 0) return;
+  const auto slip = slip_without_friction(*check.exact, check.exact->geometry.dof_area);
+  if (!slip) refuse_surface("an exact H is not positive definite", "take exact operators");
+  check.slip = *slip;
+  check.stability = stability_limits(check.exact->geometry, check.exact->h());
+}
+
+void Builder::measure(const FaultOperator& op, const Check& check, CaseSurface& worst) {
+  const FaultOperator& exact = *check.exact;
   const auto raise = [](double& member, double error) { member = std::max(member, error); };
   raise(worst.stiffness, relative((op.h() - exact.h()).norm(), exact.h().norm()));
   raise(worst.traction, worst_column(op.loads.traction, exact.loads.traction));
@@ -136,26 +183,82 @@ void Builder::measure(const std::shared_ptr<const OperatorBasis>& basis, const S
 
 CaseSurface Builder::measured(const std::shared_ptr<const OperatorBasis>& basis,
                               const SparseGrid& grid) {
-  if (checks_.empty()) {
-    const int n_checks = n_surface_checks(request_);
-    for (const Eigen::VectorXd& x : check_points(grid.n_axes(), n_checks)) {
-      Check check{x, ask(x, concat("check point ", checks_.size() + 1)), {}, {}};
-      const auto slip = slip_without_friction(*check.exact, check.exact->geometry.dof_area);
-      if (!slip) refuse_surface("an exact H is not positive definite", "take exact operators");
-      check.slip = *slip;
-      check.stability = stability_limits(check.exact->geometry, check.exact->h());
-      checks_.push_back(std::move(check));
-    }
-  }
   CaseSurface worst{.n_operators = grid.n_nodes(),
                     .n_basis = static_cast<int>(basis->size()),
                     .n_checks = static_cast<int>(checks_.size()),
                     .tolerance = request_.tolerance};
   for (Check& check : checks_) {
     context_.stop.throw_if_requested("measuring a surface of operators");
-    measure(basis, grid, check, worst);
+    look_at_exact(check);
+    measure(*interpolated(basis, grid, check), check, worst);
   }
   return worst;
+}
+
+/// The k-th case of a check point: all points together go through all cases, in turn.
+CaseResult Builder::run(std::size_t k, const Check& check,
+                        const std::shared_ptr<const FaultOperator>& op) {
+  context_.stop.throw_if_requested("running cases on a surface of operators");
+  const auto n = static_cast<std::size_t>(cases_.n);
+  const auto place = static_cast<std::size_t>(&check - checks_.data());
+  return cases_.run(static_cast<int>((place * kCasesAtAPoint + k) % n), check.x, op);
+}
+
+void Builder::run_exact(Check& check) {
+  const std::size_t n = std::min(kCasesAtAPoint, static_cast<std::size_t>(cases_.n));
+  while (check.cases.size() < n) check.cases.push_back(run(check.cases.size(), check, check.exact));
+}
+
+CaseErrors Builder::errors_of_cases(const std::shared_ptr<const OperatorBasis>& basis,
+                                    const SparseGrid& grid, std::span<Check> checks) {
+  CaseErrors worst;
+  for (Check& check : checks) {
+    run_exact(check);
+    const auto op = interpolated(basis, grid, check);
+    for (std::size_t k = 0; k < check.cases.size(); ++k)
+      worst.take_larger(case_errors(run(k, check, op), check.cases[k]));
+  }
+  return worst;
+}
+
+/// Whether the grid is within the tolerance, and what is known of it: with cases, of the operators
+/// only once it is.
+bool Builder::is_fine(const std::shared_ptr<const OperatorBasis>& basis, const SparseGrid& grid,
+                      CaseSurface& found) {
+  make_checks(grid.n_axes());
+  if (cases_.n == 0) {
+    found = measured(basis, grid);
+    return std::max({found.stiffness, found.traction, found.observation, found.slip}) <=
+           request_.tolerance;
+  }
+  const CaseErrors deciding = errors_of_cases(basis, grid, deciding_checks());
+  const bool is_within = deciding.within(cases_.tolerance);
+  if (is_within) found = measured(basis, grid);
+  const CaseErrors said = is_within ? errors_of_cases(basis, grid, other_checks()) : deciding;
+  found.n_operators = grid.n_nodes();
+  found.n_cases = 0;
+  for (const Check& check : is_within ? other_checks() : deciding_checks())
+    found.n_cases += static_cast<int>(check.cases.size());
+  found.chi_tolerance = cases_.tolerance;
+  found.chi_bar = said.chi_bar;
+  found.largest_slip = said.largest_slip;
+  found.flags_that_differ = said.flags_that_differ;
+  return is_within;
+}
+
+void Builder::refuse(const CaseSurface& found) const {
+  const std::string errors =
+      found.chi_bar
+          ? concat("χ̄ of its probing cases is off by ", brief(*found.chi_bar),
+                   ", their largest slip by ", brief(*found.largest_slip), " of the case's; ",
+                   brief(cases_.tolerance), " of χ̄ and ten times that of slip are asked for")
+          : concat("H is off by ", brief(found.stiffness), ", locked tractions by ",
+                   brief(found.traction), ", observations by ", brief(found.observation),
+                   ", slip without friction by ", brief(found.slip), "; ",
+                   brief(request_.tolerance), " is asked for");
+  refuse_surface(concat("the surface does not reach its tolerance: with ", found.n_operators,
+                        " operators ", errors),
+                 "narrow its ranges, raise tolerance or most_operators, or take exact operators");
 }
 
 StoredSurface Builder::build(const std::string& fingerprint) {
@@ -170,23 +273,21 @@ StoredSurface Builder::build(const std::string& fingerprint) {
                                     nodes_.add(op);
                                     return surplus;
                                   });
-  for (double surplus = request_.tolerance;; surplus /= 1.5) {
+  // Cases forgive more than norms do: they are asked from a coarse grid on.
+  constexpr double kFirstSurplus = 0.1, kRounding = 1e-13;  // nothing is gained below it
+  const bool has_cases = cases_.n > 0;
+  for (double surplus = has_cases ? kFirstSurplus : request_.tolerance;; surplus /= 1.5) {
+    const int n_before = interpolant.grid().n_nodes();
     interpolant.grow(surplus, request_.most_operators);
     const SparseGrid& grid = interpolant.grid();
+    const bool is_full = grid.n_nodes() >= request_.most_operators || surplus < kRounding;
+    if (has_cases && grid.n_nodes() == n_before && !is_full) continue;
     const auto basis = std::make_shared<OperatorBasis>(compressed(surplus));
     basis->fingerprint = fingerprint;
     basis->nodes = grid.indices();
-    const CaseSurface found = measured(basis, grid);
-    const double error = std::max({found.stiffness, found.traction, found.observation, found.slip});
-    if (error <= request_.tolerance) return {basis, found};
-    constexpr double kRounding = 1e-13;  // nothing is gained below it
-    if (grid.n_nodes() < request_.most_operators && surplus >= kRounding) continue;
-    refuse_surface(concat("the surface does not reach its tolerance: with ", grid.n_nodes(),
-                          " operators H is off by ", brief(found.stiffness),
-                          ", locked tractions by ", brief(found.traction), ", observations by ",
-                          brief(found.observation), ", slip without friction by ",
-                          brief(found.slip), "; ", brief(request_.tolerance), " is asked for"),
-                   "narrow its ranges, raise tolerance or most_operators, or take exact operators");
+    CaseSurface found;
+    if (is_fine(basis, grid, found)) return {basis, found};
+    if (is_full) refuse(found);
   }
 }
 
@@ -215,8 +316,9 @@ std::vector<Eigen::VectorXd> check_points(int n_axes, int n_points) {
 }
 
 StoredSurface build_surface(const SurfaceRequest& request, const std::string& fingerprint,
-                            const ExactOperator& exact, const RunContext& context) {
-  return Builder(request, exact, context).build(fingerprint);
+                            const ExactOperator& exact, const ProbingCases& cases,
+                            const RunContext& context) {
+  return Builder(request, exact, cases, context).build(fingerprint);
 }
 
 }  // namespace faultsim

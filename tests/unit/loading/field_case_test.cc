@@ -313,7 +313,7 @@ TEST(FieldCase, SaysWhatWeightIsLeftOutAndWhereAPointWasObserved) {
   scene["output"]["observation_points"][0]["position"] = {"2777 m", "0 m", "0 m"};
   const CaseResult offset = run(scene);
   EXPECT_TRUE(warns(offset, "up to 1.962 bar is left out"));  // 100 m x 200 kg/m3 x 9.81 m/s2
-  EXPECT_TRUE(warns(offset, "above_centre is taken at the nearest mesh node"));
+  EXPECT_TRUE(warns(offset, "above_centre is taken at the mesh node"));
   scene["geometry"]["blocks"][1]["offset"] = "0 m";
   scene["output"].erase("observation_points");
   scene["numerics"]["activation_length"] = "900 m";

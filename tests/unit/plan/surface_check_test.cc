@@ -82,14 +82,11 @@ TEST(SurfaceCheck, NamesARangeOverWhichCellsChange) {
   EXPECT_THAT(problems[0].what, HasSubstr("an offset of block east of 260 m"));
 }
 
-TEST(SurfaceCheck, NamesAnObservationPointThatChangesItsNode) {
+TEST(SurfaceCheck, TakesPointsWhereTheMeshMoves) {
   json scene = field({over("central_dip", "2 deg", "16 deg")});
   scene["output"]["observation_points"] = {
       {{"name", "beside_F2"}, {"position", {"60 m", "0 m", "-2500 m"}}}};
-  const std::vector<Problem> problems = problems_of(scene);
-  ASSERT_FALSE(problems.empty());
-  EXPECT_THAT(problems[0].what, HasSubstr("another node is nearest to the observation point "
-                                          "beside_F2"));
+  EXPECT_TRUE(problems_of(scene).empty());
 }
 
 TEST(Plan, SaysWhichSideOfTheFaultsIsMinus) {

@@ -43,7 +43,7 @@ class Combinations : public testing::Test {
                 {"/numerics/creep_refinements", "1"}};
       case Feature::surface:
         return {{"/numerics/surface", R"({"over": [{"parameter": "salt_stiffness",
-                 "from": "30 GPa", "to": "50 GPa"}], "tolerance": 1e-2})"}};
+                 "from": "30 GPa", "to": "50 GPa"}], "probes": {"cases": [{}]}})"}};
       case Feature::flow_result:
         return {{"/pressure_field", R"({"file": "p.csv"})"}};
       case Feature::weakening:

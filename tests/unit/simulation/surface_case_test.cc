@@ -240,8 +240,12 @@ TEST(SurfaceCase, IsRefusedWhereItCannotBe) {
   EXPECT_THAT(
       refusal_of({with(R"({"parameter": "friction_angle", "from": "1 deg", "to": "2 deg"})")}),
       HasSubstr("no surface can be over"));
-  EXPECT_THAT(refusal_of({with(R"({"parameter": "offset", "from": "60 m", "to": "140 m"})")}),
-              HasSubstr("no mesh_offset"));
+  const std::string east = R"({"parameter": "offset", "from": "-10 m", "to": "140 m"})",
+                    west = R"({"parameter": "/geometry/blocks/0/offset", "from": "-9 m",
+                               "to": "140 m"})";
+  EXPECT_THAT(refusal_of({with(east), {"/geometry/blocks/1/mesh_offset", "100 m"}}),
+              HasSubstr("holds 0 m"));
+  EXPECT_THAT(refusal_of({with(east + "," + west)}), HasSubstr("two blocks"));
   EXPECT_THAT(
       refusal_of({with(R"({"parameter": "salt_stiffness", "from": "60 m", "to": "1 GPa"})")}),
       HasSubstr("60 m"));
@@ -255,20 +259,155 @@ TEST(SurfaceCase, IsOfMoreThanOneOperator) {
       HasSubstr("write a whole number from 2 to 2000"));
 }
 
-TEST(SurfaceCase, IsRefusedWhereAnObservationPointChangesItsNode) {
-  // Near a fault that leans over, the nodes move past the point as the dip changes.
-  JsonDocument document = field({{"/numerics/surface", kOver}});
-  apply({{"/output/observation_points",
-          R"([{"name": "beside_F2", "position": ["200 m", "0 m", "-2400 m"]}])"}},
-        document);
+/// Two of all intervals between 0 and 200 m: lines meet at both, and at 150 m.
+TEST(SurfaceCase, JoinsIntervalsOfAnOffset) {
+  const char* const over =
+      R"({"over": [{"parameter": "offset", "from": "0 m", "to": "200 m"}], "tolerance": 1e-2})";
+  Simulation simulation = on_surface(over);
+  std::vector<std::string> families;
+  for (const char* offset : {"60 m", "100 m", "170 m"}) {
+    const CaseResult found = simulation.run(Changes{{"offset", offset}});
+    // On cells of the interval's layout.
+    const double layout = simulation.scene().scene.field.blocks[1].mesh_offset.value();
+    Simulation exact;
+    exact.hold(field(
+        {{"offset", offset}, {"/geometry/blocks/1/mesh_offset", concat("\"", layout, " m\"")}}));
+    const CaseResult wanted = exact.run();
+    ASSERT_EQ(found.steps.size(), wanted.steps.size());
+    double most_slip = 0;
+    for (std::size_t s = 0; s < found.steps.size(); ++s) {
+      for (std::size_t f = 0; f < found.steps[s].faults.size(); ++f) {
+        const FaultMetrics &a = found.steps[s].faults[f], &b = wanted.steps[s].faults[f];
+        EXPECT_NEAR(a.chi_bar, b.chi_bar, 5e-3) << offset;
+        most_slip = std::max(most_slip, b.max_slip);
+      }
+    }
+    EXPECT_GT(most_slip, 1e-3) << "nothing slips: the test says little";
+    EXPECT_TRUE(found.surface);
+    families.push_back(simulation.scene().plan.family);
+  }
+  EXPECT_EQ(families[0], families[1]) << "of one interval";
+  EXPECT_NE(families[1], families[2]);
+}
+
+TEST(SurfaceCase, IsExactNextToOffsetsAtWhichLinesMeet) {
+  const char* const over = R"({"over": [{"parameter": "offset", "from": "0 m", "to": "200 m"}]})";
+  for (const char* offset : {"0 m", "149 m", "200 m"}) {
+    const LoadedScene beside = load_scene(field({{"/numerics/surface", over}, {"offset", offset}}));
+    const LoadedScene exact = load_scene(field({{"offset", offset}}));
+    EXPECT_EQ(beside.identity, exact.identity) << offset;
+    EXPECT_EQ(beside.plan.family, exact.plan.family) << offset;
+    ASSERT_FALSE(beside.scene.remarks.empty());
+    EXPECT_THAT(beside.scene.remarks.front().what, HasSubstr("lines of the mesh meet"));
+  }
+  // A case beside is read whole when the next one is on a surface again.
+  Simulation simulation = on_surface(over);
+  simulation.change({{"offset", "149 m"}});
+  EXPECT_FALSE(simulation.scene().scene.numerics.surface.wanted());
+  simulation.change({{"offset", "100 m"}});
+  EXPECT_TRUE(simulation.scene().scene.numerics.surface.wanted());
+}
+
+constexpr const char* kProbed =
+    R"({"over": [{"parameter": "salt_stiffness", "from": "20 GPa", "to": "80 GPa"},
+                 {"parameter": "central_dip", "from": "2 deg", "to": "16 deg"}],
+        "tolerance": 1e-8,
+        "probes": {"tolerance": 5e-3,
+                   "cases": [{"friction_angle": "22 deg"},
+                             {"friction_angle": "25 deg", "ratio_across": 0.7},
+                             {"friction_angle": "27 deg"}]}})";
+
+TEST(SurfaceCase, IsFineEnoughWhenCasesAreAlike) {
+  Simulation simulation = on_surface(kProbed);
+  const CaseResult found = simulation.run(kSample);
+  ASSERT_TRUE(found.surface && found.surface->chi_bar);
+  EXPECT_EQ(found.surface->n_cases, 4 * 3) << "three at each of four of eight points";
+  EXPECT_EQ(found.surface->chi_tolerance, 5e-3);
+  EXPECT_GT(*found.surface->chi_bar, 0);
+  EXPECT_LT(*found.surface->chi_bar, 5e-3);
+  EXPECT_LT(*found.surface->largest_slip, 5e-2);
+  EXPECT_THAT(found.warnings.back(), HasSubstr("in 12 cases there"));
+  // Coarser than what the norm of operators asks for.
+  Simulation by_norm = on_surface();
+  EXPECT_LT(found.surface->n_operators, by_norm.run(kSample).surface->n_operators);
+  // A case that nobody has seen.
+  Simulation exact;
+  Changes unseen = kOther;
+  unseen.push_back({"friction_angle", "23.3 deg"});
+  exact.hold(field(unseen));
+  const CaseResult wanted = exact.run(), ours = simulation.run(unseen);
+  for (std::size_t s = 0; s < wanted.steps.size(); ++s) {
+    for (std::size_t f = 0; f < wanted.steps[s].faults.size(); ++f) {
+      EXPECT_NEAR(ours.steps[s].faults[f].chi_bar, wanted.steps[s].faults[f].chi_bar, 5e-3);
+    }
+  }
+}
+
+TEST(SurfaceCase, SharesItsSurfaceWhereItDiffersInWhatIsProbed) {
+  const auto family = [](Changes changes, const char* probed = kProbed) {
+    changes.push_back({"/numerics/surface", probed});
+    return load_scene(field(changes)).plan.family;
+  };
+  EXPECT_EQ(family({}), family({{"friction_angle", "28 deg"}, {"salt_stiffness", "33 GPa"}}));
+  EXPECT_EQ(family({}), family({{"ratio_across", "0.71"}, {"/title", "\"another\""}}));
+  EXPECT_NE(family({}), family({{"ratio_along", "0.7"}})) << "its cases are others";
+  std::string other = kProbed;
+  other.replace(other.find("22 deg"), 6, "21 deg");
+  EXPECT_NE(family({}), family({}, other.c_str()));
+}
+
+TEST(SurfaceCase, NamesProbingCasesThatCannotBe) {
+  const auto with = [](const std::string& one) {
+    return Changes{{"/numerics/surface",
+                    R"({"over": [{"parameter": "salt_stiffness", "from": "20 GPa",
+                                  "to": "60 GPa"}], "probes": {"cases": [)" +
+                        one + "]}}"}};
+  };
+  EXPECT_THAT(refusal_of(with(R"({"frction": 1})")), HasSubstr("no place for frction"));
+  EXPECT_THAT(refusal_of(with(R"({"salt_stiffness": "30 GPa"})")),
+              HasSubstr("check points choose"));
+  EXPECT_THAT(refusal_of(with("3")), HasSubstr("/numerics/surface/probes/cases/0"));
   Simulation simulation;
+  JsonDocument document = field(with(R"({"friction_angle": "12 m"})"));
   simulation.hold(document);
   try {
     simulation.prepare();
     ADD_FAILURE() << "no refusal";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("beside_F2 is nearest to different nodes"));
+    EXPECT_THAT(error.what(), HasSubstr("probing case 0"));
   }
+}
+
+TEST(SurfaceCase, ObservesANodeThatMovesWithTheMesh) {
+  // Near a fault that leans over, other nodes come nearest to the point as the dip changes: the one
+  // of the middle of the range is kept, and is said.
+  JsonDocument document = field({{"/numerics/surface", kOver}});
+  apply({{"/output/observation_points",
+          R"([{"name": "beside_F2", "position": ["200 m", "0 m", "-2400 m"]}])"}},
+        document);
+  Simulation on_surface, exact;
+  on_surface.hold(document);
+  document.value["numerics"].erase("surface");
+  std::vector<double> places;
+  for (const char* dip : {"3 deg", "15 deg"}) {
+    on_surface.change({{"central_dip", dip}});
+    const CaseResult found = on_surface.run();
+    const Eigen::Vector3d at = on_surface.prepared().op->observed.rows[0].position;
+    places.push_back(at.x());
+    apply({{"central_dip", dip},
+           {"/output/observation_points/0/position",
+            concat("[\"", at.x(), " m\", \"0 m\", \"", at.z(), " m\"]")}},
+          document);
+    exact.hold(document);
+    const CaseResult wanted = exact.run();
+    EXPECT_LT((exact.prepared().op->observed.rows[0].position - at).norm(), 1e-6);
+    const auto of = [](const CaseResult& result) {
+      const std::vector<double>& u = result.steps.back().observed;
+      return Eigen::Vector3d(u[0], u[1], u[2]);
+    };
+    EXPECT_LT((of(found) - of(wanted)).norm(), 1e-3 * of(wanted).norm());
+  }
+  EXPECT_GT(std::abs(places[0] - places[1]), 10) << "the node does not move: the test says little";
 }
 
 TEST(SurfaceCase, SaysThatItsToleranceIsNotReached) {

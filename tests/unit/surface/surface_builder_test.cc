@@ -43,7 +43,7 @@ SurfaceRequest over_one_parameter(double tolerance, int most) {
 TEST(SurfaceBuilder, GoesOnUntilTheSlipWithoutFrictionIsRight) {
   constexpr double kTolerance = 1e-3;
   const StoredSurface surface =
-      build_surface(over_one_parameter(kTolerance, 20), "name", with_soft_jump, {});
+      build_surface(over_one_parameter(kTolerance, 20), "name", with_soft_jump, {}, {});
   EXPECT_LE(surface.accuracy.slip, kTolerance);
   EXPECT_GE(surface.accuracy.n_operators, 3) << "a parabola has three values";
   const Eigen::VectorXd x = Eigen::VectorXd::Constant(1, 0.7);
@@ -57,7 +57,7 @@ TEST(SurfaceBuilder, GoesOnUntilTheSlipWithoutFrictionIsRight) {
 
 TEST(SurfaceBuilder, RefusesWhenTheSlipStaysWrong) {
   try {
-    build_surface(over_one_parameter(1e-3, 2), "name", with_soft_jump, {});
+    build_surface(over_one_parameter(1e-3, 2), "name", with_soft_jump, {}, {});
     ADD_FAILURE() << "no refusal";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("does not reach its tolerance: with 2 operators"));
@@ -92,7 +92,7 @@ TEST(SurfaceBuilder, HasEveryPartOfAnOperatorWithinItsTolerance) {
        {Bends::stiffness, Bends::first_load, Bends::last_load, Bends::per_load, Bends::per_jump}) {
     const auto exact = [&](const Eigen::VectorXd& x) { return bending(part, x); };
     const StoredSurface surface =
-        build_surface(over_one_parameter(kTolerance, 30), "name", exact, {});
+        build_surface(over_one_parameter(kTolerance, 30), "name", exact, {}, {});
     SparseGrid grid(1);
     for (std::size_t k = 1; k < surface.basis->nodes.size(); ++k) grid.add(surface.basis->nodes[k]);
     EXPECT_EQ(surface.accuracy.n_operators, grid.n_nodes());
@@ -124,7 +124,7 @@ TEST(SurfaceBuilder, RefusesWhateverPartStaysWrong) {
   for (const auto& [part, nothing] : kParts) {
     const auto exact = [one = part](const Eigen::VectorXd& x) { return bending(one, x); };
     try {
-      build_surface(over_one_parameter(1e-2, 2), "name", exact, {});
+      build_surface(over_one_parameter(1e-2, 2), "name", exact, {}, {});
       ADD_FAILURE() << "no refusal of " << static_cast<int>(part);
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), Not(HasSubstr(nothing)));
@@ -138,7 +138,7 @@ TEST(SurfaceBuilder, ReportsTheErrorOfThePartThatBends) {
   for (const Bends part : {Bends::first_load, Bends::last_load}) {
     const auto exact = [&](const Eigen::VectorXd& x) { return bending(part, x); };
     const CaseSurface found =
-        build_surface(over_one_parameter(1e-2, 30), "name", exact, {}).accuracy;
+        build_surface(over_one_parameter(1e-2, 30), "name", exact, {}, {}).accuracy;
     EXPECT_GT(found.traction, 1e-6);
     EXPECT_LE(found.traction, 1e-2);
     EXPECT_LT(found.stiffness, 1e-6);

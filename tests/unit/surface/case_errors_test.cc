@@ -1,0 +1,63 @@
+#include "simulator/surface/case_errors.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace faultsim {
+namespace {
+
+/// Two steps of two faults in one stage.
+CaseResult result() {
+  CaseResult r;
+  r.outcome = Outcome::converged;
+  r.steps.resize(2);
+  for (StepResult& step : r.steps) step.faults.resize(2);
+  r.steps[1].faults[0].chi_bar = 0.9;
+  r.steps[1].faults[1].max_slip = 0.05;
+  r.stages.resize(1);
+  r.stages[0].faults.resize(2);
+  return r;
+}
+
+TEST(CaseErrors, AreThoseOfTheWorstFaultAndStep) {
+  CaseResult other = result();
+  other.steps[1].faults[0].chi_bar = 0.898;
+  other.steps[0].faults[1].chi_bar = 0.001;
+  other.steps[0].faults[0].max_slip = 0.001;
+  const CaseErrors errors = case_errors(other, result());
+  EXPECT_NEAR(errors.chi_bar, 0.002, 1e-15);
+  EXPECT_NEAR(errors.largest_slip, 0.001 / 0.05, 1e-15) << "relative to the case, not the fault";
+  EXPECT_EQ(errors.flags_that_differ, 0);
+  EXPECT_TRUE(errors.within(0.002 + 1e-12));
+  EXPECT_FALSE(errors.within(0.0019)) << "of slip";
+}
+
+TEST(CaseErrors, HoldSmallSlipsAgainstAMillimetre) {
+  CaseResult exact = result(), other = result();
+  exact.steps[1].faults[1].max_slip = 1e-6;
+  other.steps[1].faults[1].max_slip = 2e-6;
+  EXPECT_NEAR(case_errors(other, exact).largest_slip, 1e-3, 1e-15);
+}
+
+TEST(CaseErrors, CountFlagsThatBothAreSureOf) {
+  CaseResult other = result();
+  other.stages[0].faults[0].activated = true;
+  EXPECT_EQ(case_errors(other, result()).flags_that_differ, 1);
+  other.stages[0].faults[0].activation_resolved = false;
+  EXPECT_EQ(case_errors(other, result()).flags_that_differ, 0);
+  other.outcome = Outcome::failed;
+  EXPECT_EQ(case_errors(other, result()).flags_that_differ, 1);
+}
+
+TEST(CaseErrors, TakeFaultsThatOpenInBothForAlike) {
+  CaseResult exact = result(), other = result();
+  for (CaseResult* one : {&exact, &other})
+    one->steps[1].faults[0].chi_bar = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(case_errors(other, exact).chi_bar, 0);
+  other.steps[1].faults[0].chi_bar = 1;
+  EXPECT_FALSE(case_errors(other, exact).within(0.1));
+}
+
+}  // namespace
+}  // namespace faultsim
