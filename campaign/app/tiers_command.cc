@@ -29,7 +29,10 @@ ordered_json spec_at(const ordered_json& given, const std::string& tier, long mo
   set["/tier"] = tier;
   set["/mesh"] = ordered_json::object();
   long& samples = *spec["design"]["samples"].get_ptr<ordered_json::number_integer_t*>();
-  if (most_samples > 0) samples = std::min(samples, most_samples);
+  if (most_samples > 0) {  // the expensive tier, which is what is to be right
+    samples = std::min(samples, most_samples);
+    spec.erase("operators");
+  }
   return spec;
 }
 

@@ -10,6 +10,7 @@
 #include "campaign/expansion/case_values.h"
 #include "campaign/expansion/extreme_rows.h"
 #include "campaign/expansion/families.h"
+#include "campaign/expansion/operator_choice.h"
 #include "campaign/expansion/row_reader.h"
 #include "campaign/expansion/scene_builder.h"
 #include "campaign/spec/pointers.h"
@@ -31,7 +32,11 @@ class Expander {
   }
 
   Expansion run() {
-    for (Group& group : result_.spec.groups) draw_sampled_rows(group);
+    for (Group& group : result_.spec.groups) {
+      draw_sampled_rows(group);
+      choose_operators(result_.spec, group, result_.notes, problems_);
+    }
+    throw_problems();
     for (const Group& group : result_.spec.groups) result_.n_designed += count_rows(group);
     for (const Exclusion& one : result_.spec.exclude) result_.excluded.push_back({one.text, 0});
     result_.case_of_row.resize(result_.spec.groups.size());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "campaign/common/json.h"
 #include "campaign/expansion/extreme_rows.h"
 #include "simulator/plan/field_check.h"
 #include "simulator/plan/geometry_check.h"
@@ -48,10 +49,18 @@ void FamilyFinder::find_relevant() {
 }
 
 std::vector<std::string> FamilyFinder::drawn() const {
+  // An offset is taken in intervals: a family for each.
+  const json* over = faultsim::value_at(group_.scene, "/numerics/surface/over");
+  const auto is_over = [&](const std::string& target) {
+    return over != nullptr && std::ranges::any_of(*over, [&](const json& one) {
+             return one.is_object() && one.value("parameter", "") == target;
+           });
+  };
   std::vector<std::string> names;
   for (std::size_t p = 0; p < group_.parameters.size(); ++p) {
-    if (makes_families_[p] && group_.parameters[p].range)
-      names.push_back(group_.parameters[p].name);
+    const Parameter& one = group_.parameters[p];
+    if (makes_families_[p] && one.range && std::ranges::none_of(one.targets, is_over))
+      names.push_back(one.name);
   }
   return names;
 }

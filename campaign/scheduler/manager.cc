@@ -52,6 +52,7 @@ Manager::Manager(Store& store, Link& link, ProgressDisplay& display, const Optio
   scenes_sent_.resize(n_workers());
   hosts_.resize(n_workers());
   cores_.resize(n_workers(), 1);
+  since_build_.resize(n_workers());
   if (campaign_.cancelled) plan_->stop();
   store_.record_event(campaign_.id, "started",
                       concat(counted(campaign_.n_waiting, "case", "cases"), " in ",
@@ -275,6 +276,7 @@ void Manager::hand_out() {
 }
 
 void Manager::send_work(int worker, const Slice& slice) {
+  if (slice.builds_operator) since_build_[worker] = {};
   message::Work work;
   work.task.family = slice.family;
   work.task.time_limit = campaign_.policy.time_limit;
@@ -300,8 +302,7 @@ void Manager::beat() {
   constexpr double kLookSeconds = 0.1;  // the sums below are not for every turn
   if (since_look_.seconds() < kLookSeconds) return;
   since_look_ = {};
-  Progress progress{campaign_.n_cases, campaign_.n_done, campaign_.n_failed, plan_->seconds_left(),
-                    ""};
+  Progress progress{campaign_.n_cases, campaign_.n_done, campaign_.n_failed, seconds_left(), ""};
   int n_building = 0;
   for (int worker = 0; worker < n_workers(); ++worker) n_building += plan_->is_building(worker);
   if (n_building > 0)
@@ -316,6 +317,14 @@ void Manager::beat() {
     display_.note(concat(campaign_.name, " was cancelled: no more cases are handed out"));
     plan_->stop();
   }
+}
+
+/// A surface takes minutes to build, and its cases wait meanwhile.
+double Manager::seconds_left() const {
+  double longest = 0;
+  for (int worker = 0; worker < n_workers(); ++worker)
+    longest = std::max(longest, plan_->build_seconds_of(worker) - since_build_[worker].seconds());
+  return plan_->seconds_left() + longest;
 }
 
 std::string Manager::progress_json() const {
@@ -334,7 +343,7 @@ std::string Manager::progress_json() const {
   const double seconds = since_start_.seconds();
   const json progress = {
       {"seconds", seconds},
-      {"seconds_left", plan_->seconds_left()},
+      {"seconds_left", seconds_left()},
       {"finished_in_this_run", n_finished_now_},
       {"cases_per_second", seconds > 0 ? static_cast<double>(n_finished_now_) / seconds : 0},
       {"in_flight", plan_->n_in_flight()},

@@ -68,6 +68,7 @@ class Manager {
   bool take_next_round();
   void begin_drain();
   void beat();
+  double seconds_left() const;
   std::string progress_json() const;
 
   Store& store_;
@@ -82,6 +83,7 @@ class Manager {
   std::vector<std::set<std::int64_t>> scenes_sent_;
   std::vector<std::string> hosts_;
   std::vector<int> cores_;
+  std::vector<faultsim::Stopwatch> since_build_;  ///< by worker, of what it builds now.
   std::map<std::string, int> host_numbers_;
   std::vector<RunRecord> uncommitted_;
   std::vector<std::pair<int, OperatorRecord>> operators_;

@@ -340,6 +340,10 @@ int WorkPlan::family_index(std::int64_t case_id) const {
   return flight->second.family;
 }
 
+double WorkPlan::build_seconds_of(int worker) const {
+  return is_building(worker) ? build_seconds(family(family_of(worker))) : 0;
+}
+
 double WorkPlan::seconds_left() const {
   double work = 0;
   double longest = 0;  // of what cannot be shared: a build, cases of a family that is not joined

@@ -94,8 +94,11 @@ class WorkPlan {
   /// Index of the family that the worker is on; -1 = none.
   int family_of(int worker) const { return at(worker).family; }
   bool is_building(int worker) const;
+  /// Predicted for the operator that the worker builds, s; 0 where it builds none.
+  double build_seconds_of(int worker) const;
   int family_index(std::int64_t case_id) const;  ///< of a case in flight.
-  /// Predicted wall seconds until all is done, from what was measured so far.
+  /// Predicted wall seconds until all is done, from what was measured so far, without what is left
+  /// of operators that are being built.
   double seconds_left() const;
 
   static constexpr double kSliceSeconds =

@@ -139,6 +139,10 @@ std::string CampaignSpec::resolved() const {
                  {"groups", json::array()}};
   // Only where it says something: specs that were stored before the key existed stay the same.
   if (keep_fields != KeepFields::none) result["keep_fields"] = to_string(keep_fields);
+  if (operators.kind != OperatorPolicy::Kind::exact) {
+    result["operators"] = {{"policy", to_string(operators.kind)},
+                           {"tolerance", operators.tolerance}};
+  }
   if (const auto& staged = staged_sample) {
     result["rounds"] = {{"probability_of", staged->condition},
                         {"width", staged->width},

@@ -169,6 +169,18 @@ struct Policy {
   std::optional<double> memory_limit;         ///< bytes per simulator process.
 };
 
+/// `operators`: how they are made where each sample would have its own.
+struct OperatorPolicy {
+  enum class Kind {
+    exact,
+    surface,    ///< interpolated over what is drawn from ranges and changes the operator.
+    automatic,  ///< the same where that takes fewer operators.
+  };
+  Kind kind = Kind::exact;
+  double tolerance = 3e-3;  ///< in χ̄.
+};
+constexpr auto words(OperatorPolicy::Kind) { return std::array{"exact", "surface", "automatic"}; }
+
 /// `keep_fields`: the load steps whose fault fields are written for each case. No part of a case's
 /// identity.
 enum class KeepFields {
@@ -215,6 +227,7 @@ struct CampaignSpec {
   Policy policy;
   std::string rank_by = "activated_area";  ///< an expression over metrics.h.
   KeepFields keep_fields = KeepFields::none;
+  OperatorPolicy operators;
   std::optional<StagedSample> staged_sample;  ///< none = its design is all there is.
   /// Of `limits`. The group's last design then varies one of their parameters at a time.
   std::vector<LimitSearch> limits;

@@ -104,6 +104,12 @@ CampaignSpec SpecReader::read() {
   if (is_usable("/keep_fields")) {
     spec_.keep_fields = named<KeepFields>(at("/keep_fields").get<std::string>()).value();
   }
+  if (is_usable("/operators")) {
+    const json& operators = at("/operators");
+    spec_.operators.kind =
+        named<OperatorPolicy::Kind>(operators.at("policy").get<std::string>()).value();
+    spec_.operators.tolerance = operators.value("tolerance", spec_.operators.tolerance);
+  }
   if (!problems_.empty()) throw InputError(spec_.source, problems_);
   return std::move(spec_);
 }

@@ -229,14 +229,6 @@ void predict_influence(const Scene& scene, const GridShape& shape, double n_cell
   plan.memory_bytes = std::max(plan.memory_bytes, kProgramBytes + cost.peak_bytes);
 }
 
-/// What a surface of operators takes, check points included: as many nodes as the polynomials of
-/// two digits in each parameter and one in each pair (results/surfaces).
-int predicted_operators(const SurfaceRequest& surface) {
-  if (!surface.wanted()) return 1;
-  const int d = static_cast<int>(surface.over.size());
-  return std::min(surface.most_operators, 1 + 4 * d + 2 * d * (d - 1)) + n_surface_checks(surface);
-}
-
 int material_index(const Scene& scene, const std::string& name) {
   return static_cast<int>(&material_named(scene, name) - scene.materials.data());
 }
@@ -321,6 +313,12 @@ Plan plan_reductions(const Scene& scene) {
 
 }  // namespace
 
+int predicted_operators(const SurfaceRequest& surface) {
+  if (!surface.wanted()) return 1;
+  const int d = static_cast<int>(surface.over.size());
+  return std::min(surface.most_operators, 1 + 4 * d + 2 * d * (d - 1)) + n_surface_checks(surface);
+}
+
 FieldMeshSpec field_mesh_spec(const Scene& scene, const Plan& plan) {
   FieldMeshSpec spec{scene.field, mesh_request(scene, plan)};
   spec.sideburden_material = material_index(scene, spec.sideburden);
@@ -371,6 +369,11 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
   predict_influence(scene, shape, reservoir_cells(scene, lines, plan.plane_strain), plan);
   plan.n_operators = predicted_operators(scene.numerics.surface);
   plan.operator_seconds *= plan.n_operators;
+  if (scene.numerics.surface.wanted()) {  // its directions, beside the centre and one operator more
+    const double entries = shape.n_jump() * shape.n_jump();
+    const double bytes = entries * (4.0 * plan.n_operators + 2 * 8.0);
+    plan.memory_bytes = std::max(plan.memory_bytes, kProgramBytes + bytes);
+  }
   plan.family = fingerprint(canonical_family(scene, plan));
   return plan;
 }

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "simulator/common/ranges.h"
@@ -18,26 +20,6 @@ namespace {
 
 using nlohmann::json;
 using Kind = SurfaceParameter::Kind;
-
-/// Which parameter a pointer is; none where a surface cannot be over it.
-std::optional<SurfaceParameter> parameter_at(const std::string& pointer, const Scene& scene) {
-  const std::size_t slash = pointer.rfind('/');
-  const std::string object = pointer.substr(0, slash), key = pointer.substr(slash + 1);
-  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    if (object != "/materials/" + pointer_token(scene.materials[i].name)) continue;
-    if (key == "youngs_modulus") return SurfaceParameter{Kind::youngs_modulus, static_cast<int>(i)};
-    if (key == "poisson_ratio") return SurfaceParameter{Kind::poisson_ratio, static_cast<int>(i)};
-  }
-  if (scene.geometry_kind != GeometryKind::field) return std::nullopt;
-  for (std::size_t i = 0; key == "dip_from_vertical" && i < scene.faults.size(); ++i) {
-    if (object == element("/faults", i)) return SurfaceParameter{Kind::dip, static_cast<int>(i)};
-  }
-  for (std::size_t i = 0; key == "offset" && i < scene.field.blocks.size(); ++i) {
-    if (object == element("/geometry/blocks", i))
-      return SurfaceParameter{Kind::offset, static_cast<int>(i)};
-  }
-  return std::nullopt;
-}
 
 /// Of each kind.
 constexpr Dimension kDimensions[] = {Dimension::pressure, Dimension::number, Dimension::angle,
@@ -83,6 +65,18 @@ void check_range(SceneReader& reader, const std::string& at, const SurfaceParame
   }
 }
 
+/// Whether the offset lies in one of the ranges that a parameter's `exact` lists.
+bool is_to_be_exact(SceneReader& reader, std::ptrdiff_t parameter, double offset) {
+  const std::string at =
+      element("/numerics/surface/over", static_cast<std::size_t>(parameter)) + "/exact";
+  for (std::size_t i = 0; i < reader.size(at); ++i) {
+    const double from = end_at(reader, element(element(at, i), 0), Kind::offset),
+                 to = end_at(reader, element(element(at, i), 1), Kind::offset);
+    if (offset >= from && offset <= to) return true;
+  }
+  return false;
+}
+
 /// An offset without a mesh_offset is taken in intervals, each with a layout of grid lines of its
 /// own: the scene is on the surface of its interval, or where it has none on an exact operator.
 void take_interval(SceneReader& reader, Scene& scene) {
@@ -104,12 +98,13 @@ void take_interval(SceneReader& reader, Scene& scene) {
       offset_intervals(scene.field, block, joined->from, joined->to);
   const auto found =
       std::ranges::find_if(intervals, [&](const OffsetInterval& one) { return one.holds(offset); });
-  if (found == intervals.end()) {
+  const bool is_next_to_lines = found == intervals.end();
+  if (is_next_to_lines || is_to_be_exact(reader, joined - over.begin(), offset)) {
     scene.numerics.surface = {};
-    scene.remarks.push_back({"/numerics/surface",
-                             concat("an offset of ", metres(offset),
-                                    " is next to one at which lines of the mesh meet: its operator "
-                                    "is an exact one")});
+    const char* why =
+        is_next_to_lines ? " is next to one at which lines of the mesh meet" : " is to be exact";
+    scene.remarks.push_back({"/numerics/surface", concat("an offset of ", metres(offset), why,
+                                                         ": its operator is no interpolated one")});
     return;
   }
   joined->from = found->from;
@@ -123,26 +118,47 @@ void read_probes(SceneReader& reader, const std::vector<std::string>& over, Surf
   const std::string root = "/numerics/surface/probes";
   read_keys(reader, root + "/", probes);
   const auto cases = surface_probes(reader.document());
-  nlohmann::json document = reader.document().value;
+  std::set<std::string> replaced(over.begin(), over.end());
+  json document = reader.document().value;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     for (const auto& [pointer, value] : cases[i]) {
       const std::string at = element(root + "/cases", i);
-      const bool has_place = pointer.starts_with('/') && put_value(document, pointer, value);
-      if (!has_place) {
-        reader.problem(at, "the scene has no place for " + pointer,
-                       "name a parameter of the scene by its alias or JSON Pointer");
-      } else if (pointer.starts_with("/numerics/surface")) {
-        reader.problem(at, "a case cannot have another surface", "remove " + pointer);
-      } else if (contains(over, pointer)) {
+      if (contains(over, pointer)) {
         reader.problem(at, "the surface is over " + pointer + ", which check points choose",
                        "remove it from the case");
+      } else if (pointer.starts_with("/numerics/surface")) {
+        reader.problem(at, "a case cannot have another surface", "remove " + pointer);
+      } else if (replaced.insert(pointer).second) {
+        const bool has_place = pointer.starts_with('/') && put_value(document, pointer, value);
+        if (has_place) continue;
+        reader.problem(at, "the scene has no place for " + pointer,
+                       "name a parameter of the scene by its alias or JSON Pointer");
       }
     }
   }
-  if (reader.sound(root)) probes.cases = fingerprint_of_probes(reader.document(), over);
+  if (reader.sound(root)) probes.cases = fingerprint_of_probes(reader.document(), replaced);
 }
 
 }  // namespace
+
+std::optional<SurfaceParameter> surface_parameter(const std::string& pointer, const Scene& scene) {
+  const std::size_t slash = pointer.rfind('/');
+  const std::string object = pointer.substr(0, slash), key = pointer.substr(slash + 1);
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    if (object != "/materials/" + pointer_token(scene.materials[i].name)) continue;
+    if (key == "youngs_modulus") return SurfaceParameter{Kind::youngs_modulus, static_cast<int>(i)};
+    if (key == "poisson_ratio") return SurfaceParameter{Kind::poisson_ratio, static_cast<int>(i)};
+  }
+  if (scene.geometry_kind != GeometryKind::field) return std::nullopt;
+  for (std::size_t i = 0; key == "dip_from_vertical" && i < scene.faults.size(); ++i) {
+    if (object == element("/faults", i)) return SurfaceParameter{Kind::dip, static_cast<int>(i)};
+  }
+  for (std::size_t i = 0; key == "offset" && i < scene.field.blocks.size(); ++i) {
+    if (object == element("/geometry/blocks", i))
+      return SurfaceParameter{Kind::offset, static_cast<int>(i)};
+  }
+  return std::nullopt;
+}
 
 void read_surface(SceneReader& reader, Scene& scene) {
   const std::string root = "/numerics/surface";
@@ -155,7 +171,7 @@ void read_surface(SceneReader& reader, Scene& scene) {
     std::string pointer = reader.text(at + "/parameter");
     const auto aliases = parameter_aliases(reader.document());
     if (const auto found = aliases.find(pointer); found != aliases.end()) pointer = found->second;
-    std::optional<SurfaceParameter> one = parameter_at(pointer, scene);
+    std::optional<SurfaceParameter> one = surface_parameter(pointer, scene);
     if (!one) {
       reader.problem(at + "/parameter",
                      "no surface can be over " + reader.as_given(at + "/parameter"),

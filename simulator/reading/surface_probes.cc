@@ -1,5 +1,7 @@
 #include "simulator/reading/surface_probes.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "simulator/common/fingerprint.h"
@@ -15,10 +17,6 @@ constexpr const char* kSurface = "/numerics/surface";
 
 /// What says nothing of how a case runs.
 constexpr const char* kSilentMembers[] = {"title", "output", "comment"};
-
-void remove(json& document, const std::string& pointer) {
-  if (value_at(document, pointer) != nullptr) put_value(document, pointer, nullptr);
-}
 
 }  // namespace
 
@@ -39,19 +37,18 @@ std::vector<std::vector<PlacedValue>> surface_probes(const JsonDocument& documen
 }
 
 std::string fingerprint_of_probes(const JsonDocument& document,
-                                  const std::vector<std::string>& over) {
-  json rest = document.value;
-  for (const char* member : kSilentMembers) rest.erase(member);
-  json cases = json::array();
-  for (const std::vector<PlacedValue>& values : surface_probes(document)) {
-    json& one = cases.emplace_back(json::object());
-    for (const auto& [pointer, value] : values) {
-      one[pointer] = value;
-      remove(rest, pointer);
-    }
+                                  const std::set<std::string>& replaced) {
+  json rest = json::object(), cases;
+  for (const auto& [name, member] : document.value.items()) {
+    if (std::ranges::find(kSilentMembers, name) != std::end(kSilentMembers)) continue;
+    rest[name] = member;
   }
-  for (const std::string& pointer : over) remove(rest, pointer);
-  rest["numerics"].erase("surface");
+  const json::iterator numerics = rest.find("numerics");
+  cases.swap(numerics->at("surface").at("probes").at("cases"));
+  numerics->erase("surface");
+  for (const std::string& pointer : replaced) {
+    if (value_at(rest, pointer) != nullptr) put_value(rest, pointer, nullptr);
+  }
   return fingerprint(cases.dump() + rest.dump());
 }
 
