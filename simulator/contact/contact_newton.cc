@@ -10,10 +10,10 @@ namespace faultsim {
 namespace {
 
 // How far linear equations are solved, as a share of their right side: no further than the set that
-// they hold for is worth, and at the end far enough that Newton's own error decides. No equation is
-// solved beyond a tenth of the tolerance.
+// they hold for is worth, and at the end as far as TangentSolver can. No equation is solved beyond
+// a tenth of the tolerance.
 constexpr double kForcing = 1e-2;
-constexpr double kForcingAtTheEnd = 1e-6;
+constexpr double kForcingAtTheEnd = 3e-5;
 constexpr double kBeyond = 0.1;
 
 /// How long a search has gone on without its residual falling by half.

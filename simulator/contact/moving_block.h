@@ -4,46 +4,45 @@
 #include <vector>
 
 #include "simulator/contact/contact_problem.h"
+#include "simulator/linalg/short_columns.h"
 
 namespace faultsim {
 
-/// G, what motion does to those who move: the rows of H at all dofs of some nodes and its columns
-/// at some dofs of theirs, side by side in memory and in single precision, N/m. It grows as nodes
-/// begin to move and is read many times for each entry of H gathered. Single precision will do for
-/// a tangent, whose equations are measured in double precision.
+/// G, what nodes that move do to each other: H between all dofs of some nodes, N/m, three for each,
+/// 0 where a node has fewer. G grows as nodes begin to move and is read many times for each entry
+/// of H gathered, so it is kept short: by symmetry of each pair of nodes only H(earlier, later), as
+/// integers of 16 bits. That will do for a tangent, whose equations are measured in double
+/// precision.
 class MovingBlock {
  public:
-  static constexpr int kRows = 3;  ///< per node: those of dofs that a node has not are 0.
+  static constexpr int kDofs = 3;  ///< per node.
 
   explicit MovingBlock(const ContactProblem& problem);
 
   void clear();
-  int n_rows() const { return static_cast<int>(row_dof_.size()); }
-  int n_columns() const { return static_cast<int>(dofs_.size()); }
-  /// The first row of a node; −1: it is not in the block.
-  int row(int node) const { return row_[problem_.nodes[node].dof[0]]; }
-  /// The column of a dof; −1: it is not in the block.
-  int column(int dof) const { return column_[dof]; }
-  /// n_rows() entries.
-  const float* entries(int column) const { return g_.col(column).data(); }
+  int n_nodes() const { return static_cast<int>(node_.size()); }
+  /// Where a node is in G; −1: nowhere. Its dofs begin at three times this.
+  int place(int node) const { return place_[node]; }
+  /// H between the dofs of the node there.
+  const Eigen::Matrix3f& own(int place) const { return own_[place]; }
+  /// H between dofs of all nodes before that place (rows) and those of the node there.
+  const ShortColumns& before(int place) const { return before_[place]; }
 
-  /// Adds nodes and dofs to what is in the block. @pre none of them is in it, and no twins.
-  void add(const std::vector<int>& nodes, const std::vector<int>& dofs);
-  /// z := G x. x: n_columns(), z: n_rows(). Columns whose entry of x is 0 are not read.
-  void multiply(const Eigen::VectorXf& x, Eigen::VectorXf& z);
+  /// Adds nodes. @pre none of them is there, and no twins.
+  void add(const std::vector<int>& nodes);
+  /// What vectors over the dofs must have room for: n_vector() entries.
+  Eigen::Index n_vector() const { return ShortColumns::padded(kDofs * n_nodes()); }
+  /// z := G x at the dofs of the nodes at these places; elsewhere z is anything.
+  /// @pre x is 0 elsewhere.
+  void multiply(const std::vector<int>& places, const Eigen::VectorXf& x, Eigen::VectorXf& z) const;
 
  private:
-  void reserve(int rows, int columns);
-  void gather(int column, int dof);
-  void add_rows(int first_row, int n_columns);
-
   const ContactProblem& problem_;
-  std::vector<int> row_dof_;           ///< dof of each row, −1 where the node has none.
-  std::vector<int> dofs_;              ///< of columns, in the order they came.
-  std::vector<int> row_, column_;      ///< per dof of the operator.
-  Eigen::MatrixXf g_;                  ///< of which n_rows() x n_columns() are in use.
-  std::vector<const float*> columns_;  ///< that a product needs, and what of each.
-  std::vector<float> factors_;
+  std::vector<int> node_;   ///< per place.
+  std::vector<int> place_;  ///< per node of the problem.
+  std::vector<int> dofs_;   ///< kDofs per place, −1 where there is none.
+  std::vector<Eigen::Matrix3f> own_;
+  std::vector<ShortColumns> before_;
 };
 
 }  // namespace faultsim

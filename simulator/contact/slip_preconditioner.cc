@@ -1,5 +1,7 @@
 #include "simulator/contact/slip_preconditioner.h"
 
+#include <algorithm>
+
 namespace faultsim {
 namespace {
 
@@ -39,15 +41,16 @@ void SlipPreconditioner::find_movers(const std::vector<TangentUnknown>& unknowns
 
 double SlipPreconditioner::own_across(const std::vector<TangentUnknown>& unknowns,
                                       const Mover& mover) const {
+  const Eigen::Matrix3f& h = block_.own(block_.place(mover.node));
   const Eigen::Vector2d p = across_of(mover.along);
   double sum = 0;
   for (int d = 0; d < 2; ++d) {
-    const float* g =
-        block_.entries(block_.column(unknowns[mover.first + d].dof)) + block_.row(mover.node);
+    const int dof = unknowns[mover.first + d].component;
     for (int c = 0; c < 2; ++c) {
       const TangentUnknown& row = unknowns[mover.first + c];
       sum += p[c] * p[d] *
-             (row.own[d] + row.weight[0] * g[0] + row.weight[1] * g[1] + row.weight[2] * g[2]);
+             (row.own[d] + row.weight[0] * h(0, dof) + row.weight[1] * h(1, dof) +
+              row.weight[2] * h(2, dof));
     }
   }
   return sum;
@@ -55,35 +58,44 @@ double SlipPreconditioner::own_across(const std::vector<TangentUnknown>& unknown
 
 SlipPreconditioner::Joined SlipPreconditioner::join(const std::vector<TangentUnknown>& unknowns,
                                                     const Mover& mover) const {
-  Joined joined{mover.dof, block_.row(mover.node), {}, {}, {}, 0};
+  Joined joined{mover.dof, block_.place(mover.node), {0, 0, 0}, {0, 0, 0}, 0};
   for (int c = 0; c < mover.n; ++c) {
     const TangentUnknown& one = unknowns[mover.first + c];
     const double d = mover.along[c];
-    joined.column[c] = block_.column(one.dof);
-    joined.along[c] = static_cast<float>(d);
-    for (std::size_t a = 0; a < 3; ++a) joined.weight[a] += static_cast<float>(d * one.weight[a]);
+    joined.motion[one.component] = static_cast<float>(d);
+    for (int a = 0; a < 3; ++a)
+      joined.weight[a] += static_cast<float>(d * one.weight[static_cast<std::size_t>(a)]);
     if (mover.n == 1 && one.component > 0)
       joined.own = static_cast<float>(one.own[one.component - 1]);
     for (int e = 0; mover.n == 2 && e < 2; ++e)
       joined.own += static_cast<float>(d * one.own[e] * mover.along[e]);
   }
-  if (mover.n == 1) joined.column[1] = joined.column[0];
   return joined;
 }
 
-/// Entries of a column of M over the rows from first_row on.
-void SlipPreconditioner::fill(GrowingLu<float>::Block& block, int column, int first_row) const {
-  const Joined& q = joined_[column];
-  const float *g = block_.entries(q.column[0]), *h = block_.entries(q.column[1]);
-  for (int p = first_row; p < static_cast<int>(joined_.size()); ++p) {
-    const Joined& row = joined_[p];
-    const float *a = g + row.row, *b = h + row.row;
-    float sum = 0;
-    for (std::size_t c = 0; c < 3; ++c)
-      sum += row.weight[c] * (q.along[0] * a[c] + q.along[1] * b[c]);
-    block(p, column) = sum;
+/// Entries of M between q and the unknowns from `first` on whose nodes are before q's in the block,
+/// M_pq and M_qp, or are q's own.
+void SlipPreconditioner::fill(GrowingLu<float>::Block& m, int q, int first) {
+  const Joined& one = joined_[q];
+  const auto is_before = [&](const Joined& other) { return other.place < one.place; };
+  if (std::any_of(joined_.begin() + first, joined_.end(), is_before)) {
+    const auto triple = [](const Eigen::Vector3f& v) {
+      return ShortColumns::Triple{v[0], v[1], v[2]};
+    };
+    block_.before(one.place).combine(triple(one.motion), at_motion_);
+    block_.before(one.place).combine(triple(one.weight), at_weight_);
   }
-  if (column >= first_row) block(column, column) += q.own;
+  for (int p = first; p < static_cast<int>(joined_.size()); ++p) {
+    const Joined& other = joined_[p];
+    const int row = MovingBlock::kDofs * other.place;
+    if (other.place < one.place) {
+      m(p, q) = other.weight.dot(at_motion_.segment<3>(row));
+      m(q, p) = other.motion.dot(at_weight_.segment<3>(row));
+    } else if (other.place == one.place) {
+      m(p, q) = other.weight.dot(block_.own(one.place) * one.motion) + (p == q ? one.own : 0);
+      m(q, p) = one.weight.dot(block_.own(one.place) * other.motion) + (p == q ? one.own : 0);
+    }
+  }
 }
 
 bool SlipPreconditioner::cover(const std::vector<TangentUnknown>& unknowns) {
@@ -97,8 +109,8 @@ bool SlipPreconditioner::cover(const std::vector<TangentUnknown>& unknowns) {
   }
   const int n = static_cast<int>(joined_.size());
   if (n == old) return true;
-  GrowingLu<float>::Block block = factor_.border(n - old);
-  for (int q = 0; q < n; ++q) fill(block, q, q < old ? old : 0);
+  GrowingLu<float>::Block m = factor_.border(n - old);
+  for (int q = 0; q < n; ++q) fill(m, q, q < old ? old : 0);
   if (factor_.grow(n - old)) return true;
   clear();
   return false;

@@ -42,23 +42,22 @@ class SlipPreconditioner {
   };
   /// A row and column of M, as it was when it joined.
   struct Joined {
-    int dof, row;                 ///< of its first component; where its node is in the block.
-    std::array<int, 2> column;    ///< in the block.
-    std::array<float, 2> along;   ///< 0 of a component that is not there.
-    std::array<float, 3> weight;  ///< dᵀ of the components' weights.
-    float own;                    ///< dᵀ (∂R/∂Δg_T) d, Pa/m.
+    int dof, place;          ///< of its first component; where its node is in the block.
+    Eigen::Vector3f motion;  ///< d in the dofs of its node.
+    Eigen::Vector3f weight;  ///< dᵀ of the components' weights.
+    float own;               ///< dᵀ (∂R/∂Δg_T) d, Pa/m.
   };
   void find_movers(const std::vector<TangentUnknown>& unknowns);
   double own_across(const std::vector<TangentUnknown>& unknowns, const Mover& mover) const;
   Joined join(const std::vector<TangentUnknown>& unknowns, const Mover& mover) const;
-  void fill(GrowingLu<float>::Block& block, int column, int first_row) const;
+  void fill(GrowingLu<float>::Block& m, int q, int first);
 
   const MovingBlock& block_;
   GrowingLu<float> factor_;
   std::vector<Joined> joined_;
   std::vector<int> place_;     ///< in the factor, per dof of the operator; −1: not there.
   std::vector<Mover> movers_;  ///< of the unknowns covered last.
-  Eigen::VectorXf side_;
+  Eigen::VectorXf side_, at_motion_, at_weight_;
 };
 
 }  // namespace faultsim

@@ -73,32 +73,34 @@ TangentReport TangentSolver::solve_exactly(const std::vector<TangentUnknown>& un
 
 /// Has the block hold all that the unknowns need of H.
 void TangentSolver::cover(const std::vector<TangentUnknown>& unknowns) {
-  // The preconditioner reads the block, so they go together.
-  if (block_.n_columns() > kSpare * static_cast<int>(unknowns.size())) {
+  // The preconditioner reads the block, so they go together. Most nodes have two unknowns.
+  if (2 * block_.n_nodes() > kSpare * static_cast<int>(unknowns.size())) {
     preconditioner_.clear();
     block_.clear();
   }
-  std::vector<int> nodes, dofs;
-  for (const TangentUnknown& unknown : unknowns) {
-    if (block_.row(unknown.node) < 0 && (nodes.empty() || nodes.back() != unknown.node)) {
-      nodes.push_back(unknown.node);
-    }
-    if (block_.column(unknown.dof) < 0) dofs.push_back(unknown.dof);
-  }
-  if (!dofs.empty()) block_.add(nodes, dofs);
+  std::vector<int> nodes, added;
+  for (const TangentUnknown& unknown : unknowns)
+    if (nodes.empty() || nodes.back() != unknown.node) nodes.push_back(unknown.node);
+  for (const int k : nodes)
+    if (block_.place(k) < 0) added.push_back(k);
+  block_.add(added);
+  places_.clear();
+  for (const int k : nodes) places_.push_back(block_.place(k));
 }
 
 void TangentSolver::multiply(const std::vector<TangentUnknown>& unknowns, const Eigen::VectorXd& x,
                              Eigen::VectorXd& y) {
-  moving_.setZero(block_.n_columns());
-  for (std::size_t v = 0; v < unknowns.size(); ++v) {
-    moving_[block_.column(unknowns[v].dof)] = static_cast<float>(x[v]);
-  }
-  block_.multiply(moving_, response_);
+  const auto first_dof = [&](const TangentUnknown& unknown) {
+    return MovingBlock::kDofs * block_.place(unknown.node);
+  };
+  moving_.setZero(block_.n_vector());
+  for (std::size_t v = 0; v < unknowns.size(); ++v)
+    moving_[first_dof(unknowns[v]) + unknowns[v].component] = static_cast<float>(x[v]);
+  block_.multiply(places_, moving_, response_);
   y.resize(x.size());
   for (std::size_t u = 0; u < unknowns.size(); ++u) {
     const TangentUnknown& row = unknowns[u];
-    const float* at = response_.data() + block_.row(row.node);
+    const float* at = response_.data() + first_dof(row);
     y[u] = row.weight[0] * at[0] + row.weight[1] * at[1] + row.weight[2] * at[2];
   }
   // Unknowns of a node follow each other.

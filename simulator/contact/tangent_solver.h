@@ -18,17 +18,18 @@ struct TangentReport {
 };
 
 /// Solves T x = b over the moving nodes, again and again while few of them change. A small system
-/// is factorised. A large one is solved by GMRES, whose products take H in single precision
-/// (MovingBlock), with a factor that outlives the iteration it was made for (SlipPreconditioner)
-/// and is made anew where it no longer helps. What the factor has seen decides last digits only,
-/// and clear() forgets it.
+/// is factorised. A large one is solved by GMRES, whose products take H as integers of 16
+/// bits (MovingBlock), with a factor that outlives the iteration it was made for
+/// (SlipPreconditioner) and is made anew where it no longer helps. What the factor has seen decides
+/// last digits only, and clear() forgets it.
 class TangentSolver {
  public:
   explicit TangentSolver(const ContactProblem& problem);
   void clear();
   /// @param right     b, per unknown, Pa.
-  /// @param residual  |b − T x| to be reached, Pa; 0: round-off, in double precision throughout.
-  /// What is small goes there anyway.
+  /// @param residual  |b − T x| to be reached, Pa, but for the 1e-4 |b| by which products of
+  /// MovingBlock may be wrong; 0: round-off, in double precision throughout. What is small goes
+  /// there anyway.
   /// @param solution  x, per unknown, m.
   TangentReport solve(const std::vector<TangentUnknown>& unknowns, const Eigen::VectorXd& right,
                       double residual, Eigen::VectorXd& solution);
@@ -46,7 +47,8 @@ class TangentSolver {
   const ContactProblem& problem_;
   MovingBlock block_;
   SlipPreconditioner preconditioner_;
-  bool tired_ = false;  ///< the preconditioner took many iterations last time.
+  bool tired_ = false;       ///< the preconditioner took many iterations last time.
+  std::vector<int> places_;  ///< in the block, of the nodes of the unknowns.
   Eigen::VectorXf moving_, response_;
   Eigen::MatrixXd direct_;
   GrowingLu<double> direct_lu_;

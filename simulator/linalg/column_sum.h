@@ -12,13 +12,10 @@ namespace faultsim {
 /// fused, so vectors of any width give the same bits, and parts those of the whole; the widest that
 /// the processor has are used. What limits it is reading the columns.
 /// @param first  of the entries of the columns that are added to y; y.size() of them.
-/// @tparam Real  double or float.
-template <typename Real>
-void add_columns(std::span<const Real* const> columns, std::span<const Real> factors,
-                 std::size_t first, std::span<Real> y);
+void add_columns(std::span<const double* const> columns, std::span<const double> factors,
+                 std::size_t first, std::span<double> y);
 /// The same by vectors of `set`, for tests and measurements. @pre the processor has them.
-template <typename Real>
-void add_columns_by(VectorSet set, std::span<const Real* const> columns,
-                    std::span<const Real> factors, std::size_t first, std::span<Real> y);
+void add_columns_by(VectorSet set, std::span<const double* const> columns,
+                    std::span<const double> factors, std::size_t first, std::span<double> y);
 
 }  // namespace faultsim

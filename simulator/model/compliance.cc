@@ -21,8 +21,8 @@ void Compliance::subtract_product(std::span<const int> active, const Eigen::Vect
   Eigen::VectorXd product;
   for (const RowRange& part : rows) {
     product.setZero(part.n);
-    add_columns<double>(columns, factors, static_cast<std::size_t>(part.first),
-                        {product.data(), static_cast<std::size_t>(part.n)});
+    add_columns(columns, factors, static_cast<std::size_t>(part.first),
+                {product.data(), static_cast<std::size_t>(part.n)});
     traction.segment(part.first, part.n).array() -=
         product.array() * inverse_area.segment(part.first, part.n).array();
   }

@@ -134,9 +134,9 @@ TEST(TangentSolver, SolvesAsFarAsAskedWhateverJoinedAndLeft) {
                                               range(10, 200), range(90, 200), range(40, 240),
                                               range(0, 240)};
   for (const std::vector<int>& nodes : sets) {
-    for (const double share : {1e-2, 1e-5}) {
+    for (const double share : {1e-2, 1e-4}) {
       const Solved solved = solve(given, solver, given.unknowns(nodes), share);
-      EXPECT_LT(solved.error, 1.5 * share + 1e-6) << nodes.size();
+      EXPECT_LT(solved.error, 1.5 * share) << nodes.size();
       EXPECT_GE(solved.krylov, 0) << nodes.size();
       EXPECT_LE(solved.krylov, 20) << nodes.size();
     }

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "simulator/linalg/blas_kernel.h"
+
+namespace faultsim {
+
+/// Three columns C of a matrix in half the memory of single precision: integers of 16 bits and, for
+/// every kScaled rows of a column, a scale; an entry is off by 2⁻¹⁶ of the largest of those rows.
+/// Made to multiply by [[0, C], [Cᵀ, 0]], a piece of a symmetric matrix, while C is read once.
+class ShortColumns {
+ public:
+  static constexpr int kColumns = 3;
+  static constexpr int kLanes = 16;   ///< sums over rows are so many sums, whatever the processor.
+  static constexpr int kScaled = 64;  ///< rows; a multiple of kLanes.
+  using Triple = std::array<float, kColumns>;
+
+  /// @param columns  finite, n x 3.
+  explicit ShortColumns(const Eigen::MatrixX3f& columns);
+
+  int rows() const { return rows_; }
+  /// What vectors over the rows must have room for: entries beyond rows() are to be finite in x,
+  /// and are as before in y.
+  static Eigen::Index padded(Eigen::Index rows) { return (rows + kScaled - 1) / kScaled * kScaled; }
+
+  /// y += C f, returns Cᵀ x. The same bits with vectors of any width, as every entry of y and every
+  /// lane's sum is computed for itself; the widest that the processor has are used.
+  Triple multiply(const Triple& f, const float* x, float* y) const;
+  /// The same by vectors of `set`, for tests and measurements. @pre the processor has them.
+  Triple multiply_by(VectorSet set, const Triple& f, const float* x, float* y) const;
+  /// sum := C f, padded(rows()) entries.
+  void combine(const Triple& f, Eigen::VectorXf& sum) const;
+
+ private:
+  int rows_;
+  std::vector<std::int16_t> entries_;  ///< column by column, each padded.
+  std::vector<Triple> scales_;
+};
+
+}  // namespace faultsim
