@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "campaign/answers/why.h"
+#include "campaign/app/certify.h"
 #include "campaign/app/commands.h"
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
@@ -86,6 +87,7 @@ struct RankArguments {
   RankRequest request = {};
   std::string why = {};
   bool list_metrics = false;
+  CertifyRequest certify = {};
 };
 
 ExitCode rank(const StoreArguments& common, const RankArguments& arguments) {
@@ -97,6 +99,11 @@ ExitCode rank(const StoreArguments& common, const RankArguments& arguments) {
   if (arguments.list_metrics) {
     print_answer(metrics_answer(), common);
     return ExitCode::done;
+  }
+  if (arguments.certify.n > 0) {
+    CertifyRequest request = arguments.certify;
+    request.ranking = arguments.request;
+    return certify(common, request);
   }
   const Store store = Store::open_reader(common.store);
   const CampaignInfo c = store.campaign(common.campaign, store.lacks_results());
@@ -300,6 +307,18 @@ void add_reading(Program& program) {
   command->add_option("--why", a.why,
                       "CASE: why it stands where it does: what slides first, what matters\n"
                       "near it and over the campaign, which places are not told apart");
+  CLI::Option* certified =
+      command
+          ->add_option("--certify", a.certify.n,
+                       "run the first so many cases that are interpolated on exact operators, as\n"
+                       "campaign NAME-exact, and compare both")
+          ->check(CLI::Range(1, 10000));
+  command
+      ->add_option("--tolerance", a.certify.tolerance,
+                   "relative, above which certified cases count as other (default 0.01)")
+      ->check(CLI::PositiveNumber)
+      ->needs(certified);
+  add_workers(command, a.certify.n_workers, "of --certify; default: the cores available");
   add_renderings(command, program.common);
   command->footer(
       "Examples:\n"
@@ -307,6 +326,7 @@ void add_reading(Program& program) {
       "  faultsweep rank my-sweep --where \"friction_angle < 25 deg and activated\" --stage "
       "gas_storage\n"
       "  faultsweep rank my-sweep --why 17 --stage gas_storage\n"
+      "  faultsweep rank my-sweep --by chi_bar --certify 20\n"
       "  faultsweep rank --list-metrics");
 
   auto [show_command, show_arguments] =

@@ -195,11 +195,8 @@ class OperatorChoice {
   long n_surfaces_ = 1, n_exact_ = 0;
 };
 
-}  // namespace
-
-void choose_operators(const CampaignSpec& spec, Group& group, std::vector<std::string>& notes,
-                      std::vector<Problem>& problems) {
-  if (spec.operators.kind == OperatorPolicy::Kind::exact) return;
+void choose(const CampaignSpec& spec, Group& group, std::vector<std::string>& notes,
+            std::vector<Problem>& problems) {
   std::vector<Problem> found;
   const faultsim::Scene scene =
       faultsim::read_scene({spec.scene_source, group.scene, spec.base.lines}, found);
@@ -212,6 +209,18 @@ void choose_operators(const CampaignSpec& spec, Group& group, std::vector<std::s
                              " that changes the operator is drawn from a range with ends"),
                       "draw moduli, dips or an offset from ranges, give distributions \"from\" and "
                       "\"to\", or take \"automatic\""});
+}
+
+}  // namespace
+
+void choose_operators(const CampaignSpec& spec, Group& group, std::vector<std::string>& notes,
+                      std::vector<Problem>& problems) {
+  std::vector<long> picked = std::exchange(group.picked, {});  // chosen is for the whole design
+  if (spec.operators.kind != OperatorPolicy::Kind::exact) choose(spec, group, notes, problems);
+  group.picked = std::move(picked);
+  const bool has_surface = faultsim::value_at(group.scene, "/numerics/surface") != nullptr;
+  if (spec.operators.for_comparison && has_surface)
+    group.scene["numerics"]["surface"]["exact"] = true;
 }
 
 }  // namespace faultsweep

@@ -168,6 +168,11 @@ std::string CampaignSpec::resolved() const {
 CampaignSpec read_campaign(const std::string& path) {
   CampaignSpec spec =
       parse_campaign(faultsim::read_input_or_throw(path, faultsim::kMostJsonBytes), path);
+  if (faultsim::value_at(spec.document.value, "/operators/exact_rows") != nullptr) {
+    throw InputError(path,
+                     {{"/operators/exact_rows", spec.document.line_of("/operators/exact_rows"),
+                       "is what `rank --certify` adds by itself", "remove it"}});
+  }
   if (spec.document.value.contains("limits_round")) {
     throw InputError(path, {{"/limits_round", spec.document.line_of("/limits_round"),
                              "is what a search of limits adds by itself", "remove it"}});

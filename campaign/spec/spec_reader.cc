@@ -104,14 +104,19 @@ CampaignSpec SpecReader::read() {
   if (is_usable("/keep_fields")) {
     spec_.keep_fields = named<KeepFields>(at("/keep_fields").get<std::string>()).value();
   }
-  if (is_usable("/operators")) {
-    const json& operators = at("/operators");
-    spec_.operators.kind =
-        named<OperatorPolicy::Kind>(operators.at("policy").get<std::string>()).value();
-    spec_.operators.tolerance = operators.value("tolerance", spec_.operators.tolerance);
-  }
+  if (is_usable("/operators")) read_operators();
   if (!problems_.empty()) throw InputError(spec_.source, problems_);
   return std::move(spec_);
+}
+
+void SpecReader::read_operators() {
+  const json& operators = at("/operators");
+  spec_.operators.kind = named<OperatorPolicy::Kind>(operators.value("policy", "exact")).value();
+  spec_.operators.tolerance = operators.value("tolerance", spec_.operators.tolerance);
+  const auto rows = operators.find("exact_rows");
+  if (rows == operators.end() || spec_.groups.empty()) return;
+  spec_.operators.for_comparison = true;
+  spec_.groups.front().picked = rows->get<std::vector<long>>();
 }
 
 /// The text of the CSV files of a scene becomes part of it, and of a pressure field what tells that

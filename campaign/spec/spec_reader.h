@@ -49,6 +49,7 @@ class SpecReader {
   void read_name();
   void read_base();
   void read_policy();
+  void read_operators();
   std::optional<double> read_time_limit(const std::string& pointer);
   void problem(const std::string& pointer, const std::string& what, const std::string& cure);
   const json& at(const std::string& pointer) const;

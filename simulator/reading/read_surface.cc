@@ -191,6 +191,7 @@ void read_surface(SceneReader& reader, Scene& scene) {
   }
   if (reader.has(root + "/probes")) read_probes(reader, pointers, surface.probes.emplace());
   if (reader.sound("/numerics") && reader.sound("/geometry")) take_interval(reader, scene);
+  if (reader.boolean(reader.place(root + "/exact"), false)) surface = {};
 }
 
 }  // namespace faultsim

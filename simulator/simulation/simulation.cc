@@ -106,9 +106,8 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation Simulation::from_file(const std::string& file, const Changes& changes, bool exact) {
   Simulation simulation;
   JsonDocument document = read_scene_file(file, changes);
-  const auto numerics = document.value.find("numerics");
-  if (exact && numerics != document.value.end() && numerics->is_object())
-    numerics->erase("surface");
+  if (exact && value_at(document.value, "/numerics/surface") != nullptr)
+    put_value(document.value, "/numerics/surface/exact", true);
   simulation.hold(std::move(document));
   LoadedScene& loaded = simulation.impl_->at_hand;
   loaded.plan.warnings = pressure_warnings(loaded.scene);

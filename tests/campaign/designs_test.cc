@@ -20,11 +20,12 @@ class Designs : public testing::CampaignTest {
   }
 
   /// Submits a design of the small field; what submit says of it.
-  json submit(const std::string& design) {
+  json submit(const std::string& design, const nlohmann::ordered_json& operators = {}) {
     auto spec = nlohmann::ordered_json::parse(
         std::ifstream(std::string(FAULTSIM_SOURCE_DIR) + "/docs/examples/campaigns/small.json"));
     spec["base"] = std::string(FAULTSIM_SOURCE_DIR) + "/docs/examples/scenes/rotliegend.json";
     spec["design"] = nlohmann::ordered_json::parse(design);
+    if (!operators.is_null()) spec["operators"] = operators;
     const std::string file = (folder_ / "spec.json").string();
     std::ofstream(file) << spec.dump(1);
     const auto submitted = faultsweep({"submit", file, "--json"});
@@ -124,6 +125,55 @@ TEST_F(Designs, ASampleGrowsInRoundsWhateverIsKilled) {
   EXPECT_EQ(rest.code, 0) << rest.err;
   EXPECT_EQ(faultsweep({"rank", "--json", "--top", "0"}).out, ranked.out);
   EXPECT_EQ(json::parse(faultsweep({"status", "--json"}).out)["conclusion"], status["conclusion"]);
+}
+
+/// Moduli that are drawn: one surface for all of them, the same bits whoever builds it and however
+/// often that is killed on the way, and exact cases of the first beside it.
+TEST_F(Designs, SamplesShareASurfaceWhateverIsKilledAndTheFirstAreCertified) {
+  const char* const design = R"({"kind": "monte-carlo", "samples": 40, "parameters": {
+      "salt_stiffness": {"from": "20 GPa", "to": "60 GPa"},
+      "friction_angle": {"from": "15 deg", "to": "35 deg"}}})";
+  const json submitted = submit(design, {{"policy", "automatic"}});
+  EXPECT_EQ(submitted["families"].size(), 1u);
+  EXPECT_GT(submitted["families"][0]["n_operators"], 1);
+  const auto whole = wait(start({"run", "--workers", "1"}), 300);
+  EXPECT_EQ(whole.code, 0) << whole.err;
+  const auto ranked = faultsweep({"rank", "--json", "--top", "0"});
+  const json first = json::parse(ranked.out)["cases"][0];
+  EXPECT_EQ(first["interpolated"], true);
+
+  std::filesystem::remove_all(store_);
+  submit(design, {{"policy", "automatic"}});
+  const auto n_operators = [&] {
+    const std::filesystem::path folder = std::filesystem::path(store_) / "operators";
+    if (!std::filesystem::is_directory(folder)) return std::ptrdiff_t{0};
+    return std::ranges::distance(std::filesystem::directory_iterator(folder));
+  };
+  for (const std::ptrdiff_t so_far : {2, 5}) {
+    const pid_t starter = start({"run", "--workers", "2"});
+    for (int tries = 0; tries < 1000 && n_operators() < so_far; ++tries) usleep(20'000);
+    for (const pid_t mpirun : children_of(starter)) {
+      for (const pid_t rank : children_of(mpirun)) kill(rank, SIGKILL);
+      kill(mpirun, SIGKILL);
+    }
+    kill(starter, SIGKILL);
+    waitpid(starter, nullptr, 0);
+  }
+  EXPECT_EQ(json::parse(faultsweep({"status", "--json"}).out)["done"], 0)
+      << "it was killed before a case was done";
+  const auto rest = wait(start({"run", "--workers", "3"}), 300);
+  EXPECT_EQ(rest.code, 0) << rest.err;
+  EXPECT_EQ(faultsweep({"rank", "--json", "--top", "0"}).out, ranked.out);
+
+  const auto certified = faultsweep({"rank", "--certify", "5", "--workers", "2", "--json"});
+  EXPECT_EQ(certified.code, 0) << certified.err;
+  const json compared = json::parse(certified.out);
+  EXPECT_EQ(compared["compared"], 5) << certified.out;
+  EXPECT_EQ(compared["agrees"], true) << certified.out;
+  const Store store = Store::open_reader(store_);
+  const CampaignInfo exact = store.campaign("small-exact");
+  EXPECT_EQ(exact.n_complete(), 5);
+  EXPECT_FALSE(store.stored_case(exact.id, "1").result.surface);
 }
 
 TEST_F(Designs, NestedSamplesAreTheSameInEachOuterRow) {
