@@ -1,7 +1,6 @@
 #include "campaign/statistics/control_variate.h"
 
 #include <algorithm>
-#include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 #include <limits>
 
@@ -22,14 +21,6 @@ Moments moments_of(std::span<const double> values) {
   return m;
 }
 
-/// Jeffreys' interval: quantiles of Beta(k + ½, n − k + ½), open where none or all have it.
-Interval jeffreys(double k, double n, double confidence) {
-  if (n == 0) return {0, 1};
-  const double tail = 0.5 * (1 - confidence), a = k + 0.5, b = n - k + 0.5;
-  return {k <= 0 ? 0 : boost::math::ibeta_inv(a, b, tail),
-          k >= n ? 1 : boost::math::ibetac_inv(a, b, tail)};
-}
-
 /// Of the members with one value of x: how many, how many of them with y = 1.
 struct Stratum {
   double n = 0, k = 0;
@@ -46,22 +37,6 @@ double product_sum(std::span<const double> x, double mean_x, std::span<const dou
   double sum = 0;
   for (std::size_t i = 0; i < y.size(); ++i) sum += (x[i] - mean_x) * (y[i] - mean_y);
   return sum;
-}
-
-/// How many members alone, a share p of them with the property, have Jeffreys' interval as narrow
-/// as that; never fewer than were run.
-double members_as_sure(double p, double width, double least, double confidence) {
-  const auto is_wider = [&](double n) {
-    const Interval one = jeffreys(p * n, n, confidence);
-    return one.high - one.low > width;
-  };
-  double low = least, high = least;
-  while (is_wider(high) && high < 1e12) low = high, high *= 2;
-  while (high - low > 1e-5 * high) {
-    const double middle = 0.5 * (low + high);
-    (is_wider(middle) ? low : high) = middle;
-  }
-  return high;
 }
 
 /// How many members alone have this standard error; never fewer than were run.
@@ -81,6 +56,7 @@ TieredEstimate tiered_mean(const TieredSample& sample, double confidence) {
   found.n_equivalent = n;
   if (!(x.squares > 0)) {
     found.estimate = found.direct;
+    found.residual_variance = y.variance();
     return found;
   }
   const double xy = product_sum(paired, x.mean, sample.high, y.mean);
@@ -90,10 +66,17 @@ TieredEstimate tiered_mean(const TieredSample& sample, double confidence) {
   const double shift = all.mean - x.mean;
   const double variance = residual * (1 / n + shift * shift / x.squares) +
                           found.weight * found.weight * all.variance() / all.n;
+  found.residual_variance = residual;
+  found.explained_variance = found.weight * found.weight * all.variance();
   found.estimate =
       student_estimate(y.mean + found.weight * shift, std::sqrt(variance), n - 2, confidence);
   found.n_equivalent = equivalent(y.variance(), found.estimate.standard_error, n);
   return found;
+}
+
+double mean_half_width(const TieredEstimate& mean, double n, double all, double confidence) {
+  return student_reach(confidence, n - 2) *
+         std::sqrt(mean.residual_variance / n + mean.explained_variance / all);
 }
 
 TieredEstimate tiered_probability(const TieredSample& sample, double confidence) {
@@ -107,16 +90,16 @@ TieredEstimate tiered_probability(const TieredSample& sample, double confidence)
   const double pi = all.mean, a = with.share(), b = without.share(), n = y.n;
   TieredEstimate found;
   found.direct = {y.mean, std::sqrt(y.mean * (1 - y.mean) / n),
-                  jeffreys(y.mean * n, n, confidence)};
+                  jeffreys_bounds(y.mean * n, n, confidence)};
   found.weight = with.n > 0 && without.n > 0 ? a - b : 0;
   const Moments x = moments_of(sample.low.first(sample.high.size()));
   if (x.squares > 0 && y.squares > 0) {
     found.correlation =
         product_sum(sample.low, x.mean, sample.high, y.mean) / std::sqrt(x.squares * y.squares);
   }
-  const Interval pis = jeffreys(pi * all.n, all.n, confidence);
-  const Interval as = jeffreys(with.k, with.n, confidence),
-                 bs = jeffreys(without.k, without.n, confidence);
+  const Interval pis = jeffreys_bounds(pi * all.n, all.n, confidence);
+  const Interval as = jeffreys_bounds(with.k, with.n, confidence),
+                 bs = jeffreys_bounds(without.k, without.n, confidence);
   // Without a run in a stratum its probability may be any: so may be what π contributes.
   const double slope = with.n > 0 && without.n > 0 ? a - b : 1;
   const double pi_down = slope >= 0 ? pi - pis.low : pis.high - pi;
@@ -126,10 +109,10 @@ TieredEstimate tiered_probability(const TieredSample& sample, double confidence)
   const double value = pi * a + (1 - pi) * b;
   found.estimate.value = value;
   found.estimate.bounds = {std::max(0.0, value - down), std::min(1.0, value + up)};
-  const double width = found.estimate.bounds.high - found.estimate.bounds.low;
+  const double reach = half_width(found.estimate);
   found.estimate.standard_error =
-      0.5 * width / student_reach(confidence, std::numeric_limits<double>::infinity());
-  found.n_equivalent = members_as_sure(value, width, n, confidence);
+      reach / student_reach(confidence, std::numeric_limits<double>::infinity());
+  found.n_equivalent = members_for_half_width(value, reach, n, confidence);
   return found;
 }
 

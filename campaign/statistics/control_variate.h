@@ -3,6 +3,7 @@
 #include <span>
 
 #include "campaign/statistics/intervals.h"
+#include "campaign/statistics/predicted_share.h"
 
 /// What an exact but expensive model says of a sample, from a few runs of it and many of a cheap
 /// model that goes with it. The sample is random; the expensive model was run on its first n
@@ -24,6 +25,8 @@ struct TieredEstimate {
   /// Members of the expensive model alone that would be as sure: with the same standard error, or
   /// of flags as wide an interval; n where the cheap one does not help.
   double n_equivalent = 0;
+  /// Of a mean: s_e² and β² s_x², what one member more of either model makes less.
+  double residual_variance = 0, explained_variance = 0;
 };
 
 /// Mean of y by the regression estimator of double sampling (Cochran 1977, section 12.6):
@@ -36,6 +39,8 @@ struct TieredEstimate {
 /// kFewestPairsForTiers pairs, 95 % intervals hold 93 to 97 % (results/coverage).
 /// @pre n ≥ 4, N ≥ n.
 TieredEstimate tiered_mean(const TieredSample& sample, double confidence);
+/// Half the width of the bounds of such a mean from n and N members: t √(s_e² / n + β² s_x² / N).
+double mean_half_width(const TieredEstimate& mean, double n, double all, double confidence);
 
 /// P(y = 1) of flags x and y. With the best weight that is
 ///
@@ -50,7 +55,6 @@ TieredEstimate tiered_mean(const TieredSample& sample, double confidence);
 /// hardly differ: too few have then been seen to say less (results/coverage).
 /// @param sample  values 0 and 1. @pre n ≥ 4, N ≥ n.
 TieredEstimate tiered_probability(const TieredSample& sample, double confidence);
-inline constexpr long kFewestPairsForTiers = 40;
 
 /// The N / n at which cases of the two models, whose costs stand as c = cost_low / cost_high, give
 /// the smallest variance for their price: √(ρ² / (1 − ρ²) / c), at least 1.

@@ -34,6 +34,28 @@ Interval proportion_bounds(long k, long n_unknown, long n, double confidence) {
           proportion_bounds(k + n_unknown, n, confidence).high};
 }
 
+Interval jeffreys_bounds(double k, double n, double confidence) {
+  if (n == 0) return {0, 1};
+  const double tail = 0.5 * (1 - confidence), a = k + 0.5, b = n - k + 0.5;
+  return {k <= 0 ? 0 : boost::math::ibeta_inv(a, b, tail),
+          k >= n ? 1 : boost::math::ibetac_inv(a, b, tail)};
+}
+
+double members_for_half_width(double share, double half_width, double fewest, double confidence) {
+  constexpr double kMost = 1e12, kAccuracy = 1e-5;
+  const auto is_wider = [&](double n) {
+    const Interval one = jeffreys_bounds(share * n, n, confidence);
+    return one.high - one.low > 2 * half_width;
+  };
+  double low = fewest, high = fewest;
+  while (is_wider(high) && high < kMost) low = high, high *= 2;
+  while (high - low > kAccuracy * high) {
+    const double middle = 0.5 * (low + high);
+    (is_wider(middle) ? low : high) = middle;
+  }
+  return high;
+}
+
 long samples_for_half_width(double expected, double half_width, double confidence) {
   FAULTSIM_DEMAND(half_width > 0, half_width);
   const auto is_enough = [&](long n) {

@@ -36,6 +36,14 @@ Interval proportion_bounds(long k, long n, double confidence);
 /// @pre k + n_unknown ≤ n.
 Interval proportion_bounds(long k, long n_unknown, long n, double confidence);
 
+/// Quantiles of Beta(k + ½, n − k + ½) (Jeffreys' interval; Brown, Cai & DasGupta 2001), an end
+/// open where none or all have the property: they cover about as often as they say on average over
+/// probabilities, not at each. k and n need not be whole. [0, 1] for n = 0.
+Interval jeffreys_bounds(double k, double n, double confidence);
+/// How many samples, a share of them with a property, have Jeffreys' interval of that half width;
+/// at least `fewest`.
+double members_for_half_width(double share, double half_width, double fewest, double confidence);
+
 /// The fewest samples with which proportion_bounds are at most 2 half_width apart, if a share
 /// `expected` of them has the property.
 long samples_for_half_width(double expected, double half_width, double confidence);

@@ -77,6 +77,9 @@ TEST(TieredMean, HasTheStandardErrorOfARegressionAtTheMeanOfAll) {
   EXPECT_NEAR(found.estimate.value, level + slope * mean, 1e-12);
   EXPECT_NEAR(found.estimate.standard_error, std::sqrt(of_line + slope * slope * scatter / 14),
               1e-12);
+  EXPECT_NEAR(mean_half_width(found, 60, 140, 0.95),
+              student_reach(0.95, 58) * std::sqrt(residual / 60 + slope * slope * scatter / 140),
+              1e-12);
 }
 
 /// In other units, or with its sign changed, the cheap model says the same.

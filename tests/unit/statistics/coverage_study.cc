@@ -13,53 +13,26 @@
 #include <string>
 #include <vector>
 
-#include "campaign/statistics/control_variate.h"
 #include "campaign/statistics/intervals.h"
 #include "campaign/statistics/morris.h"
 #include "campaign/statistics/pick_freeze.h"
 #include "campaign/statistics/rank_sensitivity.h"
 #include "campaign/statistics/weighted.h"
+#include "tests/unit/statistics/coverage_table.h"
 #include "tests/unit/statistics/known_models.h"
+#include "tests/unit/statistics/tiers_coverage.h"
 
 namespace faultsweep {
 namespace {
 
+using testing::heading;
 using testing::ishigami;
+using testing::kConfidence;
+using testing::kInfinity;
 using testing::Model;
 using testing::Point;
-
-constexpr double kConfidence = 0.95;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// Of one row of a table.
-class Tally {
- public:
-  void add(const Interval& bounds, double truth) {
-    // An index that is known exactly is off by rounding.
-    held_ += bounds.low <= truth + 1e-12 && truth - 1e-12 <= bounds.high;
-    ++n_, width_ += bounds.high - bounds.low;
-  }
-  void print(const std::string& first, const std::string& second) const {
-    const double n = static_cast<double>(n_), width = width_ / n;
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", width);
-    std::printf("| %s | %s | %.1f | %s |\n", first.c_str(), second.c_str(),
-                100.0 * static_cast<double>(held_) / n, std::isfinite(width) ? text : "open");
-  }
-
- private:
-  long held_ = 0, n_ = 0;
-  double width_ = 0;
-};
-
-void heading(const char* title, const char* columns) {
-  std::printf("\n### %s\n\n| %s | covers, %% | mean width |\n|---|---|---|---|\n", title, columns);
-}
-
-/// A size of sample, with a remark where it is below what is asked for.
-std::string sized(long n, long fewest) {
-  return std::to_string(n) + (n < fewest ? ", below the minimum" : "");
-}
+using testing::sized;
+using testing::Tally;
 
 struct Indices {
   double first = 0, total = 0;
@@ -250,64 +223,6 @@ void study_aggregates(int repeats) {
       ranks.print(name + ", first by ranks", rows);
       first.print(name + ", first by pick-freeze", rows);
       total.print(name + ", total by pick-freeze", rows);
-    }
-  }
-}
-
-/// y = u + 0.1 u² and a cheap model of it.
-void study_tiered_means(int repeats) {
-  heading("Mean from two tiers (`tiered_mean`), 1000 cheap runs",
-          "scatter of the cheap model | pairs");
-  for (const double scatter : {0.05, 0.3, 2.0}) {
-    for (const long n : {20L, kFewestPairsForTiers, 100L}) {
-      std::mt19937_64 random(static_cast<std::uint64_t>(n));
-      std::normal_distribution<double> normal;
-      Tally tally;
-      for (int repeat = 0; repeat < repeats; ++repeat) {
-        std::vector<double> high, low;
-        for (int i = 0; i < 1000; ++i) {
-          const double u = normal(random);
-          if (i < n) high.push_back(u + 0.1 * u * u);
-          low.push_back(0.8 * u + 3 + scatter * normal(random));
-        }
-        tally.add(tiered_mean({high, low}, kConfidence).estimate.bounds, 0.1);
-      }
-      char text[40];
-      std::snprintf(text, sizeof text, "%g", scatter);
-      tally.print(text, sized(n, kFewestPairsForTiers));
-    }
-  }
-}
-
-void study_tiered_probabilities(int repeats) {
-  heading("Probability from two tiers (`tiered_probability`), 1000 cheap runs",
-          "P(x), P(y given x), P(y given not x) | pairs");
-  struct Truth {
-    double pi, a, b;
-  };
-  for (const auto& [pi, a, b] : {Truth{0.3, 0.8, 0.08},
-                                 {0.5, 0.85, 0.15},
-                                 {0.1, 0.6, 0.2},
-                                 {0.5, 0.5, 0.5},
-                                 {0.7, 0.95, 0.3},
-                                 {0.5, 0.97, 0.03}}) {
-    for (const long n : {25L, kFewestPairsForTiers, 100L, 200L}) {
-      std::mt19937_64 random(static_cast<std::uint64_t>(n));
-      std::uniform_real_distribution<double> uniform(0, 1);
-      Tally tally;
-      for (int repeat = 0; repeat < repeats; ++repeat) {
-        std::vector<double> high, low;
-        for (int i = 0; i < 1000; ++i) {
-          low.push_back(uniform(random) < pi ? 1 : 0);
-          const bool holds = uniform(random) < (low.back() > 0 ? a : b);
-          if (i < n) high.push_back(holds ? 1 : 0);
-        }
-        tally.add(tiered_probability({high, low}, kConfidence).estimate.bounds,
-                  pi * a + (1 - pi) * b);
-      }
-      char text[60];
-      std::snprintf(text, sizeof text, "%g, %g, %g", pi, a, b);
-      tally.print(text, sized(n, kFewestPairsForTiers));
     }
   }
 }
@@ -555,8 +470,7 @@ int main(int argc, char** argv) {
   study_ranks(all, repeats);
   study_pick_freeze(all, repeats);
   study_aggregates(repeats);
-  study_tiered_means(repeats);
-  study_tiered_probabilities(repeats);
+  testing::study_tiers(repeats);
   study_weighted(repeats);
   study_morris(repeats);
   study_exact();

@@ -204,5 +204,22 @@ TEST(StudentReach, IsThatOfTheTables) {
   EXPECT_NEAR(e.bounds.high, 2 + 0.5 * 2.776445, 1e-6);
 }
 
+/// Beta(1, ½) has the distribution function 1 − √(1 − x).
+TEST(Jeffreys, HasTheQuantilesOfABetaDistribution) {
+  const Interval bounds = jeffreys_bounds(0.5, 0.5, 0.9);
+  EXPECT_NEAR(bounds.low, 1 - 0.95 * 0.95, 1e-12);
+  EXPECT_EQ(bounds.high, 1) << "all have it";
+  EXPECT_EQ(jeffreys_bounds(0, 30, 0.95).low, 0);
+  EXPECT_NEAR(jeffreys_bounds(0, 1e6, 0.95).high * 1e6, 2.512, 1e-3) << "half of χ² of 1 at 97.5 %";
+  EXPECT_EQ(jeffreys_bounds(0, 0, 0.95).high, 1);
+}
+
+TEST(Jeffreys, MembersForAHalfWidthHaveIt) {
+  const double n = members_for_half_width(0.3, 0.02, 10, 0.95);
+  const Interval bounds = jeffreys_bounds(0.3 * n, n, 0.95);
+  EXPECT_NEAR(0.5 * (bounds.high - bounds.low), 0.02, 1e-6);
+  EXPECT_EQ(members_for_half_width(0.3, 0.4, 100, 0.95), 100) << "there are as many already";
+}
+
 }  // namespace
 }  // namespace faultsweep
