@@ -44,9 +44,9 @@ std::vector<Axis> axes_of(const Group& group, const faultsim::Scene& scene) {
     for (const std::string& target : parameter.targets) {
       auto of = faultsim::surface_parameter(target, scene);
       if (!of) continue;
-      const auto [from, to] = std::minmax(*parameter.si(0), *parameter.si(1));
-      of->from = from;
-      of->to = to;
+      const double first = *parameter.si(0), last = *parameter.si(1);
+      of->from = std::min(first, last);
+      of->to = std::max(first, last);
       axes.push_back({*of, target, &parameter});
     }
   }
