@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "campaign/answers/shares.h"
 #include "campaign/answers/tiers.h"
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
@@ -10,17 +11,56 @@ namespace faultsweep {
 
 namespace {
 
+constexpr int kDigits = 3;
+
+std::string number_text(double value, const ShownUnit& unit) {
+  return std::isnan(value) ? "open" : format_number(value / unit.size, kDigits);
+}
+
+/// "28.6 %".
+std::string with_unit(double value, const ShownUnit& unit) {
+  return concat(number_text(value, unit), unit.name.empty() ? "" : " ", unit.name);
+}
+
 /// "28.6 % (26.3 to 31.0)".
 std::string interval_text(const Estimate& e, const ShownUnit& unit) {
-  constexpr int kDigits = 3;
-  const auto number = [&](double value) { return format_number(value / unit.size, kDigits); };
-  return concat(number(e.value), unit.name.empty() ? "" : " ", unit.name, " (",
-                number(e.bounds.low), " to ", number(e.bounds.high), ")");
+  return concat(with_unit(e.value, unit), " (", number_text(e.bounds.low, unit), " to ",
+                number_text(e.bounds.high, unit), ")");
+}
+
+/// "F1.chi_bar", "95 % of F1.chi_bar": the row of a table.
+std::string name_of(const TierAnswer& one) {
+  return one.question == TierQuestion::quantile
+             ? concat(format_percent(one.share), " % of ", one.label)
+             : one.label;
+}
+
+std::string title_of(const TierAnswer& one) {
+  switch (one.question) {
+    case TierQuestion::mean:
+      return concat("Mean of ", one.label);
+    case TierQuestion::probability:
+      return concat("Probability of ", one.label);
+    case TierQuestion::quantile:
+      break;
+  }
+  return concat(format_percent(one.share), " % quantile of ", one.label);
+}
+
+/// What makes the width of the bounds, where flags are undecided: ": ± 3 by the number of cases, ±
+/// 2 by 7 undecided".
+std::string parts_text(const TierAnswer& one) {
+  if (one.n_undecided == 0) return "";
+  return concat(": ± ", number_text(one.by_number, one.unit), " by the number of cases, ± ",
+                number_text(one.by_undecided, one.unit), " by ", one.n_undecided, " undecided");
 }
 
 std::string sentence_of(const TierAnswer& one) {
-  return concat(one.is_probability ? "Probability of " : "Mean of ", one.label,
-                " at the high tier: ", interval_text(one.found.estimate, one.unit), ".");
+  std::string text =
+      concat(title_of(one), " at the high tier: ", interval_text(one.found, one.unit));
+  const std::string parts = parts_text(one);
+  if (!parts.empty()) text.insert(text.size() - 1, parts);  // before the bracket
+  return text + ".";
 }
 
 /// "yes: alone 4.1 times as long".
@@ -33,6 +73,19 @@ std::string pays_text(const TierAnswer& one) {
 std::string seconds_text(double value) {
   constexpr double kWhole = 100;  // from here on no decimals
   return format_number(value >= kWhole ? std::round(value) : value, value >= kWhole ? 9 : 2) + " s";
+}
+
+/// "Bounds of F1.slides that are 2 % apart take 420 cases at the high tier and 5,300 at the low
+/// one: 430 s." Of the first width that was asked for.
+/// @pre one.numbers is not empty.
+std::string numbers_sentence(const TierAnswer& one) {
+  const NumbersForWidth& first = one.numbers.front();
+  const std::string bounds = concat("Bounds of ", name_of(one), " that are ",
+                                    with_unit(2 * first.half_width, one.unit), " apart ");
+  if (!first.numbers) return bounds + "take more cases than can be run.";
+  return concat(bounds, "take ", grouped(first.numbers->n), " cases at the high tier and ",
+                grouped(first.numbers->all), " at the low one: ", seconds_text(first.numbers->cost),
+                ".");
 }
 
 /// Whether it was worth while, over all answers.
@@ -55,17 +108,39 @@ std::string pays_sentence(const Tiers& tiers) {
                 seconds_text(tiers.taken_seconds), " of wall clock that both took.");
 }
 
-/// All answers in SI, or for a screen those of a unit.
+/// "mean", "probability" or "quantile".
+std::string word_of(TierQuestion question) {
+  switch (question) {
+    case TierQuestion::mean:
+      return "mean";
+    case TierQuestion::probability:
+      return "probability";
+    case TierQuestion::quantile:
+      break;
+  }
+  return "quantile";
+}
+
+/// Nothing for NaN.
+AnswerCell number_or_nothing(double value) {
+  return std::isnan(value) ? AnswerCell() : AnswerCell(value);
+}
+
+/// All answers in SI.
 AnswerTable table_of(const Tiers& tiers) {
   AnswerTable table{"answers",
                     "",
                     {{"label", "at the high tier"},
-                     {"is_probability", "is a probability"},
+                     {"question", "question"},
+                     {"share", "share below"},
                      {"unit", "unit"},
                      {"value", "value"},
                      {"standard_error", "standard error"},
                      {"low", "from"},
                      {"high", "to"},
+                     {"by_number", "± by number"},
+                     {"by_undecided", "± by undecided"},
+                     {"undecided", "undecided"},
                      {"high_alone", "high tier alone"},
                      {"high_alone_standard_error", "standard error"},
                      {"high_alone_low", "from"},
@@ -77,17 +152,41 @@ AnswerTable table_of(const Tiers& tiers) {
                      {"high_alone_s", "high tier alone", seconds()},
                      {"cost_ratio", "cost ratio"},
                      {"pays", "pays"},
-                     {"best_ratio", "best ratio"}}};
+                     {"best_ratio", "best ratio"},
+                     {"left_out", "not used"}}};
   for (const TierAnswer& one : tiers.answers) {
-    const Estimate &e = one.found.estimate, &alone = one.found.direct;
-    table.rows.push_back({one.label, one.is_probability, one.unit.si, e.value, e.standard_error,
-                          e.bounds.low, e.bounds.high, alone.value, alone.standard_error,
-                          alone.bounds.low, alone.bounds.high, one.low_mean, one.found.weight,
-                          one.found.correlation, one.found.n_equivalent, one.high_alone_seconds,
-                          one.cost_ratio, one.cost_ratio > 1, one.best_ratio});
+    const Estimate &e = one.found, &alone = one.alone;
+    table.rows.push_back({one.label,
+                          word_of(one.question),
+                          number_or_nothing(one.share),
+                          one.unit.si,
+                          e.value,
+                          number_or_nothing(e.standard_error),
+                          number_or_nothing(e.bounds.low),
+                          number_or_nothing(e.bounds.high),
+                          number_or_nothing(one.by_number),
+                          one.by_undecided,
+                          one.n_undecided,
+                          alone.value,
+                          number_or_nothing(alone.standard_error),
+                          number_or_nothing(alone.bounds.low),
+                          number_or_nothing(alone.bounds.high),
+                          one.low_value,
+                          one.weight,
+                          one.correlation,
+                          one.n_equivalent,
+                          one.high_alone_seconds,
+                          one.cost_ratio,
+                          one.cost_ratio > 1,
+                          one.best_ratio,
+                          words_or_nothing(joined(one.left_out, ", "))});
   }
   table.on_screen = false;
   return table;
+}
+
+AnswerCell end_cell(double end) {
+  return std::isnan(end) ? AnswerCell({}, end, "open") : AnswerCell(end);
 }
 
 AnswerTable screen_table_of(const Tiers& tiers, const ShownUnit& unit) {
@@ -96,23 +195,72 @@ AnswerTable screen_table_of(const Tiers& tiers, const ShownUnit& unit) {
                     {{"label", "at the high tier", {}, 4, Need::always},
                      {"value", "value", unit, 4, Need::always},
                      {"low", "from", unit, 3},
-                     {"high", "to", unit, 3},
-                     {"pays", "pays", {}, 4, Need::always},
-                     {"high_alone", "high alone", unit, 4},
-                     {"low_alone", "low alone", unit, 3},
-                     {"worth", "worth cases", {}, 3}}};
+                     {"high", "to", unit, 3}}};
+  const bool has_undecided = std::ranges::any_of(tiers.answers, [&](const TierAnswer& one) {
+    return one.unit.name == unit.name && one.n_undecided > 0;
+  });
+  if (has_undecided) table.columns.push_back({"by_undecided", "± by undecided", unit, 2});
+  append(table.columns, {{"pays", "pays", {}, 4, Need::always},
+                         {"high_alone", "high alone", unit, 4},
+                         {"low_alone", "low alone", unit, 3},
+                         {"worth", "worth cases", {}, 3}});
   for (const TierAnswer& one : tiers.answers) {
     if (one.unit.name != unit.name) continue;
-    const Estimate &e = one.found.estimate, &alone = one.found.direct;
-    table.rows.push_back({one.label,
-                          {e.value, half_width(e)},
-                          e.bounds.low,
-                          e.bounds.high,
-                          pays_text(one),
-                          {alone.value, half_width(alone)},
-                          one.low_mean,
-                          one.found.n_equivalent});
+    const Estimate &e = one.found, &alone = one.alone;
+    std::vector<AnswerCell> row = {
+        name_of(one), {e.value, half_width(e)}, end_cell(e.bounds.low), end_cell(e.bounds.high)};
+    if (has_undecided) row.emplace_back(one.by_undecided);
+    append(row,
+           {pays_text(one), {alone.value, half_width(alone)}, one.low_value, one.n_equivalent});
+    table.rows.push_back(std::move(row));
   }
+  table.in_files = false;
+  return table;
+}
+
+/// What bounds as close as wanted take, in SI.
+AnswerTable numbers_table(const Tiers& tiers) {
+  AnswerTable table{"numbers",
+                    "",
+                    {{"label", "bounds of"},
+                     {"question", "question"},
+                     {"share", "share below"},
+                     {"half_width", "to either side"},
+                     {"high_cases", "cases, high tier"},
+                     {"low_cases", "cases, low tier"},
+                     {"time_s", "take", seconds()}}};
+  for (const TierAnswer& one : tiers.answers) {
+    for (const NumbersForWidth& wanted : one.numbers) {
+      std::vector<AnswerCell> row = {one.label, word_of(one.question), number_or_nothing(one.share),
+                                     wanted.half_width};
+      if (const auto& numbers = wanted.numbers)
+        append(row, {numbers->n, numbers->all, numbers->cost});
+      table.rows.push_back(std::move(row));
+    }
+  }
+  table.on_screen = false;
+  return table;
+}
+
+AnswerTable numbers_screen_table(const Tiers& tiers) {
+  AnswerTable table{"numbers",
+                    "",
+                    {{"label", "bounds of", {}, 4, Need::always},
+                     {"half_width", "to either side", {}, 4, Need::always},
+                     {"high_cases", "cases, high tier", {}, 4, Need::always},
+                     {"low_cases", "low tier", {}, 4, Need::always},
+                     {"time_s", "take", {}, 4, Need::always}}};
+  for (const TierAnswer& one : tiers.answers) {
+    for (const NumbersForWidth& wanted : one.numbers) {
+      std::vector<AnswerCell> row = {name_of(one), with_unit(wanted.half_width, one.unit)};
+      if (const auto& numbers = wanted.numbers)
+        append(row, {numbers->n, numbers->all, seconds_text(numbers->cost)});
+      table.rows.push_back(std::move(row));
+    }
+  }
+  table.notes.emplace_back(
+      "The least time for it, operators included, if further cases are like those there are. What "
+      "undecided flags add does not become less.");
   table.in_files = false;
   return table;
 }
@@ -151,6 +299,56 @@ AnswerTable cost_table(const Tiers& tiers) {
   return table;
 }
 
+/// How the answers came about.
+std::string method_note(const Tiers& tiers) {
+  const auto has = [&](TierQuestion question) {
+    return contains(tiers.answers, question, &TierAnswer::question);
+  };
+  std::string text;
+  if (has(TierQuestion::mean)) text += "Means are regressions on the low tier's value. ";
+  if (has(TierQuestion::probability)) {
+    text +=
+        "A probability is that of the high tier's flag, predicted for each case from what the low "
+        "tier says of it (χ̄, largest slip and activated area of the fault and stage that the "
+        "condition names, what it compares, and the flag; logistic regressions that have not seen "
+        "the case) and corrected by how far the predictions are off in the cases at both tiers. ";
+  }
+  if (has(TierQuestion::quantile)) {
+    text +=
+        "A quantile is where the probability to be below it, predicted by a line through what the "
+        "low tier says of the case and corrected by the cases at both tiers, is its share. ";
+  }
+  text.pop_back();
+  return text;
+}
+
+/// "" where nothing is open.
+std::string undecided_note(const Tiers& tiers) {
+  long most = 0;
+  for (const TierAnswer& one : tiers.answers) most = std::max(most, one.n_undecided);
+  if (most == 0) return "";
+  return concat(
+      "Of the flags at the high tier up to ", most, " of ", tiers.n_pairs,
+      " are undecided, by its cells or stated errors: from and to reach from none of them "
+      "to all.");
+}
+
+/// "" where all that the low tier says could be used; else some of it.
+std::string left_out_note(const Tiers& tiers) {
+  constexpr std::size_t kMostNames = 3;
+  std::vector<std::string> names;
+  for (const TierAnswer& one : tiers.answers) {
+    for (const std::string& name : one.left_out)
+      if (!contains(names, name)) names.push_back(name);
+  }
+  if (names.empty()) return "";
+  const std::size_t more = names.size() - std::min(names.size(), kMostNames);
+  names.resize(names.size() - more);
+  return concat(
+      "The same in all cases of the low tier, or missing in some, and so not used to predict: ",
+      joined(names, ", "), more > 0 ? concat(" and ", more, " more") : "", ".");
+}
+
 ordered_json cost_to_json(const CampaignInfo& campaign, const TierCost& one) {
   return {{"campaign", campaign.name},
           {"rows", one.n_rows},
@@ -163,9 +361,19 @@ ordered_json cost_to_json(const CampaignInfo& campaign, const TierCost& one) {
 
 Answer to_answer(const Tiers& tiers) {
   Answer answer;
-  for (std::size_t k = 0; k + 1 < kMostSentences && k < tiers.answers.size(); ++k)
+  std::vector<std::string> last;
+  // A width is asked of probabilities first.
+  auto with_numbers = std::ranges::find_if(tiers.answers, [](const TierAnswer& one) {
+    return one.question == TierQuestion::probability && !one.numbers.empty();
+  });
+  if (with_numbers == tiers.answers.end())
+    with_numbers = std::ranges::find_if_not(tiers.answers, &std::vector<NumbersForWidth>::empty,
+                                            &TierAnswer::numbers);
+  if (with_numbers != tiers.answers.end()) last.push_back(numbers_sentence(*with_numbers));
+  if (!tiers.answers.empty()) last.push_back(pays_sentence(tiers));
+  for (std::size_t k = 0; k + last.size() < kMostSentences && k < tiers.answers.size(); ++k)
     answer.headline.push_back(sentence_of(tiers.answers[k]));
-  if (!tiers.answers.empty()) answer.headline.push_back(pays_sentence(tiers));
+  append(answer.headline, last);
   answer.facts = {{"confidence", tiers.request.confidence},
                   {"pairs", tiers.n_pairs},
                   {"taken_s", tiers.taken_seconds},
@@ -173,11 +381,18 @@ Answer to_answer(const Tiers& tiers) {
                   {"high", cost_to_json(tiers.high, tiers.high_cost)}};
   answer.add(table_of(tiers));
   add_screen_tables(tiers, answer);
+  if (tiers.request.width > 0) {
+    answer.add(numbers_table(tiers));
+    answer.add(numbers_screen_table(tiers));
+  }
   answer.note(concat(
       tiers.n_pairs, " cases at both tiers. From and to hold the value with a confidence of ",
       confidence_text(tiers.request.confidence),
       "; ± is half of their distance. `worth`: cases of the high tier alone "
       "that would be as sure. `pays`: what these would have taken, against what both tiers took."));
+  answer.note(method_note(tiers));
+  answer.note_if(undecided_note(tiers));
+  answer.note_if(left_out_note(tiers));
   answer.add(cost_table(tiers));
   if (tiers.low_cost.n_left_out + tiers.high_cost.n_left_out > 0) {
     answer.note(

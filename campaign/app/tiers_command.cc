@@ -99,13 +99,27 @@ void add_tiers(Program& program) {
       ->add_option("--tiers", t.tiers,
                    "the cheap one and the expensive one (default screening,standard)")
       ->delimiter(',');
-  command->add_option("--metrics", t.request.metrics,
-                      "whose means are wanted, with commas; default: chi_bar of each fault");
+  command->add_option(
+      "--metrics", t.request.metrics,
+      "whose means are wanted, with commas; default, unless quantiles are: chi_bar\n"
+      "of each fault");
   command
       ->add_option("--of", t.request.conditions,
                    "condition whose probability is wanted, as of `rank --where`; may be given\n"
-                   "again; default: that each fault slides, in each stage")
+                   "again; default, unless quantiles are: that each fault slides, in each stage")
       ->allow_extra_args(false);
+  CLI::Option* quantiles =
+      command->add_option("--quantiles", t.request.quantiles,
+                          "metrics whose quantiles are wanted, with commas, as of `probability`");
+  command->add_option("--at", t.request.at, "shares of the cases below (default 0.05,0.5,0.95)")
+      ->delimiter(',')
+      ->needs(quantiles);
+  command
+      ->add_option("--width", t.request.width,
+                   "wanted distance of the bounds of probabilities, as a share: how many cases of\n"
+                   "each tier take the least time for it, and for half and a quarter of it; of\n"
+                   "other answers for half and a quarter of what it is")
+      ->check(CLI::Range(1e-4, 1.0));
   add_workers(command, t.n_workers, "of the runs; default: the cores available");
   add_confidence(command, t.request.confidence);
   add_store(command, program.common);
@@ -114,6 +128,8 @@ void add_tiers(Program& program) {
       "Examples:\n"
       "  faultsweep tiers sample.json --tier-budget 40\n"
       "  faultsweep tiers sample.json --tier-budget 100 --tiers screening,demonstration --json\n"
+      "  faultsweep tiers sample.json --tier-budget 60 --quantiles F2.chi_bar --at 0.5,0.95\n"
+      "  faultsweep tiers sample.json --tier-budget 60 --of F2.slides --width 0.02\n"
       "Campaigns NAME-screening and NAME-standard are submitted and run; give the command again to "
       "go on.");
 }

@@ -23,6 +23,13 @@ Estimate CalibratedShare::estimate(double confidence) const {
   return found;
 }
 
+Estimate CalibratedShare::direct(double confidence) const {
+  Estimate found = as_computed.direct(confidence);
+  found.bounds.low = least.direct(confidence).bounds.low;
+  found.bounds.high = most.direct(confidence).bounds.high;
+  return found;
+}
+
 double CalibratedShare::by_number(double confidence) const {
   return half_width(as_computed.estimate(confidence));
 }

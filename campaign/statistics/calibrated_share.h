@@ -30,6 +30,8 @@ struct CalibratedShare {
 
   /// The value as computed; bounds from the lower one of `least` to the upper one of `most`.
   Estimate estimate(double confidence) const;
+  /// What the n flags say alone, with bounds in the same way.
+  Estimate direct(double confidence) const;
   /// Half the width that the number of members makes: of what was computed.
   double by_number(double confidence) const;
   /// Half the distance between the values of `least` and `most`.

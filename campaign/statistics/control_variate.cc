@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "simulator/common/errors.h"
 
@@ -20,12 +19,6 @@ Moments moments_of(std::span<const double> values) {
   for (const double v : values) m.squares += (v - m.mean) * (v - m.mean);
   return m;
 }
-
-/// Of the members with one value of x: how many, how many of them with y = 1.
-struct Stratum {
-  double n = 0, k = 0;
-  double share() const { return n > 0 ? k / n : 0.5; }
-};
 
 void check(const TieredSample& sample) {
   FAULTSIM_DEMAND(sample.high.size() >= 4 && sample.low.size() >= sample.high.size(),
@@ -77,43 +70,6 @@ TieredEstimate tiered_mean(const TieredSample& sample, double confidence) {
 double mean_half_width(const TieredEstimate& mean, double n, double all, double confidence) {
   return student_reach(confidence, n - 2) *
          std::sqrt(mean.residual_variance / n + mean.explained_variance / all);
-}
-
-TieredEstimate tiered_probability(const TieredSample& sample, double confidence) {
-  check(sample);
-  Stratum with, without;
-  for (std::size_t i = 0; i < sample.high.size(); ++i) {
-    Stratum& one = sample.low[i] != 0 ? with : without;
-    one.n += 1, one.k += sample.high[i];
-  }
-  const Moments y = moments_of(sample.high), all = moments_of(sample.low);
-  const double pi = all.mean, a = with.share(), b = without.share(), n = y.n;
-  TieredEstimate found;
-  found.direct = {y.mean, std::sqrt(y.mean * (1 - y.mean) / n),
-                  jeffreys_bounds(y.mean * n, n, confidence)};
-  found.weight = with.n > 0 && without.n > 0 ? a - b : 0;
-  const Moments x = moments_of(sample.low.first(sample.high.size()));
-  if (x.squares > 0 && y.squares > 0) {
-    found.correlation =
-        product_sum(sample.low, x.mean, sample.high, y.mean) / std::sqrt(x.squares * y.squares);
-  }
-  const Interval pis = jeffreys_bounds(pi * all.n, all.n, confidence);
-  const Interval as = jeffreys_bounds(with.k, with.n, confidence),
-                 bs = jeffreys_bounds(without.k, without.n, confidence);
-  // Without a run in a stratum its probability may be any: so may be what π contributes.
-  const double slope = with.n > 0 && without.n > 0 ? a - b : 1;
-  const double pi_down = slope >= 0 ? pi - pis.low : pis.high - pi;
-  const double pi_up = slope >= 0 ? pis.high - pi : pi - pis.low;
-  const double down = std::hypot(pi * (a - as.low), (1 - pi) * (b - bs.low), slope * pi_down);
-  const double up = std::hypot(pi * (as.high - a), (1 - pi) * (bs.high - b), slope * pi_up);
-  const double value = pi * a + (1 - pi) * b;
-  found.estimate.value = value;
-  found.estimate.bounds = {std::max(0.0, value - down), std::min(1.0, value + up)};
-  const double reach = half_width(found.estimate);
-  found.estimate.standard_error =
-      reach / student_reach(confidence, std::numeric_limits<double>::infinity());
-  found.n_equivalent = members_for_half_width(value, reach, n, confidence);
-  return found;
 }
 
 double best_ratio(double correlation, double cost_ratio) {

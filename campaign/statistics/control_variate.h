@@ -22,10 +22,10 @@ struct TieredEstimate {
   Estimate direct;         ///< from its n values alone.
   double weight = 0;       ///< with which the cheap values count.
   double correlation = 0;  ///< of x and y, over the n.
-  /// Members of the expensive model alone that would be as sure: with the same standard error, or
-  /// of flags as wide an interval; n where the cheap one does not help.
+  /// Members of the expensive model alone that would be as sure: with the same standard error; n
+  /// where the cheap one does not help.
   double n_equivalent = 0;
-  /// Of a mean: s_e² and β² s_x², what one member more of either model makes less.
+  /// s_e² and β² s_x²: what one member more of either model makes less.
   double residual_variance = 0, explained_variance = 0;
 };
 
@@ -41,20 +41,6 @@ struct TieredEstimate {
 TieredEstimate tiered_mean(const TieredSample& sample, double confidence);
 /// Half the width of the bounds of such a mean from n and N members: t √(s_e² / n + β² s_x² / N).
 double mean_half_width(const TieredEstimate& mean, double n, double all, double confidence);
-
-/// P(y = 1) of flags x and y. With the best weight that is
-///
-///   P = π a + (1 − π) b,   π = P(x = 1) over the N, a and b = P(y = 1 | x) over the n,
-///
-/// and bounds put those of the three together (Jeffreys', quantiles of Beta(k + ½, n − k + ½);
-/// Brown, Cai & DasGupta 2001) by their squared distances (Zou & Donner 2008): P̂ − √Σ (their part
-/// to the lower side)², so that they do not shrink to a point where nothing was seen; the standard
-/// error is what they are half as wide as, over z. A stratum in which no expensive run lies may
-/// hold anything: the bounds are widened by it. From kFewestPairsForTiers pairs, 95 % intervals
-/// hold 93 to 98 % if the models differ in about five pairs or more, and more than that where they
-/// hardly differ: too few have then been seen to say less (results/coverage).
-/// @param sample  values 0 and 1. @pre n ≥ 4, N ≥ n.
-TieredEstimate tiered_probability(const TieredSample& sample, double confidence);
 
 /// The N / n at which cases of the two models, whose costs stand as c = cost_low / cost_high, give
 /// the smallest variance for their price: √(ρ² / (1 − ρ²) / c), at least 1.

@@ -103,6 +103,21 @@ TEST(CalibratedShare, UndecidedFlagsWidenTheBoundsToEitherSide) {
   EXPECT_NEAR(found.by_undecided(0.95), 0.5 * static_cast<double>(n_open) / 200, 0.02);
 }
 
+/// Where nothing ever happens, or always, the truth is inside and the bounds are no point.
+TEST(CalibratedShare, HoldsZeroAndOne) {
+  std::mt19937_64 random(5);
+  const TierDraw draw({.share = 0.3}, 100, 3000, random);
+  for (const Flag flag : {Flag::no, Flag::yes}) {
+    const Interval bounds =
+        calibrated_share(std::vector<Flag>(100, flag), draw.standard()).estimate(0.95).bounds;
+    const double truth = flag == Flag::yes ? 1 : 0;
+    EXPECT_LE(bounds.low, truth);
+    EXPECT_GE(bounds.high, truth);
+    EXPECT_GT(bounds.high - bounds.low, 0.02);
+    EXPECT_LT(bounds.high - bounds.low, 0.05);
+  }
+}
+
 /// Features that cannot be used are left out: what remains is the share of the flags.
 TEST(CalibratedShare, StandsWithoutFeatures) {
   std::vector<Flag> flags(40, Flag::no);

@@ -26,21 +26,6 @@ struct Tiers {
 };
 constexpr double kTrueMean = 0.1;
 
-/// Whether x happens, and y given x.
-struct Flags {
-  std::vector<double> high, low;
-  Flags(std::size_t n, std::size_t all, double pi, double a, double b, std::mt19937_64& random) {
-    std::uniform_real_distribution<double> uniform(0, 1);
-    for (std::size_t i = 0; i < all; ++i) {
-      const bool x = uniform(random) < pi;
-      const bool y = uniform(random) < (x ? a : b);
-      low.push_back(x ? 1 : 0);
-      if (i < n) high.push_back(y ? 1 : 0);
-    }
-  }
-  TieredSample sample() const { return {high, low}; }
-};
-
 TEST(TieredMean, IsExactWhereTheCheapModelIs) {
   std::mt19937_64 random(1);
   const Tiers tiers(20, 2000, 0, random);
@@ -124,99 +109,6 @@ TEST(TieredMean, Covers) {
     EXPECT_GE(held, 930) << n << ", scatter " << scatter;
     EXPECT_LE(held, 970) << n << ", scatter " << scatter;
   }
-}
-
-TEST(TieredProbability, Covers) {
-  std::mt19937_64 random(4);
-  struct Truth {
-    double pi, a, b;
-  };
-  for (const auto& [pi, a, b] : {Truth{0.3, 0.8, 0.05}, {0.5, 0.9, 0.1}, {0.1, 0.6, 0.2}}) {
-    int held = 0;
-    const double truth = pi * a + (1 - pi) * b;
-    for (int repeat = 0; repeat < 1000; ++repeat) {
-      const Flags flags(200, 3000, pi, a, b, random);
-      const Interval bounds = tiered_probability(flags.sample(), 0.95).estimate.bounds;
-      held += bounds.low <= truth && truth <= bounds.high;
-    }
-    EXPECT_GE(held, 930) << pi;
-    EXPECT_LE(held, 970) << pi;
-  }
-}
-
-/// As few pairs as are taken, which differ in five or so of them.
-TEST(TieredProbability, CoversFromTheFewestPairs) {
-  std::mt19937_64 random(14);
-  struct Truth {
-    double pi, a, b;
-  };
-  for (const auto& [pi, a, b] : {Truth{0.3, 0.8, 0.08}, {0.5, 0.85, 0.15}, {0.5, 0.5, 0.5}}) {
-    int held = 0;
-    const double truth = pi * a + (1 - pi) * b;
-    for (int repeat = 0; repeat < 1000; ++repeat) {
-      const Flags flags(kFewestPairsForTiers, 1000, pi, a, b, random);
-      const Interval bounds = tiered_probability(flags.sample(), 0.95).estimate.bounds;
-      held += bounds.low <= truth && truth <= bounds.high;
-    }
-    EXPECT_GE(held, 925) << a;
-    EXPECT_LE(held, 980) << a;
-  }
-}
-
-/// Where nothing ever happens, or always, the truth is inside and the bounds are no point.
-TEST(TieredProbability, CoversAtZeroAndOne) {
-  std::mt19937_64 random(5);
-  for (const double p : {0.0, 1.0}) {
-    for (const double pi : {0.0, 0.2, 1.0}) {
-      const Flags flags(100, 3000, pi, p, p, random);
-      const Interval bounds = tiered_probability(flags.sample(), 0.95).estimate.bounds;
-      EXPECT_LE(bounds.low, p);
-      EXPECT_GE(bounds.high, p);
-      EXPECT_GT(bounds.high - bounds.low, 0.02);
-      EXPECT_LT(bounds.high - bounds.low, 0.2);
-    }
-  }
-}
-
-/// What does not happen is bounded by what does; and a cheap flag may be turned round.
-TEST(TieredProbability, OfTheOppositeIsTheRest) {
-  std::mt19937_64 random(9);
-  const auto turned = [](std::vector<double> flags) {
-    for (double& one : flags) one = 1 - one;
-    return flags;
-  };
-  for (const double pi : {0.05, 0.4, 0.95}) {
-    const Flags flags(60, 200, pi, 0.9, 0.3, random);
-    const Estimate one = tiered_probability(flags.sample(), 0.95).estimate;
-    const Estimate rest = tiered_probability({turned(flags.high), flags.low}, 0.95).estimate;
-    const Estimate other = tiered_probability({flags.high, turned(flags.low)}, 0.95).estimate;
-    EXPECT_NEAR(rest.value, 1 - one.value, 1e-12) << pi;
-    EXPECT_NEAR(rest.bounds.low, 1 - one.bounds.high, 1e-12) << pi;
-    EXPECT_NEAR(rest.bounds.high, 1 - one.bounds.low, 1e-12) << pi;
-    EXPECT_NEAR(other.value, one.value, 1e-12) << pi;
-    EXPECT_NEAR(other.bounds.low, one.bounds.low, 1e-12) << pi;
-    EXPECT_NEAR(other.bounds.high, one.bounds.high, 1e-12) << pi;
-  }
-}
-
-/// 30 flags that agree with the cheap ones do not make these certain.
-TEST(TieredProbability, IsWorthWhatItsIntervalIs) {
-  std::mt19937_64 random(6);
-  const Flags agree(30, 3000, 0.5, 1, 0, random);
-  const TieredEstimate found = tiered_probability(agree.sample(), 0.95);
-  EXPECT_EQ(found.correlation, 1);
-  EXPECT_GT(found.n_equivalent, 40);
-  EXPECT_LT(found.n_equivalent, 300) << "not 3000";
-  const Flags alone(50, 3000, 0.5, 0.4, 0.4, random);
-  EXPECT_LT(tiered_probability(alone.sample(), 0.95).n_equivalent, 70) << "they have no relation";
-}
-
-TEST(TieredProbability, KnowsNothingOfAStratumWithoutARun) {
-  std::vector<double> low(1000, 0.0), high(50, 0.0);
-  std::fill(low.end() - 300, low.end(), 1.0);
-  const Interval bounds = tiered_probability({high, low}, 0.95).estimate.bounds;
-  EXPECT_LE(bounds.low, 0.01);
-  EXPECT_GE(bounds.high, 0.29);
 }
 
 TEST(BestRatio, GivesTheSmallestVarianceForItsPrice) {

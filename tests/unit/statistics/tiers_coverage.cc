@@ -41,39 +41,6 @@ void study_tiered_means(int repeats) {
   }
 }
 
-void study_tiered_probabilities(int repeats) {
-  heading("Probability from two tiers (`tiered_probability`), 1000 cheap runs",
-          "P(x), P(y given x), P(y given not x) | pairs");
-  struct Truth {
-    double pi, a, b;
-  };
-  for (const auto& [pi, a, b] : {Truth{0.3, 0.8, 0.08},
-                                 {0.5, 0.85, 0.15},
-                                 {0.1, 0.6, 0.2},
-                                 {0.5, 0.5, 0.5},
-                                 {0.7, 0.95, 0.3},
-                                 {0.5, 0.97, 0.03}}) {
-    for (const long n : {25L, kFewestPairsForTiers, 100L, 200L}) {
-      std::mt19937_64 random(static_cast<std::uint64_t>(n));
-      std::uniform_real_distribution<double> uniform(0, 1);
-      Tally tally;
-      for (int repeat = 0; repeat < repeats; ++repeat) {
-        std::vector<double> high, low;
-        for (int i = 0; i < 1000; ++i) {
-          low.push_back(uniform(random) < pi ? 1 : 0);
-          const bool holds = uniform(random) < (low.back() > 0 ? a : b);
-          if (i < n) high.push_back(holds ? 1 : 0);
-        }
-        tally.add(tiered_probability({high, low}, kConfidence).estimate.bounds,
-                  pi * a + (1 - pi) * b);
-      }
-      char text[60];
-      std::snprintf(text, sizeof text, "%g, %g, %g", pi, a, b);
-      tally.print(text, sized(n, kFewestPairsForTiers));
-    }
-  }
-}
-
 constexpr std::size_t kCheapRuns = 1000;
 
 std::string text_of(const char* before, double number) {
@@ -120,6 +87,33 @@ void study_calibrated_shares(int repeats) {
                   found.as_computed.direct(kConfidence).bounds);
       }
       tally.print(name, sized(n, kFewestPairsForTiers));
+    }
+  }
+}
+
+/// Mean squared errors of the value, over that of the mean of the flags.
+void study_variance_left(int repeats) {
+  constexpr std::size_t kMany = 10'000;
+  std::printf(
+      "\n### What is left of the variance of a flag (`calibrated_share`), %zu cheap runs\n\n"
+      "| models | pairs | from the cheap flag, %% | from its index and slip too, %% |\n"
+      "|---|---|---|---|\n",
+      kMany);
+  for (const double share : {0.1, 0.5}) {
+    for (const std::size_t n : {50u, 100u, 200u}) {
+      std::mt19937_64 random(n);
+      const TierModel model{.share = share};
+      double by_flag = 0, by_all = 0, alone = 0;
+      for (int repeat = 0; repeat < repeats; ++repeat) {
+        const TierDraw draw(model, n, kMany, random);
+        const std::vector<std::vector<double>> flag = {draw.features[2]};
+        const auto squared = [&](const Estimate& e) { return std::pow(e.value - share, 2); };
+        const CalibratedShare all = calibrated_share(draw.flags, draw.standard());
+        by_all += squared(all.estimate(kConfidence)), alone += squared(all.direct(kConfidence));
+        by_flag += squared(calibrated_share(draw.flags, {flag, kMany}).estimate(kConfidence));
+      }
+      std::printf("| correlation %g, share %g | %zu | %.0f | %.0f |\n", model.correlation, share, n,
+                  100 * by_flag / alone, 100 * by_all / alone);
     }
   }
 }
@@ -195,8 +189,8 @@ void study_calibrated_quantiles(int repeats) {
 
 void study_tiers(int repeats) {
   study_tiered_means(repeats);
-  study_tiered_probabilities(repeats);
   study_calibrated_shares(repeats);
+  study_variance_left(std::max(1, repeats / 4));
   study_undecided_shares(repeats);
   study_calibrated_quantiles(repeats);
 }
