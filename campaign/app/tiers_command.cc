@@ -116,9 +116,9 @@ void add_tiers(Program& program) {
       ->needs(quantiles);
   command
       ->add_option("--width", t.request.width,
-                   "wanted distance of the bounds of probabilities, as a share: how many cases of\n"
-                   "each tier take the least time for it, and for half and a quarter of it; of\n"
-                   "other answers for half and a quarter of what it is")
+                   "wanted distance of the bounds of probabilities, as a share: the cases of\n"
+                   "each tier that take the least time for it, for a half and a quarter of it;\n"
+                   "of other answers for a half and a quarter of what it is")
       ->check(CLI::Range(1e-4, 1.0));
   add_workers(command, t.n_workers, "of the runs; default: the cores available");
   add_confidence(command, t.request.confidence);
