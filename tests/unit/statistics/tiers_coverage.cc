@@ -99,21 +99,27 @@ void study_variance_left(int repeats) {
       "| models | pairs | from the cheap flag, %% | from its index and slip too, %% |\n"
       "|---|---|---|---|\n",
       kMany);
-  for (const double share : {0.1, 0.5}) {
+  const NamedModel models[] = {
+      {"correlation 0.9985, share 0.1", {.share = 0.1}},
+      {"correlation 0.9985, share 0.5", {.share = 0.5}},
+      {"correlation 0.9985, share 0.3, cheap limit 0.2 too high", {.share = 0.3, .bias = 0.2}},
+      {"correlation 0.9, share 0.3", {.correlation = 0.9, .share = 0.3}}};
+  for (const auto& [name, model] : models) {
     for (const std::size_t n : {50u, 100u, 200u}) {
       std::mt19937_64 random(n);
-      const TierModel model{.share = share};
       double by_flag = 0, by_all = 0, alone = 0;
       for (int repeat = 0; repeat < repeats; ++repeat) {
         const TierDraw draw(model, n, kMany, random);
         const std::vector<std::vector<double>> flag = {draw.features[2]};
-        const auto squared = [&](const Estimate& e) { return std::pow(e.value - share, 2); };
+        const auto squared = [&, truth = model.truth()](const Estimate& e) {
+          return std::pow(e.value - truth, 2);
+        };
         const CalibratedShare all = calibrated_share(draw.flags, draw.standard());
         by_all += squared(all.estimate(kConfidence)), alone += squared(all.direct(kConfidence));
         by_flag += squared(calibrated_share(draw.flags, {flag, kMany}).estimate(kConfidence));
       }
-      std::printf("| correlation %g, share %g | %zu | %.0f | %.0f |\n", model.correlation, share, n,
-                  100 * by_flag / alone, 100 * by_all / alone);
+      std::printf("| %s | %zu | %.0f | %.0f |\n", name.c_str(), n, 100 * by_flag / alone,
+                  100 * by_all / alone);
     }
   }
 }
