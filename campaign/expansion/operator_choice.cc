@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "campaign/common/json.h"
@@ -53,10 +52,16 @@ std::vector<Axis> axes_of(const Group& group, const faultsim::Scene& scene) {
   return axes;
 }
 
-/// How many rows have a value of the parameter within [from, to].
-long rows_within(const Parameter& parameter, double from, double to) {
-  return std::ranges::count_if(
-      parameter.drawn, [&](const DrawnValue& one) { return one.si >= from && one.si <= to; });
+/// What the rows of the group give a parameter, SI.
+std::vector<double> values_of_rows(const Group& group, const Parameter& parameter) {
+  const auto p = static_cast<std::size_t>(&parameter - group.parameters.data());
+  std::vector<double> values;
+  Row row;
+  for (long i = 0; i < count_rows(group); ++i) {
+    row_at(group, i, row);
+    values.push_back(*parameter.si(row[p]));
+  }
+  return values;
 }
 
 /// The design drawn again, by another seed; of a file every so many rows.
@@ -172,11 +177,13 @@ class OperatorChoice {
   void look_at_intervals(const Axis& axis, json& section) {
     const auto intervals = faultsim::offset_intervals(
         scene_.field, static_cast<std::size_t>(axis.of.index), axis.of.from, axis.of.to);
+    const std::vector<double> offsets = values_of_rows(group_, *axis.parameter);
     n_surfaces_ = 0;
-    n_exact_ = std::ssize(axis.parameter->drawn);
+    n_exact_ = std::ssize(offsets);
     json exact = json::array();
     for (const faultsim::OffsetInterval& one : intervals) {
-      const long n_rows = rows_within(*axis.parameter, one.from, one.to);
+      const long n_rows =
+          std::ranges::count_if(offsets, [&](double offset) { return one.holds(offset); });
       if (is_automatic() && n_rows < n_operators_) {
         exact.push_back({metres(one.from), metres(one.to)});
         continue;

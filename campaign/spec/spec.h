@@ -177,7 +177,7 @@ struct OperatorPolicy {
     automatic,  ///< the same where that takes fewer operators.
   };
   Kind kind = Kind::exact;
-  double tolerance = 3e-3;     ///< in χ̄.
+  double tolerance = 3e-3;      ///< in χ̄.
   bool for_comparison = false;  ///< exact ones in place of those chosen, on the same cells.
 };
 constexpr auto words(OperatorPolicy::Kind) { return std::array{"exact", "surface", "automatic"}; }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "simulator/scene/geometry.h"
@@ -21,7 +20,7 @@ struct OffsetInterval {
 
 /// Intervals of a block's offset, ascending and side by side, over each of which lines laid out for
 /// one offset can be moved to all others: as few as cover [from, to], all other blocks held. They
-/// end where two of the depths that must be lines would meet, and stay away from there by a
+/// end where two of the depths that must be lines would meet, and stay away from there by an
 /// eightieth of the distance between two such offsets, 2 m at most: what is nearer has none.
 /// @param block  into field.blocks, whose own offset does not matter; its mesh_offset is none.
 std::vector<OffsetInterval> offset_intervals(const FieldGeometry& field, std::size_t block,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace faultsim {
 namespace {
@@ -17,8 +18,11 @@ double largest_slip(const CaseResult& result) {
   return largest;
 }
 
-/// χ̄ is infinite on a fault that opens; two of them are alike.
-double difference(double a, double b) { return a == b ? 0 : std::abs(a - b); }
+/// χ̄ is infinite on a fault that opens; two of them are alike. What is no number is like nothing.
+double difference(double a, double b) {
+  const double found = a == b ? 0 : std::abs(a - b);
+  return std::isnan(found) ? std::numeric_limits<double>::infinity() : found;
+}
 
 }  // namespace
 
@@ -40,7 +44,7 @@ CaseErrors case_errors(const CaseResult& found, const CaseResult& exact) {
     for (std::size_t f = 0; f < std::min(ours.size(), theirs.size()); ++f) {
       errors.chi_bar = std::max(errors.chi_bar, difference(ours[f].chi_bar, theirs[f].chi_bar));
       errors.largest_slip =
-          std::max(errors.largest_slip, std::abs(ours[f].max_slip - theirs[f].max_slip) / slip);
+          std::max(errors.largest_slip, difference(ours[f].max_slip, theirs[f].max_slip) / slip);
     }
   }
   errors.flags_that_differ += found.outcome != exact.outcome ? 1 : 0;

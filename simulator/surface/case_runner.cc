@@ -20,31 +20,38 @@ CaseRunner::CaseRunner(const ProbingScenes& scenes,
   quiet_.stop = stop;
 }
 
-/// Cases at one place come one after the other, and share the influence of its cells.
-std::shared_ptr<const FieldHistory> CaseRunner::loads_of(int i, const Place& place, const Scene& at,
-                                                         const Scene& scene) {
-  std::shared_ptr<const FieldHistory>& known = loads_[{i, place}];
-  if (known) return known;
-  const Plan plan = exact_plan(at);
-  const SceneBulk bulk(at, plan);
+/// Cases at one place come one after the other.
+const PreparedInfluence& CaseRunner::influence_at(const Place& place, const SceneBulk& bulk) {
   if (influence_place_ != place) {
     influence_ = {};
     influence_ = prepare_influence(bulk, {}, cache_, quiet_);
     influence_place_ = place;
   }
-  const FieldCells cells{*influence_.op, bulk.problem()->mesh, *influence_.block};
-  known = field_loads(scene, cells).history;
-  return known;
+  return influence_;
+}
+
+CaseRunner::Case CaseRunner::made(int i, const Place& place, const Scene& at) {
+  Case one{scenes_.scene(i, at), nullptr};
+  if (!one.scene.has_field()) return one;
+  const Plan plan = exact_plan(at);
+  const SceneBulk bulk(at, plan);
+  const PreparedInfluence& influence = influence_at(place, bulk);
+  const FieldCells cells{*influence.op, bulk.problem()->mesh, *influence.block};
+  one.loads = field_loads(one.scene, cells).history;
+  return one;
 }
 
 CaseResult CaseRunner::run(int i, const Eigen::VectorXd& x,
                            const std::shared_ptr<const FaultOperator>& op) {
-  const Scene at = scene_at_(x);
-  const Scene scene = scenes_.scene(i, at);
+  const Place place(x.begin(), x.end());
+  auto known = cases_.find({i, place});
+  if (known == cases_.end())
+    known = cases_.emplace(std::pair(i, place), made(i, place, scene_at_(x))).first;
+  const Case& one = known->second;
   PreparedOperator prepared;
   prepared.op = op;
-  if (scene.has_field()) prepared.loads = {loads_of(i, Place(x.begin(), x.end()), at, scene)};
-  return run_case(scene, prepared, quiet_);
+  if (one.loads) prepared.loads = {one.loads};
+  return run_case(one.scene, prepared, quiet_);
 }
 
 }  // namespace faultsim

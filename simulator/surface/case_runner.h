@@ -24,8 +24,9 @@ struct ProbingScenes {
   std::function<Scene(int i, const Scene& at)> scene;
 };
 
-/// Runs these cases on exact and on interpolated operators. Loads of a flow result are exact on
-/// both: their own errors are measured apart (FieldSurface).
+/// Runs these cases on exact and on interpolated operators, again and again as a surface grows:
+/// their scenes, and the loads of flow results, are made once. Loads are exact on both operators:
+/// their own errors are measured apart (FieldSurface).
 class CaseRunner {
  public:
   /// @param scene_at  the exact scene with the surface's parameters at x in [-1, 1]^d.
@@ -38,14 +39,18 @@ class CaseRunner {
 
  private:
   using Place = std::vector<double>;  ///< x.
-  std::shared_ptr<const FieldHistory> loads_of(int i, const Place& place, const Scene& at,
-                                               const Scene& scene);
+  struct Case {
+    Scene scene;
+    std::shared_ptr<const FieldHistory> loads;  ///< of its flow result; null without.
+  };
+  Case made(int i, const Place& place, const Scene& at);
+  const PreparedInfluence& influence_at(const Place& place, const SceneBulk& bulk);
 
   const ProbingScenes& scenes_;
   std::function<Scene(const Eigen::VectorXd& x)> scene_at_;
   const CachePolicy& cache_;
   RunContext quiet_;
-  std::map<std::pair<int, Place>, std::shared_ptr<const FieldHistory>> loads_;
+  std::map<std::pair<int, Place>, Case> cases_;
   Place influence_place_;  ///< of influence_; empty: there is none.
   PreparedInfluence influence_;
 };

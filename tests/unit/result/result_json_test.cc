@@ -103,6 +103,11 @@ CaseResult example_result() {
   r.unexpected = Reactivation{2, 1};
   r.counts = {9, 6, 3, 1};
   r.surface = CaseSurface{75, 70, 12, 1e-3, 1e-4 / 3, 2e-4 / 3, 4e-4 / 3, 5e-4 / 3};
+  r.surface->n_cases = 24;
+  r.surface->chi_tolerance = 3e-3;
+  r.surface->chi_bar = 1e-3 / 3;
+  r.surface->largest_slip = 2e-2 / 3;
+  r.surface->flags_that_differ = 2;
   r.field_coverage = 0.8 / 3;
   r.warnings = {"a", "b"};
   r.seconds = 1.5;

@@ -343,6 +343,18 @@ TEST(SurfaceCase, IsFineEnoughWhenCasesAreAlike) {
   }
 }
 
+TEST(SurfaceCase, SaysTheSameOfItsCasesFromTheCache) {
+  const Cache cache;
+  const CaseResult built = on_surface(kProbed, cache.policy()).run(kSample);
+  Simulation reader = on_surface(kProbed, cache.policy());
+  reader.change(kSample);
+  reader.prepare();
+  EXPECT_TRUE(reader.prepared().from_cache);
+  const CaseResult read = reader.run(kSample);
+  EXPECT_EQ(read.surface, built.surface);
+  EXPECT_EQ(bits(read), bits(built));
+}
+
 TEST(SurfaceCase, SharesItsSurfaceWhereItDiffersInWhatIsProbed) {
   const auto family = [](Changes changes, const char* probed = kProbed) {
     changes.push_back({"/numerics/surface", probed});

@@ -23,6 +23,11 @@ CaseResult approximate() {
   CaseResult result = made_up_result(0.8);
   result.surface = faultsim::CaseSurface{75,       70,       12,       1e-3 / 3, 1.2e-4 / 7,
                                          3e-5 / 7, 2e-6 / 7, 6e-4 / 7, 9e-4 / 7};
+  result.surface->n_cases = 24;
+  result.surface->chi_tolerance = 3e-3 / 7;
+  result.surface->chi_bar = 1e-3 / 7;
+  result.surface->largest_slip = 2e-2 / 7;
+  result.surface->flags_that_differ = 2;
   result.field_coverage = 0.26 / 3;
   return result;
 }
@@ -119,7 +124,8 @@ TEST_F(Approximation, IsSealedWithItsResultAndBackedUp) {
   const auto differs = ElementsAre("the result of case identity-0 differs from its checksum");
   for (const char* column :
        {"operators", "basis", "checks", "tolerance", "error_of_stiffness", "error_of_traction",
-        "error_of_observation", "error_of_slip", "error_of_stability"}) {
+        "error_of_observation", "error_of_slip", "error_of_stability", "cases",
+        "tolerance_of_chi_bar", "error_of_chi_bar", "error_of_largest_slip", "flags_that_differ"}) {
     change(concat("UPDATE case_surfaces SET ", column, " = ", column, " + 1"));
     EXPECT_THAT(problems(), differs) << column;
     for (const char* end : {"", "-wal", "-shm"}) {

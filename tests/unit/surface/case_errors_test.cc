@@ -40,6 +40,13 @@ TEST(CaseErrors, HoldSmallSlipsAgainstAMillimetre) {
   EXPECT_NEAR(case_errors(other, exact).largest_slip, 1e-3, 1e-15);
 }
 
+TEST(CaseErrors, AreInfiniteWhereThereIsNoNumber) {
+  CaseResult other = result();
+  other.steps[1].faults[0].chi_bar = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(case_errors(other, result()).within(0.1));
+  EXPECT_FALSE(case_errors(result(), other).within(0.1));
+}
+
 TEST(CaseErrors, CountFlagsThatBothAreSureOf) {
   CaseResult other = result();
   other.stages[0].faults[0].activated = true;
