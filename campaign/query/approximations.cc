@@ -22,6 +22,9 @@ std::string approximation_note(const Store& store, const CampaignInfo& campaign)
                   format_number(found.error_of_stiffness, 2), " in H and ",
                   format_number(found.error_of_slip, 2),
                   " in slip without friction, relative, where it was measured",
+                  found.error_of_chi_bar ? concat("; χ̄ of probing cases by at most ",
+                                                  format_number(*found.error_of_chi_bar, 2))
+                                         : std::string(),
                   found.n_interpolated < found.n_results ? "; the others have exact ones." : ".");
   }
   if (found.n_covered_in_part > 0) {

@@ -58,13 +58,15 @@ StoredCase Store::stored_case(std::int64_t campaign, const std::string& name) co
 }
 
 Store::Approximations Store::approximations(std::int64_t campaign) const {
-  return connection_->row<Approximations, long, long, double, double, long, double>(
-      "SELECT count(*), count(u.case_id), coalesce(max(u.error_of_stiffness), 0),"
-      " coalesce(max(u.error_of_slip), 0), coalesce(sum(m.field_coverage < 0.999999), 0),"
-      " coalesce(min(m.field_coverage), 1) FROM campaign_cases cc"
-      " JOIN case_metrics m ON m.case_id = cc.case_id"
-      " LEFT JOIN case_surfaces u ON u.case_id = cc.case_id WHERE cc.campaign_id = ?",
-      campaign);
+  return connection_
+      ->row<Approximations, long, long, double, double, std::optional<double>, long, double>(
+          "SELECT count(*), count(u.case_id), coalesce(max(u.error_of_stiffness), 0),"
+          " coalesce(max(u.error_of_slip), 0), max(u.error_of_chi_bar), "
+          "coalesce(sum(m.field_coverage < 0.999999), 0),"
+          " coalesce(min(m.field_coverage), 1) FROM campaign_cases cc"
+          " JOIN case_metrics m ON m.case_id = cc.case_id"
+          " LEFT JOIN case_surfaces u ON u.case_id = cc.case_id WHERE cc.campaign_id = ?",
+          campaign);
 }
 
 int Store::oldest_numerics(std::int64_t campaign) const {

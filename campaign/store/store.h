@@ -233,8 +233,9 @@ class Store {
     long n_results = 0;
     long n_interpolated = 0;  ///< on an operator surface; with its largest relative errors.
     double error_of_stiffness = 0, error_of_slip = 0;
-    long n_covered_in_part = 0;  ///< a flow result does not cover the compartments.
-    double least_coverage = 1;   ///< share of their volume.
+    std::optional<double> error_of_chi_bar;  ///< of probing cases; none without any.
+    long n_covered_in_part = 0;              ///< a flow result does not cover the compartments.
+    double least_coverage = 1;               ///< share of their volume.
   };
   Approximations approximations(std::int64_t campaign) const;
   /// The smallest numerics version of its results; that of the program where it has none.

@@ -30,10 +30,14 @@ std::string surface_sentence(const CaseSurface& surface) {
   const std::string stability = surface.stability ? " and " + at_most(*surface.stability) +
                                                         " in the weakening at which faults jump"
                                                   : std::string();
+  const std::string cases = surface.chi_bar
+                                ? concat("; there χ̄ of ", surface.n_cases,
+                                         " cases is off by at most ", at_most(*surface.chi_bar))
+                                : std::string();
   return concat("Its operator is interpolated on ", surface.n_operators,
                 " exact ones, off by at most ", errors, surface.stability ? ", " : " and ",
                 at_most(surface.slip), " in slip without friction", stability, " at ",
-                surface.n_checks, " check points.");
+                surface.n_checks, " check points", cases, ".");
 }
 
 /// "26 %", "99.9 %": no more than the share.

@@ -69,6 +69,15 @@ TEST_F(ApproximationNote, TellsInterpolatedOperatorsFromExactOnes) {
       "slip without friction, relative, where it was measured; the others have exact ones.");
 }
 
+TEST_F(ApproximationNote, SaysHowFarTheWorstProbingCaseIsOff) {
+  CaseResult worse = interpolated(2e-4, 3e-3), better = interpolated(5e-4, 1e-3);
+  worse.surface->chi_bar = 1.3e-3, better.surface->chi_bar = 4e-4;
+  EXPECT_EQ(note({worse, better}),
+            "All 2 results have an interpolated operator, off by at most 0.0005 in H and 0.003 in "
+            "slip without friction, relative, where it was measured; χ̄ of probing cases by at "
+            "most 0.0013.");
+}
+
 TEST_F(ApproximationNote, SpeaksOfNoOthersWhereAllAreInterpolated) {
   EXPECT_EQ(note({interpolated(2e-4, 3e-3), interpolated(5e-4, 1e-3)}),
             "All 2 results have an interpolated operator, off by at most 0.0005 in H and 0.003 in "
