@@ -29,6 +29,7 @@ constexpr const char* kTexts[] = {"outcome", "activated_fault", "opened_fault", 
 
 Symbols symbols_of(const CampaignInfo& campaign, const std::map<std::string, ScopedMetric>& known) {
   Symbols symbols;
+  symbols["case"] = {case_sql(), number_type({})};  // unless a parameter is called so
   int index = 0;
   for (const StoredParameter& parameter : campaign.parameters) {
     const Type type = parameter.is_text ? Type{Kind::text, {}} : number_type(parameter.dimension);

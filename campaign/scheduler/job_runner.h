@@ -44,8 +44,10 @@ struct JobEvents {
   std::vector<Failure> failed;
   std::vector<std::int64_t> returned;  ///< handed back untried.
   std::vector<OperatorRecord> operators;
+  std::string building;  ///< what is being done for an operator; "" = nothing else than before.
   bool empty() const {
-    return completed.empty() && failed.empty() && returned.empty() && operators.empty();
+    return completed.empty() && failed.empty() && returned.empty() && operators.empty() &&
+           building.empty();
   }
 };
 

@@ -13,7 +13,7 @@ namespace faultsweep {
 
 namespace {
 
-constexpr int kProtocolVersion = 3;
+constexpr int kProtocolVersion = 4;
 
 /// A reply that is not what the protocol allows.
 struct Garbled {
@@ -220,6 +220,8 @@ void LocalRunner::handle(const std::string& line, JobEvents& events) {
       operator_seconds_ = events.operators.back().seconds;
       operator_known_ = true;
       since_ = {};
+    } else if (event == "building") {
+      events.building = shortened(reply.at("what").get<std::string>());
     } else if (event == "started") {
       started_ = true;
       since_ = {};

@@ -53,6 +53,7 @@ Manager::Manager(Store& store, Link& link, ProgressDisplay& display, const Optio
   hosts_.resize(n_workers());
   cores_.resize(n_workers(), 1);
   since_build_.resize(n_workers());
+  building_.resize(n_workers());
   if (campaign_.cancelled) plan_->stop();
   store_.record_event(campaign_.id, "started",
                       concat(counted(campaign_.n_waiting, "case", "cases"), " in ",
@@ -164,6 +165,7 @@ void Manager::handle(int worker, JobEvents events) {
     plan_->returned(worker, events.returned);
     for (const std::int64_t id : events.returned) positions_.erase(id);
   }
+  if (!events.building.empty()) building_[worker] = std::move(events.building);
   fail_hopeless();
 }
 
@@ -276,7 +278,10 @@ void Manager::hand_out() {
 }
 
 void Manager::send_work(int worker, const Slice& slice) {
-  if (slice.builds_operator) since_build_[worker] = {};
+  if (slice.builds_operator) {
+    since_build_[worker] = {};
+    building_[worker].clear();
+  }
   message::Work work;
   work.task.family = slice.family;
   work.task.time_limit = campaign_.policy.time_limit;
@@ -305,8 +310,7 @@ void Manager::beat() {
   Progress progress{campaign_.n_cases, campaign_.n_done, campaign_.n_failed, seconds_left(), ""};
   int n_building = 0;
   for (int worker = 0; worker < n_workers(); ++worker) n_building += plan_->is_building(worker);
-  if (n_building > 0)
-    progress.doing = concat("building ", counted(n_building, "operator", "operators"));
+  progress.doing = what_is_built(n_building);
   if (n_finished_now_ == 0 && n_building == 0) progress.seconds_left = -1;
   display_.show(progress);
   if (since_beat_.seconds() < kBeatSeconds) return;
@@ -317,6 +321,20 @@ void Manager::beat() {
     display_.note(concat(campaign_.name, " was cancelled: no more cases are handed out"));
     plan_->stop();
   }
+}
+
+/// "building 2 operators (operator 31 of a surface: meshing; factorising 97188 unknowns)".
+std::string Manager::what_is_built(int n_building) const {
+  constexpr int kFew = 3;  // more than these are not read
+  if (n_building == 0) return "";
+  std::string text = concat("building ", counted(n_building, "operator", "operators"));
+  if (n_building > kFew) return text;
+  std::vector<std::string> parts;
+  for (int worker = 0; worker < n_workers(); ++worker) {
+    if (plan_->is_building(worker) && !building_[worker].empty())
+      parts.push_back(building_[worker]);
+  }
+  return parts.empty() ? text : concat(text, " (", joined(parts, "; "), ")");
 }
 
 /// A surface takes minutes to build, and its cases wait meanwhile.
@@ -331,9 +349,10 @@ std::string Manager::progress_json() const {
   json workers = json::array();
   for (int worker = 0; worker < n_workers(); ++worker) {
     const int family = plan_->family_of(worker);
-    const char* state = plan_->n_outstanding(worker) == 0 ? "waiting"
-                        : plan_->is_building(worker)      ? "building operator"
-                                                          : "running cases";
+    const std::string state = plan_->n_outstanding(worker) == 0 ? "waiting"
+                              : !plan_->is_building(worker)     ? "running cases"
+                              : building_[worker].empty()       ? "building operator"
+                                                                : "building: " + building_[worker];
     workers.push_back({{"rank", worker + 1},
                        {"host", hosts_[worker]},
                        {"state", state},

@@ -69,6 +69,7 @@ class Manager {
   void begin_drain();
   void beat();
   double seconds_left() const;
+  std::string what_is_built(int n_building) const;
   std::string progress_json() const;
 
   Store& store_;
@@ -84,6 +85,7 @@ class Manager {
   std::vector<std::string> hosts_;
   std::vector<int> cores_;
   std::vector<faultsim::Stopwatch> since_build_;  ///< by worker, of what it builds now.
+  std::vector<std::string> building_;  ///< by worker, what it does for it; "" = not told.
   std::map<std::string, int> host_numbers_;
   std::vector<RunRecord> uncommitted_;
   std::vector<std::pair<int, OperatorRecord>> operators_;

@@ -26,7 +26,9 @@ auto members(OperatorRecord& r) {
 }
 auto members(JobEvents::Completed& c) { return std::tie(c.run, c.result); }
 auto members(JobEvents::Failure& f) { return std::tie(f.run, f.in_operator); }
-auto members(JobEvents& e) { return std::tie(e.completed, e.failed, e.returned, e.operators); }
+auto members(JobEvents& e) {
+  return std::tie(e.completed, e.failed, e.returned, e.operators, e.building);
+}
 auto members(message::Hello& m) { return std::tie(m.host, m.cores); }
 auto members(message::Trouble& m) { return std::tie(m.text); }
 auto members(message::Work& m) {

@@ -104,6 +104,7 @@ void Worker::collect(JobEvents events) {
   append(pending_.failed, events.failed);
   append(pending_.returned, events.returned);
   append(pending_.operators, events.operators);
+  if (!events.building.empty()) pending_.building = std::move(events.building);
   report(urgent);
 }
 

@@ -76,6 +76,8 @@ bool has_kind(Connection& db, std::int64_t campaign, const Store::RankingQuery& 
 
 }  // namespace
 
+std::string case_sql() { return "cc.position"; }
+
 std::string parameter_sql(int index, bool is_text) {
   return concat("(SELECT p.", is_text ? "text" : "si",
                 " FROM case_parameters p WHERE p.campaign_id = cc.campaign_id"

@@ -71,6 +71,8 @@ std::string unresolved_sql(const std::string& metric, const MetricIds& all,
                            const MetricScope& scope, std::int64_t stage_of_query);
 /// The same for the index-th of a campaign's parameters: SI, or words.
 std::string parameter_sql(int index, bool is_text);
+/// The same for the number of the case in its campaign, from 1.
+std::string case_sql();
 
 /// Whether the files of fault fields that are said to be kept are in their folder.
 bool fields_are_there(const std::filesystem::path& folder);

@@ -4,9 +4,12 @@
 
 #include <csignal>
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "simulator/app/commands.h"
 #include "simulator/app/request_check.h"
@@ -29,13 +32,31 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kProtocolVersion = 3;  // schemas/worker_protocol.md
+constexpr int kProtocolVersion = 4;  // schemas/worker_protocol.md
 
 double peak_bytes() {
   struct rusage usage = {};
   getrusage(RUSAGE_SELF, &usage);
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
+
+/// Tells what is being done for an operator, not more than a few times a second.
+class BuildMonitor final : public Monitor {
+ public:
+  explicit BuildMonitor(std::function<void(const std::string&)> tell) : tell_(std::move(tell)) {}
+  void progress(double, const std::string& what) override {
+    constexpr double kSeconds = 0.5;
+    if (what == told_ || (!told_.empty() && since_.seconds() < kSeconds)) return;
+    since_ = {};
+    tell_(told_ = what);
+  }
+  void note(const std::string&) override {}
+
+ private:
+  std::function<void(const std::string&)> tell_;
+  std::string told_;
+  Stopwatch since_;
+};
 
 /// Serves the requests of one family; the operator of the last scene stays in memory.
 class Worker {
@@ -128,7 +149,10 @@ class Worker {
 
   void prepare(const json& run) {
     const Stopwatch watch;
-    if (!simulation_.prepare(context_)) return;
+    BuildMonitor monitor([&](const std::string& what) {
+      say({{"event", "building"}, {"run", run}, {"what", what}});
+    });
+    if (!simulation_.prepare({monitor, context_.stop, context_.n_threads})) return;
     const PreparedOperator& prepared = simulation_.prepared();
     const double n_jump = prepared.op->geometry.n_dofs;
     say({{"event", "operator"},

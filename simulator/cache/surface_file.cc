@@ -63,7 +63,7 @@ void basis_tables(const FaultOperator& centre, auto& basis, auto& accuracy,
     length(basis.nodes) = n_nodes;
     for (auto& index : basis.nodes) length(index) = n_axes;
     accuracy.n_operators = n_nodes;
-    accuracy.n_basis = k;
+    accuracy.n_basis = basis.stiffness.count = k;
   }
   archive.rows("/surface/nodes", items_of(basis.nodes, std::identity()), std::identity(),
                {"", "multi-indices of the grid"});
@@ -72,8 +72,6 @@ void basis_tables(const FaultOperator& centre, auto& basis, auto& accuracy,
   const Eigen::Index m = n_nodes - 1;
   archive.matrix("/surface/weights", basis.weights, k, m,
                  {"1", "K x nodes but the centre, column by column"});
-  archive.matrix("/surface/diagonal", basis.diagonal, centre.geometry.n_dofs, k,
-                 {"N/m", "of B, n x K, column by column"});
   archive.matrix("/surface/traction", basis.traction, centre.loads.traction.size(), m,
                  {"Pa per unit of load", "differences of L to the centre, by columns"});
   archive.matrix("/surface/load", basis.per_load, centre.observed.per_load.size(), m,
@@ -82,18 +80,30 @@ void basis_tables(const FaultOperator& centre, auto& basis, auto& accuracy,
                  {"m per m", "of V, by columns"});
 }
 
+/// B, of which all but the sizes stays in the file.
+template <typename Archive>
+void block_tables(int n, auto& blocks, const Archive& archive) {
+  archive.list("/surface/runs", blocks.begin, std::identity(),
+               {"", "first of each run of jumps, and their number"});
+  archive.list("/surface/ranks", blocks.ranks, std::identity(),
+               {"", "columns of the two bases of each pair of runs"});
+  if (!blocks.is_partition_of(n)) throw StorageError("the tables disagree: /surface/runs");
+  archive.array("/surface/near", blocks.near, blocks.near_size(), 1,
+                {"N/m", "of each run: B_1 to B_K, by columns"});
+  archive.array("/surface/far", blocks.far, blocks.far_size(), 1,
+                {"N/m", "of each pair of runs: U, V (1) and the cores of B_1 to B_K, by columns"});
+}
+
 template <typename Archive>
 void surface_tables(auto& centre, auto& basis, auto& accuracy, const Archive& archive) {
   operator_tables(centre, archive);
   basis_tables(centre, basis, accuracy, archive);
   stiffness_table(centre, archive, "H at the centre");
-  const int n = centre.geometry.n_dofs;
-  archive.array("/surface/stiffness", basis.stiffness, n, n * basis.size(),
-                {"N/m", "B of H: K vectors for each column of H"});
+  block_tables(centre.geometry.n_dofs, basis.stiffness, archive);
 }
 
 struct SurfaceContent {
-  static constexpr SealedFormat kFormat{.name = "operator surface", .version = 3};
+  static constexpr SealedFormat kFormat{.name = "operator surface", .version = 4};
   static constexpr const char* kName = "surface";
   static const std::string& fingerprint_of(const StoredSurface& surface) {
     return surface.basis->fingerprint;

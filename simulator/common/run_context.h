@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <string>
+#include <utility>
 
 namespace faultsim {
 
@@ -22,6 +23,24 @@ class SilentMonitor final : public Monitor {
   void note(const std::string&) override {}
 };
 
+/// Tells another what a part of the work is doing: "operator 3 of a surface: meshing".
+class PartMonitor final : public Monitor {
+ public:
+  /// @param whole  told; null: nobody listens. @pre it outlives this.
+  PartMonitor(Monitor* whole, std::string part) : whole_(whole), part_(std::move(part)) {}
+  /// The fraction is the part's own.
+  void progress(double fraction, const std::string& what) override {
+    if (whole_ != nullptr) whole_->progress(fraction, part_ + ": " + what);
+  }
+  void note(const std::string& text) override {
+    if (whole_ != nullptr) whole_->note(text);
+  }
+
+ private:
+  Monitor* whole_;
+  std::string part_;
+};
+
 /// Whether work that was given it should end soon: a view of a flag that somebody else owns and may
 /// set from any thread, or from a signal handler. Long work asks at least every few milliseconds.
 class StopToken {
@@ -36,6 +55,8 @@ class StopToken {
  private:
   const std::atomic<bool>* flag_ = nullptr;
 };
+
+class FactorAnalysis;  // linalg/cholesky.h
 
 /// What a piece of work is given beside its data; nothing of it changes a bit of the result. All
 /// that differs between two simulations in one process is here or in their data.
@@ -54,7 +75,8 @@ struct RunContext {
 
   Monitor* monitor = nullptr;  ///< null: nobody listens. Called by the thread that was called.
   StopToken stop;
-  int n_threads = 1;  ///< of a factorisation, at most.
+  int n_threads = 1;                   ///< of a factorisation, at most.
+  FactorAnalysis* analysis = nullptr;  ///< kept by whoever factorises several alike matrices.
 };
 
 }  // namespace faultsim

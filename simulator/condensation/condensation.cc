@@ -116,7 +116,8 @@ void CondensedBulk::Impl::factorise(const RunContext& context) {
   const FactorRun run = {
       .n_threads = context.n_threads,
       .progress = [&](double done) { context.progress(kBegin + (kEnd - kBegin) * done, what); },
-      .stop = [&] { return context.stop.requested(); }};
+      .stop = [&] { return context.stop.requested(); },
+      .analysis = context.analysis};
   factor =
       std::make_unique<TrailingCholesky>(k, dofs.n_jump(), dofs.bulk_group(), dofs.n_groups(), run);
   if (factor->failed_column() >= 0) throw_not_held(problem, dofs, factor->failed_column());

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/fingerprint.h"
 #include "simulator/common/stopwatch.h"
 #include "simulator/linalg/ordering.h"
 #include "simulator/linalg/supernodal_factor.h"
@@ -39,6 +40,15 @@ cholmod_sparse view_of(const TrailingCholesky::SparseMatrix& k) {
   return a;
 }
 
+/// Of all that order and structure depend on.
+std::string pattern_of(const cholmod_sparse& a, const std::vector<int>& group, Index n_bulk) {
+  const auto* begin = static_cast<const Index*>(a.p);
+  const auto n_entries = static_cast<std::size_t>(begin[a.ncol]);
+  return concat(a.ncol, ' ', n_bulk, ' ', fingerprint(begin, (a.ncol + 1) * sizeof(Index)),
+                fingerprint(a.i, n_entries * sizeof(Index)),
+                fingerprint(group.data(), group.size() * sizeof(int)));
+}
+
 struct FreeSparse {
   cholmod_common* common;
   void operator()(cholmod_sparse* a) const { cholmod_l_free_sparse(&a, common); }
@@ -47,6 +57,23 @@ struct FreeSparse {
 using SparseHandle = std::unique_ptr<cholmod_sparse, FreeSparse>;
 
 }  // namespace
+
+struct FactorAnalysis::Impl {
+  CholmodCommon common;
+  std::string pattern;       ///< fingerprint of the matrix it is of; "" = none yet.
+  std::vector<Index> order;  ///< order[i] = unknown at place i of the factor.
+  cholmod_factor* structure = nullptr;
+  int n_made = 0;
+
+  ~Impl() { clear(); }
+  void clear() {
+    if (structure != nullptr) cholmod_l_free_factor(&structure, common.get());
+  }
+};
+
+FactorAnalysis::FactorAnalysis() : impl_(std::make_unique<Impl>()) {}
+FactorAnalysis::~FactorAnalysis() = default;
+int FactorAnalysis::n_made() const { return impl_->n_made; }
 
 struct TrailingCholesky::Impl {
   CholmodCommon common;
@@ -73,7 +100,29 @@ struct TrailingCholesky::Impl {
     FAULTSIM_DEMAND(status >= CHOLMOD_OK, "CHOLMOD status ", status, " in ", doing);
   }
 
-  void analyse(cholmod_sparse* a) {
+  /// Takes what is known of the pattern, or learns it.
+  void analyse(cholmod_sparse* a, const std::vector<int>& group, int n_groups,
+               const FactorRun& run) {
+    if (run.analysis == nullptr) return analyse_anew(a, group, n_groups, run);
+    FactorAnalysis::Impl& known = *run.analysis->impl_;
+    const std::string pattern = pattern_of(*a, group, n_bulk);
+    if (known.pattern == pattern) {
+      order = known.order;
+      factor = cholmod_l_copy_factor(known.structure, common.get());
+      return check("the analysis");
+    }
+    analyse_anew(a, group, n_groups, run);
+    known.clear();
+    known.structure = cholmod_l_copy_factor(factor, known.common.get());
+    known.pattern = known.structure == nullptr ? "" : pattern;
+    known.order = order;
+    ++known.n_made;
+  }
+
+  void analyse_anew(cholmod_sparse* a, const std::vector<int>& group, int n_groups,
+                    const FactorRun& run) {
+    order = trailing_order(*a, n_bulk, group, n_groups, common, run.stop);
+    check("the ordering");
     cholmod_common* c = common.get();
     c->nmethods = 1;
     c->method[0].ordering = CHOLMOD_GIVEN;
@@ -173,9 +222,7 @@ TrailingCholesky::TrailingCholesky(const SparseMatrix& k, int n_last, const std:
                     "no diagonal in column ", j);
   }
   cholmod_sparse a = view_of(k);
-  self.order = trailing_order(a, self.n_bulk, group, n_groups, self.common, run.stop);
-  self.check("the ordering");
-  self.analyse(&a);
+  self.analyse(&a, group, n_groups, run);
   Stopwatch factorisation;
   self.factorise(&a, run);
   self.statistics.factor_seconds = factorisation.seconds();

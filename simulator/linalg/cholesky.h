@@ -18,6 +18,23 @@ struct FactorStatistics {
   double factor_seconds = 0;
 };
 
+/// What a factorisation knows of the pattern of its matrix: the order of unknowns and the structure
+/// of the factor. Given to several (FactorRun::analysis) it is made once as long as the pattern
+/// stays; the factors are the same to the last bit. For one thread at a time.
+class FactorAnalysis {
+ public:
+  FactorAnalysis();
+  ~FactorAnalysis();
+  FactorAnalysis(const FactorAnalysis&) = delete;
+  FactorAnalysis& operator=(const FactorAnalysis&) = delete;
+  int n_made() const;  ///< how often a new one was made.
+
+ private:
+  friend class TrailingCholesky;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
 /// Sparse supernodal Cholesky P K Pᵀ = L Lᵀ (CHOLMOD, 64-bit indices) that keeps a chosen set of
 /// unknowns last, so that the trailing block of L is the factor of their Schur complement:
 ///

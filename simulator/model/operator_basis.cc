@@ -26,35 +26,32 @@ void OperatorBasis::put(const std::shared_ptr<const OperatorBasis>& basis, const
 
 InterpolatedCompliance::InterpolatedCompliance(std::shared_ptr<const OperatorBasis> basis,
                                                Eigen::VectorXd factors)
-    : basis_(std::move(basis)), factors_(std::move(factors)) {
-  FAULTSIM_DEMAND(factors_.size() == basis_->size(), factors_.size(), " factors of ",
-                  basis_->size());
+    : basis_(std::move(basis)),
+      directions_(basis_->stiffness, std::move(factors)),
+      made_(static_cast<std::size_t>(basis_->stiffness.n_runs()), false) {
   const auto h = basis_->centre->h();
-  diagonal_ = h.diagonal();
-  for (Eigen::Index k = 0; k < factors_.size(); ++k)
-    diagonal_ += factors_[k] * basis_->diagonal.col(k);
+  diagonal_ = h.diagonal() + directions_.diagonal();
   const auto n = static_cast<std::size_t>(h.rows());
   entries_.reset(new double[n * n]);  // not set to 0: that would touch all of it
-  made_.resize(n, false);
 }
 
-/// Every entry is summed in the same order, so that H is symmetric to the last bit.
 Compliance::Column InterpolatedCompliance::column(int j) const {
   const Eigen::Index n = size();
-  double* const values = entries_.get() + j * n;
-  if (!made_[static_cast<std::size_t>(j)]) {
-    Eigen::Map<Eigen::VectorXd> sum(values, n);
-    sum = basis_->centre->h().col(j);
-    const auto b = basis_->stiffness.view().middleCols(j * factors_.size(), factors_.size());
-    for (Eigen::Index k = 0; k < factors_.size(); ++k) sum += factors_[k] * b.col(k).cast<double>();
-    made_[static_cast<std::size_t>(j)] = true;
-    ++n_made_;
+  const DirectionBlocks& blocks = basis_->stiffness;
+  const int run = blocks.run_of(j);
+  if (!made_[static_cast<std::size_t>(run)]) {
+    const Eigen::Index first = blocks.begin[run], width = blocks.n_in(run);
+    Eigen::Map<Eigen::MatrixXd> columns(entries_.get() + first * n, n, width);
+    columns = basis_->centre->h().middleCols(first, width);
+    directions_.add_columns(run, columns);
+    made_[static_cast<std::size_t>(run)] = true;
+    n_made_ += static_cast<int>(width);
   }
-  return {values, n};
+  return {entries_.get() + j * n, n};
 }
 
 const double* InterpolatedCompliance::matrix_entries() const {
-  for (int j = 0; j < size(); ++j) column(j);
+  for (int run = 0; run < basis_->stiffness.n_runs(); ++run) column(basis_->stiffness.begin[run]);
   return entries_.get();
 }
 

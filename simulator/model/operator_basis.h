@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "simulator/model/direction_blocks.h"
 #include "simulator/model/fault_operator.h"
-#include "simulator/model/stored_matrix.h"
 
 namespace faultsim {
 
@@ -15,15 +15,14 @@ namespace faultsim {
 ///
 ///   L(θ) = L_0 + Σ_i w_i (L_i − L_0),      H(θ) = H_0 + Σ_k c_k B_k,  c = C w,  k = 1 … K,
 ///
-/// H_0 at the centre in double, B_k in single precision: what is lost, 6e-8 of a difference to the
-/// centre, is far below the errors of interpolation and part of the errors measured.
+/// H_0 at the centre in double, B_k by blocks and in single precision: what is lost is far below
+/// the errors of interpolation and part of the errors measured.
 struct OperatorBasis {
-  std::string fingerprint;                      ///< of the surface; also its file's name.
-  std::shared_ptr<const FaultOperator> centre;  ///< H_0 …, with the faults as they are there.
-  std::vector<std::vector<int>> nodes;          ///< multi-indices of the grid, the centre first.
-  Eigen::MatrixXd weights;                      ///< C, K x m.
-  StoredFloats stiffness;                       ///< B, n x (n K): column j K + k is B_k e_j, N/m.
-  Eigen::MatrixXd diagonal;  ///< entries of `stiffness` on the diagonal of H, n x K.
+  std::string fingerprint;                       ///< of the surface; also its file's name.
+  std::shared_ptr<const FaultOperator> centre;   ///< H_0 …, with the faults as they are there.
+  std::vector<std::vector<int>> nodes;           ///< multi-indices of the grid, the centre first.
+  Eigen::MatrixXd weights;                       ///< C, K x m.
+  DirectionBlocks stiffness;                     ///< B_1 … B_K, N/m.
   Eigen::MatrixXd traction, per_load, per_jump;  ///< L_i − L_0 … as columns, each x m.
 
   Eigen::Index size() const { return weights.rows(); }  ///< K.
@@ -33,8 +32,9 @@ struct OperatorBasis {
                   FaultOperator& op);
 };
 
-/// H at c, whose columns are summed up when they are asked for: a case reads the columns of nodes
-/// that move and no others. Columns that were made stay; for one thread at a time.
+/// H at c, whose columns are summed up run by run (DirectionBlocks) when one of them is asked for:
+/// a case reads the columns of nodes that move and no others. What was made stays; for one thread
+/// at a time.
 class InterpolatedCompliance final : public Compliance {
  public:
   /// @param factors  c, K entries.
@@ -44,14 +44,15 @@ class InterpolatedCompliance final : public Compliance {
   Column column(int j) const override;
   double diagonal(int j) const override { return diagonal_[j]; }
   const double* matrix_entries() const override;
-  int n_made() const { return n_made_; }  ///< columns that were asked for.
+  int n_made() const { return n_made_; }  ///< columns.
 
  private:
   std::shared_ptr<const OperatorBasis> basis_;
-  Eigen::VectorXd factors_, diagonal_;
+  DirectionSum directions_;
+  Eigen::VectorXd diagonal_;
   // n x n, of which the system gives memory to what is written only.
   std::unique_ptr<double[]> entries_;
-  mutable std::vector<bool> made_;
+  mutable std::vector<bool> made_;  ///< by run.
   mutable int n_made_ = 0;
 };
 

@@ -313,6 +313,21 @@ Plan plan_reductions(const Scene& scene) {
 
 }  // namespace
 
+namespace {
+
+/// What holds a surface and measures it: the centre, an exact and an interpolated H with their
+/// factors, and the directions by blocks (model/direction_blocks: runs of kRun jumps, kColumns of a
+/// basis of two runs in results/surfaces).
+double surface_bytes(double n_jump, double n_directions) {
+  constexpr double kRun = 192, kColumns = 50;
+  const double n_runs = std::ceil(n_jump / kRun), n_pairs = n_runs * (n_runs - 1) / 2;
+  const double near = n_directions * n_jump * std::min(kRun, n_jump);
+  const double far = n_pairs * kColumns * (2 * kRun + n_directions * kColumns);
+  return 5 * sizeof(double) * n_jump * n_jump + sizeof(float) * (near + far);
+}
+
+}  // namespace
+
 int predicted_operators(const SurfaceRequest& surface) {
   if (!surface.wanted()) return 1;
   const int d = static_cast<int>(surface.over.size());
@@ -369,9 +384,8 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
   predict_influence(scene, shape, reservoir_cells(scene, lines, plan.plane_strain), plan);
   plan.n_operators = predicted_operators(scene.numerics.surface);
   plan.operator_seconds *= plan.n_operators;
-  if (scene.numerics.surface.wanted()) {  // its directions, beside the centre and one operator more
-    const double entries = shape.n_jump() * shape.n_jump();
-    const double bytes = entries * (4.0 * plan.n_operators + 2 * 8.0);
+  if (scene.numerics.surface.wanted()) {
+    const double bytes = surface_bytes(shape.n_jump(), plan.n_operators);
     plan.memory_bytes = std::max(plan.memory_bytes, kProgramBytes + bytes);
   }
   plan.family = fingerprint(canonical_family(scene, plan));

@@ -22,7 +22,7 @@ struct FlowField;
 /// The same of flow results: how they are read and mapped.
 inline constexpr int kFieldMethod = 2;
 /// Raised by hand when a change may alter results on surfaces, and no others.
-inline constexpr int kSurfaceMethod = 4;
+inline constexpr int kSurfaceMethod = 5;
 constexpr auto words(OutsideRule) { return std::array{"nearest", "unchanged"}; }
 
 enum class InitialStressKind { column, profile };

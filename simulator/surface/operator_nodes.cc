@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "simulator/common/errors.h"
+#include "simulator/linalg/shared_bases.h"
 
 namespace faultsim {
 namespace {
@@ -35,6 +36,25 @@ void for_each_piece(const FaultOperator& shape, StopToken stop, const Visit& vis
   }
   visit(block++, [](const FaultOperator& op) { return all_of(op.observed.per_load); });
   visit(block, [](const FaultOperator& op) { return all_of(op.observed.per_jump); });
+}
+
+void append(const Eigen::MatrixXd& values, std::vector<float>& to) {
+  to.insert(to.end(), values.data(), values.data() + values.size());
+}
+
+/// Square matrices side by side, each with its lower triangle in the upper one.
+Eigen::MatrixXd each_symmetric(Eigen::MatrixXd side_by_side) {
+  const Eigen::Index n = side_by_side.rows();
+  for (Eigen::Index first = 0; first < side_by_side.cols(); first += n) {
+    auto one = side_by_side.middleCols(first, n);
+    one.triangularView<Eigen::StrictlyUpper>() = one.transpose();
+  }
+  return side_by_side;
+}
+
+StoredFloats stored(std::vector<float> values) {
+  const auto kept = std::make_shared<const std::vector<float>>(std::move(values));
+  return {kept->data(), static_cast<Eigen::Index>(kept->size()), 1, kept};
 }
 
 std::size_t n_blocks(const FaultOperator& op) {
@@ -96,36 +116,57 @@ Eigen::MatrixXd OperatorNodes::stiffness_gram(StopToken stop) const {
   return sum;
 }
 
-/// B, node by node and not as a product of matrices, whose order of sums depends on the place:
-/// entries (i, j) and (j, i) are to be the same.
-void OperatorNodes::add_directions(const Eigen::MatrixXd& directions, StopToken stop,
-                                   OperatorBasis& basis) const {
-  const FaultOperator& centre = *nodes_.front();
-  const Eigen::Index n = centre.geometry.n_dofs, k = directions.cols();
-  Eigen::MatrixXf stiffness(n, n * k);
-  basis.diagonal.resize(n, k);
-  Eigen::MatrixXd columns(n, k);
-  Eigen::VectorXd moved;
-  for (Eigen::Index j = 0; j < n; ++j) {
-    stop.throw_if_requested("compressing operators");
-    const auto at = static_cast<int>(j);
-    columns.setZero();
-    for (std::size_t i = 1; i < nodes_.size(); ++i) {
-      moved = nodes_[i]->compliance->column(at) - centre.compliance->column(at);
-      for (Eigen::Index d = 0; d < k; ++d)
-        columns.col(d) += directions(static_cast<Eigen::Index>(i) - 1, d) * moved;
-    }
-    stiffness.middleCols(j * k, k) = columns.cast<float>();
-    basis.diagonal.row(j) = stiffness.row(j).segment(j * k, k).cast<double>();
-  }
-  basis.stiffness = StoredFloats(std::move(stiffness));
+/// Rows and columns of B_1, …, B_K side by side.
+Eigen::MatrixXd OperatorNodes::block(const Eigen::MatrixXd& directions, const RowRange& rows,
+                                     const RowRange& columns) const {
+  const auto m = static_cast<Eigen::Index>(nodes_.size()) - 1;
+  const Eigen::Index size = Eigen::Index{rows.n} * columns.n;
+  const auto part = [&](const FaultOperator& op) {
+    return op.h().block(rows.first, columns.first, rows.n, columns.n);
+  };
+  const Eigen::MatrixXd centre = part(*nodes_.front());
+  Eigen::MatrixXd moved(size, m);
+  for (Eigen::Index i = 0; i < m; ++i)
+    moved.col(i) = (part(*nodes_[static_cast<std::size_t>(i) + 1]) - centre).reshaped();
+  return times_transpose(moved, directions.transpose())
+      .reshaped(rows.n, columns.n * directions.cols());
 }
 
-OperatorBasis OperatorNodes::basis(const Eigen::MatrixXd& directions, StopToken stop) const {
+/// Each pair of runs may leave out the same.
+DirectionBlocks OperatorNodes::blocks(const Eigen::MatrixXd& directions, double left_out,
+                                      StopToken stop) const {
+  DirectionBlocks blocks;
+  blocks.count = static_cast<int>(directions.cols());
+  blocks.begin = jump_runs(nodes_.front()->geometry.n_dofs);
+  const int n_runs = blocks.n_runs();
+  const double of_a_pair =
+      std::pow(left_out * scale_.front(), 2) / std::max(1, n_runs * (n_runs - 1) / 2);
+  std::vector<float> near, far;
+  for (int s = 0; s < n_runs; ++s) {
+    const RowRange columns{blocks.begin[s], blocks.n_in(s)};
+    for (int t = 0; t < s; ++t) {
+      stop.throw_if_requested("compressing operators");
+      const SharedBases shared = shared_bases(
+          block(directions, {blocks.begin[t], blocks.n_in(t)}, columns), columns.n, of_a_pair);
+      blocks.ranks.push_back(
+          {static_cast<int>(shared.u.cols()), static_cast<int>(shared.v.cols())});
+      append(shared.u, far);
+      append(shared.v, far);
+      append(shared.cores, far);
+    }
+    append(each_symmetric(block(directions, columns, columns)), near);
+  }
+  blocks.near = stored(std::move(near));
+  blocks.far = stored(std::move(far));
+  return blocks;
+}
+
+OperatorBasis OperatorNodes::basis(const Eigen::MatrixXd& directions, double left_out,
+                                   StopToken stop) const {
   OperatorBasis basis;
   basis.centre = nodes_.front();
   basis.weights = directions.transpose();
-  add_directions(directions, stop, basis);
+  basis.stiffness = blocks(directions, left_out, stop);
   const auto differences = [&](const auto& get) {
     const Eigen::VectorXd centre = all_of(get(*nodes_.front()));
     Eigen::MatrixXd columns(centre.size(), static_cast<Eigen::Index>(nodes_.size()) - 1);

@@ -27,11 +27,13 @@ class OperatorNodes {
   Eigen::MatrixXd stiffness_gram(StopToken stop) const;
   /// B = D V |H_0|, weights Vᵀ and the differences of L, U and V; nodes and fingerprint stay empty.
   /// @param directions  V: a row for each node but the centre, a column for each direction.
-  OperatorBasis basis(const Eigen::MatrixXd& directions, StopToken stop) const;
+  /// @param left_out    how much of |H_0| the blocks of all directions together may leave out.
+  OperatorBasis basis(const Eigen::MatrixXd& directions, double left_out, StopToken stop) const;
 
  private:
-  void add_directions(const Eigen::MatrixXd& directions, StopToken stop,
-                      OperatorBasis& basis) const;
+  DirectionBlocks blocks(const Eigen::MatrixXd& directions, double left_out, StopToken stop) const;
+  Eigen::MatrixXd block(const Eigen::MatrixXd& directions, const RowRange& rows,
+                        const RowRange& columns) const;
 
   std::vector<std::shared_ptr<const FaultOperator>> nodes_;
   std::vector<double> scale_;  ///< per block, what is divided by.

@@ -110,7 +110,9 @@ OperatorSurface::~OperatorSurface() = default;
 /// What was written is read back, so that processes share it.
 void OperatorSurface::build(const std::string& name, const ProbingScenes& cases,
                             const CachePolicy& cache, const RunContext& context) {
-  const auto exact = [&](const Eigen::VectorXd& x) { return exact_at(x, cache, context); };
+  const auto exact = [&](const Eigen::VectorXd& x, const RunContext& part) {
+    return exact_at(x, cache, part);
+  };
   CaseRunner runner(
       cases, [&](const Eigen::VectorXd& x) { return scene_at(x); }, cache, context.stop);
   ProbingCases probing;
@@ -121,7 +123,10 @@ void OperatorSurface::build(const std::string& name, const ProbingScenes& cases,
           return runner.run(i, x, op);
         }};
   }
-  surface_ = build_surface(request_, name, exact, probing, context);
+  FactorAnalysis analysis;  // one for all nodes
+  RunContext with_analysis = context;
+  with_analysis.analysis = &analysis;
+  surface_ = build_surface(request_, name, exact, probing, with_analysis);
   if (cache.folder.empty()) return;
   const auto write = [&] {
     write_surface(surface_, cache.folder);

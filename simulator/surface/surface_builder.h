@@ -14,7 +14,8 @@
 namespace faultsim {
 
 /// The exact operator at a point of [-1, 1]^d. One that lies in a mapped file costs no memory.
-using ExactOperator = std::function<std::shared_ptr<const FaultOperator>(const Eigen::VectorXd& x)>;
+using ExactOperator = std::function<std::shared_ptr<const FaultOperator>(
+    const Eigen::VectorXd& x, const RunContext& context)>;
 
 /// Cases that are run on operators at check points, exact and interpolated ones
 /// (/numerics/surface/probes).

@@ -113,6 +113,7 @@ void serve(const Channel& channel, const json& request, bool& has_operator) {
       std::filesystem::create_directories(channel.cache);
       std::ofstream(file) << family;
     }
+    reply(channel, {{"event", "building"}, {"run", run}, {"what", "operator 3 of a surface"}});
     if (!cached) usleep(static_cast<useconds_t>(1e6 * scene.value("operator_seconds", 0.0)));
     reply(channel, {{"event", "operator"},
                     {"run", run},
@@ -172,7 +173,7 @@ int main(int argc, char** argv) {
   }
   const bool other = std::getenv("FAKE_SIMULATOR_OTHER_BUILD") != nullptr;
   reply(channel, {{"event", "hello"},
-                  {"version", 3},
+                  {"version", 4},
                   {"result_layout", other ? "other" : faultsim::result_layout()},
                   {"numerics_version", 1}});
   std::FILE* requests = fdopen(channel.requests, "r");

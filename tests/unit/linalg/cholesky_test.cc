@@ -282,5 +282,36 @@ TEST(CondenseSparse, OfNothingIsNothing) {
   EXPECT_EQ(factor.condense(std::vector<SparseLoad>(1), [](double) {}), Eigen::Vector4d::Zero());
 }
 
+/// Values of two matrices of one pattern: the second takes the order and structure of the first,
+/// and has the bits that it has without. Another pattern is analysed anew.
+TEST(TrailingCholesky, OneAnalysisServesAllMatricesOfAPattern) {
+  Lattice first = make_lattice(5, 1, 12), second = first;
+  second.lower *= 3.7;
+  FactorAnalysis analysis;
+  const auto factor = [&](const Lattice& of, FactorAnalysis* kept) {
+    TrailingCholesky cholesky(of.lower, 12, of.group, of.n_groups, {.analysis = kept});
+    EXPECT_EQ(cholesky.failed_column(), -1);
+    return cholesky.trailing_factor();
+  };
+  EXPECT_EQ(factor(first, &analysis), factor(first, nullptr));
+  EXPECT_EQ(analysis.n_made(), 1);
+  EXPECT_EQ(factor(second, &analysis), factor(second, nullptr));
+  EXPECT_EQ(factor(first, &analysis), factor(first, nullptr)) << "a third time";
+  EXPECT_EQ(analysis.n_made(), 1);
+  const Lattice other = make_lattice(4, 1, 12);
+  EXPECT_EQ(factor(other, &analysis), factor(other, nullptr));
+  EXPECT_EQ(analysis.n_made(), 2);
+  // The same matrix with other unknowns at its end.
+  TrailingCholesky fewer(other.lower, 6,
+                         [&] {
+                           std::vector<int> group = other.group;
+                           for (int g = 0; g < 6; ++g) group.push_back(other.n_groups + g);
+                           return group;
+                         }(),
+                         other.n_groups + 6, {.analysis = &analysis});
+  EXPECT_EQ(fewer.trailing_factor().rows(), 6);
+  EXPECT_EQ(analysis.n_made(), 3);
+}
+
 }  // namespace
 }  // namespace faultsim

@@ -89,6 +89,29 @@ TEST(SurfaceCheck, TakesPointsWhereTheMeshMoves) {
   EXPECT_TRUE(problems_of(scene).empty());
 }
 
+/// By blocks the directions of four parameters are less than the factor of one operator: dense ones
+/// would be 65 single-precision matrices of all jumps.
+TEST(Plan, PredictsTheMemoryOfASurface) {
+  const auto memory = [](const std::vector<json>& ranges) {
+    json scene = field(ranges);
+    scene["tier"] = "standard";
+    if (ranges.empty()) scene["numerics"].erase("surface");
+    std::vector<Problem> problems;
+    const Plan plan = make_plan(read_scene(parse_json(scene.dump(), "test")), problems);
+    EXPECT_THAT(problems, IsEmpty());
+    const auto n = static_cast<double>(plan.n_jump);
+    return std::pair(plan.memory_bytes, 4.0 * plan.n_operators * n * n);
+  };
+  const auto [one, dense] =
+      memory({over("central_dip", "2 deg", "16 deg"), over("salt_stiffness", "20 GPa", "60 GPa"),
+              over("reservoir_stiffness", "7 GPa", "18 GPa"),
+              over("/materials/underburden/youngs_modulus", "20 GPa", "40 GPa")});
+  const double exact = memory({}).first;
+  EXPECT_GE(one, exact) << "its nodes are built as any other";
+  EXPECT_LT(one, 1.2 * exact);
+  EXPECT_GT(dense, exact);
+}
+
 TEST(Plan, SaysWhichSideOfTheFaultsIsMinus) {
   const auto plan_of = [](json scene, const char* strike, const char* dip) {
     scene["faults"][0]["strike"] = strike;

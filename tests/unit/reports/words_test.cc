@@ -165,6 +165,7 @@ TEST_F(WordsTest, ConditionsOfFaultsAndStages) {
   EXPECT_THAT(where("F2.slips in gas_storage"), ElementsAre(3, 4));
   EXPECT_THAT(where("F2.slides in production and not F2.slides in gas_storage"), ElementsAre(2));
   EXPECT_THAT(where("F1.slides"), ElementsAre(1)) << "of the whole history";
+  EXPECT_THAT(where("case > 1 and case < 3"), ElementsAre(2));
   EXPECT_THAT(where("slides in gas_storage"), ElementsAre(3)) << "some fault";
   EXPECT_THAT(where("F2.max_slip in gas_storage > 0.4 mm"), ElementsAre(3, 4));
   EXPECT_THAT(where("F2.max_slip in gas_storage > F2.max_slip in production"), ElementsAre(3, 4));

@@ -47,6 +47,7 @@ class LocalRunnerTest : public ::testing::Test {
       all.failed.insert(all.failed.end(), events.failed.begin(), events.failed.end());
       all.returned.insert(all.returned.end(), events.returned.begin(), events.returned.end());
       all.operators.insert(all.operators.end(), events.operators.begin(), events.operators.end());
+      if (!events.building.empty()) all.building = events.building;
     }
     EXPECT_TRUE(runner.is_idle());
     return all;
@@ -66,6 +67,7 @@ TEST_F(LocalRunnerTest, RunsCasesWithOneProcessAndOneOperator) {
   EXPECT_THAT(events.failed, IsEmpty());
   ASSERT_EQ(events.operators.size(), 1u);
   EXPECT_FALSE(events.operators[0].from_cache);
+  EXPECT_EQ(events.building, "operator 3 of a surface");
   const auto result = faultsim::result_from_bytes(events.completed[0].result);
   EXPECT_EQ(result.whole.chi_bar, 0.7);
   EXPECT_EQ(result.steps.size(), 13u);

@@ -36,6 +36,10 @@ class FakeRunner final : public JobRunner {
       jobs_.clear();
     }
     if (jobs_.empty()) return events;
+    if (builds_until_it_may_end && !has_operator_) {
+      events.building = "operator 3 of a surface: meshing";
+      return events;
+    }
     const Job job = jobs_.front();
     jobs_.pop_front();
     RunRecord run;
@@ -59,6 +63,7 @@ class FakeRunner final : public JobRunner {
     if (damage) events.completed.back().result[70] ^= 1;
     return events;
   }
+  static inline bool builds_until_it_may_end = false;
   static inline int n_runs = 0;
   static inline double strength = 0.7;
   static inline bool damage = false;  ///< of results, on their way.
@@ -134,6 +139,7 @@ class ManagerTest : public ::testing::Test {
     std::string name = ::testing::TempDir() + "manager_XXXXXX";
     folder_ = mkdtemp(name.data());
     FakeRunner::n_runs = 0;
+    FakeRunner::builds_until_it_may_end = false;
     FakeRunner::outcome = faultsim::Outcome::converged;
     FakeRunner::strength = 0.7;
     FakeRunner::operator_fingerprint = "print";
@@ -188,6 +194,26 @@ TEST_F(ManagerTest, RunsEveryCaseOnceAndASecondRunDoesNothing) {
     EXPECT_EQ(store.campaign("").n_converged, 200);
     EXPECT_EQ(FakeRunner::n_runs, 200);
   }
+}
+
+/// `status` reads it in the store, which hears of it once a second.
+TEST_F(ManagerTest, SaysWhatIsBeingBuilt) {
+  submit(3, {});
+  Store store = Store::open_owner(folder_);
+  Stage stage(1);
+  Manager manager(store, stage, silent_, {});
+  FakeRunner::builds_until_it_may_end = true;
+  const auto is_said = [&] {
+    const auto owner = store.owner();
+    return owner &&
+           owner->progress.find("building: operator 3 of a surface: meshing") != std::string::npos;
+  };
+  const faultsim::Stopwatch watch;
+  while (!is_said() && watch.seconds() < 20) EXPECT_FALSE(stage.play(manager, 10));
+  EXPECT_TRUE(is_said());
+  FakeRunner::builds_until_it_may_end = false;
+  EXPECT_TRUE(stage.play(manager));
+  EXPECT_EQ(manager.status(), ExitCode::done);
 }
 
 TEST_F(ManagerTest, FailuresAreRowsAndTheCampaignIsIncomplete) {

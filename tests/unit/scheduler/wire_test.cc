@@ -24,6 +24,7 @@ TEST(Wire, EventsTravel) {
   events.failed.push_back(failure);
   events.returned = {7, 8};
   events.operators.push_back({"print", true, 1.5, 10, 20, 30, 40});
+  events.building = "operator 3 of a surface: meshing";
   const std::string bytes = encode(events);
   const auto back = std::get<JobEvents>(decode(bytes));
   EXPECT_EQ(encode(back), bytes);
@@ -35,6 +36,7 @@ TEST(Wire, EventsTravel) {
   EXPECT_EQ(back.failed[0].run.signal, 9);
   EXPECT_EQ(back.returned, events.returned);
   EXPECT_EQ(back.operators[0].peak_bytes, 40);
+  EXPECT_EQ(back.building, events.building);
 }
 
 TEST(Wire, WorkTravels) {

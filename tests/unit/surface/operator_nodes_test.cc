@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace faultsim {
 namespace {
 
@@ -83,7 +85,7 @@ TEST(OperatorNodes, ABasisOfAllDirectionsRepeatsTheNodes) {
   for (const double angle : {0.0, 0.6}) {
     Eigen::Matrix2d turned;
     turned << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
-    const auto basis = std::make_shared<OperatorBasis>(nodes.basis(turned, {}));
+    const auto basis = std::make_shared<OperatorBasis>(nodes.basis(turned, 1e-9, {}));
     for (unsigned k = 0; k < 2; ++k) {
       FaultOperator op;
       OperatorBasis::put(basis, Eigen::Vector2d::Unit(k), op);
@@ -97,6 +99,45 @@ TEST(OperatorNodes, ABasisOfAllDirectionsRepeatsTheNodes) {
       EXPECT_LT((op.observed.per_jump - node->observed.per_jump).norm(),
                 1e-12 * node->observed.per_jump.norm());
     }
+  }
+}
+
+/// Jumps down a line, and a kernel that is smooth away from its diagonal and stretched by θ.
+std::shared_ptr<FaultOperator> down_a_line(double theta) {
+  constexpr int kJumps = 500;
+  auto op = std::make_shared<FaultOperator>();
+  op->geometry.n_dofs = kJumps;
+  Eigen::MatrixXd h(kJumps, kJumps);
+  for (int j = 0; j < kJumps; ++j)
+    for (int i = 0; i < kJumps; ++i)
+      h(i, j) = (i == j ? 3 : -0.5) / (1 + theta * std::pow(i - j, 2));
+  op->compliance = std::make_shared<DenseCompliance>(h);
+  op->loads.traction.resize(kJumps, 0);
+  op->observed.per_load.resize(0, 0);
+  op->observed.per_jump.resize(0, kJumps);
+  return op;
+}
+
+/// Off by no more than asked for, and a part of the memory.
+TEST(OperatorNodes, TwoRunsOfJumpsHaveFewColumnsInCommon) {
+  OperatorNodes nodes(down_a_line(1));
+  const double thetas[] = {1.2, 0.8, 1.1};
+  for (const double theta : thetas) nodes.add(down_a_line(theta));
+  for (const double left_out : {1e-3, 1e-6}) {
+    const auto basis =
+        std::make_shared<OperatorBasis>(nodes.basis(Eigen::Matrix3d::Identity(), left_out, {}));
+    EXPECT_EQ(basis->stiffness.n_runs(), 3);
+    EXPECT_LT(basis->stiffness.far_size(), 500 * 500 / 10);
+    double most = 0;
+    for (int k = 0; k < 3; ++k) {
+      FaultOperator op;
+      OperatorBasis::put(basis, Eigen::Vector3d::Unit(k), op);
+      const Eigen::MatrixXd exact = down_a_line(thetas[k])->h();
+      most = std::max(most, (op.h() - exact).norm() / nodes.centre()->h().norm());
+    }
+    EXPECT_LT(most,
+              std::sqrt(2) * left_out);  // a block counts twice in H, and once in its triangle
+    EXPECT_GT(most, 1e-4 * left_out);
   }
 }
 

@@ -18,7 +18,7 @@ constexpr double kSoft = 1e-6;  // N/m, of the second jump; that of the first is
 
 /// H = diag(1, kSoft (1 + x²/2)), one load on both jumps: what the soft jump does to the norm of H
 /// is far below any tolerance, and its slip is nearly all that there is.
-std::shared_ptr<const FaultOperator> with_soft_jump(const Eigen::VectorXd& x) {
+std::shared_ptr<const FaultOperator> with_soft_jump(const Eigen::VectorXd& x, const RunContext&) {
   auto op = std::make_shared<FaultOperator>();
   op->geometry.n_dofs = 2;
   op->geometry.dof_area = Eigen::Vector2d::Ones();
@@ -51,7 +51,7 @@ TEST(SurfaceBuilder, GoesOnUntilTheSlipWithoutFrictionIsRight) {
   for (std::size_t k = 1; k < surface.basis->nodes.size(); ++k) grid.add(surface.basis->nodes[k]);
   FaultOperator op;
   OperatorBasis::put(surface.basis, grid.weights(x).tail(grid.n_nodes() - 1), op);
-  const double soft = with_soft_jump(x)->h()(1, 1);
+  const double soft = with_soft_jump(x, {})->h()(1, 1);
   EXPECT_NEAR(op.h()(1, 1), soft, kTolerance * soft);
 }
 
@@ -90,7 +90,9 @@ TEST(SurfaceBuilder, HasEveryPartOfAnOperatorWithinItsTolerance) {
   constexpr double kTolerance = 1e-4;
   for (const Bends part :
        {Bends::stiffness, Bends::first_load, Bends::last_load, Bends::per_load, Bends::per_jump}) {
-    const auto exact = [&](const Eigen::VectorXd& x) { return bending(part, x); };
+    const auto exact = [&](const Eigen::VectorXd& x, const RunContext&) {
+      return bending(part, x);
+    };
     const StoredSurface surface =
         build_surface(over_one_parameter(kTolerance, 30), "name", exact, {}, {});
     SparseGrid grid(1);
@@ -100,7 +102,7 @@ TEST(SurfaceBuilder, HasEveryPartOfAnOperatorWithinItsTolerance) {
       const Eigen::VectorXd x = Eigen::VectorXd::Constant(1, place);
       FaultOperator op;
       OperatorBasis::put(surface.basis, grid.weights(x).tail(grid.n_nodes() - 1), op);
-      const auto truth = exact(x);
+      const auto truth = exact(x, {});
       const auto expect_near = [&](const auto& value, const auto& wanted) {
         EXPECT_LT((value - wanted).norm(), 3 * kTolerance * wanted.norm())
             << static_cast<int>(part) << " at " << place;
@@ -122,7 +124,9 @@ TEST(SurfaceBuilder, RefusesWhateverPartStaysWrong) {
                                                   {Bends::per_load, "observations by 0,"},
                                                   {Bends::per_jump, "observations by 0,"}};
   for (const auto& [part, nothing] : kParts) {
-    const auto exact = [one = part](const Eigen::VectorXd& x) { return bending(one, x); };
+    const auto exact = [one = part](const Eigen::VectorXd& x, const RunContext&) {
+      return bending(one, x);
+    };
     try {
       build_surface(over_one_parameter(1e-2, 2), "name", exact, {}, {});
       ADD_FAILURE() << "no refusal of " << static_cast<int>(part);
@@ -136,7 +140,9 @@ TEST(SurfaceBuilder, RefusesWhateverPartStaysWrong) {
 /// A case's accuracy is the worst of all check points and of all loads.
 TEST(SurfaceBuilder, ReportsTheErrorOfThePartThatBends) {
   for (const Bends part : {Bends::first_load, Bends::last_load}) {
-    const auto exact = [&](const Eigen::VectorXd& x) { return bending(part, x); };
+    const auto exact = [&](const Eigen::VectorXd& x, const RunContext&) {
+      return bending(part, x);
+    };
     const CaseSurface found =
         build_surface(over_one_parameter(1e-2, 30), "name", exact, {}, {}).accuracy;
     EXPECT_GT(found.traction, 1e-6);
