@@ -328,10 +328,19 @@ double surface_bytes(double n_jump, double n_directions) {
 
 }  // namespace
 
+/// Coefficients of polynomials of degree p in d variables together, (d + p)! / (d! p!), p being
+/// what surfaces took: 4 where χ̄ is to be within 3e-3, 6.2 at 5e-4, or where norms are to be within
+/// 1e-3 (results/eight-families, decision 19).
 int predicted_operators(const SurfaceRequest& surface) {
   if (!surface.wanted()) return 1;
-  const int d = static_cast<int>(surface.over.size());
-  return std::min(surface.most_operators, 1 + 4 * d + 2 * d * (d - 1)) + n_surface_checks(surface);
+  constexpr double kDegreesPerDigit = 2.8;
+  const double degree = surface.probes
+                            ? 4 + kDegreesPerDigit * std::log10(3e-3 / surface.probes->tolerance)
+                            : 6.2 + kDegreesPerDigit * std::log10(1e-3 / surface.tolerance);
+  const double p = std::max(degree, 1.0), d = static_cast<double>(surface.over.size());
+  const double n = std::exp(std::lgamma(d + p + 1) - std::lgamma(d + 1) - std::lgamma(p + 1));
+  return static_cast<int>(std::lround(std::min<double>(surface.most_operators, n))) +
+         n_surface_checks(surface);
 }
 
 FieldMeshSpec field_mesh_spec(const Scene& scene, const Plan& plan) {

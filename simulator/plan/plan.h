@@ -69,8 +69,8 @@ struct Plan : PlannedSize {
   std::string family;      ///< fingerprint of what defines the linear bulk (without BLAS).
 };
 
-/// How many operators a surface is likely to take, check points included: as many nodes as the
-/// polynomials of two digits in each parameter and one in each pair (results/surfaces).
+/// How many operators a surface is likely to take, check points included, by the number of its
+/// parameters and its tolerance: within a factor of two. Ranges are not looked at.
 int predicted_operators(const SurfaceRequest& surface);
 
 /// Makes the plan. Geometry problems are appended with pointers into the scene document.

@@ -89,6 +89,25 @@ TEST(SurfaceCheck, TakesPointsWhereTheMeshMoves) {
   EXPECT_TRUE(problems_of(scene).empty());
 }
 
+/// What was counted: 4 and 5 for one parameter in plane strain, 58 to 88 for four in 3D and 98 to
+/// 291 in plane strain at a sixth of the tolerance, 226 where norms decide.
+TEST(Plan, PredictsHowManyOperatorsASurfaceTakes) {
+  SurfaceRequest request;
+  const auto nodes = [&](int n_parameters, double chi_tolerance) {
+    request.over.resize(static_cast<std::size_t>(n_parameters));
+    request.most_operators = 1000;
+    request.probes.reset();
+    if (chi_tolerance > 0) request.probes = SurfaceProbes{chi_tolerance, ""};
+    return predicted_operators(request) - n_surface_checks(request);
+  };
+  EXPECT_EQ(nodes(1, 3e-3), 5);
+  EXPECT_EQ(nodes(4, 3e-3), 70);
+  EXPECT_NEAR(nodes(4, 5e-4), 220, 20);
+  EXPECT_NEAR(nodes(4, 0), 226, 20);
+  request.most_operators = 100;
+  EXPECT_EQ(predicted_operators(request) - n_surface_checks(request), 100);
+}
+
 /// By blocks the directions of four parameters are less than the factor of one operator: dense ones
 /// would be 65 single-precision matrices of all jumps.
 TEST(Plan, PredictsTheMemoryOfASurface) {
