@@ -65,6 +65,12 @@ struct PlotArguments {
   std::optional<int> step;       ///< load step; none = the most critical one.
 };
 
+struct ReportArguments {
+  std::string result;            ///< folder that `run` wrote.
+  std::filesystem::path output;  ///< .html.
+  std::string program;           ///< with version and commit, for the provenance.
+};
+
 struct WorkerArguments {
   int requests = 0;  ///< descriptor to read from.
   int replies = 1;   ///< descriptor to write to.
@@ -104,6 +110,8 @@ ExitCode export_contact_command(const ExportArguments& arguments);
 ExitCode influence_command(const InfluenceArguments& arguments);
 /// Draws a chart of a result folder (case_figures/case_figures.h).
 ExitCode plot_command(const PlotArguments& arguments);
+/// Writes a result folder as one page (page/run_page.h).
+ExitCode report_command(const ReportArguments& arguments);
 /// Prints what the bits of results depend on besides the scene: processor, BLAS, compiler, flags,
 /// libraries; and their fingerprint. No names of machines, no paths.
 ExitCode environment_command(bool json);

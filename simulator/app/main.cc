@@ -29,14 +29,16 @@ constexpr const char* kFooter =
     "Exit codes: 0 done, 2 input, 3 no convergence, 4 disk or memory, 5 a comparison failed,\n"
     "            70 bug, 75 interrupted.";
 
-void add_scene(CLI::App* command, SceneArguments& arguments) {
-  command->add_option("scene", arguments.file, "scene file (JSON)")->required();
+CLI::Option* add_scene(CLI::App* command, SceneArguments& arguments) {
+  CLI::Option* scene =
+      command->add_option("scene", arguments.file, "scene file (JSON)")->required();
   command->add_option("--set", arguments.set, "change a value: /json/pointer=value or alias=value")
       ->type_name("POINTER=VALUE")
       ->allow_extra_args(false);
   command->add_option("--tier", arguments.tier,
                       "screening, demonstration, standard, reference or custom");
   command->add_flag("--json", arguments.json, "machine-readable output on stdout");
+  return scene;
 }
 
 /// A mistyped command is named before CLI11 asks for one.
@@ -58,6 +60,7 @@ struct Arguments {
   ExportArguments exported;
   InfluenceArguments influence;
   PlotArguments plot;
+  ReportArguments report;
   WorkerArguments worker;
   SolverStudyArguments study;
   bool environment_json = false;
@@ -129,7 +132,18 @@ void add_looking(CLI::App& app, Arguments& a, ExitCode& code) {
 
 void add_run(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* command = app.add_subcommand("run", "run a scene");
-  add_scene(command, a.run.scene);
+  CLI::Option* scene = add_scene(command, a.run.scene);
+  command
+      ->add_option_function<std::string>(
+          "--from-report",
+          [&a, scene](const std::string& page) {
+            a.run.scene.file = page;
+            scene->required(false);
+          },
+          "the scene of a page that report wrote, in place of a scene file")
+      ->type_name("PAGE")
+      ->excludes(scene)
+      ->trigger_on_parse();
   command->add_option("-o,--output", a.run.output, "result folder (default SCENE-result)");
   add_operator(command, a.run.op);
   command->add_flag("--wide", a.run.wide, "the table with all its columns, however wide");
@@ -230,6 +244,19 @@ void add_plot(CLI::App& app, Arguments& a, ExitCode& code) {
   command->callback([&] { code = plot_command(a.plot); });
 }
 
+void add_report(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* command =
+      app.add_subcommand("report", "a result as one HTML page that needs no network");
+  command->add_option("result", a.report.result, "folder that run wrote")->required();
+  command->add_option("-o,--output", a.report.output, "file to write: *.html")->required();
+  command->footer(
+      "Examples:\n"
+      "  faultsim report out -o out.html\n"
+      "  faultsim run --from-report out.html -o again    the same scene, with the same bits");
+  a.report.program = version_text("faultsim");
+  command->callback([&] { code = report_command(a.report); });
+}
+
 void add_worker(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* command =
       app.add_subcommand("worker", "serve cases to faultsweep (schemas/worker_protocol.md)");
@@ -301,7 +328,7 @@ ExitCode faultsim_main(int argc, char** argv) {
   Arguments arguments;
   ExitCode code = ExitCode::done;
   for (auto* add : {add_init, add_looking, add_run, add_diagnose, add_export_contact, add_influence,
-                    add_plot, add_worker, add_solver_study, add_environment}) {
+                    add_plot, add_report, add_worker, add_solver_study, add_environment}) {
     add(app, arguments, code);
   }
   try {

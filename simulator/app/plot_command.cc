@@ -6,6 +6,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/common/text.h"
 #include "simulator/documents/json_document.h"
+#include "simulator/page/run_page.h"
 #include "simulator/reading/read_scene.h"
 #include "simulator/result/result_json.h"
 
@@ -18,25 +19,53 @@ CaseChart chart_named(const std::string& name) {
                    "choose one of " + joined(case_charts(), ", ", &CaseChartInfo::name));
 }
 
+/// A folder that `run` wrote.
+class StoredRun {
+ public:
+  explicit StoredRun(const std::string& name)
+      : folder_(name),
+        scene_document_(read_part("scene.json", name)),
+        result_(result_from_json(read_part("result.json", name).value)),
+        scene_(read_scene(scene_document_)) {
+    if (std::filesystem::exists(folder_ / "faults.h5")) fields_.emplace(folder_ / "faults.h5");
+  }
+
+  CasePicture picture() const { return {result_, scene_, fields_ ? &*fields_ : nullptr, {}}; }
+  std::string scene_text() const { return scene_document_.value.dump(); }
+  /// Files that a picture must not replace.
+  std::vector<std::filesystem::path> files() const {
+    return {folder_ / "scene.json", folder_ / "result.json", folder_ / "faults.h5"};
+  }
+
+ private:
+  JsonDocument read_part(const char* part, const std::string& name) const {
+    if (std::filesystem::exists(folder_ / part)) return read_json_file((folder_ / part).string());
+    throw InputError("result", concat("\"", name, "\" is not a result folder"),
+                     "name a folder that faultsim run wrote");
+  }
+
+  std::filesystem::path folder_;
+  JsonDocument scene_document_;
+  CaseResult result_;
+  Scene scene_;
+  std::optional<FieldReader> fields_;
+};
+
 }  // namespace
 
 ExitCode plot_command(const PlotArguments& arguments) {
-  const std::filesystem::path folder = arguments.result;
-  const std::filesystem::path scene_file = folder / "scene.json",
-                              result_file = folder / "result.json",
-                              fields_file = folder / "faults.h5";
   const CaseChart chart = chart_named(arguments.chart);
-  if (!std::filesystem::exists(result_file) || !std::filesystem::exists(scene_file)) {
-    throw InputError("result", concat("\"", arguments.result, "\" is not a result folder"),
-                     "name a folder that faultsim run wrote");
-  }
-  require_picture_file(arguments.output, {".svg", ".png"}, {scene_file, result_file, fields_file});
-  const CaseResult result = result_from_json(read_json_file(result_file.string()).value);
-  const Scene scene = read_scene(read_json_file(scene_file.string()));
-  std::optional<FieldReader> fields;
-  if (std::filesystem::exists(fields_file)) fields.emplace(fields_file);
-  write_picture(arguments.output, draw_case({result, scene, fields ? &*fields : nullptr, {}},
-                                            {chart, arguments.fault, arguments.step, false}));
+  const StoredRun run(arguments.result);
+  require_picture_file(arguments.output, {".svg", ".png"}, run.files());
+  write_picture(arguments.output,
+                draw_case(run.picture(), {chart, arguments.fault, arguments.step, false}));
+  return ExitCode::done;
+}
+
+ExitCode report_command(const ReportArguments& arguments) {
+  const StoredRun run(arguments.result);
+  require_picture_file(arguments.output, {".html"}, run.files());
+  write_picture(arguments.output, run_page(run.picture(), run.scene_text(), arguments.program));
   return ExitCode::done;
 }
 

@@ -40,21 +40,6 @@ const char* area_unit(const CaseResult& result) { return result.plane_strain ? "
 const char* moment_unit(const CaseResult& result) { return result.plane_strain ? "N m/m" : "N m"; }
 
 /// "west -57 bar (to 164 bar), east -200 bar (to 21 bar) at 2012 m depth": change and absolute.
-std::string pressures_text(const SidePressures& sides, double depth) {
-  std::string text;
-  const auto add = [&text](const std::string& region, const std::optional<double>& change,
-                           const std::optional<double>& absolute) {
-    if (!change || !absolute) return;
-    text += formatted("%s%s %s bar (to %s bar)", text.empty() ? "" : ", ", region.c_str(),
-                      bar(*change).c_str(), bar(*absolute).c_str());
-  };
-  add(sides.region_minus, sides.change_minus, sides.absolute_minus);
-  add(sides.region_plus, sides.change_plus, sides.absolute_plus);
-  if (text.empty()) text = "no pressure region beside it";
-  return text + formatted(", in the fault %s bar, at %.0f m depth",
-                          bar(sides.change_in_fault).c_str(), depth);
-}
-
 std::string events_text(const CaseResult& result) {
   if (result.events.empty()) return "";
   std::string text = formatted("slip events: %zu (! in the table)\n", result.events.size());

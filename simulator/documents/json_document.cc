@@ -314,8 +314,27 @@ bool put_value(json& document, std::string_view pointer, json value) {
   return true;
 }
 
+namespace {
+
+/// Behind as many empty lines as stand before it.
+std::string scene_of_page(const std::string& html, const std::string& source) {
+  const std::size_t at = html.find(kSceneElement);
+  const std::size_t end = at == std::string::npos ? at : html.find("</script>", at);
+  if (end == std::string::npos) {
+    throw InputError(source, "the page holds no scene",
+                     "name a page that faultsim report wrote, or a scene file");
+  }
+  const std::size_t begin = at + kSceneElement.size();
+  const auto n_lines =
+      std::count(html.begin(), html.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+  return std::string(static_cast<std::size_t>(n_lines), '\n') + html.substr(begin, end - begin);
+}
+
+}  // namespace
+
 JsonDocument read_json_file(const std::string& path) {
-  return parse_json(read_input_or_throw(path, kMostJsonBytes), path);
+  const std::string text = read_input_or_throw(path, kMostJsonBytes);
+  return parse_json(path.ends_with(".html") ? scene_of_page(text, path) : text, path);
 }
 
 json value_of_text(const std::string& text, const std::string& source, const std::string& pointer) {

@@ -23,8 +23,11 @@ struct JsonDocument {
 /// > 64, more than 64 MB, pointers of more than 500 bytes, more than 2 million values, numbers that
 /// overflow a double.
 JsonDocument parse_json(std::string_view text, const std::string& source);
-/// Reads and parses a regular file; a missing or unreadable file is an InputError too.
+/// Reads and parses a regular file; a missing or unreadable file is an InputError too. Of a page
+/// (*.html) the scene that it holds, with the lines that it has there.
 JsonDocument read_json_file(const std::string& path);
+/// The element in which a page holds its scene.
+inline constexpr std::string_view kSceneElement = "<script type=\"application/json\" id=\"scene\">";
 
 /// Replaces the value at pointer by value, as `--set /json/pointer=value` does: text that parses as
 /// JSON is taken as such, else as a string. Missing objects on the

@@ -41,6 +41,22 @@ std::string sliding_sentence(const CaseResult& result) {
   return text + ".";
 }
 
+std::string pressures_text(const SidePressures& sides, double depth) {
+  const auto bar = [](double pascal) { return formatted("%.0f", pascal / kBar); };
+  std::string text;
+  const auto add = [&](const std::string& region, const std::optional<double>& change,
+                       const std::optional<double>& absolute) {
+    if (!change || !absolute) return;
+    text += concat(text.empty() ? "" : ", ", region, " ", bar(*change), " bar (to ", bar(*absolute),
+                   " bar)");
+  };
+  add(sides.region_minus, sides.change_minus, sides.absolute_minus);
+  add(sides.region_plus, sides.change_plus, sides.absolute_plus);
+  if (text.empty()) text = "no pressure region beside it";
+  return concat(text, ", in the fault ", bar(sides.change_in_fault), " bar, at ",
+                formatted("%.0f", depth), " m depth");
+}
+
 std::vector<std::string> unresolved_sentences(const CaseResult& result) {
   std::vector<std::string> sentences;
   if (result.outcome == Outcome::unresolved_event) {

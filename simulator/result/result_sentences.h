@@ -10,6 +10,9 @@ namespace faultsim {
 
 /// What slides, and how far; what comes nearest where nothing does.
 std::string sliding_sentence(const CaseResult& result);
+/// Pressures on both sides of a fault and in it: "west -40 bar (to 191 bar), in the fault -40 bar,
+/// at 2080 m depth".
+std::string pressures_text(const SidePressures& sides, double depth);
 /// What is not to be taken for certain.
 std::vector<std::string> unresolved_sentences(const CaseResult& result);
 /// The evidence of an unexpected reactivation.

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace faultsim {
+
+/// A page in one file that asks for nothing: styles and script stand in it, pictures are SVG, and a
+/// content security policy lets no other script run, whatever a name in it may try. Without
+/// JavaScript all is there but filters, sorting and sliders.
+class HtmlPage {
+ public:
+  explicit HtmlPage(std::string title) : title_(std::move(title)) {}
+
+  /// A heading, and its link at the top. @param id  a word, or words with "-" between.
+  void section(const std::string& id, const std::string& title);
+  void heading(const std::string& text);  ///< within a section.
+  /// @param kind  "answer" (large), "faint" or "".
+  void paragraph(const std::string& text, std::string_view kind = "");
+  /// Drawings and tables: taken as they are.
+  void add(std::string_view html) { body_ += html; }
+  /// Data for the page's script, or for who reads the page: JSON in an element that nothing runs.
+  /// @param id  of the element; "" = none.
+  void data(const std::string& id, std::string json);
+  /// Text to be opened, as it is.
+  void details(const std::string& summary, const std::string& text);
+  /// What body adds, or, where it throws InputError, the reason: an empty state says why.
+  void unless_refused(const std::function<void()>& body);
+
+  std::string finish() const;
+
+ private:
+  std::string title_, body_;
+  std::vector<std::string> sections_;  ///< ids.
+};
+
+}  // namespace faultsim

@@ -1,0 +1,122 @@
+#include "simulator/page/run_page.h"
+
+#include <nlohmann/json.hpp>
+
+#include "simulator/common/errors.h"
+#include "simulator/common/fingerprint.h"
+#include "simulator/common/text.h"
+#include "simulator/figure/axis.h"
+#include "simulator/figure/svg.h"
+#include "simulator/page/case_part.h"
+#include "simulator/result/result_sentences.h"
+
+namespace faultsim {
+namespace {
+
+using figure::escape_xml;
+using figure::plain_number;
+
+constexpr double kMillimetre = 1e-3;
+
+void add_answer(HtmlPage& page, const CaseResult& result) {
+  if (result.outcome != Outcome::converged && result.outcome != Outcome::event)
+    page.paragraph(concat(to_string(result.outcome), ": ", result.reason), "answer");
+  page.paragraph(sliding_sentence(result), "answer");
+  for (const std::string& sentence : unresolved_sentences(result))
+    page.paragraph(sentence, "answer");
+  for (const std::string& sentence : {unexpected_sentence(result), creep_sentence(result)})
+    if (!sentence.empty()) page.paragraph(sentence);
+}
+
+/// Words of a flag that cells may leave open.
+std::string sliding_words(const FaultStageMetrics& fault) {
+  if (!fault.activation_resolved) return "unresolved";
+  return fault.activated ? "slides" : fault.slips ? "no, slips" : "no";
+}
+
+std::string onset_words(const FaultStageMetrics& fault) {
+  if (!fault.activation) return "";
+  return concat("step ", fault.activation->step, ", ",
+                pressures_text(fault.activation->pressures, fault.activation->depth));
+}
+
+void add_stages(HtmlPage& page, const CaseResult& result) {
+  page.section("stages", "Stage by stage");
+  const char* area = result.plane_strain ? "sliding, m² per m of strike" : "sliding, m²";
+  const char* moment = result.plane_strain ? "M0, N m per m" : "M0, N m";
+  std::string html = "<div class=\"wide\"><table>\n<thead><tr>";
+  for (const char* head : {"stage", "fault", "χ̄", "slides", "slip within the stage, mm", area,
+                           moment, "slip events", "slides from"})
+    html += concat("<th>", escape_xml(head), "</th>");
+  html += "</tr></thead>\n<tbody>\n";
+  const auto number = [](double value, int digits) {
+    return concat("<td>", escape_xml(plain_number(value, digits)), "</td>");
+  };
+  const auto words = [](const std::string& text) {
+    return concat("<td class=\"words\">", escape_xml(text), "</td>");
+  };
+  for (const StageMetrics& stage : result.stages) {
+    for (const FaultStageMetrics& fault : stage.faults) {
+      html += "<tr>" + words(stage.stage) + words(fault.fault) + number(fault.chi_bar, 3) +
+              words(sliding_words(fault)) + number(fault.max_slip / kMillimetre, 3) +
+              number(fault.activated_area, 3) + number(fault.moment, 3) +
+              number(fault.n_events, 4) + words(onset_words(fault)) + "</tr>\n";
+    }
+  }
+  page.add(html + "</tbody></table></div>\n");
+}
+
+/// Of each fault, at its own largest χ̄; without fields the reason why not.
+void add_faults(HtmlPage& page, const CasePicture& picture) {
+  page.section("faults", "Fault by fault");
+  if (picture.fields == nullptr) {
+    page.paragraph("No fields of this run were kept (/output/fault_fields).", "faint");
+    return;
+  }
+  for (const std::string& fault : picture.result.fault_names) {
+    page.heading(fault);
+    for (const auto chart : {CaseChart::profiles, CaseChart::fault_map, CaseChart::stress_path}) {
+      page.unless_refused([&] { page.add(draw_case(picture, {chart, fault, {}, false})); });
+    }
+  }
+}
+
+void add_doubts(HtmlPage& page, const CaseResult& result) {
+  page.section("how-sure", "How sure this is");
+  if (result.warnings.empty()) page.paragraph("Nothing was remarked about this run.", "faint");
+  for (const std::string& warning : result.warnings) page.paragraph(warning);
+}
+
+void add_provenance(HtmlPage& page, const CaseResult& result, const std::string& scene,
+                    const std::string& program) {
+  page.section("provenance", "Where this comes from");
+  page.paragraph(concat("Scene ", result.identity, ", operator ", result.operator_fingerprint,
+                        ", numerics version ", result.numerics_version, "; page by ", program,
+                        ". To run it again, with the same bits: faultsim run --from-report "
+                        "PAGE.html. A flow result that the scene names is not in the page."));
+  const std::string text = nlohmann::json::parse(scene).dump(1);
+  page.details("scene", text);
+  page.data("scene", text);
+}
+
+}  // namespace
+
+std::string run_page(const CasePicture& picture, const std::string& scene,
+                     const std::string& program) {
+  const CaseResult& result = picture.result;
+  HtmlPage page(picture.name.empty() ? result.title : picture.name);
+  add_answer(page, result);
+  page.section("history", "Step by step");
+  page.unless_refused([&] {
+    CasePicture without_fields = picture;
+    without_fields.fields = nullptr;  // faults come one by one below
+    add_case_part(page, without_fields, 1);
+  });
+  add_stages(page, result);
+  add_faults(page, picture);
+  add_doubts(page, result);
+  add_provenance(page, result, scene, program);
+  return page.finish();
+}
+
+}  // namespace faultsim
