@@ -39,7 +39,6 @@ char mark(const FaultMetrics& fault) {
 const char* area_unit(const CaseResult& result) { return result.plane_strain ? "m2/m" : "m2"; }
 const char* moment_unit(const CaseResult& result) { return result.plane_strain ? "N m/m" : "N m"; }
 
-/// "west -57 bar (to 164 bar), east -200 bar (to 21 bar) at 2012 m depth": change and absolute.
 std::string events_text(const CaseResult& result) {
   if (result.events.empty()) return "";
   std::string text = formatted("slip events: %zu (! in the table)\n", result.events.size());

@@ -40,22 +40,18 @@ double peak_bytes() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-/// Tells what is being done for an operator, not more than a few times a second.
+/// Tells what is being done for an operator whenever it is something else.
 class BuildMonitor final : public Monitor {
  public:
   explicit BuildMonitor(std::function<void(const std::string&)> tell) : tell_(std::move(tell)) {}
   void progress(double, const std::string& what) override {
-    constexpr double kSeconds = 0.5;
-    if (what == told_ || (!told_.empty() && since_.seconds() < kSeconds)) return;
-    since_ = {};
-    tell_(told_ = what);
+    if (what != told_) tell_(told_ = what);
   }
   void note(const std::string&) override {}
 
  private:
   std::function<void(const std::string&)> tell_;
   std::string told_;
-  Stopwatch since_;
 };
 
 /// Serves the requests of one family; the operator of the last scene stays in memory.

@@ -49,11 +49,14 @@ CreepLadder::CreepLadder(const std::shared_ptr<const BulkProblem>& shared,
     observed_nodes_.push_back(observed_node(problem.mesh, point));
   std::vector<double> all = {0};
   all.insert(all.end(), durations.begin(), durations.end());
-  FactorAnalysis analysis;  // one for all rungs
+  FactorAnalysis own;  // one for all rungs; a single one leaves nothing behind
+  FactorAnalysis* const analysis = context.analysis != nullptr ? context.analysis
+                                   : all.size() > 1            ? &own
+                                                               : nullptr;
   for (std::size_t i = 0; i < all.size(); ++i) {
     ShareMonitor share(context, static_cast<int>(i), static_cast<int>(all.size()));
     RunContext part(share, context.stop, context.n_threads);
-    part.analysis = context.analysis != nullptr ? context.analysis : &analysis;
+    part.analysis = analysis;
     const std::vector<MaxwellStep> steps = maxwell_steps(problem, all[i], scheme);
     std::shared_ptr<const BulkProblem> relaxed = shared;
     if (i > 0) {

@@ -44,7 +44,7 @@ class InterpolatedCompliance final : public Compliance {
   Column column(int j) const override;
   double diagonal(int j) const override { return diagonal_[j]; }
   const double* matrix_entries() const override;
-  int n_made() const { return n_made_; }  ///< columns.
+  int n_made() const { return n_made_; }  ///< columns that were summed up.
 
  private:
   std::shared_ptr<const OperatorBasis> basis_;

@@ -18,27 +18,29 @@ std::string steps_json(const std::vector<StepLook>& looks) {
   return steps.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
 
-/// The slider, hidden until the script is there, and the section that it colours.
-void add_section(HtmlPage& page, const CasePicture& picture) {
+/// The slider, hidden until the script is there, and what it changes. Drawn before anything is
+/// added: what cannot be drawn leaves nothing half open.
+void add_steps(HtmlPage& page, const CasePicture& picture, long number) {
+  const std::string section = draw_case(picture, {CaseChart::section, {}, {}, true}),
+                    history = draw_case(picture, {CaseChart::history, {}, {}, true});
   const std::vector<StepLook> looks = step_looks(picture);
+  page.add(concat("<div data-case=\"", number, "\">\n"));
   page.data("", steps_json(looks));
   page.add(
       concat("<div class=\"slider\" hidden><label>load step <input type=\"range\" min=\"0\" max=\"",
              looks.size() - 1, "\" value=\"", critical_moment(picture.result).step,
              "\" aria-label=\"load step\"></label><output></output></div>\n"));
-  page.add(draw_case(picture, {CaseChart::section, {}, {}, true}));
+  page.add(section + history + "</div>\n");
 }
 
 }  // namespace
 
 void add_case_part(HtmlPage& page, const CasePicture& picture, long number) {
-  const bool is_field = picture.scene.geometry_kind == GeometryKind::field;
-  if (is_field) {
-    page.add(concat("<div data-case=\"", number, "\">\n"));
-    add_section(page, picture);
+  if (picture.scene.geometry_kind == GeometryKind::field) {
+    add_steps(page, picture, number);
+  } else {
+    page.add(draw_case(picture, {CaseChart::history, {}, {}, false}));
   }
-  page.add(draw_case(picture, {CaseChart::history, {}, {}, is_field}));
-  if (is_field) page.add("</div>\n");
   if (picture.fields == nullptr) return;
   for (const auto chart : {CaseChart::profiles, CaseChart::fault_map, CaseChart::stress_path})
     page.add(draw_case(picture, {chart, {}, {}, false}));

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "simulator/common/errors.h"
-#include "simulator/common/fingerprint.h"
 #include "simulator/common/text.h"
 #include "simulator/figure/axis.h"
 #include "simulator/figure/svg.h"

@@ -65,6 +65,18 @@ TEST(SharedBases, LeaveOutAsMuchAsTheyMay) {
   }
 }
 
+/// Of twelve directions of the same size the columns may leave out half of what may be left out,
+/// and the rows the other half.
+TEST(SharedBases, ColumnsAndRowsLeaveOutHalfEach) {
+  set_blas_threads(1);
+  const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(kRows, kRows);
+  const SharedBases bases = shared_bases(all, kRows, 6.5);
+  EXPECT_EQ(bases.u.cols(), 9);
+  EXPECT_EQ(bases.v.cols(), 6);
+  const Eigen::MatrixXd kept = bases.u * bases.cores.transpose() * bases.v.transpose();
+  EXPECT_NEAR((all - kept).squaredNorm(), 6, 1e-12);
+}
+
 TEST(SharedBases, AreEmptyWhereNothingIsLeft) {
   const Eigen::MatrixXd nothing = Eigen::MatrixXd::Zero(kRows, kColumns * kCount);
   const SharedBases bases = shared_bases(nothing, kColumns, 0);

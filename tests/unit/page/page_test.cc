@@ -96,6 +96,18 @@ TEST(RunPage, OfABoxHasItsHistoryAlone) {
   EXPECT_THAT(page, HasSubstr("<svg"));
 }
 
+/// What cannot be drawn is said, and leaves nothing half open that would stop the script.
+TEST(RunPage, WithoutStepsSaysWhy) {
+  CaseResult result = small_result();
+  result.steps.clear();
+  result.outcome = Outcome::unconverged;
+  result.reason = "the first step found no equilibrium";
+  const std::string page = page_of(result, field_text());
+  EXPECT_THAT(page, HasSubstr("unconverged: the first step found no equilibrium"));
+  EXPECT_THAT(page, Not(HasSubstr("<div data-case")));
+  EXPECT_THAT(page, HasSubstr("class=\"faint\""));
+}
+
 class PageFile : public testing::Test {
  protected:
   void SetUp() override { path_ = testing::TempDir() + "page_test.html"; }
