@@ -13,6 +13,7 @@
 
 #include "campaign/common/names.h"
 #include "campaign/render/answer.h"
+#include "campaign/scheduler/ranks.h"
 #include "campaign/store/store.h"
 #include "simulator/common/exit_code.h"
 
@@ -81,6 +82,8 @@ void add_wide(CLI::App* command);
 void add_renderings(CLI::App* command, StoreArguments& common);
 void add_confidence(CLI::App* command, double& confidence);
 void add_workers(CLI::App* command, std::optional<int>& n_workers, const char* description);
+/// Memory and threads for building operators.
+void add_build_limits(CLI::App* command, RunOptions& options);
 
 /// Data, on stdout.
 void print_text(const std::string& text);

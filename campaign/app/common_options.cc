@@ -61,4 +61,20 @@ void add_workers(CLI::App* command, std::optional<int>& n_workers, const char* d
   command->add_option("-w,--workers", n_workers, description)->check(CLI::Range(1, 10000));
 }
 
+void add_build_limits(CLI::App* command, RunOptions& options) {
+  command->add_option_function<std::string>(
+      "--memory",
+      [&options](const std::string& size) {
+        options.memory = size;
+        options.memory_bytes = static_cast<double>(parse_size("--memory", size));
+      },
+      "of each host, for operators that are built or held together: \"12 GB\",\n"
+      "0 = no limit; default: 0.9 of what is available");
+  command
+      ->add_option("--threads", options.threads,
+                   "for building an operator; default: the cores of its host that are idle.\n"
+                   "Results are the same with any number")
+      ->check(CLI::Range(1, 1024));
+}
+
 }  // namespace faultsweep

@@ -28,9 +28,6 @@ ExitCode run(const StoreArguments& common, const RunArguments& arguments) {
   options.store = common.store;
   options.campaign = common.campaign;
   if (options.simulator.empty()) options.simulator = simulator_binary();
-  if (!options.memory.empty()) {
-    options.memory_bytes = static_cast<double>(parse_size("--memory", options.memory));
-  }
   options.next_round = add_next_round;
   if (is_rank()) return run_ranks(arguments.argc, arguments.argv, options);
   const ExitCode status = start_ranks(options);
@@ -93,14 +90,7 @@ void add_running(Program& program, int argc, char** argv) {
       ->check(CLI::IsMember({"none", "lines", "bar"}));
   command->add_option("--simulator", a.simulator,
                       "the faultsim binary; default FAULTSIM_BINARY, or beside faultsweep");
-  command->add_option("--memory", a.memory,
-                      "of each host, for operators that are built or held together: \"12 GB\",\n"
-                      "0 = no limit; default: 0.9 of what is available");
-  command
-      ->add_option("--threads", a.threads,
-                   "for building an operator; default: the cores of its host that are idle.\n"
-                   "Results are the same with any number")
-      ->check(CLI::Range(1, 1024));
+  add_build_limits(command, a);
   command->add_option("--node-cache", a.node_cache,
                       "copies of operators on each host's own disk, or none; default: none if the\n"
                       "store is on a local disk, else a folder in SLURM_TMPDIR, TMPDIR or /tmp");

@@ -14,7 +14,7 @@ struct TiersArguments {
   std::string source;                                          ///< spec.
   std::vector<std::string> tiers = {"screening", "standard"};  ///< cheap and expensive.
   long budget = 0;                                             ///< samples at the expensive one.
-  std::optional<int> n_workers;                                ///< as for `run`.
+  RunOptions run;
   TierRequest request;
 };
 
@@ -70,9 +70,10 @@ ExitCode tiers(const StoreArguments& common, const TiersArguments& arguments) {
     submissions.push_back(make_submission(expand(parse_campaign(spec.dump(), arguments.source))));
   }
   for (const Submission& one : submissions) {
-    const SubmittedRun run = submit_and_run(
-        one,
-        {.store = common.store, .n_workers = arguments.n_workers, .simulator = simulator_binary()});
+    RunOptions options = arguments.run;
+    options.store = common.store;
+    options.simulator = simulator_binary();
+    const SubmittedRun run = submit_and_run(one, options);
     names.push_back(run.campaign);
     if (!has_results(run.status)) return run.status;
     if (run.status == ExitCode::incomplete) worst = run.status;
@@ -120,7 +121,8 @@ void add_tiers(Program& program) {
                    "each tier that take the least time for it, for a half and a quarter of it;\n"
                    "of other answers for a half and a quarter of what it is")
       ->check(CLI::Range(1e-4, 1.0));
-  add_workers(command, t.n_workers, "of the runs; default: the cores available");
+  add_workers(command, t.run.n_workers, "of the runs; default: the cores available");
+  add_build_limits(command, t.run);
   add_confidence(command, t.request.confidence);
   add_store(command, program.common);
   add_renderings(command, program.common);
