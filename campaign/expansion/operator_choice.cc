@@ -118,6 +118,7 @@ class OperatorChoice {
     faultsim::SurfaceRequest request;
     for (const Axis& axis : axes_) request.over.push_back(axis.of);
     request.most_operators = kMostOperators;
+    request.probes.emplace().tolerance = spec_.operators.tolerance;
     n_operators_ = faultsim::predicted_operators(request);
     const long n_rows = count_rows(group_);
     if (is_automatic() && n_rows < n_operators_) {

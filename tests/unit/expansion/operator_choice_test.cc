@@ -32,7 +32,9 @@ TEST(OperatorChoice, IsOneSurfaceForASampleOfModuli) {
                   surface = expand_sample(30, kStiffAndWeak, policy("surface"));
   EXPECT_EQ(exact.families.size(), 30u);
   ASSERT_EQ(surface.families.size(), 1u);
-  EXPECT_GT(surface.families[0].plan->n_operators, 1);
+  const int n = surface.families[0].plan->n_operators;
+  EXPECT_GT(n, 1);
+  EXPECT_THAT(surface.notes.front(), HasSubstr(concat("about ", n, " exact ones")));
   const nlohmann::json& over = surface.spec.groups[0].scene.at("numerics").at("surface").at("over");
   ASSERT_EQ(over.size(), 1u) << "friction changes no operator";
   EXPECT_EQ(over[0].at("parameter"), "/materials/salt/youngs_modulus");
