@@ -10,6 +10,7 @@
 #include "simulator/figure/axis.h"
 #include "simulator/figure/bar_chart.h"
 #include "simulator/reading/read_scene.h"
+#include "simulator/result_files/field_reader.h"
 
 namespace faultsweep {
 

@@ -34,7 +34,7 @@ class StoredPicture {
   std::string name_;
   faultsim::CaseResult result_;
   faultsim::Scene scene_;
-  std::unique_ptr<faultsim::FieldReader> fields_;
+  std::unique_ptr<const faultsim::FieldSource> fields_;
 };
 
 }  // namespace faultsweep

@@ -120,5 +120,7 @@ ExitCode environment_command(bool json);
 ExitCode solver_study_command(const SolverStudyArguments& arguments);
 /// Serves cases to a campaign; see schemas/worker_protocol.md.
 ExitCode worker_command(const WorkerArguments& arguments);
+/// Serves questions to a page; see schemas/what_if_protocol.md.
+ExitCode what_if_command(const WorkerArguments& arguments);
 
 }  // namespace faultsim

@@ -257,17 +257,30 @@ void add_report(CLI::App& app, Arguments& a, ExitCode& code) {
   command->callback([&] { code = report_command(a.report); });
 }
 
+/// What those have that other programs talk to.
+void add_descriptors(CLI::App* command, WorkerArguments& arguments) {
+  command->add_option("--requests", arguments.requests, "descriptor to read from")->required();
+  command->add_option("--replies", arguments.replies, "descriptor to write to")->required();
+  command->add_option("--cache", arguments.cache, "operator cache");
+  command->add_option("--node-cache", arguments.node_cache,
+                      "copies of cached operators on this host's own disk");
+  command->add_option("--cache-size", arguments.cache_size, "bytes");
+  add_threads(command, arguments.threads, "1");
+}
+
+void add_what_if(CLI::App& app, Arguments& a, ExitCode& code) {
+  CLI::App* command = app.add_subcommand(
+      "what-if", "answer the newest question about a scene (schemas/what_if_protocol.md)");
+  add_descriptors(command, a.worker);
+  command->footer("Example: faultsim what-if --requests 0 --replies 1 <questions >answers");
+  command->callback([&] { code = what_if_command(a.worker); });
+}
+
 void add_worker(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* command =
       app.add_subcommand("worker", "serve cases to faultsweep (schemas/worker_protocol.md)");
-  command->add_option("--requests", a.worker.requests, "descriptor to read from")->required();
-  command->add_option("--replies", a.worker.replies, "descriptor to write to")->required();
-  command->add_option("--cache", a.worker.cache, "operator cache");
-  command->add_option("--node-cache", a.worker.node_cache,
-                      "copies of cached operators on this host's own disk");
-  command->add_option("--cache-size", a.worker.cache_size, "bytes");
+  add_descriptors(command, a.worker);
   command->add_option("--memory-limit", a.worker.memory_limit, "bytes of private memory");
-  add_threads(command, a.worker.threads, "1");
   command->footer("Example: faultsim worker --requests 0 --replies 1 <requests >replies");
   command->callback([&] { code = worker_command(a.worker); });
 }
@@ -327,8 +340,9 @@ ExitCode faultsim_main(int argc, char** argv) {
   app.set_version_flag("--version", version_text("faultsim"));
   Arguments arguments;
   ExitCode code = ExitCode::done;
-  for (auto* add : {add_init, add_looking, add_run, add_diagnose, add_export_contact, add_influence,
-                    add_plot, add_report, add_worker, add_solver_study, add_environment}) {
+  for (auto* add :
+       {add_init, add_looking, add_run, add_diagnose, add_export_contact, add_influence, add_plot,
+        add_report, add_worker, add_what_if, add_solver_study, add_environment}) {
     add(app, arguments, code);
   }
   try {

@@ -9,6 +9,7 @@
 #include "simulator/page/run_page.h"
 #include "simulator/reading/read_scene.h"
 #include "simulator/result/result_json.h"
+#include "simulator/result_files/field_reader.h"
 
 namespace faultsim {
 namespace {

@@ -14,6 +14,7 @@
 #include "simulator/app/commands.h"
 #include "simulator/app/request_check.h"
 #include "simulator/app/worker_requests.h"
+#include "simulator/app/write_all.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/process_memory.h"
 #include "simulator/common/stopwatch.h"
@@ -84,14 +85,7 @@ class Worker {
  private:
   /// @param bytes  what follows the line as it is.
   void say(const json& message, const std::string& bytes = "") {
-    const std::string text = message.dump() + "\n" + bytes;
-    std::size_t sent = 0;
-    while (sent < text.size()) {
-      const ssize_t n = write(replies_, text.data() + sent, text.size() - sent);
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) throw StorageError("the campaign no longer listens");
-      sent += static_cast<std::size_t>(n);
-    }
+    write_all(replies_, message.dump() + "\n" + bytes);
   }
 
   void answer(const json& request) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "simulator/result/result.h"
-#include "simulator/result_files/field_reader.h"
+#include "simulator/result_files/field_source.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {
@@ -35,7 +35,7 @@ const CaseChartInfo* case_chart_named(std::string_view name);  ///< nullptr = th
 struct CasePicture {
   const CaseResult& result;
   const Scene& scene;
-  const FieldReader* fields = nullptr;  ///< none = only charts that do not need them.
+  const FieldSource* fields = nullptr;  ///< none = only charts that do not need them.
   std::string name = {};                ///< before the title: "sweep/17"; "" = the result's title.
 };
 struct CaseChartRequest {

@@ -8,7 +8,7 @@ namespace {
 
 /// A column of faces per load step: what a fault in plane strain does in time.
 void add_time_map(const Chosen& chosen, std::size_t f, figure::FaultMap& map) {
-  const FieldReader& file = *chosen.picture.fields;
+  const FieldSource& file = *chosen.picture.fields;
   const StoredFault& fault = file.faults()[f];
   for (std::size_t entry = 0; entry < file.steps().size(); ++entry) {
     const double from = time_of(chosen.result(), file.times()[entry == 0 ? 0 : entry - 1]);

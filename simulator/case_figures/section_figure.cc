@@ -16,7 +16,7 @@ using figure::plain_number;
 /// Pieces of a fault's line with their χ, from the fields on the line through the most critical
 /// point; false where they were not kept.
 bool colour_by_fields(const Chosen& chosen, std::size_t fault, figure::Section::FaultLine& line) {
-  const FieldReader* file = chosen.picture.fields;
+  const FieldSource* file = chosen.picture.fields;
   if (file == nullptr) return false;
   const int step = chosen.result().steps[chosen.step].step;
   const auto entry = std::ranges::find(file->steps(), step);

@@ -8,11 +8,11 @@
 /// Where in the fields of a case a chart looks.
 namespace faultsim::case_figures {
 
-/// The chosen fault in the file of fields (index in FieldReader::faults). @pre the picture has
+/// The chosen fault in the file of fields (index in FieldSource::faults). @pre the picture has
 /// fields. Throws InputError where this fault was not kept.
 std::size_t stored_fault(const Chosen& chosen);
 
-/// The entry (index in FieldReader::steps) of the chosen step; where it was not kept and nobody
+/// The entry (index in FieldSource::steps) of the chosen step; where it was not kept and nobody
 /// asked for it, the last one before, to which `chosen` is moved. Throws InputError where it was
 /// asked for, or no step was kept.
 std::size_t stored_entry(Chosen& chosen);

@@ -29,7 +29,7 @@ using figure::plain_number;
 
 std::string draw_stress_path(Chosen chosen) {
   const std::size_t f = stored_fault(chosen), critical = stored_entry(chosen);
-  const FieldReader& file = *chosen.picture.fields;
+  const FieldSource& file = *chosen.picture.fields;
   const StoredFault& fault = file.faults()[f];
   const auto k = static_cast<Eigen::Index>(most_critical(fault, file.fields(f, critical)));
   const CoulombLaw& friction = chosen.scene().faults[chosen.fault].friction;

@@ -1,31 +1,23 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <span>
 
 #include "simulator/common/errors.h"
 #include "simulator/hdf5/datasets.h"
+#include "simulator/result_files/fault_points.h"
 #include "simulator/result_files/field_writer.h"
 #include "simulator/result_files/file_pair.h"
 
 namespace faultsim {
 namespace {
 
-/// The points of a fault that are written, and where their values come from.
-struct FaultPoints {
-  std::string group;             ///< "/faults/NAME"
-  std::string topology;          ///< "Quadrilateral", plane strain: "Polyline".
-  std::vector<int> source;       ///< node of the point; unsplit: of the nearest split one or -1.
-  std::vector<int> split;        ///< 1 where the point is split.
-  std::vector<char> mirrored;    ///< 1: its values are the mirror image of its node's.
-  std::vector<double> share;     ///< area of the point over that of its node: 2 on the plane that
-                                 ///< halves the domain, else 1.
-  std::vector<double> position;  ///< x 3
-  std::vector<int> cells;
-  std::size_t points_per_cell = 4;
+/// A fault in the file.
+struct WrittenFault : FaultPoints {
+  std::string group;     ///< "/faults/NAME"
+  std::string topology;  ///< "Quadrilateral", plane strain: "Polyline".
 };
 
 /// A name that HDF5 paths, XDMF references and ParaView all take.
@@ -38,100 +30,6 @@ std::string plain_name(const std::string& name, std::set<std::string>& taken) {
   std::string unique = plain;
   for (int i = 2; !taken.insert(unique).second; ++i) unique = concat(plain, '_', i);
   return unique;
-}
-
-constexpr double kOnPlane = 1e-6;  // m, of y = 0
-
-bool is_on_plane(const Eigen::Vector3d& position) { return std::abs(position.y()) < kOnPlane; }
-
-/// A position, or a vector of the bulk such as a force, seen in the plane y = 0.
-Eigen::Vector3d mirror(const Eigen::Vector3d& vector) {
-  return {vector.x(), -vector.y(), vector.z()};
-}
-
-/// A node seen in the plane y = 0. Its frame stays right-handed, as that of the whole domain is:
-/// normal and dip are mirrored, strike is mirrored and turned around.
-OperatorNode mirror(OperatorNode node) {
-  node.normal = mirror(node.normal);
-  node.dip = mirror(node.dip);
-  node.strike = -mirror(node.strike);
-  return node;
-}
-
-/// Components along normal, strike and dip of a node, in the frame of its mirror image.
-Eigen::Vector3d mirror_local(const Eigen::Vector3d& local) {
-  return {local[0], -local[1], local[2]};
-}
-
-/// The split point nearest to a position; -1 when the fault has none.
-int nearest_node(const OperatorFault& fault, const Eigen::Vector3d& position) {
-  int nearest = -1;
-  double least = 0;
-  for (std::size_t i = 0; i < fault.points.size(); ++i) {
-    if (fault.node_of_point[i] < 0) continue;
-    const double distance = (fault.points[i] - position).squaredNorm();
-    if (nearest < 0 || distance < least) {
-      nearest = fault.node_of_point[i];
-      least = distance;
-    }
-  }
-  return nearest;
-}
-
-/// Adds a point, or its image in the plane y = 0; returns its number.
-int add_point(const OperatorFault& fault, std::size_t i, bool mirrored, FaultPoints& points) {
-  const Eigen::Vector3d& position = fault.points[i];
-  const Eigen::Vector3d place = mirrored ? mirror(position) : position;
-  const bool is_split = fault.node_of_point[i] >= 0;
-  points.source.push_back(is_split ? fault.node_of_point[i] : nearest_node(fault, position));
-  points.split.push_back(is_split ? 1 : 0);
-  points.mirrored.push_back(mirrored ? 1 : 0);
-  points.share.push_back(1);
-  points.position.insert(points.position.end(), place.data(), place.data() + 3);
-  return static_cast<int>(points.source.size()) - 1;
-}
-
-/// The faces, or their images: those have their corners in reverse order, so that all faces turn
-/// the same way.
-void add_faces(const OperatorFault& fault, const std::vector<int>& number, bool mirrored,
-               FaultPoints& points) {
-  for (const auto& face : fault.faces) {
-    // In plane strain the two sides of a face along strike are one: corners (a, b, b, a).
-    for (std::size_t c = 0; c < points.points_per_cell; ++c) {
-      const int at = face[mirrored ? points.points_per_cell - 1 - c : c];
-      points.cells.push_back(number[at]);
-    }
-  }
-}
-
-/// All points of a fault: where only y ≥ 0 is modelled, the other half as its mirror image, from
-/// the far end towards the plane.
-FaultPoints collect_points(const OperatorFault& fault, const std::string& plain,
-                           const FaultGeometry& geometry) {
-  FaultPoints points;
-  points.group = "/faults/" + plain;
-  points.topology = geometry.plane_strain ? "Polyline" : "Quadrilateral";
-  points.points_per_cell = geometry.plane_strain ? 2 : 4;
-  const std::size_t n = fault.points.size();
-  std::vector<int> number(n, -1), image(n, -1);
-  if (geometry.half_domain) {
-    std::vector<std::size_t> inwards(n);
-    std::iota(inwards.begin(), inwards.end(), std::size_t{0});
-    std::ranges::stable_sort(inwards, [&](std::size_t a, std::size_t b) {
-      return fault.points[a].y() > fault.points[b].y();
-    });
-    for (const std::size_t i : inwards) {
-      if (!is_on_plane(fault.points[i])) image[i] = add_point(fault, i, true, points);
-    }
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    number[i] = add_point(fault, i, false, points);
-    if (image[i] < 0) image[i] = number[i];
-    if (geometry.half_domain && is_on_plane(fault.points[i])) points.share.back() = 2;
-  }
-  add_faces(fault, number, false, points);
-  if (geometry.half_domain) add_faces(fault, image, true, points);
-  return points;
 }
 
 struct FieldInfo {
@@ -164,9 +62,7 @@ constexpr const char* kStateLegend = "0 = stick, 1 = slip, 2 = open";
 /// @param node  its frame: of a mirrored point that of the image.
 std::vector<double> values_at(const OperatorNode& node, const FaultFields& fields, int k,
                               bool is_split, bool mirrored) {
-  const auto seen = [&](const Eigen::Vector3d& local) -> Eigen::Vector3d {
-    return mirrored ? mirror_local(local) : local;
-  };
+  const auto seen = [&](const Eigen::Vector3d& local) { return as_seen(local, mirrored); };
   const auto to_global = [&](const Eigen::Vector3d& local) -> Eigen::Vector3d {
     return local[0] * node.normal + local[1] * node.strike + local[2] * node.dip;
   };
@@ -193,31 +89,25 @@ struct FieldWriter::Impl {
   std::vector<OperatorNode> nodes;
   std::optional<hdf5::Handle> file;
   std::span<const FieldInfo> infos;
-  std::vector<FaultPoints> faults;
+  std::vector<WrittenFault> faults;
   std::vector<std::string> names;
   std::vector<std::vector<hdf5::GrowingArray>> fields;  ///< per fault: infos, then the state.
   std::vector<double> times;
   std::vector<int> steps;
   std::vector<std::string> stages, outcomes;
 
-  OperatorNode node_of(const FaultPoints& fault, std::size_t point) const;
-  void write_geometry(const FaultPoints& fault, const std::string& name);
-  void open_fields(const FaultPoints& fault);
+  void write_geometry(const WrittenFault& fault, const std::string& name);
+  void open_fields(const WrittenFault& fault);
   void append(std::size_t f, const FaultFields& step);
   XdmfGrid grid(std::size_t f) const;
 };
 
-OperatorNode FieldWriter::Impl::node_of(const FaultPoints& fault, std::size_t point) const {
-  const OperatorNode& node = nodes[fault.source[point]];
-  return fault.mirrored[point] != 0 ? mirror(node) : node;
-}
-
-void FieldWriter::Impl::write_geometry(const FaultPoints& fault, const std::string& name) {
+void FieldWriter::Impl::write_geometry(const WrittenFault& fault, const std::string& name) {
   const std::size_t n = fault.source.size();
   std::vector<double> normal(3 * n, 0.0), strike = normal, dip = normal, area(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
     if (fault.source[i] < 0) continue;
-    const OperatorNode node = node_of(fault, i);
+    const OperatorNode node = node_of(nodes, fault, i);
     for (std::size_t c = 0; c < 3; ++c) {
       normal[3 * i + c] = node.normal[c];
       strike[3 * i + c] = node.strike[c];
@@ -242,7 +132,7 @@ void FieldWriter::Impl::write_geometry(const FaultPoints& fault, const std::stri
   hdf5::write_text_attribute(*file, fault.group, "name", name);
 }
 
-void FieldWriter::Impl::open_fields(const FaultPoints& fault) {
+void FieldWriter::Impl::open_fields(const WrittenFault& fault) {
   std::vector<hdf5::GrowingArray>& arrays = fields.emplace_back();
   for (const FieldInfo& info : infos) {
     arrays.emplace_back(*file, fault.group + "/steps/" + info.name, H5T_IEEE_F64LE,
@@ -264,7 +154,7 @@ void FieldWriter::Impl::append(std::size_t f, const FaultFields& step) {
     const int k = fault.source[i];
     if (k < 0) continue;
     const std::vector<double> values =
-        values_at(node_of(fault, i), step, k, fault.split[i] != 0, fault.mirrored[i] != 0);
+        values_at(node_of(nodes, fault, i), step, k, fault.split[i] != 0, fault.mirrored[i] != 0);
     auto value = values.begin();
     for (std::size_t t = 0; t < tables.size(); ++t) {
       for (std::size_t c = 0; c < infos[t].n_components; ++c) {
@@ -280,7 +170,7 @@ void FieldWriter::Impl::append(std::size_t f, const FaultFields& step) {
 }
 
 XdmfGrid FieldWriter::Impl::grid(std::size_t f) const {
-  const FaultPoints& fault = faults[f];
+  const WrittenFault& fault = faults[f];
   const std::size_t n = fault.source.size();
   const std::string at = fault.group + "/geometry/";
   XdmfGrid grid{
@@ -324,7 +214,8 @@ FieldWriter::FieldWriter(const std::filesystem::path& folder, const FaultGeometr
   impl_->file.emplace(hdf5::create_in_memory());
   std::set<std::string> taken;
   for (const OperatorFault& fault : geometry.faults) {
-    FaultPoints points = collect_points(fault, plain_name(fault.name, taken), geometry);
+    WrittenFault points{collect_points(fault, geometry), "/faults/" + plain_name(fault.name, taken),
+                        geometry.plane_strain ? "Polyline" : "Quadrilateral"};
     if (points.cells.empty()) continue;  // nothing to draw
     impl_->write_geometry(points, fault.name);
     impl_->open_fields(points);

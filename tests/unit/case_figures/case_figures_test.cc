@@ -15,6 +15,7 @@
 #include "simulator/figure/palette.h"
 #include "simulator/initial_state/initial_state.h"
 #include "simulator/reading/read_scene.h"
+#include "simulator/result_files/field_reader.h"
 #include "simulator/result_files/field_writer.h"
 #include "tests/unit/figure/svg_reader.h"
 #include "tests/unit/figure/xml_check.h"

@@ -9,6 +9,8 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/hdf5/datasets.h"
+#include "simulator/result_files/field_reader.h"
+#include "simulator/result_files/field_recorder.h"
 #include "simulator/result_files/field_writer.h"
 #include "simulator/result_files/volume_writer.h"
 #include "simulator/result_files/xdmf.h"
@@ -283,6 +285,43 @@ TEST(FieldWriter, WritesTheWholeFaultOfAHalfDomain) {
     };
     const Eigen::Vector3d turn = (corner(1) - corner(0)).cross(corner(3) - corner(0));
     EXPECT_NEAR(turn.x(), 5000, 1e-9) << "face " << k;
+  }
+}
+
+/// What is kept in memory is what a file gives back, of half a domain too.
+TEST(FieldRecorder, KeepsWhatAFileKeeps) {
+  for (const bool half : {false, true}) {
+    const ScratchFolder folder;
+    FaultOperator op = whole_operator();
+    op.geometry.half_domain = half;
+    FieldWriter writer(folder.path(), op.geometry);
+    FieldRecorder recorder(op.geometry);
+    for (int step = 0; step < 2; ++step) {
+      const FaultFields fields = example_fields(4, 1 + step);
+      writer.add_step(example_step(step), fields);
+      recorder.add_step(example_step(step), fields);
+    }
+    writer.finish();
+    const FieldReader reader(folder.path() / "faults.h5");
+    EXPECT_EQ(recorder.steps(), reader.steps());
+    EXPECT_EQ(recorder.times(), reader.times());
+    ASSERT_EQ(recorder.faults().size(), reader.faults().size());
+    for (std::size_t f = 0; f < reader.faults().size(); ++f) {
+      const StoredFault &kept = recorder.faults()[f], &read = reader.faults()[f];
+      EXPECT_EQ(kept.name, read.name);
+      EXPECT_EQ(kept.points, read.points);
+      EXPECT_EQ(kept.faces, read.faces);
+      EXPECT_EQ(kept.split, read.split);
+      for (std::size_t step = 0; step < 2; ++step) {
+        const StoredFields here = recorder.fields(f, step), there = reader.fields(f, step);
+        EXPECT_EQ(here.traction, there.traction);
+        EXPECT_EQ(here.slip, there.slip);
+        EXPECT_EQ(here.critical_index, there.critical_index);
+        EXPECT_EQ(here.fault_pressure_change, there.fault_pressure_change);
+        EXPECT_EQ(here.state, there.state);
+      }
+      EXPECT_GT(reader.fields(f, 1).slip.norm(), 0);
+    }
   }
 }
 

@@ -1,0 +1,209 @@
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "simulator/app/commands.h"
+#include "simulator/app/write_all.h"
+#include "simulator/case_figures/case_figures.h"
+#include "simulator/common/errors.h"
+#include "simulator/documents/json_document.h"
+#include "simulator/documents/schema.h"
+#include "simulator/result/result_sentences.h"
+#include "simulator/what_if/resident_case.h"
+#include "what_if_message_schema_text.h"
+
+namespace faultsim {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kWhatIfVersion = 1;  // schemas/what_if_protocol.md
+
+using WantedCharts = std::vector<CaseChartRequest>;
+
+const char* name_of(QuestionState state) {
+  switch (state) {
+    case QuestionState::building:
+      return "building";
+    case QuestionState::running:
+      return "running";
+    case QuestionState::done:
+      return "done";
+    case QuestionState::failed:
+      return "failed";
+    case QuestionState::superseded:
+      return "superseded";
+  }
+  return "";
+}
+
+/// A line of the protocol. Throws InputError where it is none.
+/// @param last  number of the question before, 0 where there was none.
+json message_of(const std::string& line, long last) {
+  static const Schema schema(json::parse(embedded::what_if_message_schema_text));
+  const JsonDocument message = parse_json(line, "question");
+  std::vector<Problem> problems = check_schema(message, schema);
+  if (problems.empty() && !message.value.contains("scene") &&
+      message.value.value("ask", 0L) <= last) {
+    problems.push_back({"/ask", 1, "neither a scene nor a question with a number of its own",
+                        concat("write {\"ask\": ", last + 1, ", \"changes\": {...}}")});
+  }
+  if (!problems.empty()) throw InputError("question", problems);
+  return message.value;
+}
+
+json problems_of(const InputError& error) {
+  json list = json::array();
+  for (const Problem& problem : error.problems())
+    list.push_back({{"place", problem.pointer}, {"cause", problem.what}, {"cure", problem.cure}});
+  return list;
+}
+
+/// Values by JSON pointer as changes.
+Changes changes_of(const json& values) {
+  Changes changes;
+  for (const auto& [pointer, value] : values.items())
+    changes.push_back({pointer, value.is_string() ? value.get<std::string>() : value.dump()});
+  return changes;
+}
+
+/// Throws InputError where there is no such chart.
+WantedCharts charts_of(const json& question) {
+  WantedCharts wanted;
+  CaseChartRequest request;
+  request.fault = question.value("fault", "");
+  if (question.contains("step")) request.step = question.at("step").get<int>();
+  for (const json& name : question.value("charts", json::array())) {
+    const CaseChartInfo* info = case_chart_named(name.get<std::string>());
+    if (info == nullptr)
+      throw InputError("charts", name.dump() + " is no chart of a case", "faultsim plot --help");
+    request.chart = info->chart;
+    wanted.push_back(request);
+  }
+  return wanted;
+}
+
+std::vector<std::string> sentences_of(const CaseResult& result) {
+  std::vector<std::string> said = {sliding_sentence(result), unexpected_sentence(result),
+                                   creep_sentence(result)};
+  for (std::string& one : unresolved_sentences(result)) said.push_back(std::move(one));
+  for (const std::string& warning : result.warnings) said.push_back(warning);
+  std::erase(said, "");
+  return said;
+}
+
+/// A case as its pictures; a chart that cannot be drawn says why.
+json drawn(const ShownCase& shown, const WantedCharts& wanted) {
+  const CasePicture picture{shown.result, shown.scene, &shown.fields, {}};
+  json charts = json::object();
+  for (const CaseChartRequest& request : wanted) {
+    const auto info = std::ranges::find(case_charts(), request.chart, &CaseChartInfo::chart);
+    try {
+      charts[info->name] = draw_case(picture, request);
+    } catch (const InputError& error) {
+      charts[info->name] = {{"problems", problems_of(error)}};
+    }
+  }
+  return charts;
+}
+
+/// Answers questions until there are no more.
+class WhatIf {
+ public:
+  explicit WhatIf(const WorkerArguments& arguments)
+      : replies_(arguments.replies),
+        resident_({arguments.cache, static_cast<std::uint64_t>(arguments.cache_size),
+                   arguments.node_cache},
+                  arguments.threads) {
+    resident_.listen([this](long number, const QuestionProgress& how) { tell(number, how); });
+    say({{"event", "hello"}, {"version", kWhatIfVersion}});
+  }
+
+  void take(const json& message) {
+    if (message.contains("scene")) {
+      base_ = {message.value("source", "case"), message.at("scene"), {}};
+      return;
+    }
+    const long number = message.at("ask").get<long>();
+    try {
+      {
+        WantedCharts wanted = charts_of(message);
+        const std::lock_guard lock(mutex_);
+        wanted_[number] = std::move(wanted);
+      }
+      resident_.ask(number, base_, changes_of(message.value("changes", json::object())));
+    } catch (const InputError& error) {
+      forget(number);
+      say({{"ask", number}, {"state", "refused"}, {"problems", problems_of(error)}});
+    }
+  }
+
+ private:
+  /// What the question wanted; nothing where it was refused before that was known.
+  WantedCharts forget(long number) {
+    const std::lock_guard lock(mutex_);
+    auto node = wanted_.extract(number);
+    return node ? std::move(node.mapped()) : WantedCharts();
+  }
+  void tell(long number, const QuestionProgress& how) {
+    json reply = {{"ask", number}, {"state", name_of(how.state)}};
+    if (!how.says.empty()) reply["says"] = how.says;
+    if (!how.is_open()) {
+      const WantedCharts wanted = forget(number);
+      if (how.shown != nullptr) add(*how.shown, wanted, reply);
+    }
+    say(reply);
+  }
+  static void add(const ShownCase& shown, const WantedCharts& wanted, json& reply) {
+    const CaseResult& result = shown.result;
+    reply["outcome"] = to_string(result.outcome);
+    reply["identity"] = result.identity;
+    reply["seconds"] = result.seconds;
+    reply["sentences"] = sentences_of(result);
+    reply["charts"] = drawn(shown, wanted);
+    reply["scene"] = shown.document.value;
+  }
+  void say(const json& message) {
+    const std::lock_guard lock(writing_);
+    write_all(replies_, message.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
+  }
+
+  int replies_;
+  JsonDocument base_;
+  std::mutex mutex_, writing_;
+  std::map<long, WantedCharts> wanted_;  ///< of questions that are open.
+  ResidentCase resident_;                ///< the last member: its thread uses the others.
+};
+
+}  // namespace
+
+ExitCode what_if_command(const WorkerArguments& arguments) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // it never outlives the one who asks
+  if (getppid() == 1) return ExitCode::interrupted;
+  std::signal(SIGPIPE, SIG_IGN);
+  WhatIf what_if(arguments);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(fdopen(arguments.requests, "r"),
+                                                             std::fclose);
+  if (file == nullptr) throw InputError("--requests", "is no open descriptor", "give one");
+  char* line = nullptr;
+  std::size_t size = 0;
+  long last = 0;
+  while (getline(&line, &size, file.get()) > 0) {
+    const json message = message_of(line, last);
+    last = message.value("ask", last);
+    what_if.take(message);
+  }
+  std::free(line);
+  return ExitCode::done;
+}
+
+}  // namespace faultsim
