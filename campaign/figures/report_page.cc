@@ -87,7 +87,7 @@ void add_summary(Report& report) {
 void add_map(Report& report) {
   report.page.section("map", "Where it happens");
   report.page.unless_refused(
-      [&] { report.page.add(draw_outcome_map(report.store, report.campaign, {})); });
+      [&] { report.page.chart(draw_outcome_map(report.store, report.campaign, {})); });
 }
 
 /// @return the rows that are listed.
@@ -106,7 +106,7 @@ std::vector<RankedCase> add_ranking(Report& report) {
              n < report.campaign.n_cases ? concat("; the first ", count_text(n), " of ",
                                                   count_text(report.campaign.n_cases))
                                          : std::string(),
-             ". A click on a head sorts; below it conditions such as > 50, F2 or !F1."),
+             ". A head sorts; below it go conditions such as > 50, F2 or !F1."),
       "faint");
   report.page.add(render_html(to_answer(ranking)));
   return std::move(ranking.rows);

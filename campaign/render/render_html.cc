@@ -73,7 +73,9 @@ struct HtmlBlocks {
     return table.on_screen ? table_of(table) : "";
   }
   std::string operator()(const AnswerNote& note) const { return paragraph(note.text, "faint"); }
-  std::string operator()(const AnswerChart& chart) const { return drawn(chart); }
+  std::string operator()(const AnswerChart& chart) const {
+    return faultsim::figure::on_page(drawn(chart));
+  }
 };
 
 }  // namespace

@@ -54,7 +54,7 @@ void draw_column_key(Svg& svg, const Box& box, const DepthColumn& column) {
   for (const Curve& curve : column.curves) {
     svg.line({box.x, y - 4}, {box.x + 22, y - 4}, fault_stroke(curve.colour));
     svg.text({box.x + 28, y}, fitted(curve.name, box.width - 28, kTickSize),
-             {kTickSize, fault_stroke(curve.colour).colour});
+             {kTickSize, fault_ink(curve.colour)});
     y += 15;
   }
 }
@@ -70,7 +70,7 @@ Axis depth_axis(const std::vector<double>& depths, double height) {
 }  // namespace
 
 std::string draw(const DepthChart& chart) {
-  constexpr double kLeft = 70, kGap = 26, kColumn = 168, kHeight = 430;
+  constexpr double kLeft = 70, kGap = 26, kColumn = 138, kHeight = 430;
   std::size_t most = 0;
   for (const DepthColumn& column : chart.columns) most = std::max(most, column.curves.size());
   const double n = static_cast<double>(chart.columns.size());

@@ -69,7 +69,7 @@ void draw_panel(Svg& svg, Panel& panel, const HistoryChart& chart, const History
     const Stroke stroke = fault_stroke(curve.colour);
     panel.curve(chart.time, curve.values, stroke);
     if (const auto end = end_of(panel, chart, curve)) {
-      labels.push_back({curve.name, *end, stroke.colour});
+      labels.push_back({curve.name, *end, curve.colour});
     }
   }
   for (const TimeMark& mark : chart.marks) {

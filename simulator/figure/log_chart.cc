@@ -40,10 +40,10 @@ std::string draw(const LogChart& chart) {
       x.push_back(std::log10(point.x)), y.push_back(std::log10(point.y));
       const Point place = panel.at(x.back(), y.back());
       svg.circle(place, 4, stroke.colour);
-      svg.text({place.x, place.y - 8}, point.name, {kTickSize, stroke.colour, Anchor::middle});
+      svg.text({place.x, place.y - 8}, point.name, {kTickSize, fault_ink(k), Anchor::middle});
     }
     panel.curve(x, y, stroke);
-    if (!x.empty()) labels.push_back({one.name, panel.at(x.back(), y.back()), stroke.colour});
+    if (!x.empty()) labels.push_back({one.name, panel.at(x.back(), y.back()), k});
   }
   panel.frame();
   draw_end_labels(svg, labels, panel.box());

@@ -33,6 +33,12 @@ Stroke fault_stroke(std::size_t k, double width) {
   return {kColours[k % std::size(kColours)], width, kDashes[k % std::size(kDashes)]};
 }
 
+std::string fault_ink(std::size_t k) {
+  static constexpr const char* kInks[] = {"#005f95", "#b04e00", "#00795a", "#a03a90",
+                                          "#1a6fa8", "#84601a", "#222222"};
+  return kInks[k % std::size(kInks)];
+}
+
 std::string chi_colour(double chi) {
   constexpr Rgb kNone = {240, 244, 248}, kBlue = {150, 190, 226}, kOrange = {240, 160, 56},
                 kBrown = {196, 84, 8}, kLimit = {110, 10, 40};

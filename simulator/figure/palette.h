@@ -13,6 +13,7 @@ inline constexpr const char* kInk = "#222222";    ///< text.
 inline constexpr const char* kFaint = "#6b6b6b";  ///< ticks, remarks; 5.3:1 on white.
 inline constexpr const char* kGrid = "#e3e3e3";
 inline constexpr const char* kFrame = "#8c8c8c";
+inline constexpr const char* kFaultEdge = "#2b2b2b";  ///< around the colour of a fault's χ.
 inline constexpr const char* kShade = "#f3f4f6";      ///< every other stage.
 inline constexpr const char* kReservoir = "#f3e3b3";  ///< rock that is depleted.
 
@@ -20,6 +21,10 @@ inline constexpr const char* kReservoir = "#f3e3b3";  ///< rock that is depleted
 /// Okabe and Ito (2008), told apart by all kinds of colour blindness and, as the dashes differ too,
 /// in grey.
 Stroke fault_stroke(std::size_t k, double width = 2);
+
+/// The colour of what is written of it: of its hue, and dark enough to be read (4.5 : 1) on white
+/// and on kShade.
+std::string fault_ink(std::size_t k);
 
 /// Colour of a critical index: lightness falls throughout, the hue changes at 0.8 (blue to orange)
 /// and at 1 (to dark red), so that both are seen in colour, and the order in grey.

@@ -141,9 +141,9 @@ void draw_end_labels(Svg& svg, const std::vector<EndLabel>& labels, const Box& b
   for (std::size_t k = 0; k < labels.size(); ++k) {
     const Point place{box.right() + 16, placed[k]};
     svg.line({labels[k].end.x + 2, labels[k].end.y}, {place.x - 3, place.y},
-             {labels[k].colour, 0.75});
+             {fault_stroke(labels[k].colour).colour, 0.75});
     svg.text({place.x, place.y + 4}, fitted(labels[k].text, svg.width() - place.x - 2, kLabelSize),
-             {.size = kLabelSize, .colour = labels[k].colour, .bold = true});
+             {.size = kLabelSize, .colour = fault_ink(labels[k].colour), .bold = true});
   }
 }
 
@@ -153,8 +153,8 @@ void draw_chi_scale(Svg& svg, Point place, double width) {
   svg.text({place.x - 8, place.y + kHeight}, "χ", {kLabelSize, kInk, Anchor::end});
   for (int k = 0; k < kParts; ++k) {
     const double chi = kTop * (k + 0.5) / kParts;
-    svg.rect({place.x + width * k / kParts, place.y, width / kParts + 0.3, kHeight},
-             chi_colour(chi));
+    const double from = width * k / kParts;  // each to the end: nothing shines through between them
+    svg.rect({place.x + from, place.y, width - from, kHeight}, chi_colour(chi));
   }
   svg.rect({place.x, place.y, width, kHeight}, "none", {kFrame, 0.75});
   for (const auto& [chi, label] : {std::pair(0.0, "0"), {0.4, "0.4"}, {0.8, "0.8"}, {1.0, "1"}}) {

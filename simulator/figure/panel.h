@@ -54,7 +54,7 @@ double draw_heading(Svg& svg, const std::string& title, const std::string& remar
 struct EndLabel {
   std::string text;
   Point end;
-  std::string colour;
+  std::size_t colour = 0;  ///< of fault_stroke.
 };
 void draw_end_labels(Svg& svg, const std::vector<EndLabel>& labels, const Box& box);
 

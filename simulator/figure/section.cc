@@ -39,7 +39,7 @@ void draw_faults(Svg& svg, const Panel& panel, const Section& section) {
   for (std::size_t f = 0; f < section.faults.size(); ++f) {
     const Section::FaultLine& fault = section.faults[f];
     std::vector points = mapped(fault.points, [&](const Point& p) { return panel.at(p.x, p.y); });
-    svg.polyline(points, {kInk, 8});  // a dark edge, on which pale colours stand out too
+    svg.polyline(points, {kFaultEdge, 8});  // a dark edge, on which pale colours stand out too
     svg.begin_group({{"data-fault", std::to_string(f)}});
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
       const double chi = fault.chi.empty() ? 0 : fault.chi[std::min(k, fault.chi.size() - 1)];

@@ -106,6 +106,8 @@ std::string fitted(const std::string& text, double width, double size) {
   return part.empty() ? "" : part + "…";
 }
 
+std::string on_page(const std::string& svg) { return "<div class=\"chart\">" + svg + "</div>\n"; }
+
 Svg::Svg(double width, double height, const std::string& title) : width_(width), height_(height) {
   const std::string w = coordinate(width), h = coordinate(height);
   body_ = concat("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"", w, "\" height=\"", h,

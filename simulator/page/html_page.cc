@@ -42,6 +42,8 @@ void HtmlPage::paragraph(const std::string& text, std::string_view kind) {
                   escape_xml(text), "</p>\n");
 }
 
+void HtmlPage::chart(const std::string& svg) { body_ += figure::on_page(svg); }
+
 /// Without a "<" that could end the element.
 void HtmlPage::data(const std::string& id, std::string json) {
   for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', at))

@@ -20,7 +20,8 @@ class HtmlPage {
   void heading(const std::string& text);  ///< within a section.
   /// @param kind  "answer" (large), "faint" or "".
   void paragraph(const std::string& text, std::string_view kind = "");
-  /// Drawings and tables: taken as they are.
+  void chart(const std::string& svg);  ///< a drawing.
+  /// Tables, and what pages of their own have: taken as it is.
   void add(std::string_view html) { body_ += html; }
   /// Data for the page's script, or for who reads the page: JSON in an element that nothing runs.
   /// @param id  of the element; "" = none.

@@ -1,62 +1,141 @@
 "use strict";
-// Ranking: a click on a head sorts, what is typed below it filters: "> 50", "<= 3", "F2", "!F1".
-function number_of(text) {  // of "0.83 \u00b1 0.02" and "1,440" too; NaN for words
+// Tables that are sorted and filtered. A row is known by its number in the order it was ranked in; a column is its different texts
+// and, per row, which of them stands there. Only the rows of one page are elements, however many there are.
+const rows_of_a_page = 100;
+function number_of(text) {  // of "0.83 \u00b1 0.02", "+3" and "1,440" too; NaN for words
   const value = text.split(" \u00b1")[0].replace(/,/g, "").replace("\u2212", "-");
   return value.trim() === "" ? NaN : Number(value);
 }
-function passes(text, condition) {
-  const found = condition.trim().match(/^(<=|>=|<|>|=|!)?\s*(.*)$/);
-  const sign = found[1], word = found[2];
-  if (word === "") return true;
-  const a = number_of(text), b = number_of(word);
-  const numbers = !Number.isNaN(a) && !Number.isNaN(b);
-  switch (sign) {
-    case "<": return numbers && a < b;
-    case ">": return numbers && a > b;
-    case "<=": return numbers && a <= b;
-    case ">=": return numbers && a >= b;
-    case "=": return numbers ? a === b : text === word;
-    case "!": return !text.includes(word);
-    default: return numbers ? a === b : text.toLowerCase().includes(word.toLowerCase());
+function counted(n) { return n.toLocaleString("en"); }
+/** What is typed below a head, "> 50", "<= 3", "F2" or "!F1", as a function of a text; null for nothing. */
+function condition_of(typed) {
+  const found = typed.trim().match(/^(<=|>=|<|>|=|!)?\s*(.*)$/);
+  const sign = found[1], word = found[2], lower = word.toLowerCase(), b = number_of(word);
+  if (word === "") return null;
+  switch (sign) {  // comparisons are false for NaN
+    case "<": return (text) => number_of(text) < b;
+    case ">": return (text) => number_of(text) > b;
+    case "<=": return (text) => number_of(text) <= b;
+    case ">=": return (text) => number_of(text) >= b;
+    case "!": return (text) => !text.toLowerCase().includes(lower);
+    default: break;
   }
+  return (text) => {
+    const a = number_of(text);
+    if (!Number.isNaN(a) && !Number.isNaN(b)) return a === b;
+    return sign === "=" ? text === word : text.toLowerCase().includes(lower);
+  };
 }
-for (const table of document.querySelectorAll("table[data-filter]")) {
+/** Where each text stands among all: numbers, then words; equal ones at the same place; -1 for nothing. */
+function places_of(texts) {
+  const numbers = Float64Array.from(texts, number_of), places = new Int32Array(texts.length).fill(-1);
+  const compare = (a, b) => {
+    const x = numbers[a], y = numbers[b];
+    if (Number.isNaN(x) !== Number.isNaN(y)) return Number.isNaN(x) ? 1 : -1;
+    if (!Number.isNaN(x)) return x - y;
+    return texts[a] < texts[b] ? -1 : texts[a] > texts[b] ? 1 : 0;
+  };
+  const order = Array.from(texts.keys()).filter((k) => texts[k] !== "").sort(compare);
+  order.forEach((k, n) => { places[k] = n > 0 && compare(order[n - 1], k) === 0 ? places[order[n - 1]] : n; });
+  return places;
+}
+/** Columns that stand in the table whole. */
+function columns_of_elements(table) {
   const rows = Array.from(table.tBodies[0].rows);
-  const heads = Array.from(table.tHead.rows[0].cells);
-  const inputs = heads.map((head) => {
-    const input = document.createElement("input");
-    input.setAttribute("aria-label", "filter of " + head.textContent);
+  return Array.from(table.tHead.rows[0].cells, (head, k) =>
+    ({texts: rows.map((row) => row.cells[k].textContent), at: Uint32Array.from(rows.keys())}));
+}
+/** Columns of the data that hold all rows of a table of which only the first are elements. */
+function columns_of_data(data) {
+  return data.columns.map((column) => {
+    if (!column.at) return {texts: column.texts, at: Uint32Array.from({length: data.rows}, (unused, k) => k)};
+    const bytes = Uint8Array.from(atob(column.at), (c) => c.charCodeAt(0));
+    return {texts: column.texts, at: column.texts.length > 256 ? new Uint16Array(bytes.buffer) : bytes};
+  });
+}
+function button(words, go) {
+  const made = document.createElement("button");
+  made.type = "button";
+  made.textContent = words;
+  made.addEventListener("click", go);
+  return made;
+}
+function make_sortable(table) {
+  const body = table.tBodies[0], heads = Array.from(table.tHead.rows[0].cells);
+  const stored = document.querySelector("script[data-rows-of='" + table.dataset.table + "']");
+  const columns = stored ? columns_of_data(JSON.parse(stored.textContent)) : columns_of_elements(table);
+  const classes = heads.map((head) => head.className);
+  const n_rows = columns[0].at.length, said = document.getElementById(table.dataset.filter);
+  let shown = [], first = 0, by = -1, steps = 0, falling = false;  // rows that pass, in their order; of them the first on the page
+  const pager = document.createElement("p");
+  pager.className = "pager";
+  const turn = [["first", () => 0], ["previous", () => first - rows_of_a_page], ["next", () => first + rows_of_a_page],
+    ["last", () => Math.floor((shown.length - 1) / rows_of_a_page) * rows_of_a_page]]
+    .map(([words, to]) => button(words, () => { first = Math.max(0, to()); fill(); }));
+  pager.append(...turn);
+  table.parentElement.after(pager);
+  said.setAttribute("role", "status");
+
+  function fill() {
+    const end = Math.min(first + rows_of_a_page, shown.length);
+    const rows = shown.slice(first, end).map((row) => {
+      const line = document.createElement("tr");
+      columns.forEach((column, k) => {
+        const cell = line.insertCell();
+        cell.textContent = column.texts[column.at[row]];
+        if (classes[k]) cell.className = classes[k];
+      });
+      return line;
+    });
+    body.replaceChildren(...rows);
+    const all = counted(shown.length) + " of " + counted(n_rows) + " rows";
+    pager.hidden = shown.length <= rows_of_a_page;
+    said.textContent = all + (pager.hidden ? "" : "; here " + counted(first + 1) + " to " + counted(end));
+    turn[0].disabled = turn[1].disabled = first === 0;
+    turn[2].disabled = turn[3].disabled = end === shown.length;
+  }
+  function choose() {
+    const tests = [];
+    inputs.forEach((input, k) => {
+      const passes = condition_of(input.value);
+      if (passes) tests.push([columns[k].at, Uint8Array.from(columns[k].texts, (text) => passes(text) ? 1 : 0)]);
+    });
+    shown = [];
+    for (let row = 0; row < n_rows; ++row)
+      if (tests.every(([at, passes]) => passes[at[row]] === 1)) shown.push(row);
+    if (by >= 0) {
+      const column = columns[by], places = column.places || (column.places = places_of(column.texts));
+      const place = (row) => places[column.at[row]];
+      shown.sort((a, b) => {  // nothing is last either way
+        const x = place(a), y = place(b);
+        if (x === y) return a - b;
+        if (x < 0 || y < 0) return x < 0 ? 1 : -1;
+        return falling ? y - x : x - y;
+      });
+    }
+    first = 0;
+    fill();
+  }
+  /** Numbers fall first, words rise; then the other way; then as it was ranked. */
+  function sort_by(k) {
+    if (by !== k) by = k, steps = 0, falling = columns[k].texts.some((text) => !Number.isNaN(number_of(text)));
+    else if (++steps === 1) falling = !falling;
+    else by = -1;
+    heads.forEach((head, i) => head.setAttribute("aria-sort", i !== by ? "none" : falling ? "descending" : "ascending"));
+    choose();
+  }
+  const inputs = heads.map((head, k) => {
+    const words = head.textContent, input = document.createElement("input");
+    head.setAttribute("aria-sort", "none");
+    head.replaceChildren(button(words, () => sort_by(k)), input);
+    input.setAttribute("aria-label", "filter of " + words);
     input.placeholder = "filter";
-    head.append(input);
-    input.addEventListener("click", (event) => event.stopPropagation());
-    input.addEventListener("input", show);
+    input.addEventListener("input", choose);
     return input;
   });
-  function show() {
-    let count = 0;
-    for (const row of rows) {
-      const shown = inputs.every((input, k) => passes(row.cells[k].textContent, input.value));
-      row.hidden = !shown;
-      count += shown ? 1 : 0;
-    }
-    document.getElementById(table.dataset.filter).textContent = count + " of " + rows.length + " rows";
-  }
-  heads.forEach((head, k) => {
-    let falling = false;
-    head.dataset.sort = "";
-    head.addEventListener("click", () => {
-      falling = !falling;
-      const key = (row) => {
-        const cell = row.cells[k], number = number_of(cell.dataset.value || cell.textContent);
-        return Number.isNaN(number) ? cell.textContent : number;
-      };
-      const order = (a, b) => typeof a === typeof b ? (a < b ? -1 : a > b ? 1 : 0) : typeof a === "number" ? -1 : 1;
-      const sorted = rows.slice().sort((a, b) => (falling ? -1 : 1) * order(key(a), key(b)));
-      table.tBodies[0].append(...sorted);
-    });
-  });
-  show();
+  choose();
 }
+document.querySelectorAll("table[data-filter]").forEach(make_sortable);
 // Cases: one slider moves the line in the histories and colours the section.
 for (const part of document.querySelectorAll("[data-case]")) {
   const steps = JSON.parse(part.querySelector("script[type='application/json']").textContent);
@@ -67,6 +146,7 @@ for (const part of document.querySelectorAll("[data-case]")) {
   function go() {
     const step = steps[slider.value];
     said.textContent = step.says;
+    slider.setAttribute("aria-valuetext", step.says);
     for (const cursor of cursors) {
       const [zero, one] = cursor.dataset.x.split(" ").map(Number);
       cursor.setAttribute("transform", "translate(" + (step.time - cursor.dataset.cursor) * (one - zero) + " 0)");

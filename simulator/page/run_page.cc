@@ -44,9 +44,15 @@ void add_stages(HtmlPage& page, const CaseResult& result) {
   const char* area = result.plane_strain ? "sliding, m² per m of strike" : "sliding, m²";
   const char* moment = result.plane_strain ? "M0, N m per m" : "M0, N m";
   std::string html = "<div class=\"wide\"><table>\n<thead><tr>";
-  for (const char* head : {"stage", "fault", "χ̄", "slides", "slip within the stage, mm", area,
-                           moment, "slip events", "slides from"})
-    html += concat("<th>", escape_xml(head), "</th>");
+  const auto head = [&](const char* name, bool is_words) {
+    html += concat(is_words ? "<th class=\"words\">" : "<th>", escape_xml(name), "</th>");
+  };
+  for (const char* name : {"stage", "fault"}) head(name, true);
+  head("χ̄", false);
+  head("slides", true);
+  for (const char* name : {"slip within the stage, mm", area, moment, "slip events"})
+    head(name, false);
+  head("slides from", true);
   html += "</tr></thead>\n<tbody>\n";
   const auto number = [](double value, int digits) {
     return concat("<td>", escape_xml(plain_number(value, digits)), "</td>");
@@ -75,7 +81,7 @@ void add_faults(HtmlPage& page, const CasePicture& picture) {
   for (const std::string& fault : picture.result.fault_names) {
     page.heading(fault);
     for (const auto chart : {CaseChart::profiles, CaseChart::fault_map, CaseChart::stress_path}) {
-      page.unless_refused([&] { page.add(draw_case(picture, {chart, fault, {}, false})); });
+      page.unless_refused([&] { page.chart(draw_case(picture, {chart, fault, {}, false})); });
     }
   }
 }
@@ -106,11 +112,7 @@ std::string run_page(const CasePicture& picture, const std::string& scene,
   HtmlPage page(picture.name.empty() ? result.title : picture.name);
   add_answer(page, result);
   page.section("history", "Step by step");
-  page.unless_refused([&] {
-    CasePicture without_fields = picture;
-    without_fields.fields = nullptr;  // faults come one by one below
-    add_case_part(page, without_fields, 1);
-  });
+  page.unless_refused([&] { add_case_steps(page, picture, 1); });
   add_stages(page, result);
   add_faults(page, picture);
   add_doubts(page, result);

@@ -181,6 +181,30 @@ TEST(ChiColour, DarkensThroughoutAndChangesItsHueAtTheTwoLimits) {
   EXPECT_EQ(chi_colour(1 - 1e-9), chi_colour(1));
 }
 
+/// Contrast of WCAG 2.
+double contrast(const std::string& a, const std::string& b) {
+  const auto luminance = [](const std::string& hex) {
+    const auto linear = [&](std::size_t at) {
+      const double part = std::stoi(hex.substr(at, 2), nullptr, 16) / 255.0;
+      return part <= 0.03928 ? part / 12.92 : std::pow((part + 0.055) / 1.055, 2.4);
+    };
+    return 0.2126 * linear(1) + 0.7152 * linear(3) + 0.0722 * linear(5);
+  };
+  const auto [low, high] = std::minmax({luminance(a), luminance(b)});
+  return (high + 0.05) / (low + 0.05);
+}
+
+TEST(FaultInk, CanBeReadOnWhiteAndOnAShadedStage) {
+  std::set<std::string> seen;
+  for (std::size_t k = 0; k < 7; ++k) {
+    EXPECT_GE(contrast(fault_ink(k), "#ffffff"), 4.5) << k;
+    EXPECT_GE(contrast(fault_ink(k), kShade), 4.5) << k;
+    seen.insert(fault_ink(k));
+  }
+  EXPECT_EQ(seen.size(), 7U);
+  EXPECT_NEAR(contrast("#767676", "#ffffff"), 4.54, 0.01) << "what this calls contrast";
+}
+
 TEST(FaultStroke, IsAnotherOneForEachOfManyFaults) {
   std::set<std::string> seen;
   for (std::size_t k = 0; k < 28; ++k) {
