@@ -166,6 +166,7 @@ Place place_of(const Store& store, const Why& why) {
 Why explain_rank(const Store& store, const CampaignInfo& campaign, const StoredCase& stored,
                  RankRequest request) {
   request.top = 0;
+  request.skip.reset();
   Why why;
   why.ranking = make_ranking(store, campaign, request);
   why.stored = stored;

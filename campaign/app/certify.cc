@@ -54,6 +54,7 @@ ExitCode certify(const StoreArguments& common, const CertifyRequest& request) {
     campaign = store.campaign(common.campaign);
     RankRequest asked = request.ranking;
     asked.top = request.n;
+    asked.skip.reset();
     std::vector<long> positions;
     for (const RankedCase& one : make_ranking(store, campaign, asked).rows) {
       if (one.interpolated) positions.push_back(one.position);

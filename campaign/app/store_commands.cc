@@ -66,9 +66,18 @@ ExitCode verify_store(const StoreArguments& common) {
                             counted(problems.size(), "problem", "problems"), "; ", kDamageCure));
 }
 
-ExitCode status(const StoreArguments& common, const bool& verify) {
-  if (verify) return verify_store(common);
+struct StatusArguments {
+  bool verify = false;
+  bool all = false;
+};
+
+ExitCode status(const StoreArguments& common, const StatusArguments& arguments) {
+  if (arguments.verify) return verify_store(common);
   const Store store = Store::open_reader(common.store);
+  if (arguments.all) {
+    print_answer(campaigns_answer(store), common);
+    return ExitCode::done;
+  }
   const StatusReport report = make_status(store, common.campaign);
   print_answer(to_answer(report), common);
   if (common.json) return ExitCode::done;
@@ -280,16 +289,20 @@ ExitCode backup(const StoreArguments& common, const std::filesystem::path& targe
 }  // namespace
 
 void add_reading(Program& program) {
-  auto [status_command, verify] =
+  auto [status_command, asked] =
       program.add("status", "how a campaign stands: counts, time left, failures", status);
   add_campaign(status_command, program.common);
   add_renderings(status_command, program.common);
-  status_command->add_flag("--verify", verify,
-                           "read the whole store instead and check it: structure, references,\n"
-                           "checksums");
+  CLI::Option* verify =
+      status_command->add_flag("--verify", asked.verify,
+                               "read the whole store instead and check it: structure, references,\n"
+                               "checksums");
+  status_command->add_flag("--all", asked.all, "all campaigns of the store, a line each")
+      ->excludes(verify);
   status_command->footer(
       "Examples:\n"
       "  faultsweep status my-sweep\n"
+      "  faultsweep status --all\n"
       "  faultsweep status --verify\n"
       "  faultsweep status --json");
 
@@ -301,6 +314,10 @@ void add_reading(Program& program) {
   add_stage_and_fault(command, a.request.stage, a.request.fault);
   add_where(command, a.request.where);
   command->add_option("--top", a.request.top, "how many rows; 0 = all")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--skip", a.request.skip,
+                   "rows left out before the first, to read a ranking in pages of --top")
       ->check(CLI::NonNegativeNumber);
   command->add_flag("--ascending", a.request.ascending, "smallest first");
   command->add_flag("--list-metrics", a.list_metrics, "what can be ranked by");

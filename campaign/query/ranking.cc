@@ -1,6 +1,7 @@
 #include "campaign/query/ranking.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
@@ -71,6 +72,21 @@ SlidingCounts count_rows(const std::vector<RankedCase>& rows) {
   return counts;
 }
 
+/// The rows asked for. What is skipped is read: of the second half from the end.
+std::vector<RankedCase> page_of(const Store& store, const CampaignInfo& campaign,
+                                const Ranking& ranking, Store::RankingQuery query) {
+  query.skip = ranking.request.skip.value_or(0);
+  if (query.skip == 0) return store.ranking(campaign.id, query);
+  const long n_left = ranking.n_all() - query.skip;
+  if (n_left <= 0) return {};
+  if (query.limit == 0 || query.limit > n_left) query.limit = n_left;
+  if (n_left < query.skip) {
+    query.from_end = true;
+    query.skip = n_left - query.limit;
+  }
+  return store.ranking(campaign.id, query);
+}
+
 ShownUnit unit_of_scores(const std::string& by, const Store::Kinds& kinds,
                          const Selection& selection) {
   const auto known = known_metrics(selection);
@@ -113,8 +129,10 @@ Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankReque
   }
   if (!extensive.empty()) refuse_mixed(ranking.kinds, "--by", extensive);
   ranking.by_unit = unit_of_scores(request.by, ranking.kinds, selection);
-  ranking.rows = store.ranking(campaign.id, query);
-  const bool all = request.top == 0 || static_cast<long>(ranking.rows.size()) < request.top;
+  if (request.skip) ranking.n_rows = store.class_counts(campaign.id, query);
+  ranking.rows = page_of(store, campaign, ranking, query);
+  const bool all = request.skip.value_or(0) == 0 &&
+                   (request.top == 0 || static_cast<long>(ranking.rows.size()) < request.top);
   if (all || number_of_cases(store, campaign) <= kMostCounted)
     ranking.counts = all ? count_rows(ranking.rows) : count_sliding(store, campaign, query);
   const bool has_field = has_flow_field(store.spec_copies(campaign.id).resolved);
@@ -125,6 +143,8 @@ Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankReque
     ranking.error_bars = error_bars_of(store, campaign);
   return ranking;
 }
+
+long Ranking::n_all() const { return std::reduce(n_rows.begin(), n_rows.end()); }
 
 std::string common_tier(const Store& store, const CampaignInfo& campaign) {
   std::string tier;

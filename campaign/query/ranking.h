@@ -17,6 +17,8 @@ struct RankRequest {
   std::string where = {};  ///< condition; "" = all cases.
   bool ascending = false;  ///< smallest first.
   long top = 20;           ///< 0 = all.
+  /// Rows left out before the first one, of a ranking in pages: all rows are counted.
+  std::optional<long> skip = {};
 };
 
 /// How many cases slide, as far as the cells tell.
@@ -39,6 +41,9 @@ struct Ranking {
   /// in total are ranked.
   bool plane_strain_apart = false;
   std::vector<RankedCase> rows;
+  /// Where rows are skipped: how many rows there are in all, by RankedCase::rank_class.
+  Store::ClassCounts n_rows = {};
+  long n_all() const;  ///< sum of n_rows.
   /// Of all cases that the condition selects; none where the rows are not all of them and the
   /// campaign is so large that counting would take longer than ranking.
   std::optional<SlidingCounts> counts;

@@ -26,13 +26,19 @@ struct Row {
 /// without a full history not at all.
 class PlaceNames {
  public:
+  /// Behind the rows of other pages, which go class by class.
+  explicit PlaceNames(const Ranking& ranking) {
+    const long skipped = ranking.request.skip.value_or(0);
+    complete_ = std::min(skipped, ranking.n_rows[0]);
+    unresolved_ = std::clamp(skipped - ranking.n_rows[0], 0L, ranking.n_rows[1]);
+  }
   std::string next(int rank_class) {
     if (rank_class == 0) return std::to_string(++complete_);
     return rank_class == 1 ? concat("+", ++unresolved_) : "*";
   }
 
  private:
-  int complete_ = 0, unresolved_ = 0;
+  long complete_ = 0, unresolved_ = 0;
 };
 
 /// A ranking of one fault says nothing of what another one does.
@@ -188,7 +194,7 @@ AnswerTable table_of(const Ranking& ranking) {
   append(table.columns, slides);
   append(table.columns, opens);
 
-  PlaceNames places;
+  PlaceNames places(ranking);
   for (const RankedCase& row : ranking.rows) {
     const StageMetrics m = metrics_of(row);
     const Row one{row, m, measure_cells(m), places.next(row.rank_class)};
@@ -283,7 +289,19 @@ std::string first_sentence(const Ranking& ranking) {
   return text;
 }
 
+/// "Rows 41 to 60 of 1440.", of a page behind the first.
+std::string page_sentence(const Ranking& ranking) {
+  const long skipped = *ranking.request.skip;
+  const std::string all = counted(ranking.n_all(), "row", "rows");
+  if (ranking.rows.empty())
+    return concat("The ranking has ", all, ", none behind row ", skipped, ".");
+  return concat("Rows ", skipped + 1, " to ", skipped + static_cast<long>(ranking.rows.size()),
+                " of ", ranking.n_all(), ".");
+}
+
 std::vector<std::string> headline_of(const Ranking& ranking) {
+  const bool is_behind = ranking.request.skip.value_or(0) > 0 && ranking.n_all() > 0;
+  if (is_behind) return {page_sentence(ranking)};
   if (ranking.rows.empty()) return {"No case of " + ranking.campaign.name + " matches."};
   std::vector<std::string> sentences;
   if (ranking.counts) sentences.push_back(sliding_sentence(*ranking.counts, ranking.request));
@@ -326,6 +344,10 @@ Answer to_answer(const Ranking& ranking) {
     answer.facts["sliding"] = ranking.counts->n_slide;
     answer.facts["sliding_unresolved"] = ranking.counts->n_unresolved;
     answer.facts["perhaps_sliding"] = ranking.counts->n_perhaps;
+  }
+  if (request.skip) {
+    answer.facts["skipped"] = *request.skip;
+    answer.facts["rows"] = ranking.n_all();
   }
   answer.add(table_of(ranking)).notes = notes_of(ranking);
   return answer;

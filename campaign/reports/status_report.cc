@@ -246,4 +246,36 @@ Answer to_answer(const StatusReport& status) {
   return answer;
 }
 
+Answer campaigns_answer(const Store& store) {
+  AnswerTable table{"campaigns",
+                    "",
+                    {{"campaign", "campaign", {}, 4, Need::always},
+                     {"state", "state", {}, 4, Need::always},
+                     {"cases", "cases", {}, 4, Need::always},
+                     {"done", "done", {}, 4, Need::always},
+                     {"failed", "failed", {}, 4, Need::always},
+                     {"waiting", "waiting", {}, 4, Need::always},
+                     {"submitted_at", "s since 1970", seconds(), 4, Need::data},
+                     {"submitted", "submitted", {}, 4, Need::wanted}}};
+  const auto owner = store.owner();
+  std::vector<CampaignInfo> campaigns = store.campaigns();
+  std::ranges::reverse(campaigns);
+  for (const CampaignInfo& one : campaigns) {
+    const CampaignInfo c = store.campaign(one.name);
+    const bool runs = owner && owner->alive && owner->campaign == c.id;
+    const char* state = runs              ? "running"
+                        : c.cancelled     ? "cancelled"
+                        : c.n_waiting > 0 ? "waiting"
+                                          : "ended";
+    table.rows.push_back({c.name, state, c.n_cases, c.n_done, c.n_failed, c.n_waiting,
+                          c.submitted_at, format_time(c.submitted_at)});
+  }
+  Answer answer{{campaigns.empty()
+                     ? std::string("The store has no campaign yet.")
+                     : concat("The store has ", counted(campaigns.size(), "campaign", "campaigns"),
+                              ", the newest first.")}};
+  answer.add(std::move(table));
+  return answer;
+}
+
 }  // namespace faultsweep

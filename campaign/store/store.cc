@@ -118,6 +118,8 @@ Store Store::open_reader(const std::filesystem::path& folder) {
   return Store(folder, std::move(connection), "");
 }
 
+void Store::hold_state() const { connection_->execute("BEGIN"); }
+
 void Store::checkpoint() { connection_->checkpoint(); }
 
 std::int64_t Store::name_id(const std::string& name) {

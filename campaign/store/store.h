@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -98,6 +99,9 @@ class Store {
   /// Opens for reading. A missing store is a StorageError that names `faultsweep
   /// submit`.
   static Store open_reader(const std::filesystem::path& folder);
+  /// From now on all queries see one state, that of the next one, whatever is written meanwhile.
+  /// @pre opened for reading.
+  void hold_state() const;
   Store(Store&&) noexcept;
   Store& operator=(Store&&) = delete;
   ~Store();
@@ -182,11 +186,17 @@ class Store {
     bool ascending = false;  ///< smallest first instead.
     SqlFragment where;       ///< condition; empty = all.
     long limit = 0;          ///< 0 = all.
+    long skip = 0;           ///< rows left out before the first one.
+    /// `skip` and `limit` count from the last row; rows come in their order all the same.
+    bool from_end = false;
   };
   /// Cases of the campaign with metrics of the stage; rank classes stay apart, complete histories
   /// first, of these the ones with unresolved events last. Default order: activated area, open
   /// area, M0, then inactive cases by pressure margin, χ̄; of a fault the same without the margin.
   std::vector<RankedCase> ranking(std::int64_t campaign, const RankingQuery& query) const;
+  /// How many cases the ranking has, whatever its limit, by rank class.
+  using ClassCounts = std::array<long, 4>;
+  ClassCounts class_counts(std::int64_t campaign, const RankingQuery& query) const;
   /// Whether there are results per metre of strike, and in total.
   struct Kinds {
     bool plane_strain = false, total = false;

@@ -4,15 +4,16 @@
 
 #include <csignal>
 
-#include "simulator/common/exit_code.h"
-
 namespace faultsim {
 namespace {
 
 std::atomic<bool> caught = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "set by a signal handler");
 
-extern "C" void end_now(int) { _exit(static_cast<int>(ExitCode::interrupted)); }
+std::atomic<int> code_at_end = static_cast<int>(ExitCode::interrupted);
+static_assert(std::atomic<int>::is_always_lock_free, "read by a signal handler");
+
+extern "C" void end_now(int) { _exit(code_at_end); }
 
 extern "C" void remember_signal(int number) {
   if (caught.exchange(true)) end_now(number);  // asked twice
@@ -32,7 +33,8 @@ void on_stop_signals(void (*handler)(int)) {
 
 }  // namespace
 
-void end_on_signals() {
+void end_on_signals(ExitCode code) {
+  code_at_end = static_cast<int>(code);
   on_stop_signals(end_now);
   std::signal(SIGXFSZ, SIG_IGN);
 }

@@ -81,6 +81,17 @@ TEST(StoreSpeed, SlowHundredThousandCases) {
   timed("rank, default order", [&] { reader.ranking(campaign, query); });
   query.by = {metric_sql("chi_max"), {}};
   timed("rank by metric", [&] { reader.ranking(campaign, query); });
+  query.skip = kCases / 2;
+  timed("page in the middle, rank by metric", [&] { reader.ranking(campaign, query); });
+  query.by = {};
+  timed("page in the middle, default order", [&] { reader.ranking(campaign, query); });
+  query.skip = 0;
+  query.from_end = true;
+  timed("last page, default order", [&] { reader.ranking(campaign, query); });
+  query.from_end = false;
+  timed("count of rows", [&] { reader.class_counts(campaign, query); });
+  query.by = {parameter_sql(0, false), {}};
+  timed("rank by parameter", [&] { reader.ranking(campaign, query); });
   query.by = {};
   query.where = {parameter_sql(0, false) + " < ?", {Value(1000.0)}};
   timed("rank where", [&] { reader.ranking(campaign, query); });

@@ -1,0 +1,86 @@
+#include <chrono>
+#include <cstdio>
+
+#include "campaign/app/commands.h"
+#include "campaign/serve/http_server.h"
+#include "campaign/serve/store_api.h"
+#include "simulator/common/interrupt.h"
+#include "simulator/common/stopwatch.h"
+
+namespace faultsweep {
+namespace {
+
+constexpr int kUsualPort = 8642;
+
+struct ServeArguments {
+  int port = kUsualPort;
+  std::string duration;  ///< "10 min"; "" = without end.
+};
+
+/// Seconds; none = without end.
+std::optional<double> seconds_of(const std::string& duration) {
+  if (duration.empty()) return std::nullopt;
+  const faultsim::ParsedQuantity parsed = faultsim::parse_quantity(duration, Dimension::time);
+  if (!parsed.ok) throw InputError("--for", parsed.what, parsed.cure);
+  return parsed.value;
+}
+
+void say_address(const HttpServer& server, bool as_json) {
+  if (as_json) {
+    print_json({{"address", server.address()}, {"port", server.port()}});
+  } else {
+    print_text(server.address() + "\n");
+  }
+  std::fflush(stdout);  // whoever waits for the address reads a pipe
+}
+
+ExitCode serve_store(const StoreArguments& common, const ServeArguments& arguments) {
+  const std::optional<double> duration = seconds_of(arguments.duration);
+  Store::open_reader(common.store);  // which says what is wrong with it
+  const StoreApi api(common.store);
+  const faultsim::Stopwatch watch;
+  HttpServer* running = nullptr;
+  ServerSettings settings;
+  settings.port = arguments.port;
+  settings.watch = [&] {
+    api.require_store();
+    if (duration && watch.seconds() >= *duration) running->stop();
+  };
+  settings.remark = [said = std::string()](const std::string& remark) mutable {
+    if (remark != said) say(remark);  // each request of a page that waits meets the same
+    said = remark;
+  };
+  HttpServer server(std::move(settings),
+                    [&](const HttpRequest& request) { return api.answer(request); });
+  running = &server;
+  faultsim::end_on_signals(ExitCode::done);  // nothing is written, nothing can be lost
+  say_address(server, common.json);
+  say("Reading ", common.store.string(), " for this machine only. Ctrl-C ends it.");
+  server.run();
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_serving(Program& program) {
+  auto [command, a] = program.add(
+      "serve", "answers and drawings of a store over HTTP, for this machine only", serve_store);
+  command->add_option("store", program.common.store,
+                      "its folder (default FAULTSWEEP_STORE or ./faultsweep-store)");
+  constexpr int kLastPort = 65535;
+  command->add_option("--port", a.port, "default 8642; 0 = any that is free")
+      ->check(CLI::Range(0, kLastPort));
+  command->add_option("--for", a.duration,
+                      "ends by itself after this time: \"30 min\"; default: at Ctrl-C");
+  add_store(command, program.common);
+  add_json(command, program.common);
+  command->footer(
+      "Examples:\n"
+      "  faultsweep serve\n"
+      "  faultsweep serve runs/store --port 0 --json\n"
+      "It prints its address when it listens and changes nothing in the store. GET /api lists "
+      "what\n"
+      "can be asked for.");
+}
+
+}  // namespace faultsweep

@@ -1,0 +1,193 @@
+#include <filesystem>
+
+#include "campaign/answers/curves.h"
+#include "campaign/answers/limit_table.h"
+#include "campaign/answers/posterior.h"
+#include "campaign/answers/probability.h"
+#include "campaign/answers/quantiles.h"
+#include "campaign/answers/sensitivity.h"
+#include "campaign/answers/why.h"
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
+#include "campaign/render/render.h"
+#include "campaign/reports/case_report.h"
+#include "campaign/reports/ranking_answer.h"
+#include "campaign/reports/status_report.h"
+#include "campaign/serve/route.h"
+#include "simulator/files/json_text.h"
+
+namespace faultsweep::serve {
+namespace {
+
+constexpr long kUsualRows = 20, kMostRows = 1000, kMostPages = 1000000;
+
+/// What the command prints with --json.
+HttpResponse json_of(const Answer& answer) {
+  return {200, "application/json", faultsim::json_text(render_json(answer))};
+}
+
+HttpResponse campaigns(const Store& store, const Asked&) {
+  return json_of(campaigns_answer(store));
+}
+
+HttpResponse metrics(const Store&, const Asked&) { return json_of(metrics_answer()); }
+
+HttpResponse status(const Store& store, const Asked& asked) {
+  StatusReport report = make_status(store, asked.campaign(store).name);
+  std::string& source = report.campaign.source;
+  source = std::filesystem::path(source).filename().string();  // where it was is nobody's business
+  return json_of(to_answer(report));
+}
+
+RankRequest ranked(const Asked& asked) {
+  RankRequest request;
+  request.by = asked.text("by");
+  request.where = asked.text("where");
+  request.stage = asked.text("stage");
+  request.fault = asked.text("fault");
+  request.ascending = asked.word("order", {"descending", "ascending"}) == 1;
+  return request;
+}
+
+HttpResponse ranking(const Store& store, const Asked& asked) {
+  RankRequest request = ranked(asked);
+  request.top = asked.whole("rows", 1, kMostRows).value_or(kUsualRows);
+  request.skip = request.top * (asked.whole("page", 1, kMostPages).value_or(1) - 1);
+  return json_of(to_answer(make_ranking(store, asked.campaign(store), request)));
+}
+
+HttpResponse one_case(const Store& store, const Asked& asked) {
+  const CampaignInfo campaign = asked.campaign(store);
+  return json_of(to_answer(shown_case(store, campaign, asked.stored_case(store, campaign),
+                                      {asked.text("stage"), asked.text("fault")})));
+}
+
+HttpResponse why_ranked(const Store& store, const Asked& asked) {
+  const CampaignInfo campaign = asked.campaign(store);
+  return json_of(
+      to_answer(explain_rank(store, campaign, asked.stored_case(store, campaign), ranked(asked))));
+}
+
+HttpResponse explained(const Store& store, const Asked& asked) {
+  const CampaignInfo campaign = asked.campaign(store);
+  return json_of(explanation(store, campaign, asked.stored_case(store, campaign)));
+}
+
+HttpResponse probability(const Store& store, const Asked& asked) {
+  ProbabilityRequest request{asked.text("of"), asked.text("where"), asked.text("by"),
+                             asked.confidence()};
+  request.width = asked.number("width", 1e-4, 1).value_or(0);
+  return json_of(to_answer(find_probability(store, asked.campaign(store), request)));
+}
+
+HttpResponse curves(const Store& store, const Asked& asked) {
+  const auto axis = static_cast<CurveAxis>(asked.word("against", {"step", "time", "pressure"}));
+  return json_of(to_answer(
+      probability_curves(store, asked.campaign(store),
+                         {axis, asked.text("where"), asked.text("stage"), asked.confidence()})));
+}
+
+HttpResponse quantiles(const Store& store, const Asked& asked) {
+  QuantileRequest request;
+  request.metrics = asked.text("metrics");
+  if (request.metrics.empty())
+    throw HttpError(400, "metrics", "it says of what", "write metrics=chi_bar; GET /api/metrics");
+  request.where = asked.text("where");
+  request.confidence = asked.confidence();
+  return json_of(to_answer(find_quantiles(store, asked.campaign(store), request)));
+}
+
+HttpResponse posterior(const Store& store, const Asked& asked) {
+  PosteriorRequest request{asked.texts("seen"), asked.texts("of"), asked.text("where"),
+                           asked.confidence()};
+  if (request.seen.empty())
+    throw HttpError(400, "seen", "nothing was seen", "write seen=F2 did not slide before 8 yr");
+  return json_of(to_answer(find_posterior(store, asked.campaign(store), request)));
+}
+
+HttpResponse sensitivity(const Store& store, const Asked& asked) {
+  SensitivityRequest request;
+  request.cases = {asked.text("where"), asked.text("stage"), asked.text("fault")};
+  request.metrics = asked.text("metrics");
+  request.by_step = asked.flag("by_step");
+  request.confidence = asked.confidence();
+  return json_of(what_matters(store, asked.campaign(store), request));
+}
+
+HttpResponse limits(const Store& store, const Asked& asked) {
+  return json_of(to_answer(make_limit_table(store, asked.campaign(store, true)), 0));
+}
+
+const Parameter kWhere = {"where", "only cases where this holds, as of `rank --where`"};
+const Parameter kBy = {"by", "metric or expression; default: the spec's, or the riskiest first"};
+const Parameter kOrder = {"order", "descending (default) or ascending"};
+const Parameter kStage = {"stage", "default: the whole history"};
+const Parameter kFault = {"fault", "default: all faults of a case together"};
+const Parameter kConfidence = {"confidence", "of the intervals: 0.5 to 0.9999, default 0.95"};
+
+}  // namespace
+
+const std::vector<Route>& answer_routes() {
+  static const std::vector<Route> routes = {
+      {"/api/campaigns", "the campaigns of the store, as of `status --all`", {}, campaigns},
+      {"/api/metrics",
+       "what can be ranked and filtered by, as of `rank --list-metrics`",
+       {},
+       metrics},
+      {"/api/campaigns/{campaign}", "how it stands, as of `status`", {}, status},
+      {"/api/campaigns/{campaign}/ranking",
+       "as of `rank --skip N --top N`",
+       {kBy,
+        kWhere,
+        kOrder,
+        {"page", "from 1"},
+        {"rows", "of a page, 1 to 1000, default 20"},
+        kStage,
+        kFault},
+       ranking},
+      {"/api/campaigns/{campaign}/cases/{case}", "as of `show`", {kStage, kFault}, one_case},
+      {"/api/campaigns/{campaign}/cases/{case}/why",
+       "why it stands where it does, as of `rank --why`",
+       {kBy, kWhere, kOrder, kStage, kFault},
+       why_ranked},
+      {"/api/campaigns/{campaign}/cases/{case}/explanation",
+       "whether it will run, as of `explain`",
+       {},
+       explained},
+      {"/api/campaigns/{campaign}/probability",
+       "as of `probability`",
+       {{"of", "condition; default: that each fault slides, in each stage"},
+        {"by", "a parameter: for each of its values, or ten parts of its range"},
+        {"width", "wanted distance of the bounds, as a share"},
+        kWhere,
+        kConfidence},
+       probability},
+      {"/api/campaigns/{campaign}/curves",
+       "as of `probability --against`",
+       {{"against", "step (default), time or pressure"}, kWhere, kStage, kConfidence},
+       curves},
+      {"/api/campaigns/{campaign}/quantiles",
+       "as of `probability --quantiles`",
+       {{"metrics", "names with commas"}, kWhere, kConfidence},
+       quantiles},
+      {"/api/campaigns/{campaign}/posterior",
+       "as of `posterior`",
+       {{"seen", "a statement; may be given again", true},
+        {"of", "condition; may be given again", true},
+        kWhere,
+        kConfidence},
+       posterior},
+      {"/api/campaigns/{campaign}/sensitivity",
+       "as of `sensitivity`",
+       {{"metrics", "names with commas; default: chi_bar, slip and sliding by fault"},
+        {"by_step", "yes: at the end of each load step"},
+        kWhere,
+        kStage,
+        kFault,
+        kConfidence},
+       sensitivity},
+      {"/api/campaigns/{campaign}/limits", "as of `limits`", {}, limits}};
+  return routes;
+}
+
+}  // namespace faultsweep::serve

@@ -1,0 +1,151 @@
+#include "campaign/serve/store_api.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <new>
+
+#include "campaign/common/json.h"
+#include "campaign/common/names.h"
+#include "campaign/serve/route.h"
+#include "campaign/store/store.h"
+#include "simulator/files/json_text.h"
+
+namespace faultsweep {
+namespace {
+
+using serve::Asked;
+using serve::Route;
+
+std::vector<std::string_view> parts_of(std::string_view path) {
+  std::vector<std::string_view> parts;
+  while (!path.empty()) {
+    path.remove_prefix(1);  // the slash
+    const std::size_t end = std::min(path.find('/'), path.size());
+    parts.push_back(path.substr(0, end));
+    path.remove_prefix(end);
+  }
+  return parts;
+}
+
+bool leads(const Route& route, const std::vector<std::string>& path) {
+  return std::ranges::equal(parts_of(route.path), path,
+                            [](std::string_view expected, const std::string& given) {
+                              return expected.starts_with('{') || expected == given;
+                            });
+}
+
+/// What can be asked for.
+HttpResponse list_routes() {
+  ordered_json routes = ordered_json::array();
+  for (const auto* some : {&serve::answer_routes(), &serve::drawing_routes()}) {
+    for (const Route& route : *some) {
+      ordered_json parameters = ordered_json::object();
+      for (const serve::Parameter& one : route.parameters) parameters[one.name] = one.meaning;
+      routes.push_back(
+          {{"path", route.path},
+           {"meaning", route.meaning},
+           {"type", some == &serve::answer_routes() ? "application/json" : "image/svg+xml"},
+           {"parameters", parameters}});
+    }
+  }
+  return {200, "application/json", faultsim::json_text(ordered_json{{"routes", routes}})};
+}
+
+/// The first problem; its place is the parameter, which is called as the option is.
+HttpProblem problem_of(const InputError& error) {
+  const Problem& problem = error.problems().front();
+  std::string place = error.source().starts_with("--") ? error.source().substr(2) : error.source();
+  if (!problem.pointer.empty()) place += (place.empty() ? "" : ": ") + problem.pointer;
+  return {400, place, problem.what, problem.cure};
+}
+
+constexpr int kUnavailable = 503, kBug = 500;
+
+/// What cannot be read now is told on the terminal, where paths may stand.
+HttpResponse unavailable(const char* cause, const std::string& remark) {
+  HttpResponse response =
+      error_response({kUnavailable, "store", cause, "the terminal of faultsweep serve says more"});
+  response.remark = remark;
+  return response;
+}
+
+/// Where a path ends within a text: not in the middle of a longer name.
+bool ends_a_path(const std::string& text, std::size_t end) {
+  return end == text.size() ||
+         std::string_view("/\"' \\;,:)<&").find(text[end]) != std::string::npos;
+}
+
+}  // namespace
+
+StoreApi::StoreApi(const std::filesystem::path& store) : store_(std::filesystem::absolute(store)) {
+  std::error_code error;  // a folder that is not there has only one name
+  const auto show = [&](const std::filesystem::path& path, const char* as) {
+    for (const std::filesystem::path& one :
+         {path.lexically_normal(), std::filesystem::weakly_canonical(path, error)}) {
+      std::string text = one.string();
+      while (text.ends_with('/')) text.pop_back();
+      if (!text.empty()) shown_.emplace_back(text, as);
+    }
+  };
+  show(store_, "STORE");
+  show(std::filesystem::current_path(error), ".");
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home == '/') show(home, "~");
+}
+
+void StoreApi::require_store() const {
+  std::error_code error;
+  if (std::filesystem::exists(store_ / "campaign.sqlite", error)) return;
+  throw StorageError(concat("the store ", store_.string(), " is gone; nothing is left to serve"));
+}
+
+HttpResponse StoreApi::answer(const HttpRequest& request) const {
+  HttpResponse response = answer_with_paths(request);
+  for (const auto& [path, as] : shown_) {
+    for (std::size_t at = response.body.find(path); at != std::string::npos;
+         at = response.body.find(path, at)) {
+      if (ends_a_path(response.body, at + path.size())) response.body.replace(at, path.size(), as);
+      at += 1;
+    }
+  }
+  return response;
+}
+
+/// Errors become text here, as they do in run_program for a command: a request is one.
+HttpResponse StoreApi::answer_with_paths(const HttpRequest& request) const {
+  try {
+    return answer_or_throw(request);
+  } catch (const HttpError& error) {
+    return error_response(error.problem());
+  } catch (const InputError& error) {
+    return error_response(problem_of(error));
+  } catch (const faultsim::Error& error) {
+    return unavailable("the store cannot be read now", error.what());
+  } catch (const std::bad_alloc&) {
+    return unavailable("there is not enough memory for the answer", "not enough memory");
+  } catch (const std::exception& error) {
+    HttpResponse response = error_response(
+        {kBug, "server", "a mistake of this program, or a damaged store",
+         "`faultsweep status --verify` says whether the store is sound; else report it"});
+    response.remark = error.what();
+    return response;
+  }
+}
+
+HttpResponse StoreApi::answer_or_throw(const HttpRequest& request) const {
+  const std::vector<std::string>& path = request.path;
+  if (path.empty() || (path.size() == 1 && path[0] == "api")) return list_routes();
+  for (const auto* some : {&serve::answer_routes(), &serve::drawing_routes()}) {
+    const auto found =
+        std::ranges::find_if(*some, [&](const Route& route) { return leads(route, path); });
+    if (found == some->end()) continue;
+    const Asked asked(*found, request);
+    const Store store = Store::open_reader(store_);
+    store.hold_state();  // an answer takes several queries
+    return found->answer(store, asked);
+  }
+  constexpr int kNotFound = 404;
+  throw HttpError(kNotFound, "path", "there is nothing under this path",
+                  "GET /api lists what there is");
+}
+
+}  // namespace faultsweep

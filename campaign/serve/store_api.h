@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "campaign/serve/request.h"
+
+namespace faultsweep {
+
+/// What a store says over HTTP, without sockets: the answers of the commands as the JSON that they
+/// print with --json, and drawings as SVG. Each request opens the store anew, to read, so what a
+/// running campaign has added since is seen. Used from several threads at once.
+class StoreApi {
+ public:
+  /// @param store  a folder with a store.
+  explicit StoreApi(const std::filesystem::path& store);
+
+  /// Never throws: what is wrong is a response, in JSON with place, cause and cure. No response has
+  /// the store's folder, the working one or the user's home in it: they read STORE, "." and "~".
+  HttpResponse answer(const HttpRequest& request) const;
+  /// Throws StorageError when the store is not there any more.
+  void require_store() const;
+
+ private:
+  HttpResponse answer_or_throw(const HttpRequest& request) const;
+  HttpResponse answer_with_paths(const HttpRequest& request) const;
+
+  std::filesystem::path store_;
+  std::vector<std::pair<std::string, std::string>> shown_;  ///< path -> what stands for it.
+};
+
+}  // namespace faultsweep
