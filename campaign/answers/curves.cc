@@ -320,6 +320,40 @@ Curves probability_curves(const Store& store, const CampaignInfo& campaign,
   return found;
 }
 
+namespace {
+
+/// Faults against step or time; nothing against pressure, where each stage goes its own way.
+std::optional<faultsim::figure::HistoryChart> chart_of(const Curves& curves) {
+  if (curves.request.axis == CurveAxis::pressure || curves.curves.empty()) return std::nullopt;
+  const AnswerColumn axis = axis_column(curves.request.axis);
+  faultsim::figure::HistoryChart chart;
+  chart.title = concat("How likely each fault has begun to slide: ", curves.campaign.name);
+  if (!curves.sampling.is_random)
+    chart.title = concat("In how many cases each fault has begun to slide: ", curves.campaign.name);
+  chart.remark =
+      concat("thin lines: ", curves.sampling.is_random
+                                 ? concat("bounds of ", confidence_text(curves.request.confidence))
+                                 : std::string("what is undecided counted as no and as yes"));
+  chart.time_label = curves.request.axis == CurveAxis::time ? "time, years" : "load step";
+  for (const CurvePoint& point : curves.curves.front().points)
+    chart.time.push_back(point.at / axis.unit.size);
+  constexpr double kPercent = 100;
+  faultsim::figure::HistoryPanel panel{"share, %", {}, {}, {0, kPercent}, 240, 0.05};
+  for (const Curve& curve : curves.curves) {
+    faultsim::figure::Curve line{curve.fault, panel.curves.size(), {}};
+    for (const CurvePoint& point : curve.points) {
+      line.values.push_back(kPercent * point.counts.estimate());
+      line.low.push_back(kPercent * point.bounds.low);
+      line.high.push_back(kPercent * point.bounds.high);
+    }
+    panel.curves.push_back(std::move(line));
+  }
+  chart.panels.push_back(std::move(panel));
+  return chart;
+}
+
+}  // namespace
+
 Answer to_answer(const Curves& curves) {
   Answer answer;
   answer.headline = {last_point(curves)};
@@ -329,6 +363,7 @@ Answer to_answer(const Curves& curves) {
       {"confidence", curves.request.confidence}, {"is_probability", curves.sampling.is_random},
       {"remark", curves.sampling.remark},        {"rows", curves.n_rows}};
   answer.add(long_table(curves));
+  if (auto chart = chart_of(curves)) answer.blocks.emplace_back(AnswerChart(std::move(*chart)));
   for (std::size_t from = 0; from < curves.curves.size();) {
     std::size_t to = from;
     while (to < curves.curves.size() && curves.curves[to].stage == curves.curves[from].stage) ++to;

@@ -1,6 +1,7 @@
 #include "campaign/figures/campaign_figures.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "campaign/common/names.h"
 #include "campaign/expansion/expansion.h"
@@ -19,39 +20,61 @@ namespace figure = faultsim::figure;
 
 namespace {
 
-/// A parameter as an axis: numbers in its usual unit, or words by their first place.
-struct ParameterAxis {
-  std::size_t index = 0;
-  StoredParameter parameter;
-  std::vector<std::string> words;
+/// A parameter as a side of a map: numbers in the unit in which the cases give them, as in tables,
+/// or, where some are words, all as words by their first place.
+class MapParameter {
+ public:
+  MapParameter(std::size_t index, const StoredParameter& parameter)
+      : index_(static_cast<int>(index)), parameter_(parameter) {}
 
-  double value(const CaseParameter& one) {
-    if (one.si) {
-      return faultsim::from_si(*one.si, parameter.dimension,
-                               faultsim::usual_unit(parameter.dimension));
-    }
-    const auto found = std::ranges::find(words, one.text);
-    if (found != words.end()) return static_cast<double>(found - words.begin());
-    words.push_back(one.text);
-    return static_cast<double>(words.size() - 1);
+  /// None where the case does not have the parameter.
+  const CaseParameter* find(const CaseParameters& all) const {
+    const auto one = std::ranges::find(all, index_, &CaseParameter::index);
+    return one == all.end() ? nullptr : &*one;
   }
+  void add(const CaseParameter& one) {
+    unit_.add(one);
+    has_words_ = has_words_ || !one.si;
+    values_.push_back(one);
+  }
+  const std::string& name() const { return parameter_.name; }
   std::string label() const {
-    const std::string unit = faultsim::usual_unit(parameter.dimension);
-    std::string name = parameter.name;
-    std::ranges::replace(name, '_', ' ');
-    return unit.empty() || parameter.is_text ? name : name + ", " + unit;
+    const std::string words = parameter_label(parameter_.name);
+    return has_words_ || unit().empty() ? words : concat(words, ", ", unit());
   }
+  /// Of all that were added; `words` are the names of 0, 1, ….
+  std::vector<double> places(std::vector<std::string>& words) const {
+    std::unordered_map<std::string, double> known;
+    return mapped(values_, [&](const CaseParameter& one) {
+      if (!has_words_) return faultsim::from_si(*one.si, parameter_.dimension, unit());
+      const auto [found, is_new] = known.try_emplace(one.text, static_cast<double>(known.size()));
+      if (is_new) words.push_back(one.text);
+      return found->second;
+    });
+  }
+
+ private:
+  std::string unit() const {
+    return unit_.unit().value_or(faultsim::usual_unit(parameter_.dimension));
+  }
+
+  int index_;
+  const StoredParameter& parameter_;
+  CommonUnit unit_;
+  bool has_words_ = false;
+  std::vector<CaseParameter> values_;
 };
 
-ParameterAxis axis_of(const std::vector<StoredParameter>& parameters, const std::string& option,
-                      const std::string& name, const std::string& other) {
+/// The parameter of that name, or the first but another; none where nobody asked and there is none.
+std::optional<MapParameter> parameter_of(const std::vector<StoredParameter>& parameters,
+                                         const std::string& option, const std::string& name,
+                                         const std::string& other) {
   std::vector names = mapped(parameters, &StoredParameter::name);
   for (std::size_t k = 0; k < parameters.size(); ++k) {
-    if (name.empty() ? names[k] != other : names[k] == name) return {k, parameters[k], {}};
+    if (name.empty() ? names[k] != other : names[k] == name) return MapParameter(k, parameters[k]);
   }
   if (!name.empty()) require_name(option, "parameter", name, names);
-  throw InputError(option, "the campaign has fewer than two parameters",
-                   "a map needs one for each side");
+  return std::nullopt;
 }
 
 /// What became of each case that has a result, row by row.
@@ -77,26 +100,33 @@ void for_each_outcome(const Store& store, const CampaignInfo& campaign, const Vi
 std::string draw_outcome_map(const Store& store, const CampaignInfo& campaign,
                              const MapRequest& request) {
   const std::vector<StoredParameter>& parameters = campaign.parameters;
-  ParameterAxis x = axis_of(parameters, "--x", request.x, request.y);
-  ParameterAxis y = axis_of(parameters, "--y", request.y, x.parameter.name);
+  std::optional x = parameter_of(parameters, "--x", request.x, request.y);
+  if (!x) {
+    throw InputError("--x", "the campaign has no parameter that a map could have along its side",
+                     "name what varies in the spec's design");
+  }
+  std::optional y = parameter_of(parameters, "--y", request.y, x->name());
   figure::OutcomeMap map;
   for_each_outcome(store, campaign, [&](const CaseRow& row, CaseClass kind) {
-    std::optional<double> at_x, at_y;
-    for (const CaseParameter& one : row.parameters) {
-      if (one.index == static_cast<int>(x.index)) at_x = x.value(one);
-      if (one.index == static_cast<int>(y.index)) at_y = y.value(one);
-    }
-    if (!at_x || !at_y) return;  // of a group that has other parameters
-    map.x.push_back(*at_x);
-    map.y.push_back(*at_y);
+    const CaseParameter* at_x = x->find(row.parameters);
+    const CaseParameter* at_y = y ? y->find(row.parameters) : nullptr;
+    if (at_x == nullptr || (y && at_y == nullptr)) return;  // of a group that has other parameters
+    x->add(*at_x);
+    if (y) y->add(*at_y);
     map.kind.push_back(kind);
   });
-  map.title = concat("What became of ", figure::plain_number(static_cast<double>(map.x.size()), 9),
-                     " cases of ", campaign.name);
-  map.x_label = x.label();
-  map.y_label = y.label();
-  map.x_words = x.words;
-  map.y_words = y.words;
+  const std::size_t n = map.kind.size();
+  map.title = concat("What became of ", figure::plain_number(static_cast<double>(n), 9),
+                     n == 1 ? " case of " : " cases of ", campaign.name);
+  map.x_label = x->label();
+  map.x = x->places(map.x_words);
+  if (y) {
+    map.y_label = y->label();
+    map.y = y->places(map.y_words);
+  } else {
+    map.y.assign(n, 0);
+    map.y_words = {""};  // one row
+  }
   return figure::draw(map);
 }
 

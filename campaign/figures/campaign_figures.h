@@ -13,8 +13,8 @@ namespace faultsweep {
 struct MapRequest {
   std::string x = {}, y = {};  ///< parameters; "" = the first two, or those that are left.
 };
-/// Two parameters against what became of the cases; cases without a result are left out. Throws
-/// InputError where there are no such parameters, or fewer than two.
+/// Two parameters against what became of the cases, or the only one that there is; cases without a
+/// result are left out. Throws InputError where there are no such parameters, or none.
 std::string draw_outcome_map(const Store& store, const CampaignInfo& campaign,
                              const MapRequest& request);
 

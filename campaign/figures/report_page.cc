@@ -6,8 +6,11 @@
 #include <filesystem>
 #include <tuple>
 
+#include "campaign/answers/curves.h"
+#include "campaign/answers/limit_table.h"
 #include "campaign/answers/probability.h"
 #include "campaign/answers/sensitivity.h"
+#include "campaign/common/json.h"
 #include "campaign/common/names.h"
 #include "campaign/figures/campaign_figures.h"
 #include "campaign/query/parameters.h"
@@ -33,6 +36,18 @@ std::string short_label(const std::string& label) {
   constexpr int kDigits = 4;
   const bool is_number = end != label.c_str() && std::isfinite(value) && (*end == ' ' || *end == 0);
   return is_number ? plain_number(value, kDigits) + end : label;
+}
+
+/// "friction angle 15.09 deg, offset 100 m", with the digits that a heading has room for.
+std::string settings_text(const CaseParameters& values,
+                          const std::vector<StoredParameter>& parameters) {
+  std::string text;
+  for (const CaseParameter& one : values) {
+    if (one.text.empty()) continue;
+    const std::string& name = parameters.at(static_cast<std::size_t>(one.index)).name;
+    text += concat(text.empty() ? "" : ", ", parameter_label(name), " ", short_label(one.text));
+  }
+  return text;
 }
 
 /// The page as it is written.
@@ -94,7 +109,7 @@ void add_map(Report& report) {
 std::vector<RankedCase> add_ranking(Report& report) {
   report.page.section("ranking", "Ranking");
   RankRequest request;
-  request.top = kMostRanked;
+  request.top = 0;
   Ranking ranking = make_ranking(report.store, report.campaign, request);
   if (ranking.rows.empty()) {
     report.page.paragraph("No case has a result yet.", "faint");
@@ -103,19 +118,20 @@ std::vector<RankedCase> add_ranking(Report& report) {
   const auto n = static_cast<long>(ranking.rows.size());
   report.page.paragraph(
       concat("Riskiest first, in the order of faultsweep rank",
-             n < report.campaign.n_cases ? concat("; the first ", count_text(n), " of ",
-                                                  count_text(report.campaign.n_cases))
-                                         : std::string(),
+             n < report.campaign.n_cases
+                 ? concat("; ", count_text(n), " of ", count_text(report.campaign.n_cases),
+                          " cases have a result")
+                 : std::string(),
              ". A head sorts; below it go conditions such as > 50, F2 or !F1."),
       "faint");
-  report.page.add(render_html(to_answer(ranking)));
+  report.page.add(render_html(answer_of_page(ranking)));
   return std::move(ranking.rows);
 }
 
 void add_case(Report& report, long position) {
   const StoredCase one = report.store.stored_case(report.campaign.id, std::to_string(position));
   const StoredPicture stored(report.store, report.campaign, one);
-  const std::string settings = settings_of(one.parameters, report.campaign.parameters, short_label);
+  const std::string settings = settings_text(one.parameters, report.campaign.parameters);
   report.page.heading(concat("Case ", position, ": ", settings));
   add_case_part(report.page, stored.picture(), position);
 }
@@ -136,10 +152,26 @@ void add_answers(Report& report) {
     page.add(render_html(to_answer(find_probability(report.store, report.campaign,
                                                     {.confidence = report.request.confidence}))));
   });
+  page.section("how-soon", "How soon each fault begins to slide");
+  page.unless_refused([&] {
+    page.add(render_html(to_answer(
+        probability_curves(report.store, report.campaign,
+                           {.axis = CurveAxis::time, .confidence = report.request.confidence}))));
+  });
   page.section("what-matters", "What matters");
   page.unless_refused([&] {
     page.add(render_html(
         what_matters(report.store, report.campaign, {.confidence = report.request.confidence})));
+  });
+}
+
+/// Of a campaign that searches limits.
+void add_limits(Report& report) {
+  const std::string spec = report.store.spec_copies(report.campaign.id).resolved;
+  if (!json::parse(spec).contains("limits")) return;
+  report.page.section("limits", "Up to where it is safe");
+  report.page.unless_refused([&] {
+    report.page.add(render_html(to_answer(make_limit_table(report.store, report.campaign), 0)));
   });
 }
 
@@ -207,6 +239,7 @@ std::string report_page(const Store& store, const CampaignInfo& campaign,
   add_map(report);
   const std::vector<RankedCase> rows = add_ranking(report);
   add_cases(report, rows);
+  add_limits(report);
   add_answers(report);
   add_outcomes(report);
   add_provenance(report);

@@ -1,7 +1,5 @@
 #include "campaign/query/parameters.h"
 
-#include <optional>
-
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
 
@@ -20,18 +18,11 @@ const StoredParameter& of(const CaseParameter& value,
 /// The unit in which all rows give the parameter, "" for plain numbers; none where they differ or
 /// one of them is words.
 std::optional<std::string> common_unit(const std::vector<const CaseParameters*>& rows, int index) {
-  std::optional<std::string> unit;
-  for (const CaseParameters* row : rows) {
-    for (const CaseParameter& one : *row) {
-      if (one.index != index) continue;
-      if (!one.si) return std::nullopt;
-      const std::size_t blank = one.text.find(' ');
-      const std::string own = blank == std::string::npos ? "" : one.text.substr(blank + 1);
-      if (unit.value_or(own) != own) return std::nullopt;
-      unit = own;
-    }
-  }
-  return unit;
+  CommonUnit unit;
+  for (const CaseParameters* row : rows)
+    for (const CaseParameter& one : *row)
+      if (one.index == index) unit.add(one);
+  return unit.unit();
 }
 
 }  // namespace
@@ -54,6 +45,24 @@ std::string settings_of(const CaseParameters& values,
                    shown != nullptr ? shown(one.text) : one.text);
   }
   return text;
+}
+
+std::string parameter_label(const std::string& name) {
+  std::string label;
+  for (const char c : name.substr(name.starts_with('/') ? 1 : 0)) {
+    if (c == '/')
+      label += ": ";
+    else
+      label += c == '_' ? ' ' : c;
+  }
+  return label;
+}
+
+void CommonUnit::add(const CaseParameter& value) {
+  const std::size_t blank = value.text.find(' ');
+  const std::string own = blank == std::string::npos ? "" : value.text.substr(blank + 1);
+  differs_ = differs_ || !value.si || unit_.value_or(own) != own;
+  unit_ = differs_ ? std::nullopt : std::optional(own);
 }
 
 ParameterColumns::ParameterColumns(const std::vector<StoredParameter>& parameters,

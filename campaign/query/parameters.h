@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,22 @@ std::vector<std::string> labels_of(const CaseParameters& values,
 std::string settings_of(const CaseParameters& values,
                         const std::vector<StoredParameter>& parameters,
                         std::string (*shown)(const std::string&) = nullptr);
+/// The name of a parameter for people: "friction angle"; of a JSON Pointer what it leads to,
+/// "pressure field: file".
+std::string parameter_label(const std::string& name);
+
+/// The unit in which all values of a parameter are given, seen one by one.
+class CommonUnit {
+ public:
+  void add(const CaseParameter& value);
+  /// "" for plain numbers; none where nothing was seen, units differ or one of the values is words.
+  const std::optional<std::string>& unit() const { return unit_; }
+
+ private:
+  std::optional<std::string> unit_;
+  bool differs_ = false;
+};
+
 /// The parameters of a campaign as columns of an answer, under "parameters" in JSON: numbers in the
 /// unit in which all rows give them, the text as given where their units differ or they are words.
 class ParameterColumns {

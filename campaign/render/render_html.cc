@@ -1,7 +1,10 @@
 #include "campaign/render/render.h"
 
+#include <algorithm>
 #include <cmath>
+#include <ranges>
 
+#include "campaign/render/row_data.h"
 #include "campaign/render/shown.h"
 #include "simulator/figure/svg.h"
 
@@ -33,12 +36,20 @@ bool is_shown(const AnswerTable& table, const AnswerColumn& column) {
   return column.need != Need::data && !(table.is_sortable && column.need == Need::extra);
 }
 
+/// The rows of a long table that are elements; its script has the others.
+constexpr std::size_t kRowsOfAPage = 100;
+
 /// The beginning of a table; of one that is sortable with the place where a script says how many
 /// rows pass its filters.
-std::string head_of(const AnswerTable& table) {
+std::string head_of(const AnswerTable& table, std::size_t n_shown) {
   const std::string key = escape_xml(table.key), place = "rows-" + key;
   std::string html = table.title.empty() ? "" : paragraph(table.title, "title");
-  if (table.is_sortable) html += concat("<p id=\"", place, "\" class=\"faint\"></p>\n");
+  if (table.is_sortable) {
+    const std::size_t n = table.rows.size();
+    html += concat("<p id=\"", place, "\" class=\"faint\">",
+                   n_shown < n ? concat("The first ", n_shown, " of ", n, " rows.") : std::string(),
+                   "</p>\n");
+  }
   html += concat("<div class=\"wide\"><table data-table=\"", key,
                  table.is_sortable ? concat("\" data-filter=\"", place) : "", "\"><thead><tr>");
   for (const AnswerColumn& one : table.columns)
@@ -46,20 +57,35 @@ std::string head_of(const AnswerTable& table) {
   return html + "</tr></thead>\n<tbody>\n";
 }
 
-std::string table_of(const AnswerTable& table) {
-  std::string html = head_of(table);
-  const std::size_t n = table.rows.size();
-  const std::size_t n_shown = table.most_on_screen == 0 ? n : std::min(n, table.most_on_screen);
-  for (std::size_t r = 0; r < n_shown; ++r) {
-    html += "<tr>";
-    for (std::size_t k = 0; k < table.columns.size(); ++k) {
-      if (!is_shown(table, table.columns[k])) continue;
-      html += cell_of(k < table.rows[r].size() ? table.rows[r][k] : AnswerCell{}, table.columns[k]);
-    }
-    html += "</tr>\n";
+std::string html_row(const AnswerTable& table, const std::vector<AnswerCell>& row) {
+  std::string html = "<tr>";
+  for (std::size_t k = 0; k < table.columns.size(); ++k) {
+    if (!is_shown(table, table.columns[k])) continue;
+    html += cell_of(k < row.size() ? row[k] : AnswerCell{}, table.columns[k]);
   }
+  return html + "</tr>\n";
+}
+
+/// All rows of a sortable table for the page's script.
+std::string rows_as_data(const AnswerTable& table) {
+  std::vector<std::size_t> columns;
+  for (std::size_t k = 0; k < table.columns.size(); ++k)
+    if (is_shown(table, table.columns[k])) columns.push_back(k);
+  return concat("<script type=\"application/json\" data-rows-of=\"", escape_xml(table.key), "\">",
+                faultsim::figure::json_in_html(row_data(table, columns)), "</script>\n");
+}
+
+std::string table_of(const AnswerTable& table) {
+  const std::size_t n = table.rows.size();
+  const std::size_t most = table.is_sortable ? kRowsOfAPage : table.most_on_screen;
+  const std::size_t n_shown = most == 0 ? n : std::min(n, most);
+  std::string html = head_of(table, n_shown);
+  for (const std::vector<AnswerCell>& row : table.rows | std::views::take(n_shown))
+    html += html_row(table, row);
   html += "</tbody></table></div>\n";
-  if (n_shown < n) html += paragraph(concat("and ", n - n_shown, " more rows"), "faint");
+  if (n_shown < n)
+    html += table.is_sortable ? rows_as_data(table)
+                              : paragraph(concat("and ", n - n_shown, " more rows"), "faint");
   for (const std::string& note : table.notes) html += paragraph(note, "faint");
   return html;
 }

@@ -175,7 +175,22 @@ std::vector<RankingColumn> columns_of(const Ranking& ranking, const MeasureColum
   return columns;
 }
 
-AnswerTable table_of(const Ranking& ranking) {
+/// Which columns a table has.
+enum class For { all, page };
+
+/// Leaves out the cells of columns that only files have.
+void drop_cells_of_files(const std::vector<AnswerColumn>& columns, std::vector<AnswerCell>& cells) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    if (columns[k].need == Need::data) continue;
+    if (kept != k) cells[kept] = std::move(cells[k]);
+    ++kept;
+  }
+  cells.resize(kept);
+  cells.shrink_to_fit();
+}
+
+AnswerTable table_of(const Ranking& ranking, For reader) {
   std::vector all = mapped(ranking.rows, [&](const RankedCase& row) { return &row.parameters; });
   const ParameterColumns parameters(ranking.campaign.parameters, all);
   const MeasureColumns measures(ranking);
@@ -203,8 +218,11 @@ AnswerTable table_of(const Ranking& ranking) {
     for (const RankingColumn& column : columns) cells.push_back(column.cell(one));
     add_onset(first_activation(m), cells);
     add_onset(first_opening(m), cells);
+    if (reader == For::page) drop_cells_of_files(table.columns, cells);
     table.rows.push_back(std::move(cells));
   }
+  if (reader == For::page)
+    std::erase_if(table.columns, [](const AnswerColumn& one) { return one.need == Need::data; });
   return table;
 }
 
@@ -329,7 +347,9 @@ std::string sliding_sentence(const SlidingCounts& counts, const RankRequest& req
   return text + ".";
 }
 
-Answer to_answer(const Ranking& ranking) {
+namespace {
+
+Answer answer_for(const Ranking& ranking, For reader) {
   const RankRequest& request = ranking.request;
   Answer answer{headline_of(ranking)};
   answer.facts = {{"campaign", ranking.campaign.name},
@@ -349,9 +369,15 @@ Answer to_answer(const Ranking& ranking) {
     answer.facts["skipped"] = *request.skip;
     answer.facts["rows"] = ranking.n_all();
   }
-  answer.add(table_of(ranking)).notes = notes_of(ranking);
+  answer.add(table_of(ranking, reader)).notes = notes_of(ranking);
   return answer;
 }
+
+}  // namespace
+
+Answer to_answer(const Ranking& ranking) { return answer_for(ranking, For::all); }
+
+Answer answer_of_page(const Ranking& ranking) { return answer_for(ranking, For::page); }
 
 Answer metrics_answer() {
   AnswerTable table{"metrics",

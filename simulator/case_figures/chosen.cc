@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "simulator/common/dates.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/text.h"
 #include "simulator/figure/axis.h"
@@ -50,11 +51,41 @@ double time_of(const CaseResult& result, double seconds) {
   return seconds / (in_days(result) ? kDayInSeconds : kYearInSeconds);
 }
 
+std::string time_unit_text(const CasePicture& picture) {
+  const std::string unit = in_days(picture.result) ? "days" : "years";
+  return picture.scene.start_date ? concat(unit, " since ", date_text(*picture.scene.start_date))
+                                  : unit;
+}
+
+std::vector<figure::Tick> date_ticks(const CasePicture& picture) {
+  if (!picture.scene.start_date || picture.result.steps.empty()) return {};
+  constexpr double kMonthInSeconds = kYearInSeconds / 12;
+  constexpr int kMost = 9, kMonths = 12;
+  const double start = *picture.scene.start_date, last = picture.result.steps.back().time;
+  int step = 1;  // months
+  for (const int one : {2, 3, 6, 12, 24, 60, 120, 240, 600}) {
+    if (last > kMost * kMonthInSeconds * step) step = one;
+  }
+  std::vector<figure::Tick> ticks;
+  const std::string first = date_text(start);
+  for (int month = std::stoi(first.substr(0, 4)) * kMonths / step * step;; month += step) {
+    const std::string day = formatted("%04d-%02d-01", month / kMonths, month % kMonths + 1);
+    const double time = parse_date(day).value() - start;
+    if (time > last * (1 + 1e-9)) break;
+    if (time < 0) continue;
+    ticks.push_back(
+        {time_of(picture.result, time), step < kMonths ? day.substr(0, 7) : day.substr(0, 4)});
+  }
+  return ticks;
+}
+
 std::string moment_text(const Chosen& chosen) {
   const StepResult& step = chosen.result().steps[chosen.step];
+  const std::string time = concat(figure::plain_number(time_of(chosen.result(), step.time)),
+                                  in_days(chosen.result()) ? " days" : " years");
+  const std::optional<double>& start = chosen.scene().start_date;
   return concat("load step ", step.step, ", ", with_blanks(step.stage), ", ",
-                figure::plain_number(time_of(chosen.result(), step.time)),
-                in_days(chosen.result()) ? " days" : " years");
+                start ? concat(date_text(*start + step.time), " (", time, ")") : time);
 }
 
 Chosen choose(const CasePicture& picture, const CaseChartRequest& request) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "simulator/case_figures/case_figures.h"
+#include "simulator/figure/axis.h"
 
 /// What the charts of a case share; for this folder.
 namespace faultsim::case_figures {
@@ -36,6 +37,11 @@ std::size_t n_steps_of(const CaseResult& result);  ///< steps that have metrics:
 /// Histories that end within two years are drawn in days, others in years of 365.25 days.
 bool in_days(const CaseResult& result);
 double time_of(const CaseResult& result, double seconds);  ///< in that unit.
+
+/// "years", or "years since 1990-01-01" where the scene has dates.
+std::string time_unit_text(const CasePicture& picture);
+/// Ticks at dates, in the unit of time_of, within the history; none where the scene has no dates.
+std::vector<figure::Tick> date_ticks(const CasePicture& picture);
 
 std::string with_blanks(std::string name);           ///< "primary production".
 std::string subject_of(const CasePicture& picture);  ///< its name, or the result's title.

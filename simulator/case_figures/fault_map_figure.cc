@@ -22,7 +22,7 @@ void add_time_map(const Chosen& chosen, std::size_t f, figure::FaultMap& map) {
       map.cells.push_back({{{from, top}, {to, top}, {to, base}, {from, base}}, value, false});
     }
   }
-  map.across = in_days(chosen.result()) ? "time, days" : "time, years";
+  map.across = "time, " + time_unit_text(chosen.picture);
 }
 
 /// Faces at one step, and which of them slide in it or are open.

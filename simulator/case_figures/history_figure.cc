@@ -3,8 +3,10 @@
 
 #include "simulator/case_figures/chosen.h"
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
 #include "simulator/figure/axis.h"
 #include "simulator/figure/history_chart.h"
+#include "simulator/initial_state/pressure_history.h"
 
 namespace faultsim::case_figures {
 namespace {
@@ -50,21 +52,49 @@ std::vector<figure::Curve> curves_of(const CaseResult& result, Value&& value) {
   return curves;
 }
 
-figure::HistoryPanel pressure_panel(const CaseResult& result) {
-  figure::HistoryPanel panel{"Δp, bar", {}, {}, {0}, 120};
+/// A line of a compartment. Those with one history are one line with both names.
+void add_region(const std::string& name, std::size_t region, std::vector<double> values,
+                figure::HistoryPanel& panel) {
+  const auto same = std::ranges::find(panel.curves, values, &figure::Curve::values);
+  if (same != panel.curves.end()) {
+    same->name += ", " + name;
+    return;
+  }
+  // From the colours' other end: a compartment does not look like a fault.
+  panel.curves.push_back({name, 6 + 7 * region, std::move(values)});
+}
+
+/// Of a flow result these are means over the compartments, which the label says.
+figure::HistoryPanel pressure_panel(const Chosen& chosen) {
+  const CaseResult& result = chosen.result();
+  const bool is_mean = chosen.scene().pressure_field.is_given();
+  figure::HistoryPanel panel{is_mean ? "mean Δp, bar" : "Δp, bar", {}, {}, {0}, 120};
   for (std::size_t r = 0; r < result.region_names.size(); ++r) {
-    // From the colours' other end: a compartment does not look like a fault.
-    figure::Curve curve{result.region_names[r], 6 + 7 * r, {}};
-    for (const StepResult& step : result.steps) {
-      curve.values.push_back(
-          r < step.pressure_change.size() ? step.pressure_change[r] / kBarInPascal : std::nan(""));
-    }
-    // Compartments with one history are one line with both names.
-    const auto same = std::ranges::find(panel.curves, curve.values, &figure::Curve::values);
-    if (same != panel.curves.end())
-      same->name += ", " + curve.name;
-    else
-      panel.curves.push_back(std::move(curve));
+    add_region(result.region_names[r], r,
+               mapped(result.steps,
+                      [&](const StepResult& step) {
+                        return r < step.pressure_change.size()
+                                   ? step.pressure_change[r] / kBarInPascal
+                                   : std::nan("");
+                      }),
+               panel);
+  }
+  return panel;
+}
+
+/// Of regions whose temperature the stages change.
+figure::HistoryPanel temperature_panel(const Chosen& chosen) {
+  figure::HistoryPanel panel{"ΔT, K", {}, {}, {0}, 120};
+  for (const TemperatureHistory& history : chosen.scene().temperature) {
+    const auto region = static_cast<std::size_t>(history.region);
+    add_region(chosen.scene().pressure.at(region).region, region,
+               mapped(chosen.result().steps,
+                      [&](const StepResult& step) {
+                        return step.time < history.time.front()
+                                   ? 0.0
+                                   : value_at(history.time, history.change, step.time);
+                      }),
+               panel);
   }
   return panel;
 }
@@ -79,7 +109,8 @@ std::string ending_of(const CaseResult& result) {
 std::string draw_history(const Chosen& chosen) {
   const CaseResult& result = chosen.result();
   figure::HistoryChart chart;
-  chart.time_label = in_days(result) ? "time, days" : "time, years";
+  chart.ticks = date_ticks(chosen.picture);
+  chart.time_label = chart.ticks.empty() ? "time, " + time_unit_text(chosen.picture) : "date";
   for (const StepResult& step : result.steps) chart.time.push_back(time_of(result, step.time));
   chart.stages = stage_spans(result);
   chart.marks = event_marks(result);
@@ -91,8 +122,9 @@ std::string draw_history(const Chosen& chosen) {
   if (chosen.request.chart == CaseChart::history) {
     draw_panel("How near each fault is to sliding: χ̄", "χ̄",
                [](const FaultMetrics& m) { return m.chi_bar; });
-    chart.panels.back().levels = {{1, "strength reached"}, {0.8, "0.8"}};
+    chart.panels.back().levels = {{1, "strength reached"}, {0.8, ""}};
     chart.panels.back().always = {0, 1};
+    chart.panels.back().headroom = 0.08;
   } else if (chosen.request.chart == CaseChart::thickness) {
     draw_panel("Down-dip length with χ > 0.8", "length, m",
                [](const FaultMetrics& m) { return m.thickness_chi_080_max; });
@@ -101,7 +133,8 @@ std::string draw_history(const Chosen& chosen) {
                [](const FaultMetrics& m) { return m.max_slip / kMillimetre; });
   }
   chart.remark = subject_of(chosen.picture) + ending_of(result);
-  if (!result.region_names.empty()) chart.panels.push_back(pressure_panel(result));
+  if (!result.region_names.empty()) chart.panels.push_back(pressure_panel(chosen));
+  if (!chosen.scene().temperature.empty()) chart.panels.push_back(temperature_panel(chosen));
   return figure::draw(chart);
 }
 

@@ -42,7 +42,7 @@ std::string draw_profiles(Chosen chosen) {
                    {"σ'ₙ, MPa (compression +)", {normal}, {}, {0}},
                    {"shear, MPa", {shear, strength}, {}, {0}},
                    {"χ", {chi}, {{0.8, ""}, {1, ""}}, {0, 1}},
-                   {"slip, mm", {slip}, {}, {0}}};
+                   {"slip, mm", {slip}, {}, {0, 1}}};
   return figure::draw(chart);
 }
 

@@ -41,12 +41,14 @@ bool colour_by_fields(const Chosen& chosen, std::size_t fault, figure::Section::
   return false;
 }
 
-/// "Δp −160 bar" of a compartment at a step; "" where its pressure is not given.
-std::string pressure_note(const CaseResult& result, const StepResult& step,
-                          const std::string& name) {
+/// "Δp −160 bar" of a compartment at a step, "mean Δp" of a flow result; "" where its pressure is
+/// not given.
+std::string pressure_note(const Chosen& chosen, const StepResult& step, const std::string& name) {
+  const CaseResult& result = chosen.result();
+  const char* quantity = chosen.scene().pressure_field.is_given() ? "mean Δp " : "Δp ";
   for (std::size_t r = 0; r < result.region_names.size(); ++r) {
     if (result.region_names[r] != name || r >= step.pressure_change.size()) continue;
-    return "Δp " + plain_number(step.pressure_change[r] / kBarInPascal) + " bar";
+    return quantity + plain_number(step.pressure_change[r] / kBarInPascal) + " bar";
   }
   return "";
 }
@@ -61,7 +63,7 @@ bool fill_section(const Chosen& chosen, figure::Section& section) {
     all_fields = false;
   }
   for (figure::Section::Rock& rock : section.rocks) {
-    if (rock.is_reservoir) rock.note = pressure_note(chosen.result(), step, rock.name);
+    if (rock.is_reservoir) rock.note = pressure_note(chosen, step, rock.name);
   }
   return all_fields;
 }

@@ -50,14 +50,15 @@ std::string draw_stress_path(Chosen chosen) {
   }
   path.title = concat("Stress path of fault ", chosen.fault_name(), " at ",
                       plain_number(-fault.points(2, k), 4), " m depth");
-  path.remark =
-      concat("where χ is largest at ", moment_text(chosen), "; ", subject_of(chosen.picture));
+  path.circle = initial_circle(chosen.scene(), fault.points(2, k));
+  path.remark = concat("where χ is largest at ", moment_text(chosen),
+                       path.circle ? "; grey circle: rock before production; " : "; ",
+                       subject_of(chosen.picture));
   path.cohesion = friction.cohesion / kMegapascal;
   path.friction = std::tan(friction.static_friction_angle);
   if (friction.dynamic_friction_angle != friction.static_friction_angle) {
     path.weakened = std::tan(friction.dynamic_friction_angle);
   }
-  path.circle = initial_circle(chosen.scene(), fault.points(2, k));
   return figure::draw(path);
 }
 

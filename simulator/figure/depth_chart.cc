@@ -53,7 +53,7 @@ void draw_column_key(Svg& svg, const Box& box, const DepthColumn& column) {
   double y = box.bottom() + 16;
   for (const Curve& curve : column.curves) {
     svg.line({box.x, y - 4}, {box.x + 22, y - 4}, fault_stroke(curve.colour));
-    svg.text({box.x + 28, y}, fitted(curve.name, box.width - 28, kTickSize),
+    svg.text({box.x + 28, y}, fitted(curve.name, box.width - 8, kTickSize),
              {kTickSize, fault_ink(curve.colour)});
     y += 15;
   }
@@ -131,7 +131,7 @@ std::string draw(const FaultMap& map) {
       if (outlines)
         svg.polygon(corners, "none", {kInk, 0.9});
       else
-        svg.polygon(corners, fill, {fill, 0.4});  // the seams between cells are closed
+        svg.polygon(corners, fill, {fill, 0.8});  // the seams between cells are closed
     }
   }
   draw_band_edges(panel, map.bands);

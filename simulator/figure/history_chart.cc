@@ -58,6 +58,16 @@ std::optional<Point> end_of(const Panel& panel, const HistoryChart& chart, const
   return std::nullopt;
 }
 
+Axis axis_of(const HistoryPanel& panel) {
+  std::vector<double> values;
+  for (const Curve& curve : panel.curves)
+    for (const auto* list : {&curve.values, &curve.low, &curve.high})
+      values.insert(values.end(), list->begin(), list->end());
+  Axis axis = axis_over(panel.label, values, panel.always, 5);
+  axis.to += panel.headroom * (axis.to - axis.from);
+  return axis;
+}
+
 void draw_panel(Svg& svg, Panel& panel, const HistoryChart& chart, const HistoryPanel& content) {
   for (const Level& level : content.levels) {
     panel.line_at_y(level.value, {kFaint, 1, "5 4"});
@@ -68,6 +78,8 @@ void draw_panel(Svg& svg, Panel& panel, const HistoryChart& chart, const History
   for (const Curve& curve : content.curves) {
     const Stroke stroke = fault_stroke(curve.colour);
     panel.curve(chart.time, curve.values, stroke);
+    for (const auto* bound : {&curve.low, &curve.high})
+      panel.curve(chart.time, *bound, {stroke.colour, 0.75, stroke.dash});
     if (const auto end = end_of(panel, chart, curve)) {
       labels.push_back({curve.name, *end, curve.colour});
     }
@@ -106,17 +118,13 @@ std::string draw(const HistoryChart& chart) {
     first = std::min(first, stage.from), last = std::max(last, stage.to);
   }
   if (!(last > first)) last = first + 1;
-  const Axis time = axis_between(chart.time_label, first, last, 10);
+  Axis time = axis_between(chart.time_label, first, last, 10);
+  if (!chart.ticks.empty()) time.ticks = chart.ticks;
   double y = heading + 34;
   Box all{kHistoryLeft, y, kHistoryWidth - kHistoryLeft - right_margin(chart), 0};
   for (std::size_t k = 0; k < chart.panels.size(); ++k) {
     const HistoryPanel& content = chart.panels[k];
-    std::vector<double> values;
-    for (const Curve& curve : content.curves) {
-      values.insert(values.end(), curve.values.begin(), curve.values.end());
-    }
-    Panel panel(svg, {kHistoryLeft, y, all.width, content.height}, time,
-                axis_over(content.label, values, content.always, 5),
+    Panel panel(svg, {kHistoryLeft, y, all.width, content.height}, time, axis_of(content),
                 {.x_labels = k + 1 == chart.panels.size()});
     draw_stages(svg, panel, chart, k == 0);
     for (const Tick& tick : panel.y().ticks) panel.line_at_y(tick.value, {kGrid, 1});

@@ -12,8 +12,9 @@ namespace faultsim::figure {
 /// A line of a chart.
 struct Curve {
   std::string name;
-  std::size_t colour = 0;      ///< of fault_stroke.
-  std::vector<double> values;  ///< NaN = no value there: the line is broken.
+  std::size_t colour = 0;                   ///< of fault_stroke.
+  std::vector<double> values;               ///< NaN = no value there: the line is broken.
+  std::vector<double> low = {}, high = {};  ///< bounds of the values, as thin lines; empty = none.
 };
 /// A horizontal line to compare with.
 struct Level {
@@ -27,6 +28,7 @@ struct HistoryPanel {
   std::vector<Level> levels = {};
   std::vector<double> always = {};  ///< what the axis holds whatever the values.
   double height = 200;              ///< px.
+  double headroom = 0;              ///< share of the axis that is left above its last tick.
 };
 struct StageSpan {
   std::string name;
@@ -40,7 +42,8 @@ struct TimeMark {
 /// Panels above each other with one time axis; stages are shaded in turn and named above.
 struct HistoryChart {
   std::string title, remark;
-  std::string time_label;  ///< "time, years".
+  std::string time_label;        ///< "time, years".
+  std::vector<Tick> ticks = {};  ///< of time; empty = round numbers.
   std::vector<double> time;
   std::vector<StageSpan> stages;
   std::vector<TimeMark> marks;

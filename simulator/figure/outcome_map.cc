@@ -4,13 +4,18 @@
 #include <cmath>
 
 #include "simulator/common/errors.h"
+#include "simulator/figure/outcome_cells.h"
 #include "simulator/figure/panel.h"
 
 namespace faultsim::figure {
 namespace {
 
+constexpr double kMapWidth = 860, kMapHeight = 420, kMapRight = 24;
 constexpr std::array<const char*, kCaseClasses> kClassColours = {"#3b82b8", "#7b5ea7", "#e08a1e",
                                                                  "#6e0a28", "#6b6b6b"};
+/// Ink and paper of what is written in a cell: they go with its colour, which stays in dark pages.
+constexpr const char* kCellInk = "#1b1b1b";
+constexpr const char* kCellPaper = "#fdfdfd";
 
 /// A dot of a class: circle, square with a stroke, square, diamond, cross.
 void draw_case(Svg& svg, Point p, CaseClass kind, double r) {
@@ -38,71 +43,26 @@ void draw_case(Svg& svg, Point p, CaseClass kind, double r) {
   }
 }
 
-Axis map_axis(const std::string& label, const std::vector<double>& values,
-              const std::vector<std::string>& words) {
-  if (words.empty()) {
-    const Axis axis = axis_over(label, values, {}, 6);
-    const double margin = 0.03 * (axis.to - axis.from);
-    return {label, axis.from - margin, axis.to + margin, axis.ticks};
-  }
-  Axis axis{label, -0.5, static_cast<double>(words.size()) - 0.5, {}};
-  for (std::size_t k = 0; k < words.size(); ++k) {
-    axis.ticks.push_back({static_cast<double>(k), words[k]});
-  }
-  return axis;
+// One by one --------------------------------------------------------------------------------------
+
+Axis axis_of_dots(const std::string& label, const std::vector<double>& values,
+                  const std::vector<std::string>& words) {
+  if (!words.empty()) return side_of(label, values, words, 1).axis;
+  const Axis axis = axis_over(label, values, {}, 6);
+  const double margin = 0.03 * (axis.to - axis.from);
+  return {label, axis.from - margin, axis.to + margin, axis.ticks};
 }
 
-void draw_dots(Svg& svg, const Panel& panel, const OutcomeMap& map) {
-  const double r = map.x.size() > 600 ? 2.2 : 3.4;
-  for (int kind = 0; kind < kCaseClasses; ++kind) {  // bad ones last, on top
-    for (std::size_t k = 0; k < map.x.size(); ++k) {
-      if (static_cast<int>(map.kind[k]) != kind || !panel.holds(map.x[k], map.y[k])) continue;
-      draw_case(svg, panel.at(map.x[k], map.y[k]), map.kind[k], r);
-    }
-  }
-}
+double radius_of_dots(const OutcomeMap& map) { return map.x.size() > 600 ? 2.2 : 3.4; }
 
-struct Bin {
-  long n_decided = 0, n_slide = 0, n_undecided = 0;
-};
-
-void draw_bin(Svg& svg, const Bin& bin, Point corner, double w, double h) {
-  if (bin.n_decided > 0) {
-    const double share = static_cast<double>(bin.n_slide) / static_cast<double>(bin.n_decided);
-    svg.rect({corner.x, corner.y, w, h}, sequential_colour(0.08 + 0.92 * share));
-  }
-  if (bin.n_undecided > bin.n_decided) {
-    const std::string colour = kClassColours[static_cast<std::size_t>(CaseClass::undecided)];
-    svg.line({corner.x, corner.y + h}, {corner.x + w, corner.y}, {colour, 1});
-  }
-}
-
-void draw_bins(Svg& svg, const Panel& panel, const OutcomeMap& map) {
-  constexpr int kColumns = 48, kRows = 30;
-  std::vector<Bin> bins(std::size_t{kColumns} * kRows);
-  const auto bin_at = [&bins](int i, int j) -> Bin& {
-    return bins[static_cast<std::size_t>(j) * kColumns + static_cast<std::size_t>(i)];
-  };
-  for (std::size_t k = 0; k < map.x.size(); ++k) {
-    if (!panel.holds(map.x[k], map.y[k]) || map.kind[k] == CaseClass::ended_early) continue;
-    const int i =
-        std::clamp(static_cast<int>(panel.x().share(map.x[k]) * kColumns), 0, kColumns - 1);
-    const int j = std::clamp(static_cast<int>(panel.y().share(map.y[k]) * kRows), 0, kRows - 1);
-    Bin& bin = bin_at(i, j);
-    if (map.kind[k] == CaseClass::undecided) {
-      ++bin.n_undecided;
-      continue;
-    }
-    ++bin.n_decided;
-    bin.n_slide += map.kind[k] == CaseClass::holds ? 0 : 1;
-  }
-  const double w = panel.box().width / kColumns, h = panel.box().height / kRows;
-  for (int j = 0; j < kRows; ++j) {
-    for (int i = 0; i < kColumns; ++i) {
-      draw_bin(svg, bin_at(i, j), {panel.box().x + i * w, panel.box().bottom() - (j + 1) * h}, w,
-               h);
-    }
-  }
+/// Nothing where they would lie over each other, or are too many.
+bool can_be_dots(const OutcomeMap& map, const Box& box) {
+  if (map.x.size() > kMostDots) return false;
+  const Axis x = axis_of_dots("", map.x, map.x_words), y = axis_of_dots("", map.y, map.y_words);
+  std::vector<Point> places;
+  for (std::size_t k = 0; k < map.x.size(); ++k)
+    places.push_back({box.width * x.share(map.x[k]), box.height * y.share(map.y[k])});
+  return !would_overlap(std::move(places), radius_of_dots(map));
 }
 
 void draw_class_key(Svg& svg, const OutcomeMap& map, Point place) {
@@ -120,13 +80,182 @@ void draw_class_key(Svg& svg, const OutcomeMap& map, Point place) {
   }
 }
 
-void draw_share_key(Svg& svg, Point place) {
-  svg.text({place.x, place.y}, "share of decided cases with sliding:  0", {kLabelSize, kInk});
-  const double x = place.x + text_width("share of decided cases with sliding:  0", kLabelSize) + 4;
-  for (int k = 0; k < 24; ++k) {
-    svg.rect({x + 6 * k, place.y - 10, 6.3, 11}, sequential_colour(0.08 + 0.92 * (k + 0.5) / 24));
+void draw_dots(Svg& svg, const OutcomeMap& map, const Box& box) {
+  draw_class_key(svg, map, {box.x + 6, box.y - 10});
+  Panel panel(svg, box, axis_of_dots(map.x_label, map.x, map.x_words),
+              axis_of_dots(map.y_label, map.y, map.y_words));
+  const double r = radius_of_dots(map);
+  for (int kind = 0; kind < kCaseClasses; ++kind) {
+    for (std::size_t k = 0; k < map.x.size(); ++k) {
+      if (static_cast<int>(map.kind[k]) != kind || !panel.holds(map.x[k], map.y[k])) continue;
+      draw_case(svg, panel.at(map.x[k], map.y[k]), map.kind[k], r);
+    }
   }
-  svg.text({x + 152, place.y}, "1", {kLabelSize, kInk});
+  panel.frame();
+}
+
+// Counted in cells --------------------------------------------------------------------------------
+
+struct CellGrid {
+  MapSide x, y;
+  std::vector<MapCell> cells;
+  const MapCell& at(int i, int j) const {
+    return cells[static_cast<std::size_t>(j) * static_cast<std::size_t>(x.n) +
+                 static_cast<std::size_t>(i)];
+  }
+};
+
+/// So many parts that a cell has some cases, and a number has room in it.
+CellGrid counted(const OutcomeMap& map) {
+  constexpr double kCasesPerCell = 5, kMostColumns = 20, kMostRows = 14;
+  const double n_cells = static_cast<double>(map.x.size()) / kCasesPerCell;
+  const auto parts = [&](double wanted, double most) {
+    return static_cast<int>(std::clamp(std::round(wanted), 3.0, most));
+  };
+  CellGrid grid{
+      side_of(map.x_label, map.x, map.x_words, parts(std::sqrt(1.4 * n_cells), kMostColumns)),
+      side_of(map.y_label, map.y, map.y_words, parts(std::sqrt(n_cells / 1.4), kMostRows)),
+      {}};
+  grid.cells.resize(static_cast<std::size_t>(grid.x.n) * static_cast<std::size_t>(grid.y.n));
+  for (std::size_t k = 0; k < map.x.size(); ++k) {
+    const auto cell =
+        static_cast<std::size_t>(grid.y.cell_of(map.y[k])) * static_cast<std::size_t>(grid.x.n) +
+        static_cast<std::size_t>(grid.x.cell_of(map.x[k]));
+    ++grid.cells[cell].counts[static_cast<std::size_t>(map.kind[k])];
+  }
+  return grid;
+}
+
+/// Strokes to the right and up, as one line that goes back and forth, however wide.
+void draw_hatch(Svg& svg, const Box& box) {
+  constexpr double kStep = 7;
+  svg.rect(box, "#efeaf5");
+  std::vector<Point> points;
+  bool goes_up = false;
+  for (double c = kStep / 2; c < box.width + box.height; c += kStep, goes_up = !goes_up) {
+    const Point above{box.x + std::min(c, box.width), box.y + std::max(0.0, c - box.width)};
+    const Point below{box.x + std::max(0.0, c - box.height), box.y + std::min(c, box.height)};
+    points.push_back(goes_up ? below : above);
+    points.push_back(goes_up ? above : below);
+  }
+  svg.polyline(points, {"#a08cc8", 0.9});
+}
+
+void draw_share(Svg& svg, const MapCell& cell, const Box& box) {
+  const std::string text = share_text(cell);
+  const double size = box.width >= 46 ? kTickSize : 9.5;
+  const double room = 0.93 * text_width(text, size);  // digits are narrower than letters
+  if (room > box.width - 2 || size > box.height - 2) return;
+  const Point middle{box.x + box.width / 2, box.y + box.height / 2 + 0.36 * size};
+  const double decided = static_cast<double>(cell.n_slide()) / static_cast<double>(cell.n_known());
+  const bool on_hatch = cell.n_undecided() > 0;
+  if (on_hatch)
+    svg.rect({middle.x - room / 2 - 1, middle.y - size + 1, room + 2, size + 1}, kCellPaper);
+  svg.text(middle, text,
+           {.size = size,
+            .colour = !on_hatch && decided > 0.6 ? kCellPaper : kCellInk,
+            .anchor = Anchor::middle});
+}
+
+/// Decided cases at the left, in the colour of their share that slides; undecided ones at the
+/// right.
+void draw_cell(Svg& svg, const MapCell& cell, const Box& box) {
+  if (cell.n_known() == 0) return;
+  const double undecided =
+      box.width * static_cast<double>(cell.n_undecided()) / static_cast<double>(cell.n_known());
+  if (cell.n_decided() > 0) {
+    const double share =
+        static_cast<double>(cell.n_slide()) / static_cast<double>(cell.n_decided());
+    svg.rect({box.x, box.y, box.width - undecided, box.height}, share_colour(share));
+  }
+  if (undecided > 0) draw_hatch(svg, {box.right() - undecided, box.y, undecided, box.height});
+  draw_share(svg, cell, box);
+}
+
+/// The edges between a cell in which nothing slides, whatever the undecided do, and one in which
+/// something does or may; of columns and rows of single values only.
+std::vector<std::pair<Point, Point>> safe_edges(const CellGrid& grid, const Box& box) {
+  std::vector<std::pair<Point, Point>> edges;
+  if (grid.x.levels.empty() || grid.y.levels.empty()) return edges;
+  const double w = box.width / grid.x.n, h = box.height / grid.y.n;
+  const auto differ = [&](const MapCell& a, const MapCell& b) {
+    const auto is_safe = [](const MapCell& c) { return c.n_slide() + c.n_undecided() == 0; };
+    return a.n_known() > 0 && b.n_known() > 0 && is_safe(a) != is_safe(b);
+  };
+  for (int j = 0; j < grid.y.n; ++j) {
+    for (int i = 0; i < grid.x.n; ++i) {
+      const double right = box.x + (i + 1) * w, top = box.bottom() - (j + 1) * h;
+      if (i + 1 < grid.x.n && differ(grid.at(i, j), grid.at(i + 1, j)))
+        edges.push_back({{right, top}, {right, top + h}});
+      if (j + 1 < grid.y.n && differ(grid.at(i, j), grid.at(i, j + 1)))
+        edges.push_back({{right - w, top}, {right, top}});
+    }
+  }
+  return edges;
+}
+
+/// What colours, hatches and the line mean.
+void draw_share_key(Svg& svg, Point place, bool has_edges) {
+  const auto say = [&](double width, const std::string& words) {
+    place.x += width + 6;
+    svg.text(place, words, {kLabelSize, kInk});
+    place.x += text_width(words, kLabelSize) + 8;
+  };
+  constexpr int kParts = 20;
+  for (int k = 0; k < kParts; ++k)
+    svg.rect({place.x + 5.0 * k, place.y - 10, 5.0 * (kParts - k), 11},
+             share_colour((k + 0.5) / kParts));
+  say(5 * kParts, "0 to 100 % of the decided cases slide");
+  draw_hatch(svg, {place.x, place.y - 10, 26, 11});
+  say(26, "undecided by the cells (25–75: if none of these slide, if all do)");
+  if (!has_edges) return;
+  svg.line({place.x, place.y - 4}, {place.x + 22, place.y - 4}, {kInk, 2.5});
+  say(22, "nothing slides beyond it");
+}
+
+/// How many cases of each class, in words.
+std::string counts_text(const OutcomeMap& map) {
+  std::array<long, kCaseClasses> counts = {};
+  for (const CaseClass kind : map.kind) ++counts[static_cast<std::size_t>(kind)];
+  std::string text;
+  for (int k = 0; k < kCaseClasses; ++k) {
+    const long count = counts[static_cast<std::size_t>(k)];
+    if (count == 0) continue;
+    text += concat(text.empty() ? "" : "; ", to_string(static_cast<CaseClass>(k)), ": ",
+                   plain_number(static_cast<double>(count), 9));
+  }
+  if (counts[static_cast<std::size_t>(CaseClass::ended_early)] > 0) text += " (left out)";
+  return text;
+}
+
+/// Columns and rows of a few values are no larger than they need to be.
+Box box_of_cells(const CellGrid& grid, Box box) {
+  constexpr double kWidest = 110, kHighest = 46;
+  if (!grid.x.levels.empty()) box.width = std::min(box.width, kWidest * grid.x.n);
+  if (!grid.y.levels.empty()) box.height = std::min(box.height, kHighest * grid.y.n);
+  return box;
+}
+
+/// Names of columns and rows, as much of each as has room.
+CellGrid with_fitted_names(CellGrid grid, const Box& box) {
+  const auto fit = [](Axis& axis, double room) {
+    for (Tick& tick : axis.ticks) tick.label = fitted(tick.label, room, kTickSize);
+  };
+  if (!grid.x.levels.empty()) fit(grid.x.axis, box.width / grid.x.n - 4);
+  if (!grid.y.levels.empty()) fit(grid.y.axis, box.x - 30);
+  return grid;
+}
+
+void draw_cells(Svg& svg, const CellGrid& grid, const Box& box) {
+  Panel panel(svg, box, grid.x.axis, grid.y.axis);
+  const double w = box.width / grid.x.n, h = box.height / grid.y.n;
+  for (int j = 0; j < grid.y.n; ++j) {
+    for (int i = 0; i < grid.x.n; ++i)
+      draw_cell(svg, grid.at(i, j),
+                {box.x + i * w + 0.5, box.bottom() - (j + 1) * h + 0.5, w - 1, h - 1});
+  }
+  for (const auto& [from, to] : safe_edges(grid, box)) svg.line(from, to, {kInk, 2.5});
+  panel.frame();
 }
 
 }  // namespace
@@ -134,23 +263,31 @@ void draw_share_key(Svg& svg, Point place) {
 std::string draw(const OutcomeMap& map) {
   FAULTSIM_DEMAND(map.x.size() == map.y.size() && map.x.size() == map.kind.size(),
                   "columns of different length");
-  constexpr double kWidth = 860, kHeight = 420, kRight = 24;
-  double words = 40;
-  for (const std::string& word : map.y_words) words = std::max(words, text_width(word, kTickSize));
-  const double left = std::min(words, 180.0) + 36;
-  const double heading = (map.remark.empty() ? 30 : 48) + 26;
-  Svg svg(kWidth, heading + kHeight + 48, map.title);
-  draw_heading(svg, map.title, map.remark, 16);
-  Panel panel(svg, {left, heading, kWidth - left - kRight, kHeight},
-              map_axis(map.x_label, map.x, map.x_words), map_axis(map.y_label, map.y, map.y_words));
-  if (map.x.size() <= kMostDots) {
-    draw_class_key(svg, map, {left + 6, heading - 10});
-    draw_dots(svg, panel, map);
-  } else {
-    draw_share_key(svg, {left, heading - 10});
-    draw_bins(svg, panel, map);
+  if (map.x.empty()) {
+    Svg svg(kMapWidth, 80, map.title);
+    draw_heading(svg, map.title, map.remark, 16);
+    svg.text({16, 66}, "No case with both parameters has a result yet.", {kLabelSize, kFaint});
+    return svg.finish();
   }
-  panel.frame();
+  double names = 40;
+  for (const std::string& word : map.y_words) names = std::max(names, text_width(word, kTickSize));
+  const double left = std::min(names, 180.0) + 36;
+  const double heading = (map.remark.empty() ? 30 : 48) + 26;
+  Box box{left, heading, kMapWidth - left - kMapRight, kMapHeight};
+  if (can_be_dots(map, box)) {
+    Svg svg(kMapWidth, heading + kMapHeight + 48, map.title);
+    draw_heading(svg, map.title, map.remark, 16);
+    draw_dots(svg, map, box);
+    return svg.finish();
+  }
+  const CellGrid grid = counted(map);
+  box = box_of_cells(grid, box);
+  box.y += 20;
+  Svg svg(kMapWidth, box.bottom() + 48, map.title);
+  draw_heading(svg, map.title, map.remark, 16);
+  svg.text({16, box.y - 32}, counts_text(map), {kLabelSize, kFaint});
+  draw_share_key(svg, {16, box.y - 12}, !safe_edges(grid, box).empty());
+  draw_cells(svg, with_fitted_names(grid, box), box);
   return svg.finish();
 }
 

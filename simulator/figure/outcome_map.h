@@ -19,9 +19,12 @@ constexpr auto words(CaseClass) {
                     "ended early"};
 }
 
-/// Cases of a campaign over two of its parameters. Up to kMostDots cases are dots; more are counted
-/// in squares coloured by the share that slides of those that are decided, so that the drawing's
-/// size has a bound; a stroke crosses squares of which most are not.
+/// Cases of a campaign over two of its parameters. Where no two lie over each other, each is a mark
+/// of its class. Else they are counted in cells, one for each value of a parameter that has few, so
+/// that none is hidden and the drawing's size has a bound: a cell has the colour of the share that
+/// slides of those that are decided, is hatched in the share that is undecided, and says the share
+/// where there is room. Where both parameters have few values a line separates cells in which
+/// nothing slides, nor may, from the others.
 struct OutcomeMap {
   std::string title, remark;
   std::string x_label, y_label;  ///< with units.

@@ -47,10 +47,9 @@ std::string chi_colour(double chi) {
   return hex(between(kNone, kBlue, std::clamp(chi / 0.8, 0.0, 1.0)));
 }
 
-std::string sequential_colour(double share) {
-  // Lightness falls evenly: pale yellow, green, dark blue (after ColorBrewer's YlGnBu).
+std::string share_colour(double share) {
   static constexpr Rgb kStops[] = {
-      {255, 255, 217}, {199, 233, 180}, {65, 182, 196}, {34, 94, 168}, {8, 29, 88}};
+      {232, 240, 248}, {253, 224, 150}, {240, 155, 64}, {192, 64, 32}, {110, 10, 40}};
   const double place = std::clamp(share, 0.0, 1.0) * (std::size(kStops) - 1);
   const auto k = std::min(static_cast<std::size_t>(place), std::size(kStops) - 2);
   return hex(between(kStops[k], kStops[k + 1], place - static_cast<double>(k)));

@@ -31,7 +31,8 @@ std::string fault_ink(std::size_t k);
 std::string chi_colour(double chi);
 /// From here on a χ counts as 1: the tolerance to which slipping nodes keep to their strength.
 inline constexpr double kChiAtLimit = 1 - 1e-6;
-/// Colour of a share of the range of anything else, from light (0) to dark (1); cut off at both.
-std::string sequential_colour(double share);
+/// Colour of a share of cases that slide: lightness falls throughout, from pale blue (none) by
+/// yellow and orange to the dark red of the limit (all); cut off at both ends.
+std::string share_colour(double share);
 
 }  // namespace faultsim::figure

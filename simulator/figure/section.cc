@@ -27,7 +27,8 @@ void draw_rocks(Svg& svg, const Panel& panel, const Section& section) {
     if (box.height < 14) continue;
     const double x = rock.is_reservoir ? box.x + box.width / 2 : box.x + 8;
     const Anchor anchor = rock.is_reservoir ? Anchor::middle : Anchor::start;
-    const double y = rock.is_reservoir ? box.y + box.height / 2 + 4 : box.y + 16;
+    const double middle = box.y + box.height / 2 + 4;  // where a thin one has its name, too
+    const double y = rock.is_reservoir ? middle : std::min(box.y + 16, middle);
     const std::string words = rock.note.empty() ? rock.name : rock.name + ", " + rock.note;
     svg.begin_group({{"data-rock", rock.name}});
     svg.text({x, y}, fitted(words, box.width - 10, kLabelSize), {kLabelSize, kInk, anchor});

@@ -29,21 +29,39 @@ std::pair<Axis, Axis> stress_axes(const StressPath& path) {
           axis_between("shear stress |τ|, MPa", low_t, low_t + unit * kPathHeight, 6)};
 }
 
-void draw_strength(Svg& svg, Panel& panel, double cohesion, double slope, const std::string& word,
-                   const Stroke& stroke) {
+/// Where along a line, as a share of it, its name is farthest from the path.
+double place_of_name(const Panel& panel, const StressPath& path, Point a, Point b) {
+  double best = 0.5, farthest = -1;
+  for (const double share : {0.15, 0.3, 0.45, 0.6, 0.75, 0.85}) {
+    const Point at{a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
+    double nearest = INFINITY;
+    for (std::size_t k = 0; k < path.normal.size(); ++k) {
+      const Point p = panel.at(path.normal[k], path.shear[k]);
+      nearest = std::min(nearest, std::hypot(p.x - at.x, p.y - at.y));
+    }
+    if (nearest <= farthest) continue;
+    best = share;
+    farthest = nearest;
+  }
+  return best;
+}
+
+void draw_strength(Svg& svg, Panel& panel, const StressPath& path, double slope,
+                   const std::string& word, const Stroke& stroke) {
+  const double cohesion = path.cohesion;
   const double end = panel.x().to;
   panel.curve({0, end}, {cohesion, cohesion + slope * end}, stroke);
   const double up = std::min(end, slope > 0 ? (panel.y().to - cohesion) / slope : end);
   const Point a = panel.at(0, cohesion), b = panel.at(up, cohesion + slope * up);
   const double angle = std::atan2(b.y - a.y, b.x - a.x);
-  const double at = 0.62;
+  const double at = place_of_name(panel, path, a, b);
   svg.text(
       {a.x + at * (b.x - a.x) + 7 * std::sin(angle), a.y + at * (b.y - a.y) - 7 * std::cos(angle)},
       word,
       {.size = kLabelSize, .colour = stroke.colour, .rotation = angle * 180 / std::numbers::pi});
 }
 
-void draw_circle(Svg& svg, Panel& panel, const StressPath::Circle& circle) {
+void draw_circle(Panel& panel, const StressPath::Circle& circle) {
   constexpr int kParts = 90;
   const double centre = (circle.largest + circle.smallest) / 2;
   const double radius = (circle.largest - circle.smallest) / 2;
@@ -54,8 +72,6 @@ void draw_circle(Svg& svg, Panel& panel, const StressPath::Circle& circle) {
     y.push_back(radius * std::sin(angle));
   }
   panel.curve(x, y, {kFaint, 1.25});
-  const Point top = panel.at(centre, radius);
-  svg.text({top.x, top.y - 6}, "rock before production", {kTickSize, kFaint, Anchor::middle});
 }
 
 void draw_path(Svg& svg, Panel& panel, const StressPath& path) {
@@ -98,10 +114,10 @@ std::string draw(const StressPath& path) {
   auto [normal, shear] = stress_axes(path);
   Panel panel(svg, {kPathLeft, heading, kPathPlot, kPathHeight}, std::move(normal),
               std::move(shear));
-  if (path.circle) draw_circle(svg, panel, *path.circle);
-  draw_strength(svg, panel, path.cohesion, path.friction, "strength", {"#b0003a", 1.75});
+  if (path.circle) draw_circle(panel, *path.circle);
+  draw_strength(svg, panel, path, path.friction, "strength", {"#b0003a", 1.75});
   if (path.weakened) {
-    draw_strength(svg, panel, path.cohesion, *path.weakened, "weakened", {"#b0003a", 1.25, "6 3"});
+    draw_strength(svg, panel, path, *path.weakened, "weakened", {"#b0003a", 1.25, "6 3"});
   }
   draw_path(svg, panel, path);
   panel.frame();

@@ -106,6 +106,14 @@ std::string fitted(const std::string& text, double width, double size) {
   return part.empty() ? "" : part + "…";
 }
 
+std::string json_in_html(std::string json) {
+  constexpr std::string_view kEscape = "\\u003c";
+  std::string escaped;
+  escaped.reserve(json.size());
+  for (const char c : json) c == '<' ? escaped += kEscape : escaped += c;
+  return escaped;
+}
+
 std::string on_page(const std::string& svg) { return "<div class=\"chart\">" + svg + "</div>\n"; }
 
 Svg::Svg(double width, double height, const std::string& title) : width_(width), height_(height) {

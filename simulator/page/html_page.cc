@@ -44,13 +44,10 @@ void HtmlPage::paragraph(const std::string& text, std::string_view kind) {
 
 void HtmlPage::chart(const std::string& svg) { body_ += figure::on_page(svg); }
 
-/// Without a "<" that could end the element.
-void HtmlPage::data(const std::string& id, std::string json) {
-  for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', at))
-    json.replace(at, 1, "\\u003c");
+void HtmlPage::data(const std::string& id, const std::string& json) {
   body_ += concat("<script type=\"application/json\"",
-                  id.empty() ? std::string() : concat(" id=\"", escape_xml(id), "\""), ">", json,
-                  "</script>\n");
+                  id.empty() ? std::string() : concat(" id=\"", escape_xml(id), "\""), ">",
+                  figure::json_in_html(json), "</script>\n");
 }
 
 void HtmlPage::details(const std::string& summary, const std::string& text) {

@@ -25,7 +25,7 @@ class HtmlPage {
   void add(std::string_view html) { body_ += html; }
   /// Data for the page's script, or for who reads the page: JSON in an element that nothing runs.
   /// @param id  of the element; "" = none.
-  void data(const std::string& id, std::string json);
+  void data(const std::string& id, const std::string& json);
   /// Text to be opened, as it is.
   void details(const std::string& summary, const std::string& text);
   /// What body adds, or, where it throws InputError, the reason: an empty state says why.

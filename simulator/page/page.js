@@ -1,6 +1,6 @@
 "use strict";
-// Tables that are sorted and filtered. A row is known by its number in the order it was ranked in; a column is its different texts
-// and, per row, which of them stands there. Only the rows of one page are elements, however many there are.
+// Tables that are sorted and filtered. A row is known by its number in the order it was ranked in; a column says of a row its text
+// and its place among all, -1 for nothing. Only the rows of one page are elements, however many there are.
 const rows_of_a_page = 100;
 function number_of(text) {  // of "0.83 \u00b1 0.02", "+3" and "1,440" too; NaN for words
   const value = text.split(" \u00b1")[0].replace(/,/g, "").replace("\u2212", "-");
@@ -39,18 +39,37 @@ function places_of(texts) {
   order.forEach((k, n) => { places[k] = n > 0 && compare(order[n - 1], k) === 0 ? places[order[n - 1]] : n; });
   return places;
 }
+/** A column of which each row has one of some texts. */
+function column_of(texts, at) {
+  let places = null;
+  return {
+    text: (row) => texts[at(row)],
+    passing: (passes) => { const each = texts.map(passes); return (row) => each[at(row)]; },
+    place: (row) => (places = places || places_of(texts))[at(row)],
+  };
+}
+/** A column of numbers that are not negative, given as whole ones. */
+function column_of_numbers(numbers, decimals) {
+  const text = (row) => {
+    if (decimals === 0) return String(numbers[row]);
+    const digits = String(numbers[row]).padStart(decimals + 1, "0"), point = digits.length - decimals;
+    return (digits.slice(0, point) + "." + digits.slice(point)).replace(/\.?0*$/, "");
+  };
+  return {text, passing: (passes) => (row) => passes(text(row)), place: (row) => numbers[row]};
+}
 /** Columns that stand in the table whole. */
 function columns_of_elements(table) {
   const rows = Array.from(table.tBodies[0].rows);
   return Array.from(table.tHead.rows[0].cells, (head, k) =>
-    ({texts: rows.map((row) => row.cells[k].textContent), at: Uint32Array.from(rows.keys())}));
+    column_of(rows.map((row) => row.cells[k].textContent), (row) => row));
 }
-/** Columns of the data that hold all rows of a table of which only the first are elements. */
+/** Columns of the data that hold all rows of a table of which only the first are elements: campaign/render/row_data.h. */
 function columns_of_data(data) {
   return data.columns.map((column) => {
-    if (!column.at) return {texts: column.texts, at: Uint32Array.from({length: data.rows}, (unused, k) => k)};
-    const bytes = Uint8Array.from(atob(column.at), (c) => c.charCodeAt(0));
-    return {texts: column.texts, at: column.texts.length > 256 ? new Uint16Array(bytes.buffer) : bytes};
+    if (!column.at) return column_of(column.texts, column.texts.length === 1 ? () => 0 : (row) => row);
+    const bytes = atob(column.at), numbers = new Float64Array(data.rows), width = column.bytes;
+    for (let k = 0; k < bytes.length; ++k) numbers[Math.floor(k / width)] += bytes.charCodeAt(k) * 256 ** (k % width);
+    return column.texts ? column_of(column.texts, (row) => numbers[row]) : column_of_numbers(numbers, column.decimals);
   });
 }
 function button(words, go) {
@@ -63,9 +82,11 @@ function button(words, go) {
 function make_sortable(table) {
   const body = table.tBodies[0], heads = Array.from(table.tHead.rows[0].cells);
   const stored = document.querySelector("script[data-rows-of='" + table.dataset.table + "']");
-  const columns = stored ? columns_of_data(JSON.parse(stored.textContent)) : columns_of_elements(table);
+  const data = stored ? JSON.parse(stored.textContent) : {rows: body.rows.length};
+  const columns = stored ? columns_of_data(data) : columns_of_elements(table);
+  if (stored) stored.remove();  // megabytes of text
   const classes = heads.map((head) => head.className);
-  const n_rows = columns[0].at.length, said = document.getElementById(table.dataset.filter);
+  const n_rows = data.rows, said = document.getElementById(table.dataset.filter);
   let shown = [], first = 0, by = -1, steps = 0, falling = false;  // rows that pass, in their order; of them the first on the page
   const pager = document.createElement("p");
   pager.className = "pager";
@@ -82,7 +103,7 @@ function make_sortable(table) {
       const line = document.createElement("tr");
       columns.forEach((column, k) => {
         const cell = line.insertCell();
-        cell.textContent = column.texts[column.at[row]];
+        cell.textContent = column.text(row);
         if (classes[k]) cell.className = classes[k];
       });
       return line;
@@ -98,14 +119,13 @@ function make_sortable(table) {
     const tests = [];
     inputs.forEach((input, k) => {
       const passes = condition_of(input.value);
-      if (passes) tests.push([columns[k].at, Uint8Array.from(columns[k].texts, (text) => passes(text) ? 1 : 0)]);
+      if (passes) tests.push(columns[k].passing(passes));
     });
     shown = [];
     for (let row = 0; row < n_rows; ++row)
-      if (tests.every(([at, passes]) => passes[at[row]] === 1)) shown.push(row);
+      if (tests.every((passes) => passes(row))) shown.push(row);
     if (by >= 0) {
-      const column = columns[by], places = column.places || (column.places = places_of(column.texts));
-      const place = (row) => places[column.at[row]];
+      const place = columns[by].place;
       shown.sort((a, b) => {  // nothing is last either way
         const x = place(a), y = place(b);
         if (x === y) return a - b;
@@ -116,9 +136,13 @@ function make_sortable(table) {
     first = 0;
     fill();
   }
+  function has_numbers(column) {
+    for (let row = 0; row < n_rows; ++row) if (!Number.isNaN(number_of(column.text(row)))) return true;
+    return false;
+  }
   /** Numbers fall first, words rise; then the other way; then as it was ranked. */
   function sort_by(k) {
-    if (by !== k) by = k, steps = 0, falling = columns[k].texts.some((text) => !Number.isNaN(number_of(text)));
+    if (by !== k) by = k, steps = 0, falling = has_numbers(columns[k]);
     else if (++steps === 1) falling = !falling;
     else by = -1;
     heads.forEach((head, i) => head.setAttribute("aria-sort", i !== by ? "none" : falling ? "descending" : "ascending"));

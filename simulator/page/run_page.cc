@@ -1,5 +1,7 @@
 #include "simulator/page/run_page.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "simulator/common/errors.h"
@@ -25,6 +27,16 @@ void add_answer(HtmlPage& page, const CaseResult& result) {
     page.paragraph(sentence, "answer");
   for (const std::string& sentence : {unexpected_sentence(result), creep_sentence(result)})
     if (!sentence.empty()) page.paragraph(sentence);
+}
+
+/// As a number of few digits has them: a moment of 9,920,794 is known to be 9,920,000.
+double rounded(double value, int digits) {
+  return std::strtod(formatted("%.*e", digits - 1, value).c_str(), nullptr);
+}
+
+std::string blank_for_dash(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
 }
 
 /// Words of a flag that cells may leave open.
@@ -55,17 +67,18 @@ void add_stages(HtmlPage& page, const CaseResult& result) {
   head("slides from", true);
   html += "</tr></thead>\n<tbody>\n";
   const auto number = [](double value, int digits) {
-    return concat("<td>", escape_xml(plain_number(value, digits)), "</td>");
+    return concat("<td>", escape_xml(plain_number(rounded(value, digits), digits)), "</td>");
   };
   const auto words = [](const std::string& text) {
     return concat("<td class=\"words\">", escape_xml(text), "</td>");
   };
   for (const StageMetrics& stage : result.stages) {
     for (const FaultStageMetrics& fault : stage.faults) {
-      html += "<tr>" + words(stage.stage) + words(fault.fault) + number(fault.chi_bar, 3) +
-              words(sliding_words(fault)) + number(fault.max_slip / kMillimetre, 3) +
-              number(fault.activated_area, 3) + number(fault.moment, 3) +
-              number(fault.n_events, 4) + words(onset_words(fault)) + "</tr>\n";
+      html += "<tr>" + words(blank_for_dash(stage.stage)) + words(fault.fault) +
+              number(fault.chi_bar, 3) + words(sliding_words(fault)) +
+              number(fault.max_slip / kMillimetre, 3) + number(fault.activated_area, 3) +
+              number(fault.moment, 3) + number(fault.n_events, 4) + words(onset_words(fault)) +
+              "</tr>\n";
     }
   }
   page.add(html + "</tbody></table></div>\n");

@@ -28,6 +28,7 @@ class CsvHistories {
     start_ = start_date(reader_, scene_);
     read_tables();
     remark_idle();
+    scene_.start_date = start_ ? start_ : first_start_;
   }
 
  private:

@@ -386,6 +386,8 @@ struct Scene {
   std::vector<Stage> stages;
   std::vector<PressureHistory> pressure;  ///< per region; empty histories next to a flow load.
   std::vector<TemperatureHistory> temperature;  ///< of regions whose temperature changes.
+  /// The date of time 0, s since 1970-01-01, where it is known; never part of a case's identity.
+  std::optional<double> start_date = {};
   FlowLoad pressure_field, temperature_field;
   bool has_field() const { return pressure_field.is_given() || temperature_field.is_given(); }
   Numerics numerics;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -10,6 +11,7 @@
 
 #include "simulator/case_figures/field_section.h"
 #include "simulator/case_figures/picture_file.h"
+#include "simulator/common/dates.h"
 #include "simulator/common/errors.h"
 #include "simulator/documents/json_document.h"
 #include "simulator/figure/palette.h"
@@ -106,6 +108,48 @@ TEST(DrawCase, DrawsWhatTheHistoryHoldsWithoutFields) {
   EXPECT_THAT(draw_case(picture, {CaseChart::section, {}, 1, false}),
               HasSubstr("west, Δp −100 bar"));
   EXPECT_THAT(draw_case(picture, {CaseChart::history, {}, {}, false}), HasSubstr(">gas storage<"));
+}
+
+/// Years of the calendar, at their first of January.
+TEST(DrawCase, HasDatesWhereTheSceneHas) {
+  Scene scene = field_scene();
+  const CaseResult result = small_result();
+  const CasePicture picture{result, scene, nullptr, {}};
+  const std::string without = draw_case(picture, {CaseChart::history, {}, {}, false});
+  EXPECT_THAT(without, HasSubstr(">time, years<"));
+  scene.start_date = parse_date("1990-07-02");  // 182 days into the year
+  const std::string svg = draw_case(picture, {CaseChart::history, {}, {}, false});
+  EXPECT_THAT(svg, HasSubstr(">date<"));
+  EXPECT_THAT(svg, Not(HasSubstr("years")));
+  const auto x_of = [&](const std::string& year) {
+    for (const auto& one : figure::elements_of(svg, "text", "text-anchor", "middle"))
+      if (one.text == year) return one.number("x");
+    return std::nan("");
+  };
+  const double per_year = (x_of("2000") - x_of("1992")) / 8;
+  const auto frames = figure::elements_of(svg, "rect", "fill", "none");
+  ASSERT_FALSE(frames.empty());
+  EXPECT_NEAR(x_of("1992") - frames[0].number("x"), 1.5 * per_year, 0.01 * per_year);
+  EXPECT_THAT(draw_case(picture, {CaseChart::section, {}, 1, false}),
+              HasSubstr("primary production, 1995-07-02 (5 years)"));
+}
+
+/// A field that only cools has a line that says so.
+TEST(DrawCase, HasTheTemperatureOfRegionsThatCool) {
+  Scene scene = field_scene();
+  constexpr double kYear = 365.25 * 86400;
+  scene.temperature = {{1, {0, 10 * kYear}, {0, -40}}};
+  const CaseResult result = small_result();
+  const std::string svg =
+      draw_case({result, scene, nullptr, {}}, {CaseChart::history, {}, {}, false});
+  EXPECT_THAT(svg, HasSubstr("ΔT, K"));
+  const auto lines =
+      figure::elements_of(svg, "polyline", "stroke", figure::fault_stroke(13).colour);
+  const auto has_half = [](const figure::SvgElement& one) {  // −20 K after five of ten years
+    const auto p = one.points();
+    return p.size() == 3 && std::abs(p[1].y - (p[0].y + p[2].y) / 2) < 0.02 && p[2].y > p[0].y + 50;
+  };
+  EXPECT_TRUE(std::ranges::any_of(lines, has_half));
 }
 
 TEST(DrawCase, RefusesWhatIsNotThereAndSaysWhatIs) {

@@ -330,20 +330,6 @@ TEST(Charts, AreTheSameBytesAgainAndHaveNoIds) {
   for (const std::string& svg : every_chart()) EXPECT_THAT(svg, Not(HasSubstr(" id=")));
 }
 
-TEST(OutcomeMapChart, HasABoundedSizeForAnyNumberOfCases) {
-  OutcomeMap map;
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  for (int k = 0; k < 100000; ++k) {
-    map.x.push_back(uniform(random));
-    map.y.push_back(uniform(random));
-    map.kind.push_back(map.x.back() > 0.5 ? CaseClass::slides : CaseClass::holds);
-  }
-  const std::string svg = draw(map);
-  EXPECT_EQ(xml_problem(svg), "");
-  EXPECT_LT(svg.size(), 300'000U);
-}
-
 TEST(XmlCheck, SeesWhatIsNotWellFormed) {
   EXPECT_EQ(xml_problem("<a b=\"1\"><c/>x &amp; y</a>"), "");
   EXPECT_NE(xml_problem("<a><b></a></b>"), "");

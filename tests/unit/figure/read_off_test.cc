@@ -271,7 +271,7 @@ TEST(ReadOff, SquaresOfAMapHaveTheShareThatSlidesOfThoseThatAreKnown) {
   const std::string svg = draw(map);
   const ReadScale x = read_scale(svg, true), y = read_scale(svg, false);
   const auto expect_square = [&](double at, double share) {
-    const auto squares = elements_of(svg, "rect", "fill", sequential_colour(0.08 + 0.92 * share));
+    const auto squares = elements_of(svg, "rect", "fill", share_colour(share));
     bool is_there = false;
     for (const SvgElement& one : squares) {
       const double left = one.number("x"), top = one.number("y");

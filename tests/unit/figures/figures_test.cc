@@ -130,6 +130,71 @@ TEST_F(FiguresTest, TheMapHasEachCaseAtItsParameters) {
   }
 }
 
+/// Of what the map's axes say there is one way: that of the tables.
+TEST_F(FiguresTest, TheMapHasTheUnitsOfTheTablesAndNamesInsteadOfPointers) {
+  Submission s;
+  s.name = "units";
+  s.scenes = {{"scene.json", "{}"}};
+  s.families = {{"family-a", 1000, 100, 1, 1}};
+  s.parameters = {{"cohesion", Dimension::pressure, false},
+                  {"/pressure_field/file", Dimension::number, true}};
+  s.cases = {{"a", 0, 0, "{}", {{0, 3e5, "0.3 MPa"}, {1, std::nullopt, "one.csv"}}},
+             {"b", 0, 0, "{}", {{0, 6e5, "0.6 MPa"}, {1, std::nullopt, "two.csv"}}},
+             {"c", 0, 0, "{}", {{0, 6e5, "0.6 MPa"}, {1, std::nullopt, "two.csv"}}}};
+  s.spec_resolved = json{{"groups", {{{"kind", "list"}, {"parameters", json::array()}}}}}.dump();
+  store_->submit(s);
+  campaign_ = store_->campaign("");
+  std::vector<RunRecord> runs(3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    runs[k].case_id = static_cast<long>(k) + 1;
+    runs[k].status = RunStatus::completed;
+    runs[k].result = testing::made_up_result(k == 2 ? 0.8 : 0.2);
+  }
+  store_->record_runs(campaign_.id, runs);
+  const std::string svg = draw_outcome_map(*store_, store_->campaign(""), {});
+  for (const char* text : {">cohesion, MPa<", ">pressure field: file<", ">0.3<", ">0.6<",
+                           ">one.csv<", ">50<", "What became of 3 cases of units"})
+    EXPECT_THAT(svg, HasSubstr(text));
+}
+
+TEST_F(FiguresTest, ACampaignOfOneParameterHasAMapOfOneRow) {
+  Submission s;
+  s.name = "one";
+  s.scenes = {{"scene.json", "{}"}};
+  s.families = {{"family-a", 1000, 100, 1, 1}};
+  s.parameters = {{"offset", Dimension::length, false}};
+  s.cases = {{"a", 0, 0, "{}", {{0, 0.0, "0 m"}}}, {"b", 0, 0, "{}", {{0, 100.0, "100 m"}}}};
+  s.spec_resolved = json{{"groups", {{{"kind", "list"}, {"parameters", json::array()}}}}}.dump();
+  store_->submit(s);
+  const std::string none = draw_outcome_map(*store_, store_->campaign(""), {});
+  EXPECT_THAT(none, HasSubstr("has a result yet"));
+  RunRecord run;
+  run.case_id = 2;
+  run.status = RunStatus::completed;
+  run.result = testing::made_up_result(0.8);
+  store_->record_runs(store_->campaign("").id, {run});
+  const std::string svg = draw_outcome_map(*store_, store_->campaign(""), {});
+  EXPECT_EQ(xml_problem(svg), "");
+  EXPECT_THAT(svg, HasSubstr("What became of 1 case of one"));
+  EXPECT_THAT(svg, HasSubstr("offset, m"));
+}
+
+/// The elements are the first rows; the data have every one.
+TEST_F(FiguresTest, ThePageHoldsEveryCase) {
+  submit(1500, 1500);
+  const std::string page = report_page(*store_, campaign_, {.program = "faultsweep test"});
+  EXPECT_THAT(page, HasSubstr("The first 100 of 1500 rows."));
+  const std::string tag = "data-rows-of=\"cases\">";
+  const std::size_t begin = page.find(tag) + tag.size();
+  const json data = json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+  EXPECT_EQ(data.at("rows"), 1500);
+  std::string riskiest_first;  // the larger its strength, the more slides, and strength grows
+  for (int k = 1500; k > 0; --k)
+    riskiest_first += {static_cast<char>(k % 256), static_cast<char>(k / 256)};
+  EXPECT_EQ(data.at("columns").at(1).at("at"), faultsim::base64(riskiest_first));
+  EXPECT_THAT(page, Not(HasSubstr("<b onload")));
+}
+
 TEST_F(FiguresTest, BarsAreThoseOfTheirParametersTheLargestFirst) {
   Sensitivity s;
   s.campaign.name = "sweep";

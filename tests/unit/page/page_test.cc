@@ -79,6 +79,15 @@ TEST(RunPage, SaysWhatBecameOfTheRun) {
   EXPECT_EQ(page, page_of(result, field_text())) << "the same bytes again";
 }
 
+/// No more digits than are known, however large; names without their dashes.
+TEST(RunPage, HasStagesAsReadersSayThem) {
+  CaseResult result = small_result();
+  result.stages[0].faults[1].moment = 9920794;
+  const std::string page = page_of(result, field_text());
+  EXPECT_THAT(page, HasSubstr("<td>9,920,000</td>"));
+  EXPECT_THAT(page, HasSubstr("<td class=\"words\">primary production</td>"));
+}
+
 TEST(RunPage, AsksForNothing) {
   std::string page = page_of(small_result(), field_text());
   EXPECT_THAT(page, HasSubstr("default-src 'none'; script-src 'sha256-"));

@@ -8,14 +8,17 @@
 #include <sstream>
 
 #include "campaign/render/render.h"
+#include "campaign/render/row_data.h"
 #include "campaign/render/shown.h"
 #include "simulator/common/errors.h"
+#include "simulator/common/text.h"
 
 namespace faultsweep {
 namespace {
 
 using faultsim::Dimension;
 using nlohmann::ordered_json;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -162,6 +165,107 @@ TEST(RenderHtml, EscapesAndLimitsRows) {
   EXPECT_THAT(html, Not(HasSubstr("<script>")));
   EXPECT_THAT(html, HasSubstr("and 1 more rows"));
   EXPECT_THAT(html, HasSubstr("data-value=\"1234000\""));
+}
+
+std::string bytes_of_base64(const std::string& text) {
+  const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  for (std::size_t i = 0; i + 3 < text.size(); i += 4) {
+    unsigned word = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+      word =
+          word * 64 + (text[i + k] == '=' ? 0U : static_cast<unsigned>(letters.find(text[i + k])));
+    for (const unsigned shift : {16U, 8U, 0U}) bytes += static_cast<char>(word >> shift & 255U);
+  }
+  return bytes;
+}
+
+/// What a page's script reads: the text of each row and column.
+std::vector<std::vector<std::string>> read_rows(const nlohmann::json& data) {
+  const auto n = data.at("rows").get<std::size_t>();
+  std::vector<std::vector<std::string>> rows(n);
+  for (const nlohmann::json& column : data.at("columns")) {
+    const std::string bytes = bytes_of_base64(column.value("at", ""));
+    const auto width = column.value("bytes", std::size_t{0});
+    for (std::size_t r = 0; r < n; ++r) {
+      std::uint64_t number = 0;
+      for (std::size_t k = width; k-- > 0;)
+        number = 256 * number + static_cast<unsigned char>(bytes.at(width * r + k));
+      if (column.contains("decimals")) {
+        const double power = std::pow(10.0, column["decimals"].get<int>());
+        rows[r].push_back(faultsim::formatted("%.9g", static_cast<double>(number) / power));
+      } else {
+        const nlohmann::json& texts = column.at("texts");
+        rows[r].push_back(texts.at(width > 0 ? number : texts.size() == 1 ? 0 : r));
+      }
+    }
+  }
+  return rows;
+}
+
+/// However many different texts a column has, and whatever they are.
+TEST(RowData, HasEveryRowAsTheScreenHasIt) {
+  AnswerTable table{"t",
+                    "",
+                    {{"one", "one"},
+                     {"few", "few"},
+                     {"many", "many"},
+                     {"sampled", "sampled", {}, 6},
+                     {"numbers", "numbers"},
+                     {"signs", "signs", {}, 6},
+                     {"errors", "errors"}}};
+  const auto sampled = [](int k) { return 0.001 + std::fmod(k * 0.6180339887498949, 1.0) * 30; };
+  for (int k = 0; k < 70000; ++k)
+    table.rows.push_back({1.5, k % 7 == 0 ? AnswerCell() : AnswerCell(faultsim::concat("w", k % 7)),
+                          k % 1031, sampled(k), 70000 - k, sampled(k) - 15,
+                          AnswerCell(k / 3.0, 0.1)});
+  table.rows.push_back({1.5, "w1", 7, 0.0, 0, 0.0});  // ends early
+  const nlohmann::json data = nlohmann::json::parse(row_data(table, {0, 1, 2, 3, 4, 5, 6}));
+  const auto& columns = data["columns"];
+  EXPECT_FALSE(columns[0].contains("at")) << "one text for all";
+  EXPECT_EQ(columns[1]["bytes"], 1);
+  EXPECT_EQ(columns[2]["bytes"], 2);
+  EXPECT_GT(columns[3]["decimals"], 4) << "as small ones have more";
+  EXPECT_EQ(columns[4]["decimals"], 0);
+  EXPECT_FALSE(columns[5].contains("decimals")) << "some are negative";
+  EXPECT_FALSE(columns[6].contains("at")) << "nearly every row has its own, with its error";
+  const auto rows = read_rows(data);
+  ASSERT_EQ(rows.size(), table.rows.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (std::size_t k = 0; k < table.columns.size(); ++k) {
+      const AnswerCell cell = k < table.rows[r].size() ? table.rows[r][k] : AnswerCell();
+      ASSERT_EQ(rows[r][k], shown_cell(cell, table.columns[k])) << r << " " << k;
+    }
+  }
+}
+
+/// What looks like a number but is spelled otherwise stays a text.
+TEST(RowData, KeepsTheSpellingOfNumbers) {
+  AnswerTable table{"t", "", {{"a", "a"}}};
+  for (int k = 0; k < 600; ++k) table.rows.push_back({faultsim::concat(k, k == 300 ? ".50" : "")});
+  const auto rows = read_rows(nlohmann::json::parse(row_data(table, {0})));
+  EXPECT_EQ(rows[300][0], "300.50");
+  EXPECT_EQ(rows[299][0], "299");
+}
+
+TEST(RowData, IsOfTheColumnsThatAreAskedFor) {
+  AnswerTable table{"t", "", {{"a", "a"}, {"b", "b"}, {"c", "c"}}};
+  table.rows.push_back({1, 2, 3});
+  EXPECT_THAT(read_rows(nlohmann::json::parse(row_data(table, {2, 0}))),
+              ElementsAre(ElementsAre("3", "1")));
+}
+
+/// A text in the data cannot end the element.
+TEST(RenderHtml, KeepsDataInTheirElement) {
+  AnswerTable table{"t", "", {{"a", "a"}}};
+  table.is_sortable = true;
+  for (int k = 0; k < 101; ++k) table.rows.push_back({"</script><b>"});
+  Answer answer;
+  answer.add(table);
+  const std::string html = render_html(answer);
+  EXPECT_THAT(html, Not(HasSubstr("<b>")));
+  EXPECT_EQ(html.find("</script>"), html.rfind("</script>"));
+  EXPECT_THAT(html, HasSubstr("\\u003c/script>"));
 }
 
 /// An answer of random tables.
