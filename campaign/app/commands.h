@@ -64,6 +64,7 @@ void add_samples(Program& program);  ///< probability, posterior, sensitivity.
 void add_tiers(Program& program);
 void add_pictures(Program& program);  ///< plot, report.
 void add_serving(Program& program);
+void add_sheet(Program& program);
 void add_limits(Program& program);
 void add_pillars(Program& program);  ///< pillars, map.
 void add_tables(Program& program);   ///< export, compare.

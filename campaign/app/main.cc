@@ -23,6 +23,7 @@ constexpr const char* kFooter =
     "  faultsweep rank --where \"F2.slides in gas_storage and not F1.slides\"\n"
     "  faultsweep show 17                            one case: stages, faults, chi history\n"
     "  faultsweep report -o report.html              all of it on one page, with pictures\n"
+    "  faultsweep sheet --fault F2 -o f2.html        what an authority asks of it, on one page\n"
     "  faultsweep serve                              the store in a browser, also while it runs\n"
     "  faultsweep export -o cases.csv                all cases, for pandas or a spreadsheet\n"
     "  faultsweep compare coarse fine                two campaigns, case by case\n"
@@ -50,8 +51,9 @@ ExitCode faultsweep_main(int argc, char** argv) {
   program.common.store = default_store();
   add_submitting(program);
   add_running(program, argc, argv);
-  for (const auto add : {add_reading, add_samples, add_tiers, add_pictures, add_serving, add_limits,
-                         add_pillars, add_tables, add_nightly, add_tradeoff, add_caring})
+  for (const auto add :
+       {add_reading, add_samples, add_tiers, add_pictures, add_sheet, add_serving, add_limits,
+        add_pillars, add_tables, add_nightly, add_tradeoff, add_caring})
     add(program);
   try {
     app.parse(argc, argv);

@@ -13,6 +13,7 @@
 #include "simulator/figure/bar_chart.h"
 #include "simulator/figure/history_chart.h"
 #include "simulator/figure/outcome_map.h"
+#include "simulator/figure/range_bars.h"
 
 /// An answer as one value. Commands compute it; screen, JSON, CSV and page are renderings of it
 /// (render.h), so that what one of them says the others say.
@@ -115,7 +116,8 @@ struct AnswerNote {
 
 /// On pages only: its numbers stand in a table.
 using AnswerChart = std::variant<faultsim::figure::BarChart, faultsim::figure::IntervalChart,
-                                 faultsim::figure::HistoryChart, faultsim::figure::OutcomeMap>;
+                                 faultsim::figure::HistoryChart, faultsim::figure::OutcomeMap,
+                                 faultsim::figure::RangeBars>;
 
 using AnswerBlock = std::variant<AnswerTable, AnswerNote, AnswerChart>;
 

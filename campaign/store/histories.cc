@@ -113,6 +113,12 @@ std::string history_sql(const std::string& metric, std::int64_t fault, std::int6
                 " AND h.step = ", step, ")");
 }
 
+std::string stage_pressure_sql(std::size_t region, bool largest) {
+  return concat("(SELECT ", largest ? "max" : "min", "(json_extract(l.pressure_change_pa, '$[",
+                region, "]')) FROM load_steps l WHERE l.case_id = cc.case_id",
+                " AND l.step BETWEEN s.first_step - 1 AND s.last_step)");
+}
+
 std::vector<Store::LoadStep> Store::load_steps(std::int64_t campaign,
                                                const TableQuery& query) const {
   return connection_->rows<LoadStep, int, std::string, double, double, long>(

@@ -42,6 +42,10 @@ std::vector<std::string> history_metrics();
 /// @param whole_history  id of the stage "".
 std::string history_sql(const std::string& metric, std::int64_t fault, std::int64_t whole_history,
                         int step);
+/// The least, or the largest, pressure change (Pa) of a region from the beginning of the stage of
+/// the query, the end of the load step before, to its end, as metric_sql. NULL where the case has
+/// no such steps or regions.
+std::string stage_pressure_sql(std::size_t region, bool largest);
 /// Ids of the faults and stages that have metrics in a campaign.
 struct MetricIds {
   std::vector<std::int64_t> faults, stages;

@@ -48,6 +48,12 @@ struct CaseChartRequest {
 /// The chart as SVG. Throws InputError: no such fault or step, no fields, a section of a box.
 std::string draw_case(const CasePicture& picture, const CaseChartRequest& request);
 
+/// Where a fault (index) of a field lies: its section, small, with the fault marked and depths
+/// stretched by `place_stretch`. @param width  px. @pre the scene is a field.
+std::string draw_place(const Scene& scene, std::size_t fault, double width);
+/// How many times a depth is as long there as a distance across.
+double place_stretch(const Scene& scene, double width);
+
 /// What a page changes in the section and the histories (with_cursor) when it shows another step.
 struct StepLook {
   int step = 0;

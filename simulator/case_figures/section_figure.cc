@@ -87,6 +87,22 @@ std::string draw_section(const Chosen& chosen) {
 
 }  // namespace case_figures
 
+double place_stretch(const Scene& scene, double width) {
+  constexpr double kHeight = 130, kAxes = 160;  // px, names of layers too
+  const figure::Section section = field_section(scene);
+  const double scale = (width - kAxes) / (section.to - section.from);
+  return std::max(1.0, kHeight / ((section.base - section.top) * scale));
+}
+
+std::string draw_place(const Scene& scene, std::size_t fault, double width) {
+  figure::Section section = field_section(scene);
+  section.title = concat("Where fault ", scene.faults[fault].name, " is");
+  section.width = width;
+  section.stretch = place_stretch(scene, width);
+  section.marked = fault;
+  return figure::draw(section);
+}
+
 std::vector<StepLook> step_looks(const CasePicture& picture) {
   using namespace case_figures;
   std::vector<StepLook> looks;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,8 +8,8 @@
 
 namespace faultsim::figure {
 
-/// A vertical cut through a field, to scale: what lies where, and how near to sliding its faults
-/// are.
+/// A vertical cut through a field, to scale unless stretched: what lies where, and how near to
+/// sliding its faults are.
 struct Section {
   std::string title, remark;
   struct Rock {
@@ -29,6 +30,11 @@ struct Section {
   std::vector<FaultLine> faults;
   double from = 0, to = 1;   ///< m, across, that is shown.
   double top = 0, base = 1;  ///< m, depth, that is shown.
+  double width = 860;        ///< px, of the drawing.
+  double stretch = 1;        ///< of depths; 1 = to scale.
+  /// A fault (index, with points) that is told from the others, without χ, title and remark: a
+  /// picture of where it is.
+  std::optional<std::size_t> marked = {};
 };
 /// Faults stand in groups with the attribute data-fault, their number.
 std::string draw(const Section& section);

@@ -74,7 +74,7 @@ std::string HtmlPage::finish() const {
       content_policy(),
       "\">\n<meta name=\"viewport\" content=\"width=device-width\">\n"
       "<link rel=\"icon\" href=\"data:,\">\n<title>",
-      escape_xml(title_), "</title>\n<style>\n", embedded::page_css,
+      escape_xml(title_), "</title>\n<style>\n", embedded::page_css, styles_,
       "</style>\n</head>\n<body>\n<h1>", escape_xml(title_), "</h1>\n<nav>", nav, "</nav>\n", body_,
       "<script>", embedded::page_js, "</script>\n</body>\n</html>\n");
 }

@@ -23,6 +23,8 @@ class HtmlPage {
   void chart(const std::string& svg);  ///< a drawing.
   /// Tables, and what pages of their own have: taken as it is.
   void add(std::string_view html) { body_ += html; }
+  /// Further styles, after those that every page has.
+  void style(std::string_view css) { styles_ += css; }
   /// Data for the page's script, or for who reads the page: JSON in an element that nothing runs.
   /// @param id  of the element; "" = none.
   void data(const std::string& id, const std::string& json);
@@ -34,7 +36,7 @@ class HtmlPage {
   std::string finish() const;
 
  private:
-  std::string title_, body_;
+  std::string title_, body_, styles_;
   std::vector<std::string> sections_;  ///< ids.
 };
 
