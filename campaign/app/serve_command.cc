@@ -37,7 +37,7 @@ void say_address(const HttpServer& server, bool as_json) {
 ExitCode serve_store(const StoreArguments& common, const ServeArguments& arguments) {
   const std::optional<double> duration = seconds_of(arguments.duration);
   Store::open_reader(common.store);  // which says what is wrong with it
-  const StoreApi api(common.store);
+  StoreApi api(common.store);
   const faultsim::Stopwatch watch;
   HttpServer* running = nullptr;
   ServerSettings settings;

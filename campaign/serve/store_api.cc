@@ -77,7 +77,8 @@ bool ends_a_path(const std::string& text, std::size_t end) {
 
 }  // namespace
 
-StoreApi::StoreApi(const std::filesystem::path& store) : store_(std::filesystem::absolute(store)) {
+StoreApi::StoreApi(const std::filesystem::path& store)
+    : store_(std::filesystem::absolute(store)), stores_(store_) {
   std::error_code error;  // a folder that is not there has only one name
   const auto show = [&](const std::filesystem::path& path, const char* as) {
     for (const std::filesystem::path& one :
@@ -98,7 +99,7 @@ void StoreApi::require_store() const {
   throw StorageError(concat("the store ", store_.string(), " is gone; nothing is left to serve"));
 }
 
-HttpResponse StoreApi::answer(const HttpRequest& request) const {
+HttpResponse StoreApi::answer(const HttpRequest& request) {
   HttpResponse response = answer_with_paths(request);
   for (const auto& [path, as] : shown_) {
     for (std::size_t at = response.body.find(path); at != std::string::npos;
@@ -111,7 +112,7 @@ HttpResponse StoreApi::answer(const HttpRequest& request) const {
 }
 
 /// Errors become text here, as they do in run_program for a command: a request is one.
-HttpResponse StoreApi::answer_with_paths(const HttpRequest& request) const {
+HttpResponse StoreApi::answer_with_paths(const HttpRequest& request) {
   try {
     return answer_or_throw(request);
   } catch (const HttpError& error) {
@@ -131,7 +132,7 @@ HttpResponse StoreApi::answer_with_paths(const HttpRequest& request) const {
   }
 }
 
-HttpResponse StoreApi::answer_or_throw(const HttpRequest& request) const {
+HttpResponse StoreApi::answer_or_throw(const HttpRequest& request) {
   const std::vector<std::string>& path = request.path;
   if (path.empty() || (path.size() == 1 && path[0] == "api")) return list_routes();
   for (const auto* some : {&serve::answer_routes(), &serve::drawing_routes()}) {
@@ -139,9 +140,8 @@ HttpResponse StoreApi::answer_or_throw(const HttpRequest& request) const {
         std::ranges::find_if(*some, [&](const Route& route) { return leads(route, path); });
     if (found == some->end()) continue;
     const Asked asked(*found, request);
-    const Store store = Store::open_reader(store_);
-    store.hold_state();  // an answer takes several queries
-    return found->answer(store, asked);
+    const serve::OpenStores::Lease store = stores_.take();
+    return found->answer(*store, asked);
   }
   constexpr int kNotFound = 404;
   throw HttpError(kNotFound, "path", "there is nothing under this path",

@@ -5,12 +5,13 @@
 #include <utility>
 #include <vector>
 
+#include "campaign/serve/open_stores.h"
 #include "campaign/serve/request.h"
 
 namespace faultsweep {
 
 /// What a store says over HTTP, without sockets: the answers of the commands as the JSON that they
-/// print with --json, and drawings as SVG. Each request opens the store anew, to read, so what a
+/// print with --json, and drawings as SVG. Each request sees the store as it is then, so what a
 /// running campaign has added since is seen. Used from several threads at once.
 class StoreApi {
  public:
@@ -19,15 +20,16 @@ class StoreApi {
 
   /// Never throws: what is wrong is a response, in JSON with place, cause and cure. No response has
   /// the store's folder, the working one or the user's home in it: they read STORE, "." and "~".
-  HttpResponse answer(const HttpRequest& request) const;
+  HttpResponse answer(const HttpRequest& request);
   /// Throws StorageError when the store is not there any more.
   void require_store() const;
 
  private:
-  HttpResponse answer_or_throw(const HttpRequest& request) const;
-  HttpResponse answer_with_paths(const HttpRequest& request) const;
+  HttpResponse answer_or_throw(const HttpRequest& request);
+  HttpResponse answer_with_paths(const HttpRequest& request);
 
   std::filesystem::path store_;
+  serve::OpenStores stores_;
   std::vector<std::pair<std::string, std::string>> shown_;  ///< path -> what stands for it.
 };
 

@@ -119,6 +119,7 @@ Store Store::open_reader(const std::filesystem::path& folder) {
 }
 
 void Store::hold_state() const { connection_->execute("BEGIN"); }
+void Store::let_state_go() const { connection_->execute("COMMIT"); }
 
 void Store::checkpoint() { connection_->checkpoint(); }
 

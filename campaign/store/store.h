@@ -106,6 +106,7 @@ class Store {
   /// From now on all queries see one state, that of the next one, whatever is written meanwhile.
   /// @pre opened for reading.
   void hold_state() const;
+  void let_state_go() const;  ///< ends hold_state().
   Store(Store&&) noexcept;
   Store& operator=(Store&&) = delete;
   ~Store();

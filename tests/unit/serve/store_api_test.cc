@@ -182,8 +182,14 @@ TEST_F(StoreApiTest, PagesOfARankingMakeTheWholeRanking) {
 
 TEST_F(StoreApiTest, ARunningCampaignIsSeenAsItGrows) {
   EXPECT_EQ(json_at("/api/campaigns/sweep").at("done"), kResults);
+  StoreApi api(folder_ / "store");
+  const auto done = [&] {
+    const HttpResponse response = api.answer(parse_target("/api/campaigns/sweep"));
+    return response.status == 200 ? json::parse(response.body).at("done").get<long>() : -1;
+  };
+  EXPECT_EQ(done(), kResults);
   record(kResults, kResults + 3);
-  EXPECT_EQ(json_at("/api/campaigns/sweep").at("done"), kResults + 3);
+  EXPECT_EQ(done(), kResults + 3);
   EXPECT_EQ(json_at("/api/campaigns/sweep/ranking").at("rows"), kResults + 3);
 }
 
@@ -236,13 +242,31 @@ TEST_F(StoreApiTest, NoPathOfTheMachineIsInAnyResponse) {
   }
   EXPECT_THAT(json_at("/api/campaigns/sweep").at("source"), "spec.json");
   EXPECT_THAT(get("/api/campaigns/sweep/cases/5").body, HasSubstr("STORE/fields/sweep/5"));
-  const StoreApi lost(folder_ / "other");
+  StoreApi lost(folder_ / "other");
   const HttpResponse response = lost.answer(parse_target("/api/campaigns"));
   EXPECT_EQ(response.status, 503);
   EXPECT_THAT(response.body, Not(HasSubstr(here)));
   EXPECT_THAT(response.remark, HasSubstr((folder_ / "other").string()));
   EXPECT_THROW(lost.require_store(), StorageError);
   EXPECT_NO_THROW(StoreApi(folder_ / "store").require_store());
+}
+
+/// Another store in the place of one that is open.
+TEST_F(StoreApiTest, AnotherFileInItsPlaceIsSeen) {
+  StoreApi api(folder_ / "store");
+  const HttpRequest request = parse_target("/api/campaigns/sweep/cases/39");
+  EXPECT_EQ(api.answer(request).status, 200);
+  store_.reset();
+  std::filesystem::rename(folder_ / "store", folder_ / "before");
+  EXPECT_EQ(api.answer(request).status, 503);
+  Submission s;
+  s.name = "another";
+  s.scenes = {{"scene.json", "{}"}};
+  s.families = {{"family-a", 1000, 100, 1, 1}};
+  s.cases = {{"identity", 0, 0, "{}", {}}};
+  Store::open_writer(folder_ / "store").submit(s);
+  EXPECT_EQ(api.answer(request).status, 404);
+  EXPECT_EQ(api.answer(parse_target("/api/campaigns/another")).status, 200);
 }
 
 TEST_F(StoreApiTest, ADamagedStoreIsAResponseToo) {
@@ -288,7 +312,7 @@ TEST_F(StoreApiTest, RandomRequestsAreAnswered) {
                                            "2147483648"};
   std::vector<json> routes = json_at("/api").at("routes");
   std::set<int> statuses;
-  const StoreApi api(folder_ / "store");
+  StoreApi api(folder_ / "store");
   constexpr int kRequests = 1200;
   for (int k = 0; k < kRequests; ++k) {
     const json& route = routes[dice() % routes.size()];
