@@ -234,7 +234,7 @@ void add_bands(Sheet& s) {
     s.page.paragraph("Not known: no case has a history of this fault to its end.");
     return;
   }
-  s.page.add(figure::draw(chart_of(s.answer, 0)));
+  s.page.chart(figure::draw(chart_of(s.answer, 0)));
   add_list(s.page, band_sentences(sheet));
   s.page.paragraph(pressure_note(sheet), "faint");
 }
