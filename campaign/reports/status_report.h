@@ -25,7 +25,8 @@ StatusReport make_status(const Store& store, const std::string& campaign);
 /// Counts in a sentence, then workers, failures, families, rounds and the last events as tables.
 Answer to_answer(const StatusReport& status);
 
-/// `faultsweep status --all`: table `campaigns`, those of the store with their counts, newest first.
+/// `faultsweep status --all`: table `campaigns`, those of the store with their counts, newest
+/// first.
 Answer campaigns_answer(const Store& store);
 
 }  // namespace faultsweep
