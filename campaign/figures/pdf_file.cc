@@ -1,39 +1,19 @@
 #include "campaign/figures/pdf_file.h"
 
-#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "campaign/common/names.h"
 #include "simulator/common/child_output.h"
 #include "simulator/files/atomic_file.h"
+#include "simulator/files/temporary_folder.h"
 
 namespace faultsweep {
 
 namespace {
 
 constexpr int kNotFound = 127, kTimedOut = 124;  // of sh and timeout
-
-/// A folder that goes with its files.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "faultsweep_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr)
-      throw StorageError(concat("cannot make a folder for temporary files: ", name));
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  std::filesystem::path operator/(const char* name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 std::string bytes_of(const std::filesystem::path& file) {
   std::ostringstream bytes;
@@ -44,7 +24,7 @@ std::string bytes_of(const std::filesystem::path& file) {
 /// Prints page.html of the folder to page.pdf. Returns the exit code. The sandbox is off, as it is
 /// not to be had for root and in containers; the page is ours, and its policy loads and runs
 /// nothing.
-int print_with(const char* browser, const ScratchFolder& folder) {
+int print_with(const char* browser, const std::filesystem::path& folder) {
   const faultsim::ChildOutput made = faultsim::run_child(
       {"/bin/sh", "-c", "exec timeout -k 5 120 \"$@\" >/dev/null 2>&1", "sh", browser, "--headless",
        "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
@@ -67,7 +47,8 @@ void blank_date(std::string& pdf, const char* key) {
 }  // namespace
 
 std::optional<std::string> pdf_of_page(const std::string& html) {
-  const ScratchFolder folder;
+  const faultsim::TemporaryFolder temporary;
+  const std::filesystem::path& folder = temporary.path();
   faultsim::write_text(folder / "page.html", html);
   for (const char* browser : {"chromium", "chromium-browser", "google-chrome"}) {
     const int code = print_with(browser, folder);

@@ -20,6 +20,7 @@
 #include "campaign/scheduler/resources.h"
 #include "campaign/store/store.h"
 #include "simulator/common/stopwatch.h"
+#include "simulator/files/temporary_folder.h"
 
 namespace faultsweep {
 namespace {
@@ -54,29 +55,6 @@ class StopSignals {
   static constexpr int kCount = 4;
   static constexpr int kSignals[kCount] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
   struct sigaction before_[kCount];
-};
-
-/// A temporary folder for mpirun's session files, removed at the end: a killed mpirun leaves its
-/// files behind.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "faultsweep-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-      throw ResourceError(concat("cannot make ", name, ": ", std::strerror(errno)));
-    }
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
 };
 
 /// Where the manager leaves the campaign's status, removed at the end. It lies in the store, as the
@@ -137,7 +115,8 @@ bool is_one_host(const RunOptions& options) {
          slurm_number(std::getenv("SLURM_JOB_NUM_NODES")).value_or(1) == 1;
 }
 
-std::vector<std::string> mpirun_command(const RunOptions& options, const ScratchFolder& scratch,
+std::vector<std::string> mpirun_command(const RunOptions& options,
+                                        const std::filesystem::path& scratch,
                                         const StatusFile& status) {
   const char* mpirun = std::getenv("FAULTSWEEP_MPIRUN");
   std::vector<std::string> command = {mpirun != nullptr ? mpirun : "mpirun",
@@ -158,7 +137,7 @@ std::vector<std::string> mpirun_command(const RunOptions& options, const Scratch
     add({"--hostfile", std::filesystem::absolute(options.hostfile).string()});
   }
   // Only where all ranks are here: on other hosts nobody would remove the folder.
-  if (is_one_host(options)) add({"--mca", "orte_tmpdir_base", scratch.path().string()});
+  if (is_one_host(options)) add({"--mca", "orte_tmpdir_base", scratch.string()});
   if (geteuid() == 0) add({"--allow-run-as-root"});
   add({std::filesystem::read_symlink("/proc/self/exe").string(), "run", options.campaign, "--store",
        std::filesystem::absolute(options.store).string(), "--simulator", options.simulator.string(),
@@ -359,14 +338,14 @@ ExitCode start_ranks(const RunOptions& given) {
   RunOptions options = given;
   const StopSignals stop_signals;  // first of all: a batch system's signal must not kill us
   check_before(options);
-  const ScratchFolder scratch;
+  const faultsim::TemporaryFolder scratch;  // of mpirun: a killed one leaves its files behind
   const StatusFile status(options.store);
   int n_restarts = 0;
   long finished = finished_cases(options);
   for (;;) {
     status.clear();
     JobWatch watch(wanted_ranks(options));
-    const int ended = wait_for(spawn(mpirun_command(options, scratch, status)), watch);
+    const int ended = wait_for(spawn(mpirun_command(options, scratch.path(), status)), watch);
     watch.end_orphans();
     const auto [left, reason] = status.read();
     if (!reason.empty()) std::fprintf(stderr, "faultsweep: %s\n", reason.c_str());
