@@ -174,7 +174,11 @@ class WhatIf {
   }
   void say(const json& message) {
     const std::lock_guard lock(writing_);
-    write_all(replies_, message.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
+    try {
+      write_all(replies_, message.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
+    } catch (const StorageError&) {  // whoever asked is gone, and with it all that is to be done
+      std::_Exit(static_cast<int>(ExitCode::world));
+    }
   }
 
   int replies_;

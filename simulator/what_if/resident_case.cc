@@ -11,12 +11,13 @@
 
 namespace faultsim {
 
-/// What the thread and those who ask share: all but `simulation`, which is the thread's, under the
-/// mutex.
+/// What the thread and those who ask share: under the mutex; `simulation` and `taken_document` are
+/// the thread's.
 struct ResidentCase::Impl {
   explicit Impl(int threads) : n_threads(threads) {}
   void live();
   bool take_next();
+  void hold(long question);
   bool leaves_build(long question);
   void answer(long question);
   std::shared_ptr<const ShownCase> run();
@@ -31,6 +32,7 @@ struct ResidentCase::Impl {
 
   const int n_threads;
   Simulation simulation;
+  JsonDocument taken_document;  ///< until it is held.
   Listener listener = [](long, const QuestionProgress&) {};
 
   std::mutex listening;  ///< one call of the listener at a time; taken before the other.
@@ -70,15 +72,21 @@ bool ResidentCase::Impl::take_next() {
   if (is_ending) return false;
   taken = newest;
   taken_key = operator_key;
+  taken_document = std::move(document);
   stop = false;
-  simulation.hold(std::move(document));
-  is_at_build = simulation.needs_operator();
-  if (is_at_build) progress.state = QuestionState::building;
   return true;
 }
 
 void ResidentCase::Impl::live() {
   while (take_next()) answer(taken);
+}
+
+/// Holds the scene of the question that was taken.
+void ResidentCase::Impl::hold(long question) {
+  simulation.hold(std::move(taken_document));  // may throw: tables are read again
+  const std::lock_guard lock(mutex);
+  is_at_build = simulation.needs_operator();
+  if (is_at_build && question == newest) progress.state = QuestionState::building;
 }
 
 /// @returns whether the question is still the newest.
@@ -114,6 +122,7 @@ void ResidentCase::Impl::tell_build(const std::string& what) {
 /// Runs what the thread has taken; what is superseded meanwhile is left.
 void ResidentCase::Impl::answer(long question) {
   try {
+    hold(question);
     BuildWords words([&](const std::string& what) { tell_build(what); });
     simulation.prepare({words, StopToken(stop), n_threads});
     if (!leaves_build(question)) return;
