@@ -11,6 +11,7 @@
 #include "campaign/answers/probability.h"
 #include "campaign/answers/why.h"
 #include "tests/campaign/made_up_result.h"
+#include "tests/unit/answers/resolved_design.h"
 
 namespace faultsweep {
 
@@ -102,11 +103,7 @@ class FrictionAndOffset : public AnswersTest {
     runs_.push_back(std::move(run));
   }
   void submit_as(const std::string& kind) {
-    const nlohmann::json group = {{"kind", kind},
-                                  {"parameters", {{{"name", "friction"}}, {{"name", "offset"}}}},
-                                  {"scene", {{"tier", "screening"}}}};
-    s_.spec_resolved =
-        nlohmann::json{{"groups", {group}}, {"exclude", nlohmann::json::array()}}.dump();
+    s_.spec_resolved = testing::resolved_design(kind);
     store_->submit(s_);
     campaign_ = store_->campaign("");
   }

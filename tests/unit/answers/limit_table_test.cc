@@ -3,14 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <functional>
 
-#include "campaign/expansion/submission.h"
-#include "campaign/rounds/next_round.h"
 #include "simulator/documents/json_document.h"
 #include "simulator/initial_state/initial_state.h"
 #include "simulator/reading/read_scene.h"
-#include "tests/campaign/made_up_result.h"
+#include "tests/unit/answers/searched_limits.h"
 
 /// What stored results come to: bands, their order, pressures at the datum.
 namespace faultsweep {
@@ -28,7 +25,7 @@ constexpr const char* kHighestStorage = R"({
 
 class StoredLimits : public ::testing::Test {
  protected:
-  using Slides = std::function<bool(double offset, double change)>;  ///< m, Pa.
+  using Slides = testing::SlidesAt;
 
   void SetUp() override {
     std::string name = ::testing::TempDir() + "limits_XXXXXX";
@@ -39,22 +36,7 @@ class StoredLimits : public ::testing::Test {
   /// Of the campaign, run until nothing is left to search. The change acts in the second region.
   LimitTable found(const Slides& slides) const {
     Store store = Store::open_owner(folder_);
-    const CampaignSpec spec = parse_campaign(kHighestStorage, FAULTSIM_SOURCE_DIR "/test.json");
-    const std::int64_t id = store.submit(make_submission(expand(spec))).campaign;
-    do {
-      for (const WaitingFamily& family : store.waiting_families(id)) {
-        for (const std::int64_t one : family.cases) {
-          const CaseParameters values = store.stored_case(id, std::to_string(one)).parameters;
-          const double change = values[1].si.value();
-          RunRecord run;
-          run.case_id = one;
-          run.status = RunStatus::completed;
-          run.result = testing::made_up_result(slides(values[0].si.value(), change) ? 0.9 : 0.2);
-          run.result->steps[9].pressure_change[1] = change;
-          store.record_runs(id, {run});
-        }
-      }
-    } while (add_next_round(store, "storage"));
+    testing::search_limits(store, kHighestStorage, slides);
     return make_limit_table(store, store.campaign(""));
   }
 

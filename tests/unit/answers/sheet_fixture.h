@@ -13,6 +13,7 @@
 
 #include "campaign/answers/fault_sheet.h"
 #include "tests/campaign/made_up_result.h"
+#include "tests/unit/answers/resolved_design.h"
 
 namespace faultsweep::testing {
 
@@ -154,11 +155,7 @@ class SheetFixture {
     add(ends);
   }
   void submit_as(const std::string& kind) {
-    const nlohmann::json group = {{"kind", kind},
-                                  {"parameters", {{{"name", "friction"}}, {{"name", "offset"}}}},
-                                  {"scene", {{"tier", "screening"}}}};
-    s_.spec_resolved =
-        nlohmann::json{{"groups", {group}}, {"exclude", nlohmann::json::array()}}.dump();
+    s_.spec_resolved = resolved_design(kind);
     store_->submit(s_);
     campaign_ = store_->campaign("");
     store_->record_runs(campaign_.id, runs_);

@@ -3,12 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <functional>
 
 #include "campaign/answers/fault_sheet.h"
-#include "campaign/expansion/submission.h"
-#include "campaign/rounds/next_round.h"
-#include "tests/campaign/made_up_result.h"
+#include "tests/unit/answers/searched_limits.h"
 
 namespace faultsweep {
 namespace {
@@ -30,7 +27,7 @@ std::string storage_spec(const std::string& fault) {
 
 class SheetLimits : public ::testing::Test {
  protected:
-  using Slides = std::function<bool(double offset, double change)>;  ///< m, Pa.
+  using Slides = testing::SlidesAt;
 
   void SetUp() override {
     std::string name = ::testing::TempDir() + "sheet_limits_XXXXXX";
@@ -41,22 +38,7 @@ class SheetLimits : public ::testing::Test {
   /// Of the campaign, run until nothing is left to search. The change acts in the eastern region.
   FaultSheet sheet(const std::string& fault, const Slides& slides) const {
     Store store = Store::open_owner(folder_);
-    const CampaignSpec spec = parse_campaign(storage_spec(fault), FAULTSIM_SOURCE_DIR "/test.json");
-    const std::int64_t id = store.submit(make_submission(expand(spec))).campaign;
-    do {
-      for (const WaitingFamily& family : store.waiting_families(id)) {
-        for (const std::int64_t one : family.cases) {
-          const CaseParameters values = store.stored_case(id, std::to_string(one)).parameters;
-          const double change = values[1].si.value();
-          RunRecord run;
-          run.case_id = one;
-          run.status = RunStatus::completed;
-          run.result = testing::made_up_result(slides(values[0].si.value(), change) ? 0.9 : 0.2);
-          run.result->steps[9].pressure_change[1] = change;
-          store.record_runs(id, {run});
-        }
-      }
-    } while (add_next_round(store, "storage"));
+    testing::search_limits(store, storage_spec(fault), slides);
     return find_fault_sheets(store, store.campaign(""), {.fault = fault}).at(0);
   }
 
