@@ -37,6 +37,9 @@ struct CasePicture {
   const Scene& scene;
   const FieldSource* fields = nullptr;  ///< none = only charts that do not need them.
   std::string name = {};                ///< before the title: "sweep/17"; "" = the result's title.
+  /// The case before a change: charts but section and fault map have its curves as thin, paler
+  /// lines, of faults and compartments of the same names.
+  const CasePicture* original = nullptr;
 };
 struct CaseChartRequest {
   CaseChart chart = CaseChart::history;

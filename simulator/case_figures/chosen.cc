@@ -44,6 +44,19 @@ std::string subject_of(const CasePicture& picture) {
   return picture.name.empty() ? picture.result.title : picture.name;
 }
 
+std::string words_of_original(const CasePicture& picture, bool is_drawn, const std::string& place) {
+  if (picture.original == nullptr) return "";
+  if (!is_drawn) return "nothing is kept of before the change; ";
+  return concat("thin: before the change", place.empty() ? "" : ", ", place, "; ");
+}
+
+std::optional<std::size_t> place_of(const std::vector<std::string>& names,
+                                    const std::string& name) {
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - names.begin());
+}
+
 bool in_days(const CaseResult& result) {
   return !result.steps.empty() && result.steps.back().time < 2 * kYearInSeconds;
 }
@@ -61,7 +74,10 @@ std::vector<figure::Tick> date_ticks(const CasePicture& picture) {
   if (!picture.scene.start_date || picture.result.steps.empty()) return {};
   constexpr double kMonthInSeconds = kYearInSeconds / 12;
   constexpr int kMost = 9, kMonths = 12;
-  const double start = *picture.scene.start_date, last = picture.result.steps.back().time;
+  const double start = *picture.scene.start_date;
+  double last = picture.result.steps.back().time;
+  if (picture.original != nullptr && !picture.original->result.steps.empty())
+    last = std::max(last, picture.original->result.steps.back().time);
   int step = 1;  // months
   for (const int one : {2, 3, 6, 12, 24, 60, 120, 240, 600}) {
     if (last > kMost * kMonthInSeconds * step) step = one;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "simulator/case_figures/case_figures.h"
 #include "simulator/figure/axis.h"
@@ -42,6 +44,14 @@ double time_of(const CaseResult& result, double seconds);  ///< in that unit.
 std::string time_unit_text(const CasePicture& picture);
 /// Ticks at dates, in the unit of time_of, within the history; none where the scene has no dates.
 std::vector<figure::Tick> date_ticks(const CasePicture& picture);
+
+/// What a remark begins with, as it may be cut at its end: "thin: before the change; ", or why
+/// there are no such lines; "" of a picture without an original.
+/// @param place  where its lines are, if elsewhere: "at 2,050 m depth".
+std::string words_of_original(const CasePicture& picture, bool is_drawn = true,
+                              const std::string& place = {});
+/// The place of a name among names; none where it is not there.
+std::optional<std::size_t> place_of(const std::vector<std::string>& names, const std::string& name);
 
 std::string with_blanks(std::string name);           ///< "primary production".
 std::string subject_of(const CasePicture& picture);  ///< its name, or the result's title.

@@ -39,47 +39,80 @@ std::vector<figure::TimeMark> event_marks(const CaseResult& result) {
   return marks;
 }
 
-/// A number of each fault against time.
+/// The values of a fault in the steps that have metrics.
 template <typename Value>
-std::vector<figure::Curve> curves_of(const CaseResult& result, Value&& value) {
-  std::vector<figure::Curve> curves;
+std::vector<double> values_of(const CaseResult& result, std::size_t fault, Value& value) {
+  std::vector<double> values;
   const std::size_t n = n_steps_of(result);
-  for (std::size_t f = 0; f < result.fault_names.size(); ++f) {
-    figure::Curve curve{result.fault_names[f], f, {}};
-    for (std::size_t k = 0; k < n; ++k) curve.values.push_back(value(result.steps[k].faults[f]));
-    curves.push_back(std::move(curve));
+  for (std::size_t k = 0; k < n; ++k) values.push_back(value(result.steps[k].faults[fault]));
+  return values;
+}
+
+/// A number of each fault against time; of those too that were there before the change alone.
+template <typename Value>
+std::vector<figure::Curve> curves_of(const CasePicture& picture, Value&& value) {
+  std::vector<figure::Curve> curves;
+  const CaseResult& result = picture.result;
+  for (std::size_t f = 0; f < result.fault_names.size(); ++f)
+    curves.push_back({result.fault_names[f], f, values_of(result, f, value)});
+  if (picture.original == nullptr) return curves;
+  const CaseResult& original = picture.original->result;
+  for (std::size_t f = 0; f < original.fault_names.size(); ++f) {
+    const std::string& name = original.fault_names[f];
+    const auto now = place_of(result.fault_names, name);
+    if (!now) curves.push_back({name + ", before", curves.size(), {}});
+    curves[now.value_or(curves.size() - 1)].before = values_of(original, f, value);
   }
   return curves;
 }
 
 /// A line of a compartment. Those with one history are one line with both names.
-void add_region(const std::string& name, std::size_t region, std::vector<double> values,
-                figure::HistoryPanel& panel) {
-  const auto same = std::ranges::find(panel.curves, values, &figure::Curve::values);
-  if (same != panel.curves.end()) {
-    same->name += ", " + name;
+void add_region(figure::Curve curve, std::size_t region, figure::HistoryPanel& panel) {
+  for (figure::Curve& one : panel.curves) {
+    if (one.values != curve.values || one.before != curve.before) continue;
+    one.name += ", " + curve.name;
     return;
   }
   // From the colours' other end: a compartment does not look like a fault.
-  panel.curves.push_back({name, 6 + 7 * region, std::move(values)});
+  curve.colour = 6 + 7 * region;
+  panel.curves.push_back(std::move(curve));
+}
+
+/// Changes of pressure of a compartment, bar; none where it is none of the result's.
+std::vector<double> pressures_of(const CaseResult& result, const std::string& region) {
+  const auto r = place_of(result.region_names, region);
+  if (!r) return {};
+  return mapped(result.steps, [&](const StepResult& step) {
+    return *r < step.pressure_change.size() ? step.pressure_change[*r] / kBarInPascal
+                                            : std::nan("");
+  });
 }
 
 /// Of a flow result these are means over the compartments, which the label says.
 figure::HistoryPanel pressure_panel(const Chosen& chosen) {
   const CaseResult& result = chosen.result();
+  const CasePicture* original = chosen.picture.original;
   const bool is_mean = chosen.scene().pressure_field.is_given();
   figure::HistoryPanel panel{is_mean ? "mean Δp, bar" : "Δp, bar", {}, {}, {0}, 120};
   for (std::size_t r = 0; r < result.region_names.size(); ++r) {
-    add_region(result.region_names[r], r,
-               mapped(result.steps,
-                      [&](const StepResult& step) {
-                        return r < step.pressure_change.size()
-                                   ? step.pressure_change[r] / kBarInPascal
-                                   : std::nan("");
-                      }),
-               panel);
+    figure::Curve curve{result.region_names[r], 0, pressures_of(result, result.region_names[r])};
+    if (original != nullptr) curve.before = pressures_of(original->result, curve.name);
+    add_region(std::move(curve), r, panel);
   }
   return panel;
+}
+
+/// Changes of temperature of a region, K; none where the scene changes none of it.
+std::vector<double> temperatures_of(const CasePicture& picture, const std::string& region) {
+  for (const TemperatureHistory& history : picture.scene.temperature) {
+    if (picture.scene.pressure.at(static_cast<std::size_t>(history.region)).region != region)
+      continue;
+    return mapped(picture.result.steps, [&](const StepResult& step) {
+      return step.time < history.time.front() ? 0.0
+                                              : value_at(history.time, history.change, step.time);
+    });
+  }
+  return {};
 }
 
 /// Of regions whose temperature the stages change.
@@ -87,14 +120,11 @@ figure::HistoryPanel temperature_panel(const Chosen& chosen) {
   figure::HistoryPanel panel{"ΔT, K", {}, {}, {0}, 120};
   for (const TemperatureHistory& history : chosen.scene().temperature) {
     const auto region = static_cast<std::size_t>(history.region);
-    add_region(chosen.scene().pressure.at(region).region, region,
-               mapped(chosen.result().steps,
-                      [&](const StepResult& step) {
-                        return step.time < history.time.front()
-                                   ? 0.0
-                                   : value_at(history.time, history.change, step.time);
-                      }),
-               panel);
+    figure::Curve curve{chosen.scene().pressure.at(region).region, 0, {}};
+    curve.values = temperatures_of(chosen.picture, curve.name);
+    if (chosen.picture.original != nullptr)
+      curve.before = temperatures_of(*chosen.picture.original, curve.name);
+    add_region(std::move(curve), region, panel);
   }
   return panel;
 }
@@ -111,13 +141,18 @@ std::string draw_history(const Chosen& chosen) {
   figure::HistoryChart chart;
   chart.ticks = date_ticks(chosen.picture);
   chart.time_label = chart.ticks.empty() ? "time, " + time_unit_text(chosen.picture) : "date";
-  for (const StepResult& step : result.steps) chart.time.push_back(time_of(result, step.time));
+  const auto times = [&](const CaseResult& of) {  // in the unit of the axis
+    return mapped(of.steps, [&](const StepResult& step) { return time_of(result, step.time); });
+  };
+  chart.time = times(result);
+  if (chosen.picture.original != nullptr)
+    chart.time_before = times(chosen.picture.original->result);
   chart.stages = stage_spans(result);
   chart.marks = event_marks(result);
   if (chosen.request.with_cursor) chart.cursor = chart.time[chosen.step];
   const auto draw_panel = [&](const char* title, const char* label, auto value) {
     chart.title = title;
-    chart.panels.push_back({label, curves_of(result, value), {}, {0}, 260});
+    chart.panels.push_back({label, curves_of(chosen.picture, value), {}, {0}, 260});
   };
   if (chosen.request.chart == CaseChart::history) {
     draw_panel("How near each fault is to sliding: χ̄", "χ̄",
@@ -132,7 +167,7 @@ std::string draw_history(const Chosen& chosen) {
     draw_panel("Largest slip of each fault", "slip, mm",
                [](const FaultMetrics& m) { return m.max_slip / kMillimetre; });
   }
-  chart.remark = subject_of(chosen.picture) + ending_of(result);
+  chart.remark = words_of_original(chosen.picture) + subject_of(chosen.picture) + ending_of(result);
   if (!result.region_names.empty()) chart.panels.push_back(pressure_panel(chosen));
   if (!chosen.scene().temperature.empty()) chart.panels.push_back(temperature_panel(chosen));
   return figure::draw(chart);

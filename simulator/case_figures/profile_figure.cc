@@ -9,40 +9,88 @@
 
 namespace faultsim::case_figures {
 
+namespace {
+
 using figure::plain_number;
+
+/// What is drawn against depth, in the units of the columns.
+struct Profile {
+  std::vector<double> depth, pressure, normal, shear, strength, chi, slip;
+};
+
+/// Along the line down dip at y, m along strike.
+Profile profile_at(double y, const StoredFault& fault, const StoredFields& now,
+                   const CoulombLaw& friction) {
+  Profile line;
+  for (const std::size_t i : column_through(fault, y)) {
+    const auto k = static_cast<Eigen::Index>(i);
+    line.depth.push_back(-fault.points(2, k));
+    line.pressure.push_back(now.fault_pressure_change[k] / kBarInPascal);
+    line.normal.push_back(-now.traction(0, k) / kMegapascal);
+    line.shear.push_back(shear_at(now, k) / kMegapascal);
+    line.strength.push_back((friction.cohesion - std::min(now.traction(0, k), 0.0) *
+                                                     std::tan(friction.static_friction_angle)) /
+                            kMegapascal);
+    line.chi.push_back(now.critical_index[k]);
+    line.slip.push_back(std::hypot(now.slip(1, k), now.slip(2, k)) / kMillimetre);
+  }
+  return line;
+}
+
+/// Of the case before the change: at the same load step, on the line that is nearest to a place.
+/// @param says  of the lines, for the remark.
+Profile original_profile(const Chosen& chosen, std::size_t entry, const Eigen::Vector3d& place,
+                         std::string& says) {
+  const auto known = original_fault(chosen);
+  const auto before = known ? original_entry(chosen, entry) : std::nullopt;
+  says = words_of_original(chosen.picture, before.has_value());
+  if (!before) return {};
+  const FieldSource& file = *chosen.picture.original->fields;
+  const StoredFault& fault = file.faults()[known->fault];
+  const auto nearest = nearest_split(fault, place);
+  if (!nearest) return {};
+  const double y = fault.points(1, *nearest);
+  if (std::abs(y - place.y()) > kSamePlace)
+    says = words_of_original(chosen.picture, true,
+                             concat("at ", plain_number(y, 4), " m along strike"));
+  return profile_at(y, fault, file.fields(known->fault, *before), known->friction);
+}
+
+}  // namespace
 
 std::string draw_profiles(Chosen chosen) {
   const std::size_t f = stored_fault(chosen), entry = stored_entry(chosen);
   const StoredFault& fault = chosen.picture.fields->faults()[f];
-  const StoredFields now = chosen.picture.fields->fields(f, entry);
-  const double y = fault.points(1, static_cast<Eigen::Index>(most_critical(fault, now)));
-  const CoulombLaw& friction = chosen.scene().faults[chosen.fault].friction;
+  const StoredFields stored = chosen.picture.fields->fields(f, entry);
+  const Eigen::Vector3d place =
+      fault.points.col(static_cast<Eigen::Index>(most_critical(fault, stored)));
+  const Profile now =
+      profile_at(place.y(), fault, stored, chosen.scene().faults[chosen.fault].friction);
+  std::string says_before;
+  const Profile before = original_profile(chosen, entry, place, says_before);
+  const auto curve = [&](const char* name, std::size_t colour, std::vector<double> Profile::*what) {
+    return figure::Curve{name, colour, now.*what, {}, {}, before.*what};
+  };
   figure::DepthChart chart;
-  figure::Curve pressure{"", 0, {}}, normal{"", 0, {}}, shear{"|τ|", 0, {}},
-      strength{"strength before slip", 1, {}}, chi{"", 0, {}}, slip{"", 0, {}};
-  for (const std::size_t i : column_through(fault, y)) {
-    const auto k = static_cast<Eigen::Index>(i);
-    chart.depth.push_back(-fault.points(2, k));
-    pressure.values.push_back(now.fault_pressure_change[k] / kBarInPascal);
-    normal.values.push_back(-now.traction(0, k) / kMegapascal);
-    shear.values.push_back(shear_at(now, k) / kMegapascal);
-    strength.values.push_back((friction.cohesion - std::min(now.traction(0, k), 0.0) *
-                                                       std::tan(friction.static_friction_angle)) /
-                              kMegapascal);
-    chi.values.push_back(now.critical_index[k]);
-    slip.values.push_back(std::hypot(now.slip(1, k), now.slip(2, k)) / kMillimetre);
-  }
+  chart.depth = now.depth;
+  chart.depth_before = before.depth;
   chart.title = concat("Fault ", chosen.fault_name(), " against depth: ", moment_text(chosen));
-  chart.remark = subject_of(chosen.picture) +
-                 (chosen.result().plane_strain
-                      ? ""
-                      : concat("; line down dip at ", plain_number(y, 4), " m along strike"));
+  chart.remark =
+      concat(says_before, subject_of(chosen.picture),
+             chosen.result().plane_strain
+                 ? ""
+                 : concat("; line down dip at ", plain_number(place.y(), 4), " m along strike"),
+             says_before);
   chart.bands = compartments_beside(chosen.scene(), chosen.fault);
-  chart.columns = {{"Δp in the fault, bar", {pressure}, {}, {0}},
-                   {"σ'ₙ, MPa (compression +)", {normal}, {}, {0}},
-                   {"shear, MPa", {shear, strength}, {}, {0}},
-                   {"χ", {chi}, {{0.8, ""}, {1, ""}}, {0, 1}},
-                   {"slip, mm", {slip}, {}, {0, 1}}};
+  chart.columns = {
+      {"Δp in the fault, bar", {curve("", 0, &Profile::pressure)}, {}, {0}},
+      {"σ'ₙ, MPa (compression +)", {curve("", 0, &Profile::normal)}, {}, {0}},
+      {"shear, MPa",
+       {curve("|τ|", 0, &Profile::shear), curve("strength before slip", 1, &Profile::strength)},
+       {},
+       {0}},
+      {"χ", {curve("", 0, &Profile::chi)}, {{0.8, ""}, {1, ""}}, {0, 1}},
+      {"slip, mm", {curve("", 0, &Profile::slip)}, {}, {0, 1}}};
   return figure::draw(chart);
 }
 

@@ -5,16 +5,52 @@
 #include <string>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
 #include "simulator/common/text.h"
 
 namespace faultsim::case_figures {
 
+namespace {
+
+std::optional<std::size_t> fault_named(const FieldSource& fields, const std::string& name) {
+  return place_of(mapped(fields.faults(), &StoredFault::name), name);
+}
+
+}  // namespace
+
 std::size_t stored_fault(const Chosen& chosen) {
-  const std::vector<StoredFault>& faults = chosen.picture.fields->faults();
-  for (std::size_t f = 0; f < faults.size(); ++f) {
-    if (faults[f].name == chosen.fault_name()) return f;
-  }
+  if (const auto f = fault_named(*chosen.picture.fields, chosen.fault_name())) return *f;
   refuse("--fault", "no fields of fault " + chosen.fault_name() + " were kept", "name another");
+}
+
+std::optional<OriginalFault> original_fault(const Chosen& chosen) {
+  const CasePicture* original = chosen.picture.original;
+  if (original == nullptr || original->fields == nullptr) return std::nullopt;
+  const auto stored = fault_named(*original->fields, chosen.fault_name()),
+             own = place_of(original->result.fault_names, chosen.fault_name());
+  if (!stored || !own) return std::nullopt;
+  return OriginalFault{*stored, original->scene.faults[*own].friction};
+}
+
+std::optional<std::size_t> original_entry(const Chosen& chosen, std::size_t entry) {
+  const FieldSource &now = *chosen.picture.fields, &before = *chosen.picture.original->fields;
+  const auto same = std::ranges::find(before.steps(), now.steps()[entry]);
+  if (same == before.steps().end()) return std::nullopt;
+  const auto k = static_cast<std::size_t>(same - before.steps().begin());
+  const double time = now.times()[entry];
+  constexpr double kSameTime = 1e-9;  // relative
+  if (std::abs(before.times()[k] - time) > kSameTime * std::abs(time)) return std::nullopt;
+  return k;
+}
+
+std::optional<Eigen::Index> nearest_split(const StoredFault& fault, const Eigen::Vector3d& place) {
+  std::optional<Eigen::Index> nearest;
+  for (Eigen::Index k = 0; k < fault.points.cols(); ++k) {
+    if (fault.split[static_cast<std::size_t>(k)] == 0) continue;
+    const auto distance = [&](Eigen::Index i) { return (fault.points.col(i) - place).norm(); };
+    if (!nearest || distance(k) < distance(*nearest)) nearest = k;
+  }
+  return nearest;
 }
 
 std::size_t stored_entry(Chosen& chosen) {
@@ -36,10 +72,9 @@ std::size_t stored_entry(Chosen& chosen) {
 
 std::vector<std::size_t> column_through(const StoredFault& fault, double y) {
   std::vector<std::size_t> column;
-  constexpr double kSameLine = 1e-3;  // m
   for (std::size_t i = 0; i < fault.split.size(); ++i) {
     if (fault.split[i] != 0 &&
-        std::abs(fault.points(1, static_cast<Eigen::Index>(i)) - y) < kSameLine) {
+        std::abs(fault.points(1, static_cast<Eigen::Index>(i)) - y) < kSamePlace) {
       column.push_back(i);
     }
   }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "simulator/case_figures/chosen.h"
@@ -16,6 +18,21 @@ std::size_t stored_fault(const Chosen& chosen);
 /// asked for it, the last one before, to which `chosen` is moved. Throws InputError where it was
 /// asked for, or no step was kept.
 std::size_t stored_entry(Chosen& chosen);
+
+/// The chosen fault in the case before the change, where its fields were kept.
+struct OriginalFault {
+  std::size_t fault = 0;  ///< index in its FieldSource::faults.
+  const CoulombLaw& friction;
+};
+/// None where the picture has no original, or that has no fields of such a fault.
+std::optional<OriginalFault> original_fault(const Chosen& chosen);
+/// The entry of the original's fields that is the same load step at the same time; none where there
+/// is none. @pre original_fault. @param entry  of the picture's own fields.
+std::optional<std::size_t> original_entry(const Chosen& chosen, std::size_t entry);
+/// The split point that is nearest to a place, the first of equals; none where no point is split.
+std::optional<Eigen::Index> nearest_split(const StoredFault& fault, const Eigen::Vector3d& place);
+/// Two places that differ by less are one, m.
+inline constexpr double kSamePlace = 1e-3;
 
 /// Split points of the line down dip at y (m, along strike), by depth.
 std::vector<std::size_t> column_through(const StoredFault& fault, double y);

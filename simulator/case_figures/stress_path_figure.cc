@@ -23,6 +23,36 @@ std::optional<figure::StressPath::Circle> initial_circle(const Scene& scene, dou
                                     std::min(across, down) / kMegapascal};
 }
 
+/// Traction at a point, step after step.
+template <typename Path>
+void add_tractions(const FieldSource& file, std::size_t fault, Eigen::Index point, Path& path) {
+  for (std::size_t entry = 0; entry < file.steps().size(); ++entry) {
+    const StoredFields now = file.fields(fault, entry);
+    path.normal.push_back(-now.traction(0, point) / kMegapascal);
+    path.shear.push_back(shear_at(now, point) / kMegapascal);
+  }
+}
+
+/// Before the change, at the point that is nearest to a place. @return what the remark says of it.
+std::string add_original(const Chosen& chosen, const Eigen::Vector3d& place,
+                         figure::StressPath& path) {
+  const auto known = original_fault(chosen);
+  if (!known) return words_of_original(chosen.picture, false);
+  const FieldSource& file = *chosen.picture.original->fields;
+  const StoredFault& fault = file.faults()[known->fault];
+  const auto nearest = nearest_split(fault, place);
+  if (!nearest) return words_of_original(chosen.picture, false);
+  figure::StressPath::Before& before = path.before.emplace();
+  add_tractions(file, known->fault, *nearest, before);
+  before.cohesion = known->friction.cohesion / kMegapascal;
+  before.friction = std::tan(known->friction.static_friction_angle);
+  const bool is_same = (fault.points.col(*nearest) - place).norm() < kSamePlace;
+  return words_of_original(
+      chosen.picture, true,
+      is_same ? ""
+              : concat("at ", figure::plain_number(-fault.points(2, *nearest), 4), " m depth"));
+}
+
 }  // namespace
 
 using figure::plain_number;
@@ -36,10 +66,8 @@ std::string draw_stress_path(Chosen chosen) {
   figure::StressPath path;
   std::map<int, std::string> stages;
   for (const StepResult& step : chosen.result().steps) stages[step.step] = step.stage;
+  add_tractions(file, f, k, path);
   for (std::size_t entry = 0; entry < file.steps().size(); ++entry) {
-    const StoredFields now = file.fields(f, entry);
-    path.normal.push_back(-now.traction(0, k) / kMegapascal);
-    path.shear.push_back(shear_at(now, k) / kMegapascal);
     const std::string stage = with_blanks(stages[file.steps()[entry]]);
     const bool is_last = entry + 1 == file.steps().size();
     const bool ends_stage = is_last || with_blanks(stages[file.steps()[entry + 1]]) != stage;
@@ -51,9 +79,10 @@ std::string draw_stress_path(Chosen chosen) {
   path.title = concat("Stress path of fault ", chosen.fault_name(), " at ",
                       plain_number(-fault.points(2, k), 4), " m depth");
   path.circle = initial_circle(chosen.scene(), fault.points(2, k));
-  path.remark = concat("where χ is largest at ", moment_text(chosen),
-                       path.circle ? "; grey circle: rock before production; " : "; ",
-                       subject_of(chosen.picture));
+  path.remark =
+      concat(add_original(chosen, fault.points.col(k), path), "where χ is largest at ",
+             moment_text(chosen), path.circle ? "; grey circle: rock before production; " : "; ",
+             subject_of(chosen.picture));
   path.cohesion = friction.cohesion / kMegapascal;
   path.friction = std::tan(friction.static_friction_angle);
   if (friction.dynamic_friction_angle != friction.static_friction_angle) {

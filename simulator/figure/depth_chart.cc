@@ -42,7 +42,8 @@ void draw_band_edges(Panel& panel, const std::vector<DepthBand>& bands) {
 std::vector<double> values_of(const DepthColumn& column) {
   std::vector<double> values;
   for (const Curve& curve : column.curves) {
-    values.insert(values.end(), curve.values.begin(), curve.values.end());
+    for (const auto* list : {&curve.values, &curve.before})
+      values.insert(values.end(), list->begin(), list->end());
   }
   return values;
 }
@@ -59,7 +60,8 @@ void draw_column_key(Svg& svg, const Box& box, const DepthColumn& column) {
   }
 }
 
-Axis depth_axis(const std::vector<double>& depths, double height) {
+Axis depth_axis(std::vector<double> depths, const std::vector<double>& more, double height) {
+  depths.insert(depths.end(), more.begin(), more.end());
   Axis axis = axis_over("depth, m", depths, {}, static_cast<int>(height / 45));
   const auto [low, high] = std::ranges::minmax_element(depths);
   const double from = depths.empty() ? 1 : *high, to = depths.empty() ? 0 : *low;
@@ -79,7 +81,7 @@ std::string draw(const DepthChart& chart) {
   Svg svg(width, heading + kHeight + 14 + (most > 1 ? 15 * static_cast<double>(most) : 0),
           chart.title);
   draw_heading(svg, chart.title, chart.remark, 16);
-  const Axis depth = depth_axis(chart.depth, kHeight);
+  const Axis depth = depth_axis(chart.depth, chart.depth_before, kHeight);
   const Box strip{kLeft, heading, 2 * kBandWidth, kHeight};
   draw_band_strip(svg, strip, depth, chart.bands);
   double x = strip.right() + kGap;
@@ -89,6 +91,8 @@ std::string draw(const DepthChart& chart) {
                 {.y_labels = false, .x_on_top = true});
     draw_band_edges(panel, chart.bands);
     for (const Level& level : column.levels) panel.line_at_x(level.value, {kFaint, 1, "5 4"});
+    for (const Curve& curve : column.curves)
+      panel.curve(curve.before, chart.depth_before, before_stroke(curve.colour));
     for (const Curve& curve : column.curves) {
       panel.curve(curve.values, chart.depth, fault_stroke(curve.colour));
     }
@@ -111,7 +115,7 @@ std::string draw(const FaultMap& map) {
   const double heading = map.remark.empty() ? 44 : 62;
   Svg svg(kWidth, heading + kHeight + 92, map.title);
   draw_heading(svg, map.title, map.remark, 16);
-  const Axis depth = depth_axis(depths, kHeight);
+  const Axis depth = depth_axis(depths, {}, kHeight);
   const Box strip{kLeft, heading, 2 * kBandWidth, kHeight};
   draw_band_strip(svg, strip, depth, map.bands);
   double low = 0, high = 1;

@@ -27,6 +27,7 @@ struct DepthChart {
   std::vector<double> depth;  ///< m, ascending.
   std::vector<DepthBand> bands;
   std::vector<DepthColumn> columns;
+  std::vector<double> depth_before = {};  ///< m, ascending: of Curve::before.
 };
 std::string draw(const DepthChart& chart);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simulator/figure/panel.h"
 
@@ -50,18 +51,24 @@ void draw_stages(Svg& svg, Panel& panel, const HistoryChart& chart, bool with_na
   }
 }
 
-/// The last value of a curve and where it is; nothing where it has none.
-std::optional<Point> end_of(const Panel& panel, const HistoryChart& chart, const Curve& curve) {
-  for (std::size_t k = std::min(chart.time.size(), curve.values.size()); k-- > 0;) {
-    if (std::isfinite(curve.values[k])) return panel.at(chart.time[k], curve.values[k]);
+/// The last value of a line and where it is; nothing where it has none.
+std::optional<Point> end_of(const Panel& panel, const std::vector<double>& time,
+                            const std::vector<double>& values) {
+  for (std::size_t k = std::min(time.size(), values.size()); k-- > 0;) {
+    if (std::isfinite(values[k])) return panel.at(time[k], values[k]);
   }
   return std::nullopt;
+}
+/// Of a curve; of one that was only there before a change, the end of that.
+std::optional<Point> end_of(const Panel& panel, const HistoryChart& chart, const Curve& curve) {
+  const std::optional<Point> end = end_of(panel, chart.time, curve.values);
+  return end ? end : end_of(panel, chart.time_before, curve.before);
 }
 
 Axis axis_of(const HistoryPanel& panel) {
   std::vector<double> values;
   for (const Curve& curve : panel.curves)
-    for (const auto* list : {&curve.values, &curve.low, &curve.high})
+    for (const auto* list : {&curve.values, &curve.low, &curve.high, &curve.before})
       values.insert(values.end(), list->begin(), list->end());
   Axis axis = axis_over(panel.label, values, panel.always, 5);
   axis.to += panel.headroom * (axis.to - axis.from);
@@ -74,6 +81,8 @@ void draw_panel(Svg& svg, Panel& panel, const HistoryChart& chart, const History
     svg.text({panel.box().x + 5, panel.at(panel.x().from, level.value).y - 4}, level.name,
              {kTickSize, kFaint});
   }
+  for (const Curve& curve : content.curves)
+    panel.curve(chart.time_before, curve.before, before_stroke(curve.colour));
   std::vector<EndLabel> labels;
   for (const Curve& curve : content.curves) {
     const Stroke stroke = fault_stroke(curve.colour);
@@ -105,6 +114,19 @@ void draw_marks(Svg& svg, const Panel& panel, const HistoryChart& chart) {
   }
 }
 
+/// From the first to the last time of lines and stages.
+std::pair<double, double> ends_of_time(const HistoryChart& chart) {
+  double first = INFINITY, last = -INFINITY;
+  const auto take = [&](double from, double to) {
+    first = std::min(first, from), last = std::max(last, to);
+  };
+  for (const auto* time : {&chart.time, &chart.time_before})
+    if (!time->empty()) take(time->front(), time->back());
+  if (first > last) take(0, 1);
+  for (const StageSpan& stage : chart.stages) take(stage.from, stage.to);
+  return {first, last > first ? last : first + 1};
+}
+
 }  // namespace
 
 std::string draw(const HistoryChart& chart) {
@@ -112,12 +134,7 @@ std::string draw(const HistoryChart& chart) {
   for (const HistoryPanel& panel : chart.panels) height += panel.height + kPanelGap;
   Svg svg(kHistoryWidth, height - kPanelGap, chart.title);
   const double heading = draw_heading(svg, chart.title, chart.remark, 16);
-  double first = chart.time.empty() ? 0 : chart.time.front(),
-         last = chart.time.empty() ? 1 : chart.time.back();
-  for (const StageSpan& stage : chart.stages) {
-    first = std::min(first, stage.from), last = std::max(last, stage.to);
-  }
-  if (!(last > first)) last = first + 1;
+  const auto [first, last] = ends_of_time(chart);
   Axis time = axis_between(chart.time_label, first, last, 10);
   if (!chart.ticks.empty()) time.ticks = chart.ticks;
   double y = heading + 34;

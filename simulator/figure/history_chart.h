@@ -15,6 +15,8 @@ struct Curve {
   std::size_t colour = 0;                   ///< of fault_stroke.
   std::vector<double> values;               ///< NaN = no value there: the line is broken.
   std::vector<double> low = {}, high = {};  ///< bounds of the values, as thin lines; empty = none.
+  std::vector<double> before = {};  ///< what the values were before a change, as a thin, paler line
+                                    ///< at places of its own (of the chart); empty = none.
 };
 /// A horizontal line to compare with.
 struct Level {
@@ -50,6 +52,7 @@ struct HistoryChart {
   std::vector<HistoryPanel> panels;
   std::optional<double> cursor;  ///< a time that other charts show; a page may move the line, which
                                  ///< has the attributes data-cursor and data-x (of time 0, of 1).
+  std::vector<double> time_before = {};  ///< of Curve::before.
 };
 std::string draw(const HistoryChart& chart);
 

@@ -33,6 +33,20 @@ Stroke fault_stroke(std::size_t k, double width) {
   return {kColours[k % std::size(kColours)], width, kDashes[k % std::size(kDashes)]};
 }
 
+std::string paler(const std::string& colour) {
+  constexpr Rgb kWhite = {255, 255, 255};
+  constexpr double kShare = 0.4;  // of white
+  Rgb rgb;
+  for (std::size_t c = 0; c < 3; ++c) rgb[c] = std::stoi(colour.substr(1 + 2 * c, 2), nullptr, 16);
+  return hex(between(rgb, kWhite, kShare));
+}
+
+Stroke before_stroke(std::size_t k) {
+  Stroke stroke = fault_stroke(k, 1);
+  stroke.colour = paler(fault_ink(k));  // a thin line of the line's own colour would hardly be seen
+  return stroke;
+}
+
 std::string fault_ink(std::size_t k) {
   static constexpr const char* kInks[] = {"#005f95", "#b04e00", "#00795a", "#a03a90",
                                           "#1a6fa8", "#84601a", "#222222"};

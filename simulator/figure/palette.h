@@ -21,6 +21,10 @@ inline constexpr const char* kReservoir = "#f3e3b3";  ///< rock that is depleted
 /// Okabe and Ito (2008), told apart by all kinds of colour blindness and, as the dashes differ too,
 /// in grey.
 Stroke fault_stroke(std::size_t k, double width = 2);
+/// The same line as it was before a change: thin, and paler.
+Stroke before_stroke(std::size_t k);
+/// A colour, "#0072b2", as before_stroke has it.
+std::string paler(const std::string& colour);
 
 /// The colour of what is written of it: of its hue, and dark enough to be read (4.5 : 1) on white
 /// and on kShade.

@@ -11,11 +11,16 @@ namespace faultsim::figure {
 namespace {
 
 constexpr double kPathWidth = 760, kPathLeft = 64, kPathPlot = 660, kPathHeight = 380;
+constexpr const char* kStrength = "#b0003a";
 
 /// One scale for both axes, so that circles are round and angles are true; from 0, or lower where
 /// something is in tension.
 std::pair<Axis, Axis> stress_axes(const StressPath& path) {
   std::vector<double> normal = path.normal, shear = path.shear;
+  if (path.before) {
+    normal.insert(normal.end(), path.before->normal.begin(), path.before->normal.end());
+    shear.insert(shear.end(), path.before->shear.begin(), path.before->shear.end());
+  }
   if (path.circle) {
     normal.insert(normal.end(), {path.circle->largest, path.circle->smallest});
     shear.push_back((path.circle->largest - path.circle->smallest) / 2);
@@ -74,6 +79,19 @@ void draw_circle(Panel& panel, const StressPath::Circle& circle) {
   panel.curve(x, y, {kFaint, 1.25});
 }
 
+void draw_before(Svg& svg, Panel& panel, const StressPath& path) {
+  const StressPath::Before& before = *path.before;
+  if (before.cohesion != path.cohesion || before.friction != path.friction) {
+    const double end = panel.x().to;
+    panel.curve({0, end}, {before.cohesion, before.cohesion + before.friction * end},
+                {paler(kStrength), 1});
+  }
+  const Stroke stroke = before_stroke(0);
+  panel.curve(before.normal, before.shear, stroke);
+  for (std::size_t k = 0; k < before.normal.size(); ++k)
+    svg.circle(panel.at(before.normal[k], before.shear[k]), 1.5, stroke.colour);
+}
+
 void draw_path(Svg& svg, Panel& panel, const StressPath& path) {
   const Stroke stroke = fault_stroke(0, 2);
   panel.curve(path.normal, path.shear, stroke);
@@ -115,9 +133,10 @@ std::string draw(const StressPath& path) {
   Panel panel(svg, {kPathLeft, heading, kPathPlot, kPathHeight}, std::move(normal),
               std::move(shear));
   if (path.circle) draw_circle(panel, *path.circle);
-  draw_strength(svg, panel, path, path.friction, "strength", {"#b0003a", 1.75});
+  if (path.before) draw_before(svg, panel, path);
+  draw_strength(svg, panel, path, path.friction, "strength", {kStrength, 1.75});
   if (path.weakened) {
-    draw_strength(svg, panel, path, *path.weakened, "weakened", {"#b0003a", 1.25, "6 3"});
+    draw_strength(svg, panel, path, *path.weakened, "weakened", {kStrength, 1.25, "6 3"});
   }
   draw_path(svg, panel, path);
   panel.frame();

@@ -27,6 +27,13 @@ struct StressPath {
     double largest = 0, smallest = 0;
   };
   std::optional<Circle> circle;
+  /// What it was before a change: a thin, paler path, and the line of strength where it was
+  /// another.
+  struct Before {
+    std::vector<double> normal, shear;  ///< MPa, per load step.
+    double cohesion = 0, friction = 0;  ///< as above.
+  };
+  std::optional<Before> before = {};
 };
 std::string draw(const StressPath& path);
 

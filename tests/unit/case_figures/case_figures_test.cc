@@ -246,6 +246,60 @@ TEST(CompartmentsBeside, AreThoseOfTheBlocksOnTheirSides) {
   }
 }
 
+/// The case before a change: F1 comes to half of what it is now, F3 was called F0, F2 is the same;
+/// it took twice as long, and the west lost 150 bar at the end.
+CaseResult original_result() {
+  CaseResult original = small_result();
+  original.fault_names[2] = "F0";
+  for (StepResult& step : original.steps) {
+    step.time *= 2;
+    step.faults[0].chi_bar = 0.15 * step.step;
+    step.faults[0].max_slip = 0.1 * step.step;
+    step.pressure_change[0] *= 0.75;
+  }
+  return original;
+}
+
+/// The thin line of a curve, as read off the drawing's scales.
+std::vector<double> read_thin(const std::string& svg, std::size_t colour, bool along_x,
+                              std::size_t line = 0, std::size_t scale = 0) {
+  const figure::ReadScale read = figure::read_scale(svg, along_x, scale);
+  const auto lines =
+      figure::elements_of(svg, "polyline", "stroke", figure::before_stroke(colour).colour);
+  std::vector<double> values;
+  for (const figure::Point& one : lines.at(line).points())
+    values.push_back(read.value(along_x ? one.x : one.y));
+  return values;
+}
+
+TEST(DrawCase, HasTheHistoryBeforeAChangeByTheNamesOfFaultsAndRegions) {
+  const Scene scene = field_scene();
+  const CaseResult result = small_result(), before = original_result();
+  const CasePicture original{before, scene, nullptr, {}};
+  CasePicture picture{result, scene, nullptr, {}};
+  for (const CaseChart chart : {CaseChart::history, CaseChart::thickness, CaseChart::slip}) {
+    EXPECT_THAT(draw_case(picture, {chart, {}, {}, true}), Not(HasSubstr("before the change")));
+  }
+  const std::string section = draw_case(picture, {CaseChart::section, {}, 1, true});
+  picture.original = &original;
+  EXPECT_EQ(draw_case(picture, {CaseChart::section, {}, 1, true}), section);
+  const std::string svg = draw_case(picture, {CaseChart::history, {}, {}, true});
+  EXPECT_EQ(figure::xml_problem(svg), "");
+  EXPECT_THAT(svg, HasSubstr(">thin: before the change; a"));
+  expect_values(read_off(svg, 0, false), {0, 0.3, 0.6}, 0.005);
+  expect_values(read_off(svg, 0, true), {0, 5, 10}, 0.05);
+  expect_values(read_thin(svg, 0, false), {0, 0.15, 0.3}, 0.005);
+  expect_values(read_thin(svg, 0, true), {0, 10, 20}, 0.05);
+  expect_values(read_thin(svg, 1, false), {0.2, 1, 1}, 0.005);
+  EXPECT_THROW(read_thin(svg, 2, false), std::out_of_range) << "F3 was not there";
+  EXPECT_THAT(svg, HasSubstr(">F0, before<"));
+  expect_values(read_thin(svg, 3, false), {0, 0, 0}, 0.005);
+  expect_values(read_off(svg, 6, false, 0, 1), {0, -100, -200}, 1.5);
+  expect_values(read_thin(svg, 6, false, 0, 1), {0, -75, -150}, 1.5);
+  const std::string slip = draw_case(picture, {CaseChart::slip, {}, {}, false});
+  expect_values(read_thin(slip, 0, false), {0, 100, 200}, 1);
+}
+
 TEST(FieldSection, HasLayersToTheNextOneAndBlocksBetweenTheirFaults) {
   const Scene scene = field_scene();
   const figure::Section section = field_section(scene);
@@ -397,6 +451,60 @@ TEST_F(FieldsOfAFault, AStressPathStartsOnTheCircleOfTheInitialState) {
   EXPECT_NEAR(x.value(arc.back().x), std::min(across, down), 0.1);
   EXPECT_THAT(svg, HasSubstr(">end of primary production<"));
   EXPECT_THAT(svg, HasSubstr(">end of gas storage<"));
+}
+
+/// Fields of the case before a change: of three points of F2, 10 m deeper, each with half the
+/// shear.
+struct EarlierFields : FieldSource {
+  explicit EarlierFields(const FieldSource& now) : source(now), moved(now.faults()) {
+    moved[0].points.row(2).array() -= 10;
+  }
+  const std::vector<int>& steps() const override { return source.steps(); }
+  const std::vector<double>& times() const override { return source.times(); }
+  const std::vector<StoredFault>& faults() const override { return moved; }
+  StoredFields fields(std::size_t fault, std::size_t entry) const override {
+    StoredFields all = source.fields(fault, entry);
+    all.traction.row(2) *= 0.5;
+    return all;
+  }
+  const FieldSource& source;
+  std::vector<StoredFault> moved;
+};
+
+TEST_F(FieldsOfAFault, AreDrawnWithThoseBeforeAChange) {
+  const FieldReader reader(folder_ / "faults.h5");
+  EarlierFields earlier(reader);
+  const Scene scene = field_scene();
+  Scene other = scene;
+  other.faults[1].friction.static_friction_angle = 0.2;
+  const CaseResult result = small_result();
+  const CasePicture original{result, other, &earlier, {}};
+  CasePicture picture{result, scene, &reader, {}};
+  const std::string map = draw_case(picture, {CaseChart::fault_map, "F2", {}, false});
+  picture.original = &original;
+  EXPECT_EQ(draw_case(picture, {CaseChart::fault_map, "F2", {}, false}), map);
+  const std::string profiles = draw_case(picture, {CaseChart::profiles, "F2", {}, false});
+  EXPECT_EQ(figure::xml_problem(profiles), "");
+  EXPECT_THAT(profiles, HasSubstr(">thin: before the change; a &lt;small"));
+  expect_values(read_thin(profiles, 0, true, 2, 2), {0, 3, 0}, 0.1);
+  expect_values(read_thin(profiles, 0, false, 2), {2010, 2060, 2110}, 0.5);
+  expect_values(read_off(profiles, 0, true, 2, 2), {0, 6, 0}, 0.1);
+  const double strength = (other.faults[1].friction.cohesion + 2e7 * std::tan(0.2)) / 1e6;
+  expect_values(read_thin(profiles, 1, true, 0, 2), {strength, strength, strength}, 0.1);
+  const std::string path = draw_case(picture, {CaseChart::stress_path, "F2", {}, false});
+  EXPECT_EQ(figure::xml_problem(path), "");
+  EXPECT_THAT(path, HasSubstr(">thin: before the change, at 2,060 m depth; where"));
+  expect_values(read_thin(path, 0, false), {0, 1.5, 3}, 0.1);
+  // A fault that was not there, and fields that were not kept.
+  earlier.moved[0].name = "F0";
+  for (const CasePicture& none : {original, CasePicture{result, other, nullptr, {}}}) {
+    picture.original = &none;
+    for (const CaseChart chart : {CaseChart::profiles, CaseChart::stress_path}) {
+      const std::string svg = draw_case(picture, {chart, "F2", {}, false});
+      EXPECT_THAT(svg, HasSubstr(">nothing is kept of before the change; "));
+      EXPECT_THROW(read_thin(svg, 0, false), std::out_of_range);
+    }
+  }
 }
 
 TEST_F(FieldsOfAFault, ASectionHasTheLargerIndexOfItsEndsOnEachPiece) {

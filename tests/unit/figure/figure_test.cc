@@ -213,6 +213,20 @@ TEST(FaultStroke, IsAnotherOneForEachOfManyFaults) {
   EXPECT_EQ(seen.size(), 28U);
 }
 
+TEST(BeforeStroke, IsThinnerAndPalerThanWhatIsWrittenAndSeenOnWhite) {
+  std::set<std::string> seen;
+  for (std::size_t k = 0; k < 28; ++k) {
+    const Stroke stroke = before_stroke(k);
+    EXPECT_LE(stroke.width, fault_stroke(k).width / 2) << k;
+    EXPECT_EQ(stroke.dash, fault_stroke(k).dash) << k;
+    EXPECT_LT(contrast(stroke.colour, "#ffffff"), contrast(fault_ink(k), "#ffffff") / 1.5) << k;
+    EXPECT_GE(contrast(stroke.colour, kShade), 2) << k;
+    seen.insert(stroke.colour + stroke.dash);
+  }
+  EXPECT_EQ(seen.size(), 28U);
+  EXPECT_EQ(paler("#0064ff"), "#66a2ff") << "two fifths of the way to white";
+}
+
 TEST(Panel, DrawsOnlyThePartOfALineThatLiesWithin) {
   Svg svg(200, 200, "");
   Panel panel(svg, {50, 50, 100, 100}, axis_between("", 0, 1), axis_between("", 0, 1));

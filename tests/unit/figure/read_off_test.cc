@@ -54,6 +54,33 @@ TEST(ReadOff, AHistoryHasItsValuesAtItsTimes) {
   EXPECT_NEAR(x.value(of_colour(svg, "line", kInk).back().number("x1")), 7.5, 0.01) << "cursor";
 }
 
+/// Before the change there are other times, and values beyond those of now.
+TEST(ReadOff, AHistoryHasWhatWasBeforeAChangeAsThinLinesOfTheSameHue) {
+  HistoryChart chart;
+  chart.time = {0, 1, 2};
+  chart.panels = {{"a", {{"F1", 0, {0, 10, 20}}, {"gone", 1, {}}}}};
+  const std::string without = draw(chart);
+  chart.time_before = {0, 2, 3, 4};
+  chart.panels[0].curves[0].before = {0, 30, -12, 50};
+  chart.panels[0].curves[1].before = {5, 5, 5, 5};
+  const std::string svg = draw(chart);
+  const ReadScale x = read_scale(svg, true), y = read_scale(svg, false);
+  const auto thin = of_colour(svg, "polyline", before_stroke(0).colour);
+  ASSERT_EQ(thin.size(), 1U);
+  EXPECT_LT(thin[0].number("stroke-width"), fault_stroke(0).width);
+  const std::vector<Point> points = thin[0].points();
+  ASSERT_EQ(points.size(), 4U) << "whole: the axes hold it";
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_NEAR(x.value(points[k].x), chart.time_before[k], 0.01) << k;
+    EXPECT_NEAR(y.value(points[k].y), chart.panels[0].curves[0].before[k], 0.1) << k;
+  }
+  const auto now = of_colour(svg, "polyline", fault_stroke(0).colour).at(0).points();
+  EXPECT_NEAR(x.value(now[2].x), 2, 0.01);
+  EXPECT_NEAR(y.value(now[2].y), 20, 0.1);
+  EXPECT_NE(svg.find(">gone<"), std::string::npos) << "named at the end of what is left of it";
+  EXPECT_EQ(without.find(">gone<"), std::string::npos);
+}
+
 TEST(ReadOff, EqualRatiosAreEqualStepsOnLogarithmicAxes) {
   const LogChart chart{"trade",
                        "s",
@@ -98,6 +125,23 @@ TEST(ReadOff, ColumnsAgainstDepthGrowDownwards) {
                 0.04);
   }
   EXPECT_LT(bands[0].number("x"), bands[1].number("x")) << "the plus side is right of the fault";
+}
+
+/// On another mesh there are other depths.
+TEST(ReadOff, ColumnsHaveWhatWasBeforeAChangeAtDepthsOfItsOwn) {
+  DepthChart chart;
+  chart.depth = {2000, 2100};
+  chart.depth_before = {1900, 2050, 2200};
+  chart.columns = {{"a", {{"", 0, {1, 2}, {}, {}, {4, 5, 6}}}}};
+  const std::string svg = draw(chart);
+  const ReadScale x = read_scale(svg, true), depth = read_scale(svg, false);
+  const std::vector<Point> points =
+      of_colour(svg, "polyline", before_stroke(0).colour).at(0).points();
+  ASSERT_EQ(points.size(), 3U) << "whole: the axes hold it";
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(depth.value(points[k].y), chart.depth_before[k], 1) << k;
+    EXPECT_NEAR(x.value(points[k].x), 4.0 + static_cast<double>(k), 0.05) << k;
+  }
 }
 
 TEST(ReadOff, AMapOfAFaultHasItsCellsWhereTheyAre) {
@@ -204,6 +248,26 @@ TEST(ReadOff, AStressPathHasRoundCirclesAndTrueAngles) {
 }
 
 /// Wide and deep ones alike: nothing is drawn beyond the frame, nor out of scale.
+TEST(ReadOff, AStressPathHasTheOneBeforeAChangeAndItsStrengthWhereThatWasAnother) {
+  StressPath path;
+  path.normal = {20, 18}, path.shear = {5, 8};
+  path.cohesion = 1, path.friction = 0.5;
+  const std::string without = draw(path);
+  path.before = StressPath::Before{{20, 45}, {5, 12}, 1, 0.5};
+  std::string svg = draw(path);
+  const ReadScale x = read_scale(svg, true), y = read_scale(svg, false);
+  std::vector<Point> points = of_colour(svg, "polyline", before_stroke(0).colour).at(0).points();
+  ASSERT_EQ(points.size(), 2U) << "whole: the axes hold it";
+  EXPECT_NEAR(x.value(points[1].x), 45, 0.1);
+  EXPECT_NEAR(y.value(points[1].y), 12, 0.1);
+  EXPECT_TRUE(of_colour(svg, "polyline", paler("#b0003a")).empty()) << "the same strength";
+  path.before->friction = 0.25;
+  svg = draw(path);
+  points = of_colour(svg, "polyline", paler("#b0003a")).at(0).points();
+  const double rise = y.value(points[1].y) - y.value(points[0].y);
+  EXPECT_NEAR(rise / (x.value(points[1].x) - x.value(points[0].x)), 0.25, 0.01);
+}
+
 TEST(ReadOff, ASectionIsToScale) {
   for (const double base : {600.0, 9000.0}) {
     Section section;
