@@ -1,7 +1,6 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -12,12 +11,12 @@
 #include <string>
 
 #include "simulator/app/commands.h"
+#include "simulator/app/what_if_reply.h"
 #include "simulator/app/write_all.h"
 #include "simulator/case_figures/case_figures.h"
 #include "simulator/common/errors.h"
 #include "simulator/documents/json_document.h"
 #include "simulator/documents/schema.h"
-#include "simulator/result/result_sentences.h"
 #include "simulator/what_if/resident_case.h"
 #include "what_if_message_schema_text.h"
 
@@ -28,7 +27,12 @@ using nlohmann::json;
 
 constexpr int kWhatIfVersion = 1;  // schemas/what_if_protocol.md
 
-using WantedCharts = std::vector<CaseChartRequest>;
+/// What a question is about, until it is answered.
+struct Asked {
+  std::vector<CaseChartRequest> charts = {};
+  bool has_changes = false;
+  long scene = 0;  ///< number of the scene.
+};
 
 const char* name_of(QuestionState state) {
   switch (state) {
@@ -61,13 +65,6 @@ json message_of(const std::string& line, long last) {
   return message.value;
 }
 
-json problems_of(const InputError& error) {
-  json list = json::array();
-  for (const Problem& problem : error.problems())
-    list.push_back({{"place", problem.pointer}, {"cause", problem.what}, {"cure", problem.cure}});
-  return list;
-}
-
 /// Values by JSON pointer as changes.
 Changes changes_of(const json& values) {
   Changes changes;
@@ -77,9 +74,10 @@ Changes changes_of(const json& values) {
 }
 
 /// Throws InputError where there is no such chart.
-WantedCharts charts_of(const json& question) {
-  WantedCharts wanted;
+std::vector<CaseChartRequest> charts_of(const json& question) {
+  std::vector<CaseChartRequest> wanted;
   CaseChartRequest request;
+  request.with_cursor = question.value("cursor", false);
   request.fault = question.value("fault", "");
   if (question.contains("step")) request.step = question.at("step").get<int>();
   for (const json& name : question.value("charts", json::array())) {
@@ -90,30 +88,6 @@ WantedCharts charts_of(const json& question) {
     wanted.push_back(request);
   }
   return wanted;
-}
-
-std::vector<std::string> sentences_of(const CaseResult& result) {
-  std::vector<std::string> said = {sliding_sentence(result), unexpected_sentence(result),
-                                   creep_sentence(result)};
-  for (std::string& one : unresolved_sentences(result)) said.push_back(std::move(one));
-  for (const std::string& warning : result.warnings) said.push_back(warning);
-  std::erase(said, "");
-  return said;
-}
-
-/// A case as its pictures; a chart that cannot be drawn says why.
-json drawn(const ShownCase& shown, const WantedCharts& wanted) {
-  const CasePicture picture{shown.result, shown.scene, &shown.fields, {}};
-  json charts = json::object();
-  for (const CaseChartRequest& request : wanted) {
-    const auto info = std::ranges::find(case_charts(), request.chart, &CaseChartInfo::chart);
-    try {
-      charts[info->name] = draw_case(picture, request);
-    } catch (const InputError& error) {
-      charts[info->name] = {{"problems", problems_of(error)}};
-    }
-  }
-  return charts;
 }
 
 /// Answers questions until there are no more.
@@ -131,46 +105,55 @@ class WhatIf {
   void take(const json& message) {
     if (message.contains("scene")) {
       base_ = {message.value("source", "case"), message.at("scene"), {}};
+      const std::lock_guard lock(mutex_);
+      ++scene_;
+      original_ = nullptr;
       return;
     }
     const long number = message.at("ask").get<long>();
+    const json changes = message.value("changes", json::object());
     try {
       {
-        WantedCharts wanted = charts_of(message);
+        Asked asked = {charts_of(message), !changes.empty()};
         const std::lock_guard lock(mutex_);
-        wanted_[number] = std::move(wanted);
+        asked.scene = scene_;
+        asked_[number] = std::move(asked);
       }
-      resident_.ask(number, base_, changes_of(message.value("changes", json::object())));
+      resident_.ask(number, base_, changes_of(changes));
     } catch (const InputError& error) {
       forget(number);
-      say({{"ask", number}, {"state", "refused"}, {"problems", problems_of(error)}});
+      say({{"ask", number}, {"state", "refused"}, {"problems", what_if_problems(error)}});
     }
   }
 
  private:
-  /// What the question wanted; nothing where it was refused before that was known.
-  WantedCharts forget(long number) {
+  /// What the question is about; nothing where it was refused before that was known.
+  Asked forget(long number) {
     const std::lock_guard lock(mutex_);
-    auto node = wanted_.extract(number);
-    return node ? std::move(node.mapped()) : WantedCharts();
+    auto node = asked_.extract(number);
+    return node ? std::move(node.mapped()) : Asked();
+  }
+  /// The case before the question's changes, nullptr where there is none; the shown case becomes
+  /// that of later questions where it has none.
+  std::shared_ptr<const ShownCase> original_of(const Asked& asked,
+                                               const std::shared_ptr<const ShownCase>& shown) {
+    const std::lock_guard lock(mutex_);
+    if (asked.scene != scene_) return nullptr;
+    if (asked.has_changes) return original_;
+    original_ = shown;
+    return nullptr;
   }
   void tell(long number, const QuestionProgress& how) {
     json reply = {{"ask", number}, {"state", name_of(how.state)}};
     if (!how.says.empty()) reply["says"] = how.says;
     if (!how.is_open()) {
-      const WantedCharts wanted = forget(number);
-      if (how.shown != nullptr) add(*how.shown, wanted, reply);
+      const Asked asked = forget(number);
+      if (how.shown != nullptr) {
+        const auto original = original_of(asked, how.shown);
+        reply.update(what_if_reply(*how.shown, original.get(), asked.charts));
+      }
     }
     say(reply);
-  }
-  static void add(const ShownCase& shown, const WantedCharts& wanted, json& reply) {
-    const CaseResult& result = shown.result;
-    reply["outcome"] = to_string(result.outcome);
-    reply["identity"] = result.identity;
-    reply["seconds"] = result.seconds;
-    reply["sentences"] = sentences_of(result);
-    reply["charts"] = drawn(shown, wanted);
-    reply["scene"] = shown.document.value;
   }
   void say(const json& message) {
     const std::lock_guard lock(writing_);
@@ -184,8 +167,10 @@ class WhatIf {
   int replies_;
   JsonDocument base_;
   std::mutex mutex_, writing_;
-  std::map<long, WantedCharts> wanted_;  ///< of questions that are open.
-  ResidentCase resident_;                ///< the last member: its thread uses the others.
+  std::map<long, Asked> asked_;                ///< questions that are open.
+  long scene_ = 0;                             ///< number of the present scene.
+  std::shared_ptr<const ShownCase> original_;  ///< the present scene without changes.
+  ResidentCase resident_;                      ///< the last member: its thread uses the others.
 };
 
 }  // namespace

@@ -1,34 +1,22 @@
 #include "simulator/page/case_part.h"
 
-#include <nlohmann/json.hpp>
-
 #include "simulator/common/errors.h"
+#include "simulator/page/steps_json.h"
 
 namespace faultsim {
 namespace {
-
-std::string steps_json(const std::vector<StepLook>& looks) {
-  nlohmann::json steps = nlohmann::json::array();
-  for (const StepLook& look : looks) {
-    nlohmann::json notes = nlohmann::json::object();
-    for (const auto& [name, note] : look.notes) notes[name] = note;
-    steps.push_back(
-        {{"time", look.time}, {"says", look.says}, {"colours", look.colours}, {"notes", notes}});
-  }
-  return steps.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-}
 
 /// Of a field. The slider, hidden until the script is there, and what it changes. Drawn before
 /// anything is added: what cannot be drawn leaves nothing half open.
 void add_section_and_slider(HtmlPage& page, const CasePicture& picture, long number) {
   const std::string section = draw_case(picture, {CaseChart::section, {}, {}, true}),
                     history = draw_case(picture, {CaseChart::history, {}, {}, true});
-  const std::vector<StepLook> looks = step_looks(picture);
+  const nlohmann::json steps = steps_json(picture);
   page.add(concat("<div data-case=\"", number, "\">\n"));
-  page.data("", steps_json(looks));
+  page.data("", steps.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
   page.add(
       concat("<div class=\"slider\" hidden><label>load step <input type=\"range\" min=\"0\" max=\"",
-             looks.size() - 1, "\" value=\"", critical_moment(picture.result).step,
+             steps.size() - 1, "\" value=\"", critical_moment(picture.result).step,
              "\" aria-label=\"load step\"></label><output></output></div>\n"));
   page.chart(section);
   page.chart(history);

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "simulator/case_figures/case_figures.h"
+
+namespace faultsim {
+
+/// step_looks as a page's script reads them: of each load step {"time", "says", "colours",
+/// "notes"}. @pre the scene is a field.
+nlohmann::json steps_json(const CasePicture& picture);
+
+}  // namespace faultsim
