@@ -79,8 +79,7 @@ std::string draw_profiles(Chosen chosen) {
       concat(says_before, subject_of(chosen.picture),
              chosen.result().plane_strain
                  ? ""
-                 : concat("; line down dip at ", plain_number(place.y(), 4), " m along strike"),
-             says_before);
+                 : concat("; line down dip at ", plain_number(place.y(), 4), " m along strike"));
   chart.bands = compartments_beside(chosen.scene(), chosen.fault);
   chart.columns = {
       {"Δp in the fault, bar", {curve("", 0, &Profile::pressure)}, {}, {0}},

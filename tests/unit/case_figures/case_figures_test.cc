@@ -485,7 +485,7 @@ TEST_F(FieldsOfAFault, AreDrawnWithThoseBeforeAChange) {
   EXPECT_EQ(draw_case(picture, {CaseChart::fault_map, "F2", {}, false}), map);
   const std::string profiles = draw_case(picture, {CaseChart::profiles, "F2", {}, false});
   EXPECT_EQ(figure::xml_problem(profiles), "");
-  EXPECT_THAT(profiles, HasSubstr(">thin: before the change; a &lt;small"));
+  EXPECT_THAT(profiles, HasSubstr(">thin: before the change; a &lt;small&gt; case<"));
   expect_values(read_thin(profiles, 0, true, 2, 2), {0, 3, 0}, 0.1);
   expect_values(read_thin(profiles, 0, false, 2), {2010, 2060, 2110}, 0.5);
   expect_values(read_off(profiles, 0, true, 2, 2), {0, 6, 0}, 0.1);
