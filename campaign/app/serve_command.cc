@@ -1,10 +1,12 @@
-#include <chrono>
+#include <unistd.h>
+
 #include <cstdio>
 
 #include "campaign/app/commands.h"
 #include "campaign/serve/http_server.h"
 #include "campaign/serve/store_api.h"
 #include "simulator/common/interrupt.h"
+#include "simulator/common/machine.h"
 #include "simulator/common/stopwatch.h"
 
 namespace faultsweep {
@@ -34,10 +36,16 @@ void say_address(const HttpServer& server, bool as_json) {
   std::fflush(stdout);  // whoever waits for the address reads a pipe
 }
 
+/// For what-if; nothing where there is none.
+std::filesystem::path simulator_if_there() {
+  const std::filesystem::path binary = simulator_binary();
+  return access(binary.c_str(), X_OK) == 0 ? binary : std::filesystem::path();
+}
+
 ExitCode serve_store(const StoreArguments& common, const ServeArguments& arguments) {
   const std::optional<double> duration = seconds_of(arguments.duration);
   Store::open_reader(common.store);  // which says what is wrong with it
-  StoreApi api(common.store);
+  StoreApi api(common.store, simulator_if_there(), faultsim::usable_cores());
   const faultsim::Stopwatch watch;
   HttpServer* running = nullptr;
   ServerSettings settings;
@@ -78,9 +86,9 @@ void add_serving(Program& program) {
       "Examples:\n"
       "  faultsweep serve\n"
       "  faultsweep serve runs/store --port 0 --json\n"
-      "It prints its address when it listens and changes nothing in the store. GET /api lists "
-      "what\n"
-      "can be asked for.");
+      "It prints its address when it listens and changes nothing in the store. The page follows\n"
+      "a campaign that runs, and its what-if runs a case with other values on an operator that is\n"
+      "kept at hand. GET /api lists what can be asked for.");
 }
 
 }  // namespace faultsweep

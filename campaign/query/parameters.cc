@@ -72,6 +72,7 @@ ParameterColumns::ParameterColumns(const std::vector<StoredParameter>& parameter
     const StoredParameter& one = parameters[k];
     const auto unit = one.is_text ? std::nullopt : common_unit(rows, static_cast<int>(k));
     AnswerColumn column{one.name, one.name, {}, kDigits, Need::always, "parameters"};
+    if (!one.is_text) column.ranks = one.name;
     if (unit && !unit->empty())
       column.unit = {*unit, 1 / faultsim::from_si(1, one.dimension, *unit),
                      faultsim::si_unit(one.dimension)};

@@ -94,6 +94,7 @@ struct AnswerColumn {
   int digits = 4;  ///< significant ones on screen and page, where no error says how many.
   Need need = Need::wanted;
   std::string group = {};  ///< the object of a JSON row in which the key stands; "" = the row.
+  std::string ranks = {};  ///< what `rank --by` calls it; "" = nothing can be ranked by it.
 };
 
 /// Rows of cells, one for each column; a row may end early where nothing follows.

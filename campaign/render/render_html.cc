@@ -39,6 +39,14 @@ bool is_shown(const AnswerTable& table, const AnswerColumn& column) {
 /// The rows of a long table that are elements; its script has the others.
 constexpr std::size_t kRowsOfAPage = 100;
 
+/// With the name by which a page asks for rows in another order.
+std::string head_cell(const AnswerColumn& column) {
+  const std::string by =
+      column.ranks.empty() ? std::string() : concat(" data-by=\"", escape_xml(column.ranks), "\"");
+  return concat("<th data-key=\"", escape_xml(column.key), "\"", by, ">",
+                escape_xml(shown_heading(column)), "</th>");
+}
+
 /// The beginning of a table; of one that is sortable with the place where a script says how many
 /// rows pass its filters.
 std::string head_of(const AnswerTable& table, std::size_t n_shown) {
@@ -53,7 +61,7 @@ std::string head_of(const AnswerTable& table, std::size_t n_shown) {
   html += concat("<div class=\"wide\"><table data-table=\"", key,
                  table.is_sortable ? concat("\" data-filter=\"", place) : "", "\"><thead><tr>");
   for (const AnswerColumn& one : table.columns)
-    if (is_shown(table, one)) html += concat("<th>", escape_xml(shown_heading(one)), "</th>");
+    if (is_shown(table, one)) html += head_cell(one);
   return html + "</tr></thead>\n<tbody>\n";
 }
 

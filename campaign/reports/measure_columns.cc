@@ -44,6 +44,7 @@ std::vector<AnswerColumn> measure_columns(bool per_metre) {
         concat(field.called.empty() ? field.key : field.called, strike ? "_per_m" : "");
     AnswerColumn column{key, std::string(field.metric()),
                         shown_unit(faultsim::dimension_of(field.key), strike), 4, Need::data};
+    column.ranks = std::string(field.metric());
     for (const Shown& one : kShown) {
       if (one.key != field.key) continue;
       column.heading = one.heading;

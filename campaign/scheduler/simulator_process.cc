@@ -140,7 +140,7 @@ SimulatorProcess::SimulatorProcess(const Options& options) {
   replies.open();
   log.open();
   std::vector<std::string> arguments = {options.binary.string(),
-                                        "worker",
+                                        options.command,
                                         "--requests",
                                         std::to_string(kChildRequests),
                                         "--replies",

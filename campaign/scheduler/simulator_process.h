@@ -18,7 +18,8 @@ struct ProcessEnd {
 /// "killed by SIGSEGV (11)", "ended with exit code 3".
 std::string describe(const ProcessEnd& end);
 
-/// A `faultsim worker` child (schemas/worker_protocol.md) and the pipes to it.
+/// A `faultsim worker` child (schemas/worker_protocol.md), or a `faultsim what-if` one
+/// (what_if_protocol.md), and the pipes to it.
 ///
 /// The child gets: its own process group, so that a Ctrl-C at the terminal is ours to handle;
 /// signal mask and handlers reset; descriptors 0 (null), 1 and 2 (the log), 3 (requests), 4
@@ -29,6 +30,7 @@ class SimulatorProcess {
  public:
   struct Options {
     std::filesystem::path binary;
+    const char* command = "worker";
     std::filesystem::path cache;         ///< operator cache; empty = none.
     std::filesystem::path node_cache;    ///< copies on the host's own disk; empty = none.
     std::optional<double> memory_limit;  ///< bytes of private memory (RLIMIT_DATA).

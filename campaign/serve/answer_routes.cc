@@ -21,22 +21,26 @@ namespace {
 
 constexpr long kUsualRows = 20, kMostRows = 1000, kMostPages = 1000000;
 
-/// What the command prints with --json.
-HttpResponse json_of(const Answer& answer) {
+constexpr Parameter kAs = {"as", "json (default): as the command prints it with --json; or html"};
+
+/// An answer in the rendering that was asked for.
+template <Answer (*find)(const Store&, const Asked&)>
+HttpResponse rendered(const Store& store, const Asked& asked) {
+  const bool as_html = asked.word("as", {"json", "html"}) == 1;
+  const Answer answer = find(store, asked);
+  if (as_html) return {200, "text/html; charset=utf-8", render_html(answer)};
   return {200, "application/json", faultsim::json_text(render_json(answer))};
 }
 
-HttpResponse campaigns(const Store& store, const Asked&) {
-  return json_of(campaigns_answer(store));
-}
+Answer campaigns(const Store& store, const Asked&) { return campaigns_answer(store); }
 
-HttpResponse metrics(const Store&, const Asked&) { return json_of(metrics_answer()); }
+Answer metrics(const Store&, const Asked&) { return metrics_answer(); }
 
-HttpResponse status(const Store& store, const Asked& asked) {
+Answer status(const Store& store, const Asked& asked) {
   StatusReport report = make_status(store, asked.campaign(store).name);
   std::string& source = report.campaign.source;
   source = std::filesystem::path(source).filename().string();  // where it was is nobody's business
-  return json_of(to_answer(report));
+  return to_answer(report);
 }
 
 RankRequest ranked(const Asked& asked) {
@@ -49,73 +53,78 @@ RankRequest ranked(const Asked& asked) {
   return request;
 }
 
-HttpResponse ranking(const Store& store, const Asked& asked) {
+Answer ranking(const Store& store, const Asked& asked) {
   RankRequest request = ranked(asked);
   request.top = asked.whole("rows", 1, kMostRows).value_or(kUsualRows);
   request.skip = request.top * (asked.whole("page", 1, kMostPages).value_or(1) - 1);
-  return json_of(to_answer(make_ranking(store, asked.campaign(store), request)));
+  return to_answer(make_ranking(store, asked.campaign(store), request));
 }
 
-HttpResponse one_case(const Store& store, const Asked& asked) {
+Answer one_case(const Store& store, const Asked& asked) {
   const CampaignInfo campaign = asked.campaign(store);
-  return json_of(to_answer(shown_case(store, campaign, asked.stored_case(store, campaign),
-                                      {asked.text("stage"), asked.text("fault")})));
+  return to_answer(shown_case(store, campaign, asked.stored_case(store, campaign),
+                              {asked.text("stage"), asked.text("fault")}));
 }
 
-HttpResponse why_ranked(const Store& store, const Asked& asked) {
+Answer why_ranked(const Store& store, const Asked& asked) {
   const CampaignInfo campaign = asked.campaign(store);
-  return json_of(
-      to_answer(explain_rank(store, campaign, asked.stored_case(store, campaign), ranked(asked))));
+  return to_answer(
+      explain_rank(store, campaign, asked.stored_case(store, campaign), ranked(asked)));
 }
 
-HttpResponse explained(const Store& store, const Asked& asked) {
+Answer explained(const Store& store, const Asked& asked) {
   const CampaignInfo campaign = asked.campaign(store);
-  return json_of(explanation(store, campaign, asked.stored_case(store, campaign)));
+  return explanation(store, campaign, asked.stored_case(store, campaign));
 }
 
-HttpResponse probability(const Store& store, const Asked& asked) {
+Answer probability(const Store& store, const Asked& asked) {
   ProbabilityRequest request{asked.text("of"), asked.text("where"), asked.text("by"),
                              asked.confidence()};
   request.width = asked.number("width", 1e-4, 1).value_or(0);
-  return json_of(to_answer(find_probability(store, asked.campaign(store), request)));
+  return to_answer(find_probability(store, asked.campaign(store), request));
 }
 
-HttpResponse curves(const Store& store, const Asked& asked) {
+Answer curves(const Store& store, const Asked& asked) {
   const auto axis = static_cast<CurveAxis>(asked.word("against", {"step", "time", "pressure"}));
-  return json_of(to_answer(
+  return to_answer(
       probability_curves(store, asked.campaign(store),
-                         {axis, asked.text("where"), asked.text("stage"), asked.confidence()})));
+                         {axis, asked.text("where"), asked.text("stage"), asked.confidence()}));
 }
 
-HttpResponse quantiles(const Store& store, const Asked& asked) {
+Answer quantiles(const Store& store, const Asked& asked) {
   QuantileRequest request;
   request.metrics = asked.text("metrics");
   if (request.metrics.empty())
     throw HttpError(400, "metrics", "it says of what", "write metrics=chi_bar; GET /api/metrics");
   request.where = asked.text("where");
   request.confidence = asked.confidence();
-  return json_of(to_answer(find_quantiles(store, asked.campaign(store), request)));
+  return to_answer(find_quantiles(store, asked.campaign(store), request));
 }
 
-HttpResponse posterior(const Store& store, const Asked& asked) {
+Answer posterior(const Store& store, const Asked& asked) {
   PosteriorRequest request{asked.texts("seen"), asked.texts("of"), asked.text("where"),
                            asked.confidence()};
   if (request.seen.empty())
     throw HttpError(400, "seen", "nothing was seen", "write seen=F2 did not slide before 8 yr");
-  return json_of(to_answer(find_posterior(store, asked.campaign(store), request)));
+  return to_answer(find_posterior(store, asked.campaign(store), request));
 }
 
-HttpResponse sensitivity(const Store& store, const Asked& asked) {
+Answer sensitivity(const Store& store, const Asked& asked) {
   SensitivityRequest request;
   request.cases = {asked.text("where"), asked.text("stage"), asked.text("fault")};
   request.metrics = asked.text("metrics");
   request.by_step = asked.flag("by_step");
   request.confidence = asked.confidence();
-  return json_of(what_matters(store, asked.campaign(store), request));
+  return what_matters(store, asked.campaign(store), request);
 }
 
-HttpResponse limits(const Store& store, const Asked& asked) {
-  return json_of(to_answer(make_limit_table(store, asked.campaign(store, true)), 0));
+Answer limits(const Store& store, const Asked& asked) {
+  return to_answer(make_limit_table(store, asked.campaign(store, true)), 0);
+}
+
+std::vector<Route> with_rendering(std::vector<Route> routes) {
+  for (Route& one : routes) one.parameters.push_back(kAs);
+  return routes;
 }
 
 const Parameter kWhere = {"where", "only cases where this holds, as of `rank --where`"};
@@ -128,65 +137,71 @@ const Parameter kConfidence = {"confidence", "of the intervals: 0.5 to 0.9999, d
 }  // namespace
 
 const std::vector<Route>& answer_routes() {
-  static const std::vector<Route> routes = {
-      {"/api/campaigns", "the campaigns of the store, as of `status --all`", {}, campaigns},
-      {"/api/metrics",
-       "what can be ranked and filtered by, as of `rank --list-metrics`",
-       {},
-       metrics},
-      {"/api/campaigns/{campaign}", "how it stands, as of `status`", {}, status},
-      {"/api/campaigns/{campaign}/ranking",
-       "as of `rank --skip N --top N`",
-       {kBy,
-        kWhere,
-        kOrder,
-        {"page", "from 1"},
-        {"rows", "of a page, 1 to 1000, default 20"},
-        kStage,
-        kFault},
-       ranking},
-      {"/api/campaigns/{campaign}/cases/{case}", "as of `show`", {kStage, kFault}, one_case},
-      {"/api/campaigns/{campaign}/cases/{case}/why",
-       "why it stands where it does, as of `rank --why`",
-       {kBy, kWhere, kOrder, kStage, kFault},
-       why_ranked},
-      {"/api/campaigns/{campaign}/cases/{case}/explanation",
-       "whether it will run, as of `explain`",
-       {},
-       explained},
-      {"/api/campaigns/{campaign}/probability",
-       "as of `probability`",
-       {{"of", "condition; default: that each fault slides, in each stage"},
-        {"by", "a parameter: for each of its values, or ten parts of its range"},
-        {"width", "wanted distance of the bounds, as a share"},
-        kWhere,
-        kConfidence},
-       probability},
-      {"/api/campaigns/{campaign}/curves",
-       "as of `probability --against`",
-       {{"against", "step (default), time or pressure"}, kWhere, kStage, kConfidence},
-       curves},
-      {"/api/campaigns/{campaign}/quantiles",
-       "as of `probability --quantiles`",
-       {{"metrics", "names with commas"}, kWhere, kConfidence},
-       quantiles},
-      {"/api/campaigns/{campaign}/posterior",
-       "as of `posterior`",
-       {{"seen", "a statement; may be given again", true},
-        {"of", "condition; may be given again", true},
-        kWhere,
-        kConfidence},
-       posterior},
-      {"/api/campaigns/{campaign}/sensitivity",
-       "as of `sensitivity`",
-       {{"metrics", "names with commas; default: chi_bar, slip and sliding by fault"},
-        {"by_step", "yes: at the end of each load step"},
-        kWhere,
-        kStage,
-        kFault,
-        kConfidence},
-       sensitivity},
-      {"/api/campaigns/{campaign}/limits", "as of `limits`", {}, limits}};
+  static const std::vector<Route> routes = with_rendering(
+      {{"/api/campaigns",
+        "the campaigns of the store, as of `status --all`",
+        {},
+        rendered<campaigns>},
+       {"/api/metrics",
+        "what can be ranked and filtered by, as of `rank --list-metrics`",
+        {},
+        rendered<metrics>},
+       {"/api/campaigns/{campaign}", "how it stands, as of `status`", {}, rendered<status>},
+       {"/api/campaigns/{campaign}/ranking",
+        "as of `rank --skip N --top N`",
+        {kBy,
+         kWhere,
+         kOrder,
+         {"page", "from 1"},
+         {"rows", "of a page, 1 to 1000, default 20"},
+         kStage,
+         kFault},
+        rendered<ranking>},
+       {"/api/campaigns/{campaign}/cases/{case}",
+        "as of `show`",
+        {kStage, kFault},
+        rendered<one_case>},
+       {"/api/campaigns/{campaign}/cases/{case}/why",
+        "why it stands where it does, as of `rank --why`",
+        {kBy, kWhere, kOrder, kStage, kFault},
+        rendered<why_ranked>},
+       {"/api/campaigns/{campaign}/cases/{case}/explanation",
+        "whether it will run, as of `explain`",
+        {},
+        rendered<explained>},
+       {"/api/campaigns/{campaign}/probability",
+        "as of `probability`",
+        {{"of", "condition; default: that each fault slides, in each stage"},
+         {"by", "a parameter: for each of its values, or ten parts of its range"},
+         {"width", "wanted distance of the bounds, as a share"},
+         kWhere,
+         kConfidence},
+        rendered<probability>},
+       {"/api/campaigns/{campaign}/curves",
+        "as of `probability --against`",
+        {{"against", "step (default), time or pressure"}, kWhere, kStage, kConfidence},
+        rendered<curves>},
+       {"/api/campaigns/{campaign}/quantiles",
+        "as of `probability --quantiles`",
+        {{"metrics", "names with commas"}, kWhere, kConfidence},
+        rendered<quantiles>},
+       {"/api/campaigns/{campaign}/posterior",
+        "as of `posterior`",
+        {{"seen", "a statement; may be given again", true},
+         {"of", "condition; may be given again", true},
+         kWhere,
+         kConfidence},
+        rendered<posterior>},
+       {"/api/campaigns/{campaign}/sensitivity",
+        "as of `sensitivity`",
+        {{"metrics", "names with commas; default: chi_bar, slip and sliding by fault"},
+         {"by_step", "yes: at the end of each load step"},
+         kWhere,
+         kStage,
+         kFault,
+         kConfidence},
+        rendered<sensitivity>},
+       {"/api/campaigns/{campaign}/limits", "as of `limits`", {}, rendered<limits>}});
   return routes;
 }
 

@@ -46,7 +46,8 @@ Route case_route(const char* path, const char* meaning) {
           {{"fault", "default: the one with the largest χ̄"},
            {"step", "load step; default: that of its largest χ̄"},
            {"cursor", "yes: histories have a line at the step"}},
-          case_chart<chart>};
+          case_chart<chart>,
+          "image/svg+xml"};
 }
 
 }  // namespace
@@ -57,15 +58,18 @@ const std::vector<Route>& drawing_routes() {
       {"/api/campaigns/{campaign}/map.svg",
        "what became of the cases, against two parameters",
        {{"x", "along the bottom; default: the first"}, {"y", "along the side; default: the next"}},
-       outcome_map},
+       outcome_map,
+       "image/svg+xml"},
       {"/api/campaigns/{campaign}/sensitivity.svg",
        "which parameters matter",
        {{"metrics", "names with commas"}, {"by_step", "yes: against time"}},
-       sensitivity_chart},
+       sensitivity_chart,
+       "image/svg+xml"},
       {"/api/campaigns/{campaign}/probability.svg",
        "how likely something is",
        {{"of", "condition"}, {"where", "of which cases"}, {"by", "a parameter"}},
-       probability_chart},
+       probability_chart,
+       "image/svg+xml"},
       case_route<CaseChart::history>("/api/campaigns/{campaign}/cases/{case}/history.svg",
                                      "χ̄ of each fault and Δp against time"),
       case_route<CaseChart::thickness>("/api/campaigns/{campaign}/cases/{case}/thickness.svg",

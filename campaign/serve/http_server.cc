@@ -108,15 +108,12 @@ std::optional<HttpProblem> problem_of(const Head& head, bool has_body, const Ser
       port);
 }
 
-/// Nothing may be loaded, run, framed or kept that the response does not hold itself.
 template <typename Body>
 void add_headers(http::response<Body>& to, const HttpResponse& from) {
   to.set(http::field::server, kName);
   to.set(http::field::content_type, from.type);
   to.set(http::field::cache_control, "no-store");
-  to.set("Content-Security-Policy",
-         "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'; "
-         "frame-ancestors 'none'");
+  to.set("Content-Security-Policy", from.policy + "; frame-ancestors 'none'");
   to.set("X-Content-Type-Options", "nosniff");
   to.set("X-Frame-Options", "DENY");
   to.set("Referrer-Policy", "no-referrer");

@@ -24,7 +24,7 @@ struct ServerLimits {
   double per_second = 200;      ///< requests that are answered, on average ...
   double at_once = 400;         ///< ... and in a burst: 429 above.
   std::size_t unanswered = 32;  ///< requests that wait for their answers: 503 above.
-  int threads = 2;              ///< that answer.
+  int threads = 4;              ///< that answer, or wait for a simulator.
 };
 
 struct ServerSettings {

@@ -20,6 +20,10 @@ struct HttpResponse {
   int status = 200;
   std::string type = "application/json";
   std::string body = {};
+  /// Content-Security-Policy: nothing may be loaded, run, framed or kept but styles that stand in
+  /// it.
+  std::string policy =
+      "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
   std::string remark = {};  ///< for the server's own terminal, never sent; "" = nothing.
 };
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign/common/json.h"
 #include "campaign/serve/request.h"
 #include "campaign/store/store.h"
 
@@ -24,6 +25,7 @@ struct Route {
   const char* meaning;
   std::vector<Parameter> parameters;  ///< others are refused.
   HttpResponse (*answer)(const Store&, const Asked&);
+  const char* type = "application/json";
 };
 
 /// A request that goes a route, its parameters checked by name and number.
@@ -55,7 +57,14 @@ class Asked {
   const HttpRequest& request_;
 };
 
-const std::vector<Route>& answer_routes();   ///< JSON.
+const std::vector<Route>& answer_routes();   ///< JSON, or parts of a page.
 const std::vector<Route>& drawing_routes();  ///< SVG.
+const std::vector<Route>& page_routes();     ///< what only the page asks for.
+/// Waits for a simulator and is answered by StoreApi itself; it has no function.
+const Route& what_if_route();
+/// Its question as schemas/what_if_protocol.md has it, without a number.
+json question_body(const Asked& asked);
+/// All of them, in this order.
+std::vector<const Route*> all_routes();
 
 }  // namespace faultsweep::serve

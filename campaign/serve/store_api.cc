@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <new>
 
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
+#include "campaign/expansion/expansion.h"
+#include "campaign/serve/live_page.h"
 #include "campaign/serve/route.h"
 #include "campaign/store/store.h"
 #include "simulator/files/json_text.h"
@@ -37,16 +40,13 @@ bool leads(const Route& route, const std::vector<std::string>& path) {
 /// What can be asked for.
 HttpResponse list_routes() {
   ordered_json routes = ordered_json::array();
-  for (const auto* some : {&serve::answer_routes(), &serve::drawing_routes()}) {
-    for (const Route& route : *some) {
-      ordered_json parameters = ordered_json::object();
-      for (const serve::Parameter& one : route.parameters) parameters[one.name] = one.meaning;
-      routes.push_back(
-          {{"path", route.path},
-           {"meaning", route.meaning},
-           {"type", some == &serve::answer_routes() ? "application/json" : "image/svg+xml"},
-           {"parameters", parameters}});
-    }
+  for (const Route* route : serve::all_routes()) {
+    ordered_json parameters = ordered_json::object();
+    for (const serve::Parameter& one : route->parameters) parameters[one.name] = one.meaning;
+    routes.push_back({{"path", route->path},
+                      {"meaning", route->meaning},
+                      {"type", route->type},
+                      {"parameters", parameters}});
   }
   return {200, "application/json", faultsim::json_text(ordered_json{{"routes", routes}})};
 }
@@ -77,8 +77,12 @@ bool ends_a_path(const std::string& text, std::size_t end) {
 
 }  // namespace
 
-StoreApi::StoreApi(const std::filesystem::path& store)
+StoreApi::StoreApi(const std::filesystem::path& store, const std::filesystem::path& simulator,
+                   int build_threads)
     : store_(std::filesystem::absolute(store)), stores_(store_) {
+  if (!simulator.empty())
+    desk_ = std::make_unique<serve::WhatIfDesk>(
+        serve::WhatIfDesk::Settings{simulator, store_ / "operators", build_threads});
   std::error_code error;  // a folder that is not there has only one name
   const auto show = [&](const std::filesystem::path& path, const char* as) {
     for (const std::filesystem::path& one :
@@ -134,18 +138,55 @@ HttpResponse StoreApi::answer_with_paths(const HttpRequest& request) {
 
 HttpResponse StoreApi::answer_or_throw(const HttpRequest& request) {
   const std::vector<std::string>& path = request.path;
-  if (path.empty() || (path.size() == 1 && path[0] == "api")) return list_routes();
-  for (const auto* some : {&serve::answer_routes(), &serve::drawing_routes()}) {
-    const auto found =
-        std::ranges::find_if(*some, [&](const Route& route) { return leads(route, path); });
-    if (found == some->end()) continue;
-    const Asked asked(*found, request);
-    const serve::OpenStores::Lease store = stores_.take();
-    return found->answer(*store, asked);
-  }
+  if (path.empty()) return serve::live_page();
+  if (path.size() == 1 && path[0] == "api") return list_routes();
+  if (leads(serve::what_if_route(), path)) return answer_what_if(request);
+  const std::vector<const Route*> routes = serve::all_routes();
+  const auto found =
+      std::ranges::find_if(routes, [&](const Route* route) { return leads(*route, path); });
   constexpr int kNotFound = 404;
-  throw HttpError(kNotFound, "path", "there is nothing under this path",
-                  "GET /api lists what there is");
+  if (found == routes.end())
+    throw HttpError(kNotFound, "path", "there is nothing under this path",
+                    "GET /api lists what there is");
+  const Asked asked(**found, request);
+  const serve::OpenStores::Lease store = stores_.take();
+  return (*found)->answer(*store, asked);
+}
+
+/// The sliders of a scene are found once, not at each movement.
+void StoreApi::require_allowed(const std::string& scene, const std::string& resolved_spec,
+                               const json& changes) {
+  const std::lock_guard lock(mutex_);
+  if (scene != slid_scene_) {
+    sliders_ = serve::sliders_of(json::parse(scene), resolved_spec);
+    slid_scene_ = scene;
+  }
+  serve::require_allowed(sliders_, changes);
+}
+
+HttpResponse StoreApi::answer_what_if(const HttpRequest& request) {
+  const Asked asked(serve::what_if_route(), request);
+  if (desk_ == nullptr)
+    throw HttpError(kUnavailable, "what-if", "this server has no simulator",
+                    "put faultsim beside faultsweep, or set FAULTSIM_BINARY");
+  serve::WhatIfQuestion question;
+  question.page = asked.text("page");
+  question.number = asked.whole("ask", 1, std::numeric_limits<long>::max()).value_or(1);
+  question.body = serve::question_body(asked);
+  {
+    const serve::OpenStores::Lease store = stores_.take();
+    const Store& reader = *store;
+    const CampaignInfo campaign = asked.campaign(reader);
+    const StoredCase one = asked.stored_case(reader, campaign);
+    const BaseScene base = reader.base_scene(one.scene);
+    question.scene = scene_from_changes(base.document, one.changes).dump();
+    question.source = base.source;
+    require_allowed(question.scene, reader.spec_copies(campaign.id).resolved,
+                    question.body.at("changes"));
+  }
+  constexpr long kUsualWait = 1000, kLongestWait = 2000;  // ms
+  const std::chrono::milliseconds wait(asked.whole("wait", 0, kLongestWait).value_or(kUsualWait));
+  return {200, "application/json", desk_->ask(question, wait)};
 }
 
 }  // namespace faultsweep

@@ -7,6 +7,8 @@
 
 #include "campaign/serve/open_stores.h"
 #include "campaign/serve/request.h"
+#include "campaign/serve/sliders.h"
+#include "campaign/serve/what_if_desk.h"
 
 namespace faultsweep {
 
@@ -16,7 +18,9 @@ namespace faultsweep {
 class StoreApi {
  public:
   /// @param store  a folder with a store.
-  explicit StoreApi(const std::filesystem::path& store);
+  /// @param simulator  the faultsim binary, for what-if; empty = without.
+  explicit StoreApi(const std::filesystem::path& store, const std::filesystem::path& simulator = {},
+                    int build_threads = 1);
 
   /// Never throws: what is wrong is a response, in JSON with place, cause and cure. No response has
   /// the store's folder, the working one or the user's home in it: they read STORE, "." and "~".
@@ -27,10 +31,17 @@ class StoreApi {
  private:
   HttpResponse answer_or_throw(const HttpRequest& request);
   HttpResponse answer_with_paths(const HttpRequest& request);
+  HttpResponse answer_what_if(const HttpRequest& request);
+  void require_allowed(const std::string& scene, const std::string& resolved_spec,
+                       const json& changes);
 
   std::filesystem::path store_;
   serve::OpenStores stores_;
   std::vector<std::pair<std::string, std::string>> shown_;  ///< path -> what stands for it.
+  std::unique_ptr<serve::WhatIfDesk> desk_;
+  std::mutex mutex_;
+  std::string slid_scene_;              ///< the scene that the sliders are of.
+  std::vector<serve::Slider> sliders_;  ///< of the newest question's scene.
 };
 
 }  // namespace faultsweep

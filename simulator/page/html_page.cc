@@ -11,14 +11,12 @@ namespace {
 
 using figure::escape_xml;
 
-/// Nothing but its own script, known by its hash, its styles and an empty icon.
-std::string content_policy() {
-  const std::string_view hex = embedded::page_js_sha256;
+/// "'sha256-...'" of hexadecimal digits.
+std::string source_of(std::string_view hex) {
   std::string hash;
   for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
     hash += static_cast<char>(std::stoi(std::string(hex.substr(i, 2)), nullptr, 16));
-  return concat("default-src 'none'; script-src 'sha256-", base64(hash),
-                "'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'");
+  return concat("'sha256-", base64(hash), "'");
 }
 
 std::string with_blanks(std::string id) {
@@ -63,6 +61,18 @@ void HtmlPage::unless_refused(const std::function<void()>& body) {
   }
 }
 
+void HtmlPage::script(std::string_view text, std::string_view sha256) {
+  scripts_ += concat("<script>", text, "</script>\n");
+  hashes_ += " " + source_of(sha256);
+}
+
+/// Nothing but its own scripts, known by their hashes, its styles and an empty icon.
+std::string HtmlPage::policy() const {
+  return concat("default-src 'none'; script-src ", source_of(embedded::page_js_sha256), hashes_,
+                "; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'",
+                asks_ ? "; connect-src 'self'" : "");
+}
+
 std::string HtmlPage::finish() const {
   std::string nav;
   for (const std::string& id : sections_) {
@@ -71,12 +81,12 @@ std::string HtmlPage::finish() const {
   return concat(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"",
-      content_policy(),
+      policy(),
       "\">\n<meta name=\"viewport\" content=\"width=device-width\">\n"
       "<link rel=\"icon\" href=\"data:,\">\n<title>",
       escape_xml(title_), "</title>\n<style>\n", embedded::page_css, styles_,
       "</style>\n</head>\n<body>\n<h1>", escape_xml(title_), "</h1>\n<nav>", nav, "</nav>\n", body_,
-      "<script>", embedded::page_js, "</script>\n</body>\n</html>\n");
+      "<script>", embedded::page_js, "</script>\n", scripts_, "</body>\n</html>\n");
 }
 
 }  // namespace faultsim

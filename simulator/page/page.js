@@ -159,33 +159,41 @@ function make_sortable(table) {
   });
   choose();
 }
-document.querySelectorAll("table[data-filter]").forEach(make_sortable);
-// Cases: one slider moves the line in the histories and colours the section.
-for (const part of document.querySelectorAll("[data-case]")) {
-  const steps = JSON.parse(part.querySelector("script[type='application/json']").textContent);
-  const slider = part.querySelector("input[type=range]"), said = part.querySelector("output");
+/** Of a case: shows step k in its section and its histories and returns its words. */
+function step_shower(part, steps) {
   const cursors = Array.from(part.querySelectorAll("[data-cursor]"));
   const faults = Array.from(part.querySelectorAll("[data-fault]"));
   const names = Array.from(part.querySelectorAll("[data-rock]"));
-  function go() {
-    const step = steps[slider.value];
-    said.textContent = step.says;
-    slider.setAttribute("aria-valuetext", step.says);
+  return (k) => {
+    const step = steps[k];
     for (const cursor of cursors) {
       const [zero, one] = cursor.dataset.x.split(" ").map(Number);
       cursor.setAttribute("transform", "translate(" + (step.time - cursor.dataset.cursor) * (one - zero) + " 0)");
     }
     for (const fault of faults) {
       const colours = step.colours[fault.dataset.fault] || [];
-      Array.from(fault.children).forEach((line, k) =>
-        line.setAttribute("stroke", colours[Math.min(k, colours.length - 1)]));
+      Array.from(fault.children).forEach((line, i) =>
+        line.setAttribute("stroke", colours[Math.min(i, colours.length - 1)]));
     }
     for (const name of names) {
       const note = step.notes[name.dataset.rock];
       if (note && name.firstElementChild) name.firstElementChild.textContent = name.dataset.rock + ", " + note;
     }
+    return step.says;
+  };
+}
+/** A case with its slider. Returns the steps. */
+function show_steps(part) {
+  const steps = JSON.parse(part.querySelector("script[type='application/json']").textContent);
+  const slider = part.querySelector("input[type=range]"), said = part.querySelector("output"), show = step_shower(part, steps);
+  function go() {
+    said.textContent = show(slider.value);
+    slider.setAttribute("aria-valuetext", said.textContent);
   }
   part.querySelector(".slider").hidden = false;
   slider.addEventListener("input", go);
   go();
+  return steps;
 }
+document.querySelectorAll("table[data-filter]").forEach(make_sortable);
+document.querySelectorAll("[data-case]").forEach(show_steps);

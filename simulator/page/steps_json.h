@@ -6,7 +6,7 @@
 
 namespace faultsim {
 
-/// step_looks as a page's script reads them: of each load step {"time", "says", "colours",
+/// step_looks as a page's script reads them: of each load step {"step", "time", "says", "colours",
 /// "notes"}. @pre the scene is a field.
 nlohmann::json steps_json(const CasePicture& picture);
 

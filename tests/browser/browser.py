@@ -7,6 +7,7 @@ import html.parser
 import json
 import shutil
 import sys
+import time
 
 SKIPPED = 77
 CONTRAST = 4.5   # WCAG 2, level AA
@@ -112,20 +113,43 @@ class Browser:
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia",
                                     {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
 
-    def open(self, address):
-        """Opens a page and holds that it asks for nothing but itself and says nothing on the console."""
+    def open(self, address, server=None):
+        """Opens a page and holds that it asks for nothing but itself, or its server, and says nothing on the console."""
         self.driver.get_log("performance"), self.driver.get_log("browser")
         self.driver.get(address)
+        if server:
+            self.asks_only(server)
+            return
         asked = [json.loads(entry["message"])["message"] for entry in self.driver.get_log("performance")]
         asked = [one["params"]["request"]["url"] for one in asked if one["method"] == "Network.requestWillBeSent"]
         demand(set(asked) <= {address, "data:,"} and address in asked, "asked for", asked)
         self.is_quiet()
 
+    def asks_only(self, server):
+        """All that was asked for since the page was opened, or since this was looked at, is of that server."""
+        asked = [json.loads(entry["message"])["message"] for entry in self.driver.get_log("performance")]
+        asked = [one["params"]["request"]["url"] for one in asked if one["method"] == "Network.requestWillBeSent"]
+        demand(asked and all(one == "data:," or one.startswith(server) for one in asked), "asked for", asked)
+        self.is_quiet()
+
+    def until(self, holds, *what, seconds=30):
+        """Waits for a page that is being filled. @return what holds() gives, once it is not False, None or empty."""
+        end = time.time() + seconds
+        while time.time() < end:
+            try:
+                found = holds()
+            except Exception:  # an element that has just been replaced
+                found = None
+            if found:
+                return found
+            time.sleep(0.05)
+        raise Wrong(f"after {seconds} s still not: " + " ".join(str(one) for one in what))
+
     def is_quiet(self):
         said = [entry for entry in self.driver.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]
         demand(not said, "the console says", said)
 
-    def has_a_policy_in_force(self, text):
+    def has_a_policy_in_force(self, text, scripts=1):
         """The page lets nothing be loaded, has no handler in its tags, and a script that is put into it does not run."""
         tags = Tags(text).all
         policies = [a.get("content", "") for tag, a in tags if a.get("http-equiv") == "Content-Security-Policy"]
@@ -135,7 +159,7 @@ class Browser:
                 demand(not name.startswith("on") and name not in ("src", "srcset", "srcdoc", "action"), tag, "has", name)
                 demand("javascript:" not in (value or ""), tag, name, value)
         running = [a for tag, a in tags if tag == "script" and a.get("type") != "application/json"]
-        demand(len(running) == 1, len(running), "scripts")
+        demand(len(running) == scripts, len(running), "scripts")
         self.run("""const script = document.createElement("script"); script.textContent = "window.got_in = true;";
                     document.body.append(script); script.remove();
                     const made = document.createElement("b"); made.setAttribute("onclick", "window.got_in = true;");

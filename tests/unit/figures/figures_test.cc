@@ -348,11 +348,11 @@ TEST_F(FiguresTest, WordsBesideNumbersAreShownWhole) {
   store_->record_runs(campaign_.id, runs);
   campaign_ = store_->campaign("");
   const std::string page = report_page(*store_, campaign_, {.program = "faultsweep test"});
-  EXPECT_THAT(page, HasSubstr("<th>depth, m</th>"));
+  EXPECT_THAT(page, HasSubstr(">depth, m</th>"));
   EXPECT_THAT(page, HasSubstr("<td data-value=\"2000\">2000</td>"));
   EXPECT_THAT(page, HasSubstr("data-table=\"cases\" data-filter=\"rows-cases\">"));
   EXPECT_THAT(page, HasSubstr("<p id=\"rows-cases\""));
-  EXPECT_THAT(page, HasSubstr("<th>cut</th>"));
+  EXPECT_THAT(page, HasSubstr(">cut</th>"));
   for (const char* label : {"-100 bar", "mean of both", "load steps as given", "infill 2"})
     EXPECT_THAT(page, HasSubstr(concat("<td>", label, "</td>")));
   EXPECT_THAT(page, HasSubstr("A fault slides in 2 of 2 cases, 100 % (50 to 100 %: 1 undecided by "
