@@ -12,6 +12,10 @@ using std::chrono::milliseconds;
 /// Between two looks at a question that may have been superseded.
 constexpr int kBeatMs = 2;
 
+/// More would leave nobody to answer other requests (ServerLimits::threads); they are told at once
+/// how far it is.
+constexpr int kMostWaiting = 2;
+
 std::string state_text(const char* state, const std::string& says = {}) {
   ordered_json reply = {{"state", state}};
   if (!says.empty()) reply["says"] = says;
@@ -51,7 +55,10 @@ std::string WhatIfDesk::ask(const WhatIfQuestion& question, milliseconds longest
     reply_ = state_text("running");
     changed_.notify_all();
   }
+  if (n_waiting_ >= kMostWaiting) return told(question);
+  ++n_waiting_;
   changed_.wait_for(lock, longest, [&] { return !is_at(question) || !is_open_ || is_ending_; });
+  --n_waiting_;
   return told(question);
 }
 
