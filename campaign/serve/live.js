@@ -391,7 +391,11 @@ class Questions {
     if (this.wanted) this.go();
   }
 }
-const steps_charts = ["section", "history"], step_charts = ["profiles", "fault-map", "stress-path"];
+const step_charts = ["profiles", "fault-map", "stress-path"];
+/** What of the changes moves lines of the section; all others only colour it. */
+function geometry_of(changes) {
+  return JSON.stringify(Object.entries(changes).filter(([pointer]) => /^\/(geometry|faults)\//.test(pointer)));
+}
 
 class WhatIf {
   constructor(campaign, number, parameters, faults) {
@@ -406,9 +410,10 @@ class WhatIf {
     const [fault, fault_select] = choice("fault", this.faults, this.faults[0], () => this.ask());
     const [kind, kind_select] = choice("also", ["", ...step_charts], "", () => this.ask());
     Object.assign(this, {fault: fault_select, kind: kind_select, said: made("p", {role: "status", class: "faint"}), words: made("div"),
-      part: made("div"), more: made("div"), text: made("pre"), slider: made("input", {type: "range", min: "0", value: "0"}), step_words: made("output")});
+      section: made("div"), history: made("div"), more: made("div"), text: made("pre"), slider: made("input", {type: "range", min: "0", value: "0"}), step_words: made("output")});
     this.slider.addEventListener("input", () => this.show_step());
     this.slider.addEventListener("change", () => { if (this.kind.value) this.ask(); });
+    this.part = made("div", {}, this.section, this.history);
     const needs_build = this.controls.some((one) => !one.of.keeps_operator);
     const sliders = made("div", {class: "controls"}, made("h2", {}, "Varied in the campaign"), ...own.map((one) => one.element),
       made("p", {class: "faint"}, needs_build ? "\u2020 takes an operator of its own, which is built first" : ""),
@@ -426,9 +431,10 @@ class WhatIf {
     return changes;
   }
   ask() {
-    const charts = [...steps_charts, ...(this.kind.value ? [this.kind.value] : [])];
-    const step = this.steps && this.kind.value ? this.steps[this.slider.value].step : "";
-    this.questions.ask({changes: JSON.stringify(this.changes()), chart: charts, fault: this.fault.value, step, cursor: "yes"});
+    const changes = this.changes(), step = this.steps && this.kind.value ? this.steps[this.slider.value].step : "";
+    const section = geometry_of(changes) === this.geometry ? [] : ["section"];
+    const charts = [...section, "history", ...(this.kind.value ? [this.kind.value] : [])];
+    this.questions.ask({changes: JSON.stringify(changes), chart: charts, fault: this.fault.value, step, cursor: "yes"});
   }
   /** Which case this is, in words. */
   name() {
@@ -438,7 +444,7 @@ class WhatIf {
   take(reply, question, milliseconds) {
     const name = this.name();
     switch (reply.state) {
-      case "done": this.said.textContent = name + ": " + reply.outcome + ", " + Math.round(milliseconds) + " ms"; return this.show(reply);
+      case "done": this.said.textContent = name + ": " + reply.outcome + ", " + Math.round(milliseconds) + " ms"; return this.show(reply, question);
       case "building": this.said.textContent = name + ": its operator is built: " + (reply.says || ""); break;
       case "running": this.said.textContent = name + ": running"; break;
       case "refused": this.said.textContent = name + " cannot be: " + reply.problems.map((one) => one.cause + (one.cure ? "; " + one.cure : "")).join(". "); break;
@@ -447,19 +453,23 @@ class WhatIf {
     }
     return undefined;
   }
-  show(reply) {
+  show(reply, question) {
     this.reply = reply;
     this.original = this.original || reply.scene;  // the first question is without changes
     const lines = [...(reply.differences || []).map((line) => made("p", {class: "answer difference"}, line)),
       ...reply.sentences.map((line) => made("p", {}, line))];
     this.words.replaceChildren(...lines);
     const drawn = (name) => typeof reply.charts[name] === "string" ? '<div class="chart">' + reply.charts[name] + "</div>" : "";
-    this.part.innerHTML = steps_charts.map(drawn).join("");
+    if (reply.charts.section) {
+      this.section.innerHTML = drawn("section");
+      this.geometry = geometry_of(JSON.parse(question.changes));
+    }
+    this.history.innerHTML = drawn("history");
     const more = this.kind.value, chart = reply.charts[more];
     if (more && typeof chart === "object") this.more.replaceChildren(made("p", {class: "faint"}, chart.problems.map((one) => one.cause + "; " + one.cure).join(". ")));
     else this.more.innerHTML = more ? drawn(more) : "";
     if (reply.steps) this.take_steps(reply);
-    if (this.text.textContent) this.text.textContent = "";
+    this.text.textContent = "";
   }
   /** The step stays where the reader has put it. */
   take_steps(reply) {

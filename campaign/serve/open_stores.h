@@ -38,10 +38,11 @@ class OpenStores {
   /// StorageError as Store::open_reader.
   Lease take();
 
- private:
   using FileId = std::pair<dev_t, ino_t>;
+  /// Which file has the store's name now.
   FileId file_id() const;
 
+ private:
   std::filesystem::path folder_;
   std::mutex mutex_;
   FileId opened_ = {};                        ///< the file of `free_`.

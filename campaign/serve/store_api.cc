@@ -153,15 +153,21 @@ HttpResponse StoreApi::answer_or_throw(const HttpRequest& request) {
   return (*found)->answer(*store, asked);
 }
 
-/// The sliders of a scene are found once, not at each movement.
-void StoreApi::require_allowed(const std::string& scene, const std::string& resolved_spec,
-                               const json& changes) {
+std::shared_ptr<const StoreApi::SlidCase> StoreApi::slid_case(const HttpRequest& request,
+                                                              const Asked& asked) {
   const std::lock_guard lock(mutex_);
-  if (scene != slid_scene_) {
-    sliders_ = serve::sliders_of(json::parse(scene), resolved_spec);
-    slid_scene_ = scene;
-  }
-  serve::require_allowed(sliders_, changes);
+  const serve::OpenStores::FileId file = stores_.file_id();
+  if (slid_ != nullptr && slid_->file == file && slid_->path == request.path) return slid_;
+  const serve::OpenStores::Lease lease = stores_.take();
+  const Store& store = *lease;
+  const CampaignInfo campaign = asked.campaign(store);
+  const StoredCase one = asked.stored_case(store, campaign);
+  const BaseScene base = store.base_scene(one.scene);
+  const json scene = scene_from_changes(base.document, one.changes);
+  slid_ = std::make_shared<SlidCase>(
+      SlidCase{file, request.path, scene.dump(), base.source,
+               serve::sliders_of(scene, store.spec_copies(campaign.id).resolved)});
+  return slid_;
 }
 
 HttpResponse StoreApi::answer_what_if(const HttpRequest& request) {
@@ -173,17 +179,10 @@ HttpResponse StoreApi::answer_what_if(const HttpRequest& request) {
   question.page = asked.text("page");
   question.number = asked.whole("ask", 1, std::numeric_limits<long>::max()).value_or(1);
   question.body = serve::question_body(asked);
-  {
-    const serve::OpenStores::Lease store = stores_.take();
-    const Store& reader = *store;
-    const CampaignInfo campaign = asked.campaign(reader);
-    const StoredCase one = asked.stored_case(reader, campaign);
-    const BaseScene base = reader.base_scene(one.scene);
-    question.scene = scene_from_changes(base.document, one.changes).dump();
-    question.source = base.source;
-    require_allowed(question.scene, reader.spec_copies(campaign.id).resolved,
-                    question.body.at("changes"));
-  }
+  const auto slid = slid_case(request, asked);
+  serve::require_allowed(slid->sliders, question.body.at("changes"));
+  question.scene = slid->scene;
+  question.source = slid->source;
   constexpr long kUsualWait = 1000, kLongestWait = 2000;  // ms
   const std::chrono::milliseconds wait(asked.whole("wait", 0, kLongestWait).value_or(kUsualWait));
   return {200, "application/json", desk_->ask(question, wait)};

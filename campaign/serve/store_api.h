@@ -12,6 +12,10 @@
 
 namespace faultsweep {
 
+namespace serve {
+class Asked;
+}
+
 /// What a store says over HTTP, without sockets: the answers of the commands as the JSON that they
 /// print with --json, and drawings as SVG. Each request sees the store as it is then, so what a
 /// running campaign has added since is seen. Used from several threads at once.
@@ -32,16 +36,22 @@ class StoreApi {
   HttpResponse answer_or_throw(const HttpRequest& request);
   HttpResponse answer_with_paths(const HttpRequest& request);
   HttpResponse answer_what_if(const HttpRequest& request);
-  void require_allowed(const std::string& scene, const std::string& resolved_spec,
-                       const json& changes);
+  /// A case that what-if is asked of, and what a page may change of it. Cases do not change, so it
+  /// is read once for all questions about it.
+  struct SlidCase {
+    serve::OpenStores::FileId file = {};
+    std::vector<std::string> path;  ///< of the request.
+    std::string scene, source;
+    std::vector<serve::Slider> sliders;
+  };
+  std::shared_ptr<const SlidCase> slid_case(const HttpRequest& request, const serve::Asked& asked);
 
   std::filesystem::path store_;
   serve::OpenStores stores_;
   std::vector<std::pair<std::string, std::string>> shown_;  ///< path -> what stands for it.
   std::unique_ptr<serve::WhatIfDesk> desk_;
   std::mutex mutex_;
-  std::string slid_scene_;              ///< the scene that the sliders are of.
-  std::vector<serve::Slider> sliders_;  ///< of the newest question's scene.
+  std::shared_ptr<const SlidCase> slid_;  ///< of the newest question.
 };
 
 }  // namespace faultsweep

@@ -71,7 +71,7 @@ class WhatIfDesk {
   std::string reply_;     ///< the newest of the newest question.
   std::string scene_;     ///< that the simulator has.
   bool is_ending_ = false;
-  int n_waiting_ = 0;  ///< for an answer.
+  int n_waiting_ = 0;                          ///< for an answer.
   std::unique_ptr<SimulatorProcess> process_;  ///< of the thread alone.
   std::thread thread_;                         ///< the last member: it uses all others.
 };

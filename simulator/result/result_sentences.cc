@@ -19,18 +19,27 @@ std::string digits(double value, int n) {
 
 }  // namespace
 
+namespace {
+
+/// "F1 slides from step 7 on, first at 2000 m depth, slip 0.05 m"; of a flag that the cells leave
+/// open "F1 may slide ...". @pre the flag is set.
+std::string fault_slides(const FaultStageMetrics& fault) {
+  std::string text = concat(fault.fault, fault.activation_resolved ? " slides" : " may slide");
+  if (fault.activation) {
+    text += concat(" from step ", fault.activation->step, " on, first at ",
+                   digits(fault.activation->depth, 4), " m depth");
+  }
+  return text + concat(", slip ", digits(fault.max_slip, 3), " m",
+                       fault.activation_resolved ? "" : " (the cells do not tell)");
+}
+
+}  // namespace
+
 std::string sliding_sentence(const CaseResult& result) {
   const StageMetrics& whole = result.whole;
   std::string text;
-  for (const FaultStageMetrics& fault : whole.faults) {
-    if (!fault.activated) continue;
-    text += concat(text.empty() ? "" : "; ", fault.fault, " slides");
-    if (fault.activation) {
-      text += concat(" from step ", fault.activation->step, " on, first at ",
-                     digits(fault.activation->depth, 4), " m depth");
-    }
-    text += concat(", slip ", digits(fault.max_slip, 3), " m");
-  }
+  for (const FaultStageMetrics& fault : whole.faults)
+    if (fault.activated) text += concat(text.empty() ? "" : "; ", fault_slides(fault));
   if (!text.empty()) return text + ".";
   if (whole.activated) return concat("Slip of ", digits(whole.max_slip, 3), " m: it slides.");
   text = concat("Nothing slides: χ̄ comes to ", digits(whole.chi_bar, 3));
