@@ -109,6 +109,37 @@ bool has_kind(Connection& db, std::int64_t campaign, const Store::RankingQuery& 
   return found.has_value();
 }
 
+/// A value of a condition, all of it.
+struct Spelled {
+  std::string operator()(std::monostate) const { return ""; }
+  std::string operator()(bool flag) const { return flag ? "true" : "false"; }
+  std::string operator()(double number) const { return formatted("%.17g", number); }
+  std::string operator()(const std::string& text) const { return text; }
+};
+
+/// All that the counts of a selection depend on but the state of the store.
+std::string question_text(std::int64_t campaign, const Store::RankingQuery& query,
+                          const std::string& selection) {
+  std::string text = concat(campaign, "\n", query.stage, "\n", selection);
+  for (const auto& value : query.where.parameters) text += "\n" + std::visit(Spelled{}, value);
+  return text;
+}
+
+Store::ClassCounts count_classes(Connection& db, std::int64_t campaign,
+                                 const Store::RankingQuery& query, const std::string& selection) {
+  Statement count(db, concat("SELECT ", query.fault ? "q" : "s", ".rank_class, count(*)", selection,
+                             " GROUP BY 1"));
+  count.bind(campaign, query.stage, query.where.parameters);
+  Store::ClassCounts counts = {};
+  while (count.step()) {
+    std::size_t rank_class = 0;
+    long n = 0;
+    count.read(rank_class, n);
+    counts.at(rank_class) = n;
+  }
+  return counts;
+}
+
 }  // namespace
 
 std::string case_sql() { return "cc.position"; }
@@ -183,19 +214,18 @@ std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery
 }
 
 Store::ClassCounts Store::class_counts(std::int64_t campaign, const RankingQuery& query) const {
-  const char* row = query.fault ? "q" : "s";
-  Statement count(*connection_,
-                  concat("SELECT ", row, ".rank_class, count(*)",
-                         selection_sql(query, false, along_for_all(query)), " GROUP BY 1"));
-  count.bind(campaign, query.stage, query.where.parameters);
-  ClassCounts counts = {};
-  while (count.step()) {
-    std::size_t rank_class = 0;
-    long n = 0;
-    count.read(rank_class, n);
-    counts.at(rank_class) = n;
-  }
-  return counts;
+  const std::int64_t state = connection_->state();
+  if (state != counted_state_) class_counts_.clear();
+  counted_state_ = state;
+  constexpr std::size_t kMostKept = 64;
+  if (class_counts_.size() >= kMostKept) class_counts_.clear();
+  const std::string selection = selection_sql(query, false, along_for_all(query));
+  const std::string key = question_text(campaign, query, selection);
+  auto known = class_counts_.find(key);
+  if (known == class_counts_.end())
+    known =
+        class_counts_.emplace(key, count_classes(*connection_, campaign, query, selection)).first;
+  return known->second;
 }
 
 Store::Kinds Store::kinds(std::int64_t campaign, const RankingQuery& query) const {

@@ -122,6 +122,11 @@ void Connection::execute(const std::string& sql) {
 Statement Connection::prepared(const std::string& sql) { return {*this, sql}; }
 
 std::int64_t Connection::last_insert_id() const { return sqlite3_last_insert_rowid(handle_.get()); }
+std::int64_t Connection::state() {
+  constexpr int kBitsOfOwn = 32;
+  const auto version = row<std::int64_t>("PRAGMA data_version");  // of others' changes
+  return (version << kBitsOfOwn) + sqlite3_total_changes(handle_.get());
+}
 int Connection::changes() const { return sqlite3_changes(handle_.get()); }
 
 void Connection::checkpoint() {

@@ -69,6 +69,8 @@ class Connection {
   /// Prepared, and kept for the next one who asks for the same text.
   Statement prepared(const std::string& sql);
   std::int64_t last_insert_id() const;
+  /// Another number whenever what can be read has changed, by whomever.
+  std::int64_t state();
   int changes() const;
   /// Moves the whole WAL into the database file. No effect under another journal mode.
   void checkpoint();

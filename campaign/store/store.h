@@ -311,6 +311,8 @@ class Store {
   std::unique_ptr<Checksums> checksums_;
   mutable std::unique_ptr<ResultTables> tables_;  ///< made when first asked for.
   std::string remark_;
+  mutable std::map<std::string, ClassCounts> class_counts_;  ///< by question, of this state:
+  mutable std::int64_t counted_state_ = -1;
   std::map<std::string, std::int64_t> names_;  ///< ids in table `names`, of those looked up.
 };
 
