@@ -73,6 +73,9 @@ bool all_resolved(const LimitTable& table) {
 
 Answer to_answer(const LimitTable& table, long top) {
   Answer answer = limits_for_files(table);
+  for (std::size_t l = 0; l < table.limits.size(); ++l)
+    if (auto chart = limit_chart(table, l))
+      answer.blocks.emplace_back(AnswerChart(std::move(*chart)));
   answer.add(screen_table(table, top));
   for (const LimitSearch& limit : table.limits) answer.note(question_text(limit));
   answer.note(concat(counted(table.rows.size(), "row", "rows"),

@@ -18,22 +18,6 @@ std::size_t place_of(const LimitTable& table, const std::string& name) {
                    concat("there are ", known));
 }
 
-/// "[-71, -70]", without its unit; "all safe", "all unsafe".
-std::string cell_text(const LimitCell& cell) {
-  const LimitFinding& f = cell.finding;
-  std::string text;
-  if (const Crossing* crossing = f.limit()) {
-    text = concat("[", shortest_text(crossing->before.value), ", ",
-                  shortest_text(crossing->after.value), "]");
-  } else if (f.verdict == LimitVerdict::safe_throughout) {
-    text = "all safe";
-  } else {
-    text = f.verdict == LimitVerdict::unsafe_throughout ? "all unsafe" : to_string(f.verdict);
-  }
-  if (f.limit() != nullptr && f.verdict == LimitVerdict::non_monotone) text += " *";
-  return text + (f.verdict == LimitVerdict::unknown || is_resolved(cell) ? "" : " ?");
-}
-
 /// Values of a parameter in the order of the configurations.
 std::vector<std::string> values_of(const std::vector<const LimitRow*>& rows, std::size_t place) {
   std::vector<std::string> values;
@@ -55,7 +39,7 @@ LimitMaps maps_of(const LimitTable& table, const std::vector<const LimitRow*>& r
     for (std::size_t l = 0; l < table.limits.size(); ++l) {
       if (!row->cells[l]) continue;
       const std::pair at(row->settings[down], row->settings[across]);
-      if (!maps[{l, row->fault}].emplace(at, cell_text(*row->cells[l])).second) {
+      if (!maps[{l, row->fault}].emplace(at, short_text(*row->cells[l])).second) {
         throw InputError("--map", "the design varies more than these two parameters",
                          "use --csv, or a design with two");
       }

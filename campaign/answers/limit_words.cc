@@ -72,6 +72,21 @@ std::string limit_text(const LimitCell& cell, const LimitSearch& limit) {
   faultsim::throw_internal("known verdict", "", __FILE__, __LINE__);
 }
 
+std::string short_text(const LimitCell& cell) {
+  const LimitFinding& f = cell.finding;
+  std::string text;
+  if (const Crossing* crossing = f.limit()) {
+    text = concat("[", shortest_text(crossing->before.value), ", ",
+                  shortest_text(crossing->after.value), "]");
+  } else if (f.verdict == LimitVerdict::safe_throughout) {
+    text = "all safe";
+  } else {
+    text = f.verdict == LimitVerdict::unsafe_throughout ? "all unsafe" : to_string(f.verdict);
+  }
+  if (f.limit() != nullptr && f.verdict == LimitVerdict::non_monotone) text += " *";
+  return text + (f.verdict == LimitVerdict::unknown || is_resolved(cell) ? "" : " ?");
+}
+
 std::string sure_text(const LimitCell& cell, const LimitSearch& limit) {
   const auto &safe = cell.finding.surely_safe, &unsafe = cell.finding.surely_unsafe;
   if (safe && unsafe) return bracket(safe->value, unsafe->value, limit);

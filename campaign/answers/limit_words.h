@@ -18,6 +18,9 @@ double si_of(double value, const LimitSearch& limit);
 /// the whole range tried (-110 to 0 bar)"; "unsafe already at -110 bar"; "not known: ..."; of what
 /// is not monotone also where it is unsafe.
 std::string limit_text(const LimitCell& cell, const LimitSearch& limit);
+/// The same without its unit, to stand in a cell: "[-71, -70]", "all safe", "all unsafe"; " *":
+/// safe again behind the limit; " ?": the cells do not resolve it there.
+std::string short_text(const LimitCell& cell);
 /// What does not depend on the cells: the surely safe and the surely unsafe value as a bracket, or
 /// the one that there is.
 std::string sure_text(const LimitCell& cell, const LimitSearch& limit);
@@ -27,6 +30,11 @@ bool is_resolved(const LimitCell& cell);
 std::string remark_of(const LimitCell& cell);
 /// What was asked: "storage_pressure: the highest value from ... without "slides" on F2".
 std::string question_text(const LimitSearch& limit);
+
+/// Of a limit (index) what was tried, a row per configuration and fault in the table's order, the
+/// first 40 of them: where it is safe, where it is not, and where it turns; none where no row has
+/// it.
+std::optional<faultsim::figure::RangeBars> limit_chart(const LimitTable& table, std::size_t place);
 
 /// Headline, facts and the tables for files: `limits`, a row per configuration, fault and limit,
 /// and `crossings`.

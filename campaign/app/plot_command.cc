@@ -1,3 +1,7 @@
+#include <map>
+
+#include "campaign/answers/curves.h"
+#include "campaign/answers/limit_table.h"
 #include "campaign/answers/probability.h"
 #include "campaign/answers/sensitivity.h"
 #include "campaign/app/commands.h"
@@ -12,21 +16,45 @@
 namespace faultsweep {
 namespace {
 
+constexpr const char* kCampaignCharts = "map, sensitivity, probability, curves, limits";
+
 struct PlotArguments {
-  std::string chart;             ///< of case_charts(), or map, sensitivity, probability.
+  std::string chart;             ///< of case_charts(), or of kCampaignCharts.
   std::string subject;           ///< campaign, or CAMPAIGN/CASE; "" = the newest campaign.
   std::filesystem::path output;  ///< .svg or .png.
   std::string fault;             ///< of charts of a case; "" = the most critical one.
   std::optional<int> step;       ///< the same; none = the most critical one.
+  std::string before = {};       ///< of a case: another, drawn as thin lines; "" = none.
   MapRequest map = {};
   SensitivityRequest sensitivity = {};
   ProbabilityRequest probability = {};
+  CurveRequest curves = {};
 };
 
 struct ReportArguments {
   std::filesystem::path output;  ///< .html.
   ReportRequest request;
 };
+
+std::string draw_curves(const PlotArguments& arguments, const Store& store,
+                        const CampaignInfo& campaign) {
+  if (arguments.curves.axis == CurveAxis::pressure) {
+    throw InputError("--against", "there is no chart against pressure: each stage goes its own way",
+                     "choose step or time; the numbers are those of faultsweep probability "
+                     "--against pressure");
+  }
+  const std::string chart =
+      first_chart(to_answer(probability_curves(store, campaign, arguments.curves)));
+  if (!chart.empty()) return chart;
+  throw InputError("curves", "the cases have no faults", "plot another campaign");
+}
+
+std::string draw_limits(const Store& store, const CampaignInfo& campaign) {
+  const std::string chart = first_chart(to_answer(make_limit_table(store, campaign), 0));
+  if (!chart.empty()) return chart;
+  throw InputError("limits", "nothing of " + campaign.name + " has been searched yet",
+                   "run it: faultsweep run " + campaign.name);
+}
 
 std::string draw_campaign(const PlotArguments& arguments, const Store& store) {
   const CampaignInfo campaign = store.campaign(arguments.subject, false);
@@ -40,7 +68,9 @@ std::string draw_campaign(const PlotArguments& arguments, const Store& store) {
     return faultsim::figure::draw(
         chart_of(find_probability(store, campaign, arguments.probability)));
   }
-  std::string names = "map, sensitivity, probability";
+  if (arguments.chart == "curves") return draw_curves(arguments, store, campaign);
+  if (arguments.chart == "limits") return draw_limits(store, campaign);
+  std::string names = kCampaignCharts;
   for (const faultsim::CaseChartInfo& info : faultsim::case_charts()) {
     names += std::string(", ") + info.name;
   }
@@ -56,13 +86,26 @@ std::string draw_case_of(const PlotArguments& arguments, const faultsim::CaseCha
   }
   const NamedCase found = find_case(store, "", arguments.subject);
   const StoredPicture stored(store, found.campaign, found.stored);
-  return draw_case(stored.picture(), {info.chart, arguments.fault, arguments.step, false});
+  faultsim::CasePicture picture = stored.picture();
+  std::optional<StoredPicture> earlier;
+  std::optional<faultsim::CasePicture> original;
+  if (!arguments.before.empty()) {
+    require_draws_original(info);
+    const NamedCase other = find_case(store, found.campaign.name, arguments.before);
+    original.emplace(earlier.emplace(store, other.campaign, other.stored).picture());
+    picture.original = &*original;
+  }
+  return draw_case(picture, {info.chart, arguments.fault, arguments.step, false});
 }
 
 ExitCode plot(const StoreArguments& common, const PlotArguments& arguments) {
   faultsim::require_picture_file(arguments.output, {".svg", ".png"}, {});
   const Store store = Store::open_reader(common.store);
   const faultsim::CaseChartInfo* info = faultsim::case_chart_named(arguments.chart);
+  if (info == nullptr && !arguments.before.empty()) {
+    throw InputError("--before", "is of charts of one case, which " + arguments.chart + " is not",
+                     "leave it out, or compare campaigns: faultsweep compare");
+  }
   faultsim::write_picture(arguments.output, info != nullptr ? draw_case_of(arguments, *info, store)
                                                             : draw_campaign(arguments, store));
   return ExitCode::done;
@@ -79,7 +122,7 @@ ExitCode report(const StoreArguments& common, const ReportArguments& arguments) 
 }  // namespace
 
 void add_pictures(Program& program) {
-  std::string charts = "of a campaign: map, sensitivity, probability;\nof a case one of:";
+  std::string charts = concat("of a campaign: ", kCampaignCharts, ";\nof a case one of:");
   for (const faultsim::CaseChartInfo& info : faultsim::case_charts()) {
     charts += std::string("\n") + info.name + ": " + info.meaning;
   }
@@ -91,18 +134,29 @@ void add_pictures(Program& program) {
       ->required();
   command->add_option("--fault", a.fault, "of a case; default: the one with the largest χ̄");
   command->add_option("--step", a.step, "of a case: load step; default: that of its largest χ̄");
+  command->add_option("--before", a.before,
+                      "of a case: another (a number: of the same campaign), as thin lines");
   command->add_option("--x", a.map.x, "map: parameter along the bottom; default: the first");
   command->add_option("--y", a.map.y, "map: parameter along the side; default: the next");
   command->add_option("--metrics", a.sensitivity.metrics, "sensitivity: as of `sensitivity`");
   command->add_flag("--by-step", a.sensitivity.by_step, "sensitivity: against time");
   command->add_option("--of", a.probability.condition, "probability: as of `probability`");
   command->add_option("--by", a.probability.by, "probability: as of `probability`");
+  const std::map<std::string, CurveAxis> axes = {
+      {"step", CurveAxis::step}, {"time", CurveAxis::time}, {"pressure", CurveAxis::pressure}};
+  command->add_option("--against", a.curves.axis, "curves: step (default) or time")
+      ->transform(CLI::CheckedTransformer(axes))
+      ->option_text("AXIS");
+  command->add_option("--stage", a.curves.stage,
+                      "curves: slip since its start; default: since\nthe start of the history");
   add_store(command, program.common);
   command->footer(
       "Examples:\n"
       "  faultsweep plot map my-sweep --x offset --y friction_angle -o map.svg\n"
       "  faultsweep plot sensitivity -o tornado.png\n"
-      "  faultsweep plot history my-sweep/17 -o history.svg");
+      "  faultsweep plot curves my-sweep --against time -o curves.svg\n"
+      "  faultsweep plot limits storage-limit -o limits.svg\n"
+      "  faultsweep plot history my-sweep/17 --before 3 -o history.svg");
 
   auto [report_command, page] =
       program.add("report", "a campaign as one HTML page that needs no network", report);

@@ -236,9 +236,12 @@ void add_plot(CLI::App& app, Arguments& a, ExitCode& code) {
       ->required();
   command->add_option("--fault", a.plot.fault, "default: the one with the largest χ̄");
   command->add_option("--step", a.plot.step, "load step; default: that of its largest χ̄");
+  command->add_option("--before", a.plot.before,
+                      "another folder that run wrote: its curves as thin lines");
   command->footer(
       "Examples:\n"
       "  faultsim plot history out -o history.svg\n"
+      "  faultsim plot history out --before earlier -o both.svg\n"
       "  faultsim plot section out --step 10 -o section.svg\n"
       "  faultsim plot profiles out --fault F2 -o profiles.png");
   command->callback([&] { code = plot_command(a.plot); });

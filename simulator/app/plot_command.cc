@@ -14,8 +14,8 @@
 namespace faultsim {
 namespace {
 
-CaseChart chart_named(const std::string& name) {
-  if (const CaseChartInfo* info = case_chart_named(name)) return info->chart;
+const CaseChartInfo& chart_named(const std::string& name) {
+  if (const CaseChartInfo* info = case_chart_named(name)) return *info;
   throw InputError("chart", concat("\"", name, "\" is not a chart"),
                    "choose one of " + joined(case_charts(), ", ", &CaseChartInfo::name));
 }
@@ -23,15 +23,21 @@ CaseChart chart_named(const std::string& name) {
 /// A folder that `run` wrote.
 class StoredRun {
  public:
-  explicit StoredRun(const std::string& name)
+  /// @param option  that names it: "result", "--before".
+  StoredRun(const std::string& name, const char* option)
       : folder_(name),
-        scene_document_(read_part("scene.json", name)),
-        result_(result_from_json(read_part("result.json", name).value)),
+        scene_document_(read_part("scene.json", name, option)),
+        result_(result_from_json(read_part("result.json", name, option).value)),
         scene_(read_scene(scene_document_)) {
     if (std::filesystem::exists(folder_ / "faults.h5")) fields_.emplace(folder_ / "faults.h5");
   }
 
   CasePicture picture() const { return {result_, scene_, fields_ ? &*fields_ : nullptr, {}}; }
+  /// The last part of the folder's name: charts say no paths of a machine.
+  std::string name() const {
+    const std::filesystem::path whole = std::filesystem::absolute(folder_).lexically_normal();
+    return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+  }
   std::string scene_text() const { return scene_document_.value.dump(); }
   /// Files that a picture must not replace.
   std::vector<std::filesystem::path> files() const {
@@ -39,9 +45,9 @@ class StoredRun {
   }
 
  private:
-  JsonDocument read_part(const char* part, const std::string& name) const {
+  JsonDocument read_part(const char* part, const std::string& name, const char* option) const {
     if (std::filesystem::exists(folder_ / part)) return read_json_file((folder_ / part).string());
-    throw InputError("result", concat("\"", name, "\" is not a result folder"),
+    throw InputError(option, concat("\"", name, "\" is not a result folder"),
                      "name a folder that faultsim run wrote");
   }
 
@@ -55,16 +61,28 @@ class StoredRun {
 }  // namespace
 
 ExitCode plot_command(const PlotArguments& arguments) {
-  const CaseChart chart = chart_named(arguments.chart);
-  const StoredRun run(arguments.result);
-  require_picture_file(arguments.output, {".svg", ".png"}, run.files());
+  const CaseChartInfo& info = chart_named(arguments.chart);
+  const StoredRun run(arguments.result, "result");
+  std::vector<std::filesystem::path> inputs = run.files();
+  CasePicture picture = run.picture();
+  std::optional<StoredRun> earlier;
+  std::optional<CasePicture> original;
+  if (!arguments.before.empty()) {
+    require_draws_original(info);
+    earlier.emplace(arguments.before, "--before");
+    for (const std::filesystem::path& one : earlier->files()) inputs.push_back(one);
+    original.emplace(earlier->picture());
+    original->name = earlier->name();
+    picture.original = &*original;
+  }
+  require_picture_file(arguments.output, {".svg", ".png"}, inputs);
   write_picture(arguments.output,
-                draw_case(run.picture(), {chart, arguments.fault, arguments.step, false}));
+                draw_case(picture, {info.chart, arguments.fault, arguments.step, false}));
   return ExitCode::done;
 }
 
 ExitCode report_command(const ReportArguments& arguments) {
-  const StoredRun run(arguments.result);
+  const StoredRun run(arguments.result, "result");
   require_picture_file(arguments.output, {".html"}, run.files());
   write_picture(arguments.output, run_page(run.picture(), run.scene_text(), arguments.program));
   return ExitCode::done;

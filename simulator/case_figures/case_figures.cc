@@ -7,13 +7,15 @@ namespace faultsim {
 
 const std::vector<CaseChartInfo>& case_charts() {
   static const std::vector<CaseChartInfo> charts = {
-      {CaseChart::history, "history", "χ̄ per fault and pressures against time", false},
-      {CaseChart::thickness, "thickness", "down-dip length with χ > 0.8 against time", false},
-      {CaseChart::slip, "slip", "largest slip per fault against time", false},
-      {CaseChart::section, "section", "cut across the field, faults coloured by χ", false},
-      {CaseChart::profiles, "profiles", "pressure, tractions, χ, slip against depth", true},
-      {CaseChart::fault_map, "fault-map", "χ on a fault's plane; plane strain: in time", true},
-      {CaseChart::stress_path, "stress-path", "traction against strength, with circle", true}};
+      {CaseChart::history, "history", "χ̄ per fault and pressures against time", false, true},
+      {CaseChart::thickness, "thickness", "down-dip length with χ > 0.8 against time", false, true},
+      {CaseChart::slip, "slip", "largest slip per fault against time", false, true},
+      {CaseChart::section, "section", "cut across the field, faults coloured by χ", false, false},
+      {CaseChart::profiles, "profiles", "pressure, tractions, χ, slip against depth", true, true},
+      {CaseChart::fault_map, "fault-map", "χ on a fault's plane; plane strain: in time", true,
+       false},
+      {CaseChart::stress_path, "stress-path", "traction against strength, with circle", true,
+       true}};
   return charts;
 }
 
@@ -22,6 +24,16 @@ const CaseChartInfo* case_chart_named(std::string_view name) {
     if (name == info.name) return &info;
   }
   return nullptr;
+}
+
+void require_draws_original(const CaseChartInfo& info) {
+  if (info.draws_original) return;
+  std::string others;
+  for (const CaseChartInfo& one : case_charts()) {
+    if (one.draws_original) others += concat(others.empty() ? "" : ", ", one.name);
+  }
+  case_figures::refuse("--before", concat("a ", info.name, " is of one case"),
+                       "choose a chart of curves: " + others);
 }
 
 std::string draw_case(const CasePicture& picture, const CaseChartRequest& request) {

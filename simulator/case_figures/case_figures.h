@@ -27,9 +27,12 @@ struct CaseChartInfo {
   const char* name;     ///< "fault-map".
   const char* meaning;  ///< for --help.
   bool needs_fields;    ///< faults.h5.
+  bool draws_original;  ///< CasePicture::original.
 };
 const std::vector<CaseChartInfo>& case_charts();
 const CaseChartInfo* case_chart_named(std::string_view name);  ///< nullptr = there is none.
+/// Throws InputError (of --before) where the chart does not draw a case before a change.
+void require_draws_original(const CaseChartInfo& info);
 
 /// What is drawn, and what it is drawn from.
 struct CasePicture {
@@ -37,8 +40,9 @@ struct CasePicture {
   const Scene& scene;
   const FieldSource* fields = nullptr;  ///< none = only charts that do not need them.
   std::string name = {};                ///< before the title: "sweep/17"; "" = the result's title.
-  /// The case before a change: charts but section and fault map have its curves as thin, paler
-  /// lines, of faults and compartments of the same names.
+  /// The case before a change, or another to compare with: charts that draw it (CaseChartInfo) have
+  /// its curves as thin, paler lines, of faults and compartments of the same names, and say its
+  /// name.
   const CasePicture* original = nullptr;
 };
 struct CaseChartRequest {

@@ -46,8 +46,10 @@ std::string subject_of(const CasePicture& picture) {
 
 std::string words_of_original(const CasePicture& picture, bool is_drawn, const std::string& place) {
   if (picture.original == nullptr) return "";
-  if (!is_drawn) return "nothing is kept of before the change; ";
-  return concat("thin: before the change", place.empty() ? "" : ", ", place, "; ");
+  const std::string& name = picture.original->name;
+  const std::string what = name.empty() ? "before the change" : name;
+  if (!is_drawn) return concat("nothing is kept of ", what, "; ");
+  return concat("thin: ", what, place.empty() ? "" : ", ", place, "; ");
 }
 
 std::optional<std::size_t> place_of(const std::vector<std::string>& names,

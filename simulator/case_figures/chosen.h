@@ -45,8 +45,9 @@ std::string time_unit_text(const CasePicture& picture);
 /// Ticks at dates, in the unit of time_of, within the history; none where the scene has no dates.
 std::vector<figure::Tick> date_ticks(const CasePicture& picture);
 
-/// What a remark begins with, as it may be cut at its end: "thin: before the change; ", or why
-/// there are no such lines; "" of a picture without an original.
+/// What a remark begins with, as it may be cut at its end: "thin: before the change; ", or with
+/// the name of the original where it has one; or why there are no such lines; "" of a picture
+/// without an original.
 /// @param place  where its lines are, if elsewhere: "at 2,050 m depth".
 std::string words_of_original(const CasePicture& picture, bool is_drawn = true,
                               const std::string& place = {});

@@ -127,6 +127,42 @@ TEST(LimitAnswer, TellsWhatIsSureFromWhatCameOut) {
                         "at -10 bar."));
 }
 
+/// Pieces of a row of the chart as "safe end, other end, fill".
+std::vector<std::array<double, 3>> pieces(const Answer& answer, std::size_t row) {
+  std::vector<std::array<double, 3>> all;
+  for (const AnswerBlock& block : answer.blocks) {
+    const auto* chart = std::get_if<AnswerChart>(&block);
+    if (chart == nullptr) continue;
+    for (const auto& one : std::get<faultsim::figure::RangeBars>(*chart).rows.at(row).ranges)
+      all.push_back({one.from, one.to, static_cast<double>(one.fill)});
+  }
+  return all;
+}
+
+/// 0: safe, 1: turns within, 2: unsafe, 4: not known or not resolved.
+TEST(LimitAnswer, DrawsWhatWasTried) {
+  using Pieces = std::vector<std::array<double, 3>>;
+  const Answer answer = to_answer(all_kinds(), 0);
+  EXPECT_EQ(pieces(answer, 0), (Pieces{{-110, 0, 2}}));
+  EXPECT_EQ(pieces(answer, 1), (Pieces{{-110, -71, 0}, {-71, -70, 1}, {-70, 0, 2}}));
+  EXPECT_EQ(pieces(answer, 2), (Pieces{{-110, -60, 0}, {-60, -10, 4}, {-10, 0, 2}}))
+      << "between what is surely safe and surely unsafe";
+  EXPECT_EQ(pieces(answer, 3), (Pieces{{-110, 0, 0}}));
+  // A value without a result is known on neither side, nor is what was not tried.
+  std::vector<SearchPoint> points = {point(-110, PointState::safe), point(-60, PointState::safe),
+                                     point(-50, PointState::unknown), point(-40, PointState::safe),
+                                     point(-30, PointState::safe)};
+  const LimitTable table =
+      table_of({row(1, "100 m", "20 deg", {judge(points, true, 1), std::nullopt}, 79)});
+  EXPECT_EQ(pieces(to_answer(table, 0), 0),
+            (Pieces{{-110, -60, 0}, {-60, -40, 4}, {-40, -30, 0}, {-30, 0, 4}}));
+  const std::string svg = first_chart(answer);
+  for (const char* text : {">200 m, 24 deg, F2<", ">[-71, -70]<", ">[-31, -30] ?<",
+                           "storage_pressure, bar (rows: offset, friction_angle, fault)<"})
+    EXPECT_THAT(svg, HasSubstr(text));
+  EXPECT_EQ(first_chart(to_answer(table_of({}), 0)), "") << "nothing was tried";
+}
+
 TEST(LimitAnswer, OfARangeThatIsSafeSaysHowFarThatIsSure) {
   const Answer answer = to_answer(table_of({row(1, "100 m", "24 deg", searched(5, 30), 110)}), 0);
   const std::string text = render_text(answer, 1000);

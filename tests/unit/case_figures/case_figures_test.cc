@@ -296,8 +296,31 @@ TEST(DrawCase, HasTheHistoryBeforeAChangeByTheNamesOfFaultsAndRegions) {
   expect_values(read_thin(svg, 3, false), {0, 0, 0}, 0.005);
   expect_values(read_off(svg, 6, false, 0, 1), {0, -100, -200}, 1.5);
   expect_values(read_thin(svg, 6, false, 0, 1), {0, -75, -150}, 1.5);
+  CasePicture named = original;
+  named.name = "sweep/3";
+  picture.original = &named;
+  EXPECT_THAT(draw_case(picture, {CaseChart::history, {}, {}, true}),
+              HasSubstr(">thin: sweep/3; a"));
   const std::string slip = draw_case(picture, {CaseChart::slip, {}, {}, false});
   expect_values(read_thin(slip, 0, false), {0, 100, 200}, 1);
+}
+
+TEST(RequireDrawsOriginal, RefusesChartsThatAreTheSameWithoutIt) {
+  for (const CaseChartInfo& info : case_charts()) {
+    const bool has_curves = info.chart != CaseChart::section && info.chart != CaseChart::fault_map;
+    EXPECT_EQ(info.draws_original, has_curves) << info.name;
+    if (has_curves) {
+      EXPECT_NO_THROW(require_draws_original(info));
+      continue;
+    }
+    try {
+      require_draws_original(info);
+      ADD_FAILURE() << info.name;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("--before"));
+      EXPECT_THAT(error.what(), HasSubstr("history, thickness, slip, profiles, stress-path"));
+    }
+  }
 }
 
 TEST(FieldSection, HasLayersToTheNextOneAndBlocksBetweenTheirFaults) {
