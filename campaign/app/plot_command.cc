@@ -24,6 +24,7 @@ struct PlotArguments {
   std::filesystem::path output;  ///< .svg or .png.
   std::string fault;             ///< of charts of a case; "" = the most critical one.
   std::optional<int> step;       ///< the same; none = the most critical one.
+  std::string show = "chi";      ///< of a fault map: a word of MapField.
   std::string before = {};       ///< of a case: another, drawn as thin lines; "" = none.
   MapRequest map = {};
   SensitivityRequest sensitivity = {};
@@ -84,6 +85,8 @@ std::string draw_case_of(const PlotArguments& arguments, const faultsim::CaseCha
     throw InputError("subject", concat("a ", info.name, " is of one case"),
                      "name it: CAMPAIGN/CASE, or its number");
   }
+  const faultsim::MapField show = faultsim::field_shown("--show", arguments.show);
+  require_shows(info, show);
   const NamedCase found = find_case(store, "", arguments.subject);
   const StoredPicture stored(store, found.campaign, found.stored);
   faultsim::CasePicture picture = stored.picture();
@@ -95,7 +98,7 @@ std::string draw_case_of(const PlotArguments& arguments, const faultsim::CaseCha
     original.emplace(earlier.emplace(store, other.campaign, other.stored).picture());
     picture.original = &*original;
   }
-  return draw_case(picture, {info.chart, arguments.fault, arguments.step, false});
+  return draw_case(picture, {info.chart, arguments.fault, arguments.step, false, show});
 }
 
 ExitCode plot(const StoreArguments& common, const PlotArguments& arguments) {
@@ -134,6 +137,7 @@ void add_pictures(Program& program) {
       ->required();
   command->add_option("--fault", a.fault, "of a case; default: the one with the largest χ̄");
   command->add_option("--step", a.step, "of a case: load step; default: that of its largest χ̄");
+  command->add_option("--show", a.show, "of a fault-map: chi (default), slip, state, pressure");
   command->add_option("--before", a.before,
                       "of a case: another (a number: of the same campaign), as thin lines");
   command->add_option("--x", a.map.x, "map: parameter along the bottom; default: the first");

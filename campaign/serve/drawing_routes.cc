@@ -36,18 +36,25 @@ HttpResponse case_chart(const Store& store, const Asked& asked) {
   const StoredPicture stored(store, campaign, asked.stored_case(store, campaign));
   std::optional<int> step;
   if (const auto given = asked.whole("step", 0, kMostSteps)) step = static_cast<int>(*given);
-  return svg(draw_case(stored.picture(), {chart, asked.text("fault"), step, asked.flag("cursor")}));
+  faultsim::CaseChartRequest request{chart, asked.text("fault"), step, asked.flag("cursor")};
+  if constexpr (chart == faultsim::CaseChart::fault_map)
+    request.show =
+        static_cast<faultsim::MapField>(asked.word("show", {"chi", "slip", "state", "pressure"}));
+  return svg(draw_case(stored.picture(), request));
 }
 
 template <faultsim::CaseChart chart>
 Route case_route(const char* path, const char* meaning) {
-  return {path,
-          meaning,
-          {{"fault", "default: the one with the largest χ̄"},
-           {"step", "load step; default: that of its largest χ̄"},
-           {"cursor", "yes: histories have a line at the step"}},
-          case_chart<chart>,
-          "image/svg+xml"};
+  Route route{path,
+              meaning,
+              {{"fault", "default: the one with the largest χ̄"},
+               {"step", "load step; default: that of its largest χ̄"},
+               {"cursor", "yes: histories have a line at the step"}},
+              case_chart<chart>,
+              "image/svg+xml"};
+  if (chart == faultsim::CaseChart::fault_map)
+    route.parameters.push_back({"show", "chi (default), slip, state or pressure"});
+  return route;
 }
 
 }  // namespace
@@ -81,7 +88,7 @@ const std::vector<Route>& drawing_routes() {
       case_route<CaseChart::profiles>("/api/campaigns/{campaign}/cases/{case}/profiles.svg",
                                       "pressure, tractions, χ and slip down a fault; needs fields"),
       case_route<CaseChart::fault_map>("/api/campaigns/{campaign}/cases/{case}/fault-map.svg",
-                                       "χ on a fault; needs fields"),
+                                       "χ, slip, state or pressure on a fault; needs fields"),
       case_route<CaseChart::stress_path>(
           "/api/campaigns/{campaign}/cases/{case}/stress-path.svg",
           "traction of a fault's most critical point; needs fields")};

@@ -53,6 +53,7 @@ const Route& what_if_route() {
        {"chart", "as of `faultsim plot`; may be given again", true},
        {"fault", "that charts are of; default: the one with the largest χ̄"},
        {"step", "load step that charts are of"},
+       {"show", "of a fault map: chi (default), slip, state or pressure"},
        {"cursor", "yes: histories have a line at the step"},
        {"page", "a word of the one who asks; the newest question of anybody wins"},
        {"ask", "number of the question, larger than those before; the same again waits on"},
@@ -73,6 +74,7 @@ json question_body(const Asked& asked) {
   if (const std::string fault = asked.text("fault"); !fault.empty()) body["fault"] = fault;
   constexpr long kMostSteps = 1000000;
   if (const auto step = asked.whole("step", 0, kMostSteps)) body["step"] = *step;
+  if (const std::string show = asked.text("show"); !show.empty()) body["show"] = show;
   if (asked.flag("cursor")) body["cursor"] = true;
   return body;
 }

@@ -63,6 +63,7 @@ struct PlotArguments {
   std::filesystem::path output;  ///< .svg or .png.
   std::string fault;             ///< "" = the most critical one.
   std::optional<int> step;       ///< load step; none = the most critical one.
+  std::string show = "chi";      ///< of a fault map: a word of MapField.
   std::string before;            ///< folder of another run, drawn as thin lines; "" = none.
 };
 

@@ -236,6 +236,8 @@ void add_plot(CLI::App& app, Arguments& a, ExitCode& code) {
       ->required();
   command->add_option("--fault", a.plot.fault, "default: the one with the largest χ̄");
   command->add_option("--step", a.plot.step, "load step; default: that of its largest χ̄");
+  command->add_option("--show", a.plot.show,
+                      "of a fault-map: chi (default), slip, state, pressure");
   command->add_option("--before", a.plot.before,
                       "another folder that run wrote: its curves as thin lines");
   command->footer(

@@ -62,6 +62,8 @@ class StoredRun {
 
 ExitCode plot_command(const PlotArguments& arguments) {
   const CaseChartInfo& info = chart_named(arguments.chart);
+  const MapField show = field_shown("--show", arguments.show);
+  require_shows(info, show);
   const StoredRun run(arguments.result, "result");
   std::vector<std::filesystem::path> inputs = run.files();
   CasePicture picture = run.picture();
@@ -77,7 +79,7 @@ ExitCode plot_command(const PlotArguments& arguments) {
   }
   require_picture_file(arguments.output, {".svg", ".png"}, inputs);
   write_picture(arguments.output,
-                draw_case(picture, {info.chart, arguments.fault, arguments.step, false}));
+                draw_case(picture, {info.chart, arguments.fault, arguments.step, false, show}));
   return ExitCode::done;
 }
 

@@ -80,6 +80,7 @@ std::vector<CaseChartRequest> charts_of(const json& question) {
   request.with_cursor = question.value("cursor", false);
   request.fault = question.value("fault", "");
   if (question.contains("step")) request.step = question.at("step").get<int>();
+  request.show = field_shown("show", question.value("show", "chi"));
   for (const json& name : question.value("charts", json::array())) {
     const CaseChartInfo* info = case_chart_named(name.get<std::string>());
     if (info == nullptr)

@@ -12,8 +12,8 @@ const std::vector<CaseChartInfo>& case_charts() {
       {CaseChart::slip, "slip", "largest slip per fault against time", false, true},
       {CaseChart::section, "section", "cut across the field, faults coloured by χ", false, false},
       {CaseChart::profiles, "profiles", "pressure, tractions, χ, slip against depth", true, true},
-      {CaseChart::fault_map, "fault-map", "χ on a fault's plane; plane strain: in time", true,
-       false},
+      {CaseChart::fault_map, "fault-map", "χ, slip, … on a fault's plane; plane strain: in time",
+       true, false},
       {CaseChart::stress_path, "stress-path", "traction against strength, with circle", true,
        true}};
   return charts;
@@ -24,6 +24,23 @@ const CaseChartInfo* case_chart_named(std::string_view name) {
     if (name == info.name) return &info;
   }
   return nullptr;
+}
+
+MapField field_shown(const std::string& place, const std::string& word) {
+  std::string all;
+  for (std::size_t k = 0; k < words(MapField{}).size(); ++k) {
+    const char* one = words(MapField{}).at(k);
+    if (word == one) return static_cast<MapField>(k);
+    all += concat(all.empty() ? "" : ", ", one);
+  }
+  case_figures::refuse(place, concat("\"", word, "\" is not what a fault map can show"),
+                       "choose one of " + all);
+}
+
+void require_shows(const CaseChartInfo& info, MapField show) {
+  if (info.chart == CaseChart::fault_map || show == MapField::chi) return;
+  case_figures::refuse("--show", concat("is of a fault-map, which ", info.name, " is not"),
+                       "leave it out, or plot a fault-map");
 }
 
 void require_draws_original(const CaseChartInfo& info) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,6 +32,20 @@ struct CaseChartInfo {
 };
 const std::vector<CaseChartInfo>& case_charts();
 const CaseChartInfo* case_chart_named(std::string_view name);  ///< nullptr = there is none.
+/// What a fault map shows.
+enum class MapField {
+  chi,       ///< critical index.
+  slip,      ///< size of the slip along the fault, mm.
+  state,     ///< sticks, slips or is open in the load step.
+  pressure,  ///< change of the pressure in the fault since the start, bar.
+};
+constexpr auto words(MapField) { return std::array{"chi", "slip", "state", "pressure"}; }
+
+/// The field of a word. Throws InputError of `place` where there is none of this name.
+MapField field_shown(const std::string& place, const std::string& word);
+/// Throws InputError (of --show) where the chart is not a fault map and another field than χ is
+/// asked for.
+void require_shows(const CaseChartInfo& info, MapField show);
 /// Throws InputError (of --before) where the chart does not draw a case before a change.
 void require_draws_original(const CaseChartInfo& info);
 
@@ -47,9 +62,10 @@ struct CasePicture {
 };
 struct CaseChartRequest {
   CaseChart chart = CaseChart::history;
-  std::string fault = {};        ///< "" = that of the largest χ̄.
-  std::optional<int> step = {};  ///< none = of its largest χ̄, or the last one stored before.
-  bool with_cursor = false;      ///< histories: a line at the step, which a page can move.
+  std::string fault = {};         ///< "" = that of the largest χ̄.
+  std::optional<int> step = {};   ///< none = of its largest χ̄, or the last one stored before.
+  bool with_cursor = false;       ///< histories: a line at the step, which a page can move.
+  MapField show = MapField::chi;  ///< fault maps; other charts do not look at it.
 };
 
 /// The chart as SVG. Throws InputError: no such fault or step, no fields, a section of a box.

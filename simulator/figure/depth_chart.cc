@@ -103,6 +103,115 @@ std::string draw(const DepthChart& chart) {
   return svg.finish();
 }
 
+namespace {
+
+using Kind = FaceColours::Kind;
+
+/// The size that the ends of the scale have; 0 where nothing is anything.
+double largest_size(const FaultMap& map) {
+  double size = 0;
+  for (const FaultCell& cell : map.cells) size = std::max(size, std::abs(cell.value));
+  return size;
+}
+
+/// @param size  largest_size.
+std::string face_colour(Kind kind, double value, double size) {
+  const double share = size > 0 ? value / size : 0;
+  switch (kind) {
+    case Kind::chi:
+      return chi_colour(value);
+    case Kind::amount:
+      return share_colour(share);
+    case Kind::change:
+      return change_colour(share);
+    case Kind::state:
+      return value < 0.5 ? kStickColour : value < 1.5 ? kSlipColour : kOpenColour;
+  }
+  return kFrame;
+}
+
+/// Lines across a face, which tell its state without colours. @param corners  px, four of them.
+void draw_state_lines(Svg& svg, const std::vector<Point>& corners, double state) {
+  if (state < 0.5 || corners.size() != 4) return;
+  svg.line(corners[0], corners[2], {kInk, 0.6});
+  if (state > 1.5) svg.line(corners[1], corners[3], {"#ffffff", 0.9});
+}
+
+/// The three states by name beside what they look like, ending at `right`.
+void draw_state_key(Svg& svg, double right, double y) {
+  double x = right - 220;
+  for (const auto& [state, name] : {std::pair(0.0, "sticks"), {1.0, "slips"}, {2.0, "is open"}}) {
+    const Box box{x, y, 18, 12};
+    svg.rect(box, face_colour(Kind::state, state, 1), {kFrame, 0.75});
+    draw_state_lines(
+        svg,
+        {{box.x, box.y}, {box.right(), box.y}, {box.right(), box.bottom()}, {box.x, box.bottom()}},
+        state);
+    svg.text({x + 23, y + 10}, name, {kLabelSize, kInk});
+    x += 78;
+  }
+}
+
+/// A scale to the largest size with the ends' values below it, and what it is of before it; of
+/// nothing but zeros in words.
+void draw_size_scale(Svg& svg, const FaceColours& colours, double size, Point place, double width) {
+  constexpr double kHeight = 10;
+  constexpr int kParts = 60;
+  const TextStyle before{kLabelSize, kInk, Anchor::end};
+  if (!(size > 0)) {
+    svg.text({place.x + width, place.y + kHeight}, colours.label + ": 0 everywhere", before);
+    return;
+  }
+  svg.text({place.x - 8, place.y + kHeight}, colours.label, before);
+  const double low = colours.kind == Kind::change ? -size : 0;
+  for (int k = 0; k < kParts; ++k) {
+    const double from = width * k / kParts;
+    svg.rect({place.x + from, place.y, width - from, kHeight},
+             face_colour(colours.kind, low + (size - low) * (k + 0.5) / kParts, size));
+  }
+  svg.rect({place.x, place.y, width, kHeight}, "none", {kFrame, 0.75});
+  for (const double share : {0.0, 0.5, 1.0}) {
+    svg.text({place.x + width * share, place.y + kHeight + 13},
+             plain_number(low + (size - low) * share), {kTickSize, kFaint, Anchor::middle});
+  }
+}
+
+void draw_colour_key(Svg& svg, const FaultMap& map, double size, Point place, double width) {
+  if (map.colours.kind == Kind::chi) {
+    draw_chi_scale(svg, place, width);
+  } else if (map.colours.kind == Kind::state) {
+    draw_state_key(svg, place.x + width, place.y);
+  } else {
+    draw_size_scale(svg, map.colours, size, place, width);
+  }
+}
+
+/// Faces in their colours, then the outlines of those that are marked, over their neighbours.
+void draw_faces(Svg& svg, const Panel& panel, const FaultMap& map, double size) {
+  for (const bool outlines : {false, true}) {
+    for (const FaultCell& cell : map.cells) {
+      if (outlines && !cell.is_marked) continue;
+      std::vector corners =
+          mapped(cell.corners, [&](const Point& corner) { return panel.at(corner.x, corner.y); });
+      if (outlines) {
+        svg.polygon(corners, "none", {kInk, 0.9});
+        continue;
+      }
+      const std::string fill = face_colour(map.colours.kind, cell.value, size);
+      svg.polygon(corners, fill, {fill, 0.8});  // the seams between cells are closed
+    }
+  }
+  if (map.colours.kind != Kind::state) return;
+  for (const FaultCell& cell : map.cells) {
+    draw_state_lines(
+        svg,
+        mapped(cell.corners, [&](const Point& corner) { return panel.at(corner.x, corner.y); }),
+        cell.value);
+  }
+}
+
+}  // namespace
+
 std::string draw(const FaultMap& map) {
   constexpr double kLeft = 70, kWidth = 860, kHeight = 300;
   std::vector<double> across, depths;
@@ -126,22 +235,12 @@ std::string draw(const FaultMap& map) {
   if (!(high > low)) high = low + 1;
   const Box box{strip.right() + 14, heading, kWidth - strip.right() - 14 - 24, kHeight};
   Panel panel(svg, box, axis_between(map.across, low, high, 8), depth, {.y_labels = false});
-  for (const bool outlines : {false, true}) {  // outlines last, over their neighbours' colours
-    for (const FaultCell& cell : map.cells) {
-      if (outlines && !cell.is_marked) continue;
-      std::vector corners =
-          mapped(cell.corners, [&](const Point& corner) { return panel.at(corner.x, corner.y); });
-      const std::string fill = chi_colour(cell.value);
-      if (outlines)
-        svg.polygon(corners, "none", {kInk, 0.9});
-      else
-        svg.polygon(corners, fill, {fill, 0.8});  // the seams between cells are closed
-    }
-  }
+  const double size = largest_size(map);
+  draw_faces(svg, panel, map, size);
   draw_band_edges(panel, map.bands);
   panel.frame();
   const double y = box.bottom() + 54;
-  draw_chi_scale(svg, {box.right() - 250, y}, 240);
+  draw_colour_key(svg, map, size, {box.right() - 250, y}, 240);
   if (!map.marked.empty()) {
     svg.rect({box.x, y, 14, 10}, "none", {kInk, 0.9});
     svg.text({box.x + 20, y + 10}, map.marked, {kLabelSize, kInk});

@@ -31,19 +31,32 @@ struct DepthChart {
 };
 std::string draw(const DepthChart& chart);
 
+/// What the colours of a fault's faces are of.
+struct FaceColours {
+  enum class Kind {
+    chi,     ///< critical index.
+    amount,  ///< from 0 to the largest: lightness falls.
+    change,  ///< of either sign, to the largest size on both sides.
+    state,   ///< 0 = sticks, 1 = slips (a line across the face), 2 = is open (a cross).
+  };
+  Kind kind = Kind::chi;
+  std::string label = {};  ///< of the scale, with its unit: "slip, mm"; not of χ and states.
+};
+
 /// A face of a fault in its plane.
 struct FaultCell {
   std::vector<Point> corners;  ///< m along strike or step of time; m of depth.
-  double value = 0;            ///< χ.
+  double value = 0;            ///< see FaceColours.
   bool is_marked = false;      ///< slips or is open: outlined.
 };
-/// χ on a fault's plane as colours.
+/// A quantity on a fault's plane as colours.
 struct FaultMap {
   std::string title, remark;
   std::string across;  ///< "along strike, m".
   std::string marked;  ///< what the outline means; "" = nothing is outlined.
   std::vector<FaultCell> cells;
   std::vector<DepthBand> bands;
+  FaceColours colours = {};
 };
 std::string draw(const FaultMap& map);
 

@@ -69,4 +69,10 @@ std::string share_colour(double share) {
   return hex(between(kStops[k], kStops[k + 1], place - static_cast<double>(k)));
 }
 
+std::string change_colour(double share) {
+  constexpr Rgb kFallen = {10, 70, 140}, kNone = {246, 246, 244}, kRisen = {130, 60, 6};
+  const double size = std::min(std::abs(share), 1.0);
+  return hex(between(kNone, share < 0 ? kFallen : kRisen, size));
+}
+
 }  // namespace faultsim::figure

@@ -38,5 +38,11 @@ inline constexpr double kChiAtLimit = 1 - 1e-6;
 /// Colour of a share of cases that slide: lightness falls throughout, from pale blue (none) by
 /// yellow and orange to the dark red of the limit (all); cut off at both ends.
 std::string share_colour(double share);
+/// Colour of a change, as a share of the largest from -1 (blue) by 0 (nearly white) to 1 (brown):
+/// lightness falls as much to both sides; cut off at both ends.
+std::string change_colour(double share);
+/// Colours of what a face does: sticks, slips, is open. Lightness falls in this order.
+inline constexpr const char *kStickColour = "#e3e9ef", *kSlipColour = "#f0a038",
+                            *kOpenColour = "#7a4a9e";
 
 }  // namespace faultsim::figure

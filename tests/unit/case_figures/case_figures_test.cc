@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -560,6 +561,77 @@ TEST_F(FieldsOfAFault, AMapAgainstTimeHasTheMeanOfEachFace) {
   EXPECT_NEAR(depth.value(upper[0].points()[2].y), 2050, 0.5);
 }
 
+/// The corners of a map's faces of a colour, along the axes of the drawing.
+std::vector<std::array<double, 4>> faces_of(const std::string& svg, const std::string& colour) {
+  const figure::ReadScale x = figure::read_scale(svg, true), y = figure::read_scale(svg, false);
+  std::vector<std::array<double, 4>> all;
+  for (const figure::SvgElement& one : figure::elements_of(svg, "polygon", "fill", colour)) {
+    const auto corners = one.points();
+    all.push_back({x.value(corners[0].x), x.value(corners[2].x), y.value(corners[0].y),
+                   y.value(corners[2].y)});
+  }
+  return all;
+}
+
+void expect_faces(const std::vector<std::array<double, 4>>& faces,
+                  const std::vector<std::array<double, 4>>& expected) {
+  ASSERT_EQ(faces.size(), expected.size());
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(faces[k][c], expected[k][c], 0.5);
+}
+
+/// The middle point of three slips 10 mm in step 1, and is open with 20 mm in step 2; Δp falls by
+/// 10 bar in each step.
+TEST_F(FieldsOfAFault, MapsOfOtherFieldsHaveTheirValuesAgainstTime) {
+  const FieldReader reader(folder_ / "faults.h5");
+  const Scene scene = field_scene();
+  const CaseResult result = small_result();
+  const auto drawn = [&](MapField show) {
+    const std::string svg =
+        draw_case({result, scene, &reader, {}}, {CaseChart::fault_map, "F2", {}, false, show});
+    EXPECT_EQ(figure::xml_problem(svg), "");
+    return svg;
+  };
+  const std::string slip = drawn(MapField::slip);  // means of faces: 5 mm and 10 mm, the largest
+  expect_faces(faces_of(slip, figure::share_colour(0.5)), {{0, 5, 2000, 2050}, {0, 5, 2050, 2100}});
+  expect_faces(faces_of(slip, figure::share_colour(1)), {{5, 10, 2000, 2050}, {5, 10, 2050, 2100}});
+  for (const char* text :
+       {">slip, mm<", ">10<", ">5<", ">Slip of fault F2 against depth and time<"})
+    EXPECT_THAT(slip, HasSubstr(text));
+  const std::string pressure = drawn(MapField::pressure);
+  expect_faces(faces_of(pressure, figure::change_colour(-0.5)),
+               {{0, 5, 2000, 2050}, {0, 5, 2050, 2100}});
+  expect_faces(faces_of(pressure, figure::change_colour(-1)),
+               {{5, 10, 2000, 2050}, {5, 10, 2050, 2100}});
+  for (const char* text : {">Δp, bar<", ">−20<", ">20<"}) EXPECT_THAT(pressure, HasSubstr(text));
+  const std::string state = drawn(MapField::state);
+  expect_faces(faces_of(state, figure::kSlipColour), {{0, 5, 2000, 2050}, {0, 5, 2050, 2100}});
+  expect_faces(faces_of(state, figure::kOpenColour), {{5, 10, 2000, 2050}, {5, 10, 2050, 2100}});
+  for (const char* text : {">sticks<", ">slips<", ">is open<"}) EXPECT_THAT(state, HasSubstr(text));
+  // Told without colours: a line across each of four faces and the two of the key, a second one
+  // where it is open.
+  EXPECT_EQ(figure::elements_of(state, "line", "stroke-width", "0.6").size(), 6U);
+  EXPECT_EQ(figure::elements_of(state, "line", "stroke", "#ffffff").size(), 3U);
+  EXPECT_NE(state, drawn(MapField::chi));
+}
+
+TEST(MapFields, AreShownByNameOnFaultMapsOnly) {
+  EXPECT_EQ(field_shown("--show", "state"), MapField::state);
+  try {
+    field_shown("--show", "colour");
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("choose one of chi, slip, state, pressure"));
+  }
+  for (const CaseChartInfo& info : case_charts()) {
+    EXPECT_NO_THROW(require_shows(info, MapField::chi));
+    if (info.chart == CaseChart::fault_map)
+      EXPECT_NO_THROW(require_shows(info, MapField::slip));
+    else
+      EXPECT_THROW(require_shows(info, MapField::slip), InputError) << info.name;
+  }
+}
+
 /// Two faces beside each other along strike: of the first one corner of four slips, of the second
 /// two do.
 TEST(PlaneMap, MarksFacesOfWhichHalfOfTheCornersMove) {
@@ -604,6 +676,16 @@ TEST(PlaneMap, MarksFacesOfWhichHalfOfTheCornersMove) {
   EXPECT_NEAR(y.value(outlines[0].points()[1].x), 200, 0.5);
   EXPECT_EQ(figure::elements_of(svg, "polygon", "fill", figure::chi_colour(0.25)).size(), 1U);
   EXPECT_EQ(figure::elements_of(svg, "polygon", "fill", figure::chi_colour(0.5)).size(), 1U);
+  // The second face slips, the first sticks; nowhere is there slip yet, which is said.
+  const auto other = [&](MapField show) {
+    return draw_case({result, scene, &reader, {}}, {CaseChart::fault_map, "F2", {}, false, show});
+  };
+  const std::string state = other(MapField::state);
+  expect_faces(faces_of(state, figure::kStickColour), {{0, 100, 2000, 2050}});
+  expect_faces(faces_of(state, figure::kSlipColour), {{100, 200, 2000, 2050}});
+  EXPECT_TRUE(figure::elements_of(state, "polygon", "fill", "none").empty());
+  EXPECT_THAT(state, HasSubstr(">State of fault F2: load step 2, "));
+  EXPECT_THAT(other(MapField::slip), HasSubstr(">slip, mm: 0 everywhere<"));
 }
 
 TEST_F(FieldsOfAFault, OfAFileThatIsNoneAreRefused) {
