@@ -244,6 +244,7 @@ function add_steps(element, api, moved) {
     tell();
   });
 }
+const map_shows = ["chi", "slip", "state", "pressure"];
 /** Charts of one fault at the step, which need stored fields. */
 class FaultCharts {
   constructor(element, api, faults) {
@@ -251,14 +252,17 @@ class FaultCharts {
     this.step = "";
     const [label, select] = choice("fault", faults, faults[0], () => this.draw());
     this.select = select;
+    const [shown_label, shown] = choice("map of", map_shows, map_shows[0], () => this.draw());
+    this.shown = shown;
     this.places = ["profiles", "fault-map", "stress-path"].map((name) => [name, made("div")]);
-    element.append(made("p", {class: "choices"}, label), ...this.places.map(([, one]) => one));
+    element.append(made("p", {class: "choices"}, label, shown_label), ...this.places.map(([, one]) => one));
     this.places = this.places.map(([name, one]) => [name, new Place(one)]);
   }
   show(step) { this.step = step; this.draw(); }
   draw() {
     for (const [name, place] of this.places)
-      place.drawing(this.api + "/" + name + ".svg", {fault: this.select.value, step: name === "stress-path" ? "" : this.step});
+      place.drawing(this.api + "/" + name + ".svg", {fault: this.select.value, step: name === "stress-path" ? "" : this.step,
+        show: name === "fault-map" ? this.shown.value : ""});
   }
 }
 function settings_of(one) {
@@ -409,7 +413,8 @@ class WhatIf {
     const own = this.controls.filter((one) => one.of.of_campaign), others = this.controls.filter((one) => !one.of.of_campaign);
     const [fault, fault_select] = choice("fault", this.faults, this.faults[0], () => this.ask());
     const [kind, kind_select] = choice("also", ["", ...step_charts], "", () => this.ask());
-    Object.assign(this, {fault: fault_select, kind: kind_select, said: made("p", {role: "status", class: "faint"}), words: made("div"),
+    const [map_of, map_select] = choice("map of", map_shows, map_shows[0], () => this.ask());
+    Object.assign(this, {fault: fault_select, kind: kind_select, shown: map_select, said: made("p", {role: "status", class: "faint"}), words: made("div"),
       section: made("div"), history: made("div"), more: made("div"), text: made("pre"), slider: made("input", {type: "range", min: "0", value: "0"}), step_words: made("output")});
     this.slider.addEventListener("input", () => this.show_step());
     this.slider.addEventListener("change", () => { if (this.kind.value) this.ask(); });
@@ -422,7 +427,7 @@ class WhatIf {
     const copied = made("details", {}, made("summary", {}, "Take it along"), ...["scene", "scene as it was", "run line", "campaign"].map((what) =>
       button(what, () => { this.text.textContent = this.as(what); })), this.text);
     const shown = made("div", {}, this.said, this.words, made("div", {class: "slider"}, made("label", {}, "load step", this.slider), this.step_words),
-      this.part, made("p", {class: "choices"}, fault, kind), this.more, copied);
+      this.part, made("p", {class: "choices"}, fault, kind, map_of), this.more, copied);
     view.append(made("div", {class: "what-if"}, sliders, shown));
   }
   changes() {
@@ -434,7 +439,8 @@ class WhatIf {
     const changes = this.changes(), step = this.steps && this.kind.value ? this.steps[this.slider.value].step : "";
     const section = geometry_of(changes) === this.geometry ? [] : ["section"];
     const charts = [...section, "history", ...(this.kind.value ? [this.kind.value] : [])];
-    this.questions.ask({changes: JSON.stringify(changes), chart: charts, fault: this.fault.value, step, cursor: "yes"});
+    this.questions.ask({changes: JSON.stringify(changes), chart: charts, fault: this.fault.value, step, cursor: "yes",
+      show: this.kind.value === "fault-map" ? this.shown.value : ""});
   }
   /** Which case this is, in words. */
   name() {

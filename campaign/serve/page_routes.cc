@@ -74,7 +74,8 @@ json question_body(const Asked& asked) {
   if (const std::string fault = asked.text("fault"); !fault.empty()) body["fault"] = fault;
   constexpr long kMostSteps = 1000000;
   if (const auto step = asked.whole("step", 0, kMostSteps)) body["step"] = *step;
-  if (const std::string show = asked.text("show"); !show.empty()) body["show"] = show;
+  static const std::vector<std::string> kShows = {"chi", "slip", "state", "pressure"};
+  body["show"] = kShows.at(asked.word("show", kShows));
   if (asked.flag("cursor")) body["cursor"] = true;
   return body;
 }
