@@ -598,6 +598,7 @@ TEST_F(FieldsOfAFault, MapsOfOtherFieldsHaveTheirValuesAgainstTime) {
   for (const char* text :
        {">slip, mm<", ">10<", ">5<", ">Slip of fault F2 against depth and time<"})
     EXPECT_THAT(slip, HasSubstr(text));
+  EXPECT_EQ(figure::change_colour(-1), "#0a468c") << "blue: it fell";
   const std::string pressure = drawn(MapField::pressure);
   expect_faces(faces_of(pressure, figure::change_colour(-0.5)),
                {{0, 5, 2000, 2050}, {0, 5, 2050, 2100}});
@@ -658,7 +659,7 @@ TEST(PlaneMap, MarksFacesOfWhichHalfOfTheCornersMove) {
   fields.critical_index << 0.1, 0.2, 0.3, 0.4, 0.7, 0.6;
   fields.static_critical_index = fields.critical_index;
   fields.state.setZero(6);
-  fields.state[2] = fields.state[5] = 1;
+  fields.state[2] = 1, fields.state[5] = 2;
   fields.fault_pressure_change.setZero(6);
   CaseResult result = small_result();
   result.plane_strain = false;
@@ -676,13 +677,14 @@ TEST(PlaneMap, MarksFacesOfWhichHalfOfTheCornersMove) {
   EXPECT_NEAR(y.value(outlines[0].points()[1].x), 200, 0.5);
   EXPECT_EQ(figure::elements_of(svg, "polygon", "fill", figure::chi_colour(0.25)).size(), 1U);
   EXPECT_EQ(figure::elements_of(svg, "polygon", "fill", figure::chi_colour(0.5)).size(), 1U);
-  // The second face slips, the first sticks; nowhere is there slip yet, which is said.
+  // Of the second face one corner slips and one is open, the first sticks; nowhere is there slip
+  // yet, which is said.
   const auto other = [&](MapField show) {
     return draw_case({result, scene, &reader, {}}, {CaseChart::fault_map, "F2", {}, false, show});
   };
   const std::string state = other(MapField::state);
   expect_faces(faces_of(state, figure::kStickColour), {{0, 100, 2000, 2050}});
-  expect_faces(faces_of(state, figure::kSlipColour), {{100, 200, 2000, 2050}});
+  expect_faces(faces_of(state, figure::kOpenColour), {{100, 200, 2000, 2050}});
   EXPECT_TRUE(figure::elements_of(state, "polygon", "fill", "none").empty());
   EXPECT_THAT(state, HasSubstr(">State of fault F2: load step 2, "));
   EXPECT_THAT(other(MapField::slip), HasSubstr(">slip, mm: 0 everywhere<"));
