@@ -50,9 +50,10 @@ ExitCode serve_store(const StoreArguments& common, const ServeArguments& argumen
   HttpServer* running = nullptr;
   ServerSettings settings;
   settings.port = arguments.port;
+  const faultsim::StopToken stop = faultsim::stop_on_signals();
   settings.watch = [&] {
     api.require_store();
-    if (duration && watch.seconds() >= *duration) running->stop();
+    if (stop.requested() || (duration && watch.seconds() >= *duration)) running->stop();
   };
   settings.remark = [said = std::string()](const std::string& remark) mutable {
     if (remark != said) say(remark);  // each request of a page that waits meets the same
@@ -61,10 +62,10 @@ ExitCode serve_store(const StoreArguments& common, const ServeArguments& argumen
   HttpServer server(std::move(settings),
                     [&](const HttpRequest& request) { return api.answer(request); });
   running = &server;
-  faultsim::end_on_signals(ExitCode::done);  // nothing is written, nothing can be lost
   say_address(server, common.json);
   say("Reading ", common.store.string(), " for this machine only. Ctrl-C ends it.");
   server.run();
+  api.close();
   return ExitCode::done;
 }
 

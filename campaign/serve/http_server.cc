@@ -30,6 +30,7 @@ using boost::beast::error_code;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kName = "faultsweep";
+constexpr double kWatchSeconds = 0.2;
 
 Clock::duration duration_of(double s) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
@@ -331,7 +332,7 @@ void Listener::make_room() {
 }
 
 void Listener::watch_next() {
-  tick.expires_after(duration_of(1));
+  tick.expires_after(duration_of(kWatchSeconds));
   tick.async_wait([this](const error_code& stopped) {
     if (stopped) return;
     settings.watch();

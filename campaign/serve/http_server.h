@@ -30,7 +30,7 @@ struct ServerLimits {
 struct ServerSettings {
   int port = 0;  ///< 0 = any free one.
   ServerLimits limits = {};
-  /// Called every second; what it throws ends run().
+  /// Called a few times a second; what it throws ends run().
   std::function<void()> watch = [] {};
   /// HttpResponse::remark of a response.
   std::function<void(const std::string&)> remark = [](const std::string&) {};

@@ -103,6 +103,10 @@ void StoreApi::require_store() const {
   throw StorageError(concat("the store ", store_.string(), " is gone; nothing is left to serve"));
 }
 
+void StoreApi::close() {
+  if (desk_ != nullptr) desk_->close();
+}
+
 HttpResponse StoreApi::answer(const HttpRequest& request) {
   HttpResponse response = answer_with_paths(request);
   for (const auto& [path, as] : shown_) {

@@ -31,6 +31,8 @@ class StoreApi {
   HttpResponse answer(const HttpRequest& request);
   /// Throws StorageError when the store is not there any more.
   void require_store() const;
+  /// Requests that wait for a simulator are answered as it stands.
+  void close();
 
  private:
   HttpResponse answer_or_throw(const HttpRequest& request);

@@ -27,12 +27,16 @@ std::string state_text(const char* state, const std::string& says = {}) {
 WhatIfDesk::WhatIfDesk(Settings settings)
     : settings_(std::move(settings)), thread_([this] { live(); }) {}
 
-WhatIfDesk::~WhatIfDesk() {
+void WhatIfDesk::close() {
   {
     const std::lock_guard lock(mutex_);
     is_ending_ = true;
   }
   changed_.notify_all();
+}
+
+WhatIfDesk::~WhatIfDesk() {
+  close();
   thread_.join();
 }
 

@@ -46,6 +46,8 @@ class WhatIfDesk {
   /// @return the simulator's reply (what_if_protocol.md), in JSON, or how far it has come. Safe
   /// from several threads.
   std::string ask(const WhatIfQuestion& question, std::chrono::milliseconds longest);
+  /// Nobody waits any more, and nothing is begun.
+  void close();
 
  private:
   void live();

@@ -4,14 +4,16 @@ import os
 import signal
 import subprocess
 
-from browser import Browser
+from browser import Browser, demand
 
 
 class Served:
     def __init__(self, programs, folder):
         self.programs, self.folder = programs, folder
         self.store = os.path.join(folder, "store")
-        os.environ.update(XDG_CACHE_HOME=os.path.join(folder, "cache"), OPENBLAS_NUM_THREADS="1")
+        self.temporary = os.path.join(folder, "tmp")
+        os.makedirs(self.temporary, exist_ok=True)
+        os.environ.update(XDG_CACHE_HOME=os.path.join(folder, "cache"), OPENBLAS_NUM_THREADS="1", TMPDIR=self.temporary)
         self.server = None
         self.browser = Browser()
 
@@ -36,4 +38,6 @@ class Served:
         self.browser.quit()
         if self.server:
             self.server.send_signal(signal.SIGINT)
-            self.server.wait(10)
+            demand(self.server.wait(10) == 0, "Ctrl-C ends it with", self.server.returncode)
+            left = [name for name in os.listdir(self.temporary) if name.startswith("faultsim-")]
+            demand(not left, "it leaves", left)
