@@ -407,8 +407,10 @@ class WhatIf {
     this.controls = parameters.map((one) => new Control(one, () => this.ask()));
     this.questions = new Questions(of_case(campaign, number) + "/what-if", (...reply) => this.take(...reply));
     this.lay_out();
+    this.let_move(false);  // until the case as it was is there, which all others are held against
     this.ask();
   }
+  let_move(may) { this.controls.forEach((one) => { one.input.disabled = !may; }); }
   lay_out() {
     const own = this.controls.filter((one) => one.of.of_campaign), others = this.controls.filter((one) => !one.of.of_campaign);
     const [fault, fault_select] = choice("fault", this.faults, this.faults[0], () => this.ask());
@@ -460,8 +462,16 @@ class WhatIf {
     return undefined;
   }
   show(reply, question) {
+    if (question.chart.length === 0) return this.ask();  // the original is there again
+    const lost = question.changes !== "{}" && !reply.differences;  // its simulator was begun anew, or had another page's case
+    if (lost && !this.has_asked_again) {
+      this.has_asked_again = true;
+      return this.questions.ask({changes: "{}", chart: []});
+    }
+    this.has_asked_again = lost;
     this.reply = reply;
-    this.original = this.original || reply.scene;  // the first question is without changes
+    if (!this.original) this.let_move(true);
+    this.original = this.original || reply.scene;
     const lines = [...(reply.differences || []).map((line) => made("p", {class: "answer difference"}, line)),
       ...reply.sentences.map((line) => made("p", {}, line))];
     this.words.replaceChildren(...lines);
@@ -476,6 +486,7 @@ class WhatIf {
     else this.more.innerHTML = more ? drawn(more) : "";
     if (reply.steps) this.take_steps(reply);
     this.text.textContent = "";
+    return undefined;
   }
   /** The step stays where the reader has put it. */
   take_steps(reply) {

@@ -93,6 +93,10 @@ StoreApi::StoreApi(const std::filesystem::path& store, const std::filesystem::pa
     }
   };
   show(store_, "STORE");
+  if (desk_ != nullptr) {  // which a simulator that fails may name
+    show(desk_->cache(), "CACHE");
+    show(std::filesystem::absolute(simulator), "faultsim");
+  }
   show(std::filesystem::current_path(error), ".");
   if (const char* home = std::getenv("HOME"); home != nullptr && *home == '/') show(home, "~");
 }

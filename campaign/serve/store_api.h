@@ -27,7 +27,8 @@ class StoreApi {
                     int build_threads = 1);
 
   /// Never throws: what is wrong is a response, in JSON with place, cause and cure. No response has
-  /// the store's folder, the working one or the user's home in it: they read STORE, "." and "~".
+  /// the store's folder, the working one or the user's home in it: they read STORE, "." and "~";
+  /// nor that of its simulator or of the operators kept for it.
   HttpResponse answer(const HttpRequest& request);
   /// Throws StorageError when the store is not there any more.
   void require_store() const;

@@ -46,6 +46,8 @@ class WhatIfDesk {
   /// @return the simulator's reply (what_if_protocol.md), in JSON, or how far it has come. Safe
   /// from several threads.
   std::string ask(const WhatIfQuestion& question, std::chrono::milliseconds longest);
+  /// Where operators are kept that the store has not: gone with the desk.
+  const std::filesystem::path& cache() const { return cache_.path(); }
   /// Nobody waits any more, and nothing is begun.
   void close();
 
