@@ -75,6 +75,11 @@ void Manager::take_work() {
     fields_only_.insert(family.fields_only.begin(), family.fields_only.end());
   }
   plan_->add(std::move(work));
+  for (const Store::FamilyProgress& family : store_.family_progress(campaign_.id)) {
+    const bool is_one = family.n_operators == 1;  // creeping salt has several
+    if (is_one && family.peak_bytes)
+      plan_->learn_memory(family.memory_bytes, static_cast<double>(*family.peak_bytes));
+  }
 }
 
 bool Manager::take_next_round() {
@@ -156,7 +161,8 @@ void Manager::handle(int worker, JobEvents events) {
   for (const OperatorRecord& record : events.operators) {
     const int family = plan_->family_of(worker);
     FAULTSIM_DEMAND(family >= 0, worker);
-    plan_->operator_ready(worker, record.seconds, record.from_cache);
+    plan_->operator_ready(worker, record.seconds, record.from_cache,
+                          static_cast<double>(record.peak_bytes));
     operators_.emplace_back(family, record);
   }
   for (JobEvents::Completed& one : events.completed) handle_result(worker, std::move(one));

@@ -8,6 +8,16 @@
 
 namespace faultsweep {
 
+namespace {
+
+/// What the program itself takes weighs more in a small operator, and how a large one is factorised
+/// may differ.
+bool are_of_one_size(double bytes, double learned_bytes) {
+  return bytes >= 0.5 * learned_bytes && bytes <= 1.25 * learned_bytes;
+}
+
+}  // namespace
+
 WorkPlan::WorkPlan(std::vector<FamilyWork> families, const Limits& limits) : limits_(limits) {
   FAULTSIM_DEMAND(limits.n_workers > 0, limits.n_workers);
   workers_.resize(limits.n_workers);
@@ -48,6 +58,24 @@ double WorkPlan::build_seconds(const Family& entry) const {
   return ratio * entry.work.operator_seconds;
 }
 
+/// Where nothing of its size was measured, what was predicted.
+double WorkPlan::memory_bytes(const Family& entry) const {
+  const double predicted = entry.work.memory_bytes;
+  if (!are_of_one_size(predicted, learned_bytes_)) return predicted;
+  return kMemoryMargin * memory_ratio_ * predicted;
+}
+
+void WorkPlan::learn_memory(double predicted_bytes, double peak_bytes) {
+  if (predicted_bytes <= 0 || peak_bytes <= 0) return;
+  const double ratio = peak_bytes / predicted_bytes;
+  if (!are_of_one_size(predicted_bytes, learned_bytes_)) {
+    if (predicted_bytes < learned_bytes_) return;
+    memory_ratio_ = ratio;
+  }
+  memory_ratio_ = std::max(memory_ratio_, ratio);
+  learned_bytes_ = std::max(learned_bytes_, predicted_bytes);
+}
+
 double WorkPlan::total_seconds(const Family& entry) const {
   constexpr double kUnknownCase = 1e-3;  // s; only decides the order of families alike
   const double one = case_seconds(entry) > 0 ? case_seconds(entry) : kUnknownCase;
@@ -68,12 +96,12 @@ bool WorkPlan::fits_in_memory(int worker, int index) const {
     // The worker itself lets go of what it holds before it builds.
     if (k == worker || at(k).host != at(worker).host) continue;
     if (is_building(k) && !family(at(k).family).work.creeps) {
-      used += family(at(k).family).work.memory_bytes;
+      used += memory_bytes(family(at(k).family));
     }
-    if (at(k).holds >= 0) used += family(at(k).holds).work.memory_bytes;
+    if (at(k).holds >= 0) used += memory_bytes(family(at(k).holds));
   }
   // Alone it may always try: the prediction may be too careful.
-  return used == 0 || used + family(index).work.memory_bytes <= limits_.memory_bytes;
+  return used == 0 || used + memory_bytes(family(index)) <= limits_.memory_bytes;
 }
 
 /// Those n who are on it need W/n seconds for what waits, n + 1 need (W + B)/(n + 1) with the build
@@ -212,7 +240,7 @@ void WorkPlan::leave_family(Worker& worker) {
   worker.family = -1;
 }
 
-void WorkPlan::operator_ready(int worker, double seconds, bool from_cache) {
+void WorkPlan::operator_ready(int worker, double seconds, bool from_cache, double peak_bytes) {
   const int index = family_of(worker);
   FAULTSIM_DEMAND(index >= 0, worker);
   Family& entry = family(index);
@@ -220,6 +248,7 @@ void WorkPlan::operator_ready(int worker, double seconds, bool from_cache) {
     predicted_operators_ += entry.work.operator_seconds;
     measured_operators_ += seconds;
   }
+  if (!from_cache && !entry.work.creeps) learn_memory(entry.work.memory_bytes, peak_bytes);
   entry.state = State::ready;
   if (entry.work.creeps) at(worker).has_operators = true;
 }
@@ -318,18 +347,23 @@ bool WorkPlan::is_building(int worker) const {
 }
 
 int WorkPlan::build_threads(int worker, int cores) const {
-  int n_building = 1, n_idle = 0, n_running = 0;
+  int n_building = 1, n_idle = 0, n_running = 0, idle = -1;
   for (int other = 0; other < static_cast<int>(workers_.size()); ++other) {
     if (other == worker || at(other).host != at(worker).host) continue;
     if (is_building(other)) {
       ++n_building;
+    } else if (at(other).n_cases > 0) {
+      ++n_running;
     } else {
-      ++(at(other).n_cases > 0 ? n_running : n_idle);
+      ++n_idle;
+      idle = other;
     }
   }
-  const auto n_cold = std::ranges::count_if(families_, [](const Family& family) {
-    return family.state == State::cold && !family.waiting.empty();
-  });
+  long n_cold = 0;  // that find room beside this one
+  for (int index = 0; idle >= 0 && index < n_families(); ++index) {
+    const bool is_cold = family(index).state == State::cold && !family(index).waiting.empty();
+    n_cold += is_cold && fits_in_memory(idle, index);
+  }
   const int sharers = n_building + static_cast<int>(std::min<long>(n_idle, n_cold));
   return std::max(1, (cores - n_running) / sharers);
 }

@@ -38,7 +38,7 @@ struct Slice {
 /// builds a family's operator while others take other families; once it is there the family's cases
 /// are shared out in slices that hold about kSliceSeconds of work, and less towards the end so that
 /// all workers end together. Two operators are not built at once on one host unless both fit into
-/// its memory.
+/// its memory; how much they take is predicted, and learned from those that were built.
 ///
 /// The operators of a family whose salt creeps are one worker's own. Another worker joins it only
 /// if a second set fits beside all that is held and being built, and if it pays: what waits keeps
@@ -66,7 +66,11 @@ class WorkPlan {
   std::optional<Slice> next(int worker);
 
   /// The worker has the operator, or operators, of the family that it is on.
-  void operator_ready(int worker, double seconds, bool from_cache);
+  /// @param peak_bytes  measured, of the process that built it; 0 = unknown.
+  void operator_ready(int worker, double seconds, bool from_cache, double peak_bytes = 0);
+  /// What an operator took that was predicted to take something else, also in an earlier run:
+  /// families of its size are expected to do as badly as the worst of them, and kMemoryMargin more.
+  void learn_memory(double predicted_bytes, double peak_bytes);
   void case_done(int worker, std::int64_t case_id, double seconds);
   /// A case failed. True if it is to be tried again (it waits again), false if that was final.
   /// @param in_operator  the operator was under way, the case itself had not started.
@@ -106,6 +110,7 @@ class WorkPlan {
   static constexpr double kLongCaseSeconds = 2;  ///< a message is nothing against it
   static constexpr int kLargestSlice = 256;      ///< bounds memory and what a kill may lose
   static constexpr int kOperatorAttempts = 2;  ///< a second try tells bad luck from a bad operator
+  static constexpr double kMemoryMargin = 1.05;  ///< of what is learned from few operators
 
  private:
   enum class State { cold, building, ready };
@@ -138,6 +143,7 @@ class WorkPlan {
   const Family& family(int index) const { return families_[index]; }
   double case_seconds(const Family& entry) const;
   double build_seconds(const Family& entry) const;
+  double memory_bytes(const Family& entry) const;
   double total_seconds(const Family& entry) const;
   bool has_operator(int worker, int index) const;
   int choose_family(int worker) const;
@@ -161,7 +167,9 @@ class WorkPlan {
   std::map<std::int64_t, Flight> in_flight_;
   std::map<std::int64_t, int> failures_;
   double predicted_operators_ = 0, measured_operators_ = 0;  ///< s, of those built.
-  long n_waiting_ = 0;                                       ///< over all families.
+  double learned_bytes_ = 0;  ///< predicted, of the largest operator whose memory was measured.
+  double memory_ratio_ = 1;   ///< largest measured / predicted of operators of its size.
+  long n_waiting_ = 0;        ///< over all families.
   bool stopped_ = false;
 };
 

@@ -156,6 +156,44 @@ TEST(WorkPlan, BuildsTwoOperatorsAtOnceOnlyIfBothFit) {
   EXPECT_TRUE(roomy.next(1));
 }
 
+TEST(WorkPlan, LearnsHowMuchMemoryOperatorsTake) {
+  const WorkPlan::Limits limits{.n_workers = 2, .memory_bytes = 1.7e9};
+  const auto many = {family(1, 1, 5), family(11, 1, 4), family(21, 1, 3), family(31, 1, 2)};
+  WorkPlan plan(many, limits);
+  EXPECT_TRUE(plan.next(0));
+  EXPECT_FALSE(plan.next(1)) << "1 GB each is predicted";
+  plan.operator_ready(0, 5, false, 0.8e9);
+  EXPECT_TRUE(plan.next(1));
+  plan.case_done(0, 1, 1);
+  EXPECT_TRUE(plan.next(0)) << "0.84 GB each, as the first took 0.8";
+  WorkPlan worse(many, limits);
+  worse.learn_memory(1e9, 0.8e9);
+  worse.learn_memory(1e9, 0.82e9);
+  EXPECT_TRUE(worse.next(0));
+  EXPECT_FALSE(worse.next(1)) << "the worst counts";
+  for (const double size : {0.7e9, 2.1e9}) {
+    WorkPlan other(many, limits);
+    other.learn_memory(size, 0.1e9);
+    EXPECT_TRUE(other.next(0));
+    EXPECT_FALSE(other.next(1)) << "operators of another size say nothing";
+  }
+  WorkPlan cached(many, limits);
+  EXPECT_TRUE(cached.next(0));
+  cached.operator_ready(0, 5, true, 0.1e9);
+  cached.case_done(0, 1, 1);
+  EXPECT_TRUE(cached.next(0));
+  EXPECT_FALSE(cached.next(1)) << "what was read was not built";
+}
+
+TEST(WorkPlan, ABuilderWhoseNeighbourFindsNoRoomHasItsCores) {
+  WorkPlan plan({family(1, 1, 5), family(11, 1, 4)}, {.n_workers = 2, .memory_bytes = 1.5e9});
+  plan.next(0);
+  EXPECT_EQ(plan.build_threads(0, 2), 2);
+  WorkPlan roomy({family(1, 1, 5), family(11, 1, 4)}, {.n_workers = 2, .memory_bytes = 2.5e9});
+  roomy.next(0);
+  EXPECT_EQ(roomy.build_threads(0, 2), 1);
+}
+
 TEST(WorkPlan, EachHostHasItsOwnMemory) {
   WorkPlan plan({family(1, 3, 5), family(11, 3, 4), family(21, 3, 3)},
                 {.n_workers = 3, .memory_bytes = 1.5e9});
