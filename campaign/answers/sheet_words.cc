@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "campaign/answers/cell_errors.h"
 #include "campaign/answers/sheet_parts.h"
 #include "campaign/common/names.h"
 #include "campaign/query/ranking.h"
@@ -243,25 +244,9 @@ std::vector<std::string> event_words(const FaultSheet& sheet) {
 
 std::vector<std::string> model_errors(const SheetSource& source, const SheetCounts& counts) {
   std::vector<std::string> all;
-  const std::string name = common_tier(source.store, source.campaign);
-  const faultsim::Tier* tier = faultsim::find_tier(name);
-  const std::string cells = faultsim::cells_text(
-      source.base.mesh, source.base.numerics.plane_strain == faultsim::Switch::on);
-  all.push_back(tier != nullptr
-                    ? concat("Mesh: tier ", tier->name, " (", cells,
-                             "), whose cells were measured in plane strain: ", tier->errors, ".")
-                    : concat("Mesh: of the base scene ", cells,
-                             "; no tier names an error of it, faultsweep tradeoff measures one."));
-  std::string measured;
-  for (const ErrorBar& bar : error_bars_of(source.store, source.campaign)) {
-    if (bar.metric != "chi_bar" && bar.metric != "max_slip") continue;
-    const ShownUnit unit = bar.metric == "max_slip" ? ShownUnit{"mm", 1e-3, "m"} : plain();
-    measured += concat(measured.empty() ? "Measured on cases of this campaign against tier " : "; ",
-                       measured.empty() ? bar.reference + ": " : "", bar.metric, " off by ",
-                       in_unit(bar.rms, unit, 2), " rms, ", in_unit(bar.largest, unit, 2),
-                       " at most (", bar.n_cases, " cases)");
-  }
-  if (!measured.empty()) all.push_back(measured + ".");
+  const CellErrors cells = cell_errors(source.store, source.campaign, source.base);
+  all.push_back(cells.mesh);
+  if (!cells.measured.empty()) all.push_back(cells.measured);
   if (!source.sampling.approximation.empty()) all.push_back(source.sampling.approximation);
   std::string left = concat(grouped(counts.n_complete), " of ", grouped(counts.n_cases),
                             " cases have a full history");

@@ -9,6 +9,7 @@
 #include "campaign/statistics/calibrated_quantile.h"
 #include "campaign/statistics/calibrated_share.h"
 #include "campaign/statistics/control_variate.h"
+#include "simulator/scene/tiers.h"
 
 namespace faultsweep {
 
@@ -318,6 +319,26 @@ Tiers compare_tiers(const Store& store, const CampaignInfo& low, const CampaignI
   const Answering answering(lows, highs, pairs, tiers);
   for (const Asked& one : questions.asked()) tiers.answers.push_back(answering.answer(one));
   return tiers;
+}
+
+std::optional<TierPair> tiers_beside(const Store& store, const CampaignInfo& campaign) {
+  const std::vector<std::string> names = mapped(store.campaigns(), &CampaignInfo::name);
+  const auto beside = [&](const std::string& stem) {
+    std::vector<std::string> found;
+    for (const faultsim::Tier& tier : faultsim::tiers()) {
+      const std::string name = concat(stem, "-", tier.name);
+      if (std::ranges::count(names, name) > 0) found.push_back(name);
+    }
+    return found;
+  };
+  std::vector<std::string> found = beside(campaign.name);
+  for (const faultsim::Tier& tier : faultsim::tiers()) {
+    const std::string ending = concat("-", tier.name);
+    if (campaign.name.ends_with(ending))
+      found = beside(campaign.name.substr(0, campaign.name.size() - ending.size()));
+  }
+  if (found.size() < 2) return std::nullopt;
+  return TierPair{store.campaign(found.front()), store.campaign(found.back())};
 }
 
 }  // namespace faultsweep

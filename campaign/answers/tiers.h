@@ -99,6 +99,14 @@ struct Tiers {
 Tiers compare_tiers(const Store& store, const CampaignInfo& low, const CampaignInfo& high,
                     const TierRequest& request);
 
+struct TierPair {
+  CampaignInfo low, high;
+};
+/// The campaigns NAME-TIER that `faultsweep tiers` made of a spec, where the store has two or more:
+/// those of the cheapest tier and of the dearest, in the order of faultsim::tiers.
+/// @param campaign  NAME itself or one of them.
+std::optional<TierPair> tiers_beside(const Store& store, const CampaignInfo& campaign);
+
 /// Tables `answers` and, where a width was asked for, `numbers`; on the screen a table for each
 /// unit, and what the tiers took.
 Answer to_answer(const Tiers& tiers);

@@ -9,6 +9,7 @@
 #include "campaign/figures/campaign_figures.h"
 #include "campaign/figures/report_page.h"
 #include "campaign/render/render.h"
+#include "campaign/tradeoff/stored_trade.h"
 #include "simulator/case_figures/picture_file.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/version.h"
@@ -16,7 +17,7 @@
 namespace faultsweep {
 namespace {
 
-constexpr const char* kCampaignCharts = "map, sensitivity, probability, curves, limits";
+constexpr const char* kCampaignCharts = "map, sensitivity, probability, curves, limits, trade";
 
 struct PlotArguments {
   std::string chart;             ///< of case_charts(), or of kCampaignCharts.
@@ -57,6 +58,18 @@ std::string draw_limits(const Store& store, const CampaignInfo& campaign) {
                    "run it: faultsweep run " + campaign.name);
 }
 
+std::string draw_trade(const Store& store, const CampaignInfo& campaign) {
+  const std::optional<TradeRecord> trade = trade_of(store, campaign);
+  if (!trade) {
+    throw InputError("trade", "what the cells of " + campaign.name + " cost was not measured",
+                     "measure it: faultsweep tradeoff SPEC.json");
+  }
+  const std::string chart = first_chart(to_answer(*trade));
+  if (!chart.empty()) return chart;
+  throw InputError("trade", "no mesh has both an error and a cost",
+                   "allow more: faultsweep tradeoff --operator-limit, --memory");
+}
+
 std::string draw_campaign(const PlotArguments& arguments, const Store& store) {
   const CampaignInfo campaign = store.campaign(arguments.subject, false);
   if (arguments.chart == "map") return draw_outcome_map(store, campaign, arguments.map);
@@ -71,6 +84,7 @@ std::string draw_campaign(const PlotArguments& arguments, const Store& store) {
   }
   if (arguments.chart == "curves") return draw_curves(arguments, store, campaign);
   if (arguments.chart == "limits") return draw_limits(store, campaign);
+  if (arguments.chart == "trade") return draw_trade(store, campaign);
   std::string names = kCampaignCharts;
   for (const faultsim::CaseChartInfo& info : faultsim::case_charts()) {
     names += std::string(", ") + info.name;

@@ -94,13 +94,13 @@ double memory_limit(const TradeoffArguments& arguments) {
   return static_cast<double>(parse_size("--memory", arguments.memory));
 }
 
-void write_report(faultsim::ResultFolder& folder, const TradeReport& report) {
+void write_report(faultsim::ResultFolder& folder, const TradeReport& report, const json& document) {
   const auto write = [&](const char* name, const std::string& text) {
     faultsim::write_text(folder.path() / name, text);
   };
   write("report.md", trade_to_markdown(report));
-  write("trade.json", faultsim::json_text(trade_to_json(report)));
-  const TradeFigures figures = trade_figures(report);
+  write("trade.json", faultsim::json_text(document));
+  const TradeFigures figures = trade_figures(document);
   if (!figures.pareto.series.empty()) write("pareto.svg", draw(figures.pareto));
   if (!figures.convergence.series.empty()) write("convergence.svg", draw(figures.convergence));
   folder.commit();
@@ -188,7 +188,7 @@ ExitCode tradeoff(const StoreArguments& common, const TradeoffArguments& argumen
   const json document = trade_to_json(report);
   record.report = document.dump();
   store.record_trade(record);
-  if (output) write_report(*output, report);
+  if (output) write_report(*output, report, document);
   print_text(common.json ? faultsim::json_text(document) : trade_to_text(report, screen_width()));
   return status;
 }

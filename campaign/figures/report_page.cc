@@ -13,6 +13,7 @@
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
 #include "campaign/figures/campaign_figures.h"
+#include "campaign/figures/how_sure.h"
 #include "campaign/query/parameters.h"
 #include "campaign/render/render.h"
 #include "campaign/reports/ranking_answer.h"
@@ -175,6 +176,14 @@ void add_limits(Report& report) {
   });
 }
 
+void add_how_sure(Report& report) {
+  report.page.section("how-sure", "How sure");
+  report.page.unless_refused([&] {
+    report.page.add(
+        render_html(how_sure(report.store, report.campaign, report.request.confidence)));
+  });
+}
+
 AnswerTable outcomes_table(const CampaignInfo& c) {
   AnswerTable table{"outcomes", "", {}};
   std::vector<AnswerCell> row;
@@ -241,6 +250,7 @@ std::string report_page(const Store& store, const CampaignInfo& campaign,
   add_cases(report, rows);
   add_limits(report);
   add_answers(report);
+  add_how_sure(report);
   add_outcomes(report);
   add_provenance(report);
   return report.page.finish();

@@ -151,6 +151,7 @@ std::string common_tier(const Store& store, const CampaignInfo& campaign) {
   const json spec = json::parse(store.spec_copies(campaign.id).resolved, nullptr, false);
   if (!spec.is_object() || !spec.contains("groups")) return "";
   for (const json& group : spec.at("groups")) {
+    if (!group.contains("scene")) return "";
     const json& scene = group.at("scene");
     const std::string own = scene.value("tier", std::string());
     const bool has_sizes = scene.contains("mesh") && !scene["mesh"].empty();

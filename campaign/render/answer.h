@@ -12,6 +12,7 @@
 #include "simulator/common/units.h"
 #include "simulator/figure/bar_chart.h"
 #include "simulator/figure/history_chart.h"
+#include "simulator/figure/log_chart.h"
 #include "simulator/figure/outcome_map.h"
 #include "simulator/figure/range_bars.h"
 
@@ -118,7 +119,7 @@ struct AnswerNote {
 /// On pages only: its numbers stand in a table.
 using AnswerChart = std::variant<faultsim::figure::BarChart, faultsim::figure::IntervalChart,
                                  faultsim::figure::HistoryChart, faultsim::figure::OutcomeMap,
-                                 faultsim::figure::RangeBars>;
+                                 faultsim::figure::RangeBars, faultsim::figure::LogChart>;
 
 using AnswerBlock = std::variant<AnswerTable, AnswerNote, AnswerChart>;
 

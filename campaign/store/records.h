@@ -381,6 +381,7 @@ struct ErrorBar {
   std::string reference;  ///< the tier that it was measured against.
   long n_cases = 0;
   double rms = 0, largest = 0;
+  std::int64_t trade = 0;  ///< TradeRecord::id; given by the store.
 };
 
 struct TradeRecord {
@@ -390,6 +391,7 @@ struct TradeRecord {
   std::string program_version;
   std::string report;  ///< JSON.
   std::vector<ErrorBar> error_bars;
+  std::int64_t id = 0;  ///< given by the store.
 };
 
 }  // namespace faultsweep

@@ -281,6 +281,8 @@ class Store {
   /// Its error bars replace those of the same campaign, tier and metric.
   void record_trade(const TradeRecord& trade);
   std::vector<ErrorBar> error_bars(const std::string& campaign) const;
+  /// Newest first, without their error bars.
+  std::vector<TradeRecord> trades() const;
 
   // Care ------------------------------------------------------------------------------------------
   /// Copies the database to a new file, also while it is being written, and checks the copy: sound,

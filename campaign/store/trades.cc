@@ -22,10 +22,21 @@ void Store::record_trade(const TradeRecord& trade) {
 
 std::vector<ErrorBar> Store::error_bars(const std::string& campaign) const {
   using Text = std::string;
-  return connection_->rows<ErrorBar, Text, Text, Text, Text, long, double, double>(
-      "SELECT campaign, tier, metric, reference, n_cases, rms, largest FROM error_bars"
+  return connection_->rows<ErrorBar, Text, Text, Text, Text, long, double, double, std::int64_t>(
+      "SELECT campaign, tier, metric, reference, n_cases, rms, largest, tradeoff_id FROM error_bars"
       " WHERE campaign = ? ORDER BY tier, metric",
       campaign);
+}
+
+std::vector<TradeRecord> Store::trades() const {
+  using Text = std::string;
+  std::vector<TradeRecord> all;
+  for (const auto& [id, at, source, campaign, version, report] :
+       connection_->rows<std::tuple<std::int64_t, double, Text, Text, Text, Text>>(
+           "SELECT id, at, source, campaign, program_version, report FROM tradeoffs"
+           " ORDER BY id DESC"))
+    all.push_back({at, source, campaign, version, report, {}, id});
+  return all;
 }
 
 }  // namespace faultsweep

@@ -304,6 +304,7 @@ json trade_to_json(const TradeReport& report) {
   for (const TradeTable& table : report.trade.tables) {
     axes.push_back({{"axis", table.axis.name},
                     {"question", table.axis.question},
+                    {"converges", table.axis.converges},
                     {"reference", table.reference},
                     {"reference_metrics", metrics_json(table.limits)},
                     {"order", known(table.chi.order)},

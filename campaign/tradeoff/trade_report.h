@@ -29,6 +29,7 @@ nlohmann::json trade_to_json(const TradeReport& report);   ///< SI; null where u
 struct TradeFigures {
   faultsim::figure::LogChart pareto, convergence;
 };
-TradeFigures trade_figures(const TradeReport& report);
+/// @param trade  as trade_to_json has it, and the store keeps it.
+TradeFigures trade_figures(const nlohmann::json& trade);
 
 }  // namespace faultsweep

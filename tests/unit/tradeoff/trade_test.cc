@@ -219,7 +219,7 @@ TEST(Trade, RecommendsOnlyWhatWasMeasured) {
 TEST(Trade, DrawsErrorsOfMeshesAgainstTheirCost) {
   TradeReport report;
   report.trade = made_up_trade(made_up_axes());
-  const TradeFigures figures = trade_figures(report);
+  const TradeFigures figures = trade_figures(trade_to_json(report));
   ASSERT_FALSE(figures.pareto.series.empty());
   const auto& drawn = figures.pareto.series[0];
   const TradeRow& row = report.trade.tables[0].rows[0];
