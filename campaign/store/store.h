@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -295,7 +296,22 @@ class Store {
   static std::optional<std::string> damage_of(const std::filesystem::path& folder);
 
  private:
+  /// A case in an order by a score.
+  struct RankedPlace {
+    std::int64_t id = 0;
+    long position = 0;
+    std::optional<double> score = {};
+    int rank_class = 0;
+  };
+  struct KeptOrder {
+    std::string key;  ///< all that it depends on but the state of the store.
+    std::vector<RankedPlace> places;
+  };
   Store(std::filesystem::path folder, std::unique_ptr<Connection> connection, std::string remark);
+  std::vector<RankedCase> first_ranked(std::int64_t campaign, const RankingQuery& query) const;
+  const std::vector<RankedPlace>& order_by_score(std::int64_t campaign,
+                                                 const RankingQuery& query) const;
+  void forget_if_changed() const;
   void record_run(std::int64_t campaign, const RunRecord& run, double now);
   RowDigest record_result(std::int64_t case_id, std::int64_t run_id,
                           const faultsim::CaseResult& result);
@@ -312,6 +328,7 @@ class Store {
   mutable std::unique_ptr<ResultTables> tables_;  ///< made when first asked for.
   std::string remark_;
   mutable std::map<std::string, ClassCounts> class_counts_;  ///< by question, of this state:
+  mutable std::deque<KeptOrder> orders_;                     ///< the newest last, of it too.
   mutable std::int64_t counted_state_ = -1;
   std::map<std::string, std::int64_t> names_;  ///< ids in table `names`, of those looked up.
 };

@@ -82,7 +82,9 @@ struct StepLook {
   int step = 0;
   double time = 0;                                ///< in the unit of the histories' axis.
   std::string says;                               ///< "load step 10, primary production, 10 years".
-  std::vector<std::vector<std::string>> colours;  ///< of a fault's pieces, as the section has them.
+  /// Of each fault: those of its pieces, as the section has them, six hexadecimal digits each in
+  /// one word, as a case has thousands.
+  std::vector<std::string> colours;
   std::vector<std::pair<std::string, std::string>> notes;  ///< per compartment: its Δp.
 };
 /// Of every step that has metrics. @pre the scene is a field.

@@ -24,9 +24,9 @@ bool colour_by_fields(const Chosen& chosen, std::size_t fault, figure::Section::
   for (std::size_t f = 0; f < file->faults().size(); ++f) {
     const StoredFault& stored = file->faults()[f];
     if (stored.name != chosen.result().fault_names[fault]) continue;
-    const StoredFields now =
-        file->fields(f, static_cast<std::size_t>(entry - file->steps().begin()));
-    const auto most = static_cast<Eigen::Index>(most_critical(stored, now));
+    const Eigen::VectorXd chi =
+        file->critical_index(f, static_cast<std::size_t>(entry - file->steps().begin()));
+    const auto most = static_cast<Eigen::Index>(most_critical(stored, chi));
     const std::vector<std::size_t> column = column_through(stored, stored.points(1, most));
     if (column.size() < 2) return false;
     line.points.clear();
@@ -34,7 +34,7 @@ bool colour_by_fields(const Chosen& chosen, std::size_t fault, figure::Section::
       const auto k = static_cast<Eigen::Index>(column[i]);
       line.points.push_back({stored.points(0, k), -stored.points(2, k)});
       if (i == 0) continue;
-      line.chi.push_back(std::max(now.critical_index[column[i - 1]], now.critical_index[k]));
+      line.chi.push_back(std::max(chi[static_cast<Eigen::Index>(column[i - 1])], chi[k]));
     }
     return true;
   }
@@ -114,8 +114,8 @@ std::vector<StepLook> step_looks(const CasePicture& picture) {
     const StepResult& step = picture.result.steps[chosen.step];
     StepLook look{step.step, time_of(picture.result, step.time), moment_text(chosen), {}, {}};
     for (const figure::Section::FaultLine& fault : section.faults) {
-      std::vector<std::string>& colours = look.colours.emplace_back();
-      for (const double chi : fault.chi) colours.push_back(figure::chi_colour(chi));
+      std::string& colours = look.colours.emplace_back();
+      for (const double chi : fault.chi) colours.append(figure::chi_colour(chi), 1);
     }
     for (const figure::Section::Rock& rock : section.rocks) {
       if (rock.is_reservoir) look.notes.emplace_back(rock.name, rock.note);
