@@ -173,7 +173,12 @@ function make_sortable(table) {
 function step_shower(part, steps) {
   const cursors = Array.from(part.querySelectorAll("[data-cursor]"));
   const faults = Array.from(part.querySelectorAll("[data-fault]"));
-  const names = Array.from(part.querySelectorAll("[data-rock]"));
+  const names = Array.from(part.querySelectorAll("[data-rock]")), painted = Array.from(part.querySelectorAll("[data-painted]"));
+  const scale = steps[0].scale, scale_drawn = part.querySelector("[data-scale]");
+  if (scale && scale_drawn) {  // of a case that was changed since it was drawn it may be another one
+    scale_drawn.querySelectorAll("text").forEach((text, i) => { text.textContent = scale.texts[i] || ""; });
+    scale_drawn.querySelectorAll("rect").forEach((box, i) => { if (scale.colours[i]) box.setAttribute("fill", scale.colours[i]); });
+  }
   return (k) => {
     const step = steps[k];
     for (const cursor of cursors) {
@@ -190,6 +195,14 @@ function step_shower(part, steps) {
     for (const name of names) {
       const note = step.notes[name.dataset.rock];
       if (note && name.firstElementChild) name.firstElementChild.textContent = name.dataset.rock + ", " + note;
+    }
+    for (const reservoir of painted) {
+      const parts = (step.painted || {})[reservoir.dataset.painted] || "";
+      Array.from(reservoir.children).forEach((piece, i) => {
+        const colour = scale && scale.colours[parseInt(parts[i], 36)] || "none";
+        piece.setAttribute("fill", colour);
+        piece.setAttribute("stroke", colour);
+      });
     }
     return step.says;
   };
