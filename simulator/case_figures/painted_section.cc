@@ -29,7 +29,7 @@ std::optional<SectionPlace> critical_line(const CasePicture& picture) {
   const auto f = place_of(mapped(file->faults(), &StoredFault::name), chosen.fault_name());
   if (!f || !contains(file->faults()[*f].split, 1)) return std::nullopt;
   const StoredFault& fault = file->faults()[*f];
-  const auto most = most_critical(fault, file->fields(*f, stored_entry(chosen)));
+  const auto most = most_critical(fault, file->critical_index(*f, stored_entry(chosen)));
   constexpr double kInside = 0.5;  // m: half of what a section at y is wide
   const double half = picture.scene.field.block_length / 2 - kInside;
   return SectionPlace{std::clamp(fault.points(1, static_cast<Eigen::Index>(most)), -half, half),

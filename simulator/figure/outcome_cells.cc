@@ -66,7 +66,7 @@ double MapSide::place_of(double value) const {
 }
 
 MapSide side_of(const std::string& label, const std::vector<double>& values,
-                const std::vector<std::string>& words, int most_parts) {
+                const std::vector<std::string>& words) {
   constexpr std::size_t kMostWords = 48;
   if (!words.empty() && words.size() <= kMostWords) {
     MapSide side{axis_of_columns(label, words), {}, static_cast<int>(words.size())};
@@ -80,20 +80,49 @@ MapSide side_of(const std::string& label, const std::vector<double>& values,
   if (!words.empty()) {  // too many for columns of their own: the axis counts them
     axis = axis_of_columns(label, words);
   }
-  return {axis, {}, most_parts};
+  return {axis};
 }
 
-std::string share_text(const MapCell& cell) {
+CellGrid counted(const OutcomeMap& map) {
+  constexpr double kCasesPerCell = 10, kMostColumns = 20, kMostRows = 14;
+  const double n_cells = static_cast<double>(map.x.size()) / kCasesPerCell;
+  const auto parts = [](double wanted, double most) {
+    return static_cast<int>(std::clamp(std::round(wanted), 3.0, most));
+  };
+  CellGrid grid{
+      side_of(map.x_label, map.x, map.x_words), side_of(map.y_label, map.y, map.y_words), {}};
+  const bool parts_x = grid.x.has_parts(), parts_y = grid.y.has_parts();
+  if (parts_x)
+    grid.x.n = parts(parts_y ? std::sqrt(1.4 * n_cells) : n_cells / grid.y.n, kMostColumns);
+  if (parts_y) grid.y.n = parts(parts_x ? std::sqrt(n_cells / 1.4) : n_cells / grid.x.n, kMostRows);
+  grid.cells.resize(static_cast<std::size_t>(grid.x.n) * static_cast<std::size_t>(grid.y.n));
+  for (std::size_t k = 0; k < map.x.size(); ++k) {
+    const auto cell =
+        static_cast<std::size_t>(grid.y.cell_of(map.y[k])) * static_cast<std::size_t>(grid.x.n) +
+        static_cast<std::size_t>(grid.x.cell_of(map.x[k]));
+    ++grid.cells[cell].counts[static_cast<std::size_t>(map.kind[k])];
+  }
+  return grid;
+}
+
+long few_cases(const CellGrid& grid) {
+  constexpr long kFew = 5;
+  return grid.x.has_parts() || grid.y.has_parts() ? kFew : 1;
+}
+
+std::string share_text(const MapCell& cell, long few) {
   const long n = cell.n_known();
   if (n == 0) return "";
-  const auto percent = [n](long part) {
+  const auto shown = [n, few](long part) {
+    if (n < few) return part;
     if (part == 0) return 0L;
     if (part == n) return 100L;
     return std::clamp(std::lround(100.0 * static_cast<double>(part) / static_cast<double>(n)), 1L,
                       99L);
   };
-  const long low = percent(cell.n_slide()), high = percent(cell.n_slide() + cell.n_undecided());
-  return cell.n_undecided() == 0 ? std::to_string(low) : concat(low, "–", high);
+  const long low = shown(cell.n_slide()), high = shown(cell.n_slide() + cell.n_undecided());
+  const std::string text = cell.n_undecided() == 0 ? std::to_string(low) : concat(low, "–", high);
+  return n < few ? concat(text, " of ", n) : text;
 }
 
 bool would_overlap(std::vector<Point> points, double radius) {

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
+#include "simulator/figure/limit_line.h"
 #include "simulator/figure/outcome_cells.h"
 #include "simulator/figure/panel.h"
 
@@ -16,6 +18,8 @@ constexpr std::array<const char*, kCaseClasses> kClassColours = {"#3b82b8", "#7b
 /// Ink and paper of what is written in a cell: they go with its colour, which stays in dark pages.
 constexpr const char* kCellInk = "#1b1b1b";
 constexpr const char* kCellPaper = "#fdfdfd";
+constexpr double kLimitWidth = 2.5;
+constexpr double kKeyRow = 20;  // from one line of words to the next
 
 /// A dot of a class: circle, square with a stroke, square, diamond, cross.
 void draw_case(Svg& svg, Point p, CaseClass kind, double r) {
@@ -47,7 +51,7 @@ void draw_case(Svg& svg, Point p, CaseClass kind, double r) {
 
 Axis axis_of_dots(const std::string& label, const std::vector<double>& values,
                   const std::vector<std::string>& words) {
-  if (!words.empty()) return side_of(label, values, words, 1).axis;
+  if (!words.empty()) return side_of(label, values, words).axis;
   const Axis axis = axis_over(label, values, {}, 6);
   const double margin = 0.03 * (axis.to - axis.from);
   return {label, axis.from - margin, axis.to + margin, axis.ticks};
@@ -96,36 +100,6 @@ void draw_dots(Svg& svg, const OutcomeMap& map, const Box& box) {
 
 // Counted in cells --------------------------------------------------------------------------------
 
-struct CellGrid {
-  MapSide x, y;
-  std::vector<MapCell> cells;
-  const MapCell& at(int i, int j) const {
-    return cells[static_cast<std::size_t>(j) * static_cast<std::size_t>(x.n) +
-                 static_cast<std::size_t>(i)];
-  }
-};
-
-/// So many parts that a cell has some cases, and a number has room in it.
-CellGrid counted(const OutcomeMap& map) {
-  constexpr double kCasesPerCell = 5, kMostColumns = 20, kMostRows = 14;
-  const double n_cells = static_cast<double>(map.x.size()) / kCasesPerCell;
-  const auto parts = [&](double wanted, double most) {
-    return static_cast<int>(std::clamp(std::round(wanted), 3.0, most));
-  };
-  CellGrid grid{
-      side_of(map.x_label, map.x, map.x_words, parts(std::sqrt(1.4 * n_cells), kMostColumns)),
-      side_of(map.y_label, map.y, map.y_words, parts(std::sqrt(n_cells / 1.4), kMostRows)),
-      {}};
-  grid.cells.resize(static_cast<std::size_t>(grid.x.n) * static_cast<std::size_t>(grid.y.n));
-  for (std::size_t k = 0; k < map.x.size(); ++k) {
-    const auto cell =
-        static_cast<std::size_t>(grid.y.cell_of(map.y[k])) * static_cast<std::size_t>(grid.x.n) +
-        static_cast<std::size_t>(grid.x.cell_of(map.x[k]));
-    ++grid.cells[cell].counts[static_cast<std::size_t>(map.kind[k])];
-  }
-  return grid;
-}
-
 /// Strokes to the right and up, as one line that goes back and forth, however wide.
 void draw_hatch(Svg& svg, const Box& box) {
   constexpr double kStep = 7;
@@ -141,8 +115,8 @@ void draw_hatch(Svg& svg, const Box& box) {
   svg.polyline(points, {"#a08cc8", 0.9});
 }
 
-void draw_share(Svg& svg, const MapCell& cell, const Box& box) {
-  const std::string text = share_text(cell);
+void draw_share(Svg& svg, const MapCell& cell, long few, const Box& box) {
+  const std::string text = share_text(cell, few);
   const double size = box.width >= 46 ? kTickSize : 9.5;
   const double room = 0.93 * text_width(text, size);  // digits are narrower than letters
   if (room > box.width - 2 || size > box.height - 2) return;
@@ -159,7 +133,7 @@ void draw_share(Svg& svg, const MapCell& cell, const Box& box) {
 
 /// Decided cases at the left, in the colour of their share that slides; undecided ones at the
 /// right.
-void draw_cell(Svg& svg, const MapCell& cell, const Box& box) {
+void draw_cell(Svg& svg, const MapCell& cell, long few, const Box& box) {
   if (cell.n_known() == 0) return;
   const double undecided =
       box.width * static_cast<double>(cell.n_undecided()) / static_cast<double>(cell.n_known());
@@ -169,33 +143,11 @@ void draw_cell(Svg& svg, const MapCell& cell, const Box& box) {
     svg.rect({box.x, box.y, box.width - undecided, box.height}, share_colour(share));
   }
   if (undecided > 0) draw_hatch(svg, {box.right() - undecided, box.y, undecided, box.height});
-  draw_share(svg, cell, box);
+  draw_share(svg, cell, few, box);
 }
 
-/// The edges between a cell in which nothing slides, whatever the undecided do, and one in which
-/// something does or may; of columns and rows of single values only.
-std::vector<std::pair<Point, Point>> safe_edges(const CellGrid& grid, const Box& box) {
-  std::vector<std::pair<Point, Point>> edges;
-  if (grid.x.levels.empty() || grid.y.levels.empty()) return edges;
-  const double w = box.width / grid.x.n, h = box.height / grid.y.n;
-  const auto differ = [&](const MapCell& a, const MapCell& b) {
-    const auto is_safe = [](const MapCell& c) { return c.n_slide() + c.n_undecided() == 0; };
-    return a.n_known() > 0 && b.n_known() > 0 && is_safe(a) != is_safe(b);
-  };
-  for (int j = 0; j < grid.y.n; ++j) {
-    for (int i = 0; i < grid.x.n; ++i) {
-      const double right = box.x + (i + 1) * w, top = box.bottom() - (j + 1) * h;
-      if (i + 1 < grid.x.n && differ(grid.at(i, j), grid.at(i + 1, j)))
-        edges.push_back({{right, top}, {right, top + h}});
-      if (j + 1 < grid.y.n && differ(grid.at(i, j), grid.at(i, j + 1)))
-        edges.push_back({{right - w, top}, {right, top}});
-    }
-  }
-  return edges;
-}
-
-/// What colours, hatches and the line mean.
-void draw_share_key(Svg& svg, Point place, bool has_edges) {
+/// What colours and hatches mean.
+void draw_share_key(Svg& svg, Point place) {
   const auto say = [&](double width, const std::string& words) {
     place.x += width + 6;
     svg.text(place, words, {kLabelSize, kInk});
@@ -208,9 +160,30 @@ void draw_share_key(Svg& svg, Point place, bool has_edges) {
   say(5 * kParts, "0 to 100 % of the decided cases slide");
   draw_hatch(svg, {place.x, place.y - 10, 26, 11});
   say(26, "undecided by the cells (25–75: if none of these slide, if all do)");
-  if (!has_edges) return;
-  svg.line({place.x, place.y - 4}, {place.x + 22, place.y - 4}, {kInk, 2.5});
-  say(22, "nothing slides beyond it");
+}
+
+/// The line along edges of cells, in colours that stay in dark pages as those of the cells do; the
+/// pale border tells it from the gaps between cells there.
+void draw_limit(Svg& svg, const std::vector<std::pair<Point, Point>>& pieces) {
+  for (const Stroke& stroke :
+       {Stroke{kCellPaper, kLimitWidth + 3}, Stroke{kCellInk, kLimitWidth}}) {
+    for (const auto& [from, to] : pieces) svg.polyline({from, to}, stroke);
+  }
+}
+
+/// A piece of the line between cells, where there is one, and what it says.
+void draw_limit_key(Svg& svg, const LimitLine& limit, Point place) {
+  if (!limit.edges.empty()) {
+    constexpr double kCell = 13, kHeight = 11;
+    const double top = place.y - 10;
+    svg.rect({place.x, top, kCell, kHeight}, share_colour(0));
+    svg.rect({place.x + kCell, top, kCell, kHeight}, share_colour(0.3));
+    draw_limit(svg, {{{place.x + kCell, top}, {place.x + kCell, top + kHeight}}});
+    place.x += 2 * kCell + 6;
+  }
+  const LimitWords words = words_of(limit);
+  svg.text(place, words.sentence, {kLabelSize, kInk});
+  svg.text({place.x, place.y + kKeyRow}, words.remark, {kLabelSize, kFaint});
 }
 
 /// How many cases of each class, in words.
@@ -246,15 +219,18 @@ CellGrid with_fitted_names(CellGrid grid, const Box& box) {
   return grid;
 }
 
-void draw_cells(Svg& svg, const CellGrid& grid, const Box& box) {
+void draw_cells(Svg& svg, const CellGrid& grid, const LimitLine& limit, const Box& box) {
   Panel panel(svg, box, grid.x.axis, grid.y.axis);
   const double w = box.width / grid.x.n, h = box.height / grid.y.n;
   for (int j = 0; j < grid.y.n; ++j) {
     for (int i = 0; i < grid.x.n; ++i)
-      draw_cell(svg, grid.at(i, j),
+      draw_cell(svg, grid.at(i, j), limit.needed,
                 {box.x + i * w + 0.5, box.bottom() - (j + 1) * h + 0.5, w - 1, h - 1});
   }
-  for (const auto& [from, to] : safe_edges(grid, box)) svg.line(from, to, {kInk, 2.5});
+  const auto place = [&](Point p) { return Point{box.x + p.x * w, box.bottom() - p.y * h}; };
+  draw_limit(svg, mapped(limit.edges, [&](const auto& edge) {
+               return std::pair(place(edge.first), place(edge.second));
+             }));
   panel.frame();
 }
 
@@ -281,13 +257,17 @@ std::string draw(const OutcomeMap& map) {
     return svg.finish();
   }
   const CellGrid grid = counted(map);
+  const LimitLine limit = limit_line(grid);
   box = box_of_cells(grid, box);
-  box.y += 20;
+  const int n_rows = words_of(limit).remark.empty() ? 2 : 3;  // of the key
+  box.y += n_rows * kKeyRow;
   Svg svg(kMapWidth, box.bottom() + 48, map.title);
   draw_heading(svg, map.title, map.remark, 16);
-  svg.text({16, box.y - 32}, counts_text(map), {kLabelSize, kFaint});
-  draw_share_key(svg, {16, box.y - 12}, !safe_edges(grid, box).empty());
-  draw_cells(svg, with_fitted_names(grid, box), box);
+  const double key = box.y - 12 - (n_rows - 1) * kKeyRow;
+  svg.text({16, key - kKeyRow}, counts_text(map), {kLabelSize, kFaint});
+  draw_share_key(svg, {16, key});
+  draw_limit_key(svg, limit, {16, key + kKeyRow});
+  draw_cells(svg, with_fitted_names(grid, box), limit, box);
   return svg.finish();
 }
 

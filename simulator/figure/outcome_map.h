@@ -23,8 +23,8 @@ constexpr auto words(CaseClass) {
 /// of its class. Else they are counted in cells, one for each value of a parameter that has few, so
 /// that none is hidden and the drawing's size has a bound: a cell has the colour of the share that
 /// slides of those that are decided, is hatched in the share that is undecided, and says the share
-/// where there is room. Where both parameters have few values a line separates cells in which
-/// nothing slides, nor may, from the others.
+/// where there is room. A line, the limit, separates cells in which nothing slides, nor may, from
+/// the others, and the drawing says from how many decided cases on a cell counts (`limit_line`).
 struct OutcomeMap {
   std::string title, remark;
   std::string x_label, y_label;  ///< with units.

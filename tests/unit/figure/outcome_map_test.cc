@@ -34,8 +34,15 @@ TEST(ShareText, SaysBothEndsWhereCasesAreUndecidedAndNeverRoundsToNoneOrAll) {
   EXPECT_EQ(share_text(cell_with(0, 0, 0, 0, 9)), "");
 }
 
+TEST(ShareText, CountsWhereTheCasesAreFew) {
+  EXPECT_EQ(share_text(cell_with(2, 0, 1), 5), "1 of 3");
+  EXPECT_EQ(share_text(cell_with(3, 0, 0), 5), "0 of 3");
+  EXPECT_EQ(share_text(cell_with(1, 2, 1), 5), "1–3 of 4");
+  EXPECT_EQ(share_text(cell_with(4, 0, 1), 5), "20");
+}
+
 TEST(MapSides, OfFewValuesHaveAColumnForEachWhereverItLies) {
-  const MapSide side = side_of("slip, m", {0.1, 0.002, 0.02, 0.1, 0.002}, {}, 9);
+  const MapSide side = side_of("slip, m", {0.1, 0.002, 0.02, 0.1, 0.002}, {});
   EXPECT_EQ(side.n, 3);
   EXPECT_EQ(side.cell_of(0.002), 0);
   EXPECT_EQ(side.cell_of(0.02), 1);
@@ -47,16 +54,16 @@ TEST(MapSides, OfFewValuesHaveAColumnForEachWhereverItLies) {
 }
 
 TEST(MapSides, OfNumbersThatAreAlikeHaveTheDigitsThatTellThemApart) {
-  const MapSide side = side_of("", {1000.25, 1000.5}, {}, 9);
+  const MapSide side = side_of("", {1000.25, 1000.5}, {});
   EXPECT_NE(side.axis.ticks.at(0).label, side.axis.ticks.at(1).label);
 }
 
 TEST(MapSides, OfManyValuesHaveEqualParts) {
   std::vector<double> values;
   for (int k = 0; k <= 100; ++k) values.push_back(k);
-  const MapSide side = side_of("", values, {}, 10);
-  EXPECT_EQ(side.n, 10);
-  EXPECT_TRUE(side.levels.empty());
+  MapSide side = side_of("", values, {});
+  EXPECT_TRUE(side.has_parts());
+  side.n = 10;
   EXPECT_EQ(side.cell_of(0), 0);
   EXPECT_EQ(side.cell_of(9.9), 0);
   EXPECT_EQ(side.cell_of(10), 1);
@@ -117,17 +124,7 @@ TEST(OutcomeMapChart, HatchesTheShareThatIsUndecided) {
               hatched[1].number("x") + hatched[1].number("width"), 0.05);
   // What is decided has the colour of its own share: none of one, and all of two.
   EXPECT_EQ(elements_of(svg, "rect", "fill", share_colour(1)).size(), 1U);
-  EXPECT_EQ(elements_of(svg, "rect", "fill", share_colour(0)).size(), 2U);
-}
-
-/// Only where nothing slides, nor may.
-TEST(OutcomeMapChart, DrawsTheEdgeOfWhatIsSafe) {
-  const std::string svg = draw(crowded());
-  const auto edges = elements_of(svg, "line", "stroke-width", "2.5");
-  EXPECT_EQ(edges.size(), 3U) << "above and right of the cell at (0, 10), and in the key";
-  OutcomeMap all_safe = crowded();
-  for (CaseClass& kind : all_safe.kind) kind = CaseClass::holds;
-  EXPECT_TRUE(elements_of(draw(all_safe), "line", "stroke-width", "2.5").empty());
+  EXPECT_EQ(elements_of(svg, "rect", "fill", share_colour(0)).size(), 3U) << "and the key";
 }
 
 TEST(OutcomeMapChart, SaysWhenThereIsNothingToDraw) {
