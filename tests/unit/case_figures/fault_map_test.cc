@@ -150,5 +150,98 @@ TEST(PlaneMap, MarksFacesOfWhichHalfOfTheCornersMove) {
   EXPECT_THAT(other(MapField::slip), HasSubstr(">slip, mm: 0 everywhere<"));
 }
 
+/// One face of F2 that slips by 2 mm in the first step and 8 mm more in the second, in which it
+/// gains 10 bar back of the 40 bar that it lost; times a factor.
+struct OneSlidingFace : FieldSource {
+  explicit OneSlidingFace(double factor = 1) : times_more(factor) {
+    StoredFault fault;
+    fault.name = "F2";
+    fault.points.resize(3, 4);
+    fault.points << 0, 0, 0, 0, 0, 100, 100, 0, -2000, -2000, -2050, -2050;
+    fault.faces = {{0, 1, 2, 3}};
+    fault.split = {1, 1, 1, 1};
+    all_faults = {fault};
+    for (const StepResult& step : small_result().steps) {
+      all_steps.push_back(step.step);
+      all_times.push_back(step.time);
+    }
+  }
+  const std::vector<int>& steps() const override { return all_steps; }
+  const std::vector<double>& times() const override { return all_times; }
+  const std::vector<StoredFault>& faults() const override { return all_faults; }
+  StoredFields fields(std::size_t, std::size_t entry) const override {
+    static constexpr std::array kSlips = {0.0, 0.002, 0.010}, kPressures = {0.0, -4e6, -3e6};
+    StoredFields now;
+    now.traction = now.slip = Eigen::Matrix3Xd::Zero(3, 4);
+    now.slip.row(2).setConstant(times_more * kSlips.at(entry));
+    now.critical_index = Eigen::Vector4d::Constant(0.5);
+    now.fault_pressure_change = Eigen::Vector4d::Constant(times_more * kPressures.at(entry));
+    now.state = {0, 0, 0, 0};
+    return now;
+  }
+  double times_more;
+  std::vector<int> all_steps;
+  std::vector<double> all_times;
+  std::vector<StoredFault> all_faults;
+};
+
+/// Maps of one case of a fault in its plane.
+class MapScale : public testing::Test {
+ protected:
+  MapScale() : scene_(field_scene()), result_(small_result()) { result_.plane_strain = false; }
+  std::string map(MapField show, int step, const CasePicture* original = nullptr) const {
+    return draw_case({result_, scene_, &fields_, {}, original},
+                     {CaseChart::fault_map, "F2", step, false, show});
+  }
+  static std::size_t n_faces(const std::string& svg, const std::string& colour) {
+    return figure::elements_of(svg, "polygon", "fill", colour).size();
+  }
+  Scene scene_;
+  CaseResult result_;
+  OneSlidingFace fields_;
+};
+
+TEST_F(MapScale, OfSlipsAndPressuresIsThatOfAllLoadSteps) {
+  for (const auto& [step, share] : {std::pair(0, 0.0), {1, 0.2}, {2, 1.0}}) {
+    const std::string slip = map(MapField::slip, step);
+    EXPECT_EQ(n_faces(slip, figure::share_colour(share)), 1U) << step;
+    for (const char* text : {">slip, mm<", ">0<", ">5<", ">10<", ">same scale at all load steps<"})
+      EXPECT_THAT(slip, HasSubstr(text));
+  }
+  for (const auto& [step, share] : {std::pair(0, 0.0), {1, -1.0}, {2, -0.75}}) {
+    const std::string pressure = map(MapField::pressure, step);
+    EXPECT_EQ(n_faces(pressure, figure::change_colour(share)), 1U) << step;
+    for (const char* text :
+         {">Δp, bar<", ">−40<", ">−20<", ">0<", ">same scale at all load steps<"})
+      EXPECT_THAT(pressure, HasSubstr(text));
+  }
+}
+
+TEST_F(MapScale, HoldsTheCaseBeforeAChangeToo) {
+  const OneSlidingFace more(2);
+  CasePicture original{result_, scene_, &more, {}};
+  const std::string slip = map(MapField::slip, 2, &original);
+  EXPECT_EQ(n_faces(slip, figure::share_colour(0.5)), 1U);
+  for (const char* text : {">20<", ">same scale at all load steps and before the change<"})
+    EXPECT_THAT(slip, HasSubstr(text));
+  EXPECT_EQ(n_faces(map(MapField::pressure, 1, &original), figure::change_colour(-0.5)), 1U);
+  original.name = "sweep/3";
+  EXPECT_THAT(map(MapField::slip, 2, &original),
+              HasSubstr(">same scale at all load steps and in sweep/3<"));
+  // Of which no fields were kept.
+  original.fields = nullptr;
+  EXPECT_EQ(map(MapField::slip, 2, &original), map(MapField::slip, 2));
+}
+
+/// χ has the scale that it always has, and states have none.
+TEST_F(MapScale, OfOtherFieldsIsThatOfEveryCase) {
+  const OneSlidingFace more(2);
+  const CasePicture original{result_, scene_, &more, {}};
+  for (const MapField show : {MapField::chi, MapField::state}) {
+    EXPECT_EQ(map(show, 1, &original), map(show, 1));
+    EXPECT_THAT(map(show, 1), Not(HasSubstr("same scale")));
+  }
+}
+
 }  // namespace
 }  // namespace faultsim
