@@ -10,6 +10,7 @@
 
 #include "simulator/case_figures/field_section.h"
 #include "simulator/case_figures/picture_file.h"
+#include "simulator/figure/palette.h"
 #include "tests/unit/case_figures/small_case.h"
 #include "tests/unit/figure/xml_check.h"
 
