@@ -85,8 +85,8 @@ struct ScaleLook {
 /// What a page changes in the section and the histories (with_cursor) when it shows another step.
 struct StepLook {
   int step = 0;
-  double time = 0;                                ///< in the unit of the histories' axis.
-  std::string says;                               ///< "load step 10, primary production, 10 years".
+  double time = 0;   ///< in the unit of the histories' axis.
+  std::string says;  ///< "load step 10, primary production, 10 years".
   /// Of each fault: those of its pieces, as the section has them, six hexadecimal digits each in
   /// one word, as a case has thousands.
   std::vector<std::string> colours;
