@@ -1,6 +1,5 @@
 #include "campaign/serve/what_if_desk.h"
 
-#include <optional>
 #include <utility>
 
 #include "campaign/common/names.h"
@@ -17,42 +16,13 @@ constexpr int kBeatMs = 2;
 /// how far it is.
 constexpr int kMostWaiting = 2;
 
-/// The number and the state of a reply, which is read no further: its drawings are the page's.
-struct ReplyHead final : json::json_sax_t {
-  std::optional<long> ask;
-  std::string state;
-
-  bool null() override { return take(); }
-  bool boolean(bool) override { return take(); }
-  bool number_integer(long value) override { return whole(value); }
-  bool number_unsigned(unsigned long value) override { return whole(static_cast<long>(value)); }
-  bool number_float(double, const std::string&) override { return take(); }
-  bool string(std::string& value) override {
-    if (depth_ == 1 && key_ == "state") state = std::move(value);
-    return take();
-  }
-  bool binary(json::binary_t&) override { return take(); }
-  bool start_object(std::size_t) override { return ++depth_ > 0; }
-  bool key(std::string& value) override {
-    if (depth_ == 1) key_ = std::move(value);
-    return true;
-  }
-  bool end_object() override { return --depth_ >= 0; }
-  bool start_array(std::size_t) override { return ++depth_ > 0; }
-  bool end_array() override { return --depth_ >= 0; }
-  bool parse_error(std::size_t, const std::string&, const json::exception&) override {
-    return false;
-  }
-
- private:
-  bool take() const { return !ask || state.empty(); }
-  bool whole(long value) {
-    if (depth_ == 1 && key_ == "ask") ask = value;
-    return take();
-  }
-  int depth_ = 0;
-  std::string key_;
-};
+/// The number and the state of a reply; its drawings, which are most of it, are the page's.
+json head_of(const std::string& reply) {
+  const auto is_of_head = [](int depth, json::parse_event_t event, const json& value) {
+    return depth != 1 || event != json::parse_event_t::key || value == "ask" || value == "state";
+  };
+  return json::parse(reply, is_of_head, false);
+}
 
 std::string state_text(const char* state, const std::string& says = {}) {
   ordered_json reply = {{"state", state}};
@@ -173,13 +143,13 @@ void WhatIfDesk::exchange() {
 }
 
 void WhatIfDesk::take(const std::string& reply) {
-  ReplyHead head;
-  json::sax_parse(reply, &head);
-  if (!head.ask) return;  // its greeting
+  const json head = head_of(reply);
+  if (!head.is_object() || !head.contains("ask")) return;  // its greeting
   const std::lock_guard lock(mutex_);
-  if (*head.ask != asked_) return;
+  if (head.at("ask") != asked_) return;
   reply_ = reply;
-  is_open_ = head.state == "building" || head.state == "running";
+  const std::string state = head.value("state", "");
+  is_open_ = state == "building" || state == "running";
   if (!is_open_) changed_.notify_all();
 }
 

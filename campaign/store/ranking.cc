@@ -233,20 +233,20 @@ const std::vector<Store::RankedPlace>& Store::order_by_score(std::int64_t campai
   for (const auto& value : query.by.parameters) key += "\n" + std::visit(Spelled{}, value);
   const auto known = std::ranges::find(orders_, key, &KeptOrder::key);
   if (known != orders_.end()) return known->places;
-  if (orders_.size() >= kMostKept) orders_.pop_front();
-  KeptOrder& kept = orders_.emplace_back(KeptOrder{key, {}});
+  KeptOrder order{std::move(key), {}};
   Statement rows(*connection_, sql);
   rows.bind(query.by.parameters, campaign, query.stage, query.where.parameters);
   while (rows.step()) {
-    kept.places.push_back(rows.row<RankedPlace, std::int64_t, long, std::optional<double>, int>());
+    order.places.push_back(rows.row<RankedPlace, std::int64_t, long, std::optional<double>, int>());
   }
   const auto key_of = [&](const RankedPlace& place) {
     const double score = place.score.value_or(0);
     return std::tuple(place.rank_class, !place.score, query.ascending ? score : -score,
                       place.position);
   };
-  std::ranges::sort(kept.places, {}, key_of);
-  return kept.places;
+  std::ranges::sort(order.places, {}, key_of);
+  if (orders_.size() >= kMostKept) orders_.pop_front();
+  return orders_.emplace_back(std::move(order)).places;
 }
 
 std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery& query) const {

@@ -265,7 +265,8 @@ class Store {
     std::optional<double> build_seconds;
     int n_operators = 1;                     ///< see FamilyRecord.
     double memory_bytes = 0;                 ///< predicted.
-    std::optional<std::int64_t> peak_bytes;  ///< measured, of the process that built it.
+    std::optional<std::int64_t> peak_bytes;  ///< measured, of the process that built it; none of
+                                             ///< one that was only read, which takes far less.
   };
   std::vector<FamilyProgress> family_progress(std::int64_t campaign) const;
   /// Whether some case of the store, of whatever campaign, has no result. Far cheaper than counts.
