@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 
 #include "campaign/app/commands.h"
@@ -51,6 +52,7 @@ ExitCode serve_store(const StoreArguments& common, const ServeArguments& argumen
   ServerSettings settings;
   settings.port = arguments.port;
   const faultsim::StopToken stop = faultsim::stop_on_signals();
+  std::signal(SIGPIPE, SIG_IGN);  // a simulator that has ended shows as EPIPE, and is begun anew
   settings.watch = [&] {
     api.require_store();
     if (stop.requested() || (duration && watch.seconds() >= *duration)) running->stop();

@@ -398,7 +398,7 @@ class Questions {
 const step_charts = ["profiles", "fault-map", "stress-path"];
 /** What of the changes moves lines of the section; all others only colour it. */
 function geometry_of(changes) {
-  return JSON.stringify(Object.entries(changes).filter(([pointer]) => /^\/(geometry|faults)\//.test(pointer)));
+  return JSON.stringify(Object.entries(changes).filter(([pointer]) => /^\/(geometry|faults|pressure_field)(\/|$)/.test(pointer)));
 }
 
 class WhatIf {

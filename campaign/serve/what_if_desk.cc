@@ -16,6 +16,14 @@ constexpr int kBeatMs = 2;
 /// how far it is.
 constexpr int kMostWaiting = 2;
 
+/// The number and the state of a reply; its drawings, which are most of it, are the page's.
+json head_of(const std::string& reply) {
+  const auto is_of_head = [](int depth, json::parse_event_t event, const json& value) {
+    return depth != 1 || event != json::parse_event_t::key || value == "ask" || value == "state";
+  };
+  return json::parse(reply, is_of_head, false);
+}
+
 std::string state_text(const char* state, const std::string& says = {}) {
   ordered_json reply = {{"state", state}};
   if (!says.empty()) reply["says"] = says;
@@ -135,12 +143,12 @@ void WhatIfDesk::exchange() {
 }
 
 void WhatIfDesk::take(const std::string& reply) {
-  const json message = json::parse(reply, nullptr, false);
-  if (!message.is_object() || !message.contains("ask")) return;  // its greeting
+  const json head = head_of(reply);
+  if (!head.is_object() || !head.contains("ask")) return;  // its greeting
   const std::lock_guard lock(mutex_);
-  if (message.at("ask") != asked_) return;
+  if (head.at("ask") != asked_) return;
   reply_ = reply;
-  const std::string state = message.value("state", "");
+  const std::string state = head.value("state", "");
   is_open_ = state == "building" || state == "running";
   if (!is_open_) changed_.notify_all();
 }

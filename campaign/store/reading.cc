@@ -102,7 +102,7 @@ std::vector<Store::FamilyProgress> Store::family_progress(std::int64_t campaign)
   std::vector<FamilyProgress> all;
   Statement query = connection_->prepared(
       "SELECT f.fingerprint, coalesce(f.operator, ''), o.build_s, f.n_operators,"
-      " f.predicted_memory_bytes, o.peak_bytes FROM families f"
+      " f.predicted_memory_bytes, iif(o.build_s IS NULL, NULL, o.peak_bytes) FROM families f"
       " LEFT JOIN operators o ON o.fingerprint = f.operator WHERE f.id = ?");
   for (const auto& [family, counts] : count_by_family(*connection_, campaign)) {
     FAULTSIM_DEMAND(query.bind(family).step(), family);

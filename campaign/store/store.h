@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -264,7 +265,8 @@ class Store {
     std::optional<double> build_seconds;
     int n_operators = 1;                     ///< see FamilyRecord.
     double memory_bytes = 0;                 ///< predicted.
-    std::optional<std::int64_t> peak_bytes;  ///< measured, of the process that built it.
+    std::optional<std::int64_t> peak_bytes;  ///< measured, of the process that built it; none of
+                                             ///< one that was only read, which takes far less.
   };
   std::vector<FamilyProgress> family_progress(std::int64_t campaign) const;
   /// Whether some case of the store, of whatever campaign, has no result. Far cheaper than counts.
@@ -297,7 +299,22 @@ class Store {
   static std::optional<std::string> damage_of(const std::filesystem::path& folder);
 
  private:
+  /// A case in an order by a score.
+  struct RankedPlace {
+    std::int64_t id = 0;
+    long position = 0;
+    std::optional<double> score = {};
+    int rank_class = 0;
+  };
+  struct KeptOrder {
+    std::string key;  ///< all that it depends on but the state of the store.
+    std::vector<RankedPlace> places;
+  };
   Store(std::filesystem::path folder, std::unique_ptr<Connection> connection, std::string remark);
+  std::vector<RankedCase> first_ranked(std::int64_t campaign, const RankingQuery& query) const;
+  const std::vector<RankedPlace>& order_by_score(std::int64_t campaign,
+                                                 const RankingQuery& query) const;
+  void forget_if_changed() const;
   void record_run(std::int64_t campaign, const RunRecord& run, double now);
   RowDigest record_result(std::int64_t case_id, std::int64_t run_id,
                           const faultsim::CaseResult& result);
@@ -314,6 +331,7 @@ class Store {
   mutable std::unique_ptr<ResultTables> tables_;  ///< made when first asked for.
   std::string remark_;
   mutable std::map<std::string, ClassCounts> class_counts_;  ///< by question, of this state:
+  mutable std::deque<KeptOrder> orders_;                     ///< the newest last, of it too.
   mutable std::int64_t counted_state_ = -1;
   std::map<std::string, std::int64_t> names_;  ///< ids in table `names`, of those looked up.
 };

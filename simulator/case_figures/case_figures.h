@@ -77,13 +77,24 @@ std::string draw_place(const Scene& scene, std::size_t fault, double width);
 /// How many times a depth is as long there as a distance across.
 double place_stretch(const Scene& scene, double width);
 
+/// The scale that reservoirs of a section are painted with.
+struct ScaleLook {
+  std::vector<std::string> colours;  ///< of its parts.
+  std::vector<std::string> texts;    ///< all that is written at it, in the order of the drawing.
+};
 /// What a page changes in the section and the histories (with_cursor) when it shows another step.
 struct StepLook {
   int step = 0;
-  double time = 0;                                ///< in the unit of the histories' axis.
-  std::string says;                               ///< "load step 10, primary production, 10 years".
-  std::vector<std::vector<std::string>> colours;  ///< of a fault's pieces, as the section has them.
+  double time = 0;   ///< in the unit of the histories' axis.
+  std::string says;  ///< "load step 10, primary production, 10 years".
+  /// Of each fault: those of its pieces, as the section has them, six hexadecimal digits each in
+  /// one word, as a case has thousands.
+  std::vector<std::string> colours;
   std::vector<std::pair<std::string, std::string>> notes;  ///< per compartment: its Δp.
+  /// Per compartment that is painted the part of the scale of each of its pieces, as a digit
+  /// (0 to 9, then a to v); "." = none is known.
+  std::vector<std::pair<std::string, std::string>> painted;
+  std::optional<ScaleLook> scale;  ///< of all steps: the first one has it where there is one.
 };
 /// Of every step that has metrics. @pre the scene is a field.
 std::vector<StepLook> step_looks(const CasePicture& picture);

@@ -52,6 +52,13 @@ std::string words_of_original(const CasePicture& picture, bool is_drawn, const s
   return concat("thin: ", what, place.empty() ? "" : ", ", place, "; ");
 }
 
+std::string same_scale_words(const CasePicture& picture, bool of_original) {
+  const std::string words = "same scale at all load steps";
+  if (!of_original) return words;
+  const std::string& name = picture.original->name;
+  return concat(words, name.empty() ? " and before the change" : " and in " + name);
+}
+
 std::optional<std::size_t> place_of(const std::vector<std::string>& names,
                                     const std::string& name) {
   const auto found = std::ranges::find(names, name);

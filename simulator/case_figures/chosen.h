@@ -51,6 +51,8 @@ std::vector<figure::Tick> date_ticks(const CasePicture& picture);
 /// @param place  where its lines are, if elsewhere: "at 2,050 m depth".
 std::string words_of_original(const CasePicture& picture, bool is_drawn = true,
                               const std::string& place = {});
+/// For what a scale of colours holds: "same scale at all load steps", and of the original as well.
+std::string same_scale_words(const CasePicture& picture, bool of_original);
 /// The place of a name among names; none where it is not there.
 std::optional<std::size_t> place_of(const std::vector<std::string>& names, const std::string& name);
 

@@ -99,6 +99,28 @@ void add_plane_map(const StoredFault& fault, const StoredFields& now, MapField s
     map.marked = "slips or is open in this step (half of a face's corners or more)";
 }
 
+/// Widens the scale to hold what the fault's faces show at all load steps that were kept.
+void hold_all(const FieldSource& file, std::size_t fault, MapField show,
+              figure::FaceColours& colours) {
+  for (std::size_t entry = 0; entry < file.steps().size(); ++entry) {
+    const StoredFields now = file.fields(fault, entry);
+    for (const std::vector<int>& face : file.faults()[fault].faces)
+      colours.hold(value_of(face, now, show));
+  }
+}
+
+/// Makes the scale of slips and pressures one that maps of other load steps have too, so that they
+/// can be compared by colour, and of the case before a change.
+void set_scale(const Chosen& chosen, std::size_t fault, figure::FaceColours& colours) {
+  const MapField show = chosen.request.show;
+  if (show != MapField::slip && show != MapField::pressure) return;
+  hold_all(*chosen.picture.fields, fault, show, colours);
+  const auto before = original_fault(chosen);
+  if (before) hold_all(*chosen.picture.original->fields, before->fault, show, colours);
+  const bool is_of_all = chosen.result().plane_strain && !before;  // the map has all steps itself
+  if (!is_of_all) colours.same = same_scale_words(chosen.picture, before.has_value());
+}
+
 }  // namespace
 
 std::string draw_fault_map(Chosen chosen) {
@@ -108,6 +130,7 @@ std::string draw_fault_map(Chosen chosen) {
   map.remark = subject_of(chosen.picture);
   const MapLook look = look_of(chosen.request.show);
   map.colours = look.colours;
+  set_scale(chosen, f, map.colours);
   if (chosen.result().plane_strain) {
     map.title = concat(look.of, " fault ", chosen.fault_name(), " against depth and time");
     add_time_map(chosen, f, map);

@@ -63,7 +63,7 @@ std::string draw_profiles(Chosen chosen) {
   const StoredFault& fault = chosen.picture.fields->faults()[f];
   const StoredFields stored = chosen.picture.fields->fields(f, entry);
   const Eigen::Vector3d place =
-      fault.points.col(static_cast<Eigen::Index>(most_critical(fault, stored)));
+      fault.points.col(static_cast<Eigen::Index>(most_critical(fault, stored.critical_index)));
   const Profile now =
       profile_at(place.y(), fault, stored, chosen.scene().faults[chosen.fault].friction);
   std::string says_before;

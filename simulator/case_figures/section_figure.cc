@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <string_view>
 
 #include "simulator/case_figures/field_section.h"
+#include "simulator/case_figures/painted_section.h"
 #include "simulator/case_figures/stored_line.h"
 #include "simulator/common/errors.h"
 #include "simulator/figure/axis.h"
@@ -24,9 +26,9 @@ bool colour_by_fields(const Chosen& chosen, std::size_t fault, figure::Section::
   for (std::size_t f = 0; f < file->faults().size(); ++f) {
     const StoredFault& stored = file->faults()[f];
     if (stored.name != chosen.result().fault_names[fault]) continue;
-    const StoredFields now =
-        file->fields(f, static_cast<std::size_t>(entry - file->steps().begin()));
-    const auto most = static_cast<Eigen::Index>(most_critical(stored, now));
+    const Eigen::VectorXd chi =
+        file->critical_index(f, static_cast<std::size_t>(entry - file->steps().begin()));
+    const auto most = static_cast<Eigen::Index>(most_critical(stored, chi));
     const std::vector<std::size_t> column = column_through(stored, stored.points(1, most));
     if (column.size() < 2) return false;
     line.points.clear();
@@ -34,7 +36,7 @@ bool colour_by_fields(const Chosen& chosen, std::size_t fault, figure::Section::
       const auto k = static_cast<Eigen::Index>(column[i]);
       line.points.push_back({stored.points(0, k), -stored.points(2, k)});
       if (i == 0) continue;
-      line.chi.push_back(std::max(now.critical_index[column[i - 1]], now.critical_index[k]));
+      line.chi.push_back(std::max(chi[static_cast<Eigen::Index>(column[i - 1])], chi[k]));
     }
     return true;
   }
@@ -68,6 +70,25 @@ bool fill_section(const Chosen& chosen, figure::Section& section) {
   return all_fields;
 }
 
+/// StepLook::painted of a reservoir.
+std::string painted_text(const figure::Section::Rock& rock, const figure::FaceColours& colours) {
+  constexpr std::string_view kDigits = "0123456789abcdefghijklmnopqrstuvwxyz";
+  static_assert(figure::kPaintedParts <= kDigits.size());
+  std::string text;
+  for (const figure::Section::Rock::Piece& piece : rock.pieces) {
+    const auto part = figure::part_of(colours, piece.value, figure::kPaintedParts);
+    text += part ? kDigits[*part] : '.';
+  }
+  return text;
+}
+
+ScaleLook scale_look(const figure::Section::Painted& painted) {
+  ScaleLook look{figure::part_colours(painted.colours, figure::kPaintedParts),
+                 figure::scale_texts(painted.colours)};
+  look.texts.insert(look.texts.end(), painted.words.begin(), painted.words.end());
+  return look;
+}
+
 }  // namespace
 
 std::string draw_section(const Chosen& chosen) {
@@ -77,6 +98,7 @@ std::string draw_section(const Chosen& chosen) {
   }
   figure::Section section = field_section(chosen.scene());
   const bool all_fields = fill_section(chosen, section);
+  PaintedSection(chosen.picture).paint(chosen.result().steps[chosen.step].time, section);
   section.title = concat("The field across its faults",
                          chosen.request.with_cursor ? "" : ": " + moment_text(chosen));
   section.remark = concat(subject_of(chosen.picture), "; to scale; colour: ",
@@ -106,20 +128,29 @@ std::string draw_place(const Scene& scene, std::size_t fault, double width) {
 std::vector<StepLook> step_looks(const CasePicture& picture) {
   using namespace case_figures;
   std::vector<StepLook> looks;
+  if (n_steps_of(picture.result) == 0) return looks;
   Chosen chosen{picture, {}, 0, 0};
+  const PaintedSection painted(picture);
   const figure::Section empty = field_section(picture.scene);
   for (chosen.step = 0; chosen.step < n_steps_of(picture.result); ++chosen.step) {
     figure::Section section = empty;
     fill_section(chosen, section);
     const StepResult& step = picture.result.steps[chosen.step];
-    StepLook look{step.step, time_of(picture.result, step.time), moment_text(chosen), {}, {}};
+    painted.paint(step.time, section);
+    StepLook look;
+    look.step = step.step;
+    look.time = time_of(picture.result, step.time);
+    look.says = moment_text(chosen);
     for (const figure::Section::FaultLine& fault : section.faults) {
-      std::vector<std::string>& colours = look.colours.emplace_back();
-      for (const double chi : fault.chi) colours.push_back(figure::chi_colour(chi));
+      std::string& colours = look.colours.emplace_back();
+      for (const double chi : fault.chi) colours.append(figure::chi_colour(chi), 1);
     }
     for (const figure::Section::Rock& rock : section.rocks) {
       if (rock.is_reservoir) look.notes.emplace_back(rock.name, rock.note);
+      if (!rock.pieces.empty())
+        look.painted.emplace_back(rock.name, painted_text(rock, section.painted->colours));
     }
+    if (looks.empty() && !look.painted.empty()) look.scale = scale_look(*section.painted);
     looks.push_back(std::move(look));
   }
   return looks;

@@ -85,13 +85,12 @@ std::vector<std::size_t> column_through(const StoredFault& fault, double y) {
   return column;
 }
 
-std::size_t most_critical(const StoredFault& fault, const StoredFields& fields) {
+std::size_t most_critical(const StoredFault& fault, const Eigen::VectorXd& chi) {
   std::size_t most = fault.split.size();
+  const auto chi_at = [&](std::size_t i) { return chi[static_cast<Eigen::Index>(i)]; };
   for (std::size_t i = 0; i < fault.split.size(); ++i) {
     if (fault.split[i] == 0) continue;
-    if (most == fault.split.size() || fields.critical_index[i] > fields.critical_index[most]) {
-      most = i;
-    }
+    if (most == fault.split.size() || chi_at(i) > chi_at(most)) most = i;
   }
   if (most == fault.split.size()) refuse("--fault", "no point of it can move", "name another");
   return most;

@@ -39,7 +39,7 @@ std::vector<std::size_t> column_through(const StoredFault& fault, double y);
 
 /// The split point with the largest χ, the first of them in the file's order. Throws InputError
 /// where the fault has none.
-std::size_t most_critical(const StoredFault& fault, const StoredFields& fields);
+std::size_t most_critical(const StoredFault& fault, const Eigen::VectorXd& chi);
 
 double shear_at(const StoredFields& fields, Eigen::Index k);  ///< |τ| at a point, Pa.
 

@@ -61,7 +61,7 @@ std::string draw_stress_path(Chosen chosen) {
   const std::size_t f = stored_fault(chosen), critical = stored_entry(chosen);
   const FieldSource& file = *chosen.picture.fields;
   const StoredFault& fault = file.faults()[f];
-  const auto k = static_cast<Eigen::Index>(most_critical(fault, file.fields(f, critical)));
+  const auto k = static_cast<Eigen::Index>(most_critical(fault, file.critical_index(f, critical)));
   const CoulombLaw& friction = chosen.scene().faults[chosen.fault].friction;
   figure::StressPath path;
   std::map<int, std::string> stages;

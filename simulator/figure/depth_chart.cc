@@ -107,29 +107,6 @@ namespace {
 
 using Kind = FaceColours::Kind;
 
-/// The size that the ends of the scale have; 0 where nothing is anything.
-double largest_size(const FaultMap& map) {
-  double size = 0;
-  for (const FaultCell& cell : map.cells) size = std::max(size, std::abs(cell.value));
-  return size;
-}
-
-/// @param size  largest_size.
-std::string face_colour(Kind kind, double value, double size) {
-  const double share = size > 0 ? value / size : 0;
-  switch (kind) {
-    case Kind::chi:
-      return chi_colour(value);
-    case Kind::amount:
-      return share_colour(share);
-    case Kind::change:
-      return change_colour(share);
-    case Kind::state:
-      return value < 0.5 ? kStickColour : value < 1.5 ? kSlipColour : kOpenColour;
-  }
-  return kFrame;
-}
-
 /// Lines across a face, which tell its state without colours. @param corners  px, four of them.
 void draw_state_lines(Svg& svg, const std::vector<Point>& corners, double state) {
   if (state < 0.5 || corners.size() != 4) return;
@@ -142,7 +119,7 @@ void draw_state_key(Svg& svg, double right, double y) {
   double x = right - 220;
   for (const auto& [state, name] : {std::pair(0.0, "sticks"), {1.0, "slips"}, {2.0, "is open"}}) {
     const Box box{x, y, 18, 12};
-    svg.rect(box, face_colour(Kind::state, state, 1), {kFrame, 0.75});
+    svg.rect(box, colour_of({.kind = Kind::state}, state), {kFrame, 0.75});
     draw_state_lines(
         svg,
         {{box.x, box.y}, {box.right(), box.y}, {box.right(), box.bottom()}, {box.x, box.bottom()}},
@@ -152,42 +129,18 @@ void draw_state_key(Svg& svg, double right, double y) {
   }
 }
 
-/// A scale to the largest size with the ends' values below it, and what it is of before it; of
-/// nothing but zeros in words.
-void draw_size_scale(Svg& svg, const FaceColours& colours, double size, Point place, double width) {
-  constexpr double kHeight = 10;
-  constexpr int kParts = 60;
-  const TextStyle before{kLabelSize, kInk, Anchor::end};
-  if (!(size > 0)) {
-    svg.text({place.x + width, place.y + kHeight}, colours.label + ": 0 everywhere", before);
-    return;
-  }
-  svg.text({place.x - 8, place.y + kHeight}, colours.label, before);
-  const double low = colours.kind == Kind::change ? -size : 0;
-  for (int k = 0; k < kParts; ++k) {
-    const double from = width * k / kParts;
-    svg.rect({place.x + from, place.y, width - from, kHeight},
-             face_colour(colours.kind, low + (size - low) * (k + 0.5) / kParts, size));
-  }
-  svg.rect({place.x, place.y, width, kHeight}, "none", {kFrame, 0.75});
-  for (const double share : {0.0, 0.5, 1.0}) {
-    svg.text({place.x + width * share, place.y + kHeight + 13},
-             plain_number(low + (size - low) * share), {kTickSize, kFaint, Anchor::middle});
-  }
-}
+/// The height that the words below a scale take, px.
+double scale_height(const FaceColours& colours) { return colours.same.empty() ? 0 : 15; }
 
-void draw_colour_key(Svg& svg, const FaultMap& map, double size, Point place, double width) {
-  if (map.colours.kind == Kind::chi) {
-    draw_chi_scale(svg, place, width);
-  } else if (map.colours.kind == Kind::state) {
-    draw_state_key(svg, place.x + width, place.y);
-  } else {
-    draw_size_scale(svg, map.colours, size, place, width);
-  }
+void draw_colour_key(Svg& svg, const FaceColours& colours, Point place, double width) {
+  if (colours.kind == Kind::chi) return draw_chi_scale(svg, place, width);
+  if (colours.kind == Kind::state) return draw_state_key(svg, place.x + width, place.y);
+  draw_scale(svg, colours, place, width);
+  svg.text({place.x + width, place.y + 38}, colours.same, {kTickSize, kFaint, Anchor::end});
 }
 
 /// Faces in their colours, then the outlines of those that are marked, over their neighbours.
-void draw_faces(Svg& svg, const Panel& panel, const FaultMap& map, double size) {
+void draw_faces(Svg& svg, const Panel& panel, const FaultMap& map, const FaceColours& colours) {
   for (const bool outlines : {false, true}) {
     for (const FaultCell& cell : map.cells) {
       if (outlines && !cell.is_marked) continue;
@@ -197,7 +150,7 @@ void draw_faces(Svg& svg, const Panel& panel, const FaultMap& map, double size) 
         svg.polygon(corners, "none", {kInk, 0.9});
         continue;
       }
-      const std::string fill = face_colour(map.colours.kind, cell.value, size);
+      const std::string fill = colour_of(colours, cell.value);
       svg.polygon(corners, fill, {fill, 0.8});  // the seams between cells are closed
     }
   }
@@ -215,14 +168,16 @@ void draw_faces(Svg& svg, const Panel& panel, const FaultMap& map, double size) 
 std::string draw(const FaultMap& map) {
   constexpr double kLeft = 70, kWidth = 860, kHeight = 300;
   std::vector<double> across, depths;
+  FaceColours colours = map.colours;
   for (const FaultCell& cell : map.cells) {
+    colours.hold(cell.value);
     for (const Point& corner : cell.corners) {
       across.push_back(corner.x);
       depths.push_back(corner.y);
     }
   }
   const double heading = map.remark.empty() ? 44 : 62;
-  Svg svg(kWidth, heading + kHeight + 92, map.title);
+  Svg svg(kWidth, heading + kHeight + 92 + scale_height(colours), map.title);
   draw_heading(svg, map.title, map.remark, 16);
   const Axis depth = depth_axis(depths, {}, kHeight);
   const Box strip{kLeft, heading, 2 * kBandWidth, kHeight};
@@ -235,12 +190,11 @@ std::string draw(const FaultMap& map) {
   if (!(high > low)) high = low + 1;
   const Box box{strip.right() + 14, heading, kWidth - strip.right() - 14 - 24, kHeight};
   Panel panel(svg, box, axis_between(map.across, low, high, 8), depth, {.y_labels = false});
-  const double size = largest_size(map);
-  draw_faces(svg, panel, map, size);
+  draw_faces(svg, panel, map, colours);
   draw_band_edges(panel, map.bands);
   panel.frame();
   const double y = box.bottom() + 54;
-  draw_colour_key(svg, map, size, {box.right() - 250, y}, 240);
+  draw_colour_key(svg, colours, {box.right() - 250, y}, 240);
   if (!map.marked.empty()) {
     svg.rect({box.x, y, 14, 10}, "none", {kInk, 0.9});
     svg.text({box.x + 20, y + 10}, map.marked, {kLabelSize, kInk});

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/figure/face_colours.h"
 #include "simulator/figure/history_chart.h"
 
 namespace faultsim::figure {
@@ -31,18 +32,6 @@ struct DepthChart {
 };
 std::string draw(const DepthChart& chart);
 
-/// What the colours of a fault's faces are of.
-struct FaceColours {
-  enum class Kind {
-    chi,     ///< critical index.
-    amount,  ///< from 0 to the largest: lightness falls.
-    change,  ///< of either sign, to the largest size on both sides.
-    state,   ///< 0 = sticks, 1 = slips (a line across the face), 2 = is open (a cross).
-  };
-  Kind kind = Kind::chi;
-  std::string label = {};  ///< of the scale, with its unit: "slip, mm"; not of χ and states.
-};
-
 /// A face of a fault in its plane.
 struct FaultCell {
   std::vector<Point> corners;  ///< m along strike or step of time; m of depth.
@@ -56,7 +45,7 @@ struct FaultMap {
   std::string marked;  ///< what the outline means; "" = nothing is outlined.
   std::vector<FaultCell> cells;
   std::vector<DepthBand> bands;
-  FaceColours colours = {};
+  FaceColours colours = {};  ///< its scale is widened to hold the cells.
 };
 std::string draw(const FaultMap& map);
 

@@ -4,17 +4,21 @@
 #include <array>
 #include <cmath>
 
-#include "simulator/common/text.h"
-
 namespace faultsim::figure {
 namespace {
 
 using Rgb = std::array<double, 3>;
 
+/// By hand: a page that moves has thousands of them, and printf takes half a microsecond each.
 std::string hex(const Rgb& colour) {
-  return formatted("#%02x%02x%02x", static_cast<unsigned>(std::lround(colour[0])),
-                   static_cast<unsigned>(std::lround(colour[1])),
-                   static_cast<unsigned>(std::lround(colour[2])));
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::string text = "#";
+  for (const double part : colour) {
+    const auto byte = static_cast<std::size_t>(std::lround(part));
+    text += kDigits[byte / 16];
+    text += kDigits[byte % 16];
+  }
+  return text;
 }
 
 Rgb between(const Rgb& a, const Rgb& b, double share) {

@@ -26,6 +26,30 @@ CellCorners corners_of(const FlowCell& box) {
            {a.x(), b.y(), b.z()}}};
 }
 
+/// Where a field's cells are in other coordinates.
+class Placement {
+ public:
+  Placement(const std::array<double, 2>& origin, double azimuth)
+      : origin_(origin),
+        cos_(std::cos(azimuth)),
+        sin_(std::sin(azimuth)),
+        stays_(origin == std::array<double, 2>{0, 0} && azimuth == 0) {}
+  FlowCell moved(const FlowCell& cell) const {
+    if (stays_) return cell;
+    CellCorners corners = cell.corners.value_or(corners_of(cell));
+    for (Eigen::Vector3d& corner : corners) {
+      const double x = corner.x() - origin_[0], y = corner.y() - origin_[1];
+      corner = {cos_ * x - sin_ * y, sin_ * x + cos_ * y, corner.z()};
+    }
+    return flow_cell_around(corners);
+  }
+
+ private:
+  std::array<double, 2> origin_;
+  double cos_, sin_;
+  bool stays_;
+};
+
 /// Of the corners, mm, in an order that does not depend on theirs.
 using CornerKey = std::vector<std::array<long, 3>>;
 
@@ -53,16 +77,25 @@ FlowCell flow_cell_around(const CellCorners& corners) {
 
 FlowField placed(const FlowField& field, const std::array<double, 2>& origin, double azimuth) {
   FlowField moved = field;
-  const double c = std::cos(azimuth), s = std::sin(azimuth);
-  for (FlowCell& cell : moved.cells) {
-    CellCorners corners = cell.corners.value_or(corners_of(cell));
-    for (Eigen::Vector3d& corner : corners) {
-      const double x = corner.x() - origin[0], y = corner.y() - origin[1];
-      corner = {c * x - s * y, s * x + c * y, corner.z()};
-    }
-    cell = flow_cell_around(corners);
-  }
+  const Placement place(origin, azimuth);
+  for (FlowCell& cell : moved.cells) cell = place.moved(cell);
   return moved;
+}
+
+FlowField placed_within(const FlowField& field, const std::array<double, 2>& origin, double azimuth,
+                        const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  FlowField part{.cells = {}, .date = field.date};
+  const Placement place(origin, azimuth);
+  std::vector<Eigen::Index> rows;
+  for (std::size_t f = 0; f < field.cells.size(); ++f) {
+    const FlowCell cell = place.moved(field.cells[f]);
+    if ((cell.low.array() >= high.array()).any() || (cell.high.array() <= low.array()).any())
+      continue;
+    part.cells.push_back(cell);
+    rows.push_back(static_cast<Eigen::Index>(f));
+  }
+  part.value = field.value(rows, Eigen::all);
+  return part;
 }
 
 std::string pressure_doubt(const FlowField& field) {

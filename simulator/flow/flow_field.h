@@ -35,6 +35,10 @@ FlowCell flow_cell_around(const CellCorners& corners);
 /// The field in other coordinates: what lies at `origin` (m) is at (0, 0), and what is towards
 /// `azimuth` (rad, from the field's y clockwise) is along y. Depths stay.
 FlowField placed(const FlowField& field, const std::array<double, 2>& origin, double azimuth);
+/// Of that field the cells whose boxes overlap the box from low to high, m, which does not copy the
+/// others: for what looks at a part of a large field. There may be none.
+FlowField placed_within(const FlowField& field, const std::array<double, 2>& origin, double azimuth,
+                        const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
 /// What speaks against the unit of the first report's pressures: the median over the cells of
 /// p / (10 kPa/m · depth) is far from hydrostatic, above 4 (psi read as bar: 14.5) or below 0.1.

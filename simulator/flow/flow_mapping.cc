@@ -42,6 +42,17 @@ constexpr double kWhole = 1e-6;  ///< of a cell's volume: less than that is miss
 
 }  // namespace
 
+CellCorners between_sides(const std::array<double, 2>& west, const std::array<double, 2>& east,
+                          double top, double bottom, double half_length) {
+  CellCorners corners;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const bool is_top = i >= 4, is_east = i % 4 == 1 || i % 4 == 2, is_north = i % 4 >= 2;
+    corners[i] = {(is_east ? east : west)[is_top ? 0 : 1], is_north ? half_length : -half_length,
+                  is_top ? -top : -bottom};
+  }
+  return corners;
+}
+
 CellCorners at_section(CellCorners corners, double y) {
   constexpr double kHalf = 0.5;  // m
   const double middle = centre_of(corners).y();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,11 @@ struct MappedCell {
   int region = -1;      ///< compartment, >= 0.
   double fraction = 1;  ///< share of its volume in the compartment, [0, 1].
 };
+
+/// A hexahedron between two sides that may lean. @param west, east  x of each at the top and at the
+/// bottom, m.  @param top, bottom  depths, m.  @param half_length  it covers |y| <= half_length, m.
+CellCorners between_sides(const std::array<double, 2>& west, const std::array<double, 2>& east,
+                          double top, double bottom, double half_length);
 
 /// A cell of the one row that plane strain has, as the section at y that it stands for: from half a
 /// metre before y to half a metre behind, m, so that flow cells that meet at y count alike.

@@ -7,16 +7,17 @@ function number_of(text) {  // of "0.83 \u00b1 0.02", "+3" and "1,440" too; NaN 
   return value.trim() === "" ? NaN : Number(value);
 }
 function counted(n) { return n.toLocaleString("en"); }
-/** What is typed below a head, "> 50", "<= 3", "F2" or "!F1", as a function of a text; null for nothing. */
+/** What is typed below a head, "> 50", "<= 3", "F2" or "!F1", as a function of a text, with one of a number where that is all it asks
+ * for; null for nothing. */
 function condition_of(typed) {
   const found = typed.trim().match(/^(<=|>=|<|>|=|!)?\s*(.*)$/);
   const sign = found[1], word = found[2], lower = word.toLowerCase(), b = number_of(word);
   if (word === "") return null;
   switch (sign) {  // comparisons are false for NaN
-    case "<": return (text) => number_of(text) < b;
-    case ">": return (text) => number_of(text) > b;
-    case "<=": return (text) => number_of(text) <= b;
-    case ">=": return (text) => number_of(text) >= b;
+    case "<": return of_numbers((a) => a < b);
+    case ">": return of_numbers((a) => a > b);
+    case "<=": return of_numbers((a) => a <= b);
+    case ">=": return of_numbers((a) => a >= b);
     case "!": return (text) => !text.toLowerCase().includes(lower);
     default: break;
   }
@@ -25,6 +26,11 @@ function condition_of(typed) {
     if (!Number.isNaN(a) && !Number.isNaN(b)) return a === b;
     return sign === "=" ? text === word : text.toLowerCase().includes(lower);
   };
+}
+function of_numbers(passes) {
+  const of_text = (text) => passes(number_of(text));
+  of_text.number = passes;
+  return of_text;
 }
 /** Where each text stands among all: numbers, then words; equal ones at the same place; -1 for nothing. */
 function places_of(texts) {
@@ -55,7 +61,10 @@ function column_of_numbers(numbers, decimals) {
     const digits = String(numbers[row]).padStart(decimals + 1, "0"), point = digits.length - decimals;
     return (digits.slice(0, point) + "." + digits.slice(point)).replace(/\.?0*$/, "");
   };
-  return {text, passing: (passes) => (row) => passes(text(row)), place: (row) => numbers[row]};
+  // A hundred thousand texts are not made where the numbers are enough.
+  const scale = 10 ** decimals;
+  const passing = (passes) => passes.number ? (row) => passes.number(numbers[row] / scale) : (row) => passes(text(row));
+  return {text, passing, place: (row) => numbers[row]};
 }
 /** Columns that stand in the table whole. */
 function columns_of_elements(table) {
@@ -67,7 +76,8 @@ function columns_of_elements(table) {
 function columns_of_data(data) {
   return data.columns.map((column) => {
     if (!column.at) return column_of(column.texts, column.texts.length === 1 ? () => 0 : (row) => row);
-    const bytes = atob(column.at), numbers = new Float64Array(data.rows), width = column.bytes;
+    const bytes = atob(column.at), width = column.bytes;
+    const numbers = width <= 4 ? new Uint32Array(data.rows) : new Float64Array(data.rows);
     for (let k = 0; k < bytes.length; ++k) numbers[Math.floor(k / width)] += bytes.charCodeAt(k) * 256 ** (k % width);
     return column.texts ? column_of(column.texts, (row) => numbers[row]) : column_of_numbers(numbers, column.decimals);
   });
@@ -163,7 +173,12 @@ function make_sortable(table) {
 function step_shower(part, steps) {
   const cursors = Array.from(part.querySelectorAll("[data-cursor]"));
   const faults = Array.from(part.querySelectorAll("[data-fault]"));
-  const names = Array.from(part.querySelectorAll("[data-rock]"));
+  const names = Array.from(part.querySelectorAll("[data-rock]")), painted = Array.from(part.querySelectorAll("[data-painted]"));
+  const scale = steps[0].scale, scale_drawn = part.querySelector("[data-scale]");
+  if (scale && scale_drawn) {  // of a case that was changed since it was drawn it may be another one
+    scale_drawn.querySelectorAll("text").forEach((text, i) => { text.textContent = scale.texts[i] || ""; });
+    scale_drawn.querySelectorAll("rect").forEach((box, i) => { if (scale.colours[i]) box.setAttribute("fill", scale.colours[i]); });
+  }
   return (k) => {
     const step = steps[k];
     for (const cursor of cursors) {
@@ -171,13 +186,23 @@ function step_shower(part, steps) {
       cursor.setAttribute("transform", "translate(" + (step.time - cursor.dataset.cursor) * (one - zero) + " 0)");
     }
     for (const fault of faults) {
-      const colours = step.colours[fault.dataset.fault] || [];
-      Array.from(fault.children).forEach((line, i) =>
-        line.setAttribute("stroke", colours[Math.min(i, colours.length - 1)]));
+      const colours = step.colours[fault.dataset.fault] || "", last = colours.length / 6 - 1;
+      for (let i = 0, line = colours && fault.firstElementChild; line; line = line.nextElementSibling, ++i) {
+        const at = 6 * Math.min(i, last);
+        line.setAttribute("stroke", "#" + colours.slice(at, at + 6));
+      }
     }
     for (const name of names) {
       const note = step.notes[name.dataset.rock];
       if (note && name.firstElementChild) name.firstElementChild.textContent = name.dataset.rock + ", " + note;
+    }
+    for (const reservoir of painted) {
+      const parts = (step.painted || {})[reservoir.dataset.painted] || "";
+      Array.from(reservoir.children).forEach((piece, i) => {
+        const colour = scale && scale.colours[parseInt(parts[i], 36)] || "none";
+        piece.setAttribute("fill", colour);
+        piece.setAttribute("stroke", colour);
+      });
     }
     return step.says;
   };

@@ -7,11 +7,15 @@ nlohmann::json steps_json(const CasePicture& picture) {
   for (const StepLook& look : step_looks(picture)) {
     nlohmann::json notes = nlohmann::json::object();
     for (const auto& [name, note] : look.notes) notes[name] = note;
-    steps.push_back({{"step", look.step},
-                     {"time", look.time},
-                     {"says", look.says},
-                     {"colours", look.colours},
-                     {"notes", notes}});
+    nlohmann::json step = {{"step", look.step},
+                           {"time", look.time},
+                           {"says", look.says},
+                           {"colours", look.colours},
+                           {"notes", notes}};
+    for (const auto& [name, parts] : look.painted) step["painted"][name] = parts;
+    if (look.scale)
+      step["scale"] = {{"colours", look.scale->colours}, {"texts", look.scale->texts}};
+    steps.push_back(std::move(step));
   }
   return steps;
 }

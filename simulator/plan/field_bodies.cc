@@ -9,18 +9,6 @@
 namespace faultsim {
 namespace {
 
-/// A hexahedron between two surfaces of x, each at the depths of a reservoir's top and bottom.
-CellCorners between(const std::array<double, 2>& west, const std::array<double, 2>& east,
-                    const DepthInterval& depths, double half_length) {
-  CellCorners corners;
-  for (std::size_t i = 0; i < 8; ++i) {
-    const bool is_top = i >= 4, is_east = i % 4 == 1 || i % 4 == 2, is_north = i % 4 >= 2;
-    corners[i] = {(is_east ? east : west)[is_top ? 0 : 1], is_north ? half_length : -half_length,
-                  is_top ? -depths.top : -depths.bottom};
-  }
-  return corners;
-}
-
 std::vector<MappedCell> bodies_of_blocks(const Scene& scene) {
   std::vector<MappedCell> bodies;
   const int n_blocks = static_cast<int>(scene.field.blocks.size());
@@ -35,11 +23,12 @@ std::vector<MappedCell> bodies_of_blocks(const Scene& scene) {
     const std::array<double, 2> east_of_west = {west[0] + beside, west[1] + beside},
                                 west_of_east = {east[0] - beside, east[1] - beside};
     const double half = 0.5 * scene.field.block_length;
-    bodies.push_back({.corners = between(west, east, depths, half), .region = b});
     bodies.push_back(
-        {.corners = between(west, east_of_west, depths, half), .region = n_blocks + b});
-    bodies.push_back(
-        {.corners = between(west_of_east, east, depths, half), .region = n_blocks + b + 1});
+        {.corners = between_sides(west, east, depths.top, depths.bottom, half), .region = b});
+    bodies.push_back({.corners = between_sides(west, east_of_west, depths.top, depths.bottom, half),
+                      .region = n_blocks + b});
+    bodies.push_back({.corners = between_sides(west_of_east, east, depths.top, depths.bottom, half),
+                      .region = n_blocks + b + 1});
   }
   return bodies;
 }

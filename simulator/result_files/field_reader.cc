@@ -146,4 +146,12 @@ StoredFields FieldReader::fields(std::size_t fault, std::size_t entry) const {
           .state = read_step<int>(h5, at + "state", entry, n, 1, H5T_NATIVE_INT)};
 }
 
+Eigen::VectorXd FieldReader::critical_index(std::size_t fault, std::size_t entry) const {
+  FAULTSIM_DEMAND(fault < impl_->faults.size() && entry < impl_->steps.size(), fault, " ", entry);
+  const hdf5::Session session;
+  const auto n = static_cast<hsize_t>(impl_->faults[fault].points.cols());
+  return vector_of(read_step<double>(*impl_->file, impl_->groups[fault] + "/steps/critical_index",
+                                     entry, n, 1, H5T_NATIVE_DOUBLE));
+}
+
 }  // namespace faultsim

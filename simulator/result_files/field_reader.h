@@ -20,6 +20,7 @@ class FieldReader : public FieldSource {
   const std::vector<double>& times() const override;
   const std::vector<StoredFault>& faults() const override;  ///< by name of their groups.
   StoredFields fields(std::size_t fault, std::size_t entry) const override;
+  Eigen::VectorXd critical_index(std::size_t fault, std::size_t entry) const override;
 
  private:
   struct Impl;

@@ -62,4 +62,14 @@ StoredFields FieldRecorder::fields(std::size_t fault, std::size_t entry) const {
   return here;
 }
 
+Eigen::VectorXd FieldRecorder::critical_index(std::size_t fault, std::size_t entry) const {
+  FAULTSIM_DEMAND(fault < points_.size() && entry < kept_.size(), fault, " ", entry);
+  const std::vector<int>& source = points_[fault].source;
+  Eigen::VectorXd chi = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(source.size()));
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    if (source[i] >= 0) chi[static_cast<Eigen::Index>(i)] = kept_[entry].critical_index[source[i]];
+  }
+  return chi;
+}
+
 }  // namespace faultsim

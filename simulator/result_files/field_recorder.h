@@ -18,6 +18,7 @@ class FieldRecorder : public FieldSource {
   const std::vector<double>& times() const override { return times_; }
   const std::vector<StoredFault>& faults() const override { return faults_; }
   StoredFields fields(std::size_t fault, std::size_t entry) const override;
+  Eigen::VectorXd critical_index(std::size_t fault, std::size_t entry) const override;
 
  private:
   std::vector<FaultPoints> points_;  ///< of faults_.

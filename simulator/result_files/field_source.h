@@ -33,6 +33,10 @@ class FieldSource {
   virtual const std::vector<StoredFault>& faults() const = 0;
   /// @param fault  index in faults();  @param entry  index in steps().
   virtual StoredFields fields(std::size_t fault, std::size_t entry) const = 0;
+  /// χ alone, without the effort for the others.
+  virtual Eigen::VectorXd critical_index(std::size_t fault, std::size_t entry) const {
+    return fields(fault, entry).critical_index;
+  }
 };
 
 }  // namespace faultsim

@@ -122,8 +122,10 @@ Simulation Simulation::from_text(std::string_view text, const std::string& sourc
 
 void Simulation::keep_operators(const CachePolicy& policy) { impl_->cache = policy; }
 
-void Simulation::hold(JsonDocument document) {
-  impl_->take(load_scene(std::move(document)));
+void Simulation::hold(JsonDocument document) { hold(load_scene(std::move(document))); }
+
+void Simulation::hold(LoadedScene loaded) {
+  impl_->take(std::move(loaded));
   impl_->held.reset();
 }
 

@@ -67,6 +67,8 @@ class Simulation {
 
   /// Holds another scene. An operator that is the same is kept, and goes on being used.
   void hold(JsonDocument document);
+  /// As above, a scene that is read already; for programs within the project.
+  void hold(LoadedScene loaded);
   /// The held scene with these changes, and none of earlier ones. Throws InputError with all that
   /// is wrong; the scene at hand is then the one before.
   void change(const Changes& changes);

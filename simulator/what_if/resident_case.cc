@@ -11,8 +11,8 @@
 
 namespace faultsim {
 
-/// What the thread and those who ask share: under the mutex; `simulation` and `taken_document` are
-/// the thread's.
+/// What the thread and those who ask share: under the mutex; `simulation` and `taken_scene` are the
+/// thread's.
 struct ResidentCase::Impl {
   explicit Impl(int threads) : n_threads(threads) {}
   void live();
@@ -32,7 +32,7 @@ struct ResidentCase::Impl {
 
   const int n_threads;
   Simulation simulation;
-  JsonDocument taken_document;  ///< until it is held.
+  LoadedScene taken_scene;  ///< until it is held.
   Listener listener = [](long, const QuestionProgress&) {};
 
   std::mutex listening;  ///< one call of the listener at a time; taken before the other.
@@ -40,7 +40,7 @@ struct ResidentCase::Impl {
   mutable std::condition_variable changed;
   long newest = 0;            ///< number of the newest question; 0: none.
   QuestionProgress progress;  ///< of the newest.
-  JsonDocument document;      ///< of the newest, until it is taken.
+  LoadedScene scene;          ///< of the newest, until it is taken.
   std::string operator_key;   ///< of the newest: with its surface, if it is on one.
   long taken = 0;             ///< the question that the thread is on, or was.
   std::string taken_key;      ///< its operator_key.
@@ -72,7 +72,7 @@ bool ResidentCase::Impl::take_next() {
   if (is_ending) return false;
   taken = newest;
   taken_key = operator_key;
-  taken_document = std::move(document);
+  taken_scene = std::move(scene);
   stop = false;
   return true;
 }
@@ -83,7 +83,7 @@ void ResidentCase::Impl::live() {
 
 /// Holds the scene of the question that was taken.
 void ResidentCase::Impl::hold(long question) {
-  simulation.hold(std::move(taken_document));  // may throw: tables are read again
+  simulation.hold(std::move(taken_scene));
   const std::lock_guard lock(mutex);
   is_at_build = simulation.needs_operator();
   if (is_at_build && question == newest) progress.state = QuestionState::building;
@@ -179,7 +179,7 @@ void ResidentCase::ask(long number, JsonDocument scene, const Changes& changes) 
     FAULTSIM_DEMAND(number > impl_->newest, number, " after ", impl_->newest);
     if (impl_->progress.is_open()) superseded = impl_->newest;
     impl_->newest = number;
-    impl_->document = std::move(loaded.document);
+    impl_->scene = std::move(loaded);
     impl_->operator_key = key;
     if (!impl_->keeps_build()) {
       impl_->progress = {};

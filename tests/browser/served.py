@@ -29,6 +29,13 @@ class Served:
             said += self.server.stdout.readline()
         self.address = json.loads(said)["address"]
 
+    def end_simulator(self):
+        """Ends the one that the server keeps for what-if, as a machine without memory does."""
+        tasks = f"/proc/{self.server.pid}/task"
+        children = [int(child) for task in os.listdir(tasks) for child in open(f"{tasks}/{task}/children", encoding="ascii").read().split()]
+        demand(len(children) == 1, "the server has the children", children)
+        os.kill(children[0], signal.SIGKILL)
+
     def at(self, place):
         """Opens the page there, and anew where only what is behind # differs."""
         self.browser.driver.get("about:blank")

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "simulator/flow/cell_overlap.h"
 #include "simulator/flow/flow_field.h"
@@ -34,6 +35,40 @@ TEST(FlowPlacement, TurnsWhatIsTowardsTheAzimuthAlongY) {
   EXPECT_NEAR(flow_cell_volume(oblique.cells[0]), 12000, 1e-6);
   const Eigen::Vector3d moved = oblique.cells[0].corners->at(0);
   EXPECT_NEAR(moved.y(), 500 * std::sin(0.3) + 1500 * std::cos(0.3), 1e-9);
+}
+
+/// Boxes of 10 m in rows of ten, whose pressure is their number.
+FlowField ten_by_ten() {
+  FlowField field;
+  field.date = {0};
+  for (int k = 0; k < 100; ++k) {
+    const Eigen::Vector3d low(10 * (k % 10), 10 * (k / 10), -100);
+    field.cells.push_back({low, low + Eigen::Vector3d(10, 10, 10)});
+  }
+  field.value = Eigen::VectorXd::LinSpaced(100, 0, 99);
+  return field;
+}
+
+TEST(FlowPlacement, OfAPartIsThatOfTheCellsThatReachIntoABox) {
+  const Eigen::Vector3d low(20, 35, -95), high(40, 36, -92);
+  for (const double azimuth : {0.0, 0.3}) {
+    const FlowField all = placed(ten_by_ten(), {5, 0}, azimuth);
+    const FlowField part = placed_within(ten_by_ten(), {5, 0}, azimuth, low, high);
+    std::vector<double> expected;
+    for (std::size_t f = 0; f < all.cells.size(); ++f) {
+      const Eigen::Vector3d &from = all.cells[f].low, &to = all.cells[f].high;
+      if (from.x() < 40 && to.x() > 20 && from.y() < 36 && to.y() > 35)
+        expected.push_back(all.value(static_cast<Eigen::Index>(f), 0));
+    }
+    ASSERT_EQ(part.cells.size(), expected.size());
+    EXPECT_GT(expected.size(), 2U);
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      EXPECT_EQ(part.value(static_cast<Eigen::Index>(k), 0), expected[k]);
+      EXPECT_EQ(part.cells[k].low, all.cells[static_cast<std::size_t>(expected[k])].low);
+    }
+  }
+  EXPECT_TRUE(
+      placed_within(ten_by_ten(), {0, 0}, 0, low, Eigen::Vector3d(40, 36, -200)).cells.empty());
 }
 
 }  // namespace

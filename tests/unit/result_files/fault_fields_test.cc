@@ -317,6 +317,8 @@ TEST(FieldRecorder, KeepsWhatAFileKeeps) {
         EXPECT_EQ(here.traction, there.traction);
         EXPECT_EQ(here.slip, there.slip);
         EXPECT_EQ(here.critical_index, there.critical_index);
+        EXPECT_EQ(recorder.critical_index(f, step), here.critical_index);
+        EXPECT_EQ(reader.critical_index(f, step), here.critical_index);
         EXPECT_EQ(here.fault_pressure_change, there.fault_pressure_change);
         EXPECT_EQ(here.state, there.state);
       }

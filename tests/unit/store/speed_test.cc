@@ -66,55 +66,61 @@ TEST(StoreSpeed, SlowHundredThousandCases) {
   EXPECT_EQ(n_rows, kCases);
   const auto timed = [&](const char* what, const auto& query) {
     double seconds = whole;
-    for (int k = 0; k < 3; ++k) {  // the least disturbed of three
+    for (int k = 0; k < 3; ++k) {  // the least disturbed of three, none of which was asked before
+      const Store fresh = Store::open_reader(folder);
       const faultsim::Stopwatch one;
-      query();
+      query(fresh);
       seconds = std::min(seconds, one.seconds());
     }
     std::printf("%s: %.1f ms\n", what, 1e3 * seconds);
     constexpr double kMost = 0.4;
     EXPECT_LT(seconds, kMost * whole) << what;
   };
-  timed("campaign", [&] { reader.campaign(""); });
+  timed("campaign", [&](const Store& fresh) { fresh.campaign(""); });
   Store::RankingQuery query;
   query.limit = 20;
-  timed("rank, default order", [&] { reader.ranking(campaign, query); });
+  timed("rank, default order", [&](const Store& fresh) { fresh.ranking(campaign, query); });
   query.by = {metric_sql("chi_max"), {}};
-  timed("rank by metric", [&] { reader.ranking(campaign, query); });
+  timed("rank by metric", [&](const Store& fresh) { fresh.ranking(campaign, query); });
   query.skip = kCases / 2;
-  timed("page in the middle, rank by metric", [&] { reader.ranking(campaign, query); });
+  timed("page in the middle, rank by metric",
+        [&](const Store& fresh) { fresh.ranking(campaign, query); });
   query.by = {};
-  timed("page in the middle, default order", [&] { reader.ranking(campaign, query); });
+  timed("page in the middle, default order",
+        [&](const Store& fresh) { fresh.ranking(campaign, query); });
   query.skip = 0;
   query.from_end = true;
-  timed("last page, default order", [&] { reader.ranking(campaign, query); });
+  timed("last page, default order", [&](const Store& fresh) { fresh.ranking(campaign, query); });
   query.from_end = false;
-  timed("count of rows", [&] { reader.class_counts(campaign, query); });
+  timed("count of rows", [&](const Store& fresh) { fresh.class_counts(campaign, query); });
   query.by = {parameter_sql(0, false), {}};
-  timed("rank by parameter", [&] { reader.ranking(campaign, query); });
+  timed("rank by parameter", [&](const Store& fresh) { fresh.ranking(campaign, query); });
   query.by = {};
   query.where = {parameter_sql(0, false) + " < ?", {Value(1000.0)}};
-  timed("rank where", [&] { reader.ranking(campaign, query); });
+  timed("rank where", [&](const Store& fresh) { fresh.ranking(campaign, query); });
   const std::int64_t f2 = reader.faults(campaign).at(1).id;
   const std::int64_t storage = reader.stages(campaign).at(3).id;
   query.fault = f2;
   query.stage = "gas_storage";
   query.where = {};
-  timed("rank of a fault and stage, default order", [&] { reader.ranking(campaign, query); });
+  timed("rank of a fault and stage, default order",
+        [&](const Store& fresh) { fresh.ranking(campaign, query); });
   query.by = {metric_sql("max_slip", true), {}};
-  timed("rank of a fault and stage by slip", [&] { reader.ranking(campaign, query); });
+  timed("rank of a fault and stage by slip",
+        [&](const Store& fresh) { fresh.ranking(campaign, query); });
   query.fault.reset();
   query.stage.clear();
   query.by = {};
   query.where = {metric_sql("slides", {.fault = f2, .stage = storage}, 0), {}};
-  timed("rank where a fault slides in a stage", [&] { reader.ranking(campaign, query); });
+  timed("rank where a fault slides in a stage",
+        [&](const Store& fresh) { fresh.ranking(campaign, query); });
   query.where = {"NOT " + query.where.text, {}};
-  timed("kinds", [&] { reader.kinds(campaign, {}); });
-  timed("faults", [&] { reader.faults(campaign); });
-  timed("show", [&] { reader.stored_case(campaign, "77777"); });
-  timed("failures", [&] { reader.failure_counts(campaign); });
-  timed("families", [&] { reader.family_progress(campaign); });
-  timed("stages", [&] { reader.stages(campaign); });
+  timed("kinds", [&](const Store& fresh) { fresh.kinds(campaign, {}); });
+  timed("faults", [&](const Store& fresh) { fresh.faults(campaign); });
+  timed("show", [&](const Store& fresh) { fresh.stored_case(campaign, "77777"); });
+  timed("failures", [&](const Store& fresh) { fresh.failure_counts(campaign); });
+  timed("families", [&](const Store& fresh) { fresh.family_progress(campaign); });
+  timed("stages", [&](const Store& fresh) { fresh.stages(campaign); });
   std::filesystem::remove_all(folder);
 }
 

@@ -287,6 +287,45 @@ TEST_F(StoreTest, RanksByAreaMomentMarginAndKeepsUnstableApart) {
   EXPECT_DOUBLE_EQ(rows[0].metrics.moment, 1e15 * 0.4 * 0.5);
 }
 
+/// Pages of an order by a score, from either end, are those of the store as it is now.
+TEST_F(StoreTest, PagesOfAnOrderAreThoseOfTheStoreAsItIs) {
+  Store store = Store::open_owner(folder_);
+  const std::int64_t campaign = store.submit(submission(6)).campaign;
+  const auto run = [&](std::int64_t id, double strength) {
+    store.record_runs(campaign, {completed(id, strength)});
+  };
+  for (int id = 1; id <= 5; ++id) run(id, 1 - 0.1 * id);
+  Store::RankingQuery query;
+  const auto places = [&] {
+    std::vector<long> order;
+    for (const RankedCase& row : store.ranking(campaign, query)) order.push_back(row.position);
+    return order;
+  };
+  for (const std::string& by : {metric_sql("chi_bar"), "-" + parameter_sql(0, false)}) {
+    query = {};
+    query.by = {by + " + ?", {Value(1.0)}};
+    EXPECT_THAT(places(), ElementsAre(1, 2, 3, 4, 5));
+    query.limit = 2, query.skip = 1;
+    EXPECT_THAT(places(), ElementsAre(2, 3));
+    query.from_end = true;
+    EXPECT_THAT(places(), ElementsAre(3, 4));
+    query.ascending = true;
+    EXPECT_THAT(places(), ElementsAre(3, 2));
+    query.skip = 9;
+    EXPECT_THAT(places(), IsEmpty());
+  }
+  query = {};
+  query.by = {metric_sql("chi_bar"), {}};
+  query.limit = 1;
+  EXPECT_THAT(places(), ElementsAre(1));
+  run(6, 0.95);
+  EXPECT_THAT(places(), ElementsAre(6));
+  query.by = {"? * " + metric_sql("chi_bar"), {Value(-1.0)}};
+  EXPECT_THAT(places(), ElementsAre(5));
+  query.by.parameters = {Value(1.0)};
+  EXPECT_THAT(places(), ElementsAre(6)) << "the same words with another value";
+}
+
 TEST_F(StoreTest, RollsBackWhatIsNotCommitted) {
   Store store = Store::open_owner(folder_);
   const std::int64_t campaign = store.submit(submission(3)).campaign;
@@ -310,6 +349,10 @@ TEST_F(StoreTest, CountsOperatorsBuiltAndFound) {
   ASSERT_EQ(families.size(), 2u);
   EXPECT_EQ(families[0].operator_fingerprint, "op");
   EXPECT_EQ(families[0].build_seconds, 12.5);
+  EXPECT_EQ(families[0].peak_bytes, 1 << 20);
+  store.record_operator(store.waiting_families(campaign)[1].family,
+                        {"other", true, 0.1, 1000, 100, 80000, 1 << 19});
+  EXPECT_FALSE(store.family_progress(campaign)[1].peak_bytes) << "to read it takes less";
   EXPECT_EQ(store.waiting_families(campaign)[0].operator_fingerprint, "op");
 }
 

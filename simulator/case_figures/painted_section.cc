@@ -1,0 +1,122 @@
+#include "simulator/case_figures/painted_section.h"
+
+#include <algorithm>
+
+#include "simulator/case_figures/chosen.h"
+#include "simulator/case_figures/stored_line.h"
+#include "simulator/common/dates.h"
+#include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
+#include "simulator/figure/axis.h"
+
+namespace faultsim::case_figures {
+namespace {
+
+using figure::plain_number;
+
+/// Where the section lies along the faults, and in words why there.
+struct SectionPlace {
+  double y = 0;  ///< m.
+  std::string why;
+};
+
+/// The line on which χ is largest in the whole case; none where its fields were not kept.
+std::optional<SectionPlace> critical_line(const CasePicture& picture) {
+  const CriticalMoment moment = critical_moment(picture.result);
+  Chosen chosen{picture, {}, moment.fault, moment.step};
+  const FieldSource* file = picture.fields;
+  if (file == nullptr || file->steps().empty()) return std::nullopt;
+  const auto f = place_of(mapped(file->faults(), &StoredFault::name), chosen.fault_name());
+  if (!f || !contains(file->faults()[*f].split, 1)) return std::nullopt;
+  const StoredFault& fault = file->faults()[*f];
+  const auto most = most_critical(fault, file->critical_index(*f, stored_entry(chosen)));
+  constexpr double kInside = 0.5;  // m: half of what a section at y is wide
+  const double half = picture.scene.field.block_length / 2 - kInside;
+  return SectionPlace{std::clamp(fault.points(1, static_cast<Eigen::Index>(most)), -half, half),
+                      concat(", where χ of ", chosen.fault_name(), " is largest")};
+}
+
+SectionPlace place_of_section(const CasePicture& picture) {
+  if (picture.result.plane_strain) return {picture.scene.pressure_field.y, ""};
+  return critical_line(picture).value_or(SectionPlace{0, ", the middle"});
+}
+
+bool has_pressures(const CasePicture& picture) {
+  return picture.scene.geometry_kind == GeometryKind::field &&
+         picture.scene.pressure_field.is_given() && n_steps_of(picture.result) > 0;
+}
+
+/// Widens the scale to hold a case's changes at all its load steps.
+void hold_all(const SectionPressures& pressures, const CaseResult& result,
+              figure::FaceColours& colours) {
+  for (std::size_t k = 0; k < n_steps_of(result); ++k) {
+    for (std::size_t b = 0; b < pressures.n_blocks(); ++b)
+      for (const double change : pressures.at(b, result.steps[k].time))
+        colours.hold(change / kBarInPascal);
+  }
+}
+
+std::string metres(double length) { return plain_number(length, 4) + " m"; }
+
+std::vector<std::string> words_of(const CasePicture& picture, const SectionPlace& place,
+                                  const SectionPressures& pressures, bool has_original) {
+  const FlowLoad& load = picture.scene.pressure_field;
+  if (pressures.n_covered() == 0) {
+    return {concat("nothing is painted: the flow grid does not reach the reservoirs at y = ",
+                   metres(place.y), place.why)};
+  }
+  const double since = load.field->date[static_cast<std::size_t>(load.reference)];
+  std::vector<std::string> words = {
+      concat("in reservoirs: change of the flow result's pressure since ", date_text(since),
+             " (negative: it fell), at y = ", metres(place.y), place.why),
+      concat("means over pieces of at most ", plain_number(pressures.width()), " m × ",
+             plain_number(pressures.height()), " m; ", same_scale_words(picture, has_original))};
+  if (pressures.n_covered() < pressures.n_all()) {
+    words.push_back(
+        concat("hatched: pieces of which less than half lies in the flow grid; beyond it ",
+               load.outside == OutsideRule::nearest ? "the nearest flow cell's change acts"
+                                                    : "pressures do not change"));
+  }
+  return words;
+}
+
+}  // namespace
+
+PaintedSection::PaintedSection(const CasePicture& picture) {
+  if (!has_pressures(picture)) return;
+  painted_.emplace();
+  const SectionPlace place = place_of_section(picture);
+  try {
+    pressures_.emplace(picture.scene, place.y);
+    figure::FaceColours& colours = painted_->colours;
+    colours.kind = figure::FaceColours::Kind::change;
+    if (pressures_->n_covered() > 0) colours.label = "Δp, bar";
+    hold_all(*pressures_, picture.result, colours);
+    const bool has_original = picture.original != nullptr && has_pressures(*picture.original);
+    if (has_original) {
+      const CasePicture& original = *picture.original;
+      hold_all({original.scene, place_of_section(original).y}, original.result, colours);
+    }
+    painted_->words = words_of(picture, place, *pressures_, has_original);
+  } catch (const InputError& error) {
+    pressures_.reset();
+    painted_ = figure::Section::Painted{
+        {}, {concat("pressures are not painted: ", error.problems().front().what)}};
+  }
+}
+
+void PaintedSection::paint(double time, figure::Section& section) const {
+  section.painted = painted_;
+  if (!pressures_) return;
+  std::size_t block = 0;  // reservoirs stand in the order of their blocks
+  for (figure::Section::Rock& rock : section.rocks) {
+    if (!rock.is_reservoir) continue;
+    rock.pieces.clear();
+    const std::vector<double> change = pressures_->at(block, time);
+    for (std::size_t k = 0; k < change.size(); ++k)
+      rock.pieces.push_back({pressures_->corners(block, k), change[k] / kBarInPascal});
+    ++block;
+  }
+}
+
+}  // namespace faultsim::case_figures
