@@ -73,7 +73,8 @@ ExitCode certify(const StoreArguments& common, const CertifyRequest& request) {
     spec["operators"] = {{"exact_rows", rows}};
     spec["name"] = campaign.name + "-exact";
   }
-  const Submission submission = make_submission(expand(parse_campaign(spec.dump(), source)));
+  const Submission submission =
+      without_shown_fields(make_submission(expand(parse_campaign(spec.dump(), source))));
   const SubmittedRun run = submit_and_run(
       submission,
       {.store = common.store, .n_workers = request.n_workers, .simulator = simulator_binary()});

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "campaign/app/commands.h"
+#include "campaign/query/ranking.h"
 #include "campaign/rounds/next_round.h"
 #include "campaign/scheduler/ranks.h"
 #include "campaign/scheduler/slurm_script.h"
@@ -29,6 +30,9 @@ ExitCode run(const StoreArguments& common, const RunArguments& arguments) {
   options.campaign = common.campaign;
   if (options.simulator.empty()) options.simulator = simulator_binary();
   options.next_round = add_next_round;
+  options.shown_first = [](const Store& store, const CampaignInfo& campaign) {
+    return cases_ranked_first(store, campaign);
+  };
   if (is_rank()) return run_ranks(arguments.argc, arguments.argv, options);
   const ExitCode status = start_ranks(options);
   const std::string name = Store::open_reader(common.store).campaign(options.campaign).name;

@@ -11,6 +11,7 @@
 #include "campaign/query/parameters.h"
 #include "campaign/render/render.h"
 #include "campaign/render/shown.h"
+#include "campaign/reports/case_report.h"
 #include "campaign/rounds/next_round.h"
 #include "campaign/scheduler/resources.h"
 #include "campaign/store/clock.h"
@@ -119,9 +120,9 @@ std::string report_to_text(const SubmitReport& report) {
              counted(s.families.size(), "family", "families"), "; ", report.expansion.n_designed,
              " designed, ", s.n_excluded, " excluded, ", s.n_merged, " merged as the same, ",
              report.outcome.n_cached, " have a result already\n");
-  if (s.keep_fields != KeepFields::none) {
-    text += concat("fault fields are kept (", to_string(s.keep_fields), ")");
-    if (report.outcome.n_fields > 0) {
+  if (const KeepFields keep = report.outcome.keep_fields; keep != KeepFields::none) {
+    text += kept_fields_text(keep);
+    if (are_of_all_cases(keep) && report.outcome.n_fields > 0) {
       text += concat("; ", report.outcome.n_fields,
                      " cases with a result lack them and are run again for them alone");
     }
@@ -147,7 +148,7 @@ json report_to_json(const SubmitReport& report) {
           {"excluded", excluded},
           {"merged", s.n_merged},
           {"cached", report.outcome.n_cached},
-          {"keep_fields", to_string(s.keep_fields)},
+          {"keep_fields", to_string(report.outcome.keep_fields)},
           {"for_fields_only", report.outcome.n_fields},
           {"parameters", json::parse(parameters_to_json(s.parameters))},
           {"families", json_rows(families_table(report))},
@@ -189,8 +190,11 @@ struct SubmitArguments {
 };
 
 SubmitOutcome preview(const std::filesystem::path& store, const Submission& submission) {
-  if (!std::filesystem::exists(store / "campaign.sqlite")) return {};
-  return Store::open_reader(store).preview(submission);
+  if (std::filesystem::exists(store / "campaign.sqlite"))
+    return Store::open_reader(store).preview(submission);
+  SubmitOutcome outcome;
+  outcome.keep_fields = submission.keep_fields;
+  return outcome;
 }
 
 SubmitOutcome stored(const std::filesystem::path& folder, const Submission& submission) {

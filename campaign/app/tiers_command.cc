@@ -67,7 +67,8 @@ ExitCode tiers(const StoreArguments& common, const TiersArguments& arguments) {
   for (const bool is_high : {false, true}) {  // both are checked before anything runs
     const ordered_json spec =
         spec_at(given, arguments.tiers[is_high ? 1 : 0], is_high ? arguments.budget : 0);
-    submissions.push_back(make_submission(expand(parse_campaign(spec.dump(), arguments.source))));
+    submissions.push_back(without_shown_fields(
+        make_submission(expand(parse_campaign(spec.dump(), arguments.source)))));
   }
   for (const Submission& one : submissions) {
     RunOptions options = arguments.run;

@@ -164,7 +164,7 @@ ExitCode tradeoff(const StoreArguments& common, const TradeoffArguments& argumen
     return ExitCode::done;
   }
   const auto [name, status] = submit_and_run(
-      make_submission(expansion),
+      without_shown_fields(make_submission(expansion)),
       {.store = common.store, .n_workers = arguments.n_workers, .simulator = simulator_binary()});
   if (!has_results(status)) return status;
 

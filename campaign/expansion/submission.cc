@@ -119,4 +119,9 @@ Submission make_submission(const Expansion& expansion, CaseDetail cases) {
   return submission;
 }
 
+Submission without_shown_fields(Submission submission) {
+  if (submission.keep_fields == KeepFields::shown) submission.keep_fields = KeepFields::none;
+  return submission;
+}
+
 }  // namespace faultsweep

@@ -11,4 +11,8 @@ namespace faultsweep {
 enum class CaseDetail { identity, whole };
 Submission make_submission(const Expansion& expansion, CaseDetail cases = CaseDetail::whole);
 
+/// For campaigns that a command runs for an answer of its own, in which nobody looks at cases:
+/// fields of those ranked first are not kept. What the spec asks for itself stays.
+Submission without_shown_fields(Submission submission);
+
 }  // namespace faultsweep

@@ -16,6 +16,7 @@
 #include "campaign/figures/how_sure.h"
 #include "campaign/query/parameters.h"
 #include "campaign/render/render.h"
+#include "campaign/reports/case_report.h"
 #include "campaign/reports/ranking_answer.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/figure/axis.h"
@@ -135,6 +136,14 @@ void add_case(Report& report, long position) {
   const std::string settings = settings_text(one.parameters, report.campaign.parameters);
   report.page.heading(concat("Case ", position, ": ", settings));
   add_case_part(report.page, stored.picture(), position);
+  if (stored.picture().fields != nullptr) return;
+  const std::string why = fields_sentence(report.campaign, one);
+  report.page.paragraph(
+      concat(
+          "Depth profiles, fault map and stress path are drawn from the fault fields of the case, ",
+          why.empty() ? "which were not kept (keep_fields in the spec: stages keeps those of all)."
+                      : concat("which are not there: ", why, ".")),
+      "faint");
 }
 
 void add_cases(Report& report, const std::vector<RankedCase>& rows) {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "campaign/store/store.h"
+#include "campaign/query/ranking.h"
 
 namespace faultsweep {
 
@@ -13,7 +13,7 @@ namespace faultsweep {
 struct ReportRequest {
   std::string program;       ///< with version and commit, for the provenance.
   double confidence = 0.95;  ///< of all intervals.
-  long top = 3;              ///< cases that are drawn.
+  long top = kShownFirst;    ///< cases that are drawn.
 };
 
 std::string report_page(const Store& store, const CampaignInfo& campaign,

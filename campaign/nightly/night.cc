@@ -188,7 +188,8 @@ class Night {
   }
 
   void run_campaign(const std::string& spec) {
-    tonight_.push_back(run_submission(make_submission(expand(read_campaign(spec)))));
+    tonight_.push_back(
+        run_submission(without_shown_fields(make_submission(expand(read_campaign(spec))))));
     for (const NightCase& one : tonight_.back().cases) {
       if (!one.result) {
         in_the_way_.push_back(

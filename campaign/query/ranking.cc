@@ -96,14 +96,13 @@ ShownUnit unit_of_scores(const std::string& by, const Store::Kinds& kinds,
   return shown_unit(found->second.dimension, per_metre);
 }
 
-}  // namespace
-
-Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankRequest request) {
+/// What the store is asked; what is known of it before it answers goes into `ranking`.
+Store::RankingQuery ranking_query(const Store& store, const CampaignInfo& campaign,
+                                  RankRequest request, Ranking& ranking) {
   const bool own_choice = request.by.empty();
   if (own_choice) request.by = campaign.rank_by.empty() ? kDefaultMetric : campaign.rank_by;
   const Selection selection = make_selection(store, campaign, request.stage, request.fault);
   Store::RankingQuery query;
-  Ranking ranking;
   ranking.campaign = campaign;
   ranking.request = request;
   ranking.by_default = request.by == kDefaultMetric && !request.ascending;
@@ -129,6 +128,23 @@ Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankReque
   }
   if (!extensive.empty()) refuse_mixed(ranking.kinds, "--by", extensive);
   ranking.by_unit = unit_of_scores(request.by, ranking.kinds, selection);
+  return query;
+}
+
+}  // namespace
+
+std::vector<std::int64_t> cases_ranked_first(const Store& store, const CampaignInfo& campaign,
+                                             long n) {
+  Ranking ranking;
+  RankRequest request;
+  request.top = n;
+  return mapped(store.ranking(campaign.id, ranking_query(store, campaign, request, ranking)),
+                &RankedCase::id);
+}
+
+Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankRequest request) {
+  Ranking ranking;
+  const Store::RankingQuery query = ranking_query(store, campaign, request, ranking);
   if (request.skip) ranking.n_rows = store.class_counts(campaign.id, query);
   ranking.rows = page_of(store, campaign, ranking, query);
   const bool all = request.skip.value_or(0) == 0 &&

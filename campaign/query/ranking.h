@@ -60,6 +60,14 @@ struct Ranking {
 /// the campaign's own order would, plane-strain cases are left out.
 Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankRequest request);
 
+/// How many cases reports and pages show in pictures: those ranked first in the campaign's own
+/// order.
+inline constexpr long kShownFirst = 3;
+/// The ids of the cases that the campaign's own ranking has first, at most `n`. Throws as
+/// make_ranking, of which this is the beginning without what is said beside it.
+std::vector<std::int64_t> cases_ranked_first(const Store& store, const CampaignInfo& campaign,
+                                             long n = kShownFirst);
+
 /// How many results of a campaign have an interpolated operator or a flow result that covers the
 /// compartments in part, with the worst measured errors: what answers over them say. "" = none.
 std::string approximation_note(const Store& store, const CampaignInfo& campaign);

@@ -7,6 +7,7 @@
 #include "campaign/common/names.h"
 #include "campaign/expansion/expansion.h"
 #include "campaign/query/parameters.h"
+#include "campaign/query/ranking.h"
 #include "campaign/query/selection.h"
 #include "campaign/render/shown.h"
 #include "simulator/common/printable.h"
@@ -29,7 +30,7 @@ void check_request(const CaseResult& result, const ShowRequest& request) {
 ordered_json fields_json(const CampaignInfo& campaign, const StoredCase& one) {
   if (one.fields == FieldsState::none) return nullptr;
   const bool gone = one.fields == FieldsState::kept && !fields_are_there(one.fields_folder);
-  return {{"steps", to_string(campaign.keep_fields)},
+  return {{"steps", to_string(steps_of(campaign.keep_fields))},
           {"state", gone ? "gone" : to_string(one.fields)},
           {"folder", one.fields_folder.string()}};
 }
@@ -104,6 +105,13 @@ ordered_json facts_of(const ShownCase& shown) {
 
 }  // namespace
 
+std::string kept_fields_text(KeepFields keep) {
+  static_assert(kShownFirst == 3);
+  if (keep == KeepFields::none) return "";
+  if (keep == KeepFields::shown) return "fault fields of the three cases ranked first are kept";
+  return concat("fault fields are kept (", to_string(keep), ")");
+}
+
 std::string fields_sentence(const CampaignInfo& campaign, const StoredCase& stored) {
   switch (stored.fields) {
     case FieldsState::none:
@@ -117,8 +125,10 @@ std::string fields_sentence(const CampaignInfo& campaign, const StoredCase& stor
       break;
   }
   if (!fields_are_there(stored.fields_folder)) {
-    return concat("fault fields: gone from ", stored.fields_folder.string(), "; `faultsweep run ",
-                  campaign.name, "` writes them again");
+    return concat(
+        "fault fields: gone from ", stored.fields_folder.string(), "; `faultsweep run ",
+        campaign.name, "` writes them again",
+        campaign.keep_fields == KeepFields::shown ? " if the case is still ranked first" : "");
   }
   return concat("fault fields (",
                 campaign.keep_fields == KeepFields::all ? "all load steps"

@@ -35,6 +35,9 @@ ShownCase shown_case(const Store& store, const CampaignInfo& campaign, const Sto
 /// Throws InputError on a stage or fault that its result does not have.
 Answer to_answer(const ShownCase& shown);
 
+/// Which fault fields a campaign keeps: "fault fields of the three cases ranked first are kept"; ""
+/// = none.
+std::string kept_fields_text(KeepFields keep);
 /// Where the fault fields of a case are, or why not; "" where none were asked for.
 std::string fields_sentence(const CampaignInfo& campaign, const StoredCase& stored);
 

@@ -33,7 +33,9 @@ std::string verdict_if_open(const CampaignInfo& campaign, const StoredCase& one)
   }
   if (one.state == "done" && one.fields == FieldsState::kept &&
       !fields_are_there(one.fields_folder)) {
-    return "will run, for its fault fields only: their files are gone";
+    return concat("will run, for its fault fields only",
+                  campaign.keep_fields == KeepFields::shown ? ", if it is still ranked first" : "",
+                  ": their files are gone");
   }
   if (one.state == "done") {
     return concat("will not run: it has a result (", to_string(one.result.outcome), ") from ",

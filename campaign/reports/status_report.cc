@@ -5,6 +5,7 @@
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
 #include "campaign/render/shown.h"
+#include "campaign/reports/case_report.h"
 #include "campaign/store/clock.h"
 
 namespace faultsweep {
@@ -24,7 +25,7 @@ StatusReport make_status(const Store& store, const std::string& campaign) {
     }
   }
   const CaseCounts& counts = status.campaign;
-  if (counts.n_failed > 0 || counts.n_done > counts.n_complete()) {
+  if (counts.n_failed > 0 || counts.n_fields_failed > 0 || counts.n_done > counts.n_complete()) {
     status.failures = store.failure_counts(status.campaign.id);
   }
   status.rounds = store.rounds(status.campaign.id);
@@ -103,8 +104,21 @@ std::string rounds_note(const StatusReport& status) {
                 conclusion.empty() ? status.rounds.back().reason : conclusion);
 }
 
+/// "fault fields of the three cases ranked first are kept; 2 cases have them, of 1 they ...".
+std::string shown_fields_note(const CampaignInfo& c) {
+  std::string text = kept_fields_text(c.keep_fields);
+  if (c.n_waiting > 0) return text + " once all are decided";
+  text += concat("; ", counted(c.n_fields_kept, "case has", "cases have"), " them");
+  if (c.n_fields_waiting > 0)
+    text += concat(", of ", c.n_fields_waiting, " they are not written yet");
+  if (c.n_fields_failed == 0) return text;
+  return concat(text, ", of ", c.n_fields_failed, " they could not be written: `faultsweep retry ",
+                c.name, "` lets them be tried again");
+}
+
 std::string fields_note(const CampaignInfo& c) {
   if (c.keep_fields == KeepFields::none) return "";
+  if (c.keep_fields == KeepFields::shown) return shown_fields_note(c);
   const std::string kept = concat("fault fields: ", to_string(c.keep_fields));
   const long n_lacking = c.n_fields_waiting + c.n_fields_failed;
   if (n_lacking == 0) return kept;
@@ -138,9 +152,12 @@ AnswerTable workers_table(const StatusReport& status) {
   return table;
 }
 
-AnswerTable failures_table(const std::vector<FailureCount>& failures) {
+AnswerTable failures_table(const StatusReport& status) {
+  const std::vector<FailureCount>& failures = status.failures;
   AnswerTable table{"failures",
-                    failures.empty() ? "" : "without a full result:",
+                    failures.empty()                       ? ""
+                    : status.campaign.n_fields_failed == 0 ? "without a full result:"
+                                                           : "without a full result or its fields:",
                     {{"cases", "cases", {}, 4, Need::always},
                      {"status", "ended", {}, 4, Need::always},
                      {"reason", "why", {}, 4, Need::always}}};
@@ -240,7 +257,7 @@ Answer to_answer(const StatusReport& status) {
                                   fields_note(status.campaign), others_note(status.others)})
     answer.note_if(note);
   for (AnswerTable table :
-       {workers_table(status), failures_table(status.failures), families_table(status.families),
+       {workers_table(status), failures_table(status), families_table(status.families),
         rounds_table(status.rounds), events_table(status.events)})
     answer.add(std::move(table));
   return answer;

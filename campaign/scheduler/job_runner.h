@@ -15,6 +15,7 @@ struct Job {
   std::string changes;        ///< of the base scene: a JSON object, pointer -> value.
   std::string source;         ///< for messages and relative paths: "sweep/scene.json#case 17".
   std::string fields_folder;  ///< where its fault fields go; "" = they are not kept.
+  KeepFields keep_fields = KeepFields::none;  ///< which load steps of them.
   std::string identity = "";  ///< the simulator refuses a scene with another one; "" = any.
 };
 
@@ -25,8 +26,8 @@ struct FamilyTask {
   std::optional<double> operator_time_limit;  ///< s; none = by the prediction.
   double operator_seconds = 0;                ///< predicted.
   std::optional<double> memory_limit;
-  int threads = 1;  ///< of building the operator.
-  KeepFields keep_fields = KeepFields::none;
+  int threads = 1;                            ///< of building the operator.
+  KeepFields keep_fields = KeepFields::none;  ///< of the cases that come with it; not `shown`.
   std::string fields_folder;  ///< of the campaign, absolute; a case's is the one in it named CASE.
 };
 

@@ -106,7 +106,7 @@ void LocalRunner::send(const Job& job) {
                             ",\"changes\":", job.changes, ",\"source\":", json(job.source).dump());
   if (!job.identity.empty()) line += concat(",\"identity\":\"", job.identity, "\"");
   if (!job.fields_folder.empty()) {
-    const json fields = {{"folder", job.fields_folder}, {"steps", to_string(task_.keep_fields)}};
+    const json fields = {{"folder", job.fields_folder}, {"steps", to_string(job.keep_fields)}};
     line += ",\"fields\":" + fields.dump();
   }
   process_->send(line + "}");

@@ -6,6 +6,7 @@
 
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
+#include "campaign/scheduler/fields_choice.h"
 #include "campaign/store/same_numbers.h"
 #include "simulator/result/result_bytes.h"
 
@@ -13,7 +14,7 @@ namespace faultsweep {
 
 namespace {
 
-FamilyWork work_of(const WaitingFamily& waiting, const std::filesystem::path& operators) {
+FamilyWork work_of(const WaitingFamily& waiting, const Store& store) {
   FamilyWork work;
   work.id = waiting.family;
   work.name = waiting.predicted.fingerprint;
@@ -22,9 +23,7 @@ FamilyWork work_of(const WaitingFamily& waiting, const std::filesystem::path& op
   work.case_seconds = waiting.seconds_per_case.value_or(0);
   work.memory_bytes = waiting.predicted.memory_bytes;
   work.creeps = waiting.predicted.creeps();
-  work.operator_cached =
-      !work.creeps && !waiting.operator_fingerprint.empty() &&
-      std::filesystem::is_regular_file(operators / (waiting.operator_fingerprint + ".h5"));
+  work.operator_cached = !work.creeps && is_cached_operator(store, waiting.operator_fingerprint);
   return work;
 }
 
@@ -41,7 +40,12 @@ Manager::Manager(Store& store, Link& link, ProgressDisplay& display, const Optio
   campaign_ = store_.campaign(options.campaign);
   store_.claim_ownership(campaign_.id, n_workers());
   const long n_lost = store_.requeue_missing_fields(campaign_);
-  if (n_lost > 0) display_.note(concat("the fields of ", n_lost, " cases are gone: written again"));
+  if (n_lost > 0) {
+    display_.note(concat("the fields of ", counted(n_lost, "case", "cases"), " are gone: ",
+                         campaign_.keep_fields == KeepFields::shown
+                             ? "those of the cases ranked first are written again"
+                             : "written again"));
+  }
   fields_folder_ =
       std::filesystem::absolute(store_.fields_folder(campaign_.name)).lexically_normal();
   plan_ = std::make_unique<WorkPlan>(
@@ -71,7 +75,7 @@ void Manager::take_work() {
   n_incomplete_ = campaign_.n_done - campaign_.n_complete();
   std::vector<FamilyWork> work;
   for (const WaitingFamily& family : store_.waiting_families(campaign_.id)) {
-    work.push_back(work_of(family, store_.folder() / "operators"));
+    work.push_back(work_of(family, store_));
     fields_only_.insert(family.fields_only.begin(), family.fields_only.end());
   }
   plan_->add(std::move(work));
@@ -83,13 +87,44 @@ void Manager::take_work() {
 }
 
 bool Manager::take_next_round() {
-  if (plan_->stopped() || !options_.next_round) return false;
+  if (plan_->stopped() || chose_fields_ || !options_.next_round) return false;
   commit();
   if (!options_.next_round(store_, campaign_.name)) return false;
   const RoundRecord round = store_.rounds(campaign_.id).back();
   const std::string text = concat("next round, ", round.n_cases, " cases: ", round.reason);
   store_.record_event(campaign_.id, "round", text);
   display_.note(text);
+  take_work();
+  return true;
+}
+
+std::vector<std::int64_t> Manager::cases_shown_first() {
+  try {
+    return options_.shown_first(store_, campaign_);
+  } catch (const InputError& error) {  // an order that these results do not have
+    display_.note(concat("no fault fields are kept, as no case is ranked first: ", error.what()));
+    return {};
+  }
+}
+
+/// All is decided: now the fields of the cases that a report and the page show first.
+bool Manager::take_shown_fields() {
+  const bool wanted = campaign_.keep_fields == KeepFields::shown && options_.shown_first;
+  if (plan_->stopped() || chose_fields_ || !wanted) return false;
+  chose_fields_ = true;
+  commit();
+  const FieldsChoice choice = choose_fields(store_, campaign_, cases_shown_first());
+  const auto say = [&](const std::string& text) {
+    store_.record_event(campaign_.id, "fields", text);
+    display_.note(text);
+  };
+  for (const std::string& text : choice.left_out) say(text);
+  store_.want_fields(campaign_.id, choice.cases);
+  if (choice.cases.empty()) return false;
+  say(concat("all is decided; the fault fields of the cases ranked first follow: ",
+             joined(choice.positions, ", ")));
+  plan_->go_on_after_failures();
+  n_extras_left_ = std::ssize(choice.cases);
   take_work();
   return true;
 }
@@ -126,7 +161,7 @@ bool Manager::turn() {
   if (is_old || uncommitted_.size() >= kCommitRuns || !operators_.empty()) commit();
   beat();
   const bool over = plan_->is_finished() || interrupted_ || !trouble_.empty();
-  if (over && !draining_ && !take_next_round()) begin_drain();
+  if (over && !draining_ && !take_next_round() && !take_shown_fields()) begin_drain();
   if (!draining_) return true;
   if (!workers_are_drained() && since_drain_.seconds() < options_.patience) return true;
   commit();
@@ -194,8 +229,12 @@ void Manager::handle_result(int worker, JobEvents::Completed completed) {
     }
   }
   plan_->case_done(worker, run.case_id, run.wall_seconds);
-  ++campaign_.n_done;
-  if (!faultsim::in_equilibrium(run.result->outcome)) ++n_incomplete_;
+  if (is_extra(run.case_id)) {
+    --n_extras_left_;
+  } else {
+    ++campaign_.n_done;
+    if (!faultsim::in_equilibrium(run.result->outcome)) ++n_incomplete_;
+  }
   add_run(std::move(run));
 }
 
@@ -229,7 +268,9 @@ void Manager::handle_failure(int worker, const JobEvents::Failure& failure) {
              to_string(run.status), ": ", run.reason, run.final ? "" : "; it is tried again");
   store_.record_event(campaign_.id, "case failed", text);
   display_.note(text);
-  if (run.final) {
+  if (run.final && is_extra(run.case_id)) {
+    --n_extras_left_;
+  } else if (run.final) {
     ++campaign_.n_failed;
     if (campaign_.policy.on_failure == FailureAction::abort && !aborted_) {
       aborted_ = true;
@@ -245,7 +286,7 @@ void Manager::fail_hopeless() {
     run.case_id = id;
     run.reason = concat("not tried: the operator of its family failed ",
                         WorkPlan::kOperatorAttempts, " times, see the failed cases of that family");
-    ++campaign_.n_failed;
+    is_extra(id) ? --n_extras_left_ : ++campaign_.n_failed;
     add_run(std::move(run));
   }
 }
@@ -294,7 +335,10 @@ void Manager::send_work(int worker, const Slice& slice) {
   work.task.operator_time_limit = campaign_.policy.operator_time_limit;
   work.task.memory_limit = campaign_.policy.memory_limit;
   work.task.threads = options_.threads.value_or(plan_->build_threads(worker, cores_[worker]));
-  work.task.keep_fields = campaign_.keep_fields;
+  const bool extra = is_extra(slice.cases.front());  // then all of the slice are
+  work.task.keep_fields = campaign_.keep_fields != KeepFields::shown || extra
+                              ? steps_of(campaign_.keep_fields)
+                              : KeepFields::none;
   work.task.fields_folder = fields_folder_;
   work.task.operator_seconds = plan_->work(slice.family).operator_seconds;
   std::set<std::int64_t>& sent = scenes_sent_[worker];
@@ -379,10 +423,9 @@ std::string Manager::progress_json() const {
 
 ExitCode Manager::status() const {
   if (!trouble_.empty()) return ExitCode::world;
-  if (interrupted_ && campaign_.n_done + campaign_.n_failed < campaign_.n_cases)
-    return ExitCode::interrupted;
-  if (campaign_.n_done + campaign_.n_failed < campaign_.n_cases || campaign_.n_failed > 0 ||
-      n_incomplete_ > 0) {
+  const bool undecided = campaign_.n_done + campaign_.n_failed < campaign_.n_cases;
+  if (interrupted_ && (undecided || n_extras_left_ > 0)) return ExitCode::interrupted;
+  if (undecided || campaign_.n_failed > 0 || n_incomplete_ > 0) {
     return ExitCode::incomplete;
   }
   return ExitCode::done;

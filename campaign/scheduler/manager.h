@@ -26,6 +26,8 @@ class Manager {
     std::optional<int> threads = {};  ///< of building an operator; none = WorkPlan::build_threads.
     /// RunOptions::next_round, asked when all cases are decided.
     std::function<bool(Store&, const std::string&)> next_round = {};
+    /// RunOptions::shown_first, asked once, when no further round comes.
+    std::function<std::vector<std::int64_t>(const Store&, const CampaignInfo&)> shown_first = {};
   };
   /// Claims the store. Throws StorageError.
   Manager(Store& store, Link& link, ProgressDisplay& display, const Options& options);
@@ -66,6 +68,12 @@ class Manager {
   void fail_hopeless();
   void take_work();
   bool take_next_round();
+  bool take_shown_fields();
+  std::vector<std::int64_t> cases_shown_first();
+  /// The run adds fields to a case that counts as done without them.
+  bool is_extra(std::int64_t case_id) const {
+    return campaign_.keep_fields == KeepFields::shown && fields_only_.contains(case_id);
+  }
   void begin_drain();
   void beat();
   double seconds_left() const;
@@ -92,7 +100,9 @@ class Manager {
   faultsim::Stopwatch since_first_uncommitted_, since_beat_, since_look_, since_start_,
       since_drain_;
   long n_incomplete_ = 0, n_finished_now_ = 0;
+  long n_extras_left_ = 0;  ///< cases that lack no more than the fields of those shown first.
   int n_drained_ = 0;
+  bool chose_fields_ = false;  ///< of the cases shown first: nothing comes after them.
   bool busy_ = false, interrupted_ = false, draining_ = false, aborted_ = false, cancelled_ = false;
   std::string trouble_;
 };

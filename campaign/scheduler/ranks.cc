@@ -77,7 +77,8 @@ ExitCode manage(Messenger& messenger, const RunOptions& options, bool& in_order)
                   {.campaign = options.campaign,
                    .memory_bytes = memory,
                    .threads = options.threads,
-                   .next_round = options.next_round});
+                   .next_round = options.next_round,
+                   .shown_first = options.shown_first});
   IdleSleep idle(IdleSleep::kManagerLongest);
   while (manager.turn()) {
     if (stop_wanted != 0) manager.interrupt();

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "campaign/scheduler/progress.h"
 #include "simulator/common/exit_code.h"
@@ -11,6 +13,7 @@
 namespace faultsweep {
 
 class Store;
+struct CampaignInfo;
 
 /// What `faultsweep run` was asked.
 struct RunOptions {
@@ -30,6 +33,8 @@ struct RunOptions {
   ProgressDisplay::Style progress = ProgressDisplay::Style::lines;
   /// Adds the campaign's next round to the store; false = there is none. None = one round only.
   std::function<bool(Store&, const std::string& campaign)> next_round = {};
+  /// The cases of the campaign that are shown first, by id. None = no fields of such are kept.
+  std::function<std::vector<std::int64_t>(const Store&, const CampaignInfo&)> shown_first = {};
   std::filesystem::path status_file =
       {};  ///< of the ranks: where rank 0 leaves the campaign's status.
 };

@@ -84,6 +84,10 @@ class WorkPlan {
   /// The cases that still wait in families whose operator cannot be built (it failed
   /// kOperatorAttempts times); they are to be recorded as failed, and are forgotten here.
   std::vector<std::int64_t> take_hopeless();
+  /// From now on no failure stops it (FailureAction::abort): what follows is an extra.
+  void go_on_after_failures() {
+    if (limits_.on_failure == FailureAction::abort) limits_.on_failure = FailureAction::proceed;
+  }
   /// Hands out nothing any more.
   void stop() { stopped_ = true; }
   bool stopped() const { return stopped_; }

@@ -78,6 +78,7 @@ void Worker::take(const message::Work& work) {
       job.source = faultsim::concat(sources_.at(one.scene), "#case ", one.position);
       if (work.task.keep_fields != KeepFields::none) {
         job.fields_folder = faultsim::concat(work.task.fields_folder, '/', one.position);
+        job.keep_fields = work.task.keep_fields;
       }
       runner_.add(std::move(job));
     }

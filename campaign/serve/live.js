@@ -244,6 +244,12 @@ function add_steps(element, api, moved) {
     tell();
   });
 }
+const why_no_fields = {
+  none: "No fields of this case were kept (keep_fields in its spec: stages keeps those of all). ",
+  wanted: "The fields of this case are not written yet: faultsweep run writes them. ",
+  failed: "The fields of this case could not be written: its last attempt, below, says why. ",
+  gone: "The files with the fields of this case are gone. ",
+};
 const map_shows = ["chi", "slip", "state", "pressure"];
 /** Charts of one fault at the step, which need stored fields. */
 class FaultCharts {
@@ -286,8 +292,8 @@ async function show_case(campaign, number) {
     const one = JSON.parse(text);
     settings.textContent = settings_of(one);
     if (!one.result) return;
-    if (one.fields === null || one.fields === "") {
-      faults.element.replaceChildren(made("p", {class: "faint"}, "No fields of this case were kept (keep_fields in its spec). ",
+    if (!one.fields || one.fields.state !== "kept") {
+      faults.element.replaceChildren(made("p", {class: "faint"}, why_no_fields[one.fields ? one.fields.state : "none"],
         link("What if?", campaign, number, "what-if"), " runs it again and draws profiles, map and stress path of each fault."));
       add_steps(steps.element, api, () => {});
     } else {

@@ -138,7 +138,7 @@ std::string CampaignSpec::resolved() const {
                  {"derived", json::array()},
                  {"groups", json::array()}};
   // Only where it says something: specs that were stored before the key existed stay the same.
-  if (keep_fields != KeepFields::none) result["keep_fields"] = to_string(keep_fields);
+  if (keep_fields != KeepFields::shown) result["keep_fields"] = to_string(keep_fields);
   if (operators.kind != OperatorPolicy::Kind::exact) {
     result["operators"] = {{"policy", to_string(operators.kind)},
                            {"tolerance", operators.tolerance}};

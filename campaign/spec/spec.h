@@ -182,12 +182,13 @@ struct OperatorPolicy {
 };
 constexpr auto words(OperatorPolicy::Kind) { return std::array{"exact", "surface", "automatic"}; }
 
-/// `keep_fields`: the load steps whose fault fields are written for each case. No part of a case's
-/// identity.
+/// `keep_fields`: of which cases fault fields are written, and of which load steps. No part of a
+/// case's identity.
 enum class KeepFields {
   none,
-  stages,  ///< the ends of stages.
-  all,
+  shown,   ///< the ends of stages, of the cases that are shown first, once all are decided.
+  stages,  ///< the ends of stages, of all cases.
+  all,     ///< all load steps, of all cases.
 };
 /// `rounds`: a Monte Carlo sample that grows until a probability is known well enough.
 struct StagedSample {
@@ -212,7 +213,15 @@ struct LimitSearch {
   std::vector<double> scan;  ///< values of the coarse scan in `unit`, one way.
 };
 
-constexpr auto words(KeepFields) { return std::array{"none", "stages", "all"}; }
+constexpr auto words(KeepFields) { return std::array{"none", "shown", "stages", "all"}; }
+/// Each case is to have its fields, and waits until it has.
+constexpr bool are_of_all_cases(KeepFields keep) {
+  return keep == KeepFields::stages || keep == KeepFields::all;
+}
+/// The load steps that are written of a case whose fields are kept: `stages` or `all`.
+constexpr KeepFields steps_of(KeepFields keep) {
+  return keep == KeepFields::shown ? KeepFields::stages : keep;
+}
 
 struct CampaignSpec {
   std::string name;  ///< [A-Za-z0-9._-]+
@@ -227,7 +236,7 @@ struct CampaignSpec {
   std::vector<SpecIdentifier> identifiers;  ///< what exclude and derived may name.
   Policy policy;
   std::string rank_by = "activated_area";  ///< an expression over metrics.h.
-  KeepFields keep_fields = KeepFields::none;
+  KeepFields keep_fields = KeepFields::shown;
   OperatorPolicy operators;
   std::optional<StagedSample> staged_sample;  ///< none = its design is all there is.
   /// Of `limits`. The group's last design then varies one of their parameters at a time.

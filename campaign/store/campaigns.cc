@@ -37,18 +37,24 @@ bool has_cases(Connection& db, std::int64_t campaign, const std::vector<CaseReco
   return !query.step();
 }
 
-/// The campaign that is this submission, or a name that is free; nothing is counted.
+/// The campaign that is this submission, or a name that is free; nothing is counted. A campaign of
+/// before the default changed, or that a command ran for itself, may keep other fields.
 SubmitOutcome find_place(Connection& db, const Submission& submission) {
   constexpr int kMostRevisions = 100000;  // names NAME-2, NAME-3, ...: far beyond use
   const std::string resolved = faultsim::fingerprint(submission.spec_resolved);
   for (int revision = 1; revision < kMostRevisions; ++revision) {
     const std::string name =
         revision == 1 ? submission.name : concat(submission.name, '-', revision);
-    const auto found = db.find<std::tuple<std::int64_t, std::string>>(
-        "SELECT id, spec_resolved_hash FROM campaigns WHERE name = ?", name);
-    if (!found) return {0, name, false};
-    const auto& [id, hash] = *found;
-    if (hash == resolved && has_cases(db, id, submission.cases)) return {id, name, true};
+    const auto found = db.find<std::tuple<std::int64_t, std::string, std::string>>(
+        "SELECT id, spec_resolved_hash, keep_fields FROM campaigns WHERE name = ?", name);
+    if (!found) return {.name = name, .keep_fields = submission.keep_fields};
+    const auto& [id, hash, kept] = *found;
+    if (hash == resolved && has_cases(db, id, submission.cases)) {
+      return {.campaign = id,
+              .name = name,
+              .existed = true,
+              .keep_fields = stored_word<KeepFields>(kept, "keep_fields")};
+    }
   }
   throw StorageError(concat("too many campaigns are called ", submission.name));
 }
@@ -159,7 +165,7 @@ long Store::add_round(std::int64_t campaign, const Submission& submission,
       campaign);
   CaseAdder adder(
       db, campaign, first - 1,
-      submission.keep_fields == KeepFields::none ? FieldsState::none : FieldsState::wanted);
+      are_of_all_cases(submission.keep_fields) ? FieldsState::wanted : FieldsState::none);
   std::vector<long> positions;
   for (const CaseRecord& one : submission.cases) {
     positions.push_back(adder.add(one, families.at(one.family), scenes.at(one.scene)));
@@ -242,7 +248,8 @@ SubmitOutcome Store::submit(const Submission& submission) {
 
 std::map<std::int64_t, CaseCounts> count_by_family(Connection& connection, std::int64_t campaign) {
   Statement query = connection.prepared(
-      "SELECT family_id, state, coalesce(outcome, ''), lacks_only_fields FROM campaign_case_states"
+      "SELECT family_id, state, coalesce(outcome, ''), lacks_only_fields, fields"
+      " FROM campaign_case_states"
       " WHERE campaign_id = ?");
   query.bind(campaign);
   std::map<std::int64_t, CaseCounts> all;
@@ -258,8 +265,10 @@ std::map<std::int64_t, CaseCounts> count_by_family(Connection& connection, std::
     counts.n_converged += done && outcome == "converged";
     counts.n_event += done && outcome == "event";
     counts.n_unresolved += done && outcome == "unresolved_event";
-    counts.n_fields_failed += lacks_only_fields && failed;
-    counts.n_fields_waiting += lacks_only_fields && !failed;
+    const std::string fields = query.text(4);
+    counts.n_fields_failed += lacks_only_fields && fields == "failed";
+    counts.n_fields_waiting += lacks_only_fields && fields == "wanted";
+    counts.n_fields_kept += done && fields == "kept";
   }
   return all;
 }
@@ -274,6 +283,7 @@ CaseCounts& CaseCounts::operator+=(const CaseCounts& more) {
   n_unresolved += more.n_unresolved;
   n_fields_waiting += more.n_fields_waiting;
   n_fields_failed += more.n_fields_failed;
+  n_fields_kept += more.n_fields_kept;
   return *this;
 }
 
@@ -292,7 +302,7 @@ SubmitOutcome Store::preview(const Submission& submission) const {
   for (const CaseRecord& one : submission.cases) {
     outcome.n_cached += query.bind(one.identity).step() ? 1 : 0;
   }
-  if (submission.keep_fields != KeepFields::none) outcome.n_fields = outcome.n_cached;
+  if (are_of_all_cases(submission.keep_fields)) outcome.n_fields = outcome.n_cached;
   return outcome;
 }
 

@@ -15,6 +15,7 @@
 #include "store_16_sql.h"
 #include "store_17_sql.h"
 #include "store_18_sql.h"
+#include "store_19_sql.h"
 #include "store_2_sql.h"
 #include "store_3_sql.h"
 #include "store_4_sql.h"
@@ -133,6 +134,7 @@ const std::vector<Migration>& store_migrations() {
         {16, "2026-11-25 how exact results are", faultsim::embedded::store_16_sql},
         {17, "2026-11-25 errors of stability limits", faultsim::embedded::store_17_sql},
         {18, "2026-11-26 cases on surfaces", faultsim::embedded::store_18_sql},
+        {19, "2026-11-27 fields of the cases shown first", faultsim::embedded::store_19_sql},
     };
     for (std::size_t k = 0;; ++k) {  // versions are without gaps from 1
       const int version = static_cast<int>(k) + 1;

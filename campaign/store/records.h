@@ -118,23 +118,30 @@ struct SubmitOutcome {
   bool existed = false;  ///< the very same campaign is there already: nothing was added.
   long n_cached = 0;     ///< cases with a result from earlier.
   long n_fields = 0;     ///< of these: to be run again, for their fields only.
+  /// The submission's, or that of the campaign that is there.
+  KeepFields keep_fields = KeepFields::none;
 };
 
 /// How the cases of a campaign, or of one of its families, stand.
 struct CaseCounts {
   long n_cases = 0, n_done = 0, n_failed = 0, n_waiting = 0;
-  long n_converged = 0;       ///< of done.
-  long n_event = 0;           ///< of done: complete, with slip events.
-  long n_unresolved = 0;      ///< of done: complete, but the size of the events is the mesh's.
-  long n_fields_waiting = 0;  ///< of waiting: those with a result, for their fields only.
-  long n_fields_failed = 0;   ///< of failed: those with a result.
+  long n_converged = 0;   ///< of done.
+  long n_event = 0;       ///< of done: complete, with slip events.
+  long n_unresolved = 0;  ///< of done: complete, but the size of the events is the mesh's.
+  /// Of waiting: those with a result, for their fields only; of done where only the fields of the
+  /// cases shown first are kept.
+  long n_fields_waiting = 0;
+  /// Of failed: those with a result whose fields could not be added; of done in the same place.
+  long n_fields_failed = 0;
+  long n_fields_kept = 0;  ///< of done.
   /// Done with a history to its end.
   long n_complete() const { return n_converged + n_event + n_unresolved; }
   CaseCounts& operator+=(const CaseCounts& more);
 };
 
 /// A campaign in short. Counts are those of the campaign: a case whose fields it still wants waits,
-/// one whose fields could not be added has failed, although both have a result.
+/// one whose fields could not be added has failed, although both have a result; not so where only
+/// the fields of the cases shown first are kept (KeepFields::shown), which are an extra.
 struct CampaignInfo : CaseCounts {
   std::int64_t id = 0;
   std::string name;
@@ -157,6 +164,16 @@ struct WaitingFamily {
   std::optional<double> seconds_per_case;  ///< mean of what this family's cases took.
   std::vector<std::int64_t> cases;         ///< ids, by position.
   std::vector<std::int64_t> fields_only;   ///< those of them that have a result already.
+};
+
+/// A case with a result, by what a further run for its fields would take.
+struct DecidedCase {
+  long position = 0;
+  FieldsState fields = FieldsState::none;
+  double seconds = 0;                ///< that the run took which decided it.
+  double operator_seconds = 0;       ///< of building its operator: measured, or else predicted.
+  std::string operator_fingerprint;  ///< "" = not known.
+  bool creeps = false;               ///< see FamilyRecord.
 };
 
 /// What is needed to run a case.

@@ -14,7 +14,8 @@ std::vector<WaitingFamily> Store::waiting_families(std::int64_t campaign) const 
       " f.predicted_operator_s, f.predicted_memory_bytes, coalesce(f.operator, ''), s.case_id,"
       " s.lacks_only_fields, f.n_operators FROM campaign_case_states s JOIN families f ON f.id = "
       "s.family_id"
-      " WHERE s.campaign_id = ? AND s.state = 'waiting' ORDER BY f.id, s.position");
+      " WHERE s.campaign_id = ? AND (s.state = 'waiting'"
+      " OR (s.lacks_only_fields AND s.fields = 'wanted')) ORDER BY f.id, s.position");
   query.bind(campaign);
   while (query.step()) {
     std::int64_t case_id = 0;
@@ -37,29 +38,6 @@ std::vector<WaitingFamily> Store::waiting_families(std::int64_t campaign) const 
         family.family);
   }
   return families;
-}
-
-bool fields_are_there(const std::filesystem::path& folder) {
-  std::error_code error;  // what cannot be looked at is as good as gone
-  return std::filesystem::exists(folder / "faults.h5", error) &&
-         std::filesystem::exists(folder / "faults.xmf", error);
-}
-
-long Store::requeue_missing_fields(const CampaignInfo& campaign) {
-  if (campaign.keep_fields == KeepFields::none) return 0;
-  Transaction transaction(*connection_);
-  long n_lost = 0;
-  for (const long position : connection_->rows<long>(
-           "SELECT position FROM campaign_cases WHERE campaign_id = ? AND fields = 'kept'",
-           campaign.id)) {
-    if (fields_are_there(fields_folder(campaign.name, position))) continue;
-    connection_->run(
-        "UPDATE campaign_cases SET fields = 'wanted' WHERE campaign_id = ? AND position = ?",
-        campaign.id, position);
-    ++n_lost;
-  }
-  transaction.commit();
-  return n_lost;
 }
 
 CaseInput Store::case_input(std::int64_t campaign, std::int64_t case_id) const {

@@ -148,7 +148,7 @@ class Store {
   std::vector<DesignRow> design_rows(std::int64_t campaign) const;
 
   // Running ---------------------------------------------------------------------------------------
-  /// Families of the campaign with cases that wait, with these cases.
+  /// Families of the campaign with cases that wait, for a result or for their fields only.
   std::vector<WaitingFamily> waiting_families(std::int64_t campaign) const;
   /// The result of a case as stored; none = it has none.
   std::optional<faultsim::CaseResult> stored_result(std::int64_t case_id) const;
@@ -160,7 +160,14 @@ class Store {
     return folder_ / "fields" / campaign;
   }
   /// Fields that were kept but whose files are gone are wanted again; returns of how many cases.
+  /// Where only those of the cases shown first are kept, these and what is still wanted are
+  /// forgotten instead: they are chosen anew (want_fields).
   long requeue_missing_fields(const CampaignInfo& campaign);
+  /// What fields of a case with a result would take. @pre the campaign has the case.
+  DecidedCase decided_case(std::int64_t campaign, std::int64_t case_id) const;
+  /// The fields of these cases are wanted, by a run for them only, and of no others. @pre they have
+  /// results, and the campaign keeps fields of the cases shown first.
+  void want_fields(std::int64_t campaign, const std::vector<std::int64_t>& cases);
   CaseInput case_input(std::int64_t campaign, std::int64_t case_id) const;
   /// Commits attempts, in one transaction each group: the run, and with a result also metrics,
   /// stage metrics, histories. A case that is not waiting any more keeps what it has: no second

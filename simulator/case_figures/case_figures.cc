@@ -60,8 +60,8 @@ std::string draw_case(const CasePicture& picture, const CaseChartRequest& reques
     if (info.chart != request.chart || !info.needs_fields || picture.fields != nullptr) continue;
     refuse("chart",
            concat(info.name, " is drawn from the fields on the faults, which were not kept"),
-           "run the scene with fault fields (/output/fault_fields), a campaign with "
-           "\"keep_fields\"");
+           "run the scene with fault fields (/output/fault_fields); a campaign keeps those of the "
+           "cases ranked first, with \"keep_fields\": \"stages\" those of all");
   }
   switch (request.chart) {
     case CaseChart::history:

@@ -2,6 +2,7 @@
 // faultsim.
 #include <nlohmann/json.hpp>
 
+#include "campaign/store/same_numbers.h"
 #include "simulator/reading/read_scene.h"
 #include "tests/campaign/campaign_fixture.h"
 #include "tests/unit/result_files/h5_file.h"
@@ -118,7 +119,7 @@ TEST_F(Fields, AreThoseOfFaultsimRunBitForBit) {
 
 TEST_F(Fields, AreAddedToStoredResultsWhichStay) {
   const std::vector<std::string> angles = {"10 deg", "20 deg"};
-  submit_angles("plain", angles, "");
+  submit_angles("plain", angles, "none");
   ASSERT_EQ(faultsweep({"run", "plain", "--workers", "2"}).code, 0);
   EXPECT_FALSE(std::filesystem::exists(store_ / "fields"));
   const json before = show("plain/1");
@@ -143,6 +144,96 @@ TEST_F(Fields, AreAddedToStoredResultsWhichStay) {
   EXPECT_EQ(faultsweep({"run", "kept", "--workers", "2"}).code, 0);
   EXPECT_EQ(bytes_of(fields("kept", 2) / "faults.h5"), bytes);
   EXPECT_EQ(std::filesystem::last_write_time(fields("kept", 1) / "faults.h5"), untouched);
+}
+
+/// Without a word in the spec: what a report and the page draw is there, of the cases that they
+/// show first and of no others, and no number of any case is another.
+TEST_F(Fields, OfTheThreeCasesRankedFirstAreKeptByDefault) {
+  const std::vector<std::string> angles = {"35 deg", "10 deg", "30 deg", "20 deg", "15 deg"};
+  const std::string said = submit_angles("plain", angles, "");
+  EXPECT_THAT(said, HasSubstr("fault fields of the three cases ranked first are kept\n"));
+  const auto end = faultsweep({"run", "plain", "--workers", "2"});
+  ASSERT_EQ(end.code, 0) << end.err;
+  const json ranking = json::parse(faultsweep({"rank", "plain", "--json", "--top", "3"}).out);
+  std::vector<int> first;
+  for (const json& row : ranking.at("cases")) first.push_back(row.at("case"));
+  ASSERT_EQ(first.size(), 3u);
+  EXPECT_THAT(end.err, HasSubstr(concat("the fault fields of the cases ranked first follow: ",
+                                        joined(first, ", "), "\n")));
+  for (int position = 1; position <= 5; ++position) {
+    const json one = show("plain/" + std::to_string(position));
+    const bool is_first = std::count(first.begin(), first.end(), position) > 0;
+    EXPECT_EQ(std::filesystem::exists(fields("plain", position) / "faults.h5"), is_first);
+    if (is_first) {
+      EXPECT_EQ(one["fields"]["state"], "kept");
+      EXPECT_EQ(one["fields"]["steps"], "stages");
+    } else {
+      EXPECT_TRUE(one["fields"].is_null());
+    }
+  }
+  EXPECT_THAT(faultsim::H5File(fields("plain", first[0]) / "faults.h5").read("/step").values,
+              ElementsAre(0, 4, 6));
+  expect_same_steps(fields("plain", first[0]),
+                    run_alone(angles[static_cast<std::size_t>(first[0] - 1)]));
+  EXPECT_THAT(
+      faultsweep({"status", "plain"}).out,
+      HasSubstr("fault fields of the three cases ranked first are kept; 3 cases have them\n"));
+  const auto page = folder_ / "report.html";
+  ASSERT_EQ(faultsweep({"report", "plain", "-o", page.string()}).code, 0);
+  const std::string shown = bytes_of(page);
+  for (const int position : first) {
+    const std::size_t part = shown.find(concat(">Case ", position, ":"));
+    ASSERT_NE(part, std::string::npos) << "case " << position;
+    EXPECT_NE(shown.find("Stress path of fault F1", part), std::string::npos);
+  }
+  EXPECT_THAT(shown, ::testing::Not(HasSubstr("which were not kept")));
+  EXPECT_EQ(faultsweep({"plot", "fault-map", concat("plain/", first[0]), "-o",
+                        (folder_ / "map.svg").string()})
+                .code,
+            0);
+  // Nothing is left to do, and none of it changed a number.
+  const auto written = std::filesystem::last_write_time(fields("plain", first[0]) / "faults.h5");
+  ASSERT_EQ(faultsweep({"run", "plain", "--workers", "2"}).code, 0);
+  EXPECT_EQ(std::filesystem::last_write_time(fields("plain", first[0]) / "faults.h5"), written);
+  EXPECT_EQ(show(concat("plain/", first[0]))["runs"].size(), 2u);
+  const auto kept_store = std::exchange(store_, folder_ / "other-store");
+  submit_angles("bare", angles, "none");
+  ASSERT_EQ(faultsweep({"run", "bare", "--workers", "1"}).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(store_ / "fields"));
+  const Store kept = Store::open_reader(kept_store), bare = Store::open_reader(store_);
+  for (int position = 1; position <= 5; ++position) {
+    const auto result_in = [&](const Store& store) {
+      return store.stored_case(store.campaign("").id, std::to_string(position)).result;
+    };
+    EXPECT_EQ(first_difference(result_in(kept), result_in(bare)), "") << "case " << position;
+  }
+  ASSERT_EQ(faultsweep({"report", "bare", "-o", page.string()}).code, 0);
+  EXPECT_THAT(bytes_of(page),
+              HasSubstr("which were not kept (keep_fields in the spec: stages keeps "
+                        "those of all)"));
+}
+
+/// An extra that fails leaves all as it was, is said, and can be tried again.
+TEST_F(Fields, OfCasesRankedFirstThatCannotBeWrittenFailNothing) {
+  submit_angles("blocked", {"10 deg", "20 deg"}, "");
+  std::filesystem::create_directories(store_ / "fields");
+  std::ofstream(store_ / "fields" / "blocked") << "no folder";
+  const auto end = faultsweep({"run", "blocked", "--workers", "2"});
+  EXPECT_EQ(end.code, 0) << end.err;
+  EXPECT_THAT(end.err, HasSubstr("fields of case 1 world: cannot create the folder"));
+  const json refused = show("blocked/1");
+  EXPECT_EQ(refused["state"], "done");
+  EXPECT_EQ(refused["fields"]["state"], "failed");
+  const std::string status = faultsweep({"status", "blocked", "--wide"}).out;
+  EXPECT_THAT(status, HasSubstr("2 done (2 converged), 0 failed, 0 waiting"));
+  EXPECT_THAT(status,
+              HasSubstr("; 0 cases have them, of 2 they could not be written: `faultsweep retry "
+                        "blocked` lets them be tried again"));
+  EXPECT_THAT(status, HasSubstr("fields: cannot create the folder"));
+  std::filesystem::remove(store_ / "fields" / "blocked");
+  EXPECT_EQ(faultsweep({"retry", "blocked"}).out, "2\n");
+  EXPECT_EQ(faultsweep({"run", "blocked", "--workers", "2"}).code, 0);
+  EXPECT_EQ(show("blocked/1")["fields"]["state"], "kept");
 }
 
 TEST_F(Fields, ThatCannotBeWrittenAreRowsWithAReason) {

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "campaign/expansion/submission.h"
 #include "simulator/common/stopwatch.h"
 #include "simulator/reading/read_scene.h"
 #include "tests/unit/expansion/long_way.h"
@@ -23,12 +24,27 @@ Expansion expand_grid(const std::string& parameters, const std::string& more = "
 TEST(Expansion, KeptFieldsAreNoPartOfACase) {
   const char* parameters = R"({"offset": ["0 m", "50 m"]})";
   const auto without = expand_grid(parameters);
-  const auto with = expand_grid(parameters, R"("keep_fields": "all", )");
-  ASSERT_EQ(with.cases.size(), 2u);
-  for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_EQ(with.cases[i].identity, without.cases[i].identity);
-    EXPECT_EQ(with.families[i].fingerprint, without.families[i].fingerprint);
+  for (const char* keep : {"none", "shown", "stages", "all"}) {
+    const auto with = expand_grid(parameters, R"("keep_fields": ")" + std::string(keep) + R"(", )");
+    ASSERT_EQ(with.cases.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(with.cases[i].identity, without.cases[i].identity);
+      EXPECT_EQ(with.families[i].fingerprint, without.families[i].fingerprint);
+    }
   }
+}
+
+/// What a command runs for itself keeps no fields that nobody asked for, and is the same campaign.
+TEST(Expansion, ACommandsOwnRunKeepsOnlyFieldsThatItsSpecAsksFor) {
+  const char* parameters = R"({"offset": ["0 m", "50 m"]})";
+  const auto kept_of = [&](const std::string& more) {
+    return without_shown_fields(make_submission(expand_grid(parameters, more))).keep_fields;
+  };
+  EXPECT_EQ(kept_of(""), KeepFields::none);
+  EXPECT_EQ(kept_of(R"("keep_fields": "stages", )"), KeepFields::stages);
+  const Submission users = make_submission(expand_grid(parameters));
+  EXPECT_EQ(users.keep_fields, KeepFields::shown);
+  EXPECT_EQ(without_shown_fields(users).spec_resolved, users.spec_resolved);
 }
 
 /// The salt's viscosity is a parameter like others. It makes families, and so do step lengths once

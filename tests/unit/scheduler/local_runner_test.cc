@@ -37,7 +37,7 @@ class LocalRunnerTest : public ::testing::Test {
     for (const std::string& title : titles) {
       const std::string fields =
           task.fields_folder.empty() ? "" : task.fields_folder + "/" + std::to_string(id + 1);
-      runner.add({++id, 1, "{\"/title\": \"" + title + "\"}", "test", fields});
+      runner.add({++id, 1, "{\"/title\": \"" + title + "\"}", "test", fields, task.keep_fields});
     }
     JobEvents all;
     const faultsim::Stopwatch watch;

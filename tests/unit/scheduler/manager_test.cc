@@ -58,7 +58,15 @@ class FakeRunner final : public JobRunner {
     result.operator_fingerprint = operator_fingerprint;
     run.has_fields = !job.fields_folder.empty();
     fields_folders.insert(job.fields_folder);
+    if (run.has_fields) fields_steps.insert(job.keep_fields);
     ++n_runs;
+    if (run.has_fields && fields_fail) {
+      run.status = RunStatus::world;
+      run.reason = "disk full";
+      run.has_fields = false;
+      events.failed.push_back({run, false});
+      return events;
+    }
     events.completed.push_back({std::move(run), faultsim::result_to_bytes(result)});
     if (damage) events.completed.back().result[70] ^= 1;
     return events;
@@ -70,6 +78,8 @@ class FakeRunner final : public JobRunner {
   static inline faultsim::Outcome outcome = faultsim::Outcome::converged;
   static inline std::string operator_fingerprint = "print";
   static inline std::set<std::string> fields_folders;
+  static inline std::set<KeepFields> fields_steps;
+  static inline bool fields_fail = false;
 
  private:
   std::map<std::int64_t, std::string> bases_;
@@ -144,6 +154,8 @@ class ManagerTest : public ::testing::Test {
     FakeRunner::strength = 0.7;
     FakeRunner::operator_fingerprint = "print";
     FakeRunner::fields_folders.clear();
+    FakeRunner::fields_steps.clear();
+    FakeRunner::fields_fail = false;
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
@@ -164,6 +176,32 @@ class ManagerTest : public ::testing::Test {
     Store::open_writer(folder_).submit(s);
   }
 
+  /// Runs the newest campaign, of which these cases are shown first; how it ended.
+  ExitCode run_shown(const std::vector<std::int64_t>& first, int n_turns = 1000000) {
+    Store store = Store::open_owner(folder_);
+    Stage stage(2);
+    const auto shown_first = [&](const Store& s, const CampaignInfo& info) {
+      EXPECT_EQ(s.campaign(info.name).n_waiting, 0) << "it is known only when all are decided";
+      ++n_asked_;
+      return first;
+    };
+    Manager manager(store, stage, silent_, {.campaign = "", .shown_first = shown_first});
+    const bool ended = stage.play(manager, n_turns);
+    EXPECT_TRUE(ended || n_turns < 1000);
+    return manager.status();
+  }
+  void write_fields(const std::string& campaign, int position) const {
+    const auto folder = folder_ / "fields" / campaign / std::to_string(position);
+    std::filesystem::create_directories(folder);
+    for (const char* file : {"faults.h5", "faults.xmf"}) std::ofstream(folder / file) << "x";
+  }
+  std::string events() const {
+    const Store store = Store::open_reader(folder_);
+    std::string text;
+    for (const EventRecord& event : store.events(store.campaign("").id, 100))
+      text = event.kind + ": " + event.text + "\n" + text;
+    return text;
+  }
   /// Runs the newest campaign; how it ended.
   ExitCode run() {
     Store store = Store::open_owner(folder_);
@@ -179,6 +217,7 @@ class ManagerTest : public ::testing::Test {
     submit(12, {}, policy, "fields", KeepFields::stages);
   }
 
+  int n_asked_ = 0;  ///< which cases are shown first.
   std::filesystem::path folder_;
   ProgressDisplay silent_{ProgressDisplay::Style::silent};
 };
@@ -459,12 +498,122 @@ TEST_F(ManagerTest, WritesLostFieldsAgain) {
   EXPECT_EQ(run(), ExitCode::done);
   EXPECT_EQ(FakeRunner::n_runs, 6);
   for (int position = 1; position <= 3; ++position) {
-    const auto folder = folder_ / "fields" / "sweep" / std::to_string(position);
-    std::filesystem::create_directories(folder);
-    for (const char* file : {"faults.h5", "faults.xmf"}) std::ofstream(folder / file) << "x";
+    write_fields("sweep", position);
   }
   EXPECT_EQ(run(), ExitCode::done);
   EXPECT_EQ(FakeRunner::n_runs, 6);
+}
+
+/// As the fake writes no files, they count as lost unless the test does.
+TEST_F(ManagerTest, WritesTheFieldsOfTheCasesShownFirstWhenAllAreDecided) {
+  submit(12, {}, {}, "sweep", KeepFields::shown);
+  EXPECT_EQ(run_shown({5, 2, 9}), ExitCode::done);
+  EXPECT_EQ(FakeRunner::n_runs, 15);
+  EXPECT_EQ(FakeRunner::fields_steps, std::set<KeepFields>{KeepFields::stages});
+  std::set<std::string> folders = {""};  // cases run without
+  Store store = Store::open_reader(folder_);
+  const CampaignInfo info = store.campaign("");
+  for (const std::int64_t id : {5, 2, 9}) {
+    const long position = store.decided_case(info.id, id).position;
+    folders.insert(store.fields_folder("sweep", position));
+    const StoredCase stored = store.stored_case(info.id, std::to_string(position));
+    EXPECT_EQ(stored.fields, FieldsState::kept);
+    ASSERT_EQ(stored.runs.size(), 2u);
+    EXPECT_TRUE(stored.runs[1].fields_only);
+  }
+  EXPECT_EQ(FakeRunner::fields_folders, folders);
+  EXPECT_EQ(info.n_done, 12);
+  EXPECT_EQ(info.n_fields_kept, 3);
+  EXPECT_THAT(events(), ::testing::HasSubstr("fields: all is decided; the fault fields of the "
+                                             "cases ranked first follow: 5, 2, 9\n"));
+  EXPECT_TRUE(store.integrity_problems().empty());
+}
+
+TEST_F(ManagerTest, ASecondRunWritesMissingFieldsOfCasesShownFirstOnly) {
+  submit(6, {}, {}, "sweep", KeepFields::shown);
+  EXPECT_EQ(run_shown({1, 2, 3}), ExitCode::done);
+  for (const int position : {1, 2, 3}) write_fields("sweep", position);
+  FakeRunner::n_runs = 0;
+  EXPECT_EQ(run_shown({1, 2, 3}), ExitCode::done);
+  EXPECT_EQ(FakeRunner::n_runs, 0);
+  EXPECT_EQ(run_shown({4, 2, 3}), ExitCode::done) << "the order is another since";
+  EXPECT_EQ(FakeRunner::n_runs, 1);
+  EXPECT_EQ(Store::open_reader(folder_).campaign("").n_fields_kept, 4) << "those of 1 stay";
+  std::filesystem::remove_all(folder_ / "fields" / "sweep" / "1");
+  write_fields("sweep", 4);
+  EXPECT_EQ(run_shown({4, 2, 3}), ExitCode::done);
+  EXPECT_EQ(FakeRunner::n_runs, 1) << "nobody looks at 1 any more";
+}
+
+/// With `abort` too: what is decided is not undone by an extra.
+TEST_F(ManagerTest, FieldsOfCasesShownFirstThatFailAreNoFailureOfTheCampaign) {
+  Policy policy;
+  policy.on_failure = FailureAction::abort;
+  submit(6, {}, policy, "sweep", KeepFields::shown);
+  FakeRunner::fields_fail = true;
+  EXPECT_EQ(run_shown({1, 2, 3}), ExitCode::done);
+  EXPECT_EQ(FakeRunner::n_runs, 9) << "all three were tried";
+  const CampaignInfo info = Store::open_reader(folder_).campaign("");
+  EXPECT_EQ(info.n_done, 6);
+  EXPECT_EQ(info.n_failed, 0);
+  EXPECT_EQ(info.n_fields_failed, 3);
+  EXPECT_THAT(events(), ::testing::HasSubstr("case failed: fields of case 1 world: disk full"));
+  EXPECT_THAT(events(), ::testing::Not(::testing::HasSubstr("aborted")));
+  FakeRunner::n_runs = 0;
+  EXPECT_EQ(run_shown({1, 2, 3}), ExitCode::done);
+  EXPECT_EQ(FakeRunner::n_runs, 0) << "they wait for retry";
+  FakeRunner::fields_fail = false;
+  EXPECT_EQ(Store::open_owner(folder_).retry(info.id, false, std::nullopt), 3);
+  EXPECT_EQ(run_shown({1, 2, 3}), ExitCode::done);
+  EXPECT_EQ(Store::open_reader(folder_).campaign("").n_fields_kept, 3);
+}
+
+TEST_F(ManagerTest, KilledAtAnyTurnFieldsOfCasesShownFirstComeInTheEnd) {
+  submit(6, {1}, {}, "sweep", KeepFields::shown);
+  for (int turns = 0; turns < 40; ++turns) {
+    run_shown({1, 3, 4}, turns);
+    const Store store = Store::open_reader(folder_);
+    for (const int position : {1, 3, 4}) {
+      const auto fields = store.stored_case(1, std::to_string(position)).fields;
+      if (fields == FieldsState::kept) write_fields("sweep", position);
+    }
+    EXPECT_TRUE(store.integrity_problems().empty());
+  }
+  const CampaignInfo info = Store::open_reader(folder_).campaign("");
+  EXPECT_EQ(info.n_done, 5);
+  EXPECT_EQ(info.n_failed, 1);
+  EXPECT_EQ(info.n_fields_kept, 3);
+  const Store store = Store::open_reader(folder_);
+  for (int position = 1; position <= 6; ++position) {
+    const bool shown = position == 1 || position == 3 || position == 4;
+    EXPECT_EQ(store.stored_case(1, std::to_string(position)).runs.size(), shown ? 2u : 1u);
+  }
+}
+
+TEST_F(ManagerTest, AsksForCasesShownFirstAfterTheLastRoundAndOnlyWhereTheirFieldsAreKept) {
+  for (const KeepFields keep : {KeepFields::none, KeepFields::stages}) {
+    submit(3, {}, {}, to_string(keep), keep);
+    EXPECT_EQ(run_shown({1}), ExitCode::done);
+  }
+  EXPECT_EQ(n_asked_, 0);
+  submit(3, {}, {}, "sweep", KeepFields::shown);
+  std::vector<long> asked_with;
+  Store store = Store::open_owner(folder_);
+  Stage stage(2);
+  Manager manager(store, stage, silent_,
+                  {.campaign = "sweep",
+                   .next_round =
+                       [&](Store& s, const std::string& name) {
+                         return next_round_of_three(s, name, asked_with);
+                       },
+                   .shown_first =
+                       [&](const Store& s, const CampaignInfo& info) {
+                         EXPECT_EQ(s.campaign(info.name).conclusion, "enough");
+                         return std::vector<std::int64_t>{1};
+                       }});
+  EXPECT_TRUE(stage.play(manager));
+  EXPECT_THAT(asked_with, ::testing::ElementsAre(0, 1, 1)) << "not again after the fields";
+  EXPECT_EQ(store.campaign("sweep").n_fields_kept, 1);
 }
 
 /// With the same operator another number is a bug, with another operator the world's doing; either

@@ -149,13 +149,17 @@ TEST(Spec, PolicyAndMetrics) {
   EXPECT_EQ(spec.rank_by, "max(chi_bar, 0.5)");
 }
 
-TEST(Spec, KeepsFieldsWhenAsked) {
+TEST(Spec, KeepsFieldsOfTheCasesShownFirstUnlessAskedForOthers) {
   const char* offset = R"({"offset": ["0 m"]})";
   const auto silent = grid_with(offset);
-  EXPECT_EQ(silent.keep_fields, KeepFields::none);
+  EXPECT_EQ(silent.keep_fields, KeepFields::shown);
   EXPECT_EQ(silent.resolved().find("keep_fields"), std::string::npos)
       << "specs of stores that did not know the key must stay the same";
-  EXPECT_EQ(grid_with(offset, R"("keep_fields": "none", )").resolved(), silent.resolved());
+  EXPECT_EQ(grid_with(offset, R"("keep_fields": "shown", )").resolved(), silent.resolved());
+  const auto none = grid_with(offset, R"("keep_fields": "none", )");
+  EXPECT_EQ(none.keep_fields, KeepFields::none);
+  EXPECT_EQ(json::parse(none.resolved())["keep_fields"], "none")
+      << "it is another campaign than that which says nothing";
   const auto stages = grid_with(offset, R"("keep_fields": "stages", )");
   EXPECT_EQ(stages.keep_fields, KeepFields::stages);
   EXPECT_EQ(json::parse(stages.resolved())["keep_fields"], "stages");
