@@ -368,6 +368,53 @@ TEST_F(ReportTest, SaysWhereTheFieldsAre) {
   EXPECT_EQ(render_json(to_answer(status))["waiting_for_fields_only"], 2);
 }
 
+/// A campaign that says nothing of fields, as it goes on: nothing is decided, then six cases are,
+/// of which one got its fields, one is to get them and those of another failed.
+TEST_F(ReportTest, SaysWhoseFieldsAreKept) {
+  EXPECT_EQ(kept_fields_text(KeepFields::none), "");
+  EXPECT_EQ(kept_fields_text(KeepFields::all), "fault fields are kept (all)");
+  Submission s;
+  s.name = "shown";
+  s.parameters = {};
+  s.keep_fields = KeepFields::shown;
+  s.scenes = {{"scene.json", "{}"}};
+  s.families = {{"family-a", 1000, 100, 1, 1}};
+  for (const int k : {0, 1, 2, 77}) {  // the last is new
+    s.cases.push_back({"identity-" + std::to_string(k), 0, 0, "{}", {}});
+  }
+  const std::int64_t id = store_->submit(s).campaign;
+  const auto status = [&] { return render_text(to_answer(make_status(*store_, "shown")), 200); };
+  EXPECT_THAT(status(), HasSubstr("fault fields of the three cases ranked first are kept once all "
+                                  "are decided\n"));
+  RunRecord run;
+  run.case_id = store_->stored_case(id, "4").id;
+  run.status = RunStatus::completed;
+  run.result = testing::made_up_result(0.2);
+  store_->record_runs(id, {run});
+  store_->want_fields(id, {1, 2, 3});
+  EXPECT_THAT(status(), HasSubstr("; 0 cases have them, of 3 they are not written yet\n"));
+  run.case_id = 1;
+  run.fields_only = run.has_fields = true;
+  RunRecord failed;
+  failed.case_id = 3;
+  failed.fields_only = true;
+  failed.reason = "disk full";
+  store_->record_runs(id, {run, failed});
+  const std::string said = status();
+  EXPECT_THAT(said, HasSubstr("4 done (4 converged), 0 failed, 0 waiting"));
+  EXPECT_THAT(said, HasSubstr("; 1 case has them, of 1 they are not written yet, of 1 they could "
+                              "not be written: `faultsweep retry shown` lets them be tried again"));
+  EXPECT_THAT(said, HasSubstr("without a full result or its fields:"));
+  EXPECT_THAT(said, HasSubstr("fields: disk full"));
+  const CampaignInfo info = store_->campaign("shown");
+  EXPECT_EQ(render_json(shown(info, "1"))["fields"]["steps"], "stages");
+  EXPECT_THAT(explained(info, "1"),
+              HasSubstr("will run, for its fault fields only, if it is still ranked first: their "
+                        "files are gone"));
+  EXPECT_THAT(shown_text(info, "1"), HasSubstr("writes them again if the case is still ranked "));
+  EXPECT_TRUE(render_json(shown(info, "4"))["fields"].is_null());
+}
+
 TEST_F(ReportTest, SaysWhereOperatorsAreNotShared) {
   EXPECT_THAT(render_text(to_answer(make_status(*store_, "")), 200), Not(HasSubstr("salt creeps")));
   Submission s;
