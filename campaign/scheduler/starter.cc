@@ -291,7 +291,8 @@ bool died_by_signal(int status) {
 
 long finished_cases(const RunOptions& options) {
   const CampaignInfo info = Store::open_reader(options.store).campaign(options.campaign);
-  return info.n_done + info.n_failed;
+  // Fields that are added to decided cases are progress as well.
+  return info.n_done + info.n_failed + info.n_fields_kept + info.n_fields_failed;
 }
 
 /// Notes a restart in the store; trouble with the store shows in the next manager anyway.

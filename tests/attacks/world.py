@@ -119,7 +119,7 @@ def numbers(store):
 
 
 def n_done(store):
-    return query(store, "SELECT count(*) FROM runs WHERE status = 'completed'")[0][0]
+    return query(store, "SELECT count(*) FROM runs WHERE status = 'completed' AND NOT fields_only")[0][0]
 
 
 def last_line(text):
