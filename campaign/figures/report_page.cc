@@ -16,7 +16,6 @@
 #include "campaign/figures/how_sure.h"
 #include "campaign/query/parameters.h"
 #include "campaign/render/render.h"
-#include "campaign/reports/case_report.h"
 #include "campaign/reports/ranking_answer.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/figure/axis.h"
@@ -130,6 +129,22 @@ std::vector<RankedCase> add_ranking(Report& report) {
   return std::move(ranking.rows);
 }
 
+/// Why a picture cannot show them: no folder, as pages are read on other machines.
+std::string why_no_fields(const CampaignInfo& campaign, const StoredCase& one) {
+  switch (one.fields) {
+    case FieldsState::none:
+      return "were not kept (keep_fields in the spec: stages keeps those of all)";
+    case FieldsState::wanted:
+      return concat("are not written yet: faultsweep run ", campaign.name, " writes them");
+    case FieldsState::failed:
+      return concat("could not be written: faultsweep show ", campaign.name, '/', one.position,
+                    " says why");
+    case FieldsState::kept:
+      break;
+  }
+  return "are gone";
+}
+
 void add_case(Report& report, long position) {
   const StoredCase one = report.store.stored_case(report.campaign.id, std::to_string(position));
   const StoredPicture stored(report.store, report.campaign, one);
@@ -137,13 +152,10 @@ void add_case(Report& report, long position) {
   report.page.heading(concat("Case ", position, ": ", settings));
   add_case_part(report.page, stored.picture(), position);
   if (stored.picture().fields != nullptr) return;
-  const std::string why = fields_sentence(report.campaign, one);
-  report.page.paragraph(
-      concat(
-          "Depth profiles, fault map and stress path are drawn from the fault fields of the case, ",
-          why.empty() ? "which were not kept (keep_fields in the spec: stages keeps those of all)."
-                      : concat("which are not there: ", why, ".")),
-      "faint");
+  report.page.paragraph(concat("Depth profiles, fault map and stress path are drawn from the fault "
+                               "fields of the case, which ",
+                               why_no_fields(report.campaign, one), "."),
+                        "faint");
 }
 
 void add_cases(Report& report, const std::vector<RankedCase>& rows) {

@@ -378,6 +378,31 @@ TEST_F(FiguresTest, TheFirstSentenceOfAPageSaysHowManyAreUndecided) {
       20);
 }
 
+/// Not where its files would be, as the page is read elsewhere.
+TEST_F(FiguresTest, APageSaysWhyACaseHasNoFields) {
+  submit(4, 4);
+  const auto page = [&] {
+    return report_page(*store_, campaign_, {.program = "faultsweep test", .top = 4});
+  };
+  EXPECT_THAT(page(), HasSubstr("which were not kept (keep_fields in the spec: "));
+  store_->want_fields(campaign_.id, {1, 2, 3});
+  RunRecord gone;
+  gone.case_id = 1;
+  gone.status = RunStatus::completed;
+  gone.result = store_->stored_case(campaign_.id, "1").result;
+  gone.fields_only = gone.has_fields = true;
+  RunRecord failed;
+  failed.case_id = 2;
+  failed.fields_only = true;
+  failed.reason = "disk full";
+  store_->record_runs(campaign_.id, {gone, failed});
+  const std::string said = page();
+  for (const char* why : {"which are gone.", "which could not be written: faultsweep show ",
+                          "which are not written yet: faultsweep run ", "which were not kept "})
+    EXPECT_THAT(said, HasSubstr(why));
+  EXPECT_THAT(said, Not(HasSubstr(folder_.string())));
+}
+
 TEST_F(FiguresTest, APageWithoutResultsSaysSo) {
   submit(5, 0);
   const std::string page = report_page(*store_, campaign_, {.program = "faultsweep test"});
