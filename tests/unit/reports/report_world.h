@@ -1,6 +1,9 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <memory>
 
 #include "campaign/reports/case_report.h"
 #include "campaign/reports/ranking_answer.h"

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <deque>
 #include <fstream>
+#include <memory>
 #include <set>
 
 #include "campaign/scheduler/manager.h"
